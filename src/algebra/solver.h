@@ -1,0 +1,112 @@
+/* Root finding: the run-time table of solvers, what a caller may ask of one, and what it answers.
+ *
+ * A solver takes one real polynomial and answers its roots, each with an error radius. Nothing here knows of rays.
+ * All functions are safe on any thread; nothing allocates; nothing fails: what cannot be found is said per root.
+ */
+#ifndef PSCN_ALGEBRA_SOLVER_H
+#define PSCN_ALGEBRA_SOLVER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { POLYNOMIAL_MAX_DEGREE = 64 };
+
+enum basis {
+  BASIS_BERNSTEIN, /* scaled Bernstein: p(u) = sum c[k] u^k (1-u)^(n-k), so c[k] = C(n,k) times the Bernstein coefficient */
+  BASIS_POWER      /* p(u) = sum c[k] u^k */
+};
+
+/* A real polynomial of formal degree n = degree, 1 <= n <= POLYNOMIAL_MAX_DEGREE. Borrowed pointers. */
+struct polynomial {
+  int degree;
+  enum basis basis;
+  const double *c;     /* n + 1 coefficients, c[k] belongs to u^k */
+  const double *error; /* n + 1 absolute bounds on how far each c[k] is from the true one, or NULL where c is exact */
+};
+
+enum root_status {
+  ROOT_CONVERGED, /* the true polynomial has a root within radius of the value */
+  ROOT_LIMIT,     /* the iteration limit came first; the radius is still a true bound, possibly infinite */
+  ROOT_CLUSTER    /* several roots share one inclusion disc */
+};
+
+struct root {
+  double re, im;
+  double radius; /* absolute: at least one root of p lies within it (disc in the complex plane of u); may be INFINITY */
+  int iterations;
+  enum root_status status;
+};
+
+/* The roots found, in no promised order. Roots at infinity (vanishing leading coefficients) are not listed. A polynomial
+ * that is zero within its own error, or not finite, gives identically_zero or not_finite and no roots. */
+struct root_set {
+  int count;
+  bool identically_zero;
+  bool not_finite;
+  struct root root[POLYNOMIAL_MAX_DEGREE];
+};
+
+enum start { START_COLD, START_PREVIOUS };
+enum resultant { RESULTANT_BEZOUT, RESULTANT_SYLVESTER };
+enum back_substitution { BACK_SUBSTITUTION_NULL_VECTOR, BACK_SUBSTITUTION_EUCLID };
+
+struct solver;
+
+/* What one `solver` statement says. Filled by solver_options_default, then changed item by item. */
+struct solver_options {
+  const struct solver *solver;
+  double tolerance;   /* eps of the paper's eq 10, > 0; absolute in u, as in the paper */
+  int max_iterations; /* per root, >= 1 */
+  enum start start;
+  enum basis basis;
+  enum resultant resultant;
+  enum back_substitution back_substitution;
+  bool polish; /* on: 2-D Newton on the patch, and every answer certified; off: the solver's own roots are the answer */
+  int split;   /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
+};
+
+/* Roots of the previous polynomial of a family, kept for `start previous`. Zero-initialised means "none yet". */
+struct solver_warm {
+  int count;
+  double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
+};
+
+struct solver {
+  const char *name;    /* the keyword in a scene */
+  const char *summary; /* one line for `pscn help` */
+  bool real_only;      /* finds only real roots in [0,1] */
+  /* warm may be NULL; with start previous it is read, and afterwards holds the new roots. */
+  void (*solve)(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
+                struct root_set *out);
+};
+
+/* The table: bernstein first (the default). */
+size_t solver_count(void);
+const struct solver *solver_at(size_t index);
+const struct solver *solver_find(const char *name, size_t length); /* NULL where there is none */
+
+/* The defaults of one solver, the ones a bare `solver NAME` has. */
+void solver_options_default(const struct solver *solver, struct solver_options *out);
+
+/* The items of a solver block, as data: the language reads and writes them from this table, so an item added here needs
+ * no change in the grammar. */
+enum solver_item_kind { SOLVER_ITEM_NUMBER, SOLVER_ITEM_INTEGER, SOLVER_ITEM_KEYWORD };
+
+struct solver_item {
+  const char *name;
+  const char *summary;
+  enum solver_item_kind kind;
+  const char *const *keywords; /* NULL-terminated: for KEYWORD its values; for INTEGER words standing for 0, 1, ... or NULL */
+  double minimum, maximum;     /* inclusive range for NUMBER and INTEGER */
+  void (*set)(struct solver_options *options, double value); /* value: the number, or the keyword's index */
+  double (*get)(const struct solver_options *options);
+};
+
+size_t solver_item_count(void);
+const struct solver_item *solver_item_at(size_t index);
+
+/* Solves p with options->solver and judges the answer: radii and statuses are set by one validation shared by all solvers. */
+void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
+                  struct root_set *out);
+
+#endif

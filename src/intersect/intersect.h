@@ -1,0 +1,79 @@
+/* Rays against all patches of a scene: closest hit and any hit, a packet of rays at a time.
+ *
+ * Build once from a scene, then share between threads; each thread owns one `tracer`, which holds its counters, its scratch
+ * memory and its warm starts. No call on a tracer allocates or fails.
+ *
+ * What an answer promises (with `polish on`, the default): of all points where the exact ray meets the exact patches, a hit
+ * is the nearest with t in (t_min, t_max); a miss has none. `certain` means this is proven; `grazing` means that the answer
+ * can be turned by a change of the input within the rounding bound of the evaluation (a tangency, the border of an open
+ * surface, a coincident component): then a hit is reported where a hit cannot be excluded.
+ * The answer to a ray does not depend on the rays it shares a packet with.
+ */
+#ifndef PSCN_INTERSECT_INTERSECT_H
+#define PSCN_INTERSECT_INTERSECT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+#include "scene/scene.h"
+
+enum { PACKET_SIZE = 8 };
+
+struct ray {
+  double origin[3];
+  double direction[3]; /* any length > 0, finite */
+  double t_min, t_max; /* in units of |direction|: points origin + t direction, t_min < t < t_max; 0 and INFINITY for all */
+};
+
+enum certainty { CERTAINTY_CERTAIN, CERTAINTY_GRAZING };
+
+enum { HIT_NONE = UINT32_MAX };
+
+struct hit {
+  uint32_t patch;           /* index into scene.patches, or HIT_NONE: a miss, and then only certainty is written too */
+  enum certainty certainty;
+  double t;                 /* in units of |direction| */
+  double u, v;              /* parameters of the whole patch, in [0,1] */
+  double point[3];          /* S(u,v) */
+  double point_error;       /* absolute bound on the distance from `point` to the exact patch */
+  double normal[3];         /* unit, facing the ray's origin */
+};
+
+struct intersect_counts {
+  uint64_t rays[2];         /* closest-hit rays, any-hit rays */
+  uint64_t patches_tested;  /* ray-leaf pairs that reached the algebra */
+  uint64_t roots_found, roots_accepted;
+  uint64_t escalated;       /* ray-leaf pairs decided by subdivision */
+  uint64_t certain, grazing; /* answers by certainty, closest-hit rays only */
+};
+
+struct intersector;
+struct tracer;
+
+/* Prepares the scene: degrees, leaves, bounding hierarchy. Borrows the scene, which must outlive it.
+ * STATUS_LIMIT where memory is short; then *out is NULL. */
+enum status intersector_create(const struct scene *scene, struct intersector **out) STATUS_MUST_CHECK;
+void intersector_destroy(struct intersector *intersector);
+
+enum status tracer_create(const struct intersector *intersector, struct tracer **out) STATUS_MUST_CHECK;
+void tracer_destroy(struct tracer *tracer);
+
+/* Forgets the warm starts of `start previous`. The renderer calls it at the start of every tile, so that a picture
+ * depends neither on threads nor on the crop. */
+void tracer_forget(struct tracer *tracer);
+
+/* The nearest hit of each of `count` <= PACKET_SIZE rays. */
+void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
+
+/* Whether anything is hit by each of `count` <= PACKET_SIZE rays. */
+void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
+
+/* An origin for a ray that leaves the surface at `hit` along `direction`, moved off the surface to the side that
+ * `direction` points to by the bound on the point's own error: no hit with the sheet it leaves, none skipped beyond. */
+void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3]);
+
+const struct intersect_counts *tracer_counts(const struct tracer *tracer);
+
+#endif

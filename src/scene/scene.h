@@ -1,0 +1,69 @@
+/* What a scene is, after all names, includes, arithmetic and transforms have been resolved.
+ *
+ * Left-handed world as in POV-Ray. Colours are linear RGB. Everything is finite. A scene and all it points to lives in its
+ * arena; once built it is read-only and may be shared by threads.
+ */
+#ifndef PSCN_SCENE_SCENE_H
+#define PSCN_SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "algebra/solver.h"
+#include "base/arena.h"
+#include "base/status.h"
+
+struct scene_finish {
+  double ambient[3];
+  double diffuse, brilliance;
+  double phong, phong_size;
+  double specular, roughness;
+};
+
+struct scene_texture {
+  double pigment[3];
+  struct scene_finish finish;
+};
+
+struct scene_patch {
+  double P[4][4][3]; /* control net in world space; u runs across rows (first index), v along a row */
+  uint32_t texture;  /* index into scene.textures */
+  uint32_t solver;   /* index into scene.solvers */
+  /* Kept for POV-Ray only; they mean nothing to our rays. */
+  int type, u_steps, v_steps;
+  double flatness;
+};
+
+struct scene_light {
+  double position[3], color[3];
+  bool shadowless;
+};
+
+/* Perspective. The primary ray of the point (s,t) of the picture, s and t in [0,1] from the left and top edges, leaves
+ * `location` along direction + (s - 1/2) right + (1/2 - t) up. All POV-Ray camera items are already folded in. */
+struct scene_camera {
+  double location[3], direction[3], right[3], up[3];
+};
+
+struct scene {
+  struct arena *arena;
+  struct scene_camera camera;
+  double background[3], ambient_light[3];
+  struct scene_light *lights;
+  size_t light_count;
+  struct scene_patch *patches; /* in the order they stand after objects are expanded */
+  size_t patch_count;
+  struct scene_texture *textures;
+  size_t texture_count;
+  struct solver_options *solvers; /* [0] is global_settings', the default of every patch */
+  size_t solver_count;
+};
+
+/* Makes `options` the solver of every patch (--solver and --tolerance on the command line). */
+void scene_override_solver(struct scene *scene, const struct solver_options *options);
+
+/* Frees the scene's arena. NULL is allowed. */
+void scene_destroy(struct scene *scene);
+
+#endif
