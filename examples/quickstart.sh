@@ -1,0 +1,11 @@
+#!/bin/bash
+# Installs what pscn needs (Debian 12, as root), builds the release and renders the teapot into teapot.png.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+. examples/packages.sh
+
+install_packages "${BUILD_PACKAGES[@]}"
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release
+cmake --build build
+build/src/command/pscn render scenes/teapot.pscn -o teapot.png
+echo "The picture is $PWD/teapot.png"

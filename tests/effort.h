@@ -1,0 +1,18 @@
+/* How much of a heavy test is done.
+ *
+ * The environment variable PSCN_EFFORT holds the fraction of the full work, a decimal number in (0,1], or `full` (1).
+ * Without it a small fraction is done, so that the whole suite takes minutes.
+ */
+#ifndef TESTS_EFFORT_H
+#define TESTS_EFFORT_H
+
+#include <stddef.h>
+
+/* PSCN_EFFORT as a number in (0,1]; EFFORT_DEFAULT where it is unset or no such number. */
+#define EFFORT_DEFAULT 0.04
+double effort_fraction(void);
+
+/* `full` times the fraction, at least `least` and at most `full`. */
+size_t effort_count(size_t full, size_t least);
+
+#endif
