@@ -1,0 +1,25 @@
+/* Files that appear whole or not at all.
+ *
+ * The bytes are written to a temporary file in the folder of the final name, flushed to the disk, and renamed. Whatever
+ * goes wrong, the final name keeps what it had and the temporary file is removed. A symbolic link is followed. A name
+ * that is a device or a pipe is written to directly, since it can not be replaced.
+ *
+ * Both functions answer STATUS_FILE with the reason, an errno value, in *out_errno (0 otherwise). Safe on any thread.
+ */
+#ifndef PSCN_BASE_ATOMIC_FILE_H
+#define PSCN_BASE_ATOMIC_FILE_H
+
+#include <stdatomic.h>
+#include <stddef.h>
+
+#include "base/status.h"
+
+/* Whether a file of this name could be written now; leaves nothing behind. To be asked before long work starts. */
+enum status atomic_file_probe(const char *path, int *out_errno) STATUS_MUST_CHECK;
+
+/* Writes `size` bytes. Where `stop` is not NULL and turns nonzero while writing (a signal handler may set it), the write
+ * is given up: STATUS_INTERRUPTED. A new file gets the permissions the process's mask gives, an old one keeps its own. */
+enum status atomic_file_write(const char *path, const void *bytes, size_t size, const atomic_int *stop,
+                              int *out_errno) STATUS_MUST_CHECK;
+
+#endif
