@@ -1,0 +1,45 @@
+/* A picture in memory: float values, channels by name.
+ *
+ * Layout: value[(y * width + x) * channel_count + c], rows from the top, pixels from the left.
+ */
+#ifndef PSCN_IMAGE_IMAGE_H
+#define PSCN_IMAGE_IMAGE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/status.h"
+
+enum {
+  IMAGE_NAME_SIZE = 64,    /* of a channel name, with its NUL */
+  IMAGE_MAX_CHANNELS = 256 /* of a picture read or written */
+};
+
+struct image_channel {
+  char name[IMAGE_NAME_SIZE]; /* "R", "G", "B", or what the channel holds */
+  bool data;                  /* numbers rather than light: always stored with 32 bits */
+};
+
+struct image {
+  size_t width, height, channel_count;
+  struct image_channel *channel; /* channel_count of them */
+  float *value;
+};
+
+/* A black picture with unnamed channels, owned by the caller. STATUS_LIMIT where memory is short or the product
+ * overflows; then *out is zero. */
+enum status image_create(size_t width, size_t height, size_t channel_count, struct image *out) STATUS_MUST_CHECK;
+
+/* Frees what image_create made and zeroes *image; a zero image is allowed. */
+void image_destroy(struct image *image);
+
+/* The index of the channel of that name, or channel_count where there is none. */
+size_t image_find_channel(const struct image *image, const char *name);
+
+/* The channel_count values of one pixel. */
+static inline float *image_pixel(const struct image *image, size_t x, size_t y)
+{
+  return image->value + (y * image->width + x) * image->channel_count;
+}
+
+#endif

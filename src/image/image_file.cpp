@@ -1,0 +1,239 @@
+/* Pictures to and from files, through OpenImageIO: the only C++ of pscn, behind a C face. No exception leaves this file. */
+extern "C" {
+#include "image/image_file.h"
+#include "image/srgb.h"
+}
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+struct FormatTraits {
+  const char *suffix;
+  int bits[2]; /* the first is the default */
+  int max_channels;
+};
+
+/* In the order of enum image_format. */
+const FormatTraits FORMATS[] = {
+  { ".png", { 8, 16 }, 4 },
+  { ".exr", { 16, 32 }, IMAGE_MAX_CHANNELS },
+};
+
+void say(char *message, const std::string &text)
+{
+  const std::size_t end = text.find_first_of("\r\n");
+  std::snprintf(message, IMAGE_MESSAGE_SIZE, "%s", text.substr(0, end).c_str());
+}
+
+OIIO::TypeDesc channel_type(const image_encoding &encoding, const image_channel &channel)
+{
+  if (encoding.format == IMAGE_PNG)
+    return encoding.bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+  return encoding.bits == 16 && !channel.data ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+}
+
+OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
+{
+  OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height),
+                       static_cast<int>(picture.channel_count), channel_type(encoding, picture.channel[0]));
+  bool mixed = false;
+  for (std::size_t c = 0; c < picture.channel_count; c++) {
+    spec.channelnames[c] = picture.channel[c].name;
+    spec.channelformats.push_back(channel_type(encoding, picture.channel[c]));
+    mixed = mixed || spec.channelformats[c] != spec.format;
+  }
+  if (!mixed)
+    spec.channelformats.clear();
+  spec.attribute("oiio:ColorSpace", encoding.format == IMAGE_PNG ? "sRGB" : "Linear");
+  for (std::size_t k = 0; k < encoding.attribute_count; k++)
+    spec.attribute(encoding.attributes[k].name, encoding.attributes[k].text);
+  return spec;
+}
+
+template <typename Value> void append(Bytes &bytes, Value value)
+{
+  unsigned char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  bytes.insert(bytes.end(), raw, raw + sizeof value);
+}
+
+/* The pixels in the file's own types, packed. */
+Bytes native_pixels(const image &picture, const image_encoding &encoding)
+{
+  Bytes bytes;
+  const std::size_t values = picture.width * picture.height * picture.channel_count;
+  bytes.reserve(values * static_cast<std::size_t>(encoding.bits) / 8);
+  srgb_table table;
+  srgb_table_fill(&table);
+  std::vector<OIIO::TypeDesc> types;
+  for (std::size_t c = 0; c < picture.channel_count; c++)
+    types.push_back(channel_type(encoding, picture.channel[c]));
+  for (std::size_t k = 0; k < values; k++) {
+    const float value = picture.value[k];
+    switch (types[k % picture.channel_count].basetype) {
+    case OIIO::TypeDesc::UINT8:
+      append(bytes, encoding.encoded ? code8(value) : srgb_encode8(&table, value));
+      break;
+    case OIIO::TypeDesc::UINT16:
+      append(bytes, encoding.encoded ? code16(value) : srgb_encode16(value));
+      break;
+    case OIIO::TypeDesc::HALF: {
+      unsigned short half = 0;
+      OIIO::convert_types(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &half, 1);
+      append(bytes, half);
+      break;
+    }
+    default:
+      append(bytes, value);
+    }
+  }
+  return bytes;
+}
+
+/* Encodes into `file`; an empty string or what went wrong. */
+std::string encode(const image &picture, const image_encoding &encoding, Bytes &file)
+{
+  OIIO::ImageSpec spec = make_spec(picture, encoding);
+  const Bytes pixels = native_pixels(picture, encoding);
+  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(FORMATS[encoding.format].suffix + 1);
+  if (!output)
+    return "OpenImageIO: " + OIIO::geterror();
+  if (!output->supports("ioproxy"))
+    return "this OpenImageIO can not write the format to memory";
+  OIIO::Filesystem::IOVecOutput proxy(file);
+  if (!output->set_ioproxy(&proxy))
+    return "OpenImageIO: " + output->geterror();
+  /* The name decides nothing but the format: the proxy takes the bytes. */
+  if (!output->open(std::string("memory") + FORMATS[encoding.format].suffix, spec) ||
+      !output->write_image(spec.channelformats.empty() ? spec.format : OIIO::TypeDesc(), pixels.data()) ||
+      !output->close())
+    return "OpenImageIO: " + output->geterror();
+  if (file.empty())
+    return "OpenImageIO wrote nothing";
+  return "";
+}
+
+std::string read(const char *path, image &out, status &result)
+{
+  /* OpenImageIO does not say why a file can not be opened, the system does. */
+  std::FILE *probe = std::fopen(path, "rb");
+  if (probe == nullptr)
+    return std::strerror(errno);
+  std::fclose(probe);
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
+  if (!input) {
+    const std::string reason = OIIO::geterror();
+    return reason.empty() ? "not a picture that OpenImageIO can read" : reason;
+  }
+  const OIIO::ImageSpec spec = input->spec();
+  if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
+      spec.nchannels > IMAGE_MAX_CHANNELS)
+    return "not a flat picture of at most " + std::to_string(IMAGE_MAX_CHANNELS) + " channels";
+  result = image_create(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
+                        static_cast<std::size_t>(spec.nchannels), &out);
+  if (result != STATUS_OK)
+    return "out of memory";
+  result = STATUS_FILE;
+  for (std::size_t c = 0; c < out.channel_count; c++)
+    std::snprintf(out.channel[c].name, IMAGE_NAME_SIZE, "%s", spec.channelnames[c].c_str());
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value))
+    return input->geterror();
+  result = STATUS_OK;
+  return "";
+}
+
+} // namespace
+
+extern "C" bool image_format_of(const char *path, enum image_format *out)
+{
+  const std::size_t length = std::strlen(path);
+  for (int format = IMAGE_PNG; format <= IMAGE_EXR; format++) {
+    const char *suffix = FORMATS[format].suffix;
+    const std::size_t size = std::strlen(suffix);
+    bool same = length > size && path[length - size - 1] != '/';
+    for (std::size_t k = 0; same && k < size; k++)
+      same = std::tolower(static_cast<unsigned char>(path[length - size + k])) == suffix[k];
+    if (same) {
+      *out = static_cast<image_format>(format);
+      return true;
+    }
+  }
+  return false;
+}
+
+extern "C" bool image_format_has_bits(enum image_format format, int bits)
+{
+  return bits == FORMATS[format].bits[0] || bits == FORMATS[format].bits[1];
+}
+
+extern "C" int image_format_default_bits(enum image_format format)
+{
+  return FORMATS[format].bits[0];
+}
+
+extern "C" enum status image_encode(const struct image *image, const struct image_encoding *encoding,
+                                    unsigned char **out_bytes, size_t *out_size, char *message)
+{
+  *out_bytes = nullptr;
+  *out_size = 0;
+  message[0] = '\0';
+  if (image->channel_count == 0 || image->channel_count > static_cast<std::size_t>(FORMATS[encoding->format].max_channels)) {
+    say(message, "the format can not hold these channels");
+    return STATUS_FILE;
+  }
+  try {
+    Bytes file;
+    const std::string problem = encode(*image, *encoding, file);
+    if (!problem.empty()) {
+      say(message, problem);
+      return STATUS_FILE;
+    }
+    *out_bytes = static_cast<unsigned char *>(std::malloc(file.size()));
+    if (*out_bytes == nullptr)
+      throw std::bad_alloc();
+    std::memcpy(*out_bytes, file.data(), file.size());
+    *out_size = file.size();
+    return STATUS_OK;
+  } catch (const std::bad_alloc &) {
+    std::snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
+    return STATUS_LIMIT;
+  } catch (const std::exception &problem) {
+    std::snprintf(message, IMAGE_MESSAGE_SIZE, "%s", problem.what());
+    return STATUS_FILE;
+  }
+}
+
+extern "C" enum status image_read(const char *path, struct image *out, char *message)
+{
+  *out = { 0, 0, 0, nullptr, nullptr };
+  message[0] = '\0';
+  status result = STATUS_FILE;
+  try {
+    const std::string problem = read(path, *out, result);
+    if (!problem.empty())
+      say(message, problem);
+  } catch (const std::bad_alloc &) {
+    std::snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
+    result = STATUS_LIMIT;
+  } catch (const std::exception &problem) {
+    std::snprintf(message, IMAGE_MESSAGE_SIZE, "%s", problem.what());
+    result = STATUS_FILE;
+  }
+  if (result != STATUS_OK)
+    image_destroy(out);
+  return result;
+}

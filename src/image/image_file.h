@@ -1,0 +1,51 @@
+/* Pictures to and from files, through OpenImageIO.
+ *
+ * A picture is encoded to memory; the bytes are then written by atomic_file_write, so that a full disk is noticed and
+ * nothing is left half written. Failures write one line of text, without a newline, to message[IMAGE_MESSAGE_SIZE].
+ */
+#ifndef PSCN_IMAGE_IMAGE_FILE_H
+#define PSCN_IMAGE_IMAGE_FILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/status.h"
+#include "image/image.h"
+
+enum { IMAGE_MESSAGE_SIZE = 512 };
+
+enum image_format {
+  IMAGE_PNG, /* 8 or 16 bits a channel, sRGB, one to four channels */
+  IMAGE_EXR  /* half (16) or float (32), linear, any channels */
+};
+
+/* The format a file name's suffix asks for (.png or .exr, in any case); false where it is neither. */
+bool image_format_of(const char *path, enum image_format *out);
+
+/* Whether the format holds values of that many bits, and its default. */
+bool image_format_has_bits(enum image_format format, int bits);
+int image_format_default_bits(enum image_format format);
+
+/* One line of metadata. A name with a colon ("pscn:solver") is a group of its own. */
+struct image_attribute {
+  const char *name, *text;
+};
+
+struct image_encoding {
+  enum image_format format;
+  int bits;     /* of every channel that is not data; data channels of EXR always have 32 */
+  bool encoded; /* the values are display codes already: PNG takes them without the sRGB curve */
+  const struct image_attribute *attributes;
+  size_t attribute_count;
+};
+
+/* The bytes of the file, owned by the caller (free). STATUS_LIMIT where memory is short, STATUS_FILE where the format
+ * can not hold the picture or the library fails. */
+enum status image_encode(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
+                         size_t *out_size, char *message) STATUS_MUST_CHECK;
+
+/* Reads the first picture of a file of any format OpenImageIO knows, values as they are stored (integers to [0,1]). The
+ * picture is owned by the caller. STATUS_FILE or STATUS_LIMIT; then *out is zero. */
+enum status image_read(const char *path, struct image *out, char *message) STATUS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,28 @@
+/* The sRGB transfer function, IEC 61966-2-1: linear light to display code, rounded once.
+ *
+ * Values outside [0,1] are clipped, NaN counts as 0.
+ */
+#ifndef PSCN_IMAGE_SRGB_H
+#define PSCN_IMAGE_SRGB_H
+
+#include <stdint.h>
+
+/* Linear [0,1] to encoded [0,1], and back. */
+double srgb_encode(double linear);
+double srgb_decode(double encoded);
+
+/* The lower bounds of linear light of the 8-bit codes 1 to 255: code k starts at bound[k - 1]. */
+struct srgb_table {
+  float bound[255];
+};
+void srgb_table_fill(struct srgb_table *out);
+
+/* The nearest code of a linear value. */
+uint8_t srgb_encode8(const struct srgb_table *table, float linear);
+uint16_t srgb_encode16(float linear);
+
+/* A value that is encoded already, to the nearest code. */
+uint8_t code8(float encoded);
+uint16_t code16(float encoded);
+
+#endif
