@@ -1,0 +1,49 @@
+/* What a picture can tell of each pixel: colour, and the numbers of the hit it stands for. */
+#ifndef PSCN_RENDER_CHANNELS_H
+#define PSCN_RENDER_CHANNELS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum channel_kind {
+  CHANNEL_RGB,      /* linear colour, the mean of the pixel's samples */
+  CHANNEL_COVERAGE, /* share of the pixel's samples that hit a patch, 0 to 1 */
+  /* From here on the numbers of one sample: the middle one, (N/2, N/2) of N x N, the pixel's centre where N is odd. */
+  CHANNEL_DEPTH,  /* distance from the camera in scene units; infinite on a miss */
+  CHANNEL_U,      /* parameters of the whole patch; 0 on a miss */
+  CHANNEL_V,
+  CHANNEL_PATCH,  /* the patch's number, from 0; -1 on a miss */
+  CHANNEL_NORMAL, /* unit normal facing the camera; 0 on a miss */
+  CHANNEL_STATUS, /* enum channel_status */
+  CHANNEL_KINDS
+};
+
+/* The values of CHANNEL_STATUS. */
+enum channel_status {
+  CHANNEL_MISS_CERTAIN = 0,
+  CHANNEL_HIT_CERTAIN = 1,
+  CHANNEL_MISS_GRAZING = 2,
+  CHANNEL_HIT_GRAZING = 3
+};
+
+struct channel_traits {
+  const char *name;           /* as in --channels */
+  const char *summary;        /* one line for the help text */
+  size_t width;               /* values a pixel */
+  const char *value_names[3]; /* what the file calls them */
+  bool data;                  /* numbers rather than light */
+};
+
+const struct channel_traits *channel_traits(enum channel_kind kind);
+
+/* Channels of a picture, in order, each at most once. */
+struct channel_list {
+  size_t count, width; /* width: values a pixel, of all together */
+  enum channel_kind kind[CHANNEL_KINDS];
+};
+
+/* Reads names with commas between them. false: *out_bad .. + *out_bad_length is the name that is unknown or stands twice
+ * (possibly empty), and *out is unchanged. */
+bool channel_list_parse(const char *text, struct channel_list *out, const char **out_bad, size_t *out_bad_length);
+
+#endif

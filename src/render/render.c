@@ -1,0 +1,211 @@
+/* A picture of a scene: threads that take tiles from a common counter, watched by the thread that asked. */
+#include "render/render.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum {
+  WATCH_NANOSECONDS = 100 * 1000 * 1000, /* between two looks at progress and stop */
+  NANOSECONDS = 1000 * 1000 * 1000
+};
+
+/* What the threads share. The mutex guards `running` only; the rest is atomic or read-only. */
+struct crew {
+  const struct tile_job *job;
+  const atomic_int *stop;
+  struct rectangle tiles; /* columns and rows of the grid that meet the crop */
+  atomic_size_t next, pixels;
+  atomic_uint_fast64_t rays;
+  atomic_bool aborted;
+  pthread_mutex_t mutex;
+  pthread_cond_t ended;
+  size_t running;
+};
+
+struct worker {
+  struct crew *crew;
+  struct tracer *tracer;
+  pthread_t thread;
+};
+
+static uint64_t count_rays(const struct tracer *tracer)
+{
+  const struct intersect_counts *counts = tracer_counts(tracer);
+  return counts->rays[0] + counts->rays[1];
+}
+
+static bool stopped(struct crew *crew)
+{
+  return atomic_load_explicit(&crew->aborted, memory_order_relaxed) || (crew->stop != NULL && atomic_load(crew->stop) != 0);
+}
+
+static void *work(void *argument)
+{
+  const struct worker *worker = argument;
+  struct crew *crew = worker->crew;
+  const size_t total = crew->tiles.width * crew->tiles.height;
+  while (!stopped(crew)) {
+    const size_t tile = atomic_fetch_add(&crew->next, 1);
+    if (tile >= total)
+      break;
+    const uint64_t before = count_rays(worker->tracer);
+    const size_t pixels = tile_render(crew->job, worker->tracer, crew->tiles.x + tile % crew->tiles.width,
+                                      crew->tiles.y + tile / crew->tiles.width);
+    atomic_fetch_add(&crew->pixels, pixels);
+    atomic_fetch_add(&crew->rays, count_rays(worker->tracer) - before);
+  }
+  pthread_mutex_lock(&crew->mutex);
+  if (--crew->running == 0)
+    pthread_cond_signal(&crew->ended);
+  pthread_mutex_unlock(&crew->mutex);
+  return NULL;
+}
+
+static double seconds_since(const struct timespec *start)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)(now.tv_sec - start->tv_sec) + (double)(now.tv_nsec - start->tv_nsec) / NANOSECONDS;
+}
+
+/* Waits for the last worker, telling progress. */
+static void watch_crew(struct crew *crew, const struct render_watch *watch, const struct timespec *start)
+{
+  pthread_mutex_lock(&crew->mutex);
+  while (crew->running > 0) {
+    struct timespec until;
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_nsec += WATCH_NANOSECONDS;
+    until.tv_sec += until.tv_nsec / NANOSECONDS;
+    until.tv_nsec %= NANOSECONDS;
+    if (pthread_cond_timedwait(&crew->ended, &crew->mutex, &until) == ETIMEDOUT && watch->progress != NULL) {
+      const struct render_progress progress = { .pixels = atomic_load(&crew->pixels),
+                                                .pixels_total = crew->job->crop.width * crew->job->crop.height,
+                                                .rays = atomic_load(&crew->rays),
+                                                .seconds = seconds_since(start) };
+      pthread_mutex_unlock(&crew->mutex);
+      watch->progress(watch->context, &progress);
+      pthread_mutex_lock(&crew->mutex);
+    }
+  }
+  pthread_mutex_unlock(&crew->mutex);
+}
+
+/* Runs the workers to their end. */
+static enum status run_crew(struct crew *crew, size_t count, struct worker workers[], const struct render_watch *watch,
+                            const struct timespec *start)
+{
+  size_t started = 0;
+  while (started < count) {
+    pthread_mutex_lock(&crew->mutex);
+    crew->running++;
+    pthread_mutex_unlock(&crew->mutex);
+    if (pthread_create(&workers[started].thread, NULL, work, &workers[started]) != 0) {
+      pthread_mutex_lock(&crew->mutex);
+      crew->running--;
+      pthread_mutex_unlock(&crew->mutex);
+      atomic_store(&crew->aborted, true);
+      break;
+    }
+    started++;
+  }
+  watch_crew(crew, watch, start);
+  for (size_t k = 0; k < started; k++)
+    pthread_join(workers[k].thread, NULL);
+  if (started < count)
+    return STATUS_LIMIT;
+  return stopped(crew) ? STATUS_INTERRUPTED : STATUS_OK;
+}
+
+static enum status crew_synchronise(struct crew *crew)
+{
+  pthread_condattr_t attributes;
+  if (pthread_condattr_init(&attributes) != 0)
+    return STATUS_LIMIT;
+  enum status status = STATUS_LIMIT;
+  if (pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC) == 0 &&
+      pthread_cond_init(&crew->ended, &attributes) == 0) {
+    if (pthread_mutex_init(&crew->mutex, NULL) == 0)
+      status = STATUS_OK;
+    else
+      pthread_cond_destroy(&crew->ended);
+  }
+  pthread_condattr_destroy(&attributes);
+  return status;
+}
+
+/* The tiles that meet the crop. */
+static struct rectangle tiles_of(const struct rectangle *crop)
+{
+  const size_t x = crop->x / TILE_SIZE, y = crop->y / TILE_SIZE;
+  return (struct rectangle){ .x = x,
+                             .y = y,
+                             .width = (crop->x + crop->width - 1) / TILE_SIZE - x + 1,
+                             .height = (crop->y + crop->height - 1) / TILE_SIZE - y + 1 };
+}
+
+static bool warm_starts(const struct scene *scene)
+{
+  for (size_t k = 0; k < scene->solver_count; k++) {
+    if (scene->solvers[k].start == START_PREVIOUS)
+      return true;
+  }
+  return false;
+}
+
+enum status render_scene(const struct scene *scene, const struct intersector *intersector,
+                         const struct render_options *options, const struct render_watch *watch, float *out,
+                         struct render_stats *out_stats)
+{
+  struct timespec start;
+  clock_gettime(CLOCK_MONOTONIC, &start);
+  *out_stats = (struct render_stats){ 0 };
+  const struct tile_job job = { .scene = scene,
+                                .width = options->width,
+                                .height = options->height,
+                                .samples = options->samples,
+                                .crop = options->crop,
+                                .every_pixel = warm_starts(scene),
+                                .channels = options->channels,
+                                .out = out };
+  struct crew crew = { .job = &job, .stop = watch->stop, .tiles = tiles_of(&options->crop) };
+  const size_t tile_count = crew.tiles.width * crew.tiles.height;
+  const size_t count = options->threads < tile_count ? options->threads : tile_count;
+  struct worker *workers = calloc(count, sizeof *workers);
+  enum status status = workers == NULL ? STATUS_LIMIT : STATUS_OK;
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
+    workers[k].crew = &crew;
+    status = tracer_create(intersector, &workers[k].tracer);
+  }
+  if (status == STATUS_OK)
+    status = crew_synchronise(&crew);
+  if (status == STATUS_OK) {
+    status = run_crew(&crew, count, workers, watch, &start);
+    pthread_cond_destroy(&crew.ended);
+    pthread_mutex_destroy(&crew.mutex);
+  }
+  for (size_t k = 0; k < count && workers != NULL; k++) {
+    if (workers[k].tracer == NULL)
+      continue;
+    render_add_counts(&out_stats->counts, tracer_counts(workers[k].tracer));
+    tracer_destroy(workers[k].tracer);
+  }
+  free(workers);
+  out_stats->threads = count;
+  out_stats->seconds = seconds_since(&start);
+  return status;
+}
+
+void render_add_counts(struct intersect_counts *sum, const struct intersect_counts *counts)
+{
+  sum->rays[0] += counts->rays[0];
+  sum->rays[1] += counts->rays[1];
+  sum->patches_tested += counts->patches_tested;
+  sum->roots_found += counts->roots_found;
+  sum->roots_accepted += counts->roots_accepted;
+  sum->escalated += counts->escalated;
+  sum->certain += counts->certain;
+  sum->grazing += counts->grazing;
+}

@@ -1,0 +1,108 @@
+/* Local shading and shadows. Lambert's law; B. T. Phong, "Illumination for computer generated pictures", CACM 18, 1975;
+ * J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977 (the half vector). */
+#include "render/shade.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "geometry/vector.h"
+
+/* A lit point seen along a ray. */
+struct view {
+  const struct scene_texture *texture;
+  const double *normal;
+  double toward[3]; /* unit direction of the viewing ray */
+};
+
+static const struct scene_texture *texture_of(const struct scene *scene, const struct hit *hit)
+{
+  return &scene->textures[scene->patches[hit->patch].texture];
+}
+
+static double phong(const struct view *view, const double to_light[3])
+{
+  double reflected[3];
+  vector_add_scaled(view->toward, -2 * vector_dot(view->toward, view->normal), view->normal, reflected);
+  const double cosine = vector_dot(reflected, to_light);
+  const struct scene_finish *finish = &view->texture->finish;
+  return cosine > 0 ? finish->phong * pow(cosine, finish->phong_size) : 0;
+}
+
+static double specular(const struct view *view, const double to_light[3])
+{
+  double half[3];
+  vector_subtract(to_light, view->toward, half);
+  const double length = vector_length(half);
+  const double cosine = length > 0 ? vector_dot(half, view->normal) / length : 0;
+  const struct scene_finish *finish = &view->texture->finish;
+  return cosine > 0 ? finish->specular * pow(cosine, 1 / finish->roughness) : 0;
+}
+
+/* Adds what a visible light gives; to_light is the unit vector L, cosine = N.L > 0. */
+static void add_light(const struct view *view, const struct scene_light *light, const double to_light[3],
+                      double cosine, double rgb[3])
+{
+  const struct scene_finish *finish = &view->texture->finish;
+  const double diffuse = finish->diffuse * (finish->brilliance == 1 ? cosine : pow(cosine, finish->brilliance));
+  double highlight = 0;
+  if (!light->shadowless) {
+    highlight += finish->phong != 0 ? phong(view, to_light) : 0;
+    highlight += finish->specular != 0 ? specular(view, to_light) : 0;
+  }
+  for (int k = 0; k < 3; k++)
+    rgb[k] += light->color[k] * (diffuse * view->texture->pigment[k] + highlight);
+}
+
+/* One light on the hits of a packet. */
+static void light_packet(const struct scene_light *light, struct tracer *tracer, size_t count,
+                         const struct view views[], const struct hit hits[], double out_rgb[][3])
+{
+  size_t lane[PACKET_SIZE], lit = 0;
+  double to_light[PACKET_SIZE][3], cosine[PACKET_SIZE];
+  struct ray shadow[PACKET_SIZE];
+  for (size_t k = 0; k < count; k++) {
+    if (hits[k].patch == HIT_NONE)
+      continue;
+    double way[3];
+    vector_subtract(light->position, hits[k].point, way);
+    const double length = vector_length(way), facing = vector_dot(way, views[k].normal);
+    if (!(facing > 0))
+      continue;
+    lane[lit] = k;
+    vector_scale(1 / length, way, to_light[lit]);
+    cosine[lit] = facing / length;
+    struct ray *ray = &shadow[lit++];
+    hit_leave(&hits[k], way, ray->origin);
+    vector_subtract(light->position, ray->origin, ray->direction);
+    ray->t_min = 0;
+    ray->t_max = 1;
+  }
+  bool hidden[PACKET_SIZE] = { false };
+  if (lit > 0 && !light->shadowless)
+    tracer_occluded(tracer, lit, shadow, hidden);
+  for (size_t k = 0; k < lit; k++) {
+    if (!hidden[k])
+      add_light(&views[lane[k]], light, to_light[k], cosine[k], out_rgb[lane[k]]);
+  }
+}
+
+void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count, const struct ray rays[],
+                  const struct hit hits[], double out_rgb[][3])
+{
+  struct view views[PACKET_SIZE];
+  for (size_t k = 0; k < count; k++) {
+    if (hits[k].patch == HIT_NONE) {
+      for (int c = 0; c < 3; c++)
+        out_rgb[k][c] = scene->background[c];
+      continue;
+    }
+    const struct scene_texture *texture = texture_of(scene, &hits[k]);
+    views[k].texture = texture;
+    views[k].normal = hits[k].normal;
+    vector_scale(1 / vector_length(rays[k].direction), rays[k].direction, views[k].toward);
+    for (int c = 0; c < 3; c++)
+      out_rgb[k][c] = texture->finish.ambient[c] * scene->ambient_light[c] * texture->pigment[c];
+  }
+  for (size_t k = 0; k < scene->light_count; k++)
+    light_packet(&scene->lights[k], tracer, count, views, hits, out_rgb);
+}

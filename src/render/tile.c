@@ -1,0 +1,146 @@
+/* Tiles: packets of rays, their colours, and the values that are kept of them. */
+#include "render/tile.h"
+
+#include <math.h>
+
+#include "geometry/vector.h"
+#include "render/camera.h"
+#include "render/shade.h"
+
+enum { PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
+
+/* A pixel while its samples are gathered. */
+struct pixel {
+  size_t x, y;
+  double rgb[3]; /* sum over the samples */
+  size_t hits;   /* samples that hit */
+  struct hit hit; /* of the middle sample, with its distance */
+  double distance;
+};
+
+static bool inside(const struct rectangle *r, size_t x, size_t y)
+{
+  return x >= r->x && x - r->x < r->width && y >= r->y && y - r->y < r->height;
+}
+
+/* The pixels of the packet at (x0, y0) that are to be rendered. */
+static size_t gather(const struct tile_job *job, size_t x0, size_t y0, struct pixel out[PACKET_SIZE])
+{
+  size_t count = 0;
+  for (size_t k = 0; k < PACKET_SIZE; k++) {
+    const size_t x = x0 + k % PACKET_WIDTH, y = y0 + k / PACKET_WIDTH;
+    if (x < job->width && y < job->height && (job->every_pixel || inside(&job->crop, x, y)))
+      out[count++] = (struct pixel){ .x = x, .y = y, .hit.patch = HIT_NONE };
+  }
+  return count;
+}
+
+/* Adds sample (i, j) to every pixel. */
+static void sample(const struct tile_job *job, struct tracer *tracer, size_t i, size_t j, size_t count,
+                   struct pixel pixels[])
+{
+  const double n = (double)job->samples;
+  const bool middle = i == job->samples / 2 && j == job->samples / 2;
+  struct ray rays[PACKET_SIZE];
+  struct hit hits[PACKET_SIZE];
+  double rgb[PACKET_SIZE][3];
+  for (size_t k = 0; k < count; k++) {
+    const double s = ((double)pixels[k].x + ((double)i + 0.5) / n) / (double)job->width;
+    const double t = ((double)pixels[k].y + ((double)j + 0.5) / n) / (double)job->height;
+    camera_ray(&job->scene->camera, s, t, &rays[k]);
+  }
+  tracer_closest(tracer, count, rays, hits);
+  shade_packet(job->scene, tracer, count, rays, hits, rgb);
+  for (size_t k = 0; k < count; k++) {
+    vector_add_scaled(pixels[k].rgb, 1, rgb[k], pixels[k].rgb);
+    pixels[k].hits += hits[k].patch != HIT_NONE;
+    if (middle) {
+      pixels[k].hit = hits[k];
+      pixels[k].distance = hits[k].patch == HIT_NONE ? INFINITY : hits[k].t * vector_length(rays[k].direction);
+    }
+  }
+}
+
+static double status_value(const struct hit *hit)
+{
+  const bool missed = hit->patch == HIT_NONE, certain = hit->certainty == CERTAINTY_CERTAIN;
+  if (missed)
+    return certain ? CHANNEL_MISS_CERTAIN : CHANNEL_MISS_GRAZING;
+  return certain ? CHANNEL_HIT_CERTAIN : CHANNEL_HIT_GRAZING;
+}
+
+/* The values of one channel; `samples` is how many rays the pixel has. */
+static void channel_values(enum channel_kind kind, const struct pixel *pixel, double samples, double out[3])
+{
+  const struct hit *hit = &pixel->hit;
+  const bool missed = hit->patch == HIT_NONE;
+  switch (kind) {
+  case CHANNEL_RGB:
+    vector_scale(1 / samples, pixel->rgb, out);
+    break;
+  case CHANNEL_COVERAGE:
+    out[0] = (double)pixel->hits / samples;
+    break;
+  case CHANNEL_DEPTH:
+    out[0] = pixel->distance;
+    break;
+  case CHANNEL_U:
+    out[0] = missed ? 0 : hit->u;
+    break;
+  case CHANNEL_V:
+    out[0] = missed ? 0 : hit->v;
+    break;
+  case CHANNEL_PATCH:
+    out[0] = missed ? -1 : (double)hit->patch;
+    break;
+  case CHANNEL_NORMAL:
+    for (int k = 0; k < 3; k++)
+      out[k] = missed ? 0 : hit->normal[k];
+    break;
+  case CHANNEL_STATUS:
+    out[0] = status_value(hit);
+    break;
+  case CHANNEL_KINDS:
+    break;
+  }
+}
+
+static void keep(const struct tile_job *job, const struct pixel *pixel)
+{
+  const size_t index = (pixel->y - job->crop.y) * job->crop.width + (pixel->x - job->crop.x);
+  const double samples = (double)job->samples * (double)job->samples;
+  float *out = job->out + index * job->channels.width;
+  for (size_t c = 0; c < job->channels.count; c++) {
+    const enum channel_kind kind = job->channels.kind[c];
+    double values[3] = { 0 };
+    channel_values(kind, pixel, samples, values);
+    for (size_t k = 0; k < channel_traits(kind)->width; k++)
+      *out++ = (float)values[k];
+  }
+}
+
+size_t tile_render(const struct tile_job *job, struct tracer *tracer, size_t column, size_t row)
+{
+  const size_t x0 = column * TILE_SIZE, y0 = row * TILE_SIZE;
+  size_t kept = 0;
+  tracer_forget(tracer);
+  for (size_t y = y0; y < y0 + TILE_SIZE; y += PACKET_HEIGHT) {
+    for (size_t x = x0; x < x0 + TILE_SIZE; x += PACKET_WIDTH) {
+      struct pixel pixels[PACKET_SIZE];
+      const size_t count = gather(job, x, y, pixels);
+      if (count == 0)
+        continue;
+      for (size_t j = 0; j < job->samples; j++) {
+        for (size_t i = 0; i < job->samples; i++)
+          sample(job, tracer, i, j, count, pixels);
+      }
+      for (size_t k = 0; k < count; k++) {
+        if (inside(&job->crop, pixels[k].x, pixels[k].y)) {
+          keep(job, &pixels[k]);
+          kept++;
+        }
+      }
+    }
+  }
+  return kept;
+}

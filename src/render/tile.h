@@ -1,0 +1,37 @@
+/* Tiles: the unit of work of a thread.
+ *
+ * The grid of tiles, and in each tile the grid of packets of 4 x 2 pixels, is fixed to the picture, and a tracer starts
+ * each tile without memory. So a pixel depends neither on the crop nor on which thread renders it.
+ */
+#ifndef PSCN_RENDER_TILE_H
+#define PSCN_RENDER_TILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "intersect/intersect.h"
+#include "render/channels.h"
+#include "scene/scene.h"
+
+enum { TILE_SIZE = 32 }; /* pixels a side; a multiple of a packet's */
+
+/* Pixels x .. x + width - 1, y .. y + height - 1. */
+struct rectangle {
+  size_t x, y, width, height;
+};
+
+/* What is to be rendered. Borrowed pointers. */
+struct tile_job {
+  const struct scene *scene;
+  size_t width, height;  /* of the whole picture, pixels */
+  size_t samples;        /* N: N x N rays a pixel, on a regular grid */
+  struct rectangle crop; /* the pixels that are kept */
+  bool every_pixel;      /* render whole tiles, because a ray may depend on the one before it (`start previous`) */
+  struct channel_list channels;
+  float *out;            /* [crop.height][crop.width][channels.width] */
+};
+
+/* Renders tile (column, row) of the grid and stores its pixels that are kept. Returns how many those are. */
+size_t tile_render(const struct tile_job *job, struct tracer *tracer, size_t column, size_t row);
+
+#endif
