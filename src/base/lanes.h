@@ -1,0 +1,64 @@
+/* A few doubles side by side: one ray a lane.
+ *
+ * Plain GCC/clang vector extensions, so one source serves every instruction set; LANES is what one register of the target
+ * holds (vectors wider than that are taken apart into single doubles by the compiler, which costs more than it saves).
+ * Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are 0 or -1.
+ * A source that uses this is compiled once per instruction set (src/intersect/CMakeLists.txt).
+ */
+#ifndef PSCN_BASE_LANES_H
+#define PSCN_BASE_LANES_H
+
+#include <stdint.h>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#define LANES 8
+#elif defined(__AVX__)
+#define LANES 4
+#else
+#define LANES 2
+#endif
+
+typedef double lanes __attribute__((vector_size(8 * LANES)));
+typedef int64_t lane_mask __attribute__((vector_size(8 * LANES)));
+
+#define LANES_INLINE static inline __attribute__((always_inline, unused))
+
+/* Lane k: x. (x - 0 keeps every x, -0 and NaN included.) */
+LANES_INLINE lanes lanes_all(double x) { return x - (lanes){0}; }
+
+/* Lane k: mask ? a : b. */
+LANES_INLINE lanes lanes_select(lane_mask mask, lanes a, lanes b)
+{
+  return (lanes)((mask & (lane_mask)a) | (~mask & (lane_mask)b));
+}
+
+/* Lane k: a < b ? a : b, so b where either is NaN. */
+LANES_INLINE lanes lanes_min(lanes a, lanes b) { return lanes_select(a < b, a, b); }
+LANES_INLINE lanes lanes_max(lanes a, lanes b) { return lanes_select(a > b, a, b); }
+
+LANES_INLINE lanes lanes_abs(lanes a) { return (lanes)((lane_mask)a & (INT64_MAX - (lane_mask){0})); }
+
+/* The mask as bits: bit k is lane k. */
+LANES_INLINE unsigned lanes_bits(lane_mask mask)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return (unsigned)_mm512_movepi64_mask((__m512i)mask);
+#elif defined(__AVX__)
+  return (unsigned)_mm256_movemask_pd((__m256d)mask);
+#elif defined(__SSE2__)
+  return (unsigned)_mm_movemask_pd((__m128d)mask);
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < LANES; k++) bits |= (unsigned)(mask[k] & 1) << k;
+  return bits;
+#endif
+}
+
+/* Whether any lane, or every lane, of the mask is set. */
+LANES_INLINE int lanes_any(lane_mask mask) { return lanes_bits(mask) != 0; }
+
+#endif

@@ -1,0 +1,181 @@
+/* Binned SAH builder (Wald 2007), iterative, children's boxes stored in the parent. */
+#include "geometry/bvh.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+enum { BIN_COUNT = 16 };
+
+struct range {
+  uint32_t first, count, depth;
+  uint32_t *link; /* where the parent wants the child's name */
+};
+
+struct builder {
+  const struct bvh_box *boxes;
+  uint32_t *order; /* box indices; a range of it is a subtree */
+  struct bvh_node *nodes;
+  size_t node_count;
+};
+
+static const struct bvh_box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+static void box_add(struct bvh_box *a, const struct bvh_box *b)
+{
+  for (int k = 0; k < 3; k++) {
+    a->lo[k] = fmin(a->lo[k], b->lo[k]);
+    a->hi[k] = fmax(a->hi[k], b->hi[k]);
+  }
+}
+
+static double box_area(const struct bvh_box *b)
+{
+  const double x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
+  return x < 0 ? 0 : x * y + y * z + z * x;
+}
+
+static double box_center(const struct bvh_box *b, int axis) { return 0.5 * b->lo[axis] + 0.5 * b->hi[axis]; }
+
+static float float_below(double x)
+{
+  const float f = (float)x;
+  return (double)f > x ? nextafterf(f, -INFINITY) : f;
+}
+
+static float float_above(double x)
+{
+  const float f = (float)x;
+  return (double)f < x ? nextafterf(f, INFINITY) : f;
+}
+
+static struct bvh_box range_box(const struct builder *b, uint32_t first, uint32_t count)
+{
+  struct bvh_box box = empty_box;
+  for (uint32_t k = 0; k < count; k++) box_add(&box, &b->boxes[b->order[first + k]]);
+  return box;
+}
+
+static int bin_of(double center, double lo, double scale)
+{
+  const int bin = (int)((center - lo) * scale);
+  return bin < 0 ? 0 : bin >= BIN_COUNT ? BIN_COUNT - 1 : bin;
+}
+
+/* The cheapest of the BIN_COUNT - 1 planes along `axis`; *cost is lowered where one beats it. Returns whether one did. */
+static bool best_plane(const struct builder *b, const struct range *r, int axis, double lo, double scale, double *cost,
+                       int *plane)
+{
+  struct bvh_box bin[BIN_COUNT];
+  uint32_t count[BIN_COUNT] = {0};
+  for (int k = 0; k < BIN_COUNT; k++) bin[k] = empty_box;
+  for (uint32_t k = 0; k < r->count; k++) {
+    const struct bvh_box *box = &b->boxes[b->order[r->first + k]];
+    const int at = bin_of(box_center(box, axis), lo, scale);
+    box_add(&bin[at], box);
+    count[at]++;
+  }
+  double right_area[BIN_COUNT];
+  struct bvh_box sum = empty_box;
+  for (int k = BIN_COUNT - 1; k > 0; k--) {
+    box_add(&sum, &bin[k]);
+    right_area[k] = box_area(&sum);
+  }
+  bool found = false;
+  uint32_t left = 0;
+  sum = empty_box;
+  for (int k = 1; k < BIN_COUNT; k++) {
+    box_add(&sum, &bin[k - 1]);
+    left += count[k - 1];
+    if (left == 0 || left == r->count) continue;
+    const double c = box_area(&sum) * left + right_area[k] * (r->count - left);
+    if (c < *cost) *cost = c, *plane = k, found = true;
+  }
+  return found;
+}
+
+/* Splits the range; returns how many of its boxes go left, at least one on either side. */
+static uint32_t split(const struct builder *b, const struct range *r)
+{
+  double lo[3], hi[3], cost = INFINITY;
+  for (int a = 0; a < 3; a++) lo[a] = INFINITY, hi[a] = -INFINITY;
+  for (uint32_t k = 0; k < r->count; k++) {
+    for (int a = 0; a < 3; a++) {
+      const double c = box_center(&b->boxes[b->order[r->first + k]], a);
+      lo[a] = fmin(lo[a], c), hi[a] = fmax(hi[a], c);
+    }
+  }
+  int axis = -1, plane = 0;
+  if (r->depth < BVH_MAX_DEPTH / 2) {
+    for (int a = 0; a < 3; a++)
+      if (hi[a] > lo[a] && best_plane(b, r, a, lo[a], BIN_COUNT / (hi[a] - lo[a]), &cost, &plane)) axis = a;
+  }
+  if (axis < 0) return r->count / 2; /* all centres in one place, or the tree grows too deep: halve, which bounds the depth */
+  const double scale = BIN_COUNT / (hi[axis] - lo[axis]);
+  uint32_t left = 0;
+  for (uint32_t k = 0; k < r->count; k++) {
+    uint32_t *here = &b->order[r->first + k];
+    if (bin_of(box_center(&b->boxes[*here], axis), lo[axis], scale) >= plane) continue;
+    const uint32_t swap = *here;
+    *here = b->order[r->first + left];
+    b->order[r->first + left++] = swap;
+  }
+  return left;
+}
+
+static void set_child(struct bvh_node *node, int side, const struct bvh_box *box)
+{
+  for (int k = 0; k < 3; k++) {
+    node->lo[side][k] = float_below(box->lo[k]);
+    node->hi[side][k] = float_above(box->hi[k]);
+  }
+}
+
+static void build(struct builder *b, uint32_t count)
+{
+  struct range stack[BVH_MAX_DEPTH + 2];
+  size_t top = 0;
+  uint32_t root_link;
+  stack[top++] = (struct range){0, count, 0, &root_link};
+  while (top > 0) {
+    const struct range r = stack[--top];
+    struct bvh_node *node = &b->nodes[b->node_count];
+    *r.link = (uint32_t)b->node_count++;
+    const uint32_t left = r.count > 1 ? split(b, &r) : 1;
+    const struct range half[2] = {{r.first, left, r.depth + 1, &node->child[0]},
+                                  {r.first + left, r.count - left, r.depth + 1, &node->child[1]}};
+    for (int side = 0; side < 2; side++) {
+      const struct bvh_box box = range_box(b, half[side].first, half[side].count);
+      set_child(node, side, &box);
+      if (half[side].count > 1) stack[top++] = half[side];
+      else node->child[side] = (uint32_t)BVH_LEAF | (half[side].count == 1 ? b->order[half[side].first] : 0);
+    }
+  }
+}
+
+enum status bvh_build(const struct bvh_box *boxes, size_t count, struct bvh *out)
+{
+  *out = (struct bvh){NULL, 0};
+  if (count == 0) return STATUS_OK;
+  if (count > INT32_MAX) return STATUS_LIMIT;
+  struct builder b = {boxes, NULL, NULL, 0};
+  enum status status = STATUS_LIMIT;
+  b.order = malloc(count * sizeof *b.order);
+  b.nodes = malloc((count > 1 ? count - 1 : 1) * sizeof *b.nodes);
+  if (!b.order || !b.nodes) goto done;
+  for (size_t k = 0; k < count; k++) b.order[k] = (uint32_t)k;
+  build(&b, (uint32_t)count);
+  *out = (struct bvh){b.nodes, b.node_count};
+  b.nodes = NULL;
+  status = STATUS_OK;
+done:
+  free(b.order);
+  free(b.nodes);
+  return status;
+}
+
+void bvh_free(struct bvh *bvh)
+{
+  free(bvh->nodes);
+  *bvh = (struct bvh){NULL, 0};
+}

@@ -1,0 +1,189 @@
+/* The bicubic Bezier patch: subdivision, evaluation, degree, normal.
+ *
+ * Farin, Curves and Surfaces for CAGD: de Casteljau's algorithm, blossoms, degree reduction. A cubic over [t0,t1] has the
+ * control values b(t0,t0,t0), b(t0,t0,t1), b(t0,t1,t1), b(t1,t1,t1) of its blossom b.
+ */
+#include "geometry/patch.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "geometry/vector.h"
+
+/* (1-t) a + t b; exact at t = 0 and t = 1, and where a = b. */
+static double mix(double a, double b, double t) { return t == 1 ? b : a + t * (b - a); }
+
+static double blossom(const double c[4], double r, double s, double t)
+{
+  const double q0 = mix(c[0], c[1], r), q1 = mix(c[1], c[2], r), q2 = mix(c[2], c[3], r);
+  return mix(mix(q0, q1, s), mix(q1, q2, s), t);
+}
+
+static void cubic_range(const double c[4], double t0, double t1, double out[4])
+{
+  const double q[4] = {blossom(c, t0, t0, t0), blossom(c, t0, t0, t1), blossom(c, t0, t1, t1), blossom(c, t1, t1, t1)};
+  memcpy(out, q, sizeof q);
+}
+
+void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, double out[4][4])
+{
+  for (int i = 0; i < 4; i++) cubic_range(net[i], v0, v1, out[i]);
+  for (int j = 0; j < 4; j++) {
+    const double column[4] = {out[0][j], out[1][j], out[2][j], out[3][j]};
+    double cut[4];
+    cubic_range(column, u0, u1, cut);
+    for (int i = 0; i < 4; i++) out[i][j] = cut[i];
+  }
+}
+
+static void cubic_halves(const double c[4], double low[4], double high[4])
+{
+  const double q0 = 0.5 * (c[0] + c[1]), q1 = 0.5 * (c[1] + c[2]), q2 = 0.5 * (c[2] + c[3]);
+  const double r0 = 0.5 * (q0 + q1), r1 = 0.5 * (q1 + q2);
+  low[0] = c[0], low[1] = q0, low[2] = r0;
+  low[3] = high[0] = 0.5 * (r0 + r1);
+  high[1] = r1, high[2] = q2, high[3] = c[3];
+}
+
+void patch_split_u(double net[4][4], double out_low[4][4], double out_high[4][4])
+{
+  for (int j = 0; j < 4; j++) {
+    const double column[4] = {net[0][j], net[1][j], net[2][j], net[3][j]};
+    double low[4], high[4];
+    cubic_halves(column, low, high);
+    for (int i = 0; i < 4; i++) out_low[i][j] = low[i], out_high[i][j] = high[i];
+  }
+}
+
+void patch_split_v(double net[4][4], double out_low[4][4], double out_high[4][4])
+{
+  for (int i = 0; i < 4; i++) cubic_halves(net[i], out_low[i], out_high[i]);
+}
+
+void patch_weights(double t, double w[4], double dw[4])
+{
+  const double s = 1 - t, ss = s * s, tt = t * t, st = s * t;
+  w[0] = ss * s, w[1] = 3 * ss * t, w[2] = 3 * st * t, w[3] = tt * t;
+  dw[0] = -3 * ss, dw[1] = 3 * (ss - 2 * st), dw[2] = 3 * (2 * st - tt), dw[3] = 3 * tt;
+}
+
+struct patch_jet patch_evaluate(double net[4][4], double u, double v)
+{
+  double wu[4], du[4], wv[4], dv[4];
+  patch_weights(u, wu, du);
+  patch_weights(v, wv, dv);
+  struct patch_jet jet = {0, 0, 0};
+  for (int i = 0; i < 4; i++) {
+    const double row = net[i][0] * wv[0] + net[i][1] * wv[1] + net[i][2] * wv[2] + net[i][3] * wv[3];
+    const double row_dv = net[i][0] * dv[0] + net[i][1] * dv[1] + net[i][2] * dv[2] + net[i][3] * dv[3];
+    jet.value += wu[i] * row;
+    jet.du += du[i] * row;
+    jet.dv += wu[i] * row_dv;
+  }
+  return jet;
+}
+
+void patch_second_derivative_bounds(double x[3][4][4], double out[3])
+{
+  double uu = 0, uv = 0, vv = 0;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      double a[3] = {0}, b[3] = {0}, c[3] = {0};
+      for (int k = 0; k < 3; k++) {
+        if (i < 2) a[k] = 6 * (x[k][i + 2][j] - 2 * x[k][i + 1][j] + x[k][i][j]);
+        if (i < 3 && j < 3) b[k] = 9 * (x[k][i + 1][j + 1] - x[k][i + 1][j] - x[k][i][j + 1] + x[k][i][j]);
+        if (j < 2) c[k] = 6 * (x[k][i][j + 2] - 2 * x[k][i][j + 1] + x[k][i][j]);
+      }
+      uu = fmax(uu, vector_length(a)), uv = fmax(uv, vector_length(b)), vv = fmax(vv, vector_length(c));
+    }
+  }
+  out[0] = uu, out[1] = uv, out[2] = vv;
+}
+
+/* Takes a cubic whose true degree is `degree` to that degree's Bezier form. */
+static void cubic_reduce(const double c[4], int degree, double out[4])
+{
+  const double first = c[0], last = c[3];
+  if (degree == 2) {
+    /* Both one-sided answers are exact for a true quadratic; their mean spreads the rounding evenly. */
+    out[1] = 0.25 * (3 * (c[1] + c[2]) - c[0] - c[3]);
+    out[0] = first, out[2] = last;
+  } else if (degree == 1) {
+    out[0] = first, out[1] = last;
+  } else {
+    out[0] = first, out[1] = c[1], out[2] = c[2], out[3] = last;
+  }
+}
+
+/* How far the cubic is from the elevation of its reduction to `degree`. */
+static double cubic_excess(const double c[4], int degree)
+{
+  double r[4];
+  cubic_reduce(c, degree, r);
+  if (degree == 2) return fmax(fabs(c[1] - (r[0] + 2 * r[1]) / 3), fabs(c[2] - (2 * r[1] + r[2]) / 3));
+  return fmax(fabs(c[1] - (2 * r[0] + r[1]) / 3), fabs(c[2] - (r[0] + 2 * r[1]) / 3));
+}
+
+void patch_bidegree(double x[3][4][4], double slack, int *out_m, int *out_n)
+{
+  double excess_u[3] = {0}, excess_v[3] = {0};
+  for (int k = 0; k < 3; k++) {
+    for (int i = 0; i < 4; i++) {
+      const double column[4] = {x[k][0][i], x[k][1][i], x[k][2][i], x[k][3][i]};
+      for (int degree = 1; degree <= 2; degree++) {
+        excess_u[degree] = fmax(excess_u[degree], cubic_excess(column, degree));
+        excess_v[degree] = fmax(excess_v[degree], cubic_excess(x[k][i], degree));
+      }
+    }
+  }
+  *out_m = excess_u[1] <= slack ? 1 : excess_u[2] <= slack ? 2 : 3;
+  *out_n = excess_v[1] <= slack ? 1 : excess_v[2] <= slack ? 2 : 3;
+}
+
+void patch_reduce(double net[4][4], int m, int n, double out[4][4])
+{
+  double rows[4][4] = {{0}};
+  for (int i = 0; i < 4; i++) cubic_reduce(net[i], n, rows[i]);
+  for (int j = 0; j < 4; j++) {
+    const double column[4] = {rows[0][j], rows[1][j], rows[2][j], rows[3][j]};
+    double cut[4] = {0};
+    cubic_reduce(column, m, cut);
+    for (int i = 0; i < 4; i++) out[i][j] = cut[i];
+  }
+}
+
+/* Su x Sv at (u,v), its length relative to the largest it could be for derivatives of that net, and that size. */
+static double cross_at(double x[3][4][4], double u, double v, double out[3])
+{
+  double a[3], b[3], size = 0;
+  for (int k = 0; k < 3; k++) {
+    const struct patch_jet jet = patch_evaluate(x[k], u, v);
+    a[k] = jet.du, b[k] = jet.dv;
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) size = fmax(size, fabs(x[k][i][j] - x[k][0][0]));
+  }
+  vector_cross(a, b, out);
+  const double length = vector_length(out);
+  if (length > 0) vector_scale(1 / length, out, out);
+  return size > 0 ? length / (size * size) : 0;
+}
+
+bool patch_normal(double x[3][4][4], double u, double v, double out[3])
+{
+  /* The cross product of derivatives that are each right to a few units in the last place is noise below this. */
+  static const double noise = 0x1p-40;
+  if (cross_at(x, u, v, out) > noise) return true;
+  /* Near a collapsed edge or corner the normal's limit is what one step inside shows. The step balances the error of the
+   * limit (of the step's size) against the noise over the step. */
+  static const double step = 0x1p-20;
+  const double iu = u < 0.5 ? u + step : u - step, iv = v < 0.5 ? v + step : v - step;
+  const double tries[3][2] = {{iu, v}, {u, iv}, {iu, iv}};
+  double best = 0, n[3];
+  for (int k = 0; k < 3; k++) {
+    const double size = cross_at(x, tries[k][0], tries[k][1], n);
+    if (size > best) best = size, memcpy(out, n, sizeof n);
+  }
+  if (best > 0) return true;
+  out[0] = out[1] = out[2] = 0;
+  return false;
+}

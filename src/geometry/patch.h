@@ -1,0 +1,45 @@
+/* The tensor-product Bezier patch, bicubic, one coordinate at a time.
+ *
+ * A net is double[4][4] of one coordinate (or of any other function of the surface): net[i][j], u runs across the rows i,
+ * v along a row j, S(u,v) = sum B_i(u) B_j(v) net[i][j] (paper eq 1, in Bernstein instead of power form).
+ * All functions are pure and safe on any thread. Parameters are not clamped: outside [0,1] the polynomial goes on.
+ */
+#ifndef PSCN_GEOMETRY_PATCH_H
+#define PSCN_GEOMETRY_PATCH_H
+
+#include <stdbool.h>
+
+/* The net of the same polynomial over [u0,u1] x [v0,v1], by blossoming. Exact up to a few roundings relative to the largest
+ * |net| where the range lies in [0,1]; u0 = 0, u1 = 1 copy exactly. out may be net. */
+void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, double out[4][4]);
+
+/* Both halves in u (rows) by de Casteljau. out_low and out_high must differ from net and from each other. */
+void patch_split_u(double net[4][4], double out_low[4][4], double out_high[4][4]);
+void patch_split_v(double net[4][4], double out_low[4][4], double out_high[4][4]);
+
+/* Value and first partial derivatives at (u,v). */
+struct patch_jet {
+  double value, du, dv;
+};
+struct patch_jet patch_evaluate(double net[4][4], double u, double v);
+
+/* The weights the four control values of a cubic have in its value (w) and its derivative (dw) at t. */
+void patch_weights(double t, double w[4], double dw[4]);
+
+/* Bounds on the length of the second partial derivatives over the net's own domain, for the surface with coordinate
+ * nets x[0..2]: out[0] = |Suu|, out[1] = |Suv|, out[2] = |Svv|. */
+void patch_second_derivative_bounds(double x[3][4][4], double out[3]);
+
+/* The least bidegree (m in u, n in v, each at least 1) that represents all three coordinate nets within `slack`
+ * (absolute, in the nets' units) of every control value. */
+void patch_bidegree(double x[3][4][4], double slack, int *out_m, int *out_n);
+
+/* Degree-reduces a net that patch_bidegree has found to be of bidegree (m,n): the first m+1 rows and n+1 columns of out
+ * are the control net of bidegree (m,n). out may be net. */
+void patch_reduce(double net[4][4], int m, int n, double out[4][4]);
+
+/* A unit normal at (u,v): Su x Sv, or where it vanishes its limit along the way into the patch. False where the
+ * surface has none (a patch collapsed to a curve or point); then out is zero. */
+bool patch_normal(double x[3][4][4], double u, double v, double out[3]);
+
+#endif
