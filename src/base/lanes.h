@@ -42,6 +42,35 @@ LANES_INLINE lanes lanes_max(lanes a, lanes b) { return lanes_select(a > b, a, b
 
 LANES_INLINE lanes lanes_abs(lanes a) { return (lanes)((lane_mask)a & (INT64_MAX - (lane_mask){0})); }
 
+/* Lane k: the square root. */
+LANES_INLINE lanes lanes_sqrt(lanes a)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return (lanes)_mm512_sqrt_pd((__m512d)a);
+#elif defined(__AVX__)
+  return (lanes)_mm256_sqrt_pd((__m256d)a);
+#elif defined(__SSE2__)
+  return (lanes)_mm_sqrt_pd((__m128d)a);
+#else
+  for (int k = 0; k < LANES; k++) a[k] = __builtin_sqrt(a[k]);
+  return a;
+#endif
+}
+
+/* Lane k: a b - product exactly, for product = a b rounded: the rounding error of a product. Written so that no contraction of
+ * multiply and add by the compiler can change it. */
+LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return (lanes)_mm512_fmsub_pd((__m512d)a, (__m512d)b, (__m512d)product);
+#elif defined(__FMA__)
+  return (lanes)_mm256_fmsub_pd((__m256d)a, (__m256d)b, (__m256d)product);
+#else
+  for (int k = 0; k < LANES; k++) a[k] = __builtin_fma(a[k], b[k], -product[k]);
+  return a;
+#endif
+}
+
 /* The mask as bits: bit k is lane k. */
 LANES_INLINE unsigned lanes_bits(lane_mask mask)
 {

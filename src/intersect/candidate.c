@@ -1,0 +1,169 @@
+/* The scene's own method on one candidate: resultant, roots, back-substitution (paper 2.1 and 2.2).
+ *
+ * Everything a `solver` statement can choose happens here: the basis, the determinant, the solver, its start, and how v follows
+ * from u. What comes out are starting points; with `polish on` the caller proves them.
+ */
+#include <math.h>
+
+#include "algebra/sylvester.h"
+#include "intersect/tracer.h"
+
+#define BEZOUT_REAL double
+#define BEZOUT_NAME(name) bezout_##name
+#include "algebra/bezout.h"
+
+/* With polish, a complex root this near to the real axis, or a real one this far outside the leaf, may still start a Newton
+ * process that ends in the leaf: rounding moves double roots off the axis by the square root of their error. */
+#define START_MARGIN LEAF_MARGIN
+
+/* One form of the leaf's plane polynomials: coefficients of products by convolution. */
+struct form {
+  int m, n;
+  double A[16], B[16];
+};
+
+/* Bernstein coefficients b[0..n] with the stride to power coefficients. */
+static void to_power(int n, double *b, int stride)
+{
+  const double b0 = b[0], b1 = b[stride], b2 = n > 1 ? b[2 * stride] : 0, b3 = n > 2 ? b[3 * stride] : 0;
+  b[stride] = n * (b1 - b0);
+  if (n == 2) b[2 * stride] = b2 - 2 * b1 + b0;
+  if (n == 3) b[2 * stride] = 3 * (b2 - 2 * b1 + b0), b[3 * stride] = b3 - 3 * (b2 - b1) - b0;
+}
+
+static void form_net(int m, int n, enum basis basis, const double net[16], double out[16])
+{
+  for (int i = 0; i <= m; i++)
+    for (int j = 0; j <= n; j++)
+      out[4 * i + j] = basis == BASIS_POWER ? net[4 * i + j] : bezout_binomial(m, i) * bezout_binomial(n, j) * net[4 * i + j];
+  if (basis != BASIS_POWER) return;
+  for (int i = 0; i <= m; i++) to_power(n, out + 4 * i, 1);
+  for (int j = 0; j <= n; j++) to_power(m, out + j, 4);
+}
+
+/* The coefficients in v at u: plain Bernstein or power, as the form's basis is. */
+static void at_kept(const struct form *form, enum basis basis, double u, const double A[16], double out[4])
+{
+  for (int j = 0; j <= form->n; j++) {
+    double value = 0;
+    if (basis == BASIS_POWER) {
+      for (int i = form->m; i >= 0; i--) value = value * u + A[4 * i + j];
+    } else {
+      double power = 1, s = 1 - u;
+      for (int i = 0; i <= form->m; i++) value = value * s + power * A[4 * i + j], power *= u;
+      value /= bezout_binomial(form->n, j);
+    }
+    out[j] = value;
+  }
+}
+
+/* v by Euclid's algorithm: the remainders of two power polynomials of degree n, down to a linear one. */
+static double euclid(int n, const double p_in[4], const double q_in[4])
+{
+  double p[4] = {0}, q[4] = {0};
+  for (int k = 0; k <= n; k++) p[k] = p_in[k], q[k] = q_in[k];
+  int dp = n, dq = n;
+  while (dq > 0 && q[dq] == 0) dq--;
+  while (dq > 1) {
+    for (; dp >= dq; dp--) {
+      const double factor = p[dp] / q[dq];
+      for (int k = 0; k < dq; k++) p[dp - dq + k] -= factor * q[k];
+    }
+    for (int k = 0; k <= dq; k++) {
+      const double swap = k <= dp ? p[k] : 0;
+      p[k] = q[k], q[k] = swap;
+    }
+    const int last = dp;
+    dp = dq, dq = last;
+    while (dq > 0 && q[dq] == 0) dq--;
+  }
+  return dq == 1 ? -q[0] / q[1] : p[1] != 0 && dp == 1 ? -p[0] / p[1] : NAN;
+}
+
+static double null_vector(int n, const double p[4], const double q[4])
+{
+  double num[2], den[2], first_better;
+  bezout_null_vector(n, p, q, num, den, &first_better);
+  return first_better > 0 ? num[0] / den[0] : num[1] / den[1];
+}
+
+static double eliminated_at(const struct form *form, const struct solver_options *options, double u)
+{
+  double p[4], q[4];
+  at_kept(form, options->basis, u, form->A, p);
+  at_kept(form, options->basis, u, form->B, q);
+  if (options->back_substitution == BACK_SUBSTITUTION_EUCLID) {
+    if (options->basis != BASIS_POWER) to_power(form->n, p, 1), to_power(form->n, q, 1);
+    return euclid(form->n, p, q);
+  }
+  if (options->basis == BASIS_POWER) {
+    /* The null vector of the power form is (1, v, v^2); Bernstein values give it with s + t = 1 instead. */
+    double P[4], Q[4];
+    for (int j = 0; j <= form->n; j++) {
+      P[j] = Q[j] = 0;
+      double weight = 1; /* C(j,k)/C(n,k) */
+      for (int k = 0; k <= j; k++) {
+        P[j] += weight * p[k], Q[j] += weight * q[k];
+        if (k < j) weight *= (double)(j - k) / (form->n - k);
+      }
+    }
+    return null_vector(form->n, P, Q);
+  }
+  return null_vector(form->n, p, q);
+}
+
+static double largest(const double net[16], int m, int n)
+{
+  double size = 0;
+  for (int i = 0; i <= m; i++)
+    for (int j = 0; j <= n; j++) size = fmax(size, fabs(net[4 * i + j]));
+  return size;
+}
+
+static double resultant_error(int n, double alpha, double beta, double error)
+{
+  return RESULTANT_WEIGHT[n] * pow(alpha * beta, n) *
+         (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + n * error * (1 / alpha + 1 / beta));
+}
+
+static struct solver_warm *warm_of(struct tracer *tracer, const struct leaf *leaf, const struct solver_options *options)
+{
+  if (options->start != START_PREVIOUS || !tracer->warm) return NULL;
+  struct warm_leaf *warm = &tracer->warm[leaf - tracer->model->leaves];
+  if (warm->epoch != tracer->epoch) warm->warm.count = 0, warm->epoch = tracer->epoch;
+  return &warm->warm;
+}
+
+void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
+                     struct candidate_roots *out)
+{
+  const struct solver_options *options = tracer->model->patches[leaf->patch].solver;
+  struct form form = {leaf->kept_degree, leaf->eliminated_degree, {0}, {0}};
+  form_net(form.m, form.n, options->basis, a, form.A);
+  form_net(form.m, form.n, options->basis, b, form.B);
+  double c[19], bound[19];
+  if (options->resultant == RESULTANT_SYLVESTER) sylvester_determinant(form.m, form.n, form.A, form.B, c);
+  else bezout_determinant(form.m, form.n, form.A, form.B, c);
+  struct polynomial r = {2 * form.m * form.n, options->basis, c, NULL};
+  if (options->basis == BASIS_BERNSTEIN) {
+    double choose = resultant_error(form.n, largest(a, form.m, form.n), largest(b, form.m, form.n), error);
+    for (int k = 0; k <= r.degree; k++) bound[k] = choose, choose = choose * (r.degree - k) / (k + 1);
+    r.c = c + leaf->zeros[0], r.error = bound + leaf->zeros[0];
+    r.degree -= leaf->zeros[0] + leaf->zeros[1];
+  }
+  out->count = 0;
+  if (r.degree < 1) return;
+  struct root_set roots;
+  solver_solve(&r, options, warm_of(tracer, leaf, options), &roots);
+  tracer->counts.roots_found += (unsigned)roots.count;
+  for (int k = 0; k < roots.count; k++) {
+    const struct root *root = &roots.root[k];
+    const double real = options->polish ? START_MARGIN : fmax(options->tolerance, isfinite(root->radius) ? root->radius : 0);
+    const double margin = options->polish ? START_MARGIN : 0;
+    if (!(fabs(root->im) <= real && root->re >= -margin && root->re <= 1 + margin)) continue;
+    const double v = eliminated_at(&form, options, root->re);
+    if (!(v >= -1 && v <= 2)) continue;
+    out->u[out->count] = leaf->v_kept ? v : root->re;
+    out->v[out->count++] = leaf->v_kept ? root->re : v;
+  }
+}

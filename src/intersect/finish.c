@@ -1,0 +1,132 @@
+/* From the winning root to the answer: the last Newton step, the point, the normal, the certainty.
+ *
+ * The root comes from a leaf's net, cut from the patch and rounded. The answer is the root of the patch itself: one or two
+ * Newton steps with the residuals a(u,v), b(u,v) of the whole patch evaluated in double-double, so that U, V and T are right to
+ * the last places even where the ray is nearly tangent.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/double_double.h"
+#include "geometry/patch.h"
+#include "geometry/vector.h"
+#include "intersect/tracer.h"
+
+enum { FINISH_STEPS = 2 };
+
+/* sum B_i(u) B_j(v) net[i][j] by de Casteljau in double-double, the corners' error far below the last place. */
+static struct double_double evaluate(double net[4][4], double u, double v)
+{
+  struct double_double row[4];
+  const struct double_double su = dd_two_sum(1, -u), sv = dd_two_sum(1, -v);
+  for (int i = 0; i < 4; i++) {
+    struct double_double q[4];
+    for (int j = 0; j < 4; j++) q[j] = (struct double_double){net[i][j], 0};
+    for (int level = 3; level > 0; level--)
+      for (int j = 0; j < level; j++) q[j] = dd_add(dd_multiply(q[j], sv), dd_scale(q[j + 1], v));
+    row[i] = q[0];
+  }
+  for (int level = 3; level > 0; level--)
+    for (int i = 0; i < level; i++) row[i] = dd_add(dd_multiply(row[i], su), dd_scale(row[i + 1], u));
+  return row[0];
+}
+
+/* The patch, the ray through it, both as they are: nothing rounded. */
+struct exact {
+  struct model_patch *patch;
+  struct double_double start[3]; /* (origin - center)/scale */
+  const double *d;
+  int k;
+};
+
+/* The plane residual (S_i - o_i) - (d_i/d_k)(S_k - o_k), S - o in double-double. */
+static double residual(const struct exact *e, const struct double_double s[3], int i)
+{
+  const struct double_double x = dd_scale(s[i], e->d[e->k]), y = dd_scale(s[e->k], e->d[i]);
+  return dd_add(x, dd_negate(y)).hi / e->d[e->k];
+}
+
+static void offset_from_start(const struct exact *e, double u, double v, struct double_double out[3])
+{
+  for (int c = 0; c < 3; c++) out[c] = dd_add(evaluate(e->patch->x[c], u, v), dd_negate(e->start[c]));
+}
+
+/* One Newton step on the patch from (u,v); the change is returned as its size. */
+static double step(const struct exact *e, double *u, double *v)
+{
+  const int k = e->k, i = (k + 1) % 3, j = (k + 2) % 3;
+  struct double_double s[3];
+  offset_from_start(e, *u, *v, s);
+  const double a = residual(e, s, i), b = residual(e, s, j);
+  struct patch_jet jet[3];
+  for (int c = 0; c < 3; c++) jet[c] = patch_evaluate(e->patch->x[c], *u, *v);
+  const double ri = e->d[i] / e->d[k], rj = e->d[j] / e->d[k];
+  const double au = jet[i].du - ri * jet[k].du, av = jet[i].dv - ri * jet[k].dv;
+  const double bu = jet[j].du - rj * jet[k].du, bv = jet[j].dv - rj * jet[k].dv;
+  const double determinant = au * bv - av * bu;
+  const double du = (bv * a - av * b) / determinant, dv = (au * b - bu * a) / determinant;
+  if (!(fabs(du) < 1 && fabs(dv) < 1)) return INFINITY;
+  *u -= du, *v -= dv;
+  return fmax(fabs(du), fabs(dv));
+}
+
+static double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
+
+/* Whether the root lies within its radius of the patch's border (not of a leaf's inside it). */
+static bool on_border(const struct model_patch *patch, const struct leaf *leaf, const struct leaf_hit *root)
+{
+  const int last = patch->split - 1;
+  return (leaf->column_u == 0 && root->u < root->radius_u) || (leaf->column_u == last && root->u > 1 - root->radius_u) ||
+         (leaf->column_v == 0 && root->v < root->radius_v) || (leaf->column_v == last && root->v > 1 - root->radius_v);
+}
+
+static void set_point(const struct model_patch *patch, const struct local_ray *ray, double u, double v, struct hit *out)
+{
+  double tangent = 0, magnitude = 0;
+  for (int c = 0; c < 3; c++) {
+    struct patch_jet jet = patch_evaluate(((struct model_patch *)patch)->x[c], u, v);
+    out->point[c] = patch->center[c] + patch->scale * jet.value;
+    tangent = fmax(tangent, fabs(jet.du) + fabs(jet.dv));
+    magnitude = fmax(magnitude, fabs(out->point[c]));
+  }
+  /* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the sum; in
+   * each coordinate, so up to sqrt(3) of it in distance. */
+  out->point_error = 2 * ((12 + 2 * tangent) * UNIT_ROUNDOFF * patch->scale + UNIT_ROUNDOFF * magnitude);
+  (void)ray;
+}
+
+static void set_normal(struct model_patch *patch, const double direction[3], struct hit *out)
+{
+  patch_normal(patch->x, out->u, out->v, out->normal);
+  if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);
+}
+
+void finish_hit(const struct model *model, const struct ray *ray, const struct best *best, struct hit *out)
+{
+  out->patch = HIT_NONE;
+  out->certainty = model->unproven ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
+  if (!best->leaf) return;
+  const struct leaf *leaf = best->leaf;
+  struct model_patch *patch = &model->patches[leaf->patch];
+  double u = leaf_to_patch(patch->split, leaf->column_u, best->root.u);
+  double v = leaf_to_patch(patch->split, leaf->column_v, best->root.v);
+  struct local_ray local;
+  local_ray_make(patch, ray, &local);
+  struct exact e = {patch, {{0, 0}}, ray->direction, local.axis};
+  for (int c = 0; c < 3; c++) {
+    const struct double_double q = dd_two_sum(ray->origin[c], -patch->center[c]);
+    e.start[c] = (struct double_double){q.hi / patch->scale, q.lo / patch->scale};
+  }
+  if (best->root.certain) {
+    for (int n = 0; n < FINISH_STEPS; n++)
+      if (!(step(&e, &u, &v) > 4 * UNIT_ROUNDOFF)) break;
+  }
+  out->patch = leaf->patch;
+  out->u = clamp01(u), out->v = clamp01(v);
+  struct double_double s[3];
+  offset_from_start(&e, out->u, out->v, s);
+  out->t = s[local.axis].hi * local.to_t;
+  set_point(patch, &local, out->u, out->v, out);
+  set_normal(patch, ray->direction, out);
+  if (!best->root.certain || on_border(patch, leaf, &best->root)) out->certainty = CERTAINTY_GRAZING;
+}

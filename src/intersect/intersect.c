@@ -1,0 +1,96 @@
+/* The face of the intersector: the prepared scene, the tracers, and which instruction set they use. */
+#include "intersect/intersect.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "geometry/vector.h"
+#include "intersect/tracer.h"
+
+struct intersector {
+  struct model *model;
+  const struct kernel *kernel;
+  bool warm; /* some patch asks for `start previous` */
+};
+
+static const struct kernel *kernel_best(void)
+{
+#if defined(PSCN_KERNEL_AVX2)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return &kernel_avx2;
+#endif
+  return &kernel_baseline;
+}
+
+enum status intersector_create(const struct scene *scene, struct intersector **out)
+{
+  *out = NULL;
+  struct intersector *intersector = calloc(1, sizeof *intersector);
+  if (!intersector) return STATUS_LIMIT;
+  const enum status status = model_create(scene, &intersector->model);
+  if (status != STATUS_OK) {
+    free(intersector);
+    return status;
+  }
+  intersector->kernel = kernel_best();
+  for (size_t k = 0; k < scene->solver_count; k++) intersector->warm |= scene->solvers[k].start == START_PREVIOUS;
+  *out = intersector;
+  return STATUS_OK;
+}
+
+void intersector_destroy(struct intersector *intersector)
+{
+  if (!intersector) return;
+  model_destroy(intersector->model);
+  free(intersector);
+}
+
+enum status tracer_create(const struct intersector *intersector, struct tracer **out)
+{
+  *out = NULL;
+  struct tracer *tracer = calloc(1, sizeof *tracer);
+  if (!tracer) return STATUS_LIMIT;
+  tracer->model = intersector->model;
+  tracer->kernel = intersector->kernel;
+  tracer->epoch = 1;
+  if (intersector->warm && tracer->model->leaf_count > 0) {
+    tracer->warm = calloc(tracer->model->leaf_count, sizeof *tracer->warm);
+    if (!tracer->warm) {
+      free(tracer);
+      return STATUS_LIMIT;
+    }
+  }
+  *out = tracer;
+  return STATUS_OK;
+}
+
+void tracer_destroy(struct tracer *tracer)
+{
+  if (!tracer) return;
+  free(tracer->warm);
+  free(tracer);
+}
+
+void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
+
+void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
+{
+  tracer->kernel->closest(tracer, count, rays, out_hits);
+}
+
+void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
+{
+  tracer->kernel->occluded(tracer, count, rays, out_occluded);
+}
+
+void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3])
+{
+  /* The point is off the surface by at most point_error; the new origin's own rounding adds a unit in its last place, and the
+   * intersector tells a root at t = 0 from one beyond only down to the errors of its frame, which are of the same kind. */
+  double magnitude = 0;
+  for (int k = 0; k < 3; k++) magnitude = fmax(magnitude, fabs(hit->point[k]));
+  const double distance = 8 * (hit->point_error + 2 * UNIT_ROUNDOFF * magnitude);
+  const double side = vector_dot(hit->normal, direction) < 0 ? -distance : distance;
+  vector_add_scaled(hit->point, side, hit->normal, out_origin);
+}
+
+const struct intersect_counts *tracer_counts(const struct tracer *tracer) { return &tracer->counts; }

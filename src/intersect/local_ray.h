@@ -1,0 +1,42 @@
+/* A ray in the frame of one patch.
+ *
+ * Internal to src/intersect. Let k be the axis along which the direction d is longest, i and j the two others. The ray is the
+ * line where two planes meet (paper eq 2), chosen so that their normals are exactly perpendicular to d:
+ *   x_i - (d_i/d_k) x_k = m[0],   x_j - (d_j/d_k) x_k = m[1].
+ * The moments m are formed in double-double from the untouched origin, so that they are right to a few units in the last place
+ * of their own size, however far away the ray starts. In local coordinates that size is about 1 for a ray that passes the patch.
+ * The place along the ray is read off x_k.
+ */
+#ifndef PSCN_INTERSECT_LOCAL_RAY_H
+#define PSCN_INTERSECT_LOCAL_RAY_H
+
+#include "intersect/intersect.h"
+#include "intersect/model.h"
+
+struct local_ray {
+  int axis;           /* k; i = k + 1, j = k + 2 modulo 3 */
+  double slope[2];    /* d_i/d_k, d_j/d_k, rounded; at most 1 in size */
+  double moment[2];   /* m */
+  double start[2];    /* (center_k - origin_k)/scale as a double-double */
+  double to_t;        /* scale/d_k: t = (x_k + start) to_t */
+  double error;       /* bound on the error of a coefficient or a value (inside [0,1]^2) of either plane's polynomial */
+};
+
+/* Rounding errors, in units of UNIT_ROUNDOFF, of a = (x_i - m) - slope x_k and of its value in Bernstein form, for |x| <= 1:
+ * net 8 (see model.c), slope 1, moment 4|m|, the two operations 2 + |m|, and for the value ten products and sums on
+ * coefficients of at most 2 + |m|. */
+#define PLANE_ERROR(m0, m1) (UNIT_ROUNDOFF * (36 + 16 * ((m0) + (m1))))
+
+/* The axis along which d is longest. */
+static inline int dominant_axis(const double d[3])
+{
+  const double x = d[0] < 0 ? -d[0] : d[0], y = d[1] < 0 ? -d[1] : d[1], z = d[2] < 0 ? -d[2] : d[2];
+  return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+}
+
+void local_ray_make(const struct model_patch *patch, const struct ray *ray, struct local_ray *out);
+
+/* The plane polynomials' nets a, b and the net w of x_k for a local net x. */
+void local_ray_nets(const struct local_ray *ray, const double x[3][16], double a[16], double b[16], double w[16]);
+
+#endif

@@ -1,0 +1,240 @@
+/* Preparing patches: local frames, true degrees, which parameter to keep, leaves and their bounds. */
+#include "intersect/model.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "geometry/patch.h"
+#include "geometry/vector.h"
+
+/* A declared control point carries half a unit in the last place of its decimal form and a few of its transforms: a patch whose
+ * excess over a lower degree is no more than this, relative to its largest coordinate, was meant to be of that degree. */
+#define DEGREE_SLACK (8 * UNIT_ROUNDOFF)
+
+/* Leaves of `split auto`: cut until a leaf's derivatives turn by no more than about this fraction of their size, for then one
+ * Newton process holds on the whole leaf for all but grazing rays. A choice of speed, not of correctness. */
+#define AUTO_TURN 0.25
+enum { AUTO_SPLIT_MAX = 8 };
+
+/* Rounding of the local net itself: of P - center (half a unit), and of cutting leaves (six lerps of two roundings each in
+ * either direction on values below one). Used for the boxes. */
+#define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
+
+/* x rounded to a multiple of the power of two `grain`. */
+static double coarse(double x, double grain) { return rint(x / grain) * grain; }
+
+static void patch_frame(double P[4][4][3], struct model_patch *out)
+{
+  double extent = 0, lo[3], hi[3];
+  for (int k = 0; k < 3; k++) {
+    lo[k] = INFINITY, hi[k] = -INFINITY;
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) lo[k] = fmin(lo[k], P[i][j][k]), hi[k] = fmax(hi[k], P[i][j][k]);
+    extent = fmax(extent, hi[k] / 2 - lo[k] / 2);
+  }
+  int exponent = 0; /* a patch that is one point has no size: any scale will do */
+  if (extent > 0) frexp(extent, &exponent); /* extent < 2^exponent */
+  out->scale = ldexp(1, exponent + 1); /* the center may be a grain off the middle */
+  for (int k = 0; k < 3; k++) {
+    const double middle = lo[k] / 2 + hi[k] / 2, grain = out->scale / 4;
+    out->center[k] = fabs(middle) < grain * 0x1p50 ? coarse(middle, grain) : middle;
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) out->x[k][i][j] = (P[i][j][k] - out->center[k]) / out->scale;
+  }
+}
+
+static double largest_coordinate(double P[4][4][3])
+{
+  double size = 0;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++)
+      for (int k = 0; k < 3; k++) size = fmax(size, fabs(P[i][j][k]));
+  return size;
+}
+
+/* How many leaves a side make every leaf nearly flat: second derivatives fall with the square, first ones with one over it. */
+static int auto_split(struct model_patch *patch)
+{
+  double second[3], first = 0;
+  patch_second_derivative_bounds(patch->x, second);
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 3; j++) {
+      double du[3], dv[3];
+      for (int k = 0; k < 3; k++) {
+        dv[k] = 3 * (patch->x[k][i][j + 1] - patch->x[k][i][j]);
+        du[k] = 3 * (patch->x[k][j + 1][i] - patch->x[k][j][i]);
+      }
+      first = fmax(first, fmax(vector_length(du), vector_length(dv)));
+    }
+  }
+  const double turn = (second[0] + 2 * second[1] + second[2]) / 2;
+  int split = 1;
+  while (split < AUTO_SPLIT_MAX && turn > AUTO_TURN * split * first) split *= 2;
+  return split;
+}
+
+static void first_derivative_bounds(double x[3][4][4], double out[2])
+{
+  out[0] = out[1] = 0;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 3; j++) {
+      double du[3], dv[3];
+      for (int k = 0; k < 3; k++) dv[k] = 3 * (x[k][i][j + 1] - x[k][i][j]), du[k] = 3 * (x[k][j + 1][i] - x[k][j][i]);
+      out[0] = fmax(out[0], vector_length(du)), out[1] = fmax(out[1], vector_length(dv));
+    }
+  }
+}
+
+/* Whether row i (or column i) of the net is one point to the last bit. */
+static bool row_collapsed(double x[3][4][4], int i)
+{
+  for (int k = 0; k < 3; k++)
+    for (int j = 1; j < 4; j++)
+      if (x[k][i][j] != x[k][i][0]) return false;
+  return true;
+}
+
+static bool column_collapsed(double x[3][4][4], int j)
+{
+  for (int k = 0; k < 3; k++)
+    for (int i = 1; i < 4; i++)
+      if (x[k][i][j] != x[k][0][j]) return false;
+  return true;
+}
+
+/* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other would leave
+ * r identically zero at the apex; otherwise the one of higher degree, for the determinant is the smaller then. */
+static bool keep_v(const struct model_patch *patch, double x[3][4][4])
+{
+  const int rows = row_collapsed(x, 0) + row_collapsed(x, 3), columns = column_collapsed(x, 0) + column_collapsed(x, 3);
+  if (rows != columns) return columns > rows;
+  return patch->n > patch->m;
+}
+
+static enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, double x[3][4][4], struct leaf *leaf)
+{
+  leaf->v_kept = keep_v(patch, x);
+  const int kept = leaf->v_kept ? patch->n : patch->m, eliminated = leaf->v_kept ? patch->m : patch->n;
+  leaf->kept_degree = (uint8_t)kept, leaf->eliminated_degree = (uint8_t)eliminated;
+  const bool low = leaf->v_kept ? column_collapsed(x, 0) : row_collapsed(x, 0);
+  const bool high = leaf->v_kept ? column_collapsed(x, 3) : row_collapsed(x, 3);
+  leaf->zeros[0] = (uint8_t)(low ? eliminated : 0), leaf->zeros[1] = (uint8_t)(high ? eliminated : 0);
+  leaf->form = NULL;
+  if (patch->m == 3 && patch->n == 3 && !leaf->v_kept) return STATUS_OK;
+  struct leaf_form *form = arena_alloc(arena, 1, sizeof *form);
+  if (!form) return STATUS_LIMIT;
+  for (int k = 0; k < 3; k++) {
+    double r[4][4];
+    patch_reduce(x[k], patch->m, patch->n, r);
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) form->x[k][4 * i + j] = leaf->v_kept ? r[j][i] : r[i][j];
+  }
+  leaf->form = form;
+  return STATUS_OK;
+}
+
+static enum status leaf_prepare(struct model *model, struct model_patch *patch, int column_u, int column_v, struct leaf *leaf,
+                                struct bvh_box *box)
+{
+  const double step = 1.0 / patch->split;
+  const double u0 = column_u * step, u1 = (column_u + 1) * step, v0 = column_v * step, v1 = (column_v + 1) * step;
+  const double margin = LEAF_MARGIN * step;
+  double x[3][4][4], wide[3][4][4];
+  for (int k = 0; k < 3; k++) {
+    patch_subnet(patch->x[k], u0, u1, v0, v1, x[k]);
+    patch_subnet(patch->x[k], u0 - margin, u1 + margin, v0 - margin, v1 + margin, wide[k]);
+    memcpy(leaf->x[k], x[k], sizeof leaf->x[k]);
+    double lo = INFINITY, hi = -INFINITY;
+    for (int i = 0; i < 16; i++) lo = fmin(lo, leaf->x[k][i]), hi = fmax(hi, leaf->x[k][i]);
+    const double shift = patch->center[k] - model->origin[k];
+    const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale);
+    box->lo[k] = shift + patch->scale * lo - slack;
+    box->hi[k] = shift + patch->scale * hi + slack;
+  }
+  patch_second_derivative_bounds(wide, leaf->second);
+  first_derivative_bounds(wide, leaf->first);
+  /* From the widened net's parameters back to the leaf's. */
+  const double shrink = 1 / (1 + 2 * LEAF_MARGIN);
+  for (int k = 0; k < 3; k++) leaf->second[k] *= shrink * shrink;
+  for (int k = 0; k < 2; k++) leaf->first[k] *= shrink;
+  leaf->column_u = (uint16_t)column_u, leaf->column_v = (uint16_t)column_v;
+  return leaf_set_form(model->arena, patch, x, leaf);
+}
+
+static bool fast_method(const struct solver_options *s)
+{
+  return s->solver == solver_at(0) && s->basis == BASIS_BERNSTEIN && s->resultant == RESULTANT_BEZOUT &&
+         s->back_substitution == BACK_SUBSTITUTION_NULL_VECTOR && s->polish;
+}
+
+static void prepare_patches(struct model *model)
+{
+  const struct scene *scene = model->scene;
+  double lo[3] = {0}, hi[3] = {0};
+  for (size_t p = 0; p < scene->patch_count; p++) {
+    for (int k = 0; k < 3; k++) {
+      for (int i = 0; i < 16; i++) {
+        const double c = scene->patches[p].P[i / 4][i % 4][k];
+        lo[k] = p == 0 && i == 0 ? c : fmin(lo[k], c), hi[k] = p == 0 && i == 0 ? c : fmax(hi[k], c);
+      }
+    }
+  }
+  for (int k = 0; k < 3; k++) model->origin[k] = lo[k] / 2 + hi[k] / 2, model->radius = fmax(model->radius, hi[k] / 2 - lo[k] / 2);
+  for (size_t p = 0; p < scene->patch_count; p++) {
+    struct scene_patch *source = &scene->patches[p];
+    struct model_patch *patch = &model->patches[p];
+    patch_frame(source->P, patch);
+    patch_bidegree(patch->x, DEGREE_SLACK * fmax(1, largest_coordinate(source->P) / patch->scale), &patch->m, &patch->n);
+    patch->solver = &scene->solvers[source->solver];
+    patch->lanes = fast_method(patch->solver);
+    model->unproven |= !patch->solver->polish;
+    patch->split = patch->solver->split > 0 ? patch->solver->split : auto_split(patch);
+    patch->first_leaf = model->leaf_count;
+    model->leaf_count += (size_t)patch->split * (size_t)patch->split;
+  }
+}
+
+enum status model_create(const struct scene *scene, struct model **out)
+{
+  *out = NULL;
+  struct bvh_box *boxes = NULL;
+  enum status status = STATUS_LIMIT;
+  struct model *model = calloc(1, sizeof *model);
+  if (!model) return STATUS_LIMIT;
+  model->scene = scene;
+  model->arena = arena_create();
+  if (!model->arena) goto done;
+  model->patches = arena_alloc(model->arena, scene->patch_count + 1, sizeof *model->patches);
+  if (!model->patches) goto done;
+  prepare_patches(model);
+  model->leaves = arena_alloc(model->arena, model->leaf_count + 1, sizeof *model->leaves);
+  boxes = calloc(model->leaf_count + 1, sizeof *boxes);
+  if (!model->leaves || !boxes) goto done;
+  for (size_t p = 0, l = 0; p < scene->patch_count; p++) {
+    struct model_patch *patch = &model->patches[p];
+    for (int i = 0; i < patch->split; i++) {
+      for (int j = 0; j < patch->split; j++, l++) {
+        model->leaves[l].patch = (uint32_t)p;
+        status = leaf_prepare(model, patch, i, j, &model->leaves[l], &boxes[l]);
+        if (status != STATUS_OK) goto done;
+      }
+    }
+  }
+  status = bvh_build(boxes, model->leaf_count, &model->bvh);
+  if (status != STATUS_OK) goto done;
+  *out = model;
+  model = NULL;
+done:
+  free(boxes);
+  model_destroy(model);
+  return status;
+}
+
+void model_destroy(struct model *model)
+{
+  if (!model) return;
+  bvh_free(&model->bvh);
+  arena_destroy(model->arena);
+  free(model);
+}

@@ -1,0 +1,71 @@
+/* The scene as the intersector sees it: prepared patches, their leaves, the hierarchy over the leaves.
+ *
+ * Internal to src/intersect. Read-only after model_create, shared by all threads.
+ *
+ * Every patch has a frame of its own: world = center + scale * local, scale a power of two, center with few bits, so that
+ * |local| <= 1 and going to local coordinates rounds almost nothing. All algebra is done in local coordinates, so scale and
+ * offset of a scene cost no accuracy. A patch is cut into N x N leaves, the units the hierarchy holds and rays are tried on.
+ */
+#ifndef PSCN_INTERSECT_MODEL_H
+#define PSCN_INTERSECT_MODEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "geometry/bvh.h"
+#include "scene/scene.h"
+
+/* 2^-53, the unit roundoff of double. */
+#define UNIT_ROUNDOFF 0x1p-53
+
+/* How far outside [0,1] a leaf's polynomials are still used (its second-derivative bounds hold up to there). */
+#define LEAF_MARGIN 0.125
+
+struct model_patch {
+  double center[3], scale;
+  double x[3][4][4]; /* local control net, x[coordinate][i][j], |x| <= 1 */
+  int m, n;          /* true bidegree in u, v */
+  int split;         /* cut into split x split leaves */
+  bool lanes;        /* default method: tried on a lane of rays at once */
+  const struct solver_options *solver;
+  size_t first_leaf;
+};
+
+/* The polynomials a resultant is formed of: the leaf's net at its true degree, the parameter that is kept first. */
+struct leaf_form {
+  double x[3][16]; /* x[coordinate][4 * i + j], i = 0..degree kept, j = 0..degree eliminated */
+};
+
+struct leaf {
+  double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
+  const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
+  double second[3];             /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
+  double first[2];              /* bounds on |Su|, |Sv| there */
+  uint32_t patch;
+  uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split in u, and so on */
+  uint8_t kept_degree, eliminated_degree;
+  bool v_kept;            /* the form keeps v and eliminates u */
+  uint8_t zeros[2];       /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
+};
+
+struct model {
+  const struct scene *scene;
+  struct arena *arena;
+  struct model_patch *patches;
+  struct leaf *leaves;
+  size_t leaf_count;
+  double origin[3]; /* the frame of the hierarchy's boxes: world - origin, rounded to double */
+  double radius;    /* bound on |world - origin| of all patches, each coordinate */
+  struct bvh bvh;
+  bool unproven; /* some patch has `polish off`: no answer is proven */
+};
+
+/* Prepares all patches of the scene, which is borrowed. STATUS_LIMIT where memory is short; then *out is NULL. */
+enum status model_create(const struct scene *scene, struct model **out) STATUS_MUST_CHECK;
+void model_destroy(struct model *model);
+
+/* Leaf parameters to parameters of the whole patch. Exact up to one rounding. */
+static inline double leaf_to_patch(int split, int column, double t) { return (column + t) / split; }
+
+#endif

@@ -1,0 +1,502 @@
+/* A packet of rays, one a lane, through the hierarchy and against its leaves.
+ *
+ * Compiled once per instruction set; PSCN_KERNEL names the table that this compilation defines.
+ *
+ * A candidate (a ray and a leaf whose box it passes) is decided in stages, each for all lanes at once, each able to end it:
+ *   1. plane polynomials a, b; if either keeps one sign on its whole net, the leaf is missed;
+ *   2. Bezout's resultant r in Bernstein form; no sign variation: missed; one: exactly one root in the leaf's range;
+ *   3. that root by Newton from the control polygon of r, v from the null vector, both by Newton on (a, b);
+ *   4. the Newton-Kantorovich test: one root, here, and no other in the leaf.
+ * What is left goes lane by lane to the scene's solver (candidate.c), and what even that leaves to subdivision.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "intersect/refine.h"
+#include "intersect/tracer.h"
+
+#define BEZOUT_REAL lanes
+#define BEZOUT_NAME(name) bezout_lanes_##name
+#include "algebra/bezout.h"
+
+enum { RESULTANT_MAX_DEGREE = 18, RESULTANT_NEWTON_STEPS = 3 };
+
+/* Growth of a bound by the roundings of computing and comparing it. */
+#define BOUND_GROWTH (1 + 16 * UNIT_ROUNDOFF)
+
+struct packet {
+  struct tracer *tracer;
+  const struct ray *rays; /* directions scaled to about 1 */
+  size_t count;
+  bool any;               /* any hit will do */
+  lane_mask live;         /* lanes with a ray that still looks for a hit */
+  lane_mask on_axis[3];   /* lanes whose dominant axis this is */
+  unsigned axes;          /* bit k: some lane's */
+  lanes low_origin[3], high_origin[3], inverse[3]; /* of the slab test */
+  lanes slope[3][2];      /* per axis; 0 on other lanes */
+  lanes t_min, t_far;     /* t_far: the nearest hit so far plus its error */
+  struct best best[LANES];
+  /* The frame of the patch tried last. */
+  uint32_t patch;
+  struct {
+    lanes moment[2], start[2], to_t, error;
+  } local[3];
+};
+
+/* ---- the hierarchy ---- */
+
+/* A stand-in for the reciprocal of 0: so large that any distance ends up beyond every t, finite so that 0 times it is 0. */
+#define HUGE_INVERSE 0x1p1000
+
+static void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any)
+{
+  const struct model *model = tracer->model;
+  memset(p, 0, sizeof *p);
+  p->tracer = tracer, p->rays = rays, p->count = count, p->any = any, p->patch = UINT32_MAX;
+  for (size_t l = 0; l < LANES; l++) {
+    const struct ray *ray = &rays[l < count ? l : 0]; /* idle lanes repeat the first */
+    const int axis = dominant_axis(ray->direction);
+    if (l < count) p->live[l] = p->on_axis[axis][l] = -1, p->axes |= 1u << axis;
+    for (int k = 0; k < 3; k++) {
+      const double d = ray->direction[k], o = ray->origin[k] - model->origin[k];
+      /* The boxes' frame rounds the origin once; that widens the box instead. */
+      const double slack = 2 * UNIT_ROUNDOFF * (fabs(ray->origin[k]) + fabs(model->origin[k]));
+      p->low_origin[k][l] = o + slack, p->high_origin[k][l] = o - slack;
+      p->inverse[k][l] = fabs(d) > 1 / HUGE_INVERSE ? 1 / d : copysign(HUGE_INVERSE, d);
+    }
+    for (int s = 0; s < 2; s++) p->slope[axis][s][l] = ray->direction[(axis + 1 + s) % 3] / ray->direction[axis];
+    p->t_min[l] = ray->t_min, p->t_far[l] = ray->t_max;
+  }
+}
+
+/* Lanes whose ray passes the node's child within (t_min, t_far); *out_near is where it enters. Every rounding widens the box:
+ * the slack in the origins, and BOUND_GROWTH on the far side (Ize, Robust BVH Ray Traversal, 2013). */
+LANES_INLINE lane_mask packet_box(const struct packet *p, const struct bvh_node *node, int side, lanes *out_near)
+{
+  lanes near = p->t_min, far = p->t_far;
+  for (int k = 0; k < 3; k++) {
+    const lanes a = ((double)node->lo[side][k] - p->low_origin[k]) * p->inverse[k];
+    const lanes b = ((double)node->hi[side][k] - p->high_origin[k]) * p->inverse[k];
+    near = lanes_max(lanes_min(a, b), near);
+    far = lanes_min(lanes_max(a, b), far);
+  }
+  *out_near = near;
+  return p->live & (near <= far * BOUND_GROWTH);
+}
+
+static void packet_leaf(struct packet *p, uint32_t index, lane_mask active);
+
+static double first_lane_of(lanes t, lane_mask mask)
+{
+  return t[__builtin_ctz(lanes_bits(mask))];
+}
+
+static void packet_walk(struct packet *p)
+{
+  const struct bvh *bvh = &p->tracer->model->bvh;
+  struct {
+    lane_mask mask;
+    lanes near;
+    uint32_t child;
+  } stack[BVH_MAX_DEPTH + 2];
+  size_t top = 0;
+  if (bvh->node_count == 0) return;
+  stack[top].child = 0, stack[top].near = p->t_min, stack[top].mask = p->live, top++;
+  while (top > 0) {
+    top--;
+    /* A leaf's test on one lane must not depend on its neighbours, so each lane carries its own mask down. */
+    const lane_mask mask = stack[top].mask & p->live & (stack[top].near <= p->t_far * BOUND_GROWTH);
+    const uint32_t child = stack[top].child;
+    if (!lanes_any(mask)) continue;
+    if (child & (uint32_t)BVH_LEAF) {
+      packet_leaf(p, child & ~(uint32_t)BVH_LEAF, mask);
+      continue;
+    }
+    const struct bvh_node *node = &bvh->nodes[child];
+    lanes near[2];
+    lane_mask hit[2];
+    bool wanted[2];
+    for (int side = 0; side < 2; side++) {
+      hit[side] = mask & packet_box(p, node, side, &near[side]);
+      wanted[side] = lanes_any(hit[side]);
+    }
+    int first = 0;
+    if (wanted[0] && wanted[1]) {
+      const lane_mask both = hit[0] & hit[1];
+      if (lanes_any(both)) first = first_lane_of(near[1], both) < first_lane_of(near[0], both);
+      else first = first_lane_of(near[1], hit[1]) < first_lane_of(near[0], hit[0]);
+    }
+    for (int n = 1; n >= 0; n--) {
+      const int side = n == 0 ? first : 1 - first;
+      if (!wanted[side]) continue;
+      stack[top].child = node->child[side], stack[top].near = near[side], stack[top].mask = hit[side], top++;
+    }
+  }
+}
+
+/* ---- the ray in the frame of a patch; see local_ray.h ---- */
+
+LANES_INLINE void lanes_two_sum(lanes a, lanes b, lanes *sum, lanes *error)
+{
+  *sum = a + b;
+  const lanes t = *sum - a;
+  *error = (a - (*sum - t)) + (b - t);
+}
+
+static void packet_set_patch(struct packet *p, uint32_t index)
+{
+  const struct model_patch *patch = &p->tracer->model->patches[index];
+  lanes origin[3] = {{0}}, direction[3] = {{0}}, hi[3], lo[3];
+  for (size_t l = 0; l < LANES; l++) {
+    const struct ray *ray = &p->rays[l < p->count ? l : 0];
+    for (int k = 0; k < 3; k++) origin[k][l] = ray->origin[k], direction[k][l] = ray->direction[k];
+  }
+  const double inverse = 1 / patch->scale;
+  for (int k = 0; k < 3; k++) {
+    lanes_two_sum(origin[k], lanes_all(-patch->center[k]), &hi[k], &lo[k]);
+    hi[k] *= inverse, lo[k] *= inverse;
+  }
+  for (int k = 0; k < 3; k++) {
+    if (!(p->axes & 1u << k)) continue;
+    for (int s = 0; s < 2; s++) {
+      const int i = (k + 1 + s) % 3;
+      const lanes plus = hi[i] * direction[k], minus = hi[k] * direction[i];
+      const lanes plus_error = lanes_product_error(hi[i], direction[k], plus);
+      const lanes minus_error = lanes_product_error(hi[k], direction[i], minus);
+      lanes sum, error;
+      lanes_two_sum(plus, -minus, &sum, &error);
+      error += (plus_error - minus_error) + (lo[i] * direction[k] - lo[k] * direction[i]);
+      p->local[k].moment[s] = (sum + error) / direction[k];
+    }
+    p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
+    p->local[k].to_t = patch->scale / direction[k];
+    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1]));
+  }
+  p->patch = index;
+}
+
+/* ---- one leaf ---- */
+
+/* Everything about the candidates of one leaf on the lanes of one axis. */
+struct trial {
+  const struct leaf *leaf;
+  const struct model_patch *patch;
+  int axis;
+  struct plane_nets nets;
+  lanes alpha, beta;                 /* largest |a|, |b| of the form */
+  lanes form_a[16], form_b[16];      /* where the form is not the leaf's own net */
+  const lanes *fa, *fb;
+  int degree;                        /* of r, exact roots at the ends taken off */
+  lanes c_store[RESULTANT_MAX_DEGREE + 1];
+  const lanes *c;                    /* c[0..degree] */
+};
+
+LANES_INLINE void plane_values(const struct packet *p, int axis, const double x[3][16], int at, lanes *a, lanes *b)
+{
+  const double k = x[axis][at], i = x[(axis + 1) % 3][at], j = x[(axis + 2) % 3][at];
+  *a = (i - p->local[axis].moment[0]) - p->slope[axis][0] * k;
+  *b = (j - p->local[axis].moment[1]) - p->slope[axis][1] * k;
+}
+
+/* Stage 1. Lanes that may meet the leaf. */
+static lane_mask trial_planes(const struct packet *p, struct trial *t, lane_mask active)
+{
+  lanes a_low, a_high, b_low, b_high;
+  for (int n = 0; n < 16; n++) {
+    lanes a, b;
+    plane_values(p, t->axis, t->leaf->x, n, &a, &b);
+    t->nets.a[n] = a, t->nets.b[n] = b;
+    a_low = n ? lanes_min(a, a_low) : a, a_high = n ? lanes_max(a, a_high) : a;
+    b_low = n ? lanes_min(b, b_low) : b, b_high = n ? lanes_max(b, b_high) : b;
+  }
+  t->nets.slope[0] = p->slope[t->axis][0], t->nets.slope[1] = p->slope[t->axis][1];
+  const lanes e = t->nets.error = p->local[t->axis].error;
+  t->alpha = lanes_max(-a_low, a_high), t->beta = lanes_max(-b_low, b_high);
+  return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
+}
+
+static void trial_form(const struct packet *p, struct trial *t)
+{
+  t->fa = t->nets.a, t->fb = t->nets.b;
+  if (!t->leaf->form) return;
+  for (int n = 0; n < 16; n++) plane_values(p, t->axis, t->leaf->form->x, n, &t->form_a[n], &t->form_b[n]);
+  t->fa = t->form_a, t->fb = t->form_b;
+}
+
+/* Stage 2: r, and per lane the number of sign variations of its coefficients; -1 where a sign is within its error. */
+static lane_mask trial_resultant(struct trial *t, lane_mask active, lane_mask *out_single)
+{
+  const int m = t->leaf->kept_degree, n = t->leaf->eliminated_degree;
+  if (m == 3 && n == 3) bezout_lanes_resultant(3, 3, t->fa, t->fb, t->c_store);
+  else bezout_lanes_resultant(m, n, t->fa, t->fb, t->c_store);
+  t->c = t->c_store + t->leaf->zeros[0];
+  t->degree = 2 * m * n - t->leaf->zeros[0] - t->leaf->zeros[1];
+  const lanes product = t->alpha * t->beta, power = n == 1 ? product : n == 2 ? product * product : product * product * product;
+  const lanes bound = RESULTANT_WEIGHT[n] * power *
+                      (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + n * t->nets.error * (1 / t->alpha + 1 / t->beta));
+  lanes last = {0}, variations = {0};
+  lane_mask doubt = {0};
+  const int full = 2 * m * n;
+  double choose = 1;
+  for (int k = 0; k < t->leaf->zeros[0]; k++) choose = choose * (full - k) / (k + 1);
+  for (int k = 0; k <= t->degree; k++) {
+    const lanes c = t->c[k];
+    doubt |= ~(lanes_abs(c) > choose * bound);
+    variations += lanes_select(c * last < 0, lanes_all(1), lanes_all(0));
+    last = lanes_select(c > 0, lanes_all(1), lanes_all(-1));
+    const int at = k + t->leaf->zeros[0];
+    choose = choose * (full - at) / (at + 1);
+  }
+  *out_single = active & ~doubt & (variations == 1);
+  return active & (doubt | (variations > 0));
+}
+
+/* The value of the kept parameter where the control polygon of r crosses zero, improved by Newton on r. */
+static lanes trial_root(const struct trial *t)
+{
+  const int d = t->degree;
+  lanes at = lanes_all(0.5), before = t->c[0];
+  double choose = 1;
+  for (int k = 1; k <= d; k++) {
+    choose = choose * (d - k + 1) / k;
+    const lanes here = t->c[k] * (1 / choose);
+    at = lanes_select(before * here < 0, (k - 1 + before / (before - here)) / d, at);
+    before = here;
+  }
+  /* r(u) = (1-u)^d sum c_k x^k with x = u/(1-u); the half of the range near 1 reads the coefficients backwards. */
+  const lane_mask back = at > 0.5;
+  const lanes near = lanes_select(back, 1 - at, at);
+  lanes x = near / (1 - near);
+  for (int step = 0; step < RESULTANT_NEWTON_STEPS; step++) {
+    lanes value = {0}, slope = {0};
+    for (int k = d; k >= 0; k--) {
+      slope = slope * x + value;
+      value = value * x + lanes_select(back, t->c[d - k], t->c[k]);
+    }
+    x -= value / slope;
+  }
+  const lanes found = x / (1 + x);
+  return lanes_select(back, 1 - found, found);
+}
+
+/* The eliminated parameter at a root of r. */
+static lanes trial_eliminated(const struct trial *t, lanes kept)
+{
+  const int m = t->leaf->kept_degree, n = t->leaf->eliminated_degree;
+  const lanes s = 1 - kept;
+  lanes w[4], p[4] = {{0}}, q[4] = {{0}};
+  if (m == 1) w[0] = s, w[1] = kept;
+  else if (m == 2) w[0] = s * s, w[1] = 2 * (s * kept), w[2] = kept * kept;
+  else w[0] = s * s * s, w[1] = 3 * (s * s * kept), w[2] = 3 * (s * kept * kept), w[3] = kept * kept * kept;
+  for (int i = 0; i <= m; i++)
+    for (int j = 0; j <= n; j++) p[j] += w[i] * t->fa[4 * i + j], q[j] += w[i] * t->fb[4 * i + j];
+  lanes num[2], den[2], better;
+  bezout_lanes_null_vector(n, p, q, num, den, &better);
+  const lane_mask first = better > 0;
+  return lanes_select(first, num[0], num[1]) / lanes_select(first, den[0], den[1]);
+}
+
+/* x_k of the points (u,v). */
+static lanes trial_place(const struct trial *t, lanes u, lanes v)
+{
+  lanes wu[4], wv[4], unused[4], w = {0};
+  refine_weights(u, wu, unused);
+  refine_weights(v, wv, unused);
+  const double *x = t->leaf->x[t->axis];
+  for (int i = 0; i < 4; i++)
+    w += wu[i] * (x[4 * i] * wv[0] + x[4 * i + 1] * wv[1] + x[4 * i + 2] * wv[2] + x[4 * i + 3] * wv[3]);
+  return w;
+}
+
+/* ---- keeping the nearest ---- */
+
+/* Whether a root at t is the answer so far: nearer than the best, or as near within the errors and of a lower patch, so that a
+ * border shared by two patches belongs to the same one in whatever order they come. */
+static bool packet_offer(struct packet *p, unsigned lane, const struct trial *t, const struct leaf_hit *root)
+{
+  const double to_t = p->local[t->axis].to_t[lane], start = p->local[t->axis].start[0][lane];
+  const double value = (root->w + p->local[t->axis].start[1][lane] + start) * to_t;
+  const double error = fabs(to_t) * (t->leaf->first[0] * root->radius_u + t->leaf->first[1] * root->radius_v) +
+                       8 * UNIT_ROUNDOFF * (fabs(value) + fabs(to_t) * fabs(root->w));
+  struct best *best = &p->best[lane];
+  if (!(value > p->rays[lane].t_min + error) || !(value < p->rays[lane].t_max)) return false;
+  if (best->leaf) {
+    const double both = error + best->t_error;
+    if (value > best->t + both) return false;
+    if (value >= best->t - both && t->leaf->patch >= best->leaf->patch) return false;
+  }
+  *best = (struct best){t->leaf, *root, value, error};
+  p->t_far[lane] = value + error;
+  if (p->any) p->live[lane] = 0;
+  return true;
+}
+
+static void packet_offer_lanes(struct packet *p, const struct trial *t, const struct refined *r, lane_mask hits)
+{
+  if (!lanes_any(hits)) return;
+  const lanes w = trial_place(t, r->u, r->v);
+  for (unsigned bits = lanes_bits(hits); bits; bits &= bits - 1) {
+    const unsigned lane = (unsigned)__builtin_ctz(bits);
+    const struct leaf_hit root = {r->u[lane], r->v[lane], r->radius_u[lane], r->radius_v[lane], w[lane], true};
+    if (packet_offer(p, lane, t, &root)) p->tracer->counts.roots_accepted++;
+  }
+}
+
+LANES_INLINE lane_mask inside(const struct refined *r)
+{
+  return r->exists & (r->u >= -r->radius_u) & (r->u <= 1 + r->radius_u) & (r->v >= -r->radius_v) & (r->v <= 1 + r->radius_v);
+}
+
+/* ---- lane by lane: the scene's solver, then subdivision ---- */
+
+/* Roots found by the solver, made exact by Newton, several at once: whether they are proven to be all that the leaf has. */
+static bool lane_prove(struct packet *p, const struct trial *t, unsigned lane, const struct candidate_roots *roots)
+{
+  struct plane_nets one;
+  for (int n = 0; n < 16; n++) one.a[n] = lanes_all(t->nets.a[n][lane]), one.b[n] = lanes_all(t->nets.b[n][lane]);
+  for (int s = 0; s < 2; s++) one.slope[s] = lanes_all(t->nets.slope[s][lane]);
+  one.error = lanes_all(t->nets.error[lane]);
+  for (int first = 0; first < roots->count; first += LANES) {
+    lanes u = lanes_all(0.5), v = lanes_all(0.5);
+    lane_mask active = {0};
+    for (int n = 0; n < LANES && first + n < roots->count; n++) u[n] = roots->u[first + n], v[n] = roots->v[first + n], active[n] = -1;
+    const struct refined r = refine(&one, t->leaf, u, v, active);
+    const unsigned alone = lanes_bits(r.alone);
+    if (!alone) continue;
+    if (!(lanes_bits(inside(&r)) & alone)) return true; /* the only root near the leaf, and not on it */
+    const int n = __builtin_ctz(lanes_bits(inside(&r)) & alone);
+    const lanes w = trial_place(t, r.u, r.v);
+    const struct leaf_hit root = {r.u[n], r.v[n], r.radius_u[n], r.radius_v[n], w[n], true};
+    if (packet_offer(p, lane, t, &root)) p->tracer->counts.roots_accepted++;
+    return true;
+  }
+  return false;
+}
+
+static void lane_local_ray(const struct packet *p, const struct trial *t, unsigned lane, struct local_ray *out)
+{
+  const int k = t->axis;
+  *out = (struct local_ray){k,
+                            {p->slope[k][0][lane], p->slope[k][1][lane]},
+                            {p->local[k].moment[0][lane], p->local[k].moment[1][lane]},
+                            {p->local[k].start[0][lane], p->local[k].start[1][lane]},
+                            p->local[k].to_t[lane],
+                            p->local[k].error[lane]};
+}
+
+static void lane_alone(struct packet *p, struct trial *t, unsigned lane)
+{
+  struct tracer *tracer = p->tracer;
+  double a[16], b[16];
+  for (int n = 0; n < 16; n++) a[n] = t->fa[n][lane], b[n] = t->fb[n][lane];
+  struct candidate_roots roots;
+  candidate_solve(tracer, t->leaf, a, b, t->nets.error[lane], &roots);
+  struct leaf_hit root;
+  if (!t->patch->solver->polish) {
+    for (int n = 0; n < roots.count; n++) {
+      if (!(roots.u[n] >= 0 && roots.u[n] <= 1 && roots.v[n] >= 0 && roots.v[n] <= 1)) continue;
+      const lanes w = trial_place(t, lanes_all(roots.u[n]), lanes_all(roots.v[n]));
+      root = (struct leaf_hit){roots.u[n], roots.v[n], 0, 0, w[0], false};
+      if (packet_offer(p, lane, t, &root)) tracer->counts.roots_accepted++;
+    }
+    return;
+  }
+  if (lane_prove(p, t, lane, &roots)) return;
+  tracer->counts.escalated++;
+  struct local_ray ray;
+  lane_local_ray(p, t, lane, &ray);
+  if (subdivide_closest(t->leaf, &ray, p->rays[lane].t_min, p->t_far[lane], &root) && packet_offer(p, lane, t, &root))
+    tracer->counts.roots_accepted++;
+}
+
+static void packet_try(struct packet *p, struct trial *t, lane_mask active)
+{
+  t->nets.error = p->local[t->axis].error;
+  const bool paper = !t->patch->solver->polish;
+  const lane_mask near = trial_planes(p, t, active);
+  active = paper ? active : near;
+  if (!lanes_any(active)) return;
+  trial_form(p, t);
+  p->tracer->counts.patches_tested += (unsigned)__builtin_popcount(lanes_bits(active));
+  lane_mask left = active;
+  if (t->patch->lanes) {
+    lane_mask single;
+    left = trial_resultant(t, active, &single);
+    if (lanes_any(single)) {
+      p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(single));
+      const lanes kept = trial_root(t), eliminated = trial_eliminated(t, kept);
+      const bool v_kept = t->leaf->v_kept;
+      const struct refined r = refine(&t->nets, t->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, single);
+      const lanes k = v_kept ? r.v : r.u, radius = v_kept ? r.radius_v : r.radius_u;
+      /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
+      const lane_mask decided = single & (r.alone | (r.exists & (k > radius) & (k < 1 - radius)));
+      packet_offer_lanes(p, t, &r, decided & inside(&r));
+      left &= ~decided;
+    }
+  }
+  for (unsigned bits = lanes_bits(left); bits; bits &= bits - 1) lane_alone(p, t, (unsigned)__builtin_ctz(bits));
+}
+
+static void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
+{
+  struct trial t;
+  t.leaf = &p->tracer->model->leaves[index];
+  t.patch = &p->tracer->model->patches[t.leaf->patch];
+  if (p->patch != t.leaf->patch) packet_set_patch(p, t.leaf->patch);
+  for (t.axis = 0; t.axis < 3; t.axis++) {
+    const lane_mask here = active & p->on_axis[t.axis];
+    if (lanes_any(here)) packet_try(p, &t, here);
+  }
+}
+
+/* ---- the face ---- */
+
+/* The ray with its direction scaled by a power of two to a longest component in [1/2, 1), so that no product overflows. */
+static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
+{
+  struct ray r = *ray;
+  double largest = 0;
+  for (int k = 0; k < 3; k++) largest = fmax(largest, fabs(r.direction[k]));
+  frexp(largest, out_exponent);
+  for (int k = 0; k < 3; k++) r.direction[k] = ldexp(r.direction[k], -*out_exponent);
+  r.t_min = ldexp(r.t_min, *out_exponent), r.t_max = ldexp(r.t_max, *out_exponent);
+  return r;
+}
+
+static void kernel_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
+{
+  for (size_t first = 0; first < count; first += LANES) {
+    const size_t n = count - first < LANES ? count - first : LANES;
+    struct ray scaled[LANES];
+    int exponent[LANES];
+    for (size_t l = 0; l < n; l++) scaled[l] = ray_scaled(&rays[first + l], &exponent[l]);
+    struct packet packet;
+    packet_start(&packet, tracer, scaled, n, false);
+    packet_walk(&packet);
+    for (size_t l = 0; l < n; l++) {
+      struct hit *hit = &out_hits[first + l];
+      finish_hit(tracer->model, &scaled[l], &packet.best[l], hit);
+      if (hit->patch != HIT_NONE) hit->t = ldexp(hit->t, -exponent[l]);
+      if (hit->certainty == CERTAINTY_CERTAIN) tracer->counts.certain++;
+      else tracer->counts.grazing++;
+    }
+    tracer->counts.rays[0] += n;
+  }
+}
+
+static void kernel_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
+{
+  for (size_t first = 0; first < count; first += LANES) {
+    const size_t n = count - first < LANES ? count - first : LANES;
+    struct ray scaled[LANES];
+    int exponent;
+    for (size_t l = 0; l < n; l++) scaled[l] = ray_scaled(&rays[first + l], &exponent);
+    struct packet packet;
+    packet_start(&packet, tracer, scaled, n, true);
+    packet_walk(&packet);
+    for (size_t l = 0; l < n; l++) out_occluded[first + l] = packet.best[l].leaf != NULL;
+    tracer->counts.rays[1] += n;
+  }
+}
+
+const struct kernel PSCN_KERNEL = {PSCN_KERNEL_NAME, kernel_closest, kernel_occluded};

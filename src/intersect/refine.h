@@ -1,0 +1,109 @@
+/* One ray a lane against one leaf: plane polynomials, two-dimensional Newton, and the test that proves what it found.
+ *
+ * Internal to src/intersect; included by the sources that are compiled once per instruction set.
+ * Parameters (u,v) are the leaf's own, [0,1] x [0,1] over the leaf. Norms of parameter vectors are maximum norms.
+ */
+#ifndef PSCN_INTERSECT_REFINE_H
+#define PSCN_INTERSECT_REFINE_H
+
+#include "base/lanes.h"
+#include "intersect/model.h"
+
+/* The two plane polynomials of every lane over a leaf. */
+struct plane_nets {
+  lanes a[16], b[16]; /* a[4 * i + j] */
+  lanes slope[2];
+  lanes error; /* bound on the error of any coefficient, and of a value inside the leaf */
+};
+
+/* What is known after Newton's process. The fields mean something only where `exists`. */
+struct refined {
+  lanes u, v;
+  lanes radius_u, radius_v; /* the exact root is within */
+  lane_mask exists;         /* exactly one root of the exact polynomials within the radii */
+  lane_mask alone;          /* and no other in the leaf */
+};
+
+/* The process stops after a step no longer than this, in leaf parameters: it converges quadratically, so the next step would
+ * be below the square of it times the second derivatives, below the rounding of the values. Not a tolerance of the answer,
+ * whose radius is computed. */
+#define NEWTON_LAST_STEP 0x1p-28
+enum { NEWTON_MAX_STEPS = 10 };
+
+LANES_INLINE void refine_weights(lanes t, lanes w[4], lanes dw[4])
+{
+  const lanes s = 1 - t, ss = s * s, tt = t * t, st = s * t;
+  w[0] = ss * s, w[1] = 3 * (ss * t), w[2] = 3 * (st * t), w[3] = tt * t;
+  dw[0] = -3 * ss, dw[1] = 3 * (ss - 2 * st), dw[2] = 3 * (2 * st - tt), dw[3] = 3 * tt;
+}
+
+struct refine_jet {
+  lanes value, du, dv;
+};
+
+LANES_INLINE struct refine_jet refine_evaluate(const lanes net[16], const lanes wu[4], const lanes du[4], const lanes wv[4],
+                                               const lanes dv[4])
+{
+  struct refine_jet jet = {{0}, {0}, {0}};
+  for (int i = 0; i < 4; i++) {
+    const lanes *n = net + 4 * i;
+    const lanes row = n[0] * wv[0] + n[1] * wv[1] + n[2] * wv[2] + n[3] * wv[3];
+    const lanes row_dv = n[0] * dv[0] + n[1] * dv[1] + n[2] * dv[2] + n[3] * dv[3];
+    jet.value += wu[i] * row;
+    jet.du += du[i] * row;
+    jet.dv += wu[i] * row_dv;
+  }
+  return jet;
+}
+
+/* A row of the inverse Jacobian as a covector of space: its length bounds how fast that parameter moves with the surface. */
+LANES_INLINE lanes refine_row_length(lanes p, lanes q, const lanes slope[2])
+{
+  const lanes r = p * slope[0] + q * slope[1];
+  return lanes_sqrt(p * p + q * q + r * r);
+}
+
+/* Newton's process from (u,v) on the lanes of `active`, then the Newton-Kantorovich test.
+ *
+ * With M the inverse Jacobian at the last point but one, |step| the last step, e = |M| error what rounding adds to it, and
+ * K = |M| (|Suu| + 2 |Suv| + |Svv|) a Lipschitz bound of M J: where K (|step| + e) <= 1/8 there is exactly one root within
+ * twice that, and it lies within 2 K |step|^2 + 2 e of where the step went (Ortega and Rheinboldt 12.6). And where
+ * the Jacobian, averaged on the way from the root to any point of the leaf, differs from that at the root by less than M can
+ * take (half of q below), the leaf has no second root. */
+LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v, lane_mask active)
+{
+  struct refined r = {u, v, {0}, {0}, {0}, {0}};
+  lanes step = lanes_all(2), size_u = {0}, size_v = {0};
+  lane_mask moving = active;
+  for (int n = 0; n < NEWTON_MAX_STEPS && lanes_any(moving); n++) {
+    lanes wu[4], du[4], wv[4], dv[4];
+    refine_weights(r.u, wu, du);
+    refine_weights(r.v, wv, dv);
+    const struct refine_jet a = refine_evaluate(nets->a, wu, du, wv, dv), b = refine_evaluate(nets->b, wu, du, wv, dv);
+    const lanes inverse = 1 / (a.du * b.dv - a.dv * b.du);
+    const lanes mua = b.dv * inverse, mub = -a.dv * inverse, mva = -b.du * inverse, mvb = a.du * inverse;
+    const lanes step_u = mua * a.value + mub * b.value, step_v = mva * a.value + mvb * b.value;
+    r.u = lanes_select(moving, r.u - step_u, r.u);
+    r.v = lanes_select(moving, r.v - step_v, r.v);
+    step = lanes_select(moving, lanes_max(lanes_abs(step_u), lanes_abs(step_v)), step);
+    size_u = lanes_select(moving, refine_row_length(mua, mub, nets->slope), size_u);
+    size_v = lanes_select(moving, refine_row_length(mva, mvb, nets->slope), size_v);
+    /* A root far outside the leaf, or no progress (NaN compares false), is no concern of this process. */
+    moving &= (step > NEWTON_LAST_STEP) & (lanes_abs(r.u - 0.5) < 2) & (lanes_abs(r.v - 0.5) < 2);
+  }
+  const lanes size = lanes_max(size_u, size_v);
+  const lanes lipschitz = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
+  const lanes beta = step + size * nets->error;
+  const lane_mask near = (lanes_abs(r.u - 0.5) < 0.5 + LEAF_MARGIN) & (lanes_abs(r.v - 0.5) < 0.5 + LEAF_MARGIN);
+  r.exists = active & near & (step <= NEWTON_LAST_STEP) & (lipschitz * beta <= 0.125);
+  const lanes square = 2 * lipschitz * step * step;
+  r.radius_u = square + 2 * size_u * nets->error;
+  r.radius_v = square + 2 * size_v * nets->error;
+  const lanes reach_u = 0.5 + lanes_abs(r.u - 0.5), reach_v = 0.5 + lanes_abs(r.v - 0.5);
+  const lanes q = size * ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
+  /* 1.9 instead of 2: room for the Jacobian being taken next to the root and for the rounding of q. */
+  r.alone = r.exists & (q < 1.9);
+  return r;
+}
+
+#endif

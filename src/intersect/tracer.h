@@ -1,0 +1,89 @@
+/* What the files of src/intersect share: the tracer, the state of a packet's answers, and the stages of a candidate.
+ *
+ * Internal to src/intersect. A candidate is a ray and a leaf whose box it passes.
+ */
+#ifndef PSCN_INTERSECT_TRACER_H
+#define PSCN_INTERSECT_TRACER_H
+
+#include "algebra/solver.h"
+#include "intersect/intersect.h"
+#include "intersect/local_ray.h"
+#include "intersect/model.h"
+
+/* The entry points of one instruction set. */
+struct kernel {
+  const char *name;
+  void (*closest)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
+  void (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
+};
+
+extern const struct kernel kernel_baseline;
+#if defined(PSCN_KERNEL_AVX2)
+extern const struct kernel kernel_avx2;
+#endif
+
+/* Warm starts of one leaf, valid where `epoch` is the tracer's. */
+struct warm_leaf {
+  uint64_t epoch;
+  struct solver_warm warm;
+};
+
+struct tracer {
+  const struct model *model;
+  const struct kernel *kernel;
+  struct intersect_counts counts;
+  uint64_t epoch;
+  struct warm_leaf *warm; /* one a leaf, NULL where no patch asks for it */
+};
+
+/* A point where a ray meets a leaf. */
+struct leaf_hit {
+  double u, v;               /* leaf parameters, in [0,1] up to the radii */
+  double radius_u, radius_v; /* the exact root is within; meaningless where not certain */
+  double w;                  /* x_k of the point, local */
+  bool certain;              /* proven to exist, proven to be alone within its radii */
+};
+
+/* candidate.c: what the scene's solver finds. */
+
+enum { CANDIDATE_MAX_ROOTS = POLYNOMIAL_MAX_DEGREE };
+
+struct candidate_roots {
+  int count;
+  double u[CANDIDATE_MAX_ROOTS], v[CANDIDATE_MAX_ROOTS]; /* leaf parameters, near or in [0,1] */
+};
+
+/* |Bernstein coefficient of r| <= RESULTANT_WEIGHT[n] (alpha beta)^n for nets with |a| <= alpha, |b| <= beta and n eliminated:
+ * a minor [kl] is at most 2 C(n,k) C(n,l) alpha beta (Vandermonde's convolution sums the rest to 1), and the determinant is
+ * the sum of the products of those bounds. A coefficient of r passes at most RESULTANT_ROUNDINGS roundings: scaling 4, a minor
+ * 9 (8 products summed), cofactor 2 x 13 + 8, determinant 13 + 34 + 9. So it is off by at most
+ *   RESULTANT_WEIGHT[n] (alpha beta)^n (RESULTANT_ROUNDINGS UNIT_ROUNDOFF + n error (1/alpha + 1/beta)). */
+static const double RESULTANT_WEIGHT[4] = {0, 2, 20, 1376};
+#define RESULTANT_ROUNDINGS 64
+
+/* Forms r from the nets a, b of the leaf's form with the patch's method, finds its roots with the patch's solver and
+ * substitutes back. Counts the roots. Starting points only: nothing here is proven. */
+void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
+                     struct candidate_roots *out);
+
+/* subdivide.c: the last resort, complete by itself. */
+
+/* The nearest point of the leaf with t in (t_min, t_max) by recursive halving, hull tests and the Newton-Kantorovich test; where
+ * rounding leaves no answer, a point with certain = false. Points that lie outside the leaf by no more than rounding count.
+ * Returns whether there is one. */
+bool subdivide_closest(const struct leaf *leaf, const struct local_ray *ray, double t_min, double t_max, struct leaf_hit *out);
+
+/* finish.c: from the winning root to the answer. */
+
+/* The best root of one ray so far. */
+struct best {
+  const struct leaf *leaf; /* NULL: none */
+  struct leaf_hit root;
+  double t, t_error; /* in units of the (scaled) direction */
+};
+
+/* Fills the answer from the winner: parameters of the whole patch, improved by a Newton step on the patch with residuals in
+ * twice the precision, the point, the normal, the certainty. The direction of `ray` may be scaled. */
+void finish_hit(const struct model *model, const struct ray *ray, const struct best *best, struct hit *out);
+
+#endif
