@@ -32,6 +32,7 @@ struct packet {
   lane_mask live;         /* lanes with a ray that still looks for a hit */
   lane_mask on_axis[3];   /* lanes whose dominant axis this is */
   unsigned axes;          /* bit k: some lane's */
+  lanes origin[3], direction[3];
   lanes low_origin[3], high_origin[3], inverse[3]; /* of the slab test */
   lanes slope[3][2];      /* per axis; 0 on other lanes */
   lanes t_min, t_far;     /* t_far: the nearest hit so far plus its error */
@@ -61,6 +62,7 @@ static void packet_start(struct packet *p, struct tracer *tracer, const struct r
       const double d = ray->direction[k], o = ray->origin[k] - model->origin[k];
       /* The boxes' frame rounds the origin once; that widens the box instead. */
       const double slack = 2 * UNIT_ROUNDOFF * (fabs(ray->origin[k]) + fabs(model->origin[k]));
+      p->origin[k][l] = ray->origin[k], p->direction[k][l] = d;
       p->low_origin[k][l] = o + slack, p->high_origin[k][l] = o - slack;
       p->inverse[k][l] = fabs(d) > 1 / HUGE_INVERSE ? 1 / d : copysign(HUGE_INVERSE, d);
     }
@@ -146,30 +148,26 @@ LANES_INLINE void lanes_two_sum(lanes a, lanes b, lanes *sum, lanes *error)
 static void packet_set_patch(struct packet *p, uint32_t index)
 {
   const struct model_patch *patch = &p->tracer->model->patches[index];
-  lanes origin[3] = {{0}}, direction[3] = {{0}}, hi[3], lo[3];
-  for (size_t l = 0; l < LANES; l++) {
-    const struct ray *ray = &p->rays[l < p->count ? l : 0];
-    for (int k = 0; k < 3; k++) origin[k][l] = ray->origin[k], direction[k][l] = ray->direction[k];
-  }
+  lanes hi[3], lo[3];
   const double inverse = 1 / patch->scale;
   for (int k = 0; k < 3; k++) {
-    lanes_two_sum(origin[k], lanes_all(-patch->center[k]), &hi[k], &lo[k]);
+    lanes_two_sum(p->origin[k], lanes_all(-patch->center[k]), &hi[k], &lo[k]);
     hi[k] *= inverse, lo[k] *= inverse;
   }
   for (int k = 0; k < 3; k++) {
     if (!(p->axes & 1u << k)) continue;
     for (int s = 0; s < 2; s++) {
       const int i = (k + 1 + s) % 3;
-      const lanes plus = hi[i] * direction[k], minus = hi[k] * direction[i];
-      const lanes plus_error = lanes_product_error(hi[i], direction[k], plus);
-      const lanes minus_error = lanes_product_error(hi[k], direction[i], minus);
+      const lanes plus = hi[i] * p->direction[k], minus = hi[k] * p->direction[i];
+      const lanes plus_error = lanes_product_error(hi[i], p->direction[k], plus);
+      const lanes minus_error = lanes_product_error(hi[k], p->direction[i], minus);
       lanes sum, error;
       lanes_two_sum(plus, -minus, &sum, &error);
-      error += (plus_error - minus_error) + (lo[i] * direction[k] - lo[k] * direction[i]);
-      p->local[k].moment[s] = (sum + error) / direction[k];
+      error += (plus_error - minus_error) + (lo[i] * p->direction[k] - lo[k] * p->direction[i]);
+      p->local[k].moment[s] = (sum + error) / p->direction[k];
     }
     p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
-    p->local[k].to_t = patch->scale / direction[k];
+    p->local[k].to_t = patch->scale / p->direction[k];
     p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1]));
   }
   p->patch = index;

@@ -224,7 +224,7 @@ static bool box_decide(struct search *s, struct box *box)
 
 bool subdivide_closest(const struct leaf *leaf, const struct local_ray *ray, double t_min, double t_max, struct leaf_hit *out)
 {
-  struct search s = {leaf, ray, t_min, t_max, 0, false, 0, {0}};
+  struct search s = {.leaf = leaf, .ray = ray, .t_min = t_min, .t_max = t_max};
   struct box stack[MAX_HALVINGS + 2];
   double nets[3][16];
   local_ray_nets(ray, leaf->x, nets[0], nets[1], nets[2]);
