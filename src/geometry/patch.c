@@ -152,38 +152,73 @@ void patch_reduce(double net[4][4], int m, int n, double out[4][4])
   }
 }
 
-/* Su x Sv at (u,v), its length relative to the largest it could be for derivatives of that net, and that size. */
-static double cross_at(double x[3][4][4], double u, double v, double out[3])
+/* Rows of weights of the value and the first two derivatives of a cubic at t. */
+static void weights2(double t, double w[3][4])
 {
-  double a[3], b[3], size = 0;
+  const double s = 1 - t;
+  patch_weights(t, w[0], w[1]);
+  w[2][0] = 6 * s, w[2][1] = 6 * (t - 2 * s), w[2][2] = 6 * (s - 2 * t), w[2][3] = 6 * t;
+}
+
+/* The partial derivative of order (p,q), p + q <= 2, as a vector. */
+static void derivative(double x[3][4][4], double wu[3][4], double wv[3][4], int p, int q, double out[3])
+{
   for (int k = 0; k < 3; k++) {
-    const struct patch_jet jet = patch_evaluate(x[k], u, v);
-    a[k] = jet.du, b[k] = jet.dv;
+    out[k] = 0;
     for (int i = 0; i < 4; i++)
-      for (int j = 0; j < 4; j++) size = fmax(size, fabs(x[k][i][j] - x[k][0][0]));
+      for (int j = 0; j < 4; j++) out[k] += wu[p][i] * wv[q][j] * x[k][i][j];
   }
-  vector_cross(a, b, out);
-  const double length = vector_length(out);
-  if (length > 0) vector_scale(1 / length, out, out);
-  return size > 0 ? length / (size * size) : 0;
+}
+
+/* out = a x b + c x d; returns its length. */
+static double cross_sum(const double a[3], const double b[3], const double c[3], const double d[3], double out[3])
+{
+  double x[3], y[3];
+  vector_cross(a, b, x);
+  vector_cross(c, d, y);
+  vector_add_scaled(x, 1, y, out);
+  return vector_length(out);
 }
 
 bool patch_normal(double x[3][4][4], double u, double v, double out[3])
 {
-  /* The cross product of derivatives that are each right to a few units in the last place is noise below this. */
-  static const double noise = 0x1p-40;
-  if (cross_at(x, u, v, out) > noise) return true;
-  /* Near a collapsed edge or corner the normal's limit is what one step inside shows. The step balances the error of the
-   * limit (of the step's size) against the noise over the step. */
-  static const double step = 0x1p-20;
-  const double iu = u < 0.5 ? u + step : u - step, iv = v < 0.5 ? v + step : v - step;
-  const double tries[3][2] = {{iu, v}, {u, iv}, {iu, iv}};
-  double best = 0, n[3];
-  for (int k = 0; k < 3; k++) {
-    const double size = cross_at(x, tries[k][0], tries[k][1], n);
-    if (size > best) best = size, memcpy(out, n, sizeof n);
+  /* A derivative is right to some tens of units in the last place of the net's extent; a product of two that is less than this
+   * part of the extents' is noise. */
+  static const double noise = 0x1p-44;
+  double extent = 0;
+  for (int k = 0; k < 3; k++)
+    for (int i = 0; i < 16; i++) extent = fmax(extent, fabs(x[k][i / 4][i % 4] - x[k][0][0]));
+  const double least = noise * extent * extent, zero[3] = {0, 0, 0};
+  double wu[3][4], wv[3][4], su[3], sv[3], suu[3], suv[3], svv[3], nu[3], nv[3];
+  weights2(u, wu);
+  weights2(v, wv);
+  derivative(x, wu, wv, 1, 0, su);
+  derivative(x, wu, wv, 0, 1, sv);
+  double length = cross_sum(su, sv, zero, zero, out);
+  if (!(length > least)) {
+    /* Su x Sv vanishes here, as at a collapsed edge: its limit on the way into the patch is its derivative that way. */
+    derivative(x, wu, wv, 2, 0, suu);
+    derivative(x, wu, wv, 1, 1, suv);
+    derivative(x, wu, wv, 0, 2, svv);
+    cross_sum(suu, sv, su, suv, nu);
+    cross_sum(suv, sv, su, svv, nv);
+    if (u > 0.5) vector_scale(-1, nu, nu);
+    if (v > 0.5) vector_scale(-1, nv, nv);
+    vector_add_scaled(nu, 1, nv, out);
+    length = vector_length(out);
+    if (!(length > least)) {
+      /* Both vanish where both derivatives do, as in a corner with two collapsed edges: the second-order limit. */
+      double nuv[3];
+      cross_sum(suu, suv, suv, svv, out);
+      vector_cross(suu, svv, nuv);
+      vector_add_scaled(out, (u > 0.5) == (v > 0.5) ? 1 : -1, nuv, out);
+      length = vector_length(out);
+    }
   }
-  if (best > 0) return true;
-  out[0] = out[1] = out[2] = 0;
-  return false;
+  if (!(length > least)) {
+    out[0] = out[1] = out[2] = 0;
+    return false;
+  }
+  vector_scale(1 / length, out, out);
+  return true;
 }

@@ -72,19 +72,56 @@ static double step(const struct exact *e, double *u, double *v)
 
 static double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
 
-/* Whether the root lies within its radius of the patch's border (not of a leaf's inside it). */
-static bool on_border(const struct model_patch *patch, const struct leaf *leaf, const struct leaf_hit *root)
+/* The borders of the patch (see geometry/edges.h) that the root lies on within its radius, as bits; a leaf's own borders inside
+ * the patch are none. */
+static unsigned borders_of(const struct model_patch *patch, const struct leaf *leaf, const struct leaf_hit *root)
 {
   const int last = patch->split - 1;
-  return (leaf->column_u == 0 && root->u < root->radius_u) || (leaf->column_u == last && root->u > 1 - root->radius_u) ||
-         (leaf->column_v == 0 && root->v < root->radius_v) || (leaf->column_v == last && root->v > 1 - root->radius_v);
+  return (unsigned)(leaf->column_u == 0 && root->u < root->radius_u) << 0 |
+         (unsigned)(leaf->column_u == last && root->u > 1 - root->radius_u) << 1 |
+         (unsigned)(leaf->column_v == 0 && root->v < root->radius_v) << 2 |
+         (unsigned)(leaf->column_v == last && root->v > 1 - root->radius_v) << 3;
 }
 
-static void set_point(const struct model_patch *patch, const struct local_ray *ray, double u, double v, struct hit *out)
+/* The side of the border's curve, as seen along d, on which the patch lies at `along`: the sign of det(d, tangent, inward), 0
+ * where it is too small a part of what it could be to be sure of. The tangent runs along the border's parameter. */
+static int inner_side(struct model_patch *patch, int border, double along, const double d[3])
+{
+  /* Derivatives are right to some units in the last place of the patch's size 1; the side is sure well above that. */
+  static const double sure = 0x1p-40;
+  const double u = border == 0 ? 0 : border == 1 ? 1 : along, v = border == 2 ? 0 : border == 3 ? 1 : along;
+  const double inward = border == 0 || border == 2 ? 1 : -1;
+  double tangent[3], in[3], normal[3];
+  for (int c = 0; c < 3; c++) {
+    const struct patch_jet jet = patch_evaluate(patch->x[c], u, v);
+    tangent[c] = border < 2 ? jet.dv : jet.du;
+    in[c] = inward * (border < 2 ? jet.du : jet.dv);
+  }
+  vector_cross(tangent, in, normal);
+  const double side = vector_dot(normal, d);
+  return side > sure ? 1 : side < -sure ? -1 : 0;
+}
+
+/* A root on a border is proven where the border is shared and the two patches lie on either side of it as seen along the ray:
+ * then the ray, wherever it passes within the radius, meets one of them. */
+static bool passes_border(const struct model *model, uint32_t index, unsigned borders, double u, double v, const double d[3])
+{
+  if (borders & (borders - 1)) return false; /* a corner */
+  const int border = __builtin_ctz(borders);
+  const struct edge_neighbour *other = &model->neighbours[4 * (size_t)index + (size_t)border];
+  if (other->patch == EDGE_NONE) return false;
+  const double along = border < 2 ? v : u;
+  const int here = inner_side(&model->patches[index], border, along, d);
+  int there = inner_side(&model->patches[other->patch], other->border, other->reversed ? 1 - along : along, d);
+  if (other->reversed) there = -there;
+  return here * there == -1;
+}
+
+static void set_point(struct model_patch *patch, double u, double v, struct hit *out)
 {
   double tangent = 0, magnitude = 0;
   for (int c = 0; c < 3; c++) {
-    struct patch_jet jet = patch_evaluate(((struct model_patch *)patch)->x[c], u, v);
+    struct patch_jet jet = patch_evaluate(patch->x[c], u, v);
     out->point[c] = patch->center[c] + patch->scale * jet.value;
     tangent = fmax(tangent, fabs(jet.du) + fabs(jet.dv));
     magnitude = fmax(magnitude, fabs(out->point[c]));
@@ -92,7 +129,6 @@ static void set_point(const struct model_patch *patch, const struct local_ray *r
   /* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the sum; in
    * each coordinate, so up to sqrt(3) of it in distance. */
   out->point_error = 2 * ((12 + 2 * tangent) * UNIT_ROUNDOFF * patch->scale + UNIT_ROUNDOFF * magnitude);
-  (void)ray;
 }
 
 static void set_normal(struct model_patch *patch, const double direction[3], struct hit *out)
@@ -126,7 +162,9 @@ void finish_hit(const struct model *model, const struct ray *ray, const struct b
   struct double_double s[3];
   offset_from_start(&e, out->u, out->v, s);
   out->t = s[local.axis].hi * local.to_t;
-  set_point(patch, &local, out->u, out->v, out);
+  set_point(patch, out->u, out->v, out);
   set_normal(patch, ray->direction, out);
-  if (!best->root.certain || on_border(patch, leaf, &best->root)) out->certainty = CERTAINTY_GRAZING;
+  const unsigned borders = borders_of(patch, leaf, &best->root);
+  if (!best->root.certain || (borders && !passes_border(model, leaf->patch, borders, out->u, out->v, ray->direction)))
+    out->certainty = CERTAINTY_GRAZING;
 }

@@ -206,7 +206,11 @@ enum status model_create(const struct scene *scene, struct model **out)
   model->arena = arena_create();
   if (!model->arena) goto done;
   model->patches = arena_alloc(model->arena, scene->patch_count + 1, sizeof *model->patches);
-  if (!model->patches) goto done;
+  model->neighbours = arena_alloc(model->arena, scene->patch_count + 1, 4 * sizeof *model->neighbours);
+  if (!model->patches || !model->neighbours) goto done;
+  status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->neighbours);
+  if (status != STATUS_OK) goto done;
+  status = STATUS_LIMIT;
   prepare_patches(model);
   model->leaves = arena_alloc(model->arena, model->leaf_count + 1, sizeof *model->leaves);
   boxes = calloc(model->leaf_count + 1, sizeof *boxes);

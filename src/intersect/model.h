@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 #include "geometry/bvh.h"
+#include "geometry/edges.h"
 #include "scene/scene.h"
 
 /* 2^-53, the unit roundoff of double. */
@@ -53,6 +54,7 @@ struct model {
   const struct scene *scene;
   struct arena *arena;
   struct model_patch *patches;
+  struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h */
   struct leaf *leaves;
   size_t leaf_count;
   double origin[3]; /* the frame of the hierarchy's boxes: world - origin, rounded to double */

@@ -3,7 +3,7 @@
  * Compiled once per instruction set; PSCN_KERNEL names the table that this compilation defines.
  *
  * A candidate (a ray and a leaf whose box it passes) is decided in stages, each for all lanes at once, each able to end it:
- *   1. plane polynomials a, b; if either keeps one sign on its whole net, the leaf is missed;
+ *   1. plane polynomials a, b; if either, or a combination, keeps one sign on its whole net, the leaf is missed;
  *   2. Bezout's resultant r in Bernstein form; no sign variation: missed; one: exactly one root in the leaf's range;
  *   3. that root by Newton from the control polygon of r, v from the null vector, both by Newton on (a, b);
  *   4. the Newton-Kantorovich test: one root, here, and no other in the leaf.
@@ -187,6 +187,7 @@ struct trial {
   int degree;                        /* of r, exact roots at the ends taken off */
   lanes c_store[RESULTANT_MAX_DEGREE + 1];
   const lanes *c;                    /* c[0..degree] */
+  lanes variations;                  /* sign variations of c; -1 where not known: a sign is within its error */
 };
 
 LANES_INLINE void plane_values(const struct packet *p, int axis, const double x[3][16], int at, lanes *a, lanes *b)
@@ -213,6 +214,25 @@ static lane_mask trial_planes(const struct packet *p, struct trial *t, lane_mask
   return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
 }
 
+/* Stage 1 again, with the two combinations of a and b that aim along the leaf's parameters: near the middle they are like u - u0
+ * and v - v0 for the point (u0,v0) where the ray meets the tangent plane, so they tell a ray that passes the leaf by. */
+static lane_mask trial_aligned(const struct trial *t, lane_mask active)
+{
+  const lanes *a = t->nets.a, *b = t->nets.b;
+  const lanes au = (a[13] + a[14]) - (a[1] + a[2]), av = (a[7] + a[11]) - (a[4] + a[8]);
+  const lanes bu = (b[13] + b[14]) - (b[1] + b[2]), bv = (b[7] + b[11]) - (b[4] + b[8]);
+  lanes u_low = bv * a[0] - av * b[0], v_low = au * b[0] - bu * a[0], u_high = u_low, v_high = v_low;
+  for (int n = 1; n < 16; n++) {
+    const lanes u = bv * a[n] - av * b[n], v = au * b[n] - bu * a[n];
+    u_low = lanes_min(u, u_low), u_high = lanes_max(u, u_high);
+    v_low = lanes_min(v, v_low), v_high = lanes_max(v, v_high);
+  }
+  /* The combination's own three roundings, on top of the coefficients' error. */
+  const lanes e = t->nets.error + 4 * UNIT_ROUNDOFF * (t->alpha + t->beta);
+  const lanes u_error = e * (lanes_abs(bv) + lanes_abs(av)), v_error = e * (lanes_abs(au) + lanes_abs(bu));
+  return active & (u_low <= u_error) & (u_high >= -u_error) & (v_low <= v_error) & (v_high >= -v_error);
+}
+
 static void trial_form(const struct packet *p, struct trial *t)
 {
   t->fa = t->nets.a, t->fb = t->nets.b;
@@ -221,8 +241,8 @@ static void trial_form(const struct packet *p, struct trial *t)
   t->fa = t->form_a, t->fb = t->form_b;
 }
 
-/* Stage 2: r, and per lane the number of sign variations of its coefficients; -1 where a sign is within its error. */
-static lane_mask trial_resultant(struct trial *t, lane_mask active, lane_mask *out_single)
+/* Stage 2: r and the sign variations of its coefficients. Lanes that may meet the leaf. */
+static lane_mask trial_resultant(struct trial *t, lane_mask active)
 {
   const int m = t->leaf->kept_degree, n = t->leaf->eliminated_degree;
   if (m == 3 && n == 3) bezout_lanes_resultant(3, 3, t->fa, t->fb, t->c_store);
@@ -245,8 +265,8 @@ static lane_mask trial_resultant(struct trial *t, lane_mask active, lane_mask *o
     const int at = k + t->leaf->zeros[0];
     choose = choose * (full - at) / (at + 1);
   }
-  *out_single = active & ~doubt & (variations == 1);
-  return active & (doubt | (variations > 0));
+  t->variations = lanes_select(doubt, lanes_all(-1), variations);
+  return active & (t->variations != 0);
 }
 
 /* The value of the kept parameter where the control polygon of r crosses zero, improved by Newton on r. */
@@ -347,28 +367,54 @@ LANES_INLINE lane_mask inside(const struct refined *r)
 
 /* ---- lane by lane: the scene's solver, then subdivision ---- */
 
-/* Roots found by the solver, made exact by Newton, several at once: whether they are proven to be all that the leaf has. */
+/* The proven roots of one candidate. */
+struct proven {
+  int count, within; /* within: how many lie strictly inside the kept parameter's range */
+  struct leaf_hit root[CANDIDATE_MAX_ROOTS];
+  bool inside[CANDIDATE_MAX_ROOTS];
+};
+
+static void proven_add(struct proven *all, const struct trial *t, const struct refined *r, unsigned n, double w, bool in_leaf)
+{
+  const struct leaf_hit root = {r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, true};
+  for (int k = 0; k < all->count; k++) {
+    const struct leaf_hit *old = &all->root[k];
+    if (fabs(old->u - root.u) <= old->radius_u + root.radius_u && fabs(old->v - root.v) <= old->radius_v + root.radius_v) return;
+  }
+  const double kept = t->leaf->v_kept ? root.v : root.u, radius = t->leaf->v_kept ? root.radius_v : root.radius_u;
+  all->within += kept > radius && kept < 1 - radius;
+  all->inside[all->count] = in_leaf;
+  all->root[all->count++] = root;
+}
+
+/* Roots found by the solver, made exact by Newton, several at once: whether they are proven to be all that the leaf has, because
+ * one of them is alone in it, or because they are as many as r has sign variations. */
 static bool lane_prove(struct packet *p, const struct trial *t, unsigned lane, const struct candidate_roots *roots)
 {
   struct plane_nets one;
   for (int n = 0; n < 16; n++) one.a[n] = lanes_all(t->nets.a[n][lane]), one.b[n] = lanes_all(t->nets.b[n][lane]);
   for (int s = 0; s < 2; s++) one.slope[s] = lanes_all(t->nets.slope[s][lane]);
   one.error = lanes_all(t->nets.error[lane]);
-  for (int first = 0; first < roots->count; first += LANES) {
+  struct proven all = {.count = 0, .within = 0};
+  bool alone = false;
+  for (int first = 0; first < roots->count && !alone; first += LANES) {
     lanes u = lanes_all(0.5), v = lanes_all(0.5);
     lane_mask active = {0};
-    for (int n = 0; n < LANES && first + n < roots->count; n++) u[n] = roots->u[first + n], v[n] = roots->v[first + n], active[n] = -1;
+    for (int n = 0; n < LANES && first + n < roots->count; n++)
+      u[n] = roots->u[first + n], v[n] = roots->v[first + n], active[n] = -1;
     const struct refined r = refine(&one, t->leaf, u, v, active);
-    const unsigned alone = lanes_bits(r.alone);
-    if (!alone) continue;
-    if (!(lanes_bits(inside(&r)) & alone)) return true; /* the only root near the leaf, and not on it */
-    const int n = __builtin_ctz(lanes_bits(inside(&r)) & alone);
     const lanes w = trial_place(t, r.u, r.v);
-    const struct leaf_hit root = {r.u[n], r.v[n], r.radius_u[n], r.radius_v[n], w[n], true};
-    if (packet_offer(p, lane, t, &root)) p->tracer->counts.roots_accepted++;
-    return true;
+    const unsigned in_leaf = lanes_bits(inside(&r)), exists = lanes_bits(r.exists), only = lanes_bits(r.alone);
+    if (only) all.count = 0, alone = true; /* whatever else was found is this root again */
+    for (unsigned bits = alone ? only & -only : exists; bits; bits &= bits - 1) {
+      const unsigned n = (unsigned)__builtin_ctz(bits);
+      proven_add(&all, t, &r, n, w[n], in_leaf >> n & 1);
+    }
   }
-  return false;
+  if (!alone && !(all.count > 0 && all.within == t->variations[lane])) return false;
+  for (int k = 0; k < all.count; k++)
+    if (all.inside[k] && packet_offer(p, lane, t, &all.root[k])) p->tracer->counts.roots_accepted++;
+  return true;
 }
 
 static void lane_local_ray(const struct packet *p, const struct trial *t, unsigned lane, struct local_ray *out)
@@ -411,15 +457,17 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
 {
   t->nets.error = p->local[t->axis].error;
   const bool paper = !t->patch->solver->polish;
-  const lane_mask near = trial_planes(p, t, active);
+  lane_mask near = trial_planes(p, t, active);
+  if (lanes_any(near)) near = trial_aligned(t, near);
   active = paper ? active : near;
   if (!lanes_any(active)) return;
   trial_form(p, t);
   p->tracer->counts.patches_tested += (unsigned)__builtin_popcount(lanes_bits(active));
   lane_mask left = active;
+  t->variations = lanes_all(-1);
   if (t->patch->lanes) {
-    lane_mask single;
-    left = trial_resultant(t, active, &single);
+    left = trial_resultant(t, active);
+    const lane_mask single = left & (t->variations == 1);
     if (lanes_any(single)) {
       p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(single));
       const lanes kept = trial_root(t), eliminated = trial_eliminated(t, kept);

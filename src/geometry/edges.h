@@ -1,0 +1,30 @@
+/* Which borders of patches are shared: equal control points, to the last bit, in the same or the opposite order.
+ *
+ * Border 0 is u = 0, 1 is u = 1 (both run along v), 2 is v = 0, 3 is v = 1 (both run along u).
+ */
+#ifndef PSCN_GEOMETRY_EDGES_H
+#define PSCN_GEOMETRY_EDGES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+enum { EDGE_NONE = UINT32_MAX };
+
+/* The border that shares its control points with this one. A border met by more than one other, or collapsed to a point, has
+ * patch EDGE_NONE, as one met by none. */
+struct edge_neighbour {
+  uint32_t patch; /* may be the patch itself */
+  uint8_t border;
+  bool reversed;
+};
+
+/* The four control points of border `border` of the net P[i][j], in the order of the running parameter. */
+void edge_points(double P[4][4][3], int border, double out[4][3]);
+
+/* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes. STATUS_LIMIT where memory is short. */
+enum status edges_match(const void *nets, size_t stride, size_t count, struct edge_neighbour *out) STATUS_MUST_CHECK;
+
+#endif
