@@ -39,6 +39,10 @@ struct image_encoding {
   size_t attribute_count;
 };
 
+/* Whether picture files can be read and written at all, to be asked before long work: OpenImageIO is loaded when it is
+ * first needed. STATUS_FILE where it can not be. */
+enum status image_file_ready(char *message) STATUS_MUST_CHECK;
+
 /* The bytes of the file, owned by the caller (free). STATUS_LIMIT where memory is short, STATUS_FILE where the format
  * can not hold the picture or the library fails. */
 enum status image_encode(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,

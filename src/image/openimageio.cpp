@@ -1,13 +1,12 @@
-/* Pictures to and from files, through OpenImageIO: the only C++ of pscn, behind a C face. No exception leaves this file. */
+/* The module that image_file.c loads: OpenImageIO behind a C face, the only C++ of pscn. No exception leaves it. */
 extern "C" {
-#include "image/image_file.h"
+#include "image/image_module.h"
 #include "image/srgb.h"
 }
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -21,17 +20,8 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-struct FormatTraits {
-  const char *suffix;
-  int bits[2]; /* the first is the default */
-  int max_channels;
-};
-
 /* In the order of enum image_format. */
-const FormatTraits FORMATS[] = {
-  { ".png", { 8, 16 }, 4 },
-  { ".exr", { 16, 32 }, IMAGE_MAX_CHANNELS },
-};
+const char *const SUFFIXES[] = { ".png", ".exr" };
 
 void say(char *message, const std::string &text)
 {
@@ -109,7 +99,7 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
 {
   OIIO::ImageSpec spec = make_spec(picture, encoding);
   const Bytes pixels = native_pixels(picture, encoding);
-  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(FORMATS[encoding.format].suffix + 1);
+  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(SUFFIXES[encoding.format] + 1);
   if (!output)
     return "OpenImageIO: " + OIIO::geterror();
   if (!output->supports("ioproxy"))
@@ -118,7 +108,7 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
   if (!output->set_ioproxy(&proxy))
     return "OpenImageIO: " + output->geterror();
   /* The name decides nothing but the format: the proxy takes the bytes. */
-  if (!output->open(std::string("memory") + FORMATS[encoding.format].suffix, spec) ||
+  if (!output->open(std::string("memory") + SUFFIXES[encoding.format], spec) ||
       !output->write_image(spec.channelformats.empty() ? spec.format : OIIO::TypeDesc(), pixels.data()) ||
       !output->close())
     return "OpenImageIO: " + output->geterror();
@@ -156,48 +146,26 @@ std::string read(const char *path, image &out, status &result)
   return "";
 }
 
-} // namespace
-
-extern "C" bool image_format_of(const char *path, enum image_format *out)
+/* Runs work() -> status, which may throw, and turns what it throws into a status and a message. */
+template <typename Work> status guarded(char *message, Work work)
 {
-  const std::size_t length = std::strlen(path);
-  for (int format = IMAGE_PNG; format <= IMAGE_EXR; format++) {
-    const char *suffix = FORMATS[format].suffix;
-    const std::size_t size = std::strlen(suffix);
-    bool same = length > size && path[length - size - 1] != '/';
-    for (std::size_t k = 0; same && k < size; k++)
-      same = std::tolower(static_cast<unsigned char>(path[length - size + k])) == suffix[k];
-    if (same) {
-      *out = static_cast<image_format>(format);
-      return true;
-    }
-  }
-  return false;
-}
-
-extern "C" bool image_format_has_bits(enum image_format format, int bits)
-{
-  return bits == FORMATS[format].bits[0] || bits == FORMATS[format].bits[1];
-}
-
-extern "C" int image_format_default_bits(enum image_format format)
-{
-  return FORMATS[format].bits[0];
-}
-
-extern "C" enum status image_encode(const struct image *image, const struct image_encoding *encoding,
-                                    unsigned char **out_bytes, size_t *out_size, char *message)
-{
-  *out_bytes = nullptr;
-  *out_size = 0;
-  message[0] = '\0';
-  if (image->channel_count == 0 || image->channel_count > static_cast<std::size_t>(FORMATS[encoding->format].max_channels)) {
-    say(message, "the format can not hold these channels");
+  try {
+    return work();
+  } catch (const std::bad_alloc &) {
+    say(message, "out of memory");
+    return STATUS_LIMIT;
+  } catch (const std::exception &problem) {
+    say(message, problem.what());
     return STATUS_FILE;
   }
-  try {
+}
+
+status module_encode(const image *picture, const image_encoding *encoding, unsigned char **out_bytes,
+                     std::size_t *out_size, char *message)
+{
+  return guarded(message, [&] {
     Bytes file;
-    const std::string problem = encode(*image, *encoding, file);
+    const std::string problem = encode(*picture, *encoding, file);
     if (!problem.empty()) {
       say(message, problem);
       return STATUS_FILE;
@@ -208,32 +176,23 @@ extern "C" enum status image_encode(const struct image *image, const struct imag
     std::memcpy(*out_bytes, file.data(), file.size());
     *out_size = file.size();
     return STATUS_OK;
-  } catch (const std::bad_alloc &) {
-    std::snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
-    return STATUS_LIMIT;
-  } catch (const std::exception &problem) {
-    std::snprintf(message, IMAGE_MESSAGE_SIZE, "%s", problem.what());
-    return STATUS_FILE;
-  }
+  });
 }
 
-extern "C" enum status image_read(const char *path, struct image *out, char *message)
+status module_read(const char *path, image *out, char *message)
 {
-  *out = { 0, 0, 0, nullptr, nullptr };
-  message[0] = '\0';
-  status result = STATUS_FILE;
-  try {
-    const std::string problem = read(path, *out, result);
+  const status result = guarded(message, [&] {
+    status reading = STATUS_FILE;
+    const std::string problem = read(path, *out, reading);
     if (!problem.empty())
       say(message, problem);
-  } catch (const std::bad_alloc &) {
-    std::snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
-    result = STATUS_LIMIT;
-  } catch (const std::exception &problem) {
-    std::snprintf(message, IMAGE_MESSAGE_SIZE, "%s", problem.what());
-    result = STATUS_FILE;
-  }
+    return reading;
+  });
   if (result != STATUS_OK)
     image_destroy(out);
   return result;
 }
+
+} // namespace
+
+extern "C" const struct image_module image_module = { module_encode, module_read };

@@ -1,0 +1,23 @@
+/* The face of the module that reads and writes picture files.
+ *
+ * OpenImageIO brings some 250 shared libraries along, which cost every start of a program a quarter of a second and 130 MB.
+ * So the code that uses it is a module of its own, IMAGE_MODULE_FILE, loaded when the first picture file is met; it exports one
+ * object, `image_module`. The functions are those of image_file.h after the arguments have been checked.
+ */
+#ifndef PSCN_IMAGE_IMAGE_MODULE_H
+#define PSCN_IMAGE_IMAGE_MODULE_H
+
+#include "image/image_file.h"
+
+#define IMAGE_MODULE_FILE "pscn_openimageio.so"
+#define IMAGE_MODULE_SYMBOL "image_module"
+
+struct image_module {
+  enum status (*encode)(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
+                        size_t *out_size, char *message);
+  enum status (*read)(const char *path, struct image *out, char *message);
+};
+
+extern const struct image_module image_module __attribute__((visibility("default")));
+
+#endif
