@@ -1,8 +1,8 @@
 /* From the winning root to the answer: the last Newton step, the point, the normal, the certainty.
  *
- * The root comes from a leaf's net, cut from the patch and rounded. The answer is the root of the patch itself: one or two
- * Newton steps with the residuals a(u,v), b(u,v) of the whole patch evaluated in double-double, so that U, V and T are right to
- * the last places even where the ray is nearly tangent.
+ * The root comes from a leaf's net, cut from the patch and rounded. Where the ray is steep it is right to a few last places.
+ * Where it grazes, rounding is magnified: then one or two Newton steps on the patch itself, with the residuals a(u,v), b(u,v)
+ * evaluated in double-double, make U, V and T right to the last places again.
  */
 #include <math.h>
 #include <string.h>
@@ -13,6 +13,14 @@
 #include "intersect/tracer.h"
 
 enum { FINISH_STEPS = 2 };
+
+/* The error bound of t, relative to the patch's size, up to which the leaf's root is kept as it is. The bound is some hundred
+ * units roundoff where the ray is steep (its constants are worst cases; the error itself is a few units), and grows as the
+ * ray grazes: beyond about 10 degrees the better residuals are worth their time. */
+#define PLAIN_ERROR 0x1p-42
+
+/* |Su x Sv| relative to the squared derivatives down to which it is the normal without further thought. */
+#define PLAIN_NORMAL 0x1p-20
 
 /* sum B_i(u) B_j(v) net[i][j] by de Casteljau in double-double, the corners' error far below the last place. */
 static struct double_double evaluate(double net[4][4], double u, double v)
@@ -117,24 +125,41 @@ static bool passes_border(const struct model *model, uint32_t index, unsigned bo
   return here * there == -1;
 }
 
-static void set_point(struct model_patch *patch, double u, double v, struct hit *out)
+/* The point, its error bound and the normal. */
+static void set_surface(struct model_patch *patch, const double direction[3], struct hit *out)
 {
-  double tangent = 0, magnitude = 0;
+  double tangent = 0, magnitude = 0, su[3], sv[3];
   for (int c = 0; c < 3; c++) {
-    struct patch_jet jet = patch_evaluate(patch->x[c], u, v);
+    const struct patch_jet jet = patch_evaluate(patch->x[c], out->u, out->v);
     out->point[c] = patch->center[c] + patch->scale * jet.value;
+    su[c] = jet.du, sv[c] = jet.dv;
     tangent = fmax(tangent, fabs(jet.du) + fabs(jet.dv));
     magnitude = fmax(magnitude, fabs(out->point[c]));
   }
   /* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the sum; in
    * each coordinate, so up to sqrt(3) of it in distance. */
   out->point_error = 2 * ((12 + 2 * tangent) * UNIT_ROUNDOFF * patch->scale + UNIT_ROUNDOFF * magnitude);
+  vector_cross(su, sv, out->normal);
+  const double length = vector_length(out->normal);
+  if (length > PLAIN_NORMAL * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
+  else patch_normal(patch->x, out->u, out->v, out->normal);
+  if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);
 }
 
-static void set_normal(struct model_patch *patch, const double direction[3], struct hit *out)
+/* Newton on the patch itself, and t from where it ends. */
+static void improve(struct model_patch *patch, const struct ray *ray, double *u, double *v, double *t)
 {
-  patch_normal(patch->x, out->u, out->v, out->normal);
-  if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);
+  struct exact e = {patch, {{0, 0}}, ray->direction, dominant_axis(ray->direction)};
+  for (int c = 0; c < 3; c++) {
+    const struct double_double q = dd_two_sum(ray->origin[c], -patch->center[c]);
+    e.start[c] = (struct double_double){q.hi / patch->scale, q.lo / patch->scale};
+  }
+  for (int n = 0; n < FINISH_STEPS; n++)
+    if (!(step(&e, u, v) > 4 * UNIT_ROUNDOFF)) break;
+  *u = clamp01(*u), *v = clamp01(*v);
+  struct double_double s[3];
+  offset_from_start(&e, *u, *v, s);
+  *t = s[e.k].hi * (patch->scale / e.d[e.k]);
 }
 
 void finish_hit(const struct model *model, const struct ray *ray, const struct best *best, struct hit *out)
@@ -144,26 +169,13 @@ void finish_hit(const struct model *model, const struct ray *ray, const struct b
   if (!best->leaf) return;
   const struct leaf *leaf = best->leaf;
   struct model_patch *patch = &model->patches[leaf->patch];
-  double u = leaf_to_patch(patch->split, leaf->column_u, best->root.u);
-  double v = leaf_to_patch(patch->split, leaf->column_v, best->root.v);
-  struct local_ray local;
-  local_ray_make(patch, ray, &local);
-  struct exact e = {patch, {{0, 0}}, ray->direction, local.axis};
-  for (int c = 0; c < 3; c++) {
-    const struct double_double q = dd_two_sum(ray->origin[c], -patch->center[c]);
-    e.start[c] = (struct double_double){q.hi / patch->scale, q.lo / patch->scale};
-  }
-  if (best->root.certain) {
-    for (int n = 0; n < FINISH_STEPS; n++)
-      if (!(step(&e, &u, &v) > 4 * UNIT_ROUNDOFF)) break;
-  }
   out->patch = leaf->patch;
-  out->u = clamp01(u), out->v = clamp01(v);
-  struct double_double s[3];
-  offset_from_start(&e, out->u, out->v, s);
-  out->t = s[local.axis].hi * local.to_t;
-  set_point(patch, out->u, out->v, out);
-  set_normal(patch, ray->direction, out);
+  out->t = best->t;
+  out->u = clamp01(leaf_to_patch(patch->split, leaf->column_u, best->root.u));
+  out->v = clamp01(leaf_to_patch(patch->split, leaf->column_v, best->root.v));
+  const double plain = PLAIN_ERROR * patch->scale / fabs(ray->direction[dominant_axis(ray->direction)]);
+  if (best->root.certain && best->t_error > plain) improve(patch, ray, &out->u, &out->v, &out->t);
+  set_surface(patch, ray->direction, out);
   const unsigned borders = borders_of(patch, leaf, &best->root);
   if (!best->root.certain || (borders && !passes_border(model, leaf->patch, borders, out->u, out->v, ray->direction)))
     out->certainty = CERTAINTY_GRAZING;
