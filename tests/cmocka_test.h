@@ -1,0 +1,12 @@
+/* cmocka, after the headers it wants to be included before itself. */
+#ifndef PSCN_TESTS_CMOCKA_TEST_H
+#define PSCN_TESTS_CMOCKA_TEST_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#endif

@@ -1,0 +1,190 @@
+/* Files that appear whole or not at all. */
+#include "base/atomic_file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cmocka_test.h"
+
+/* A new empty folder for each test, and the process's mask of permissions set to a known value. */
+static int enter_folder(void **state)
+{
+  char *name = strdup("/tmp/pscn-test-XXXXXX");
+  *state = name;
+  umask(022);
+  return name == NULL || mkdtemp(name) == NULL || chdir(name) != 0;
+}
+
+static int leave_folder(void **state)
+{
+  DIR *folder = opendir(*state);
+  for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder))
+    unlink(entry->d_name);
+  closedir(folder);
+  const int result = rmdir(*state);
+  free(*state);
+  return result;
+}
+
+static int count_entries(void)
+{
+  int count = 0;
+  DIR *folder = opendir(".");
+  assert_non_null(folder);
+  for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder))
+    count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+  closedir(folder);
+  return count;
+}
+
+static void put(const char *path, const char *text)
+{
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  assert_true(fputs(text, file) >= 0);
+  assert_int_equal(fclose(file), 0);
+}
+
+static void expect_text(const char *path, const char *text)
+{
+  char buffer[64] = "";
+  FILE *file = fopen(path, "r");
+  assert_non_null(file);
+  const size_t length = fread(buffer, 1, sizeof buffer - 1, file);
+  fclose(file);
+  assert_int_equal(length, strlen(text));
+  assert_string_equal(buffer, text);
+}
+
+static mode_t mode_of(const char *path)
+{
+  struct stat info;
+  assert_int_equal(lstat(path, &info), 0);
+  return info.st_mode & 07777;
+}
+
+static enum status write_text(const char *path, const char *text, int *out_errno)
+{
+  return atomic_file_write(path, text, strlen(text), NULL, out_errno);
+}
+
+static void new_file_has_the_masks_permissions(void **state)
+{
+  (void)state;
+  int reason = -1;
+  assert_int_equal(atomic_file_probe("a", &reason), STATUS_OK);
+  assert_int_equal(count_entries(), 0);
+  assert_int_equal(write_text("a", "text", &reason), STATUS_OK);
+  assert_int_equal(reason, 0);
+  expect_text("a", "text");
+  assert_int_equal(mode_of("a"), 0644);
+  assert_int_equal(count_entries(), 1);
+}
+
+static void old_file_is_replaced_and_keeps_its_permissions(void **state)
+{
+  (void)state;
+  int reason;
+  put("a", "old and longer");
+  assert_int_equal(chmod("a", 0640), 0);
+  assert_int_equal(link("a", "other"), 0);
+  assert_int_equal(write_text("a", "new", &reason), STATUS_OK);
+  expect_text("a", "new");
+  expect_text("other", "old and longer"); /* never written in place */
+  assert_int_equal(mode_of("a"), 0640);
+}
+
+static void symbolic_link_is_followed(void **state)
+{
+  (void)state;
+  int reason;
+  put("a", "old");
+  assert_int_equal(symlink("a", "link"), 0);
+  assert_int_equal(write_text("link", "new", &reason), STATUS_OK);
+  expect_text("a", "new");
+  struct stat info;
+  assert_int_equal(lstat("link", &info), 0);
+  assert_true(S_ISLNK(info.st_mode));
+}
+
+static void impossible_names_have_their_reasons(void **state)
+{
+  (void)state;
+  char long_name[300];
+  memset(long_name, 'x', sizeof long_name - 1);
+  long_name[sizeof long_name - 1] = '\0';
+  assert_int_equal(symlink("nowhere", "dangling"), 0);
+  const struct {
+    const char *path;
+    int reason;
+  } cases[] = { { "", ENOENT },       { ".", EISDIR },      { "no/such/folder", ENOENT },
+                { "/dev/null/x", ENOTDIR }, { long_name, ENAMETOOLONG }, { "dangling", ENOENT } };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    int reason = 0;
+    assert_int_equal(atomic_file_probe(cases[k].path, &reason), STATUS_FILE);
+    assert_int_equal(reason, cases[k].reason);
+    assert_int_equal(write_text(cases[k].path, "text", &reason), STATUS_FILE);
+    assert_int_equal(reason, cases[k].reason);
+  }
+  assert_int_equal(count_entries(), 1);
+}
+
+static void device_is_written_to_not_replaced(void **state)
+{
+  (void)state;
+  int reason = 0;
+  if (access("/dev/full", W_OK) != 0)
+    skip();
+  assert_int_equal(symlink("/dev/full", "full"), 0);
+  assert_int_equal(atomic_file_probe("full", &reason), STATUS_OK);
+  assert_int_equal(write_text("full", "text", &reason), STATUS_FILE);
+  assert_int_equal(reason, ENOSPC);
+  struct stat info;
+  assert_int_equal(stat("full", &info), 0);
+  assert_true(S_ISCHR(info.st_mode));
+}
+
+static void stopped_write_leaves_the_old_file(void **state)
+{
+  (void)state;
+  int reason = 0;
+  atomic_int stop = 1;
+  put("a", "old");
+  assert_int_equal(atomic_file_write("a", "new", 3, &stop, &reason), STATUS_INTERRUPTED);
+  expect_text("a", "old");
+  assert_int_equal(count_entries(), 1);
+}
+
+static void leftovers_of_others_do_not_disturb(void **state)
+{
+  (void)state;
+  char name[64];
+  int reason;
+  snprintf(name, sizeof name, ".pscn-%ld-0.tmp", (long)getpid());
+  put(name, "left over");
+  assert_int_equal(write_text("a", "text", &reason), STATUS_OK);
+  expect_text("a", "text");
+  expect_text(name, "left over");
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    IN_FOLDER(new_file_has_the_masks_permissions),
+    IN_FOLDER(old_file_is_replaced_and_keeps_its_permissions),
+    IN_FOLDER(symbolic_link_is_followed),
+    IN_FOLDER(impossible_names_have_their_reasons),
+    IN_FOLDER(device_is_written_to_not_replaced),
+    IN_FOLDER(stopped_write_leaves_the_old_file),
+    IN_FOLDER(leftovers_of_others_do_not_disturb),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,49 @@
+/* Lists of channels. */
+#include "render/channels.h"
+
+#include <string.h>
+
+#include "cmocka_test.h"
+
+static void every_channel_is_found(void **state)
+{
+  (void)state;
+  struct channel_list list;
+  const char *bad;
+  size_t length, width = 0;
+  assert_true(channel_list_parse("status,normal,patch,v,u,depth,coverage,rgb", &list, &bad, &length));
+  assert_int_equal(list.count, CHANNEL_KINDS);
+  for (int k = 0; k < CHANNEL_KINDS; k++) {
+    assert_int_equal(list.kind[k], CHANNEL_KINDS - 1 - k);
+    width += channel_traits((enum channel_kind)k)->width;
+  }
+  assert_int_equal(list.width, width);
+}
+
+static void wrong_lists_are_refused(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *text, *bad;
+  } cases[] = { { "", "" },          { "rgb,", "" },      { ",rgb", "" },         { "rgb,z,u", "z" },
+                { "u,rgb,u", "u" },  { "RGB", "RGB" },    { "rgb, u", " u" },     { "normal.x", "normal.x" },
+                { "dept", "dept" } };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    struct channel_list list = { .count = 99 };
+    const char *bad;
+    size_t length;
+    assert_false(channel_list_parse(cases[k].text, &list, &bad, &length));
+    assert_int_equal(length, strlen(cases[k].bad));
+    assert_memory_equal(bad, cases[k].bad, length);
+    assert_int_equal(list.count, 99);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_channel_is_found),
+    cmocka_unit_test(wrong_lists_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,197 @@
+/* Pictures to and from files. */
+#include "image/image_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cmocka_test.h"
+#include "image/srgb.h"
+
+enum { WIDTH = 5, HEIGHT = 3 };
+
+/* OpenImageIO turns codes into floats by one rounded factor and one rounded product: two units of the last place of 1. */
+static const double FLOAT_SLACK = 0x1p-23;
+
+static char path[64]; /* of the file of the test that runs */
+
+static int make_path(void **state)
+{
+  (void)state;
+  snprintf(path, sizeof path, "/tmp/pscn-test-%ld", (long)getpid());
+  return 0;
+}
+
+static int remove_path(void **state)
+{
+  (void)state;
+  unlink(path);
+  return 0;
+}
+
+static struct image picture(size_t channels, const char *const names[])
+{
+  struct image image;
+  assert_int_equal(image_create(WIDTH, HEIGHT, channels, &image), STATUS_OK);
+  for (size_t c = 0; c < channels; c++)
+    snprintf(image.channel[c].name, IMAGE_NAME_SIZE, "%s", names[c]);
+  for (size_t k = 0; k < WIDTH * HEIGHT * channels; k++)
+    image.value[k] = (float)((double)k / (WIDTH * HEIGHT * (double)channels - 1));
+  return image;
+}
+
+/* Encodes, writes, reads back. */
+static struct image there_and_back(const struct image *image, const struct image_encoding *encoding)
+{
+  unsigned char *bytes;
+  size_t size;
+  char message[IMAGE_MESSAGE_SIZE];
+  const enum status encoded = image_encode(image, encoding, &bytes, &size, message);
+  if (encoded != STATUS_OK)
+    print_error("%s\n", message);
+  assert_int_equal(encoded, STATUS_OK);
+  FILE *file = fopen(path, "wb");
+  assert_non_null(file);
+  assert_int_equal(fwrite(bytes, 1, size, file), size);
+  assert_int_equal(fclose(file), 0);
+  free(bytes);
+  struct image back;
+  const enum status status = image_read(path, &back, message);
+  if (status != STATUS_OK)
+    print_error("%s\n", message);
+  assert_int_equal(status, STATUS_OK);
+  assert_int_equal(back.width, image->width);
+  assert_int_equal(back.height, image->height);
+  assert_int_equal(back.channel_count, image->channel_count);
+  return back;
+}
+
+static void png_holds_the_nearest_codes(void **state)
+{
+  (void)state;
+  const char *const names[] = { "R", "G", "B" };
+  struct image image = picture(3, names);
+  image.value[0] = 7; /* clipped */
+  for (int bits = 8; bits <= 16; bits += 8) {
+    const struct image_encoding encoding = { .format = IMAGE_PNG, .bits = bits };
+    struct image back = there_and_back(&image, &encoding);
+    const double codes = bits == 8 ? 255 : 65535;
+    for (size_t k = 0; k < WIDTH * HEIGHT * 3; k++) {
+      const double code = floor(srgb_encode((double)image.value[k]) * codes + 0.5);
+      assert_true(fabs((double)back.value[k] * codes - code) < FLOAT_SLACK * codes);
+    }
+    image_destroy(&back);
+  }
+  image_destroy(&image);
+}
+
+static void encoded_values_take_no_curve(void **state)
+{
+  (void)state;
+  const char *const names[] = { "Y" };
+  struct image image = picture(1, names);
+  const struct image_encoding encoding = { .format = IMAGE_PNG, .bits = 8, .encoded = true };
+  struct image back = there_and_back(&image, &encoding);
+  for (size_t k = 0; k < WIDTH * HEIGHT; k++)
+    assert_true(fabs((double)back.value[k] * 255 - floor((double)image.value[k] * 255 + 0.5)) < FLOAT_SLACK * 255);
+  image_destroy(&back);
+  image_destroy(&image);
+}
+
+/* Colours as half, data as float, found by name whatever the order in the file. */
+static void exr_keeps_values_and_names(void **state)
+{
+  (void)state;
+  const char *const names[] = { "R", "G", "B", "depth", "normal.x" };
+  struct image image = picture(5, names);
+  image.channel[3].data = image.channel[4].data = true;
+  image.value[0] = 7.0f + 1.0f / 4096; /* 7 in half */
+  image.value[3] = INFINITY;
+  image.value[4] = -1.0f - 1.0f / (1 << 20);
+  for (int bits = 16; bits <= 32; bits += 16) {
+    const struct image_encoding encoding = { .format = IMAGE_EXR, .bits = bits };
+    struct image back = there_and_back(&image, &encoding);
+    for (size_t c = 0; c < 5; c++) {
+      const size_t found = image_find_channel(&back, names[c]);
+      assert_true(found < 5);
+      const double relative = bits == 16 && c < 3 ? 0x1p-11 : 0; /* half an ulp of half */
+      for (size_t k = 0; k < WIDTH * HEIGHT; k++) {
+        const float written = image.value[5 * k + c], read = back.value[5 * k + found];
+        assert_true(read == written || fabs((double)read - (double)written) <= relative * (double)written);
+      }
+    }
+    assert_true(back.value[image_find_channel(&back, "R")] == (bits == 16 ? 7.0f : image.value[0]));
+    image_destroy(&back);
+  }
+  image_destroy(&image);
+}
+
+static void png_refuses_five_channels(void **state)
+{
+  (void)state;
+  const char *const names[] = { "a", "b", "c", "d", "e" };
+  struct image image = picture(5, names);
+  unsigned char *bytes;
+  size_t size;
+  char message[IMAGE_MESSAGE_SIZE];
+  const struct image_encoding encoding = { .format = IMAGE_PNG, .bits = 8 };
+  assert_int_equal(image_encode(&image, &encoding, &bytes, &size, message), STATUS_FILE);
+  assert_null(bytes);
+  assert_true(message[0] != '\0');
+  image_destroy(&image);
+}
+
+static void unreadable_files_are_told(void **state)
+{
+  (void)state;
+  static const char *const texts[] = { "", "no picture at all\n", "\x89PNG\r\n\x1a\n", "\x76\x2f\x31\x01" };
+  char message[IMAGE_MESSAGE_SIZE];
+  struct image image;
+  unlink(path);
+  assert_int_equal(image_read(path, &image, message), STATUS_FILE);
+  assert_string_equal(message, "No such file or directory");
+  for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fputs(texts[k], file);
+    fclose(file);
+    assert_int_equal(image_read(path, &image, message), STATUS_FILE);
+    assert_true(message[0] != '\0' && strchr(message, '\n') == NULL);
+    assert_null(image.value);
+  }
+}
+
+static void suffixes_choose_formats(void **state)
+{
+  (void)state;
+  enum image_format format;
+  assert_true(image_format_of("a.png", &format) && format == IMAGE_PNG);
+  assert_true(image_format_of("b/a.b.EXR", &format) && format == IMAGE_EXR);
+  static const char *const none[] = { "", "png", ".png", "a/.png", "a.png/b", "a.jpg", "a.png ", "a.pn" };
+  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++)
+    assert_false(image_format_of(none[k], &format));
+}
+
+static void absurd_sizes_are_refused(void **state)
+{
+  (void)state;
+  struct image image;
+  assert_int_equal(image_create(SIZE_MAX / 2, 3, 3, &image), STATUS_LIMIT);
+  assert_int_equal(image_create(SIZE_MAX / 8, 1, 3, &image), STATUS_LIMIT);
+  assert_null(image.value);
+}
+
+#define WITH_FILE(test) cmocka_unit_test_setup_teardown(test, make_path, remove_path)
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    WITH_FILE(png_holds_the_nearest_codes), WITH_FILE(encoded_values_take_no_curve),
+    WITH_FILE(exr_keeps_values_and_names),  cmocka_unit_test(png_refuses_five_channels),
+    WITH_FILE(unreadable_files_are_told),   cmocka_unit_test(suffixes_choose_formats),
+    cmocka_unit_test(absurd_sizes_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

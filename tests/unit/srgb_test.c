@@ -1,0 +1,78 @@
+/* The sRGB transfer function. */
+#include "image/srgb.h"
+
+#include <math.h>
+
+#include "cmocka_test.h"
+
+static void known_values(void **state)
+{
+  (void)state;
+  /* IEC 61966-2-1: the ends, the linear part, and middle grey to the standard's own precision. */
+  assert_true(srgb_encode(0) == 0 && fabs(srgb_encode(1) - 1) < 1e-15);
+  assert_true(fabs(srgb_encode(0.001) - 0.01292) < 1e-15);
+  assert_true(fabs(srgb_encode(0.5) - 0.735356983052) < 1e-11);
+  assert_true(fabs(srgb_decode(0.5) - 0.214041140482) < 1e-11);
+}
+
+static void outside_is_clipped(void **state)
+{
+  (void)state;
+  struct srgb_table table;
+  srgb_table_fill(&table);
+  const float low[] = { -1.0f, -INFINITY, NAN, -0.0f }, high[] = { 1.5f, INFINITY };
+  for (size_t k = 0; k < sizeof low / sizeof low[0]; k++) {
+    assert_int_equal(srgb_encode8(&table, low[k]), 0);
+    assert_int_equal(srgb_encode16(low[k]), 0);
+    assert_int_equal(code8(low[k]), 0);
+    assert_int_equal(code16(low[k]), 0);
+  }
+  for (size_t k = 0; k < sizeof high / sizeof high[0]; k++) {
+    assert_int_equal(srgb_encode8(&table, high[k]), 255);
+    assert_int_equal(srgb_encode16(high[k]), 65535);
+    assert_int_equal(code8(high[k]), 255);
+    assert_int_equal(code16(high[k]), 65535);
+  }
+}
+
+static void every_code_survives(void **state)
+{
+  (void)state;
+  struct srgb_table table;
+  srgb_table_fill(&table);
+  for (int k = 0; k <= 255; k++) {
+    assert_int_equal(srgb_encode8(&table, (float)srgb_decode(k / 255.0)), k);
+    assert_int_equal(code8((float)(k / 255.0)), k);
+  }
+  for (int k = 0; k <= 65535; k++) {
+    assert_int_equal(srgb_encode16((float)srgb_decode(k / 65535.0)), k);
+    assert_int_equal(code16((float)(k / 65535.0)), k);
+  }
+}
+
+/* The table answers what the formula rounds to, on both sides of every bound and in between. */
+static void table_is_the_formula(void **state)
+{
+  (void)state;
+  struct srgb_table table;
+  srgb_table_fill(&table);
+  for (int k = 0; k < 255; k++) {
+    const float bound = table.bound[k];
+    const float samples[] = { nextafterf(bound, 0.0f), bound, nextafterf(bound, 1.0f), bound * 1.003f };
+    for (int s = 0; s < 4; s++) {
+      const int expected = (int)floor(srgb_encode((double)samples[s]) * 255 + 0.5);
+      assert_int_equal(srgb_encode8(&table, samples[s]), expected);
+    }
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(known_values),
+    cmocka_unit_test(outside_is_clipped),
+    cmocka_unit_test(every_code_survives),
+    cmocka_unit_test(table_is_the_formula),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
