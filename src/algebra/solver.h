@@ -9,36 +9,25 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { POLYNOMIAL_MAX_DEGREE = 64 };
-
-enum basis {
-  BASIS_BERNSTEIN, /* scaled Bernstein: p(u) = sum c[k] u^k (1-u)^(n-k), so c[k] = C(n,k) times the Bernstein coefficient */
-  BASIS_POWER      /* p(u) = sum c[k] u^k */
-};
-
-/* A real polynomial of formal degree n = degree, 1 <= n <= POLYNOMIAL_MAX_DEGREE. Borrowed pointers. */
-struct polynomial {
-  int degree;
-  enum basis basis;
-  const double *c;     /* n + 1 coefficients, c[k] belongs to u^k */
-  const double *error; /* n + 1 absolute bounds on how far each c[k] is from the true one, or NULL where c is exact */
-};
+#include "algebra/polynomial.h"
 
 enum root_status {
-  ROOT_CONVERGED, /* the true polynomial has a root within radius of the value */
+  ROOT_CONVERGED, /* the solver's stopping rule was met, and the true polynomial has a root within radius of the value */
   ROOT_LIMIT,     /* the iteration limit came first; the radius is still a true bound, possibly infinite */
-  ROOT_CLUSTER    /* several roots share one inclusion disc */
+  ROOT_CLUSTER    /* as converged, but the disc meets that of another root: they may be one multiple root, or none of them real */
 };
 
 struct root {
-  double re, im;
+  double re, im; /* im is 0 wherever the disc meets the real axis, that is, wherever a real root cannot be excluded */
   double radius; /* absolute: at least one root of p lies within it (disc in the complex plane of u); may be INFINITY */
   int iterations;
   enum root_status status;
 };
 
-/* The roots found, in no promised order. Roots at infinity (vanishing leading coefficients) are not listed. A polynomial
- * that is zero within its own error, or not finite, gives identically_zero or not_finite and no roots. */
+/* The roots found, in no promised order. Roots at infinity (vanishing leading coefficients, or roots that their bound does
+ * not tell from infinity) are not listed. A polynomial that is zero within its own error, or not finite, gives
+ * identically_zero or not_finite and no roots. Exact zero coefficients at the ends are exact roots at 0 (and in Bernstein form
+ * at 1) with radius 0, one entry for each multiplicity. */
 struct root_set {
   int count;
   bool identically_zero;
@@ -51,6 +40,8 @@ enum resultant { RESULTANT_BEZOUT, RESULTANT_SYLVESTER };
 enum back_substitution { BACK_SUBSTITUTION_NULL_VECTOR, BACK_SUBSTITUTION_EUCLID };
 
 struct solver;
+struct root_problem;   /* internal: root_problem.h */
+struct root_estimates; /* internal: root_problem.h */
 
 /* What one `solver` statement says. Filled by solver_options_default, then changed item by item. */
 struct solver_options {
@@ -75,9 +66,11 @@ struct solver {
   const char *name;    /* the keyword in a scene */
   const char *summary; /* one line for `pscn help` */
   bool real_only;      /* finds only real roots in [0,1] */
-  /* warm may be NULL; with start previous it is read, and afterwards holds the new roots. */
-  void (*solve)(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
-                struct root_set *out);
+  double tolerance;    /* what a bare `solver NAME` means */
+  int max_iterations;
+  /* The method itself; solver_solve calls it. Contract in root_problem.h. */
+  void (*find)(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
+               struct root_estimates *out);
 };
 
 /* The table: bernstein first (the default). */
@@ -105,7 +98,9 @@ struct solver_item {
 size_t solver_item_count(void);
 const struct solver_item *solver_item_at(size_t index);
 
-/* Solves p with options->solver and judges the answer: radii and statuses are set by one validation shared by all solvers. */
+/* Solves p with options->solver and judges the answer: radii and statuses are set by one validation shared by all solvers.
+ * p may be in either basis: the roots are found in p's own (options->basis is for the caller, who forms p). warm may be NULL;
+ * with start previous it is read, and afterwards holds the new roots. */
 void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out);
 

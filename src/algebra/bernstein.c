@@ -1,0 +1,302 @@
+/* Real roots in [0,1]: sign variations in Bernstein form, bisection, and bracketed Newton.
+ *
+ * By Descartes' rule in Bernstein form the sign variations of the coefficients over an interval bound its number of roots
+ * and have its parity: 0 proves none, 1 exactly one. Other intervals are halved by de Casteljau's algorithm. A coefficient
+ * within its own error bound has no sign; an interval that cannot be decided because of that is halved until it can, or until
+ * nothing in it has a sign (the polynomial is not told from zero there): a tangency, a multiple root, or no root at all by less
+ * than the error. Such intervals are not lost but answered as clusters, by the local parabola.
+ */
+#include <string.h>
+
+#include "algebra/root_problem.h"
+
+/* Halving ends at 2^-48: below, an interval near 1 has too few doubles in it to be halved. */
+enum { DEEPEST = 48 };
+
+/* Intervals looked at before the rest is given back as undecided. Decided ones need 2 DEEPEST a root at most. */
+enum { MOST_INTERVALS = 2 * DEEPEST * POLYNOMIAL_MAX_DEGREE };
+
+struct interval {
+  double low, width;
+  int level;
+  double b[POLYNOMIAL_MAX_DEGREE + 1]; /* Bernstein coefficients over the interval (not scaled) */
+  double error[POLYNOMIAL_MAX_DEGREE + 1];
+};
+
+struct search {
+  const struct solver_options *options;
+  struct evaluation p;
+  int degree;
+  struct root_estimates *out;
+  double joint;        /* where the interval to the left ended in a root not told from its end; -1 where it did not */
+  double cluster_low, cluster_high; /* pending undecided intervals, joined; none while low > high */
+};
+
+/* p in a chart of its own: z = u/(1-u), (1-u)/u, or u itself in the power basis. */
+struct chart {
+  bool reversed, power;
+};
+
+static struct chart chart_at(const struct search *search, double u)
+{
+  const bool power = search->p.basis == BASIS_POWER;
+  return (struct chart){.reversed = !power && u > 0.5, .power = power};
+}
+
+static double chart_from_u(struct chart chart, double u)
+{
+  return chart.power ? u : chart.reversed ? (1.0 - u) / u : u / (1.0 - u);
+}
+
+static double chart_to_u(struct chart chart, double z)
+{
+  return chart.power ? z : chart.reversed ? 1.0 / (1.0 + z) : z / (1.0 + z);
+}
+
+/* The Newton step p/p' in u, the sign of p in [0,1], and whether p is told from zero. */
+struct probe {
+  double newton;
+  int sign; /* 0: not told from zero */
+};
+
+static struct probe probe_at(const struct search *search, double u)
+{
+  const struct chart chart = chart_at(search, u);
+  const struct evaluation_real q = evaluation_at_real(&search->p, chart_from_u(chart, u), chart.reversed);
+  struct probe out;
+  if (chart.power) {
+    out.newton = q.value / q.slope;
+  } else { /* p = w^n q, p' = w^(n-2) (q' - n w q) with w = 1 - u, or w^(n-2) (n w q - q') with w = u */
+    const double w = chart.reversed ? u : 1.0 - u;
+    const double slope = chart.reversed ? search->degree * w * q.value - q.slope : q.slope - search->degree * w * q.value;
+    out.newton = w * w * q.value / slope;
+  }
+  out.sign = fabs(q.value) <= q.error ? 0 : q.value > 0.0 ? 1 : -1;
+  return out;
+}
+
+/* The one root between low and high, where p has the signs `low_sign` and its opposite. A Newton step is taken where it stays
+ * in the bracket and is at most half the step before the last; otherwise the bracket is halved. */
+static void bracketed_newton(struct search *search, double low, double high, int low_sign, double start)
+{
+  double u = start, last_step = high - low, step_before = high - low;
+  int spent = 0;
+  bool converged = false;
+  while (spent < search->options->max_iterations && !converged) {
+    spent++;
+    const struct probe probe = probe_at(search, u);
+    double next = u - probe.newton;
+    if (probe.sign == 0) {
+      converged = true; /* one last step, if it stays */
+      u = next > low && next < high ? next : u;
+      break;
+    }
+    if (probe.sign == low_sign) {
+      low = u;
+    } else {
+      high = u;
+    }
+    if (!(next > low && next < high) || fabs(next - u) > 0.5 * step_before) {
+      next = low + 0.5 * (high - low);
+    }
+    step_before = last_step;
+    last_step = fabs(next - u);
+    converged = last_step < search->options->tolerance || next == low || next == high;
+    u = next;
+  }
+  root_estimates_add(search->out, u, 0.0, spent, converged, false);
+}
+
+/* Where the control polygon of the interval crosses zero, given that it does so once. */
+static double polygon_crossing(const struct interval *part, int n)
+{
+  int k = 1;
+  while (k < n && (part->b[k] > 0.0) == (part->b[0] > 0.0)) {
+    k++;
+  }
+  const double rise = part->b[k] - part->b[k - 1];
+  const double inside = rise != 0.0 ? -part->b[k - 1] / rise : 0.5;
+  return part->low + part->width * (k - 1 + inside) / n;
+}
+
+/* A root within the error of the point u, an end of an interval on which p is monotone there. */
+static void add_end_root(struct search *search, double u, double width)
+{
+  int spent = 0;
+  double at = u;
+  bool moving = true;
+  while (moving && spent < search->options->max_iterations) {
+    spent++;
+    const struct probe probe = probe_at(search, at);
+    const double next = fmin(fmax(at - probe.newton, 0.0), 1.0);
+    moving = probe.sign != 0 && fabs(next - at) >= search->options->tolerance;
+    if (!(fabs(next - u) <= width)) {
+      break; /* not finite, or gone: the end itself is the candidate */
+    }
+    at = next;
+  }
+  root_estimates_add(search->out, at, 0.0, spent, !moving, false);
+}
+
+/* Answers the pending undecided stretch: the two roots of the parabola that p is like there, or its vertex. */
+static void flush_cluster(struct search *search)
+{
+  if (search->cluster_low > search->cluster_high) {
+    return;
+  }
+  const double low = search->cluster_low, high = search->cluster_high, middle = low + 0.5 * (high - low);
+  search->cluster_low = 1.0;
+  search->cluster_high = 0.0;
+  const struct chart chart = chart_at(search, middle);
+  const double *c = chart.reversed ? search->p.reverse : search->p.forward;
+  const double z0 = chart_from_u(chart, middle);
+  double value = c[search->degree], slope = 0.0, half_curvature = 0.0;
+  for (int k = search->degree - 1; k >= 0; k--) {
+    half_curvature = half_curvature * z0 + slope;
+    slope = slope * z0 + value;
+    value = value * z0 + c[k];
+  }
+  const double vertex = -0.5 * slope / half_curvature;
+  const double spread = sqrt(fmax(vertex * vertex - value / half_curvature, 0.0));
+  const double left = chart_to_u(chart, z0 + vertex - spread), right = chart_to_u(chart, z0 + vertex + spread);
+  const bool inside = left >= low && left <= high && right >= low && right <= high;
+  if (!inside) {
+    root_estimates_add(search->out, middle, 0.0, 1, true, true);
+    return;
+  }
+  root_estimates_add(search->out, left, 0.0, 1, true, true);
+  if (right != left) {
+    root_estimates_add(search->out, right, 0.0, 1, true, true);
+  }
+}
+
+static void add_undecided(struct search *search, const struct interval *part)
+{
+  if (search->cluster_high == part->low && search->cluster_low <= search->cluster_high) {
+    search->cluster_high = part->low + part->width;
+    return;
+  }
+  flush_cluster(search);
+  search->cluster_low = part->low;
+  search->cluster_high = part->low + part->width;
+}
+
+/* Tells what the signs over an interval say; true where it has to be halved. */
+static bool examine(struct search *search, const struct interval *part)
+{
+  const int n = search->degree;
+  const struct sign_variations all = polynomial_sign_variations(n, part->b, part->error);
+  const bool low_open = fabs(part->b[0]) <= part->error[0], high_open = fabs(part->b[n]) <= part->error[n];
+  if (all.most == 0 && !low_open && !high_open) {
+    return false;
+  }
+  bool any_sign = false;
+  for (int k = 0; k <= n; k++) {
+    any_sign = any_sign || fabs(part->b[k]) > part->error[k];
+  }
+  if (!any_sign || part->level >= DEEPEST) {
+    add_undecided(search, part);
+    return false;
+  }
+  const double high = part->low + part->width;
+  if (!low_open && !high_open) {
+    if (all.most == 1) {
+      bracketed_newton(search, part->low, high, part->b[0] > 0.0 ? 1 : -1, polygon_crossing(part, n));
+    }
+    return all.most > 1;
+  }
+  /* Undecided ends and one sign between them: at most a root at either. The interval on the other side sees it too. */
+  const int first = low_open ? 1 : 0, last = high_open ? n - 1 : n;
+  if (last <= first && n > 1) {
+    return true;
+  }
+  const struct sign_variations inner =
+    polynomial_sign_variations(last - first, part->b + first, part->error + first);
+  if (inner.most != 0 || fabs(part->b[first]) <= part->error[first] || fabs(part->b[last]) <= part->error[last]) {
+    return true;
+  }
+  if (low_open && search->joint != part->low && search->cluster_high != part->low) {
+    add_end_root(search, part->low, part->width);
+  }
+  if (high_open) {
+    add_end_root(search, high, part->width);
+    search->joint = high;
+  }
+  return false;
+}
+
+/* De Casteljau at the middle. The errors go the same way, and each mean of two adds a rounding. */
+static void halve(struct interval *part, int n, struct interval *out_right)
+{
+  out_right->width = part->width = 0.5 * part->width;
+  out_right->low = part->low + part->width;
+  out_right->level = part->level = part->level + 1;
+  double b[POLYNOMIAL_MAX_DEGREE + 1], error[POLYNOMIAL_MAX_DEGREE + 1];
+  const size_t bytes = sizeof b[0] * (size_t)(n + 1);
+  memcpy(b, part->b, bytes);
+  memcpy(error, part->error, bytes);
+  for (int k = 0; k <= n; k++) {
+    part->b[k] = b[0];
+    part->error[k] = error[0];
+    out_right->b[n - k] = b[n - k];
+    out_right->error[n - k] = error[n - k];
+    for (int i = 0; i < n - k; i++) {
+      b[i] = 0.5 * (b[i] + b[i + 1]);
+      error[i] = (0.5 * (error[i] + error[i + 1]) + fabs(b[i]) * UNIT_ROUNDOFF) * (1.0 + 4 * UNIT_ROUNDOFF);
+    }
+  }
+}
+
+static void first_interval(const struct root_problem *problem, struct interval *out)
+{
+  const struct polynomial p = {problem->degree, problem->basis, problem->c, problem->error};
+  polynomial_to_bernstein(&p, out->b, out->error);
+  for (int k = 0; k <= problem->degree; k++) {
+    const double binomial = polynomial_binomial(problem->degree, k);
+    out->b[k] /= binomial;
+    out->error[k] = (out->error[k] / binomial) * (1.0 + 8 * UNIT_ROUNDOFF);
+    out->error[k] += binomial == 1.0 ? 0.0 : 2 * UNIT_ROUNDOFF * fabs(out->b[k]);
+  }
+  out->low = 0.0;
+  out->width = 1.0;
+  out->level = 0;
+}
+
+void bernstein_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
+                    struct root_estimates *out)
+{
+  (void)warm; /* nothing to start from: the signs lead to every root */
+  out->count = 0;
+  if (problem->basis == BASIS_BERNSTEIN &&
+      polynomial_sign_variations(problem->degree, problem->c, problem->error).most == 0) {
+    return; /* end coefficients are not zero here, and all have one sign */
+  }
+  struct search search = {
+    .options = options, .degree = problem->degree, .out = out, .joint = -1.0, .cluster_low = 1.0, .cluster_high = 0.0};
+  evaluation_prepare(problem->degree, problem->basis, problem->c, NULL, &search.p);
+
+  /* Depth first from the left: stack[top] is the leftmost interval not yet examined. */
+  struct interval stack[DEEPEST + 2];
+  int top = 0;
+  first_interval(problem, &stack[0]);
+  for (int seen = 0; top >= 0; seen++) {
+    struct interval *part = &stack[top];
+    if (seen >= MOST_INTERVALS) {
+      add_undecided(&search, part);
+      top--;
+    } else if (!examine(&search, part)) {
+      top--;
+    } else {
+      /* The right half stays below the left one. */
+      struct interval *left = &stack[top + 1];
+      left->low = part->low;
+      left->width = part->width;
+      left->level = part->level;
+      memcpy(left->b, part->b, sizeof left->b[0] * (size_t)(problem->degree + 1));
+      memcpy(left->error, part->error, sizeof left->error[0] * (size_t)(problem->degree + 1));
+      halve(left, problem->degree, part);
+      top++;
+    }
+  }
+  flush_cluster(&search);
+}

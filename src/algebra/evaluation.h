@@ -1,0 +1,92 @@
+/* A polynomial made ready to be evaluated at many points, with a bound on every value. Internal to src/algebra.
+ *
+ * Charts. Either basis is a plain polynomial q of one variable: q(u) itself in the power basis, and in scaled Bernstein form
+ * q(x) with x = u/(1-u), because p(u) = (1-u)^n q(x). Where the variable is larger than 1 in modulus the reversed polynomial
+ * in its reciprocal is used, so that no power ever overflows: the chart variable z always has |z| <= 1 (up to rounding).
+ *
+ * Bounds. A complex product has a relative error below sqrt(5) U, a sum below U (U = 2^-53), so that c[k], which passes k
+ * products and k + 1 sums, brings at most (3.24 k + 1) U |c[k]| |z|^k of error; the weights (4 k + 2) U |c[k]| leave room for the
+ * rounding of the bound itself and for |z| exceeding its true value by a few U. The same paths lead to the derivative, so the
+ * derivative of the bound polynomial bounds the error of the derivative.
+ */
+#ifndef PSCN_ALGEBRA_EVALUATION_H
+#define PSCN_ALGEBRA_EVALUATION_H
+
+#include "algebra/lanes.h"
+#include "algebra/polynomial.h"
+
+/* Unit roundoff of double, and the room left for rounding in sums of positive bounds (over 200 operations). */
+#define UNIT_ROUNDOFF 0x1p-53
+#define BOUND_ROOM (1.0 + 0x1p-44)
+
+/* All underflow in one evaluation of coefficients scaled to at most 1: under 65 * 65 * 16 operations of 2^-1074 each. */
+#define UNDERFLOW_ERROR 0x1p-1057
+
+struct evaluation {
+  int degree;
+  enum basis basis;
+  double forward[POLYNOMIAL_MAX_DEGREE + 1]; /* ascending powers of x */
+  double reverse[POLYNOMIAL_MAX_DEGREE + 1]; /* ascending powers of 1/x */
+  double forward_bound[POLYNOMIAL_MAX_DEGREE + 1];
+  double reverse_bound[POLYNOMIAL_MAX_DEGREE + 1];
+};
+
+/* `error` may be NULL. */
+void evaluation_prepare(int degree, enum basis basis, const double c[], const double error[], struct evaluation *out);
+
+/* q and q' of the chart polynomial at eight chart points z, and bounds on their errors. Lanes of `reversed` take 1/x. */
+struct evaluation_lanes {
+  lanes re, im, slope_re, slope_im, error, slope_error;
+};
+
+LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lanes zi, lane_mask reversed,
+                                      struct evaluation_lanes *out)
+{
+  const int n = p->degree;
+  const lanes modulus = lanes_sqrt(zr * zr + zi * zi);
+  lanes re = lanes_select(reversed, lanes_all(p->reverse[n]), lanes_all(p->forward[n]));
+  lanes error = lanes_select(reversed, lanes_all(p->reverse_bound[n]), lanes_all(p->forward_bound[n]));
+  lanes im = {0}, slope_re = {0}, slope_im = {0}, slope_error = {0};
+  for (int k = n - 1; k >= 0; k--) {
+    const lanes c = lanes_select(reversed, lanes_all(p->reverse[k]), lanes_all(p->forward[k]));
+    const lanes b = lanes_select(reversed, lanes_all(p->reverse_bound[k]), lanes_all(p->forward_bound[k]));
+    const lanes next_slope_re = slope_re * zr - slope_im * zi + re;
+    slope_im = slope_re * zi + slope_im * zr + im;
+    slope_re = next_slope_re;
+    const lanes next_re = re * zr - im * zi + c;
+    im = re * zi + im * zr;
+    re = next_re;
+    slope_error = slope_error * modulus + error;
+    error = error * modulus + b;
+  }
+  out->re = re;
+  out->im = im;
+  out->slope_re = slope_re;
+  out->slope_im = slope_im;
+  out->error = error + UNDERFLOW_ERROR;
+  out->slope_error = slope_error + UNDERFLOW_ERROR;
+}
+
+/* The same at one real chart point. */
+struct evaluation_real {
+  double value, slope, error, slope_error;
+};
+
+static inline struct evaluation_real evaluation_at_real(const struct evaluation *p, double z, bool reversed)
+{
+  const double *c = reversed ? p->reverse : p->forward;
+  const double *bound = reversed ? p->reverse_bound : p->forward_bound;
+  const double modulus = fabs(z);
+  struct evaluation_real out = {.value = c[p->degree], .error = bound[p->degree]};
+  for (int k = p->degree - 1; k >= 0; k--) {
+    out.slope = out.slope * z + out.value;
+    out.value = out.value * z + c[k];
+    out.slope_error = out.slope_error * modulus + out.error;
+    out.error = out.error * modulus + bound[k];
+  }
+  out.error += UNDERFLOW_ERROR;
+  out.slope_error += UNDERFLOW_ERROR;
+  return out;
+}
+
+#endif

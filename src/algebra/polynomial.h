@@ -1,0 +1,52 @@
+/* A real polynomial in one of two bases, and what can be said of its value with proof.
+ *
+ * Every value comes with a bound on its distance from the value of the true polynomial: rounding of the evaluation plus the
+ * caller's own bounds on the coefficients. Nothing here allocates, fails or keeps state.
+ */
+#ifndef PSCN_ALGEBRA_POLYNOMIAL_H
+#define PSCN_ALGEBRA_POLYNOMIAL_H
+
+#include <stdbool.h>
+
+enum { POLYNOMIAL_MAX_DEGREE = 64 };
+
+enum basis {
+  BASIS_BERNSTEIN, /* scaled Bernstein: p(u) = sum c[k] u^k (1-u)^(n-k), so c[k] = C(n,k) times the Bernstein coefficient */
+  BASIS_POWER      /* p(u) = sum c[k] u^k */
+};
+
+/* A real polynomial of formal degree n = degree, 1 <= n <= POLYNOMIAL_MAX_DEGREE. Borrowed pointers. */
+struct polynomial {
+  int degree;
+  enum basis basis;
+  const double *c;     /* n + 1 coefficients, c[k] belongs to u^k */
+  const double *error; /* n + 1 absolute bounds on how far each c[k] is from the true one, or NULL where c is exact */
+};
+
+/* Value and first derivative at a finite real u, each with a bound on its distance from the true one. The bounds are
+ * INFINITY where the arithmetic overflows. */
+struct polynomial_value {
+  double value, value_error;
+  double slope, slope_error;
+};
+
+struct polynomial_value polynomial_evaluate(const struct polynomial *p, double u);
+
+/* The same polynomial in the other basis. Writes degree + 1 coefficients and bounds (the old bounds carried over plus all
+ * rounding); the arrays must not overlap p's. A polynomial already in the wanted basis is copied. */
+void polynomial_to_bernstein(const struct polynomial *p, double out_c[], double out_error[]);
+void polynomial_to_power(const struct polynomial *p, double out_c[], double out_error[]);
+
+/* Sign changes in a sequence of n + 1 coefficients whose signs are known only where |c[k]| > error[k] (error may be NULL):
+ * the fewest and the most there can be. By Descartes' rule on scaled Bernstein (or Bernstein) coefficients, most = 0 proves
+ * that (0,1) holds no root, and fewest = most = 1 that it holds exactly one. */
+struct sign_variations {
+  int fewest, most;
+};
+
+struct sign_variations polynomial_sign_variations(int degree, const double c[], const double error[]);
+
+/* C(n,k), exact in double for n <= POLYNOMIAL_MAX_DEGREE as far as 2^53, correctly rounded beyond. */
+double polynomial_binomial(int n, int k);
+
+#endif

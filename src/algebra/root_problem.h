@@ -1,0 +1,86 @@
+/* What a solver of the table works on, and what it answers. Internal to src/algebra.
+ *
+ * solver_solve scales the polynomial (largest coefficient in [1/2, 1)), takes out the roots that zero coefficients at its ends
+ * show, and leaves the rest as a polynomial q of degree 1 or more in x, with c[0] and c[degree] not zero. In the power basis
+ * x = u; in scaled Bernstein form x = u/(1-u), and the same numbers c are the scaled Bernstein coefficients in u.
+ *
+ * A solver answers estimates of roots in u. What they are worth is judged afterwards, from the polynomial, in validation.c.
+ */
+#ifndef PSCN_ALGEBRA_ROOT_PROBLEM_H
+#define PSCN_ALGEBRA_ROOT_PROBLEM_H
+
+#include "algebra/evaluation.h"
+#include "algebra/solver.h"
+
+struct root_problem {
+  int degree;
+  enum basis basis;
+  double c[POLYNOMIAL_MAX_DEGREE + 1];     /* ascending powers of x */
+  double error[POLYNOMIAL_MAX_DEGREE + 1]; /* absolute bounds on the coefficients, all 0 where exact */
+};
+
+struct root_estimates {
+  int count;
+  double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE]; /* in u; not finite means infinity */
+  int iterations[POLYNOMIAL_MAX_DEGREE];
+  bool converged[POLYNOMIAL_MAX_DEGREE]; /* the stopping rule was met, not the iteration limit */
+  bool cluster[POLYNOMIAL_MAX_DEGREE];   /* stands for a root of unknown multiplicity, or for a pair that may not be real */
+};
+
+/* Between u and x. The point at infinity of either comes out as infinite or as NaN. */
+static inline void root_problem_u_from_x(enum basis basis, double *re, double *im)
+{
+  if (basis == BASIS_POWER) {
+    return;
+  }
+  const double x = *re, y = *im;
+  if (fabs(x) + fabs(y) < 1.0) { /* x / (1 + x) */
+    const double d = (1.0 + x) * (1.0 + x) + y * y;
+    *re = (x * (1.0 + x) + y * y) / d;
+    *im = y / d;
+  } else { /* 1 - 1/(1 + x), which keeps 1 - u accurate */
+    const double scale = fabs(1.0 + x) + fabs(y);
+    const double a = (1.0 + x) / scale, b = y / scale;
+    const double d = (a * a + b * b) * scale;
+    *re = 1.0 - a / d;
+    *im = b / d;
+  }
+}
+
+static inline void root_problem_x_from_u(enum basis basis, double *re, double *im)
+{
+  if (basis == BASIS_POWER) {
+    return;
+  }
+  const double a = 1.0 - *re, b = -*im; /* 1 - u */
+  const double d = a * a + b * b;
+  const double x = (*re * a + *im * b) / d;
+  *im = *im / d;
+  *re = x;
+}
+
+/* The rows of the table. */
+void bernstein_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
+                    struct root_estimates *out);
+void aberth_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
+                 struct root_estimates *out);
+
+/* Adds an estimate; one too many is dropped. */
+static inline void root_estimates_add(struct root_estimates *out, double re, double im, int iterations, bool converged,
+                                      bool cluster)
+{
+  if (out->count < POLYNOMIAL_MAX_DEGREE) {
+    out->re[out->count] = re;
+    out->im[out->count] = im;
+    out->iterations[out->count] = iterations;
+    out->converged[out->count] = converged;
+    out->cluster[out->count] = cluster;
+    out->count++;
+  }
+}
+
+/* Sets radius, status and im of every root of `roots`, from the polynomial with its coefficient errors, and drops the
+ * roots that cannot be told from infinity. On entry status is as the solver found it. */
+void validation_judge(const struct evaluation *p, struct root_set *roots);
+
+#endif

@@ -1,0 +1,232 @@
+/* The table of solvers, the items of a solver block, and the way every polynomial goes: scaled, stripped, solved, judged. */
+#include "algebra/solver.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "algebra/root_problem.h"
+
+/* One row a solver. The tolerance is eps of eq 10. */
+static const struct solver solvers[] = {
+  {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, 1e-12, 64,
+   bernstein_find},
+  {"aberth", "all roots at once by Aberth's method (eq 9 of the paper)", false, 1e-12, 100, aberth_find},
+};
+
+size_t solver_count(void)
+{
+  return sizeof solvers / sizeof solvers[0];
+}
+
+const struct solver *solver_at(size_t index)
+{
+  return index < solver_count() ? &solvers[index] : NULL;
+}
+
+const struct solver *solver_find(const char *name, size_t length)
+{
+  for (size_t i = 0; i < solver_count(); i++) {
+    if (strlen(solvers[i].name) == length && memcmp(solvers[i].name, name, length) == 0) {
+      return &solvers[i];
+    }
+  }
+  return NULL;
+}
+
+void solver_options_default(const struct solver *solver, struct solver_options *out)
+{
+  *out = (struct solver_options){
+    .solver = solver,
+    .tolerance = solver->tolerance,
+    .max_iterations = solver->max_iterations,
+    .start = START_COLD,
+    .basis = BASIS_BERNSTEIN,
+    .resultant = RESULTANT_BEZOUT,
+    .back_substitution = BACK_SUBSTITUTION_NULL_VECTOR,
+    .polish = true,
+    .split = 0,
+  };
+}
+
+/* The items of a solver block. One macro writes the two accessors of an item, whose C types differ. */
+#define ITEM_ACCESSORS(field, type)                                          \
+  static void set_##field(struct solver_options *options, double value)      \
+  {                                                                          \
+    options->field = (type)value;                                            \
+  }                                                                          \
+  static double get_##field(const struct solver_options *options)            \
+  {                                                                          \
+    return (double)options->field;                                           \
+  }
+
+ITEM_ACCESSORS(tolerance, double)
+ITEM_ACCESSORS(max_iterations, int)
+ITEM_ACCESSORS(start, enum start)
+ITEM_ACCESSORS(basis, enum basis)
+ITEM_ACCESSORS(resultant, enum resultant)
+ITEM_ACCESSORS(back_substitution, enum back_substitution)
+ITEM_ACCESSORS(split, int)
+
+static void set_polish(struct solver_options *options, double value)
+{
+  options->polish = value != 0.0;
+}
+
+static double get_polish(const struct solver_options *options)
+{
+  return options->polish ? 1.0 : 0.0;
+}
+
+static const char *const start_words[] = {"cold", "previous", NULL};
+static const char *const basis_words[] = {"bernstein", "power", NULL};
+static const char *const resultant_words[] = {"bezout", "sylvester", NULL};
+static const char *const back_substitution_words[] = {"null_vector", "euclid", NULL};
+static const char *const off_on[] = {"off", "on", NULL};
+static const char *const split_words[] = {"auto", NULL};
+
+/* Limits: a tolerance of 1 in a parameter of [0,1] asks for nothing; iterations are bounded so that no solve can hang. */
+#define MAX_TOLERANCE 1.0
+#define MAX_ITERATIONS 10000
+#define MAX_SPLIT 64
+
+static const struct solver_item items[] = {
+  {"tolerance", "a root has converged when a step is below this (eps of eq 10), absolute in u", SOLVER_ITEM_NUMBER, NULL,
+   DBL_MIN, MAX_TOLERANCE, set_tolerance, get_tolerance},
+  {"max_iterations", "steps a root may take", SOLVER_ITEM_INTEGER, NULL, 1, MAX_ITERATIONS, set_max_iterations,
+   get_max_iterations},
+  {"start", "from Aberth's circle, or from the roots of the previous ray on the same patch", SOLVER_ITEM_KEYWORD,
+   start_words, 0, 1, set_start, get_start},
+  {"basis", "in which the resultant is written", SOLVER_ITEM_KEYWORD, basis_words, 0, 1, set_basis, get_basis},
+  {"resultant", "how v is eliminated", SOLVER_ITEM_KEYWORD, resultant_words, 0, 1, set_resultant, get_resultant},
+  {"back_substitution", "how v is found from u", SOLVER_ITEM_KEYWORD, back_substitution_words, 0, 1,
+   set_back_substitution, get_back_substitution},
+  {"polish", "on: Newton on the patch itself, and every answer certified; off: the solver's roots are the answer",
+   SOLVER_ITEM_KEYWORD, off_on, 0, 1, set_polish, get_polish},
+  {"split", "each patch is cut into N x N leaves; 1 = whole patches", SOLVER_ITEM_INTEGER, split_words, 1, MAX_SPLIT,
+   set_split, get_split},
+};
+
+size_t solver_item_count(void)
+{
+  return sizeof items / sizeof items[0];
+}
+
+const struct solver_item *solver_item_at(size_t index)
+{
+  return index < solver_item_count() ? &items[index] : NULL;
+}
+
+/* The polynomial scaled by a power of two so that its largest coefficient lies in [1/2, 1), which changes no root. */
+struct scaled {
+  double c[POLYNOMIAL_MAX_DEGREE + 1];
+  double error[POLYNOMIAL_MAX_DEGREE + 1];
+};
+
+/* False where there is nothing to solve; then out says why. */
+static bool scale_polynomial(const struct polynomial *p, struct scaled *scaled, struct root_set *out)
+{
+  double largest = 0.0;
+  bool finite = true, zero = true;
+  for (int k = 0; k <= p->degree; k++) {
+    const double error = p->error == NULL ? 0.0 : p->error[k];
+    const double size = fabs(p->c[k]);
+    finite = finite && size <= DBL_MAX && error >= 0.0 && error <= DBL_MAX;
+    zero = zero && size <= error;
+    largest = fmax(largest, size);
+  }
+  out->not_finite = !finite;
+  out->identically_zero = finite && zero;
+  if (!finite || zero) {
+    return false;
+  }
+  int exponent;
+  (void)frexp(largest, &exponent);
+  /* Two factors, because 2^-exponent itself may overflow. */
+  const double first = ldexp(1.0, -(exponent / 2)), second = ldexp(1.0, -(exponent - exponent / 2));
+  for (int k = 0; k <= p->degree; k++) {
+    scaled->c[k] = p->c[k] * first * second;
+    const bool exact = scaled->c[k] / first / second == p->c[k];
+    scaled->error[k] = p->error == NULL ? 0.0 : p->error[k] * first * second * (1.0 + DBL_EPSILON);
+    if (!exact || (p->error != NULL && p->error[k] > 0.0)) {
+      scaled->error[k] += 2 * DBL_TRUE_MIN; /* what underflow may have taken */
+    }
+  }
+  return true;
+}
+
+static void add_root(struct root_set *out, double re, double im, int iterations, enum root_status status)
+{
+  if (out->count < POLYNOMIAL_MAX_DEGREE) {
+    out->root[out->count++] = (struct root){re, im, INFINITY, iterations, status};
+  }
+}
+
+/* Takes out the roots at the ends of the coefficients: u = 0, and u = 1 (Bernstein) or infinity (power, not listed). */
+static void strip_ends(const struct polynomial *p, const struct scaled *scaled, struct root_problem *problem,
+                       struct root_set *out)
+{
+  int low = 0, high = p->degree;
+  while (low < high && scaled->c[low] == 0.0) {
+    low++;
+  }
+  while (high > low && scaled->c[high] == 0.0) {
+    high--;
+  }
+  for (int k = 0; k < low; k++) {
+    add_root(out, 0.0, 0.0, 0, low > 1 ? ROOT_CLUSTER : ROOT_CONVERGED);
+  }
+  if (p->basis == BASIS_BERNSTEIN) {
+    for (int k = high; k < p->degree; k++) {
+      add_root(out, 1.0, 0.0, 0, p->degree - high > 1 ? ROOT_CLUSTER : ROOT_CONVERGED);
+    }
+  }
+  problem->degree = high - low;
+  problem->basis = p->basis;
+  memcpy(problem->c, scaled->c + low, sizeof problem->c[0] * (size_t)(high - low + 1));
+  memcpy(problem->error, scaled->error + low, sizeof problem->error[0] * (size_t)(high - low + 1));
+}
+
+static void remember(const struct root_estimates *estimates, struct solver_warm *warm)
+{
+  warm->count = 0;
+  for (int i = 0; i < estimates->count; i++) {
+    if (isfinite(estimates->re[i]) && isfinite(estimates->im[i])) {
+      warm->re[warm->count] = estimates->re[i];
+      warm->im[warm->count] = estimates->im[i];
+      warm->count++;
+    }
+  }
+}
+
+void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
+                  struct root_set *out)
+{
+  out->count = 0;
+  struct scaled scaled;
+  if (!scale_polynomial(p, &scaled, out)) {
+    return;
+  }
+  struct root_problem problem;
+  strip_ends(p, &scaled, &problem, out);
+  if (problem.degree > 0) {
+    struct root_estimates estimates;
+    estimates.count = 0;
+    const bool previous = options->start == START_PREVIOUS && warm != NULL;
+    options->solver->find(&problem, options, previous ? warm : NULL, &estimates);
+    for (int i = 0; i < estimates.count; i++) {
+      if (isfinite(estimates.re[i]) && isfinite(estimates.im[i])) {
+        const enum root_status status = !estimates.converged[i] ? ROOT_LIMIT
+                                        : estimates.cluster[i]  ? ROOT_CLUSTER
+                                                                : ROOT_CONVERGED;
+        add_root(out, estimates.re[i], estimates.im[i], estimates.iterations[i], status);
+      }
+    }
+    if (previous) {
+      remember(&estimates, warm);
+    }
+  }
+  struct evaluation evaluation;
+  evaluation_prepare(p->degree, p->basis, scaled.c, scaled.error, &evaluation);
+  validation_judge(&evaluation, out);
+}

@@ -1,0 +1,104 @@
+/* Start values: Aberth's circle, and the roots of the previous polynomial.
+ *
+ * Aberth's circle (section 3.4 of the paper): the centre is the centroid of the roots, -c[n-1] / (n c[n]); the radius is the
+ * positive root of |b[n]| r^n = sum over k < n of |b[k]| r^k, with b the coefficients about the centre, which is Cauchy's
+ * bound: the circle holds every root. The values are spread evenly on it, turned by a quarter of their spacing so that
+ * they do not lie in conjugate pairs, which the iteration could not part.
+ */
+#include "algebra/start.h"
+
+#include <float.h>
+#include <string.h>
+
+/* Newton on Cauchy's equation comes down from above monotonically; this is far more than it takes. */
+enum { RADIUS_STEPS = 60 };
+#define RADIUS_ACCURACY 1e-2 /* relative; a start radius needs no more */
+
+/* Warm starts nearer to each other than this, relative to their modulus, are moved apart by as much. */
+#define COINCIDENCE 1e-9
+
+/* 2^-exponent(size)-like first guess from above: the largest of (n |b[k]/b[n]|)^(1/(n-k)). */
+static double cauchy_radius(int n, const double b[])
+{
+  double radius = 0.0;
+  for (int k = 0; k < n; k++) {
+    if (b[k] != 0.0) {
+      radius = fmax(radius, exp2((log2(n) + log2(fabs(b[k])) - log2(fabs(b[n]))) / (n - k)));
+    }
+  }
+  for (int step = 0; step < RADIUS_STEPS && radius > 0.0; step++) {
+    /* f(r) = |b[n]| - sum |b[k]| r^(k-n), in powers of 1/r */
+    const double w = 1.0 / radius;
+    double f = fabs(b[0]), slope = 0.0;
+    for (int k = 1; k <= n; k++) {
+      slope = slope * w + f;
+      f = f * w + (k == n ? -fabs(b[n]) : fabs(b[k]));
+    }
+    const double next_w = w - f / slope;
+    if (!(next_w > 0.0) || !isfinite(next_w)) {
+      break;
+    }
+    const double next = 1.0 / next_w;
+    const bool near = fabs(next - radius) <= RADIUS_ACCURACY * radius;
+    radius = next;
+    if (near) {
+      break;
+    }
+  }
+  return radius;
+}
+
+static void circle_values(const struct root_problem *problem, double out_re[], double out_im[])
+{
+  const int n = problem->degree;
+  double centre = -problem->c[n - 1] / (n * problem->c[n]);
+  double b[POLYNOMIAL_MAX_DEGREE + 1];
+  memcpy(b, problem->c, sizeof b[0] * (size_t)(n + 1));
+  for (int j = 0; j < n; j++) {
+    for (int k = n - 1; k >= j; k--) {
+      b[k] += b[k + 1] * centre;
+    }
+  }
+  double radius = cauchy_radius(n, b);
+  if (!(radius > 0.0 && radius < sqrt(DBL_MAX)) || !(fabs(centre) < sqrt(DBL_MAX))) {
+    /* All roots equal, or the centre overflows: the mean modulus about 0 is always finite and positive. */
+    centre = 0.0;
+    radius = exp2((log2(fabs(problem->c[0])) - log2(fabs(problem->c[n]))) / n);
+  }
+  const double turn = 2.0 * acos(-1.0) / n;
+  for (int i = 0; i < n; i++) {
+    const double angle = turn * (i + 0.25);
+    out_re[i] = centre + radius * cos(angle);
+    out_im[i] = radius * sin(angle);
+  }
+}
+
+void start_values(const struct root_problem *problem, const struct solver_warm *warm, double out_re[], double out_im[])
+{
+  const int n = problem->degree;
+  if (warm == NULL || warm->count != n) {
+    circle_values(problem, out_re, out_im);
+    return;
+  }
+  for (int i = 0; i < n; i++) {
+    double re = warm->re[i], im = warm->im[i];
+    root_problem_x_from_u(problem->basis, &re, &im);
+    if (!isfinite(re) || !isfinite(im) || (re == 0.0 && im == 0.0)) {
+      circle_values(problem, out_re, out_im);
+      return;
+    }
+    out_re[i] = re;
+    out_im[i] = im;
+  }
+  for (int i = 0; i < n; i++) {
+    for (int j = 0; j < i; j++) {
+      const double dx = out_re[i] - out_re[j], dy = out_im[i] - out_im[j];
+      const double size = fabs(out_re[i]) + fabs(out_im[i]);
+      if (fabs(dx) + fabs(dy) <= COINCIDENCE * size) {
+        const double angle = i; /* a different direction for each */
+        out_re[i] += 2.0 * COINCIDENCE * size * cos(angle);
+        out_im[i] += 2.0 * COINCIDENCE * size * sin(angle);
+      }
+    }
+  }
+}
