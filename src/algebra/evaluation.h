@@ -12,7 +12,8 @@
 #ifndef PSCN_ALGEBRA_EVALUATION_H
 #define PSCN_ALGEBRA_EVALUATION_H
 
-#include "algebra/lanes.h"
+#include <math.h>
+
 #include "algebra/polynomial.h"
 
 /* Unit roundoff of double, and the room left for rounding in sums of positive bounds (over 200 operations). */
@@ -34,40 +35,7 @@ struct evaluation {
 /* `error` may be NULL. */
 void evaluation_prepare(int degree, enum basis basis, const double c[], const double error[], struct evaluation *out);
 
-/* q and q' of the chart polynomial at eight chart points z, and bounds on their errors. Lanes of `reversed` take 1/x. */
-struct evaluation_lanes {
-  lanes re, im, slope_re, slope_im, error, slope_error;
-};
-
-LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lanes zi, lane_mask reversed,
-                                      struct evaluation_lanes *out)
-{
-  const int n = p->degree;
-  const lanes modulus = lanes_sqrt(zr * zr + zi * zi);
-  lanes re = lanes_select(reversed, lanes_all(p->reverse[n]), lanes_all(p->forward[n]));
-  lanes error = lanes_select(reversed, lanes_all(p->reverse_bound[n]), lanes_all(p->forward_bound[n]));
-  lanes im = {0}, slope_re = {0}, slope_im = {0}, slope_error = {0};
-  for (int k = n - 1; k >= 0; k--) {
-    const lanes c = lanes_select(reversed, lanes_all(p->reverse[k]), lanes_all(p->forward[k]));
-    const lanes b = lanes_select(reversed, lanes_all(p->reverse_bound[k]), lanes_all(p->forward_bound[k]));
-    const lanes next_slope_re = slope_re * zr - slope_im * zi + re;
-    slope_im = slope_re * zi + slope_im * zr + im;
-    slope_re = next_slope_re;
-    const lanes next_re = re * zr - im * zi + c;
-    im = re * zi + im * zr;
-    re = next_re;
-    slope_error = slope_error * modulus + error;
-    error = error * modulus + b;
-  }
-  out->re = re;
-  out->im = im;
-  out->slope_re = slope_re;
-  out->slope_im = slope_im;
-  out->error = error + UNDERFLOW_ERROR;
-  out->slope_error = slope_error + UNDERFLOW_ERROR;
-}
-
-/* The same at one real chart point. */
+/* q and q' of the chart polynomial at a real chart point z, and bounds on their errors. `reversed`: z is 1/x. */
 struct evaluation_real {
   double value, slope, error, slope_error;
 };

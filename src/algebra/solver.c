@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "algebra/root_problem.h"
+#include "algebra/root_kernel.h"
 
 /* One row a solver. The tolerance is eps of eq 10. */
 static const struct solver solvers[] = {
@@ -115,6 +115,16 @@ size_t solver_item_count(void)
 const struct solver_item *solver_item_at(size_t index)
 {
   return index < solver_item_count() ? &items[index] : NULL;
+}
+
+const struct root_kernel *root_kernel_best(void)
+{
+#ifdef PSCN_ROOT_KERNEL_AVX2
+  if (__builtin_cpu_supports("avx2")) {
+    return &root_kernel_avx2;
+  }
+#endif
+  return &root_kernel_baseline;
 }
 
 /* The polynomial scaled by a power of two so that its largest coefficient lies in [1/2, 1), which changes no root. */

@@ -11,61 +11,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "algebra/root_problem.h"
-
-/* The chart point is computed from u with a difference, a reciprocal of a square and products: under 10 roundings. */
-#define CHART_ROUNDING (10 * UNIT_ROUNDOFF)
-
-/* A slope known to less than half of itself makes the first-order bound poor: then the higher orders are asked too. */
-#define SLOPE_CERTAINTY 0.5
+#include "algebra/root_kernel.h"
 
 /* A value whose disc reaches infinity is dropped as a root at infinity, except within this distance of 1/2: there a useless
  * disc only says that nothing is known, and a candidate for [0,1] is never dropped. */
 #define NEAR_INTERVAL 1.0
-
-struct judged_lanes {
-  lanes zr, zi;       /* chart point */
-  lanes bound;        /* of the distance from z to the nearest root, by j = 1 */
-  lanes width_square; /* |w|^2 */
-  lanes width;        /* |w|; 0 where z = u */
-  lane_mask reversed;
-  lane_mask doubtful; /* worth the higher orders */
-};
-
-/* Chart and first-order bound of eight values. */
-LANES_INLINE void judge_lanes(const struct evaluation *p, lanes ur, lanes ui, struct judged_lanes *out)
-{
-  const bool power = p->basis == BASIS_POWER;
-  const lanes one = lanes_all(1.0), zero = {0};
-  const lanes vr = power ? one : 1.0 - ur, vi = power ? zero : -ui;
-  const lanes u_square = ur * ur + ui * ui, v_square = vr * vr + vi * vi;
-  out->reversed = u_square > v_square;
-  const lanes top_r = lanes_select(out->reversed, vr, ur), top_i = lanes_select(out->reversed, vi, ui);
-  const lanes low_r = lanes_select(out->reversed, ur, vr), low_i = lanes_select(out->reversed, ui, vi);
-  out->width_square = lanes_select(out->reversed, u_square, v_square);
-  out->width = lanes_sqrt(out->width_square);
-  out->zr = (top_r * low_r + top_i * low_i) / out->width_square;
-  out->zi = (top_i * low_r - top_r * low_i) / out->width_square;
-
-  struct evaluation_lanes q;
-  evaluation_at_lanes(p, out->zr, out->zi, out->reversed, &q);
-  const lanes size = lanes_sqrt(out->zr * out->zr + out->zi * out->zi);
-  const lanes value = lanes_sqrt(q.re * q.re + q.im * q.im);
-  const lanes slope = lanes_sqrt(q.slope_re * q.slope_re + q.slope_im * q.slope_im);
-  const lanes end_error = lanes_select(out->reversed, lanes_all(p->reverse_bound[0]), lanes_all(p->forward_bound[0]));
-  const lane_mask at_end = size == 0.0; /* no arithmetic was done there: an exact coefficient is an exact value */
-  const lanes end_value = lanes_select(value == 0.0, end_error, value + end_error);
-  const lanes top = lanes_select(at_end, end_value, value + q.error);
-  const lanes sure_slope = slope * (2.0 - BOUND_ROOM) - q.slope_error;
-  out->bound = p->degree * top / sure_slope * BOUND_ROOM;
-  out->bound = lanes_select(sure_slope > 0.0, out->bound, lanes_all(INFINITY));
-  out->bound = lanes_select(top == 0.0, zero, out->bound);
-  out->doubtful = (lane_mask)(sure_slope < SLOPE_CERTAINTY * slope) & (lane_mask)(top > 0.0);
-  /* z = u needs no chart and has no chart rounding */
-  const lane_mask plain = power ? ~out->reversed : (lane_mask){0};
-  out->bound += lanes_select(plain, zero, CHART_ROUNDING * size);
-  out->width = lanes_select(plain, zero, out->width);
-}
 
 /* The least bound over all orders j, at one chart point. */
 static double all_orders_bound(const struct evaluation *p, double zr, double zi, bool reversed)
@@ -102,26 +52,22 @@ static double radius_in_u(double bound, double width, double width_square)
   return room > 0.0 && radius >= 0.0 ? radius : INFINITY; /* NaN ends here too */
 }
 
-ALGEBRA_CLONES static void find_radii(const struct evaluation *p, int count, struct root root[])
+static void find_radii(const struct evaluation *p, int count, struct root root[])
 {
-  for (int first = 0; first < count; first += LANES) {
-    const int used = count - first < LANES ? count - first : LANES;
-    lanes ur = {0}, ui = {0};
-    for (int l = 0; l < used; l++) {
-      ur[l] = root[first + l].re;
-      ui[l] = root[first + l].im;
+  double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
+  struct inclusion found[POLYNOMIAL_MAX_DEGREE];
+  for (int i = 0; i < count; i++) {
+    re[i] = root[i].re;
+    im[i] = root[i].im;
+  }
+  root_kernel_best()->include(p, count, re, im, found);
+  for (int i = 0; i < count; i++) {
+    double bound = found[i].bound;
+    if (found[i].doubtful) {
+      const double rounding = found[i].width == 0.0 ? 0.0 : CHART_ROUNDING * hypot(found[i].zr, found[i].zi);
+      bound = fmin(bound, all_orders_bound(p, found[i].zr, found[i].zi, found[i].reversed) + rounding);
     }
-    struct judged_lanes judged;
-    judge_lanes(p, ur, ui, &judged);
-    for (int l = 0; l < used; l++) {
-      double bound = judged.bound[l];
-      if (judged.doubtful[l] != 0) {
-        const bool plain = judged.width[l] == 0.0;
-        const double rounding = plain ? 0.0 : CHART_ROUNDING * hypot(judged.zr[l], judged.zi[l]);
-        bound = fmin(bound, all_orders_bound(p, judged.zr[l], judged.zi[l], judged.reversed[l] != 0) + rounding);
-      }
-      root[first + l].radius = radius_in_u(bound, judged.width[l], judged.width_square[l]);
-    }
+    root[i].radius = radius_in_u(bound, found[i].width, found[i].width_square);
   }
 }
 

@@ -1,0 +1,231 @@
+/* The loops over the roots of one polynomial: Aberth's step (eq 9; aberth.c) and the first-order bound (validation.c).
+ *
+ * Compiled once per instruction set, PSCN_KERNEL being the name of the table it defines.
+ */
+#include "algebra/root_kernel.h"
+
+#include <string.h>
+
+#include "base/lanes.h"
+
+/* A slope known to less than half of itself makes the first-order bound poor: then the higher orders are asked too. */
+#define SLOPE_CERTAINTY 0.5
+
+/* Every so many sweeps the steps of the roots still moving are turned by an angle of their own. Symmetric starts (real values
+ * seeking a complex pair, pairs seeking two real roots) would otherwise never part. */
+enum { TURN_PERIOD = 5 };
+
+/* q and q' of the chart polynomial at a few chart points z, and bounds on their errors. Lanes of `reversed` take 1/x. */
+struct evaluation_lanes {
+  lanes re, im, slope_re, slope_im, error, slope_error;
+};
+
+LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lanes zi, lane_mask reversed,
+                                      struct evaluation_lanes *out)
+{
+  const int n = p->degree;
+  const lanes modulus = lanes_sqrt(zr * zr + zi * zi);
+  lanes re = lanes_select(reversed, lanes_all(p->reverse[n]), lanes_all(p->forward[n]));
+  lanes error = lanes_select(reversed, lanes_all(p->reverse_bound[n]), lanes_all(p->forward_bound[n]));
+  lanes im = {0}, slope_re = {0}, slope_im = {0}, slope_error = {0};
+  for (int k = n - 1; k >= 0; k--) {
+    const lanes c = lanes_select(reversed, lanes_all(p->reverse[k]), lanes_all(p->forward[k]));
+    const lanes b = lanes_select(reversed, lanes_all(p->reverse_bound[k]), lanes_all(p->forward_bound[k]));
+    const lanes next_slope_re = slope_re * zr - slope_im * zi + re;
+    slope_im = slope_re * zi + slope_im * zr + im;
+    slope_re = next_slope_re;
+    const lanes next_re = re * zr - im * zi + c;
+    im = re * zi + im * zr;
+    re = next_re;
+    slope_error = slope_error * modulus + error;
+    error = error * modulus + b;
+  }
+  out->re = re;
+  out->im = im;
+  out->slope_re = slope_re;
+  out->slope_im = slope_im;
+  out->error = error + UNDERFLOW_ERROR;
+  out->slope_error = slope_error + UNDERFLOW_ERROR;
+}
+
+/* a / b without overflow or underflow of |b|^2; not finite where b = 0. */
+LANES_INLINE void divide(lanes ar, lanes ai, lanes br, lanes bi, lanes *out_re, lanes *out_im)
+{
+  const lanes scale = 1.0 / (lanes_abs(br) + lanes_abs(bi));
+  const lanes cr = br * scale, ci = bi * scale;
+  const lanes inverse = scale / (cr * cr + ci * ci);
+  *out_re = (ar * cr + ai * ci) * inverse;
+  *out_im = (ai * cr - ar * ci) * inverse;
+}
+
+struct aberth_step {
+  lanes re, im;
+  lanes step_square; /* |step|^2 in u */
+  lane_mask resting; /* |P| below its rounding bound */
+};
+
+/* The step of eq 9 for a few roots. */
+LANES_INLINE void step_lanes(const struct aberth *a, lanes xr, lanes xi, struct aberth_step *out)
+{
+  const int n = a->p.degree;
+  const lanes square = xr * xr + xi * xi;
+  const lane_mask reversed = square > 1.0;
+  const lanes inverse = 1.0 / square;
+  const lanes zr = lanes_select(reversed, xr * inverse, xr), zi = lanes_select(reversed, -xi * inverse, xi);
+  struct evaluation_lanes q;
+  evaluation_at_lanes(&a->p, zr, zi, reversed, &q);
+  const lanes value_square = q.re * q.re + q.im * q.im;
+  out->resting = value_square <= q.error * q.error;
+
+  /* P'/P; in the reversed chart z (n - z q'/q) */
+  lanes gr, gi;
+  divide(q.slope_re, q.slope_im, q.re, q.im, &gr, &gi);
+  const lanes hr = n - (zr * gr - zi * gi), hi = -(zr * gi + zi * gr);
+  gr = lanes_select(reversed, zr * hr - zi * hi, gr);
+  gi = lanes_select(reversed, zr * hi + zi * hr, gi);
+
+  for (int j = 0; j < n; j++) {
+    const lanes dx = xr - a->zr[j], dy = xi - a->zi[j];
+    const lanes distance = dx * dx + dy * dy;
+    const lanes push = lanes_select(distance > 0.0, 1.0 / distance, (lanes){0});
+    gr -= dx * push;
+    gi += dy * push;
+  }
+  divide(lanes_all(-1.0), (lanes){0}, gr, gi, &out->re, &out->im);
+
+  const lanes step_square = out->re * out->re + out->im * out->im;
+  if (a->p.basis == BASIS_POWER) {
+    out->step_square = step_square;
+  } else { /* |du| = |dx| / (|1 + x| |1 + x + dx|) */
+    const lanes ar = 1.0 + xr, br = ar + out->re, bi = xi + out->im;
+    out->step_square = step_square / ((ar * ar + xi * xi) * (br * br + bi * bi));
+  }
+}
+
+static void aberth_sweep(struct aberth *a, double tolerance_square, int number, struct root_estimates *out)
+{
+  const bool turning = number % TURN_PERIOD == 0;
+  int still_active = 0;
+  const int active_count = a->active_count;
+  int moved[POLYNOMIAL_MAX_DEGREE];
+  memcpy(moved, a->active, sizeof moved[0] * (size_t)active_count);
+  for (int first = 0; first < active_count; first += LANES) {
+    const int used = active_count - first < LANES ? active_count - first : LANES;
+    lanes xr, xi;
+    for (int l = 0; l < LANES; l++) {
+      const int i = moved[l < used ? first + l : first];
+      xr[l] = a->zr[i];
+      xi[l] = a->zi[i];
+    }
+    struct aberth_step step;
+    step_lanes(a, xr, xi, &step);
+    for (int l = 0; l < used; l++) {
+      const int i = moved[first + l];
+      double dx = step.re[l], dy = step.im[l];
+      const double square = step.step_square[l];
+      const bool usable = isfinite(dx) && isfinite(dy) && !isnan(square);
+      bool done;
+      if (step.resting[l] != 0) {
+        done = true;
+        if (!usable || square > a->last_step[i]) {
+          dx = dy = 0.0;
+        }
+      } else {
+        if (!usable) { /* the pushes cancel P'/P: go somewhere else nearby */
+          dx = 0.25 * xr[l] - 0.125 * xi[l];
+          dy = 0.25 * xi[l] + 0.125 * xr[l];
+        }
+        done = usable && square < tolerance_square;
+        if (turning && !done) {
+          const double angle = 0.3 + 0.37 * i, c = cos(angle), s = sin(angle), turned = c * dx - s * dy;
+          dy = s * dx + c * dy;
+          dx = turned;
+        }
+        a->last_step[i] = usable ? square : INFINITY;
+      }
+      a->next_zr[i] = xr[l] + dx;
+      a->next_zi[i] = xi[l] + dy;
+      out->iterations[i]++;
+      out->converged[i] = done;
+      if (!done) {
+        a->active[still_active++] = i;
+      }
+    }
+  }
+  for (int m = 0; m < active_count; m++) {
+    a->zr[moved[m]] = a->next_zr[moved[m]];
+    a->zi[moved[m]] = a->next_zi[moved[m]];
+  }
+  a->active_count = still_active;
+}
+
+struct inclusion_lanes {
+  lanes zr, zi;       /* chart point */
+  lanes bound;        /* of the distance from z to the nearest root, by j = 1 */
+  lanes width_square; /* |w|^2 */
+  lanes width;        /* |w|; 0 where z = u */
+  lane_mask reversed;
+  lane_mask doubtful; /* worth the higher orders */
+};
+
+/* Chart and first-order bound of a few values. */
+LANES_INLINE void include_lanes(const struct evaluation *p, lanes ur, lanes ui, struct inclusion_lanes *out)
+{
+  const bool power = p->basis == BASIS_POWER;
+  const lanes one = lanes_all(1.0), zero = {0};
+  const lanes vr = power ? one : 1.0 - ur, vi = power ? zero : -ui;
+  const lanes u_square = ur * ur + ui * ui, v_square = vr * vr + vi * vi;
+  out->reversed = u_square > v_square;
+  const lanes top_r = lanes_select(out->reversed, vr, ur), top_i = lanes_select(out->reversed, vi, ui);
+  const lanes low_r = lanes_select(out->reversed, ur, vr), low_i = lanes_select(out->reversed, ui, vi);
+  out->width_square = lanes_select(out->reversed, u_square, v_square);
+  out->width = lanes_sqrt(out->width_square);
+  out->zr = (top_r * low_r + top_i * low_i) / out->width_square;
+  out->zi = (top_i * low_r - top_r * low_i) / out->width_square;
+
+  struct evaluation_lanes q;
+  evaluation_at_lanes(p, out->zr, out->zi, out->reversed, &q);
+  const lanes size = lanes_sqrt(out->zr * out->zr + out->zi * out->zi);
+  const lanes value = lanes_sqrt(q.re * q.re + q.im * q.im);
+  const lanes slope = lanes_sqrt(q.slope_re * q.slope_re + q.slope_im * q.slope_im);
+  const lanes end_error = lanes_select(out->reversed, lanes_all(p->reverse_bound[0]), lanes_all(p->forward_bound[0]));
+  const lane_mask at_end = size == 0.0; /* no arithmetic was done there: an exact coefficient is an exact value */
+  const lanes end_value = lanes_select(value == 0.0, end_error, value + end_error);
+  const lanes top = lanes_select(at_end, end_value, value + q.error);
+  const lanes sure_slope = slope * (2.0 - BOUND_ROOM) - q.slope_error;
+  out->bound = p->degree * top / sure_slope * BOUND_ROOM;
+  out->bound = lanes_select(sure_slope > 0.0, out->bound, lanes_all(INFINITY));
+  out->bound = lanes_select(top == 0.0, zero, out->bound);
+  out->doubtful = (lane_mask)(sure_slope < SLOPE_CERTAINTY * slope) & (lane_mask)(top > 0.0);
+  /* z = u needs no chart and has no chart rounding */
+  const lane_mask plain = power ? ~out->reversed : (lane_mask){0};
+  out->bound += lanes_select(plain, zero, CHART_ROUNDING * size);
+  out->width = lanes_select(plain, zero, out->width);
+}
+
+static void include(const struct evaluation *p, int count, const double re[], const double im[], struct inclusion out[])
+{
+  for (int first = 0; first < count; first += LANES) {
+    const int used = count - first < LANES ? count - first : LANES;
+    lanes ur = {0}, ui = {0};
+    for (int l = 0; l < used; l++) {
+      ur[l] = re[first + l];
+      ui[l] = im[first + l];
+    }
+    struct inclusion_lanes found;
+    include_lanes(p, ur, ui, &found);
+    for (int l = 0; l < used; l++) {
+      out[first + l] = (struct inclusion){
+        .zr = found.zr[l],
+        .zi = found.zi[l],
+        .bound = found.bound[l],
+        .width = found.width[l],
+        .width_square = found.width_square[l],
+        .reversed = found.reversed[l] != 0,
+        .doubtful = found.doubtful[l] != 0,
+      };
+    }
+  }
+}
+
+const struct root_kernel PSCN_KERNEL = {PSCN_KERNEL_NAME, aberth_sweep, include};

@@ -1,0 +1,47 @@
+/* The loops over the roots of one polynomial, several roots side by side. Internal to src/algebra.
+ *
+ * root_kernel.c is compiled once per instruction set; root_kernel_best picks at run time. All of them round alike (no
+ * contraction of multiply and add), so an answer does not depend on the machine.
+ */
+#ifndef PSCN_ALGEBRA_ROOT_KERNEL_H
+#define PSCN_ALGEBRA_ROOT_KERNEL_H
+
+#include "algebra/root_problem.h"
+
+/* The chart point is computed from u with a difference, a reciprocal of a square and products: under 10 roundings. */
+#define CHART_ROUNDING (10 * UNIT_ROUNDOFF)
+
+/* All values of one solve by Aberth's method, in x. */
+struct aberth {
+  struct evaluation p;
+  double zr[POLYNOMIAL_MAX_DEGREE], zi[POLYNOMIAL_MAX_DEGREE];
+  double next_zr[POLYNOMIAL_MAX_DEGREE], next_zi[POLYNOMIAL_MAX_DEGREE];
+  double last_step[POLYNOMIAL_MAX_DEGREE]; /* |step|^2 in u */
+  int active[POLYNOMIAL_MAX_DEGREE];       /* the roots still moving */
+  int active_count;
+};
+
+/* What the first-order bound says of one value: see validation.c. */
+struct inclusion {
+  double zr, zi;              /* chart point */
+  double bound;               /* of the distance from z to the nearest root; may be infinite or NaN */
+  double width, width_square; /* |w| and |w|^2 of the chart at u; width is 0 where z = u */
+  bool reversed;
+  bool doubtful;              /* the slope is hardly told from zero: higher orders may bound better */
+};
+
+struct root_kernel {
+  const char *name;
+  /* One sweep over the active roots, all steps taken from the values before it. `number` counts from 1. */
+  void (*aberth_sweep)(struct aberth *a, double tolerance_square, int number, struct root_estimates *out);
+  void (*include)(const struct evaluation *p, int count, const double re[], const double im[], struct inclusion out[]);
+};
+
+extern const struct root_kernel root_kernel_baseline;
+#ifdef PSCN_ROOT_KERNEL_AVX2
+extern const struct root_kernel root_kernel_avx2;
+#endif
+
+const struct root_kernel *root_kernel_best(void);
+
+#endif
