@@ -23,8 +23,10 @@ BEZOUT_INLINE double BEZOUT_NAME(binomial)(int n, int k) { return k == 0 || k ==
 /* out[0..2m] = A_k B_l - A_l B_k as polynomials in u. */
 BEZOUT_INLINE void BEZOUT_NAME(minor)(int m, int k, int l, const BEZOUT_REAL A[16], const BEZOUT_REAL B[16], BEZOUT_REAL out[7])
 {
+#pragma GCC unroll 8
   for (int e = 0; e <= 2 * m; e++) {
     BEZOUT_REAL sum = {0};
+#pragma GCC unroll 4
     for (int i = e > m ? e - m : 0; i <= e && i <= m; i++)
       sum += A[4 * i + k] * B[4 * (e - i) + l] - A[4 * i + l] * B[4 * (e - i) + k];
     out[e] = sum;
@@ -35,8 +37,10 @@ BEZOUT_INLINE void BEZOUT_NAME(minor)(int m, int k, int l, const BEZOUT_REAL A[1
 BEZOUT_INLINE void BEZOUT_NAME(multiply)(int p, int q, const BEZOUT_REAL x[], const BEZOUT_REAL y[], double sign, int add,
                                          BEZOUT_REAL out[])
 {
+#pragma GCC unroll 19
   for (int e = 0; e <= p + q; e++) {
     BEZOUT_REAL sum = {0};
+#pragma GCC unroll 7
     for (int i = e > q ? e - q : 0; i <= e && i <= p; i++) sum += x[i] * y[e - i];
     out[e] = add ? out[e] + sign * sum : sign * sum;
   }

@@ -497,14 +497,18 @@ static void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
 
 /* ---- the face ---- */
 
-/* The ray with its direction scaled by a power of two to a longest component in [1/2, 1), so that no product overflows. */
+/* Directions whose longest component is outside these are scaled by a power of two, so that no product over- or underflows. */
+#define DIRECTION_MIN 0x1p-200
+#define DIRECTION_MAX 0x1p200
+
 static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
 {
+  const double *d = ray->direction, largest = fabs(d[dominant_axis(d)]);
   struct ray r = *ray;
-  double largest = 0;
-  for (int k = 0; k < 3; k++) largest = fmax(largest, fabs(r.direction[k]));
+  *out_exponent = 0;
+  if (largest >= DIRECTION_MIN && largest <= DIRECTION_MAX) return r;
   frexp(largest, out_exponent);
-  for (int k = 0; k < 3; k++) r.direction[k] = ldexp(r.direction[k], -*out_exponent);
+  for (int k = 0; k < 3; k++) r.direction[k] = ldexp(d[k], -*out_exponent);
   r.t_min = ldexp(r.t_min, *out_exponent), r.t_max = ldexp(r.t_max, *out_exponent);
   return r;
 }
@@ -522,7 +526,7 @@ static void kernel_closest(struct tracer *tracer, size_t count, const struct ray
     for (size_t l = 0; l < n; l++) {
       struct hit *hit = &out_hits[first + l];
       finish_hit(tracer->model, &scaled[l], &packet.best[l], hit);
-      if (hit->patch != HIT_NONE) hit->t = ldexp(hit->t, -exponent[l]);
+      if (exponent[l] != 0 && hit->patch != HIT_NONE) hit->t = ldexp(hit->t, -exponent[l]);
       if (hit->certainty == CERTAINTY_CERTAIN) tracer->counts.certain++;
       else tracer->counts.grazing++;
     }
