@@ -1,0 +1,279 @@
+/* The reference judged by what is known in closed form, by brute force and by perturbation. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "effort.h"
+#include "random.h"
+#include "reference/reference.h"
+
+static struct reference_answer ask(const double P[][4][4][3], size_t count, const double origin[3],
+                                   const double direction[3])
+{
+  struct reference *reference = reference_create(P, count);
+  assert_non_null(reference);
+  struct reference_answer answer;
+  reference_closest(reference, origin, direction, &answer);
+  reference_destroy(reference);
+  return answer;
+}
+
+/* A unit square of the plane z = height over [x0, x0 + 3] x [0,3]: u is (x - x0) / 3, v is y / 3. */
+static void flat_net(double x0, double height, double P[4][4][3])
+{
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      P[i][j][0] = x0 + i;
+      P[i][j][1] = j;
+      P[i][j][2] = height;
+    }
+  }
+}
+
+/* z = 3 s^2 over s in [-1,1] with x = 3 s, y = 3 v: a trough along y. */
+static void trough_net(double P[4][4][3])
+{
+  static const double x[4] = {-3, -1, 1, 3}, z[4] = {3, -1, -1, 3};
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      P[i][j][0] = x[i];
+      P[i][j][1] = j;
+      P[i][j][2] = z[i];
+    }
+  }
+}
+
+static void test_flat(void **state)
+{
+  (void)state;
+  double P[1][4][4][3];
+  flat_net(0, 0.5, P[0]);
+  const double origin[3] = {1.25, 0.75, 7.25}, direction[3] = {0, 0.25, -3};
+  struct reference_answer a = ask(P, 1, origin, direction);
+  assert_int_equal(a.verdict, REFERENCE_HIT);
+  assert_true(quad_abs(a.t - 2.25) <= a.t_radius && a.t_radius < 1e-28);
+  assert_true(quad_abs(a.u - (quad)1.25 / 3) <= a.radius && a.radius < 1e-28);
+  assert_true(quad_abs(a.v - ((quad)0.75 + 0.25 * 2.25) / 3) <= a.radius);
+  assert_true(a.has_normal && a.normal[2] == 1 && a.normal[0] == 0);
+  const double away[3] = {0, 0.25, 3};
+  assert_int_equal(ask(P, 1, origin, away).verdict, REFERENCE_MISS);
+  const double beside[3] = {3.0001, 0.75, 7.25}, down[3] = {0, 0, -1};
+  assert_int_equal(ask(P, 1, beside, down).verdict, REFERENCE_MISS);
+  const double behind[2][3] = {{1, 1, 0.25}, {1, 1, 0.5}};
+  assert_int_equal(ask(P, 1, behind[0], down).verdict, REFERENCE_MISS);
+  assert_int_equal(ask(P, 1, behind[1], down).verdict, REFERENCE_GRAZING); /* starts on the patch */
+}
+
+/* Rays across the trough at height h: two hits at s = -+sqrt(h/3), one double, none. */
+static void test_tangent(void **state)
+{
+  (void)state;
+  double P[1][4][4][3];
+  trough_net(P[0]);
+  const double direction[3] = {2, 0, 0};
+  int decided = 0;
+  for (int k = 0; k <= 120; k++) {
+    double height = ldexp(1, -k);
+    const double above[3] = {-10, 1.4, height}, below[3] = {-10, 1.4, -height};
+    struct reference_answer hit = ask(P, 1, above, direction), miss = ask(P, 1, below, direction);
+    if (hit.verdict == REFERENCE_HIT) {
+      quad t = (10 - 3 * quad_sqrt((quad)height / 3)) / 2;
+      assert_true(quad_abs(hit.t - t) <= hit.t_radius + 1e-32);
+      decided++;
+    } else {
+      assert_int_equal(hit.verdict, REFERENCE_GRAZING);
+      assert_true(hit.t_first <= 5);
+    }
+    assert_int_not_equal(miss.verdict, REFERENCE_HIT);
+    if (height > 1e-24) assert_true(hit.verdict == REFERENCE_HIT && miss.verdict == REFERENCE_MISS);
+  }
+  assert_true(decided >= 80);
+  const double at[3] = {-10, 1.4, 0};
+  assert_int_equal(ask(P, 1, at, direction).verdict, REFERENCE_GRAZING);
+}
+
+static void test_border(void **state)
+{
+  (void)state;
+  double P[2][4][4][3];
+  flat_net(0, 0, P[0]);
+  flat_net(3, 0, P[1]);
+  const double down[3] = {0, 0, -1}, slanted[3] = {0.5, 0.25, -1};
+  const double edge[3] = {3, 1.3, 2}, corner[3] = {3, 0, 2}, rim[3] = {6, 1.3, 2}, oblique[3] = {2, 0.8, 2};
+  struct reference_answer a = ask(P, 2, edge, down);
+  assert_true(a.verdict == REFERENCE_HIT && a.shared && a.t == 2);
+  a = ask(P, 2, oblique, slanted);
+  assert_true(a.verdict == REFERENCE_HIT && a.shared && quad_abs(a.t - 2) <= a.t_radius);
+  assert_int_equal(ask(P, 1, edge, down).verdict, REFERENCE_GRAZING);
+  assert_int_equal(ask(P, 2, rim, down).verdict, REFERENCE_GRAZING);
+  a = ask(P, 2, corner, down);
+  assert_true(a.verdict == REFERENCE_HIT && a.shared);
+  const double inside[3] = {nextafter(6, 0) - 1e-12, 1.3, 2}, outside[3] = {6 + 1e-12, 1.3, 2};
+  assert_int_equal(ask(P, 2, inside, down).verdict, REFERENCE_HIT);
+  assert_int_equal(ask(P, 2, outside, down).verdict, REFERENCE_MISS);
+}
+
+/* A ray in the plane of a patch, one along a ruling, and patches collapsed to a line and to a point: bounded work, no claim. */
+static void test_degenerate(void **state)
+{
+  (void)state;
+  double P[1][4][4][3];
+  flat_net(0, 0.5, P[0]);
+  const double in_plane[3] = {-2, 1.1, 0.5}, along[3] = {1, 0.125, 0};
+  struct reference_answer a = ask(P, 1, in_plane, along);
+  assert_true(a.verdict == REFERENCE_GRAZING && a.t_first <= 2);
+  trough_net(P[0]);
+  const double ruling[3] = {0, -4, 0}, y[3] = {0, 1, 0};
+  a = ask(P, 1, ruling, y);
+  assert_true(a.verdict == REFERENCE_GRAZING && a.t_first <= 4);
+  for (int k = 0; k < 16; k++) P[0][k / 4][k % 4][0] = P[0][k / 4][k % 4][2] = 0;
+  assert_int_equal(ask(P, 1, ruling, y).verdict, REFERENCE_GRAZING);
+  const double beside[3] = {0.001, -4, 0};
+  assert_int_equal(ask(P, 1, beside, y).verdict, REFERENCE_MISS);
+  memset(P, 0, sizeof P);
+  assert_int_equal(ask(P, 1, ruling, y).verdict, REFERENCE_GRAZING);
+}
+
+static void random_net(struct random *random, double wildness, double P[4][4][3])
+{
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double regular[3] = {i - 1.5, j - 1.5, 0};
+      for (int axis = 0; axis < 3; axis++)
+        P[i][j][axis] = regular[axis] + wildness * random_between(random, -1, 1);
+    }
+  }
+}
+
+static void random_ray(struct random *random, double origin[3], double direction[3])
+{
+  for (int axis = 0; axis < 3; axis++) {
+    origin[axis] = random_between(random, -5, 5);
+    direction[axis] = random_between(random, -2, 2) - origin[axis];
+  }
+}
+
+/* Plain Newton's method on S(u,v) - o - t d = 0 in double from one start: t of a zero well inside the patch, or INFINITY. */
+static double newton_hit(const double P[4][4][3], const double o[3], const double d[3], double u, double v)
+{
+  double t = 0;
+  for (int step = 0; step < 30; step++) {
+    double F[3], M[3][3];
+    for (int axis = 0; axis < 3; axis++) {
+      double bu[4] = {(1 - u) * (1 - u) * (1 - u), 3 * u * (1 - u) * (1 - u), 3 * u * u * (1 - u), u * u * u};
+      double bv[4] = {(1 - v) * (1 - v) * (1 - v), 3 * v * (1 - v) * (1 - v), 3 * v * v * (1 - v), v * v * v};
+      double du[4] = {-3 * (1 - u) * (1 - u), 3 * (1 - u) * (1 - 3 * u), 3 * u * (2 - 3 * u), 3 * u * u};
+      double dv[4] = {-3 * (1 - v) * (1 - v), 3 * (1 - v) * (1 - 3 * v), 3 * v * (2 - 3 * v), 3 * v * v};
+      F[axis] = -o[axis] - t * d[axis];
+      M[axis][0] = M[axis][1] = 0;
+      M[axis][2] = -d[axis];
+      for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++) {
+          F[axis] += bu[i] * bv[j] * P[i][j][axis];
+          M[axis][0] += du[i] * bv[j] * P[i][j][axis];
+          M[axis][1] += bu[i] * dv[j] * P[i][j][axis];
+        }
+      }
+    }
+    double step_of[3], determinant = 0;
+    for (int k = 0; k < 3; k++)
+      determinant += M[0][k] * (M[1][(k + 1) % 3] * M[2][(k + 2) % 3] - M[1][(k + 2) % 3] * M[2][(k + 1) % 3]);
+    for (int row = 0; row < 3; row++) {
+      step_of[row] = 0;
+      for (int column = 0; column < 3; column++) {
+        int r1 = (column + 1) % 3, r2 = (column + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;
+        step_of[row] += (M[r1][c1] * M[r2][c2] - M[r1][c2] * M[r2][c1]) / determinant * F[column];
+      }
+    }
+    u -= step_of[0];
+    v -= step_of[1];
+    t -= step_of[2];
+    if (!isfinite(u) || !isfinite(v) || fabs(u) > 3 || fabs(v) > 3) return INFINITY;
+    if (fabs(step_of[0]) + fabs(step_of[1]) + fabs(step_of[2]) < 1e-12) {
+      const double margin = 1e-9;
+      bool well_inside = u > margin && u < 1 - margin && v > margin && v < 1 - margin && t > margin;
+      return well_inside ? t : INFINITY;
+    }
+  }
+  return INFINITY;
+}
+
+/* No start of a grid of Newton's methods finds a hit the reference has not, and its own hits are common points. */
+static void test_brute_force(void **state)
+{
+  (void)state;
+  enum { STARTS = 7 };
+  size_t rays = effort_count(50000, 300), hits = 0, misses = 0, grazing = 0;
+  struct random random = {.state = 20240611};
+  for (size_t n = 0; n < rays; n++) {
+    double P[1][4][4][3], origin[3], direction[3];
+    random_net(&random, n % 3 == 0 ? 0.4 : n % 3 == 1 ? 2 : 6, P[0]);
+    random_ray(&random, origin, direction);
+    struct reference *reference = reference_create(P, 1);
+    assert_non_null(reference);
+    struct reference_answer a;
+    reference_closest(reference, origin, direction, &a);
+    double nearest = INFINITY;
+    for (int s = 0; s < STARTS * STARTS; s++)
+      nearest = fmin(nearest, newton_hit((const double(*)[4][3])P[0], origin, direction, (s / STARTS + 0.5) / STARTS,
+                                         (s % STARTS + 0.5) / STARTS));
+    if (nearest < a.t_first * (1 - 1e-9)) fail_msg("ray %zu: hit at %.17g, reference %.17g", n, nearest, a.t_first);
+    if (a.verdict == REFERENCE_HIT) {
+      hits++;
+      assert_true(a.t > 0 && a.u >= -a.radius && a.u <= 1 + (quad)a.radius);
+      /* t, u, v rounded to double move the point by a unit of the largest coordinate times the derivatives. */
+      assert_true(reference_residual(reference, 0, origin, direction, (double)a.t, (double)a.u, (double)a.v) < 1e-13);
+      assert_true(a.t_radius < 1e-20 && a.incidence >= 0 && a.incidence <= 1);
+    } else if (a.verdict == REFERENCE_MISS) {
+      misses++;
+    } else {
+      grazing++;
+    }
+    reference_destroy(reference);
+  }
+  printf("brute force: %zu hits, %zu misses, %zu grazing\n", hits, misses, grazing);
+  assert_true(hits > rays / 10 && misses > rays / 20 && grazing <= rays / 1000);
+}
+
+/* Every input coordinate moved by one rounding moves the hit by no more than the floor says, to first order. */
+static void test_floor(void **state)
+{
+  (void)state;
+  size_t rays = effort_count(20000, 300), hits = 0;
+  double share = 0;
+  struct random random = {.state = 77};
+  for (size_t n = 0; n < rays; n++) {
+    double P[1][4][4][3], origin[3], direction[3];
+    random_net(&random, n % 2 ? 0.4 : 2, P[0]);
+    random_ray(&random, origin, direction);
+    struct reference_answer a = ask(P, 1, origin, direction);
+    if (a.verdict != REFERENCE_HIT || a.incidence < 1e-4) continue;
+    double *numbers = &P[0][0][0][0];
+    for (int k = 0; k < 48; k++) numbers[k] += numbers[k] * (random_bits(&random) & 1 ? 0x1p-53 : -0x1p-53) * 1.5;
+    for (int k = 0; k < 3; k++) origin[k] += origin[k] * (random_bits(&random) & 1 ? 0x1p-53 : -0x1p-53) * 1.5;
+    struct reference_answer b = ask(P, 1, origin, direction);
+    if (b.verdict != REFERENCE_HIT) continue;
+    hits++;
+    /* The moves are up to two units: 1.5 units of the number rounded to a neighbour. */
+    double t = (double)quad_abs(a.t - b.t) / (2 * a.data.t), u = (double)quad_abs(a.u - b.u) / (2 * a.data.u);
+    assert_true(t <= 1.01 && u <= 1.01 && (double)quad_abs(a.v - b.v) <= 2.02 * a.data.v);
+    share = fmax(share, fmax(t, u));
+  }
+  printf("floor: %zu hits, worst move %.3f of the bound\n", hits, share);
+  assert_true(hits > rays / 10 && share > 0.05); /* the bound is not idle */
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_flat),       cmocka_unit_test(test_tangent),     cmocka_unit_test(test_border),
+      cmocka_unit_test(test_degenerate), cmocka_unit_test(test_brute_force), cmocka_unit_test(test_floor),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
