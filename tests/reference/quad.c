@@ -1,4 +1,5 @@
-/* Quadruple precision nets: evaluation and restriction by de Casteljau's algorithm (G. Farin, Curves and Surfaces for CAGD). */
+/* Quadruple precision nets: evaluation and restriction by de Casteljau's algorithm (G. Farin, Curves and Surfaces for
+ * CAGD). */
 #include "reference/quad.h"
 
 #include <math.h>

@@ -38,14 +38,14 @@ struct quad_jet {
 /* Largest |c[i][j]|. */
 quad quad_net_magnitude(const struct quad_net *net);
 
-/* Value and derivatives at (u,v), by de Casteljau. With M the magnitude and u, v within 2^-40 of [0,1], each number is off by
- * at most QUAD_JET_ROUNDOFFS QUAD_UNIT M: 6 levels of 4 roundings for the value, and a derivative is 3 times a difference
- * of values of degree one less. */
+/* Value and derivatives at (u,v), by de Casteljau. With M the magnitude and u, v within 2^-40 of [0,1], each number
+ * is off by at most QUAD_JET_ROUNDOFFS QUAD_UNIT M: 6 levels of 4 roundings for the value, and a derivative is 3
+ * times a difference of values of degree one less. */
 #define QUAD_JET_ROUNDOFFS 160
 struct quad_jet quad_net_jet(const struct quad_net *net, quad u, quad v);
 
-/* The net of the part over [u0, u0 + wu] x [v0, v0 + wv]. Each point is off by at most QUAD_RESTRICT_ROUNDOFFS QUAD_UNIT M:
- * two splits of 3 levels of 4 roundings in each direction. */
+/* The net of the part over [u0, u0 + wu] x [v0, v0 + wv]. Each point is off by at most QUAD_RESTRICT_ROUNDOFFS
+ * QUAD_UNIT M: two splits of 3 levels of 4 roundings in each direction. */
 #define QUAD_RESTRICT_ROUNDOFFS 48
 void quad_net_restrict(const struct quad_net *net, double u0, double wu, double v0, double wv, struct quad_net *out);
 

@@ -66,8 +66,8 @@ void reference_destroy(struct reference *reference)
   free(reference);
 }
 
-/* The slab test on the box of the control points, widened by its rounding errors: a difference and a quotient, 3 units each
- * way. Where the ray meets the box it enters it at `out_t` or later. */
+/* The slab test on the box of the control points, widened by its rounding errors: a difference and a quotient, 3
+ * units each way. Where the ray meets the box it enters it at `out_t` or later. */
 static bool patch_box_met(const struct patch *patch, const double origin[3], const double direction[3], double *out_t)
 {
   double enter = 0, leave = INFINITY;

@@ -1,21 +1,25 @@
 /* The reference: the closest hit of a ray and a list of bicubic Bezier patches, with a guarantee. For tests only.
  *
- * Shares no code and no method with src/: no resultant, no roots of polynomials in one variable. The ray is the line common to
- * two planes, so each patch becomes two bicubic functions a(u,v), b(u,v). Boxes of the (u,v) square are halved; a box is
+ * Shares no code and no method with src/: no resultant, no roots of polynomials in one variable. The ray is the line
+ * common to two planes, so each patch becomes two bicubic functions a(u,v), b(u,v). Boxes of the (u,v) square are
+ * halved; a box is
  * - dropped when the hull of its Bernstein coefficients (of a linear combination of a and b) excludes zero,
- * - settled when a preconditioned Jacobian stays within 1/2 of the identity (at most one root in the box: injectivity by
- *   diagonal dominance) and the root Newton's method finds is proven by Krawczyk's test in quadruple precision.
+ * - settled when a preconditioned Jacobian stays within 1/2 of the identity (at most one root in the box: injectivity
+ *   by diagonal dominance) and the root Newton's method finds is proven by Krawczyk's test in quadruple precision.
  * Double precision with running error bounds does the dropping; wherever the bound is no longer small beside the
- * variation in the box, the box is cut anew out of the quadruple-precision net. Inputs are exact: the doubles as they stand.
+ * variation in the box, the box is cut anew out of the quadruple-precision net. Inputs are exact: the doubles as they
+ * stand.
  *
  * What is guaranteed (magnitudes of the data between 1e-60 and 1e60):
  * REFERENCE_HIT      there is a hit at t, to within t_radius, and no hit before it;
  * REFERENCE_MISS     there is no hit with t > 0;
- * REFERENCE_GRAZING  undecided: (1) a box of REFERENCE_SMALLEST_BOX a side (or more boxes than a budget allows) cannot be
- *                    settled: a double root, a collapsed edge met exactly, a curve in common; or (2) the hit lies within
- *                    REFERENCE_BORDER of the border of its patch and no other patch shares that point; or (3) the hit lies at
- *                    the ray's origin within REFERENCE_ORIGIN times the size of the data.
- * Source: R. Moore, R. Kearfott, M. Cloud, Introduction to Interval Analysis, chapter 8 (preconditioning, Krawczyk's operator).
+ * REFERENCE_GRAZING  undecided, for one of three reasons:
+ *                    (1) a box of REFERENCE_SMALLEST_BOX a side (or more boxes than a budget allows) cannot be settled:
+ *                        a double root, a collapsed edge met exactly, a curve in common;
+ *                    (2) the hit lies within REFERENCE_BORDER of the border of its patch and no other patch shares it;
+ *                    (3) the hit lies at the ray's origin, within REFERENCE_ORIGIN times the size of the data.
+ * Source: R. Moore, R. Kearfott, M. Cloud, Introduction to Interval Analysis, chapter 8 (preconditioning, Krawczyk's
+ * operator).
  */
 #ifndef TESTS_REFERENCE_REFERENCE_H
 #define TESTS_REFERENCE_REFERENCE_H
@@ -37,8 +41,8 @@ enum { REFERENCE_NONE = UINT32_MAX };
 
 /* How far rounding alone can move a hit: a first-order bound.
  *
- * S(u,v) - o - t d = 0 is solved in double with residuals known only to `terms` units of rounding, so (u,v,t) moves by at most
- * |[S_u S_v -d]^-1| (2^-53 terms), entry by entry, and each result is rounded once. Two choices of terms:
+ * S(u,v) - o - t d = 0 is solved in double with residuals known only to `terms` units of rounding, so (u,v,t) moves
+ * by at most |[S_u S_v -d]^-1| (2^-53 terms), entry by entry, and each result is rounded once. Two choices of terms:
  * data:  sum B_i B_j |P_ij| + |o| + |t d|   every input coordinate changed by one rounding;
  * local: sum B_i B_j |P_ij - S|             the origin moved to the hit first, exactly: only the bicubic is rounded. */
 struct reference_floor {
@@ -55,7 +59,7 @@ struct reference_answer {
   quad t, u, v;         /* t in units of |direction|; u, v in [0,1] but for the radius */
   double radius;        /* bound on the error of u and v */
   double t_radius;      /* bound on the error of t */
-  bool shared;          /* within REFERENCE_BORDER of an edge that another patch has too: patch, u, v may be the neighbour's */
+  bool shared;          /* at an edge that another patch has too: patch, u, v may be the neighbour's */
   bool has_normal;      /* false where S_u x S_v vanishes (a collapsed pole) */
   double normal[3];     /* unit, facing the origin */
   double incidence;     /* |normal . direction| / |direction|: 0 is tangent */
@@ -69,7 +73,8 @@ struct reference;
 struct reference *reference_create(const double (*P)[4][4][3], size_t count);
 void reference_destroy(struct reference *reference);
 
-/* The closest hit of the ray origin + t direction, t > 0. The direction may have any length > 0. Any number of threads. */
+/* The closest hit of the ray origin + t direction, t > 0. The direction may have any length > 0. Any number of
+ * threads. */
 void reference_closest(const struct reference *reference, const double origin[3], const double direction[3],
                        struct reference_answer *out);
 

@@ -119,7 +119,8 @@ static void test_border(void **state)
   assert_int_equal(ask(P, 2, outside, down).verdict, REFERENCE_MISS);
 }
 
-/* A ray in the plane of a patch, one along a ruling, and patches collapsed to a line and to a point: bounded work, no claim. */
+/* A ray in the plane of a patch, one along a ruling, and patches collapsed to a line and to a point: bounded work, no
+ * claim. */
 static void test_degenerate(void **state)
 {
   (void)state;
@@ -159,7 +160,8 @@ static void random_ray(struct random *random, double origin[3], double direction
   }
 }
 
-/* Plain Newton's method on S(u,v) - o - t d = 0 in double from one start: t of a zero well inside the patch, or INFINITY. */
+/* Plain Newton's method on S(u,v) - o - t d = 0 in double from one start: t of a zero well inside the patch, or
+ * INFINITY. */
 static double newton_hit(const double P[4][4][3], const double o[3], const double d[3], double u, double v)
 {
   double t = 0;

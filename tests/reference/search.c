@@ -7,16 +7,19 @@
 
 enum { A, B, T, FUNCTIONS };
 
-/* A box is cut anew in quadruple precision where the error bound of a combination that decides about it exceeds this share of
- * the combination's range: well before the error decides. */
+/* A box is cut anew in quadruple precision where the error bound of a combination that decides about it exceeds this
+ * share of the combination's range: well before the error decides. */
 #define SLACK_SHARE 0x1p-20
 
 /* ||I - Y J|| at most this on a box: no two zeros in it, and Newton's method contracts by it. */
 #define CONTRACTION 0.5
 
-/* A root may lie outside its box by this share of the box (and by REFERENCE_BORDER at most): the contraction, proven for the
- * box, grows there by less than 6 x 4 x this. */
+/* A root may lie outside its box by this share of the box (and by REFERENCE_BORDER at most): the contraction, proven
+ * for the box, grows there by less than 6 x 4 x this. */
 #define OVERHANG 0x1p-10
+
+/* 24 + 36, and some for points a little outside the square. */
+#define VARIATION 64
 
 enum { STACK_SIZE = 256, NEWTON_STEPS = 12, QUAD_STEPS = 6 };
 
@@ -46,8 +49,8 @@ static int longest_axis(const double d[3])
   return k;
 }
 
-/* Coefficients in double. Each is a sum of products of a difference (one rounding) with an exact number: at most 4 roundings
- * of a and b, 8 of t, relative to the sum of the terms' sizes. */
+/* Coefficients in double. Each is a sum of products of a difference (one rounding) with an exact number: at most 4
+ * roundings of a and b, 8 of t, relative to the sum of the terms' sizes. */
 static void box_whole(const struct search *s, struct box *box)
 {
   const double *d = s->direction;
@@ -164,8 +167,8 @@ static void net_range(const double c[4][4], double *low, double *high)
   }
 }
 
-/* True where a function with these coefficients, each known to `slack`, has no zero; otherwise *blurred is set where the slack
- * is no longer small. */
+/* True where a function with these coefficients, each known to `slack`, has no zero; otherwise *blurred is set where
+ * the slack is no longer small. */
 static bool excludes_zero(const double c[4][4], double slack, bool *blurred)
 {
   double low, high;
@@ -249,7 +252,8 @@ static double cubic_value(const double c[4], double t, double *derivative)
   return s * q0 + t * q1;
 }
 
-/* Newton's method for F = 0 in the box's own coordinates, from its middle. Only a start for what follows: nothing is proven. */
+/* Newton's method for F = 0 in the box's own coordinates, from its middle. Only a start for what follows: nothing is
+ * proven. */
 static bool newton(const double F[2][4][4], double *out_s, double *out_t)
 {
   double s = 0.5, t = 0.5;
@@ -275,9 +279,9 @@ static bool newton(const double F[2][4][4], double *out_s, double *out_t)
   return true;
 }
 
-/* Newton's method in quadruple precision from (u,v), then Krawczyk's test: with Y = J(u,v)^-1, if ||I - Y J|| <= 1/2 on the
- * square of half-width r and |Y F(u,v)| <= r/2, exactly one zero lies in it. The variation of J is bounded by the
- * second derivatives, at most 36 M each (9 for uv) near the unit square. */
+/* Newton's method in quadruple precision from (u,v), then Krawczyk's test: with Y = J(u,v)^-1, if ||I - Y J|| <= 1/2
+ * on the square of half-width r and |Y F(u,v)| <= r/2, exactly one zero lies in it. The variation of J is bounded by
+ * the second derivatives, which near the unit square are at most 24 M (uu, vv) and 36 M (uv). */
 static bool prove_root(struct search *s, quad u, quad v, struct search_root *root)
 {
   search_need_quad(s);
@@ -301,13 +305,13 @@ static bool prove_root(struct search *s, quad u, quad v, struct search_root *roo
     }
     double change = fmax(fabs((double)du), fabs((double)dv));
     double radius = 2.02 * (change + rounding);
-    bool contracts = 6 * rounding + 2 * 45 * variation * radius <= CONTRACTION && radius <= OVERHANG;
+    bool contracts = 6 * rounding + 2 * VARIATION * variation * radius <= CONTRACTION && radius <= OVERHANG;
     if (contracts && (change <= 4 * rounding || step == QUAD_STEPS - 1)) {
       struct quad_jet t = quad_net_jet(&s->net[T], u, v);
       double whole = (double)quad_net_magnitude(&s->net[T]);
       *root = (struct search_root){.u = u, .v = v, .t = t.value, .radius = radius};
       root->t_radius = 1.01 * ((fabs((double)t.du) + fabs((double)t.dv)) * radius + s->net_error[T] +
-                               (QUAD_JET_ROUNDOFFS * QUAD_UNIT + 36 * radius * radius) * whole);
+                               (QUAD_JET_ROUNDOFFS * QUAD_UNIT + VARIATION * radius * radius) * whole);
       return true;
     }
     if (!(change <= reach)) return false;
@@ -349,7 +353,8 @@ static void give_up(struct search *s, const struct box *box)
   s->out->t_undecided = fmin(s->out->t_undecided, low - box->slack[T]);
 }
 
-/* True where the box is done with: no zero in it, or its only one is known. Otherwise *blurred says that rounding may be why. */
+/* True where the box is done with: no zero in it, or its only one is known. Otherwise *blurred says that rounding may
+ * be why. */
 static bool settle(struct search *s, const struct box *box, bool *blurred)
 {
   *blurred = false;
@@ -357,7 +362,8 @@ static bool settle(struct search *s, const struct box *box, bool *blurred)
   net_range(box->c[T], &low, &high);
   if (low - box->slack[T] > s->t_max || high + box->slack[T] < 0) return true;
   bool ignored;
-  if (excludes_zero(box->c[A], box->slack[A], &ignored) || excludes_zero(box->c[B], box->slack[B], &ignored)) return true;
+  for (int f = A; f <= B; f++)
+    if (excludes_zero(box->c[f], box->slack[f], &ignored)) return true;
 
   double J[2][2], Y[2][2], F[2][4][4], slack[2];
   mean_jacobian(box, J);
@@ -374,7 +380,8 @@ static bool settle(struct search *s, const struct box *box, bool *blurred)
     slack[row] = combine(box, Y[row][0], Y[row][1], F[row]);
     if (excludes_zero(F[row], slack[row], blurred)) return true;
   }
-  if (row_distance(F[0], slack[0], 1, 0) > CONTRACTION || row_distance(F[1], slack[1], 0, 1) > CONTRACTION) return false;
+  if (row_distance(F[0], slack[0], 1, 0) > CONTRACTION) return false;
+  if (row_distance(F[1], slack[1], 0, 1) > CONTRACTION) return false;
 
   double x, y;
   struct search_root root;

@@ -1,4 +1,5 @@
-/* The subdivision inside the reference: all common zeros of a(u,v) and b(u,v) on one patch. See reference.h for the method. */
+/* The subdivision inside the reference: all common zeros of a(u,v) and b(u,v) on one patch. See reference.h for the
+ * method. */
 #ifndef TESTS_REFERENCE_SEARCH_H
 #define TESTS_REFERENCE_SEARCH_H
 
@@ -20,8 +21,8 @@ struct search_result {
   double t_undecided;
 };
 
-/* Zeros with t in (-inf, t_max]: those beyond may be left out. Roots up to REFERENCE_BORDER outside [0,1]^2 are listed too.
- * P is the patch; the direction is not zero. */
+/* Zeros with t in (-inf, t_max]: those beyond may be left out. Roots up to REFERENCE_BORDER outside [0,1]^2 are
+ * listed too. P is the patch; the direction is not zero. */
 void search_patch(const double P[4][4][3], const double origin[3], const double direction[3], double t_max,
                   struct search_result *out);
 
