@@ -1,0 +1,149 @@
+/* Between doubles and decimal digits, in integers. */
+#include "base/decimal.h"
+
+#include <assert.h>
+#include <float.h>
+#include <math.h>
+
+typedef unsigned __int128 wide; /* of gcc and clang on every 64-bit machine */
+
+enum {
+  STORED_POWERS = 28, /* 5^27 is the largest power of 5 in 64 bits */
+  MAX_POWER = 54,     /* a product of two of them */
+  MAX_DIGITS = 17
+};
+
+static const uint64_t POWERS_OF_FIVE[STORED_POWERS] = {
+  1u,
+  5u,
+  25u,
+  125u,
+  625u,
+  3125u,
+  15625u,
+  78125u,
+  390625u,
+  1953125u,
+  9765625u,
+  48828125u,
+  244140625u,
+  1220703125u,
+  6103515625u,
+  30517578125u,
+  152587890625u,
+  762939453125u,
+  3814697265625u,
+  19073486328125u,
+  95367431640625u,
+  476837158203125u,
+  2384185791015625u,
+  11920928955078125u,
+  59604644775390625u,
+  298023223876953125u,
+  1490116119384765625u,
+  7450580596923828125u,
+};
+
+/* 10^n for n <= 19. */
+static uint64_t power_of_ten(int n)
+{
+  return POWERS_OF_FIVE[n] << n;
+}
+
+/* 5^n for n <= MAX_POWER, exact. */
+static wide power_of_five(int n)
+{
+  const int low = n < STORED_POWERS ? n : STORED_POWERS - 1;
+  return (wide)POWERS_OF_FIVE[low] * POWERS_OF_FIVE[n - low];
+}
+
+/* mantissa x 5^power / 2^shift, rounded to an integer, ties to even. The result must fit in 64 bits. mantissa < 2^53,
+ * 1 <= shift < 192. */
+static uint64_t scale(uint64_t mantissa, int power, int shift)
+{
+  const wide five = power_of_five(power);
+  const wide low_product = (wide)(uint64_t)five * mantissa;
+  const wide high = (wide)(uint64_t)(five >> 64) * mantissa + (low_product >> 64); /* of 2^64; < 2^117 */
+  const uint64_t low = (uint64_t)low_product;
+  uint64_t whole, fraction, rest; /* the fraction's first 64 bits, and whether anything follows */
+  if (shift < 64) {
+    whole = (uint64_t)(high << (64 - shift)) | low >> shift;
+    fraction = low << (64 - shift);
+    rest = 0;
+  } else if (shift == 64) {
+    whole = (uint64_t)high;
+    fraction = low;
+    rest = 0;
+  } else if (shift < 128) {
+    whole = (uint64_t)(high >> (shift - 64));
+    fraction = (uint64_t)(high << (128 - shift));
+    rest = low;
+  } else {
+    whole = (uint64_t)(high >> 64) >> (shift - 128);
+    fraction = (uint64_t)(high >> (shift - 128));
+    rest = (uint64_t)(high << (192 - shift)) | low;
+  }
+  const uint64_t half = UINT64_C(1) << 63;
+  const bool up = fraction > half || (fraction == half && (rest != 0 || (whole & 1) != 0));
+  return whole + up;
+}
+
+bool decimal_from_double(double value, int count, uint64_t *out_digits, int *out_exponent)
+{
+  if (count < 1 || count > MAX_DIGITS || !(value >= DBL_MIN && value <= 1e16))
+    return false;
+  int binary;
+  const uint64_t mantissa = (uint64_t)ldexp(frexp(value, &binary), DBL_MANT_DIG);
+  binary -= DBL_MANT_DIG; /* value = mantissa x 2^binary */
+  /* The decimal exponent of the first digit, by value >= 2^(binary + 52): right or one too small. */
+  int first = (int)floor((binary + DBL_MANT_DIG - 1) * 0.30102999566398120);
+  for (;; first++) {
+    const int power = count - 1 - first; /* digits = value x 10^power */
+    const int shift = -(binary + power);
+    if (power < 0 || power > MAX_POWER || shift < 1)
+      return false;
+    assert(shift < 192); /* else the value were less than one digit */
+    /* Before rounding, the digits must be fewer than 10^count; with one too small an exponent they are at most ten times
+     * as many, which still fits. */
+    uint64_t digits = scale(mantissa, power, shift);
+    if (digits > power_of_ten(count))
+      continue;
+    if (digits == power_of_ten(count)) { /* rounded up to the next power, or exactly that power */
+      digits /= 10;
+      first++;
+    }
+    *out_digits = digits;
+    *out_exponent = first - (count - 1);
+    return true;
+  }
+}
+
+/* The double nearest to (value + something in (0,1) if `sticky`) x 2^binary, for 2^63 <= value; in the normal range. */
+static double round_wide(wide value, bool sticky, int binary)
+{
+  const uint64_t top = (uint64_t)(value >> 64);
+  const int bits = top != 0 ? 128 - __builtin_clzll(top) : 64;
+  const int excess = bits - DBL_MANT_DIG; /* at least 11 */
+  const wide half = (wide)1 << (excess - 1);
+  const wide fraction = value & (2 * half - 1);
+  uint64_t whole = (uint64_t)(value >> excess);
+  whole += fraction > half || (fraction == half && (sticky || (whole & 1) != 0));
+  return ldexp((double)whole, binary + excess);
+}
+
+bool decimal_to_double(uint64_t digits, int exponent, double *out_value)
+{
+  if (digits == 0 || exponent <= -STORED_POWERS || exponent >= STORED_POWERS)
+    return false;
+  const int zeros = __builtin_clzll(digits);
+  const uint64_t shifted = digits << zeros;
+  if (exponent >= 0) {
+    *out_value = round_wide((wide)shifted * POWERS_OF_FIVE[exponent], false, exponent - zeros);
+  } else {
+    const wide numerator = (wide)shifted << 64;
+    const uint64_t five = POWERS_OF_FIVE[-exponent];
+    const wide quotient = numerator / five; /* >= 2^127 / 2^63 */
+    *out_value = round_wide(quotient, quotient * five != numerator, exponent - zeros - 64);
+  }
+  return true;
+}

@@ -1,0 +1,140 @@
+/* Between doubles and decimal digits: against the C library, which is exact as well. */
+#include "base/decimal.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+
+enum { RANDOM_NUMBERS = 200000 };
+
+/* xorshift64*, Marsaglia 2003 and Vigna 2016. */
+static uint64_t next_random(uint64_t *state)
+{
+  *state ^= *state >> 12;
+  *state ^= *state << 25;
+  *state ^= *state >> 27;
+  return *state * UINT64_C(0x2545F4914F6CDD1D);
+}
+
+/* A random sign-free mantissa times 2^binary. */
+static double random_double(uint64_t *state, int binary)
+{
+  return ldexp((double)(next_random(state) >> 11 | UINT64_C(1) << 52), binary - 52);
+}
+
+static void expect_digits(double value, int count, uint64_t digits, int exponent)
+{
+  char text[64], ours[64];
+  /* "%.*e" gives d.ddd; its point may be any character, so compare digits and exponent apart. */
+  snprintf(text, sizeof text, "%.*e", count - 1, value);
+  snprintf(ours, sizeof ours, "%" PRIu64, digits);
+  char theirs[64];
+  size_t length = 0;
+  for (const char *c = text; *c != 'e'; c++) {
+    if (*c >= '0' && *c <= '9')
+      theirs[length++] = *c;
+  }
+  theirs[length] = '\0';
+  if (strcmp(ours, theirs) != 0 || atoi(strchr(text, 'e') + 1) != exponent + count - 1)
+    print_error("%a as %d digits: %s here, %s there\n", value, count, ours, text);
+  assert_string_equal(ours, theirs);
+  assert_int_equal(atoi(strchr(text, 'e') + 1), exponent + count - 1);
+}
+
+static void digits_are_printfs(void **state)
+{
+  (void)state;
+  uint64_t random = 2021, digits;
+  int exponent;
+  for (int k = 0; k < RANDOM_NUMBERS; k++) {
+    const double value = random_double(&random, (int)(next_random(&random) % 150) - 99); /* 1e-30 to 1e15 */
+    const int count = 1 + k % 17;
+    if (decimal_from_double(value, count, &digits, &exponent))
+      expect_digits(value, count, digits, exponent);
+    else
+      assert_true(count < 17);
+  }
+}
+
+static void ties_and_powers(void **state)
+{
+  (void)state;
+  static const double values[] = { 0.5,     1,       1.5,    2.5,   0.125,  0.375,   9.5,     99.5,    0.95,
+                                   9.99999, 1e-5,    1e15,   1e14,  999999, 0x1p-60, 0x1p49,  1e-30,   0.1,
+                                   1.0 - DBL_EPSILON / 2, 1.0 + DBL_EPSILON, 123456789012345.5, 5e-1, 25, 35, 1e-22 };
+  uint64_t digits;
+  int exponent;
+  for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
+    assert_true(decimal_from_double(values[k], 17, &digits, &exponent));
+    for (int count = 1; count <= 17; count++) {
+      if (decimal_from_double(values[k], count, &digits, &exponent))
+        expect_digits(values[k], count, digits, exponent);
+    }
+  }
+  static const double outside[] = { 0, -1, INFINITY, NAN, 1e300, DBL_TRUE_MIN, DBL_MIN };
+  for (size_t k = 0; k < sizeof outside / sizeof outside[0]; k++)
+    assert_false(decimal_from_double(outside[k], 17, &digits, &exponent));
+}
+
+static void expect_double(uint64_t digits, int exponent)
+{
+  char text[64];
+  snprintf(text, sizeof text, "%" PRIu64 "e%d", digits, exponent);
+  double value = 0;
+  assert_true(decimal_to_double(digits, exponent, &value));
+  if (value != strtod(text, NULL))
+    print_error("%s: %a here, %a there\n", text, value, strtod(text, NULL));
+  assert_true(value == strtod(text, NULL));
+}
+
+static void doubles_are_strtods(void **state)
+{
+  (void)state;
+  uint64_t random = 1982;
+  for (int k = 0; k < RANDOM_NUMBERS; k++) {
+    const uint64_t digits = next_random(&random) >> (next_random(&random) % 64);
+    if (digits != 0)
+      expect_double(digits, (int)(next_random(&random) % 55) - 27);
+  }
+}
+
+static void halfway_cases(void **state)
+{
+  (void)state;
+  /* Integers half way between two doubles, one less and one more; and tens of them that a division brings back. */
+  for (int bits = 54; bits <= 63; bits++) {
+    for (uint64_t odd = 0; odd < 4; odd++) {
+      const uint64_t unit = UINT64_C(1) << (bits - 53); /* last place of a double of that size, times 2 */
+      const uint64_t middle = (UINT64_C(1) << bits) + odd * unit + unit / 2;
+      for (int step = -1; step <= 1; step++) {
+        const uint64_t digits = middle + (uint64_t)(int64_t)step;
+        expect_double(digits, 0);
+        if (digits <= UINT64_MAX / 10)
+          expect_double(10 * digits, -1);
+      }
+    }
+  }
+  expect_double(UINT64_MAX, 27);
+  expect_double(UINT64_MAX, -27);
+  expect_double(1, -27);
+  double value;
+  assert_false(decimal_to_double(1, 28, &value));
+  assert_false(decimal_to_double(1, -28, &value));
+  assert_false(decimal_to_double(0, 0, &value));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(digits_are_printfs),
+    cmocka_unit_test(ties_and_powers),
+    cmocka_unit_test(doubles_are_strtods),
+    cmocka_unit_test(halfway_cases),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
