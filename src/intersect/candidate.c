@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "algebra/sylvester.h"
+#include "base/real.h"
 #include "intersect/tracer.h"
 
 #define BEZOUT_REAL double
@@ -116,7 +117,7 @@ static double largest(const double net[16], int m, int n)
 {
   double size = 0;
   for (int i = 0; i <= m; i++)
-    for (int j = 0; j <= n; j++) size = fmax(size, fabs(net[4 * i + j]));
+    for (int j = 0; j <= n; j++) size = real_max(size, fabs(net[4 * i + j]));
   return size;
 }
 
@@ -158,7 +159,7 @@ void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const doubl
   tracer->counts.roots_found += (unsigned)roots.count;
   for (int k = 0; k < roots.count; k++) {
     const struct root *root = &roots.root[k];
-    const double real = options->polish ? START_MARGIN : fmax(options->tolerance, isfinite(root->radius) ? root->radius : 0);
+    const double real = options->polish ? START_MARGIN : real_max(options->tolerance, isfinite(root->radius) ? root->radius : 0);
     const double margin = options->polish ? START_MARGIN : 0;
     if (!(fabs(root->im) <= real && root->re >= -margin && root->re <= 1 + margin)) continue;
     const double v = eliminated_at(&form, options, root->re);

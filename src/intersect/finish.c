@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/double_double.h"
+#include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
 #include "intersect/tracer.h"
@@ -75,7 +76,7 @@ static double step(const struct exact *e, double *u, double *v)
   const double du = (bv * a - av * b) / determinant, dv = (au * b - bu * a) / determinant;
   if (!(fabs(du) < 1 && fabs(dv) < 1)) return INFINITY;
   *u -= du, *v -= dv;
-  return fmax(fabs(du), fabs(dv));
+  return real_max(fabs(du), fabs(dv));
 }
 
 static double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
@@ -133,8 +134,8 @@ static void set_surface(struct model_patch *patch, const double direction[3], st
     const struct patch_jet jet = patch_evaluate(patch->x[c], out->u, out->v);
     out->point[c] = patch->center[c] + patch->scale * jet.value;
     su[c] = jet.du, sv[c] = jet.dv;
-    tangent = fmax(tangent, fabs(jet.du) + fabs(jet.dv));
-    magnitude = fmax(magnitude, fabs(out->point[c]));
+    tangent = real_max(tangent, fabs(jet.du) + fabs(jet.dv));
+    magnitude = real_max(magnitude, fabs(out->point[c]));
   }
   /* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the sum; in
    * each coordinate, so up to sqrt(3) of it in distance. */

@@ -428,15 +428,25 @@ static void lane_local_ray(const struct packet *p, const struct trial *t, unsign
                             p->local[k].error[lane]};
 }
 
-static void lane_alone(struct packet *p, struct trial *t, unsigned lane)
+static void lane_subdivide(struct packet *p, const struct trial *t, unsigned lane)
+{
+  p->tracer->counts.escalated++;
+  struct local_ray ray;
+  struct leaf_hit root;
+  lane_local_ray(p, t, lane, &ray);
+  if (subdivide_closest(t->leaf, &ray, p->rays[lane].t_min, p->t_far[lane], &root) && packet_offer(p, lane, t, &root))
+    p->tracer->counts.roots_accepted++;
+}
+
+static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
 {
   struct tracer *tracer = p->tracer;
   double a[16], b[16];
   for (int n = 0; n < 16; n++) a[n] = t->fa[n][lane], b[n] = t->fb[n][lane];
   struct candidate_roots roots;
   candidate_solve(tracer, t->leaf, a, b, t->nets.error[lane], &roots);
-  struct leaf_hit root;
   if (!t->patch->solver->polish) {
+    struct leaf_hit root;
     for (int n = 0; n < roots.count; n++) {
       if (!(roots.u[n] >= 0 && roots.u[n] <= 1 && roots.v[n] >= 0 && roots.v[n] <= 1)) continue;
       const lanes w = trial_place(t, lanes_all(roots.u[n]), lanes_all(roots.v[n]));
@@ -445,12 +455,23 @@ static void lane_alone(struct packet *p, struct trial *t, unsigned lane)
     }
     return;
   }
-  if (lane_prove(p, t, lane, &roots)) return;
-  tracer->counts.escalated++;
-  struct local_ray ray;
-  lane_local_ray(p, t, lane, &ray);
-  if (subdivide_closest(t->leaf, &ray, p->rays[lane].t_min, p->t_far[lane], &root) && packet_offer(p, lane, t, &root))
-    tracer->counts.roots_accepted++;
+  if (!lane_prove(p, t, lane, &roots)) lane_subdivide(p, t, lane);
+}
+
+/* Stages 3 and 4 on the lanes with one sign variation. Lanes that are left undecided. */
+static lane_mask trial_single(struct packet *p, const struct trial *t, lane_mask active)
+{
+  const lane_mask single = active & (t->variations == 1);
+  if (!lanes_any(single)) return active;
+  p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(single));
+  const lanes kept = trial_root(t), eliminated = trial_eliminated(t, kept);
+  const bool v_kept = t->leaf->v_kept;
+  const struct refined r = refine(&t->nets, t->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, single);
+  const lanes k = v_kept ? r.v : r.u, radius = v_kept ? r.radius_v : r.radius_u;
+  /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
+  const lane_mask decided = single & (r.alone | (r.exists & (k > radius) & (k < 1 - radius)));
+  packet_offer_lanes(p, t, &r, decided & inside(&r));
+  return active & ~decided;
 }
 
 static void packet_try(struct packet *p, struct trial *t, lane_mask active)
@@ -465,22 +486,14 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   p->tracer->counts.patches_tested += (unsigned)__builtin_popcount(lanes_bits(active));
   lane_mask left = active;
   t->variations = lanes_all(-1);
-  if (t->patch->lanes) {
-    left = trial_resultant(t, active);
-    const lane_mask single = left & (t->variations == 1);
-    if (lanes_any(single)) {
-      p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(single));
-      const lanes kept = trial_root(t), eliminated = trial_eliminated(t, kept);
-      const bool v_kept = t->leaf->v_kept;
-      const struct refined r = refine(&t->nets, t->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, single);
-      const lanes k = v_kept ? r.v : r.u, radius = v_kept ? r.radius_v : r.radius_u;
-      /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
-      const lane_mask decided = single & (r.alone | (r.exists & (k > radius) & (k < 1 - radius)));
-      packet_offer_lanes(p, t, &r, decided & inside(&r));
-      left &= ~decided;
-    }
+  if (t->patch->solver->polish) left = trial_resultant(t, active);
+  if (t->patch->lanes) left = trial_single(p, t, left);
+  for (unsigned bits = lanes_bits(left); bits; bits &= bits - 1) {
+    const unsigned lane = (unsigned)__builtin_ctz(bits);
+    /* The only root of r has been tried already. */
+    if (t->patch->lanes && t->variations[lane] == 1) lane_subdivide(p, t, lane);
+    else lane_alone(p, t, lane);
   }
-  for (unsigned bits = lanes_bits(left); bits; bits &= bits - 1) lane_alone(p, t, (unsigned)__builtin_ctz(bits));
 }
 
 static void packet_leaf(struct packet *p, uint32_t index, lane_mask active)

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/real.h"
 #include "geometry/patch.h"
 #include "intersect/tracer.h"
 
@@ -47,7 +48,7 @@ static void hull(double net[4][4], double *lo, double *hi)
 {
   *lo = *hi = net[0][0];
   for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++) *lo = fmin(*lo, net[i][j]), *hi = fmax(*hi, net[i][j]);
+    for (int j = 0; j < 4; j++) *lo = real_min(*lo, net[i][j]), *hi = real_max(*hi, net[i][j]);
 }
 
 static double place_to_t(const struct search *s, double w)
@@ -66,7 +67,7 @@ static void box_place(const struct search *s, struct box *box)
   double lo, hi;
   hull(box->net[2], &lo, &hi);
   const double p = place_to_t(s, lo), q = place_to_t(s, hi);
-  box->near = fmin(p, q), box->far = fmax(p, q);
+  box->near = real_min(p, q), box->far = real_max(p, q);
 }
 
 /* Where p a + q b stands on the box: out[0..1] its hull, in units of its error bound. */
@@ -77,7 +78,7 @@ static void combination(struct box *box, double p, double q, double error, doubl
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 4; j++) {
       const double value = (p * box->net[0][i][j] + q * box->net[1][i][j]) * unit;
-      out[0] = fmin(out[0], value), out[1] = fmax(out[1], value);
+      out[0] = real_min(out[0], value), out[1] = real_max(out[1], value);
     }
   }
 }
@@ -110,9 +111,9 @@ static void second_bounds(struct box *box, double p, double q, double out[3])
   out[0] = out[1] = out[2] = 0;
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 4; j++) {
-      if (i < 2) out[0] = fmax(out[0], 6 * fabs(n[i + 2][j] - 2 * n[i + 1][j] + n[i][j]));
-      if (i < 3 && j < 3) out[1] = fmax(out[1], 9 * fabs(n[i + 1][j + 1] - n[i + 1][j] - n[i][j + 1] + n[i][j]));
-      if (j < 2) out[2] = fmax(out[2], 6 * fabs(n[i][j + 2] - 2 * n[i][j + 1] + n[i][j]));
+      if (i < 2) out[0] = real_max(out[0], 6 * fabs(n[i + 2][j] - 2 * n[i + 1][j] + n[i][j]));
+      if (i < 3 && j < 3) out[1] = real_max(out[1], 9 * fabs(n[i + 1][j + 1] - n[i + 1][j] - n[i][j + 1] + n[i][j]));
+      if (j < 2) out[2] = real_max(out[2], 6 * fabs(n[i][j + 2] - 2 * n[i][j + 1] + n[i][j]));
     }
   }
 }
@@ -127,12 +128,12 @@ static bool box_solve(struct box *box, double error, double root[2], double radi
     const double inverse = 1 / (a.du * b.dv - a.dv * b.du);
     m[0][0] = b.dv * inverse, m[0][1] = -a.dv * inverse, m[1][0] = -b.du * inverse, m[1][1] = a.du * inverse;
     const double su = m[0][0] * a.value + m[0][1] * b.value, sv = m[1][0] * a.value + m[1][1] * b.value;
-    step = fmax(fabs(su), fabs(sv));
+    step = real_max(fabs(su), fabs(sv));
     u -= su, v -= sv;
     if (!(fabs(u - 0.5) < 1.5 && fabs(v - 0.5) < 1.5)) return false;
   }
   if (!(step <= 0x1p-28)) return false;
-  const double out_u = fmax(-u, u - 1), out_v = fmax(-v, v - 1);
+  const double out_u = real_max(-u, u - 1), out_v = real_max(-v, v - 1);
   if (!(out_u < BOX_MARGIN && out_v < BOX_MARGIN)) return false;
   const double growth = out_u > 0 || out_v > 0 ? BOX_MARGIN_GROWTH : 1;
   const double reach_u = 0.5 + fabs(u - 0.5), reach_v = 0.5 + fabs(v - 0.5);
@@ -140,10 +141,10 @@ static bool box_solve(struct box *box, double error, double root[2], double radi
   for (int k = 0; k < 2; k++) {
     double s[3];
     second_bounds(box, m[k][0], m[k][1], s);
-    lipschitz = fmax(lipschitz, growth * (s[0] + 2 * s[1] + s[2]));
-    q = fmax(q, growth * ((s[0] + s[1]) * reach_u + (s[1] + s[2]) * reach_v));
+    lipschitz = real_max(lipschitz, growth * (s[0] + 2 * s[1] + s[2]));
+    q = real_max(q, growth * ((s[0] + s[1]) * reach_u + (s[1] + s[2]) * reach_v));
     radius[k] = 2 * (fabs(m[k][0]) + fabs(m[k][1])) * error;
-    size = fmax(size, radius[k] / 2);
+    size = real_max(size, radius[k] / 2);
   }
   for (int k = 0; k < 2; k++) radius[k] += 2 * lipschitz * step * step;
   root[0] = u, root[1] = v;
@@ -182,8 +183,8 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
   for (int k = 0; k < 3; k++) {
     for (int i = 0; i < 4; i++) {
       for (int j = 0; j < 3; j++) {
-        along_v = fmax(along_v, fabs(box->net[k][i][j + 1] - box->net[k][i][j]));
-        along_u = fmax(along_u, fabs(box->net[k][j + 1][i] - box->net[k][j][i]));
+        along_v = real_max(along_v, fabs(box->net[k][i][j + 1] - box->net[k][i][j]));
+        along_u = real_max(along_u, fabs(box->net[k][j + 1][i] - box->net[k][j][i]));
       }
     }
   }
@@ -231,7 +232,7 @@ bool subdivide_closest(const struct leaf *leaf, const struct local_ray *ray, dou
   memcpy(stack[0].net, nets, sizeof nets);
   stack[0].u = stack[0].v = 0, stack[0].size_u = stack[0].size_v = 1, stack[0].halvings = 0;
   box_place(&s, &stack[0]);
-  s.resolution = fmax((stack[0].far - stack[0].near) * PLACE_RESOLUTION, 8 * UNIT_ROUNDOFF * fmax(fabs(stack[0].near), fabs(stack[0].far)));
+  s.resolution = real_max((stack[0].far - stack[0].near) * PLACE_RESOLUTION, 8 * UNIT_ROUNDOFF * real_max(fabs(stack[0].near), fabs(stack[0].far)));
   int top = 1;
   for (int n = 0; top > 0; n++) {
     struct box box = stack[--top];
