@@ -458,18 +458,26 @@ static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
   if (!lane_prove(p, t, lane, &roots)) lane_subdivide(p, t, lane);
 }
 
-/* Stages 3 and 4 on the lanes with one sign variation. Lanes that are left undecided. */
-static lane_mask trial_single(struct packet *p, const struct trial *t, lane_mask active)
+/* t within [0,1], or the middle where it is not a number. */
+LANES_INLINE lanes start_within(lanes t)
 {
-  const lane_mask single = active & (t->variations == 1);
-  if (!lanes_any(single)) return active;
-  p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(single));
-  const lanes kept = trial_root(t), eliminated = trial_eliminated(t, kept);
+  t = lanes_select(t == t, t, lanes_all(0.5));
+  return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1));
+}
+
+/* Stages 3 and 4. Lanes that are left undecided. Where r has several sign variations, the start is one of its roots, or none; what
+ * is found from it still decides the leaf where it is proven to be alone. */
+static lane_mask trial_first_root(struct packet *p, const struct trial *t, lane_mask active)
+{
+  if (!lanes_any(active)) return active;
+  p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(active));
+  const lanes kept = start_within(trial_root(t)), eliminated = start_within(trial_eliminated(t, kept));
   const bool v_kept = t->leaf->v_kept;
-  const struct refined r = refine(&t->nets, t->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, single);
+  const struct refined r = refine(&t->nets, t->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, active);
   const lanes k = v_kept ? r.v : r.u, radius = v_kept ? r.radius_v : r.radius_u;
   /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
-  const lane_mask decided = single & (r.alone | (r.exists & (k > radius) & (k < 1 - radius)));
+  const lane_mask single = (t->variations == 1) & r.exists & (k > radius) & (k < 1 - radius);
+  const lane_mask decided = active & (r.alone | single);
   packet_offer_lanes(p, t, &r, decided & inside(&r));
   return active & ~decided;
 }
@@ -487,7 +495,7 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   lane_mask left = active;
   t->variations = lanes_all(-1);
   if (t->patch->solver->polish) left = trial_resultant(t, active);
-  if (t->patch->lanes) left = trial_single(p, t, left);
+  if (t->patch->lanes) left = trial_first_root(p, t, left);
   for (unsigned bits = lanes_bits(left); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     /* The only root of r has been tried already. */
