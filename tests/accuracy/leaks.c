@@ -1,0 +1,259 @@
+/* No ray leaves a closed model: rays from inside the dome, the ball and the torus aimed exactly at shared edges,
+ * corners, poles and iso-lines (where leaves of a patch meet), general and axis-aligned, with every solver; and rays
+ * that leave a hit neither strike the point they leave nor miss what comes next.
+ *
+ * A ray `origin + t (target - origin)` with the target on the surface hits at t = 1 or before, so a ray that slips
+ * through at the target shows even where it strikes the far wall. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "accuracy/models.h"
+#include "accuracy/trial.h"
+#include "effort.h"
+#include "random.h"
+
+enum { FULL_RAYS = 10000000, PLACEMENTS = 5, MOST_SHOWN = 5 };
+
+/* A target is evaluated in double, so t = 1 is off by some roundings of the largest coordinate over the distance: 1e-7
+ * covers a shift of 1e6 seen from 0.1 away. */
+#define AT_TARGET 1e-7
+
+/* The default solver gets all rays, the others this share. */
+#define OTHERS_SHARE 0.02
+
+static void (*const models[])(struct model *) = {model_dome, model_ball, model_torus};
+enum { MODELS = sizeof models / sizeof models[0] };
+
+static const char *const aims[] = {"edge", "corner", "eighth", "middle", "anywhere", "near edge", "near pole"};
+enum { AIM_EDGE, AIM_CORNER, AIM_EIGHTH, AIM_MIDDLE, AIM_ANYWHERE, AIM_NEAR_EDGE, AIM_NEAR_POLE, AIMS };
+
+static void aim(int kind, struct random *random, double *u, double *v)
+{
+  uint64_t bits = random_bits(random);
+  double tiny = ldexp(1, -(int)(bits % 56) - 4), end = (double)(bits >> 8 & 1);
+  *u = random_unit(random);
+  *v = random_unit(random);
+  double *fixed = bits >> 9 & 1 ? u : v;
+  switch (kind) {
+  case AIM_EDGE: *fixed = end; break;
+  case AIM_CORNER:
+    *u = end;
+    *v = (double)(bits >> 10 & 1);
+    break;
+  case AIM_EIGHTH: *fixed = (double)(bits >> 10 & 7) / 8; break;
+  case AIM_MIDDLE: *fixed = 0.5; break;
+  case AIM_NEAR_EDGE: *fixed = end > 0 ? 1 - tiny : tiny; break;
+  case AIM_NEAR_POLE: *u = tiny; break;
+  default: break;
+  }
+}
+
+/* One axis of the direction, or two, made zero: the ray starts straight before the target if that is still inside. */
+static void align(struct random *random, const double target[3], double origin[3])
+{
+  uint64_t bits = random_bits(random);
+  int axis = (int)(bits % 3);
+  if (bits >> 8 & 1) {
+    origin[axis] = target[axis];
+  } else {
+    origin[(axis + 1) % 3] = target[(axis + 1) % 3];
+    origin[(axis + 2) % 3] = target[(axis + 2) % 3];
+  }
+}
+
+/* Well inside, by distance from the middle as in model_inside: an aligned origin may have left the model. */
+static bool inside(const struct model *model, const double p[3])
+{
+  double r = sqrt(p[0] * p[0] + p[2] * p[2]);
+  if (!strcmp(model->name, "torus")) return (r - 1) * (r - 1) + p[1] * p[1] < 0.35 * 0.35;
+  if (!strcmp(model->name, "dome") && p[1] < 0.05) return false;
+  return r * r + p[1] * p[1] < 0.9 * 0.9;
+}
+
+static void random_ray(const struct model *model, const struct placement *placement, const struct model *placed,
+                       int kind, struct random *random, struct ray *ray)
+{
+  double u, v, target[3], origin[3];
+  size_t patch = (size_t)(random_bits(random) % model->count);
+  do {
+    aim(kind, random, &u, &v);
+    net_point(model->P[patch], u, v, target);
+    model_inside(model, random, origin);
+    if (!placement && random_bits(random) % 2) align(random, target, origin);
+  } while (!inside(model, origin));
+  if (placement) {
+    net_point(placed->P[patch], u, v, target);
+    placement_apply(placement, origin, origin);
+  }
+  *ray = (struct ray){.t_min = 0, .t_max = INFINITY};
+  for (int axis = 0; axis < 3; axis++) {
+    ray->origin[axis] = origin[axis];
+    ray->direction[axis] = target[axis] - origin[axis];
+  }
+}
+
+/* Whether a hit beyond the target is the first all the same: rounding moves a target far along a ray that is nearly
+ * tangent. */
+static bool first_after_all(const struct trial *trial, const struct ray *ray, const struct hit *hit)
+{
+  struct reference_answer truth;
+  reference_closest(trial->reference, ray->origin, ray->direction, &truth);
+  if (truth.patch == REFERENCE_NONE) return truth.verdict == REFERENCE_GRAZING && hit->t >= truth.t_first;
+  return hit->t <= (double)truth.t * (1 + TRIAL_SAME) + 64 * truth.data.t;
+}
+
+static size_t count_leaks(struct trial *trial, const char *name, const char *solver, int kind, size_t count,
+                          const struct ray *rays)
+{
+  static size_t shown = 0;
+  struct hit hits[PACKET_SIZE];
+  bool occluded[PACKET_SIZE];
+  size_t leaks = 0;
+  tracer_closest(trial->tracer, count, rays, hits);
+  tracer_occluded(trial->tracer, count, rays, occluded);
+  for (size_t n = 0; n < count; n++) {
+    bool struck = hits[n].patch != HIT_NONE && occluded[n];
+    if (struck && (hits[n].t <= 1 + AT_TARGET || first_after_all(trial, &rays[n], &hits[n]))) continue;
+    leaks++;
+    if (shown++ >= MOST_SHOWN) continue;
+    const struct ray *r = &rays[n];
+    printf("leak: %s, %s, %s: ray %a %a %a  %a %a %a: t %.17g, occluded %d\n", name, solver, aims[kind], r->origin[0],
+           r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2],
+           hits[n].patch == HIT_NONE ? INFINITY : hits[n].t, occluded[n]);
+  }
+  return leaks;
+}
+
+/* Placement 0 leaves the model where it is (and then rays are axis-aligned too); the others turn, scale and shift it.
+ * */
+static size_t leaks_of(const struct solver_options *options, size_t rays_wanted, uint64_t seed)
+{
+  static const double scales[PLACEMENTS] = {1, 1, 1e6, 1e-6, 1}, shifts[PLACEMENTS] = {0, 1, 1e6, 1e-6, 1e6};
+  struct random random = {.state = seed};
+  size_t each = rays_wanted / (MODELS * PLACEMENTS * AIMS * PACKET_SIZE) + 1, leaks = 0, rays = 0;
+  for (int which = 0; which < MODELS; which++) {
+    for (int place = 0; place < PLACEMENTS; place++) {
+      struct model model, placed;
+      struct placement placement;
+      models[which](&model);
+      placed = model;
+      placement_random(&random, scales[place], shifts[place], &placement);
+      if (place > 0) model_place(&placed, &placement);
+      struct trial trial;
+      trial_create(&trial, (const double(*)[4][4][3])placed.P, placed.count, options);
+      for (int kind = 0; kind < AIMS; kind++) {
+        for (size_t packet = 0; packet < each; packet++) {
+          struct ray packet_rays[PACKET_SIZE];
+          for (int n = 0; n < PACKET_SIZE; n++)
+            random_ray(&model, place > 0 ? &placement : NULL, &placed, kind, &random, &packet_rays[n]);
+          leaks += count_leaks(&trial, model.name, options->solver->name, kind, PACKET_SIZE, packet_rays);
+          rays += PACKET_SIZE;
+        }
+      }
+      trial_destroy(&trial);
+    }
+  }
+  printf("seed %llu, solver %s: %zu rays, %zu leaks\n", (unsigned long long)seed, options->solver->name, rays, leaks);
+  return leaks;
+}
+
+static void test_default(void **state)
+{
+  (void)state;
+  struct solver_options options;
+  solver_options_default(solver_at(0), &options);
+  assert_int_equal(leaks_of(&options, effort_count(FULL_RAYS, 20000), 401), 0);
+}
+
+static void test_other_solvers(void **state)
+{
+  (void)state;
+  size_t leaks = 0;
+  for (size_t n = 1; n < solver_count(); n++) {
+    struct solver_options options;
+    solver_options_default(solver_at(n), &options);
+    leaks += leaks_of(&options, effort_count((size_t)(OTHERS_SHARE * FULL_RAYS), 1000), 402 + n);
+  }
+  assert_int_equal(leaks, 0);
+}
+
+/* Whole patches, and other numbers of leaves than the default's. */
+static void test_splits(void **state)
+{
+  (void)state;
+  static const int splits[] = {1, 2, 3, 16};
+  size_t leaks = 0;
+  for (size_t n = 0; n < sizeof splits / sizeof splits[0]; n++) {
+    struct solver_options options;
+    solver_options_default(solver_at(0), &options);
+    options.split = splits[n];
+    leaks += leaks_of(&options, effort_count((size_t)(OTHERS_SHARE * FULL_RAYS), 1000), 420 + n);
+  }
+  assert_int_equal(leaks, 0);
+}
+
+/* From a hit on the ball's inside to another point of the ball: the chord ends there and nowhere before; outwards
+ * there is nothing. The ball of cubics is convex but for 3e-4 of its radius, hence the least angle. */
+static void test_leave(void **state)
+{
+  (void)state;
+  const double least_cosine = 0.1, least_chord = 0.1;
+  size_t wanted = effort_count(FULL_RAYS / 10, 4000), acne = 0, skipped = 0, outwards = 0;
+  static const double scales[] = {1, 1e6, 1e-6, 1}, shifts[] = {0, 1e6, 1e-6, 1e4};
+  struct random random = {.state = 403};
+  for (int place = 0; place < 4; place++) {
+    struct model model, placed;
+    struct placement placement;
+    model_ball(&model);
+    placed = model;
+    placement_random(&random, scales[place], shifts[place], &placement);
+    model_place(&placed, &placement);
+    struct trial trial;
+    trial_create(&trial, (const double(*)[4][4][3])placed.P, placed.count, NULL);
+    for (size_t n = 0; n < wanted / 4; n++) {
+      struct ray ray, next = {.t_min = 0, .t_max = INFINITY}, goal;
+      struct hit hit, second;
+      random_ray(&model, &placement, &placed, (int)(n % AIMS), &random, &ray);
+      random_ray(&model, &placement, &placed, (int)(n / AIMS % AIMS), &random, &goal);
+      tracer_closest(trial.tracer, 1, &ray, &hit);
+      assert_int_not_equal(hit.patch, HIT_NONE);
+      double cosine = 0, length = 0;
+      for (int axis = 0; axis < 3; axis++) {
+        next.direction[axis] = goal.origin[axis] + goal.direction[axis] - hit.point[axis];
+        cosine += next.direction[axis] * hit.normal[axis];
+        length += next.direction[axis] * next.direction[axis];
+      }
+      if (!(sqrt(length) > least_chord * scales[place]) || cosine < least_cosine * sqrt(length)) continue;
+      hit_leave(&hit, next.direction, next.origin);
+      tracer_closest(trial.tracer, 1, &next, &second);
+      if (second.patch == HIT_NONE || second.t > 1.01) skipped++;
+      if (second.patch != HIT_NONE && second.t < 0.99) acne++;
+      for (int axis = 0; axis < 3; axis++) next.direction[axis] = -next.direction[axis];
+      hit_leave(&hit, next.direction, next.origin);
+      bool occluded;
+      tracer_occluded(trial.tracer, 1, &next, &occluded);
+      outwards += occluded;
+    }
+    trial_destroy(&trial);
+  }
+  printf("seed 403: struck at the start %zu, slipped through %zu, struck outwards %zu\n", acne, skipped, outwards);
+  assert_int_equal(acne + skipped + outwards, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_default),
+      cmocka_unit_test(test_other_solvers),
+      cmocka_unit_test(test_splits),
+      cmocka_unit_test(test_leave),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

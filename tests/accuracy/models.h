@@ -1,0 +1,48 @@
+/* Closed models out of patches that share their edges bit for bit. Arrays are P[patch][i][j][xyz]; all about the
+ * origin, of outer radius 1 (torus: 1.4).
+ */
+#ifndef TESTS_ACCURACY_MODELS_H
+#define TESTS_ACCURACY_MODELS_H
+
+#include <stddef.h>
+
+#include "random.h"
+
+enum { MODEL_MOST_PATCHES = 16 };
+
+struct model {
+  const char *name;
+  size_t count;
+  double P[MODEL_MOST_PATCHES][4][4][3];
+};
+
+/* Half a ball with poles at (0,1,0), closed by a flat base whose centre is collapsed too: 8 patches. Row i = 0 is the
+ * pole. */
+void model_dome(struct model *out);
+
+/* A ball of 8 octants with collapsed poles at (0,1,0) and (0,-1,0). */
+void model_ball(struct model *out);
+
+/* A torus about the y axis, radii 1 and 0.4: 16 patches; u runs around the tube. */
+void model_torus(struct model *out);
+
+/* A point well inside: at most half as far from the middle (torus: from the circle inside the tube) as the surface
+ * is. */
+void model_inside(const struct model *model, struct random *random, double out_point[3]);
+
+/* A rotation (rows orthonormal to rounding) times `scale`, and a shift, by one function of the point alone, so that
+ * shared points stay shared. */
+struct placement {
+  double M[3][3], shift[3];
+};
+void placement_random(struct random *random, double scale, double shift, struct placement *out);
+void placement_apply(const struct placement *placement, const double p[3], double out[3]);
+void model_place(struct model *model, const struct placement *placement);
+
+/* S(u,v) in double. */
+void net_point(const double P[4][4][3], double u, double v, double out_point[3]);
+
+/* S_u and S_v in double. */
+void net_tangents(const double P[4][4][3], double u, double v, double out_u[3], double out_v[3]);
+
+#endif

@@ -1,0 +1,254 @@
+/* The intersector's answers compared with the reference's. See trial.h. */
+#include "accuracy/trial.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+enum { MOST_SHOWN = 10 };
+
+static void trial_start(struct trial *trial)
+{
+  size_t count = trial->scene.patch_count;
+  double (*P)[4][4][3] = malloc((count ? count : 1) * sizeof *P);
+  assert_non_null(P);
+  for (size_t n = 0; n < count; n++) memcpy(P[n], trial->scene.patches[n].P, sizeof P[n]);
+  trial->reference = reference_create((const double(*)[4][4][3])P, count);
+  free(P);
+  assert_non_null(trial->reference);
+  assert_int_equal(intersector_create(&trial->scene, &trial->intersector), STATUS_OK);
+  assert_int_equal(tracer_create(trial->intersector, &trial->tracer), STATUS_OK);
+}
+
+void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct solver_options *solver)
+{
+  memset(trial, 0, sizeof *trial);
+  if (solver) {
+    trial->solver = *solver;
+  } else {
+    solver_options_default(solver_at(0), &trial->solver);
+  }
+  trial->own_patches = calloc(count ? count : 1, sizeof *trial->own_patches);
+  assert_non_null(trial->own_patches);
+  for (size_t n = 0; n < count; n++) memcpy(trial->own_patches[n].P, P[n], sizeof P[n]);
+  trial->scene.patches = trial->own_patches;
+  trial->scene.patch_count = count;
+  trial->scene.solvers = &trial->solver;
+  trial->scene.solver_count = 1;
+  trial_start(trial);
+}
+
+void trial_of_scene(struct trial *trial, const struct scene *scene)
+{
+  memset(trial, 0, sizeof *trial);
+  trial->scene = *scene;
+  trial_start(trial);
+}
+
+void trial_destroy(struct trial *trial)
+{
+  tracer_destroy(trial->tracer);
+  intersector_destroy(trial->intersector);
+  reference_destroy(trial->reference);
+  free(trial->own_patches);
+}
+
+static void show(const char *what, const struct ray *ray, const struct hit *hit, const struct reference_answer *truth,
+                 struct tally *tally)
+{
+  static const char *const verdicts[] = {"miss", "hit", "grazing"};
+  if (tally->shown++ >= MOST_SHOWN) return;
+  printf("%s: %s\n  ray %a %a %a  %a %a %a\n", tally->name, what, ray->origin[0], ray->origin[1], ray->origin[2],
+         ray->direction[0], ray->direction[1], ray->direction[2]);
+  printf("  reference: %s", verdicts[truth->verdict]);
+  if (truth->patch != REFERENCE_NONE)
+    printf(" t %.17g u %.17g v %.17g patch %u incidence %.3g%s", (double)truth->t, (double)truth->u, (double)truth->v,
+           (unsigned)truth->patch, truth->incidence, truth->shared ? " (shared edge)" : "");
+  if (truth->verdict == REFERENCE_GRAZING) printf(" (nothing before t %.17g)", truth->t_first);
+  printf("\n  intersector: %s", hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing");
+  if (hit->patch == HIT_NONE) {
+    printf(" miss\n");
+  } else {
+    printf(" t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
+  }
+}
+
+static double largest_coordinate(const struct trial *trial, const struct ray *ray, const struct hit *hit)
+{
+  double size = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    size = fmax(size, fabs(ray->origin[axis]));
+    for (int k = 0; k < 16; k++) size = fmax(size, fabs(trial->scene.patches[hit->patch].P[k / 4][k % 4][axis]));
+  }
+  return size;
+}
+
+/* Whether a hit that should not be there may stand: it says grazing, and ray and patch do come that near. */
+static bool excused(const struct trial *trial, const struct ray *ray, const struct hit *hit)
+{
+  if (hit->certainty != CERTAINTY_GRAZING) return false;
+  double off = reference_residual(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u, hit->v);
+  return off <= TRIAL_NEAR * largest_coordinate(trial, ray, hit);
+}
+
+static void add_t_error(struct tally *tally, double error)
+{
+  if (tally->t_count == tally->t_capacity) {
+    tally->t_capacity = tally->t_capacity ? 2 * tally->t_capacity : 1024;
+    tally->t_errors = realloc(tally->t_errors, tally->t_capacity * sizeof *tally->t_errors);
+    assert_non_null(tally->t_errors);
+  }
+  tally->t_errors[tally->t_count++] = error;
+}
+
+/* Both found the same hit: how well. */
+static void measure(const struct ray *ray, const struct hit *hit, const struct reference_answer *truth,
+                    struct tally *tally)
+{
+  double length = 0, reach = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    length += ray->direction[axis] * ray->direction[axis];
+    reach = fmax(reach, fabs(ray->origin[axis]));
+  }
+  double dt = (double)quad_abs(hit->t - truth->t), origin_rounding = DOUBLE_UNIT * reach / sqrt(length);
+  add_t_error(tally, dt / (double)truth->t);
+  tally->worst_t_floor = fmax(tally->worst_t_floor, dt / truth->data.t);
+  tally->worst_t_local = fmax(tally->worst_t_local, dt / (truth->local.t + origin_rounding));
+  if (hit->patch != truth->patch) return;
+  if (!truth->shared) {
+    double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
+    tally->worst_u_floor = fmax(tally->worst_u_floor, du / truth->data.u);
+    tally->worst_v_floor = fmax(tally->worst_v_floor, dv / truth->data.v);
+    tally->worst_u_local = fmax(tally->worst_u_local, du / truth->local.u);
+    tally->worst_v_local = fmax(tally->worst_v_local, dv / truth->local.v);
+  }
+  if (truth->has_normal && truth->data.u + truth->data.v < 1e-12 && truth->incidence > 1e-6) {
+    double off = 0;
+    for (int axis = 0; axis < 3; axis++) off = fmax(off, fabs(hit->normal[axis] - truth->normal[axis]));
+    tally->worst_normal = fmax(tally->worst_normal, off);
+    if (off > TRIAL_NORMAL) {
+      if (tally->bad_normal++ == 0) show("wrong normal", ray, hit, truth, tally);
+    }
+  }
+}
+
+static void judge_hit(const struct trial *trial, const struct ray *ray, const struct hit *hit,
+                      const struct reference_answer *truth, struct tally *tally)
+{
+  double difference = (double)((quad)hit->t - truth->t);
+  if (fabs(difference) <= fmax(TRIAL_SAME * (double)truth->t, 64 * truth->data.t)) {
+    measure(ray, hit, truth, tally);
+  } else if (difference > 0) {
+    tally->lost++;
+    show("lost, a later hit is answered", ray, hit, truth, tally);
+  } else if (excused(trial, ray, hit)) {
+    tally->over++;
+  } else {
+    tally->invented++;
+    show("invented, nearer than the first", ray, hit, truth, tally);
+  }
+}
+
+/* The reference cannot say: any answer between "nothing before t_first" and its own proven hit will do. */
+static void judge_grazing(const struct trial *trial, const struct ray *ray, const struct hit *hit,
+                          const struct reference_answer *truth, struct tally *tally)
+{
+  tally->undecided++;
+  if (hit->certainty == CERTAINTY_CERTAIN) tally->bold++;
+  bool proven = truth->patch != REFERENCE_NONE;
+  if (proven && (hit->patch == HIT_NONE || hit->t > (double)truth->t * (1 + TRIAL_SAME) + 64 * truth->data.t)) {
+    tally->lost++;
+    show("lost behind a grazing one", ray, hit, truth, tally);
+  } else if (hit->patch != HIT_NONE && hit->t < truth->t_first * (1 - TRIAL_SAME) && !excused(trial, ray, hit)) {
+    tally->invented++;
+    show("invented before a grazing one", ray, hit, truth, tally);
+  }
+}
+
+void trial_judge(const struct trial *trial, const struct ray *ray, const struct hit *hit, struct tally *tally)
+{
+  struct reference_answer truth;
+  reference_closest(trial->reference, ray->origin, ray->direction, &truth);
+  tally->rays++;
+  if (hit->certainty == CERTAINTY_GRAZING) tally->grazing++;
+  if (truth.verdict == REFERENCE_GRAZING) {
+    judge_grazing(trial, ray, hit, &truth, tally);
+  } else if (truth.verdict == REFERENCE_MISS) {
+    tally->misses++;
+    if (hit->patch == HIT_NONE) return;
+    if (excused(trial, ray, hit)) {
+      tally->over++;
+    } else {
+      tally->invented++;
+      show("invented", ray, hit, &truth, tally);
+    }
+  } else {
+    tally->hits++;
+    if (hit->patch == HIT_NONE) {
+      tally->lost++;
+      show("lost", ray, hit, &truth, tally);
+    } else {
+      judge_hit(trial, ray, hit, &truth, tally);
+    }
+  }
+}
+
+void trial_rays(struct trial *trial, const struct ray *rays, size_t count, struct tally *tally)
+{
+  for (size_t first = 0; first < count; first += PACKET_SIZE) {
+    size_t size = count - first < PACKET_SIZE ? count - first : PACKET_SIZE;
+    struct hit hits[PACKET_SIZE];
+    tracer_closest(trial->tracer, size, rays + first, hits);
+    for (size_t n = 0; n < size; n++) trial_judge(trial, &rays[first + n], &hits[n], tally);
+  }
+}
+
+static int ascending(const void *x, const void *y)
+{
+  double a = *(const double *)x, b = *(const double *)y;
+  return (a > b) - (a < b);
+}
+
+static double quantile(struct tally *tally, double share)
+{
+  if (tally->t_count == 0) return 0;
+  size_t index = (size_t)(share * (double)(tally->t_count - 1));
+  return tally->t_errors[index];
+}
+
+void tally_print(struct tally *tally)
+{
+  if (tally->t_count) qsort(tally->t_errors, tally->t_count, sizeof *tally->t_errors, ascending);
+  printf("%s: %zu rays, %zu hits, %zu misses, %zu undecided; lost %zu, invented %zu; said grazing %zu (extra hits "
+         "%zu), certain where undecided %zu\n",
+         tally->name, tally->rays, tally->hits, tally->misses, tally->undecided, tally->lost, tally->invented,
+         tally->grazing, tally->over, tally->bold);
+  printf("  T relative: median %.2g, 99 %% %.2g, max %.2g; in data floors: T %.2g U %.2g V %.2g; in local floors: "
+         "T %.2g U %.2g V %.2g; normal %.2g\n",
+         quantile(tally, 0.5), quantile(tally, 0.99), quantile(tally, 1), tally->worst_t_floor, tally->worst_u_floor,
+         tally->worst_v_floor, tally->worst_t_local, tally->worst_u_local, tally->worst_v_local, tally->worst_normal);
+}
+
+void tally_assert(struct tally *tally)
+{
+  assert_int_equal(tally->lost, 0);
+  assert_int_equal(tally->invented, 0);
+  assert_int_equal(tally->bad_normal, 0);
+  if (tally->worst_t_floor > TRIAL_FLOORS || tally->worst_u_floor > TRIAL_FLOORS ||
+      tally->worst_v_floor > TRIAL_FLOORS)
+    fail_msg("%s: T, U, V off by %g, %g, %g floors, %d allowed", tally->name, tally->worst_t_floor,
+             tally->worst_u_floor, tally->worst_v_floor, TRIAL_FLOORS);
+}
+
+void tally_free(struct tally *tally)
+{
+  free(tally->t_errors);
+  memset(tally, 0, sizeof *tally);
+}
