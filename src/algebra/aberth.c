@@ -4,8 +4,9 @@
  * P'/P'' for N_i, an erratum: with it the fixed points would be the roots of P'. Here the same step is written
  * 1 / (P'/P - sum), which needs one inversion less. Stop: eq 10, a step below the tolerance in u.
  *
- * Beyond the paper: a root whose value is below its own rounding bound takes one last step (if that is smaller than the one
- * before) and rests; resting roots cost nothing but still push the others.
+ * Beyond the paper: `stop rounding` lets a root whose value is below its own rounding bound take one last step (if that is
+ * smaller than the one before) and be done; `rest on` leaves roots that are done alone, though they still push the others;
+ * `update gauss_seidel` takes the newest values of the others.
  */
 #include "algebra/root_kernel.h"
 #include "algebra/start.h"
@@ -18,7 +19,7 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
   struct aberth a;
   /* The bound of the stop is that of rounding alone: coefficient errors say nothing about where to stop. */
   evaluation_prepare(n, problem->basis, problem->c, NULL, &a.p);
-  start_values(problem, warm, a.zr, a.zi);
+  start_values(problem, options->radii, warm, a.zr, a.zi);
   a.active_count = n;
   out->count = n;
   for (int i = 0; i < n; i++) {
@@ -28,7 +29,7 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
     out->converged[i] = out->cluster[i] = false;
   }
   for (int number = 1; number <= options->max_iterations && a.active_count > 0; number++) {
-    kernel->aberth_sweep(&a, options->tolerance * options->tolerance, number, out);
+    kernel->aberth_sweep(&a, options, number, out);
   }
   for (int i = 0; i < n; i++) {
     out->re[i] = a.zr[i];

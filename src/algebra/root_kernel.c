@@ -102,61 +102,76 @@ LANES_INLINE void step_lanes(const struct aberth *a, lanes xr, lanes xi, struct 
   }
 }
 
-static void aberth_sweep(struct aberth *a, double tolerance_square, int number, struct root_estimates *out)
+/* What one root does with its step. True when it is done. */
+static bool take_step(struct aberth *a, const struct solver_options *options, bool turning, int i, double dx, double dy,
+                      double square, bool resting)
+{
+  const double xr = a->zr[i], xi = a->zi[i];
+  const bool usable = isfinite(dx) && isfinite(dy) && !isnan(square);
+  bool done;
+  if (resting && options->stop == STOP_ROUNDING) {
+    done = true;
+    if (!usable || square > a->last_step[i]) {
+      dx = dy = 0.0;
+    }
+  } else if (resting && !usable) {
+    done = true; /* P is 0 */
+    dx = dy = 0.0;
+  } else {
+    if (!usable) { /* the pushes cancel P'/P: go somewhere else nearby */
+      dx = 0.25 * xr - 0.125 * xi;
+      dy = 0.25 * xi + 0.125 * xr;
+    }
+    done = usable && square < options->tolerance * options->tolerance;
+    if (turning && !done) {
+      const double angle = 0.3 + 0.37 * i, c = cos(angle), s = sin(angle), turned = c * dx - s * dy;
+      dy = s * dx + c * dy;
+      dx = turned;
+    }
+    a->last_step[i] = usable ? square : INFINITY;
+  }
+  a->next_zr[i] = xr + dx;
+  a->next_zi[i] = xi + dy;
+  return done;
+}
+
+static void aberth_sweep(struct aberth *a, const struct solver_options *options, int number, struct root_estimates *out)
 {
   const bool turning = number % TURN_PERIOD == 0;
-  int still_active = 0;
+  int moving = 0, still_active = 0;
   const int active_count = a->active_count;
-  int moved[POLYNOMIAL_MAX_DEGREE];
-  memcpy(moved, a->active, sizeof moved[0] * (size_t)active_count);
+  int active[POLYNOMIAL_MAX_DEGREE];
+  memcpy(active, a->active, sizeof active[0] * (size_t)active_count);
   for (int first = 0; first < active_count; first += LANES) {
     const int used = active_count - first < LANES ? active_count - first : LANES;
     lanes xr, xi;
     for (int l = 0; l < LANES; l++) {
-      const int i = moved[l < used ? first + l : first];
+      const int i = active[l < used ? first + l : first];
       xr[l] = a->zr[i];
       xi[l] = a->zi[i];
     }
     struct aberth_step step;
     step_lanes(a, xr, xi, &step);
     for (int l = 0; l < used; l++) {
-      const int i = moved[first + l];
-      double dx = step.re[l], dy = step.im[l];
-      const double square = step.step_square[l];
-      const bool usable = isfinite(dx) && isfinite(dy) && !isnan(square);
-      bool done;
-      if (step.resting[l] != 0) {
-        done = true;
-        if (!usable || square > a->last_step[i]) {
-          dx = dy = 0.0;
-        }
-      } else {
-        if (!usable) { /* the pushes cancel P'/P: go somewhere else nearby */
-          dx = 0.25 * xr[l] - 0.125 * xi[l];
-          dy = 0.25 * xi[l] + 0.125 * xr[l];
-        }
-        done = usable && square < tolerance_square;
-        if (turning && !done) {
-          const double angle = 0.3 + 0.37 * i, c = cos(angle), s = sin(angle), turned = c * dx - s * dy;
-          dy = s * dx + c * dy;
-          dx = turned;
-        }
-        a->last_step[i] = usable ? square : INFINITY;
-      }
-      a->next_zr[i] = xr[l] + dx;
-      a->next_zi[i] = xi[l] + dy;
+      const int i = active[first + l];
+      const bool done = take_step(a, options, turning, i, step.re[l], step.im[l], step.step_square[l], step.resting[l] != 0);
       out->iterations[i]++;
       out->converged[i] = done;
-      if (!done) {
+      moving += !done;
+      if (!done || !options->rest) {
         a->active[still_active++] = i;
+      }
+      if (options->update == UPDATE_GAUSS_SEIDEL) {
+        a->zr[i] = a->next_zr[i];
+        a->zi[i] = a->next_zi[i];
       }
     }
   }
-  for (int m = 0; m < active_count; m++) {
-    a->zr[moved[m]] = a->next_zr[moved[m]];
-    a->zi[moved[m]] = a->next_zi[moved[m]];
+  for (int k = 0; k < active_count; k++) {
+    a->zr[active[k]] = a->next_zr[active[k]];
+    a->zi[active[k]] = a->next_zi[active[k]];
   }
-  a->active_count = still_active;
+  a->active_count = moving > 0 ? still_active : 0;
 }
 
 struct inclusion_lanes {

@@ -32,8 +32,8 @@ struct inclusion {
 
 struct root_kernel {
   const char *name;
-  /* One sweep over the active roots, all steps taken from the values before it. `number` counts from 1. */
-  void (*aberth_sweep)(struct aberth *a, double tolerance_square, int number, struct root_estimates *out);
+  /* One sweep over the active roots, as options->stop, update and rest say. `number` counts from 1. */
+  void (*aberth_sweep)(struct aberth *a, const struct solver_options *options, int number, struct root_estimates *out);
   void (*include)(const struct evaluation *p, int count, const double re[], const double im[], struct inclusion out[]);
 };
 

@@ -65,6 +65,12 @@ void bernstein_find(const struct root_problem *problem, const struct solver_opti
 void aberth_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
                  struct root_estimates *out);
 
+/* Newton's and Laguerre's methods and their like: one root at a time, and deflation. */
+void newton_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
+                 struct root_estimates *out);
+void laguerre_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
+                   struct root_estimates *out);
+
 /* Adds an estimate; one too many is dropped. */
 static inline void root_estimates_add(struct root_estimates *out, double re, double im, int iterations, bool converged,
                                       bool cluster)

@@ -11,6 +11,9 @@
 static const struct solver solvers[] = {
   {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, 1e-12, 64,
    bernstein_find},
+  {"newton", "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, 1e-12, 200, newton_find},
+  {"laguerre", "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false, 1e-12, 100,
+   laguerre_find},
   {"aberth", "all roots at once by Aberth's method (eq 9 of the paper)", false, 1e-12, 100, aberth_find},
 };
 
@@ -34,21 +37,6 @@ const struct solver *solver_find(const char *name, size_t length)
   return NULL;
 }
 
-void solver_options_default(const struct solver *solver, struct solver_options *out)
-{
-  *out = (struct solver_options){
-    .solver = solver,
-    .tolerance = solver->tolerance,
-    .max_iterations = solver->max_iterations,
-    .start = START_COLD,
-    .basis = BASIS_BERNSTEIN,
-    .resultant = RESULTANT_BEZOUT,
-    .back_substitution = BACK_SUBSTITUTION_NULL_VECTOR,
-    .polish = true,
-    .split = 0,
-  };
-}
-
 /* The items of a solver block. One macro writes the two accessors of an item, whose C types differ. */
 #define ITEM_ACCESSORS(field, type)                                          \
   static void set_##field(struct solver_options *options, double value)      \
@@ -67,6 +55,10 @@ ITEM_ACCESSORS(basis, enum basis)
 ITEM_ACCESSORS(resultant, enum resultant)
 ITEM_ACCESSORS(back_substitution, enum back_substitution)
 ITEM_ACCESSORS(split, int)
+ITEM_ACCESSORS(radii, enum radii)
+ITEM_ACCESSORS(stop, enum stop)
+ITEM_ACCESSORS(update, enum update)
+ITEM_ACCESSORS(deflation, enum deflation)
 
 static void set_polish(struct solver_options *options, double value)
 {
@@ -78,6 +70,66 @@ static double get_polish(const struct solver_options *options)
   return options->polish ? 1.0 : 0.0;
 }
 
+static void set_rest(struct solver_options *options, double value)
+{
+  options->rest = value != 0.0;
+}
+
+static double get_rest(const struct solver_options *options)
+{
+  return options->rest ? 1.0 : 0.0;
+}
+
+static void set_refine(struct solver_options *options, double value)
+{
+  options->refine = value != 0.0;
+}
+
+static double get_refine(const struct solver_options *options)
+{
+  return options->refine ? 1.0 : 0.0;
+}
+
+/* The paper's iterations as printed, or what docs/paper.md found best. */
+static void set_form(struct solver_options *options, double value)
+{
+  const bool improved = value != 0.0;
+  options->radii = improved ? RADII_POLYGON : RADII_CIRCLE;
+  options->stop = improved ? STOP_ROUNDING : STOP_STEP;
+  options->update = improved ? UPDATE_GAUSS_SEIDEL : UPDATE_JACOBI;
+  options->rest = improved;
+  options->deflation = improved ? DEFLATION_COMPOSITE : DEFLATION_FORWARD;
+  options->refine = improved;
+}
+
+static double get_form(const struct solver_options *options)
+{
+  const bool paper = options->radii == RADII_CIRCLE && options->stop == STOP_STEP && options->update == UPDATE_JACOBI &&
+                     !options->rest && options->deflation == DEFLATION_FORWARD && !options->refine;
+  return paper ? 0.0 : 1.0;
+}
+
+void solver_options_default(const struct solver *solver, struct solver_options *out)
+{
+  *out = (struct solver_options){
+    .solver = solver,
+    .tolerance = solver->tolerance,
+    .max_iterations = solver->max_iterations,
+    .start = START_COLD,
+    .basis = BASIS_BERNSTEIN,
+    .resultant = RESULTANT_BEZOUT,
+    .back_substitution = BACK_SUBSTITUTION_NULL_VECTOR,
+    .polish = true,
+    .split = 0,
+  };
+  set_form(out, 1.0);
+}
+
+static const char *const form_words[] = {"paper", "improved", NULL};
+static const char *const radii_words[] = {"circle", "polygon", NULL};
+static const char *const stop_words[] = {"step", "rounding", NULL};
+static const char *const update_words[] = {"jacobi", "gauss_seidel", NULL};
+static const char *const deflation_words[] = {"forward", "composite", NULL};
 static const char *const start_words[] = {"cold", "previous", NULL};
 static const char *const basis_words[] = {"bernstein", "power", NULL};
 static const char *const resultant_words[] = {"bezout", "sylvester", NULL};
@@ -105,6 +157,21 @@ static const struct solver_item items[] = {
    SOLVER_ITEM_KEYWORD, off_on, 0, 1, set_polish, get_polish},
   {"split", "each patch is cut into N x N leaves; 1 = whole patches", SOLVER_ITEM_INTEGER, split_words, 1, MAX_SPLIT,
    set_split, get_split},
+  /* form stands before the items it sets, so that a block written in this order reads back the same. */
+  {"form", "all of the following at once: the paper's iterations as printed, or improved", SOLVER_ITEM_KEYWORD, form_words,
+   0, 1, set_form, get_form},
+  {"radii", "cold start values on Aberth's circle, or on circles by Newton's polygon", SOLVER_ITEM_KEYWORD, radii_words, 0,
+   1, set_radii, get_radii},
+  {"stop", "by eq 10 alone, or also where the value is below its own rounding bound", SOLVER_ITEM_KEYWORD, stop_words, 0, 1,
+   set_stop, get_stop},
+  {"update", "aberth: from the values before the sweep, or from the newest", SOLVER_ITEM_KEYWORD, update_words, 0, 1,
+   set_update, get_update},
+  {"rest", "aberth: a root that is done is left alone while others move", SOLVER_ITEM_KEYWORD, off_on, 0, 1, set_rest,
+   get_rest},
+  {"deflation", "newton, laguerre: division from the highest power, or from both ends", SOLVER_ITEM_KEYWORD,
+   deflation_words, 0, 1, set_deflation, get_deflation},
+  {"refine", "newton, laguerre: last steps on the polynomial before deflation", SOLVER_ITEM_KEYWORD, off_on, 0, 1,
+   set_refine, get_refine},
 };
 
 size_t solver_item_count(void)

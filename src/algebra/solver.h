@@ -39,6 +39,12 @@ enum start { START_COLD, START_PREVIOUS };
 enum resultant { RESULTANT_BEZOUT, RESULTANT_SYLVESTER };
 enum back_substitution { BACK_SUBSTITUTION_NULL_VECTOR, BACK_SUBSTITUTION_EUCLID };
 
+/* Ways of the complex solvers that go beyond the paper. Each can be had alone; `form` sets them all at once. */
+enum radii { RADII_CIRCLE, RADII_POLYGON };          /* start values on Aberth's circle, or by Newton's polygon (Bini) */
+enum stop { STOP_STEP, STOP_ROUNDING };              /* eq 10 alone, or also where |p| is below its own rounding bound */
+enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL };  /* aberth: the values of the last sweep, or the newest there are */
+enum deflation { DEFLATION_FORWARD, DEFLATION_COMPOSITE };
+
 struct solver;
 struct root_problem;   /* internal: root_problem.h */
 struct root_estimates; /* internal: root_problem.h */
@@ -52,6 +58,12 @@ struct solver_options {
   enum basis basis;
   enum resultant resultant;
   enum back_substitution back_substitution;
+  enum radii radii;
+  enum stop stop;
+  enum update update;
+  bool rest;     /* aberth: a root that has converged is left alone while others still move */
+  enum deflation deflation;
+  bool refine;   /* newton, laguerre: last steps on the polynomial before deflation */
   bool polish; /* on: 2-D Newton on the patch, and every answer certified; off: the solver's own roots are the answer */
   int split;   /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
 };

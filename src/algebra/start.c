@@ -1,9 +1,13 @@
-/* Start values: Aberth's circle, and the roots of the previous polynomial.
+/* Start values: Aberth's circle, Newton's polygon, and the roots of the previous polynomial.
  *
  * Aberth's circle (section 3.4 of the paper): the centre is the centroid of the roots, -c[n-1] / (n c[n]); the radius is the
  * positive root of |b[n]| r^n = sum over k < n of |b[k]| r^k, with b the coefficients about the centre, which is Cauchy's
  * bound: the circle holds every root. The values are spread evenly on it, turned by a quarter of their spacing so that
  * they do not lie in conjugate pairs, which the iteration could not part.
+ *
+ * Newton's polygon (D. Bini, "Numerical computation of polynomial zeros by means of Aberth's method", 1996): the upper convex
+ * hull of the points (k, log |c[k]|); an edge from k to l stands for l - k roots of modulus about |c[k]/c[l]|^(1/(l-k)), and as
+ * many values are spread on the circle of that radius about 0.
  */
 #include "algebra/start.h"
 
@@ -17,7 +21,7 @@ enum { RADIUS_STEPS = 60 };
 /* Warm starts nearer to each other than this, relative to their modulus, are moved apart by as much. */
 #define COINCIDENCE 1e-9
 
-/* 2^-exponent(size)-like first guess from above: the largest of (n |b[k]/b[n]|)^(1/(n-k)). */
+/* Cauchy's bound. The first guess, the largest of (n |b[k]/b[n]|)^(1/(n-k)), is not below it. */
 static double cauchy_radius(int n, const double b[])
 {
   double radius = 0.0;
@@ -48,6 +52,11 @@ static double cauchy_radius(int n, const double b[])
   return radius;
 }
 
+double start_mean_modulus(const struct root_problem *problem)
+{
+  return exp2((log2(fabs(problem->c[0])) - log2(fabs(problem->c[problem->degree]))) / problem->degree);
+}
+
 static void circle_values(const struct root_problem *problem, double out_re[], double out_im[])
 {
   const int n = problem->degree;
@@ -63,7 +72,7 @@ static void circle_values(const struct root_problem *problem, double out_re[], d
   if (!(radius > 0.0 && radius < sqrt(DBL_MAX)) || !(fabs(centre) < sqrt(DBL_MAX))) {
     /* All roots equal, or the centre overflows: the mean modulus about 0 is always finite and positive. */
     centre = 0.0;
-    radius = exp2((log2(fabs(problem->c[0])) - log2(fabs(problem->c[n]))) / n);
+    radius = start_mean_modulus(problem);
   }
   const double turn = 2.0 * acos(-1.0) / n;
   for (int i = 0; i < n; i++) {
@@ -73,18 +82,61 @@ static void circle_values(const struct root_problem *problem, double out_re[], d
   }
 }
 
-void start_values(const struct root_problem *problem, const struct solver_warm *warm, double out_re[], double out_im[])
+static void polygon_values(const struct root_problem *problem, double out_re[], double out_im[])
+{
+  const int n = problem->degree;
+  double height[POLYNOMIAL_MAX_DEGREE + 1];
+  int corner[POLYNOMIAL_MAX_DEGREE + 1], corners = 0;
+  for (int k = 0; k <= n; k++) {
+    height[k] = log2(fabs(problem->c[k])); /* -infinity for 0: never on the hull, whose ends are not 0 */
+    if (problem->c[k] == 0.0) {
+      continue;
+    }
+    while (corners >= 2) {
+      const int a = corner[corners - 2], b = corner[corners - 1];
+      if ((height[b] - height[a]) * (k - a) > (height[k] - height[a]) * (b - a)) {
+        break;
+      }
+      corners--;
+    }
+    corner[corners++] = k;
+  }
+  const double full_turn = 2.0 * acos(-1.0);
+  int i = 0;
+  for (int edge = 0; edge + 1 < corners; edge++) {
+    const int low = corner[edge], count = corner[edge + 1] - low;
+    const double radius = exp2((height[low] - height[low + count]) / count);
+    for (int k = 0; k < count; k++, i++) {
+      /* Each circle is turned by its own angle, so that neither conjugates nor rows of values arise. */
+      const double angle = full_turn * ((k + 0.25) / count + (double)edge / n);
+      out_re[i] = radius * cos(angle);
+      out_im[i] = radius * sin(angle);
+    }
+  }
+}
+
+static void cold_values(const struct root_problem *problem, enum radii radii, double out_re[], double out_im[])
+{
+  if (radii == RADII_CIRCLE) {
+    circle_values(problem, out_re, out_im);
+  } else {
+    polygon_values(problem, out_re, out_im);
+  }
+}
+
+void start_values(const struct root_problem *problem, enum radii radii, const struct solver_warm *warm, double out_re[],
+                  double out_im[])
 {
   const int n = problem->degree;
   if (warm == NULL || warm->count != n) {
-    circle_values(problem, out_re, out_im);
+    cold_values(problem, radii, out_re, out_im);
     return;
   }
   for (int i = 0; i < n; i++) {
     double re = warm->re[i], im = warm->im[i];
     root_problem_x_from_u(problem->basis, &re, &im);
     if (!isfinite(re) || !isfinite(im) || (re == 0.0 && im == 0.0)) {
-      circle_values(problem, out_re, out_im);
+      cold_values(problem, radii, out_re, out_im);
       return;
     }
     out_re[i] = re;

@@ -1,0 +1,63 @@
+/* Complex numbers by hand: the arithmetic of <complex.h> without its library calls for infinities. Internal to src/algebra. */
+#ifndef PSCN_ALGEBRA_COMPLEX_NUMBER_H
+#define PSCN_ALGEBRA_COMPLEX_NUMBER_H
+
+#include <math.h>
+
+struct complex_number {
+  double re, im;
+};
+
+static inline struct complex_number complex_add(struct complex_number a, struct complex_number b)
+{
+  return (struct complex_number){a.re + b.re, a.im + b.im};
+}
+
+static inline struct complex_number complex_subtract(struct complex_number a, struct complex_number b)
+{
+  return (struct complex_number){a.re - b.re, a.im - b.im};
+}
+
+static inline struct complex_number complex_multiply(struct complex_number a, struct complex_number b)
+{
+  return (struct complex_number){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+
+static inline struct complex_number complex_scale(double s, struct complex_number a)
+{
+  return (struct complex_number){s * a.re, s * a.im};
+}
+
+/* a / b; not finite where b is zero. Scaled by |b|'s larger part, so that no square over- or underflows. */
+static inline struct complex_number complex_divide(struct complex_number a, struct complex_number b)
+{
+  const double scale = 1.0 / (fabs(b.re) + fabs(b.im));
+  const double re = b.re * scale, im = b.im * scale;
+  const double inverse = scale / (re * re + im * im);
+  return (struct complex_number){(a.re * re + a.im * im) * inverse, (a.im * re - a.re * im) * inverse};
+}
+
+static inline double complex_norm(struct complex_number a) /* |a|^2 */
+{
+  return a.re * a.re + a.im * a.im;
+}
+
+static inline double complex_modulus(struct complex_number a)
+{
+  return sqrt(complex_norm(a));
+}
+
+/* The root with real part >= 0. */
+static inline struct complex_number complex_sqrt(struct complex_number a)
+{
+  const double modulus = hypot(a.re, a.im);
+  const double larger = sqrt(0.5 * (modulus + fabs(a.re)));
+  if (!(larger > 0.0)) {
+    return (struct complex_number){0.0, 0.0};
+  }
+  const double smaller = 0.5 * fabs(a.im) / larger;
+  const double re = a.re >= 0.0 ? larger : smaller, im = a.re >= 0.0 ? smaller : larger;
+  return (struct complex_number){re, copysign(im, a.im)};
+}
+
+#endif

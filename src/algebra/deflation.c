@@ -1,0 +1,241 @@
+/* One root at a time: the loop that Newton's and Laguerre's methods share (sections 3.1 and 3.2 of the paper).
+ *
+ * The i-th root is sought from the i-th start value, in what is left of the polynomial after the roots before it were divided
+ * out. Forward division (from the highest power, the paper's) is stable for roots found in order of increasing modulus,
+ * backward division for the opposite; the composite takes each where it is stable and joins them at the largest term
+ * |c[k] a^k| (Peters and Wilkinson, "Practical problems arising in the solution of polynomial equations", 1971).
+ *
+ * A value is taken for a real root where dropping its imaginary part does not raise |p| above what it was or above its
+ * rounding bound; the paper does not say how it decides.
+ */
+#include "algebra/deflation.h"
+
+#include <string.h>
+
+#include "algebra/start.h"
+
+/* Every so many steps on one root the step is turned by one radian: a real start on a polynomial without real roots
+ * would never leave the axis, and cycles end. */
+enum { TURN_PERIOD = 8 };
+
+/* No step is longer than this many times |x| + the mean modulus of the roots: where p' nearly vanishes the way back would
+ * take hundreds of steps. */
+#define LONGEST_STEP 8.0
+
+/* Steps of `refine` on the whole polynomial. */
+enum { REFINE_STEPS = 2 };
+
+void deflation_divide_linear(enum deflation how, int n, double c[], double a)
+{
+  double forward[POLYNOMIAL_MAX_DEGREE + 1], backward[POLYNOMIAL_MAX_DEGREE + 1];
+  forward[n - 1] = c[n];
+  for (int k = n - 1; k > 0; k--) {
+    forward[k - 1] = c[k] + a * forward[k];
+  }
+  int join = 0; /* backward below, forward from here on */
+  if (how == DEFLATION_COMPOSITE && a != 0.0) {
+    double largest = 0.0, power = 1.0;
+    for (int k = 0; k <= n; k++, power *= a) {
+      if (fabs(c[k] * power) > largest) {
+        largest = fabs(c[k] * power);
+        join = k;
+      }
+    }
+    backward[0] = -c[0] / a;
+    for (int k = 1; k < join; k++) {
+      backward[k] = (backward[k - 1] - c[k]) / a;
+    }
+  }
+  memcpy(c, backward, sizeof c[0] * (size_t)join);
+  memcpy(c + join, forward + join, sizeof c[0] * (size_t)(n - join));
+}
+
+void deflation_divide_quadratic(enum deflation how, int n, double c[], double sum, double product)
+{
+  double forward[POLYNOMIAL_MAX_DEGREE + 2], backward[POLYNOMIAL_MAX_DEGREE + 1];
+  forward[n] = forward[n - 1] = 0.0; /* above the quotient */
+  for (int k = n - 2; k >= 0; k--) {
+    forward[k] = c[k + 2] + sum * forward[k + 1] - product * forward[k + 2];
+  }
+  int join = 0;
+  if (how == DEFLATION_COMPOSITE && product > 0.0) {
+    const double modulus = sqrt(product);
+    double largest = 0.0, power = 1.0;
+    for (int k = 0; k <= n; k++, power *= modulus) {
+      if (fabs(c[k] * power) > largest) {
+        largest = fabs(c[k] * power);
+        join = k < n - 1 ? k : n - 1;
+      }
+    }
+    for (int k = 0; k < join; k++) {
+      backward[k] = (c[k] + sum * (k > 0 ? backward[k - 1] : 0.0) - (k > 1 ? backward[k - 2] : 0.0)) / product;
+    }
+  }
+  memcpy(c, backward, sizeof c[0] * (size_t)join);
+  memcpy(c + join, forward + join, sizeof c[0] * (size_t)(n - 1 - join));
+}
+
+/* One polynomial at one point. */
+struct local_values {
+  struct local_view view;
+  double size, error; /* |q| in the chart, and its rounding bound */
+};
+
+/* Chart as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g) and
+ * (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
+static struct local_values look(int n, const double c[], struct complex_number x)
+{
+  const bool reversed = complex_norm(x) > 1.0;
+  const struct complex_number one = {1.0, 0.0};
+  const struct complex_number z = reversed ? complex_divide(one, x) : x;
+  const double modulus = complex_modulus(z);
+  struct complex_number q = {0.0, 0.0}, slope = {0.0, 0.0}, half_second = {0.0, 0.0};
+  double error = 0.0;
+  for (int k = n; k >= 0; k--) {
+    const double coefficient = c[reversed ? n - k : k];
+    half_second = complex_add(complex_multiply(half_second, z), slope);
+    slope = complex_add(complex_multiply(slope, z), q);
+    q = complex_multiply(q, z);
+    q.re += coefficient;
+    error = error * modulus + (4 * k + 2) * UNIT_ROUNDOFF * fabs(coefficient);
+  }
+  const struct complex_number g = complex_divide(slope, q);
+  const struct complex_number h = complex_divide(complex_scale(2.0, half_second), q);
+  struct local_values out = {.view = {n, g, {0.0, 0.0}}, .size = complex_modulus(q), .error = error + UNDERFLOW_ERROR};
+  const struct complex_number bend = complex_subtract(complex_multiply(g, g), h);
+  if (reversed) {
+    const struct complex_number zg = complex_multiply(z, g), zz = complex_multiply(z, z);
+    const struct complex_number a = {n - zg.re, -zg.im};
+    const struct complex_number b = {n - 2.0 * zg.re, -2.0 * zg.im};
+    out.view.slope = complex_multiply(z, a);
+    out.view.curvature = complex_multiply(zz, complex_add(b, complex_multiply(zz, bend)));
+  } else {
+    out.view.curvature = bend;
+  }
+  return out;
+}
+
+/* |step|^2 in u: |dx|^2 in the power basis, |dx|^2 / (|1 + x|^2 |1 + x + dx|^2) in Bernstein form. */
+static double step_in_u(enum basis basis, struct complex_number x, struct complex_number step)
+{
+  if (basis == BASIS_POWER) {
+    return complex_norm(step);
+  }
+  x.re += 1.0;
+  return complex_norm(step) / (complex_norm(x) * complex_norm(complex_add(x, step)));
+}
+
+struct sought {
+  struct complex_number x;
+  int iterations;
+  bool converged;
+};
+
+/* The paper's iteration, from `start`, on a polynomial of degree n. */
+static struct sought seek(const struct root_problem *problem, const struct solver_options *options, deflation_step *step, int n,
+                          const double c[], double mean_modulus, struct complex_number start)
+{
+  struct sought out = {start, 0, false};
+  const double tolerance = options->tolerance * options->tolerance;
+  double last = INFINITY;
+  while (!out.converged && out.iterations < options->max_iterations) {
+    out.iterations++;
+    const struct local_values here = look(n, c, out.x);
+    if (here.size == 0.0) {
+      out.converged = true;
+      break;
+    }
+    struct complex_number move = step(&here.view);
+    const bool usable = isfinite(move.re) && isfinite(move.im);
+    const double reach = LONGEST_STEP * (complex_modulus(out.x) + mean_modulus);
+    if (!usable) {
+      move = (struct complex_number){0.25 * reach, 0.125 * reach};
+    }
+    const double length = complex_modulus(move);
+    if (length > reach) {
+      move = complex_scale(reach / length, move);
+    }
+    const double in_u = step_in_u(problem->basis, out.x, move);
+    if (options->stop == STOP_ROUNDING && here.size <= here.error) {
+      out.converged = true;
+      if (!usable || in_u > last) {
+        break; /* only noise is left */
+      }
+    }
+    out.converged = out.converged || (usable && in_u < tolerance);
+    if (!out.converged && out.iterations % TURN_PERIOD == 0) {
+      move = complex_multiply(move, (struct complex_number){0.5403023058681398, 0.8414709848078965}); /* exp(i) */
+    }
+    out.x = complex_add(out.x, move);
+    last = in_u;
+  }
+  return out;
+}
+
+static bool taken_for_real(int n, const double c[], struct complex_number x)
+{
+  const struct local_values at = look(n, c, x), on_axis = look(n, c, (struct complex_number){x.re, 0.0});
+  /* The two values may be in different charts; |p| = |q| max(1, |x|)^n. */
+  const double ratio = fmax(1.0, complex_norm((struct complex_number){x.re, 0.0})) / fmax(1.0, complex_norm(x));
+  return on_axis.size <= on_axis.error || on_axis.size * pow(ratio, 0.5 * n) <= at.size;
+}
+
+/* Steps on the polynomial before deflation, each taken only where it lowers |p|. */
+static struct complex_number refined(const struct root_problem *problem, deflation_step *step, struct complex_number x)
+{
+  const int n = problem->degree;
+  for (int i = 0; i < REFINE_STEPS; i++) {
+    const struct local_values here = look(n, problem->c, x);
+    if (here.size == 0.0) {
+      break;
+    }
+    const struct complex_number next = complex_add(x, step(&here.view));
+    const double ratio = fmax(1.0, complex_norm(next)) / fmax(1.0, complex_norm(x));
+    if (!isfinite(next.re) || !isfinite(next.im) ||
+        !(look(n, problem->c, next).size * pow(ratio, 0.5 * n) < here.size)) {
+      break;
+    }
+    x = next;
+  }
+  return x;
+}
+
+static void add(const struct root_problem *problem, struct complex_number x, int iterations, bool converged,
+                struct root_estimates *out)
+{
+  root_problem_u_from_x(problem->basis, &x.re, &x.im);
+  root_estimates_add(out, x.re, x.im, iterations, converged, false);
+}
+
+void deflation_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
+                    deflation_step *step, struct root_estimates *out)
+{
+  double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE], c[POLYNOMIAL_MAX_DEGREE + 1];
+  start_values(problem, options->radii, warm, re, im);
+  memcpy(c, problem->c, sizeof c[0] * (size_t)(problem->degree + 1));
+  const double mean_modulus = start_mean_modulus(problem);
+  int n = problem->degree;
+  while (n > 0) {
+    const int order = problem->degree - n;
+    const struct complex_number start = {re[order], im[order]};
+    struct sought found;
+    if (n == 1) {
+      found = (struct sought){{-c[0] / c[1], 0.0}, 0, true};
+    } else {
+      found = seek(problem, options, step, n, c, mean_modulus, start);
+    }
+    if (n == 1 || taken_for_real(n, c, found.x)) {
+      found.x.im = 0.0;
+      deflation_divide_linear(options->deflation, n, c, found.x.re);
+      n -= 1;
+      const struct complex_number x = options->refine ? refined(problem, step, found.x) : found.x;
+      add(problem, x, found.iterations, found.converged, out);
+    } else {
+      deflation_divide_quadratic(options->deflation, n, c, 2.0 * found.x.re, complex_norm(found.x));
+      n -= 2;
+      const struct complex_number x = options->refine ? refined(problem, step, found.x) : found.x;
+      add(problem, x, found.iterations, found.converged, out);
+      add(problem, (struct complex_number){x.re, -x.im}, 0, found.converged, out);
+    }
+  }
+}

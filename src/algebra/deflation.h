@@ -1,0 +1,29 @@
+/* One root at a time: an iteration finds it, division takes it out, the rest has the next. Internal to src/algebra. */
+#ifndef PSCN_ALGEBRA_DEFLATION_H
+#define PSCN_ALGEBRA_DEFLATION_H
+
+#include "algebra/complex_number.h"
+#include "algebra/root_problem.h"
+
+/* What an iteration is told of a polynomial of degree n at the point x. */
+struct local_view {
+  int degree;
+  struct complex_number slope;     /* p'/p */
+  struct complex_number curvature; /* (p'/p)^2 - p''/p */
+};
+
+/* The step to add to x; it need not be finite. */
+typedef struct complex_number deflation_step(const struct local_view *view);
+
+/* Finds all roots of the problem by `step`, with deflation after each: a real root by its linear factor, a complex one with its
+ * conjugate by their real quadratic (section 3.1 of the paper). */
+void deflation_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
+                    deflation_step *step, struct root_estimates *out);
+
+/* c divided by x - a; c has degree n, the quotient n - 1. The remainder is dropped. */
+void deflation_divide_linear(enum deflation how, int n, double c[], double a);
+
+/* c divided by x^2 - sum x + product; c has degree n >= 2, the quotient n - 2. */
+void deflation_divide_quadratic(enum deflation how, int n, double c[], double sum, double product);
+
+#endif
