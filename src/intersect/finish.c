@@ -171,7 +171,7 @@ void finish_hit(const struct model *model, const struct ray *ray, const struct b
   const struct leaf *leaf = best->leaf;
   struct model_patch *patch = &model->patches[leaf->patch];
   out->patch = leaf->patch;
-  out->t = best->t;
+  out->t = best->root.t;
   out->u = clamp01(leaf_to_patch(patch->split, leaf->column_u, best->root.u));
   out->v = clamp01(leaf_to_patch(patch->split, leaf->column_v, best->root.v));
   const double plain = PLAIN_ERROR * patch->scale / fabs(ray->direction[dominant_axis(ray->direction)]);

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "intersect/refine.h"
+#include "intersect/subdivide.h"
 #include "intersect/tracer.h"
 
 #define BEZOUT_REAL lanes
@@ -328,25 +329,31 @@ static lanes trial_place(const struct trial *t, lanes u, lanes v)
 
 /* ---- keeping the nearest ---- */
 
-/* Whether a root at t is the answer so far: nearer than the best, or as near within the errors and of a lower patch, so that a
- * border shared by two patches belongs to the same one in whatever order they come. */
-static bool packet_offer(struct packet *p, unsigned lane, const struct trial *t, const struct leaf_hit *root)
+/* The root at x_k = w on a lane, whose place on the ray it sets. */
+static struct leaf_hit packet_root(const struct packet *p, unsigned lane, int axis, const struct refined *r, unsigned n, double w)
 {
-  const double to_t = p->local[t->axis].to_t[lane], start = p->local[t->axis].start[0][lane];
-  const double value = (root->w + p->local[t->axis].start[1][lane] + start) * to_t;
-  const double error = fabs(to_t) * (t->leaf->first[0] * root->radius_u + t->leaf->first[1] * root->radius_v) +
-                       8 * UNIT_ROUNDOFF * (fabs(value) + fabs(to_t) * fabs(root->w));
+  const double t = ((w + p->local[axis].start[1][lane]) + p->local[axis].start[0][lane]) * p->local[axis].to_t[lane];
+  return (struct leaf_hit){r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, t, true};
+}
+
+/* Makes a root the answer so far where it is: nearer than the best, or as near within the errors and of a lower patch, so that a
+ * border shared by two patches belongs to the same one in whatever order they come. */
+static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, const struct leaf_hit *root)
+{
+  const double to_t = fabs(p->local[t->axis].to_t[lane]);
+  const double error = to_t * (t->leaf->first[0] * root->radius_u + t->leaf->first[1] * root->radius_v) +
+                       8 * UNIT_ROUNDOFF * (fabs(root->t) + to_t * fabs(root->w));
   struct best *best = &p->best[lane];
-  if (!(value > p->rays[lane].t_min + error) || !(value < p->rays[lane].t_max)) return false;
+  if (!(root->t > p->rays[lane].t_min + error) || !(root->t < p->rays[lane].t_max)) return;
   if (best->leaf) {
     const double both = error + best->t_error;
-    if (value > best->t + both) return false;
-    if (value >= best->t - both && t->leaf->patch >= best->leaf->patch) return false;
+    if (root->t > best->root.t + both) return;
+    if (root->t >= best->root.t - both && t->leaf->patch >= best->leaf->patch) return;
   }
-  *best = (struct best){t->leaf, *root, value, error};
-  p->t_far[lane] = value + error;
+  *best = (struct best){t->leaf, *root, error};
+  p->t_far[lane] = root->t + error;
   if (p->any) p->live[lane] = 0;
-  return true;
+  p->tracer->counts.roots_accepted++;
 }
 
 static void packet_offer_lanes(struct packet *p, const struct trial *t, const struct refined *r, lane_mask hits)
@@ -355,8 +362,8 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
   const lanes w = trial_place(t, r->u, r->v);
   for (unsigned bits = lanes_bits(hits); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    const struct leaf_hit root = {r->u[lane], r->v[lane], r->radius_u[lane], r->radius_v[lane], w[lane], true};
-    if (packet_offer(p, lane, t, &root)) p->tracer->counts.roots_accepted++;
+    const struct leaf_hit root = packet_root(p, lane, t->axis, r, lane, w[lane]);
+    packet_offer(p, lane, t, &root);
   }
 }
 
@@ -374,9 +381,9 @@ struct proven {
   bool inside[CANDIDATE_MAX_ROOTS];
 };
 
-static void proven_add(struct proven *all, const struct trial *t, const struct refined *r, unsigned n, double w, bool in_leaf)
+static void proven_add(struct proven *all, const struct trial *t, const struct leaf_hit *added, bool in_leaf)
 {
-  const struct leaf_hit root = {r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, true};
+  const struct leaf_hit root = *added;
   for (int k = 0; k < all->count; k++) {
     const struct leaf_hit *old = &all->root[k];
     if (fabs(old->u - root.u) <= old->radius_u + root.radius_u && fabs(old->v - root.v) <= old->radius_v + root.radius_v) return;
@@ -408,12 +415,13 @@ static bool lane_prove(struct packet *p, const struct trial *t, unsigned lane, c
     if (only) all.count = 0, alone = true; /* whatever else was found is this root again */
     for (unsigned bits = alone ? only & -only : exists; bits; bits &= bits - 1) {
       const unsigned n = (unsigned)__builtin_ctz(bits);
-      proven_add(&all, t, &r, n, w[n], in_leaf >> n & 1);
+      const struct leaf_hit root = packet_root(p, lane, t->axis, &r, n, w[n]);
+      proven_add(&all, t, &root, in_leaf >> n & 1);
     }
   }
   if (!alone && !(all.count > 0 && all.within == t->variations[lane])) return false;
   for (int k = 0; k < all.count; k++)
-    if (all.inside[k] && packet_offer(p, lane, t, &all.root[k])) p->tracer->counts.roots_accepted++;
+    if (all.inside[k]) packet_offer(p, lane, t, &all.root[k]);
   return true;
 }
 
@@ -434,8 +442,9 @@ static void lane_subdivide(struct packet *p, const struct trial *t, unsigned lan
   struct local_ray ray;
   struct leaf_hit root;
   lane_local_ray(p, t, lane, &ray);
-  if (subdivide_closest(t->leaf, &ray, p->rays[lane].t_min, p->t_far[lane], &root) && packet_offer(p, lane, t, &root))
-    p->tracer->counts.roots_accepted++;
+  const struct subdivide_task task = {t->leaf, t->patch, p->tracer->model->scene->patches[t->leaf->patch].P,
+                                      &p->rays[lane], &ray, p->rays[lane].t_min, p->t_far[lane]};
+  if (subdivide_closest(&task, &root)) packet_offer(p, lane, t, &root);
 }
 
 static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
@@ -446,12 +455,12 @@ static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
   struct candidate_roots roots;
   candidate_solve(tracer, t->leaf, a, b, t->nets.error[lane], &roots);
   if (!t->patch->solver->polish) {
-    struct leaf_hit root;
     for (int n = 0; n < roots.count; n++) {
+      const struct refined r = {lanes_all(roots.u[n]), lanes_all(roots.v[n]), {0}, {0}, {0}, {0}};
       if (!(roots.u[n] >= 0 && roots.u[n] <= 1 && roots.v[n] >= 0 && roots.v[n] <= 1)) continue;
-      const lanes w = trial_place(t, lanes_all(roots.u[n]), lanes_all(roots.v[n]));
-      root = (struct leaf_hit){roots.u[n], roots.v[n], 0, 0, w[0], false};
-      if (packet_offer(p, lane, t, &root)) tracer->counts.roots_accepted++;
+      struct leaf_hit root = packet_root(p, lane, t->axis, &r, 0, trial_place(t, r.u, r.v)[0]);
+      root.certain = false;
+      packet_offer(p, lane, t, &root);
     }
     return;
   }

@@ -41,6 +41,7 @@ struct leaf_hit {
   double u, v;               /* leaf parameters, in [0,1] up to the radii */
   double radius_u, radius_v; /* the exact root is within; meaningless where not certain */
   double w;                  /* x_k of the point, local */
+  double t;                  /* place on the ray, in units of the scaled direction */
   bool certain;              /* proven to exist, proven to be alone within its radii */
 };
 
@@ -66,20 +67,13 @@ static const double RESULTANT_WEIGHT[4] = {0, 2, 20, 1376};
 void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
                      struct candidate_roots *out);
 
-/* subdivide.c: the last resort, complete by itself. */
-
-/* The nearest point of the leaf with t in (t_min, t_max) by recursive halving, hull tests and the Newton-Kantorovich test; where
- * rounding leaves no answer, a point with certain = false. Points that lie outside the leaf by no more than rounding count.
- * Returns whether there is one. */
-bool subdivide_closest(const struct leaf *leaf, const struct local_ray *ray, double t_min, double t_max, struct leaf_hit *out);
-
 /* finish.c: from the winning root to the answer. */
 
 /* The best root of one ray so far. */
 struct best {
   const struct leaf *leaf; /* NULL: none */
   struct leaf_hit root;
-  double t, t_error; /* in units of the (scaled) direction */
+  double t_error; /* bound on the error of root.t */
 };
 
 /* Fills the answer from the winner: parameters of the whole patch, improved by a Newton step on the patch with residuals in

@@ -1,0 +1,16 @@
+/* The widest floating-point type the compiler has: IEEE binary128 on x86-64 and arm64. Slow (software): for what double cannot
+ * decide. Elsewhere long double as it is, whose precision WIDE_ROUNDOFF states. */
+#ifndef PSCN_BASE_WIDE_H
+#define PSCN_BASE_WIDE_H
+
+#include <float.h>
+
+#if defined(__SIZEOF_FLOAT128__)
+__extension__ typedef __float128 wide;
+#define WIDE_ROUNDOFF ((wide)0x1p-113)
+#else
+typedef long double wide;
+#define WIDE_ROUNDOFF (LDBL_EPSILON / 2)
+#endif
+
+#endif
