@@ -1,0 +1,146 @@
+/* Diagnostics: one error becomes one block of lines. */
+#include "base/diagnostics.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  MESSAGE_BYTES = 2000,   /* longer messages are cut */
+  SHOWN_CHARACTERS = 110, /* of the source line; longer lines are shown around the place */
+  SHOWN_BEFORE = 60,      /* of those, at most so many before the place */
+  MAX_INCLUDE_LINES = 64  /* the language allows fewer levels */
+};
+
+/* Text that grows; after a failed allocation it stays as it was. */
+struct block {
+  char *text;
+  size_t length, capacity;
+};
+
+static void block_add(struct block *block, const char *text, size_t length)
+{
+  if (length > block->capacity - block->length) {
+    size_t capacity = 2 * block->capacity + length + 256;
+    char *grown = realloc(block->text, capacity);
+    if (!grown) return;
+    block->text = grown;
+    block->capacity = capacity;
+  }
+  memcpy(block->text + block->length, text, length);
+  block->length += length;
+}
+
+static void block_add_text(struct block *block, const char *text) { block_add(block, text, strlen(text)); }
+
+/* Adds text whose control characters and malformed UTF-8 become '?', so that a scene cannot steer a terminal. */
+static void block_add_clean(struct block *block, const char *text, size_t length)
+{
+  for (size_t i = 0; i < length;) {
+    size_t bytes = source_character(text + i, length - i);
+    bool plain = bytes > 1 || (bytes == 1 && (unsigned char)text[i] >= ' ' && text[i] != 0x7F) || text[i] == '\t';
+    if (plain) block_add(block, text + i, bytes);
+    else block_add(block, "?", 1);
+    i += bytes ? bytes : 1;
+  }
+}
+
+static void block_add_position(struct block *block, const struct source *source, struct source_position at)
+{
+  char numbers[64];
+  block_add_clean(block, source->name, strlen(source->name));
+  snprintf(numbers, sizeof numbers, ":%zu:%zu:", at.line, at.column);
+  block_add_text(block, numbers);
+}
+
+static void block_add_include_chain(struct block *block, const struct source *source)
+{
+  const struct source *chain[MAX_INCLUDE_LINES];
+  int levels = 0;
+  for (; source->includer && levels < MAX_INCLUDE_LINES; source = source->includer) chain[levels++] = source;
+  while (levels-- > 0) {
+    const struct source *includer = chain[levels]->includer;
+    block_add_text(block, "included from ");
+    block_add_position(block, includer, source_locate(includer, chain[levels]->include_begin));
+    block_add_text(block, "\n");
+  }
+}
+
+static size_t step_forward(const char *text, size_t i, size_t end)
+{
+  size_t bytes = source_character(text + i, end - i);
+  return i + (bytes ? bytes : 1);
+}
+
+/* The source line and the line of the caret. The caret line repeats the tabs, so both stand in the same columns. */
+static void block_add_line(struct block *block, struct place place, struct source_position at)
+{
+  const char *text = place.source->text;
+  size_t place_begin = place.begin < at.line_end ? place.begin : at.line_end;
+  size_t place_end = place.end < at.line_end ? place.end : at.line_end;
+  size_t begin = at.line_begin, column = at.column;
+  for (; column > SHOWN_BEFORE; column--) begin = step_forward(text, begin, at.line_end);
+  size_t end = begin;
+  for (int shown = 0; end < at.line_end && shown < SHOWN_CHARACTERS; shown++) end = step_forward(text, end, at.line_end);
+  if (place_end > end) place_end = end;
+
+  block_add_text(block, begin > at.line_begin ? "  ..." : "  ");
+  block_add_clean(block, text + begin, end - begin);
+  block_add_text(block, end < at.line_end ? "...\n" : "\n");
+  block_add_text(block, begin > at.line_begin ? "     " : "  ");
+  for (size_t i = begin; i < place_begin; i = step_forward(text, i, at.line_end)) {
+    block_add_text(block, text[i] == '\t' ? "\t" : " ");
+  }
+  block_add_text(block, "^");
+  if (place_begin < place_end) {
+    for (size_t i = step_forward(text, place_begin, at.line_end); i < place_end; i = step_forward(text, i, at.line_end)) {
+      block_add_text(block, "~");
+    }
+  }
+  block_add_text(block, "\n");
+}
+
+bool diagnostics_full(const struct diagnostics *diagnostics)
+{
+  return diagnostics->error_count >= DIAGNOSTICS_MAX_ERRORS;
+}
+
+static void tell_closing_line(struct diagnostics *diagnostics)
+{
+  char text[64];
+  int length = snprintf(text, sizeof text, "%d errors: no more are shown\n", DIAGNOSTICS_MAX_ERRORS);
+  diagnostics->tell(diagnostics->context, text, (size_t)length);
+}
+
+void diagnostics_error(struct diagnostics *diagnostics, struct place place, const char *format, ...)
+{
+  size_t before = diagnostics->error_count++;
+  if (!diagnostics->tell || before > DIAGNOSTICS_MAX_ERRORS) return;
+  if (before == DIAGNOSTICS_MAX_ERRORS) {
+    tell_closing_line(diagnostics);
+    return;
+  }
+  char message[MESSAGE_BYTES];
+  va_list arguments;
+  va_start(arguments, format);
+  if (vsnprintf(message, sizeof message, format, arguments) < 0) message[0] = '\0';
+  va_end(arguments);
+
+  struct block block = { 0 };
+  struct source_position at = { 0 };
+  if (place.source) {
+    at = source_locate(place.source, place.begin);
+    block_add_include_chain(&block, place.source);
+    block_add_position(&block, place.source, at);
+    block_add_text(&block, " ");
+  }
+  block_add_text(&block, "error: ");
+  block_add_clean(&block, message, strlen(message));
+  block_add_text(&block, "\n");
+  if (place.source) block_add_line(&block, place, at);
+  if (block.length > 0 && block.text[block.length - 1] == '\n') {
+    diagnostics->tell(diagnostics->context, block.text, block.length);
+  }
+  free(block.text);
+}

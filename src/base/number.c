@@ -1,0 +1,200 @@
+/* Numbers as text. Reading: digits are gathered into an integer and a power of ten; where both are exact in double one
+ * multiplication or division rounds correctly (Clinger 1990, "How to read floating point numbers accurately"), else strtod
+ * reads the digits written without a decimal point, which means the same in every locale. */
+#include "base/number.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  EXACT_DIGITS = 19,       /* an integer of so many decimal digits fits in 64 bits */
+  EXACT_POWER = 22,        /* 10^22 is the largest power of ten that is a double */
+  DECISIVE_DIGITS = 770,   /* no double lies nearer to a tie than 768 digits can say; what follows only breaks ties */
+  EXPONENT_LIMIT = 100000  /* beyond it only the sign of the exponent matters, whatever the digits */
+};
+
+static const double POWERS_OF_TEN[EXACT_POWER + 1] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                       1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                       1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
+
+static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/* The decimal digits of a number as they stand in the text, and what they are worth. */
+struct decimal {
+  size_t digits_begin, digits_end; /* of the text: digits and at most one point */
+  uint64_t mantissa;               /* the first EXACT_DIGITS digits from the first that is not 0 */
+  int64_t significant;             /* digits from the first that is not 0 */
+  int64_t exponent;                /* the value is the digits as one integer, times 10^exponent */
+};
+
+static size_t read_digits(const char *text, size_t length, struct decimal *out)
+{
+  size_t i = out->digits_begin;
+  bool point = false, any = false;
+  for (; i < length; i++) {
+    if (text[i] == '.' && !point) {
+      point = true;
+      continue;
+    }
+    if (!is_digit(text[i])) break;
+    any = true;
+    if (point) out->exponent--;
+    if (out->significant == 0 && text[i] == '0') continue;
+    if (out->significant++ < EXACT_DIGITS) out->mantissa = 10 * out->mantissa + (uint64_t)(text[i] - '0');
+  }
+  out->digits_end = i;
+  return any ? i : 0;
+}
+
+static size_t read_exponent(const char *text, size_t length, size_t i, struct decimal *out)
+{
+  if (i >= length || (text[i] != 'e' && text[i] != 'E')) return i;
+  size_t j = i + 1;
+  bool negative = false;
+  if (j < length && (text[j] == '+' || text[j] == '-')) negative = text[j++] == '-';
+  if (j >= length || !is_digit(text[j])) return i;
+  int64_t exponent = 0;
+  for (; j < length && is_digit(text[j]); j++) {
+    if (exponent < INT64_C(1000000000000)) exponent = 10 * exponent + (text[j] - '0');
+  }
+  out->exponent += negative ? -exponent : exponent;
+  return j;
+}
+
+/* Correct for any digits: strtod is given at most DECISIVE_DIGITS of them, and a last 1 for what was left out. */
+static double convert_slowly(const char *text, const struct decimal *decimal)
+{
+  char digits[DECISIVE_DIGITS + 40];
+  size_t count = 0;
+  int64_t left_out = 0;
+  bool nonzero_left_out = false;
+  for (size_t i = decimal->digits_begin; i < decimal->digits_end; i++) {
+    if (text[i] == '.' || (count == 0 && text[i] == '0')) continue;
+    if (count < DECISIVE_DIGITS) {
+      digits[count++] = text[i];
+    } else {
+      left_out++;
+      nonzero_left_out |= text[i] != '0';
+    }
+  }
+  int64_t exponent = decimal->exponent + left_out;
+  if (nonzero_left_out) {
+    digits[count++] = '1';
+    exponent--;
+  }
+  if (exponent > EXPONENT_LIMIT) exponent = EXPONENT_LIMIT;
+  if (exponent < -EXPONENT_LIMIT) exponent = -EXPONENT_LIMIT;
+  snprintf(digits + count, sizeof digits - count, "e%d", (int)exponent);
+  return strtod(digits, NULL);
+}
+
+enum number_kind number_read(const char *text, size_t length, double *out_value, size_t *out_used)
+{
+  size_t i = 0;
+  bool negative = false;
+  if (i < length && (text[i] == '+' || text[i] == '-')) negative = text[i++] == '-';
+  struct decimal decimal = { .digits_begin = i };
+  i = read_digits(text, length, &decimal);
+  if (i == 0) return NUMBER_NONE;
+  i = read_exponent(text, length, i, &decimal);
+
+  double value;
+  const uint64_t exact = UINT64_C(1) << 53;
+  if (decimal.mantissa == 0) {
+    value = 0.0;
+  } else if (decimal.significant <= EXACT_DIGITS && decimal.mantissa <= exact && decimal.exponent >= -EXACT_POWER &&
+             decimal.exponent <= EXACT_POWER) {
+    value = (double)decimal.mantissa;
+    if (decimal.exponent < 0) value /= POWERS_OF_TEN[-decimal.exponent];
+    else value *= POWERS_OF_TEN[decimal.exponent];
+  } else {
+    value = convert_slowly(text, &decimal);
+  }
+  *out_value = negative ? -value : value;
+  *out_used = i;
+  return isfinite(value) ? NUMBER_FINITE : NUMBER_OVERFLOW;
+}
+
+/* Lays out digits d.ddd times 10^exponent: plainly where that is short, else with an exponent. */
+static size_t lay_out(bool negative, const char *digits, int count, int exponent, char *out)
+{
+  enum { PLAIN_BELOW = 17, PLAIN_FROM = -5 };
+  char *to = out;
+  if (negative) *to++ = '-';
+  if (exponent >= PLAIN_FROM && exponent < PLAIN_BELOW) {
+    if (exponent < 0) {
+      *to++ = '0';
+      *to++ = '.';
+      for (int i = -1; i > exponent; i--) *to++ = '0';
+      for (int i = 0; i < count; i++) *to++ = digits[i];
+    } else {
+      for (int i = 0; i < count || i <= exponent; i++) {
+        if (i == exponent + 1) *to++ = '.';
+        *to++ = i < count ? digits[i] : '0';
+      }
+    }
+    *to = '\0';
+  } else {
+    *to++ = digits[0];
+    if (count > 1) *to++ = '.';
+    for (int i = 1; i < count; i++) *to++ = digits[i];
+    to += snprintf(to, 8, "e%d", exponent);
+  }
+  return (size_t)(to - out);
+}
+
+/* `count` correctly rounded significant digits of a finite value other than 0. The decimal point of "%e" depends on the
+ * locale and may be several bytes; it is stepped over. */
+static void round_to_digits(double value, int count, char *out_digits, int *out_exponent)
+{
+  char text[64];
+  snprintf(text, sizeof text, "%.*e", count - 1, fabs(value));
+  int found = 0;
+  const char *from = text;
+  for (; found < count; from++) {
+    if (is_digit(*from)) out_digits[found++] = *from;
+  }
+  *out_exponent = atoi(from + 1);
+}
+
+static size_t write_special(double value, char *out)
+{
+  const char *text = isnan(value) ? "nan" : isinf(value) ? (value < 0 ? "-inf" : "inf") : signbit(value) ? "-0" : "0";
+  size_t length = strlen(text);
+  memcpy(out, text, length + 1);
+  return length;
+}
+
+enum { SURE_DIGITS = 15, MAX_DIGITS = 17 }; /* 15 digits survive in a double, 17 tell any two doubles apart */
+
+size_t number_write(double value, char *out)
+{
+  if (!isfinite(value) || value == 0) return write_special(value, out);
+  char digits[MAX_DIGITS];
+  int exponent = 0, count;
+  size_t length = 0;
+  for (count = SURE_DIGITS; count <= MAX_DIGITS; count++) {
+    round_to_digits(value, count, digits, &exponent);
+    int kept = count;
+    while (kept > 1 && digits[kept - 1] == '0') kept--;
+    length = lay_out(value < 0, digits, kept, exponent, out);
+    double back;
+    size_t used;
+    if (number_read(out, length, &back, &used) == NUMBER_FINITE && back == value) break;
+  }
+  return length;
+}
+
+size_t number_write_17(double value, char *out)
+{
+  if (!isfinite(value) || value == 0) return write_special(value, out);
+  char digits[MAX_DIGITS];
+  int exponent;
+  round_to_digits(value, MAX_DIGITS, digits, &exponent);
+  int kept = MAX_DIGITS;
+  while (kept > 1 && digits[kept - 1] == '0') kept--;
+  return lay_out(value < 0, digits, kept, exponent, out);
+}

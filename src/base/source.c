@@ -1,0 +1,163 @@
+/* Source text: reading a file whole, and finding lines and columns in it. Positions are only wanted for errors, so they are
+ * counted from the beginning each time instead of being kept for every token. */
+#include "base/source.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum {
+  TEXT_PADDING = 2,         /* the NULs behind the text, for scanners that want a sentinel */
+  READ_STEP_BYTES = 1 << 16 /* first guess for what has no size, such as a pipe */
+};
+
+/* Words of our own instead of strerror's, which change with the locale and the system. */
+static const char *reason_text(int error)
+{
+  switch (error) {
+  case ENOENT: return "there is no such file";
+  case ENOTDIR: return "a part of the path is no directory";
+  case EACCES: return "permission denied";
+  case EISDIR: return "it is a directory";
+  case ELOOP: return "too many symbolic links";
+  case ENAMETOOLONG: return "the name is too long";
+  case EMFILE:
+  case ENFILE: return "too many open files";
+  default: return "it cannot be read";
+  }
+}
+
+static struct source *source_create(const char *name)
+{
+  struct source *source = calloc(1, sizeof *source);
+  if (!source) return NULL;
+  source->name = strdup(name);
+  if (!source->name) {
+    free(source);
+    return NULL;
+  }
+  return source;
+}
+
+static enum status grow_text(struct source *source, size_t *capacity, size_t wanted)
+{
+  if (wanted > SOURCE_MAX_BYTES + 1) wanted = SOURCE_MAX_BYTES + 1;
+  char *text = realloc(source->text, wanted + TEXT_PADDING);
+  if (!text) return STATUS_LIMIT;
+  source->text = text;
+  *capacity = wanted;
+  return STATUS_OK;
+}
+
+/* Reads to the end of the file; the size known beforehand is only a guess. */
+static enum status read_all(struct source *source, int file, size_t guess, const char **out_reason)
+{
+  size_t capacity;
+  if (grow_text(source, &capacity, guess) != STATUS_OK) return STATUS_LIMIT;
+  for (;;) {
+    if (source->length > SOURCE_MAX_BYTES) {
+      *out_reason = "it is longer than 1 GiB";
+      return STATUS_LIMIT;
+    }
+    if (source->length == capacity && grow_text(source, &capacity, 2 * capacity) != STATUS_OK) return STATUS_LIMIT;
+    ssize_t got = read(file, source->text + source->length, capacity - source->length);
+    if (got == 0) break;
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) {
+      *out_reason = reason_text(errno);
+      return STATUS_FILE;
+    }
+    source->length += (size_t)got;
+  }
+  memset(source->text + source->length, 0, TEXT_PADDING);
+  return STATUS_OK;
+}
+
+enum status source_read(const char *path, struct source **out_source, const char **out_reason)
+{
+  *out_reason = "memory is short";
+  struct source *source = source_create(path);
+  if (!source) return STATUS_LIMIT;
+  enum status status = STATUS_FILE;
+  struct stat info;
+  int file = open(path, O_RDONLY | O_CLOEXEC);
+  if (file < 0 || fstat(file, &info) != 0) {
+    *out_reason = reason_text(errno);
+    goto done;
+  }
+  source->device = (uint64_t)info.st_dev;
+  source->inode = (uint64_t)info.st_ino;
+  size_t guess = READ_STEP_BYTES;
+  if (S_ISREG(info.st_mode) && info.st_size > 0) guess = (size_t)info.st_size + 1; /* one more, to see the end */
+  status = read_all(source, file, guess, out_reason);
+done:
+  if (file >= 0) close(file);
+  if (status != STATUS_OK) {
+    source_destroy(source);
+    source = NULL;
+  } else {
+    *out_source = source;
+  }
+  return status;
+}
+
+struct source *source_from_text(const char *name, const char *text, size_t length)
+{
+  struct source *source = source_create(name);
+  if (!source) return NULL;
+  size_t capacity;
+  if (length > SOURCE_MAX_BYTES || grow_text(source, &capacity, length) != STATUS_OK) {
+    source_destroy(source);
+    return NULL;
+  }
+  if (length > 0) memcpy(source->text, text, length);
+  memset(source->text + length, 0, TEXT_PADDING);
+  source->length = length;
+  return source;
+}
+
+size_t source_character(const char *text, size_t length)
+{
+  const unsigned char *byte = (const unsigned char *)text;
+  if (byte[0] < 0x80) return 1;
+  size_t count = byte[0] >= 0xF0 ? 4 : byte[0] >= 0xE0 ? 3 : 2;
+  if (byte[0] < 0xC2 || byte[0] > 0xF4 || count > length) return 0;
+  for (size_t i = 1; i < count; i++) {
+    if ((byte[i] & 0xC0) != 0x80) return 0;
+  }
+  /* Overlong forms, surrogates, and what lies beyond U+10FFFF (RFC 3629). */
+  if ((byte[0] == 0xE0 && byte[1] < 0xA0) || (byte[0] == 0xED && byte[1] > 0x9F)) return 0;
+  if ((byte[0] == 0xF0 && byte[1] < 0x90) || (byte[0] == 0xF4 && byte[1] > 0x8F)) return 0;
+  return count;
+}
+
+struct source_position source_locate(const struct source *source, size_t offset)
+{
+  const char *text = source->text;
+  if (offset > source->length) offset = source->length;
+  struct source_position at = { .line = 1, .column = 1 };
+  for (const char *newline; (newline = memchr(text + at.line_begin, '\n', offset - at.line_begin)) != NULL;) {
+    at.line++;
+    at.line_begin = (size_t)(newline - text) + 1;
+  }
+  const char *end = memchr(text + offset, '\n', source->length - offset);
+  at.line_end = end ? (size_t)(end - text) : source->length;
+  if (at.line_end > at.line_begin && text[at.line_end - 1] == '\r') at.line_end--;
+  for (size_t i = at.line_begin; i < offset;) {
+    size_t bytes = source_character(text + i, source->length - i);
+    i += bytes ? bytes : 1;
+    at.column++;
+  }
+  return at;
+}
+
+void source_destroy(struct source *source)
+{
+  if (!source) return;
+  free(source->name);
+  free(source->text);
+  free(source);
+}

@@ -1,0 +1,52 @@
+/* Source text: the bytes of one scene file, and where in them a byte offset lies.
+ *
+ * The bytes are kept as they are in the file (any bytes, NUL included). A source that was included knows the place of its
+ * #include. Sources are read-only once made; they own what they point to, except `includer`.
+ */
+#ifndef PSCN_BASE_SOURCE_H
+#define PSCN_BASE_SOURCE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+struct source {
+  char *name;       /* as shown in diagnostics: the path, or a word in <> for text that has none */
+  char *text;       /* length bytes, then two NULs */
+  size_t length;
+  uint64_t device, inode; /* what file it is; 0,0 for text */
+  const struct source *includer; /* the source whose #include opened this one, or NULL */
+  size_t include_begin, include_end; /* the bytes of the file name in the includer's text */
+};
+
+/* Bytes begin .. end-1 of a source. A NULL source means "no place". */
+struct place {
+  const struct source *source;
+  size_t begin, end;
+};
+
+/* The longest file that is read. Longer ones are STATUS_LIMIT. */
+#define SOURCE_MAX_BYTES ((size_t)1 << 30)
+
+/* Reads the whole file at `path` (opened once, so pipes work). STATUS_FILE: out_reason says why in English words and
+ * nothing is written to out_source; STATUS_LIMIT: memory or SOURCE_MAX_BYTES. The caller destroys the source. */
+STATUS_MUST_CHECK enum status source_read(const char *path, struct source **out_source, const char **out_reason);
+
+/* A source of a copy of `length` bytes at `text`, or NULL where memory is short. */
+struct source *source_from_text(const char *name, const char *text, size_t length);
+
+/* Line and column of a byte, both from 1. Columns count characters: a UTF-8 sequence is one, so is a tab. */
+struct source_position {
+  size_t line, column;
+  size_t line_begin, line_end; /* bytes of the line, without its line end */
+};
+struct source_position source_locate(const struct source *source, size_t offset);
+
+/* The length in bytes of the UTF-8 character at text[0 .. length-1], length >= 1; 0 where it is no well-formed one. */
+size_t source_character(const char *text, size_t length);
+
+/* NULL is allowed. */
+void source_destroy(struct source *source);
+
+#endif

@@ -1,0 +1,40 @@
+/* From scene text to a scene.
+ *
+ * Reads the language of docs/language.md: a subset of POV-Ray 3.7's with the same meaning, and `solver` statements. Safe on
+ * any thread (each call has its own state); independent of the locale.
+ */
+#ifndef PSCN_LANGUAGE_LANGUAGE_H
+#define PSCN_LANGUAGE_LANGUAGE_H
+
+#include <stddef.h>
+
+#include "base/diagnostics.h"
+#include "base/status.h"
+#include "scene/scene.h"
+
+struct language_settings {
+  int image_width, image_height; /* pixels, >= 1: what image_width and image_height mean in the scene */
+  const char *solver_text;       /* --solver TEXT: overrides every solver statement of the scene; or NULL */
+  double tolerance;              /* --tolerance E: overrides that item everywhere, after solver_text; or NAN */
+};
+
+/* Reads the scene file at `path`. The caller destroys *out_scene; on failure it is NULL and diagnostics have been told why:
+ *   STATUS_FILE   the file itself cannot be read
+ *   STATUS_INPUT  the text is wrong, an included file cannot be read
+ *   STATUS_USAGE  settings->solver_text or settings->tolerance is wrong
+ *   STATUS_LIMIT  memory, nesting, size or number of patches */
+STATUS_MUST_CHECK enum status language_load(const char *path, const struct language_settings *settings,
+                                            struct diagnostics *diagnostics, struct scene **out_scene);
+
+/* The same for `length` bytes at `text`, called `name` in diagnostics. Includes are looked for relative to the folder part
+ * of `name`. */
+STATUS_MUST_CHECK enum status language_load_text(const char *name, const char *text, size_t length,
+                                                 const struct language_settings *settings,
+                                                 struct diagnostics *diagnostics, struct scene **out_scene);
+
+/* Reads what may follow `solver` in a scene, such as "aberth { polish off }". Errors point into "<--solver>".
+ * STATUS_USAGE or STATUS_LIMIT on failure; *out_options is then unchanged. */
+STATUS_MUST_CHECK enum status language_parse_solver(const char *text, struct diagnostics *diagnostics,
+                                                    struct solver_options *out_options);
+
+#endif

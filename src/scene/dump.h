@@ -1,0 +1,18 @@
+/* A scene written back as canonical text, readable by pscn and by POV-Ray 3.7.
+ *
+ * Every number is the shortest that reads back to the same double; transforms are applied, the camera is location,
+ * direction, right and up; `solver` statements stand inside #ifdef (pscn). Reading the text gives a scene whose dump is the
+ * same text, byte for byte.
+ */
+#ifndef PSCN_SCENE_DUMP_H
+#define PSCN_SCENE_DUMP_H
+
+#include <stdio.h>
+
+#include "base/status.h"
+#include "scene/scene.h"
+
+/* STATUS_FILE where writing fails (errno says why), STATUS_LIMIT where memory is short. Does not flush or close `file`. */
+STATUS_MUST_CHECK enum status scene_dump(const struct scene *scene, FILE *file);
+
+#endif

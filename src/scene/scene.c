@@ -1,0 +1,13 @@
+/* A scene: little more than its lifetime; src/language builds it. */
+#include "scene/scene.h"
+
+void scene_override_solver(struct scene *scene, const struct solver_options *options)
+{
+  for (size_t i = 0; i < scene->solver_count; i++) scene->solvers[i] = *options;
+}
+
+void scene_destroy(struct scene *scene)
+{
+  /* The scene itself lies in its arena. */
+  if (scene) arena_destroy(scene->arena);
+}
