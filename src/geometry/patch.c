@@ -160,21 +160,35 @@ void patch_reduce(double net[4][4], int m, int n, double out[4][4])
   }
 }
 
-/* Rows of weights of the value and the first two derivatives of a cubic at t. */
-static void weights2(double t, double w[3][4])
+/* The Bernstein polynomials of degree n = 1, 2 or 3 at t. */
+static void bernstein(int n, double t, double w[4])
 {
   const double s = 1 - t;
-  patch_weights(t, w[0], w[1]);
-  w[2][0] = 6 * s, w[2][1] = 6 * (t - 2 * s), w[2][2] = 6 * (s - 2 * t), w[2][3] = 6 * t;
+  if (n == 1) w[0] = s, w[1] = t;
+  if (n == 2) w[0] = s * s, w[1] = 2 * s * t, w[2] = t * t;
+  if (n == 3) w[0] = s * s * s, w[1] = 3 * s * s * t, w[2] = 3 * s * t * t, w[3] = t * t * t;
 }
 
-/* The partial derivative of order (p,q), p + q <= 2, as a vector. */
-static void derivative(double x[3][4][4], double wu[3][4], double wv[3][4], int p, int q, double out[3])
+/* The partial derivative of order (p,q), p + q <= 2, as a vector: from the differences of control points, which are exactly
+ * zero along a collapsed edge, so that what vanishes with the distance to it keeps its relative accuracy. */
+static void derivative(double x[3][4][4], double u, double v, int p, int q, double out[3])
 {
+  static const double factor[3] = {1, 3, 6};
+  double wu[4], wv[4];
+  bernstein(3 - p, u, wu);
+  bernstein(3 - q, v, wv);
   for (int k = 0; k < 3; k++) {
+    double d[4][4];
+    memcpy(d, x[k], sizeof d);
+    for (int n = 0; n < p; n++)
+      for (int i = 0; i < 3 - n; i++)
+        for (int j = 0; j < 4; j++) d[i][j] = d[i + 1][j] - d[i][j];
+    for (int n = 0; n < q; n++)
+      for (int i = 0; i < 4 - p; i++)
+        for (int j = 0; j < 3 - n; j++) d[i][j] = d[i][j + 1] - d[i][j];
     out[k] = 0;
-    for (int i = 0; i < 4; i++)
-      for (int j = 0; j < 4; j++) out[k] += wu[p][i] * wv[q][j] * x[k][i][j];
+    for (int i = 0; i < 4 - p; i++)
+      for (int j = 0; j < 4 - q; j++) out[k] += factor[p] * factor[q] * wu[i] * wv[j] * d[i][j];
   }
 }
 
@@ -197,17 +211,15 @@ bool patch_normal(double x[3][4][4], double u, double v, double out[3])
   for (int k = 0; k < 3; k++)
     for (int i = 0; i < 16; i++) extent = fmax(extent, fabs(x[k][i / 4][i % 4] - x[k][0][0]));
   const double least = noise * extent * extent, zero[3] = {0, 0, 0};
-  double wu[3][4], wv[3][4], su[3], sv[3], suu[3], suv[3], svv[3], nu[3], nv[3];
-  weights2(u, wu);
-  weights2(v, wv);
-  derivative(x, wu, wv, 1, 0, su);
-  derivative(x, wu, wv, 0, 1, sv);
+  double su[3], sv[3], suu[3], suv[3], svv[3], nu[3], nv[3];
+  derivative(x, u, v, 1, 0, su);
+  derivative(x, u, v, 0, 1, sv);
   double length = cross_sum(su, sv, zero, zero, out);
   if (!(length > least)) {
     /* Su x Sv vanishes here, as at a collapsed edge: its limit on the way into the patch is its derivative that way. */
-    derivative(x, wu, wv, 2, 0, suu);
-    derivative(x, wu, wv, 1, 1, suv);
-    derivative(x, wu, wv, 0, 2, svv);
+    derivative(x, u, v, 2, 0, suu);
+    derivative(x, u, v, 1, 1, suv);
+    derivative(x, u, v, 0, 2, svv);
     cross_sum(suu, sv, su, suv, nu);
     cross_sum(suv, sv, su, svv, nv);
     if (u > 0.5) vector_scale(-1, nu, nu);
