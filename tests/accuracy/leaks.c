@@ -126,8 +126,8 @@ static size_t count_leaks(struct trial *trial, const char *name, const char *sol
     const struct ray *r = &rays[n];
     struct reference_answer truth;
     reference_closest(trial->reference, r->origin, r->direction, &truth);
-    printf("leak: %s, %s, %s: ray %a %a %a  %a %a %a: t %.17g, occluded %d; truth %d %.17g\n", name, solver, aims[kind], r->origin[0],
-           r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2],
+    printf("leak: %s, %s, %s: ray %a %a %a  %a %a %a: t %.17g, occluded %d; truth %d %.17g\n", name, solver,
+           aims[kind], r->origin[0], r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2],
            hits[n].patch == HIT_NONE ? INFINITY : hits[n].t, occluded[n], truth.verdict, truth.t_first);
   }
   return leaks;

@@ -118,17 +118,24 @@ static void measure(const struct ray *ray, const struct hit *hit, const struct r
     reach = fmax(reach, fabs(ray->origin[axis]));
   }
   double dt = (double)quad_abs(hit->t - truth->t), origin_rounding = DOUBLE_UNIT * reach / sqrt(length);
+  if (hit->certainty == CERTAINTY_GRAZING) { /* a root that rounding can split or remove: no first-order floor holds */
+    tally->worst_t_grazing = fmax(tally->worst_t_grazing, dt / (double)truth->t);
+    return;
+  }
   add_t_error(tally, dt / (double)truth->t);
   tally->worst_t_floor = fmax(tally->worst_t_floor, dt / truth->data.t);
   tally->worst_t_local = fmax(tally->worst_t_local, dt / (truth->local.t + origin_rounding));
-  if (hit->patch != truth->patch) return;
-  if (!truth->shared) {
+  bool beyond = dt > TRIAL_FLOORS * truth->data.t;
+  if (hit->patch == truth->patch && !truth->shared) {
     double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
     tally->worst_u_floor = fmax(tally->worst_u_floor, du / truth->data.u);
     tally->worst_v_floor = fmax(tally->worst_v_floor, dv / truth->data.v);
     tally->worst_u_local = fmax(tally->worst_u_local, du / truth->local.u);
     tally->worst_v_local = fmax(tally->worst_v_local, dv / truth->local.v);
+    beyond = beyond || du > TRIAL_FLOORS * truth->data.u || dv > TRIAL_FLOORS * truth->data.v;
   }
+  if (beyond) show("T, U or V beyond its floor", ray, hit, truth, tally);
+  if (hit->patch != truth->patch) return;
   if (truth->has_normal && truth->data.u + truth->data.v < 1e-12 && truth->incidence > 1e-6) {
     double off = 0;
     for (int axis = 0; axis < 3; axis++) off = fmax(off, fabs(hit->normal[axis] - truth->normal[axis]));
@@ -231,9 +238,10 @@ void tally_print(struct tally *tally)
          tally->name, tally->rays, tally->hits, tally->misses, tally->undecided, tally->lost, tally->invented,
          tally->grazing, tally->over, tally->bold);
   printf("  T relative: median %.2g, 99 %% %.2g, max %.2g; in data floors: T %.2g U %.2g V %.2g; in local floors: "
-         "T %.2g U %.2g V %.2g; normal %.2g\n",
+         "T %.2g U %.2g V %.2g; normal %.2g; "
+         "T of grazing hits %.2g\n",
          quantile(tally, 0.5), quantile(tally, 0.99), quantile(tally, 1), tally->worst_t_floor, tally->worst_u_floor,
-         tally->worst_v_floor, tally->worst_t_local, tally->worst_u_local, tally->worst_v_local, tally->worst_normal);
+         tally->worst_v_floor, tally->worst_t_local, tally->worst_u_local, tally->worst_v_local, tally->worst_normal, tally->worst_t_grazing);
 }
 
 void tally_assert(struct tally *tally)
