@@ -336,8 +336,8 @@ static struct leaf_hit packet_root(const struct packet *p, unsigned lane, int ax
   return (struct leaf_hit){r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, t, true};
 }
 
-/* Makes a root the answer so far where it is: nearer than the best, or as near within the errors and of a lower patch, so that a
- * border shared by two patches belongs to the same one in whatever order they come. */
+/* Makes a root the answer so far where it is nearer than the best, or as near to the last bit and of a lower leaf. That orders all
+ * roots, so the answer is the same in whatever order the leaves come, which depends on the other rays of the packet. */
 static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, const struct leaf_hit *root)
 {
   const double to_t = fabs(p->local[t->axis].to_t[lane]);
@@ -345,11 +345,7 @@ static void packet_offer(struct packet *p, unsigned lane, const struct trial *t,
                        8 * UNIT_ROUNDOFF * (fabs(root->t) + to_t * fabs(root->w));
   struct best *best = &p->best[lane];
   if (!(root->t > p->rays[lane].t_min + error) || !(root->t < p->rays[lane].t_max)) return;
-  if (best->leaf) {
-    const double both = error + best->t_error;
-    if (root->t > best->root.t + both) return;
-    if (root->t >= best->root.t - both && t->leaf->patch >= best->leaf->patch) return;
-  }
+  if (best->leaf && (root->t > best->root.t || (root->t == best->root.t && t->leaf >= best->leaf))) return;
   *best = (struct best){t->leaf, *root, error};
   p->t_far[lane] = root->t + error;
   if (p->any) p->live[lane] = 0;
