@@ -1,0 +1,199 @@
+/* What the answer to a ray may not depend on: the rays beside it, the instruction set, the order of the patches. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "property/world.h"
+
+enum { SEED = 20240510, SCENES = 6, RAYS = 480 };
+
+static void print_ray(const char *what, int world, int scene, const struct ray *r, const struct hit *a, const struct hit *b)
+{
+  print_message("%s: world %d, scene %d, origin %.17g %.17g %.17g, direction %.17g %.17g %.17g\n", what, world, scene, r->origin[0],
+                r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2]);
+  const struct hit *both[2] = {a, b};
+  for (int k = 0; k < 2; k++) {
+    const struct hit *h = both[k];
+    if (h->patch == HIT_NONE) print_message("  miss %d\n", h->certainty);
+    else print_message("  patch %u t %.17g u %.17g v %.17g certainty %d\n", h->patch, h->t, h->u, h->v, h->certainty);
+  }
+}
+
+/* A scene of each kind, several times; `body` gets its world, its nets, its rays and the answers one by one. */
+struct stage {
+  int kind, scene;
+  struct random *random;
+  struct world *world;
+  world_net *nets;
+  size_t count;
+  struct ray rays[RAYS];
+  struct hit alone[RAYS];
+};
+
+static void on_all_stages(uint64_t seed, void (*body)(struct stage *stage))
+{
+  static struct stage stage;
+  static world_net nets[WORLD_MAX];
+  struct random random = {seed};
+  for (int kind = 0; kind < WORLD_KINDS; kind++) {
+    for (int scene = 0; scene < SCENES; scene++) {
+      struct world world;
+      stage.kind = kind, stage.scene = scene, stage.random = &random, stage.world = &world, stage.nets = nets;
+      stage.count = world_fill((enum world_kind)kind, &random, nets);
+      world_open(&world, nets, stage.count, NULL);
+      for (int n = 0; n < RAYS; n++) {
+        stage.rays[n] = world_ray(&random, nets, stage.count, n % RAY_KINDS);
+        tracer_closest(world.tracer, 1, &stage.rays[n], &stage.alone[n]);
+      }
+      body(&stage);
+      world_close(&world);
+    }
+  }
+}
+
+/* In packets of every size, in the order they come and shuffled, with companions of other kinds. */
+static void companions(struct stage *s)
+{
+  size_t order[RAYS];
+  for (size_t n = 0; n < RAYS; n++) order[n] = n;
+  int wrong = 0;
+  for (int round = 0; round < 4; round++) {
+    for (size_t first = 0, size; first < RAYS; first += size) {
+      size = round == 3 ? 1 + random_bits(s->random) % PACKET_SIZE : PACKET_SIZE;
+      if (size > RAYS - first) size = RAYS - first;
+      struct ray rays[PACKET_SIZE];
+      struct hit hits[PACKET_SIZE];
+      for (size_t n = 0; n < size; n++) rays[n] = s->rays[order[first + n]];
+      tracer_closest(s->world->tracer, size, rays, hits);
+      for (size_t n = 0; n < size; n++) {
+        if (same_hit(&hits[n], &s->alone[order[first + n]])) continue;
+        if (wrong++ < 2) print_ray("companions", s->kind, s->scene, &rays[n], &s->alone[order[first + n]], &hits[n]);
+      }
+    }
+    for (size_t n = RAYS - 1; n > 0; n--) {
+      const size_t other = random_bits(s->random) % (n + 1), swap = order[n];
+      order[n] = order[other], order[other] = swap;
+    }
+  }
+  assert_int_equal(wrong, 0);
+}
+
+static void answers_do_not_depend_on_companions(void **state)
+{
+  (void)state;
+  on_all_stages(SEED, companions);
+}
+
+/* Any hit is found exactly where a closest one is, alone and in company. */
+static void occlusion(struct stage *s)
+{
+  int wrong = 0;
+  for (size_t first = 0; first < RAYS; first += PACKET_SIZE) {
+    bool occluded[PACKET_SIZE], alone;
+    tracer_occluded(s->world->tracer, PACKET_SIZE, &s->rays[first], occluded);
+    for (size_t n = 0; n < PACKET_SIZE; n++) {
+      tracer_occluded(s->world->tracer, 1, &s->rays[first + n], &alone);
+      const bool want = s->alone[first + n].patch != HIT_NONE;
+      if (occluded[n] == want && alone == want) continue;
+      if (wrong++ < 2) print_ray("occlusion", s->kind, s->scene, &s->rays[first + n], &s->alone[first + n], &s->alone[first + n]);
+    }
+  }
+  assert_int_equal(wrong, 0);
+}
+
+static void occluded_is_whether_there_is_a_hit(void **state)
+{
+  (void)state;
+  on_all_stages(SEED + 1, occlusion);
+}
+
+/* The kernels may round differently. Where both are certain they agree on hit or miss, and on t to its condition: the rounding of
+ * the plane polynomials over the sine of the angle at which the ray meets the surface, so grazing hits are given more. */
+#define KERNEL_T 1e-13
+
+static void kernels(struct stage *s)
+{
+#if defined(PSCN_KERNEL_AVX2)
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return;
+  static struct hit other[2][RAYS];
+  const struct kernel *before = s->world->tracer->kernel, *tables[2] = {&kernel_baseline, &kernel_avx2};
+  for (int k = 0; k < 2; k++) {
+    s->world->tracer->kernel = tables[k];
+    for (size_t first = 0; first < RAYS; first += PACKET_SIZE)
+      tracer_closest(s->world->tracer, PACKET_SIZE, &s->rays[first], &other[k][first]);
+  }
+  s->world->tracer->kernel = before;
+  int wrong = 0;
+  for (size_t n = 0; n < RAYS; n++) {
+    const struct hit *a = &other[0][n], *b = &other[1][n];
+    if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) continue;
+    bool good = (a->patch == HIT_NONE) == (b->patch == HIT_NONE);
+    if (good && a->patch != HIT_NONE) {
+      const double *d = s->rays[n].direction;
+      const double steep = fabs(d[0] * a->normal[0] + d[1] * a->normal[1] + d[2] * a->normal[2]) /
+                           sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+      const double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]); /* the scenes' size over |d| is t's unit */
+      good = fabs(a->t - b->t) * steep <= KERNEL_T * fmax(a->t, 1 / size);
+    }
+    if (!good && wrong++ < 3) print_ray("kernels", s->kind, s->scene, &s->rays[n], a, b);
+  }
+  assert_int_equal(wrong, 0);
+#else
+  (void)s;
+#endif
+}
+
+static void kernels_agree(void **state)
+{
+  (void)state;
+  on_all_stages(SEED + 2, kernels);
+}
+
+/* Another order of the patches: the same t, and, where hits are not tied, the same patch. */
+static void shuffled(struct stage *s)
+{
+  static world_net nets[WORLD_MAX];
+  size_t place[WORLD_MAX];
+  for (size_t p = 0; p < s->count; p++) place[p] = p;
+  for (size_t p = s->count - 1; p > 0; p--) {
+    const size_t other = random_bits(s->random) % (p + 1), swap = place[p];
+    place[p] = place[other], place[other] = swap;
+  }
+  for (size_t p = 0; p < s->count; p++) memcpy(nets[place[p]], s->nets[p], sizeof nets[0]);
+  struct world world;
+  world_open(&world, nets, s->count, NULL);
+  int wrong = 0, tied = 0;
+  for (size_t n = 0; n < RAYS; n++) {
+    struct hit hit;
+    tracer_closest(world.tracer, 1, &s->rays[n], &hit);
+    const struct hit *want = &s->alone[n];
+    bool good = (hit.patch == HIT_NONE) == (want->patch == HIT_NONE);
+    if (good && hit.patch != HIT_NONE && (hit.certainty == CERTAINTY_CERTAIN || want->certainty == CERTAINTY_CERTAIN)) {
+      if (hit.patch == place[want->patch]) good = hit.t == want->t && hit.u == want->u && hit.v == want->v;
+      else good = fabs(hit.t - want->t) <= 1e-9 * want->t, tied++;
+    }
+    if (!good && wrong++ < 3) print_ray("order", s->kind, s->scene, &s->rays[n], want, &hit);
+  }
+  world_close(&world);
+  assert_int_equal(wrong, 0);
+  assert_true(tied < RAYS / 2);
+}
+
+static void answers_do_not_depend_on_the_order_of_patches(void **state)
+{
+  (void)state;
+  on_all_stages(SEED + 3, shuffled);
+}
+
+int main(void)
+{
+  print_message("seed %d\n", SEED);
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(answers_do_not_depend_on_companions),
+    cmocka_unit_test(occluded_is_whether_there_is_a_hit),
+    cmocka_unit_test(kernels_agree),
+    cmocka_unit_test(answers_do_not_depend_on_the_order_of_patches),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

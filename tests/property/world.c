@@ -1,0 +1,191 @@
+/* Small scenes and awkward rays. */
+#include "property/world.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "geometry/patch.h"
+
+/* Rounded to a multiple of 2^-20, so that scaled and moved nets are exact too. */
+static double grain(double x) { return rint(x * 0x1p20) * 0x1p-20; }
+
+static void set(double p[3], double x, double y, double z) { p[0] = grain(x), p[1] = grain(y), p[2] = grain(z); }
+
+static size_t fill_grid(struct random *random, world_net nets[])
+{
+  enum { SIDE = 3 };
+  double height[3 * SIDE + 1][3 * SIDE + 1];
+  for (int i = 0; i <= 3 * SIDE; i++)
+    for (int j = 0; j <= 3 * SIDE; j++) height[i][j] = random_between(random, -0.2, 0.2);
+  for (int p = 0; p < SIDE * SIDE; p++) {
+    for (int n = 0; n < 16; n++) {
+      const int i = p / SIDE * 3 + n / 4, j = p % SIDE * 3 + n % 4;
+      set(nets[p][n / 4][n % 4], i / 4.5 - 1, j / 4.5 - 1, height[i][j]);
+    }
+  }
+  return SIDE * SIDE;
+}
+
+static size_t fill_wild(struct random *random, world_net nets[])
+{
+  for (int p = 0; p < 4; p++)
+    for (int n = 0; n < 16; n++)
+      set(nets[p][n / 4][n % 4], random_between(random, -1, 1), random_between(random, -1, 1), random_between(random, -1, 1));
+  return 4;
+}
+
+/* Quarter turns of a profile, with the circle's usual cubic; u = 0 is the pole. */
+static size_t fill_dome(struct random *random, world_net nets[])
+{
+  static const double turn[13][2] = {{1, 0},      {1, 0.552},  {0.552, 1},  {0, 1},       {-0.552, 1}, {-1, 0.552}, {-1, 0},
+                                     {-1, -0.552}, {-0.552, -1}, {0, -1},     {0.552, -1}, {1, -0.552}, {1, 0}};
+  const double radius[4] = {0, random_between(random, 0.3, 0.6), 1, 1}, height[4] = {0.9, 0.9, 0.5, 0};
+  for (int p = 0; p < 4; p++)
+    for (int n = 0; n < 16; n++) {
+      const double *at = turn[3 * p + n % 4];
+      set(nets[p][n / 4][n % 4], radius[n / 4] * at[0], radius[n / 4] * at[1], height[n / 4]);
+    }
+  return 4;
+}
+
+static size_t fill_flat(struct random *random, world_net nets[])
+{
+  const double tilt = random_bits(random) % 2 ? 0 : random_between(random, -1, 1);
+  for (int p = 0; p < 6; p++) {
+    for (int n = 0; n < 16; n++) {
+      const double bend = p > 3 && n / 4 % 3 && n % 4 % 3 ? random_between(random, -0.2, 0.2) : 0;
+      const double x = grain((n / 4 + bend) / 3 - (p % 2)), y = grain((n % 4 + bend) / 3 - (p / 2 % 2));
+      set(nets[p][n / 4][n % 4], x, y, grain(tilt) * x);
+    }
+  }
+  memcpy(nets[6], nets[1], sizeof nets[1]); /* one exactly on top of another, and one turned round */
+  for (int n = 0; n < 16; n++) memcpy(nets[7][n / 4][n % 4], nets[2][3 - n / 4][3 - n % 4], sizeof nets[7][0][0]);
+  return 8;
+}
+
+static size_t fill_low(struct random *random, world_net nets[])
+{
+  for (int p = 0; p < 9; p++) {
+    const int m = 1 + p / 3, n = 1 + p % 3;
+    double low[3][4][4];
+    for (int k = 0; k < 48; k++) low[k / 16][k / 4 % 4][k % 4] = random_between(random, -1, 1);
+    for (int e = 0; e < 16; e++) { /* a cubic with the values of a polynomial of degree (m,n) at its four nodes, by elevation */
+      double point[3];
+      const double s = (e / 4) / 3.0, t = (e % 4) / 3.0;
+      for (int k = 0; k < 3; k++) {
+        /* Blossoms of u^a at the control values: u -> i/3, u^2 -> i(i-1)/6, u^3 -> [i = 3]. */
+        const double bu[4] = {1, s, e / 4 * (e / 4 - 1) / 6.0, e / 4 == 3}, bv[4] = {1, t, e % 4 * (e % 4 - 1) / 6.0, e % 4 == 3};
+        point[k] = 0;
+        for (int a = 0; a <= m; a++)
+          for (int b = 0; b <= n; b++) point[k] += low[k][a][b] * bu[a] * bv[b] * 0.5;
+      }
+      memcpy(nets[p][e / 4][e % 4], point, sizeof point); /* not on the grain: that would raise the degree again */
+    }
+  }
+  return 9;
+}
+
+static size_t fill_degenerate(struct random *random, world_net nets[])
+{
+  fill_wild(random, nets), fill_wild(random, nets + 4);
+  for (int n = 0; n < 16; n++) {
+    double(*net)[4][3] = nets[0];
+    set(net[n / 4][n % 4], 0.25, 0.5, -0.125);                                       /* a point */
+    memcpy(nets[1][n / 4][n % 4], nets[1][0][n % 4], sizeof nets[1][0][0]);           /* a curve */
+    set(nets[2][n / 4][n % 4], n / 4 / 3.0, n / 4 / 3.0, 0.5);                          /* a line */
+    nets[3][n / 4][n % 4][2] = 0.25;                                                   /* folded flat */
+    memcpy(nets[4][n / 4][n % 4], nets[4][n / 4 > 1 ? 3 : 0][n % 4], sizeof nets[4][0][0]); /* ruled, both halves still */
+    if (n / 4 == 0) memcpy(nets[5][0][n % 4], nets[5][0][0], sizeof nets[5][0][0]);   /* collapsed at u = 0 */
+    if (n % 4 == 3) memcpy(nets[5][n / 4][3], nets[5][0][3], sizeof nets[5][0][0]);   /* and at v = 1 */
+    if (n / 4 == 0 || n / 4 == 3) memcpy(nets[6][n / 4][n % 4], nets[6][n / 4][0], sizeof nets[6][0][0]); /* two poles */
+    memcpy(nets[7][n / 4][n % 4], nets[7][n % 4][n / 4], sizeof nets[7][0][0]);       /* folded on its diagonal */
+  }
+  return 8;
+}
+
+size_t world_fill(enum world_kind kind, struct random *random, world_net nets[WORLD_MAX])
+{
+  switch (kind) {
+  case WORLD_GRID: return fill_grid(random, nets);
+  case WORLD_WILD: return fill_wild(random, nets);
+  case WORLD_DOME: return fill_dome(random, nets);
+  case WORLD_FLAT: return fill_flat(random, nets);
+  case WORLD_LOW: return fill_low(random, nets);
+  default: return fill_degenerate(random, nets);
+  }
+}
+
+void world_open(struct world *world, world_net *nets, size_t count, const struct solver_options *options)
+{
+  memset(world, 0, sizeof *world);
+  if (options) world->solver = *options;
+  else solver_options_default(solver_at(0), &world->solver);
+  world->scene.solvers = &world->solver, world->scene.solver_count = 1;
+  world->scene.patches = calloc(count + 1, sizeof *world->scene.patches);
+  assert_non_null(world->scene.patches);
+  world->scene.patch_count = count;
+  for (size_t p = 0; p < count; p++) memcpy(world->scene.patches[p].P, nets[p], sizeof nets[p]);
+  assert_int_equal(intersector_create(&world->scene, &world->intersector), STATUS_OK);
+  assert_int_equal(tracer_create(world->intersector, &world->tracer), STATUS_OK);
+}
+
+void world_close(struct world *world)
+{
+  tracer_destroy(world->tracer);
+  intersector_destroy(world->intersector);
+  free(world->scene.patches);
+}
+
+/* The point and the derivatives of a net. */
+static void surface(world_net net, double u, double v, double point[3], double du[3], double dv[3])
+{
+  for (int k = 0; k < 3; k++) {
+    double x[4][4];
+    for (int n = 0; n < 16; n++) x[n / 4][n % 4] = net[n / 4][n % 4][k];
+    const struct patch_jet jet = patch_evaluate(x, u, v);
+    point[k] = jet.value, du[k] = jet.du, dv[k] = jet.dv;
+  }
+}
+
+struct ray world_ray(struct random *random, world_net *nets, size_t count, int kind)
+{
+  struct ray ray = {{0}, {0}, 0, INFINITY};
+  const size_t p = random_bits(random) % count;
+  double u = random_unit(random), v = random_unit(random), point[3], du[3], dv[3];
+  const double eighths[2] = {(double)(random_bits(random) % 9) / 8, (double)(random_bits(random) % 9) / 8};
+  if (kind == 1) u = eighths[0];                  /* a line of constant u, where leaves meet, or a border */
+  if (kind == 2) u = eighths[0], v = eighths[1];  /* a corner of leaves */
+  if (kind == 3 && random_bits(random) % 2) v = eighths[1];
+  surface(nets[p], u, v, point, du, dv);
+  for (int k = 0; k < 3; k++) ray.origin[k] = random_between(random, -3, 3);
+  if (kind == 6) /* from far */
+    for (int k = 0; k < 3; k++) ray.origin[k] *= 1e6;
+  for (int k = 0; k < 3; k++) ray.direction[k] = point[k] - ray.origin[k];
+  if (kind == 3) { /* tangent */
+    const double a = random_between(random, -1, 1), b = random_between(random, -1, 1);
+    for (int k = 0; k < 3; k++) ray.direction[k] = a * du[k] + b * dv[k], ray.origin[k] = point[k] - 2 * ray.direction[k];
+  }
+  if (kind == 4) { /* along an axis */
+    const int axis = (int)(random_bits(random) % 3);
+    const double sign = random_bits(random) % 2 ? 1 : -1;
+    for (int k = 0; k < 3; k++) ray.direction[k] = k == axis ? sign : sign * 0.0, ray.origin[k] = point[k] - 4 * ray.direction[k];
+  }
+  if (kind == 5) { /* from the surface, anywhere */
+    for (int k = 0; k < 3; k++) ray.origin[k] = point[k], ray.direction[k] = random_between(random, -1, 1);
+  }
+  if (kind == 7) { /* missing more often than not */
+    for (int k = 0; k < 3; k++) ray.direction[k] += random_between(random, -1, 1);
+  }
+  if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0) ray.direction[2] = 1;
+  return ray;
+}
+
+bool same_hit(const struct hit *a, const struct hit *b)
+{
+  if (a->patch != b->patch || a->certainty != b->certainty) return false;
+  if (a->patch == HIT_NONE) return true;
+  return a->t == b->t && a->u == b->u && a->v == b->v && a->point_error == b->point_error &&
+         !memcmp(a->point, b->point, sizeof a->point) && !memcmp(a->normal, b->normal, sizeof a->normal);
+}

@@ -1,0 +1,49 @@
+/* Small scenes of patches and rays that are awkward for them, for property tests of the intersector. */
+#ifndef TESTS_PROPERTY_WORLD_H
+#define TESTS_PROPERTY_WORLD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "intersect/tracer.h"
+#include "random.h"
+
+typedef double world_net[4][4][3];
+
+/* A scene of bare patches with one solver, prepared, with one tracer. */
+struct world {
+  struct scene scene;
+  struct solver_options solver;
+  struct intersector *intersector;
+  struct tracer *tracer;
+};
+
+/* The kinds of scene. */
+enum world_kind {
+  WORLD_GRID,      /* 3 x 3 patches of a wavy height field that share their edges */
+  WORLD_WILD,      /* patches with random control points, folded and self-intersecting */
+  WORLD_DOME,      /* four patches round a pole where an edge collapses */
+  WORLD_FLAT,      /* coplanar patches, some exactly on top of each other */
+  WORLD_LOW,       /* patches of lower true degree: bilinear, biquadratic, ruled */
+  WORLD_DEGENERATE, /* patches that are a point, a line, a curve or folded flat */
+  WORLD_KINDS
+};
+
+enum { WORLD_MAX = 16 };
+
+/* Fills nets[0..count), returns count <= WORLD_MAX. Coordinates are multiples of 2^-20 of size about 1. */
+size_t world_fill(enum world_kind kind, struct random *random, world_net nets[WORLD_MAX]);
+
+/* Copies the nets and prepares the scene; `options` may be NULL for the default. Asserts where that fails. */
+void world_open(struct world *world, world_net *nets, size_t count, const struct solver_options *options);
+void world_close(struct world *world);
+
+/* A ray at the nets, of one of many kinds: through the middle of things, at borders, corners and lines of constant u and v,
+ * tangent, along an axis, from far, from the surface itself. t_min 0, t_max INFINITY. */
+enum { RAY_KINDS = 8 };
+struct ray world_ray(struct random *random, world_net *nets, size_t count, int kind);
+
+/* Whether two hits are the same to the last bit (only the certainty counts for misses). */
+bool same_hit(const struct hit *a, const struct hit *b);
+
+#endif
