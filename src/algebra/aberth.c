@@ -4,8 +4,8 @@
  * P'/P'' for N_i, an erratum: with it the fixed points would be the roots of P'. Here the same step is written
  * 1 / (P'/P - sum), which needs one inversion less. Stop: eq 10, a step below the tolerance in u.
  *
- * Beyond the paper: `stop rounding` lets a root whose value is below its own rounding bound take one last step (if that is
- * smaller than the one before) and be done; `rest on` leaves roots that are done alone, though they still push the others;
+ * Beyond the paper: `stop rounding` ends a root whose value is below its own rounding bound as soon as its steps no longer
+ * shrink; `rest on` leaves roots that are done alone, though they still push the others;
  * `update gauss_seidel` takes the newest values of the others.
  */
 #include "algebra/root_kernel.h"
@@ -25,7 +25,7 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
   for (int i = 0; i < n; i++) {
     a.active[i] = i;
     a.last_step[i] = INFINITY;
-    out->iterations[i] = 0;
+    out->iterations[i] = a.noisy[i] = 0;
     out->converged[i] = out->cluster[i] = false;
   }
   for (int number = 1; number <= options->max_iterations && a.active_count > 0; number++) {

@@ -8,7 +8,7 @@
  */
 #include <string.h>
 
-#include "algebra/root_problem.h"
+#include "algebra/root_kernel.h"
 
 /* Halving ends at 2^-48: below, an interval near 1 has too few doubles in it to be halved. */
 enum { DEEPEST = 48 };
@@ -86,10 +86,13 @@ static void bracketed_newton(struct search *search, double low, double high, int
     spent++;
     const struct probe probe = probe_at(search, u);
     double next = u - probe.newton;
-    if (probe.sign == 0) {
-      converged = true; /* one last step, if it stays */
-      u = next > low && next < high ? next : u;
-      break;
+    if (probe.sign == 0) { /* below the rounding bound: on while the steps shrink, see STEEP_FALL */
+      const double step = fabs(probe.newton);
+      const bool noise = !(next > low && next < high) || step > last_step;
+      converged = noise || step * step < STEEP_FALL * last_step * last_step || step < search->options->tolerance;
+      u = noise ? u : next;
+      last_step = step;
+      continue;
     }
     if (probe.sign == low_sign) {
       low = u;
@@ -175,6 +178,10 @@ static void add_undecided(struct search *search, const struct interval *part)
   if (search->cluster_high == part->low && search->cluster_low <= search->cluster_high) {
     search->cluster_high = part->low + part->width;
     return;
+  }
+  if (search->joint == part->low) {
+    search->out->count--; /* the root at the joint, the last one added, belongs to this stretch */
+    search->joint = -1.0;
   }
   flush_cluster(search);
   search->cluster_low = part->low;

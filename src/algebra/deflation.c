@@ -12,6 +12,7 @@
 
 #include <string.h>
 
+#include "algebra/root_kernel.h"
 #include "algebra/start.h"
 
 /* Every so many steps on one root the step is turned by one radian: a real start on a polynomial without real roots
@@ -157,9 +158,10 @@ static struct sought seek(const struct root_problem *problem, const struct solve
     }
     const double in_u = step_in_u(problem->basis, out.x, move);
     if (options->stop == STOP_ROUNDING && here.size <= here.error) {
-      out.converged = true;
-      if (!usable || in_u > last) {
-        break; /* only noise is left */
+      const bool noise = !usable || in_u > last;
+      out.converged = noise || in_u < STEEP_FALL * last;
+      if (noise) {
+        break;
       }
     }
     out.converged = out.converged || (usable && in_u < tolerance);

@@ -15,6 +15,25 @@
  * seeking a complex pair, pairs seeking two real roots) would otherwise never part. */
 enum { TURN_PERIOD = 5 };
 
+/* Steps of noise a root may meet before it is done: the others are still moving, and the next step may be a good one. */
+enum { PATIENCE = 2 };
+#define WILD 64.0 /* noise this much longer than the last good step, squared, is not even tried */
+
+/* Squares of values below this underflow; above it they cannot, times LIFT squared they do not overflow either. */
+#define SMALL 0x1p-400
+#define LIFT 0x1p600
+
+/* |re + i im|, to a few roundings however small. */
+LANES_INLINE lanes modulus_of(lanes re, lanes im)
+{
+  const lane_mask small = lanes_max(lanes_abs(re), lanes_abs(im)) < SMALL;
+  const lanes lift = lanes_select(small, lanes_all(LIFT), lanes_all(1.0));
+  const lanes drop = lanes_select(small, lanes_all(1.0 / LIFT), lanes_all(1.0));
+  re *= lift;
+  im *= lift;
+  return lanes_sqrt(re * re + im * im) * drop;
+}
+
 /* q and q' of the chart polynomial at a few chart points z, and bounds on their errors. Lanes of `reversed` take 1/x. */
 struct evaluation_lanes {
   lanes re, im, slope_re, slope_im, error, slope_error;
@@ -24,7 +43,7 @@ LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lane
                                       struct evaluation_lanes *out)
 {
   const int n = p->degree;
-  const lanes modulus = lanes_sqrt(zr * zr + zi * zi);
+  const lanes modulus = modulus_of(zr, zi);
   lanes re = lanes_select(reversed, lanes_all(p->reverse[n]), lanes_all(p->forward[n]));
   lanes error = lanes_select(reversed, lanes_all(p->reverse_bound[n]), lanes_all(p->forward_bound[n]));
   lanes im = {0}, slope_re = {0}, slope_im = {0}, slope_error = {0};
@@ -74,8 +93,7 @@ LANES_INLINE void step_lanes(const struct aberth *a, lanes xr, lanes xi, struct 
   const lanes zr = lanes_select(reversed, xr * inverse, xr), zi = lanes_select(reversed, -xi * inverse, xi);
   struct evaluation_lanes q;
   evaluation_at_lanes(&a->p, zr, zi, reversed, &q);
-  const lanes value_square = q.re * q.re + q.im * q.im;
-  out->resting = value_square <= q.error * q.error;
+  out->resting = lanes_abs(q.re) + lanes_abs(q.im) <= q.error;
 
   /* P'/P; in the reversed chart z (n - z q'/q) */
   lanes gr, gi;
@@ -110,8 +128,11 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
   const bool usable = isfinite(dx) && isfinite(dy) && !isnan(square);
   bool done;
   if (resting && options->stop == STOP_ROUNDING) {
-    done = true;
-    if (!usable || square > a->last_step[i]) {
+    const bool noise = !usable || square > a->last_step[i];
+    a->noisy[i] += noise;
+    done = square < STEEP_FALL * a->last_step[i] || a->noisy[i] > PATIENCE;
+    a->last_step[i] = noise ? a->last_step[i] : square;
+    if (!usable || square > WILD * a->last_step[i]) {
       dx = dy = 0.0;
     }
   } else if (resting && !usable) {
@@ -200,9 +221,9 @@ LANES_INLINE void include_lanes(const struct evaluation *p, lanes ur, lanes ui, 
 
   struct evaluation_lanes q;
   evaluation_at_lanes(p, out->zr, out->zi, out->reversed, &q);
-  const lanes size = lanes_sqrt(out->zr * out->zr + out->zi * out->zi);
-  const lanes value = lanes_sqrt(q.re * q.re + q.im * q.im);
-  const lanes slope = lanes_sqrt(q.slope_re * q.slope_re + q.slope_im * q.slope_im);
+  const lanes size = modulus_of(out->zr, out->zi);
+  const lanes value = modulus_of(q.re, q.im);
+  const lanes slope = modulus_of(q.slope_re, q.slope_im);
   const lanes end_error = lanes_select(out->reversed, lanes_all(p->reverse_bound[0]), lanes_all(p->forward_bound[0]));
   const lane_mask at_end = size == 0.0; /* no arithmetic was done there: an exact coefficient is an exact value */
   const lanes end_value = lanes_select(value == 0.0, end_error, value + end_error);

@@ -11,12 +11,18 @@
 /* The chart point is computed from u with a difference, a reciprocal of a square and products: under 10 roundings. */
 #define CHART_ROUNDING (10 * UNIT_ROUNDOFF)
 
+/* `stop rounding`: where |p| is below its rounding bound, which is never sharp, steps go on while they shrink. One that is
+ * longer than the last is noise and not taken; after one that has shrunk by this much (its square against the last one's),
+ * the next would be noise. */
+#define STEEP_FALL 1e-4
+
 /* All values of one solve by Aberth's method, in x. */
 struct aberth {
   struct evaluation p;
   double zr[POLYNOMIAL_MAX_DEGREE], zi[POLYNOMIAL_MAX_DEGREE];
   double next_zr[POLYNOMIAL_MAX_DEGREE], next_zi[POLYNOMIAL_MAX_DEGREE];
   double last_step[POLYNOMIAL_MAX_DEGREE]; /* |step|^2 in u */
+  int noisy[POLYNOMIAL_MAX_DEGREE];        /* steps that were noise */
   int active[POLYNOMIAL_MAX_DEGREE];       /* the roots still moving */
   int active_count;
 };

@@ -13,12 +13,12 @@
 
 enum root_status {
   ROOT_CONVERGED, /* the solver's stopping rule was met, and the true polynomial has a root within radius of the value */
-  ROOT_LIMIT,     /* the iteration limit came first; the radius is still a true bound, possibly infinite */
+  ROOT_LIMIT,     /* the iteration limit came first, or no bound was found: the radius is true but may be infinite */
   ROOT_CLUSTER    /* as converged, but the disc meets that of another root: they may be one multiple root, or none of them real */
 };
 
 struct root {
-  double re, im; /* im is 0 wherever the disc meets the real axis, that is, wherever a real root cannot be excluded */
+  double re, im; /* im is 0 wherever a disc of finite radius meets the real axis: a real root cannot be excluded there */
   double radius; /* absolute: at least one root of p lies within it (disc in the complex plane of u); may be INFINITY */
   int iterations;
   enum root_status status;

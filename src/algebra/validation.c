@@ -13,10 +13,6 @@
 
 #include "algebra/root_kernel.h"
 
-/* A value whose disc reaches infinity is dropped as a root at infinity, except within this distance of 1/2: there a useless
- * disc only says that nothing is known, and a candidate for [0,1] is never dropped. */
-#define NEAR_INTERVAL 1.0
-
 /* The least bound over all orders j, at one chart point. */
 static double all_orders_bound(const struct evaluation *p, double zr, double zi, bool reversed)
 {
@@ -109,15 +105,27 @@ static void mark_clusters(struct root_set *roots)
   }
 }
 
+/* Whether p may have a root at infinity: its leading coefficient in powers of u is not told from zero. In Bernstein form that is
+ * the value of q at x = -1. */
+static bool may_reach_infinity(const struct evaluation *p)
+{
+  const bool power = p->basis == BASIS_POWER;
+  const struct evaluation_real at = evaluation_at_real(p, power ? 0.0 : -1.0, power);
+  return fabs(at.value) <= at.error;
+}
+
 void validation_judge(const struct evaluation *p, struct root_set *roots)
 {
   find_radii(p, roots->count, roots->root);
+  bool infinite = false, asked = false;
   int kept = 0;
   for (int i = 0; i < roots->count; i++) {
     struct root *root = &roots->root[i];
     if (!(root->radius < INFINITY) && root->status != ROOT_LIMIT) {
-      if (hypot(root->re - 0.5, root->im) > NEAR_INTERVAL) {
-        continue; /* its disc reaches infinity */
+      infinite = asked ? infinite : may_reach_infinity(p);
+      asked = true;
+      if (infinite && hypot(root->re - 0.5, root->im) > 1.0) {
+        continue; /* a candidate for [0,1] is kept in any case */
       }
       root->status = ROOT_LIMIT;
     }

@@ -1,0 +1,188 @@
+/* Every solver on every polynomial of the corpus, in both bases, against guaranteed roots: whatever it says must be true.
+ *
+ * The Bernstein form is a rounded one with its bounds, and the truth is the power form it was made from: so the coefficient
+ * bounds are put to the test as well.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "algebra/solver.h"
+#include "cmocka_test.h"
+#include "corpus/corpus.h"
+#include "corpus/exact_roots.h"
+
+struct fixture {
+  size_t count;
+  struct corpus_entry entry[CORPUS_MAX];
+  struct exact_roots *exact[CORPUS_MAX];
+};
+
+static int set_up(void **state)
+{
+  struct fixture *fixture = calloc(1, sizeof *fixture);
+  *state = fixture;
+  if (fixture == NULL) {
+    return -1;
+  }
+  fixture->count = corpus_read(fixture->entry);
+  for (size_t i = 0; i < fixture->count; i++) {
+    const struct polynomial p = {fixture->entry[i].degree, BASIS_POWER, fixture->entry[i].c, NULL};
+    fixture->exact[i] = exact_roots_find(&p);
+  }
+  return fixture->count > 30 ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+  struct fixture *fixture = *state;
+  for (size_t i = 0; i < fixture->count; i++) {
+    exact_roots_destroy(fixture->exact[i]);
+  }
+  free(fixture);
+  return 0;
+}
+
+static struct polynomial polynomial_of(const struct corpus_entry *entry, enum basis basis)
+{
+  return (struct polynomial){entry->degree, basis, basis == BASIS_POWER ? entry->c : entry->b,
+                             basis == BASIS_POWER ? NULL : entry->error};
+}
+
+/* What holds for any answer of any solver. Answers the number of false statements. */
+static int check_answer(const char *solver, const struct corpus_entry *entry, enum basis basis, double tolerance,
+                        const struct exact_roots *exact, const struct solver_options *options, const struct root_set *roots)
+{
+  int wrong = roots->count > entry->degree || roots->not_finite || roots->identically_zero;
+  for (int i = 0; i < roots->count; i++) {
+    const struct root *root = &roots->root[i];
+    const double distance = exact_roots_nearest_below(exact, root->re, root->im);
+    const int bad = !isfinite(root->re) || !isfinite(root->im) || !(root->radius >= 0.0) || distance > root->radius ||
+                    (root->im != 0.0 && root->radius < INFINITY && fabs(root->im) <= root->radius) || root->iterations > options->max_iterations ||
+                    (root->status == ROOT_CONVERGED && !(root->radius < INFINITY)) ||
+                    (options->solver->real_only && (root->im != 0.0 || root->re < 0.0 || root->re > 1.0));
+    if (bad) {
+      print_error("%s, %s, basis %d, tolerance %g: %.17g %+.17g i, radius %g, status %d, iterations %d, true distance %g\n",
+                  solver, entry->name, (int)basis, tolerance, root->re, root->im, root->radius, (int)root->status,
+                  root->iterations, distance);
+    }
+    wrong += bad;
+  }
+  return wrong;
+}
+
+static void answers_are_true(void **state)
+{
+  const struct fixture *fixture = *state;
+  static const double tolerances[] = {0.0 /* the default */, 1e-2, 1e-6, 1e-300};
+  const struct solver_item *form = NULL;
+  for (size_t i = 0; i < solver_item_count(); i++) {
+    if (strcmp(solver_item_at(i)->name, "form") == 0) {
+      form = solver_item_at(i);
+    }
+  }
+  int wrong = 0;
+  for (size_t s = 0; s < solver_count(); s++) {
+    for (size_t i = 0; i < fixture->count; i++) {
+      for (int basis = 0; basis < 2; basis++) {
+        struct solver_warm warm = {0};
+        for (size_t t = 0; t < sizeof tolerances / sizeof tolerances[0]; t++) {
+          for (int improved = 0; improved < 2; improved++) {
+            struct solver_options options;
+            solver_options_default(solver_at(s), &options);
+            form->set(&options, improved);
+            options.tolerance = t > 0 ? tolerances[t] : options.tolerance;
+            options.start = improved ? START_COLD : START_PREVIOUS;
+            const struct polynomial p = polynomial_of(&fixture->entry[i], (enum basis)basis);
+            struct root_set roots;
+            solver_solve(&p, &options, &warm, &roots);
+            wrong += check_answer(solver_at(s)->name, &fixture->entry[i], (enum basis)basis, options.tolerance,
+                                  fixture->exact[i], &options, &roots);
+          }
+        }
+      }
+    }
+  }
+  assert_int_equal(wrong, 0);
+}
+
+/* The promise of the default solver: no real root in [0,1] is lost. One disc of each solution must hold it; roots so near
+ * to each other that they share a cluster may share its discs. */
+static void no_real_root_is_lost(void **state)
+{
+  const struct fixture *fixture = *state;
+  int lost = 0;
+  for (size_t i = 0; i < fixture->count; i++) {
+    for (int basis = 0; basis < 2; basis++) {
+      struct solver_options options;
+      solver_options_default(solver_find("bernstein", 9), &options);
+      const struct polynomial p = polynomial_of(&fixture->entry[i], (enum basis)basis);
+      struct root_set roots;
+      solver_solve(&p, &options, NULL, &roots);
+      for (int k = 0; k < exact_roots_count(fixture->exact[i]); k++) {
+        const struct exact_root exact = exact_roots_at(fixture->exact[i], k);
+        if (!exact.real || exact.re < 0.0 || exact.re > 1.0) {
+          continue;
+        }
+        int held = 0;
+        for (int r = 0; r < roots.count; r++) {
+          held += exact_roots_distance_above(fixture->exact[i], k, roots.root[r].re, roots.root[r].im) <= roots.root[r].radius;
+        }
+        if (held == 0) {
+          print_error("%s, basis %d: the root %.17g of multiplicity %d is lost\n", fixture->entry[i].name, basis, exact.re,
+                      exact.multiplicity);
+        }
+        lost += held == 0;
+      }
+    }
+  }
+  assert_int_equal(lost, 0);
+}
+
+/* Aberth's method as it is by default brings every root of every polynomial, none twice: the values can be paired with the true
+ * roots so that each lies within its partner's disc. (In the power basis, whose coefficients are exact.) */
+static void aberth_finds_all(void **state)
+{
+  const struct fixture *fixture = *state;
+  int missing = 0;
+  for (size_t i = 0; i < fixture->count; i++) {
+    struct solver_options options;
+    solver_options_default(solver_find("aberth", 6), &options);
+    const struct polynomial p = polynomial_of(&fixture->entry[i], BASIS_POWER);
+    struct root_set roots;
+    solver_solve(&p, &options, NULL, &roots);
+    bool taken[POLYNOMIAL_MAX_DEGREE] = {false};
+    for (int k = 0; k < exact_roots_count(fixture->exact[i]); k++) {
+      const int copies = exact_roots_at(fixture->exact[i], k).multiplicity;
+      for (int copy = 0; copy < copies; copy++) {
+        int best = -1;
+        double best_distance = INFINITY;
+        for (int r = 0; r < roots.count; r++) {
+          const double distance = exact_roots_distance_below(fixture->exact[i], k, roots.root[r].re, roots.root[r].im);
+          if (!taken[r] && distance <= roots.root[r].radius && distance < best_distance) {
+            best = r;
+            best_distance = distance;
+          }
+        }
+        if (best < 0) {
+          const struct exact_root exact = exact_roots_at(fixture->exact[i], k);
+          print_error("%s: no value for %.17g %+.17g i\n", fixture->entry[i].name, exact.re, exact.im);
+          missing++;
+        } else {
+          taken[best] = true;
+        }
+      }
+    }
+  }
+  assert_int_equal(missing, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(answers_are_true),
+    cmocka_unit_test(no_real_root_is_lost),
+    cmocka_unit_test(aberth_finds_all),
+  };
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}

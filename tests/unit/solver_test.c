@@ -1,0 +1,268 @@
+/* The table of solvers, its items, and every solver on polynomials whose roots are known. */
+#include "algebra/solver.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "algebra/deflation.h"
+#include "cmocka_test.h"
+#include "random.h"
+
+static struct root_set solve(const char *name, int degree, enum basis basis, const double c[], const double error[])
+{
+  struct solver_options options;
+  solver_options_default(solver_find(name, strlen(name)), &options);
+  const struct polynomial p = {degree, basis, c, error};
+  struct root_set out;
+  solver_solve(&p, &options, NULL, &out);
+  return out;
+}
+
+/* Whether some value's disc holds the real number. */
+static bool found(const struct root_set *roots, double at)
+{
+  for (int i = 0; i < roots->count; i++) {
+    if (hypot(roots->root[i].re - at, roots->root[i].im) <= roots->root[i].radius) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static void table(void **state)
+{
+  (void)state;
+  assert_string_equal(solver_at(0)->name, "bernstein");
+  assert_null(solver_at(solver_count()));
+  for (size_t i = 0; i < solver_count(); i++) {
+    const struct solver *solver = solver_at(i);
+    assert_ptr_equal(solver_find(solver->name, strlen(solver->name)), solver);
+    assert_null(solver_find(solver->name, strlen(solver->name) - 1));
+  }
+  assert_non_null(solver_find("newton", 6));
+  assert_non_null(solver_find("laguerre", 8));
+  assert_non_null(solver_find("aberth", 6));
+}
+
+/* What get reads, set writes; in the order of the table a block reads back as it was. */
+static void items_round_trip(void **state)
+{
+  (void)state;
+  for (size_t i = 0; i < solver_item_count(); i++) {
+    const struct solver_item *item = solver_item_at(i);
+    struct solver_options options, copy;
+    solver_options_default(solver_at(0), &options);
+    int words = 0;
+    while (item->keywords != NULL && item->keywords[words] != NULL) {
+      words++;
+    }
+    const double last = item->kind == SOLVER_ITEM_KEYWORD ? words - 1 : item->maximum;
+    item->set(&options, last);
+    assert_true(item->get(&options) == last);
+    item->set(&options, item->kind == SOLVER_ITEM_KEYWORD ? 0.0 : item->minimum);
+    assert_true(item->get(&options) == (item->kind == SOLVER_ITEM_KEYWORD ? 0.0 : item->minimum));
+    solver_options_default(solver_at(0), &copy);
+    for (size_t k = 0; k < solver_item_count(); k++) {
+      solver_item_at(k)->set(&copy, solver_item_at(k)->get(&options));
+    }
+    for (size_t k = 0; k < solver_item_count(); k++) {
+      assert_true(solver_item_at(k)->get(&copy) == solver_item_at(k)->get(&options));
+    }
+  }
+}
+
+static void hopeless_input(void **state)
+{
+  (void)state;
+  const double nan_c[] = {1.0, NAN, 1.0}, infinite[] = {1.0, 1.0, INFINITY}, zero[] = {0.0, 0.0, 0.0};
+  const double small[] = {1e-12, -1e-12, 1e-12}, large_error[] = {1e-11, 1e-11, 1e-11}, constant[] = {2.0, 0.0, 0.0};
+  const double good[] = {1.0, 2.0, 3.0}, bad_error[] = {0.0, NAN, 0.0};
+  for (size_t i = 0; i < solver_count(); i++) {
+    const char *name = solver_at(i)->name;
+    for (int basis = 0; basis < 2; basis++) {
+      const struct root_set a = solve(name, 2, (enum basis)basis, nan_c, NULL);
+      assert_true(a.not_finite && a.count == 0);
+      const struct root_set b = solve(name, 2, (enum basis)basis, infinite, NULL);
+      assert_true(b.not_finite && b.count == 0);
+      const struct root_set c = solve(name, 2, (enum basis)basis, zero, NULL);
+      assert_true(c.identically_zero && c.count == 0);
+      const struct root_set d = solve(name, 2, (enum basis)basis, small, large_error);
+      assert_true(d.identically_zero && d.count == 0);
+      const struct root_set e = solve(name, 2, (enum basis)basis, good, bad_error);
+      assert_true(e.not_finite && e.count == 0);
+    }
+    const struct root_set f = solve(name, 2, BASIS_POWER, constant, NULL);
+    assert_true(!f.identically_zero && !f.not_finite && f.count == 0);
+  }
+}
+
+/* u^2 (1-u)^3 (u - 1/4) exactly: zero coefficients at both ends are roots of radius 0. */
+static void exact_ends(void **state)
+{
+  (void)state;
+  const double c[] = {0.0, 0.0, -1.0, 3.0, 0.0, 0.0, 0.0}; /* u^2 (1-u)^3 (3 u - (1-u)) */
+  for (size_t i = 0; i < solver_count(); i++) {
+    const struct root_set roots = solve(solver_at(i)->name, 6, BASIS_BERNSTEIN, c, NULL);
+    int at_zero = 0, at_one = 0;
+    for (int k = 0; k < roots.count; k++) {
+      at_zero += roots.root[k].re == 0.0 && roots.root[k].im == 0.0 && roots.root[k].radius == 0.0;
+      at_one += roots.root[k].re == 1.0 && roots.root[k].im == 0.0 && roots.root[k].radius == 0.0;
+    }
+    assert_int_equal(roots.count, 6);
+    assert_int_equal(at_zero, 2);
+    assert_int_equal(at_one, 3);
+    assert_true(found(&roots, 0.25));
+  }
+}
+
+/* The same polynomial written with a higher degree in Bernstein form has roots at infinity, which are not listed. */
+static void raised_degree(void **state)
+{
+  (void)state;
+  const double power[] = {0.1875, -1.0, 1.0, 0.0, 0.0, 0.0, 0.0}; /* (u - 1/4) (u - 3/4) */
+  const struct polynomial p = {6, BASIS_POWER, power, NULL};
+  double c[7], error[7];
+  polynomial_to_bernstein(&p, c, error);
+  for (size_t i = 0; i < solver_count(); i++) {
+    const struct root_set roots = solve(solver_at(i)->name, 6, BASIS_BERNSTEIN, c, error);
+    assert_true(found(&roots, 0.25));
+    assert_true(found(&roots, 0.75));
+    for (int k = 0; k < roots.count; k++) {
+      assert_true(roots.root[k].status != ROOT_CONVERGED || fabs(roots.root[k].re - 0.5) < 0.5);
+    }
+  }
+}
+
+/* Random real roots and pairs: every solver finds every real root in [0,1]; all four agree. */
+static void random_roots(void **state)
+{
+  (void)state;
+  enum { TRIALS = 400 };
+  struct random random = {21};
+  for (int trial = 0; trial < TRIALS; trial++) {
+    const int degree = 2 + (int)(random_bits(&random) % 8);
+    double c[POLYNOMIAL_MAX_DEGREE + 1] = {1.0}, real[POLYNOMIAL_MAX_DEGREE];
+    int n = 0, real_count = 0;
+    while (n < degree) { /* multiply by (a u - b (1-u)), or by a positive quadratic, in scaled Bernstein form */
+      double factor[3];
+      int m = 1;
+      if (degree - n >= 2 && random_bits(&random) % 2 == 0) {
+        m = 2;
+        factor[0] = random_between(&random, 0.5, 2.0);
+        factor[1] = random_between(&random, -0.5, 0.5);
+        factor[2] = random_between(&random, 0.5, 2.0);
+      } else {
+        factor[0] = -random_between(&random, 0.1, 1.0);
+        factor[1] = random_between(&random, 0.1, 1.0);
+        real[real_count++] = -factor[0] / (factor[1] - factor[0]);
+      }
+      double product[POLYNOMIAL_MAX_DEGREE + 1] = {0};
+      for (int i = 0; i <= n; i++) {
+        for (int j = 0; j <= m; j++) {
+          product[i + j] += c[i] * factor[j];
+        }
+      }
+      n += m;
+      memcpy(c, product, sizeof c);
+    }
+    /* The roots above are those of the unrounded product: one rounding a product and a sum, for each of the factors. */
+    double error[POLYNOMIAL_MAX_DEGREE + 1];
+    for (int k = 0; k <= degree; k++) {
+      error[k] = 0x1p-45;
+    }
+    for (size_t s = 0; s < solver_count(); s++) {
+      const struct root_set roots = solve(solver_at(s)->name, degree, BASIS_BERNSTEIN, c, error);
+      assert_true(solver_at(s)->real_only || roots.count == degree);
+      for (int k = 0; k < real_count; k++) {
+        if (!found(&roots, real[k])) {
+          print_error("trial %d: %s lost %.17g\n", trial, solver_at(s)->name, real[k]);
+        }
+        assert_true(found(&roots, real[k]));
+      }
+    }
+  }
+}
+
+/* `start previous` along a family whose two real roots meet and part as a complex pair, and back. */
+static void warm_start(void **state)
+{
+  (void)state;
+  for (size_t s = 0; s < solver_count(); s++) {
+    struct solver_options options;
+    solver_options_default(solver_at(s), &options);
+    options.start = START_PREVIOUS;
+    struct solver_warm warm = {0};
+    for (int step = -20; step <= 20; step++) {
+      const double height = step * 1e-2; /* (u - 1/2)^2 + height, times (u + 1) */
+      const double c[] = {0.25 + height, -1.0 + 0.25 + height, 0.0, 1.0};
+      const struct polynomial p = {3, BASIS_POWER, c, NULL};
+      struct root_set roots;
+      solver_solve(&p, &options, &warm, &roots);
+      assert_int_equal(roots.not_finite || roots.identically_zero, 0);
+      if (!solver_at(s)->real_only) {
+        assert_int_equal(roots.count, 3);
+        assert_true(found(&roots, -1.0));
+        for (int k = 0; k < 3; k++) {
+          assert_true(roots.root[k].status != ROOT_LIMIT);
+        }
+      }
+      if (step < 0) {
+        assert_true(found(&roots, 0.5 - sqrt(-height)));
+        assert_true(found(&roots, 0.5 + sqrt(-height)));
+      }
+    }
+    /* All starts equal, and of another number than the roots: as good as any. */
+    const double cube[] = {-1.0, 0.0, 0.0, 1.0};
+    const struct polynomial p = {3, BASIS_POWER, cube, NULL};
+    for (int count = 2; count <= 3; count++) {
+      warm = (struct solver_warm){.count = count, .re = {0.5, 0.5, 0.5}};
+      struct root_set roots;
+      solver_solve(&p, &options, &warm, &roots);
+      assert_true(found(&roots, 1.0));
+      assert_true(solver_at(s)->real_only || roots.count == 3);
+    }
+  }
+}
+
+/* Whatever the iteration limit, an answer comes, and its radii hold. */
+static void limits(void **state)
+{
+  (void)state;
+  const double c[] = {-0.375, 1.75, -2.375, 1.0}; /* (u - 1/2) (u - 3/4) (u - 9/8) + 3/64 ... any cubic will do */
+  for (size_t s = 0; s < solver_count(); s++) {
+    struct solver_options options;
+    solver_options_default(solver_at(s), &options);
+    options.max_iterations = 1;
+    const struct polynomial p = {3, BASIS_POWER, c, NULL};
+    struct root_set roots;
+    solver_solve(&p, &options, NULL, &roots);
+    for (int k = 0; k < roots.count; k++) {
+      assert_true(roots.root[k].iterations <= 1);
+      assert_true(roots.root[k].radius >= 0.0);
+    }
+  }
+}
+
+/* Both divisions give back the other factor of an exact product. */
+static void division(void **state)
+{
+  (void)state;
+  for (int how = 0; how < 2; how++) {
+    double linear[] = {-6.0, 11.0, -6.0, 1.0}; /* 1, 2, 3 */
+    deflation_divide_linear((enum deflation)how, 3, linear, 2.0);
+    assert_true(linear[0] == 3.0 && linear[1] == -4.0 && linear[2] == 1.0);
+    double quadratic[] = {10.0, 1.0, -9.0, 7.0, -4.0, 1.0}; /* (x^2 - 2 x + 5) (x^3 - 2 x^2 - x + 2) */
+    deflation_divide_quadratic((enum deflation)how, 5, quadratic, 2.0, 5.0);
+    assert_true(quadratic[0] == 2.0 && quadratic[1] == -1.0 && quadratic[2] == -2.0 && quadratic[3] == 1.0);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(table),         cmocka_unit_test(items_round_trip), cmocka_unit_test(hopeless_input),
+    cmocka_unit_test(exact_ends),    cmocka_unit_test(raised_degree),    cmocka_unit_test(random_roots),
+    cmocka_unit_test(warm_start),    cmocka_unit_test(limits),           cmocka_unit_test(division),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
