@@ -228,7 +228,7 @@ static void warm_start(void **state)
 static void limits(void **state)
 {
   (void)state;
-  const double c[] = {-0.375, 1.75, -2.375, 1.0}; /* (u - 1/2) (u - 3/4) (u - 9/8) + 3/64 ... any cubic will do */
+  const double c[] = {-0.375, 1.75, -2.375, 1.0};
   for (size_t s = 0; s < solver_count(); s++) {
     struct solver_options options;
     solver_options_default(solver_at(s), &options);
@@ -251,7 +251,7 @@ static void division(void **state)
     double linear[] = {-6.0, 11.0, -6.0, 1.0}; /* 1, 2, 3 */
     deflation_divide_linear((enum deflation)how, 3, linear, 2.0);
     assert_true(linear[0] == 3.0 && linear[1] == -4.0 && linear[2] == 1.0);
-    double quadratic[] = {10.0, 1.0, -9.0, 7.0, -4.0, 1.0}; /* (x^2 - 2 x + 5) (x^3 - 2 x^2 - x + 2) */
+    double quadratic[] = {10.0, -9.0, -6.0, 8.0, -4.0, 1.0}; /* (x^2 - 2 x + 5) (x^3 - 2 x^2 - x + 2) */
     deflation_divide_quadratic((enum deflation)how, 5, quadratic, 2.0, 5.0);
     assert_true(quadratic[0] == 2.0 && quadratic[1] == -1.0 && quadratic[2] == -2.0 && quadratic[3] == 1.0);
   }
