@@ -241,7 +241,8 @@ void tally_print(struct tally *tally)
          "T %.2g U %.2g V %.2g; normal %.2g; "
          "T of grazing hits %.2g\n",
          quantile(tally, 0.5), quantile(tally, 0.99), quantile(tally, 1), tally->worst_t_floor, tally->worst_u_floor,
-         tally->worst_v_floor, tally->worst_t_local, tally->worst_u_local, tally->worst_v_local, tally->worst_normal, tally->worst_t_grazing);
+         tally->worst_v_floor, tally->worst_t_local, tally->worst_u_local, tally->worst_v_local, tally->worst_normal,
+         tally->worst_t_grazing);
 }
 
 void tally_assert(struct tally *tally)

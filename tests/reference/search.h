@@ -12,7 +12,7 @@ struct search_root {
   double radius, t_radius; /* the only zero within `radius` of (u,v) is at most so far off; the same for t */
 };
 
-enum { SEARCH_MAX_ROOTS = 32, SEARCH_BUDGET = 4000 };
+enum { SEARCH_MAX_ROOTS = 32, SEARCH_BUDGET = 800 };
 
 struct search_result {
   int count;
