@@ -176,6 +176,9 @@ void finish_hit(const struct model *model, const struct ray *ray, const struct b
   out->v = clamp01(leaf_to_patch(patch->split, leaf->column_v, best->root.v));
   const double plain = PLAIN_ERROR * patch->scale / fabs(ray->direction[dominant_axis(ray->direction)]);
   if (best->root.certain && best->t_error > plain) improve(patch, ray, &out->u, &out->v, &out->t);
+  /* The improvement may have taken the last bits of t to the end of the interval. */
+  if (!(out->t > ray->t_min)) out->t = nextafter(ray->t_min, INFINITY);
+  if (!(out->t < ray->t_max)) out->t = nextafter(ray->t_max, -INFINITY);
   set_surface(patch, ray->direction, out);
   const unsigned borders = borders_of(patch, leaf, &best->root);
   if (!best->root.certain || (borders && !passes_border(model, leaf->patch, borders, out->u, out->v, ray->direction)))

@@ -24,16 +24,20 @@ enum { AUTO_SPLIT_MAX = 8 };
 /* x rounded to a multiple of the power of two `grain`. */
 static double coarse(double x, double grain) { return rint(x / grain) * grain; }
 
-static void patch_frame(double P[4][4][3], struct model_patch *out)
+/* A patch smaller than this part of the scene's coordinates is framed as if it were that large: one that is a single point has
+ * no size of its own, and a frame too small would overflow. */
+#define LEAST_EXTENT 0x1p-100
+
+static void patch_frame(double P[4][4][3], double scene_size, struct model_patch *out)
 {
-  double extent = 0, lo[3], hi[3];
+  double extent = LEAST_EXTENT * scene_size, lo[3], hi[3];
   for (int k = 0; k < 3; k++) {
     lo[k] = INFINITY, hi[k] = -INFINITY;
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) lo[k] = fmin(lo[k], P[i][j][k]), hi[k] = fmax(hi[k], P[i][j][k]);
     extent = fmax(extent, hi[k] / 2 - lo[k] / 2);
   }
-  int exponent = 0; /* a patch that is one point has no size: any scale will do */
+  int exponent = 0; /* all of the scene is the origin: any scale will do */
   if (extent > 0) frexp(extent, &exponent); /* extent < 2^exponent */
   out->scale = ldexp(1, exponent + 1); /* the center may be a grain off the middle */
   for (int k = 0; k < 3; k++) {
@@ -171,8 +175,9 @@ static bool fast_method(const struct solver_options *s)
 static void prepare_patches(struct model *model)
 {
   const struct scene *scene = model->scene;
-  double lo[3] = {0}, hi[3] = {0};
+  double lo[3] = {0}, hi[3] = {0}, size = 0;
   for (size_t p = 0; p < scene->patch_count; p++) {
+    size = fmax(size, largest_coordinate(scene->patches[p].P));
     for (int k = 0; k < 3; k++) {
       for (int i = 0; i < 16; i++) {
         const double c = scene->patches[p].P[i / 4][i % 4][k];
@@ -184,7 +189,7 @@ static void prepare_patches(struct model *model)
   for (size_t p = 0; p < scene->patch_count; p++) {
     struct scene_patch *source = &scene->patches[p];
     struct model_patch *patch = &model->patches[p];
-    patch_frame(source->P, patch);
+    patch_frame(source->P, size, patch);
     patch_bidegree(patch->x, DEGREE_SLACK * fmax(1, largest_coordinate(source->P) / patch->scale), &patch->m, &patch->n);
     patch->solver = &scene->solvers[source->solver];
     patch->lanes = fast_method(patch->solver);

@@ -215,6 +215,19 @@ static void NAME(box_halve)(const struct NAME(search) *s, struct NAME(box) *box,
   for (int h = 0; h < 2; h++) NAME(box_place)(s, &out[h]);
 }
 
+/* Whether a border of the box is one point as seen along the ray: a collapsed edge, which halving keeps to the last bit. */
+static bool NAME(box_has_pole)(struct NAME(box) *box)
+{
+  for (int border = 0; border < 4; border++) {
+    const int first = border == 1 ? 12 : border == 3 ? 3 : 0, stride = border < 2 ? 1 : 4;
+    bool equal = true;
+    for (int c = 0; c < 2; c++)
+      for (int n = 1; n < 4; n++) equal &= (&box->net[c][0][0])[first + n * stride] == (&box->net[c][0][0])[first];
+    if (equal) return true;
+  }
+  return false;
+}
+
 /* Decides the box: true where nothing is left to do with it. */
 static bool NAME(box_decide)(struct NAME(search) *s, struct NAME(box) *box)
 {
@@ -228,7 +241,8 @@ static bool NAME(box_decide)(struct NAME(search) *s, struct NAME(box) *box)
     return true;
   }
   if ((verdict != VERDICT_OPEN && box->far - box->near <= s->resolution) || box->halvings >= SEARCH_HALVINGS) {
-    NAME(box_offer_undecided)(s, box, verdict == VERDICT_FLAT);
+    /* At a pole there is no more to be had in wide arithmetic: the edge is as degenerate there. */
+    NAME(box_offer_undecided)(s, box, verdict == VERDICT_FLAT && !NAME(box_has_pole)(box));
     return true;
   }
   return false;
