@@ -163,6 +163,35 @@ static void improve(struct model_patch *patch, const struct ray *ray, double *u,
   *t = s[e.k].hi * (patch->scale / e.d[e.k]);
 }
 
+/* Gives a root on a shared border to the patch that stands first in the scene, so that which of the two has it does not depend on
+ * the last bits. A corner is left where it was found. */
+static void settle_border(const struct model *model, unsigned borders, struct hit *hit)
+{
+  if (borders == 0 || (borders & (borders - 1))) return;
+  const int border = __builtin_ctz(borders);
+  const struct edge_neighbour *other = &model->neighbours[4 * (size_t)hit->patch + (size_t)border];
+  if (other->patch >= hit->patch) return; /* EDGE_NONE is the largest */
+  const double found = border < 2 ? hit->v : hit->u, along = other->reversed ? 1 - found : found, side = other->border & 1;
+  hit->patch = other->patch;
+  hit->u = other->border < 2 ? side : along;
+  hit->v = other->border < 2 ? along : side;
+}
+
+/* A ray that starts nearer to the surface than this cannot be told from one that starts on it: the point's own error and the
+ * rounding of the new origin, and the distance within which subdivision cannot exclude a root: UNDECIDED_ERRORS error bounds of
+ * either plane, with moments of at most 2 as for all rays that start in the patch's box; doubled for the planes' being
+ * oblique. On a border the neighbour's size counts as well. */
+static double clearance(const struct model *model, uint32_t index, unsigned borders, const struct hit *hit)
+{
+  double scale = model->patches[index].scale, magnitude = 0;
+  for (int border = 0; border < 4; border++) {
+    const uint32_t other = model->neighbours[4 * (size_t)index + (size_t)border].patch;
+    if ((borders >> border & 1) && other != EDGE_NONE) scale = real_max(scale, model->patches[other].scale);
+  }
+  for (int k = 0; k < 3; k++) magnitude = real_max(magnitude, fabs(hit->point[k]));
+  return hit->point_error + 4 * UNIT_ROUNDOFF * magnitude + 2 * UNDECIDED_ERRORS * PLANE_ERROR(2, 2) * scale;
+}
+
 void finish_hit(const struct model *model, const struct ray *ray, const struct best *best, struct hit *out)
 {
   out->patch = HIT_NONE;
@@ -175,12 +204,14 @@ void finish_hit(const struct model *model, const struct ray *ray, const struct b
   out->u = clamp01(leaf_to_patch(patch->split, leaf->column_u, best->root.u));
   out->v = clamp01(leaf_to_patch(patch->split, leaf->column_v, best->root.v));
   const double plain = PLAIN_ERROR * patch->scale / fabs(ray->direction[dominant_axis(ray->direction)]);
-  if (best->root.certain && best->t_error > plain) improve(patch, ray, &out->u, &out->v, &out->t);
+  if (best->root.certain && best->root.t_error > plain) improve(patch, ray, &out->u, &out->v, &out->t);
   /* The improvement may have taken the last bits of t to the end of the interval. */
   if (!(out->t > ray->t_min)) out->t = nextafter(ray->t_min, INFINITY);
   if (!(out->t < ray->t_max)) out->t = nextafter(ray->t_max, -INFINITY);
-  set_surface(patch, ray->direction, out);
   const unsigned borders = borders_of(patch, leaf, &best->root);
   if (!best->root.certain || (borders && !passes_border(model, leaf->patch, borders, out->u, out->v, ray->direction)))
     out->certainty = CERTAINTY_GRAZING;
+  settle_border(model, borders, out);
+  set_surface(&model->patches[out->patch], ray->direction, out);
+  out->clearance = clearance(model, leaf->patch, borders, out);
 }

@@ -84,12 +84,7 @@ void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[
 
 void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3])
 {
-  /* The point is off the surface by at most point_error; the new origin's own rounding adds a unit in its last place, and the
-   * intersector tells a root at t = 0 from one beyond only down to the errors of its frame, which are of the same kind. */
-  double magnitude = 0;
-  for (int k = 0; k < 3; k++) magnitude = fmax(magnitude, fabs(hit->point[k]));
-  const double distance = 8 * (hit->point_error + 2 * UNIT_ROUNDOFF * magnitude);
-  const double side = vector_dot(hit->normal, direction) < 0 ? -distance : distance;
+  const double side = vector_dot(hit->normal, direction) < 0 ? -hit->clearance : hit->clearance;
   vector_add_scaled(hit->point, side, hit->normal, out_origin);
 }
 

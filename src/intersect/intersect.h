@@ -38,6 +38,7 @@ struct hit {
   double u, v;              /* parameters of the whole patch, in [0,1] */
   double point[3];          /* S(u,v) */
   double point_error;       /* absolute bound on the distance from `point` to the exact patch */
+  double clearance;         /* how far from `point` off the surface a ray must start to be told from one that starts on it */
   double normal[3];         /* unit, facing the ray's origin */
 };
 
@@ -70,8 +71,8 @@ void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[]
 /* Whether anything is hit by each of `count` <= PACKET_SIZE rays. */
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
 
-/* An origin for a ray that leaves the surface at `hit` along `direction`, moved off the surface to the side that
- * `direction` points to by the bound on the point's own error: no hit with the sheet it leaves, none skipped beyond. */
+/* An origin for a ray that leaves the surface at `hit` along `direction`: moved off the surface by the clearance, to the side that
+ * `direction` points to. It meets neither the sheet it leaves nor skips one beyond. */
 void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3]);
 
 const struct intersect_counts *tracer_counts(const struct tracer *tracer);

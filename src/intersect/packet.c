@@ -330,24 +330,25 @@ static lanes trial_place(const struct trial *t, lanes u, lanes v)
 /* ---- keeping the nearest ---- */
 
 /* The root at x_k = w on a lane, whose place on the ray it sets. */
-static struct leaf_hit packet_root(const struct packet *p, unsigned lane, int axis, const struct refined *r, unsigned n, double w)
+static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const struct trial *at, const struct refined *r,
+                                   unsigned n, double w)
 {
+  const int axis = at->axis;
   const double t = ((w + p->local[axis].start[1][lane]) + p->local[axis].start[0][lane]) * p->local[axis].to_t[lane];
-  return (struct leaf_hit){r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, t, true};
+  struct leaf_hit root = {r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, t, 0, true};
+  root.t_error = leaf_hit_t_error(at->leaf, &root, p->local[axis].to_t[lane]);
+  return root;
 }
 
 /* Makes a root the answer so far where it is nearer than the best, or as near to the last bit and of a lower leaf. That orders all
  * roots, so the answer is the same in whatever order the leaves come, which depends on the other rays of the packet. */
 static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, const struct leaf_hit *root)
 {
-  const double to_t = fabs(p->local[t->axis].to_t[lane]);
-  const double error = to_t * (t->leaf->first[0] * root->radius_u + t->leaf->first[1] * root->radius_v) +
-                       8 * UNIT_ROUNDOFF * (fabs(root->t) + to_t * fabs(root->w));
   struct best *best = &p->best[lane];
-  if (!(root->t > p->rays[lane].t_min + error) || !(root->t < p->rays[lane].t_max)) return;
+  if (!(root->t > p->rays[lane].t_min + root->t_error) || !(root->t < p->rays[lane].t_max)) return;
   if (best->leaf && (root->t > best->root.t || (root->t == best->root.t && t->leaf >= best->leaf))) return;
-  *best = (struct best){t->leaf, *root, error};
-  p->t_far[lane] = root->t + error;
+  *best = (struct best){t->leaf, *root};
+  p->t_far[lane] = root->t + root->t_error;
   if (p->any) p->live[lane] = 0;
   p->tracer->counts.roots_accepted++;
 }
@@ -358,7 +359,7 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
   const lanes w = trial_place(t, r->u, r->v);
   for (unsigned bits = lanes_bits(hits); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    const struct leaf_hit root = packet_root(p, lane, t->axis, r, lane, w[lane]);
+    const struct leaf_hit root = packet_root(p, lane, t, r, lane, w[lane]);
     packet_offer(p, lane, t, &root);
   }
 }
@@ -411,7 +412,7 @@ static bool lane_prove(struct packet *p, const struct trial *t, unsigned lane, c
     if (only) all.count = 0, alone = true; /* whatever else was found is this root again */
     for (unsigned bits = alone ? only & -only : exists; bits; bits &= bits - 1) {
       const unsigned n = (unsigned)__builtin_ctz(bits);
-      const struct leaf_hit root = packet_root(p, lane, t->axis, &r, n, w[n]);
+      const struct leaf_hit root = packet_root(p, lane, t, &r, n, w[n]);
       proven_add(&all, t, &root, in_leaf >> n & 1);
     }
   }
@@ -454,7 +455,7 @@ static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
     for (int n = 0; n < roots.count; n++) {
       const struct refined r = {lanes_all(roots.u[n]), lanes_all(roots.v[n]), {0}, {0}, {0}, {0}};
       if (!(roots.u[n] >= 0 && roots.u[n] <= 1 && roots.v[n] >= 0 && roots.v[n] <= 1)) continue;
-      struct leaf_hit root = packet_root(p, lane, t->axis, &r, 0, trial_place(t, r.u, r.v)[0]);
+      struct leaf_hit root = packet_root(p, lane, t, &r, 0, trial_place(t, r.u, r.v)[0]);
       root.certain = false;
       packet_offer(p, lane, t, &root);
     }

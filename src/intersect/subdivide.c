@@ -24,8 +24,8 @@
 /* Newton's last step in box parameters; see refine.h. */
 #define LAST_STEP 0x1p-28
 
-/* A combination within this many of its own error bounds all over a box says nothing about it. */
-#define FLAT_ERRORS 4
+/* A combination whose computed values are within this many of its error bounds all over a box says nothing about it. */
+#define FLAT_ERRORS (UNDECIDED_ERRORS - 1)
 
 enum verdict {
   VERDICT_EMPTY, /* no root in the box */
@@ -97,7 +97,7 @@ static bool wide_search(const struct subdivide_task *task, double t_max, struct 
   }
   memcpy(whole.net[2], x[k], sizeof x[k]);
   /* As PLANE_ERROR, but the moment is formed from the origin, whose size it is relative to. */
-  struct wide_search search = {.start = {-q[k], 0}, .to_t = patch->scale / (wide)d[k], .error = WIDE_ROUNDOFF * (64 + 16 * size),
+  struct wide_search search = {.leaf = task->leaf, .start = {-q[k], 0}, .to_t = patch->scale / (wide)d[k], .error = WIDE_ROUNDOFF * (64 + 16 * size),
                                .t_min = task->t_min, .t_max = t_max};
   wide_run(&search, &whole);
   *out = search.best;
@@ -107,7 +107,7 @@ static bool wide_search(const struct subdivide_task *task, double t_max, struct 
 bool subdivide_closest(const struct subdivide_task *task, struct leaf_hit *out)
 {
   const struct local_ray *ray = task->local;
-  struct double_search search = {.start = {ray->start[0], ray->start[1]}, .to_t = ray->to_t, .error = ray->error,
+  struct double_search search = {.leaf = task->leaf, .start = {ray->start[0], ray->start[1]}, .to_t = ray->to_t, .error = ray->error,
                                  .t_min = task->t_min, .t_max = task->t_max};
   struct double_box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   double nets[3][16];

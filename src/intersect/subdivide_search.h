@@ -15,6 +15,7 @@ struct NAME(box) {
 };
 
 struct NAME(search) {
+  const struct leaf *leaf;
   REAL start[2], to_t; /* t = ((w + start[1]) + start[0]) to_t */
   REAL error;          /* bound on the error of a net's coefficient before any halving */
   double t_min, t_max, resolution;
@@ -166,7 +167,9 @@ static void NAME(box_offer)(struct NAME(search) *s, struct NAME(box) *box, const
   const REAL radius_u = radius[0] * box->size_u + SEARCH_ROUNDOFF, radius_v = radius[1] * box->size_v + SEARCH_ROUNDOFF;
   if (u < -radius_u || u > 1 + radius_u || v < -radius_v || v > 1 + radius_v) return;
   const REAL w = NAME(evaluate)(box->net[2], root[0], root[1]).value;
-  const struct leaf_hit hit = {(double)u, (double)v, (double)radius_u, (double)radius_v, (double)w, NAME(place_to_t)(s, w), true};
+  struct leaf_hit hit = {(double)u, (double)v, (double)radius_u, (double)radius_v,
+                               (double)w, NAME(place_to_t)(s, w), 0, true};
+  hit.t_error = leaf_hit_t_error(s->leaf, &hit, (double)s->to_t);
   NAME(offer)(s, &hit, false);
 }
 
@@ -175,7 +178,7 @@ static void NAME(box_offer_undecided)(struct NAME(search) *s, struct NAME(box) *
 {
   const REAL w = NAME(evaluate)(box->net[2], (REAL)0.5, (REAL)0.5).value;
   const struct leaf_hit hit = {(double)(box->u + box->size_u / 2), (double)(box->v + box->size_v / 2), (double)box->size_u,
-                               (double)box->size_v, (double)w, NAME(place_to_t)(s, w), false};
+                               (double)box->size_v, (double)w, NAME(place_to_t)(s, w), box->far - box->near, false};
   NAME(offer)(s, &hit, edge_on);
 }
 

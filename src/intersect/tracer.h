@@ -36,14 +36,24 @@ struct tracer {
   struct warm_leaf *warm; /* one a leaf, NULL where no patch asks for it */
 };
 
+/* Subdivision gives up on a box where a plane polynomial stays within this many error bounds of zero, its own included. */
+#define UNDECIDED_ERRORS 5
+
 /* A point where a ray meets a leaf. */
 struct leaf_hit {
   double u, v;               /* leaf parameters, in [0,1] up to the radii */
   double radius_u, radius_v; /* the exact root is within; meaningless where not certain */
   double w;                  /* x_k of the point, local */
-  double t;                  /* place on the ray, in units of the scaled direction */
+  double t, t_error;         /* place on the ray, in units of the scaled direction, and a bound on its error */
   bool certain;              /* proven to exist, proven to be alone within its radii */
 };
+
+/* The bound on the error of a proven root's place on the ray: how far its radii let x_k move, and the roundings of x_k and t. */
+static inline double leaf_hit_t_error(const struct leaf *leaf, const struct leaf_hit *hit, double to_t)
+{
+  const double size = to_t < 0 ? -to_t : to_t, t = hit->t < 0 ? -hit->t : hit->t, w = hit->w < 0 ? -hit->w : hit->w;
+  return size * (leaf->first[0] * hit->radius_u + leaf->first[1] * hit->radius_v) + 8 * UNIT_ROUNDOFF * (t + size * w);
+}
 
 /* candidate.c: what the scene's solver finds. */
 
@@ -73,7 +83,6 @@ void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const doubl
 struct best {
   const struct leaf *leaf; /* NULL: none */
   struct leaf_hit root;
-  double t_error; /* bound on the error of root.t */
 };
 
 /* Fills the answer from the winner: parameters of the whole patch, improved by a Newton step on the patch with residuals in
