@@ -177,8 +177,9 @@ static void NAME(box_offer)(struct NAME(search) *s, struct NAME(box) *box, const
 static void NAME(box_offer_undecided)(struct NAME(search) *s, struct NAME(box) *box, bool edge_on)
 {
   const REAL w = NAME(evaluate)(box->net[2], (REAL)0.5, (REAL)0.5).value;
+  const double t = NAME(place_to_t)(s, w), error = box->far - box->near + 8 * UNIT_ROUNDOFF * fabs(t);
   const struct leaf_hit hit = {(double)(box->u + box->size_u / 2), (double)(box->v + box->size_v / 2), (double)box->size_u,
-                               (double)box->size_v, (double)w, NAME(place_to_t)(s, w), box->far - box->near, false};
+                               (double)box->size_v, (double)w, t, error, false};
   NAME(offer)(s, &hit, edge_on);
 }
 
