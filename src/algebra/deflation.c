@@ -210,14 +210,15 @@ static void add(const struct root_problem *problem, struct complex_number x, int
 }
 
 void deflation_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                    deflation_step *step, struct root_estimates *out)
+                    deflation_step *step, int wanted, struct root_estimates *out)
 {
   double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE], c[POLYNOMIAL_MAX_DEGREE + 1];
+  out->count = 0;
   start_values(problem, options->radii, warm, re, im);
   memcpy(c, problem->c, sizeof c[0] * (size_t)(problem->degree + 1));
   const double mean_modulus = start_mean_modulus(problem);
   int n = problem->degree;
-  while (n > 0) {
+  while (n > problem->degree - wanted) {
     const int order = problem->degree - n;
     const struct complex_number start = {re[order], im[order]};
     struct sought found;

@@ -15,10 +15,14 @@ struct local_view {
 /* The step to add to x; it need not be finite. */
 typedef struct complex_number deflation_step(const struct local_view *view);
 
-/* Finds all roots of the problem by `step`, with deflation after each: a real root by its linear factor, a complex one with its
- * conjugate by their real quadratic (section 3.1 of the paper). */
+/* Newton's step, eq 7, and Laguerre's, eq 8. */
+deflation_step newton_step, laguerre_step;
+
+/* Finds roots of the problem by `step`, with deflation after each: a real root by its linear factor, a complex one with its
+ * conjugate by their real quadratic (section 3.1 of the paper). Ends when there are `wanted` of them (a conjugate may be one
+ * more). They are in the order in which they were found. */
 void deflation_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                    deflation_step *step, struct root_estimates *out);
+                    deflation_step *step, int wanted, struct root_estimates *out);
 
 /* c divided by x - a; c has degree n, the quotient n - 1. The remainder is dropped. */
 void deflation_divide_linear(enum deflation how, int n, double c[], double a);

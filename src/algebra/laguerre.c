@@ -5,7 +5,7 @@
  */
 #include "algebra/deflation.h"
 
-static struct complex_number laguerre_step(const struct local_view *view)
+struct complex_number laguerre_step(const struct local_view *view)
 {
   const double n = view->degree;
   const struct complex_number square = complex_multiply(view->slope, view->slope);
@@ -19,5 +19,5 @@ static struct complex_number laguerre_step(const struct local_view *view)
 void laguerre_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
                    struct root_estimates *out)
 {
-  deflation_find(problem, options, warm, laguerre_step, out);
+  deflation_find(problem, options, warm, laguerre_step, problem->degree, out);
 }

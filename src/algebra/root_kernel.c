@@ -130,7 +130,7 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
   if (resting && options->stop == STOP_ROUNDING) {
     const bool noise = !usable || square > a->last_step[i];
     a->noisy[i] += noise;
-    done = square < STEEP_FALL * a->last_step[i] || a->noisy[i] > PATIENCE;
+    done = square <= STEEP_FALL * a->last_step[i] || a->noisy[i] > PATIENCE;
     a->last_step[i] = noise ? a->last_step[i] : square;
     if (!usable || square > WILD * a->last_step[i]) {
       dx = dy = 0.0;

@@ -1,0 +1,22 @@
+/* What the paper's experiments share: a clock, random numbers, eq 11, and solver items by name. */
+#ifndef PSCN_EXAMPLES_MEASURE_H
+#define PSCN_EXAMPLES_MEASURE_H
+
+#include <stdint.h>
+
+#include "algebra/root_problem.h"
+
+/* CPU seconds of this thread. */
+double measure_clock(void);
+
+/* Uniform in [0,1); SplitMix64. */
+double measure_random(uint64_t *state);
+
+/* |P(z)| / delta(z) of eq 11, z in the u of the problem; below 1 the root is accurate. In Bernstein form P and the terms of
+ * delta are those of the plain polynomial in x = u/(1-u), their quotient being the same up to a common factor. */
+double measure_eq11(const struct root_problem *problem, double re, double im);
+
+/* Sets an item of a solver block; the name must be one. */
+void measure_set(struct solver_options *options, const char *item, double value);
+
+#endif

@@ -1,0 +1,219 @@
+/* The paper's experiments on random polynomials (sections 3.4.1 and 3.4.2): one experiment a call, CSV on standard output.
+ *
+ *     random_experiments degrees      Fig 2-5: iterations and time against the degree, eps = 1e-6
+ *     random_experiments tolerances   Fig 6-10: iterations, time and accuracy against eps, degree 18
+ *     random_experiments order        Fig 11-12: accuracy against the order in which the roots were found, degree 18
+ *     random_experiments improvements what each improvement does to iterations, time and accuracy, degree 18
+ *
+ * As in the paper: 100 polynomials with random coefficients (here uniform in [-1,1], seeded) a point, power basis, Aberth's
+ * start values, eq 10 as the stop, eq 11 as the measure of accuracy. The solvers' own values are judged, before the library's
+ * validation. Times are CPU time of the solver alone.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "algebra/deflation.h"
+#include "algebra/root_problem.h"
+#include "algebra/solver.h"
+#include "measure.h"
+
+enum {
+  POLYNOMIALS = 100,
+  PAPER_DEGREE = 18,
+  LAST_DEGREE = 24,
+  REPEATS = 20 /* of every timed solve: one alone is too short for the clock */
+};
+
+static const char *const methods[] = {"newton", "laguerre", "aberth"};
+enum { METHODS = sizeof methods / sizeof methods[0] };
+
+static struct solver_options paper_options(const char *method, double tolerance)
+{
+  struct solver_options options;
+  solver_options_default(solver_find(method, strlen(method)), &options);
+  measure_set(&options, "form", 0.0);
+  measure_set(&options, "basis", BASIS_POWER);
+  options.tolerance = tolerance;
+  options.max_iterations = 500;
+  return options;
+}
+
+static void random_problem(uint64_t *state, int degree, struct root_problem *out)
+{
+  *out = (struct root_problem){.degree = degree, .basis = BASIS_POWER};
+  for (int k = 0; k <= degree; k++) {
+    out->c[k] = 2.0 * measure_random(state) - 1.0;
+  }
+}
+
+/* All roots, or the first one alone; Aberth's method always finds all. */
+static void find(const struct root_problem *problem, const struct solver_options *options, bool first_only,
+                 struct root_estimates *out)
+{
+  if (!first_only || strcmp(options->solver->name, "aberth") == 0) {
+    options->solver->find(problem, options, NULL, out);
+  } else {
+    deflation_find(problem, options, NULL, strcmp(options->solver->name, "newton") == 0 ? newton_step : laguerre_step, 1, out);
+  }
+}
+
+struct summary {
+  double iterations; /* mean of a sought root */
+  double seconds;    /* mean of a solve */
+  double accurate;   /* share of the values that meet eq 11 */
+  double error;      /* mean of log10 (|P(z)| / delta(z)), eq 11's two sides */
+  double unconverged;
+};
+
+static struct summary measure(int degree, const struct solver_options *options, bool first_only, uint64_t seed)
+{
+  struct summary out = {0};
+  double values = 0.0, sought = 0.0;
+  for (int i = 0; i < POLYNOMIALS; i++) {
+    struct root_problem problem;
+    struct root_estimates roots;
+    random_problem(&seed, degree, &problem);
+    const double start = measure_clock();
+    for (int repeat = 0; repeat < REPEATS; repeat++) {
+      find(&problem, options, first_only, &roots);
+    }
+    out.seconds += (measure_clock() - start) / REPEATS / POLYNOMIALS;
+    const int count = first_only && strcmp(options->solver->name, "aberth") != 0 ? 1 : roots.count;
+    for (int r = 0; r < count; r++) {
+      const double ratio = measure_eq11(&problem, roots.re[r], roots.im[r]);
+      out.accurate += ratio < 1.0;
+      out.error += log10(fmax(ratio, 1e-6));
+      values += 1.0;
+      out.iterations += roots.iterations[r];
+      sought += roots.iterations[r] > 0;
+      out.unconverged += !roots.converged[r];
+    }
+  }
+  out.accurate /= values;
+  out.error /= values;
+  out.unconverged /= values;
+  out.iterations /= sought;
+  return out;
+}
+
+static void degrees(void)
+{
+  printf("degree,method,iterations_one,us_iteration,us_one,us_all\n");
+  for (int degree = 2; degree <= LAST_DEGREE; degree += degree < 6 ? 1 : 2) {
+    for (int m = 0; m < METHODS; m++) {
+      const struct solver_options options = paper_options(methods[m], 1e-6);
+      const struct summary one = measure(degree, &options, true, (uint64_t)degree);
+      const struct summary all = measure(degree, &options, false, (uint64_t)degree);
+      const double one_root = m == METHODS - 1 ? one.seconds / degree : one.seconds;
+      printf("%d,%s,%.3f,%.4f,%.4f,%.4f\n", degree, methods[m], one.iterations, one_root / one.iterations * 1e6,
+             one_root * 1e6, all.seconds * 1e6);
+    }
+  }
+}
+
+static void tolerances(void)
+{
+  printf("eps,method,iterations_one,us_one,accurate_one,us_all,accurate_all,unconverged\n");
+  for (int digits = 1; digits <= 15; digits++) {
+    for (int m = 0; m < METHODS; m++) {
+      const struct solver_options options = paper_options(methods[m], pow(10.0, -digits));
+      const struct summary one = measure(PAPER_DEGREE, &options, true, 99);
+      const struct summary all = measure(PAPER_DEGREE, &options, false, 99);
+      printf("1e-%d,%s,%.3f,%.4f,%.4f,%.4f,%.4f,%.4f\n", digits, methods[m], one.iterations,
+             (m == METHODS - 1 ? one.seconds / PAPER_DEGREE : one.seconds) * 1e6, one.accurate, all.seconds * 1e6,
+             all.accurate, all.unconverged);
+    }
+  }
+}
+
+static void order(void)
+{
+  static const double eps[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+  printf("eps,method,order,accurate,log10_ratio\n");
+  for (size_t e = 0; e < sizeof eps / sizeof eps[0]; e++) {
+    for (int m = 0; m < METHODS; m++) {
+      const struct solver_options options = paper_options(methods[m], eps[e]);
+      double accurate[PAPER_DEGREE] = {0}, error[PAPER_DEGREE] = {0};
+      uint64_t seed = 99;
+      for (int i = 0; i < POLYNOMIALS; i++) {
+        struct root_problem problem;
+        struct root_estimates roots;
+        random_problem(&seed, PAPER_DEGREE, &problem);
+        find(&problem, &options, false, &roots);
+        for (int r = 0; r < roots.count; r++) {
+          const double ratio = measure_eq11(&problem, roots.re[r], roots.im[r]);
+          accurate[r] += ratio < 1.0;
+          error[r] += log10(fmax(ratio, 1e-6));
+        }
+      }
+      for (int r = 0; r < PAPER_DEGREE; r++) {
+        printf("%g,%s,%d,%.4f,%.3f\n", eps[e], methods[m], r + 1, accurate[r] / POLYNOMIALS, error[r] / POLYNOMIALS);
+      }
+    }
+  }
+}
+
+/* One variant: items set over the paper's form, in the order given. */
+struct variant {
+  const char *method, *name;
+  const char *item[4];
+  double value[4];
+};
+
+static const struct variant variants[] = {
+  {"newton", "paper", {NULL}, {0}},
+  {"newton", "radii polygon", {"radii"}, {1}},
+  {"newton", "stop rounding", {"stop"}, {1}},
+  {"newton", "deflation composite", {"deflation"}, {1}},
+  {"newton", "refine on", {"refine"}, {1}},
+  {"newton", "all (form improved)", {"form"}, {1}},
+  {"laguerre", "paper", {NULL}, {0}},
+  {"laguerre", "radii polygon", {"radii"}, {1}},
+  {"laguerre", "stop rounding", {"stop"}, {1}},
+  {"laguerre", "deflation composite", {"deflation"}, {1}},
+  {"laguerre", "refine on", {"refine"}, {1}},
+  {"laguerre", "all (form improved)", {"form"}, {1}},
+  {"aberth", "paper", {NULL}, {0}},
+  {"aberth", "radii polygon", {"radii"}, {1}},
+  {"aberth", "stop rounding", {"stop"}, {1}},
+  {"aberth", "rest on", {"rest"}, {1}},
+  {"aberth", "update gauss_seidel", {"update"}, {1}},
+  {"aberth", "all (form improved)", {"form"}, {1}},
+};
+
+static void improvements(void)
+{
+  printf("method,variant,eps,iterations,us_all,accurate,log10_ratio,unconverged\n");
+  for (size_t v = 0; v < sizeof variants / sizeof variants[0]; v++) {
+    for (int tight = 0; tight < 2; tight++) {
+      struct solver_options options = paper_options(variants[v].method, tight ? 1e-12 : 1e-6);
+      for (int i = 0; i < 4 && variants[v].item[i] != NULL; i++) {
+        measure_set(&options, variants[v].item[i], variants[v].value[i]);
+      }
+      const struct summary all = measure(PAPER_DEGREE, &options, false, 99);
+      printf("%s,%s,%g,%.2f,%.2f,%.4f,%.2f,%.4f\n", variants[v].method, variants[v].name, options.tolerance, all.iterations,
+             all.seconds * 1e6, all.accurate, all.error, all.unconverged);
+    }
+  }
+}
+
+int main(int argc, char **argv)
+{
+  const char *what = argc == 2 ? argv[1] : "";
+  if (strcmp(what, "degrees") == 0) {
+    degrees();
+  } else if (strcmp(what, "tolerances") == 0) {
+    tolerances();
+  } else if (strcmp(what, "order") == 0) {
+    order();
+  } else if (strcmp(what, "improvements") == 0) {
+    improvements();
+  } else {
+    fputs("usage: random_experiments degrees|tolerances|order|improvements\n", stderr);
+    return 2;
+  }
+  return 0;
+}
