@@ -88,7 +88,7 @@ static void bracketed_newton(struct search *search, double low, double high, int
     double next = u - probe.newton;
     if (probe.sign == 0) { /* below the rounding bound: on while the steps shrink, see STEEP_FALL */
       const double step = fabs(probe.newton);
-      const bool noise = !(next > low && next < high) || step > last_step;
+      const bool noise = !(next > low && next < high) || step >= last_step;
       converged = noise || step * step < STEEP_FALL * last_step * last_step || step < search->options->tolerance;
       u = noise ? u : next;
       last_step = step;

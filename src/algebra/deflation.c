@@ -158,7 +158,7 @@ static struct sought seek(const struct root_problem *problem, const struct solve
     }
     const double in_u = step_in_u(problem->basis, out.x, move);
     if (options->stop == STOP_ROUNDING && here.size <= here.error) {
-      const bool noise = !usable || in_u > last;
+      const bool noise = !usable || in_u >= last;
       out.converged = noise || in_u < STEEP_FALL * last;
       if (noise) {
         break;

@@ -128,7 +128,7 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
   const bool usable = isfinite(dx) && isfinite(dy) && !isnan(square);
   bool done;
   if (resting && options->stop == STOP_ROUNDING) {
-    const bool noise = !usable || square > a->last_step[i];
+    const bool noise = !usable || square >= a->last_step[i];
     a->noisy[i] += noise;
     done = square <= STEEP_FALL * a->last_step[i] || a->noisy[i] > PATIENCE;
     a->last_step[i] = noise ? a->last_step[i] : square;

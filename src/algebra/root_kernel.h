@@ -11,8 +11,8 @@
 /* The chart point is computed from u with a difference, a reciprocal of a square and products: under 10 roundings. */
 #define CHART_ROUNDING (10 * UNIT_ROUNDOFF)
 
-/* `stop rounding`: where |p| is below its rounding bound, which is never sharp, steps go on while they shrink. One that is
- * longer than the last is noise and not taken; after one that has shrunk by this much (its square against the last one's),
+/* `stop rounding`: where |p| is below its rounding bound, which is never sharp, steps go on while they shrink. One not
+ * shorter than the last is noise; after one that has shrunk by this much (its square against the last one's),
  * the next would be noise. */
 #define STEEP_FALL 1e-4
 
