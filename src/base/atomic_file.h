@@ -17,8 +17,9 @@
 /* Whether a file of this name could be written now; leaves nothing behind. To be asked before long work starts. */
 enum status atomic_file_probe(const char *path, int *out_errno) STATUS_MUST_CHECK;
 
-/* Writes `size` bytes. Where `stop` is not NULL and turns nonzero while writing (a signal handler may set it), the write
- * is given up: STATUS_INTERRUPTED. A new file gets the permissions the process's mask gives, an old one keeps its own. */
+/* Writes `size` bytes. Where `stop` is not NULL and turns nonzero while writing (a signal handler may set it), the
+ * write is given up: STATUS_INTERRUPTED. A new file gets the permissions the process's mask gives, an old one keeps its
+ * own. */
 enum status atomic_file_write(const char *path, const void *bytes, size_t size, const atomic_int *stop,
                               int *out_errno) STATUS_MUST_CHECK;
 

@@ -103,8 +103,8 @@ bool decimal_from_double(double value, int count, uint64_t *out_digits, int *out
     if (power < 0 || power > MAX_POWER || shift < 1)
       return false;
     assert(shift < 192); /* else the value were less than one digit */
-    /* Before rounding, the digits must be fewer than 10^count; with one too small an exponent they are at most ten times
-     * as many, which still fits. */
+    /* Before rounding, the digits must be fewer than 10^count; with one too small an exponent they are at most ten
+     * times as many, which still fits. */
     uint64_t digits = scale(mantissa, power, shift);
     if (digits > power_of_ten(count))
       continue;

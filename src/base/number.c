@@ -1,6 +1,7 @@
 /* Numbers as text. Reading: digits are gathered into an integer and a power of ten; where both are exact in double one
- * multiplication or division rounds correctly (Clinger 1990, "How to read floating point numbers accurately"), else strtod
- * reads the digits written without a decimal point, which means the same in every locale. */
+ * multiplication or division rounds correctly (Clinger 1990, "How to read floating point numbers accurately"). Numbers of
+ * everyday size are otherwise read and written in integers (decimal.h), the rest by strtod and printf, without a decimal
+ * point, which means the same in every locale. */
 #include "base/number.h"
 
 #include <math.h>
@@ -8,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/decimal.h"
 
 enum {
   EXACT_DIGITS = 19,       /* an integer of so many decimal digits fits in 64 bits */
@@ -110,7 +113,8 @@ enum number_kind number_read(const char *text, size_t length, double *out_value,
     value = (double)decimal.mantissa;
     if (decimal.exponent < 0) value /= POWERS_OF_TEN[-decimal.exponent];
     else value *= POWERS_OF_TEN[decimal.exponent];
-  } else {
+  } else if (decimal.significant > EXACT_DIGITS || llabs(decimal.exponent) > EXPONENT_LIMIT ||
+             !decimal_to_double(decimal.mantissa, (int)decimal.exponent, &value)) {
     value = convert_slowly(text, &decimal);
   }
   *out_value = negative ? -value : value;
@@ -150,6 +154,12 @@ static size_t lay_out(bool negative, const char *digits, int count, int exponent
  * locale and may be several bytes; it is stepped over. */
 static void round_to_digits(double value, int count, char *out_digits, int *out_exponent)
 {
+  uint64_t integer;
+  if (decimal_from_double(fabs(value), count, &integer, out_exponent)) {
+    *out_exponent += count - 1;
+    for (int k = count - 1; k >= 0; k--, integer /= 10) out_digits[k] = (char)('0' + integer % 10);
+    return;
+  }
   char text[64];
   snprintf(text, sizeof text, "%.*e", count - 1, fabs(value));
   int found = 0;

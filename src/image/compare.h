@@ -1,8 +1,8 @@
 /* The difference of two pictures in numbers, by the definitions of OpenImageIO's idiff.
  *
- * Errors are absolute differences of values as stored (integers to [0,1]). A pixel is over a limit when one of its values
- * differs by more than the limit. Two values that are both NaN, or the same infinity, are equal; any other pair that is
- * not finite differs by infinity.
+ * Errors are absolute differences of values as stored (integers to [0,1]). A pixel is over a limit when one of its
+ * values differs by more than the limit. Two values that are both NaN, or the same infinity, are equal; any other pair
+ * that is not finite differs by infinity.
  */
 #ifndef PSCN_IMAGE_COMPARE_H
 #define PSCN_IMAGE_COMPARE_H
@@ -13,8 +13,8 @@
 #include "base/status.h"
 #include "image/image.h"
 
-/* Which pictures and channels: channel first_channel[k] of `first` is compared with channel second_channel[k] of `second`.
- * Both pictures have the same size. Borrowed. */
+/* Which pictures and channels: channel first_channel[k] of `first` is compared with channel second_channel[k] of
+ * `second`. Both pictures have the same size. Borrowed. */
 struct compare_pair {
   const struct image *first, *second;
   size_t channel_count;
@@ -32,7 +32,7 @@ struct compare_limit {
 struct compare_result {
   size_t pixels;
   double mean, rms; /* over all values */
-  double psnr;      /* 20 log10(peak / rms) dB, peak the largest value of both pictures, at least 1; INFINITY if equal */
+  double psnr;      /* 20 log10(peak / rms) dB, peak the largest value of both, at least 1; INFINITY if equal */
   double max;
   size_t worst_x, worst_y, worst_channel; /* where max is, worst_channel counting in the pair; 0 if equal */
   float worst_first, worst_second;

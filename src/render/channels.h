@@ -42,8 +42,8 @@ struct channel_list {
   enum channel_kind kind[CHANNEL_KINDS];
 };
 
-/* Reads names with commas between them. false: *out_bad .. + *out_bad_length is the name that is unknown or stands twice
- * (possibly empty), and *out is unchanged. */
+/* Reads names with commas between them. false: *out_bad .. + *out_bad_length is the name that is unknown or stands
+ * twice (possibly empty), and *out is unchanged. */
 bool channel_list_parse(const char *text, struct channel_list *out, const char **out_bad, size_t *out_bad_length);
 
 #endif

@@ -38,7 +38,7 @@ static uint64_t count_rays(const struct tracer *tracer)
 
 static bool stopped(struct crew *crew)
 {
-  return atomic_load_explicit(&crew->aborted, memory_order_relaxed) || (crew->stop != NULL && atomic_load(crew->stop) != 0);
+  return atomic_load(&crew->aborted) || (crew->stop != NULL && atomic_load(crew->stop) != 0);
 }
 
 static void *work(void *argument)

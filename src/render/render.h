@@ -40,9 +40,9 @@ struct render_stats {
   double seconds;
 };
 
-/* Renders into out[crop.height][crop.width][channels.width]. The same options give the same values, bit for bit, for any
- * number of threads and in every crop. STATUS_LIMIT where memory or threads are short, STATUS_INTERRUPTED where stopped; then
- * `out` is not complete. `intersector` is the scene's. */
+/* Renders into out[crop.height][crop.width][channels.width]. The same options give the same values, bit for bit, for
+ * any number of threads and in every crop. STATUS_LIMIT where memory or threads are short, STATUS_INTERRUPTED where
+ * stopped; then `out` is not complete. `intersector` is the scene's. */
 enum status render_scene(const struct scene *scene, const struct intersector *intersector,
                          const struct render_options *options, const struct render_watch *watch, float *out,
                          struct render_stats *out_stats) STATUS_MUST_CHECK;

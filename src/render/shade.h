@@ -6,8 +6,8 @@
  *   phong     phong x (R.L)^phong_size x light           R: the viewing ray reflected at N
  *   specular  specular x (N.H)^(1/roughness) x light     H: half way between L and the direction to the viewer
  *
- * N is the unit normal facing the viewer, L the unit vector to the light. A `shadowless` light passes through everything
- * and, as POV-Ray's, gives no phong and no specular highlight. A miss has the background's colour.
+ * N is the unit normal facing the viewer, L the unit vector to the light. A `shadowless` light passes through
+ * everything and, as POV-Ray's, gives no phong and no specular highlight. A miss has the background's colour.
  */
 #ifndef PSCN_RENDER_SHADE_H
 #define PSCN_RENDER_SHADE_H

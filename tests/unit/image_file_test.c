@@ -12,7 +12,7 @@
 
 enum { WIDTH = 5, HEIGHT = 3 };
 
-/* OpenImageIO turns codes into floats by one rounded factor and one rounded product: two units of the last place of 1. */
+/* OpenImageIO turns codes into floats by a rounded factor and a rounded product: two units of the last place of 1. */
 static const double FLOAT_SLACK = 0x1p-23;
 
 static char path[64]; /* of the file of the test that runs */

@@ -1,0 +1,359 @@
+/* Rendering: the same pixels for any threads and crop, colours by the shading formulas, channels, samples. */
+#include "render/render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "geometry/vector.h"
+
+enum { WIDTH = 70, HEIGHT = 45 }; /* several tiles, none of them whole at the right and lower edges */
+
+static struct scene_texture texture = {
+  .pigment = { 0.8, 0.5, 0.3 },
+  .finish = { .ambient = { 0.1, 0.2, 0.3 }, .diffuse = 0.6, .brilliance = 1, .phong_size = 40, .roughness = 0.05 }
+};
+static struct solver_options solver;
+static struct scene_patch patches[2];
+static struct scene_light lights[2];
+
+/* The square |x|, |y| <= half at depth z; bulge pulls its inner control points towards the camera. */
+static struct scene_patch square(double half, double z, double bulge)
+{
+  struct scene_patch patch = { 0 };
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const bool inner = (i == 1 || i == 2) && (j == 1 || j == 2);
+      const double point[3] = { half * (2 * j / 3.0 - 1), half * (2 * i / 3.0 - 1), inner ? z - bulge : z };
+      memcpy(patch.P[i][j], point, sizeof point);
+    }
+  }
+  return patch;
+}
+
+/* A bulging square before a flat one that does not fill the picture, seen along z. Tests change it as they need. */
+static struct scene scene_of(void)
+{
+  solver_options_default(solver_at(0), &solver);
+  patches[0] = square(1, 0, 1.5);
+  patches[1] = square(3, 2, 0);
+  lights[0] = (struct scene_light){ .position = { 2, 4, -6 }, .color = { 1, 0.9, 0.8 } };
+  lights[1] = (struct scene_light){ .position = { -5, 1, -6 }, .color = { 0.2, 0.2, 0.4 }, .shadowless = true };
+  const struct scene_camera camera = {
+    .location = { 0, 0, -5 }, .direction = { 0, 0, 1 }, .right = { 1.4, 0, 0 }, .up = { 0, 0.9, 0 }
+  };
+  return (struct scene){ .camera = camera,
+                         .background = { 0.1, 0.2, 0.4 },
+                         .ambient_light = { 1, 0.5, 2 },
+                         .lights = lights,
+                         .light_count = 2,
+                         .patches = patches,
+                         .patch_count = 2,
+                         .textures = &texture,
+                         .texture_count = 1,
+                         .solvers = &solver,
+                         .solver_count = 1 };
+}
+
+static struct render_options options_of(const char *channels)
+{
+  struct render_options options = { .width = WIDTH, .height = HEIGHT, .samples = 1, .threads = 1,
+                                    .crop = { .width = WIDTH, .height = HEIGHT } };
+  const char *bad;
+  size_t length;
+  assert_true(channel_list_parse(channels, &options.channels, &bad, &length));
+  return options;
+}
+
+/* The values of a picture, to be freed. */
+static float *render(const struct scene *scene, const struct render_options *options, struct render_stats *out_stats)
+{
+  const size_t values = options->crop.width * options->crop.height * options->channels.width;
+  float *out = malloc(values * sizeof *out);
+  assert_non_null(out);
+  for (size_t k = 0; k < values; k++)
+    out[k] = NAN;
+  struct intersector *intersector;
+  assert_int_equal(intersector_create(scene, &intersector), STATUS_OK);
+  const struct render_watch watch = { 0 };
+  assert_int_equal(render_scene(scene, intersector, options, &watch, out, out_stats), STATUS_OK);
+  intersector_destroy(intersector);
+  return out;
+}
+
+static void expect_invariance(const struct scene *scene)
+{
+  static const struct rectangle crops[] = { { 0, 0, 1, 1 },   { 69, 44, 1, 1 }, { 31, 31, 2, 2 },
+                                            { 5, 7, 40, 30 }, { 64, 3, 6, 40 }, { 0, 44, 70, 1 } };
+  struct render_options options = options_of("rgb,depth,u,v,patch,normal,status");
+  struct render_stats stats;
+  float *whole = render(scene, &options, &stats);
+  const size_t pixel = options.channels.width * sizeof(float);
+  for (size_t threads = 2; threads <= 7; threads += 5) {
+    options.threads = threads;
+    float *again = render(scene, &options, &stats);
+    assert_memory_equal(again, whole, WIDTH * HEIGHT * pixel);
+    free(again);
+  }
+  for (size_t k = 0; k < sizeof crops / sizeof crops[0]; k++) {
+    options.crop = crops[k];
+    float *part = render(scene, &options, &stats);
+    for (size_t y = 0; y < crops[k].height; y++) {
+      const size_t first = (crops[k].y + y) * WIDTH + crops[k].x;
+      assert_memory_equal(part + y * crops[k].width * options.channels.width, whole + first * options.channels.width,
+                          crops[k].width * pixel);
+    }
+    free(part);
+  }
+  free(whole);
+}
+
+static void threads_and_crop_change_nothing(void **state)
+{
+  (void)state;
+  const struct scene scene = scene_of();
+  expect_invariance(&scene);
+}
+
+static void nor_do_they_with_warm_starts(void **state)
+{
+  (void)state;
+  const struct scene scene = scene_of();
+  const struct solver *aberth = solver_find("aberth", strlen("aberth"));
+  assert_non_null(aberth);
+  solver_options_default(aberth, &solver);
+  solver.start = START_PREVIOUS;
+  solver.polish = false;
+  solver.split = 1;
+  solver.tolerance = 0.05; /* coarse, so that answers do depend on where the solver starts */
+  expect_invariance(&scene);
+}
+
+static void crop_counts_only_its_rays(void **state)
+{
+  (void)state;
+  const struct scene scene = scene_of();
+  struct render_options options = options_of("rgb");
+  options.crop = (struct rectangle){ 10, 20, 9, 5 };
+  options.samples = 3;
+  struct render_stats stats;
+  free(render(&scene, &options, &stats));
+  assert_int_equal(stats.counts.rays[0], 9 * 5 * 9);
+  assert_true(stats.counts.rays[1] > 0 && stats.counts.rays[1] <= stats.counts.rays[0]);
+}
+
+/* Where the ray of pixel (x, y) meets the plane z = 2 of the flat square. */
+static void point_on_wall(size_t x, size_t y, double out[3])
+{
+  out[0] = 7 * (((double)x + 0.5) / WIDTH - 0.5) * 1.4;
+  out[1] = 7 * (0.5 - ((double)y + 0.5) / HEIGHT) * 0.9;
+  out[2] = 2;
+}
+
+/* Whether a value is the float of a number that was computed in another order: one unit in the last place, or of 1. */
+static bool is_float(float value, double expected)
+{
+  return (double)value == expected || fabs((double)value - expected) <= 0x1p-23 * (1 + fabs(expected));
+}
+
+/* The colour of a point of the flat square, seen by the camera of scene_of, by the formulas of shade.h. */
+static void expected_colour(const double point[3], const struct scene *scene, double out[3])
+{
+  const double normal[3] = { 0, 0, -1 };
+  const struct scene_finish *finish = &texture.finish;
+  double toward[3];
+  vector_subtract(point, scene->camera.location, toward);
+  vector_scale(1 / vector_length(toward), toward, toward);
+  for (int c = 0; c < 3; c++)
+    out[c] = finish->ambient[c] * scene->ambient_light[c] * texture.pigment[c];
+  for (size_t k = 0; k < scene->light_count; k++) {
+    const struct scene_light *light = &scene->lights[k];
+    double to_light[3], half[3], reflected[3];
+    vector_subtract(light->position, point, to_light);
+    vector_scale(1 / vector_length(to_light), to_light, to_light);
+    const double cosine = vector_dot(to_light, normal);
+    if (cosine <= 0)
+      continue;
+    vector_add_scaled(toward, -2 * vector_dot(toward, normal), normal, reflected);
+    vector_subtract(to_light, toward, half);
+    const double mirror = fmax(0, vector_dot(reflected, to_light));
+    const double blinn = vector_dot(half, normal) / vector_length(half);
+    const double highlight = light->shadowless ? 0
+                                               : finish->phong * pow(mirror, finish->phong_size) +
+                                                   finish->specular * pow(blinn, 1 / finish->roughness);
+    for (int c = 0; c < 3; c++)
+      out[c] += light->color[c] * (finish->diffuse * pow(cosine, finish->brilliance) * texture.pigment[c] + highlight);
+  }
+}
+
+static void colours_follow_the_formulas(void **state)
+{
+  (void)state;
+  struct scene scene = scene_of();
+  const struct scene_texture saved = texture;
+  patches[1] = square(9, 2, 0); /* fills the picture */
+  scene.patches = &patches[1];
+  scene.patch_count = 1;
+  const struct scene_finish finishes[] = {
+    saved.finish,
+    { .diffuse = 0.7, .brilliance = 3, .phong_size = 40, .roughness = 0.05 },
+    { .phong = 0.8, .phong_size = 12, .brilliance = 1, .roughness = 0.05 },
+    { .specular = 0.9, .roughness = 0.02, .brilliance = 1, .phong_size = 40 },
+    { .ambient = { 0.1, 0, 0.3 }, .diffuse = 0.4, .brilliance = 0.5, .phong = 0.3, .phong_size = 5, .specular = 0.3,
+      .roughness = 0.1 },
+  };
+  const struct render_options options = options_of("rgb");
+  for (size_t f = 0; f < sizeof finishes / sizeof finishes[0]; f++) {
+    texture.finish = finishes[f];
+    lights[0].position[2] = f % 2 == 0 ? -6 : 1; /* high above, and grazing */
+    lights[1].position[2] = f == 3 ? 3 : -6;     /* behind the surface it gives nothing */
+    struct render_stats stats;
+    float *out = render(&scene, &options, &stats);
+    for (size_t y = 0; y < HEIGHT; y++) {
+      for (size_t x = 0; x < WIDTH; x++) {
+        double point[3], expected[3];
+        point_on_wall(x, y, point);
+        expected_colour(point, &scene, expected);
+        for (int c = 0; c < 3; c++)
+          assert_true(is_float(out[(y * WIDTH + x) * 3 + (size_t)c], expected[c]));
+      }
+    }
+    free(out);
+  }
+  texture = saved;
+}
+
+/* What is hidden from the only light has the ambient colour, unless the light is shadowless. */
+static void shadows_are_cast(void **state)
+{
+  (void)state;
+  struct scene scene = scene_of();
+  scene.light_count = 1;
+  /* Straight before both squares, flat ones: the front one, half a side 1, hides 5/3 of the other, more than the
+   * camera's 7/5. */
+  patches[0] = square(1, 0, 0);
+  memcpy(lights[0].position, (const double[3]){ 0, 0, -3 }, sizeof lights[0].position);
+  const struct render_options options = options_of("rgb,patch");
+  struct render_stats stats;
+  size_t dark = 0, lit = 0;
+  for (int shadowless = 0; shadowless <= 1; shadowless++) {
+    lights[0].shadowless = shadowless != 0;
+    float *out = render(&scene, &options, &stats);
+    for (size_t y = 0; y < HEIGHT; y++) {
+      for (size_t x = 0; x < WIDTH; x++) {
+        const float *pixel = out + 4 * (y * WIDTH + x);
+        if (pixel[3] != 1)
+          continue;
+        double point[3];
+        point_on_wall(x, y, point);
+        const bool hidden = shadowless == 0 && fmax(fabs(point[0]), fabs(point[1])) < 5.0 / 3;
+        const bool ambient = fabs((double)pixel[0] - 0.1 * 1 * 0.8) < 1e-6;
+        assert_int_equal(ambient, hidden);
+        dark += hidden;
+        lit += !hidden;
+      }
+    }
+    free(out);
+    assert_true(lit > 0);
+    if (shadowless != 0)
+      assert_int_equal(stats.counts.rays[1], 0);
+  }
+  assert_true(dark > 0);
+}
+
+static void channels_tell_of_the_hit(void **state)
+{
+  (void)state;
+  struct scene scene = scene_of();
+  scene.patches = &patches[1];
+  scene.patch_count = 1;
+  const struct render_options options = options_of("depth,u,v,patch,normal,status,coverage");
+  struct render_stats stats;
+  float *out = render(&scene, &options, &stats);
+  size_t hits = 0;
+  for (size_t y = 0; y < HEIGHT; y++) {
+    for (size_t x = 0; x < WIDTH; x++) {
+      const float *pixel = out + 9 * (y * WIDTH + x);
+      double point[3];
+      point_on_wall(x, y, point);
+      const bool hit = fmax(fabs(point[0]), fabs(point[1])) < 3;
+      const double expected[9] = { hit ? sqrt(point[0] * point[0] + point[1] * point[1] + 49) : INFINITY,
+                                   hit ? (point[1] + 3) / 6 : 0, /* rows of the net run along y: u */
+                                   hit ? (point[0] + 3) / 6 : 0,
+                                   hit ? 0 : -1,
+                                   0,
+                                   0,
+                                   hit ? -1 : 0,
+                                   hit ? CHANNEL_HIT_CERTAIN : CHANNEL_MISS_CERTAIN,
+                                   hit };
+      for (int k = 0; k < 9; k++) {
+        assert_true(is_float(pixel[k], expected[k]));
+      }
+      hits += hit;
+    }
+  }
+  assert_true(hits > 0 && hits < WIDTH * HEIGHT);
+  free(out);
+}
+
+/* N x N samples are the pixels of a picture N times as large, averaged; data are those of the middle sample. */
+static void samples_are_a_finer_picture(void **state)
+{
+  (void)state;
+  const struct scene scene = scene_of();
+  for (size_t n = 2; n <= 3; n++) {
+    struct render_options options = options_of("rgb,depth,coverage"), fine = options;
+    struct render_stats stats;
+    options.samples = n;
+    fine.width = fine.crop.width = n * WIDTH;
+    fine.height = fine.crop.height = n * HEIGHT;
+    float *out = render(&scene, &options, &stats), *large = render(&scene, &fine, &stats);
+    for (size_t y = 0; y < HEIGHT; y++) {
+      for (size_t x = 0; x < WIDTH; x++) {
+        const float *pixel = out + 5 * (y * WIDTH + x);
+        double mean[5] = { 0 };
+        for (size_t k = 0; k < n * n; k++) {
+          const float *sample = large + 5 * ((y * n + k / n) * n * WIDTH + x * n + k % n);
+          for (int c = 0; c < 5; c++)
+            mean[c] += (double)sample[c] / (double)(n * n);
+        }
+        const float *middle = large + 5 * ((y * n + n / 2) * n * WIDTH + x * n + n / 2);
+        const double slack = 1e-6; /* floats, and rays that differ in the last place */
+        for (int c = 0; c < 3; c++)
+          assert_true(fabs((double)pixel[c] - mean[c]) < slack);
+        assert_true(fabs((double)pixel[4] - mean[4]) < slack);
+        assert_true(pixel[3] == middle[3] || fabs((double)pixel[3] - (double)middle[3]) < slack * (double)middle[3]);
+      }
+    }
+    free(out);
+    free(large);
+  }
+}
+
+static void a_stopped_rendering_says_so(void **state)
+{
+  (void)state;
+  const struct scene scene = scene_of();
+  const struct render_options options = options_of("rgb");
+  static float out[WIDTH * HEIGHT * 3];
+  const atomic_int stop = 15;
+  const struct render_watch watch = { .stop = &stop };
+  struct render_stats stats;
+  struct intersector *intersector;
+  assert_int_equal(intersector_create(&scene, &intersector), STATUS_OK);
+  assert_int_equal(render_scene(&scene, intersector, &options, &watch, out, &stats), STATUS_INTERRUPTED);
+  assert_int_equal(stats.counts.rays[0], 0);
+  intersector_destroy(intersector);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(threads_and_crop_change_nothing), cmocka_unit_test(nor_do_they_with_warm_starts),
+    cmocka_unit_test(crop_counts_only_its_rays),       cmocka_unit_test(colours_follow_the_formulas),
+    cmocka_unit_test(shadows_are_cast),                cmocka_unit_test(channels_tell_of_the_hit),
+    cmocka_unit_test(samples_are_a_finer_picture),     cmocka_unit_test(a_stopped_rendering_says_so),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
