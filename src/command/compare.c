@@ -1,0 +1,338 @@
+/* pscn compare A B: the difference of two pictures. */
+#include "image/compare.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "command/command.h"
+#include "command/interrupt.h"
+#include "command/values.h"
+#include "image/image_file.h"
+
+enum {
+  OPTION_OUTPUT = 1,
+  OPTION_SCALE,
+  OPTION_CHANNELS,
+  OPTION_FAIL,
+  OPTION_FAIL_PERCENT,
+  OPTION_FAIL_PIXELS,
+  OPTION_FAIL_ANY,
+  OPTION_WARN,
+  OPTION_WARN_PERCENT,
+  OPTION_WARN_ANY,
+  OPTION_QUIET
+};
+
+/* Differences up to this are no difference unless the options say otherwise; idiff's default as well. */
+static const double DEFAULT_LIMIT = 1e-6;
+
+static const struct poptOption OPTIONS[] = {
+  COMMAND_HELP_OPTION,
+  COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "picture of the absolute differences, .png or .exr", "DIFF"),
+  COMMAND_OPTION("scale", 0, OPTION_SCALE, "factor of the differences in that picture; default 1", "S"),
+  COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "only these, by name, with commas: R,G,B,depth", "LIST"),
+  COMMAND_OPTION("fail", 0, OPTION_FAIL, "a pixel fails beyond this difference; default 1e-6", "E"),
+  COMMAND_OPTION("failpercent", 0, OPTION_FAIL_PERCENT, "so many percent of the pixels may; default 0", "P"),
+  COMMAND_OPTION("allowfailures", 0, OPTION_FAIL_PIXELS, "or so many pixels may; default 0", "N"),
+  COMMAND_OPTION("hardfail", 0, OPTION_FAIL_ANY, "but none beyond this difference; default none", "E"),
+  COMMAND_OPTION("warn", 0, OPTION_WARN, "a warning, which is no failure, beyond this; default none", "E"),
+  COMMAND_OPTION("warnpercent", 0, OPTION_WARN_PERCENT, "so many percent of the pixels may; default 0", "P"),
+  COMMAND_OPTION("hardwarn", 0, OPTION_WARN_ANY, "a warning if any pixel is beyond this; default none", "E"),
+  COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless the comparison fails"),
+  POPT_TABLEEND
+};
+
+struct request {
+  const char *first, *second, *output, *channels;
+  double scale;
+  struct compare_limit fail, warn;
+  bool quiet;
+};
+
+static enum status take_option(const struct command *command, void *context, int val, const char *argument)
+{
+  struct request *request = context;
+  double *number = NULL;
+  switch (val) {
+  case OPTION_OUTPUT:
+    request->output = argument;
+    break;
+  case OPTION_CHANNELS:
+    request->channels = argument;
+    break;
+  case OPTION_QUIET:
+    request->quiet = true;
+    break;
+  case OPTION_SCALE:
+    number = &request->scale;
+    break;
+  case OPTION_FAIL:
+    number = &request->fail.each;
+    break;
+  case OPTION_FAIL_PERCENT:
+    number = &request->fail.percent;
+    break;
+  case OPTION_FAIL_PIXELS:
+    number = &request->fail.allowed_pixels;
+    break;
+  case OPTION_FAIL_ANY:
+    number = &request->fail.any;
+    break;
+  case OPTION_WARN:
+    number = &request->warn.each;
+    break;
+  case OPTION_WARN_PERCENT:
+    number = &request->warn.percent;
+    break;
+  default:
+    number = &request->warn.any;
+    break;
+  }
+  if (number != NULL && !value_number(argument, number))
+    return (enum status)command_usage(command, "'%s' is no number from 0 up, such as 0.01 or 4/255", argument);
+  return STATUS_OK;
+}
+
+/* What is compared: two pictures and the channels they share. */
+struct subject {
+  struct image image[2];
+  size_t *channel[2]; /* owned: the indices in each picture */
+  size_t channel_count;
+};
+
+static void subject_free(struct subject *subject)
+{
+  for (int k = 0; k < 2; k++) {
+    image_destroy(&subject->image[k]);
+    free(subject->channel[k]);
+  }
+}
+
+/* Adds the channel of that name. */
+static enum status add_channel(const struct command *command, const struct request *request, struct subject *subject,
+                               const char *name)
+{
+  const char *const path[2] = { request->first, request->second };
+  if (subject->channel_count == IMAGE_MAX_CHANNELS)
+    return (enum status)command_usage(command, "more than %d channels", IMAGE_MAX_CHANNELS);
+  for (int k = 0; k < 2; k++) {
+    const size_t index = image_find_channel(&subject->image[k], name);
+    if (index == subject->image[k].channel_count) {
+      command_error(command, "'%s' has no channel '%s'", path[k], name);
+      return STATUS_DIFFERENT;
+    }
+    subject->channel[k][subject->channel_count] = index;
+  }
+  subject->channel_count++;
+  return STATUS_OK;
+}
+
+static enum status add_listed(const struct command *command, const struct request *request, struct subject *subject)
+{
+  enum status status = STATUS_OK;
+  for (const char *from = request->channels; status == STATUS_OK; from++) {
+    char name[IMAGE_NAME_SIZE];
+    const size_t length = strcspn(from, ",");
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), from);
+    status = add_channel(command, request, subject, name);
+    from += length;
+    if (*from == '\0')
+      break;
+  }
+  return status;
+}
+
+/* Pairs the channels: those that are listed, else all, which then both pictures must have. */
+static enum status pair_channels(const struct command *command, const struct request *request, struct subject *subject)
+{
+  for (int k = 0; k < 2; k++) {
+    subject->channel[k] = malloc(IMAGE_MAX_CHANNELS * sizeof *subject->channel[k]);
+    if (subject->channel[k] == NULL) {
+      command_error(command, "out of memory");
+      return STATUS_LIMIT;
+    }
+  }
+  if (request->channels != NULL)
+    return add_listed(command, request, subject);
+  const struct image *first = &subject->image[0], *second = &subject->image[1];
+  enum status status = STATUS_OK;
+  for (size_t k = 0; k < first->channel_count && status == STATUS_OK; k++)
+    status = add_channel(command, request, subject, first->channel[k].name);
+  for (size_t k = 0; k < second->channel_count && status == STATUS_OK; k++) {
+    if (image_find_channel(first, second->channel[k].name) == first->channel_count) {
+      command_error(command, "'%s' has no channel '%s'", request->first, second->channel[k].name);
+      status = STATUS_DIFFERENT;
+    }
+  }
+  return status;
+}
+
+static enum status read_subject(const struct command *command, const struct request *request, struct subject *out)
+{
+  const char *const path[2] = { request->first, request->second };
+  for (int k = 0; k < 2; k++) {
+    char message[IMAGE_MESSAGE_SIZE];
+    const enum status status = image_read(path[k], &out->image[k], message);
+    if (status != STATUS_OK) {
+      command_error(command, "cannot read '%s': %s", path[k], message);
+      return status;
+    }
+  }
+  const struct image *a = &out->image[0], *b = &out->image[1];
+  if (a->width != b->width || a->height != b->height) {
+    command_error(command, "'%s' has %zux%zu pixels, '%s' has %zux%zu", path[0], a->width, a->height, path[1],
+                  b->width, b->height);
+    return STATUS_DIFFERENT;
+  }
+  return pair_channels(command, request, out);
+}
+
+static enum status write_difference(const struct command *command, const struct request *request,
+                                    enum image_format format, const struct image *difference)
+{
+  const struct image_encoding encoding = { .format = format,
+                                           .bits = format == IMAGE_PNG ? 8 : 32,
+                                           .encoded = true };
+  unsigned char *bytes;
+  size_t size;
+  char message[IMAGE_MESSAGE_SIZE];
+  enum status status = image_encode(difference, &encoding, &bytes, &size, message);
+  if (status != STATUS_OK) {
+    command_error(command, "cannot make '%s': %s", request->output, message);
+    return status;
+  }
+  int reason;
+  status = atomic_file_write(request->output, bytes, size, &interrupt_signal, &reason);
+  if (status == STATUS_FILE)
+    command_error(command, "cannot write '%s': %s", request->output, strerror(reason));
+  free(bytes);
+  return status;
+}
+
+/* The table on stdout. */
+static void print_result(const struct compare_pair *pair, const struct compare_result *result)
+{
+  static const int CODES[] = { 1, 4, 16 };
+  const struct image *first = pair->first;
+  printf("compared  %zu x %zu pixels, channels", first->width, first->height);
+  for (size_t k = 0; k < pair->channel_count; k++)
+    printf(" %s", first->channel[pair->first_channel[k]].name);
+  printf("\nmean      %.9g\nrms       %.9g\npsnr      %.6g dB\nmax       %.9g", result->mean, result->rms,
+         result->psnr, result->max);
+  if (result->max > 0)
+    printf(" at pixel %zu,%zu channel %s: %.9g and %.9g", result->worst_x, result->worst_y,
+           first->channel[pair->first_channel[result->worst_channel]].name, (double)result->worst_first,
+           (double)result->worst_second);
+  fputc('\n', stdout);
+  for (size_t k = 0; k < sizeof CODES / sizeof CODES[0]; k++) {
+    char label[16];
+    snprintf(label, sizeof label, "%d/255", CODES[k]);
+    const size_t over = compare_count_over(pair, CODES[k] / 255.0 + DEFAULT_LIMIT);
+    printf("over %-9s %zu pixels, %.4g %%\n", label, over, 100 * (double)over / (double)result->pixels);
+  }
+}
+
+/* Judges by the limits, and says so. */
+static enum status judge(const struct command *command, const struct request *request, const struct compare_pair *pair,
+                         const struct compare_result *result)
+{
+  const size_t failing = compare_count_over(pair, request->fail.each);
+  const size_t warning = compare_count_over(pair, request->warn.each);
+  if (!request->quiet)
+    printf("over %-9.9g %zu pixels, %.4g %%\n", request->fail.each, failing,
+           100 * (double)failing / (double)result->pixels);
+  if (compare_limit_passed(&request->fail, result, failing)) {
+    (void)command_finish_output(command);
+    command_error(command, "'%s' and '%s' differ: %zu pixels by more than %.9g, the most by %.9g", request->first,
+                  request->second, failing, request->fail.each, result->max);
+    return STATUS_DIFFERENT;
+  }
+  if (compare_limit_passed(&request->warn, result, warning) && !request->quiet)
+    fprintf(stderr, "pscn %s: warning: %zu pixels differ by more than %.9g, the most by %.9g\n", command->name, warning,
+            request->warn.each, result->max);
+  return STATUS_OK;
+}
+
+static enum status compare(const struct command *command, const struct request *request)
+{
+  enum image_format format = IMAGE_PNG;
+  int reason;
+  if (request->output != NULL && !image_format_of(request->output, &format))
+    return (enum status)command_usage(command, "'%s' ends neither in .png nor in .exr", request->output);
+  if (request->output != NULL && atomic_file_probe(request->output, &reason) != STATUS_OK) {
+    command_error(command, "cannot write '%s': %s", request->output, strerror(reason));
+    return STATUS_FILE;
+  }
+  interrupt_defer();
+  struct subject subject = { 0 };
+  struct image difference = { 0 };
+  enum status status = read_subject(command, request, &subject);
+  if (status != STATUS_OK)
+    goto done;
+  const struct compare_pair pair = { .first = &subject.image[0],
+                                     .second = &subject.image[1],
+                                     .channel_count = subject.channel_count,
+                                     .first_channel = subject.channel[0],
+                                     .second_channel = subject.channel[1] };
+  if (request->output != NULL) {
+    if (format == IMAGE_PNG && pair.channel_count > 4) {
+      status = (enum status)command_usage(command, "a PNG holds at most 4 channels; choose some, or an .exr");
+      goto done;
+    }
+    status = image_create(pair.first->width, pair.first->height, pair.channel_count, &difference);
+    if (status != STATUS_OK) {
+      command_error(command, "out of memory");
+      goto done;
+    }
+    for (size_t k = 0; k < pair.channel_count; k++)
+      difference.channel[k] = pair.first->channel[pair.first_channel[k]];
+  }
+  struct compare_result result;
+  compare_images(&pair, &result, request->output == NULL ? NULL : &difference, request->scale);
+  if (request->output != NULL)
+    status = write_difference(command, request, format, &difference);
+  if (status != STATUS_OK)
+    goto done;
+  if (!request->quiet)
+    print_result(&pair, &result);
+  status = judge(command, request, &pair, &result);
+  if (status == STATUS_OK)
+    status = command_finish_output(command);
+
+done:
+  image_destroy(&difference);
+  subject_free(&subject);
+  return atomic_load(&interrupt_signal) != 0 ? STATUS_INTERRUPTED : status;
+}
+
+static int run(const struct command *command, int argc, const char **argv)
+{
+  struct request request = { .scale = 1,
+                             .fail = { .each = DEFAULT_LIMIT, .any = INFINITY },
+                             .warn = { .each = INFINITY, .any = INFINITY } };
+  struct command_line line;
+  enum status status = command_line_read(command, argc, argv, 2, take_option, &request, &line);
+  if (status == STATUS_OK && !line.help) {
+    request.first = line.positional[0];
+    request.second = line.positional[1];
+    status = compare(command, &request);
+  }
+  command_line_free(&line);
+  return status == STATUS_INTERRUPTED ? interrupt_exit_code() : (int)status;
+}
+
+const struct command command_compare = {
+  .name = "compare",
+  .arguments = "A B",
+  .summary = "Compares two pictures",
+  .description =
+    "Standard output tells mean, root mean square and largest difference of the values as they are stored (0 to 1\n"
+    "in integer files), the signal to noise ratio, and how many pixels are over 1/255, 4/255, 16/255 and the limit.\n"
+    "The numbers are defined as those of OpenImageIO's idiff. Channels are paired by name. Limits may be quotients,\n"
+    "4/255. The exit code is 1 where the pictures differ by more than the limits, or in size or channels.\n",
+  .options = OPTIONS,
+  .run = run,
+};

@@ -1,0 +1,73 @@
+/* pscn dump SCENE: the scene as canonical text. */
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+#include "command/command.h"
+#include "command/scene_file.h"
+#include "command/values.h"
+#include "scene/dump.h"
+
+enum { OPTION_SIZE = 1, OPTION_SOLVER, OPTION_TOLERANCE };
+
+static const struct poptOption OPTIONS[] = {
+  COMMAND_HELP_OPTION,
+  COMMAND_OPTION("size", 0, OPTION_SIZE, "what image_width and image_height mean; default 800x600", "WxH"),
+  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"),
+  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"),
+  POPT_TABLEEND
+};
+
+static enum status take_option(const struct command *command, void *context, int val, const char *argument)
+{
+  struct scene_request *request = context;
+  switch (val) {
+  case OPTION_SIZE:
+    if (!value_size(argument, MAX_SIDE, &request->width, &request->height))
+      return (enum status)command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
+    break;
+  case OPTION_SOLVER:
+    request->solver_text = argument;
+    break;
+  case OPTION_TOLERANCE:
+    if (!value_number(argument, &request->tolerance) || request->tolerance == 0)
+      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
+    break;
+  default:
+    break;
+  }
+  return STATUS_OK;
+}
+
+static int run(const struct command *command, int argc, const char **argv)
+{
+  struct command_line line;
+  struct scene_request request = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN };
+  struct scene *scene = NULL;
+  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
+  if (status == STATUS_OK && !line.help) {
+    request.path = line.positional[0];
+    status = scene_file_load(&request, &scene);
+    if (status == STATUS_OK) {
+      status = scene_dump(scene, stdout);
+      if (status == STATUS_LIMIT)
+        command_error(command, "out of memory");
+      else /* what was not written is told with its reason */
+        status = command_finish_output(command);
+    }
+  }
+  scene_destroy(scene);
+  command_line_free(&line);
+  return (int)status;
+}
+
+const struct command command_dump = {
+  .name = "dump",
+  .arguments = "SCENE",
+  .summary = "Writes a scene as canonical text, which pscn and POV-Ray read",
+  .description =
+    "Names, includes, arithmetic and transforms are resolved; the text goes to standard output. The dump of a dump is\n"
+    "the same text.\n",
+  .options = OPTIONS,
+  .run = run,
+};

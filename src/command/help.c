@@ -1,0 +1,28 @@
+/* pscn help [COMMAND] */
+#include "command/command.h"
+
+static const struct poptOption OPTIONS[] = { COMMAND_HELP_OPTION, POPT_TABLEEND };
+
+static int run(const struct command *command, int argc, const char **argv)
+{
+  if (argc > 2)
+    return command_usage(NULL, "one argument too many: '%s'", argv[2]);
+  if (argc < 2) {
+    command_print_overview(stdout);
+    return (int)command_finish_output(command);
+  }
+  const struct command *subject = command_find(argv[1]);
+  if (subject == NULL)
+    return command_usage(NULL, "unknown command '%s'", argv[1]);
+  command_print_help(subject, stdout);
+  return (int)command_finish_output(command);
+}
+
+const struct command command_help = {
+  .name = "help",
+  .arguments = "[COMMAND]",
+  .summary = "Tells how pscn or one of its commands is used",
+  .description = "Without an argument the commands are listed.\n",
+  .options = OPTIONS,
+  .run = run,
+};

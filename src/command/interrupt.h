@@ -1,0 +1,22 @@
+/* SIGINT, SIGTERM and SIGHUP: the process ends with 128 + the signal's number (130, 143, 129) and leaves nothing
+ * behind.
+ *
+ * At first a signal ends the process at once. After interrupt_defer it only raises the flag, which long work watches,
+ * so that temporary files are removed; the command then answers interrupt_exit_code(). SIGPIPE keeps its default: a
+ * reader that goes away ends us.
+ */
+#ifndef PSCN_COMMAND_INTERRUPT_H
+#define PSCN_COMMAND_INTERRUPT_H
+
+#include <stdatomic.h>
+
+/* The number of the signal that came, or 0. */
+extern atomic_int interrupt_signal;
+
+void interrupt_install(void);
+void interrupt_defer(void);
+
+/* 128 + the signal that came. */
+int interrupt_exit_code(void);
+
+#endif

@@ -1,0 +1,347 @@
+/* pscn render SCENE: a picture. */
+#include "render/render.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/atomic_file.h"
+#include "command/command.h"
+#include "command/interrupt.h"
+#include "command/progress.h"
+#include "command/report.h"
+#include "command/scene_file.h"
+#include "command/values.h"
+#include "image/image_file.h"
+
+enum {
+  OPTION_OUTPUT = 1,
+  OPTION_SIZE,
+  OPTION_SOLVER,
+  OPTION_TOLERANCE,
+  OPTION_SAMPLES,
+  OPTION_CROP,
+  OPTION_THREADS,
+  OPTION_CHANNELS,
+  OPTION_BITS,
+  OPTION_STATS,
+  OPTION_QUIET
+};
+
+enum {
+  MAX_SAMPLES = 256,        /* a side: 65536 rays a pixel */
+  MAX_THREADS = 1024,
+  MAX_PIXELS = 1 << 28      /* of the part that is kept, 3 GiB of colours; larger ones are typing errors */
+};
+
+static const struct poptOption OPTIONS[] = {
+  COMMAND_HELP_OPTION,
+  COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "the picture, .png or .exr; default: SCENE with .png", "FILE"),
+  COMMAND_OPTION("size", 0, OPTION_SIZE, "of the picture in pixels; default 800x600", "WxH"),
+  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"),
+  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"),
+  COMMAND_OPTION("samples", 0, OPTION_SAMPLES, "N x N rays a pixel on a regular grid; default 1", "N"),
+  COMMAND_OPTION("crop", 0, OPTION_CROP, "only this part, in pixels from the left and top", "X,Y,W,H"),
+  COMMAND_OPTION("threads", 0, OPTION_THREADS, "default: one for each processor", "N"),
+  COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "what is kept of each pixel, with commas; default rgb", "LIST"),
+  COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
+  COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output", "FILE"),
+  COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless something is wrong"),
+  POPT_TABLEEND
+};
+
+/* What the command line asks for. */
+struct request {
+  struct scene_request scene;
+  struct render_options options; /* crop.width 0: not given */
+  enum image_format format;
+  size_t bits; /* 0: not given */
+  const char *output, *stats;
+  char *default_output; /* owned */
+  bool quiet;
+};
+
+static enum status take_channels(const struct command *command, struct request *request, const char *text)
+{
+  const char *bad;
+  size_t length;
+  if (channel_list_parse(text, &request->options.channels, &bad, &length))
+    return STATUS_OK;
+  return (enum status)command_usage(command, "channel '%.*s' is unknown or named twice", (int)length, bad);
+}
+
+static enum status take_option(const struct command *command, void *context, int val, const char *argument)
+{
+  struct request *request = context;
+  struct render_options *options = &request->options;
+  switch (val) {
+  case OPTION_OUTPUT:
+    request->output = argument;
+    break;
+  case OPTION_SIZE:
+    if (!value_size(argument, MAX_SIDE, &options->width, &options->height))
+      return (enum status)command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
+    break;
+  case OPTION_SOLVER:
+    request->scene.solver_text = argument;
+    break;
+  case OPTION_TOLERANCE:
+    if (!value_number(argument, &request->scene.tolerance) || request->scene.tolerance == 0)
+      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
+    break;
+  case OPTION_SAMPLES:
+    if (!value_integer(argument, 1, MAX_SAMPLES, &options->samples))
+      return (enum status)command_usage(command, "'%s' is no number of samples from 1 to %d", argument, MAX_SAMPLES);
+    break;
+  case OPTION_CROP:
+    if (!value_rectangle(argument, &options->crop))
+      return (enum status)command_usage(command, "'%s' is no crop X,Y,W,H in pixels", argument);
+    break;
+  case OPTION_THREADS:
+    if (!value_integer(argument, 1, MAX_THREADS, &options->threads))
+      return (enum status)command_usage(command, "'%s' is no number of threads from 1 to %d", argument, MAX_THREADS);
+    break;
+  case OPTION_CHANNELS:
+    return take_channels(command, request, argument);
+  case OPTION_BITS:
+    if (!value_integer(argument, 8, 32, &request->bits))
+      return (enum status)command_usage(command, "'%s' bits are 8, 16 or 32", argument);
+    break;
+  case OPTION_STATS:
+    request->stats = argument;
+    break;
+  default:
+    request->quiet = true;
+    break;
+  }
+  return STATUS_OK;
+}
+
+/* The scene's name with .png instead of its own suffix. NULL where memory is short. */
+static char *default_output(const char *scene)
+{
+  static const char SUFFIX[] = ".png";
+  const char *slash = strrchr(scene, '/'), *base = slash == NULL ? scene : slash + 1;
+  const char *dot = strrchr(base, '.');
+  const size_t length = dot == NULL || dot == base ? strlen(scene) : (size_t)(dot - scene);
+  char *name = malloc(length + sizeof SUFFIX);
+  if (name != NULL) {
+    memcpy(name, scene, length);
+    memcpy(name + length, SUFFIX, sizeof SUFFIX);
+  }
+  return name;
+}
+
+static bool same_file(const char *first, const char *second)
+{
+  struct stat a, b;
+  return stat(first, &a) == 0 && stat(second, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+static enum status check_format(const struct command *command, struct request *request)
+{
+  const struct channel_list *channels = &request->options.channels;
+  if (!image_format_of(request->output, &request->format))
+    return (enum status)command_usage(command, "'%s' ends neither in .png nor in .exr", request->output);
+  if (request->bits == 0)
+    request->bits = (size_t)image_format_default_bits(request->format);
+  if (!image_format_has_bits(request->format, (int)request->bits))
+    return (enum status)command_usage(command, "'%s' cannot have %zu bits a value: %s", request->output, request->bits,
+                                      request->format == IMAGE_PNG ? "a PNG has 8 or 16" : "an EXR has 16 or 32");
+  if (request->format == IMAGE_PNG && (channels->count != 1 || channels->kind[0] != CHANNEL_RGB))
+    return (enum status)command_usage(command, "a PNG holds the channel rgb only; other channels need an .exr");
+  return STATUS_OK;
+}
+
+/* The part of the picture that is kept. */
+static enum status check_crop(const struct command *command, struct render_options *options)
+{
+  struct rectangle *crop = &options->crop;
+  if (crop->width == 0)
+    *crop = (struct rectangle){ .width = options->width, .height = options->height };
+  if (crop->x + crop->width > options->width || crop->y + crop->height > options->height)
+    return (enum status)command_usage(command, "the crop %zu,%zu,%zu,%zu is not inside the picture of %zux%zu pixels",
+                                      crop->x, crop->y, crop->width, crop->height, options->width, options->height);
+  if (crop->height > MAX_PIXELS / crop->width)
+    return (enum status)command_usage(command, "%zux%zu pixels are more than the %d that a picture may have",
+                                      crop->width, crop->height, MAX_PIXELS);
+  return STATUS_OK;
+}
+
+/* Whatever can be known to be wrong before the work starts. */
+static enum status check(const struct command *command, struct request *request)
+{
+  if (request->output == NULL)
+    request->output = request->default_output = default_output(request->scene.path);
+  if (request->output == NULL) {
+    command_error(command, "out of memory");
+    return STATUS_LIMIT;
+  }
+  enum status status = check_format(command, request);
+  if (status == STATUS_OK)
+    status = check_crop(command, &request->options);
+  if (status != STATUS_OK)
+    return status;
+  if (same_file(request->output, request->scene.path) ||
+      (request->stats != NULL &&
+       (same_file(request->stats, request->scene.path) || strcmp(request->stats, request->output) == 0)))
+    return (enum status)command_usage(command, "scene, picture and statistics are three files");
+  int reason;
+  if (atomic_file_probe(request->output, &reason) != STATUS_OK) {
+    command_error(command, "cannot write '%s': %s", request->output, strerror(reason));
+    return STATUS_FILE;
+  }
+  char message[IMAGE_MESSAGE_SIZE];
+  if (image_file_ready(message) != STATUS_OK) {
+    command_error(command, "cannot write pictures: %s", message);
+    return STATUS_FILE;
+  }
+  return report_probe(command, request->stats);
+}
+
+static void name_channels(const struct channel_list *channels, struct image *image)
+{
+  struct image_channel *channel = image->channel;
+  for (size_t k = 0; k < channels->count; k++) {
+    const struct channel_traits *traits = channel_traits(channels->kind[k]);
+    for (size_t c = 0; c < traits->width; c++, channel++) {
+      channel->data = traits->data;
+      snprintf(channel->name, IMAGE_NAME_SIZE, "%s", traits->value_names[c]);
+    }
+  }
+}
+
+/* Renders into a new image. */
+static enum status make_picture(const struct command *command, const struct request *request, struct report *report,
+                                struct image *out)
+{
+  const struct rectangle *crop = &request->options.crop;
+  struct intersector *intersector = NULL;
+  struct progress progress = progress_start();
+  const struct render_watch watch = { .progress = request->quiet ? NULL : progress_tell,
+                                      .context = &progress,
+                                      .stop = &interrupt_signal };
+  struct render_stats stats = { 0 };
+  enum status status = image_create(crop->width, crop->height, request->options.channels.width, out);
+  if (status == STATUS_OK) {
+    name_channels(&request->options.channels, out);
+    const double start = command_clock();
+    status = intersector_create(report->scene, &intersector);
+    report->build = command_clock() - start;
+  }
+  if (status == STATUS_OK) {
+    interrupt_defer();
+    status = render_scene(report->scene, intersector, &request->options, &watch, out->value, &stats);
+    progress_end(&progress);
+    report->counts = stats.counts;
+    report->threads = stats.threads;
+    report->render = stats.seconds;
+  }
+  if (status == STATUS_LIMIT)
+    command_error(command, "out of memory or threads");
+  intersector_destroy(intersector);
+  return status;
+}
+
+static enum status write_picture(const struct command *command, const struct request *request,
+                                 const struct report *report, const struct image *image)
+{
+  struct report_metadata metadata;
+  report_metadata_fill(report, &metadata);
+  const struct image_encoding encoding = { .format = request->format,
+                                           .bits = (int)request->bits,
+                                           .attributes = metadata.attribute,
+                                           .attribute_count = metadata.count };
+  unsigned char *bytes;
+  size_t size;
+  char message[IMAGE_MESSAGE_SIZE];
+  enum status status = image_encode(image, &encoding, &bytes, &size, message);
+  if (status != STATUS_OK) {
+    command_error(command, "cannot make '%s': %s", request->output, message);
+    return status;
+  }
+  int reason;
+  status = atomic_file_write(request->output, bytes, size, &interrupt_signal, &reason);
+  if (status == STATUS_FILE)
+    command_error(command, "cannot write '%s': %s", request->output, strerror(reason));
+  free(bytes);
+  return status;
+}
+
+static enum status render(const struct command *command, struct request *request)
+{
+  enum status status = check(command, request);
+  if (status != STATUS_OK)
+    return status;
+  request->scene.width = request->options.width;
+  request->scene.height = request->options.height;
+  struct scene *scene = NULL;
+  struct image image = { 0 };
+  const double start = command_clock();
+  status = scene_file_load(&request->scene, &scene);
+  struct report report = { .scene_path = request->scene.path,
+                           .picture_path = request->output,
+                           .scene = scene,
+                           .width = request->options.width,
+                           .height = request->options.height,
+                           .crop = request->options.crop,
+                           .samples = request->options.samples,
+                           .parse = command_clock() - start };
+  if (status == STATUS_OK)
+    status = make_picture(command, request, &report, &image);
+  if (status == STATUS_OK) {
+    const double write_start = command_clock();
+    status = write_picture(command, request, &report, &image);
+    report.write = command_clock() - write_start;
+  }
+  if (status == STATUS_OK)
+    status = report_write(command, &report, request->stats);
+  if (status == STATUS_OK && !request->quiet)
+    report_print(&report);
+  image_destroy(&image);
+  scene_destroy(scene);
+  return status;
+}
+
+static int run(const struct command *command, int argc, const char **argv)
+{
+  struct request request = { .scene.tolerance = NAN,
+                             .options = { .width = DEFAULT_WIDTH,
+                                          .height = DEFAULT_HEIGHT,
+                                          .samples = 1,
+                                          .threads = render_processors(),
+                                          .channels = { .count = 1, .width = 3, .kind = { CHANNEL_RGB } } } };
+  struct command_line line;
+  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
+  if (status == STATUS_OK && !line.help) {
+    request.scene.path = line.positional[0];
+    status = render(command, &request);
+  }
+  free(request.default_output);
+  command_line_free(&line);
+  return status == STATUS_INTERRUPTED ? interrupt_exit_code() : (int)status;
+}
+
+const struct command command_render = {
+  .name = "render",
+  .arguments = "SCENE",
+  .summary = "Renders a scene into a picture",
+  .description =
+    "The suffix chooses the format. PNG: 8 bits a value (--bits 16 for 16), sRGB. EXR: half floats (--bits 32 for\n"
+    "floats), linear, not clipped. Neither --crop nor --threads changes a pixel.\n"
+    "\n"
+    "Channels (all but rgb need EXR and are stored with 32 bits; depth to status are those of one sample, the middle\n"
+    "one, which is the pixel's centre when the number of samples is odd):\n"
+    "  rgb       R G B: linear colour, the mean of the samples\n"
+    "  coverage  share of the samples that hit a patch\n"
+    "  depth     distance from the camera in scene units; infinity on a miss\n"
+    "  u, v      parameters of the whole patch; 0 on a miss\n"
+    "  patch     number of the patch, from 0 in the order of the scene; -1 on a miss\n"
+    "  normal    normal.x normal.y normal.z: unit, facing the camera; 0 on a miss\n"
+    "  status    0 miss, 1 hit, both certain; 2 miss, 3 hit, both grazing: a change of the input within rounding\n"
+    "            could turn the answer\n",
+  .options = OPTIONS,
+  .run = run,
+};

@@ -1,0 +1,167 @@
+/* What a run was and did. */
+#include "command/report.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/atomic_file.h"
+#include "base/number.h"
+#include "command/interrupt.h"
+#include "command/version.h"
+
+enum { JSON_DIGITS = 15 }; /* of numbers in the statistics: 1e-12 stays 1e-12 */
+
+void report_print(const struct report *report)
+{
+  const struct intersect_counts *counts = &report->counts;
+  char solver[SOLVER_TEXT_SIZE];
+  solver_text(&report->scene->solvers[0], solver, sizeof solver);
+  if (report->picture_path != NULL)
+    fprintf(stderr, "%s: %zu x %zu pixels, %zu x %zu samples each\n", report->picture_path, report->crop.width,
+            report->crop.height, report->samples, report->samples);
+  fprintf(stderr, "solver   %s, %zu patches, %zu thread%s\n", solver, report->scene->patch_count, report->threads,
+          report->threads == 1 ? "" : "s");
+  fprintf(stderr, "rays     %" PRIu64 " primary, %" PRIu64 " shadow\n", counts->rays[0], counts->rays[1]);
+  fprintf(stderr, "answers  %" PRIu64 " certain, %" PRIu64 " grazing\n", counts->certain, counts->grazing);
+  fprintf(stderr, "patches  %" PRIu64 " tried, %" PRIu64 " of them by subdivision\n", counts->patches_tested,
+          counts->escalated);
+  fprintf(stderr, "roots    %" PRIu64 " found, %" PRIu64 " accepted\n", counts->roots_found, counts->roots_accepted);
+  fprintf(stderr, "time     %.3f s parse, %.3f s build, %.3f s render, %.3f s write\n", report->parse, report->build,
+          report->render, report->write);
+}
+
+static json_t *count(uint64_t value)
+{
+  return json_integer((json_int_t)value);
+}
+
+/* A path as JSON, which is UTF-8: other bytes of a name become '?'. */
+static json_t *path_text(const char *path)
+{
+  json_t *text = json_string(path);
+  char *ascii = text == NULL ? strdup(path) : NULL;
+  if (ascii == NULL)
+    return text;
+  for (char *c = ascii; *c != '\0'; c++)
+    *c = (unsigned char)*c < 0x80 ? *c : '?';
+  text = json_string(ascii);
+  free(ascii);
+  return text;
+}
+
+/* NULL where memory is short; json_pack releases what it was given. */
+static json_t *statistics(const struct report *report)
+{
+  const struct intersect_counts *counts = &report->counts;
+  char solver[SOLVER_TEXT_SIZE];
+  solver_text(&report->scene->solvers[0], solver, sizeof solver);
+  json_t *root = json_pack(
+    "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:o, s:{s:o, s:o}, s:{s:o, s:o}, s:{s:f, s:f, s:f, s:f}}",
+    "version", PSCN_VERSION,
+    "scene", path_text(report->scene_path),
+    "solver", solver,
+    "tolerance", report->scene->solvers[0].tolerance,
+    "threads", count(report->threads),
+    "patches", count(report->scene->patch_count),
+    "lights", count(report->scene->light_count),
+    "rays", "primary", count(counts->rays[0]), "shadow", count(counts->rays[1]),
+    "patches_tested", count(counts->patches_tested),
+    "subdivided", count(counts->escalated),
+    "roots", "found", count(counts->roots_found), "accepted", count(counts->roots_accepted),
+    "answers", "certain", count(counts->certain), "grazing", count(counts->grazing),
+    "time", "parse", report->parse, "build", report->build, "render", report->render, "write", report->write);
+  if (root == NULL || report->picture_path == NULL)
+    return root;
+  const struct rectangle *crop = &report->crop;
+  json_t *picture = json_pack("{s:o, s:[o, o], s:[o, o, o, o], s:o}",
+                              "picture", path_text(report->picture_path),
+                              "size", count(report->width), count(report->height),
+                              "crop", count(crop->x), count(crop->y), count(crop->width), count(crop->height),
+                              "samples", count(report->samples));
+  const bool complete = picture != NULL && json_object_update(root, picture) == 0;
+  json_decref(picture);
+  if (complete)
+    return root;
+  json_decref(root);
+  return NULL;
+}
+
+static bool is_stdout(const char *path)
+{
+  return strcmp(path, "-") == 0;
+}
+
+enum status report_probe(const struct command *command, const char *path)
+{
+  int reason;
+  if (path == NULL || is_stdout(path) || atomic_file_probe(path, &reason) == STATUS_OK)
+    return STATUS_OK;
+  command_error(command, "cannot write '%s': %s", path, strerror(reason));
+  return STATUS_FILE;
+}
+
+enum status report_write(const struct command *command, const struct report *report, const char *path)
+{
+  if (path == NULL)
+    return STATUS_OK;
+  json_t *root = statistics(report);
+  char *text = root == NULL ? NULL : json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(JSON_DIGITS));
+  json_decref(root);
+  char *line = text == NULL ? NULL : realloc(text, strlen(text) + 2);
+  if (line == NULL) {
+    free(text);
+    command_error(command, "out of memory for the statistics");
+    return STATUS_LIMIT;
+  }
+  const size_t length = strlen(line);
+  memcpy(line + length, "\n", 2);
+  enum status status;
+  if (is_stdout(path)) {
+    fputs(line, stdout);
+    status = command_finish_output(command);
+  } else {
+    int reason;
+    status = atomic_file_write(path, line, length + 1, &interrupt_signal, &reason);
+    if (status == STATUS_FILE)
+      command_error(command, "cannot write '%s': %s", path, strerror(reason));
+  }
+  free(line);
+  return status;
+}
+
+static void add(struct report_metadata *metadata, const char *name, const char *text)
+{
+  metadata->attribute[metadata->count++] = (struct image_attribute){ name, text };
+}
+
+void report_metadata_fill(const struct report *report, struct report_metadata *out)
+{
+  const struct solver_options *solver = &report->scene->solvers[0];
+  out->count = 0;
+  snprintf(out->size, sizeof out->size, "%zux%zu", report->width, report->height);
+  snprintf(out->crop, sizeof out->crop, "%zu,%zu,%zu,%zu", report->crop.x, report->crop.y, report->crop.width,
+           report->crop.height);
+  snprintf(out->samples, sizeof out->samples, "%zu", report->samples);
+  snprintf(out->seconds, sizeof out->seconds, "%.3f", report->render);
+  number_write(solver->tolerance, out->tolerance);
+  solver_text(solver, out->solver, sizeof out->solver);
+  const time_t now = time(NULL);
+  struct tm calendar;
+  if (gmtime_r(&now, &calendar) == NULL ||
+      strftime(out->date, sizeof out->date, "%Y:%m:%d %H:%M:%S", &calendar) == 0)
+    out->date[0] = '\0';
+  add(out, "Software", "pscn " PSCN_VERSION);
+  add(out, "DateTime", out->date);
+  add(out, "pscn:version", PSCN_VERSION);
+  add(out, "pscn:scene", report->scene_path);
+  add(out, "pscn:solver", out->solver);
+  add(out, "pscn:tolerance", out->tolerance);
+  add(out, "pscn:size", out->size);
+  add(out, "pscn:crop", out->crop);
+  add(out, "pscn:samples", out->samples);
+  add(out, "pscn:render_seconds", out->seconds);
+}

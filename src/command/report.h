@@ -1,0 +1,41 @@
+/* What a run was and did: its summary, its statistics as JSON, the metadata of its picture. */
+#ifndef PSCN_COMMAND_REPORT_H
+#define PSCN_COMMAND_REPORT_H
+
+#include <stdio.h>
+
+#include "command/command.h"
+#include "command/scene_file.h"
+#include "image/image_file.h"
+#include "intersect/intersect.h"
+#include "render/tile.h"
+
+struct report {
+  const char *scene_path;
+  const char *picture_path; /* NULL: no picture was made, and the sizes mean nothing */
+  const struct scene *scene;
+  size_t width, height, samples, threads;
+  struct rectangle crop; /* the part of width x height that the picture shows */
+  struct intersect_counts counts;
+  double parse, build, render, write; /* seconds */
+};
+
+/* A few lines on stderr. */
+void report_print(const struct report *report);
+
+/* Asks before the work whether the statistics can be written, and writes them after. `path` "-" is stdout, NULL is
+ * nowhere. Errors are told. */
+enum status report_probe(const struct command *command, const char *path) STATUS_MUST_CHECK;
+enum status report_write(const struct command *command, const struct report *report,
+                         const char *path) STATUS_MUST_CHECK;
+
+/* The metadata of the picture, in `out`; texts live in *out. */
+struct report_metadata {
+  struct image_attribute attribute[16];
+  size_t count;
+  char size[64], crop[96], samples[32], tolerance[32], seconds[32], date[32];
+  char solver[SOLVER_TEXT_SIZE];
+};
+void report_metadata_fill(const struct report *report, struct report_metadata *out);
+
+#endif

@@ -1,0 +1,33 @@
+/* A scene from a file, its errors told on stderr. */
+#ifndef PSCN_COMMAND_SCENE_FILE_H
+#define PSCN_COMMAND_SCENE_FILE_H
+
+#include <stddef.h>
+
+#include "base/diagnostics.h"
+#include "base/status.h"
+#include "scene/scene.h"
+
+/* What a command line says of a scene. */
+struct scene_request {
+  const char *path;
+  size_t width, height;    /* of the picture: image_width and image_height */
+  const char *solver_text; /* or NULL */
+  double tolerance;        /* or NAN */
+};
+
+/* The size of a picture unless --size says another, and the largest. */
+enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600, MAX_SIDE = 1000000 };
+
+/* Reads the scene; the caller destroys it. On failure the errors have been told and *out is NULL. */
+enum status scene_file_load(const struct scene_request *request, struct scene **out) STATUS_MUST_CHECK;
+
+/* Diagnostics that are told on stderr. */
+struct diagnostics stderr_diagnostics(void);
+
+/* A solver as a scene has it, with the items that differ from that solver's defaults: "aberth { polish off }". The text
+ * is cut off at `size` bytes, which is no limit for the items there are: SOLVER_TEXT_SIZE holds them all. */
+enum { SOLVER_TEXT_SIZE = 512 };
+void solver_text(const struct solver_options *options, char *out, size_t size);
+
+#endif

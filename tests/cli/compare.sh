@@ -1,0 +1,32 @@
+# Differences, limits, exit codes.
+scene=$SCENES/flat.pscn
+pscn render "$scene" -o a.png --size 16x12 --quiet
+pscn render "$scene" -o b.png --size 16x12 --quiet --samples 2
+pscn render "$scene" -o small.png --size 8x6 --quiet
+pscn render "$scene" -o a.exr --size 16x12 --quiet --channels rgb,depth,normal
+try pscn compare a.png a.png
+try pscn compare a.png a.png --quiet
+try pscn compare a.png b.png
+try pscn compare a.png b.png --quiet
+try pscn compare a.png b.png --fail 1 --quiet
+try pscn compare a.png b.png --fail 1 --warn 4/255 --quiet
+try pscn compare a.png b.png --fail 1 --warn 4/255 >/dev/null
+try pscn compare a.png b.png --failpercent 100 --quiet
+try pscn compare a.png b.png --failpercent 100 --hardfail 0.01 --quiet
+try pscn compare a.png b.png --allowfailures 192 --quiet
+try pscn compare a.png small.png
+try pscn compare a.png a.exr
+try pscn compare a.exr a.exr --channels depth,normal.z -o depth.png
+try pscn compare a.exr a.exr --channels nothing
+try pscn compare a.exr a.exr -o all.png --quiet
+try pscn compare a.png nothing.png
+try pscn compare a.png "$scene"
+try pscn compare a.png
+try pscn compare a.png b.png small.png
+try pscn compare a.png b.png --fail -1
+try pscn compare a.png b.png -o diff.jpg
+try pscn compare a.png b.png -o nowhere/diff.png
+try pscn compare a.png b.png -o diff.exr --fail 1 --scale 2 --quiet
+try pscn compare diff.exr diff.exr --quiet
+(try pscn compare a.png a.png >/dev/full) 2>&1
+ls -A

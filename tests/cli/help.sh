@@ -1,0 +1,13 @@
+# Help and version go to stdout; without a command help goes to stderr.
+try pscn --version
+try pscn help
+try pscn --help >/dev/null
+try pscn
+for command in render trace dump compare help; do
+  try pscn help $command
+  pscn $command --help | cmp - <(pscn help $command) && echo "--help is the same"
+done
+try pscn help nothing
+try pscn help render trace
+try pscn nothing
+try pscn --nothing

@@ -1,0 +1,19 @@
+# What can not be read or written: exit code 4, and nothing is left behind.
+scene=$SCENES/flat.pscn
+small="--size 16x12 --quiet"
+mkdir folder.png
+try pscn render nothing.pscn -o a.png $small
+try pscn render folder.png -o a.png $small
+try pscn render "$scene" -o nowhere/a.png $small
+try pscn render "$scene" -o folder.png $small
+try pscn render "$scene" -o a.png --stats nowhere/a.json $small
+try pscn render "$scene" -o a.png --stats folder.png $small
+echo "kept" >old.png
+ln -s /dev/full full.png
+try pscn render "$scene" -o full.png $small
+ln -s /dev/full full.json
+try pscn render "$scene" -o b.png --stats full.json $small
+# A file system that takes no byte more: the old picture stays as it was.
+(ulimit -f 0; try pscn render "$scene" -o old.png $small)
+cat old.png
+ls -A

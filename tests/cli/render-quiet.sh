@@ -1,0 +1,17 @@
+# --quiet says nothing; the default name is the scene's; formats by suffix in any case; suffixes of folders do not count.
+mkdir a.b
+cp "$SCENES/flat.pscn" a.b/scene
+cp "$SCENES/flat.pscn" .
+small="--size 16x12 --quiet"
+try pscn render flat.pscn $small
+try pscn render a.b/scene $small
+try pscn render flat.pscn $small -o 16.PNG --bits 16
+try pscn render flat.pscn $small -o half.exr
+try pscn render flat.pscn $small -o float.Exr --bits 32
+try pscn render flat.pscn $small -o all.exr --channels rgb,coverage,depth,u,v,patch,normal,status
+ls -A . a.b
+try pscn compare flat.png 16.PNG --fail 0.51/255 --quiet
+try pscn compare half.exr float.Exr --fail 0x1 2>/dev/null
+try pscn compare half.exr float.Exr --fail 0.0005 --quiet
+try pscn compare half.exr all.exr --channels R,G,B --quiet
+try pscn compare half.exr all.exr --quiet
