@@ -116,6 +116,27 @@ static bool keep_v(const struct model_patch *patch, double x[3][4][4])
   return patch->n > patch->m;
 }
 
+/* How far the polynomial of bidegree (m,n) with the net r is from the bicubic x, on [0,1]^2: the largest distance of x from r's
+ * net raised to (3,3), whose own roundings (two degrees twice, three each) are added. */
+static double reduction_excess(double r[4][4], int m, int n, double x[4][4])
+{
+  double up[4][4], excess = 0, size = 0;
+  memcpy(up, r, sizeof up);
+  for (int d = n; d < 3; d++)
+    for (int i = 0; i <= m; i++)
+      for (int j = d + 1; j >= 0; j--)
+        up[i][j] = ((j > 0 ? j * up[i][j - 1] : 0) + (j <= d ? (d + 1 - j) * up[i][j] : 0)) / (d + 1);
+  for (int d = m; d < 3; d++)
+    for (int j = 0; j < 4; j++)
+      for (int i = d + 1; i >= 0; i--)
+        up[i][j] = ((i > 0 ? i * up[i - 1][j] : 0) + (i <= d ? (d + 1 - i) * up[i][j] : 0)) / (d + 1);
+  for (int k = 0; k < 16; k++) {
+    excess = fmax(excess, fabs(up[k / 4][k % 4] - x[k / 4][k % 4]));
+    size = fmax(size, fabs(r[k / 4][k % 4]));
+  }
+  return m == 3 && n == 3 ? 0 : excess + 16 * UNIT_ROUNDOFF * size;
+}
+
 static enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, double x[3][4][4], struct leaf *leaf)
 {
   leaf->v_kept = keep_v(patch, x);
@@ -128,11 +149,17 @@ static enum status leaf_set_form(struct arena *arena, const struct model_patch *
   if (patch->m == 3 && patch->n == 3 && !leaf->v_kept) return STATUS_OK;
   struct leaf_form *form = arena_alloc(arena, 1, sizeof *form);
   if (!form) return STATUS_LIMIT;
+  form->size = 1, form->excess = 0;
   for (int k = 0; k < 3; k++) {
     double r[4][4];
     patch_reduce(x[k], patch->m, patch->n, r);
-    for (int i = 0; i < 4; i++)
-      for (int j = 0; j < 4; j++) form->x[k][4 * i + j] = leaf->v_kept ? r[j][i] : r[i][j];
+    form->excess = fmax(form->excess, reduction_excess(r, patch->m, patch->n, x[k]));
+    for (int i = 0; i < 4; i++) {
+      for (int j = 0; j < 4; j++) {
+        form->x[k][4 * i + j] = leaf->v_kept ? r[j][i] : r[i][j];
+        form->size = fmax(form->size, fabs(r[i][j]));
+      }
+    }
   }
   leaf->form = form;
   return STATUS_OK;
@@ -141,8 +168,8 @@ static enum status leaf_set_form(struct arena *arena, const struct model_patch *
 static enum status leaf_prepare(struct model *model, struct model_patch *patch, int column_u, int column_v, struct leaf *leaf,
                                 struct bvh_box *box)
 {
-  const double step = 1.0 / patch->split;
-  const double u0 = column_u * step, u1 = (column_u + 1) * step, v0 = column_v * step, v1 = (column_v + 1) * step;
+  const double parts = patch->split, step = 1 / parts; /* quotients, so that the last one is 1 whatever the split */
+  const double u0 = column_u / parts, u1 = (column_u + 1) / parts, v0 = column_v / parts, v1 = (column_v + 1) / parts;
   const double margin = LEAF_MARGIN * step;
   double x[3][4][4], wide[3][4][4];
   for (int k = 0; k < 3; k++) {

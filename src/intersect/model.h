@@ -35,7 +35,9 @@ struct model_patch {
 
 /* The polynomials a resultant is formed of: the leaf's net at its true degree, the parameter that is kept first. */
 struct leaf_form {
-  double x[3][16]; /* x[coordinate][4 * i + j], i = 0..degree kept, j = 0..degree eliminated */
+  double x[3][16]; /* x[coordinate][4 * i + j], i = 0..degree kept, j = 0..degree eliminated; zero beyond */
+  double size;     /* bound on |x| and 1: a net of lower degree may reach beyond the leaf's own */
+  double excess;   /* bound on the distance of any coordinate, on the leaf, from the leaf's: the degree is one within rounding */
 };
 
 struct leaf {

@@ -182,7 +182,8 @@ struct trial {
   const struct model_patch *patch;
   int axis;
   struct plane_nets nets;
-  lanes alpha, beta;                 /* largest |a|, |b| of the form */
+  lanes alpha, beta;                 /* largest |a|, |b| of the nets, then of the form */
+  lanes form_error;                  /* of a coefficient of the form */
   lanes form_a[16], form_b[16];      /* where the form is not the leaf's own net */
   const lanes *fa, *fb;
   int degree;                        /* of r, exact roots at the ends taken off */
@@ -236,10 +237,22 @@ static lane_mask trial_aligned(const struct trial *t, lane_mask active)
 
 static void trial_form(const struct packet *p, struct trial *t)
 {
-  t->fa = t->nets.a, t->fb = t->nets.b;
-  if (!t->leaf->form) return;
-  for (int n = 0; n < 16; n++) plane_values(p, t->axis, t->leaf->form->x, n, &t->form_a[n], &t->form_b[n]);
+  const struct leaf_form *form = t->leaf->form;
+  t->fa = t->nets.a, t->fb = t->nets.b, t->form_error = t->nets.error;
+  if (!form) return;
+  t->alpha = t->beta = lanes_all(0);
+  for (int i = 0; i <= t->leaf->kept_degree; i++) {
+    for (int j = 0; j <= t->leaf->eliminated_degree; j++) {
+      lanes a, b;
+      plane_values(p, t->axis, form->x, 4 * i + j, &a, &b);
+      t->form_a[4 * i + j] = a, t->form_b[4 * i + j] = b;
+      t->alpha = lanes_max(t->alpha, lanes_abs(a)), t->beta = lanes_max(t->beta, lanes_abs(b));
+    }
+  }
   t->fa = t->form_a, t->fb = t->form_b;
+  /* Where the ray meets the leaf the form's polynomials are off by their excess, twice for a plane of slope 1. Both moved by a
+   * constant, which moves every coefficient by it, have their common root there: so it counts as an error of coefficients. */
+  t->form_error = t->nets.error * form->size + 2 * form->excess;
 }
 
 /* Stage 2: r and the sign variations of its coefficients. Lanes that may meet the leaf. */
@@ -252,7 +265,7 @@ static lane_mask trial_resultant(struct trial *t, lane_mask active)
   t->degree = 2 * m * n - t->leaf->zeros[0] - t->leaf->zeros[1];
   const lanes product = t->alpha * t->beta, power = n == 1 ? product : n == 2 ? product * product : product * product * product;
   const lanes bound = RESULTANT_WEIGHT[n] * power *
-                      (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + n * t->nets.error * (1 / t->alpha + 1 / t->beta));
+                      (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + n * t->form_error * (1 / t->alpha + 1 / t->beta));
   lanes last = {0}, variations = {0};
   lane_mask doubt = {0};
   const int full = 2 * m * n;
@@ -448,9 +461,11 @@ static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
 {
   struct tracer *tracer = p->tracer;
   double a[16], b[16];
-  for (int n = 0; n < 16; n++) a[n] = t->fa[n][lane], b[n] = t->fb[n][lane];
+  for (int i = 0; i <= t->leaf->kept_degree; i++)
+    for (int j = 0; j <= t->leaf->eliminated_degree; j++)
+      a[4 * i + j] = t->fa[4 * i + j][lane], b[4 * i + j] = t->fb[4 * i + j][lane];
   struct candidate_roots roots;
-  candidate_solve(tracer, t->leaf, a, b, t->nets.error[lane], &roots);
+  candidate_solve(tracer, t->leaf, a, b, t->form_error[lane], &roots);
   if (!t->patch->solver->polish) {
     for (int n = 0; n < roots.count; n++) {
       const struct refined r = {lanes_all(roots.u[n]), lanes_all(roots.v[n]), {0}, {0}, {0}, {0}};
