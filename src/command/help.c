@@ -1,4 +1,6 @@
 /* pscn help [COMMAND] */
+#include <string.h>
+
 #include "command/command.h"
 
 static const struct poptOption OPTIONS[] = { COMMAND_HELP_OPTION, POPT_TABLEEND };
@@ -11,7 +13,8 @@ static int run(const struct command *command, int argc, const char **argv)
     command_print_overview(stdout);
     return (int)command_finish_output(command);
   }
-  const struct command *subject = command_find(argv[1]);
+  const bool itself = strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0;
+  const struct command *subject = itself ? command : command_find(argv[1]);
   if (subject == NULL)
     return command_usage(NULL, "unknown command '%s'", argv[1]);
   command_print_help(subject, stdout);

@@ -72,7 +72,7 @@ static void answer_values(const struct ray *ray, const struct hit *hit, double o
     out[1] = hit->u;
     out[2] = hit->v;
     for (int k = 0; k < 3; k++)
-      out[4 + k] = hit->normal[k];
+      out[4 + k] = hit->normal[k] + 0.0; /* -0 becomes 0 */
   }
 }
 

@@ -14,6 +14,7 @@ try pscn render "$scene" -o full.png $small
 ln -s /dev/full full.json
 try pscn render "$scene" -o b.png --stats full.json $small
 # A file system that takes no byte more: the old picture stays as it was.
-(ulimit -f 0; try pscn render "$scene" -o old.png $small)
+(ulimit -f 0; exec pscn render "$scene" -o old.png $small) 2>&1 | cat
+echo "exit ${PIPESTATUS[0]}"
 cat old.png
 ls -A

@@ -23,7 +23,8 @@ head -c 48 /dev/zero | try pscn trace "$scene" --binary
 printf '\377\377\377\377\377\377\377\377%40s' '' | try pscn trace "$scene" --binary
 try pscn trace "$scene" <&-
 try pscn trace "$scene" < .
-echo "$good" | (try pscn trace "$scene" >/dev/full) 2>&1
+echo "$good" | pscn trace "$scene" >/dev/full
+echo "exit $?"
 try pscn trace
 try pscn trace "$scene" "$scene"
 try pscn trace "$scene" --tolerance 0

@@ -21,7 +21,7 @@ render -o d.exr --bits 32 --channels normal,u,rgb --samples 3
 
 failed=0
 # field NAME: what stands after "NAME error =" or the like in idiff's answer.
-field() { sed -n "s/^ *$1 = *\([0-9.e+-]*\).*/\1/p" idiff.out; }
+field() { sed -n "s/^ *$1  *= *\([0-9.e+-]*\).*/\1/p" idiff.out; }
 ours() { sed -n "s/^$1  *\([0-9.e+-]*\).*/\1/p" ours.out; }
 agree() {
   awk -v a="$2" -v b="$3" -v r=$RELATIVE 'BEGIN { d = a - b; m = a < 0 ? -a : a; exit !((d < 0 ? -d : d) <= r * m) }' ||
@@ -30,7 +30,7 @@ agree() {
 # check A B LIMIT
 check() {
   local theirs=0 mine=0
-  idiff -fail "$3" "$1" "$2" >idiff.out || theirs=1
+  idiff -v -fail "$3" "$1" "$2" >idiff.out || theirs=1
   "$PSCN" compare "$1" "$2" --fail "$3" >ours.out 2>/dev/null || mine=1
   echo "$1 $2 $3: $(field 'Mean error') $(field 'RMS error') $(field 'Peak SNR') $(field 'Max error')"
   [ $theirs = $mine ] || { echo "one of them fails: idiff $theirs, pscn $mine"; failed=1; }
