@@ -3,18 +3,13 @@
  * What is asked in every class: no proven hit lost, none invented, T, U, V within their floors. Classes whose rays are
  * degenerate by design (a curve in common, a collapsed edge met exactly) leave the reference undecided for many; there
  * the answer must not pass a proven hit nor come before the first possible one. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "accuracy/models.h"
 #include "accuracy/trial.h"
+#include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
 

@@ -1,15 +1,10 @@
 /* Random rays over random patches: tame (nearly regular nets), wild (any net), and self-intersecting (folded nets,
  * where a ray meets a patch up to 18 times); alone and several in a scene. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include <math.h>
 #include <stdio.h>
 
-#include <cmocka.h>
-#include <math.h>
-
 #include "accuracy/trial.h"
+#include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
 

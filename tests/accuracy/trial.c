@@ -1,16 +1,12 @@
 /* The intersector's answers compared with the reference's. See trial.h. */
 #include "accuracy/trial.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-#include <math.h>
+#include "cmocka_test.h"
 
 enum { MOST_SHOWN = 10 };
 

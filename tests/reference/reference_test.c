@@ -1,14 +1,9 @@
 /* The reference judged by what is known in closed form, by brute force and by perturbation. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-#include <math.h>
-
+#include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
 #include "reference/reference.h"
