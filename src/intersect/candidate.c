@@ -81,11 +81,36 @@ static double euclid(int n, const double p_in[4], const double q_in[4])
   return dq == 1 ? -q[0] / q[1] : p[1] != 0 && dp == 1 ? -p[0] / p[1] : NAN;
 }
 
+/* A polynomial of degree n <= 3 with plain Bernstein coefficients c, at v, by de Casteljau. */
+static void value_and_slope(int n, const double c[4], double v, double *value, double *slope)
+{
+  double b[4];
+  for (int k = 0; k <= n; k++) b[k] = c[k];
+  for (int level = n; level > 1; level--)
+    for (int k = 0; k < level; k++) b[k] += v * (b[k + 1] - b[k]);
+  *slope = n * (b[1] - b[0]);
+  *value = b[0] + v * (b[1] - b[0]);
+}
+
+/* Where two roots nearly share u, the null vector is nearly not unique and v is off by far more than u is. It is near enough
+ * for Gauss and Newton, at this u, on both plane polynomials. A step longer than the reach means that it was not. */
+enum { NULL_VECTOR_STEPS = 2 };
+#define NULL_VECTOR_REACH 1e-3
+
 static double null_vector(int n, const double p[4], const double q[4])
 {
   double num[2], den[2], first_better;
   bezout_null_vector(n, p, q, num, den, &first_better);
-  return first_better > 0 ? num[0] / den[0] : num[1] / den[1];
+  double v = first_better > 0 ? num[0] / den[0] : num[1] / den[1];
+  for (int step = 0; step < NULL_VECTOR_STEPS; step++) {
+    double f, df, g, dg;
+    value_and_slope(n, p, v, &f, &df);
+    value_and_slope(n, q, v, &g, &dg);
+    const double move = (f * df + g * dg) / (df * df + dg * dg);
+    if (!(fabs(move) <= NULL_VECTOR_REACH)) break;
+    v -= move;
+  }
+  return v;
 }
 
 static double eliminated_at(const struct form *form, const struct solver_options *options, double u)
