@@ -1,0 +1,213 @@
+/* A scene as canonical text. One order, one layout, numbers by number_write: equal scenes give equal text. Textures are told
+ * apart by what they are and numbered in the order in which patches first use them, so that reading the text back and writing
+ * it again changes nothing, however the reader keeps its textures. */
+#include "scene/dump.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+
+struct dump {
+  const struct scene *scene;
+  FILE *file;
+  bool failed;
+  uint32_t *names;       /* scene.texture_count: the number each texture is written under, or UNNAMED */
+  uint32_t *named;       /* the textures written, by number */
+  uint32_t named_count;
+};
+
+#define UNNAMED UINT32_MAX
+
+static void put(struct dump *dump, const char *text)
+{
+  dump->failed |= fputs(text, dump->file) == EOF;
+}
+
+static void put_number(struct dump *dump, double value)
+{
+  char text[NUMBER_TEXT_SIZE];
+  number_write(value, text);
+  put(dump, text);
+}
+
+static void put_item(struct dump *dump, const char *before, double value)
+{
+  put(dump, before);
+  put_number(dump, value);
+}
+
+static void put_vector(struct dump *dump, const char *before, const double v[3])
+{
+  put(dump, before);
+  for (int k = 0; k < 3; k++) put_item(dump, k == 0 ? "<" : ", ", v[k]);
+  put(dump, ">");
+}
+
+static void put_solver_item(struct dump *dump, const struct solver_item *item, double value)
+{
+  put(dump, " ");
+  put(dump, item->name);
+  size_t words = 0;
+  while (item->keywords && item->keywords[words]) words++;
+  if (value >= 0 && value < (double)words) {
+    put(dump, " ");
+    put(dump, item->keywords[(size_t)value]);
+  } else {
+    put_item(dump, " ", value);
+  }
+}
+
+/* Every item is said, so that the text keeps its meaning should a default ever change. */
+static void put_solver(struct dump *dump, const struct solver_options *options)
+{
+  put(dump, "#ifdef (pscn)\n  solver ");
+  put(dump, options->solver->name);
+  put(dump, " {");
+  for (size_t i = 0; i < solver_item_count(); i++) {
+    const struct solver_item *item = solver_item_at(i);
+    put_solver_item(dump, item, item->get(options));
+  }
+  put(dump, " }\n#end\n");
+}
+
+static bool same_solver(const struct solver_options *a, const struct solver_options *b)
+{
+  bool same = a->solver == b->solver;
+  for (size_t i = 0; same && i < solver_item_count(); i++) {
+    same = solver_item_at(i)->get(a) == solver_item_at(i)->get(b);
+  }
+  return same;
+}
+
+/* ---- textures ---- */
+
+/* FNV-1a over the bytes of a texture, which is all doubles. */
+static size_t texture_hash(const struct scene_texture *texture)
+{
+  uint64_t hash = UINT64_C(0xcbf29ce484222325);
+  unsigned char bytes[sizeof *texture];
+  memcpy(bytes, texture, sizeof bytes);
+  for (size_t i = 0; i < sizeof bytes; i++) hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
+  return (size_t)(hash ^ (hash >> 32));
+}
+
+/* Gives the texture its number: that of an equal one met before, or the next. `table` holds named textures by hash; its size is
+ * a power of two, at least twice the number of textures. */
+static void name_texture(struct dump *dump, uint32_t *table, size_t size, uint32_t texture)
+{
+  const struct scene_texture *all = dump->scene->textures;
+  size_t slot = texture_hash(&all[texture]) & (size - 1);
+  while (table[slot] != UNNAMED && memcmp(&all[dump->named[table[slot]]], &all[texture], sizeof *all) != 0) {
+    slot = (slot + 1) & (size - 1);
+  }
+  if (table[slot] == UNNAMED) {
+    table[slot] = dump->named_count;
+    dump->named[dump->named_count++] = texture;
+  }
+  dump->names[texture] = table[slot];
+}
+
+static enum status name_textures(struct dump *dump)
+{
+  const struct scene *scene = dump->scene;
+  const size_t count = scene->texture_count;
+  size_t size = 2;
+  while (size / 2 < count) size *= 2;
+  uint32_t *table = calloc(size, sizeof *table);
+  dump->names = calloc(count + 1, sizeof *dump->names);
+  dump->named = calloc(count + 1, sizeof *dump->named);
+  enum status status = table && dump->names && dump->named ? STATUS_OK : STATUS_LIMIT;
+  if (status == STATUS_OK) {
+    for (size_t i = 0; i < size; i++) table[i] = UNNAMED;
+    for (size_t i = 0; i < count; i++) dump->names[i] = UNNAMED;
+    for (size_t i = 0; i < scene->patch_count; i++) {
+      const uint32_t texture = scene->patches[i].texture;
+      if (dump->names[texture] == UNNAMED) name_texture(dump, table, size, texture);
+    }
+  }
+  free(table);
+  return status;
+}
+
+static void put_texture_name(struct dump *dump, uint32_t number)
+{
+  char text[32];
+  snprintf(text, sizeof text, "Texture%lu", (unsigned long)number);
+  put(dump, text);
+}
+
+static void put_texture(struct dump *dump, uint32_t number)
+{
+  const struct scene_texture *texture = &dump->scene->textures[dump->named[number]];
+  const struct scene_finish *finish = &texture->finish;
+  put(dump, "#declare ");
+  put_texture_name(dump, number);
+  put_vector(dump, " = texture {\n  pigment { rgb ", texture->pigment);
+  put_vector(dump, " }\n  finish {\n    ambient rgb ", finish->ambient);
+  put_item(dump, "\n    diffuse ", finish->diffuse);
+  put_item(dump, " brilliance ", finish->brilliance);
+  put_item(dump, "\n    phong ", finish->phong);
+  put_item(dump, " phong_size ", finish->phong_size);
+  put_item(dump, "\n    specular ", finish->specular);
+  put_item(dump, " roughness ", finish->roughness);
+  put(dump, "\n  }\n}\n");
+}
+
+/* ---- the parts of a scene ---- */
+
+static void put_settings(struct dump *dump)
+{
+  const struct scene *scene = dump->scene;
+  put(dump, "#version 3.7;\nglobal_settings {\n  assumed_gamma 1\n");
+  put_vector(dump, "  ambient_light rgb ", scene->ambient_light);
+  put(dump, "\n");
+  put_solver(dump, &scene->solvers[0]);
+  put_vector(dump, "}\nbackground { rgb ", scene->background);
+  put_vector(dump, " }\ncamera {\n  location ", scene->camera.location);
+  put_vector(dump, "\n  direction ", scene->camera.direction);
+  put_vector(dump, "\n  right ", scene->camera.right);
+  put_vector(dump, "\n  up ", scene->camera.up);
+  put(dump, "\n}\n");
+}
+
+static void put_light(struct dump *dump, const struct scene_light *light)
+{
+  put_vector(dump, "light_source { ", light->position);
+  put_vector(dump, ", rgb ", light->color);
+  put(dump, light->shadowless ? " shadowless }\n" : " }\n");
+}
+
+static void put_patch(struct dump *dump, const struct scene_patch *patch)
+{
+  put_item(dump, "bicubic_patch {\n  type ", patch->type);
+  put_item(dump, " flatness ", patch->flatness);
+  put_item(dump, " u_steps ", patch->u_steps);
+  put_item(dump, " v_steps ", patch->v_steps);
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) put_vector(dump, j == 0 ? "\n  " : ", ", patch->P[i][j]);
+    if (i < 3) put(dump, ",");
+  }
+  put(dump, "\n  texture { ");
+  put_texture_name(dump, dump->names[patch->texture]);
+  put(dump, " }\n");
+  const struct solver_options *solvers = dump->scene->solvers;
+  if (!same_solver(&solvers[patch->solver], &solvers[0])) put_solver(dump, &solvers[patch->solver]);
+  put(dump, "}\n");
+}
+
+enum status scene_dump(const struct scene *scene, FILE *file)
+{
+  struct dump dump = { .scene = scene, .file = file };
+  enum status status = name_textures(&dump);
+  if (status == STATUS_OK) {
+    put_settings(&dump);
+    for (size_t i = 0; i < scene->light_count; i++) put_light(&dump, &scene->lights[i]);
+    for (uint32_t i = 0; i < dump.named_count; i++) put_texture(&dump, i);
+    for (size_t i = 0; i < scene->patch_count && !dump.failed; i++) put_patch(&dump, &scene->patches[i]);
+    if (dump.failed) status = STATUS_FILE;
+  }
+  free(dump.names);
+  free(dump.named);
+  return status;
+}
