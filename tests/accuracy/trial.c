@@ -146,7 +146,8 @@ static void judge_hit(const struct trial *trial, const struct ray *ray, const st
                       const struct reference_answer *truth, struct tally *tally)
 {
   double difference = (double)((quad)hit->t - truth->t);
-  if (fabs(difference) <= fmax(TRIAL_SAME * (double)truth->t, 64 * truth->data.t)) {
+  double near = hit->certainty == CERTAINTY_GRAZING ? TRIAL_SAME_GRAZING : TRIAL_SAME;
+  if (fabs(difference) <= fmax(near * (double)truth->t, 64 * truth->data.t)) {
     measure(ray, hit, truth, tally);
   } else if (difference > 0) {
     tally->lost++;

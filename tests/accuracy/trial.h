@@ -45,6 +45,10 @@ struct tally {
 /* Answers of this distance are the same hit: 64 floors, or this relative distance where that is more. */
 #define TRIAL_SAME 1e-9
 
+/* For a hit said to be grazing. Where a root is nearly double, a change of 2^-53 of the input moves it by the square
+ * root of that, 1e-8, times the patch's size over its curvature and over the distance: 100 is allowed for the two. */
+#define TRIAL_SAME_GRAZING 1e-6
+
 /* Bounds issue 4 sets. */
 #define TRIAL_T_RELATIVE 1e-12
 #define TRIAL_FLOORS 4
