@@ -6,9 +6,6 @@
 #include <string.h>
 #include <time.h>
 
-/* "unit" of eq 11 for double precision: beta^-(s-1). */
-#define PAPER_UNIT 0x1p-52
-
 double measure_clock(void)
 {
   struct timespec now;
@@ -26,22 +23,8 @@ double measure_random(uint64_t *state)
 
 double measure_eq11(const struct root_problem *problem, double re, double im)
 {
-  const int n = problem->degree;
-  root_problem_x_from_u(problem->basis, &re, &im);
-  const double modulus = hypot(re, im);
-  const int reversed = modulus > 1.0; /* by x^n, which both sides of eq 11 have in common */
-  const double zr = reversed ? re / (modulus * modulus) : re, zi = reversed ? -im / (modulus * modulus) : im;
-  const double size = reversed ? 1.0 / modulus : modulus;
-  double pr = 0.0, pi = 0.0, largest = 0.0;
-  for (int k = n; k >= 0; k--) {
-    const double c = problem->c[reversed ? n - k : k];
-    const double next = pr * zr - pi * zi + c;
-    pi = pr * zi + pi * zr;
-    pr = next;
-    largest = fmax(largest, fabs(c) * pow(size, k));
-  }
-  const double ratio = hypot(pr, pi) / (n * PAPER_UNIT * largest);
-  return isfinite(ratio) ? ratio : HUGE_VAL;
+  const struct polynomial p = {problem->degree, problem->basis, problem->c, NULL};
+  return isfinite(re) && isfinite(im) ? polynomial_eq11(&p, re, im) : INFINITY;
 }
 
 void measure_set(struct solver_options *options, const char *item, double value)

@@ -12,8 +12,7 @@ double measure_clock(void);
 /* Uniform in [0,1); SplitMix64. */
 double measure_random(uint64_t *state);
 
-/* |P(z)| / delta(z) of eq 11, z in the u of the problem; below 1 the root is accurate. In Bernstein form P and the terms of
- * delta are those of the plain polynomial in x = u/(1-u), their quotient being the same up to a common factor. */
+/* polynomial_eq11 of a value that need not be finite; below 1 the root is accurate. */
 double measure_eq11(const struct root_problem *problem, double re, double im);
 
 /* Sets an item of a solver block; the name must be one. */

@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "algebra/complex_number.h"
 #include "algebra/evaluation.h"
 
 double polynomial_binomial(int n, int k)
@@ -133,6 +134,31 @@ struct polynomial_value polynomial_evaluate(const struct polynomial *p, double u
     out.slope_error = INFINITY;
   }
   return out;
+}
+
+/* "unit" of eq 11: beta^-(s-1). */
+#define PAPER_UNIT 0x1p-52
+
+double polynomial_eq11(const struct polynomial *p, double re, double im)
+{
+  /* As in evaluation.h: the variable of the terms is z = top/low, or low/top where that is smaller; the common factor of all
+   * terms cancels. */
+  const struct complex_number one = {1.0, 0.0}, at = {re, im};
+  const struct complex_number other = p->basis == BASIS_POWER ? one : complex_subtract(one, at);
+  const bool reversed = hypot(at.re, at.im) > hypot(other.re, other.im);
+  const struct complex_number z = reversed ? complex_divide(other, at) : complex_divide(at, other);
+  const double modulus = hypot(z.re, z.im);
+  struct complex_number value = {0.0, 0.0};
+  double largest = 0.0, power = 1.0;
+  for (int k = p->degree; k >= 0; k--) {
+    value = complex_multiply(value, z);
+    value.re += p->c[reversed ? p->degree - k : k];
+  }
+  for (int k = 0; k <= p->degree; k++, power *= modulus) {
+    largest = fmax(largest, fabs(p->c[reversed ? p->degree - k : k]) * power);
+  }
+  const double ratio = hypot(value.re, value.im) / (p->degree * PAPER_UNIT * largest);
+  return isnan(ratio) ? INFINITY : ratio;
 }
 
 /* `gap` uncertain signs between two certain ones can hide at most gap + 1 changes: an even number of them where the two are

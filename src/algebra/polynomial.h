@@ -32,6 +32,10 @@ struct polynomial_value {
 
 struct polynomial_value polynomial_evaluate(const struct polynomial *p, double u);
 
+/* |P(z)| / delta(z) of the paper's eq 11 at a finite z = re + i im, where delta = n 2^-52 max |a_k z^k|: below 1 the paper calls
+ * z accurate. In scaled Bernstein form P and the terms are those of the plain polynomial in z/(1-z). */
+double polynomial_eq11(const struct polynomial *p, double re, double im);
+
 /* The same polynomial in the other basis. Writes degree + 1 coefficients and bounds (the old bounds carried over plus all
  * rounding); the arrays must not overlap p's. A polynomial already in the wanted basis is copied. */
 void polynomial_to_bernstein(const struct polynomial *p, double out_c[], double out_error[]);

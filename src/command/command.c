@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-const struct command *const commands[] = { &command_render,  &command_trace, &command_dump,
+const struct command *const commands[] = { &command_render,  &command_trace, &command_roots, &command_dump,
                                            &command_compare, &command_help,  NULL };
 
 const struct command *command_find(const char *name)

@@ -7,16 +7,12 @@
 
 #include "base/diagnostics.h"
 #include "base/status.h"
+#include "command/stream.h"
 #include "intersect/intersect.h"
 
-/* The stream of a file descriptor, from its first byte. */
 struct ray_input {
-  int descriptor;
-  bool binary, ended;
-  char *buffer;
-  size_t size, begin, end; /* of the buffer, and of what in it is still to be read */
-  size_t count;            /* lines or records read */
-  int reason;              /* errno of RAY_INPUT_FAILED */
+  struct stream stream; /* its count is of lines or records; its reason is that of RAY_INPUT_FAILED */
+  bool binary;
 };
 
 /* STATUS_LIMIT where memory is short. The caller ends with ray_input_free in any case. */
@@ -28,7 +24,7 @@ enum ray_input_result {
   RAY_INPUT_PENDING, /* the next call will wait for the stream: the moment to answer what has come so far */
   RAY_INPUT_END,
   RAY_INPUT_BAD,     /* the line or record is wrong: ray_input_explain says how */
-  RAY_INPUT_FAILED,  /* the stream can not be read: `reason` says why */
+  RAY_INPUT_FAILED,  /* the stream can not be read: its `reason` says why */
   RAY_INPUT_LIMIT    /* memory */
 };
 

@@ -106,9 +106,11 @@ enum status report_probe(const struct command *command, const char *path)
 
 enum status report_write(const struct command *command, const struct report *report, const char *path)
 {
-  if (path == NULL)
-    return STATUS_OK;
-  json_t *root = statistics(report);
+  return path == NULL ? STATUS_OK : report_write_json(command, statistics(report), path);
+}
+
+enum status report_write_json(const struct command *command, json_t *root, const char *path)
+{
   char *text = root == NULL ? NULL : json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(JSON_DIGITS));
   json_decref(root);
   char *line = text == NULL ? NULL : realloc(text, strlen(text) + 2);

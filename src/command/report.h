@@ -2,6 +2,7 @@
 #ifndef PSCN_COMMAND_REPORT_H
 #define PSCN_COMMAND_REPORT_H
 
+#include <jansson.h>
 #include <stdio.h>
 
 #include "command/command.h"
@@ -28,6 +29,9 @@ void report_print(const struct report *report);
 enum status report_probe(const struct command *command, const char *path) STATUS_MUST_CHECK;
 enum status report_write(const struct command *command, const struct report *report,
                          const char *path) STATUS_MUST_CHECK;
+
+/* Writes statistics made elsewhere the same way. Takes root over; NULL means that memory was short. */
+enum status report_write_json(const struct command *command, json_t *root, const char *path) STATUS_MUST_CHECK;
 
 /* The metadata of the picture, in `out`; texts live in *out. */
 struct report_metadata {

@@ -138,7 +138,7 @@ static enum status trace_stream(const struct command *command, struct tracer *tr
 
   enum status status = STATUS_OK;
   if (result == RAY_INPUT_FAILED) {
-    command_error(command, "cannot read standard input: %s", strerror(input->reason));
+    command_error(command, "cannot read standard input: %s", strerror(input->stream.reason));
     status = STATUS_FILE;
   } else if (result == RAY_INPUT_BAD) {
     struct diagnostics diagnostics = stderr_diagnostics();
@@ -154,7 +154,7 @@ static enum status trace(const struct command *command, struct request *request)
   struct scene *scene = NULL;
   struct intersector *intersector = NULL;
   struct tracer *tracer = NULL;
-  struct ray_input input = { 0 };
+  struct ray_input input = { .binary = request->binary };
   double start = command_clock();
   enum status status = report_probe(command, request->stats);
   if (status != STATUS_OK)

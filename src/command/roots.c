@@ -1,0 +1,296 @@
+/* pscn roots: polynomials on stdin, roots on stdout. */
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "algebra/solver.h"
+#include "base/number.h"
+#include "command/command.h"
+#include "command/report.h"
+#include "command/scene_file.h"
+#include "command/stream.h"
+#include "command/values.h"
+#include "language/language.h"
+
+enum { OPTION_SOLVER = 1, OPTION_TOLERANCE, OPTION_STATS, OPTION_QUIET };
+
+enum {
+  MAX_COEFFICIENTS = POLYNOMIAL_MAX_DEGREE + 1,
+  OUTPUT_BUFFER = 1 << 16
+};
+
+/* All roots are asked for, so the default is not the scene's, which finds those in [0,1] only. */
+static const char DEFAULT_SOLVER[] = "aberth";
+
+static const struct poptOption OPTIONS[] = {
+  COMMAND_HELP_OPTION,
+  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "what may follow 'solver' in a scene; default aberth", "TEXT"),
+  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of the solver's tolerance", "E"),
+  COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output, after the roots", "FILE"),
+  COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "no summary on a terminal"),
+  POPT_TABLEEND
+};
+
+struct request {
+  const char *solver_text, *stats;
+  double tolerance; /* or NAN */
+  bool quiet;
+};
+
+static enum status take_option(const struct command *command, void *context, int val, const char *argument)
+{
+  struct request *request = context;
+  switch (val) {
+  case OPTION_SOLVER:
+    request->solver_text = argument;
+    break;
+  case OPTION_TOLERANCE:
+    if (!value_number(argument, &request->tolerance) || request->tolerance == 0)
+      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
+    break;
+  case OPTION_STATS:
+    request->stats = argument;
+    break;
+  default:
+    request->quiet = true;
+    break;
+  }
+  return STATUS_OK;
+}
+
+struct session {
+  struct solver_options options;
+  struct solver_warm warm;
+  size_t polynomials, roots, iterations, accurate;
+  size_t statuses[ROOT_CLUSTER + 1];
+  double solve; /* seconds */
+};
+
+/* Coefficients from the highest power to the constant. The fault's text is NULL where all is well. */
+static struct stream_fault parse_line(const struct stream_line *line, double out_c[MAX_COEFFICIENTS], int *out_degree)
+{
+  double high_first[MAX_COEFFICIENTS + 1];
+  size_t at = 0, end = 0;
+  int count = 0, found;
+  struct stream_fault fault;
+  if (line->length > STREAM_MAX_LINE)
+    return (struct stream_fault){ "the line is too long", 0, 1 };
+  while ((found = stream_number(line, &at, &high_first[count], &end, &fault)) > 0 && count < MAX_COEFFICIENTS) {
+    at = end;
+    count++;
+  }
+  if (found < 0)
+    return fault;
+  if (found > 0)
+    return (struct stream_fault){ "a polynomial has at most 65 coefficients, and here is more", fault.begin, fault.end };
+  if (count < 2)
+    return (struct stream_fault){ "a polynomial is at least two coefficients, from the highest power to the constant",
+                                  fault.begin, fault.end };
+  bool zero = true;
+  for (int k = 0; k < count; k++) {
+    out_c[k] = high_first[count - 1 - k];
+    zero = zero && out_c[k] == 0;
+  }
+  *out_degree = count - 1;
+  return (struct stream_fault){ zero ? "all coefficients are zero: every number is a root" : NULL, 0, line->length };
+}
+
+static int by_place(const void *a, const void *b)
+{
+  const struct root *x = a, *y = b;
+  if (x->re != y->re)
+    return x->re < y->re ? -1 : 1;
+  return (x->im > y->im) - (x->im < y->im);
+}
+
+static void write_roots(const struct root_set *roots)
+{
+  for (int k = 0; k < roots->count; k++) {
+    char pair[2 * NUMBER_TEXT_SIZE + 2];
+    size_t length = 0;
+    if (k > 0)
+      pair[length++] = ' ';
+    length += number_write_17(roots->root[k].re, pair + length);
+    pair[length++] = ' ';
+    length += number_write_17(roots->root[k].im, pair + length);
+    fwrite(pair, 1, length, stdout);
+  }
+  putc('\n', stdout);
+}
+
+/* `basis bernstein` solves the same polynomial in scaled Bernstein form, the rounding of the change of basis known to the
+ * solver. */
+static void answer(struct session *session, int degree, const double c[])
+{
+  const struct polynomial power = { degree, BASIS_POWER, c, NULL };
+  struct polynomial p = power;
+  double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
+  struct root_set roots;
+  const double start = command_clock();
+  if (session->options.basis == BASIS_BERNSTEIN) {
+    polynomial_to_bernstein(&power, bernstein, error);
+    p = (struct polynomial){ degree, BASIS_BERNSTEIN, bernstein, error };
+  }
+  solver_solve(&p, &session->options, &session->warm, &roots);
+  session->solve += command_clock() - start;
+  session->polynomials++;
+  session->roots += (size_t)roots.count;
+  for (int k = 0; k < roots.count; k++) {
+    const struct root *root = &roots.root[k];
+    session->iterations += (size_t)root->iterations;
+    session->accurate += polynomial_eq11(&power, root->re, root->im) < 1;
+    session->statuses[root->status]++;
+  }
+  qsort(roots.root, (size_t)roots.count, sizeof roots.root[0], by_place);
+  write_roots(&roots);
+}
+
+/* Answers until the stream ends, or a bad line comes, or something fails. Before it waits for the stream, what has come so
+ * far is answered. */
+static enum status answer_stream(const struct command *command, struct session *session, struct stream *stream)
+{
+  enum stream_result result = STREAM_MORE;
+  while (result == STREAM_MORE && !stream_at_end(stream) && !ferror(stdout)) {
+    struct stream_line line;
+    double c[MAX_COEFFICIENTS];
+    int degree;
+    if (!stream_line(stream, &line)) {
+      const enum status status = command_finish_output(command);
+      if (status != STATUS_OK)
+        return status;
+      result = stream_refill(stream);
+      continue;
+    }
+    if (line.length == 0 && line.bytes == 0)
+      continue; /* the end of the stream has just been seen */
+    const struct stream_fault fault = parse_line(&line, c, &degree);
+    if (fault.text != NULL) {
+      const enum status status = command_finish_output(command);
+      struct diagnostics diagnostics = stderr_diagnostics();
+      return status != STATUS_OK ? status : stream_explain(stream, &line, fault, &diagnostics);
+    }
+    answer(session, degree, c);
+    stream_take(stream, line.bytes);
+  }
+  const enum status status = command_finish_output(command);
+  if (status != STATUS_OK || result == STREAM_MORE)
+    return status;
+  if (result == STREAM_LIMIT)
+    return STATUS_LIMIT;
+  command_error(command, "cannot read standard input: %s", strerror(stream->reason));
+  return STATUS_FILE;
+}
+
+static double share(size_t part, size_t whole)
+{
+  return whole == 0 ? 0 : (double)part / (double)whole;
+}
+
+static json_t *count(size_t value)
+{
+  return json_integer((json_int_t)value);
+}
+
+static json_t *statistics(const struct session *session)
+{
+  char solver[SOLVER_TEXT_SIZE];
+  solver_text(&session->options, solver, sizeof solver);
+  return json_pack("{s:o, s:o, s:o, s:f, s:{s:o, s:o, s:o}, s:s, s:f, s:{s:f}}", "polynomials",
+                   count(session->polynomials), "roots", count(session->roots), "iterations",
+                   count(session->iterations), "accurate", share(session->accurate, session->roots), "status",
+                   "converged", count(session->statuses[ROOT_CONVERGED]), "cluster",
+                   count(session->statuses[ROOT_CLUSTER]), "limit", count(session->statuses[ROOT_LIMIT]), "solver",
+                   solver, "tolerance", session->options.tolerance, "time", "solve", session->solve);
+}
+
+static void print_summary(const struct session *session)
+{
+  char solver[SOLVER_TEXT_SIZE];
+  solver_text(&session->options, solver, sizeof solver);
+  fprintf(stderr, "solver   %s\n", solver);
+  fprintf(stderr, "roots    %zu of %zu polynomials: %zu converged, %zu in clusters, %zu at the limit\n", session->roots,
+          session->polynomials, session->statuses[ROOT_CONVERGED], session->statuses[ROOT_CLUSTER],
+          session->statuses[ROOT_LIMIT]);
+  fprintf(stderr, "accurate %.4f of them (eq 11); %.2f iterations a root; %.6f s\n",
+          share(session->accurate, session->roots), share(session->iterations, session->roots), session->solve);
+}
+
+/* Whether the block says something of an item: the word stands in it. */
+static bool mentions(const char *text, const char *word)
+{
+  const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+  while (*(text += strcspn(text, letters)) != '\0') {
+    const size_t length = strspn(text, letters);
+    if (length == strlen(word) && memcmp(text, word, length) == 0)
+      return true;
+    text += length;
+  }
+  return false;
+}
+
+static enum status choose_solver(const struct request *request, struct solver_options *out)
+{
+  const char *text = request->solver_text == NULL ? DEFAULT_SOLVER : request->solver_text;
+  struct diagnostics diagnostics = stderr_diagnostics();
+  const enum status status = language_parse_solver(text, &diagnostics, out);
+  if (status != STATUS_OK)
+    return status;
+  if (!mentions(text, "basis"))
+    out->basis = BASIS_POWER;
+  if (!isnan(request->tolerance))
+    out->tolerance = request->tolerance;
+  return STATUS_OK;
+}
+
+static enum status roots(const struct command *command, const struct request *request)
+{
+  struct session session = { 0 };
+  struct stream stream = { 0 };
+  enum status status = report_probe(command, request->stats);
+  if (status == STATUS_OK)
+    status = choose_solver(request, &session.options);
+  if (status == STATUS_OK)
+    status = stream_open(STDIN_FILENO, &stream);
+  if (status == STATUS_OK)
+    status = answer_stream(command, &session, &stream);
+  if (status == STATUS_LIMIT)
+    command_error(command, "out of memory");
+  if (status == STATUS_OK && request->stats != NULL)
+    status = report_write_json(command, statistics(&session), request->stats);
+  if (status == STATUS_OK && !request->quiet && isatty(STDERR_FILENO) == 1)
+    print_summary(&session);
+  stream_free(&stream);
+  return status;
+}
+
+static int run(const struct command *command, int argc, const char **argv)
+{
+  struct request request = { .tolerance = NAN };
+  struct command_line line;
+  enum status status = command_line_read(command, argc, argv, 0, take_option, &request, &line);
+  if (status == STATUS_OK && !line.help) {
+    static char buffer[OUTPUT_BUFFER];
+    (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
+    status = roots(command, &request);
+  }
+  command_line_free(&line);
+  return (int)status;
+}
+
+const struct command command_roots = {
+  .name = "roots",
+  .arguments = "",
+  .summary = "Reads polynomials and answers their roots",
+  .description =
+    "Standard input has one polynomial a line: its coefficients from the highest power to the constant, of degree 1\n"
+    "to 64. Standard output has one line for each, in order: 're im' pairs, sorted by real part. Multiple roots are\n"
+    "there as often as they count. A bad line ends the run with its number, after the answers to the lines before it.\n"
+    "\n"
+    "The solver works on the coefficients as they are (basis power), unless --solver says 'basis bernstein': then the\n"
+    "same polynomial is brought into scaled Bernstein form on [0,1] first. 'bernstein' finds the real roots in [0,1].\n"
+    "With 'start previous' each polynomial starts from the roots of the one before.\n",
+  .options = OPTIONS,
+  .run = run,
+};
