@@ -97,16 +97,16 @@ comma: %empty %prec NO_COMMA | ',';
 /* ---- values ---- */
 
 expression:
-    NUMBER                                     { $$ = value_number($1.number[0]); }
-  | POINT                                      { $$ = value_vector($1.number); }
+    NUMBER                                     { $$ = value_of_number($1.number[0]); }
+  | POINT                                      { $$ = value_of_vector($1.number); }
   | vector_literal
   | WORD                                       { $$ = value_named(language, @1, &$1); }
   | X                                          { $$ = value_axis(0); }
   | Y                                          { $$ = value_axis(1); }
   | Z                                          { $$ = value_axis(2); }
   | PI                                         { $$ = value_pi(); }
-  | IMAGE_WIDTH                                { $$ = value_number(language->width); }
-  | IMAGE_HEIGHT                               { $$ = value_number(language->height); }
+  | IMAGE_WIDTH                                { $$ = value_of_number(language->width); }
+  | IMAGE_HEIGHT                               { $$ = value_of_number(language->height); }
   | '(' expression ')'                         { $$ = $2; }
   | expression '+' expression                  { $$ = value_binary(language, @$, '+', &$1, &$3); }
   | expression '-' expression                  { $$ = value_binary(language, @$, '-', &$1, &$3); }

@@ -155,7 +155,7 @@ static enum status answer_stream(const struct command *command, struct session *
   while (result == STREAM_MORE && !stream_at_end(stream) && !ferror(stdout)) {
     struct stream_line line;
     double c[MAX_COEFFICIENTS];
-    int degree;
+    int degree = 0;
     if (!stream_line(stream, &line)) {
       const enum status status = command_finish_output(command);
       if (status != STATUS_OK)

@@ -136,8 +136,8 @@ void language_unexpected(struct language *language, struct place place, const ch
 void *language_alloc(struct language *language, size_t size); /* zeroed, never NULL: the process of reading ends instead */
 
 /* ---- values.c ---- */
-struct value value_number(double x);
-struct value value_vector(const double x[3]);
+struct value value_of_number(double x);
+struct value value_of_vector(const double x[3]);
 struct value value_axis(int axis);
 struct value value_pi(void);
 struct value value_named(struct language *language, struct place place, const struct token *name);

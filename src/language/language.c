@@ -94,7 +94,7 @@ static enum status language_create(struct language *language, const struct langu
   language->arena = arena_create();
   if (!language->arena || !symbols_create(language)) return STATUS_LIMIT;
   const struct token program = {.text = "pscn", .length = 4};
-  const struct value yes = value_number(1);
+  const struct value yes = value_of_number(1);
   declare_value(language, (struct place){NULL, 0, 0}, &program, &yes);
   return STATUS_OK;
 }

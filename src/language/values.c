@@ -3,9 +3,9 @@
 
 #include "language/build.h"
 
-struct value value_number(double x) { return (struct value){VALUE_NUMBER, {x, x, x}}; }
+struct value value_of_number(double x) { return (struct value){VALUE_NUMBER, {x, x, x}}; }
 
-struct value value_vector(const double x[3]) { return (struct value){VALUE_VECTOR, {x[0], x[1], x[2]}}; }
+struct value value_of_vector(const double x[3]) { return (struct value){VALUE_VECTOR, {x[0], x[1], x[2]}}; }
 
 struct value value_axis(int axis)
 {
@@ -14,7 +14,7 @@ struct value value_axis(int axis)
   return value;
 }
 
-struct value value_pi(void) { return value_number(3.14159265358979323846); }
+struct value value_pi(void) { return value_of_number(3.14159265358979323846); }
 
 struct value value_named(struct language *language, struct place place, const struct token *name)
 {
@@ -24,7 +24,7 @@ struct value value_named(struct language *language, struct place place, const st
     language_error(language, place, "'%.*s' is %s, but a value is wanted here", (int)name->length, name->text,
                    symbol->kind == SYMBOL_OBJECT ? "an object" : "a texture");
   else return symbol->value;
-  return value_number(1);
+  return value_of_number(1);
 }
 
 struct value value_binary(struct language *language, struct place place, char op, const struct value *a, const struct value *b)
@@ -50,16 +50,16 @@ struct value value_negative(const struct value *a) { return (struct value){a->ki
 struct value value_component(struct language *language, struct place place, const struct value *a, int index)
 {
   if (a->kind == VALUE_NUMBER) language_error(language, place, "a number has no components");
-  return value_number(a->x[index]);
+  return value_of_number(a->x[index]);
 }
 
-struct value value_rgb(const struct value *a) { return value_vector(a->x); }
+struct value value_rgb(const struct value *a) { return value_of_vector(a->x); }
 
 struct value value_vector3(struct language *language, struct place place, const struct value *x, const struct value *y,
                            const struct value *z)
 {
   const double v[3] = {value_to_number(language, place, x), value_to_number(language, place, y), value_to_number(language, place, z)};
-  return value_vector(v);
+  return value_of_vector(v);
 }
 
 void value_to_vector(const struct value *a, double out[3])

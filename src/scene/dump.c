@@ -1,122 +1,213 @@
-/* A scene as canonical text. Numbers are the shortest that read back to the same double, so a dump of what is read from a dump is
- * the same text. */
+/* A scene as canonical text. One order, one layout, numbers by number_write: equal scenes give equal text. Textures are told
+ * apart by what they are and numbered in the order in which patches first use them, so that reading the text back and writing
+ * it again changes nothing, however the reader keeps its textures. */
 #include "scene/dump.h"
 
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/number.h"
 
-static void write_number(FILE *file, double value)
+struct dump {
+  const struct scene *scene;
+  FILE *file;
+  bool failed;
+  uint32_t *names;       /* scene.texture_count: the number each texture is written under, or UNNAMED */
+  uint32_t *named;       /* the textures written, by number */
+  uint32_t named_count;
+};
+
+#define UNNAMED UINT32_MAX
+
+static void put(struct dump *dump, const char *text)
+{
+  dump->failed |= fputs(text, dump->file) == EOF;
+}
+
+static void put_number(struct dump *dump, double value)
 {
   char text[NUMBER_TEXT_SIZE];
   number_write(value, text);
-  fputs(text, file);
+  put(dump, text);
 }
 
-static void write_vector(FILE *file, const double v[3])
+static void put_item(struct dump *dump, const char *before, double value)
 {
-  for (int k = 0; k < 3; k++) {
-    fputs(k == 0 ? "<" : ", ", file);
-    write_number(file, v[k]);
+  put(dump, before);
+  put_number(dump, value);
+}
+
+static void put_vector(struct dump *dump, const char *before, const double v[3])
+{
+  put(dump, before);
+  for (int k = 0; k < 3; k++) put_item(dump, k == 0 ? "<" : ", ", v[k]);
+  put(dump, ">");
+}
+
+static void put_solver_item(struct dump *dump, const struct solver_item *item, double value)
+{
+  put(dump, " ");
+  put(dump, item->name);
+  size_t words = 0;
+  while (item->keywords && item->keywords[words]) words++;
+  if (value >= 0 && value < (double)words) {
+    put(dump, " ");
+    put(dump, item->keywords[(size_t)value]);
+  } else {
+    put_item(dump, " ", value);
   }
-  fputc('>', file);
 }
 
-static void write_item(FILE *file, const char *name, double value)
+/* Every item is said, so that the text keeps its meaning should a default ever change. */
+static void put_solver(struct dump *dump, const struct solver_options *options)
 {
-  fprintf(file, " %s ", name);
-  write_number(file, value);
-}
-
-/* All items, so that the text does not lean on defaults that a later version may change. */
-static void write_solver(FILE *file, const struct solver_options *options)
-{
-  fprintf(file, "solver %s {", options->solver->name);
-  for (size_t k = 0; k < solver_item_count(); k++) {
-    const struct solver_item *item = solver_item_at(k);
-    const double value = item->get(options);
-    size_t words = 0;
-    while (item->keywords && item->keywords[words]) words++;
-    if (value >= 0 && value < (double)words) fprintf(file, " %s %s", item->name, item->keywords[(size_t)value]);
-    else write_item(file, item->name, value);
+  put(dump, "#ifdef (pscn)\n  solver ");
+  put(dump, options->solver->name);
+  put(dump, " {");
+  for (size_t i = 0; i < solver_item_count(); i++) {
+    const struct solver_item *item = solver_item_at(i);
+    put_solver_item(dump, item, item->get(options));
   }
-  fputs(" }", file);
+  put(dump, " }\n#end\n");
 }
 
-/* POV-Ray does not know solvers; what it does not see it does not mind. */
-static void write_guarded_solver(FILE *file, const struct solver_options *options)
+static bool same_solver(const struct solver_options *a, const struct solver_options *b)
 {
-  fputs("  #ifdef (pscn)\n    ", file);
-  write_solver(file, options);
-  fputs("\n  #end\n", file);
+  bool same = a->solver == b->solver;
+  for (size_t i = 0; same && i < solver_item_count(); i++) {
+    same = solver_item_at(i)->get(a) == solver_item_at(i)->get(b);
+  }
+  return same;
 }
 
-static void write_camera(FILE *file, const struct scene_camera *camera)
+/* ---- textures ---- */
+
+/* FNV-1a over the bytes of a texture, which is all doubles. */
+static size_t texture_hash(const struct scene_texture *texture)
 {
-  fputs("camera {\n  location ", file);
-  write_vector(file, camera->location);
-  fputs("\n  direction ", file);
-  write_vector(file, camera->direction);
-  fputs("\n  right ", file);
-  write_vector(file, camera->right);
-  fputs("\n  up ", file);
-  write_vector(file, camera->up);
-  fputs("\n}\n", file);
+  uint64_t hash = UINT64_C(0xcbf29ce484222325);
+  unsigned char bytes[sizeof *texture];
+  memcpy(bytes, texture, sizeof bytes);
+  for (size_t i = 0; i < sizeof bytes; i++) hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
+  return (size_t)(hash ^ (hash >> 32));
 }
 
-static void write_light(FILE *file, const struct scene_light *light)
+/* Gives the texture its number: that of an equal one met before, or the next. `table` holds named textures by hash; its size is
+ * a power of two, at least twice the number of textures. */
+static void name_texture(struct dump *dump, uint32_t *table, size_t size, uint32_t texture)
 {
-  fputs("light_source { ", file);
-  write_vector(file, light->position);
-  fputs(", rgb ", file);
-  write_vector(file, light->color);
-  fputs(light->shadowless ? " shadowless }\n" : " }\n", file);
+  const struct scene_texture *all = dump->scene->textures;
+  size_t slot = texture_hash(&all[texture]) & (size - 1);
+  while (table[slot] != UNNAMED && memcmp(&all[dump->named[table[slot]]], &all[texture], sizeof *all) != 0) {
+    slot = (slot + 1) & (size - 1);
+  }
+  if (table[slot] == UNNAMED) {
+    table[slot] = dump->named_count;
+    dump->named[dump->named_count++] = texture;
+  }
+  dump->names[texture] = table[slot];
 }
 
-static void write_texture(FILE *file, const struct scene_texture *texture)
+static enum status name_textures(struct dump *dump)
 {
-  const struct scene_finish *finish = &texture->finish;
-  fputs("  texture {\n    pigment { color rgb ", file);
-  write_vector(file, texture->pigment);
-  fputs(" }\n    finish { ambient rgb ", file);
-  write_vector(file, finish->ambient);
-  write_item(file, "diffuse", finish->diffuse);
-  write_item(file, "brilliance", finish->brilliance);
-  write_item(file, "phong", finish->phong);
-  write_item(file, "phong_size", finish->phong_size);
-  write_item(file, "specular", finish->specular);
-  write_item(file, "roughness", finish->roughness);
-  fputs(" }\n  }\n", file);
-}
-
-static void write_patch(FILE *file, const struct scene *scene, const struct scene_patch *patch)
-{
-  fprintf(file, "bicubic_patch {\n  type %d flatness ", patch->type);
-  write_number(file, patch->flatness);
-  fprintf(file, " u_steps %d v_steps %d\n", patch->u_steps, patch->v_steps);
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      fputs(j == 0 ? "  " : ", ", file);
-      write_vector(file, patch->P[i][j]);
+  const struct scene *scene = dump->scene;
+  const size_t count = scene->texture_count;
+  size_t size = 2;
+  while (size / 2 < count) size *= 2;
+  uint32_t *table = calloc(size, sizeof *table);
+  dump->names = calloc(count + 1, sizeof *dump->names);
+  dump->named = calloc(count + 1, sizeof *dump->named);
+  enum status status = table && dump->names && dump->named ? STATUS_OK : STATUS_LIMIT;
+  if (status == STATUS_OK) {
+    for (size_t i = 0; i < size; i++) table[i] = UNNAMED;
+    for (size_t i = 0; i < count; i++) dump->names[i] = UNNAMED;
+    for (size_t i = 0; i < scene->patch_count; i++) {
+      const uint32_t texture = scene->patches[i].texture;
+      if (dump->names[texture] == UNNAMED) name_texture(dump, table, size, texture);
     }
-    fputs(i < 3 ? ",\n" : "\n", file);
   }
-  write_texture(file, &scene->textures[patch->texture]);
-  if (patch->solver != 0) write_guarded_solver(file, &scene->solvers[patch->solver]);
-  fputs("}\n", file);
+  free(table);
+  return status;
+}
+
+static void put_texture_name(struct dump *dump, uint32_t number)
+{
+  char text[32];
+  snprintf(text, sizeof text, "Texture%lu", (unsigned long)number);
+  put(dump, text);
+}
+
+static void put_texture(struct dump *dump, uint32_t number)
+{
+  const struct scene_texture *texture = &dump->scene->textures[dump->named[number]];
+  const struct scene_finish *finish = &texture->finish;
+  put(dump, "#declare ");
+  put_texture_name(dump, number);
+  put_vector(dump, " = texture {\n  pigment { rgb ", texture->pigment);
+  put_vector(dump, " }\n  finish {\n    ambient rgb ", finish->ambient);
+  put_item(dump, "\n    diffuse ", finish->diffuse);
+  put_item(dump, " brilliance ", finish->brilliance);
+  put_item(dump, "\n    phong ", finish->phong);
+  put_item(dump, " phong_size ", finish->phong_size);
+  put_item(dump, "\n    specular ", finish->specular);
+  put_item(dump, " roughness ", finish->roughness);
+  put(dump, "\n  }\n}\n");
+}
+
+/* ---- the parts of a scene ---- */
+
+static void put_settings(struct dump *dump)
+{
+  const struct scene *scene = dump->scene;
+  put(dump, "#version 3.7;\nglobal_settings {\n  assumed_gamma 1\n");
+  put_vector(dump, "  ambient_light rgb ", scene->ambient_light);
+  put(dump, "\n");
+  put_solver(dump, &scene->solvers[0]);
+  put_vector(dump, "}\nbackground { rgb ", scene->background);
+  put_vector(dump, " }\ncamera {\n  location ", scene->camera.location);
+  put_vector(dump, "\n  direction ", scene->camera.direction);
+  put_vector(dump, "\n  right ", scene->camera.right);
+  put_vector(dump, "\n  up ", scene->camera.up);
+  put(dump, "\n}\n");
+}
+
+static void put_light(struct dump *dump, const struct scene_light *light)
+{
+  put_vector(dump, "light_source { ", light->position);
+  put_vector(dump, ", rgb ", light->color);
+  put(dump, light->shadowless ? " shadowless }\n" : " }\n");
+}
+
+static void put_patch(struct dump *dump, const struct scene_patch *patch)
+{
+  put_item(dump, "bicubic_patch {\n  type ", patch->type);
+  put_item(dump, " flatness ", patch->flatness);
+  put_item(dump, " u_steps ", patch->u_steps);
+  put_item(dump, " v_steps ", patch->v_steps);
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) put_vector(dump, j == 0 ? "\n  " : ", ", patch->P[i][j]);
+    if (i < 3) put(dump, ",");
+  }
+  put(dump, "\n  texture { ");
+  put_texture_name(dump, dump->names[patch->texture]);
+  put(dump, " }\n");
+  const struct solver_options *solvers = dump->scene->solvers;
+  if (!same_solver(&solvers[patch->solver], &solvers[0])) put_solver(dump, &solvers[patch->solver]);
+  put(dump, "}\n");
 }
 
 enum status scene_dump(const struct scene *scene, FILE *file)
 {
-  fputs("#version 3.7;\nglobal_settings {\n  assumed_gamma 1\n  ambient_light rgb ", file);
-  write_vector(file, scene->ambient_light);
-  fputc('\n', file);
-  write_guarded_solver(file, &scene->solvers[0]);
-  fputs("}\n", file);
-  write_camera(file, &scene->camera);
-  fputs("background { rgb ", file);
-  write_vector(file, scene->background);
-  fputs(" }\n", file);
-  for (size_t k = 0; k < scene->light_count; k++) write_light(file, &scene->lights[k]);
-  for (size_t k = 0; k < scene->patch_count; k++) write_patch(file, scene, &scene->patches[k]);
-  return ferror(file) ? STATUS_FILE : STATUS_OK;
+  struct dump dump = { .scene = scene, .file = file };
+  enum status status = name_textures(&dump);
+  if (status == STATUS_OK) {
+    put_settings(&dump);
+    for (size_t i = 0; i < scene->light_count; i++) put_light(&dump, &scene->lights[i]);
+    for (uint32_t i = 0; i < dump.named_count; i++) put_texture(&dump, i);
+    for (size_t i = 0; i < scene->patch_count && !dump.failed; i++) put_patch(&dump, &scene->patches[i]);
+    if (dump.failed) status = STATUS_FILE;
+  }
+  free(dump.names);
+  free(dump.named);
+  return status;
 }
