@@ -56,7 +56,7 @@ static void find(const struct root_problem *problem, const struct solver_options
   if (!first_only || strcmp(options->solver->name, "aberth") == 0) {
     options->solver->find(problem, options, NULL, out);
   } else {
-    deflation_find(problem, options, NULL, strcmp(options->solver->name, "newton") == 0 ? newton_step : laguerre_step, 1, out);
+    deflation_find(problem, options, NULL, strcmp(options->solver->name, "newton") == 0 ? &newton_method : &laguerre_method, 1, out);
   }
 }
 

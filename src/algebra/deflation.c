@@ -82,38 +82,67 @@ struct local_values {
   double size, error; /* |q| in the chart, and its rounding bound */
 };
 
+/* What is wanted of `look`: constants at every call, so that each gets loops of its own. */
+enum look_for { LOOK_VALUE = 0, LOOK_SLOPE = 1, LOOK_CURVATURE = 2, LOOK_ERROR = 4 };
+
 /* Chart as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g) and
  * (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
-static struct local_values look(int n, const double c[], struct complex_number x)
+static inline __attribute__((always_inline)) struct local_values look_inlined(int n, const double c[], struct complex_number x,
+                                                                              int wanted)
 {
   const bool reversed = complex_norm(x) > 1.0;
   const struct complex_number one = {1.0, 0.0};
   const struct complex_number z = reversed ? complex_divide(one, x) : x;
-  const double modulus = complex_modulus(z);
-  struct complex_number q = {0.0, 0.0}, slope = {0.0, 0.0}, half_second = {0.0, 0.0};
-  double error = 0.0;
-  for (int k = n; k >= 0; k--) {
+  const double modulus = (wanted & LOOK_ERROR) != 0 ? complex_modulus(z) : 0.0;
+  struct complex_number q = {c[reversed ? 0 : n], 0.0}, slope = {0.0, 0.0}, half_second = {0.0, 0.0};
+  double error = (4 * n + 2) * UNIT_ROUNDOFF * fabs(q.re);
+  for (int k = n - 1; k >= 0; k--) {
     const double coefficient = c[reversed ? n - k : k];
-    half_second = complex_add(complex_multiply(half_second, z), slope);
-    slope = complex_add(complex_multiply(slope, z), q);
+    if ((wanted & LOOK_CURVATURE) != 0) {
+      half_second = complex_add(complex_multiply(half_second, z), slope);
+    }
+    if ((wanted & LOOK_SLOPE) != 0) {
+      slope = complex_add(complex_multiply(slope, z), q);
+    }
     q = complex_multiply(q, z);
     q.re += coefficient;
-    error = error * modulus + (4 * k + 2) * UNIT_ROUNDOFF * fabs(coefficient);
+    if ((wanted & LOOK_ERROR) != 0) {
+      error = error * modulus + (4 * k + 2) * UNIT_ROUNDOFF * fabs(coefficient);
+    }
   }
-  const struct complex_number g = complex_divide(slope, q);
-  const struct complex_number h = complex_divide(complex_scale(2.0, half_second), q);
-  struct local_values out = {.view = {n, g, {0.0, 0.0}}, .size = complex_modulus(q), .error = error + UNDERFLOW_ERROR};
-  const struct complex_number bend = complex_subtract(complex_multiply(g, g), h);
-  if (reversed) {
-    const struct complex_number zg = complex_multiply(z, g), zz = complex_multiply(z, z);
-    const struct complex_number a = {n - zg.re, -zg.im};
+  struct local_values out = {
+    .view = {n, {0.0, 0.0}, {0.0, 0.0}}, .size = complex_modulus(q), .error = error + UNDERFLOW_ERROR};
+  if ((wanted & LOOK_SLOPE) == 0) {
+    return out;
+  }
+  const struct complex_number g = complex_divide(slope, q), zg = complex_multiply(z, g);
+  out.view.slope = reversed ? complex_multiply(z, (struct complex_number){n - zg.re, -zg.im}) : g;
+  if ((wanted & LOOK_CURVATURE) != 0) {
+    const struct complex_number h = complex_divide(complex_scale(2.0, half_second), q);
+    const struct complex_number bend = complex_subtract(complex_multiply(g, g), h), zz = complex_multiply(z, z);
     const struct complex_number b = {n - 2.0 * zg.re, -2.0 * zg.im};
-    out.view.slope = complex_multiply(z, a);
-    out.view.curvature = complex_multiply(zz, complex_add(b, complex_multiply(zz, bend)));
-  } else {
-    out.view.curvature = bend;
+    out.view.curvature = reversed ? complex_multiply(zz, complex_add(b, complex_multiply(zz, bend))) : bend;
   }
   return out;
+}
+
+/* What a method's step needs, and the error bound. */
+static struct local_values look_with_error(const struct deflation_method *method, int n, const double c[],
+                                           struct complex_number x)
+{
+  return method->curved ? look_inlined(n, c, x, LOOK_SLOPE | LOOK_CURVATURE | LOOK_ERROR)
+                        : look_inlined(n, c, x, LOOK_SLOPE | LOOK_ERROR);
+}
+
+/* What a method's step needs. */
+static struct local_values look(const struct deflation_method *method, int n, const double c[], struct complex_number x)
+{
+  return method->curved ? look_inlined(n, c, x, LOOK_SLOPE | LOOK_CURVATURE) : look_inlined(n, c, x, LOOK_SLOPE);
+}
+
+static struct local_values look_at_value(int n, const double c[], struct complex_number x)
+{
+  return look_inlined(n, c, x, LOOK_VALUE | LOOK_ERROR);
 }
 
 /* |step|^2 in u: |dx|^2 in the power basis, |dx|^2 / (|1 + x|^2 |1 + x + dx|^2) in Bernstein form. */
@@ -133,20 +162,22 @@ struct sought {
 };
 
 /* The paper's iteration, from `start`, on a polynomial of degree n. */
-static struct sought seek(const struct root_problem *problem, const struct solver_options *options, deflation_step *step, int n,
-                          const double c[], double mean_modulus, struct complex_number start)
+static struct sought seek(const struct root_problem *problem, const struct solver_options *options,
+                          const struct deflation_method *method, int n, const double c[], double mean_modulus,
+                          struct complex_number start)
 {
   struct sought out = {start, 0, false};
   const double tolerance = options->tolerance * options->tolerance;
   double last = INFINITY;
   while (!out.converged && out.iterations < options->max_iterations) {
     out.iterations++;
-    const struct local_values here = look(n, c, out.x);
+    const struct local_values here =
+      options->stop == STOP_ROUNDING ? look_with_error(method, n, c, out.x) : look(method, n, c, out.x);
     if (here.size == 0.0) {
       out.converged = true;
       break;
     }
-    struct complex_number move = step(&here.view);
+    struct complex_number move = method->step(&here.view);
     const bool usable = isfinite(move.re) && isfinite(move.im);
     const double reach = LONGEST_STEP * (complex_modulus(out.x) + mean_modulus);
     if (!usable) {
@@ -176,28 +207,30 @@ static struct sought seek(const struct root_problem *problem, const struct solve
 
 static bool taken_for_real(int n, const double c[], struct complex_number x)
 {
-  const struct local_values at = look(n, c, x), on_axis = look(n, c, (struct complex_number){x.re, 0.0});
+  const struct local_values at = look_at_value(n, c, x), on_axis = look_at_value(n, c, (struct complex_number){x.re, 0.0});
   /* The two values may be in different charts; |p| = |q| max(1, |x|)^n. */
   const double ratio = fmax(1.0, complex_norm((struct complex_number){x.re, 0.0})) / fmax(1.0, complex_norm(x));
   return on_axis.size <= on_axis.error || on_axis.size * pow(ratio, 0.5 * n) <= at.size;
 }
 
 /* Steps on the polynomial before deflation, each taken only where it lowers |p|. */
-static struct complex_number refined(const struct root_problem *problem, deflation_step *step, struct complex_number x)
+static struct complex_number refined(const struct root_problem *problem, const struct deflation_method *method,
+                                     struct complex_number x)
 {
   const int n = problem->degree;
-  for (int i = 0; i < REFINE_STEPS; i++) {
-    const struct local_values here = look(n, problem->c, x);
-    if (here.size == 0.0) {
+  struct local_values here = look(method, n, problem->c, x);
+  for (int i = 0; i < REFINE_STEPS && here.size > 0.0; i++) {
+    const struct complex_number next = complex_add(x, method->step(&here.view));
+    if (!isfinite(next.re) || !isfinite(next.im)) {
       break;
     }
-    const struct complex_number next = complex_add(x, step(&here.view));
+    const struct local_values there = look(method, n, problem->c, next);
     const double ratio = fmax(1.0, complex_norm(next)) / fmax(1.0, complex_norm(x));
-    if (!isfinite(next.re) || !isfinite(next.im) ||
-        !(look(n, problem->c, next).size * pow(ratio, 0.5 * n) < here.size)) {
+    if (!(there.size * pow(ratio, 0.5 * n) < here.size)) {
       break;
     }
     x = next;
+    here = there;
   }
   return x;
 }
@@ -210,7 +243,7 @@ static void add(const struct root_problem *problem, struct complex_number x, int
 }
 
 void deflation_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                    deflation_step *step, int wanted, struct root_estimates *out)
+                    const struct deflation_method *method, int wanted, struct root_estimates *out)
 {
   double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE], c[POLYNOMIAL_MAX_DEGREE + 1];
   out->count = 0;
@@ -225,18 +258,18 @@ void deflation_find(const struct root_problem *problem, const struct solver_opti
     if (n == 1) {
       found = (struct sought){{-c[0] / c[1], 0.0}, 0, true};
     } else {
-      found = seek(problem, options, step, n, c, mean_modulus, start);
+      found = seek(problem, options, method, n, c, mean_modulus, start);
     }
     if (n == 1 || taken_for_real(n, c, found.x)) {
       found.x.im = 0.0;
       deflation_divide_linear(options->deflation, n, c, found.x.re);
       n -= 1;
-      const struct complex_number x = options->refine ? refined(problem, step, found.x) : found.x;
+      const struct complex_number x = options->refine ? refined(problem, method, found.x) : found.x;
       add(problem, x, found.iterations, found.converged, out);
     } else {
       deflation_divide_quadratic(options->deflation, n, c, 2.0 * found.x.re, complex_norm(found.x));
       n -= 2;
-      const struct complex_number x = options->refine ? refined(problem, step, found.x) : found.x;
+      const struct complex_number x = options->refine ? refined(problem, method, found.x) : found.x;
       add(problem, x, found.iterations, found.converged, out);
       add(problem, (struct complex_number){x.re, -x.im}, 0, found.converged, out);
     }

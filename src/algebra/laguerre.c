@@ -5,7 +5,7 @@
  */
 #include "algebra/deflation.h"
 
-struct complex_number laguerre_step(const struct local_view *view)
+static struct complex_number laguerre_step(const struct local_view *view)
 {
   const double n = view->degree;
   const struct complex_number square = complex_multiply(view->slope, view->slope);
@@ -16,8 +16,10 @@ struct complex_number laguerre_step(const struct local_view *view)
   return complex_divide((struct complex_number){-n, 0.0}, larger);
 }
 
+const struct deflation_method laguerre_method = {laguerre_step, true};
+
 void laguerre_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
                    struct root_estimates *out)
 {
-  deflation_find(problem, options, warm, laguerre_step, problem->degree, out);
+  deflation_find(problem, options, warm, &laguerre_method, problem->degree, out);
 }

@@ -39,32 +39,35 @@ struct evaluation_lanes {
   lanes re, im, slope_re, slope_im, error, slope_error;
 };
 
-LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lanes zi, lane_mask reversed,
+/* `bounded` is a constant at every call; without it the errors are left 0. */
+LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lanes zi, lane_mask reversed, bool bounded,
                                       struct evaluation_lanes *out)
 {
   const int n = p->degree;
-  const lanes modulus = modulus_of(zr, zi);
+  const lanes modulus = bounded ? modulus_of(zr, zi) : (lanes){0};
   lanes re = lanes_select(reversed, lanes_all(p->reverse[n]), lanes_all(p->forward[n]));
   lanes error = lanes_select(reversed, lanes_all(p->reverse_bound[n]), lanes_all(p->forward_bound[n]));
   lanes im = {0}, slope_re = {0}, slope_im = {0}, slope_error = {0};
   for (int k = n - 1; k >= 0; k--) {
     const lanes c = lanes_select(reversed, lanes_all(p->reverse[k]), lanes_all(p->forward[k]));
-    const lanes b = lanes_select(reversed, lanes_all(p->reverse_bound[k]), lanes_all(p->forward_bound[k]));
     const lanes next_slope_re = slope_re * zr - slope_im * zi + re;
     slope_im = slope_re * zi + slope_im * zr + im;
     slope_re = next_slope_re;
     const lanes next_re = re * zr - im * zi + c;
     im = re * zi + im * zr;
     re = next_re;
-    slope_error = slope_error * modulus + error;
-    error = error * modulus + b;
+    if (bounded) {
+      const lanes b = lanes_select(reversed, lanes_all(p->reverse_bound[k]), lanes_all(p->forward_bound[k]));
+      slope_error = slope_error * modulus + error;
+      error = error * modulus + b;
+    }
   }
   out->re = re;
   out->im = im;
   out->slope_re = slope_re;
   out->slope_im = slope_im;
-  out->error = error + UNDERFLOW_ERROR;
-  out->slope_error = slope_error + UNDERFLOW_ERROR;
+  out->error = bounded ? error + UNDERFLOW_ERROR : (lanes){0};
+  out->slope_error = bounded ? slope_error + UNDERFLOW_ERROR : (lanes){0};
 }
 
 /* a / b without overflow or underflow of |b|^2; not finite where b = 0. */
@@ -80,11 +83,11 @@ LANES_INLINE void divide(lanes ar, lanes ai, lanes br, lanes bi, lanes *out_re, 
 struct aberth_step {
   lanes re, im;
   lanes step_square; /* |step|^2 in u */
-  lane_mask resting; /* |P| below its rounding bound */
+  lane_mask resting; /* P is 0, or (where asked for) |P| below its rounding bound */
 };
 
-/* The step of eq 9 for a few roots. */
-LANES_INLINE void step_lanes(const struct aberth *a, lanes xr, lanes xi, struct aberth_step *out)
+/* The step of eq 9 for a few roots. `bounded` is a constant at every call. */
+LANES_INLINE void step_lanes(const struct aberth *a, lanes xr, lanes xi, bool bounded, struct aberth_step *out)
 {
   const int n = a->p.degree;
   const lanes square = xr * xr + xi * xi;
@@ -92,7 +95,7 @@ LANES_INLINE void step_lanes(const struct aberth *a, lanes xr, lanes xi, struct 
   const lanes inverse = 1.0 / square;
   const lanes zr = lanes_select(reversed, xr * inverse, xr), zi = lanes_select(reversed, -xi * inverse, xi);
   struct evaluation_lanes q;
-  evaluation_at_lanes(&a->p, zr, zi, reversed, &q);
+  evaluation_at_lanes(&a->p, zr, zi, reversed, bounded, &q);
   out->resting = lanes_abs(q.re) + lanes_abs(q.im) <= q.error;
 
   /* P'/P; in the reversed chart z (n - z q'/q) */
@@ -172,7 +175,11 @@ static void aberth_sweep(struct aberth *a, const struct solver_options *options,
       xi[l] = a->zi[i];
     }
     struct aberth_step step;
-    step_lanes(a, xr, xi, &step);
+    if (options->stop == STOP_ROUNDING) {
+      step_lanes(a, xr, xi, true, &step);
+    } else {
+      step_lanes(a, xr, xi, false, &step);
+    }
     for (int l = 0; l < used; l++) {
       const int i = active[first + l];
       const bool done = take_step(a, options, turning, i, step.re[l], step.im[l], step.step_square[l], step.resting[l] != 0);
@@ -220,7 +227,7 @@ LANES_INLINE void include_lanes(const struct evaluation *p, lanes ur, lanes ui, 
   out->zi = (top_i * low_r - top_r * low_i) / out->width_square;
 
   struct evaluation_lanes q;
-  evaluation_at_lanes(p, out->zr, out->zi, out->reversed, &q);
+  evaluation_at_lanes(p, out->zr, out->zi, out->reversed, true, &q);
   const lanes size = modulus_of(out->zr, out->zi);
   const lanes value = modulus_of(q.re, q.im);
   const lanes slope = modulus_of(q.slope_re, q.slope_im);
