@@ -157,6 +157,9 @@ double polynomial_eq11(const struct polynomial *p, double re, double im)
   for (int k = 0; k <= p->degree; k++, power *= modulus) {
     largest = fmax(largest, fabs(p->c[reversed ? p->degree - k : k]) * power);
   }
+  if (value.re == 0.0 && value.im == 0.0) {
+    return 0.0; /* even where all terms vanish */
+  }
   const double ratio = hypot(value.re, value.im) / (p->degree * PAPER_UNIT * largest);
   return isnan(ratio) ? INFINITY : ratio;
 }

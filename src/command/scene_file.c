@@ -60,16 +60,17 @@ static void append_value(struct text *text, const struct solver_item *item, doub
 void solver_text(const struct solver_options *options, char *out, size_t size)
 {
   struct text text = { .out = out, .size = size };
-  struct solver_options defaults;
-  solver_options_default(options->solver, &defaults);
+  struct solver_options said; /* what the text so far means */
+  solver_options_default(options->solver, &said);
   out[0] = '\0';
   append(&text, options->solver->name);
   bool any = false;
   for (size_t k = 0; k < solver_item_count(); k++) {
     const struct solver_item *item = solver_item_at(k);
     const double value = item->get(options);
-    if (value == item->get(&defaults))
+    if (value == item->get(&said))
       continue;
+    item->set(&said, value);
     append(&text, any ? " " : " { ");
     append(&text, item->name);
     append(&text, " ");

@@ -1,0 +1,20 @@
+# A bad line ends the run, after the answers to the lines before it.
+good='2 -1'
+bad() { printf "$good\n$1\n$good\n" | try pscn roots; }
+bad ''
+bad '7'
+bad '1 2 x'
+bad '1 nan'
+bad '1 1e999 2'
+bad '1,2,3'
+bad '0 0 0'
+bad "$(printf '1 %.0s' $(seq 66))"
+printf "$good\n$good\n1 2y" | try pscn roots
+(for k in $(seq 3000); do echo "$good"; done; echo "worse") | pscn roots | sort | uniq -c | sed 's/^ *//'
+try pscn roots <&-
+echo "$good" | pscn roots >/dev/full
+echo "exit $?"
+try pscn roots scene </dev/null
+try pscn roots --solver nothing </dev/null
+try pscn roots --tolerance 0 </dev/null
+try pscn roots --stats nowhere/stats.json </dev/null

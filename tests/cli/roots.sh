@@ -1,0 +1,18 @@
+# Polynomials and roots. Where an answer is printed it is exact in double, whatever the order of the roundings.
+try pscn roots </dev/null
+printf '%s\n' '2 -1' '1 0 1' '1 0 0' '0 0 5' '0 0 1 -1' '+.5   1e0 0.' '1 0 -1 0' | try pscn roots
+# Lines may end with CR LF, and the last one need not end.
+printf '4 -1\r\n1\t-1' | try pscn roots
+for solver in bernstein newton laguerre aberth 'aberth { basis bernstein }' 'newton { form paper }'; do
+  printf '1 -0.25 0\n4 -1\n8 -1 0 0\n' | try pscn roots --solver "$solver"
+done
+# Only the real roots in [0,1]; a pair that is none has an empty line.
+printf '1 1 1\n1 -3 0\n' | try pscn roots --solver bernstein
+printf '2 -1\n1 0 0\n' | pscn roots --stats stats.json --tolerance 1e-3 | wc -l
+grep -v '"solve"' stats.json
+printf '2 -1\n' | pscn roots --stats - --solver 'laguerre { form paper max_iterations 5 }' | grep -v '"solve"'
+# Answers come before the input ends.
+coproc pscn roots
+echo '2 -1' >&"${COPROC[1]}"
+read -r -t 60 answer <&"${COPROC[0]}"
+echo "$answer"
