@@ -61,7 +61,7 @@ int image_format_default_bits(enum image_format format)
 /* The module stays loaded; asking again is cheap, so nothing needs to be remembered. NULL after writing the message. */
 static const struct image_module *load_module(char *message)
 {
-  void *handle = dlopen(IMAGE_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void *handle = dlopen(IMAGE_MODULE_FILE, RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
   const struct image_module *module = handle == NULL ? NULL : dlsym(handle, IMAGE_MODULE_SYMBOL);
   if (module == NULL)
     snprintf(message, IMAGE_MESSAGE_SIZE, "%s", dlerror());
