@@ -452,8 +452,9 @@ static void lane_subdivide(struct packet *p, const struct trial *t, unsigned lan
   struct local_ray ray;
   struct leaf_hit root;
   lane_local_ray(p, t, lane, &ray);
+  /* Up to the ray's own end, not the nearest hit so far: what the search can not decide must not depend on the order of leaves. */
   const struct subdivide_task task = {t->leaf, t->patch, p->tracer->model->scene->patches[t->leaf->patch].P,
-                                      &p->rays[lane], &ray, p->rays[lane].t_min, p->t_far[lane]};
+                                      &p->rays[lane], &ray, p->rays[lane].t_min, p->rays[lane].t_max};
   if (subdivide_closest(&task, &root)) packet_offer(p, lane, t, &root);
 }
 

@@ -5,8 +5,8 @@
  * taken nearest first and dropped behind the best root found, so curves of roots (a ray in the plane of a flat patch) cost no
  * more than points. A box on which a combination is indistinguishable from zero, and which is small along the ray, cannot
  * be decided in the precision at hand. In double the surface is then seen edge-on, nearer to tangency than about 1e-7: the
- * search is made again in wide arithmetic, from the untouched control points. What even that leaves (a double root, a ray in the
- * surface, a pole) is answered as a hit that is not certain.
+ * search is made again in wide arithmetic, from the untouched control points. Where even that leaves something undecided (a double
+ * root, a ray in the surface), and at poles, the answer is the first search's: a hit that is not certain.
  */
 #include "intersect/subdivide.h"
 
@@ -42,6 +42,7 @@ enum verdict {
 #define SEARCH_RESOLUTION 0x1p-44
 #define SEARCH_HALVINGS 100
 #define SEARCH_BOXES 20000
+#define SEARCH_LAST 0
 #include "intersect/subdivide_search.h"
 
 #define SEARCH_REAL wide
@@ -50,6 +51,7 @@ enum verdict {
 #define SEARCH_RESOLUTION 0x1p-52
 #define SEARCH_HALVINGS 160
 #define SEARCH_BOXES 2000
+#define SEARCH_LAST 1
 #include "intersect/subdivide_search.h"
 
 /* The net of the exact patch over the leaf, one coordinate, in the patch's frame. */
@@ -79,7 +81,8 @@ static void wide_leaf_net(const struct subdivide_task *task, int c, wide out[4][
   memcpy(out, net, sizeof net);
 }
 
-static bool wide_search(const struct subdivide_task *task, double t_max, struct leaf_hit *out)
+/* Returns whether the search came to an end, and only then writes *out_found and, where that is true, *out. */
+static bool wide_search(const struct subdivide_task *task, bool *out_found, struct leaf_hit *out)
 {
   const struct model_patch *patch = task->patch;
   const double *d = task->world->direction, *o = task->world->origin;
@@ -97,11 +100,12 @@ static bool wide_search(const struct subdivide_task *task, double t_max, struct 
   }
   memcpy(whole.net[2], x[k], sizeof x[k]);
   /* As PLANE_ERROR, but the moment is formed from the origin, whose size it is relative to. */
-  struct wide_search search = {.leaf = task->leaf, .start = {-q[k], 0}, .to_t = patch->scale / (wide)d[k], .error = WIDE_ROUNDOFF * (64 + 16 * size),
-                               .t_min = task->t_min, .t_max = t_max};
+  struct wide_search search = {.leaf = task->leaf, .start = {-q[k], 0}, .to_t = patch->scale / (wide)d[k],
+                               .error = WIDE_ROUNDOFF * (64 + 16 * size), .t_min = task->t_min, .t_max = task->t_max};
   wide_run(&search, &whole);
-  *out = search.best;
-  return search.found;
+  if (search.hopeless) return false;
+  *out_found = search.found, *out = search.best;
+  return true;
 }
 
 bool subdivide_closest(const struct subdivide_task *task, struct leaf_hit *out)
@@ -115,6 +119,7 @@ bool subdivide_closest(const struct subdivide_task *task, struct leaf_hit *out)
   memcpy(whole.net, nets, sizeof nets);
   double_run(&search, &whole);
   *out = search.best;
-  if (search.found && !search.best.certain && search.edge_on) return wide_search(task, task->t_max, out);
-  return search.found;
+  bool found = search.found;
+  if (found && !search.best.certain && search.edge_on) wide_search(task, &found, out);
+  return found;
 }

@@ -2,7 +2,8 @@
  *
  * Included once per type: SEARCH_REAL is the type, SEARCH_NAME makes its names, SEARCH_ROUNDOFF its unit roundoff,
  * SEARCH_RESOLUTION the fraction of the leaf's extent along the ray below which an undecidable box is not halved further,
- * SEARCH_HALVINGS how often a box may halve in all, SEARCH_BOXES how many boxes may be looked at.
+ * SEARCH_HALVINGS how often a box may halve in all, SEARCH_BOXES how many boxes may be looked at, SEARCH_LAST whether a box that can
+ * not be decided ends it.
  */
 #define REAL SEARCH_REAL
 #define NAME SEARCH_NAME
@@ -20,6 +21,7 @@ struct NAME(search) {
   REAL error;          /* bound on the error of a net's coefficient before any halving */
   double t_min, t_max, resolution;
   bool found;
+  bool hopeless; /* the last search met a box it can not decide; what it has found means nothing */
   bool edge_on; /* the root found is undecided in one direction only: a tangency or a curve of roots, not a point of the net */
   double best_t;
   struct leaf_hit best;
@@ -176,6 +178,10 @@ static void NAME(box_offer)(struct NAME(search) *s, struct NAME(box) *box, const
 /* Offers the middle of a box that cannot be decided. */
 static void NAME(box_offer_undecided)(struct NAME(search) *s, struct NAME(box) *box, bool edge_on)
 {
+  if (SEARCH_LAST) {
+    s->hopeless = true;
+    return;
+  }
   const REAL w = NAME(evaluate)(box->net[2], (REAL)0.5, (REAL)0.5).value;
   const double t = NAME(place_to_t)(s, w), error = box->far - box->near + 8 * UNIT_ROUNDOFF * fabs(t);
   const struct leaf_hit hit = {(double)(box->u + box->size_u / 2), (double)(box->v + box->size_v / 2), (double)box->size_u,
@@ -193,18 +199,28 @@ static void NAME(cubic_halves)(const REAL *c, int stride, REAL *low, REAL *high)
   high[stride] = r1, high[2 * stride] = q2, high[3 * stride] = c[3 * stride];
 }
 
-/* Halves across the parameter along which the box is longer, as seen along the ray and across it. */
-static void NAME(box_halve)(const struct NAME(search) *s, struct NAME(box) *box, struct NAME(box) out[2])
+/* The largest change of the nets first..last from one coefficient to the next, along u and along v. */
+static void NAME(variation)(const struct NAME(box) *box, int first, int last, REAL *along_u, REAL *along_v)
 {
-  REAL along_u = 0, along_v = 0;
-  for (int k = 0; k < 3; k++) {
+  *along_u = *along_v = 0;
+  for (int k = first; k <= last; k++) {
     for (int i = 0; i < 4; i++) {
       for (int j = 0; j < 3; j++) {
-        along_v = NAME(max)(along_v, NAME(abs)(box->net[k][i][j + 1] - box->net[k][i][j]));
-        along_u = NAME(max)(along_u, NAME(abs)(box->net[k][j + 1][i] - box->net[k][j][i]));
+        *along_v = NAME(max)(*along_v, NAME(abs)(box->net[k][i][j + 1] - box->net[k][i][j]));
+        *along_u = NAME(max)(*along_u, NAME(abs)(box->net[k][j + 1][i] - box->net[k][j][i]));
       }
     }
   }
+}
+
+/* Halves across the parameter along which the box is longer as seen along the ray, for that is what hull tests and Newton's
+ * process need: at a tangency boxes get long along the ray and narrow across it. Where it is seen as a point, across the one along
+ * which it is longer on the ray. */
+static void NAME(box_halve)(const struct NAME(search) *s, struct NAME(box) *box, struct NAME(box) out[2])
+{
+  REAL along_u, along_v;
+  NAME(variation)(box, 0, 1, &along_u, &along_v);
+  if (NAME(max)(along_u, along_v) <= FLAT_ERRORS * NAME(box_error)(s, box)) NAME(variation)(box, 2, 2, &along_u, &along_v);
   const bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
   for (int h = 0; h < 2; h++) {
     out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
@@ -239,6 +255,7 @@ static bool NAME(box_decide)(struct NAME(search) *s, struct NAME(box) *box)
   const REAL error = NAME(box_error)(s, box);
   const enum verdict verdict = NAME(box_test)(box, error);
   if (verdict == VERDICT_EMPTY) return true;
+  if (SEARCH_LAST && verdict == VERDICT_FLAT) s->hopeless = true;
   REAL root[2], radius[2];
   if (verdict == VERDICT_OPEN && NAME(box_solve)(box, error, root, radius)) {
     NAME(box_offer)(s, box, root, radius);
@@ -263,7 +280,9 @@ static void NAME(run)(struct NAME(search) *s, const struct NAME(box) *whole)
   int top = 1;
   for (int n = 0; top > 0; n++) {
     struct NAME(box) box = stack[--top];
-    if (NAME(box_decide)(s, &box)) continue;
+    const bool decided = NAME(box_decide)(s, &box);
+    if (s->hopeless) return;
+    if (decided) continue;
     if (n >= SEARCH_BOXES) {
       NAME(box_offer_undecided)(s, &box, false);
       return;
@@ -284,3 +303,4 @@ static void NAME(run)(struct NAME(search) *s, const struct NAME(box) *whole)
 #undef SEARCH_RESOLUTION
 #undef SEARCH_HALVINGS
 #undef SEARCH_BOXES
+#undef SEARCH_LAST
