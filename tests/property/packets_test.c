@@ -6,7 +6,7 @@
 #include "cmocka_test.h"
 #include "property/world.h"
 
-enum { SEED = 20240510, SCENES = 2, RAYS = 160 };
+enum { SEED = 20240510, SCENES = 1, RAYS = 96 };
 
 static void print_ray(const char *what, int world, int scene, const struct ray *r, const struct hit *a, const struct hit *b)
 {
