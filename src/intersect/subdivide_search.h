@@ -158,7 +158,8 @@ static bool NAME(box_solve)(struct NAME(box) *box, REAL error, REAL root[2], REA
 static void NAME(offer)(struct NAME(search) *s, const struct leaf_hit *hit, bool edge_on)
 {
   const double t = hit->t;
-  if (!(t > s->t_min && t < s->t_max) || (s->found && t >= s->best_t)) return;
+  /* As the packet judges it: a root it would refuse at t_min must not stand in the way of the next one. */
+  if (!(t > s->t_min + hit->t_error && t < s->t_max) || (s->found && t >= s->best_t)) return;
   s->found = true, s->best_t = t, s->best = *hit, s->edge_on = edge_on;
 }
 
@@ -235,14 +236,15 @@ static void NAME(box_halve)(const struct NAME(search) *s, struct NAME(box) *box,
   for (int h = 0; h < 2; h++) NAME(box_place)(s, &out[h]);
 }
 
-/* Whether a border of the box is one point as seen along the ray: a collapsed edge, which halving keeps to the last bit. */
-static bool NAME(box_has_pole)(struct NAME(box) *box)
+/* Whether the box lies at a border of the leaf that is one point. */
+static bool NAME(box_has_pole)(const struct NAME(search) *s, const struct NAME(box) *box)
 {
+  const bool at[4] = {box->u == 0, box->u + box->size_u == 1, box->v == 0, box->v + box->size_v == 1};
   for (int border = 0; border < 4; border++) {
     const int first = border == 1 ? 12 : border == 3 ? 3 : 0, stride = border < 2 ? 1 : 4;
-    bool equal = true;
-    for (int c = 0; c < 2; c++)
-      for (int n = 1; n < 4; n++) equal &= (&box->net[c][0][0])[first + n * stride] == (&box->net[c][0][0])[first];
+    bool equal = at[border];
+    for (int c = 0; equal && c < 3; c++)
+      for (int n = 1; n < 4; n++) equal &= s->leaf->x[c][first + n * stride] == s->leaf->x[c][first];
     if (equal) return true;
   }
   return false;
@@ -263,7 +265,7 @@ static bool NAME(box_decide)(struct NAME(search) *s, struct NAME(box) *box)
   }
   if ((verdict != VERDICT_OPEN && box->far - box->near <= s->resolution) || box->halvings >= SEARCH_HALVINGS) {
     /* At a pole there is no more to be had in wide arithmetic: the edge is as degenerate there. */
-    NAME(box_offer_undecided)(s, box, verdict == VERDICT_FLAT && !NAME(box_has_pole)(box));
+    NAME(box_offer_undecided)(s, box, !NAME(box_has_pole)(s, box));
     return true;
   }
   return false;
@@ -284,7 +286,7 @@ static void NAME(run)(struct NAME(search) *s, const struct NAME(box) *whole)
     if (s->hopeless) return;
     if (decided) continue;
     if (n >= SEARCH_BOXES) {
-      NAME(box_offer_undecided)(s, &box, false);
+      NAME(box_offer_undecided)(s, &box, true);
       return;
     }
     struct NAME(box) half[2];
