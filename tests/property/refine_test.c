@@ -1,0 +1,188 @@
+/* What is proven of one ray and one leaf: the plane polynomials' error bound, and the Newton-Kantorovich test. */
+#include <math.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "intersect/refine.h"
+#include "property/world.h"
+#include "reference/quad.h"
+
+enum { SEED = 20240513, CASES = 12000 };
+
+/* The plane polynomials of the exact ray over the exact patch's part under the leaf, in quadruple precision, as a moment and
+ * nets in the leaf's frame. */
+struct truth {
+  struct quad_net net[2];
+  quad moment[2];
+};
+
+static void truth_make(const struct model *model, const struct leaf *leaf, const struct ray *ray, int k, struct truth *out)
+{
+  const struct model_patch *patch = &model->patches[leaf->patch];
+  double(*P)[4][3] = model->scene->patches[leaf->patch].P;
+  struct quad_net x[3];
+  quad q[3];
+  for (int c = 0; c < 3; c++) {
+    struct quad_net whole;
+    for (int n = 0; n < 16; n++) whole.c[n / 4][n % 4] = ((quad)P[n / 4][n % 4][c] - patch->center[c]) / patch->scale;
+    const double step = 1.0 / patch->split; /* splits are powers of two here: exact */
+    quad_net_restrict(&whole, leaf->column_u * step, step, leaf->column_v * step, step, &x[c]);
+    q[c] = ((quad)ray->origin[c] - patch->center[c]) / patch->scale;
+  }
+  for (int s = 0; s < 2; s++) {
+    const int i = (k + 1 + s) % 3;
+    const quad slope = (quad)ray->direction[i] / ray->direction[k];
+    out->moment[s] = q[i] - slope * q[k];
+    for (int n = 0; n < 16; n++)
+      out->net[s].c[n / 4][n % 4] = x[i].c[n / 4][n % 4] - slope * x[k].c[n / 4][n % 4] - out->moment[s];
+  }
+}
+
+/* Newton in quadruple precision; returns whether it came to rest. */
+static bool quad_newton(const struct truth *truth, quad *u, quad *v)
+{
+  for (int n = 0; n < 40; n++) {
+    const struct quad_jet a = quad_net_jet(&truth->net[0], *u, *v), b = quad_net_jet(&truth->net[1], *u, *v);
+    const quad determinant = a.du * b.dv - a.dv * b.du;
+    if (determinant == 0) return false;
+    const quad du = (a.value * b.dv - b.value * a.dv) / determinant, dv = (b.value * a.du - a.value * b.du) / determinant;
+    *u -= du, *v -= dv;
+    if (!(quad_abs(*u) < 3 && quad_abs(*v) < 3)) return false;
+    if (quad_abs(du) + quad_abs(dv) < 1e-28) return true;
+  }
+  return false;
+}
+
+struct subject {
+  struct world world;
+  const struct model *model;
+  const struct leaf *leaf;
+  struct ray ray;
+  struct local_ray local;
+  struct truth truth;
+  double a[16], b[16];
+};
+
+/* Calls `body` for rays at leaves of scenes near and far, with directions of all sizes the tracer passes on. */
+static void on_all_leaves(uint64_t seed, void (*body)(struct subject *s, struct random *random))
+{
+  static const double offsets[] = {0, 0, 1e6, -3e7};
+  struct random random = {seed};
+  world_net nets[WORLD_MAX];
+  for (int kind = 0; kind < 3; kind++) {
+    for (int place = 0; place < 4; place++) {
+      struct subject s;
+      const size_t count = world_fill((enum world_kind)kind, &random, nets);
+      for (size_t p = 0; p < count; p++)
+        for (int n = 0; n < 48; n++) nets[p][n / 12][n / 3 % 4][n % 3] += offsets[place];
+      world_open(&s.world, nets, count, NULL);
+      s.model = s.world.tracer->model;
+      for (int n = 0; n < CASES / 12; n++) {
+        s.ray = world_ray(&random, nets, count, n % RAY_KINDS);
+        const int exponent = n % 3 == 0 ? 0 : n % 3 == 1 ? 199 : -199;
+        for (int k = 0; k < 3; k++) s.ray.direction[k] = ldexp(s.ray.direction[k], exponent);
+        if (n % 5 == 0) /* from far */
+          for (int k = 0; k < 3; k++) s.ray.origin[k] -= ldexp(s.ray.direction[k], 26 - exponent);
+        s.leaf = &s.model->leaves[random_bits(&random) % s.model->leaf_count];
+        double w[16];
+        local_ray_make(&s.model->patches[s.leaf->patch], &s.ray, &s.local);
+        local_ray_nets(&s.local, s.leaf->x, s.a, s.b, w);
+        truth_make(s.model, s.leaf, &s.ray, s.local.axis, &s.truth);
+        body(&s, &random);
+      }
+      world_close(&s.world);
+    }
+  }
+}
+
+static double worst_moment, worst_net, worst_value, worst_t;
+
+static void check_planes(struct subject *s, struct random *random)
+{
+  const quad u = random_unit(random), v = random_unit(random);
+  for (int p = 0; p < 2; p++) {
+    const double *net = p ? s->b : s->a;
+    const double off = (double)quad_abs((quad)s->local.moment[p] - s->truth.moment[p]);
+    worst_moment = fmax(worst_moment, off / (UNIT_ROUNDOFF * (double)(quad_abs(s->truth.moment[p]) + 0x1p-60)));
+    for (int n = 0; n < 16; n++)
+      worst_net = fmax(worst_net, (double)quad_abs((quad)net[n] - s->truth.net[p].c[n / 4][n % 4]) / s->local.error);
+    /* And a value by the kernel's own arithmetic. */
+    lanes wide[16], wu[4], du[4], wv[4], dv[4];
+    for (int n = 0; n < 16; n++) wide[n] = lanes_all(net[n]);
+    refine_weights(lanes_all((double)u), wu, du);
+    refine_weights(lanes_all((double)v), wv, dv);
+    const quad value = refine_evaluate(wide, wu, du, wv, dv).value[0];
+    worst_value = fmax(worst_value, (double)quad_abs(value - quad_net_jet(&s->truth.net[p], u, v).value) / s->local.error);
+  }
+  /* start and to_t: t of the local place 0. */
+  const struct model_patch *patch = &s->model->patches[s->leaf->patch];
+  const int k = s->local.axis;
+  const quad t = ((quad)patch->center[k] - s->ray.origin[k]) / s->ray.direction[k];
+  const quad got = ((quad)s->local.start[0] + s->local.start[1]) * s->local.to_t;
+  if (t != 0) worst_t = fmax(worst_t, (double)(quad_abs(got - t) / quad_abs(t)) / UNIT_ROUNDOFF);
+}
+
+static void the_plane_polynomials_are_within_their_error(void **state)
+{
+  (void)state;
+  on_all_leaves(SEED, check_planes);
+  print_message("moments off by %.3g last places; coefficients %.3g, values %.3g of the bound; t of a place %.3g roundings\n",
+                worst_moment, worst_net, worst_value, worst_t);
+  assert_true(worst_moment <= 4);
+  assert_true(worst_net <= 1 && worst_value <= 1);
+  assert_true(worst_net > 1e-3); /* not vacuous */
+  assert_true(worst_t <= 2);
+}
+
+static int exist, alone, outside_radius, not_alone;
+static double worst_radius;
+
+static void check_refine(struct subject *s, struct random *random)
+{
+  struct plane_nets nets;
+  for (int n = 0; n < 16; n++) nets.a[n] = lanes_all(s->a[n]), nets.b[n] = lanes_all(s->b[n]);
+  for (int p = 0; p < 2; p++) nets.slope[p] = lanes_all(s->local.slope[p]);
+  nets.error = lanes_all(s->local.error);
+  for (int start = 0; start < 4; start++) {
+    const double u0 = random_between(random, -0.1, 1.1), v0 = random_between(random, -0.1, 1.1);
+    const struct refined r = refine(&nets, s->leaf, lanes_all(u0), lanes_all(v0), lanes_all(0) == lanes_all(0));
+    if (!(lanes_bits(r.exists) & 1)) continue;
+    exist++;
+    quad u = r.u[0], v = r.v[0];
+    if (!quad_newton(&s->truth, &u, &v)) {
+      outside_radius++;
+      continue;
+    }
+    const double du = (double)quad_abs(u - r.u[0]), dv = (double)quad_abs(v - r.v[0]);
+    if (!(du <= r.radius_u[0] && dv <= r.radius_v[0])) outside_radius++;
+    worst_radius = fmax(worst_radius, fmax(du / r.radius_u[0], dv / r.radius_v[0]));
+    if (!(lanes_bits(r.alone) & 1)) continue;
+    alone++;
+    for (int n = 0; n < 25; n++) { /* no second root, from wherever it is looked for */
+      quad x = (n % 5 + random_unit(random)) / 5, y = (n / 5 + random_unit(random)) / 5;
+      if (!quad_newton(&s->truth, &x, &y)) continue;
+      if (x < 0 || x > 1 || y < 0 || y > 1) continue;
+      if (quad_abs(x - u) > 1e-20 || quad_abs(y - v) > 1e-20) not_alone++;
+    }
+  }
+}
+
+static void proven_roots_are_where_they_are_said_to_be(void **state)
+{
+  (void)state;
+  on_all_leaves(SEED + 1, check_refine);
+  print_message("%d proven, %d of them alone; at most %.3g of the radius away\n", exist, alone, worst_radius);
+  assert_true(exist > 100 && alone > 50);
+  assert_int_equal(outside_radius, 0);
+  assert_int_equal(not_alone, 0);
+}
+
+int main(void)
+{
+  print_message("seed %d\n", SEED);
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_plane_polynomials_are_within_their_error),
+    cmocka_unit_test(proven_roots_are_where_they_are_said_to_be),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
