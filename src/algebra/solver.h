@@ -18,7 +18,7 @@ enum root_status {
 };
 
 struct root {
-  double re, im; /* im is 0 wherever a disc of finite radius meets the real axis: a real root cannot be excluded there */
+  double re, im; /* im is 0 where it is within what the value's error looks like; a real root is excluded only by |im| > radius */
   double radius; /* absolute: at least one root of p lies within it (disc in the complex plane of u); may be INFINITY */
   int iterations;
   enum root_status status;

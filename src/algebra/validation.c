@@ -67,14 +67,17 @@ static void find_radii(const struct evaluation *p, int count, struct root root[]
   }
 }
 
-/* A real polynomial's root whose disc meets the real axis may be real: it is moved there and judged again. */
+/* The bound n |p/p'| is n times what Newton's method would guess of the error of a simple root; a value whose imaginary part is
+ * within this many such guesses is moved to the real axis and judged again. */
+#define SNAP_GUESSES 2.0
+
 static void snap_to_axis(const struct evaluation *p, struct root_set *roots)
 {
   struct root moved[POLYNOMIAL_MAX_DEGREE];
   int from[POLYNOMIAL_MAX_DEGREE], count = 0;
   for (int i = 0; i < roots->count; i++) {
     const struct root *root = &roots->root[i];
-    if (root->im != 0.0 && fabs(root->im) <= root->radius && root->radius < INFINITY) {
+    if (root->im != 0.0 && root->radius < INFINITY && p->degree * fabs(root->im) <= SNAP_GUESSES * root->radius) {
       moved[count] = *root;
       moved[count].im = 0.0;
       from[count++] = i;

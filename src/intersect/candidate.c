@@ -184,7 +184,7 @@ void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const doubl
   tracer->counts.roots_found += (unsigned)roots.count;
   for (int k = 0; k < roots.count; k++) {
     const struct root *root = &roots.root[k];
-    const double real = options->polish ? START_MARGIN : real_max(options->tolerance, isfinite(root->radius) ? root->radius : 0);
+    const double real = options->polish ? START_MARGIN : options->tolerance; /* paper 2.2: the real ones, as far as eps tells */
     const double margin = options->polish ? START_MARGIN : 0;
     if (!(fabs(root->im) <= real && root->re >= -margin && root->re <= 1 + margin)) continue;
     const double v = eliminated_at(&form, options, root->re);
