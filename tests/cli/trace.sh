@@ -10,4 +10,4 @@ printf '0.5 0 -4 0 0 1\r\n0\t0.5 -4 0 0 1' | try pscn trace "$scene"
 printf '0.5 0 -4 0 0 1\n9 0 -4 0 0 1\n' | pscn trace "$scene" --solver aberth
 printf '\0\0\0\0\0\0\340\077\0\0\0\0\0\0\0\0\0\0\0\0\0\0\020\300\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\360\077' >one
 printf '\0\0\0\0\0\0\042\100\0\0\0\0\0\0\0\0\0\0\0\0\0\0\020\300\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\360\077' >two
-cat one two | pscn trace "$scene" --binary | od -A n -v -t f8 -w56 | sed 's/  */ /g'
+cat one two | pscn trace "$scene" --binary | LC_ALL=C od -A n -v -t f8 -w56 | sed 's/  */ /g'
