@@ -3,7 +3,7 @@
  *     patch_experiments SCENE WIDTH HEIGHT
  *
  * Every pixel's ray against the first patch of the scene, in the order of the picture's lines: Sylvester's determinant in the
- * power basis, degree 18, all roots. Against eps: iterations a root, CPU time of the solver a pixel, and the share of pixels all
+ * power basis (and beyond the paper, in scaled Bernstein form), degree 18, all roots. Against eps: iterations a root, CPU time of the solver a pixel, and the share of pixels all
  * of whose roots meet eq 11; from Aberth's start values (cold), and from the roots of the ray before (previous).
  */
 #include <math.h>
@@ -29,28 +29,30 @@ static void cubic_to_power(double *b, int stride)
   b[3 * stride] = b3 - 3.0 * (b2 - b1) - b0;
 }
 
-/* Eq 3: the plane of this normal through the point, in the patch's parameters, power basis. */
-static void plane_polynomial(const struct scene_patch *patch, const double normal[3], const double point[3], double out[16])
+/* Eq 3: the plane of this normal through the point, in the patch's parameters. */
+static void plane_polynomial(const struct scene_patch *patch, const double normal[3], const double point[3], enum basis basis,
+                             double out[16])
 {
+  static const double choose[4] = {1.0, 3.0, 3.0, 1.0};
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 4; j++) {
       double from[3];
       for (int k = 0; k < 3; k++) {
         from[k] = patch->P[i][j][k] - point[k];
       }
-      out[4 * i + j] = vector_dot(normal, from);
+      out[4 * i + j] = vector_dot(normal, from) * (basis == BASIS_BERNSTEIN ? choose[i] * choose[j] : 1.0);
     }
   }
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; basis == BASIS_POWER && i < 4; i++) {
     cubic_to_power(out + 4 * i, 1);
   }
-  for (int j = 0; j < 4; j++) {
+  for (int j = 0; basis == BASIS_POWER && j < 4; j++) {
     cubic_to_power(out + j, 4);
   }
 }
 
 /* r(u) of the ray through the point (s,t) of the picture; eq 2 with two planes that are perpendicular to each other. */
-static void pixel_polynomial(const struct scene *scene, double s, double t, double out_c[DEGREE + 1])
+static void pixel_polynomial(const struct scene *scene, double s, double t, enum basis basis, double out_c[DEGREE + 1])
 {
   const struct scene_camera *camera = &scene->camera;
   double d[3], first[3], second[3], a[16], b[16];
@@ -64,8 +66,8 @@ static void pixel_polynomial(const struct scene *scene, double s, double t, doub
     first[k] *= first_scale;
     second[k] *= second_scale;
   }
-  plane_polynomial(&scene->patches[0], first, camera->location, a);
-  plane_polynomial(&scene->patches[0], second, camera->location, b);
+  plane_polynomial(&scene->patches[0], first, camera->location, basis, a);
+  plane_polynomial(&scene->patches[0], second, camera->location, basis, b);
   sylvester_determinant(BIDEGREE, BIDEGREE, a, b, out_c);
 }
 
@@ -73,9 +75,10 @@ struct totals {
   double iterations, roots, seconds, accurate_pixels, pixels;
 };
 
-static void solve_pixel(const double c[], const struct solver_options *options, struct solver_warm *warm, struct totals *totals)
+static void solve_pixel(enum basis basis, const double c[], const struct solver_options *options, struct solver_warm *warm,
+                        struct totals *totals)
 {
-  struct root_problem problem = {.degree = DEGREE, .basis = BASIS_POWER};
+  struct root_problem problem = {.degree = DEGREE, .basis = basis};
   struct root_estimates roots;
   memcpy(problem.c, c, sizeof problem.c[0] * (DEGREE + 1));
   if (c[0] == 0.0 || c[DEGREE] == 0.0) {
@@ -99,9 +102,8 @@ static void solve_pixel(const double c[], const struct solver_options *options, 
   totals->pixels += 1.0;
 }
 
-static void experiment(const double *c, size_t pixels)
+static void experiment(enum basis basis, const double *c, size_t pixels)
 {
-  printf("eps,method,start,iterations,us_pixel,accurate_pixels\n");
   for (int digits = 1; digits <= 14; digits++) {
     for (size_t m = 0; m < sizeof methods / sizeof methods[0]; m++) {
       for (int previous = 0; previous < 2; previous++) {
@@ -116,9 +118,10 @@ static void experiment(const double *c, size_t pixels)
           if (previous == 0) {
             warm.count = 0;
           }
-          solve_pixel(c + p * (DEGREE + 1), &options, &warm, &totals);
+          solve_pixel(basis, c + p * (DEGREE + 1), &options, &warm, &totals);
         }
-        printf("1e-%d,%s,%s,%.3f,%.3f,%.4f\n", digits, methods[m], previous != 0 ? "previous" : "cold",
+        printf("1e-%d,%s,%s,%s,%.3f,%.3f,%.4f\n", digits, methods[m], previous != 0 ? "previous" : "cold",
+               basis == BASIS_POWER ? "power" : "bernstein",
                totals.iterations / totals.roots, totals.seconds / totals.pixels * 1e6,
                totals.accurate_pixels / totals.pixels);
       }
@@ -150,11 +153,14 @@ int main(int argc, char **argv)
   if (c == NULL) {
     return 5;
   }
-  for (size_t p = 0; p < pixels; p++) {
-    const double s = ((double)(p % (size_t)width) + 0.5) / width, t = ((double)(p / (size_t)width) + 0.5) / height;
-    pixel_polynomial(scene, s, t, c + p * (DEGREE + 1));
+  printf("eps,method,start,basis,iterations,us_pixel,accurate_pixels\n");
+  for (int basis = BASIS_POWER; basis >= BASIS_BERNSTEIN; basis--) {
+    for (size_t p = 0; p < pixels; p++) {
+      const double s = ((double)(p % (size_t)width) + 0.5) / width, t = ((double)(p / (size_t)width) + 0.5) / height;
+      pixel_polynomial(scene, s, t, (enum basis)basis, c + p * (DEGREE + 1));
+    }
+    experiment((enum basis)basis, c, pixels);
   }
-  experiment(c, pixels);
   free(c);
   scene_destroy(scene);
   return 0;

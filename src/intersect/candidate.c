@@ -84,7 +84,7 @@ static double euclid(int n, const double p_in[4], const double q_in[4])
 /* A polynomial of degree n <= 3 with plain Bernstein coefficients c, at v, by de Casteljau. */
 static void value_and_slope(int n, const double c[4], double v, double *value, double *slope)
 {
-  double b[4];
+  double b[4] = {0};
   for (int k = 0; k <= n; k++) b[k] = c[k];
   for (int level = n; level > 1; level--)
     for (int k = 0; k < level; k++) b[k] += v * (b[k + 1] - b[k]);
