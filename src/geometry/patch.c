@@ -60,37 +60,6 @@ void patch_split_v(double net[4][4], double out_low[4][4], double out_high[4][4]
   for (int i = 0; i < 4; i++) cubic_halves(net[i], out_low[i], out_high[i]);
 }
 
-void patch_weights(double t, double w[4], double dw[4])
-{
-  const double s = 1 - t, ss = s * s, tt = t * t, st = s * t;
-  w[0] = ss * s, w[1] = 3 * ss * t, w[2] = 3 * st * t, w[3] = tt * t;
-  dw[0] = -3 * ss, dw[1] = 3 * (ss - 2 * st), dw[2] = 3 * (2 * st - tt), dw[3] = 3 * tt;
-}
-
-/* A row of the net at once: compilers keep it in one or two registers. */
-typedef double row __attribute__((vector_size(32)));
-
-struct patch_jet patch_evaluate(double net[4][4], double u, double v)
-{
-  double wu[4], du[4], wv[4], dv[4];
-  patch_weights(u, wu, du);
-  patch_weights(v, wv, dv);
-  row across = {0}, across_du = {0};
-  for (int i = 0; i < 4; i++) {
-    row r;
-    memcpy(&r, net[i], sizeof r);
-    across += wu[i] * r;
-    across_du += du[i] * r;
-  }
-  struct patch_jet jet = {0, 0, 0};
-  for (int j = 0; j < 4; j++) {
-    jet.value += across[j] * wv[j];
-    jet.du += across_du[j] * wv[j];
-    jet.dv += across[j] * dv[j];
-  }
-  return jet;
-}
-
 void patch_second_derivative_bounds(double x[3][4][4], double out[3])
 {
   double uu = 0, uv = 0, vv = 0;

@@ -8,6 +8,7 @@
 #define PSCN_GEOMETRY_PATCH_H
 
 #include <stdbool.h>
+#include <string.h>
 
 /* The net of the same polynomial over [u0,u1] x [v0,v1], by blossoming. Exact up to a few roundings relative to the largest
  * |net| where the range lies in [0,1]; u0 = 0, u1 = 1 copy exactly. out may be net. */
@@ -16,15 +17,6 @@ void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, 
 /* Both halves in u (rows) by de Casteljau. out_low and out_high must differ from net and from each other. */
 void patch_split_u(double net[4][4], double out_low[4][4], double out_high[4][4]);
 void patch_split_v(double net[4][4], double out_low[4][4], double out_high[4][4]);
-
-/* Value and first partial derivatives at (u,v). */
-struct patch_jet {
-  double value, du, dv;
-};
-struct patch_jet patch_evaluate(double net[4][4], double u, double v);
-
-/* The weights the four control values of a cubic have in its value (w) and its derivative (dw) at t. */
-void patch_weights(double t, double w[4], double dw[4]);
 
 /* Bounds on the length of the second partial derivatives over the net's own domain, for the surface with coordinate
  * nets x[0..2]: out[0] = |Suu|, out[1] = |Suv|, out[2] = |Svv|. */
@@ -41,5 +33,42 @@ void patch_reduce(double net[4][4], int m, int n, double out[4][4]);
 /* A unit normal at (u,v): Su x Sv, or where it vanishes its limit along the way into the patch. False where the
  * surface has none (a patch collapsed to a curve or point); then out is zero. */
 bool patch_normal(double x[3][4][4], double u, double v, double out[3]);
+
+/* The weights the four control values of a cubic have in its value (w) and its derivative (dw) at t. */
+static inline void patch_weights(double t, double w[4], double dw[4])
+{
+  const double s = 1 - t, ss = s * s, tt = t * t, st = s * t;
+  w[0] = ss * s, w[1] = 3 * ss * t, w[2] = 3 * st * t, w[3] = tt * t;
+  dw[0] = -3 * ss, dw[1] = 3 * (ss - 2 * st), dw[2] = 3 * (2 * st - tt), dw[3] = 3 * tt;
+}
+
+/* Value and first partial derivatives at (u,v). */
+struct patch_jet {
+  double value, du, dv;
+};
+
+/* A row of the net at once: compilers keep it in one or two registers. */
+typedef double patch_row __attribute__((vector_size(32)));
+
+static inline struct patch_jet patch_evaluate(double net[4][4], double u, double v)
+{
+  double wu[4], du[4], wv[4], dv[4];
+  patch_weights(u, wu, du);
+  patch_weights(v, wv, dv);
+  patch_row across = {0}, across_du = {0};
+  for (int i = 0; i < 4; i++) {
+    patch_row r;
+    memcpy(&r, net[i], sizeof r);
+    across += wu[i] * r;
+    across_du += du[i] * r;
+  }
+  struct patch_jet jet = {0, 0, 0};
+  for (int j = 0; j < 4; j++) {
+    jet.value += across[j] * wv[j];
+    jet.du += across_du[j] * wv[j];
+    jet.dv += across[j] * dv[j];
+  }
+  return jet;
+}
 
 #endif
