@@ -56,10 +56,11 @@ static struct bvh_box range_box(const struct builder *b, uint32_t first, uint32_
   return box;
 }
 
+/* The scale may be infinite where all centres are within a subnormal distance. */
 static int bin_of(double center, double lo, double scale)
 {
-  const int bin = (int)((center - lo) * scale);
-  return bin < 0 ? 0 : bin >= BIN_COUNT ? BIN_COUNT - 1 : bin;
+  const double bin = (center - lo) * scale;
+  return !(bin > 0) ? 0 : bin >= BIN_COUNT ? BIN_COUNT - 1 : (int)bin;
 }
 
 /* The cheapest of the BIN_COUNT - 1 planes along `axis`; *cost is lowered where one beats it. Returns whether one did. */
@@ -148,7 +149,7 @@ static void build(struct builder *b, uint32_t count)
       const struct bvh_box box = range_box(b, half[side].first, half[side].count);
       set_child(node, side, &box);
       if (half[side].count > 1) stack[top++] = half[side];
-      else node->child[side] = (uint32_t)BVH_LEAF | (half[side].count == 1 ? b->order[half[side].first] : 0);
+      else node->child[side] = (uint32_t)BVH_LEAF | b->order[half[side].count == 1 ? half[side].first : r.first];
     }
   }
 }

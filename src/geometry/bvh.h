@@ -32,7 +32,8 @@ struct bvh {
   size_t node_count;      /* 0 for no boxes */
 };
 
-/* Builds over boxes[0..count), count < 2^31. A single box gives one node whose second child is empty (lo > hi).
+/* Builds over boxes[0..count), count < 2^31. A single box gives one node that has it as both children,
+ * the second with an empty box (lo > hi).
  * STATUS_LIMIT where memory is short; then *out is empty. */
 enum status bvh_build(const struct bvh_box *boxes, size_t count, struct bvh *out) STATUS_MUST_CHECK;
 

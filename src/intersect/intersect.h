@@ -24,7 +24,7 @@ enum { PACKET_SIZE = 8 };
 struct ray {
   double origin[3];
   double direction[3]; /* any length > 0, finite */
-  double t_min, t_max; /* in units of |direction|: points origin + t direction, t_min < t < t_max; 0 and INFINITY for all */
+  double t_min, t_max; /* in units of |direction|: points origin + t direction, 0 <= t_min < t < t_max */
 };
 
 enum certainty { CERTAINTY_CERTAIN, CERTAINTY_GRAZING };

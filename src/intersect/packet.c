@@ -123,6 +123,7 @@ static void packet_walk(struct packet *p)
       hit[side] = mask & packet_box(p, node, side, &near[side]);
       wanted[side] = lanes_any(hit[side]);
     }
+    if (node->child[1] == node->child[0]) wanted[1] = false; /* a tree of one box */
     int first = 0;
     if (wanted[0] && wanted[1]) {
       const lane_mask both = hit[0] & hit[1];
