@@ -10,6 +10,17 @@
 
 enum { MOST_SHOWN = 10 };
 
+/* Parameters this far apart, absolute, belong to two points of the surface; a point is as near to the ray as rounding
+ * allows within the sum of 16 products and the ray's own few roundings, relative to the largest coordinate. */
+#define OTHER_SHEET 1e-3
+#define OTHER_SHEET_NEAR (32 * DOUBLE_UNIT)
+
+static void start_intersector(struct trial *trial)
+{
+  assert_int_equal(intersector_create(&trial->scene, &trial->intersector), STATUS_OK);
+  assert_int_equal(tracer_create(trial->intersector, &trial->tracer), STATUS_OK);
+}
+
 static void trial_start(struct trial *trial)
 {
   size_t count = trial->scene.patch_count;
@@ -19,8 +30,7 @@ static void trial_start(struct trial *trial)
   trial->reference = reference_create((const double(*)[4][4][3])P, count);
   free(P);
   assert_non_null(trial->reference);
-  assert_int_equal(intersector_create(&trial->scene, &trial->intersector), STATUS_OK);
-  assert_int_equal(tracer_create(trial->intersector, &trial->tracer), STATUS_OK);
+  start_intersector(trial);
 }
 
 void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct solver_options *solver)
@@ -41,6 +51,15 @@ void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count,
   trial_start(trial);
 }
 
+void trial_create_beside(struct trial *trial, const struct trial *first, const struct solver_options *solver)
+{
+  *trial = (struct trial){
+      .scene = first->scene, .solver = *solver, .reference = first->reference, .reference_borrowed = true};
+  trial->scene.solvers = &trial->solver;
+  trial->scene.solver_count = 1;
+  start_intersector(trial);
+}
+
 void trial_of_scene(struct trial *trial, const struct scene *scene)
 {
   memset(trial, 0, sizeof *trial);
@@ -52,7 +71,7 @@ void trial_destroy(struct trial *trial)
 {
   tracer_destroy(trial->tracer);
   intersector_destroy(trial->intersector);
-  reference_destroy(trial->reference);
+  if (!trial->reference_borrowed) reference_destroy(trial->reference);
   free(trial->own_patches);
 }
 
@@ -60,7 +79,7 @@ static void show(const char *what, const struct ray *ray, const struct hit *hit,
                  struct tally *tally)
 {
   static const char *const verdicts[] = {"miss", "hit", "grazing"};
-  if (tally->shown++ >= MOST_SHOWN) return;
+  if (tally->quiet || tally->shown++ >= MOST_SHOWN) return;
   printf("%s: %s\n  ray %a %a %a  %a %a %a\n", tally->name, what, ray->origin[0], ray->origin[1], ray->origin[2],
          ray->direction[0], ray->direction[1], ray->direction[2]);
   printf("  reference: %s", verdicts[truth->verdict]);
@@ -94,6 +113,17 @@ static bool excused(const struct trial *trial, const struct ray *ray, const stru
   return off <= TRIAL_NEAR * largest_coordinate(trial, ray, hit);
 }
 
+/* Where a patch cuts itself two points of it are at one place of the ray, and either is right: far from the other in u
+ * and v, and as near to the ray as rounding lets any point be. */
+static bool other_sheet(const struct trial *trial, const struct ray *ray, const struct hit *hit,
+                        const struct reference_answer *truth)
+{
+  double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
+  if (hit->patch != truth->patch || fmax(du, dv) < OTHER_SHEET) return false;
+  double off = reference_residual(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u, hit->v);
+  return off <= OTHER_SHEET_NEAR * largest_coordinate(trial, ray, hit);
+}
+
 static void add_t_error(struct tally *tally, double error)
 {
   if (tally->t_count == tally->t_capacity) {
@@ -105,7 +135,7 @@ static void add_t_error(struct tally *tally, double error)
 }
 
 /* Both found the same hit: how well. */
-static void measure(const struct ray *ray, const struct hit *hit, const struct reference_answer *truth,
+static void measure(const struct trial *trial, const struct ray *ray, const struct hit *hit, const struct reference_answer *truth,
                     struct tally *tally)
 {
   double length = 0, reach = 0;
@@ -122,7 +152,8 @@ static void measure(const struct ray *ray, const struct hit *hit, const struct r
   tally->worst_t_floor = fmax(tally->worst_t_floor, dt / truth->data.t);
   tally->worst_t_local = fmax(tally->worst_t_local, dt / (truth->local.t + origin_rounding));
   bool beyond = dt > TRIAL_FLOORS * truth->data.t;
-  if (hit->patch == truth->patch && !truth->shared) {
+  const bool other = other_sheet(trial, ray, hit, truth);
+  if (hit->patch == truth->patch && !truth->shared && !other) {
     double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
     tally->worst_u_floor = fmax(tally->worst_u_floor, du / truth->data.u);
     tally->worst_v_floor = fmax(tally->worst_v_floor, dv / truth->data.v);
@@ -131,7 +162,7 @@ static void measure(const struct ray *ray, const struct hit *hit, const struct r
     beyond = beyond || du > TRIAL_FLOORS * truth->data.u || dv > TRIAL_FLOORS * truth->data.v;
   }
   if (beyond) show("T, U or V beyond its floor", ray, hit, truth, tally);
-  if (hit->patch != truth->patch) return;
+  if (hit->patch != truth->patch || other) return;
   if (truth->has_normal && truth->data.u + truth->data.v < 1e-12 && truth->incidence > 1e-6) {
     double off = 0;
     for (int axis = 0; axis < 3; axis++) off = fmax(off, fabs(hit->normal[axis] - truth->normal[axis]));
@@ -148,7 +179,7 @@ static void judge_hit(const struct trial *trial, const struct ray *ray, const st
   double difference = (double)((quad)hit->t - truth->t);
   double near = hit->certainty == CERTAINTY_GRAZING ? TRIAL_SAME_GRAZING : TRIAL_SAME;
   if (fabs(difference) <= fmax(near * (double)truth->t, 64 * truth->data.t)) {
-    measure(ray, hit, truth, tally);
+    measure(trial, ray, hit, truth, tally);
   } else if (difference > 0) {
     tally->lost++;
     show("lost, a later hit is answered", ray, hit, truth, tally);
@@ -169,6 +200,7 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
   bool proven = truth->patch != REFERENCE_NONE;
   if (proven && (hit->patch == HIT_NONE || hit->t > (double)truth->t * (1 + TRIAL_SAME) + 64 * truth->data.t)) {
     tally->lost++;
+    tally->holes += hit->patch == HIT_NONE;
     show("lost behind a grazing one", ray, hit, truth, tally);
   } else if (hit->patch != HIT_NONE && hit->t < truth->t_first * (1 - TRIAL_SAME) && !excused(trial, ray, hit)) {
     tally->invented++;
@@ -176,32 +208,39 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
   }
 }
 
-void trial_judge(const struct trial *trial, const struct ray *ray, const struct hit *hit, struct tally *tally)
+void trial_judge_by(const struct trial *trial, const struct ray *ray, const struct hit *hit,
+                    const struct reference_answer *truth, struct tally *tally)
 {
-  struct reference_answer truth;
-  reference_closest(trial->reference, ray->origin, ray->direction, &truth);
   tally->rays++;
   if (hit->certainty == CERTAINTY_GRAZING) tally->grazing++;
-  if (truth.verdict == REFERENCE_GRAZING) {
-    judge_grazing(trial, ray, hit, &truth, tally);
-  } else if (truth.verdict == REFERENCE_MISS) {
+  if (truth->verdict == REFERENCE_GRAZING) {
+    judge_grazing(trial, ray, hit, truth, tally);
+  } else if (truth->verdict == REFERENCE_MISS) {
     tally->misses++;
     if (hit->patch == HIT_NONE) return;
     if (excused(trial, ray, hit)) {
       tally->over++;
     } else {
       tally->invented++;
-      show("invented", ray, hit, &truth, tally);
+      show("invented", ray, hit, truth, tally);
     }
   } else {
     tally->hits++;
     if (hit->patch == HIT_NONE) {
       tally->lost++;
-      show("lost", ray, hit, &truth, tally);
+      tally->holes++;
+      show("lost", ray, hit, truth, tally);
     } else {
-      judge_hit(trial, ray, hit, &truth, tally);
+      judge_hit(trial, ray, hit, truth, tally);
     }
   }
+}
+
+void trial_judge(const struct trial *trial, const struct ray *ray, const struct hit *hit, struct tally *tally)
+{
+  struct reference_answer truth;
+  reference_closest(trial->reference, ray->origin, ray->direction, &truth);
+  trial_judge_by(trial, ray, hit, &truth, tally);
 }
 
 void trial_rays(struct trial *trial, const struct ray *rays, size_t count, struct tally *tally)

@@ -16,6 +16,7 @@ struct trial {
   struct intersector *intersector;
   struct tracer *tracer;
   struct reference *reference;
+  bool reference_borrowed;
   struct scene_patch *own_patches;
 };
 
@@ -27,6 +28,7 @@ struct tally {
   size_t grazing;            /* the intersector said grazing */
   size_t bold;               /* the intersector said certain where the reference said grazing */
   size_t lost;               /* a proven hit, and the intersector answers a miss or a later hit */
+  size_t holes;              /* those of the lost where it answers a miss */
   size_t invented;           /* the intersector answers a hit where, or nearer than, the reference proves none */
   size_t over;               /* the same, but said to be grazing and TRIAL_NEAR the ray: allowed, see intersect.h */
   size_t bad_normal;         /* N differs from the true normal by more than TRIAL_NORMAL where it is well defined */
@@ -37,6 +39,7 @@ struct tally {
   double *t_errors;       /* relative errors of T of the hits both agree on */
   size_t t_count, t_capacity;
   size_t shown; /* disagreements printed so far */
+  bool quiet;   /* set by the caller: print none */
 };
 
 /* A grazing hit that is no hit may be off the ray by this, relative to the largest coordinate. */
@@ -59,7 +62,10 @@ struct tally {
  * cmocka test where that fails. */
 void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct solver_options *solver);
 
-/* The same of a scene, which is borrowed. */
+/* The patches of `first` with another solver. Borrows patches and reference: `first` must outlive it. */
+void trial_create_beside(struct trial *trial, const struct trial *first, const struct solver_options *solver);
+
+/* As trial_create, of a scene, which is borrowed. */
 void trial_of_scene(struct trial *trial, const struct scene *scene);
 void trial_destroy(struct trial *trial);
 
@@ -68,6 +74,10 @@ void trial_rays(struct trial *trial, const struct ray *rays, size_t count, struc
 
 /* Compares one answer. Exposed for answers that came another way (the command). */
 void trial_judge(const struct trial *trial, const struct ray *ray, const struct hit *hit, struct tally *tally);
+
+/* The same, where the caller has asked the reference of the trial. */
+void trial_judge_by(const struct trial *trial, const struct ray *ray, const struct hit *hit,
+                    const struct reference_answer *truth, struct tally *tally);
 
 /* One line of counts, one of errors. */
 void tally_print(struct tally *tally);

@@ -1,0 +1,405 @@
+/* Generators of the situations where methods fail. See situations.h. */
+#include "accuracy/situations.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "accuracy/models.h"
+
+enum { RAYS = SITUATION_RAYS };
+
+/* ---- pieces the generators share ---- */
+
+static double *point(struct situation *s, int i, int j) { return s->P[0][i][j]; }
+
+/* A nearly regular net over [-1.5,1.5]^2 with heights of +-`height`. */
+static void gentle(struct random *random, double height, double P[4][4][3])
+{
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      P[i][j][0] = i - 1.5 + 0.2 * random_between(random, -1, 1);
+      P[i][j][1] = j - 1.5 + 0.2 * random_between(random, -1, 1);
+      P[i][j][2] = height * random_between(random, -1, 1);
+    }
+  }
+}
+
+/* origin may be the ray's own. */
+static void ray_between(const double origin[3], const double target[3], struct ray *ray)
+{
+  for (int axis = 0; axis < 3; axis++) {
+    ray->direction[axis] = target[axis] - origin[axis];
+    ray->origin[axis] = origin[axis];
+  }
+  ray->t_min = 0;
+  ray->t_max = INFINITY;
+}
+
+static void random_vector(struct random *random, double size, double out[3])
+{
+  for (int axis = 0; axis < 3; axis++) out[axis] = size * random_between(random, -1, 1);
+}
+
+/* Rays at random points of patch 0 from all around. */
+static void rays_at_patch(struct random *random, struct situation *s)
+{
+  for (int n = 0; n < RAYS; n++) {
+    double origin[3], target[3];
+    random_vector(random, 6, origin);
+    net_point((const double(*)[4][3])s->P[0], random_between(random, -0.1, 1.1), random_between(random, -0.1, 1.1),
+              target);
+    ray_between(origin, target, &s->rays[n]);
+  }
+}
+
+/* u and v of patch 0 exchanged. */
+static void transpose(struct situation *s)
+{
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < i; j++) {
+      double p[3];
+      memcpy(p, point(s, i, j), sizeof p);
+      memcpy(point(s, i, j), point(s, j, i), sizeof p);
+      memcpy(point(s, j, i), p, sizeof p);
+    }
+  }
+}
+
+/* 10^-k, k counting with the index. */
+static double decade(size_t index, int first, int last)
+{
+  return pow(10, -(double)(first + (int)(index % (size_t)(last - first + 1))));
+}
+
+/* ---- the classes ---- */
+
+static void apex(struct random *random, size_t index, struct situation *s)
+{
+  struct model model;
+  model_dome(&model);
+  s->count = model.count;
+  memcpy(s->P, model.P, sizeof s->P);
+  for (int n = 0; n < RAYS; n++) {
+    double origin[3], target[3] = {0, n % 2 ? 1 : 0, 0}, off[3];
+    random_vector(random, 3, origin);
+    random_vector(random, n < RAYS / 4 ? 0 : decade(index, 1, 16), off);
+    for (int axis = 0; axis < 3; axis++) target[axis] += off[axis];
+    ray_between(origin, target, &s->rays[n]);
+  }
+}
+
+/* A patch that its mirror image x -> -x maps to itself (u -> 1 - u, every other one v -> 1 - v), and rays in the plane of
+ * symmetry and across it: the two hits of a ray along x share one v (one u). */
+static void symmetry(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, 2, s->P[0]);
+  for (int j = 0; j < 4; j++) {
+    for (int i = 0; i < 2; i++) {
+      memcpy(point(s, 3 - i, j), point(s, i, j), sizeof(double[3]));
+      point(s, 3 - i, j)[0] = -point(s, i, j)[0];
+    }
+  }
+  if (index % 2) transpose(s);
+  for (int n = 0; n < RAYS; n++) {
+    double origin[3], target[3];
+    random_vector(random, 4, origin);
+    random_vector(random, 1, target);
+    if (n % 2) {
+      origin[0] = target[0] = 0;
+    } else {
+      target[1] = origin[1];
+      target[2] = origin[2];
+    }
+    ray_between(origin, target, &s->rays[n]);
+  }
+}
+
+static void in_plane(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, 0, s->P[0]);
+  for (int n = 0; n < RAYS; n++) {
+    double origin[3], target[3];
+    random_vector(random, 4, origin);
+    random_vector(random, 1, target);
+    origin[2] = n % 2 ? 0 : decade(index, 6, 17);
+    target[2] = n % 4 == 1 ? decade(index, 6, 17) : 0;
+    ray_between(origin, target, &s->rays[n]);
+  }
+}
+
+/* Bilinear corners with whole coordinates, raised to bidegree (3,3) exactly (the coordinates are multiples of 9). */
+static void bilinear(struct random *random, double P[4][4][3])
+{
+  double corner[2][2][3];
+  for (int a = 0; a < 2; a++) {
+    for (int b = 0; b < 2; b++) {
+      corner[a][b][0] = a ? 9 : -9;
+      corner[a][b][1] = b ? 9 : -9;
+      corner[a][b][2] = 9 * (double)((int)(random_bits(random) % 5) - 2);
+    }
+  }
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      for (int axis = 0; axis < 3; axis++) {
+        P[i][j][axis] = ((3 - i) * ((3 - j) * corner[0][0][axis] + j * corner[0][1][axis]) +
+                         i * ((3 - j) * corner[1][0][axis] + j * corner[1][1][axis])) /
+                        9;
+      }
+    }
+  }
+}
+
+static void ruling(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  bilinear(random, s->P[0]);
+  for (int n = 0; n < RAYS; n++) {
+    double origin[3], target[3], start[3], end[3], u = (double)(random_bits(random) % 9) / 8;
+    net_point((const double(*)[4][3])s->P[0], n % 2 ? u : 0, n % 2 ? 0 : u, start);
+    net_point((const double(*)[4][3])s->P[0], n % 2 ? u : 1, n % 2 ? 1 : u, end);
+    for (int axis = 0; axis < 3; axis++) {
+      origin[axis] = 2 * start[axis] - end[axis];
+      target[axis] = end[axis] + (n < RAYS / 2 ? 0 : decade(index, 1, 16) * random_between(random, -1, 1));
+    }
+    ray_between(origin, target, &s->rays[n]);
+  }
+}
+
+static void elevated(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  if (index % 2) {
+    bilinear(random, s->P[0]);
+  } else { /* biquadratic: multiples of 9 raised in both directions */
+    double Q[3][3][3], R[4][3][3];
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 3; j++) {
+        for (int axis = 0; axis < 3; axis++) Q[i][j][axis] = 9 * (double)((int)(random_bits(random) % 9) - 4);
+        Q[i][j][0] += 36 * (i - 1);
+        Q[i][j][1] += 36 * (j - 1);
+      }
+    }
+    for (int j = 0; j < 3; j++)
+      for (int axis = 0; axis < 3; axis++)
+        for (int i = 0; i < 4; i++)
+          R[i][j][axis] = (i * Q[i ? i - 1 : 0][j][axis] + (3 - i) * Q[i < 3 ? i : 2][j][axis]) / 3;
+    for (int i = 0; i < 4; i++)
+      for (int axis = 0; axis < 3; axis++)
+        for (int j = 0; j < 4; j++)
+          s->P[0][i][j][axis] = (j * R[i][j ? j - 1 : 0][axis] + (3 - j) * R[i][j < 3 ? j : 2][axis]) / 3;
+  }
+  for (int k = 0; k < 16; k++)
+    for (int axis = 0; axis < 3; axis++) s->P[0][k / 4][k % 4][axis] /= 8;
+  rays_at_patch(random, s);
+}
+
+/* z over a regular grid, seen along z and tilted by 1e-1 ... 1e-17. */
+static void height_field(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double p[3] = {i - 1.5, j - 1.5, random_between(random, -1, 1)};
+      memcpy(point(s, i, j), p, sizeof p);
+    }
+  }
+  for (int n = 0; n < RAYS; n++) {
+    double tilt = n % 4 ? decade(index, 1, 17) : 0;
+    double target[3] = {random_between(random, -1.6, 1.6), random_between(random, -1.6, 1.6), 0};
+    double origin[3] = {target[0] + tilt * random_between(random, -1, 1), target[1], n % 2 ? 4 : -4};
+    ray_between(origin, target, &s->rays[n]);
+  }
+}
+
+/* Rays at a point of the patch, off its tangent plane by 1e-1 ... 1e-8. */
+static void tangent(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  for (int n = 0; n < RAYS; n++) {
+    double u = random_unit(random), v = random_unit(random), target[3], du[3], dv[3], normal[3], origin[3];
+    net_point((const double(*)[4][3])s->P[0], u, v, target);
+    net_tangents((const double(*)[4][3])s->P[0], u, v, du, dv);
+    for (int axis = 0; axis < 3; axis++) {
+      int i = (axis + 1) % 3, j = (axis + 2) % 3;
+      normal[axis] = du[i] * dv[j] - du[j] * dv[i];
+    }
+    double along = random_between(random, -1, 1), across = random_between(random, -1, 1);
+    double off = decade(index, 1, 9) * (n % 2 ? 1 : -1);
+    for (int axis = 0; axis < 3; axis++)
+      origin[axis] = target[axis] - along * du[axis] - across * dv[axis] - off * normal[axis];
+    ray_between(origin, target, &s->rays[n]);
+    if (n % 4 == 0) /* past the point: a near miss or two close hits */
+      for (int axis = 0; axis < 3; axis++) s->rays[n].origin[axis] += off * off * normal[axis];
+  }
+}
+
+/* Opposite edges collapsed, in u, in v, or (every eighth patch) in both; of the others two in eight are a line, along u or
+ * along v, and one a point. */
+static void collapsed(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  for (int k = 0; k < 4; k++) {
+    if (index % 8 == 3) { /* all four: every corner is the same point */
+      for (int end = 0; end < 4; end += 3) {
+        memcpy(point(s, end, k), point(s, 0, 0), sizeof(double[3]));
+        memcpy(point(s, k, end), point(s, 0, 0), sizeof(double[3]));
+      }
+    } else if (index % 2) {
+      memcpy(point(s, 0, k), point(s, 0, 0), sizeof(double[3]));
+      memcpy(point(s, 3, k), point(s, 3, 0), sizeof(double[3]));
+    } else {
+      memcpy(point(s, k, 0), point(s, 0, 0), sizeof(double[3]));
+      memcpy(point(s, k, 3), point(s, 0, 3), sizeof(double[3]));
+    }
+  }
+  for (int k = 0; k < 16; k++) {
+    if (index % 8 == 5 || index % 8 == 6) {
+      point(s, k / 4, k % 4)[index % 2] = point(s, k / 4, k % 4)[2] = 0.25;
+    } else if (index % 8 == 7) {
+      memcpy(point(s, k / 4, k % 4), point(s, 0, 0), sizeof(double[3]));
+    }
+  }
+  rays_at_patch(random, s);
+  for (int n = 0; n < RAYS / 4; n++) /* exactly at a collapsed corner */
+    ray_between(s->rays[n].origin, point(s, 3 * (n & 1), 3 * (n >> 1 & 1)), &s->rays[n]);
+}
+
+/* Folded back over itself; with a cusp, where a derivative vanishes; or cutting itself along a line: extruded loops of
+ * a cubic, some rays aimed exactly at the line. */
+static void folded(struct random *random, size_t index, struct situation *s)
+{
+  static const double cusp_x[4] = {1, -1, 1, -1}; /* x = (1 - 2u)^3 */
+  /* x and z of a loop: with w = u (1 - u), x = (2u - 1)(3 - 18 w) and z = 6 w, so it crosses itself at (0,1), w = 1/6 */
+  static const double loop_x[4] = {-3, 5, -5, 3}, loop_z[4] = {0, 2, 2, 0};
+  const size_t kind = index % 3;
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  for (int j = 0; j < 4; j++) {
+    for (int i = 0; i < 4; i++) {
+      double *p = point(s, i, j);
+      if (kind == 0) p[0] += i == 1 ? 4 : i == 2 ? -4 : 0;
+      if (kind == 1) p[0] = cusp_x[i];
+      if (kind == 2) {
+        p[0] = loop_x[i];
+        p[1] = j - 1.5;
+        p[2] = loop_z[i];
+      }
+    }
+  }
+  if (index / 3 % 2) transpose(s);
+  rays_at_patch(random, s);
+  for (int n = 0; kind == 2 && n < RAYS / 4; n++) {
+    const double target[3] = {0, random_between(random, -1.5, 1.5), 1};
+    ray_between(s->rays[n].origin, target, &s->rays[n]);
+  }
+}
+
+static void repeated(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  for (size_t k = 0; k < 1 + index % 6; k++) {
+    uint64_t bits = random_bits(random);
+    int i = (int)(bits % 4), j = (int)(bits / 4 % 4), other_i = (int)(bits / 16 % 4), other_j = (int)(bits / 64 % 4);
+    memcpy(point(s, i, j), point(s, other_i, other_j), sizeof(double[3]));
+  }
+  rays_at_patch(random, s);
+}
+
+static void resize(struct situation *s, double scale, double shift)
+{
+  for (int k = 0; k < 16; k++)
+    for (int axis = 0; axis < 3; axis++) point(s, k / 4, k % 4)[axis] = scale * point(s, k / 4, k % 4)[axis] + shift;
+}
+
+/* The patch scaled by 1e6 or 1e-6, or shifted by 1e6; the rays with it. */
+static void sized(struct random *random, size_t index, struct situation *s)
+{
+  static const double scales[] = {1e6, 1e-6, 1, 1e-6}, shifts[] = {0, 0, 1e6, 1};
+  double scale = scales[index % 4], shift = shifts[index % 4];
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  resize(s, scale, shift);
+  for (int n = 0; n < RAYS; n++) {
+    double origin[3], target[3];
+    random_vector(random, 6 * scale, origin);
+    for (int axis = 0; axis < 3; axis++) origin[axis] += shift;
+    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), target);
+    ray_between(origin, target, &s->rays[n]);
+  }
+}
+
+static void far_camera(struct random *random, size_t index, struct situation *s)
+{
+  (void)index;
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  for (int n = 0; n < RAYS; n++) {
+    double origin[3], target[3];
+    random_vector(random, 1e8, origin);
+    net_point((const double(*)[4][3])s->P[0], random_between(random, -0.1, 1.1), random_between(random, -0.1, 1.1),
+              target);
+    ray_between(origin, target, &s->rays[n]);
+  }
+}
+
+/* A fan of rays around a tangent one, 200 or 1e6 times narrower than the patch. */
+static void silhouette(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, 1.5, s->P[0]);
+  double width = index % 2 ? 1.0 / 200 : 1e-6, target[3], du[3], dv[3], origin[3];
+  double u = random_between(random, 0.1, 0.9), v = random_between(random, 0.1, 0.9);
+  net_point((const double(*)[4][3])s->P[0], u, v, target);
+  net_tangents((const double(*)[4][3])s->P[0], u, v, du, dv);
+  double along = random_between(random, -1, 1), across = random_between(random, -1, 1);
+  for (int axis = 0; axis < 3; axis++) origin[axis] = target[axis] - 2 * along * du[axis] - 2 * across * dv[axis];
+  for (int n = 0; n < RAYS; n++) {
+    double aim[3];
+    random_vector(random, width, aim);
+    for (int axis = 0; axis < 3; axis++) aim[axis] += target[axis];
+    ray_between(origin, aim, &s->rays[n]);
+  }
+}
+
+/* Rays that start on the surface, or a little off it. */
+static void on_surface(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, 2, s->P[0]);
+  for (int n = 0; n < RAYS; n++) {
+    double start[3], direction[3], off = n % 2 ? 0 : decade(index, 3, 17);
+    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), start);
+    random_vector(random, 1, direction);
+    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
+    for (int axis = 0; axis < 3; axis++) {
+      s->rays[n].origin[axis] = start[axis] + off * direction[axis];
+      s->rays[n].direction[axis] = direction[axis];
+    }
+  }
+}
+
+static const struct situation_class classes[] = {
+    {"apex", 501, 0.2, apex},
+    {"axis of symmetry", 502, 1, symmetry},
+    {"in the plane of a flat patch", 503, 0.05, in_plane},
+    {"along a ruling", 504, 0.05, ruling},
+    {"elevated degree", 505, 1, elevated},
+    {"height field along its axis", 506, 1, height_field},
+    {"near tangent", 507, 1, tangent},
+    {"collapsed edges", 508, 0.1, collapsed},
+    {"folded and cusped", 509, 1, folded},
+    {"repeated points", 510, 1, repeated},
+    {"scaled and shifted", 511, 1, sized},
+    {"camera far away", 512, 1, far_camera},
+    {"magnified silhouette", 513, 1, silhouette},
+    {"start on the surface", 514, 1, on_surface},
+};
+
+size_t situation_class_count(void) { return sizeof classes / sizeof classes[0]; }
+
+const struct situation_class *situation_class_at(size_t index) { return &classes[index]; }
