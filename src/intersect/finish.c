@@ -8,36 +8,68 @@
 #include <string.h>
 
 #include "base/double_double.h"
+#include "base/lanes.h"
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
 #include "intersect/tracer.h"
 
-enum { FINISH_STEPS = 2 };
+enum { FINISH_STEPS = 3 };
 
-/* The error bound of t, relative to the patch's size, up to which the leaf's root is kept as it is. The bound is some hundred
- * units roundoff where the ray is steep (its constants are worst cases; the error itself is a few units), and grows as the
- * ray grazes: beyond about 10 degrees the better residuals are worth their time. */
-#define PLAIN_ERROR 0x1p-42
+/* The error bound of t, relative to t, up to which the leaf's root is kept as it is. The bound is a worst case, some fifty times the
+ * error itself, which is then a few units in the last place. It is more where the ray grazes, and where the patch is large beside
+ * its distance: there the better residuals are worth their time. */
+#define PLAIN_ERROR (256 * UNIT_ROUNDOFF)
+
+/* A Newton step longer than this, in patch parameters, is followed by another: the next one is about its square. */
+#define FINISH_STEP 0x1p-28
 
 /* |Su x Sv| relative to the squared derivatives down to which it is the normal without further thought. */
 #define PLAIN_NORMAL 0x1p-20
 
-/* sum B_i(u) B_j(v) net[i][j] by de Casteljau in double-double, the corners' error far below the last place. */
-static struct double_double evaluate(double net[4][4], double u, double v)
+/* The weights B_i(u) B_j(v) of the sixteen control values as hi + lo. */
+struct weights {
+  double hi[16], lo[16];
+};
+
+static void cubic_weights(double t, struct double_double w[4])
 {
-  struct double_double row[4];
-  const struct double_double su = dd_two_sum(1, -u), sv = dd_two_sum(1, -v);
-  for (int i = 0; i < 4; i++) {
-    struct double_double q[4];
-    for (int j = 0; j < 4; j++) q[j] = (struct double_double){net[i][j], 0};
-    for (int level = 3; level > 0; level--)
-      for (int j = 0; j < level; j++) q[j] = dd_add(dd_multiply(q[j], sv), dd_scale(q[j + 1], v));
-    row[i] = q[0];
+  const struct double_double s = dd_two_sum(1, -t), tt = dd_two_product(t, t), ss = dd_multiply(s, s);
+  w[0] = dd_multiply(ss, s), w[1] = dd_scale(dd_scale(ss, t), 3);
+  w[2] = dd_scale(dd_multiply(s, tt), 3), w[3] = dd_scale(tt, t);
+}
+
+static void weights_at(double u, double v, struct weights *out)
+{
+  struct double_double wu[4], wv[4];
+  cubic_weights(u, wu);
+  cubic_weights(v, wv);
+  for (int n = 0; n < 16; n++) {
+    const struct double_double a = wu[n / 4], b = wv[n % 4], p = dd_two_product(a.hi, b.hi);
+    out->hi[n] = p.hi, out->lo[n] = p.lo + (a.hi * b.lo + a.lo * b.hi);
   }
-  for (int level = 3; level > 0; level--)
-    for (int i = 0; i < level; i++) row[i] = dd_add(dd_multiply(row[i], su), dd_scale(row[i + 1], u));
-  return row[0];
+}
+
+/* sum w[n] net[n], as if summed in twice the precision (Ogita, Rump and Oishi, Accurate Sum and Dot Product, 2005: Dot2). */
+static struct double_double evaluate(double net[4][4], const struct weights *w)
+{
+  lanes sum = {0}, rest = {0};
+  for (int n = 0; n < 16; n += LANES) {
+    lanes x, hi, lo;
+    memcpy(&x, &net[0][0] + n, sizeof x);
+    memcpy(&hi, w->hi + n, sizeof hi);
+    memcpy(&lo, w->lo + n, sizeof lo);
+    const lanes product = hi * x, error = lanes_product_error(hi, x, product);
+    const lanes total = sum + product, back = total - sum;
+    rest += ((sum - (total - back)) + (product - back)) + (error + lo * x);
+    sum = total;
+  }
+  struct double_double all = {sum[0], rest[0]};
+  for (int l = 1; l < LANES; l++) {
+    const struct double_double t = dd_two_sum(all.hi, sum[l]);
+    all = (struct double_double){t.hi, all.lo + (t.lo + rest[l])};
+  }
+  return dd_normal(all.hi, all.lo);
 }
 
 /* The patch, the ray through it, both as they are: nothing rounded. */
@@ -57,11 +89,13 @@ static double residual(const struct exact *e, const struct double_double s[3], i
 
 static void offset_from_start(const struct exact *e, double u, double v, struct double_double out[3])
 {
-  for (int c = 0; c < 3; c++) out[c] = dd_add(evaluate(e->patch->x[c], u, v), dd_negate(e->start[c]));
+  struct weights w;
+  weights_at(u, v, &w);
+  for (int c = 0; c < 3; c++) out[c] = dd_add(evaluate(e->patch->x[c], &w), dd_negate(e->start[c]));
 }
 
-/* One Newton step on the patch from (u,v); the change is returned as its size. */
-static double step(const struct exact *e, double *u, double *v)
+/* One Newton step on the patch from (u,v), and x_k - o_k where it ends; the change is returned as its size. */
+static double step(const struct exact *e, double *u, double *v, double *out_place)
 {
   const int k = e->k, i = (k + 1) % 3, j = (k + 2) % 3;
   struct double_double s[3];
@@ -76,6 +110,7 @@ static double step(const struct exact *e, double *u, double *v)
   const double du = (bv * a - av * b) / determinant, dv = (au * b - bu * a) / determinant;
   if (!(fabs(du) < 1 && fabs(dv) < 1)) return INFINITY;
   *u -= du, *v -= dv;
+  *out_place = s[k].hi + (s[k].lo - (jet[k].du * du + jet[k].dv * dv));
   return real_max(fabs(du), fabs(dv));
 }
 
@@ -155,12 +190,14 @@ static void improve(struct model_patch *patch, const struct ray *ray, double *u,
     const struct double_double q = dd_two_sum(ray->origin[c], -patch->center[c]);
     e.start[c] = (struct double_double){q.hi / patch->scale, q.lo / patch->scale};
   }
-  for (int n = 0; n < FINISH_STEPS; n++)
-    if (!(step(&e, u, v) > 4 * UNIT_ROUNDOFF)) break;
-  *u = clamp01(*u), *v = clamp01(*v);
-  struct double_double s[3];
-  offset_from_start(&e, *u, *v, s);
-  *t = s[e.k].hi * (patch->scale / e.d[e.k]);
+  double place, x = *u, y = *v;
+  for (int n = 0; n < FINISH_STEPS; n++) {
+    const double size = step(&e, &x, &y, &place);
+    if (!(size < 1)) return;
+    if (size <= FINISH_STEP) break;
+  }
+  *u = clamp01(x), *v = clamp01(y);
+  *t = place * (patch->scale / e.d[e.k]);
 }
 
 /* Gives a root on a shared border to the patch that stands first in the scene, so that which of the two has it does not depend on
@@ -203,8 +240,7 @@ void finish_hit(const struct model *model, const struct ray *ray, const struct b
   out->t = best->root.t;
   out->u = clamp01(leaf_to_patch(patch->split, leaf->column_u, best->root.u));
   out->v = clamp01(leaf_to_patch(patch->split, leaf->column_v, best->root.v));
-  const double plain = PLAIN_ERROR * patch->scale / fabs(ray->direction[dominant_axis(ray->direction)]);
-  if (best->root.certain && best->root.t_error > plain) improve(patch, ray, &out->u, &out->v, &out->t);
+  if (best->root.certain && best->root.t_error > PLAIN_ERROR * fabs(best->root.t)) improve(patch, ray, &out->u, &out->v, &out->t);
   /* The improvement may have taken the last bits of t to the end of the interval. */
   if (!(out->t > ray->t_min)) out->t = nextafter(ray->t_min, INFINITY);
   if (!(out->t < ray->t_max)) out->t = nextafter(ray->t_max, -INFINITY);
