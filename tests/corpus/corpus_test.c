@@ -11,6 +11,7 @@
 #include "cmocka_test.h"
 #include "corpus/corpus.h"
 #include "corpus/exact_roots.h"
+#include "random.h"
 
 struct fixture {
   size_t count;
@@ -177,12 +178,54 @@ static void aberth_finds_all(void **state)
   assert_int_equal(missing, 0);
 }
 
+/* Random coefficients of all sizes, zeros among them, exact and with bounds, in both bases: the discs must hold roots of the
+ * polynomial as given (a bound of 0 belongs to it as much as any other). */
+static void wild_coefficients(void **state)
+{
+  (void)state;
+  enum { TRIALS = 300, LARGEST_EXPONENT = 60 };
+  struct random random = {31};
+  int wrong = 0;
+  for (int trial = 0; trial < TRIALS; trial++) {
+    struct corpus_entry entry = {.name = "wild"};
+    double error[POLYNOMIAL_MAX_DEGREE + 1];
+    entry.degree = 1 + (int)(random_bits(&random) % 24);
+    const double spread = trial % 4 == 0 ? LARGEST_EXPONENT : trial % 4 == 1 ? 10.0 : 1.0;
+    for (int k = 0; k <= entry.degree; k++) {
+      const double size = exp2(random_between(&random, -spread, spread));
+      entry.c[k] = random_bits(&random) % 5 == 0 ? 0.0 : random_between(&random, -1.0, 1.0) * size;
+      if (trial % 4 == 3) {
+        entry.c[k] = rint(4.0 * entry.c[k]); /* small integers: multiple and rational roots */
+      }
+      error[k] = random_bits(&random) % 2 == 0 ? 0.0 : 1e-9 * size;
+    }
+    entry.c[random_bits(&random) % 2 == 0 ? 0 : entry.degree] = 3.0;
+    for (int basis = 0; basis < 2; basis++) {
+      const struct polynomial exact_p = {entry.degree, (enum basis)basis, entry.c, NULL};
+      struct exact_roots *exact = exact_roots_find(&exact_p);
+      for (size_t s = 0; s < solver_count(); s++) {
+        for (int bounds = 0; bounds < 2; bounds++) {
+          struct solver_options options;
+          solver_options_default(solver_at(s), &options);
+          const struct polynomial p = {entry.degree, (enum basis)basis, entry.c, bounds != 0 ? error : NULL};
+          struct root_set roots;
+          solver_solve(&p, &options, NULL, &roots);
+          wrong += check_answer(solver_at(s)->name, &entry, (enum basis)basis, options.tolerance, exact, &options, &roots);
+        }
+      }
+      exact_roots_destroy(exact);
+    }
+  }
+  assert_int_equal(wrong, 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(answers_are_true),
     cmocka_unit_test(no_real_root_is_lost),
     cmocka_unit_test(aberth_finds_all),
+    cmocka_unit_test(wild_coefficients),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }
