@@ -17,7 +17,8 @@ JOBS=$(nproc)
 build() {
   local preset=$1
   shift
-  cmake --preset "$preset" -G Ninja "$@" >"build-$preset.log" 2>&1 || { cat "build-$preset.log" >&2; return 1; }
+  mkdir -p "build-$preset"
+  cmake --preset "$preset" -G Ninja "$@" >"build-$preset/configure.log" 2>&1 || { cat "build-$preset/configure.log" >&2; return 1; }
   cmake --build "build-$preset" -- -j "$JOBS"
 }
 

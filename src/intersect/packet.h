@@ -1,0 +1,68 @@
+/* The state of a packet: its rays, one a lane, where they look, and what they have found.
+ *
+ * Internal to src/intersect; included by the sources that are compiled once per instruction set.
+ */
+#ifndef PSCN_INTERSECT_PACKET_H
+#define PSCN_INTERSECT_PACKET_H
+
+#include "base/lanes.h"
+#include "intersect/tracer.h"
+
+struct packet {
+  struct tracer *tracer;
+  const struct ray *rays; /* directions scaled to about 1 */
+  size_t count;
+  bool any;               /* any hit will do */
+  lane_mask live;         /* lanes with a ray that still looks for a hit */
+  lane_mask on_axis[3];   /* lanes whose dominant axis this is */
+  unsigned axes;          /* bit k: some lane's */
+  lanes origin[3], direction[3];
+  lanes low_origin[3], high_origin[3], inverse[3]; /* of the slab test */
+  lanes slope[3][2];      /* per axis; 0 on other lanes */
+  lanes t_min, t_far;     /* t_far: the nearest hit so far plus its error */
+  struct best best[LANES];
+  /* The frame of the patch tried last. */
+  uint32_t patch;
+  struct {
+    lanes moment[2], start[2], to_t, error;
+  } local[3];
+};
+
+/* The lanes' rays in the frame of a patch, as local_ray.c makes it for one ray. */
+
+LANES_INLINE void lanes_two_sum(lanes a, lanes b, lanes *sum, lanes *error)
+{
+  *sum = a + b;
+  const lanes t = *sum - a;
+  *error = (a - (*sum - t)) + (b - t);
+}
+
+LANES_INLINE void packet_set_patch(struct packet *p, uint32_t index)
+{
+  const struct model_patch *patch = &p->tracer->model->patches[index];
+  lanes hi[3], lo[3];
+  const double inverse = 1 / patch->scale;
+  for (int k = 0; k < 3; k++) {
+    lanes_two_sum(p->origin[k], lanes_all(-patch->center[k]), &hi[k], &lo[k]);
+    hi[k] *= inverse, lo[k] *= inverse;
+  }
+  for (int k = 0; k < 3; k++) {
+    if (!(p->axes & 1u << k)) continue;
+    for (int s = 0; s < 2; s++) {
+      const int i = (k + 1 + s) % 3;
+      const lanes plus = hi[i] * p->direction[k], minus = hi[k] * p->direction[i];
+      const lanes plus_error = lanes_product_error(hi[i], p->direction[k], plus);
+      const lanes minus_error = lanes_product_error(hi[k], p->direction[i], minus);
+      lanes sum, error;
+      lanes_two_sum(plus, -minus, &sum, &error);
+      error += (plus_error - minus_error) + (lo[i] * p->direction[k] - lo[k] * p->direction[i]);
+      p->local[k].moment[s] = (sum + error) / p->direction[k];
+    }
+    p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
+    p->local[k].to_t = patch->scale / p->direction[k];
+    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1]));
+  }
+  p->patch = index;
+}
+
+#endif
