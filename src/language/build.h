@@ -81,6 +81,7 @@ struct camera_items {
   double item[6][3];
   bool look_at;
   double angle; /* degrees, NAN where not given */
+  size_t errors_before;
   struct place place, look_at_place;
 };
 

@@ -50,6 +50,7 @@ void camera_begin(struct language *language, struct place place)
   if (language->has_camera) language_error(language, place, "a scene has one camera");
   language->has_camera = true;
   camera_default(&language->camera);
+  language->camera.errors_before = language->diagnostics->error_count;
 }
 
 void camera_vector(struct language *language, int which, struct place place, const struct value *value)
@@ -69,7 +70,8 @@ void camera_end(struct language *language, struct place place)
 {
   language->camera.place = place;
   struct scene_camera unused;
-  camera_fold(language, &language->camera, &unused);
+  /* What an item that was not understood leaves behind is no error of its own. */
+  if (language->diagnostics->error_count == language->camera.errors_before) camera_fold(language, &language->camera, &unused);
 }
 
 /* Relative to the lengths, below this the frame's vectors lie in a plane to within their own rounding. */

@@ -205,6 +205,18 @@ static void include(struct language *language)
 
 /* ---- conditions ---- */
 
+/* Whether a directive of POV-Ray's has an #end of its own. */
+static bool opens_block(struct place place)
+{
+  static const char *const openers[] = {"if", "while", "macro", "for", "switch"};
+  const char *name = text_at(&place) + 1;
+  size_t length = place.end - place.begin - 1;
+  while (*name == ' ' || *name == '\t') name++, length--;
+  for (size_t k = 0; k < sizeof openers / sizeof *openers; k++)
+    if (strlen(openers[k]) == length && memcmp(openers[k], name, length) == 0) return true;
+  return false;
+}
+
 /* Skips to the #else (if `to_else`) or #end that belongs to the innermost condition. */
 static void skip_branch(struct language *language, bool to_else)
 {
@@ -213,16 +225,7 @@ static void skip_branch(struct language *language, bool to_else)
     const int token = pscn_scan_next(&frame->scan);
     if (token == 0 || token == TOKEN_NO_MEMORY || token == TOKEN_OPEN_COMMENT) return; /* the end tells of what is open */
     if (token == TOKEN_IFDEF || token == TOKEN_IFNDEF) depth++;
-    if (token == TOKEN_FOREIGN_DIRECTIVE) {
-      /* #if, #while, #macro, #for, #switch have an #end of their own. */
-      static const char *const openers[] = {"if", "while", "macro", "for", "switch"};
-      const struct place place = here(frame);
-      const char *name = text_at(&place) + 1;
-      size_t length = place.end - place.begin - 1;
-      while (*name == ' ' || *name == '\t') name++, length--;
-      for (size_t k = 0; k < sizeof openers / sizeof *openers; k++)
-        depth += strlen(openers[k]) == length && memcmp(openers[k], name, length) == 0;
-    }
+    if (token == TOKEN_FOREIGN_DIRECTIVE && opens_block(here(frame))) depth++;
     if (token == TOKEN_ELSE && depth == 0 && to_else) {
       frame->condition[frame->conditions - 1].seen_else = true;
       return;
@@ -232,6 +235,18 @@ static void skip_branch(struct language *language, bool to_else)
       return;
     }
   }
+}
+
+static bool open_condition(struct language *language, struct place place)
+{
+  struct frame *frame = language->frame;
+  if (frame->conditions == MAX_CONDITIONS) {
+    language_error(language, place, "conditions are nested more than %d deep", MAX_CONDITIONS);
+    language->no_memory = true;
+    return false;
+  }
+  frame->condition[frame->conditions++] = (struct condition){place, false};
+  return true;
 }
 
 static void begin_condition(struct language *language, bool wanted)
@@ -249,13 +264,7 @@ static void begin_condition(struct language *language, bool wanted)
     right = right && pscn_scan_next(&frame->scan) == ')';
   }
   if (!right) language_error(language, here(frame), "%s wants a name in parentheses", wanted ? "#ifdef" : "#ifndef");
-  if (frame->conditions == MAX_CONDITIONS) {
-    language_error(language, place, "conditions are nested more than %d deep", MAX_CONDITIONS);
-    language->no_memory = true;
-    return;
-  }
-  frame->condition[frame->conditions++] = (struct condition){place, false};
-  if (defined != wanted) skip_branch(language, true);
+  if (open_condition(language, place) && defined != wanted) skip_branch(language, true);
 }
 
 static void end_condition(struct language *language, int token)
@@ -309,6 +318,8 @@ static void foreign_directive(struct language *language)
   language_error(language, place, "'%.*s' is no directive of pscn: it has #declare, #local, #ifdef, #ifndef, #else, #end, #include and #version",
                  (int)(place.end - place.begin), name);
   language->foreign_distance = 0;
+  if (!opens_block(place) || !open_condition(language, place)) return;
+  skip_branch(language, false); /* with all that it governs, and its #end */
 }
 
 /* ---- the stream ---- */
