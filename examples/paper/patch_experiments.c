@@ -2,9 +2,10 @@
  *
  *     patch_experiments SCENE WIDTH HEIGHT
  *
- * Every pixel's ray against the first patch of the scene, in the order of the picture's lines: Sylvester's determinant in the
- * power basis (and beyond the paper, in scaled Bernstein form), degree 18, all roots. Against eps: iterations a root, CPU time of the solver a pixel, and the share of pixels all
- * of whose roots meet eq 11; from Aberth's start values (cold), and from the roots of the ray before (previous).
+ * Every pixel's ray against the first patch of the scene, in the order of the picture's lines: Sylvester's determinant
+ * in the power basis (and beyond the paper, in scaled Bernstein form), degree 18, all roots. Against eps: iterations a
+ * root, CPU time of the solver a pixel, and the share of pixels all of whose roots meet eq 11; from Aberth's start
+ * values (cold), and from the roots of the ray before (previous).
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,8 +31,8 @@ static void cubic_to_power(double *b, int stride)
 }
 
 /* Eq 3: the plane of this normal through the point, in the patch's parameters. */
-static void plane_polynomial(const struct scene_patch *patch, const double normal[3], const double point[3], enum basis basis,
-                             double out[16])
+static void plane_polynomial(const struct scene_patch *patch, const double normal[3], const double point[3],
+                             enum basis basis, double out[16])
 {
   static const double choose[4] = {1.0, 3.0, 3.0, 1.0};
   for (int i = 0; i < 4; i++) {
@@ -75,8 +76,8 @@ struct totals {
   double iterations, roots, seconds, accurate_pixels, pixels;
 };
 
-static void solve_pixel(enum basis basis, const double c[], const struct solver_options *options, struct solver_warm *warm,
-                        struct totals *totals)
+static void solve_pixel(enum basis basis, const double c[], const struct solver_options *options,
+                        struct solver_warm *warm, struct totals *totals)
 {
   struct root_problem problem = {.degree = DEGREE, .basis = basis};
   struct root_estimates roots;

@@ -1,13 +1,14 @@
-/* The paper's experiments on random polynomials (sections 3.4.1 and 3.4.2): one experiment a call, CSV on standard output.
+/* The paper's experiments on random polynomials (sections 3.4.1 and 3.4.2): one experiment a call, CSV on standard
+ * output.
  *
  *     random_experiments degrees      Fig 2-5: iterations and time against the degree, eps = 1e-6
  *     random_experiments tolerances   Fig 6-10: iterations, time and accuracy against eps, degree 18
  *     random_experiments order        Fig 11-12: accuracy against the order in which the roots were found, degree 18
  *     random_experiments improvements what each improvement does to iterations, time and accuracy, degree 18
  *
- * As in the paper: 100 polynomials with random coefficients (here uniform in [-1,1], seeded) a point, power basis, Aberth's
- * start values, eq 10 as the stop, eq 11 as the measure of accuracy. The solvers' own values are judged, before the library's
- * validation. Times are CPU time of the solver alone.
+ * As in the paper: 100 polynomials with random coefficients (here uniform in [-1,1], seeded) a point, power basis,
+ * Aberth's start values, eq 10 as the stop, eq 11 as the measure of accuracy. The solvers' own values are judged,
+ * before the library's validation. Times are CPU time of the solver alone.
  */
 #include <math.h>
 #include <stdio.h>
@@ -56,7 +57,8 @@ static void find(const struct root_problem *problem, const struct solver_options
   if (!first_only || strcmp(options->solver->name, "aberth") == 0) {
     options->solver->find(problem, options, NULL, out);
   } else {
-    deflation_find(problem, options, NULL, strcmp(options->solver->name, "newton") == 0 ? &newton_method : &laguerre_method, 1, out);
+    deflation_find(problem, options, NULL,
+                   strcmp(options->solver->name, "newton") == 0 ? &newton_method : &laguerre_method, 1, out);
   }
 }
 
@@ -194,8 +196,8 @@ static void improvements(void)
         measure_set(&options, variants[v].item[i], variants[v].value[i]);
       }
       const struct summary all = measure(PAPER_DEGREE, &options, false, 99);
-      printf("%s,%s,%g,%.2f,%.2f,%.4f,%.2f,%.4f\n", variants[v].method, variants[v].name, options.tolerance, all.iterations,
-             all.seconds * 1e6, all.accurate, all.error, all.unconverged);
+      printf("%s,%s,%g,%.2f,%.2f,%.4f,%.2f,%.4f\n", variants[v].method, variants[v].name, options.tolerance,
+             all.iterations, all.seconds * 1e6, all.accurate, all.error, all.unconverged);
     }
   }
 }

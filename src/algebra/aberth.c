@@ -1,18 +1,18 @@
 /* Aberth's method: all roots at once, each pushed off by the others.
  *
- * Eq 9 of the paper, z_i <- z_i - N_i / (1 - N_i sum over j != i of 1/(z_i - z_j)) with N_i = P(z_i)/P'(z_i); the paper prints
- * P'/P'' for N_i, an erratum: with it the fixed points would be the roots of P'. Here the same step is written
+ * Eq 9 of the paper, z_i <- z_i - N_i / (1 - N_i sum over j != i of 1/(z_i - z_j)) with N_i = P(z_i)/P'(z_i); the paper
+ * prints P'/P'' for N_i, an erratum: with it the fixed points would be the roots of P'. Here the same step is written
  * 1 / (P'/P - sum), which needs one inversion less. Stop: eq 10, a step below the tolerance in u.
  *
- * Beyond the paper: `stop rounding` ends a root whose value is below its own rounding bound as soon as its steps no longer
- * shrink; `rest on` leaves roots that are done alone, though they still push the others;
- * `update gauss_seidel` takes the newest values of the others.
+ * Beyond the paper: `stop rounding` ends a root whose value is below its own rounding bound as soon as its steps no
+ * longer shrink; `rest on` leaves roots that are done alone, though they still push the others; `update gauss_seidel`
+ * takes the newest values of the others.
  */
 #include "algebra/root_kernel.h"
 #include "algebra/start.h"
 
-void aberth_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                 struct root_estimates *out)
+void aberth_find(const struct root_problem *problem, const struct solver_options *options,
+                 const struct solver_warm *warm, struct root_estimates *out)
 {
   const int n = problem->degree;
   const struct root_kernel *kernel = root_kernel_best();

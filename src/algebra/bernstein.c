@@ -1,10 +1,11 @@
 /* Real roots in [0,1]: sign variations in Bernstein form, bisection, and bracketed Newton.
  *
- * By Descartes' rule in Bernstein form the sign variations of the coefficients over an interval bound its number of roots
- * and have its parity: 0 proves none, 1 exactly one. Other intervals are halved by de Casteljau's algorithm. A coefficient
- * within its own error bound has no sign; an interval that cannot be decided because of that is halved until it can, or until
- * nothing in it has a sign (the polynomial is not told from zero there): a tangency, a multiple root, or no root at all by less
- * than the error. Such intervals are not lost but answered as clusters, by the local parabola.
+ * By Descartes' rule in Bernstein form the sign variations of the coefficients over an interval bound its number of
+ * roots and have its parity: 0 proves none, 1 exactly one. Other intervals are halved by de Casteljau's algorithm. A
+ * coefficient within its own error bound has no sign; an interval that cannot be decided because of that is halved
+ * until it can, or until nothing in it has a sign (the polynomial is not told from zero there): a tangency, a multiple
+ * root, or no root at all by less than the error. Such intervals are not lost but answered as clusters, by the local
+ * parabola.
  */
 #include <string.h>
 
@@ -68,15 +69,16 @@ static struct probe probe_at(const struct search *search, double u)
     out.newton = q.value / q.slope;
   } else { /* p = w^n q, p' = w^(n-2) (q' - n w q) with w = 1 - u, or w^(n-2) (n w q - q') with w = u */
     const double w = chart.reversed ? u : 1.0 - u;
-    const double slope = chart.reversed ? search->degree * w * q.value - q.slope : q.slope - search->degree * w * q.value;
+    const double slope =
+      chart.reversed ? search->degree * w * q.value - q.slope : q.slope - search->degree * w * q.value;
     out.newton = w * w * q.value / slope;
   }
   out.sign = fabs(q.value) <= q.error ? 0 : q.value > 0.0 ? 1 : -1;
   return out;
 }
 
-/* The one root between low and high, where p has the signs `low_sign` and its opposite. A Newton step is taken where it stays
- * in the bracket and is at most half the step before the last; otherwise the bracket is halved. */
+/* The one root between low and high, where p has the signs `low_sign` and its opposite. A Newton step is taken where it
+ * stays in the bracket and is at most half the step before the last; otherwise the bracket is halved. */
 static void bracketed_newton(struct search *search, double low, double high, int low_sign, double start)
 {
   double u = start, last_step = high - low, step_before = high - low;
@@ -269,8 +271,8 @@ static void first_interval(const struct root_problem *problem, struct interval *
   out->level = 0;
 }
 
-void bernstein_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                    struct root_estimates *out)
+void bernstein_find(const struct root_problem *problem, const struct solver_options *options,
+                    const struct solver_warm *warm, struct root_estimates *out)
 {
   (void)warm; /* nothing to start from: the signs lead to every root */
   out->count = 0;

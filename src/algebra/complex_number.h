@@ -1,4 +1,5 @@
-/* Complex numbers by hand: the arithmetic of <complex.h> without its library calls for infinities. Internal to src/algebra. */
+/* Complex numbers by hand: the arithmetic of <complex.h> without its library calls for infinities. Internal to
+ * src/algebra. */
 #ifndef PSCN_ALGEBRA_COMPLEX_NUMBER_H
 #define PSCN_ALGEBRA_COMPLEX_NUMBER_H
 

@@ -1,9 +1,10 @@
 /* One root at a time: the loop that Newton's and Laguerre's methods share (sections 3.1 and 3.2 of the paper).
  *
- * The i-th root is sought from the i-th start value, in what is left of the polynomial after the roots before it were divided
- * out. Forward division (from the highest power, the paper's) is stable for roots found in order of increasing modulus,
- * backward division for the opposite; the composite takes each where it is stable and joins them at the largest term
- * |c[k] a^k| (Peters and Wilkinson, "Practical problems arising in the solution of polynomial equations", 1971).
+ * The i-th root is sought from the i-th start value, in what is left of the polynomial after the roots before it were
+ * divided out. Forward division (from the highest power, the paper's) is stable for roots found in order of increasing
+ * modulus, backward division for the opposite; the composite takes each where it is stable and joins them at the
+ * largest term |c[k] a^k| (Peters and Wilkinson, "Practical problems arising in the solution of polynomial equations",
+ * 1971).
  *
  * A value is taken for a real root where dropping its imaginary part does not raise |p| above what it was or above its
  * rounding bound; the paper does not say how it decides.
@@ -19,8 +20,8 @@
  * would never leave the axis, and cycles end. */
 enum { TURN_PERIOD = 8 };
 
-/* No step is longer than this many times |x| + the mean modulus of the roots: where p' nearly vanishes the way back would
- * take hundreds of steps. */
+/* No step is longer than this many times |x| + the mean modulus of the roots: where p' nearly vanishes the way back
+ * would take hundreds of steps. */
 #define LONGEST_STEP 8.0
 
 /* Steps of `refine` on the whole polynomial. */
@@ -87,8 +88,8 @@ enum look_for { LOOK_VALUE = 0, LOOK_SLOPE = 1, LOOK_CURVATURE = 2, LOOK_ERROR =
 
 /* Chart as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g) and
  * (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
-static inline __attribute__((always_inline)) struct local_values look_inlined(int n, const double c[], struct complex_number x,
-                                                                              int wanted)
+static inline __attribute__((always_inline)) struct local_values look_inlined(int n, const double c[],
+                                                                              struct complex_number x, int wanted)
 {
   const bool reversed = complex_norm(x) > 1.0;
   const struct complex_number one = {1.0, 0.0};
@@ -207,7 +208,8 @@ static struct sought seek(const struct root_problem *problem, const struct solve
 
 static bool taken_for_real(int n, const double c[], struct complex_number x)
 {
-  const struct local_values at = look_at_value(n, c, x), on_axis = look_at_value(n, c, (struct complex_number){x.re, 0.0});
+  const struct local_values at = look_at_value(n, c, x),
+                            on_axis = look_at_value(n, c, (struct complex_number){x.re, 0.0});
   /* The two values may be in different charts; |p| = |q| max(1, |x|)^n. */
   const double ratio = fmax(1.0, complex_norm((struct complex_number){x.re, 0.0})) / fmax(1.0, complex_norm(x));
   return on_axis.size <= on_axis.error || on_axis.size * pow(ratio, 0.5 * n) <= at.size;
@@ -242,8 +244,9 @@ static void add(const struct root_problem *problem, struct complex_number x, int
   root_estimates_add(out, x.re, x.im, iterations, converged, false);
 }
 
-void deflation_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                    const struct deflation_method *method, int wanted, struct root_estimates *out)
+void deflation_find(const struct root_problem *problem, const struct solver_options *options,
+                    const struct solver_warm *warm, const struct deflation_method *method, int wanted,
+                    struct root_estimates *out)
 {
   double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE], c[POLYNOMIAL_MAX_DEGREE + 1];
   out->count = 0;

@@ -21,11 +21,12 @@ struct deflation_method {
 /* Eq 7 and eq 8 of the paper. */
 extern const struct deflation_method newton_method, laguerre_method;
 
-/* Finds roots of the problem by `method`, with deflation after each: a real root by its linear factor, a complex one with its
- * conjugate by their real quadratic (section 3.1 of the paper). Ends when there are `wanted` of them (a conjugate may be one
- * more). They are in the order in which they were found. */
-void deflation_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                    const struct deflation_method *method, int wanted, struct root_estimates *out);
+/* Finds roots of the problem by `method`, with deflation after each: a real root by its linear factor, a complex one
+ * with its conjugate by their real quadratic (section 3.1 of the paper). Ends when there are `wanted` of them (a
+ * conjugate may be one more). They are in the order in which they were found. */
+void deflation_find(const struct root_problem *problem, const struct solver_options *options,
+                    const struct solver_warm *warm, const struct deflation_method *method, int wanted,
+                    struct root_estimates *out);
 
 /* c divided by x - a; c has degree n, the quotient n - 1. The remainder is dropped. */
 void deflation_divide_linear(enum deflation how, int n, double c[], double a);

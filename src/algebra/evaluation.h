@@ -1,13 +1,14 @@
 /* A polynomial made ready to be evaluated at many points, with a bound on every value. Internal to src/algebra.
  *
- * Charts. Either basis is a plain polynomial q of one variable: q(u) itself in the power basis, and in scaled Bernstein form
- * q(x) with x = u/(1-u), because p(u) = (1-u)^n q(x). Where the variable is larger than 1 in modulus the reversed polynomial
- * in its reciprocal is used, so that no power ever overflows: the chart variable z always has |z| <= 1 (up to rounding).
+ * Charts. Either basis is a plain polynomial q of one variable: q(u) itself in the power basis, and in scaled Bernstein
+ * form q(x) with x = u/(1-u), because p(u) = (1-u)^n q(x). Where the variable is larger than 1 in modulus the reversed
+ * polynomial in its reciprocal is used, so that no power ever overflows: the chart variable z always has |z| <= 1 (up
+ * to rounding).
  *
- * Bounds. A complex product has a relative error below sqrt(5) U, a sum below U (U = 2^-53), so that c[k], which passes k
- * products and k + 1 sums, brings at most (3.24 k + 1) U |c[k]| |z|^k of error; the weights (4 k + 2) U |c[k]| leave room for the
- * rounding of the bound itself and for |z| exceeding its true value by a few U. The same paths lead to the derivative, so the
- * derivative of the bound polynomial bounds the error of the derivative.
+ * Bounds. A complex product has a relative error below sqrt(5) U, a sum below U (U = 2^-53), so that c[k], which passes
+ * k products and k + 1 sums, brings at most (3.24 k + 1) U |c[k]| |z|^k of error; the weights (4 k + 2) U |c[k]| leave
+ * room for the rounding of the bound itself and for |z| exceeding its true value by a few U. The same paths lead to the
+ * derivative, so the derivative of the bound polynomial bounds the error of the derivative.
  */
 #ifndef PSCN_ALGEBRA_EVALUATION_H
 #define PSCN_ALGEBRA_EVALUATION_H
@@ -20,7 +21,8 @@
 #define UNIT_ROUNDOFF 0x1p-53
 #define BOUND_ROOM (1.0 + 0x1p-44)
 
-/* All underflow in one evaluation of coefficients scaled to at most 1: under 65 * 65 * 16 operations of 2^-1074 each. */
+/* All underflow in one evaluation of coefficients scaled to at most 1: under 65 * 65 * 16 operations of 2^-1074
+ * each. */
 #define UNDERFLOW_ERROR 0x1p-1057
 
 struct evaluation {

@@ -1,7 +1,7 @@
 /* Laguerre: z <- z - n P / (P' +- sqrt(H)), H = (n-1) [(n-1) P'^2 - n P P''], eq 8 of the paper, with deflation.
  *
- * Divided by P: with G = P'/P and K = G^2 - P''/P the step is -n / (G +- sqrt((n-1) (n K - G^2))), the sign being the one that
- * makes the denominator larger in modulus.
+ * Divided by P: with G = P'/P and K = G^2 - P''/P the step is -n / (G +- sqrt((n-1) (n K - G^2))), the sign being the
+ * one that makes the denominator larger in modulus.
  */
 #include "algebra/deflation.h"
 
@@ -18,8 +18,8 @@ static struct complex_number laguerre_step(const struct local_view *view)
 
 const struct deflation_method laguerre_method = {laguerre_step, true};
 
-void laguerre_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                   struct root_estimates *out)
+void laguerre_find(const struct root_problem *problem, const struct solver_options *options,
+                   const struct solver_warm *warm, struct root_estimates *out)
 {
   deflation_find(problem, options, warm, &laguerre_method, problem->degree, out);
 }

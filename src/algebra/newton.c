@@ -8,8 +8,8 @@ static struct complex_number newton_step(const struct local_view *view)
 
 const struct deflation_method newton_method = {newton_step, false};
 
-void newton_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                 struct root_estimates *out)
+void newton_find(const struct root_problem *problem, const struct solver_options *options,
+                 const struct solver_warm *warm, struct root_estimates *out)
 {
   deflation_find(problem, options, warm, &newton_method, problem->degree, out);
 }

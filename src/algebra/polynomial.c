@@ -25,8 +25,8 @@ double polynomial_binomial(int n, int k)
   return (double)value;
 }
 
-/* Both changes of basis are sums over i <= k of c[i] C(n-i, k-i), to the power basis with alternating signs: the first from
- * 1 = u + (1-u), the second from (1-u)^m multiplied out. */
+/* Both changes of basis are sums over i <= k of c[i] C(n-i, k-i), to the power basis with alternating signs: the first
+ * from 1 = u + (1-u), the second from (1-u)^m multiplied out. */
 static void change_basis(const struct polynomial *p, bool alternate, double out_c[], double out_error[])
 {
   const int n = p->degree;
@@ -42,7 +42,8 @@ static void change_basis(const struct polynomial *p, bool alternate, double out_
     /* One rounding in the binomial, one in the product, k in the sum, and room for the bound's own. A single exact term
      * has none. */
     out_c[k] = sum;
-    out_error[k] = (k == 0 ? 0.0 : size * (k + 3) * UNIT_ROUNDOFF) + given * (1.0 + 4 * POLYNOMIAL_MAX_DEGREE * UNIT_ROUNDOFF);
+    out_error[k] =
+      (k == 0 ? 0.0 : size * (k + 3) * UNIT_ROUNDOFF) + given * (1.0 + 4 * POLYNOMIAL_MAX_DEGREE * UNIT_ROUNDOFF);
   }
 }
 
@@ -108,8 +109,8 @@ static struct polynomial_value evaluate_bernstein(const struct evaluation *e, do
   const double slope_scale = scale / (w * w);
   const double slope = reversed ? n * w * q.value - q.slope : q.slope - n * w * q.value;
 
-  /* z is off by 2 roundings and w^n by 3 n. The bound polynomial has 2 U |c| |z|^k (2 k + 1), so that 3 of it cover z's share
-   * (2 k U |c| |z|^k, and as much for the derivative), its own included; w's is relative. */
+  /* z is off by 2 roundings and w^n by 3 n. The bound polynomial has 2 U |c| |z|^k (2 k + 1), so that 3 of it cover z's
+   * share (2 k U |c| |z|^k, and as much for the derivative), its own included; w's is relative. */
   const double relative = (3 * n + 8) * UNIT_ROUNDOFF;
   const double value_error = 3.0 * q.error;
   const double slope_error = 3.0 * (q.slope_error + n * fabs(w) * q.error) +
@@ -141,8 +142,8 @@ struct polynomial_value polynomial_evaluate(const struct polynomial *p, double u
 
 double polynomial_eq11(const struct polynomial *p, double re, double im)
 {
-  /* As in evaluation.h: the variable of the terms is z = top/low, or low/top where that is smaller; the common factor of all
-   * terms cancels. */
+  /* As in evaluation.h: the variable of the terms is z = top/low, or low/top where that is smaller; the common factor
+   * of all terms cancels. */
   const struct complex_number one = {1.0, 0.0}, at = {re, im};
   const struct complex_number other = p->basis == BASIS_POWER ? one : complex_subtract(one, at);
   const bool reversed = hypot(at.re, at.im) > hypot(other.re, other.im);
@@ -164,8 +165,8 @@ double polynomial_eq11(const struct polynomial *p, double re, double im)
   return isnan(ratio) ? INFINITY : ratio;
 }
 
-/* `gap` uncertain signs between two certain ones can hide at most gap + 1 changes: an even number of them where the two are
- * equal, an odd number where they differ. At either end of the sequence they can hide gap. */
+/* `gap` uncertain signs between two certain ones can hide at most gap + 1 changes: an even number of them where the two
+ * are equal, an odd number where they differ. At either end of the sequence they can hide gap. */
 struct sign_variations polynomial_sign_variations(int degree, const double c[], const double error[])
 {
   struct sign_variations out = {0, 0};

@@ -1,7 +1,7 @@
 /* A real polynomial in one of two bases, and what can be said of its value with proof.
  *
- * Every value comes with a bound on its distance from the value of the true polynomial: rounding of the evaluation plus the
- * caller's own bounds on the coefficients. Nothing here allocates, fails or keeps state.
+ * Every value comes with a bound on its distance from the value of the true polynomial: rounding of the evaluation plus
+ * the caller's own bounds on the coefficients. Nothing here allocates, fails or keeps state.
  */
 #ifndef PSCN_ALGEBRA_POLYNOMIAL_H
 #define PSCN_ALGEBRA_POLYNOMIAL_H
@@ -11,7 +11,7 @@
 enum { POLYNOMIAL_MAX_DEGREE = 64 };
 
 enum basis {
-  BASIS_BERNSTEIN, /* scaled Bernstein: p(u) = sum c[k] u^k (1-u)^(n-k), so c[k] = C(n,k) times the Bernstein coefficient */
+  BASIS_BERNSTEIN, /* scaled: p(u) = sum c[k] u^k (1-u)^(n-k), c[k] = C(n,k) times the Bernstein coefficient */
   BASIS_POWER      /* p(u) = sum c[k] u^k */
 };
 
@@ -32,18 +32,18 @@ struct polynomial_value {
 
 struct polynomial_value polynomial_evaluate(const struct polynomial *p, double u);
 
-/* |P(z)| / delta(z) of the paper's eq 11 at a finite z = re + i im, where delta = n 2^-52 max |a_k z^k|: below 1 the paper calls
- * z accurate. In scaled Bernstein form P and the terms are those of the plain polynomial in z/(1-z). */
+/* |P(z)| / delta(z) of the paper's eq 11 at a finite z = re + i im, where delta = n 2^-52 max |a_k z^k|: below 1 the
+ * paper calls z accurate. In scaled Bernstein form P and the terms are those of the plain polynomial in z/(1-z). */
 double polynomial_eq11(const struct polynomial *p, double re, double im);
 
-/* The same polynomial in the other basis. Writes degree + 1 coefficients and bounds (the old bounds carried over plus all
- * rounding); the arrays must not overlap p's. A polynomial already in the wanted basis is copied. */
+/* The same polynomial in the other basis. Writes degree + 1 coefficients and bounds (the old bounds carried over plus
+ * all rounding); the arrays must not overlap p's. A polynomial already in the wanted basis is copied. */
 void polynomial_to_bernstein(const struct polynomial *p, double out_c[], double out_error[]);
 void polynomial_to_power(const struct polynomial *p, double out_c[], double out_error[]);
 
-/* Sign changes in a sequence of n + 1 coefficients whose signs are known only where |c[k]| > error[k] (error may be NULL):
- * the fewest and the most there can be. By Descartes' rule on scaled Bernstein (or Bernstein) coefficients, most = 0 proves
- * that (0,1) holds no root, and fewest = most = 1 that it holds exactly one. */
+/* Sign changes in a sequence of n + 1 coefficients whose signs are known only where |c[k]| > error[k] (error may be
+ * NULL): the fewest and the most there can be. By Descartes' rule on scaled Bernstein (or Bernstein) coefficients, most
+ * = 0 proves that (0,1) holds no root, and fewest = most = 1 that it holds exactly one. */
 struct sign_variations {
   int fewest, most;
 };

@@ -11,11 +11,12 @@
 /* A slope known to less than half of itself makes the first-order bound poor: then the higher orders are asked too. */
 #define SLOPE_CERTAINTY 0.5
 
-/* Every so many sweeps the steps of the roots still moving are turned by an angle of their own. Symmetric starts (real values
- * seeking a complex pair, pairs seeking two real roots) would otherwise never part. */
+/* Every so many sweeps the steps of the roots still moving are turned by an angle of their own. Symmetric starts (real
+ * values seeking a complex pair, pairs seeking two real roots) would otherwise never part. */
 enum { TURN_PERIOD = 5 };
 
-/* Steps of noise a root may meet before it is done: the others are still moving, and the next step may be a good one. */
+/* Steps of noise a root may meet before it is done: the others are still moving, and the next step may be a good
+ * one. */
 enum { PATIENCE = 2 };
 #define WILD 64.0 /* noise this much longer than the last good step, squared, is not even tried */
 
@@ -34,7 +35,8 @@ LANES_INLINE lanes modulus_of(lanes re, lanes im)
   return lanes_sqrt(re * re + im * im) * drop;
 }
 
-/* q and q' of the chart polynomial at a few chart points z, and bounds on their errors. Lanes of `reversed` take 1/x. */
+/* q and q' of the chart polynomial at a few chart points z, and bounds on their errors. Lanes of `reversed` take
+ * 1/x. */
 struct evaluation_lanes {
   lanes re, im, slope_re, slope_im, error, slope_error;
 };
@@ -182,7 +184,8 @@ static void aberth_sweep(struct aberth *a, const struct solver_options *options,
     }
     for (int l = 0; l < used; l++) {
       const int i = active[first + l];
-      const bool done = take_step(a, options, turning, i, step.re[l], step.im[l], step.step_square[l], step.resting[l] != 0);
+      const bool done =
+        take_step(a, options, turning, i, step.re[l], step.im[l], step.step_square[l], step.resting[l] != 0);
       out->iterations[i]++;
       out->converged[i] = done;
       moving += !done;

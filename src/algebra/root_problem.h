@@ -1,10 +1,12 @@
 /* What a solver of the table works on, and what it answers. Internal to src/algebra.
  *
- * solver_solve scales the polynomial (largest coefficient in [1/2, 1)), takes out the roots that zero coefficients at its ends
- * show, and leaves the rest as a polynomial q of degree 1 or more in x, with c[0] and c[degree] not zero. In the power basis
- * x = u; in scaled Bernstein form x = u/(1-u), and the same numbers c are the scaled Bernstein coefficients in u.
+ * solver_solve scales the polynomial (largest coefficient in [1/2, 1)), takes out the roots that zero coefficients at
+ * its ends show, and leaves the rest as a polynomial q of degree 1 or more in x, with c[0] and c[degree] not zero. In
+ * the power basis x = u; in scaled Bernstein form x = u/(1-u), and the same numbers c are the scaled Bernstein
+ * coefficients in u.
  *
- * A solver answers estimates of roots in u. What they are worth is judged afterwards, from the polynomial, in validation.c.
+ * A solver answers estimates of roots in u. What they are worth is judged afterwards, from the polynomial, in
+ * validation.c.
  */
 #ifndef PSCN_ALGEBRA_ROOT_PROBLEM_H
 #define PSCN_ALGEBRA_ROOT_PROBLEM_H
@@ -24,7 +26,7 @@ struct root_estimates {
   double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE]; /* in u; not finite means infinity */
   int iterations[POLYNOMIAL_MAX_DEGREE];
   bool converged[POLYNOMIAL_MAX_DEGREE]; /* the stopping rule was met, not the iteration limit */
-  bool cluster[POLYNOMIAL_MAX_DEGREE];   /* stands for a root of unknown multiplicity, or for a pair that may not be real */
+  bool cluster[POLYNOMIAL_MAX_DEGREE];   /* of unknown multiplicity, or a pair that may not be real */
 };
 
 /* Between u and x. The point at infinity of either comes out as infinite or as NaN. */
@@ -60,16 +62,16 @@ static inline void root_problem_x_from_u(enum basis basis, double *re, double *i
 }
 
 /* The rows of the table. */
-void bernstein_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                    struct root_estimates *out);
-void aberth_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                 struct root_estimates *out);
+void bernstein_find(const struct root_problem *problem, const struct solver_options *options,
+                    const struct solver_warm *warm, struct root_estimates *out);
+void aberth_find(const struct root_problem *problem, const struct solver_options *options,
+                 const struct solver_warm *warm, struct root_estimates *out);
 
 /* Newton's and Laguerre's methods and their like: one root at a time, and deflation. */
-void newton_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                 struct root_estimates *out);
-void laguerre_find(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,
-                   struct root_estimates *out);
+void newton_find(const struct root_problem *problem, const struct solver_options *options,
+                 const struct solver_warm *warm, struct root_estimates *out);
+void laguerre_find(const struct root_problem *problem, const struct solver_options *options,
+                   const struct solver_warm *warm, struct root_estimates *out);
 
 /* Adds an estimate; one too many is dropped. */
 static inline void root_estimates_add(struct root_estimates *out, double re, double im, int iterations, bool converged,

@@ -1,4 +1,5 @@
-/* The table of solvers, the items of a solver block, and the way every polynomial goes: scaled, stripped, solved, judged. */
+/* The table of solvers, the items of a solver block, and the way every polynomial goes: scaled, stripped, solved,
+ * judged. */
 #include "algebra/solver.h"
 
 #include <float.h>
@@ -11,7 +12,8 @@
 static const struct solver solvers[] = {
   {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, 1e-12, 64,
    bernstein_find},
-  {"newton", "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, 1e-12, 200, newton_find},
+  {"newton", "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, 1e-12, 200,
+   newton_find},
   {"laguerre", "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false, 1e-12, 100,
    laguerre_find},
   {"aberth", "all roots at once by Aberth's method (eq 9 of the paper)", false, 1e-12, 100, aberth_find},
@@ -137,14 +139,15 @@ static const char *const back_substitution_words[] = {"null_vector", "euclid", N
 static const char *const off_on[] = {"off", "on", NULL};
 static const char *const split_words[] = {"auto", NULL};
 
-/* Limits: a tolerance of 1 in a parameter of [0,1] asks for nothing; iterations are bounded so that no solve can hang. */
+/* Limits: a tolerance of 1 in a parameter of [0,1] asks for nothing; iterations are bounded so that no solve can
+ * hang. */
 #define MAX_TOLERANCE 1.0
 #define MAX_ITERATIONS 10000
 #define MAX_SPLIT 64
 
 static const struct solver_item items[] = {
-  {"tolerance", "a root has converged when a step is below this (eps of eq 10), absolute in u", SOLVER_ITEM_NUMBER, NULL,
-   DBL_MIN, MAX_TOLERANCE, set_tolerance, get_tolerance},
+  {"tolerance", "a root has converged when a step is below this (eps of eq 10), absolute in u", SOLVER_ITEM_NUMBER,
+   NULL, DBL_MIN, MAX_TOLERANCE, set_tolerance, get_tolerance},
   {"max_iterations", "steps a root may take", SOLVER_ITEM_INTEGER, NULL, 1, MAX_ITERATIONS, set_max_iterations,
    get_max_iterations},
   {"start", "from Aberth's circle, or from the roots of the previous ray on the same patch", SOLVER_ITEM_KEYWORD,
@@ -158,12 +161,12 @@ static const struct solver_item items[] = {
   {"split", "each patch is cut into N x N leaves; 1 = whole patches", SOLVER_ITEM_INTEGER, split_words, 1, MAX_SPLIT,
    set_split, get_split},
   /* form stands before the items it sets, so that a block written in this order reads back the same. */
-  {"form", "all of the following at once: the paper's iterations as printed, or improved", SOLVER_ITEM_KEYWORD, form_words,
-   0, 1, set_form, get_form},
-  {"radii", "cold start values on Aberth's circle, or on circles by Newton's polygon", SOLVER_ITEM_KEYWORD, radii_words, 0,
-   1, set_radii, get_radii},
-  {"stop", "by eq 10 alone, or also where the value is below its own rounding bound", SOLVER_ITEM_KEYWORD, stop_words, 0, 1,
-   set_stop, get_stop},
+  {"form", "all of the following at once: the paper's iterations as printed, or improved", SOLVER_ITEM_KEYWORD,
+   form_words, 0, 1, set_form, get_form},
+  {"radii", "cold start values on Aberth's circle, or on circles by Newton's polygon", SOLVER_ITEM_KEYWORD, radii_words,
+   0, 1, set_radii, get_radii},
+  {"stop", "by eq 10 alone, or also where the value is below its own rounding bound", SOLVER_ITEM_KEYWORD, stop_words,
+   0, 1, set_stop, get_stop},
   {"update", "aberth: from the values before the sweep, or from the newest", SOLVER_ITEM_KEYWORD, update_words, 0, 1,
    set_update, get_update},
   {"rest", "aberth: a root that is done is left alone while others move", SOLVER_ITEM_KEYWORD, off_on, 0, 1, set_rest,

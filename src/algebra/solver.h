@@ -12,22 +12,22 @@
 #include "algebra/polynomial.h"
 
 enum root_status {
-  ROOT_CONVERGED, /* the solver's stopping rule was met, and the true polynomial has a root within radius of the value */
+  ROOT_CONVERGED, /* the stopping rule was met, and the true polynomial has a root within radius of the value */
   ROOT_LIMIT,     /* the iteration limit came first, or no bound was found: the radius is true but may be infinite */
-  ROOT_CLUSTER    /* as converged, but the disc meets that of another root: they may be one multiple root, or none of them real */
+  ROOT_CLUSTER    /* as converged, but discs meet: perhaps one multiple root, perhaps a pair and none of them real */
 };
 
 struct root {
-  double re, im; /* im is 0 where it is within what the value's error looks like; a real root is excluded only by |im| > radius */
+  double re, im; /* im is 0 within the guessed error of the value; only |im| > radius excludes a real root */
   double radius; /* absolute: at least one root of p lies within it (disc in the complex plane of u); may be INFINITY */
   int iterations;
   enum root_status status;
 };
 
-/* The roots found, in no promised order. Roots at infinity (vanishing leading coefficients, or roots that their bound does
- * not tell from infinity) are not listed. A polynomial that is zero within its own error, or not finite, gives
- * identically_zero or not_finite and no roots. Exact zero coefficients at the ends are exact roots at 0 (and in Bernstein form
- * at 1) with radius 0, one entry for each multiplicity. */
+/* The roots found, in no promised order. Roots at infinity (vanishing leading coefficients, or roots that their bound
+ * does not tell from infinity) are not listed. A polynomial that is zero within its own error, or not finite, gives
+ * identically_zero or not_finite and no roots. Exact zero coefficients at the ends are exact roots at 0 (and in
+ * Bernstein form at 1) with radius 0, one entry for each multiplicity. */
 struct root_set {
   int count;
   bool identically_zero;
@@ -40,8 +40,8 @@ enum resultant { RESULTANT_BEZOUT, RESULTANT_SYLVESTER };
 enum back_substitution { BACK_SUBSTITUTION_NULL_VECTOR, BACK_SUBSTITUTION_EUCLID };
 
 /* Ways of the complex solvers that go beyond the paper. Each can be had alone; `form` sets them all at once. */
-enum radii { RADII_CIRCLE, RADII_POLYGON };          /* start values on Aberth's circle, or by Newton's polygon (Bini) */
-enum stop { STOP_STEP, STOP_ROUNDING };              /* eq 10 alone, or also where |p| is below its own rounding bound */
+enum radii { RADII_CIRCLE, RADII_POLYGON }; /* start values on Aberth's circle, or by Newton's polygon (Bini) */
+enum stop { STOP_STEP, STOP_ROUNDING };     /* eq 10 alone, or also where |p| is below its own rounding bound */
 enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL };  /* aberth: the values of the last sweep, or the newest there are */
 enum deflation { DEFLATION_FORWARD, DEFLATION_COMPOSITE };
 
@@ -101,7 +101,7 @@ struct solver_item {
   const char *name;
   const char *summary;
   enum solver_item_kind kind;
-  const char *const *keywords; /* NULL-terminated: for KEYWORD its values; for INTEGER words standing for 0, 1, ... or NULL */
+  const char *const *keywords; /* ends with NULL: values of a KEYWORD, words for 0, 1, ... of an INTEGER; or NULL */
   double minimum, maximum;     /* inclusive range for NUMBER and INTEGER */
   void (*set)(struct solver_options *options, double value); /* value: the number, or the keyword's index */
   double (*get)(const struct solver_options *options);
@@ -110,9 +110,9 @@ struct solver_item {
 size_t solver_item_count(void);
 const struct solver_item *solver_item_at(size_t index);
 
-/* Solves p with options->solver and judges the answer: radii and statuses are set by one validation shared by all solvers.
- * p may be in either basis: the roots are found in p's own (options->basis is for the caller, who forms p). warm may be NULL;
- * with start previous it is read, and afterwards holds the new roots. */
+/* Solves p with options->solver and judges the answer: radii and statuses are set by one validation shared by all
+ * solvers. p may be in either basis: the roots are found in p's own (options->basis is for the caller, who forms p).
+ * warm may be NULL; with start previous it is read, and afterwards holds the new roots. */
 void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out);
 

@@ -1,13 +1,13 @@
 /* Start values: Aberth's circle, Newton's polygon, and the roots of the previous polynomial.
  *
- * Aberth's circle (section 3.4 of the paper): the centre is the centroid of the roots, -c[n-1] / (n c[n]); the radius is the
- * positive root of |b[n]| r^n = sum over k < n of |b[k]| r^k, with b the coefficients about the centre, which is Cauchy's
- * bound: the circle holds every root. The values are spread evenly on it, turned by a quarter of their spacing so that
- * they do not lie in conjugate pairs, which the iteration could not part.
+ * Aberth's circle (section 3.4 of the paper): the centre is the centroid of the roots, -c[n-1] / (n c[n]); the radius
+ * is the positive root of |b[n]| r^n = sum over k < n of |b[k]| r^k, with b the coefficients about the centre, which is
+ * Cauchy's bound: the circle holds every root. The values are spread evenly on it, turned by a quarter of their spacing
+ * so that they do not lie in conjugate pairs, which the iteration could not part.
  *
- * Newton's polygon (D. Bini, "Numerical computation of polynomial zeros by means of Aberth's method", 1996): the upper convex
- * hull of the points (k, log |c[k]|); an edge from k to l stands for l - k roots of modulus about |c[k]/c[l]|^(1/(l-k)), and as
- * many values are spread on the circle of that radius about 0.
+ * Newton's polygon (D. Bini, "Numerical computation of polynomial zeros by means of Aberth's method", 1996): the upper
+ * convex hull of the points (k, log |c[k]|); an edge from k to l stands for l - k roots of modulus about
+ * |c[k]/c[l]|^(1/(l-k)), and as many values are spread on the circle of that radius about 0.
  */
 #include "algebra/start.h"
 

@@ -1,12 +1,14 @@
 /* What a root is worth: one judge for all solvers, who looks at nothing but the value and the polynomial.
  *
- * For a polynomial q of degree n with Taylor coefficients q_j at z, each |q_j / q_0| is an elementary symmetric function of the
- * n reciprocal distances from z to the roots, at most C(n,j) / d^j with d the smallest distance. So for every j there is a
- * root within (C(n,j) |q_0| / |q_j|)^(1/j); j = 1 is the well-known n |p/p'|. With |q_0| rounded up and |q_j| rounded down by
- * their bounds (evaluation.h), this holds for the true polynomial. Roots at infinity only make it safer.
+ * For a polynomial q of degree n with Taylor coefficients q_j at z, each |q_j / q_0| is an elementary symmetric
+ * function of the n reciprocal distances from z to the roots, at most C(n,j) / d^j with d the smallest distance. So for
+ * every j there is a root within (C(n,j) |q_0| / |q_j|)^(1/j); j = 1 is the well-known n |p/p'|. With |q_0| rounded up
+ * and |q_j| rounded down by their bounds (evaluation.h), this holds for the true polynomial. Roots at infinity only
+ * make it safer.
  *
  * The bound is taken in the chart variable z and carried to u, both ways of Moebius: if z = s/w, with w the chart's
- * denominator at u, the disc of radius r about z lies within r |w|^2 / (1 - r |w|) of u, or reaches infinity if r |w| >= 1.
+ * denominator at u, the disc of radius r about z lies within r |w|^2 / (1 - r |w|) of u, or reaches infinity if r |w|
+ * >= 1.
  */
 #include <math.h>
 #include <string.h>
@@ -67,8 +69,8 @@ static void find_radii(const struct evaluation *p, int count, struct root root[]
   }
 }
 
-/* The bound n |p/p'| is n times what Newton's method would guess of the error of a simple root; a value whose imaginary part is
- * within this many such guesses is moved to the real axis and judged again. */
+/* The bound n |p/p'| is n times what Newton's method would guess of the error of a simple root; a value whose imaginary
+ * part is within this many such guesses is moved to the real axis and judged again. */
 #define SNAP_GUESSES 2.0
 
 static void snap_to_axis(const struct evaluation *p, struct root_set *roots)
@@ -108,8 +110,8 @@ static void mark_clusters(struct root_set *roots)
   }
 }
 
-/* Whether p may have a root at infinity: its leading coefficient in powers of u is not told from zero. In Bernstein form that is
- * the value of q at x = -1. */
+/* Whether p may have a root at infinity: its leading coefficient in powers of u is not told from zero. In Bernstein
+ * form that is the value of q at x = -1. */
 static bool may_reach_infinity(const struct evaluation *p)
 {
   const bool power = p->basis == BASIS_POWER;

@@ -84,7 +84,7 @@ static struct stream_fault parse_line(const struct stream_line *line, double out
   if (found < 0)
     return fault;
   if (found > 0)
-    return (struct stream_fault){ "a polynomial has at most 65 coefficients, and here is more", fault.begin, fault.end };
+    return (struct stream_fault){"a polynomial has at most 65 coefficients, and here is more", fault.begin, fault.end};
   if (count < 2)
     return (struct stream_fault){ "a polynomial is at least two coefficients, from the highest power to the constant",
                                   fault.begin, fault.end };
@@ -120,8 +120,8 @@ static void write_roots(const struct root_set *roots)
   putc('\n', stdout);
 }
 
-/* `basis bernstein` solves the same polynomial in scaled Bernstein form, the rounding of the change of basis known to the
- * solver. */
+/* `basis bernstein` solves the same polynomial in scaled Bernstein form, the rounding of the change of basis known to
+ * the solver. */
 static void answer(struct session *session, int degree, const double c[])
 {
   const struct polynomial power = { degree, BASIS_POWER, c, NULL };
@@ -147,8 +147,8 @@ static void answer(struct session *session, int degree, const double c[])
   write_roots(&roots);
 }
 
-/* Answers until the stream ends, or a bad line comes, or something fails. Before it waits for the stream, what has come so
- * far is answered. */
+/* Answers until the stream ends, or a bad line comes, or something fails. Before it waits for the stream, what has come
+ * so far is answered. */
 static enum status answer_stream(const struct command *command, struct session *session, struct stream *stream)
 {
   enum stream_result result = STREAM_MORE;

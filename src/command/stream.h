@@ -43,8 +43,8 @@ static inline bool stream_at_end(const struct stream *stream)
   return stream->ended && stream->begin == stream->end;
 }
 
-/* The line at the beginning of what is left, without its end, LF or CRLF; `bytes` is its length with it. False where its end is
- * still to come. A line longer than STREAM_MAX_LINE comes as the part that has been read. */
+/* The line at the beginning of what is left, without its end, LF or CRLF; `bytes` is its length with it. False where
+ * its end is still to come. A line longer than STREAM_MAX_LINE comes as the part that has been read. */
 struct stream_line {
   const char *text;
   size_t length, bytes;
@@ -64,9 +64,9 @@ struct stream_fault {
   size_t begin, end;
 };
 
-/* Reads the next number of a line, from byte *at on, and steps over it: 1; 0 where the line holds no more; -1 where what
- * stands there is no finite number, told in out_fault. Either way *at is then the first byte of the word, and out_end the
- * first behind it. */
+/* Reads the next number of a line, from byte *at on, and steps over it: 1; 0 where the line holds no more; -1 where
+ * what stands there is no finite number, told in out_fault. Either way *at is then the first byte of the word, and
+ * out_end the first behind it. */
 int stream_number(const struct stream_line *line, size_t *at, double *out_value, size_t *out_end,
                   struct stream_fault *out_fault);
 

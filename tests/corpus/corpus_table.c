@@ -2,9 +2,10 @@
  *
  *     corpus_table
  *
- * The polynomials in the power basis, as they stand. Every true root is given the nearest value not yet given away; the error is
- * the largest distance of such a pair, relative to 1 or to the root's modulus where that is larger. A multiple root counts as
- * often as its multiplicity, but once for solvers of real roots, which answer a cluster by one or two candidates.
+ * The polynomials in the power basis, as they stand. Every true root is given the nearest value not yet given away; the
+ * error is the largest distance of such a pair, relative to 1 or to the root's modulus where that is larger. A multiple
+ * root counts as often as its multiplicity, but once for solvers of real roots, which answer a cluster by one or two
+ * candidates.
  */
 #include <math.h>
 #include <stdio.h>

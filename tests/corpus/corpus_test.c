@@ -1,7 +1,8 @@
-/* Every solver on every polynomial of the corpus, in both bases, against guaranteed roots: whatever it says must be true.
+/* Every solver on every polynomial of the corpus, in both bases, against guaranteed roots: whatever it says must be
+ * true.
  *
- * The Bernstein form is a rounded one with its bounds, and the truth is the power form it was made from: so the coefficient
- * bounds are put to the test as well.
+ * The Bernstein form is a rounded one with its bounds, and the truth is the power form it was made from: so the
+ * coefficient bounds are put to the test as well.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -52,20 +53,23 @@ static struct polynomial polynomial_of(const struct corpus_entry *entry, enum ba
 
 /* What holds for any answer of any solver. Answers the number of false statements. */
 static int check_answer(const char *solver, const struct corpus_entry *entry, enum basis basis, double tolerance,
-                        const struct exact_roots *exact, const struct solver_options *options, const struct root_set *roots)
+                        const struct exact_roots *exact, const struct solver_options *options,
+                        const struct root_set *roots)
 {
   int wrong = roots->count > entry->degree || roots->not_finite || roots->identically_zero;
   for (int i = 0; i < roots->count; i++) {
     const struct root *root = &roots->root[i];
     const double distance = exact_roots_nearest_below(exact, root->re, root->im);
     const int bad = !isfinite(root->re) || !isfinite(root->im) || !(root->radius >= 0.0) || distance > root->radius ||
-                    (root->im != 0.0 && root->radius < INFINITY && entry->degree * fabs(root->im) <= root->radius) || root->iterations > options->max_iterations ||
+                    (root->im != 0.0 && root->radius < INFINITY && entry->degree * fabs(root->im) <= root->radius) ||
+                    root->iterations > options->max_iterations ||
                     (root->status == ROOT_CONVERGED && !(root->radius < INFINITY)) ||
                     (options->solver->real_only && (root->im != 0.0 || root->re < 0.0 || root->re > 1.0));
     if (bad) {
-      print_error("%s, %s, basis %d, tolerance %g: %.17g %+.17g i, radius %g, status %d, iterations %d, true distance %g\n",
-                  solver, entry->name, (int)basis, tolerance, root->re, root->im, root->radius, (int)root->status,
-                  root->iterations, distance);
+      print_error(
+        "%s, %s, basis %d, tolerance %g: %.17g %+.17g i, radius %g, status %d, iterations %d, true distance %g\n",
+        solver, entry->name, (int)basis, tolerance, root->re, root->im, root->radius, (int)root->status,
+        root->iterations, distance);
     }
     wrong += bad;
   }
@@ -107,8 +111,8 @@ static void answers_are_true(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* The promise of the default solver: no real root in [0,1] is lost. One disc of each solution must hold it; roots so near
- * to each other that they share a cluster may share its discs. */
+/* The promise of the default solver: no real root in [0,1] is lost. One disc of each solution must hold it; roots so
+ * near to each other that they share a cluster may share its discs. */
 static void no_real_root_is_lost(void **state)
 {
   const struct fixture *fixture = *state;
@@ -127,11 +131,12 @@ static void no_real_root_is_lost(void **state)
         }
         int held = 0;
         for (int r = 0; r < roots.count; r++) {
-          held += exact_roots_distance_above(fixture->exact[i], k, roots.root[r].re, roots.root[r].im) <= roots.root[r].radius;
+          held += exact_roots_distance_above(fixture->exact[i], k, roots.root[r].re, roots.root[r].im) <=
+                  roots.root[r].radius;
         }
         if (held == 0) {
-          print_error("%s, basis %d: the root %.17g of multiplicity %d is lost\n", fixture->entry[i].name, basis, exact.re,
-                      exact.multiplicity);
+          print_error("%s, basis %d: the root %.17g of multiplicity %d is lost\n", fixture->entry[i].name, basis,
+                      exact.re, exact.multiplicity);
         }
         lost += held == 0;
       }
@@ -140,8 +145,8 @@ static void no_real_root_is_lost(void **state)
   assert_int_equal(lost, 0);
 }
 
-/* Aberth's method as it is by default brings every root of every polynomial, none twice: the values can be paired with the true
- * roots so that each lies within its partner's disc. (In the power basis, whose coefficients are exact.) */
+/* Aberth's method as it is by default brings every root of every polynomial, none twice: the values can be paired with
+ * the true roots so that each lies within its partner's disc. (In the power basis, whose coefficients are exact.) */
 static void aberth_finds_all(void **state)
 {
   const struct fixture *fixture = *state;
@@ -178,8 +183,8 @@ static void aberth_finds_all(void **state)
   assert_int_equal(missing, 0);
 }
 
-/* Random coefficients of all sizes, zeros among them, exact and with bounds, in both bases: the discs must hold roots of the
- * polynomial as given (a bound of 0 belongs to it as much as any other). */
+/* Random coefficients of all sizes, zeros among them, exact and with bounds, in both bases: the discs must hold roots
+ * of the polynomial as given (a bound of 0 belongs to it as much as any other). */
 static void wild_coefficients(void **state)
 {
   (void)state;
@@ -210,7 +215,8 @@ static void wild_coefficients(void **state)
           const struct polynomial p = {entry.degree, (enum basis)basis, entry.c, bounds != 0 ? error : NULL};
           struct root_set roots;
           solver_solve(&p, &options, NULL, &roots);
-          wrong += check_answer(solver_at(s)->name, &entry, (enum basis)basis, options.tolerance, exact, &options, &roots);
+          wrong +=
+            check_answer(solver_at(s)->name, &entry, (enum basis)basis, options.tolerance, exact, &options, &roots);
         }
       }
       exact_roots_destroy(exact);

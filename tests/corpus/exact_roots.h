@@ -1,7 +1,7 @@
 /* All complex roots of a polynomial with double coefficients, with proof, by FLINT's arb (peer; libflint-arb-dev).
  *
- * The coefficients are taken as the exact numbers they are: scaled to integers, split into squarefree factors, whose roots arb
- * isolates. Multiplicities are therefore exact too.
+ * The coefficients are taken as the exact numbers they are: scaled to integers, split into squarefree factors, whose
+ * roots arb isolates. Multiplicities are therefore exact too.
  */
 #ifndef TESTS_CORPUS_EXACT_ROOTS_H
 #define TESTS_CORPUS_EXACT_ROOTS_H
@@ -12,7 +12,8 @@
 
 struct exact_roots;
 
-/* The finite roots of p, whose coefficients are finite and not all zero; p->error is not looked at. NULL where memory is short. */
+/* The finite roots of p, whose coefficients are finite and not all zero; p->error is not looked at. NULL where memory
+ * is short. */
 struct exact_roots *exact_roots_find(const struct polynomial *p);
 void exact_roots_destroy(struct exact_roots *roots);
 

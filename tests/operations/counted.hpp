@@ -1,4 +1,5 @@
-// A double that counts what is done to it. The solvers' own sources are compiled with it in place of double (operations_test.cpp).
+// A double that counts what is done to it. The solvers' own sources are compiled with it in place of double
+// (operations_test.cpp).
 #ifndef TESTS_OPERATIONS_COUNTED_HPP
 #define TESTS_OPERATIONS_COUNTED_HPP
 

@@ -1,13 +1,14 @@
-// Table 1 of the paper for our loops: real operations of one iteration of one root, as a function of the degree n, counted by
-// compiling the solvers' sources with a counting number. The paper's forms (power basis, eq 10 alone as the stop).
+// Table 1 of the paper for our loops: real operations of one iteration of one root, as a function of the degree n,
+// counted by compiling the solvers' sources with a counting number. The paper's forms (power basis, eq 10 alone as the
+// stop).
 //
 //                     additions      multiplications   divisions       square roots
 //   paper: Newton      6n + 2          8n + 4            2 inversions
 //          Laguerre    9n + 7         12n + 16           1               3, and 2 moduli
 //          Aberth     11n + 4         12n + 12           n + 1
-// Ours are in the table `expected` below. A coefficient costs each of P, P' and P'' one complex product (4 multiplications, 2
-// additions) and a sum (1 addition for P, whose coefficients are real, else 2); a neighbour costs Aberth 5 additions, 4
-// multiplications and 1 division.
+// Ours are in the table `expected` below. A coefficient costs each of P, P' and P'' one complex product (4
+// multiplications, 2 additions) and a sum (1 addition for P, whose coefficients are real, else 2); a neighbour costs
+// Aberth 5 additions, 4 multiplications and 1 division.
 #include <cassert>
 #include <cfloat>
 #include <cstddef>
@@ -88,7 +89,8 @@ static operations count(const struct solver *solver, int degree)
   unsigned state = 7;
   problem.degree = degree;
   problem.basis = BASIS_POWER;
-  for (int k = 0; k <= degree; k++) { // roots well within the unit circle, so that no value needs the reversed polynomial
+  // Roots well within the unit circle, so that no value needs the reversed polynomial.
+  for (int k = 0; k <= degree; k++) {
     state = state * 1664525u + 1013904223u;
     problem.c[k] = ((state >> 8) * 0x1p-24 + 0.25) * exp2(4.0 * k);
   }
@@ -133,12 +135,13 @@ int main()
       const long roots = row.solver == &aberth_row ? n : 1;
       const long found[4] = {all.additions / roots, all.multiplications / roots, all.divisions / roots,
                              all.square_roots / roots};
-      const long said[4] = {row.additions[0] * n + row.additions[1], row.multiplications[0] * n + row.multiplications[1],
+      const long said[4] = {row.additions[0] * n + row.additions[1],
+                            row.multiplications[0] * n + row.multiplications[1],
                             row.divisions[0] * n + row.divisions[1], row.square_roots[0] * n + row.square_roots[1]};
       if (memcmp(found, said, sizeof found) != 0) {
         failed++;
-        fprintf(stderr, "%s, n = %d: %ld %ld %ld %ld counted, %ld %ld %ld %ld expected\n", row.solver->name, n, found[0],
-                found[1], found[2], found[3], said[0], said[1], said[2], said[3]);
+        fprintf(stderr, "%s, n = %d: %ld %ld %ld %ld counted, %ld %ld %ld %ld expected\n", row.solver->name, n,
+                found[0], found[1], found[2], found[3], said[0], said[1], said[2], said[3]);
       }
     }
   }

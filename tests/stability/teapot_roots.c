@@ -1,6 +1,6 @@
-/* Aberth's method on ray-patch pairs of the teapot (whole patches), against all roots of the reference: how many of the true
- * (u,v) in [0,1]^2 it finds to 1e-11 with `polish off`, in Bernstein form, and that with `polish on` the nearest hit is always
- * right. The paper's own form is measured beside it and printed.
+/* Aberth's method on ray-patch pairs of the teapot (whole patches), against all roots of the reference: how many of the
+ * true (u,v) in [0,1]^2 it finds to 1e-11 with `polish off`, in Bernstein form, and that with `polish on` the nearest
+ * hit is always right. The paper's own form is measured beside it and printed.
  */
 #include <ctype.h>
 #include <math.h>
@@ -40,7 +40,8 @@ static int read_teapot(void **state)
   text[fread(text, 1, sizeof text - 1, file)] = '\0';
   fclose(file);
   int count = 0;
-  for (char *at = strstr(text, "bicubic_patch {"); at != NULL && count < TEAPOT_PATCHES; at = strstr(at, "bicubic_patch {")) {
+  for (char *at = strstr(text, "bicubic_patch {"); at != NULL && count < TEAPOT_PATCHES;
+       at = strstr(at, "bicubic_patch {")) {
     at = strchr(at, '\n');
     double *out = &teapot[count][0][0][0];
     for (int k = 0; k < 48; k++) {
