@@ -1,4 +1,9 @@
-/* The grammar of the language. Each action is one call; what things mean is in src/language. */
+/* The grammar of the language. Each action is one call; what things mean is in src/language.
+ *
+ * Every block in braces is a flat list of items with an `error` item, and every brace belongs to such a block. So the parser
+ * recovers in the block in which the error stands, and tokens_recover, which counts braces, skips to where its next item
+ * begins. What may follow what within a block is checked where items have a meaning, which also makes for clearer errors.
+ */
 %require "3.8"
 %define api.pure full
 %define api.prefix {pscn_}
@@ -17,31 +22,42 @@
 #include "language/tokens.h"
 
 #define YYLLOC_DEFAULT(current, rhs, n) ((current) = language_span(&YYRHSLOC(rhs, (n) ? 1 : 0), &YYRHSLOC(rhs, n)))
+#define YYSTACK_USE_ALLOCA 0
+
+/* In the action of an `error` item: the parser goes on with the token tokens_recover stops at. */
+#define RECOVER() \
+  do { \
+    yyerrok; \
+    yyclearin; \
+    if (!tokens_recover(language)) YYABORT; \
+  } while (0)
 
 static int pscn_lex(PSCN_STYPE *value, PSCN_LTYPE *place, struct language *language)
 {
   return tokens_next(language, &value->token, place);
 }
 
+/* Told by the parser only when its stack is full. */
 static void pscn_error(PSCN_LTYPE *place, struct language *language, const char *message)
 {
-  (void)message; /* bison calls this for nothing but its stack, whose size is bounded */
-  language_error(language, *place, "expressions or blocks are nested too deep here");
+  (void)message;
+  language_limit(language, *place, "this is nested too deeply");
 }
 }
 
 %union {
   struct token token;
   struct value value;
-  struct transform transform;
-  struct texture texture;
+  struct texture *texture;
   struct node *node;
 }
 
-%token END 0 "the end of the file"
-%token <token> NUMBER "a number" POINT "a vector" WORD "a name" STRING "a file name in quotes"
+%token END 0 "the end of the text"
+%token <token> NUMBER "a number" POINT "a vector" WORD "a name" STRING "a string"
+%token FOREIGN "a word of POV-Ray's" START_SOLVER
 %token VERSION "#version" DECLARE "#declare" LOCAL "#local"
-%token GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma" MAX_TRACE_LEVEL "max_trace_level" AMBIENT_LIGHT "ambient_light"
+%token GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma" MAX_TRACE_LEVEL "max_trace_level"
+%token AMBIENT_LIGHT "ambient_light"
 %token CAMERA "camera" PERSPECTIVE "perspective" LOCATION "location" DIRECTION "direction" RIGHT "right" UP "up" SKY "sky"
 %token ANGLE "angle" LOOK_AT "look_at"
 %token LIGHT_SOURCE "light_source" SHADOWLESS "shadowless" BACKGROUND "background"
@@ -54,14 +70,13 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 %token IMAGE_WIDTH "image_width" IMAGE_HEIGHT "image_height"
 %token SOLVER "solver"
 
-%type <value> expression vector_literal colour
-%type <token> component declare
-%type <transform> transform
-%type <texture> texture_block pigment_block finish_block texture_like texture_items
-%type <node> object patch union named
+%type <value> expression colour
+%type <token> component
+%type <texture> texture_block pigment_block finish_block surface
+%type <node> object patch union copy
 
-%precedence NO_COMMA
-%precedence COLOR RGB
+/* Where an expression may be followed by the next item, "+" and "-" belong to the expression, as in POV-Ray. */
+%precedence ITEM
 %left '+' '-'
 %left '*' '/'
 %precedence SIGN
@@ -69,38 +84,34 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 
 %%
 
-file: %empty | file statement;
+input: statements | START_SOLVER solver;
 
+statements: %empty | statements statement;
 statement:
     VERSION expression ';'                     { language_version(language, @2, &$2); }
   | declaration
   | GLOBAL_SETTINGS '{' global_items '}'
-  | CAMERA '{' { camera_begin(language, @1); } camera_items '}' { camera_end(language, @1); }
-  | LIGHT_SOURCE '{' expression comma colour   { light_begin(language, @3, &$3, @5, &$5); } light_items '}'
-  | BACKGROUND '{' colour '}'                  { background_set(language, @3, &$3); }
+  | CAMERA '{' { camera_begin(language, @1); } camera_items '}' { camera_end(language); }
+  | LIGHT_SOURCE '{' { light_begin(language, @1); } light_items '}' { light_end(language); }
+  | BACKGROUND '{' background_items '}'
   | object                                     { scene_add(language, @1, $1); }
-  | solver                                     { solver_statement(language, @1); }
-  | ';'
-  | error                                      { language_resume(language); }
+  | error                                      { RECOVER(); }
   ;
-
-declare: DECLARE WORD '=' { $$ = $2; $$.local = false; } | LOCAL WORD '=' { $$ = $2; $$.local = true; };
 
 declaration:
-    declare expression ';'                     { declare_value(language, @1, &$1, &$2); }
-  | declare object                             { declare_object(language, @1, &$1, $2); }
-  | declare texture_like                       { declare_texture(language, @1, &$1, &$2); }
-  | declare error ';'
+    declare colour ';'                         { declare_value(language, &$2); }
+  | declare object                             { declare_object(language, $2); } semicolon
+  | declare surface                            { declare_texture(language, $2); } semicolon
   ;
-
-comma: %empty %prec NO_COMMA | ',';
+declare: DECLARE WORD '='                      { declare_begin(language, @2, &$2, false); }
+  | LOCAL WORD '='                             { declare_begin(language, @2, &$2, true); };
+semicolon: %empty | ';';
 
 /* ---- values ---- */
 
 expression:
     NUMBER                                     { $$ = value_of_number($1.number[0]); }
   | POINT                                      { $$ = value_of_vector($1.number); }
-  | vector_literal
   | WORD                                       { $$ = value_named(language, @1, &$1); }
   | X                                          { $$ = value_axis(0); }
   | Y                                          { $$ = value_axis(1); }
@@ -109,23 +120,29 @@ expression:
   | IMAGE_WIDTH                                { $$ = value_of_number(language->width); }
   | IMAGE_HEIGHT                               { $$ = value_of_number(language->height); }
   | '(' expression ')'                         { $$ = $2; }
-  | expression '+' expression                  { $$ = value_binary(language, @$, '+', &$1, &$3); }
-  | expression '-' expression                  { $$ = value_binary(language, @$, '-', &$1, &$3); }
-  | expression '*' expression                  { $$ = value_binary(language, @$, '*', &$1, &$3); }
-  | expression '/' expression                  { $$ = value_binary(language, @$, '/', &$1, &$3); }
-  | '-' expression %prec SIGN                  { $$ = value_negative(&$2); }
+  | '<' expression comma expression comma expression '>'
+                        { $$ = value_of_parts(language, &$2, &$4, &$6, (const struct place[]){ @2, @4, @6 }); }
+  | expression '+' expression                  { $$ = value_binary(language, '+', &$1, @1, &$3, @3); }
+  | expression '-' expression                  { $$ = value_binary(language, '-', &$1, @1, &$3, @3); }
+  | expression '*' expression                  { $$ = value_binary(language, '*', &$1, @1, &$3, @3); }
+  | expression '/' expression                  { $$ = value_binary(language, '/', &$1, @1, &$3, @3); }
+  | '-' expression %prec SIGN                  { $$ = value_negative(language, @2, &$2); }
   | '+' expression %prec SIGN                  { $$ = $2; }
   | expression '.' component                   { $$ = value_component(language, @1, &$1, $3.index); }
-  | RGB expression                             { $$ = value_rgb(&$2); }
-  | COLOR expression                           { $$ = value_rgb(&$2); }
   ;
 
 component: X { $$.index = 0; } | Y { $$.index = 1; } | Z { $$.index = 2; }
   | RED { $$.index = 0; } | GREEN { $$.index = 1; } | BLUE { $$.index = 2; };
 
-vector_literal: '<' expression ',' expression ',' expression '>' { $$ = value_vector3(language, @$, &$2, &$4, &$6); };
+comma: %empty %prec ITEM | ',';
 
-colour: expression;
+/* A plain vector or number is a colour wherever POV-Ray takes it for one. */
+colour:
+    expression %prec ITEM
+  | RGB expression %prec ITEM                  { $$ = value_colour(language, @2, &$2); }
+  | COLOR expression %prec ITEM                { $$ = value_colour(language, @2, &$2); }
+  | COLOR RGB expression %prec ITEM            { $$ = value_colour(language, @3, &$3); }
+  ;
 
 /* ---- settings, camera, lights ---- */
 
@@ -133,9 +150,10 @@ global_items: %empty | global_items global_item;
 global_item:
     ASSUMED_GAMMA expression                   { global_gamma(language, @2, &$2); }
   | MAX_TRACE_LEVEL expression                 { global_trace_level(language, @2, &$2); }
-  | AMBIENT_LIGHT colour                       { global_ambient(language, @2, &$2); }
+  | AMBIENT_LIGHT colour                       { value_to_colour(language, @2, &$2, language->ambient_light); }
   | solver                                     { global_solver(language); }
-  | error
+  | declaration
+  | error                                      { RECOVER(); }
   ;
 
 camera_items: %empty | camera_items camera_item;
@@ -148,79 +166,105 @@ camera_item:
   | SKY expression                             { camera_vector(language, CAMERA_SKY, @2, &$2); }
   | LOOK_AT expression                         { camera_vector(language, CAMERA_LOOK_AT, @2, &$2); }
   | ANGLE expression                           { camera_angle(language, @2, &$2); }
-  | error
+  | declaration
+  | error                                      { RECOVER(); }
   ;
 
+/* The position, then the colour, then the rest. */
 light_items: %empty | light_items light_item;
 light_item:
-    SHADOWLESS                                 { light_shadowless(language); }
-  | transform                                  { light_transform(language, @1, &$1); }
-  | error
+    colour %prec ITEM                          { light_value(language, @1, &$1); }
+  | ','                                        { light_comma(language, @1); }
+  | SHADOWLESS                                 { light_shadowless(language); }
+  | transform                                  { light_transform(language); }
+  | declaration
+  | error                                      { RECOVER(); }
+  ;
+
+background_items: %empty | background_items background_item;
+background_item:
+    colour %prec ITEM                          { value_to_colour(language, @1, &$1, language->background); }
+  | declaration
+  | error                                      { RECOVER(); }
   ;
 
 /* ---- objects ---- */
 
-object: patch | union | named;
+object: patch | union | copy;
 
-patch: BICUBIC_PATCH '{' { patch_begin(language, @1); } patch_heads points { patch_points_end(language, @1); } modifiers '}'
-                                               { $$ = node_end(language); };
-patch_heads: patch_head comma | patch_heads patch_head comma;
-patch_head:
-    TYPE expression %prec NO_COMMA { patch_number(language, PATCH_TYPE, @2, &$2); }
-  | FLATNESS expression %prec NO_COMMA { patch_number(language, PATCH_FLATNESS, @2, &$2); }
-  | U_STEPS expression %prec NO_COMMA { patch_number(language, PATCH_U_STEPS, @2, &$2); }
-  | V_STEPS expression %prec NO_COMMA { patch_number(language, PATCH_V_STEPS, @2, &$2); }
-  | error
+/* Settings, then 16 points, then modifiers. */
+patch: BICUBIC_PATCH '{' { patch_begin(language, @1); } patch_items '}' { patch_end(language); $$ = node_end(language); };
+patch_items: %empty | patch_items patch_item;
+patch_item:
+    TYPE expression %prec ITEM                 { patch_number(language, PATCH_TYPE, @1, @2, &$2); }
+  | FLATNESS expression %prec ITEM             { patch_number(language, PATCH_FLATNESS, @1, @2, &$2); }
+  | U_STEPS expression %prec ITEM              { patch_number(language, PATCH_U_STEPS, @1, @2, &$2); }
+  | V_STEPS expression %prec ITEM              { patch_number(language, PATCH_V_STEPS, @1, @2, &$2); }
+  | expression %prec ITEM                      { patch_point(language, @1, &$1); }
+  | ','                                        { patch_comma(language, @1); }
+  | modifier                                   { patch_modified(language); }
+  | solver                                     { patch_solver(language); }
+  | declaration
+  | error                                      { RECOVER(); }
   ;
-points: point | points comma point;
-point: expression %prec NO_COMMA               { patch_point(language, @1, &$1); };
 
 union: UNION '{' { union_begin(language, @1); } union_items '}' { $$ = node_end(language); };
 union_items: %empty | union_items union_item;
-union_item: object { union_add(language, @1, $1); } | modifier;
+union_item:
+    object                                     { union_add(language, @1, $1); }
+  | modifier
+  | declaration
+  | error                                      { RECOVER(); }
+  ;
 
-named: OBJECT '{' named_head modifiers '}'     { $$ = node_end(language); };
-named_head: WORD { named_begin(language, @1, &$1); } | object { wrapped_begin(language, @1, $1); };
+/* The object, then modifiers. */
+copy: OBJECT '{' { copy_begin(language, @1); } copy_items '}' { copy_end(language); $$ = node_end(language); };
+copy_items: %empty | copy_items copy_item;
+copy_item:
+    WORD                                       { copy_named(language, @1, &$1); }
+  | object                                     { copy_object(language, @1, $1); }
+  | modifier                                   { copy_modified(language, @1); }
+  | declaration
+  | error                                      { RECOVER(); }
+  ;
 
-modifiers: %empty | modifiers modifier;
 modifier:
-    transform                                  { node_transform(language, @1, &$1); }
-  | texture_like                               { node_texture(language, &$1); }
-  | solver                                     { node_solver(language, @1); }
-  | error
+    transform                                  { node_transform(language, @1); }
+  | surface                                    { node_texture(language, $1); }
   ;
 
 transform:
-    TRANSLATE expression                       { $$ = transform_translate(language, @2, &$2); }
-  | ROTATE expression                          { $$ = transform_rotate(language, @2, &$2); }
-  | SCALE expression                           { $$ = transform_scale(language, @2, &$2); }
-  | MATRIX '<' { matrix_begin(language); } matrix_numbers '>' { $$ = matrix_end(language, @$); }
+    TRANSLATE expression %prec ITEM            { transform_translate(language, @2, &$2); }
+  | ROTATE expression %prec ITEM               { transform_rotate(language, @2, &$2); }
+  | SCALE expression %prec ITEM                { transform_scale(language, @2, &$2); }
+  | MATRIX '<' { matrix_begin(language); } matrix_numbers '>' { matrix_end(language, @$); }
+  | MATRIX POINT                               { matrix_short(language, @2); }
   ;
-matrix_numbers: matrix_number | matrix_numbers ',' matrix_number;
-matrix_number: expression                      { matrix_add(language, @1, &$1); };
+matrix_numbers: matrix_number | matrix_numbers comma matrix_number;
+matrix_number: expression %prec ITEM           { matrix_add(language, @1, &$1); };
 
 /* ---- textures ---- */
 
-texture_like: texture_block | pigment_block | finish_block;
+surface: texture_block | pigment_block | finish_block;
 
 texture_block: TEXTURE '{' { texture_begin(language, TEXTURE_ALL); } texture_items '}' { $$ = texture_end(language); };
-texture_items: %empty {} | texture_items texture_item {};
+texture_items: %empty | texture_items texture_item;
 texture_item:
     WORD                                       { texture_named(language, @1, &$1); }
-  | pigment_block                              { texture_merge(language, &$1); }
-  | finish_block                               { texture_merge(language, &$1); }
-  | transform                                  { texture_transform(language, &$1); }
-  | error
+  | pigment_block                              { texture_merge(language, $1); }
+  | finish_block                               { texture_merge(language, $1); }
+  | transform
+  | declaration
+  | error                                      { RECOVER(); }
   ;
 
 pigment_block: PIGMENT '{' { texture_begin(language, TEXTURE_PIGMENT); } pigment_items '}' { $$ = texture_end(language); };
 pigment_items: %empty | pigment_items pigment_item;
 pigment_item:
-    WORD                                       { pigment_named(language, @1, &$1); }
-  | RGB expression                             { pigment_colour(language, @2, &$2); }
-  | COLOR expression                           { pigment_colour(language, @2, &$2); }
-  | transform                                  { texture_transform(language, &$1); }
-  | error
+    colour %prec ITEM                          { pigment_value(language, @1, &$1); }
+  | transform
+  | declaration
+  | error                                      { RECOVER(); }
   ;
 
 finish_block: FINISH '{' { texture_begin(language, TEXTURE_FINISH); } finish_items '}' { $$ = texture_end(language); };
@@ -234,33 +278,33 @@ finish_item:
   | PHONG_SIZE expression                      { finish_number(language, FINISH_PHONG_SIZE, @2, &$2); }
   | SPECULAR expression                        { finish_number(language, FINISH_SPECULAR, @2, &$2); }
   | ROUGHNESS expression                       { finish_number(language, FINISH_ROUGHNESS, @2, &$2); }
-  | error
+  | declaration
+  | error                                      { RECOVER(); }
   ;
 
-/* ---- solvers ---- */
+/* ---- solvers: all words are plain here ---- */
 
 solver: SOLVER WORD                            { solver_begin(language, @2, &$2); } solver_block;
 solver_block: %empty | '{' solver_items '}';
 solver_items: %empty | solver_items solver_item;
 solver_item:
     WORD NUMBER                                { solver_number(language, @1, &$1, @2, $2.number[0]); }
-  | WORD '-' NUMBER                            { solver_number(language, @1, &$1, @3, -$3.number[0]); }
   | WORD '+' NUMBER                            { solver_number(language, @1, &$1, @3, $3.number[0]); }
+  | WORD '-' NUMBER                            { solver_number(language, @1, &$1, @3, -$3.number[0]); }
   | WORD WORD                                  { solver_word(language, @1, &$1, @2, &$2); }
-  | error
+  | error                                      { RECOVER(); }
   ;
 
 %%
 
 static int yyreport_syntax_error(const yypcontext_t *context, struct language *language)
 {
-  enum { MOST = 64 };
+  enum { MOST = 128 };
   yysymbol_kind_t kinds[MOST];
   const char *names[MOST];
   const int count = yypcontext_expected_tokens(context, kinds, MOST);
   for (int k = 0; k < count; k++) names[k] = yysymbol_name(kinds[k]);
-  const yysymbol_kind_t found = yypcontext_token(context);
-  language_unexpected(language, *yypcontext_location(context), found == YYSYMBOL_YYEMPTY ? NULL : yysymbol_name(found),
-                      found == YYSYMBOL_WORD, names, count > 0 ? count : 0);
+  language_unexpected(language, *yypcontext_location(context), yypcontext_token(context) == YYSYMBOL_WORD, names,
+                      count > 0 ? count : 0);
   return 0;
 }

@@ -9,13 +9,6 @@
 #include <string.h>
 
 #include "language/tokens.h"
-#include "language/words.h"
-
-struct place language_span(const struct place *first, const struct place *last)
-{
-  if (first->source != last->source) return *last;
-  return (struct place){first->source, first->begin, last->end};
-}
 
 void language_error(struct language *language, struct place place, const char *format, ...)
 {
@@ -27,56 +20,20 @@ void language_error(struct language *language, struct place place, const char *f
   diagnostics_error(language->diagnostics, place, "%s", message);
 }
 
+void language_limit(struct language *language, struct place place, const char *text)
+{
+  if (!language->ended_early) language_error(language, place, "%s", text);
+  language->ended_early = true;
+}
+
 /* Where memory is short a spare block stands in, and the reading ends at the next token. */
 void *language_alloc(struct language *language, size_t size)
 {
   void *memory = arena_alloc(language->arena, 1, size);
   if (memory) return memory;
   assert(size <= sizeof language->spare);
-  language->no_memory = true;
+  language->ended_early = true;
   return memset(language->spare, 0, sizeof language->spare);
-}
-
-void language_resume(struct language *language)
-{
-  language->open = NULL;
-  language->nesting = 0;
-  language->texture_depth = 0;
-}
-
-/* "a", "a or b", "a, b or c"; only where there are few. */
-static void list_expected(const char *const expected[], int count, char *out, size_t size)
-{
-  enum { MOST_LISTED = 6 };
-  out[0] = '\0';
-  if (count == 0 || count > MOST_LISTED) return;
-  size_t used = (size_t)snprintf(out, size, "; expected ");
-  for (int k = 0; k < count && used < size; k++)
-    used += (size_t)snprintf(out + used, size - used, "%s%s", k == 0 ? "" : k + 1 == count ? " or " : ", ", expected[k]);
-}
-
-void language_unexpected(struct language *language, struct place place, const char *found, bool found_word,
-                         const char *const expected[], int count)
-{
-  if (language->no_memory || language->foreign_distance < FOREIGN_ECHO) return;
-  const int length = place.source ? (int)(place.end - place.begin) : 0;
-  const char *text = place.source ? place.source->text + place.begin : "";
-  if (found_word) {
-    const char *best = NULL;
-    size_t distance = words_reach((size_t)length);
-    for (int k = 0; k < count; k++) words_consider(text, (size_t)length, expected[k], &best, &distance);
-    if (best) language_error(language, place, "unknown word '%.*s'; did you mean '%s'?", length, text, best);
-    else {
-      char list[200];
-      list_expected(expected, count, list, sizeof list);
-      language_error(language, place, "unknown word '%.*s'%s", length, text, list);
-    }
-    return;
-  }
-  char list[200];
-  list_expected(expected, count, list, sizeof list);
-  if (!found || length == 0) language_error(language, place, "the text ends here%s", list);
-  else language_error(language, place, "unexpected '%.*s'%s", length, text, list);
 }
 
 /* ---- the face ---- */
@@ -85,23 +42,18 @@ static enum status language_create(struct language *language, const struct langu
                                    struct diagnostics *diagnostics)
 {
   *language = (struct language){.diagnostics = diagnostics, .width = settings->image_width, .height = settings->image_height,
-                                .foreign_distance = FOREIGN_ECHO};
+                                .declaring = {.depth = -1}};
   language->lights_end = &language->lights;
-  language->scene.transform = transform_identity();
   for (int k = 0; k < 3; k++) language->ambient_light[k] = 1;
   camera_default(&language->camera);
   solver_options_default(solver_at(0), &language->global_solver);
   language->arena = arena_create();
-  if (!language->arena || !symbols_create(language)) return STATUS_LIMIT;
-  const struct token program = {.text = "pscn", .length = 4};
-  const struct value yes = value_of_number(1);
-  declare_value(language, (struct place){NULL, 0, 0}, &program, &yes);
-  return STATUS_OK;
+  return language->arena && symbols_create(language) ? STATUS_OK : STATUS_LIMIT;
 }
 
 static void language_destroy(struct language *language)
 {
-  tokens_close(language);
+  sources_close(language);
   symbols_destroy(language);
   arena_destroy(language->arena);
 }
@@ -110,17 +62,10 @@ static enum status add_lights(struct language *language, struct scene *scene)
 {
   size_t count = 0;
   for (const struct light_node *light = language->lights; light; light = light->next) count++;
-  scene->lights = arena_alloc(scene->arena, count + 1, sizeof *scene->lights);
+  scene->lights = arena_alloc(scene->arena, count, sizeof *scene->lights);
   if (!scene->lights) return STATUS_LIMIT;
   for (const struct light_node *light = language->lights; light; light = light->next) {
-    struct scene_light *out = &scene->lights[scene->light_count++];
-    *out = light->light;
-    transform_point(&light->transform, light->light.position, out->position);
-    for (int k = 0; k < 3; k++) {
-      if (isfinite(out->position[k])) continue;
-      language_error(language, (struct place){NULL, 0, 0}, "a light's position is too large for a number");
-      return STATUS_INPUT;
-    }
+    scene->lights[scene->light_count++] = light->light;
   }
   return STATUS_OK;
 }
@@ -170,7 +115,7 @@ static enum status parse(struct language *language)
 {
   const size_t before = language->diagnostics->error_count;
   const int result = pscn_parse(language);
-  if (language->no_memory || result == 2) return STATUS_LIMIT;
+  if (language->ended_early || result == 2) return STATUS_LIMIT;
   return result != 0 || language->diagnostics->error_count > before ? STATUS_INPUT : STATUS_OK;
 }
 
@@ -181,7 +126,7 @@ static enum status load(struct source *source, const struct language_settings *s
   const size_t before = diagnostics->error_count;
   enum status status = language_create(&language, settings, diagnostics);
   if (status != STATUS_OK) source_destroy(source);
-  else status = tokens_open(&language, source) ? parse(&language) : STATUS_LIMIT;
+  else status = sources_open(&language, source) ? parse(&language) : STATUS_LIMIT;
   if (status == STATUS_OK) status = make_scene(&language, out_scene);
   if (status == STATUS_LIMIT && diagnostics->error_count == before)
     diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "memory is short");
@@ -225,7 +170,7 @@ enum status language_parse_solver(const char *text, struct diagnostics *diagnost
   struct source *source = status == STATUS_OK ? source_from_text("<--solver>", text, strlen(text)) : NULL;
   if (status == STATUS_OK) {
     language.solver_only = true;
-    status = source && tokens_open(&language, source) ? parse(&language) : STATUS_LIMIT;
+    status = source && sources_open(&language, source) ? parse(&language) : STATUS_LIMIT;
   }
   if (status == STATUS_OK) *out_options = language.solver;
   if (status == STATUS_INPUT) status = STATUS_USAGE;

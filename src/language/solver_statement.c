@@ -1,27 +1,51 @@
 /* `solver NAME { item value ... }`: names, items and ranges come from the tables in algebra/solver.h. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "language/build.h"
 #include "language/words.h"
 
+/* The table's names, for errors. */
+typedef const char *name_at(size_t index); /* NULL behind the last */
+
+static const char *solver_name(size_t index) { return index < solver_count() ? solver_at(index)->name : NULL; }
+
+static const char *item_name(size_t index) { return index < solver_item_count() ? solver_item_at(index)->name : NULL; }
+
+/* "a, b or c" */
+static void list_names(name_at *name, char *out, size_t size)
+{
+  size_t used = 0;
+  out[0] = '\0';
+  for (size_t k = 0; name(k) && used < size; k++) {
+    const char *before = k == 0 ? "" : name(k + 1) ? ", " : " or ";
+    used += (size_t)snprintf(out + used, size - used, "%s%s", before, name(k));
+  }
+}
+
 /* Ends the message on an unknown word with a guess, or with what there is. */
 static void tell_unknown(struct language *language, struct place place, const char *what, const struct token *word,
-                         const char *best)
+                         name_at *name)
 {
-  if (best) language_error(language, place, "there is no %s '%.*s'; did you mean '%s'?", what, (int)word->length, word->text, best);
-  else language_error(language, place, "there is no %s '%.*s'", what, (int)word->length, word->text);
+  const char *best = NULL;
+  size_t best_length = 0, distance = words_reach(word->length);
+  for (size_t k = 0; name(k); k++) words_consider(word->text, word->length, name(k), strlen(name(k)), &best, &best_length, &distance);
+  char list[300];
+  list_names(name, list, sizeof list);
+  if (best) {
+    language_error(language, place, "there is no %s '%.*s'; did you mean '%s'?", what, (int)word->length, word->text, best);
+  } else {
+    language_error(language, place, "there is no %s '%.*s', only %s", what, (int)word->length, word->text, list);
+  }
 }
 
 void solver_begin(struct language *language, struct place place, const struct token *name)
 {
-  language->solver_place = place;
   const struct solver *solver = solver_find(name->text, name->length);
   if (!solver) {
-    const char *best = NULL;
-    size_t distance = words_reach(name->length);
-    for (size_t k = 0; k < solver_count(); k++) words_consider(name->text, name->length, solver_at(k)->name, &best, &distance);
-    tell_unknown(language, place, "solver", name, best);
+    tell_unknown(language, place, "solver", name, solver_name);
     solver = solver_at(0);
   }
   solver_options_default(solver, &language->solver);
@@ -29,14 +53,11 @@ void solver_begin(struct language *language, struct place place, const struct to
 
 static const struct solver_item *item_named(struct language *language, struct place place, const struct token *name)
 {
-  const char *best = NULL;
-  size_t distance = words_reach(name->length);
   for (size_t k = 0; k < solver_item_count(); k++) {
     const struct solver_item *item = solver_item_at(k);
-    if (strlen(item->name) == name->length && memcmp(item->name, name->text, name->length) == 0) return item;
-    words_consider(name->text, name->length, item->name, &best, &distance);
+    if (words_compare(name->text, name->length, item->name) == 0) return item;
   }
-  tell_unknown(language, place, "solver item", name, best);
+  tell_unknown(language, place, "solver item", name, item_name);
   return NULL;
 }
 
@@ -45,13 +66,9 @@ static void list_words(const struct solver_item *item, char *out, size_t size)
 {
   size_t used = 0;
   out[0] = '\0';
-  for (size_t k = 0; item->keywords && item->keywords[k]; k++) {
-    const char *part = k == 0 ? "" : item->keywords[k + 1] ? ", " : " or ";
-    const size_t length = strlen(part) + strlen(item->keywords[k]);
-    if (used + length + 1 > size) return;
-    strcpy(out + used, part);
-    strcat(out + used, item->keywords[k]);
-    used += length;
+  for (size_t k = 0; item->keywords && item->keywords[k] && used < size; k++) {
+    const char *before = k == 0 ? "" : item->keywords[k + 1] ? ", " : " or ";
+    used += (size_t)snprintf(out + used, size - used, "%s%s", before, item->keywords[k]);
   }
 }
 
@@ -64,10 +81,15 @@ static void tell_wanted(struct language *language, struct place place, const str
     return;
   }
   const char *number = item->kind == SOLVER_ITEM_INTEGER ? "a whole number" : "a number";
-  if (isfinite(item->maximum))
-    language_error(language, place, "%s is %s%s%s from %g to %g", item->name, words, words[0] ? " or " : "", number,
-                   item->minimum, item->maximum);
-  else language_error(language, place, "%s is %s%s%s of at least %g", item->name, words, words[0] ? " or " : "", number, item->minimum);
+  char from[NUMBER_TEXT_SIZE], to[NUMBER_TEXT_SIZE];
+  number_write(item->minimum, from);
+  number_write(item->maximum, to);
+  const char *or = words[0] ? " or " : "";
+  if (isfinite(item->maximum)) {
+    language_error(language, place, "%s is %s%s%s from %s to %s", item->name, words, or, number, from, to);
+  } else {
+    language_error(language, place, "%s is %s%s%s of at least %s", item->name, words, or, number, from);
+  }
 }
 
 void solver_number(struct language *language, struct place place, const struct token *name, struct place value_place, double value)
@@ -86,14 +108,9 @@ void solver_word(struct language *language, struct place place, const struct tok
   const struct solver_item *item = item_named(language, place, name);
   if (!item) return;
   for (size_t k = 0; item->keywords && item->keywords[k]; k++) {
-    if (strlen(item->keywords[k]) != value->length || memcmp(item->keywords[k], value->text, value->length) != 0) continue;
+    if (words_compare(value->text, value->length, item->keywords[k]) != 0) continue;
     item->set(&language->solver, (double)k);
     return;
   }
   tell_wanted(language, value_place, item);
-}
-
-void solver_statement(struct language *language, struct place place)
-{
-  if (!language->solver_only) language_error(language, place, "solver stands in global_settings or in an object");
 }

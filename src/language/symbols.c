@@ -1,19 +1,12 @@
-/* Declared names: a hash table of chains, the innermost local first. */
+/* Declared names: a hash table of chains. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "language/build.h"
+#include "language/tokens.h"
 #include "language/words.h"
 
 enum { BUCKETS = 4096 };
-
-bool symbols_create(struct language *language)
-{
-  language->symbols = calloc(BUCKETS, sizeof *language->symbols);
-  return language->symbols != NULL;
-}
-
-void symbols_destroy(struct language *language) { free(language->symbols); }
 
 /* FNV-1a. */
 static unsigned hash_of(const char *name, size_t length)
@@ -23,7 +16,8 @@ static unsigned hash_of(const char *name, size_t length)
   return hash;
 }
 
-static struct symbol *find_at(struct language *language, const char *name, size_t length, int depth)
+/* The innermost of that name; with `depth` at least 0, only that of that depth. */
+static struct symbol *find(const struct language *language, const char *name, size_t length, int depth)
 {
   const unsigned hash = hash_of(name, length);
   struct symbol *best = NULL;
@@ -35,9 +29,33 @@ static struct symbol *find_at(struct language *language, const char *name, size_
   return best;
 }
 
-struct symbol *symbol_find(struct language *language, const char *name, size_t length)
+static struct symbol *add(struct language *language, const char *name, size_t length, int depth)
 {
-  return find_at(language, name, length, -1);
+  struct symbol *symbol = language_alloc(language, sizeof *symbol);
+  if (language->ended_early) return symbol;
+  const unsigned hash = hash_of(name, length);
+  *symbol = (struct symbol){.next = language->symbols[hash % BUCKETS], .name = name, .length = length, .hash = hash,
+                            .depth = depth};
+  language->symbols[hash % BUCKETS] = symbol;
+  return symbol;
+}
+
+bool symbols_create(struct language *language)
+{
+  static const char name[] = "pscn";
+  language->symbols = calloc(BUCKETS, sizeof *language->symbols);
+  if (!language->symbols) return false;
+  struct symbol *symbol = add(language, name, sizeof name - 1, 0);
+  symbol->kind = SYMBOL_VALUE;
+  symbol->value = value_of_number(1);
+  return !language->ended_early;
+}
+
+void symbols_destroy(struct language *language) { free(language->symbols); }
+
+const struct symbol *symbol_find(const struct language *language, const char *name, size_t length)
+{
+  return find(language, name, length, -1);
 }
 
 void symbols_leave(struct language *language, int depth)
@@ -51,54 +69,97 @@ void symbols_leave(struct language *language, int depth)
   }
 }
 
-void symbol_unknown(struct language *language, struct place place, const struct token *name, const char *where)
+/* ---- what is told of names ---- */
+
+void symbols_consider(const struct language *language, const char *word, size_t length, const char **best, size_t *best_length,
+                      size_t *distance)
+{
+  for (size_t b = 0; b < BUCKETS; b++) {
+    for (const struct symbol *s = language->symbols[b]; s; s = s->next) {
+      words_consider(word, length, s->name, s->length, best, best_length, distance);
+    }
+  }
+}
+
+void symbol_unknown(struct language *language, struct place place, const struct token *name, const char *wanted)
 {
   const char *best = NULL;
-  size_t distance = words_reach(name->length);
-  for (size_t b = 0; b < BUCKETS; b++)
-    for (const struct symbol *s = language->symbols[b]; s; s = s->next) {
-      const char *text = arena_copy(language->arena, s->name, s->length);
-      if (text) words_consider(name->text, name->length, text, &best, &distance);
-    }
-  if (best)
-    language_error(language, place, "'%.*s' is not declared (%s is wanted); did you mean '%s'?", (int)name->length, name->text,
-                   where, best);
-  else language_error(language, place, "'%.*s' is not declared (%s is wanted)", (int)name->length, name->text, where);
+  size_t best_length = 0, distance = words_reach(name->length);
+  symbols_consider(language, name->text, name->length, &best, &best_length, &distance);
+  keywords_consider(name->text, name->length, &best, &best_length, &distance);
+  if (best) {
+    language_error(language, place, "unknown word '%.*s'; did you mean '%.*s'?", (int)name->length, name->text,
+                   (int)best_length, best);
+  } else {
+    language_error(language, place, "'%.*s' is not declared; %s is wanted here", (int)name->length, name->text, wanted);
+  }
 }
 
-/* The symbol to write to: a #local in an included file is its own, everything else belongs to all. */
-static struct symbol *declared(struct language *language, const struct token *name)
+void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted)
 {
-  const int depth = name->local ? language->include_depth : 0;
-  struct symbol *symbol = find_at(language, name->text, name->length, depth);
-  if (symbol) return symbol;
-  symbol = language_alloc(language, sizeof *symbol);
-  symbol->name = name->text, symbol->length = name->length, symbol->depth = depth;
-  symbol->hash = hash_of(name->text, name->length);
-  symbol->next = language->symbols[symbol->hash % BUCKETS];
-  language->symbols[symbol->hash % BUCKETS] = symbol;
-  return symbol;
+  const char *is = "a value";
+  if (symbol->kind == SYMBOL_OBJECT) is = "an object";
+  if (symbol->kind == SYMBOL_TEXTURE) {
+    is = symbol->texture->block == TEXTURE_ALL ? "a texture" : symbol->texture->block == TEXTURE_PIGMENT ? "a pigment" : "a finish";
+  }
+  language_error(language, place, "'%.*s' is %s; %s is wanted here", (int)symbol->length, symbol->name, is, wanted);
 }
 
-void declare_value(struct language *language, struct place place, const struct token *name, const struct value *value)
+/* ---- declarations ---- */
+
+void declare_begin(struct language *language, struct place place, const struct token *name, bool local)
 {
-  (void)place;
-  struct symbol *symbol = declared(language, name);
-  symbol->kind = SYMBOL_VALUE, symbol->value = *value;
+  language->declaring = (struct declaration){*name, place, local, language->last.depth};
 }
 
-void declare_object(struct language *language, struct place place, const struct token *name, struct node *object)
+/* The symbol that the open declaration writes to, as in POV-Ray: #local to one of this file, #declare to the innermost there is,
+ * or else to one that belongs to all. */
+static struct symbol *declared(struct language *language)
 {
-  (void)place;
-  struct symbol *symbol = declared(language, name);
-  symbol->kind = SYMBOL_OBJECT, symbol->object = object;
+  struct declaration *declaring = &language->declaring;
+  const char *name = declaring->name.text;
+  const size_t length = declaring->name.length;
+  const int depth = declaring->local ? language->include_depth : -1;
+  declaring->depth = -1;
+  struct symbol *symbol = find(language, name, length, depth);
+  return symbol ? symbol : add(language, name, length, declaring->local ? depth : 0);
 }
 
-void declare_texture(struct language *language, struct place place, const struct token *name, const struct texture *texture)
+/* A value that is but the name of something else declares another name for it. */
+void declare_value(struct language *language, const struct value *value)
 {
-  (void)place;
-  struct symbol *symbol = declared(language, name);
-  symbol->kind = SYMBOL_TEXTURE, symbol->texture = *texture;
-  /* A declared block is whole: what it leaves open has the default. */
-  symbol->texture.set = texture->block;
+  struct symbol *symbol = declared(language);
+  if (value->kind == VALUE_NAMED) {
+    symbol->kind = value->symbol->kind;
+    symbol->object = value->symbol->object;
+    symbol->texture = value->symbol->texture;
+    return;
+  }
+  symbol->kind = value->kind == VALUE_UNKNOWN ? SYMBOL_BROKEN : SYMBOL_VALUE;
+  symbol->value = *value;
+}
+
+void declare_object(struct language *language, const struct node *object)
+{
+  struct symbol *symbol = declared(language);
+  symbol->kind = SYMBOL_OBJECT;
+  symbol->object = object;
+}
+
+/* A declared block is whole: what it leaves open has the default. */
+void declare_texture(struct language *language, const struct texture *texture)
+{
+  struct texture *whole = language_alloc(language, sizeof *whole);
+  *whole = *texture;
+  whole->set = texture->block;
+  struct symbol *symbol = declared(language);
+  symbol->kind = SYMBOL_TEXTURE;
+  symbol->texture = whole;
+}
+
+/* So that its name is not unknown as well. */
+void declare_broken(struct language *language)
+{
+  if (language->declaring.depth < 0 || language->declaring.depth != language->last.depth) return;
+  declared(language)->kind = SYMBOL_BROKEN;
 }

@@ -1,6 +1,4 @@
 /* Pigments, finishes and textures; the defaults are POV-Ray's. */
-#include <math.h>
-
 #include "language/build.h"
 
 struct texture texture_default(void)
@@ -39,56 +37,49 @@ void texture_begin(struct language *language, unsigned block)
   if (language->texture_depth < 3) language->textures_open[language->texture_depth++] = texture;
 }
 
-struct texture texture_end(struct language *language) { return *language->textures_open[--language->texture_depth]; }
+struct texture *texture_end(struct language *language) { return language->textures_open[--language->texture_depth]; }
 
 void texture_merge(struct language *language, const struct texture *texture) { texture_apply(current(language), texture); }
-
-/* A flat colour looks the same from everywhere. */
-void texture_transform(struct language *language, const struct transform *transform) { (void)language, (void)transform; }
 
 static const char *block_name(unsigned block)
 {
   return block == TEXTURE_ALL ? "a texture" : block == TEXTURE_FINISH ? "a finish" : "a pigment";
 }
 
-/* The declared texture, pigment or finish of that name for the open block, or NULL and an error. */
-static const struct texture *named(struct language *language, struct place place, const struct token *name)
-{
-  const unsigned block = current(language)->block;
-  const struct symbol *symbol = symbol_find(language, name->text, name->length);
-  if (!symbol) symbol_unknown(language, place, name, block_name(block));
-  else if (symbol->kind != SYMBOL_TEXTURE || symbol->texture.block != block)
-    language_error(language, place, "'%.*s' is no name of %s", (int)name->length, name->text, block_name(block));
-  else return &symbol->texture;
-  return NULL;
-}
-
+/* A texture may begin with a declared texture, pigment or finish; a pigment and a finish with one of their own. */
 void texture_named(struct language *language, struct place place, const struct token *name)
 {
-  const struct texture *texture = named(language, place, name);
-  if (texture) texture_apply(current(language), texture);
-}
-
-void pigment_named(struct language *language, struct place place, const struct token *name)
-{
-  const struct symbol *symbol = symbol_find(language, name->text, name->length);
-  if (symbol && symbol->kind == SYMBOL_VALUE) pigment_colour(language, place, &symbol->value);
-  else texture_named(language, place, name);
-}
-
-void pigment_colour(struct language *language, struct place place, const struct value *value)
-{
-  (void)place;
   struct texture *texture = current(language);
-  value_to_vector(value, texture->is.pigment);
+  const struct symbol *symbol = symbol_find(language, name->text, name->length);
+  if (!symbol) {
+    symbol_unknown(language, place, name, block_name(texture->block));
+  } else if (symbol->kind == SYMBOL_TEXTURE && (symbol->texture->block & ~texture->block) == 0) {
+    texture_apply(texture, symbol->texture);
+  } else if (symbol->kind != SYMBOL_BROKEN) {
+    symbol_mistaken(language, place, symbol, block_name(texture->block));
+  }
+}
+
+void pigment_value(struct language *language, struct place place, const struct value *value)
+{
+  struct texture *texture = current(language);
+  const struct symbol *symbol = value->symbol;
+  if (value->kind == VALUE_NAMED && symbol->kind == SYMBOL_TEXTURE && symbol->texture->block == TEXTURE_PIGMENT) {
+    texture_apply(texture, symbol->texture);
+    return;
+  }
+  if (value->kind == VALUE_NUMBER || value->kind == VALUE_VECTOR) {
+    language_error(language, place, "a pigment wants a colour: write rgb before this");
+    return;
+  }
+  value_to_colour(language, place, value, texture->is.pigment);
   texture->set |= TEXTURE_PIGMENT;
 }
 
 void finish_ambient(struct language *language, struct place place, const struct value *value)
 {
-  (void)place;
   struct texture *texture = current(language);
-  value_to_vector(value, texture->is.finish.ambient);
+  value_to_colour(language, place, value, texture->is.finish.ambient);
   texture->set |= TEXTURE_AMBIENT;
 }
 
@@ -96,16 +87,17 @@ void finish_number(struct language *language, int which, struct place place, con
 {
   struct texture *texture = current(language);
   struct scene_finish *finish = &texture->is.finish;
-  const double x = value_to_number(language, place, value);
+  double x;
+  if (!value_to_number(language, place, value, &x)) return;
   switch (which) {
   case FINISH_DIFFUSE: finish->diffuse = x, texture->set |= TEXTURE_DIFFUSE; break;
   case FINISH_BRILLIANCE: finish->brilliance = x, texture->set |= TEXTURE_BRILLIANCE; break;
   case FINISH_PHONG: finish->phong = x, texture->set |= TEXTURE_PHONG; break;
   case FINISH_PHONG_SIZE: finish->phong_size = x, texture->set |= TEXTURE_PHONG_SIZE; break;
   case FINISH_SPECULAR: finish->specular = x, texture->set |= TEXTURE_SPECULAR; break;
-  case FINISH_ROUGHNESS:
-    if (!(x > 0)) language_error(language, place, "roughness must be above 0");
-    else finish->roughness = x, texture->set |= TEXTURE_ROUGHNESS;
+  default:
+    if (x > 0) finish->roughness = x, texture->set |= TEXTURE_ROUGHNESS;
+    else language_error(language, place, "roughness must be above 0");
     break;
   }
 }

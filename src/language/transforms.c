@@ -1,12 +1,16 @@
-/* Affine transforms as POV-Ray has them: row vectors, angles in degrees, rotation about x, then y, then z. */
+/* Affine transforms as POV-Ray has them: row vectors, angles in degrees, rotation about x, then y, then z. They are composed
+ * in double-double, and a point is rounded once at the end: what comes out is the nearest double of what the scene says, the
+ * same on every machine. */
 #include <math.h>
 
 #include "language/build.h"
 
+static struct double_double dd(double x) { return (struct double_double){x, 0}; }
+
 struct transform transform_identity(void)
 {
   struct transform t = {.identity = true};
-  for (int k = 0; k < 3; k++) t.A[k][k] = 1;
+  for (int k = 0; k < 3; k++) t.A[k][k] = dd(1);
   return t;
 }
 
@@ -18,98 +22,174 @@ struct transform transform_then(const struct transform *first, const struct tran
   for (int j = 0; j < 3; j++) {
     r.b[j] = second->b[j];
     for (int k = 0; k < 3; k++) {
-      r.b[j] += first->b[k] * second->A[k][j];
-      for (int i = 0; i < 3; i++) r.A[i][j] += first->A[i][k] * second->A[k][j];
+      r.b[j] = dd_add(r.b[j], dd_multiply(first->b[k], second->A[k][j]));
+      for (int i = 0; i < 3; i++) r.A[i][j] = dd_add(r.A[i][j], dd_multiply(first->A[i][k], second->A[k][j]));
     }
   }
   return r;
 }
 
+bool transform_finite(const struct transform *transform)
+{
+  bool finite = true;
+  for (int j = 0; j < 3; j++) {
+    finite &= isfinite(transform->b[j].hi) != 0;
+    for (int i = 0; i < 3; i++) finite &= isfinite(transform->A[i][j].hi) != 0;
+  }
+  return finite;
+}
+
 void transform_point(const struct transform *transform, const double p[3], double out[3])
 {
-  if (transform->identity) {
-    for (int k = 0; k < 3; k++) out[k] = p[k];
-    return;
-  }
-  long double q[3];
+  const double from[3] = {p[0], p[1], p[2]};
   for (int j = 0; j < 3; j++) {
-    q[j] = transform->b[j];
-    for (int k = 0; k < 3; k++) q[j] += p[k] * transform->A[k][j];
+    struct double_double q = transform->b[j];
+    for (int k = 0; k < 3; k++) q = dd_add(q, dd_scale(transform->A[k][j], from[k]));
+    out[j] = transform->identity ? from[j] : q.hi + q.lo;
   }
-  for (int k = 0; k < 3; k++) out[k] = (double)q[k];
 }
 
-struct transform transform_translate(struct language *language, struct place place, const struct value *value)
+void transform_translate(struct language *language, struct place place, const struct value *value)
 {
-  (void)language, (void)place;
-  struct transform t = transform_identity();
-  for (int k = 0; k < 3; k++) t.b[k] = value->x[k], t.identity &= value->x[k] == 0;
-  return t;
-}
-
-/* Sine and cosine of an angle in degrees, exact at multiples of 90. */
-static void turn(double degrees, long double *out_sin, long double *out_cos)
-{
-  static const int exact[4][2] = {{0, 1}, {1, 0}, {0, -1}, {-1, 0}};
-  const double quarter = remainder(degrees, 360) / 90, whole = rint(quarter);
-  const int q = ((int)whole + 4) % 4;
-  if (quarter == whole) {
-    *out_sin = exact[q][0], *out_cos = exact[q][1];
-    return;
+  double by[3] = {0, 0, 0};
+  value_to_vector(language, place, value, by);
+  struct transform *t = &language->transform;
+  *t = transform_identity();
+  for (int k = 0; k < 3; k++) {
+    t->b[k] = dd(by[k]);
+    t->identity &= by[k] == 0;
   }
-  const long double radians = (long double)remainder(degrees, 360) * (3.14159265358979323846264338327950288L / 180);
-  *out_sin = sinl(radians), *out_cos = cosl(radians);
 }
 
-struct transform transform_rotate(struct language *language, struct place place, const struct value *value)
+/* a / b to about 104 bits. */
+static struct double_double divide(struct double_double a, double b)
 {
-  (void)language, (void)place;
-  struct transform all = transform_identity();
+  const double q = a.hi / b;
+  const struct double_double left = dd_add(a, dd_negate(dd_two_product(q, b)));
+  return dd_normal(q, left.hi / b);
+}
+
+/* Sum of x^n / n! with alternating signs over n = first, first + 2, ...; for |x| <= pi/4 the 15th term is below 2^-106. */
+static struct double_double alternating(struct double_double x, int first)
+{
+  enum { TERMS = 15 };
+  struct double_double term = first == 0 ? dd(1) : x, sum = term;
+  const struct double_double square = dd_negate(dd_multiply(x, x));
+  for (int n = first + 1; n < 2 * TERMS; n += 2) {
+    term = divide(dd_multiply(term, square), (double)(n * (n + 1)));
+    sum = dd_add(sum, term);
+  }
+  return sum;
+}
+
+/* Sine and cosine of an angle in degrees; exact at multiples of 90. */
+static void turn(double degrees, struct double_double *out_sin, struct double_double *out_cos)
+{
+  static const struct double_double radians_a_degree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
+  int quarters;
+  const double rest = remquo(degrees, 90, &quarters); /* exact, |rest| <= 45 */
+  const struct double_double x = dd_scale(radians_a_degree, rest), s = alternating(x, 1), c = alternating(x, 0);
+  switch (quarters & 3) {
+  case 0: *out_sin = s, *out_cos = c; break;
+  case 1: *out_sin = c, *out_cos = dd_negate(s); break;
+  case 2: *out_sin = dd_negate(s), *out_cos = dd_negate(c); break;
+  default: *out_sin = dd_negate(c), *out_cos = s; break;
+  }
+}
+
+void transform_rotate(struct language *language, struct place place, const struct value *value)
+{
+  double by[3] = {0, 0, 0};
+  value_to_vector(language, place, value, by);
+  language->transform = transform_identity();
   for (int axis = 0; axis < 3; axis++) {
-    if (value->x[axis] == 0) continue;
+    if (by[axis] == 0) continue;
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
     struct transform t = transform_identity();
-    long double s, c;
-    turn(value->x[axis], &s, &c);
     t.identity = false;
-    t.A[i][i] = c, t.A[i][j] = s, t.A[j][i] = -s, t.A[j][j] = c;
-    all = transform_then(&all, &t);
+    turn(by[axis], &t.A[i][j], &t.A[i][i]);
+    t.A[j][i] = dd_negate(t.A[i][j]);
+    t.A[j][j] = t.A[i][i];
+    language->transform = transform_then(&language->transform, &t);
   }
-  return all;
 }
 
-struct transform transform_scale(struct language *language, struct place place, const struct value *value)
+void transform_scale(struct language *language, struct place place, const struct value *value)
 {
-  struct transform t = transform_identity();
+  double by[3] = {1, 1, 1};
+  value_to_vector(language, place, value, by);
+  struct transform *t = &language->transform;
+  *t = transform_identity();
   for (int k = 0; k < 3; k++) {
-    if (value->x[k] == 0) {
-      language_error(language, place, "a scale of zero makes patches flat without a way back");
-      return transform_identity();
+    if (by[k] == 0) {
+      language_error(language, place, "scaling %c by 0 leaves nothing; POV-Ray would take 1 instead", "xyz"[k]);
+      by[k] = 1;
     }
-    t.A[k][k] = value->x[k], t.identity &= value->x[k] == 1;
+    t->A[k][k] = dd(by[k]);
+    t->identity &= by[k] == 1;
   }
-  return t;
 }
+
+enum { MATRIX_NUMBERS = 12 };
 
 void matrix_begin(struct language *language) { language->matrix_count = 0; }
 
 void matrix_add(struct language *language, struct place place, const struct value *value)
 {
-  const double x = value_to_number(language, place, value);
-  if (language->matrix_count < 12) language->matrix[language->matrix_count] = x;
-  if (language->matrix_count <= 12) language->matrix_count++;
+  double x = 1;
+  value_to_number(language, place, value, &x);
+  if (language->matrix_count < MATRIX_NUMBERS) language->matrix[language->matrix_count] = x;
+  language->matrix_count++;
 }
 
-struct transform matrix_end(struct language *language, struct place place)
+static struct double_double minor(const double m[12], int i, int j)
 {
-  struct transform t = {.identity = false};
-  if (language->matrix_count != 12) {
-    language_error(language, place, "a matrix has 12 numbers, not %s%d", language->matrix_count > 12 ? "more than " : "",
-                   language->matrix_count > 12 ? 12 : language->matrix_count);
-    return transform_identity();
+  const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+  return dd_add(dd_two_product(m[3 * i1 + j1], m[3 * i2 + j2]), dd_negate(dd_two_product(m[3 * i1 + j2], m[3 * i2 + j1])));
+}
+
+/* Whether the determinant is no more than what rounding leaves of a vanishing one: 2^-100 of the size of its terms, a few units
+ * of double-double. The rows are scaled first, so that nothing overflows. */
+static bool is_singular(const double matrix[12])
+{
+  double m[12], size = 0;
+  for (int i = 0; i < 3; i++) {
+    const double *row = &matrix[3 * i];
+    const double largest = fmax(fabs(row[0]), fmax(fabs(row[1]), fabs(row[2])));
+    if (largest == 0) return true;
+    int exponent;
+    frexp(largest, &exponent);
+    for (int j = 0; j < 3; j++) m[3 * i + j] = ldexp(row[j], -exponent);
   }
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) t.A[i][j] = language->matrix[3 * i + j];
-  for (int j = 0; j < 3; j++) t.b[j] = language->matrix[9 + j];
-  return t;
+  struct double_double determinant = dd(0);
+  for (int j = 0; j < 3; j++) {
+    determinant = dd_add(determinant, dd_scale(minor(m, 0, j), m[j]));
+    size += fabs(m[j]);
+  }
+  return fabs(determinant.hi) <= 0x1p-100 * size;
+}
+
+void matrix_end(struct language *language, struct place place)
+{
+  struct transform *t = &language->transform;
+  *t = transform_identity();
+  if (language->matrix_count != MATRIX_NUMBERS) {
+    language_error(language, place, "matrix needs %d numbers, found %d", MATRIX_NUMBERS, language->matrix_count);
+    return;
+  }
+  if (is_singular(language->matrix)) {
+    language_error(language, place, "this matrix cannot be inverted: it makes everything flat");
+    return;
+  }
+  t->identity = false;
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) t->A[i][j] = dd(language->matrix[3 * i + j]);
+    t->b[i] = dd(language->matrix[9 + i]);
+  }
+}
+
+void matrix_short(struct language *language, struct place place)
+{
+  language->matrix_count = 3;
+  matrix_end(language, place);
 }

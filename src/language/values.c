@@ -1,86 +1,143 @@
-/* Values and arithmetic, with POV-Ray's promotion: beside a vector a number stands for three of it. */
+/* Values and arithmetic, with POV-Ray's promotion: beside a vector a number stands for three of it, and what a colour takes
+ * part in is a colour. */
 #include <math.h>
 
+#include "base/number.h"
 #include "language/build.h"
 
-struct value value_of_number(double x) { return (struct value){VALUE_NUMBER, {x, x, x}}; }
+#define PI 3.14159265358979323846
 
-struct value value_of_vector(const double x[3]) { return (struct value){VALUE_VECTOR, {x[0], x[1], x[2]}}; }
+static const struct value UNKNOWN = {.kind = VALUE_UNKNOWN, .x = {1, 1, 1}};
+
+struct value value_of_number(double x) { return (struct value){VALUE_NUMBER, {x, x, x}, NULL}; }
+
+struct value value_of_vector(const double x[3]) { return (struct value){VALUE_VECTOR, {x[0], x[1], x[2]}, NULL}; }
 
 struct value value_axis(int axis)
 {
-  struct value value = {VALUE_VECTOR, {0, 0, 0}};
+  struct value value = {.kind = VALUE_VECTOR};
   value.x[axis] = 1;
   return value;
 }
 
-struct value value_pi(void) { return value_of_number(3.14159265358979323846); }
+struct value value_pi(void) { return value_of_number(PI); }
 
+/* Names of objects and textures are told apart where the value is used: a pigment may be named where a colour may stand. */
 struct value value_named(struct language *language, struct place place, const struct token *name)
 {
   const struct symbol *symbol = symbol_find(language, name->text, name->length);
   if (!symbol) symbol_unknown(language, place, name, "a value");
-  else if (symbol->kind != SYMBOL_VALUE)
-    language_error(language, place, "'%.*s' is %s, but a value is wanted here", (int)name->length, name->text,
-                   symbol->kind == SYMBOL_OBJECT ? "an object" : "a texture");
-  else return symbol->value;
-  return value_of_number(1);
+  else if (symbol->kind == SYMBOL_VALUE) return symbol->value;
+  else if (symbol->kind != SYMBOL_BROKEN) return (struct value){.kind = VALUE_NAMED, .x = {1, 1, 1}, .symbol = symbol};
+  return UNKNOWN;
 }
 
-struct value value_binary(struct language *language, struct place place, char op, const struct value *a, const struct value *b)
+/* Whether it can be reckoned with; if not, that has been told. */
+static bool usable(struct language *language, struct place place, const struct value *a, const char *wanted)
 {
-  struct value r = {a->kind == VALUE_VECTOR || b->kind == VALUE_VECTOR ? VALUE_VECTOR : VALUE_NUMBER, {0, 0, 0}};
-  for (int k = 0; k < 3; k++) { /* a number has its value in all three */
-    const double p = a->x[k], q = b->x[k];
-    if (op == '/' && q == 0) {
-      language_error(language, place, "division by zero");
-      return *a;
+  if (a->kind == VALUE_NAMED) symbol_mistaken(language, place, a->symbol, wanted);
+  return a->kind != VALUE_NAMED && a->kind != VALUE_UNKNOWN;
+}
+
+static double operate(char op, double p, double q)
+{
+  switch (op) {
+  case '+': return p + q;
+  case '-': return p - q;
+  case '*': return p * q;
+  default: return p / q;
+  }
+}
+
+struct value value_binary(struct language *language, char op, const struct value *a, struct place a_place,
+                          const struct value *b, struct place b_place)
+{
+  const bool a_usable = usable(language, a_place, a, "a value");
+  if (!usable(language, b_place, b, "a value") || !a_usable) return UNKNOWN;
+  struct value r = {.kind = a->kind > b->kind ? a->kind : b->kind};
+  for (int k = 0; k < 3; k++) {
+    if (op == '/' && b->x[k] == 0) {
+      language_error(language, b_place, "division by zero");
+      return UNKNOWN;
     }
-    r.x[k] = op == '+' ? p + q : op == '-' ? p - q : op == '*' ? p * q : p / q;
+    r.x[k] = operate(op, a->x[k], b->x[k]);
     if (!isfinite(r.x[k])) {
-      language_error(language, place, "the result is too large for a number");
-      return *a;
+      language_error(language, language_span(&a_place, &b_place), "the result is too large for a number");
+      return UNKNOWN;
     }
   }
   return r;
 }
 
-struct value value_negative(const struct value *a) { return (struct value){a->kind, {-a->x[0], -a->x[1], -a->x[2]}}; }
+struct value value_negative(struct language *language, struct place place, const struct value *a)
+{
+  if (!usable(language, place, a, "a value")) return UNKNOWN;
+  return (struct value){a->kind, {-a->x[0], -a->x[1], -a->x[2]}, NULL};
+}
 
+/* A number's components are itself, as in POV-Ray. */
 struct value value_component(struct language *language, struct place place, const struct value *a, int index)
 {
-  if (a->kind == VALUE_NUMBER) language_error(language, place, "a number has no components");
-  return value_of_number(a->x[index]);
+  return usable(language, place, a, "a vector") ? value_of_number(a->x[index]) : UNKNOWN;
 }
 
-struct value value_rgb(const struct value *a) { return value_of_vector(a->x); }
-
-struct value value_vector3(struct language *language, struct place place, const struct value *x, const struct value *y,
-                           const struct value *z)
+struct value value_colour(struct language *language, struct place place, const struct value *a)
 {
-  const double v[3] = {value_to_number(language, place, x), value_to_number(language, place, y), value_to_number(language, place, z)};
-  return value_of_vector(v);
+  if (!usable(language, place, a, "a colour")) return UNKNOWN;
+  return (struct value){VALUE_COLOUR, {a->x[0], a->x[1], a->x[2]}, NULL};
 }
 
-void value_to_vector(const struct value *a, double out[3])
+struct value value_of_parts(struct language *language, const struct value *x, const struct value *y, const struct value *z,
+                            const struct place places[3])
 {
+  struct value r = {.kind = VALUE_VECTOR};
+  bool known = value_to_number(language, places[0], x, &r.x[0]);
+  known &= value_to_number(language, places[1], y, &r.x[1]);
+  known &= value_to_number(language, places[2], z, &r.x[2]);
+  return known ? r : UNKNOWN;
+}
+
+void value_to_vector(struct language *language, struct place place, const struct value *a, double out[3])
+{
+  if (!usable(language, place, a, "a vector")) return;
+  if (a->kind == VALUE_COLOUR) {
+    language_error(language, place, "a vector is wanted here, not a colour");
+    return;
+  }
   for (int k = 0; k < 3; k++) out[k] = a->x[k];
 }
 
-double value_to_number(struct language *language, struct place place, const struct value *a)
+void value_to_colour(struct language *language, struct place place, const struct value *a, double out[3])
 {
-  if (a->kind == VALUE_VECTOR) language_error(language, place, "a number is wanted here, not a vector");
-  return a->x[0];
+  if (!usable(language, place, a, "a colour")) return;
+  for (int k = 0; k < 3; k++) out[k] = a->x[k];
 }
 
-double value_in_range(struct language *language, struct place place, const struct value *a, const char *what, double low,
-                      double high, bool whole)
+bool value_to_number(struct language *language, struct place place, const struct value *a, double *out)
 {
-  const double x = value_to_number(language, place, a);
-  if (x >= low && x <= high && (!whole || x == floor(x))) return x;
-  if (a->kind == VALUE_NUMBER) {
-    if (isfinite(high)) language_error(language, place, "%s must be %s from %g to %g", what, whole ? "a whole number" : "a number", low, high);
-    else language_error(language, place, "%s must be %s of at least %g", what, whole ? "a whole number" : "a number", low);
+  if (!usable(language, place, a, "a number")) return false;
+  if (a->kind != VALUE_NUMBER) {
+    language_error(language, place, "a number is wanted here, not a %s", a->kind == VALUE_COLOUR ? "colour" : "vector");
+    return false;
   }
-  return low;
+  *out = a->x[0];
+  return true;
+}
+
+bool value_in_range(struct language *language, struct place place, const struct value *a, const char *what, double low,
+                    double high, bool whole, double *out)
+{
+  double x;
+  if (!value_to_number(language, place, a, &x)) return false;
+  if (x >= low && x <= high && (!whole || x == floor(x))) {
+    *out = x;
+    return true;
+  }
+  const char *number = whole ? "a whole number" : "a number";
+  char from[NUMBER_TEXT_SIZE], to[NUMBER_TEXT_SIZE];
+  number_write(low, from);
+  number_write(high, to);
+  if (isfinite(high)) language_error(language, place, "%s must be %s from %s to %s", what, number, from, to);
+  else language_error(language, place, "%s must be %s of at least %s", what, number, from);
+  return false;
 }

@@ -1,0 +1,139 @@
+/* The camera's items, folded into location, direction, right and up as POV-Ray 3.7 does it, wherever they stand: the angle sets
+ * the length of direction from that of right; look_at comes last and turns the frame, keeping lengths and handedness. */
+#include <math.h>
+#include <string.h>
+
+#include "geometry/vector.h"
+#include "language/build.h"
+
+#define RADIANS_A_DEGREE (3.14159265358979323846 / 180)
+
+/* Of unit vectors: below this they lie in a line or in a plane to within what their own rounding leaves open. */
+#define FLAT 0x1p-45
+
+void camera_default(struct camera_items *out)
+{
+  static const double item[5][3] = {{0, 0, 0}, {0, 0, 1}, {1.33, 0, 0}, {0, 1, 0}, {0, 1, 0}};
+  *out = (struct camera_items){.angle = 0};
+  memcpy(out->item, item, sizeof item);
+}
+
+void camera_begin(struct language *language, struct place place)
+{
+  if (language->has_camera) language_error(language, place, "the scene has a camera already");
+  language->has_camera = true;
+  camera_default(&language->camera);
+  language->camera.place = place;
+}
+
+void camera_vector(struct language *language, int which, struct place place, const struct value *value)
+{
+  struct camera_items *camera = &language->camera;
+  value_to_vector(language, place, value, camera->item[which]);
+  if (which != CAMERA_LOOK_AT) return;
+  camera->look_at = true;
+  camera->look_at_place = place;
+}
+
+void camera_angle(struct language *language, struct place place, const struct value *value)
+{
+  double angle;
+  if (!value_to_number(language, place, value, &angle)) return;
+  if (angle >= 0 && angle < 180) language->camera.angle = angle;
+  else language_error(language, place, "the angle must be at least 0 and less than 180 degrees");
+}
+
+/* Errors are told while the camera's text is at hand. */
+void camera_end(struct language *language)
+{
+  struct scene_camera unused;
+  camera_fold(language, &language->camera, &unused);
+}
+
+/* The length of v, and v of length 1; 0 for a zero vector, whose direction is not written. Nothing over- or underflows but the
+ * length itself. */
+static double unit(const double v[3], double out[3])
+{
+  const double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+  if (largest == 0) return 0;
+  int exponent;
+  frexp(largest, &exponent);
+  double scaled[3];
+  for (int k = 0; k < 3; k++) scaled[k] = ldexp(v[k], -exponent);
+  const double length = vector_length(scaled);
+  vector_scale(1 / length, scaled, out);
+  return ldexp(length, exponent);
+}
+
+/* A camera while it is folded: unit vectors and their lengths. */
+struct camera_frame {
+  double direction[3], right[3], up[3];
+  double direction_length, right_length, up_length;
+};
+
+/* Turns the frame towards look_at. Seen along the sky, right stays where it is. */
+static bool turn_frame(struct language *language, const struct camera_items *items, struct camera_frame *frame)
+{
+  double across[3], sky[3], ahead[3], hand[3];
+  vector_subtract(items->item[CAMERA_LOOK_AT], items->item[CAMERA_LOCATION], ahead);
+  if (!(unit(ahead, ahead) > 0)) {
+    language_error(language, items->look_at_place, "the camera looks at its own location");
+    return false;
+  }
+  vector_cross(frame->direction, frame->up, hand);
+  const double sign = vector_dot(hand, frame->right) < 0 ? 1 : -1;
+  if (!(unit(items->item[CAMERA_SKY], sky) > 0)) {
+    language_error(language, items->place, "the camera's sky must not be zero");
+    return false;
+  }
+  vector_cross(sky, ahead, across);
+  if (vector_length(across) > FLAT) {
+    unit(across, across);
+  } else {
+    memcpy(across, frame->right, sizeof across);
+  }
+  memcpy(frame->direction, ahead, sizeof ahead);
+  vector_cross(ahead, across, frame->up);
+  vector_scale(sign, across, frame->right);
+  if (unit(frame->up, frame->up) > 0) return true;
+  language_error(language, items->look_at_place, "the camera looks along its sky and its right");
+  return false;
+}
+
+static bool fold_frame(struct language *language, const struct camera_items *items, struct camera_frame *frame)
+{
+  frame->direction_length = unit(items->item[CAMERA_DIRECTION], frame->direction);
+  frame->right_length = unit(items->item[CAMERA_RIGHT], frame->right);
+  frame->up_length = unit(items->item[CAMERA_UP], frame->up);
+  if (!(frame->direction_length > 0 && frame->right_length > 0 && frame->up_length > 0)) {
+    language_error(language, items->place, "the camera's direction, right and up must not be zero");
+    return false;
+  }
+  if (items->angle > 0) frame->direction_length = 0.5 * frame->right_length / tan(0.5 * items->angle * RADIANS_A_DEGREE);
+  if (items->look_at && !turn_frame(language, items, frame)) return false;
+  double cross[3];
+  vector_cross(frame->right, frame->up, cross);
+  if (fabs(vector_dot(cross, frame->direction)) > FLAT) return true;
+  language_error(language, items->place, "the camera's direction, right and up lie in one plane");
+  return false;
+}
+
+bool camera_fold(struct language *language, const struct camera_items *items, struct scene_camera *out)
+{
+  struct camera_frame frame;
+  if (!fold_frame(language, items, &frame)) return false;
+  /* What nothing has changed stays as it is to the bit. */
+  memcpy(out->location, items->item[CAMERA_LOCATION], sizeof out->location);
+  memcpy(out->direction, items->item[CAMERA_DIRECTION], sizeof out->direction);
+  memcpy(out->right, items->item[CAMERA_RIGHT], sizeof out->right);
+  memcpy(out->up, items->item[CAMERA_UP], sizeof out->up);
+  if (items->look_at || items->angle > 0) vector_scale(frame.direction_length, frame.direction, out->direction);
+  if (items->look_at) {
+    vector_scale(frame.right_length, frame.right, out->right);
+    vector_scale(frame.up_length, frame.up, out->up);
+  }
+  bool finite = true;
+  for (int k = 0; k < 3; k++) finite &= isfinite(out->direction[k]) && isfinite(out->right[k]) && isfinite(out->up[k]);
+  if (!finite) language_error(language, items->place, "the camera's vectors are too large for numbers");
+  return finite;
+}

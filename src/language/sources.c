@@ -1,0 +1,158 @@
+/* The stack of sources being read: the scene and what it includes. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "language/tokens.h"
+
+enum {
+  MAX_INCLUDE_DEPTH = 32,
+  MAX_SOURCES = 10000 /* files that include each other without a cycle can still ask for any number of reads */
+};
+
+/* Every source read stays until the end: tokens, names and places point into their texts. */
+struct source_list {
+  struct source_list *next;
+  struct source *source;
+};
+
+bool sources_open(struct language *language, struct source *source)
+{
+  struct source_list *entry = calloc(1, sizeof *entry);
+  struct frame *frame = calloc(1, sizeof *frame);
+  if (!entry || !frame || !pscn_scan_open(&frame->scan, source->text, source->length)) {
+    free(entry);
+    free(frame);
+    source_destroy(source);
+    return false;
+  }
+  *entry = (struct source_list){language->all_sources, source};
+  language->all_sources = entry;
+  frame->source = source;
+  frame->outer = language->frame;
+  language->frame = frame;
+  language->source_count++;
+  return true;
+}
+
+void sources_leave(struct language *language)
+{
+  struct frame *frame = language->frame;
+  symbols_leave(language, language->include_depth);
+  if (frame->outer) language->include_depth--;
+  language->frame = frame->outer;
+  pscn_scan_close(&frame->scan);
+  free(frame);
+}
+
+void sources_close(struct language *language)
+{
+  while (language->frame) sources_leave(language);
+  for (struct source_list *entry = language->all_sources, *next; entry; entry = next) {
+    next = entry->next;
+    source_destroy(entry->source);
+    free(entry);
+  }
+}
+
+struct place sources_here(const struct language *language)
+{
+  const struct frame *frame = language->frame;
+  return (struct place){frame->source, frame->scan.begin, frame->scan.end};
+}
+
+/* The path of an included file: relative to the folder of the file that includes it. */
+static char *include_path(struct language *language, const char *name, size_t length)
+{
+  const char *includer = language->frame->source->name, *slash = strrchr(includer, '/');
+  const size_t folder = name[0] == '/' || !slash ? 0 : (size_t)(slash - includer) + 1;
+  char *path = arena_alloc(language->arena, folder + length + 1, 1);
+  if (!path) return NULL;
+  memcpy(path, includer, folder);
+  memcpy(path + folder, name, length);
+  return path;
+}
+
+static bool same_file(const struct source *a, const struct source *b)
+{
+  return a->device == b->device && a->inode == b->inode && !(a->device == 0 && a->inode == 0);
+}
+
+/* The names from the outermost reading of the file to the one that includes it again, as "a.pscn -> b.inc -> ". */
+static void tell_cycle(struct language *language, struct place place, const struct source *again)
+{
+  const struct frame *chain[MAX_INCLUDE_DEPTH + 1];
+  int count = 0;
+  for (const struct frame *f = language->frame; f && count <= MAX_INCLUDE_DEPTH; f = f->outer) {
+    chain[count++] = f;
+    if (same_file(f->source, again)) break;
+  }
+  char text[1000];
+  size_t used = 0;
+  text[0] = '\0';
+  while (count-- > 0 && used < sizeof text) {
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s -> ", chain[count]->source->name);
+  }
+  language_error(language, place, "files include each other: %s%s", text, again->name);
+}
+
+static bool is_open(const struct language *language, const struct source *source)
+{
+  const struct frame *f = language->frame;
+  while (f && !same_file(f->source, source)) f = f->outer;
+  return f != NULL;
+}
+
+/* Reads the file named at `place`, quotes included, or tells an error and answers NULL. */
+static struct source *read_included(struct language *language, struct place place)
+{
+  const char *name = place.source->text + place.begin + 1, *reason;
+  const size_t length = place.end - place.begin - 2;
+  if (memchr(name, '\0', length)) {
+    language_error(language, place, "a file name holds no NUL");
+    return NULL;
+  }
+  const char *path = include_path(language, name, length);
+  struct source *source = NULL;
+  if (!path) {
+    language->ended_early = true;
+    return NULL;
+  }
+  const enum status status = source_read(path, &source, &reason);
+  if (status != STATUS_OK) {
+    language_error(language, place, "cannot include '%s': %s", path, reason);
+    if (status == STATUS_LIMIT) language->ended_early = true;
+    return NULL;
+  }
+  if (is_open(language, source)) {
+    tell_cycle(language, place, source);
+    source_destroy(source);
+    return NULL;
+  }
+  return source;
+}
+
+void sources_include(struct language *language)
+{
+  const int token = pscn_scan_next(&language->frame->scan);
+  const struct place place = sources_here(language);
+  if (token != PSCN_TOKEN_STRING) {
+    language_error(language, place, "#include wants a file name in quotes");
+    return;
+  }
+  if (language->include_depth == MAX_INCLUDE_DEPTH) {
+    language_error(language, place, "files are included more than %d deep", MAX_INCLUDE_DEPTH);
+    return;
+  }
+  if (language->source_count == MAX_SOURCES) {
+    language_limit(language, place, "more than 10000 files are included");
+    return;
+  }
+  struct source *source = read_included(language, place);
+  if (!source) return;
+  source->includer = place.source;
+  source->include_begin = place.begin;
+  source->include_end = place.end;
+  if (!sources_open(language, source)) language->ended_early = true;
+  else language->include_depth++;
+}
