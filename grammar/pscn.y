@@ -54,7 +54,7 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 
 %token END 0 "the end of the text"
 %token <token> NUMBER "a number" POINT "a vector" WORD "a name" STRING "a string"
-%token FOREIGN "a word of POV-Ray's" START_SOLVER
+%token FOREIGN "a word of POV-Ray's" START_SCENE START_SOLVER
 %token VERSION "#version" DECLARE "#declare" LOCAL "#local"
 %token GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma" MAX_TRACE_LEVEL "max_trace_level"
 %token AMBIENT_LIGHT "ambient_light"
@@ -84,7 +84,7 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 
 %%
 
-input: statements | START_SOLVER solver;
+input: START_SCENE statements | START_SOLVER solver;
 
 statements: %empty | statements statement;
 statement:
@@ -93,8 +93,9 @@ statement:
   | GLOBAL_SETTINGS '{' global_items '}'
   | CAMERA '{' { camera_begin(language, @1); } camera_items '}' { camera_end(language); }
   | LIGHT_SOURCE '{' { light_begin(language, @1); } light_items '}' { light_end(language); }
-  | BACKGROUND '{' background_items '}'
+  | BACKGROUND '{' { background_begin(language, @1); } background_items '}' { background_end(language); }
   | object                                     { scene_add(language, @1, $1); }
+  | solver                                     { solver_misplaced(language, @1); }
   | error                                      { RECOVER(); }
   ;
 
@@ -166,6 +167,7 @@ camera_item:
   | SKY expression                             { camera_vector(language, CAMERA_SKY, @2, &$2); }
   | LOOK_AT expression                         { camera_vector(language, CAMERA_LOOK_AT, @2, &$2); }
   | ANGLE expression                           { camera_angle(language, @2, &$2); }
+  | transform                                  { camera_transform(language, @1); }
   | declaration
   | error                                      { RECOVER(); }
   ;
@@ -183,7 +185,7 @@ light_item:
 
 background_items: %empty | background_items background_item;
 background_item:
-    colour %prec ITEM                          { value_to_colour(language, @1, &$1, language->background); }
+    colour %prec ITEM                          { background_value(language, @1, &$1); }
   | declaration
   | error                                      { RECOVER(); }
   ;
@@ -213,6 +215,7 @@ union_items: %empty | union_items union_item;
 union_item:
     object                                     { union_add(language, @1, $1); }
   | modifier
+  | solver                                     { solver_misplaced(language, @1); }
   | declaration
   | error                                      { RECOVER(); }
   ;
@@ -224,6 +227,7 @@ copy_item:
     WORD                                       { copy_named(language, @1, &$1); }
   | object                                     { copy_object(language, @1, $1); }
   | modifier                                   { copy_modified(language, @1); }
+  | solver                                     { solver_misplaced(language, @1); }
   | declaration
   | error                                      { RECOVER(); }
   ;

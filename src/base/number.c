@@ -4,6 +4,7 @@
  * point, which means the same in every locale. */
 #include "base/number.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -186,7 +187,7 @@ size_t number_write(double value, char *out)
   char digits[MAX_DIGITS];
   int exponent = 0, count;
   size_t length = 0;
-  for (count = SURE_DIGITS; count <= MAX_DIGITS; count++) {
+  for (count = fabs(value) < DBL_MIN ? 1 : SURE_DIGITS; count <= MAX_DIGITS; count++) { /* subnormals hold fewer digits */
     round_to_digits(value, count, digits, &exponent);
     int kept = count;
     while (kept > 1 && digits[kept - 1] == '0') kept--;

@@ -68,6 +68,7 @@ enum {
 struct texture {
   unsigned block; /* TEXTURE_PIGMENT, TEXTURE_FINISH or TEXTURE_ALL: the statement it comes from */
   unsigned set;
+  bool coloured, doubtful; /* a colour stands in the open pigment; or what may have been meant as one */
   struct scene_texture is;
 };
 
@@ -93,7 +94,7 @@ struct node {
   enum stage stage;
   int points;
   bool has_type, has_object, after_comma;
-  bool broken; /* a syntax error has been told: what is missing may be its consequence */
+  size_t errors; /* told before it began; if there are more, what is missing may be their consequence */
 };
 
 struct camera_items {
@@ -101,6 +102,7 @@ struct camera_items {
   bool look_at;
   double angle; /* degrees, 0 where not given */
   struct place place, look_at_place;
+  size_t errors; /* told before it began */
 };
 
 struct light_node {
@@ -109,7 +111,8 @@ struct light_node {
   struct transform transform;
   struct place place;
   int values; /* position, colour: how many have come */
-  bool after_comma, broken;
+  bool after_comma;
+  size_t errors; /* told before it began */
 };
 
 /* What `#declare NAME =` has begun. */
@@ -135,11 +138,12 @@ struct language {
   struct arena *arena; /* of what is needed while reading only */
   int width, height;
   bool ended_early;  /* memory, or a stated limit: STATUS_LIMIT */
-  char spare[1024];  /* stands in for memory that there is not */
+  _Alignas(max_align_t) char spare[4096]; /* stands in for memory that there is not */
+  size_t spare_used;
 
   /* tokens.c, sources.c */
   bool solver_only;    /* the text is what follows `solver` */
-  int start;           /* tokens still to be made up before the text */
+  int made_up;         /* tokens handed out before those of the text */
   struct frame *frame; /* the sources being read */
   struct source_list *all_sources;
   int include_depth, source_count;
@@ -147,7 +151,9 @@ struct language {
   int depth;     /* braces open */
   struct place braces[MAX_NESTING];
   struct delivered last;
+  struct place previous;        /* of the token before the last */
   struct place recovered, told; /* where the last recovery began, what the last syntax error was about */
+  struct place unknown;         /* the last word told to be unknown */
 
   struct symbol **symbols; /* symbols.c */
   struct declaration declaring;
@@ -167,11 +173,16 @@ struct language {
   struct node scene; /* the union of all objects */
   struct solver_options global_solver;
   double background[3], ambient_light[3];
+  struct place background_place; /* of the open block */
+  int background_values;
+  size_t background_errors; /* told before it began */
 };
 
 /* ---- language.c ---- */
 void language_error(struct language *language, struct place place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* Whether no error has been told since there were so many. */
+bool language_sound(const struct language *language, size_t errors);
 /* A stated limit: reading ends at the next token, with STATUS_LIMIT. */
 void language_limit(struct language *language, struct place place, const char *text);
 void *language_alloc(struct language *language, size_t size); /* zeroed, never NULL: reading ends at the next token instead */
@@ -231,11 +242,14 @@ void declare_object(struct language *language, const struct node *object);
 void declare_texture(struct language *language, const struct texture *texture);
 void declare_broken(struct language *language); /* the declaration being read has an error */
 
-/* ---- settings.c: global_settings, light sources ---- */
+/* ---- settings.c: global_settings, background, light sources ---- */
 void language_version(struct language *language, struct place place, const struct value *value);
 void global_gamma(struct language *language, struct place place, const struct value *value);
 void global_trace_level(struct language *language, struct place place, const struct value *value);
 void global_solver(struct language *language);
+void background_begin(struct language *language, struct place place);
+void background_value(struct language *language, struct place place, const struct value *value);
+void background_end(struct language *language);
 void light_begin(struct language *language, struct place place);
 void light_value(struct language *language, struct place place, const struct value *value);
 void light_comma(struct language *language, struct place place);
@@ -249,6 +263,7 @@ void camera_default(struct camera_items *out);
 void camera_begin(struct language *language, struct place place);
 void camera_vector(struct language *language, int which, struct place place, const struct value *value);
 void camera_angle(struct language *language, struct place place, const struct value *value);
+void camera_transform(struct language *language, struct place place);
 void camera_end(struct language *language);
 /* Folds the items into `out`; false, and an error told, where they make no picture. */
 bool camera_fold(struct language *language, const struct camera_items *items, struct scene_camera *out);
@@ -307,6 +322,7 @@ void finish_number(struct language *language, int which, struct place place, con
 
 /* ---- solver_statement.c ---- */
 void solver_begin(struct language *language, struct place place, const struct token *name);
+void solver_misplaced(struct language *language, struct place place);
 void solver_number(struct language *language, struct place place, const struct token *item, struct place value_place,
                    double value);
 void solver_word(struct language *language, struct place place, const struct token *item, struct place value_place,

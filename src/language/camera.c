@@ -24,6 +24,7 @@ void camera_begin(struct language *language, struct place place)
   language->has_camera = true;
   camera_default(&language->camera);
   language->camera.place = place;
+  language->camera.errors = language->diagnostics->error_count;
 }
 
 void camera_vector(struct language *language, int which, struct place place, const struct value *value)
@@ -43,11 +44,16 @@ void camera_angle(struct language *language, struct place place, const struct va
   else language_error(language, place, "the angle must be at least 0 and less than 180 degrees");
 }
 
+void camera_transform(struct language *language, struct place place)
+{
+  language_error(language, place, "transforms of the camera are POV-Ray, but pscn has none: use location and look_at");
+}
+
 /* Errors are told while the camera's text is at hand. */
 void camera_end(struct language *language)
 {
   struct scene_camera unused;
-  camera_fold(language, &language->camera, &unused);
+  if (language_sound(language, language->camera.errors)) camera_fold(language, &language->camera, &unused);
 }
 
 /* The length of v, and v of length 1; 0 for a zero vector, whose direction is not written. Nothing over- or underflows but the

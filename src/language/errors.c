@@ -33,14 +33,15 @@ static void list_expected(const char *const expected[], int count, char *out, si
   enum { MOST_LISTED = 10 };
   static const char *const in_values[] = {"a number", "a vector", "x", "y", "z", "pi", "image_width", "image_height", "'('",
                                           "'<'", "'+'", "'-'", "rgb", "color", NULL};
-  static const char *const everywhere[] = {"'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version", NULL};
+  static const char *const anywhere[] = {"'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version",
+                                         "the end of the text", NULL};
   const char *list[MOST_LISTED];
   int listed = 0;
   const bool value = contains(expected, count, "image_width");
   if (value) list[listed++] = "a value";
   for (int k = 0; k < count; k++) {
     if (value && (is_one_of(expected[k], in_values) || strcmp(expected[k], "a name") == 0)) continue;
-    if (count > 1 && is_one_of(expected[k], everywhere)) continue;
+    if (count > 1 && is_one_of(expected[k], anywhere)) continue;
     if (listed == MOST_LISTED) return;
     list[listed++] = expected[k];
   }
@@ -80,7 +81,10 @@ void language_unexpected(struct language *language, struct place place, bool is_
 {
   enum { LONGEST_SHOWN = 40 };
   const bool told = place.source == language->told.source && place.begin == language->told.begin;
-  if (told || language->ended_early) return;
+  /* What follows a word just told to be unknown fits the word that was meant. */
+  const bool follows = language->unknown.source && language->previous.source == language->unknown.source &&
+                       language->previous.begin == language->unknown.begin;
+  if (told || follows || language->ended_early) return;
   language->told = place;
   const size_t length = place.end - place.begin;
   const int shown = length < LONGEST_SHOWN ? (int)length : LONGEST_SHOWN;

@@ -20,20 +20,30 @@ void language_error(struct language *language, struct place place, const char *f
   diagnostics_error(language->diagnostics, place, "%s", message);
 }
 
+bool language_sound(const struct language *language, size_t errors)
+{
+  return language->diagnostics->error_count == errors;
+}
+
 void language_limit(struct language *language, struct place place, const char *text)
 {
   if (!language->ended_early) language_error(language, place, "%s", text);
   language->ended_early = true;
 }
 
-/* Where memory is short a spare block stands in, and the reading ends at the next token. */
+/* Where memory is short a spare block stands in, and reading ends at the next token; the few blocks wanted until then do not
+ * overlap. */
 void *language_alloc(struct language *language, size_t size)
 {
   void *memory = arena_alloc(language->arena, 1, size);
   if (memory) return memory;
-  assert(size <= sizeof language->spare);
   language->ended_early = true;
-  return memset(language->spare, 0, sizeof language->spare);
+  const size_t alignment = _Alignof(max_align_t), room = (size + alignment - 1) / alignment * alignment;
+  assert(room <= sizeof language->spare);
+  if (room > sizeof language->spare - language->spare_used) language->spare_used = 0;
+  memory = language->spare + language->spare_used;
+  language->spare_used += room;
+  return memset(memory, 0, size);
 }
 
 /* ---- the face ---- */

@@ -15,6 +15,7 @@ static struct node *open_node(struct language *language, struct place place)
 {
   struct node *node = language_alloc(language, sizeof *node);
   node->place = place;
+  node->errors = language->diagnostics->error_count;
   node->outer = language->open;
   language->open = node;
   return node;
@@ -65,12 +66,10 @@ void patch_point(struct language *language, struct place place, const struct val
   struct node *node = language->open;
   if (node->stage == STAGE_MODIFIERS) {
     language_error(language, place, "the control points of a bicubic_patch stand before its texture and transforms");
-    node->broken = true;
     return;
   }
   node->stage = STAGE_BODY;
   node->after_comma = false;
-  if (value->kind == VALUE_UNKNOWN) node->broken = true;
   if (node->points < PATCH_POINTS) value_to_vector(language, place, value, node->P[node->points / 4][node->points % 4]);
   node->points++;
 }
@@ -87,7 +86,7 @@ static void points_end(struct language *language)
   struct node *node = language->open;
   if (node->stage == STAGE_MODIFIERS) return;
   node->stage = STAGE_MODIFIERS;
-  if (node->broken) return;
+  if (!language_sound(language, node->errors)) return;
   if (node->points != PATCH_POINTS) {
     language_error(language, node->place, "bicubic_patch needs %d control points, found %d", PATCH_POINTS, node->points);
   } else if (node->after_comma) {
@@ -109,7 +108,7 @@ void patch_end(struct language *language)
 {
   const struct node *node = language->open;
   points_end(language);
-  if (!node->has_type && !node->broken) language_error(language, node->place, "bicubic_patch needs its type, 0 or 1");
+  if (!node->has_type && language_sound(language, node->errors)) language_error(language, node->place, "bicubic_patch needs its type, 0 or 1");
 }
 
 /* ---- unions ---- */
@@ -153,14 +152,14 @@ void copy_object(struct language *language, struct place place, const struct nod
   }
   struct node *outer = node->outer;
   const struct place begin = node->place;
-  const bool broken = node->broken;
+  const size_t errors = node->errors;
   *node = *object;
   node->next = NULL;
   node->outer = outer;
   node->place = begin;
   node->stage = STAGE_BODY;
   node->has_object = true;
-  node->broken = broken;
+  node->errors = errors;
 }
 
 void copy_named(struct language *language, struct place place, const struct token *name)
@@ -172,15 +171,13 @@ void copy_named(struct language *language, struct place place, const struct toke
   }
   if (!symbol) symbol_unknown(language, place, name, "an object");
   else if (symbol->kind != SYMBOL_BROKEN) symbol_mistaken(language, place, symbol, "an object");
-  language->open->broken = true;
 }
 
 void copy_modified(struct language *language, struct place place)
 {
   struct node *node = language->open;
-  if (!node->has_object && !node->broken) {
+  if (!node->has_object && language_sound(language, node->errors)) {
     language_error(language, place, "object wants its object first");
-    node->broken = true;
   }
   node->stage = STAGE_MODIFIERS;
 }
@@ -188,7 +185,7 @@ void copy_modified(struct language *language, struct place place)
 void copy_end(struct language *language)
 {
   const struct node *node = language->open;
-  if (!node->has_object && !node->broken) language_error(language, node->place, "this object has no object in it");
+  if (!node->has_object && language_sound(language, node->errors)) language_error(language, node->place, "this object has no object in it");
 }
 
 /* ---- modifiers ---- */

@@ -1,4 +1,4 @@
-/* global_settings and light sources. */
+/* global_settings, background and light sources. */
 #include <math.h>
 
 #include "language/build.h"
@@ -32,12 +32,35 @@ void global_trace_level(struct language *language, struct place place, const str
 
 void global_solver(struct language *language) { language->global_solver = language->solver; }
 
+/* ---- background ---- */
+
+void background_begin(struct language *language, struct place place)
+{
+  language->background_place = place;
+  language->background_values = 0;
+  language->background_errors = language->diagnostics->error_count;
+}
+
+void background_value(struct language *language, struct place place, const struct value *value)
+{
+  if (language->background_values++ == 1 && language_sound(language, language->background_errors)) language_error(language, place, "background has one colour");
+  value_to_colour(language, place, value, language->background);
+}
+
+void background_end(struct language *language)
+{
+  if (language->background_values == 0 && language_sound(language, language->background_errors)) {
+    language_error(language, language->background_place, "background needs its colour");
+  }
+}
+
 /* ---- light sources ---- */
 
 void light_begin(struct language *language, struct place place)
 {
   struct light_node *light = language_alloc(language, sizeof *light);
   light->place = place;
+  light->errors = language->diagnostics->error_count;
   light->transform = transform_identity();
   for (int k = 0; k < 3; k++) light->light.color[k] = 1; /* as in POV-Ray, where none is said */
   *language->lights_end = light;
@@ -52,7 +75,9 @@ void light_value(struct language *language, struct place place, const struct val
   switch (light->values++) {
   case 0: value_to_vector(language, place, value, light->light.position); break;
   case 1: value_to_colour(language, place, value, light->light.color); break;
-  default: language_error(language, place, "light_source has one position and one colour"); break;
+  default:
+    if (language_sound(language, light->errors)) language_error(language, place, "light_source has one position and one colour");
+    break;
   }
 }
 
@@ -76,8 +101,7 @@ void light_transform(struct language *language)
 void light_end(struct language *language)
 {
   struct light_node *light = language->light;
-  language->light = NULL;
-  if (light->values == 0 && !light->broken) language_error(language, light->place, "light_source needs its position");
+  if (light->values == 0 && language_sound(language, light->errors)) language_error(language, light->place, "light_source needs its position");
   double *position = light->light.position;
   transform_point(&light->transform, position, position);
   if (!(isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]))) {

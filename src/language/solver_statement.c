@@ -1,4 +1,5 @@
 /* `solver NAME { item value ... }`: names, items and ranges come from the tables in algebra/solver.h. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -85,7 +86,9 @@ static void tell_wanted(struct language *language, struct place place, const str
   number_write(item->minimum, from);
   number_write(item->maximum, to);
   const char *or = words[0] ? " or " : "";
-  if (isfinite(item->maximum)) {
+  if (item->minimum == DBL_MIN) {
+    language_error(language, place, "%s is %s%s%s above 0 and up to %s", item->name, words, or, number, to);
+  } else if (isfinite(item->maximum)) {
     language_error(language, place, "%s is %s%s%s from %s to %s", item->name, words, or, number, from, to);
   } else {
     language_error(language, place, "%s is %s%s%s of at least %s", item->name, words, or, number, from);
@@ -113,4 +116,9 @@ void solver_word(struct language *language, struct place place, const struct tok
     return;
   }
   tell_wanted(language, value_place, item);
+}
+
+void solver_misplaced(struct language *language, struct place place)
+{
+  language_error(language, place, "solver stands in global_settings or in a bicubic_patch");
 }

@@ -85,6 +85,7 @@ void symbol_unknown(struct language *language, struct place place, const struct 
 {
   const char *best = NULL;
   size_t best_length = 0, distance = words_reach(name->length);
+  language->unknown = place;
   symbols_consider(language, name->text, name->length, &best, &best_length, &distance);
   keywords_consider(name->text, name->length, &best, &best_length, &distance);
   if (best) {

@@ -3,7 +3,7 @@
 
 struct texture texture_default(void)
 {
-  return (struct texture){TEXTURE_ALL, TEXTURE_ALL,
+  return (struct texture){TEXTURE_ALL, TEXTURE_ALL, false, false,
                           {.pigment = {0, 0, 0},
                            .finish = {.ambient = {0.1, 0.1, 0.1}, .diffuse = 0.6, .brilliance = 1, .phong = 0,
                                       .phong_size = 40, .specular = 0, .roughness = 0.05}}};
@@ -68,10 +68,14 @@ void pigment_value(struct language *language, struct place place, const struct v
     texture_apply(texture, symbol->texture);
     return;
   }
+  if (value->kind == VALUE_UNKNOWN) texture->doubtful = true;
+  if (texture->doubtful) return;
   if (value->kind == VALUE_NUMBER || value->kind == VALUE_VECTOR) {
     language_error(language, place, "a pigment wants a colour: write rgb before this");
     return;
   }
+  if (texture->coloured) language_error(language, place, "a pigment has one colour");
+  texture->coloured = true;
   value_to_colour(language, place, value, texture->is.pigment);
   texture->set |= TEXTURE_PIGMENT;
 }

@@ -54,16 +54,21 @@ static int skip_branch(struct language *language, bool to_else)
 static bool condition_holds(struct language *language, const char *directive)
 {
   struct scan *scan = &language->frame->scan;
-  if (pscn_scan_next(scan) == '(') {
-    const int token = pscn_scan_next(scan);
+  int token = pscn_scan_next(scan);
+  const bool opened = token == '(';
+  bool declared = true;
+  if (opened) {
+    token = pscn_scan_next(scan);
     const struct place name = sources_here(language);
     if (is_word(token)) {
-      const bool declared = symbol_find(language, text_at(name), length_of(name)) != NULL;
-      if (pscn_scan_next(scan) == ')') return declared;
+      declared = symbol_find(language, text_at(name), length_of(name)) != NULL;
+      token = pscn_scan_next(scan);
+      if (token == ')') return declared;
     }
   }
   language_error(language, sources_here(language), "%s wants a name in parentheses", directive);
-  return true;
+  while (opened && (token == '.' || is_word(token))) token = pscn_scan_next(scan);
+  return declared;
 }
 
 static void begin_condition(struct language *language, bool wanted)
@@ -186,6 +191,7 @@ static int advance(struct language *language)
     last->again = false;
     return last->token;
   }
+  language->previous = last->place;
   int token;
   do {
     if (language->ended_early || diagnostics_full(language->diagnostics)) {
@@ -216,10 +222,11 @@ static int advance(struct language *language)
 
 int tokens_next(struct language *language, struct token *out_token, struct place *out_place)
 {
-  if (language->solver_only && language->start < 2) {
+  if (language->made_up < (language->solver_only ? 2 : 1)) {
     *out_place = (struct place){language->frame->source, 0, 0};
-    language->raw_words = language->start;
-    return language->start++ == 0 ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_SOLVER;
+    if (!language->solver_only) return language->made_up++, PSCN_TOKEN_START_SCENE;
+    language->raw_words = language->made_up;
+    return language->made_up++ == 0 ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_SOLVER;
   }
   const int token = advance(language);
   *out_token = language->last.value;
@@ -278,8 +285,6 @@ bool tokens_recover(struct language *language)
   language->recovered = last->place;
   language->last.again = false;
   declare_broken(language);
-  if (language->open) language->open->broken = true;
-  if (language->light) language->light->broken = true;
 
   for (bool first = true;; first = false, advance(language)) {
     const int token = last->token;

@@ -58,17 +58,24 @@ static void put_solver_item(struct dump *dump, const struct solver_item *item, d
   }
 }
 
-/* Every item is said, so that the text keeps its meaning should a default ever change. */
+/* Items that follow from the solver's name and the items before them are left out. */
 static void put_solver(struct dump *dump, const struct solver_options *options)
 {
   put(dump, "#ifdef (pscn)\n  solver ");
   put(dump, options->solver->name);
-  put(dump, " {");
+  struct solver_options said; /* what the text so far means */
+  solver_options_default(options->solver, &said);
+  bool any = false;
   for (size_t i = 0; i < solver_item_count(); i++) {
     const struct solver_item *item = solver_item_at(i);
-    put_solver_item(dump, item, item->get(options));
+    const double value = item->get(options);
+    if (value == item->get(&said)) continue;
+    item->set(&said, value);
+    if (!any) put(dump, " {");
+    put_solver_item(dump, item, value);
+    any = true;
   }
-  put(dump, " }\n#end\n");
+  put(dump, any ? " }\n#end\n" : "\n#end\n");
 }
 
 static bool same_solver(const struct solver_options *a, const struct solver_options *b)

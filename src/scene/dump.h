@@ -1,8 +1,8 @@
 /* A scene written back as canonical text, readable by pscn and by POV-Ray 3.7.
  *
  * Every number is the shortest that reads back to the same double; transforms are applied; the camera is location,
- * direction, right and up; textures are declared by number in the order of their first use; `solver` statements say every
- * item, inside #ifdef (pscn). Reading the text gives a scene whose dump is the same text, byte for byte.
+ * direction, right and up; textures are declared by number in the order of their first use; `solver` statements stand inside
+ * #ifdef (pscn) and leave out what is the default. Reading the text gives a scene whose dump is the same text, byte for byte.
  */
 #ifndef PSCN_SCENE_DUMP_H
 #define PSCN_SCENE_DUMP_H

@@ -1,0 +1,143 @@
+/* The language by example.
+ *
+ * bad/NAME.pscn is wrong: bad/NAME.errors holds what is told, to the letter, and then the status as "exit N".
+ * ok/NAME.pscn is right: ok/NAME.dump holds its canonical text, which read again gives itself.
+ *
+ * With PSCN_UPDATE set in the environment the expected files are written instead; look at what changed.
+ */
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cmocka_test.h"
+#include "language/language.h"
+#include "scene/dump.h"
+
+static const struct language_settings SETTINGS = { 800, 600, NULL, NAN };
+
+static void tell(void *context, const char *text, size_t length)
+{
+  assert_int_equal(fwrite(text, 1, length, context), length);
+}
+
+/* Whether text is what the file holds; on request the file is made to hold it. */
+static bool is_expected(const char *path, const char *text, size_t length)
+{
+  if (getenv("PSCN_UPDATE")) {
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, length, file), length);
+    assert_int_equal(fclose(file), 0);
+    return true;
+  }
+  FILE *file = fopen(path, "rb");
+  if (!file) {
+    print_error("%s is missing\n", path);
+    return false;
+  }
+  char *expected = malloc(length + 1);
+  assert_non_null(expected);
+  const size_t got = fread(expected, 1, length + 1, file);
+  (void)fclose(file);
+  const bool same = got == length && memcmp(expected, text, length) == 0;
+  if (!same) print_error("%s is not what was told:\n%.*s\n", path, (int)length, text);
+  free(expected);
+  return same;
+}
+
+static bool bad_case(const char *path, const char *expected_path)
+{
+  char *text = NULL;
+  size_t length = 0;
+  FILE *memory = open_memstream(&text, &length);
+  assert_non_null(memory);
+  struct diagnostics diagnostics = { .tell = tell, .context = memory };
+  struct scene *scene = NULL;
+  const enum status status = language_load(path, &SETTINGS, &diagnostics, &scene);
+  assert_int_not_equal(status, STATUS_OK);
+  assert_null(scene);
+  assert_true(diagnostics.error_count > 0);
+  (void)fprintf(memory, "exit %d\n", (int)status);
+  assert_int_equal(fclose(memory), 0);
+  const bool same = is_expected(expected_path, text, length);
+  free(text);
+  return same;
+}
+
+/* The dump of a scene, freed by the caller. */
+static char *dump(const struct scene *scene, size_t *length)
+{
+  char *text = NULL;
+  FILE *memory = open_memstream(&text, length);
+  assert_non_null(memory);
+  assert_int_equal(scene_dump(scene, memory), STATUS_OK);
+  assert_int_equal(fclose(memory), 0);
+  return text;
+}
+
+static bool ok_case(const char *path, const char *expected_path)
+{
+  struct diagnostics diagnostics = { .tell = tell, .context = stderr };
+  struct scene *scene = NULL, *again = NULL;
+  assert_int_equal(language_load(path, &SETTINGS, &diagnostics, &scene), STATUS_OK);
+  assert_int_equal(diagnostics.error_count, 0);
+  size_t length, length_again;
+  char *text = dump(scene, &length);
+  assert_int_equal(language_load_text("<dump>", text, length, &SETTINGS, &diagnostics, &again), STATUS_OK);
+  char *text_again = dump(again, &length_again);
+  assert_int_equal(length, length_again);
+  assert_memory_equal(text, text_again, length);
+  const bool same = is_expected(expected_path, text, length);
+  free(text);
+  free(text_again);
+  scene_destroy(scene);
+  scene_destroy(again);
+  return same;
+}
+
+static int is_scene(const struct dirent *entry)
+{
+  const size_t length = strlen(entry->d_name);
+  return length > 5 && strcmp(entry->d_name + length - 5, ".pscn") == 0;
+}
+
+static void run_folder(const char *folder, const char *ending, bool (*run)(const char *, const char *))
+{
+  struct dirent **entries;
+  const int count = scandir(folder, &entries, is_scene, alphasort);
+  assert_true(count > 0);
+  int failed = 0;
+  for (int k = 0; k < count; k++) {
+    char path[600], expected[600];
+    const int stem = (int)strlen(entries[k]->d_name) - 5;
+    (void)snprintf(path, sizeof path, "%s/%s", folder, entries[k]->d_name);
+    (void)snprintf(expected, sizeof expected, "%s/%.*s.%s", folder, stem, entries[k]->d_name, ending);
+    failed += !run(path, expected);
+    free(entries[k]);
+  }
+  free(entries);
+  assert_int_equal(failed, 0);
+}
+
+static void test_bad(void **state)
+{
+  (void)state;
+  run_folder("bad", "errors", bad_case);
+}
+
+static void test_ok(void **state)
+{
+  (void)state;
+  run_folder("ok", "dump", ok_case);
+}
+
+int main(void)
+{
+  /* Names in what is told are relative to this folder. */
+  if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
+  const struct CMUnitTest tests[] = { cmocka_unit_test(test_bad), cmocka_unit_test(test_ok) };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
