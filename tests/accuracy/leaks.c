@@ -164,7 +164,8 @@ static size_t leaks_of(const struct solver_options *options, size_t rays_wanted,
       trial_destroy(&trial);
     }
   }
-  printf("seed %llu, solver %s: %zu rays, %zu leaks\n", (unsigned long long)seed, options->solver->name, rays, leaks);
+  printf("seed %llu, solver %s, split %d: %zu rays, %zu leaks\n", (unsigned long long)seed, options->solver->name,
+         options->split, rays, leaks);
   return leaks;
 }
 

@@ -1,0 +1,187 @@
+#!/bin/bash
+# Where methods fail, measured: writes docs/stability.md and its pictures in docs/stability/.
+#
+# Builds with tests, runs the comparison with the reference in every class of tests/accuracy/situations.c, with every solver in
+# our form and in the paper's; the accuracy tests; and renders scenes where holes show, also by POV-Ray where there is one.
+#
+#   examples/stability.sh
+#
+# PSCN_EFFORT (see tests/effort.h) sets the fraction of the rays for everything; without it each part has the fraction
+# given below, which keeps each under some minutes.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+. examples/packages.sh
+export LC_ALL=C
+
+TABLE_EFFORT=${PSCN_EFFORT:-0.02}
+FRAME_EFFORT=${PSCN_EFFORT:-full}
+RANDOM_EFFORT=${PSCN_EFFORT:-0.2}
+LEAK_EFFORT=${PSCN_EFFORT:-0.0002}
+
+install_packages "${BUILD_PACKAGES[@]}" libcmocka-dev libflint-arb-dev
+cmake -S . -B build-stability -G Ninja -DCMAKE_BUILD_TYPE=Release -DPSCN_TESTS=ON >/dev/null
+targets=(pscn stability-table accuracy-camera accuracy-random-patches accuracy-leaks)
+cmake --build build-stability -j2 --target "${targets[@]}" >/dev/null
+pscn=$PWD/build-stability/src/command/pscn
+tests=$PWD/build-stability/tests
+pictures=docs/stability
+mkdir -p "$pictures"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+PAPER='basis power resultant sylvester back_substitution euclid polish off split 1'
+FRAME=320x240
+INSIDE=401x401
+
+# How many pixels of two pictures differ by more than $3 (1 is white).
+pixels_over() { { "$pscn" compare "$1" "$2" --fail "$3" 2>/dev/null || true; } | awk -v over="$3" '$1 == "over" && $2 == over { print $3 }'; }
+
+# Runs a program that counts: $1 the effort, $2 its text, the rest its command line. Says on the page when it fails.
+measure() {
+  local effort=$1 out=$2
+  shift 2
+  echo "$1, PSCN_EFFORT=$effort" >&2
+  PSCN="$pscn" PSCN_EFFORT=$effort "$@" >"$out" 2>"$out.errors" || {
+    echo "$1 FAILED"
+    grep -h '^ERROR\|allowed' "$out" "$out.errors" | head -5 || true
+  } >>"$folder/failures"
+}
+
+# What tests/accuracy/trial.c's tally_print prints, two lines each, as rows of a table.
+tally_rows() {
+  awk '/ undecided; lost / {
+    name = $0; sub(/:.*/, "", name)
+    counts = $0; sub(/^[^:]*: /, "", counts); split(counts, n, /[^0-9]+/)
+    getline; split($0, e, /[ ,;]+/)
+    certain = n[1] ? 100 * (n[1] - n[7]) / n[1] : 0
+    printf "| %s | %d | %d | %d | %d | %d | %.4f %% | %s | %s | %s | %s, %s, %s |\n", name, n[1], n[2], n[4], n[5], n[6], certain,
+      e[5], e[8], e[10], e[15], e[17], e[19]
+  }' "$1"
+}
+
+# ---- measuring ----
+
+measure "$TABLE_EFFORT" "$folder/table" "$tests/stability/stability-table"
+measure "$FRAME_EFFORT" "$folder/camera" "$tests/accuracy/accuracy-camera"
+measure "$RANDOM_EFFORT" "$folder/random" "$tests/accuracy/accuracy-random-patches"
+measure "$LEAK_EFFORT" "$folder/leaks" "$tests/accuracy/accuracy-leaks"
+
+"$pscn" render scenes/teapot.pscn --size "$FRAME" --quiet -o "$pictures/teapot-default.png"
+for solver in aberth laguerre newton; do
+  "$pscn" render scenes/teapot.pscn --size "$FRAME" --quiet --solver "$solver { $PAPER }" -o "$pictures/teapot-$solver.png"
+  echo "| \`--solver '$solver { $PAPER }'\` | $(pixels_over "$pictures/teapot-default.png" "$pictures/teapot-$solver.png" 0.02) |"
+done >"$folder/holes"
+
+"$pscn" render scenes/inside.pscn --size "$INSIDE" --quiet --stats "$folder/inside.json" -o "$pictures/inside-pscn.png"
+certain=$(awk -F'[:,]' '/"certain"/ { print $2 + 0 }' "$folder/inside.json")
+if command -v povray >/dev/null; then
+  mkdir "$folder/home"
+  (cd scenes && HOME=$folder/home povray +Iinside.pscn "+O$folder/inside.png" "+W${INSIDE%x*}" "+H${INSIDE#*x}" +WT1 -D -A) \
+    >"$folder/log" 2>&1 || { cat "$folder/log" >&2; exit 1; }
+  cp "$folder/inside.png" "$pictures/inside-povray.png"
+  pinholes=$(pixels_over "$pictures/inside-povray.png" "$pictures/inside-pscn.png" 0.5)
+  povray_version=$(povray --version 2>&1 | awk '/^POV-Ray/ { print $2; exit }')
+else
+  echo "povray is not installed: its picture is left out" >&2
+fi
+
+# ---- writing ----
+
+page=$folder/page
+{
+  cat <<END
+# Where methods fail
+
+Written by \`examples/stability.sh\`; the numbers are those of its last run. Every answer is judged by the reference
+([tests/reference/reference.h](../tests/reference/reference.h)): subdivision and Krawczyk's test in quadruple precision, which
+shares nothing with the renderer.
+
+- **lost**: the reference proves a hit, and the answer is a miss (a hole) or a later hit.
+- **invented**: an answer where the reference proves that nothing is hit, or nearer than its first hit.
+- Two distances are the same hit within 1e-9 relative, or 64 times what rounding the input can do; where the answer says \`grazing\`,
+  within 1e-6. Without polish nothing is proven, so every answer says \`grazing\`.
+- Errors of T are relative, of the answers that are the same hit.
+
+The paper's form of a solver is \`NAME { $PAPER }\`, at that solver's default tolerance.
+
+END
+  if [ -s "$folder/failures" ]; then
+    printf '**Bounds that this run found broken:**\n\n```\n'
+    cat "$folder/failures"
+    printf '```\n\n'
+  fi
+  cat <<END
+## The frame, random patches, leaks
+
+All pixels or a seeded choice of them (PSCN_EFFORT=$FRAME_EFFORT; teapot 800x600, the others 320x240), and random rays over random
+patches (PSCN_EFFORT=$RANDOM_EFFORT of 1,000,000). The last column is in units of the data floor: how far one rounding of each input can
+move the hit.
+
+| rays of | rays | hits | undecided by the reference | lost | invented | certain | median error of T | 99 % | largest | T, U, V in floors, largest |
+|---|---|---|---|---|---|---|---|---|---|---|
+END
+  tally_rows "$folder/camera"
+  tally_rows "$folder/random"
+  cat <<END
+
+Rays from inside closed bodies (dome, ball, torus; turned, scaled by 1e6 and 1e-6, shifted by 1e6) at shared edges, corners, poles and
+iso-lines, PSCN_EFFORT=$LEAK_EFFORT of 10,000,000:
+
+| run | rays | leaks |
+|---|---|---|
+END
+  awk '/^seed .* leaks$/ { gsub(/[,:]/, ""); print "| seed " $2 ", " $4 ", split " ($6 ? $6 : "auto") " | " $7 " | " $9 " |" }' "$folder/leaks"
+  echo
+  grep -h '^seed 403: ' "$folder/leaks" | sed 's/^/Rays that leave a hit, /; s/$/./' || true
+  cat <<END
+
+## Classes
+
+PSCN_EFFORT=$TABLE_EFFORT of 10,000 rays a class (fewer where the reference is slow), the same rays for every column. What each class is stands in
+[tests/accuracy/situations.c](../tests/accuracy/situations.c).
+
+END
+  cat "$folder/table"
+  cat <<END
+## Holes
+
+The teapot, \`pscn render scenes/teapot.pscn --size $FRAME\`: the default, and the paper's form of three solvers, whose holes are on handle
+and spout.
+
+| default | aberth | laguerre | newton |
+|---|---|---|---|
+| ![default](stability/teapot-default.png) | ![aberth](stability/teapot-aberth.png) | ![laguerre](stability/teapot-laguerre.png) | ![newton](stability/teapot-newton.png) |
+
+| | pixels that differ from the default's by more than 0.02 |
+|---|---|
+$(cat "$folder/holes")
+
+## Pinholes
+
+[scenes/inside.pscn](../scenes/inside.pscn) is a half ball of four patches, seen from a point of its axis, $INSIDE pixels: the rays of the middle
+row and column lie exactly in the planes where the patches join. Surface dark, background bright yellow.
+
+END
+  if [ -n "${pinholes:-}" ]; then
+    cat <<END
+| POV-Ray $povray_version, \`u_steps 5 v_steps 5 flatness 0\` | pscn |
+|---|---|
+| ![POV-Ray](stability/inside-povray.png) | ![pscn](stability/inside-pscn.png) |
+| **$pinholes** pixels of background (more than 0.5 off pscn's) | $certain of $((${INSIDE%x*} * ${INSIDE#*x})) answers certain |
+
+    povray +Iinside.pscn +Opovray.png +W${INSIDE%x*} +H${INSIDE#*x} +WT1 -D -A       # in scenes/
+    pscn render scenes/inside.pscn --size $INSIDE -o pscn.png
+    pscn compare povray.png pscn.png --fail 0.5
+END
+  else
+    echo "![pscn](stability/inside-pscn.png)"
+    echo
+    echo "POV-Ray was not at hand in this run."
+  fi
+} >"$page"
+cp "$page" docs/stability.md
+echo "docs/stability.md is written" >&2
+if [ -s "$folder/failures" ]; then
+  cat "$folder/failures" >&2
+  exit 1
+fi
