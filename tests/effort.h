@@ -9,7 +9,7 @@
 #include <stddef.h>
 
 /* PSCN_EFFORT as a number in (0,1]; EFFORT_DEFAULT where it is unset or no such number. */
-#define EFFORT_DEFAULT 0.04
+#define EFFORT_DEFAULT 0.002
 double effort_fraction(void);
 
 /* `full` times the fraction, at least `least` and at most `full`. */

@@ -4,13 +4,13 @@
 #   2. as it is built for development.
 # Ends by ctest's summary of the second pass; the exit code is not 0 if either pass failed.
 #
-# PSCN_EFFORT, the fraction of the heavy tests that is done (a number up to 1, or `full`), is 0.04 unless it is set.
+# PSCN_EFFORT, the fraction of the heavy tests that is done (a number up to 1, or `full`), is 0.002 unless it is set.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
 
 TEST_PACKAGES=(libcmocka-dev libflint-arb-dev locales openimageio-tools povray povray-examples povray-includes)
-ASAN_EFFORT=0.002 # sanitized code looks for faults of memory and arithmetic, which show on few rays
+ASAN_EFFORT=0.0002 # sanitized code looks for faults of memory and arithmetic, which show on few rays
 JOBS=$(nproc)
 
 # build PRESET [OPTION...]

@@ -17,6 +17,10 @@
 #define AUTO_TURN 0.25
 enum { AUTO_SPLIT_MAX = 8 };
 
+/* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory and time to
+ * make. The limit on the split is halved until they fit. */
+enum { AUTO_LEAVES_MAX = 1 << 18 };
+
 /* Rounding of the local net itself: of P - center (half a unit), and of cutting leaves (six lerps of two roundings each in
  * either direction on values below one). Used for the boxes. */
 #define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
@@ -58,7 +62,7 @@ static double largest_coordinate(double P[4][4][3])
 }
 
 /* How many leaves a side make every leaf nearly flat: second derivatives fall with the square, first ones with one over it. */
-static int auto_split(struct model_patch *patch)
+static int auto_split(struct model_patch *patch, int most)
 {
   double second[3], first = 0;
   patch_second_derivative_bounds(patch->x, second);
@@ -74,7 +78,7 @@ static int auto_split(struct model_patch *patch)
   }
   const double turn = (second[0] + 2 * second[1] + second[2]) / 2;
   int split = 1;
-  while (split < AUTO_SPLIT_MAX && turn > AUTO_TURN * split * first) split *= 2;
+  while (split < most && turn > AUTO_TURN * split * first) split *= 2;
   return split;
 }
 
@@ -213,6 +217,8 @@ static void prepare_patches(struct model *model)
     }
   }
   for (int k = 0; k < 3; k++) model->origin[k] = lo[k] / 2 + hi[k] / 2, model->radius = fmax(model->radius, hi[k] / 2 - lo[k] / 2);
+  int most = AUTO_SPLIT_MAX;
+  while (most > 1 && scene->patch_count * (size_t)(most * most) > AUTO_LEAVES_MAX) most /= 2;
   for (size_t p = 0; p < scene->patch_count; p++) {
     struct scene_patch *source = &scene->patches[p];
     struct model_patch *patch = &model->patches[p];
@@ -221,7 +227,7 @@ static void prepare_patches(struct model *model)
     patch->solver = &scene->solvers[source->solver];
     patch->lanes = fast_method(patch->solver);
     model->unproven |= !patch->solver->polish;
-    patch->split = patch->solver->split > 0 ? patch->solver->split : auto_split(patch);
+    patch->split = patch->solver->split > 0 ? patch->solver->split : auto_split(patch, most);
     patch->first_leaf = model->leaf_count;
     model->leaf_count += (size_t)patch->split * (size_t)patch->split;
   }
