@@ -27,6 +27,10 @@
 /* A combination whose computed values are within this many of its error bounds all over a box says nothing about it. */
 #define FLAT_ERRORS (UNDECIDED_ERRORS - 1)
 
+/* A leaf is as wide at this distance from a collapsed border, in its parameters, as some tens of the planes' error bounds: what
+ * cannot be decided there in double is the pole itself. */
+#define POLE_REACH 0x1p-40
+
 enum verdict {
   VERDICT_EMPTY, /* no root in the box */
   VERDICT_FLAT,  /* some combination, but not all, is indistinguishable from zero on it */

@@ -236,10 +236,11 @@ static void NAME(box_halve)(const struct NAME(search) *s, struct NAME(box) *box,
   for (int h = 0; h < 2; h++) NAME(box_place)(s, &out[h]);
 }
 
-/* Whether the box lies at a border of the leaf that is one point. */
+/* Whether the box lies at a border of the leaf that is one point, or so near to it that it is one in double precision. */
 static bool NAME(box_has_pole)(const struct NAME(search) *s, const struct NAME(box) *box)
 {
-  const bool at[4] = {box->u == 0, box->u + box->size_u == 1, box->v == 0, box->v + box->size_v == 1};
+  const bool at[4] = {box->u == 0 || box->u + box->size_u <= POLE_REACH, box->u + box->size_u == 1 || box->u >= 1 - POLE_REACH,
+                      box->v == 0 || box->v + box->size_v <= POLE_REACH, box->v + box->size_v == 1 || box->v >= 1 - POLE_REACH};
   for (int border = 0; border < 4; border++) {
     const int first = border == 1 ? 12 : border == 3 ? 3 : 0, stride = border < 2 ? 1 : 4;
     bool equal = at[border];
