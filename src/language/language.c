@@ -129,6 +129,13 @@ static enum status parse(struct language *language)
   return result != 0 || language->diagnostics->error_count > before ? STATUS_INPUT : STATUS_OK;
 }
 
+/* A reading that ended for want of memory has not said so itself. */
+static void tell_limit(struct diagnostics *diagnostics, enum status status, size_t errors_before)
+{
+  if (status != STATUS_LIMIT || diagnostics->error_count > errors_before) return;
+  diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "memory is short");
+}
+
 static enum status load(struct source *source, const struct language_settings *settings, struct diagnostics *diagnostics,
                         struct scene **out_scene)
 {
@@ -138,8 +145,7 @@ static enum status load(struct source *source, const struct language_settings *s
   if (status != STATUS_OK) source_destroy(source);
   else status = sources_open(&language, source) ? parse(&language) : STATUS_LIMIT;
   if (status == STATUS_OK) status = make_scene(&language, out_scene);
-  if (status == STATUS_LIMIT && diagnostics->error_count == before)
-    diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "memory is short");
+  tell_limit(diagnostics, status, before);
   language_destroy(&language);
   if (status == STATUS_OK) status = override(*out_scene, settings, diagnostics);
   if (status == STATUS_OK) return STATUS_OK;
@@ -170,20 +176,20 @@ enum status language_load_text(const char *name, const char *text, size_t length
   return STATUS_LIMIT;
 }
 
-/* The text is read as the grammar's `solver` statement in a global_settings block of its own; what is told points into the text
- * as given, for the words around it stand in sources of their own. */
 enum status language_parse_solver(const char *text, struct diagnostics *diagnostics, struct solver_options *out_options)
 {
   const struct language_settings settings = {1, 1, NULL, NAN};
   struct language language;
+  const size_t before = diagnostics->error_count;
   enum status status = language_create(&language, &settings, diagnostics);
-  struct source *source = status == STATUS_OK ? source_from_text("<--solver>", text, strlen(text)) : NULL;
   if (status == STATUS_OK) {
     language.solver_only = true;
+    struct source *source = source_from_text("<--solver>", text, strlen(text));
     status = source && sources_open(&language, source) ? parse(&language) : STATUS_LIMIT;
   }
   if (status == STATUS_OK) *out_options = language.solver;
   if (status == STATUS_INPUT) status = STATUS_USAGE;
+  tell_limit(diagnostics, status, before);
   language_destroy(&language);
   return status;
 }

@@ -41,10 +41,12 @@ struct scan {
   bool too_large;   /* one of them is too large for a double: which bytes */
   size_t too_large_begin, too_large_end;
   jmp_buf broken;
+  _Alignas(max_align_t) char pool[512]; /* the scanner's memory */
+  size_t pool_used;
 };
 
 /* Scans text[0 .. length-1], behind which stand two NULs. The text must outlive the scanner; it is written to during
- * pscn_scan_next, and is what it was afterwards. False where memory is short. */
+ * pscn_scan_next, and is what it was afterwards. False where it cannot be scanned. */
 bool pscn_scan_open(struct scan *scan, char *text, size_t length);
 
 /* The next token: a grammar token, 0 at the end, or one of the above. */

@@ -43,9 +43,11 @@ void transform_point(const struct transform *transform, const double p[3], doubl
 {
   const double from[3] = {p[0], p[1], p[2]};
   for (int j = 0; j < 3; j++) {
+    out[j] = from[j];
+    if (transform->identity) continue;
     struct double_double q = transform->b[j];
     for (int k = 0; k < 3; k++) q = dd_add(q, dd_scale(transform->A[k][j], from[k]));
-    out[j] = transform->identity ? from[j] : q.hi + q.lo;
+    out[j] = q.hi + q.lo;
   }
 }
 

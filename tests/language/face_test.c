@@ -1,0 +1,210 @@
+/* The face of the language: statuses, settings, solver texts, and texts too long or too deep to stand in a file. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cmocka_test.h"
+#include "language/language.h"
+
+static char told[4000];
+
+static void tell(void *context, const char *text, size_t length)
+{
+  (void)context;
+  const size_t used = strlen(told);
+  if (used + length >= sizeof told) return;
+  memcpy(told + used, text, length);
+  told[used + length] = '\0';
+}
+
+static struct diagnostics listener(void)
+{
+  told[0] = '\0';
+  return (struct diagnostics){ .tell = tell };
+}
+
+static const struct language_settings PLAIN = { 320, 200, NULL, NAN };
+
+static enum status load(const char *text, size_t length, const struct language_settings *settings, struct scene **out)
+{
+  struct diagnostics diagnostics = listener();
+  return language_load_text("<text>", text, length, settings, &diagnostics, out);
+}
+
+static void test_files(void **state)
+{
+  (void)state;
+  struct scene *scene = NULL;
+  struct diagnostics diagnostics = listener();
+  assert_int_equal(language_load("no/such.pscn", &PLAIN, &diagnostics, &scene), STATUS_FILE);
+  assert_string_equal(told, "error: no/such.pscn: there is no such file\n");
+  diagnostics = listener();
+  assert_int_equal(language_load("ok", &PLAIN, &diagnostics, &scene), STATUS_FILE);
+  assert_string_equal(told, "error: ok: it is a directory\n");
+  diagnostics = listener();
+  assert_int_equal(language_load("ok/empty.pscn/x", &PLAIN, &diagnostics, &scene), STATUS_FILE);
+  assert_string_equal(told, "error: ok/empty.pscn/x: a part of the path is no directory\n");
+  assert_null(scene);
+}
+
+static void test_unreadable_file(void **state)
+{
+  (void)state;
+  if (geteuid() == 0) skip(); /* root reads everything */
+  char path[] = "/tmp/pscn-XXXXXX";
+  const int file = mkstemp(path);
+  assert_true(file >= 0 && fchmod(file, 0) == 0);
+  struct scene *scene = NULL;
+  struct diagnostics diagnostics = listener();
+  assert_int_equal(language_load(path, &PLAIN, &diagnostics, &scene), STATUS_FILE);
+  assert_non_null(strstr(told, "permission denied"));
+  close(file);
+  unlink(path);
+}
+
+static void test_size(void **state)
+{
+  (void)state;
+  static const char text[] = "background { rgb <image_width, image_height, image_width / image_height> }";
+  struct scene *scene = NULL;
+  assert_int_equal(load(text, sizeof text - 1, &PLAIN, &scene), STATUS_OK);
+  assert_true(scene->background[0] == 320 && scene->background[1] == 200 && scene->background[2] == 1.6);
+  scene_destroy(scene);
+}
+
+static void test_solver_text(void **state)
+{
+  (void)state;
+  struct solver_options options = { 0 };
+  struct diagnostics diagnostics = listener();
+  assert_int_equal(language_parse_solver(" aberth { polish off /* a comment */ split 7\n tolerance 1e-7 }", &diagnostics, &options),
+                   STATUS_OK);
+  assert_string_equal(options.solver->name, "aberth");
+  assert_true(!options.polish && options.split == 7 && options.tolerance == 1e-7 && diagnostics.error_count == 0);
+}
+
+static void test_wrong_solver_texts(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *text, *told;
+  } cases[] = {
+    { "", "<--solver>:1:1: error: the text ends here, expected a name\n  \n  ^\n" },
+    { "abert", "<--solver>:1:1: error: there is no solver 'abert'; did you mean 'aberth'?\n  abert\n  ^~~~~\n" },
+    { "aberth { polish of }", "<--solver>:1:17: error: polish is off or on\n  aberth { polish of }\n                  ^~\n" },
+    { "aberth { polish", "<--solver>:1:8: error: this brace is not closed\n  aberth { polish\n         ^\n" },
+    { "aberth } x", "<--solver>:1:8: error: unexpected '}', expected '{'\n  aberth } x\n         ^\n" },
+    { "aberth {} camera", "<--solver>:1:11: error: unexpected 'camera', expected the end of the text\n  aberth {} camera\n            ^~~~~~\n" },
+    { "solver aberth", "<--solver>:1:1: error: there is no solver 'solver', only " },
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    struct solver_options options = { .split = 99 };
+    struct diagnostics diagnostics = listener();
+    assert_int_equal(language_parse_solver(cases[k].text, &diagnostics, &options), STATUS_USAGE);
+    assert_int_equal(options.split, 99);
+    if (strncmp(told, cases[k].told, strlen(cases[k].told)) != 0) print_error("%s\n", told);
+    assert_memory_equal(told, cases[k].told, strlen(cases[k].told));
+  }
+}
+
+/* --solver replaces every solver statement, --tolerance then that one item of every one. */
+static void test_override(void **state)
+{
+  (void)state;
+  static const char text[] =
+    "#declare P = bicubic_patch { type 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 solver newton { tolerance 1e-3 } }"
+    "object { P } global_settings { solver aberth { tolerance 1e-4 } }";
+  struct language_settings settings = { 1, 1, NULL, 1e-8 };
+  struct scene *scene = NULL;
+  assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_OK);
+  assert_int_equal(scene->solver_count, 2);
+  assert_string_equal(scene->solvers[0].solver->name, "aberth");
+  assert_string_equal(scene->solvers[scene->patches[0].solver].solver->name, "newton");
+  for (size_t k = 0; k < 2; k++) assert_true(scene->solvers[k].tolerance == 1e-8);
+  scene_destroy(scene);
+
+  settings.solver_text = "laguerre { tolerance 1e-5 }";
+  assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_OK);
+  const struct solver_options *used = &scene->solvers[scene->patches[0].solver];
+  assert_string_equal(used->solver->name, "laguerre");
+  assert_true(used->tolerance == 1e-8);
+  scene_destroy(scene);
+
+  settings.tolerance = NAN;
+  assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_OK);
+  assert_true(scene->solvers[scene->patches[0].solver].tolerance == 1e-5);
+  scene_destroy(scene);
+
+  settings.tolerance = 0;
+  assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
+  settings = (struct language_settings){ 1, 1, "nothing", NAN };
+  assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
+  assert_null(scene);
+}
+
+/* `count` times `piece`, then `end`; freed by the caller. */
+static char *repeated(const char *piece, size_t count, const char *end, size_t *out_length)
+{
+  const size_t length = strlen(piece), end_length = strlen(end);
+  char *text = malloc(count * length + end_length + 1);
+  assert_non_null(text);
+  for (size_t k = 0; k < count; k++) memcpy(text + k * length, piece, length);
+  memcpy(text + count * length, end, end_length + 1);
+  *out_length = count * length + end_length;
+  return text;
+}
+
+/* Long texts of one kind: reading them takes time in proportion, and ends as it should. */
+static void test_long_texts(void **state)
+{
+  (void)state;
+  enum { MANY = 200000 };
+  static const struct {
+    const char *piece, *end;
+    enum status status;
+  } cases[] = {
+    { "(", "", STATUS_INPUT },       { "{", "", STATUS_LIMIT },     { "union {", "", STATUS_LIMIT },
+    { "#ifdef (pscn) ", "", STATUS_LIMIT },                         { "#ifdef (no) ", "", STATUS_INPUT },
+    { "/*", "", STATUS_INPUT },      { "/ ", "", STATUS_INPUT },    { "<1,2,", "", STATUS_INPUT },
+    { "\"", "", STATUS_INPUT },      { "a", ";", STATUS_INPUT },    { "9", "", STATUS_INPUT },
+    { " ", "", STATUS_OK },          { "//", "", STATUS_OK },       { "/**/", "", STATUS_OK },
+    { "\n", "", STATUS_OK },         { "background{rgb 1}", "", STATUS_OK },
+    { "union{}", "", STATUS_OK },    { "#declare A=1;", "", STATUS_OK },
+    { "#declare U = union { object { U } object { U } }\n", "", STATUS_LIMIT },
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    size_t length;
+    char *text = repeated(cases[k].piece, MANY, cases[k].end, &length);
+    struct scene *scene = NULL;
+    assert_int_equal(load(text, length, &PLAIN, &scene), cases[k].status);
+    scene_destroy(scene);
+    free(text);
+  }
+}
+
+/* 2^150 copies of nothing take no time. */
+static void test_many_empty_copies(void **state)
+{
+  (void)state;
+  char text[10000] = "#declare U = union { }";
+  for (int k = 0; k < 150; k++) strcat(text, "#declare U = union { object { U } object { U } }");
+  strcat(text, "object { U }");
+  struct scene *scene = NULL;
+  assert_int_equal(load(text, strlen(text), &PLAIN, &scene), STATUS_OK);
+  assert_int_equal(scene->patch_count, 0);
+  scene_destroy(scene);
+}
+
+int main(void)
+{
+  if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_files),         cmocka_unit_test(test_unreadable_file),    cmocka_unit_test(test_size),
+    cmocka_unit_test(test_solver_text),   cmocka_unit_test(test_wrong_solver_texts), cmocka_unit_test(test_override),
+    cmocka_unit_test(test_long_texts),    cmocka_unit_test(test_many_empty_copies),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
