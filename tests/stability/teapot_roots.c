@@ -15,7 +15,7 @@
 #include "random.h"
 #include "reference/search.h"
 
-enum { TEAPOT_PATCHES = 32, PAIRS = 100000, LEAST_PAIRS = 2000 };
+enum { TEAPOT_PATCHES = 32, PAIRS = 100000, LEAST_PAIRS = 20000 };
 
 /* Both parameters of a found root must be this near to the true one, absolute. */
 #define FOUND_WITHIN 1e-11
