@@ -12,7 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 scene=${1:-scenes/teapot.pscn}
 runs=${2:-5}
 size=800x600
-install_packages "${BUILD_PACKAGES[@]}" povray
+install_packages "${BUILD_PACKAGES[@]}" povray libembree-dev
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build build >/dev/null
 pscn=$PWD/build/src/command/pscn
@@ -47,3 +47,10 @@ echo "$scene, $size, one thread, CPU seconds of the whole process, median of $ru
 printf '  pscn    %6.3f   (%s)\n' "$ours" "$(sort -n "$folder/pscn.times" | paste -sd ' ')"
 printf '  povray  %6.3f   (%s)\n' "$theirs" "$(sort -n "$folder/povray.times" | paste -sd ' ')"
 awk -v a="$ours" -v b="$theirs" 'BEGIN { printf "  ratio   %6.3f\n", a / b }'
+
+echo
+if cmake --build build --target primary_rays >/dev/null 2>&1; then
+  build/examples/benchmark/primary_rays "$scene" "$runs" 128 'aberth { start previous split 1 }' 'aberth { start cold split 1 }'
+else
+  echo "Embree is not installed (libembree-dev): its part is left out"
+fi

@@ -1,0 +1,138 @@
+/* Primary rays of a scene by pscn, and by Embree on triangles, in one process and taking turns.
+ *
+ *   primary_rays SCENE [RUNS [SIDE [SOLVER...]]]
+ *
+ * All 800x600 camera rays in the renderer's order: pscn's packets by the scene's own solvers, then by each SOLVER ("aberth { split
+ * 1 }"), beside Embree's rtcIntersect1 and coherent rtcIntersect8 on SIDE x SIDE x 2 triangles a patch (128). CPU time of the
+ * thread. Every ratio is the median over runs of the ratio to rtcIntersect1 in the same run.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "chart/rays.h"
+#include "language/language.h"
+#include "peer/embree_mesh.h"
+
+enum { WIDTH = 800, HEIGHT = 600, MAX_CONTESTANTS = 16, MAX_RUNS = 1000 };
+
+struct contestant {
+  const char *name;
+  unsigned embree_width; /* 0: pscn */
+  struct scene *scene;
+  struct intersector *intersector;
+  struct tracer *tracer;
+  double seconds[MAX_RUNS], ratio[MAX_RUNS];
+};
+
+static void tell(void *context, const char *text, size_t length)
+{
+  (void)context;
+  (void)fwrite(text, 1, length, stderr);
+}
+
+static double clock_seconds(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int compare(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static void fail(const char *what)
+{
+  fprintf(stderr, "primary_rays: %s\n", what);
+  exit(EXIT_FAILURE);
+}
+
+static void contestant_load(struct contestant *c, const char *path, const char *solver)
+{
+  struct diagnostics diagnostics = { .tell = tell };
+  const struct language_settings settings = { WIDTH, HEIGHT, solver, NAN };
+  c->name = solver == NULL ? "pscn" : solver;
+  if (language_load(path, &settings, &diagnostics, &c->scene) != STATUS_OK) exit(EXIT_FAILURE);
+  if (intersector_create(c->scene, &c->intersector) != STATUS_OK || tracer_create(c->intersector, &c->tracer) != STATUS_OK)
+    fail("out of memory");
+}
+
+static void trace(struct tracer *tracer, const struct ray_list *list)
+{
+  struct hit hits[PACKET_SIZE];
+  for (size_t k = 0; k < list->packet_count; k++) {
+    const struct ray_packet *packet = &list->packets[k];
+    if (packet->new_run) tracer_forget(tracer);
+    tracer_closest(tracer, packet->count, &list->rays[packet->first], hits);
+  }
+}
+
+static double median(double *values, size_t count)
+{
+  qsort(values, count, sizeof *values, compare);
+  return values[count / 2];
+}
+
+static void report(struct contestant *list, size_t count, size_t runs, size_t rays)
+{
+  printf("%-36s %10s %22s %8s\n", "", "ns a ray", "smallest ... largest", "ratio");
+  for (size_t c = 0; c < count; c++) {
+    for (size_t r = 0; r < runs; r++) list[c].ratio[r] = list[c].seconds[r] / list[0].seconds[r];
+  }
+  for (size_t c = 0; c < count; c++) {
+    const double middle = median(list[c].seconds, runs), unit = 1e9 / (double)rays;
+    printf("%-36s %10.1f %10.1f ... %7.1f %8.2f\n", list[c].name, middle * unit, list[c].seconds[0] * unit,
+           list[c].seconds[runs - 1] * unit, median(list[c].ratio, runs));
+  }
+}
+
+int main(int argc, char **argv)
+{
+  static struct contestant list[MAX_CONTESTANTS];
+  size_t count = 3;
+  if (argc < 2) fail("which scene?");
+  const size_t runs = argc > 2 ? strtoul(argv[2], NULL, 10) : 9;
+  const unsigned side = argc > 3 ? (unsigned)strtoul(argv[3], NULL, 10) : 128;
+  if (runs == 0 || runs > MAX_RUNS || side == 0) fail("bad numbers");
+  list[0] = (struct contestant){ .name = "Embree rtcIntersect1", .embree_width = 1 };
+  list[1] = (struct contestant){ .name = "Embree rtcIntersect8, coherent", .embree_width = 8 };
+  contestant_load(&list[2], argv[1], NULL);
+  for (int k = 4; k < argc && count < MAX_CONTESTANTS; k++) contestant_load(&list[count++], argv[1], argv[k]);
+
+  const struct scene *scene = list[2].scene;
+  struct arena *arena = arena_create();
+  struct ray_list rays;
+  double(*P)[4][4][3] = arena == NULL ? NULL : arena_alloc(arena, scene->patch_count, sizeof *P);
+  if (P == NULL || rays_of_camera(scene, WIDTH, HEIGHT, WIDTH * HEIGHT, arena, &rays) != STATUS_OK) fail("out of memory");
+  for (size_t n = 0; n < scene->patch_count; n++)
+    for (int k = 0; k < 48; k++) P[n][k / 12][k / 3 % 4][k % 3] = scene->patches[n].P[k / 12][k / 3 % 4][k % 3];
+  struct embree_mesh *mesh = embree_mesh_create((const double(*)[4][4][3])P, scene->patch_count, side);
+  struct embree_rays *embree = embree_rays_create(rays.rays, rays.count);
+  if (mesh == NULL || embree == NULL) fail("Embree failed");
+
+  double sum = 0;
+  for (size_t r = 0; r < runs; r++) {
+    for (size_t c = 0; c < count; c++) {
+      const double start = clock_seconds();
+      if (list[c].embree_width == 0) trace(list[c].tracer, &rays);
+      else sum += embree_trace(mesh, embree, list[c].embree_width, false);
+      list[c].seconds[r] = clock_seconds() - start;
+    }
+  }
+  printf("%s, %zu camera rays, %zu triangles, %zu runs (check %.6g)\n", argv[1], rays.count,
+         scene->patch_count * side * side * 2, runs, sum);
+  report(list, count, runs, rays.count);
+  embree_rays_destroy(embree);
+  embree_mesh_destroy(mesh);
+  arena_destroy(arena);
+  for (size_t c = 2; c < count; c++) {
+    tracer_destroy(list[c].tracer);
+    intersector_destroy(list[c].intersector);
+    scene_destroy(list[c].scene);
+  }
+  return 0;
+}

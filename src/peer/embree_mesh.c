@@ -1,0 +1,202 @@
+/* The peer of triangles. Embree's documentation: doc/src/api.md of its sources. */
+#include "peer/embree_mesh.h"
+
+#include <embree3/rtcore.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "geometry/patch.h"
+
+struct embree_mesh {
+  RTCDevice device;
+  RTCScene scene;
+  unsigned side;
+};
+
+struct embree_rays {
+  size_t count; /* rounded up to 8: the last ray is repeated */
+  struct RTCRay *ray;
+};
+
+static void mesh_point(const double P[4][4][3], double u, double v, float out[3])
+{
+  double net[4][4];
+  for (int axis = 0; axis < 3; axis++) {
+    for (int k = 0; k < 16; k++) net[k / 4][k % 4] = P[k / 4][k % 4][axis];
+    out[axis] = (float)patch_evaluate(net, u, v).value;
+  }
+}
+
+static bool mesh_fill(struct embree_mesh *mesh, const double (*P)[4][4][3], size_t patch_count)
+{
+  const size_t side = mesh->side, row = side + 1;
+  RTCGeometry geometry = rtcNewGeometry(mesh->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (geometry == NULL) return false;
+  float *vertex = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof *vertex,
+                                          patch_count * row * row);
+  unsigned *index = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof *index,
+                                            patch_count * side * side * 2);
+  if (vertex == NULL || index == NULL) {
+    rtcReleaseGeometry(geometry);
+    return false;
+  }
+  for (size_t n = 0; n < patch_count; n++) {
+    for (size_t k = 0; k < row * row; k++, vertex += 3)
+      mesh_point(P[n], (double)(k / row) / (double)side, (double)(k % row) / (double)side, vertex);
+    for (size_t k = 0; k < side * side; k++, index += 6) {
+      const unsigned at = (unsigned)(n * row * row + k / side * row + k % side), below = at + (unsigned)row;
+      const unsigned corners[6] = {at, below, at + 1, at + 1, below, below + 1};
+      for (int c = 0; c < 6; c++) index[c] = corners[c];
+    }
+  }
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(mesh->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  return true;
+}
+
+struct embree_mesh *embree_mesh_create(const double (*P)[4][4][3], size_t patch_count, unsigned side)
+{
+  struct embree_mesh *mesh = calloc(1, sizeof *mesh);
+  if (mesh == NULL) return NULL;
+  mesh->side = side;
+  mesh->device = rtcNewDevice("threads=1,set_affinity=0");
+  if (mesh->device != NULL) mesh->scene = rtcNewScene(mesh->device);
+  if (mesh->scene == NULL || !mesh_fill(mesh, P, patch_count)) {
+    embree_mesh_destroy(mesh);
+    return NULL;
+  }
+  rtcSetSceneBuildQuality(mesh->scene, RTC_BUILD_QUALITY_HIGH);
+  rtcCommitScene(mesh->scene);
+  if (rtcGetDeviceError(mesh->device) != RTC_ERROR_NONE) {
+    embree_mesh_destroy(mesh);
+    return NULL;
+  }
+  return mesh;
+}
+
+void embree_mesh_destroy(struct embree_mesh *mesh)
+{
+  if (mesh == NULL) return;
+  if (mesh->scene != NULL) rtcReleaseScene(mesh->scene);
+  if (mesh->device != NULL) rtcReleaseDevice(mesh->device);
+  free(mesh);
+}
+
+struct embree_rays *embree_rays_create(const struct ray *rays, size_t count)
+{
+  struct embree_rays *out = calloc(1, sizeof *out);
+  const size_t padded = (count + 7) / 8 * 8;
+  if (out == NULL) return NULL;
+  out->ray = aligned_alloc(64, (padded + 8) * sizeof *out->ray);
+  if (out->ray == NULL) {
+    free(out);
+    return NULL;
+  }
+  out->count = padded;
+  for (size_t k = 0; k < padded; k++) {
+    const struct ray *from = &rays[k < count ? k : count - 1];
+    const double *o = from->origin, *d = from->direction;
+    out->ray[k] = (struct RTCRay){ .org_x = (float)o[0], .org_y = (float)o[1], .org_z = (float)o[2],
+                                   .dir_x = (float)d[0], .dir_y = (float)d[1], .dir_z = (float)d[2],
+                                   .tnear = (float)from->t_min, .tfar = (float)from->t_max, .mask = UINT32_MAX };
+  }
+  return out;
+}
+
+void embree_rays_destroy(struct embree_rays *rays)
+{
+  if (rays == NULL) return;
+  free(rays->ray);
+  free(rays);
+}
+
+static struct RTCRayHit single(const struct RTCRay *ray)
+{
+  struct RTCRayHit hit = { .ray = *ray };
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return hit;
+}
+
+static void eight(const struct RTCRay *from, struct RTCRay8 *out)
+{
+  for (int k = 0; k < 8; k++) {
+    out->org_x[k] = from[k].org_x, out->org_y[k] = from[k].org_y, out->org_z[k] = from[k].org_z;
+    out->dir_x[k] = from[k].dir_x, out->dir_y[k] = from[k].dir_y, out->dir_z[k] = from[k].dir_z;
+    out->tnear[k] = from[k].tnear, out->tfar[k] = from[k].tfar;
+    out->time[k] = 0, out->mask[k] = UINT32_MAX, out->id[k] = 0, out->flags[k] = 0;
+  }
+}
+
+static double trace_singles(const struct embree_mesh *mesh, const struct embree_rays *rays, bool any)
+{
+  struct RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  double sum = 0;
+  for (size_t k = 0; k < rays->count; k++) {
+    if (any) {
+      struct RTCRay ray = rays->ray[k];
+      rtcOccluded1(mesh->scene, &context, &ray);
+      sum += ray.tfar < 0;
+    } else {
+      struct RTCRayHit hit = single(&rays->ray[k]);
+      rtcIntersect1(mesh->scene, &context, &hit);
+      if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID) sum += (double)hit.ray.tfar;
+    }
+  }
+  return sum;
+}
+
+static double trace_eights(const struct embree_mesh *mesh, const struct embree_rays *rays, bool any)
+{
+  static const int VALID[8] __attribute__((aligned(32))) = {-1, -1, -1, -1, -1, -1, -1, -1};
+  struct RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  double sum = 0;
+  for (size_t k = 0; k < rays->count; k += 8) {
+    if (any) {
+      struct RTCRay8 ray;
+      eight(&rays->ray[k], &ray);
+      rtcOccluded8(VALID, mesh->scene, &context, &ray);
+      for (int n = 0; n < 8; n++) sum += ray.tfar[n] < 0;
+    } else {
+      struct RTCRayHit8 hit;
+      eight(&rays->ray[k], &hit.ray);
+      for (int n = 0; n < 8; n++) hit.hit.geomID[n] = hit.hit.instID[0][n] = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect8(VALID, mesh->scene, &context, &hit);
+      for (int n = 0; n < 8; n++)
+        if (hit.hit.geomID[n] != RTC_INVALID_GEOMETRY_ID) sum += (double)hit.ray.tfar[n];
+    }
+  }
+  return sum;
+}
+
+double embree_trace(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool any)
+{
+  return width == 8 ? trace_eights(mesh, rays, any) : trace_singles(mesh, rays, any);
+}
+
+void embree_answer(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index, double *out_t,
+                   uint32_t *out_patch)
+{
+  struct RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  struct RTCRayHit hit = single(&rays->ray[index]);
+  rtcIntersect1(mesh->scene, &context, &hit);
+  const bool missed = hit.hit.geomID == RTC_INVALID_GEOMETRY_ID;
+  *out_t = missed ? INFINITY : (double)hit.ray.tfar;
+  *out_patch = missed ? HIT_NONE : hit.hit.primID / (2 * mesh->side * mesh->side);
+}
+
+bool embree_answer_any(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index)
+{
+  struct RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  struct RTCRay ray = rays->ray[index];
+  rtcOccluded1(mesh->scene, &context, &ray);
+  return ray.tfar < 0;
+}
