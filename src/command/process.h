@@ -1,0 +1,33 @@
+/* Another program, run to its end.
+ *
+ * The program gets a process group of its own, so that a key pressed at the terminal reaches us alone; when `stop` turns
+ * nonzero the whole group is asked to end, then made to, and is reaped. One program at a time.
+ */
+#ifndef PSCN_COMMAND_PROCESS_H
+#define PSCN_COMMAND_PROCESS_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+#include "base/status.h"
+
+struct process_request {
+  const char *const *arguments;   /* ended by NULL; [0] is the program, looked for along PATH where it has no slash */
+  const char *folder;             /* where it runs, or NULL: here */
+  const char *const *environment; /* pairs NAME, VALUE, ended by NULL, that are set beside ours; or NULL */
+  const char *output;             /* file that receives what it says on both outputs, seen from our folder */
+};
+
+struct process_result {
+  bool missing;     /* there is no such program, or it may not be run; `reason` says why, the rest is unset */
+  int reason;       /* errno of a program that could not be started, or 0 */
+  int exit_code;    /* 128 + the signal's number where a signal ended it */
+  double wall, cpu; /* seconds; cpu counts the program and those it waited for */
+};
+
+/* Standard input is empty. STATUS_FILE where it could not be started, STATUS_INTERRUPTED where `stop` ended it; an exit
+ * code other than 0 is a result. */
+enum status process_run(const struct process_request *request, const atomic_int *stop,
+                        struct process_result *out) STATUS_MUST_CHECK;
+
+#endif
