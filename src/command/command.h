@@ -22,7 +22,8 @@ struct command {
   int (*run)(const struct command *command, int argc, const char **argv); /* argv[0] is the command's name */
 };
 
-extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_help;
+extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_check,
+  command_help;
 
 /* All commands, in the order of the help text, ended by NULL; and the one of that name, or NULL. */
 extern const struct command *const commands[];

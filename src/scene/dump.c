@@ -203,18 +203,47 @@ static void put_patch(struct dump *dump, const struct scene_patch *patch)
   put(dump, "}\n");
 }
 
+static void put_textures(struct dump *dump)
+{
+  for (uint32_t i = 0; i < dump->named_count; i++) put_texture(dump, i);
+}
+
+static void put_patches(struct dump *dump)
+{
+  for (size_t i = 0; i < dump->scene->patch_count && !dump->failed; i++) put_patch(dump, &dump->scene->patches[i]);
+}
+
+static enum status dump_end(struct dump *dump, enum status status)
+{
+  free(dump->names);
+  free(dump->named);
+  return status == STATUS_OK && dump->failed ? STATUS_FILE : status;
+}
+
 enum status scene_dump(const struct scene *scene, FILE *file)
 {
   struct dump dump = { .scene = scene, .file = file };
-  enum status status = name_textures(&dump);
+  const enum status status = name_textures(&dump);
   if (status == STATUS_OK) {
     put_settings(&dump);
     for (size_t i = 0; i < scene->light_count; i++) put_light(&dump, &scene->lights[i]);
-    for (uint32_t i = 0; i < dump.named_count; i++) put_texture(&dump, i);
-    for (size_t i = 0; i < scene->patch_count && !dump.failed; i++) put_patch(&dump, &scene->patches[i]);
-    if (dump.failed) status = STATUS_FILE;
+    put_textures(&dump);
+    put_patches(&dump);
   }
-  free(dump.names);
-  free(dump.named);
-  return status;
+  return dump_end(&dump, status);
+}
+
+enum status scene_dump_union(const struct scene *scene, const char *name, FILE *file)
+{
+  struct dump dump = { .scene = scene, .file = file };
+  const enum status status = name_textures(&dump);
+  if (status == STATUS_OK) {
+    put_textures(&dump);
+    put(&dump, "#declare ");
+    put(&dump, name);
+    put(&dump, " = union {\n");
+    put_patches(&dump);
+    put(&dump, "}\n");
+  }
+  return dump_end(&dump, status);
 }

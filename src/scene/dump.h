@@ -15,4 +15,7 @@
 /* STATUS_FILE where writing fails (errno says why), STATUS_LIMIT where memory is short. Does not flush or close `file`. */
 STATUS_MUST_CHECK enum status scene_dump(const struct scene *scene, FILE *file);
 
+/* Only the patches, as `#declare NAME = union { ... }`, with the textures they use before it. */
+STATUS_MUST_CHECK enum status scene_dump_union(const struct scene *scene, const char *name, FILE *file);
+
 #endif

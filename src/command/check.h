@@ -1,0 +1,124 @@
+/* What `pscn check` measures, and who shows it.
+ *
+ * Internal to the files check*.c. Our picture is rendered once; each row is one picture by POV-Ray beside it: first the
+ * scene as it is written, then with every patch cut into 2^n x 2^n pieces, n = 1, 2, ... (u_steps n v_steps n flatness 0).
+ */
+#ifndef PSCN_COMMAND_CHECK_H
+#define PSCN_COMMAND_CHECK_H
+
+#include <jansson.h>
+#include <stdint.h>
+
+#include "command/page.h"
+#include "command/povray.h"
+#include "command/scene_file.h"
+#include "image/compare.h"
+
+enum {
+  CHECK_MAX_STEPS = 8,   /* 65536 pieces a patch: more does not fit into memory for common scenes */
+  CHECK_CODES = 3,       /* the limits 1, 4 and 16 of 255 */
+  CHECK_WORST = 8        /* pixels shown magnified */
+};
+extern const int CHECK_CODE[CHECK_CODES];
+
+struct check_request {
+  struct scene_request scene;
+  const char *program;         /* of POV-Ray */
+  const char *const *options;  /* passed on to it */
+  size_t option_count;
+  size_t steps;                /* the last n; 0: only as written */
+  size_t grid;                 /* every grid-th pixel of every grid-th row is asked for its distance; 0: none */
+  struct compare_limit fail;
+  double fail_psnr, fail_mask; /* dB, percent of the pixels */
+  bool quiet;
+};
+
+/* What we know of a pixel's centre. */
+struct check_pixel {
+  struct hit hit;
+  double distance;  /* scene units; INFINITY on a miss */
+  uint64_t lights;  /* bit k: light k (of the first 64) reaches the point */
+  bool edge;        /* it or a pixel beside it lies on a silhouette, a shadow's edge or a crease */
+};
+
+struct check_ours {
+  struct image picture; /* R G B, display codes of 8 bits as k/255 */
+  struct check_pixel *pixel; /* [height][width] */
+  double wall, cpu;          /* seconds: reading, building, rendering and encoding, one thread */
+};
+
+/* Differences of distances, relative to ours, over the rays that both say hit. */
+struct check_distances {
+  size_t rays, both, only_ours, only_theirs;
+  double median, most, max; /* most: 99 of 100 are at most this */
+};
+
+struct check_row {
+  size_t steps; /* 0: as written */
+  struct povray_picture picture;
+  unsigned char *mask; /* [height][width]: POV-Ray hits */
+  struct compare_result result;
+  size_t over[CHECK_CODES], over_limit;
+  size_t off_edges; /* pixels over the limit that are not on an edge */
+  size_t mask_ours, mask_theirs; /* pixels only one of us hits */
+  struct check_distances distances;
+};
+
+/* A pixel worth a look, with what both say of it. */
+struct check_worst {
+  size_t x, y;
+  double difference; /* the largest of R G B, of 1 */
+  double distance;   /* POV-Ray's; INFINITY on a miss */
+};
+
+struct check {
+  const struct check_request *request;
+  const struct command *command;
+  struct povray povray;
+  struct scene *scene; /* its steps are changed from row to row */
+  size_t width, height;
+  struct check_ours ours;
+  struct check_row row[CHECK_MAX_STEPS + 1];
+  size_t row_count;
+  struct check_worst worst[CHECK_WORST]; /* of the last row */
+  size_t worst_count;
+  char *warnings; /* POV-Ray's, of the scene as written, or NULL */
+};
+
+/* ---- check_measure.c ---- */
+
+/* Renders, and looks at every pixel. Errors are told. */
+enum status check_measure_ours(struct check *check) STATUS_MUST_CHECK;
+void check_ours_free(struct check_ours *ours);
+
+/* Adds a row: `name` is a file of POV-Ray's folder, or NULL for the scene as it stands in check->scene. */
+enum status check_measure_row(struct check *check, const char *name, size_t steps) STATUS_MUST_CHECK;
+void check_row_free(struct check_row *row);
+
+/* Finds the worst pixels of the last row and asks for their distances. */
+enum status check_find_worst(struct check *check) STATUS_MUST_CHECK;
+
+/* The difference of a row, `scale` times as large, as a picture. STATUS_LIMIT where memory is short. */
+enum status check_difference(const struct check *check, const struct check_row *row, double scale,
+                             struct image *out) STATUS_MUST_CHECK;
+
+/* Whether the last row is within the limits; if not, `out` says what is beyond them. */
+bool check_within_limits(const struct check *check, char *out, size_t size);
+
+/* ---- check_report.c ---- */
+
+/* The table on standard output. */
+void check_print(const struct check *check);
+
+/* All numbers; NULL where memory is short. */
+json_t *check_json(const struct check *check);
+
+/* ---- check_page.c, check_plot.c ---- */
+
+/* The page; `verdict` is one sentence. The caller finishes and frees it. */
+void check_page(const struct check *check, const char *verdict, struct page *out);
+
+/* The convergence, as an SVG figure. */
+void check_plot(const struct check *check, struct page *page);
+
+#endif

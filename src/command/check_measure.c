@@ -1,0 +1,385 @@
+/* The measurements of `pscn check`. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "command/check.h"
+#include "command/interrupt.h"
+#include "geometry/vector.h"
+#include "image/srgb.h"
+#include "render/camera.h"
+#include "render/render.h"
+
+const int CHECK_CODE[CHECK_CODES] = { 1, 4, 16 };
+
+/* Values are multiples of 1/255 rounded to float: a limit of k/255 is passed by those beyond k only. */
+static const double CODE_ROUNDING = 1e-6;
+
+static const size_t RGB[3] = { 0, 1, 2 };
+
+static enum status out_of_memory(const struct check *check)
+{
+  command_error(check->command, "out of memory");
+  return STATUS_LIMIT;
+}
+
+static double process_seconds(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* ---- ours ---- */
+
+static struct ray pixel_ray(const struct check *check, size_t x, size_t y)
+{
+  struct ray ray;
+  camera_ray(&check->scene->camera, ((double)x + 0.5) / (double)check->width, ((double)y + 0.5) / (double)check->height,
+             &ray);
+  return ray;
+}
+
+/* Linear light to the codes an 8-bit PNG has. */
+static void encode(struct image *image)
+{
+  struct srgb_table table;
+  srgb_table_fill(&table);
+  const size_t count = image->width * image->height * image->channel_count;
+  for (size_t k = 0; k < count; k++)
+    image->value[k] = (float)srgb_encode8(&table, image->value[k]) / 255;
+}
+
+/* Marks the light where it reaches the hits of a packet. */
+static void look_at_light(const struct check *check, struct tracer *tracer, size_t light_index, size_t count,
+                          struct check_pixel pixels[])
+{
+  const struct scene_light *light = &check->scene->lights[light_index];
+  struct ray shadow[PACKET_SIZE];
+  struct check_pixel *asked[PACKET_SIZE];
+  bool hidden[PACKET_SIZE] = { false };
+  size_t rays = 0;
+  for (size_t k = 0; k < count; k++) {
+    double way[3];
+    if (pixels[k].hit.patch == HIT_NONE)
+      continue;
+    vector_subtract(light->position, pixels[k].hit.point, way);
+    if (!(vector_dot(way, pixels[k].hit.normal) > 0))
+      continue;
+    struct ray *ray = &shadow[rays];
+    hit_leave(&pixels[k].hit, way, ray->origin);
+    vector_subtract(light->position, ray->origin, ray->direction);
+    ray->t_min = 0;
+    ray->t_max = 1;
+    if (vector_dot(ray->direction, ray->direction) > 0)
+      asked[rays++] = &pixels[k];
+  }
+  if (rays > 0 && !light->shadowless)
+    tracer_occluded(tracer, rays, shadow, hidden);
+  for (size_t k = 0; k < rays; k++)
+    asked[k]->lights |= (uint64_t)!hidden[k] << light_index;
+}
+
+static void look_at_pixels(struct check *check, struct tracer *tracer)
+{
+  enum { LIGHTS = 64 };
+  const size_t lights = check->scene->light_count < LIGHTS ? check->scene->light_count : LIGHTS;
+  for (size_t y = 0; y < check->height && atomic_load(&interrupt_signal) == 0; y++) {
+    for (size_t x = 0; x < check->width; x += PACKET_SIZE) {
+      struct check_pixel *pixels = &check->ours.pixel[y * check->width + x];
+      const size_t left = check->width - x, count = left < PACKET_SIZE ? left : PACKET_SIZE;
+      struct ray rays[PACKET_SIZE];
+      struct hit hits[PACKET_SIZE];
+      for (size_t k = 0; k < count; k++)
+        rays[k] = pixel_ray(check, x + k, y);
+      tracer_closest(tracer, count, rays, hits);
+      for (size_t k = 0; k < count; k++) {
+        pixels[k].hit = hits[k];
+        pixels[k].distance = hits[k].patch == HIT_NONE ? INFINITY : hits[k].t * vector_length(rays[k].direction);
+      }
+      for (size_t light = 0; light < lights; light++)
+        look_at_light(check, tracer, light, count, pixels);
+    }
+  }
+}
+
+/* ---- edges ---- */
+
+/* Whether the surface steps or bends between two pixels, or the light on it changes. A smooth surface seen by pixels beside
+ * each other turns little and stays near both tangent planes. */
+static bool apart(const struct check_pixel *a, const struct check_pixel *b)
+{
+  static const double TURN = 0.9;  /* cosine of 26 degrees */
+  static const double RISE = 0.34; /* sine of 20 degrees: out of a tangent plane */
+  const bool missed = a->hit.patch == HIT_NONE;
+  if (missed || b->hit.patch == HIT_NONE)
+    return missed != (b->hit.patch == HIT_NONE);
+  if (a->lights != b->lights || vector_dot(a->hit.normal, b->hit.normal) < TURN)
+    return true;
+  double step[3];
+  vector_subtract(b->hit.point, a->hit.point, step);
+  const double far = RISE * vector_length(step);
+  return fabs(vector_dot(step, a->hit.normal)) > far || fabs(vector_dot(step, b->hit.normal)) > far;
+}
+
+static void find_edges(struct check *check)
+{
+  for (size_t y = 0; y < check->height; y++) {
+    for (size_t x = 0; x < check->width; x++) {
+      struct check_pixel *pixel = &check->ours.pixel[y * check->width + x];
+      for (size_t v = y == 0 ? 0 : y - 1; v <= y + 1 && v < check->height; v++) {
+        for (size_t u = x == 0 ? 0 : x - 1; u <= x + 1 && u < check->width; u++)
+          pixel->edge |= apart(pixel, &check->ours.pixel[v * check->width + u]);
+      }
+    }
+  }
+}
+
+enum status check_measure_ours(struct check *check)
+{
+  struct check_ours *ours = &check->ours;
+  struct intersector *intersector = NULL;
+  struct tracer *tracer = NULL;
+  const struct render_options options = { .width = check->width, .height = check->height, .samples = 1,
+                                          .crop = { .width = check->width, .height = check->height }, .threads = 1,
+                                          .channels = { .count = 1, .width = 3, .kind = { CHANNEL_RGB } } };
+  const struct render_watch watch = { .stop = &interrupt_signal };
+  struct render_stats stats;
+  const double wall = command_clock(), cpu = process_seconds();
+  enum status status = scene_file_load(&check->request->scene, &check->scene);
+  if (status != STATUS_OK) /* told */
+    return status;
+  status = image_create(check->width, check->height, 3, &ours->picture);
+  if (status == STATUS_OK)
+    status = intersector_create(check->scene, &intersector);
+  if (status == STATUS_OK)
+    status = render_scene(check->scene, intersector, &options, &watch, ours->picture.value, &stats);
+  if (status == STATUS_OK) {
+    encode(&ours->picture);
+    ours->wall = command_clock() - wall;
+    ours->cpu = process_seconds() - cpu;
+    for (int k = 0; k < 3; k++)
+      snprintf(ours->picture.channel[k].name, IMAGE_NAME_SIZE, "%c", "RGB"[k]);
+    ours->pixel = calloc(check->width * check->height, sizeof *ours->pixel);
+    status = ours->pixel == NULL ? STATUS_LIMIT : tracer_create(intersector, &tracer);
+  }
+  if (status == STATUS_OK) {
+    look_at_pixels(check, tracer);
+    find_edges(check);
+    if (atomic_load(&interrupt_signal) != 0)
+      status = STATUS_INTERRUPTED;
+  }
+  tracer_destroy(tracer);
+  intersector_destroy(intersector);
+  return status == STATUS_LIMIT ? out_of_memory(check) : status;
+}
+
+void check_ours_free(struct check_ours *ours)
+{
+  image_destroy(&ours->picture);
+  free(ours->pixel);
+}
+
+/* ---- pictures ---- */
+
+static struct compare_pair pair_of(const struct check *check, const struct check_row *row)
+{
+  return (struct compare_pair){ .first = &check->ours.picture,
+                                .second = &row->picture.image,
+                                .channel_count = 3,
+                                .first_channel = RGB,
+                                .second_channel = RGB };
+}
+
+static double pixel_difference(const struct check *check, const struct check_row *row, size_t x, size_t y)
+{
+  const float *a = image_pixel(&check->ours.picture, x, y), *b = image_pixel(&row->picture.image, x, y);
+  double most = 0;
+  for (int k = 0; k < 3; k++)
+    most = fmax(most, fabs((double)a[k] - (double)b[k]));
+  return most;
+}
+
+static void compare_row(const struct check *check, struct check_row *row)
+{
+  const struct compare_pair pair = pair_of(check, row);
+  const double limit = check->request->fail.each + CODE_ROUNDING;
+  compare_images(&pair, &row->result, NULL, 1);
+  for (int k = 0; k < CHECK_CODES; k++)
+    row->over[k] = compare_count_over(&pair, CHECK_CODE[k] / 255.0 + CODE_ROUNDING);
+  row->over_limit = compare_count_over(&pair, limit);
+  for (size_t y = 0; y < check->height; y++) {
+    for (size_t x = 0; x < check->width; x++) {
+      const size_t index = y * check->width + x;
+      const bool hit = check->ours.pixel[index].hit.patch != HIT_NONE;
+      row->off_edges += !check->ours.pixel[index].edge && pixel_difference(check, row, x, y) > limit;
+      row->mask_ours += hit && !row->mask[index];
+      row->mask_theirs += !hit && row->mask[index];
+    }
+  }
+}
+
+/* ---- distances ---- */
+
+static int by_size(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* From the distances of both on the same rays; `ours` is overwritten. */
+static void compare_distances(size_t count, double ours[], const double theirs[], struct check_distances *out)
+{
+  *out = (struct check_distances){ .rays = count };
+  for (size_t k = 0; k < count; k++) {
+    const bool hit = isfinite(ours[k]), theirs_hit = isfinite(theirs[k]);
+    out->only_ours += hit && !theirs_hit;
+    out->only_theirs += !hit && theirs_hit;
+    if (hit && theirs_hit)
+      ours[out->both++] = fabs(theirs[k] - ours[k]) / ours[k];
+  }
+  if (out->both == 0)
+    return;
+  qsort(ours, out->both, sizeof *ours, by_size);
+  out->median = ours[out->both / 2];
+  out->most = ours[(size_t)(0.99 * (double)(out->both - 1))];
+  out->max = ours[out->both - 1];
+}
+
+static enum status measure_distances(struct check *check, struct check_row *row)
+{
+  const size_t step = check->request->grid;
+  if (step == 0)
+    return STATUS_OK;
+  const size_t columns = (check->width - 1 - (step / 2 < check->width ? step / 2 : 0)) / step + 1;
+  const size_t rows = (check->height - 1 - (step / 2 < check->height ? step / 2 : 0)) / step + 1;
+  const size_t first_x = step / 2 < check->width ? step / 2 : 0, first_y = step / 2 < check->height ? step / 2 : 0;
+  struct ray *rays = calloc(columns * rows, sizeof *rays);
+  double *ours = calloc(columns * rows, sizeof *ours), *theirs = calloc(columns * rows, sizeof *theirs);
+  enum status status = STATUS_LIMIT;
+  if (rays == NULL || ours == NULL || theirs == NULL) {
+    (void)out_of_memory(check);
+    goto done;
+  }
+  for (size_t k = 0; k < columns * rows; k++) {
+    const size_t x = first_x + k % columns * step, y = first_y + k / columns * step;
+    rays[k] = pixel_ray(check, x, y);
+    ours[k] = check->ours.pixel[y * check->width + x].distance;
+  }
+  status = povray_trace(&check->povray, check->scene, columns * rows, rays, theirs);
+  if (status == STATUS_OK)
+    compare_distances(columns * rows, ours, theirs, &row->distances);
+
+done:
+  free(rays);
+  free(ours);
+  free(theirs);
+  return status;
+}
+
+/* ---- rows ---- */
+
+enum status check_measure_row(struct check *check, const char *name, size_t steps)
+{
+  struct check_row *row = &check->row[check->row_count];
+  *row = (struct check_row){ .steps = steps };
+  enum status status = name != NULL ? povray_render(&check->povray, name, &row->picture)
+                                    : povray_render_scene(&check->povray, check->scene, &row->picture);
+  if (status != STATUS_OK)
+    return status;
+  check->row_count++;
+  if (check->row_count == 1)
+    check->warnings = povray_warnings(&check->povray);
+  row->mask = calloc(check->width * check->height, 1);
+  if (row->mask == NULL)
+    return out_of_memory(check);
+  status = povray_mask(&check->povray, check->scene, row->mask);
+  if (status == STATUS_OK)
+    status = measure_distances(check, row);
+  if (status == STATUS_OK)
+    compare_row(check, row);
+  return status;
+}
+
+void check_row_free(struct check_row *row)
+{
+  image_destroy(&row->picture.image);
+  free(row->mask);
+}
+
+/* ---- the worst pixels ---- */
+
+static size_t gap(size_t a, size_t b)
+{
+  return a > b ? a - b : b - a;
+}
+
+static bool near_one(const struct check *check, size_t x, size_t y)
+{
+  const size_t apart_by = check->width / 20 + 4;
+  for (size_t k = 0; k < check->worst_count; k++) {
+    if (gap(check->worst[k].x, x) < apart_by && gap(check->worst[k].y, y) < apart_by)
+      return true;
+  }
+  return false;
+}
+
+enum status check_find_worst(struct check *check)
+{
+  const struct check_row *row = &check->row[check->row_count - 1];
+  struct ray rays[CHECK_WORST];
+  double distance[CHECK_WORST];
+  for (check->worst_count = 0; check->worst_count < CHECK_WORST; check->worst_count++) {
+    struct check_worst *worst = &check->worst[check->worst_count];
+    *worst = (struct check_worst){ 0 };
+    for (size_t y = 0; y < check->height; y++) {
+      for (size_t x = 0; x < check->width; x++) {
+        const double difference = pixel_difference(check, row, x, y);
+        if (difference > worst->difference && !near_one(check, x, y))
+          *worst = (struct check_worst){ .x = x, .y = y, .difference = difference };
+      }
+    }
+    if (worst->difference == 0)
+      break;
+    rays[check->worst_count] = pixel_ray(check, worst->x, worst->y);
+  }
+  const enum status status = povray_trace(&check->povray, check->scene, check->worst_count, rays, distance);
+  for (size_t k = 0; status == STATUS_OK && k < check->worst_count; k++)
+    check->worst[k].distance = distance[k];
+  return status;
+}
+
+enum status check_difference(const struct check *check, const struct check_row *row, double scale, struct image *out)
+{
+  const enum status status = image_create(check->width, check->height, 3, out);
+  if (status != STATUS_OK)
+    return out_of_memory(check);
+  const struct compare_pair pair = pair_of(check, row);
+  struct compare_result ignored;
+  compare_images(&pair, &ignored, out, scale);
+  for (int k = 0; k < 3; k++)
+    out->channel[k] = check->ours.picture.channel[k];
+  return STATUS_OK;
+}
+
+/* ---- limits ---- */
+
+bool check_within_limits(const struct check *check, char *out, size_t size)
+{
+  const struct check_request *request = check->request;
+  const struct check_row *row = &check->row[check->row_count - 1];
+  const double pixels = (double)row->result.pixels;
+  const double mask = 100 * (double)(row->mask_ours + row->mask_theirs) / pixels;
+  if (compare_limit_passed(&request->fail, &row->result, row->over_limit))
+    snprintf(out, size, "%.4g %% of the pixels differ by more than %.9g, the most by %.9g",
+             100 * (double)row->over_limit / pixels, request->fail.each, row->result.max);
+  else if (row->result.psnr < request->fail_psnr)
+    snprintf(out, size, "the PSNR is %.4g dB, less than %.4g dB", row->result.psnr, request->fail_psnr);
+  else if (mask > request->fail_mask)
+    snprintf(out, size, "%.4g %% of the pixels are hit by one of both only, more than %.4g %%", mask,
+             request->fail_mask);
+  else
+    return true;
+  return false;
+}

@@ -1,0 +1,193 @@
+/* Scene text without solver statements, found by the language's own scanner: comments and strings are left alone. */
+#include "language/plain_copy.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/source.h"
+#include "language/tokens.h"
+
+enum { MAX_FILES = 10000, MAX_NAME = 4096 };
+
+/* The files met so far; [0] is the scene. Each is copied once, wherever it is included from. */
+struct copies {
+  struct source **source;
+  size_t count, room;
+  const char *folder, *name;
+  const char *reason;
+};
+
+/* A copy being written: text up to `done` stands in the file. */
+struct copy {
+  struct copies *all;
+  const struct source *source;
+  struct scan scan;
+  FILE *file;
+  size_t done;
+  enum status status;
+};
+
+static void copy_name(const struct copies *copies, size_t index, char out[MAX_NAME])
+{
+  if (index == 0) {
+    snprintf(out, MAX_NAME, "%s", copies->name);
+    return;
+  }
+  const char *path = copies->source[index]->name, *slash = strrchr(path, '/');
+  snprintf(out, MAX_NAME, "%zu-%.255s", index, slash == NULL ? path : slash + 1);
+}
+
+/* Takes a source over. Its index, also where the file is there already; MAX_FILES where there is no room. */
+static size_t add_source(struct copies *copies, struct source *source)
+{
+  for (size_t k = 0; k < copies->count; k++) {
+    const struct source *other = copies->source[k];
+    if (other->device == source->device && other->inode == source->inode && source->inode != 0) {
+      source_destroy(source);
+      return k;
+    }
+  }
+  if (copies->count == copies->room) {
+    const size_t room = 2 * copies->room + 8;
+    struct source **list = copies->count < MAX_FILES ? realloc(copies->source, room * sizeof *list) : NULL;
+    if (list == NULL) {
+      source_destroy(source);
+      return MAX_FILES;
+    }
+    copies->source = list;
+    copies->room = room;
+  }
+  copies->source[copies->count] = source;
+  return copies->count++;
+}
+
+static void put(struct copy *copy, const char *text, size_t length)
+{
+  if (copy->status == STATUS_OK && fwrite(text, 1, length, copy->file) != length) {
+    copy->all->reason = strerror(errno);
+    copy->status = STATUS_FILE;
+  }
+}
+
+/* Writes what stands before byte `end` and has not been written. */
+static void put_until(struct copy *copy, size_t end)
+{
+  put(copy, copy->source->text + copy->done, end - copy->done);
+  copy->done = end;
+}
+
+/* Writes blanks for what stands before byte `end`, lines kept. */
+static void blank_until(struct copy *copy, size_t end)
+{
+  for (; copy->done < end; copy->done++)
+    put(copy, copy->source->text[copy->done] == '\n' ? "\n" : " ", 1);
+}
+
+/* A file name behind #include: relative to the folder of the file it stands in, as the language has it. */
+static void copy_include(struct copy *copy)
+{
+  const size_t begin = copy->scan.begin, end = copy->scan.end;
+  const char *name = copy->source->text + begin + 1, *includer = copy->source->name;
+  const char *slash = strrchr(includer, '/'), *reason;
+  const size_t length = end - begin - 2;
+  const size_t folder = length > 0 && name[0] == '/' ? 0 : slash == NULL ? 0 : (size_t)(slash - includer) + 1;
+  char path[MAX_NAME], new_name[MAX_NAME];
+  struct source *source;
+  if (folder + length >= sizeof path || memchr(name, '\0', length) != NULL)
+    return;
+  memcpy(path, includer, folder);
+  memcpy(path + folder, name, length);
+  path[folder + length] = '\0';
+  if (source_read(path, &source, &reason) != STATUS_OK)
+    return;
+  const size_t index = add_source(copy->all, source);
+  if (index == MAX_FILES) {
+    copy->status = STATUS_LIMIT;
+    return;
+  }
+  copy_name(copy->all, index, new_name);
+  put_until(copy, begin + 1);
+  put(copy, new_name, strlen(new_name));
+  copy->done = end - 1;
+}
+
+/* At the word `solver`: drops it with the solver's name and block. Answers the token behind. */
+static int drop_solver(struct copy *copy)
+{
+  const size_t begin = copy->scan.begin;
+  int token = pscn_scan_next(&copy->scan);
+  if (token <= 255 || token >= TOKEN_FIRST_PRIVATE || token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT ||
+      token == PSCN_TOKEN_STRING)
+    return token; /* no solver statement */
+  size_t end = copy->scan.end;
+  token = pscn_scan_next(&copy->scan);
+  if (token == '{') {
+    while (token != '}' && token != 0 && token != TOKEN_NO_MEMORY)
+      token = pscn_scan_next(&copy->scan);
+    end = copy->scan.end;
+    token = pscn_scan_next(&copy->scan);
+  }
+  put_until(copy, begin);
+  blank_until(copy, end);
+  return token;
+}
+
+static void copy_text(struct copy *copy)
+{
+  int token = pscn_scan_next(&copy->scan);
+  while (token != 0 && copy->status == STATUS_OK) {
+    if (token == TOKEN_NO_MEMORY) {
+      copy->status = STATUS_LIMIT;
+    } else if (token == PSCN_TOKEN_SOLVER) {
+      token = drop_solver(copy);
+    } else if (token == TOKEN_INCLUDE) {
+      token = pscn_scan_next(&copy->scan);
+      if (token == PSCN_TOKEN_STRING)
+        copy_include(copy);
+    } else {
+      token = pscn_scan_next(&copy->scan);
+    }
+  }
+  put_until(copy, copy->source->length);
+}
+
+static enum status copy_file(struct copies *copies, size_t index)
+{
+  char name[MAX_NAME], path[2 * MAX_NAME];
+  struct copy copy = { .all = copies, .source = copies->source[index], .status = STATUS_OK };
+  copy_name(copies, index, name);
+  snprintf(path, sizeof path, "%s/%s", copies->folder, name);
+  if (!pscn_scan_open(&copy.scan, copies->source[index]->text, copy.source->length))
+    return STATUS_LIMIT;
+  copy.file = fopen(path, "wb");
+  if (copy.file == NULL) {
+    copies->reason = strerror(errno);
+    copy.status = STATUS_FILE;
+  } else {
+    copy_text(&copy);
+    if (fclose(copy.file) != 0 && copy.status == STATUS_OK) {
+      copies->reason = strerror(errno);
+      copy.status = STATUS_FILE;
+    }
+  }
+  pscn_scan_close(&copy.scan);
+  return copy.status;
+}
+
+enum status plain_copy(const char *path, const char *folder, const char *name, const char **out_reason)
+{
+  struct copies copies = { .folder = folder, .name = name };
+  struct source *scene = NULL;
+  enum status status = source_read(path, &scene, &copies.reason);
+  if (status == STATUS_OK && add_source(&copies, scene) == MAX_FILES)
+    status = STATUS_LIMIT;
+  for (size_t k = 0; k < copies.count && status == STATUS_OK; k++) /* copying adds what is included */
+    status = copy_file(&copies, k);
+  for (size_t k = 0; k < copies.count; k++)
+    source_destroy(copies.source[k]);
+  free(copies.source);
+  *out_reason = copies.reason;
+  return status;
+}
