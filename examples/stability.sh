@@ -93,7 +93,7 @@ page=$folder/page
 # Where methods fail
 
 Written by \`examples/stability.sh\`; the numbers are those of its last run. Every answer is judged by the reference
-([tests/reference/reference.h](../tests/reference/reference.h)): subdivision and Krawczyk's test in quadruple precision, which
+([src/reference/reference.h](../src/reference/reference.h)): subdivision and Krawczyk's test in quadruple precision, which
 shares nothing with the renderer.
 
 - **lost**: the reference proves a hit, and the answer is a miss (a hole) or a later hit.

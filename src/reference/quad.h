@@ -1,9 +1,9 @@
 /* Quadruple precision (113 bits of significand), and bicubic Bernstein nets in it.
  *
- * For tests only; shares nothing with src/. All functions are safe on any thread and allocate nothing.
+ * For tests and the chart; shares nothing with the other rooms. All functions are safe on any thread and allocate nothing.
  */
-#ifndef TESTS_REFERENCE_QUAD_H
-#define TESTS_REFERENCE_QUAD_H
+#ifndef PSCN_REFERENCE_QUAD_H
+#define PSCN_REFERENCE_QUAD_H
 
 #include <float.h>
 

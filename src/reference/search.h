@@ -1,7 +1,7 @@
 /* The subdivision inside the reference: all common zeros of a(u,v) and b(u,v) on one patch. See reference.h for the
  * method. */
-#ifndef TESTS_REFERENCE_SEARCH_H
-#define TESTS_REFERENCE_SEARCH_H
+#ifndef PSCN_REFERENCE_SEARCH_H
+#define PSCN_REFERENCE_SEARCH_H
 
 #include <stdbool.h>
 

@@ -1,6 +1,7 @@
-/* The reference: the closest hit of a ray and a list of bicubic Bezier patches, with a guarantee. For tests only.
+/* The reference: the closest hit of a ray and a list of bicubic Bezier patches, with a guarantee.
  *
- * Shares no code and no method with src/: no resultant, no roots of polynomials in one variable. The ray is the line
+ * For tests and the chart. Shares no code and no method with the renderer: no resultant, no roots of polynomials in one
+ * variable. The ray is the line
  * common to two planes, so each patch becomes two bicubic functions a(u,v), b(u,v). Boxes of the (u,v) square are
  * halved; a box is
  * - dropped when the hull of its Bernstein coefficients (of a linear combination of a and b) excludes zero,
@@ -21,8 +22,8 @@
  * Source: R. Moore, R. Kearfott, M. Cloud, Introduction to Interval Analysis, chapter 8 (preconditioning, Krawczyk's
  * operator).
  */
-#ifndef TESTS_REFERENCE_REFERENCE_H
-#define TESTS_REFERENCE_REFERENCE_H
+#ifndef PSCN_REFERENCE_REFERENCE_H
+#define PSCN_REFERENCE_REFERENCE_H
 
 #include <stdbool.h>
 #include <stddef.h>

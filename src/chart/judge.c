@@ -1,0 +1,119 @@
+/* Answers judged by the reference. */
+#include "chart/judge.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(PSCN_HAS_QUAD)
+#include "reference/reference.h"
+
+bool judge_available(void) { return true; }
+
+static struct truth truth_of(const struct reference_answer *answer)
+{
+  const enum truth_kind kind = answer->verdict == REFERENCE_HIT    ? TRUTH_HIT
+                               : answer->verdict == REFERENCE_MISS ? TRUTH_MISS
+                                                                   : TRUTH_UNDECIDED;
+  if (kind != TRUTH_HIT) return (struct truth){ .kind = kind, .t = INFINITY, .patch = HIT_NONE };
+  return (struct truth){ kind, (double)answer->t, answer->patch, answer->shared };
+}
+
+enum status judge_truths(const struct scene *scene, const struct ray_list *rays, const atomic_int *stop,
+                         struct truth *out)
+{
+  double(*nets)[4][4][3] = calloc(scene->patch_count + 1, sizeof *nets);
+  if (nets == NULL) return STATUS_LIMIT;
+  for (size_t n = 0; n < scene->patch_count; n++) memcpy(nets[n], scene->patches[n].P, sizeof nets[n]);
+  struct reference *reference = reference_create((const double(*)[4][4][3])nets, scene->patch_count);
+  free(nets);
+  if (reference == NULL) return STATUS_LIMIT;
+  bool stopped = false;
+  for (size_t k = 0; k < rays->count && !stopped; k++) {
+    struct reference_answer answer;
+    reference_closest(reference, rays->rays[k].origin, rays->rays[k].direction, &answer);
+    out[k] = truth_of(&answer);
+    stopped = stop != NULL && atomic_load(stop) != 0;
+  }
+  reference_destroy(reference);
+  return stopped ? STATUS_INTERRUPTED : STATUS_OK;
+}
+#else
+bool judge_available(void) { return false; }
+
+enum status judge_truths(const struct scene *scene, const struct ray_list *rays, const atomic_int *stop,
+                         struct truth *out)
+{
+  (void)scene, (void)rays, (void)stop, (void)out;
+  return STATUS_LIMIT;
+}
+#endif
+
+static int compare(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* The value that `part` of the sorted ones do not pass. */
+static double quantile(double *values, size_t count, double part)
+{
+  if (count == 0) return NAN;
+  const size_t at = (size_t)ceil(part * (double)count);
+  return values[at == 0 ? 0 : at - 1];
+}
+
+void judge_answers(size_t count, const struct truth *truths, const struct answer *answers, double *errors,
+                   struct judgement *out)
+{
+  double *all = errors + count;
+  size_t both = 0, asked = 0;
+  *out = (struct judgement){ .rays = count };
+  for (size_t k = 0; k < count; k++) {
+    const struct truth *truth = &truths[k];
+    const bool hit = isfinite(answers[k].t);
+    if (truth->kind == TRUTH_UNDECIDED) {
+      out->undecided++;
+      continue;
+    }
+    out->hits += truth->kind == TRUTH_HIT;
+    if (truth->kind == TRUTH_MISS) {
+      out->invented += hit;
+      if (hit) all[asked++] = 1;
+      continue;
+    }
+    if (!hit) {
+      out->lost++;
+      all[asked++] = 1;
+      continue;
+    }
+    const double error = fabs(answers[k].t - truth->t) / truth->t;
+    const bool wrong = !(error <= JUDGE_WRONG);
+    out->wrong += wrong;
+    out->other_patch += !wrong && answers[k].patch != ANSWER_PATCH_UNKNOWN && answers[k].patch != truth->patch && !truth->shared;
+    errors[both++] = error;
+    all[asked++] = wrong ? 1 : error;
+  }
+  qsort(errors, both, sizeof *errors, compare);
+  qsort(all, asked, sizeof *all, compare);
+  out->median = quantile(errors, both, 0.5);
+  out->most = quantile(errors, both, 0.99);
+  out->max = quantile(errors, both, 1);
+  out->most_of_all = quantile(all, asked, 0.99);
+}
+
+void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const bool *occluded,
+                    struct judgement *out)
+{
+  *out = (struct judgement){ .rays = count, .median = NAN, .most = NAN, .max = NAN, .most_of_all = NAN };
+  for (size_t k = 0; k < count; k++) {
+    if (truths[k].kind == TRUTH_UNDECIDED) {
+      out->undecided++;
+      continue;
+    }
+    const bool hidden = truths[k].kind == TRUTH_HIT && truths[k].t < rays[k].t_max;
+    out->hits += hidden;
+    out->lost += hidden && !occluded[k];
+    out->invented += !hidden && occluded[k];
+  }
+}

@@ -1,0 +1,109 @@
+/* Rounds of measurements. */
+#include "chart/measure.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+static double thread_seconds(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int compare(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double sorted_at(const double *sorted, size_t count, double part)
+{
+  const double place = part * (double)(count - 1);
+  const size_t below = (size_t)place, above = below + 1 < count ? below + 1 : below;
+  return sorted[below] + (place - (double)below) * (sorted[above] - sorted[below]);
+}
+
+/* values[round] in seconds, of the runner and of the yardstick. Sorts a copy. */
+static struct timing summarise(const double *values, const double *yard, size_t rounds, size_t rays)
+{
+  double sorted[MEASURE_MAX_ROUNDS], ratio[MEASURE_MAX_ROUNDS];
+  for (size_t k = 0; k < rounds; k++) sorted[k] = 1e9 * values[k] / (double)rays, ratio[k] = values[k] / yard[k];
+  qsort(sorted, rounds, sizeof *sorted, compare);
+  qsort(ratio, rounds, sizeof *ratio, compare);
+  return (struct timing){ sorted[0], sorted_at(sorted, rounds, 0.25), sorted_at(sorted, rounds, 0.5),
+                          sorted_at(sorted, rounds, 0.75), sorted[rounds - 1], sorted_at(ratio, rounds, 0.5) };
+}
+
+enum status measure_rounds(const struct runner *runners, size_t count, const size_t counts[RAY_KINDS], size_t rounds,
+                           const atomic_int *stop, struct timing (*out)[RAY_KINDS])
+{
+  double(*seconds)[RAY_KINDS][MEASURE_MAX_ROUNDS] = calloc(count, sizeof *seconds);
+  if (seconds == NULL) return STATUS_LIMIT;
+  bool stopped = false;
+  for (size_t round = 0; round <= rounds && !stopped; round++) { /* the first is thrown away */
+    for (size_t k = 0; k < count && !stopped; k++) {
+      for (int kind = 0; kind < RAY_KINDS; kind++) {
+        if (!runners[k].kinds[kind] || counts[kind] == 0) continue;
+        const double start = thread_seconds();
+        runners[k].run(runners[k].context, (enum ray_kind)kind);
+        if (round > 0) seconds[k][kind][round - 1] = thread_seconds() - start;
+      }
+      stopped = stop != NULL && atomic_load(stop) != 0;
+    }
+  }
+  for (size_t k = 0; k < count; k++) {
+    for (int kind = 0; kind < RAY_KINDS; kind++) {
+      const bool known = runners[k].kinds[kind] && counts[kind] > 0 && rounds > 0;
+      out[k][kind] = known ? summarise(seconds[k][kind], seconds[0][kind], rounds, counts[kind])
+                           : (struct timing){ NAN, NAN, NAN, NAN, NAN, NAN };
+    }
+  }
+  free(seconds);
+  return stopped ? STATUS_INTERRUPTED : STATUS_OK;
+}
+
+/* ---- pscn itself ---- */
+
+enum status pscn_runner_create(const struct scene *scene, const struct solver_options *options,
+                               const struct ray_list *rays, struct pscn_runner *out)
+{
+  *out = (struct pscn_runner){ .scene = *scene, .options = *options, .rays = rays };
+  out->scene.solvers = &out->options;
+  out->scene.solver_count = 1;
+  const enum status status = intersector_create(&out->scene, &out->intersector);
+  return status != STATUS_OK ? status : tracer_create(out->intersector, &out->tracer);
+}
+
+void pscn_runner_free(struct pscn_runner *runner)
+{
+  tracer_destroy(runner->tracer);
+  intersector_destroy(runner->intersector);
+  *runner = (struct pscn_runner){ .tracer = NULL };
+}
+
+/* Writes the answers where they are asked for. */
+static void trace(struct pscn_runner *runner, enum ray_kind kind, struct hit *hits, bool *occluded)
+{
+  const struct ray_list *list = &runner->rays[kind];
+  for (size_t k = 0; k < list->packet_count; k++) {
+    const struct ray_packet *packet = &list->packets[k];
+    struct hit own_hits[PACKET_SIZE];
+    bool own_occluded[PACKET_SIZE];
+    if (packet->new_run) tracer_forget(runner->tracer);
+    if (kind == RAYS_CAMERA)
+      tracer_closest(runner->tracer, packet->count, &list->rays[packet->first], hits == NULL ? own_hits : hits + packet->first);
+    else
+      tracer_occluded(runner->tracer, packet->count, &list->rays[packet->first],
+                      occluded == NULL ? own_occluded : occluded + packet->first);
+  }
+}
+
+static void run(void *context, enum ray_kind kind) { trace(context, kind, NULL, NULL); }
+
+struct runner pscn_runner_face(struct pscn_runner *runner) { return (struct runner){ run, runner, { true, true } }; }
+
+void pscn_runner_hits(struct pscn_runner *runner, struct hit *hits) { trace(runner, RAYS_CAMERA, hits, NULL); }
+
+void pscn_runner_occluded(struct pscn_runner *runner, bool *occluded) { trace(runner, RAYS_SHADOW, NULL, occluded); }

@@ -1,0 +1,22 @@
+/* The floor of the chart: Newton's method in two dimensions on the surface, from the middle of every part of a patch whose box
+ * the ray meets, and nothing else. No resultant, no proof, no second try: what it does not find is lost. Never a way to render.
+ */
+#ifndef PSCN_CHART_PLAIN_NEWTON_H
+#define PSCN_CHART_PLAIN_NEWTON_H
+
+#include "chart/judge.h"
+#include "chart/measure.h"
+
+struct plain_newton;
+
+enum { PLAIN_NEWTON_SPLIT = 8 }; /* each patch is cut into so many parts a side */
+
+/* Borrows scene and rays[RAY_KINDS]. NULL where memory is short. */
+struct plain_newton *plain_newton_create(const struct scene *scene, const struct ray_list *rays);
+void plain_newton_destroy(struct plain_newton *plain);
+struct runner plain_newton_face(struct plain_newton *plain);
+
+/* The answer to one ray; for any hit, of the first one found. */
+struct answer plain_newton_answer(const struct plain_newton *plain, const struct ray *ray, bool any);
+
+#endif

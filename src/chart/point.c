@@ -1,0 +1,92 @@
+/* Points of a chart. */
+#include "chart/point.h"
+
+#include <math.h>
+#include <string.h>
+
+const char *family_name(enum family family)
+{
+  static const char *const NAMES[FAMILIES] = { "bernstein", "newton", "laguerre", "aberth", "paper", "plain-newton",
+                                               "embree", "povray" };
+  return NAMES[family];
+}
+
+/* Everything the paper does, in the words of a solver block. */
+static void set_paper(struct solver_options *options)
+{
+  options->basis = BASIS_POWER;
+  options->resultant = RESULTANT_SYLVESTER;
+  options->back_substitution = BACK_SUBSTITUTION_EUCLID;
+  options->polish = false;
+  options->split = 1;
+  options->start = START_COLD;
+}
+
+static double tolerance_at(int power) { return pow(10, -power); }
+
+/* Every combination of one solver. `bernstein` works in its own basis from its own start values. */
+static size_t sweep_solver(const struct solver *solver, enum family family, bool quick, struct sweep_point *out)
+{
+  enum { FIRST = 1, LAST = 15, QUICK_STEP = 7 };
+  const int starts = solver->real_only ? 1 : 2, bases = starts;
+  size_t count = 0;
+  for (int power = FIRST; power <= LAST; power += quick ? QUICK_STEP : 1) {
+    for (int way = 0; way < 2 * starts * bases; way++) {
+      if (out != NULL) {
+        struct sweep_point *point = &out[count];
+        point->family = family;
+        solver_options_default(solver, &point->options);
+        point->options.tolerance = tolerance_at(power);
+        point->options.polish = way % 2 == 0;
+        if (starts > 1) {
+          point->options.start = way / 2 % 2 == 0 ? START_PREVIOUS : START_COLD;
+          point->options.basis = way / 4 == 0 ? BASIS_BERNSTEIN : BASIS_POWER;
+        }
+      }
+      count++;
+    }
+    if (solver->real_only) continue;
+    if (out != NULL) {
+      solver_options_default(solver, &out[count].options);
+      out[count].options.tolerance = tolerance_at(power);
+      out[count].family = FAMILY_PAPER;
+      set_paper(&out[count].options);
+    }
+    count++;
+  }
+  return count;
+}
+
+size_t point_sweep(bool quick, struct sweep_point *out)
+{
+  static const struct {
+    const char *name;
+    enum family family;
+  } SOLVERS[] = { { "bernstein", FAMILY_DEFAULT }, { "newton", FAMILY_NEWTON }, { "laguerre", FAMILY_LAGUERRE },
+                  { "aberth", FAMILY_ABERTH } };
+  if (out != NULL) {
+    out[0].family = FAMILY_DEFAULT;
+    solver_options_default(solver_at(0), &out[0].options);
+  }
+  size_t count = 1;
+  for (size_t k = 0; k < sizeof SOLVERS / sizeof SOLVERS[0]; k++) {
+    const struct solver *solver = solver_find(SOLVERS[k].name, strlen(SOLVERS[k].name));
+    if (solver != NULL) count += sweep_solver(solver, SOLVERS[k].family, quick, out == NULL ? NULL : out + count);
+  }
+  return count;
+}
+
+static bool beats(const struct chart_point *a, const struct chart_point *b)
+{
+  const double ta = a->time[RAYS_CAMERA].median, tb = b->time[RAYS_CAMERA].median;
+  const double ea = a->camera.most_of_all, eb = b->camera.most_of_all;
+  return ta <= tb && ea <= eb && (ta < tb || ea < eb);
+}
+
+void point_front(struct chart_point *points, size_t count)
+{
+  for (size_t k = 0; k < count; k++) {
+    points[k].front = isfinite(points[k].time[RAYS_CAMERA].median) && isfinite(points[k].camera.most_of_all);
+    for (size_t other = 0; points[k].front && other < count; other++) points[k].front = !beats(&points[other], &points[k]);
+  }
+}

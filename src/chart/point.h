@@ -1,0 +1,46 @@
+/* A point of a chart, which points there are, and the Pareto front. */
+#ifndef PSCN_CHART_POINT_H
+#define PSCN_CHART_POINT_H
+
+#include "chart/measure.h"
+
+enum family {
+  FAMILY_DEFAULT, /* `bernstein` */
+  FAMILY_NEWTON,
+  FAMILY_LAGUERRE,
+  FAMILY_ABERTH,
+  FAMILY_PAPER, /* the paper's own form of its three solvers */
+  FAMILY_PLAIN_NEWTON,
+  FAMILY_EMBREE,
+  FAMILY_POVRAY,
+  FAMILIES
+};
+
+const char *family_name(enum family family);
+
+enum { POINT_NAME_SIZE = 160 };
+
+struct chart_point {
+  enum family family;
+  char name[POINT_NAME_SIZE];    /* what ran; of pscn the text behind `solver` */
+  bool ours;                     /* options is set */
+  struct solver_options options;
+  struct timing time[RAY_KINDS];
+  struct judgement camera, shadow;
+  bool has_shadow;               /* shadow is set */
+  bool front;
+};
+
+/* The solvers to chart: every solver, basis, start, polish and tolerance that make a difference, and the paper's forms. The
+ * first one is the default. Returns how many; out may be NULL. */
+struct sweep_point {
+  enum family family;
+  struct solver_options options;
+};
+size_t point_sweep(bool quick, struct sweep_point *out);
+
+/* Marks the points that no other beats: another one that is no slower and no less exact, and one of both better.
+ * Exactness is camera.most_of_all. Points without both numbers are never on the front. */
+void point_front(struct chart_point *points, size_t count);
+
+#endif
