@@ -51,11 +51,11 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_OPTION("povray", 0, OPTION_POVRAY, "the program; default povray", "FILE"),
   COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to it; may be repeated", "OPT"),
   COMMAND_OPTION("fail", 0, OPTION_FAIL, "a pixel fails beyond this difference; default 4/255", "E"),
-  COMMAND_OPTION("failpercent", 0, OPTION_FAIL_PERCENT, "so many percent of the pixels may; default 1", "P"),
+  COMMAND_OPTION("failpercent", 0, OPTION_FAIL_PERCENT, "so many percent of the pixels may; default 0.3", "P"),
   COMMAND_OPTION("allowfailures", 0, OPTION_FAIL_PIXELS, "or so many pixels may; default 0", "N"),
   COMMAND_OPTION("hardfail", 0, OPTION_FAIL_ANY, "but none beyond this difference; default none", "E"),
-  COMMAND_OPTION("failpsnr", 0, OPTION_FAIL_PSNR, "the least PSNR; default 36", "DB"),
-  COMMAND_OPTION("failmask", 0, OPTION_FAIL_MASK, "percent of the pixels that only one may hit; default 0.5", "P"),
+  COMMAND_OPTION("failpsnr", 0, OPTION_FAIL_PSNR, "the least PSNR; default 40", "DB"),
+  COMMAND_OPTION("failmask", 0, OPTION_FAIL_MASK, "percent of the pixels that only one may hit; default 0.3", "P"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless something is wrong"),
   POPT_TABLEEND
 };
@@ -321,7 +321,8 @@ static enum status check_scene(const struct command *command, struct line *line)
     return STATUS_FILE;
   }
   struct stat state;
-  if (mkdir(line->output, 0777) != 0 && !(errno == EEXIST && stat(line->output, &state) == 0 && S_ISDIR(state.st_mode))) {
+  const bool made = mkdir(line->output, 0777) == 0;
+  if (!made && !(errno == EEXIST && stat(line->output, &state) == 0 && S_ISDIR(state.st_mode))) {
     command_error(command, "cannot make the folder '%s': %s", line->output, strerror(errno));
     return STATUS_FILE;
   }
@@ -335,8 +336,8 @@ static enum status check_scene(const struct command *command, struct line *line)
   enum status status = measure(&check);
   if (status == STATUS_OK)
     status = judge(&check, line->output);
-  else
-    (void)rmdir(line->output); /* where it is empty, it is ours or worth nothing */
+  if (status != STATUS_OK && made)
+    (void)rmdir(line->output); /* fails where something is in it */
   povray_close(&check.povray);
   for (size_t k = 0; k < check.row_count; k++)
     check_row_free(&check.row[k]);
@@ -352,9 +353,9 @@ static int run(const struct command *command, int argc, const char **argv)
                                     .program = "povray",
                                     .steps = 6,
                                     .grid = 8,
-                                    .fail = { .each = 4.0 / 255, .percent = 1, .any = INFINITY },
-                                    .fail_psnr = 36,
-                                    .fail_mask = 0.5 },
+                                    .fail = { .each = 4.0 / 255, .percent = 0.3, .any = INFINITY },
+                                    .fail_psnr = 40,
+                                    .fail_mask = 0.3 },
                        .width = DEFAULT_WIDTH,
                        .height = DEFAULT_HEIGHT };
   struct command_line arguments;

@@ -252,9 +252,8 @@ static enum status measure_distances(struct check *check, struct check_row *row)
   const size_t step = check->request->grid;
   if (step == 0)
     return STATUS_OK;
-  const size_t columns = (check->width - 1 - (step / 2 < check->width ? step / 2 : 0)) / step + 1;
-  const size_t rows = (check->height - 1 - (step / 2 < check->height ? step / 2 : 0)) / step + 1;
   const size_t first_x = step / 2 < check->width ? step / 2 : 0, first_y = step / 2 < check->height ? step / 2 : 0;
+  const size_t columns = (check->width - 1 - first_x) / step + 1, rows = (check->height - 1 - first_y) / step + 1;
   struct ray *rays = calloc(columns * rows, sizeof *rays);
   double *ours = calloc(columns * rows, sizeof *ours), *theirs = calloc(columns * rows, sizeof *theirs);
   enum status status = STATUS_LIMIT;
@@ -372,8 +371,8 @@ bool check_within_limits(const struct check *check, char *out, size_t size)
   const double pixels = (double)row->result.pixels;
   const double mask = 100 * (double)(row->mask_ours + row->mask_theirs) / pixels;
   if (compare_limit_passed(&request->fail, &row->result, row->over_limit))
-    snprintf(out, size, "%.4g %% of the pixels differ by more than %.9g, the most by %.9g",
-             100 * (double)row->over_limit / pixels, request->fail.each, row->result.max);
+    snprintf(out, size, "%.4g %% of the pixels differ by more than %.4g of 255, the most by %.4g",
+             100 * (double)row->over_limit / pixels, 255 * request->fail.each, 255 * row->result.max);
   else if (row->result.psnr < request->fail_psnr)
     snprintf(out, size, "the PSNR is %.4g dB, less than %.4g dB", row->result.psnr, request->fail_psnr);
   else if (mask > request->fail_mask)

@@ -15,6 +15,7 @@
 
 static const char LOG_NAME[] = "povray.log";
 static const char PICTURE_NAME[] = "povray.png";
+static const char SCENE_FOLDER_NAME[] = "scene"; /* a link, because POV-Ray takes no blanks in a path it searches */
 
 static enum status out_of_memory(const struct povray *povray)
 {
@@ -28,28 +29,11 @@ static enum status cannot_write(const struct povray *povray, const char *name)
   return STATUS_FILE;
 }
 
-enum status povray_open(struct povray *povray)
-{
-  if (scratch_create(&povray->folder) != STATUS_OK) {
-    command_error(povray->command, "cannot make a temporary folder: %s", strerror(errno));
-    return STATUS_FILE;
-  }
-  FILE *settings = scratch_open(&povray->folder, "povray.ini"); /* in place of the user's */
-  if (settings == NULL || scratch_close(settings) != STATUS_OK)
-    return cannot_write(povray, "povray.ini");
-  return STATUS_OK;
-}
-
-void povray_close(struct povray *povray)
-{
-  scratch_remove(&povray->folder);
-}
-
 /* ---- what it says ---- */
 
 static void note_version(struct povray *povray, const char *log)
 {
-  static const char BEFORE[] = "Ray Tracer Version ";
+  static const char BEFORE[] = "POV-Ray ";
   const char *at = strstr(log, BEFORE);
   if (at == NULL)
     return;
@@ -106,10 +90,9 @@ static enum status run_program(struct povray *povray, const char *const *argumen
                                struct process_result *out)
 {
   const char *folder = povray->folder.path;
-  char output[SCRATCH_PATH_SIZE], settings[SCRATCH_PATH_SIZE];
+  char output[SCRATCH_PATH_SIZE];
   scratch_path(&povray->folder, LOG_NAME, output);
-  scratch_path(&povray->folder, "povray.ini", settings);
-  const char *const environment[] = { "HOME", folder, "POVINI", settings, NULL };
+  const char *const environment[] = { "HOME", folder, "POVINI", NULL, NULL };
   const struct process_request request = { .arguments = arguments,
                                            .folder = folder,
                                            .environment = environment,
@@ -129,9 +112,66 @@ static enum status run_program(struct povray *povray, const char *const *argumen
   free(log);
   if (out->exit_code == 0)
     return STATUS_OK;
-  command_error(povray->command, "povray ended with exit code %d on %s; it says:", out->exit_code, name);
+  command_error(povray->command, "POV-Ray ended with exit code %d on %s; it says:", out->exit_code, name);
   show_log(povray);
   return STATUS_INPUT;
+}
+
+/* Asks the program what it is: so that a missing one is told before the work starts. */
+static enum status ask_version(struct povray *povray)
+{
+  const char *const arguments[] = { povray->program, "--version", NULL };
+  struct process_result result;
+  const enum status status = run_program(povray, arguments, "--version", &result);
+  if (status == STATUS_OK && povray->version[0] == '\0') {
+    command_error(povray->command, "'%s' does not call itself POV-Ray", povray->program);
+    return STATUS_FILE;
+  }
+  return status;
+}
+
+/* It runs in another folder than ours: a relative path is told from here. False (errno says why) where it is too long. */
+static bool find_from_here(const char *path, size_t length, char out[SCRATCH_PATH_SIZE])
+{
+  char here[SCRATCH_PATH_SIZE] = "";
+  if ((length == 0 || path[0] != '/') && getcwd(here, sizeof here) == NULL)
+    return false;
+  const int size = snprintf(out, SCRATCH_PATH_SIZE, "%s%s%.*s", here, here[0] == '\0' ? "" : "/", (int)length, path);
+  errno = ENAMETOOLONG;
+  return size >= 0 && size < SCRATCH_PATH_SIZE;
+}
+
+/* Links the scene's folder into ours. */
+static bool link_scene_folder(const struct povray *povray)
+{
+  char target[SCRATCH_PATH_SIZE], link[SCRATCH_PATH_SIZE];
+  const char *slash = strrchr(povray->scene_path, '/');
+  const size_t length = slash == NULL ? 0 : (size_t)(slash - povray->scene_path) + 1;
+  scratch_path(&povray->folder, SCENE_FOLDER_NAME, link);
+  return find_from_here(povray->scene_path, length, target) && symlink(target, link) == 0;
+}
+
+enum status povray_open(struct povray *povray)
+{
+  if (scratch_create(&povray->folder) != STATUS_OK) {
+    command_error(povray->command, "cannot make a temporary folder: %s", strerror(errno));
+    return STATUS_FILE;
+  }
+  if (strchr(povray->program, '/') != NULL) {
+    if (!find_from_here(povray->program, strlen(povray->program), povray->program_path)) {
+      command_error(povray->command, "cannot run '%s': %s", povray->program, strerror(errno));
+      return STATUS_FILE;
+    }
+    povray->program = povray->program_path;
+  }
+  if (!link_scene_folder(povray))
+    return cannot_write(povray, SCENE_FOLDER_NAME);
+  return ask_version(povray);
+}
+
+void povray_close(struct povray *povray)
+{
+  scratch_remove(&povray->folder);
 }
 
 /* Runs it on a file of the folder; the picture stands in PICTURE_NAME then. */
@@ -139,10 +179,7 @@ static enum status run_on(struct povray *povray, const char *name, size_t width,
                           struct process_result *out)
 {
   enum { OURS = 16 };
-  char input[64], size[2][32], output[64], here[SCRATCH_PATH_SIZE] = "", include[2 * SCRATCH_PATH_SIZE];
-  const char *slash = strrchr(povray->scene_path, '/');
-  if (povray->scene_path[0] != '/' && getcwd(here, sizeof here) == NULL)
-    here[0] = '\0';
+  char input[64], size[2][32], output[64], include[64];
   const char **arguments = calloc(OURS + povray->option_count, sizeof *arguments);
   if (arguments == NULL)
     return out_of_memory(povray);
@@ -150,8 +187,7 @@ static enum status run_on(struct povray *povray, const char *name, size_t width,
   snprintf(output, sizeof output, "+O%s", PICTURE_NAME);
   snprintf(size[0], sizeof size[0], "+W%zu", width);
   snprintf(size[1], sizeof size[1], "+H%zu", height);
-  snprintf(include, sizeof include, "+L%s/%.*s", here, slash == NULL ? 0 : (int)(slash - povray->scene_path),
-           povray->scene_path);
+  snprintf(include, sizeof include, "+L%s", SCENE_FOLDER_NAME);
   const char *const ours[] = { povray->program, input, output, size[0], size[1], include, "+FN8", "-A", "-D", "-P",
                                "-UA", "Dither=Off", "Work_Threads=1" };
   const size_t count = sizeof ours / sizeof ours[0];

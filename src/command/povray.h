@@ -17,16 +17,18 @@
 
 struct povray {
   const struct command *command;
-  const char *program;
+  const char *program;        /* looked for along PATH where it has no slash */
   const char *const *options; /* passed on behind our own; borrowed */
   size_t option_count;
   size_t width, height;       /* of pictures, pixels */
   const char *scene_path;     /* its folder is searched for what only POV-Ray includes */
   struct scratch folder;
-  char version[64];           /* as it calls itself, after the first run; or "" */
+  char program_path[SCRATCH_PATH_SIZE];
+  char version[64];           /* as it calls itself, once it is open; or "" */
 };
 
-/* Sets up the folder. The caller ends with povray_close in any case. */
+/* Sets up the folder and asks the program for its version. STATUS_FILE where there is no such program, or it is another one.
+ * The caller ends with povray_close in any case. */
 enum status povray_open(struct povray *povray) STATUS_MUST_CHECK;
 void povray_close(struct povray *povray);
 

@@ -51,7 +51,7 @@ static void become(const struct process_request *request, int report)
     (void)signal(OURS[k], SIG_DFL);
   bool ready = redirect(request->output) && (request->folder == NULL || chdir(request->folder) == 0);
   for (const char *const *pair = request->environment; ready && pair != NULL && *pair != NULL; pair += 2)
-    ready = setenv(pair[0], pair[1], 1) == 0;
+    ready = (pair[1] == NULL ? unsetenv(pair[0]) : setenv(pair[0], pair[1], 1)) == 0;
   if (ready)
     execvp(request->arguments[0], (char *const *)request->arguments);
   const int reason = errno;

@@ -14,7 +14,7 @@
 struct process_request {
   const char *const *arguments;   /* ended by NULL; [0] is the program, looked for along PATH where it has no slash */
   const char *folder;             /* where it runs, or NULL: here */
-  const char *const *environment; /* pairs NAME, VALUE, ended by NULL, that are set beside ours; or NULL */
+  const char *const *environment; /* pairs NAME, VALUE, ended by NULL, that change ours (a VALUE of NULL unsets); or NULL */
   const char *output;             /* file that receives what it says on both outputs, seen from our folder */
 };
 

@@ -1,0 +1,10 @@
+# What check refuses, and a POV-Ray that is not there; none of this leaves a folder behind.
+try pscn check
+try pscn check $SCENES/bent.pscn --size 0x10
+try pscn check $SCENES/bent.pscn --steps 9
+try pscn check $SCENES/bent.pscn --grid x
+try pscn check $SCENES/bent.pscn --fail -1
+try env PATH=/nonexistent "$(command -v pscn)" check $SCENES/bent.pscn
+try pscn check $SCENES/bent.pscn --povray ./povray 2>&1 | sed "s|$PWD|HERE|"
+try pscn check $SCENES/bent.pscn --povray /bin/true
+ls
