@@ -16,7 +16,8 @@ static struct truth truth_of(const struct reference_answer *answer)
                                : answer->verdict == REFERENCE_MISS ? TRUTH_MISS
                                                                    : TRUTH_UNDECIDED;
   if (kind != TRUTH_HIT) return (struct truth){ .kind = kind, .t = INFINITY, .patch = HIT_NONE };
-  return (struct truth){ kind, (double)answer->t, answer->patch, answer->shared };
+  const double t = (double)answer->t;
+  return (struct truth){ kind, t, (double)(answer->t - t), answer->patch, answer->shared };
 }
 
 enum status judge_truths(const struct scene *scene, const struct ray_list *rays, const atomic_int *stop,
@@ -87,7 +88,7 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
       all[asked++] = 1;
       continue;
     }
-    const double error = fabs(answers[k].t - truth->t) / truth->t;
+    const double error = fabs((answers[k].t - truth->t) - truth->t_rest) / truth->t;
     const bool wrong = !(error <= JUDGE_WRONG);
     out->wrong += wrong;
     out->other_patch += !wrong && answers[k].patch != ANSWER_PATCH_UNKNOWN && answers[k].patch != truth->patch && !truth->shared;

@@ -19,7 +19,7 @@ enum truth_kind { TRUTH_MISS, TRUTH_HIT, TRUTH_UNDECIDED };
 
 struct truth {
   enum truth_kind kind;
-  double t; /* of a hit, in units of |direction| */
+  double t, t_rest; /* of a hit, in units of |direction|: t + t_rest, t being the nearest double */
   uint32_t patch;
   bool shared; /* the hit lies on an edge that another patch has too */
 };

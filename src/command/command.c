@@ -8,7 +8,8 @@
 #include <time.h>
 
 const struct command *const commands[] = { &command_render,  &command_trace, &command_roots, &command_dump,
-                                           &command_compare, &command_check, &command_help,  NULL };
+                                           &command_compare, &command_check, &command_chart, &command_help,
+                                           NULL };
 
 const struct command *command_find(const char *name)
 {

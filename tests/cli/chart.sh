@@ -1,0 +1,34 @@
+# Files, columns and exit codes of `pscn chart`; peers and gnuplot that are missing.
+scene=$SCENES/bent.pscn
+small="--quick --size 32x24 --rays 128 --rounds 1"
+try pscn chart "$scene" $small --no-peers --quiet -o out
+ls out | sed 's/chart.svg//' | grep . # gnuplot need not be there
+head -1 out/chart.csv
+# Each line has as many fields as the first, each family is there, and the default, with polish, is right everywhere.
+awk -F, 'NR == 1 { n = NF; for (k = 1; k <= NF; k++) at[$k] = k; next }
+  NF != n { print "fields:", NF, $0 }
+  { count[$1]++ }
+  $at["polish"] == "on" && ($at["lost"] + $at["invented"] + $at["wrong"] > 0 || $at["t_max"] > 1e-12) { print "not exact:", $0 }
+  $at["front"] == 1 { front = 1 }
+  END { print count["bernstein"], count["newton"], count["laguerre"], count["aberth"], count["paper"], count["plain-newton"], front }' out/chart.csv
+grep -c '<table>' out/chart.html
+
+# Without peers: said, and no error.
+try pscn chart "$scene" $small --povray nowhere/povray -o out2 2>&1 | grep -e '^POV-Ray' -e '^exit'
+
+# Without gnuplot: the numbers are there.
+mkdir empty
+pscn=$(command -v pscn)
+(PATH=empty; try "$pscn" chart "$scene" $small --no-peers --quiet -o out3)
+ls out3
+
+# The command line.
+try pscn chart
+try pscn chart "$scene" --rays 0
+try pscn chart "$scene" --rounds 1000
+try pscn chart "$scene" --size 3
+try pscn chart nothing.pscn -o out4
+echo text >file
+try pscn chart "$scene" $small -o file
+try pscn chart "$scene" $small -o nowhere/out
+ls -A

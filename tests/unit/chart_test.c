@@ -1,0 +1,149 @@
+/* The chart's own arithmetic: the front, the judge, the choice of rays, the sweep. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "chart/judge.h"
+#include "chart/point.h"
+#include "chart/rays.h"
+#include "cmocka_test.h"
+
+static struct chart_point point(double ns, double error)
+{
+  struct chart_point p = { .camera.most_of_all = error };
+  p.time[RAYS_CAMERA].median = ns;
+  return p;
+}
+
+static void test_front(void **state)
+{
+  (void)state;
+  struct chart_point points[] = {
+    point(100, 1e-15), /* front: the most exact */
+    point(100, 1e-12), /* as fast as the first, less exact */
+    point(120, 1e-15), /* as exact, slower */
+    point(50, 1e-5),   /* front */
+    point(60, 1e-4),   /* beaten in both */
+    point(10, 1),      /* front: the fastest */
+    point(NAN, 1e-18), /* no time */
+    point(1, NAN),     /* no error */
+    point(50, 1e-5),   /* equal to another of the front: neither beats the other */
+  };
+  const bool expected[] = { true, false, false, true, false, true, false, false, true };
+  const size_t count = sizeof points / sizeof points[0];
+  point_front(points, count);
+  for (size_t k = 0; k < count; k++) assert_int_equal(points[k].front, expected[k]);
+}
+
+static void test_judge(void **state)
+{
+  (void)state;
+  const struct truth truths[] = {
+    { TRUTH_HIT, 2, 0, 4, false },       { TRUTH_HIT, 2, 0x1p-54, 4, false }, { TRUTH_HIT, 2, 0, 4, false },
+    { TRUTH_HIT, 2, 0, 4, true },        { TRUTH_HIT, 2, 0, 4, false },       { TRUTH_MISS, INFINITY, 0, HIT_NONE, false },
+    { TRUTH_MISS, INFINITY, 0, HIT_NONE, false }, { TRUTH_UNDECIDED, INFINITY, 0, HIT_NONE, false },
+    { TRUTH_HIT, 2, 0, 4, false },
+  };
+  const struct answer answers[] = {
+    { 2, 4 },               /* exact */
+    { 2, 4 },               /* off by 2^-54 of 2 */
+    { 2.001, 5 },           /* the right place, another patch */
+    { 2, 5 },               /* on a shared edge: either patch will do */
+    { 3, 4 },               /* wrong */
+    { INFINITY, HIT_NONE }, /* right */
+    { 1, 0 },               /* invented */
+    { 1, 0 },               /* undecided */
+    { INFINITY, HIT_NONE }, /* lost */
+  };
+  enum { COUNT = sizeof truths / sizeof truths[0] };
+  double errors[2 * COUNT];
+  struct judgement j;
+  judge_answers(COUNT, truths, answers, errors, &j);
+  assert_int_equal(j.rays, COUNT);
+  assert_int_equal(j.undecided, 1);
+  assert_int_equal(j.hits, 6);
+  assert_int_equal(j.lost, 1);
+  assert_int_equal(j.invented, 1);
+  assert_int_equal(j.wrong, 1);
+  assert_int_equal(j.other_patch, 1);
+  assert_true(j.median == 0x1p-55);
+  assert_true(j.max == 0.5 && j.most == 0.5);
+  assert_true(j.most_of_all == 1);
+}
+
+static void test_judge_occluded(void **state)
+{
+  (void)state;
+  const struct ray rays[4] = { { .t_max = 1 }, { .t_max = 1 }, { .t_max = 1 }, { .t_max = 1 } };
+  const struct truth truths[4] = { { TRUTH_HIT, 0.5, 0, 0, false }, { TRUTH_HIT, 1.5, 0, 0, false },
+                                   { TRUTH_MISS, INFINITY, 0, HIT_NONE, false }, { TRUTH_UNDECIDED, 0, 0, 0, false } };
+  const bool none[4] = { false }, all[4] = { true, true, true, true };
+  struct judgement j;
+  judge_occluded(4, rays, truths, none, &j);
+  assert_true(j.hits == 1 && j.lost == 1 && j.invented == 0 && j.undecided == 1);
+  judge_occluded(4, rays, truths, all, &j);
+  assert_true(j.lost == 0 && j.invented == 2);
+}
+
+/* All rays are the pixels' own, each once, when all are wanted; fewer are whole strips, spread over the picture. */
+static void test_rays(void **state)
+{
+  (void)state;
+  const struct scene scene = { .camera = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 } } };
+  enum { WIDTH = 70, HEIGHT = 45 }; /* no multiple of a tile's side, nor of a packet's */
+  struct arena *arena = arena_create();
+  struct ray_list list;
+  assert_int_equal(rays_of_camera(&scene, WIDTH, HEIGHT, WIDTH * HEIGHT, arena, &list), STATUS_OK);
+  assert_int_equal(list.count, WIDTH * HEIGHT);
+  static int seen[HEIGHT][WIDTH];
+  for (size_t k = 0; k < list.count; k++) {
+    const int x = (int)floor((list.rays[k].direction[0] + 0.5) * WIDTH), y = (int)floor((0.5 - list.rays[k].direction[1]) * HEIGHT);
+    seen[y][x]++;
+  }
+  for (int k = 0; k < WIDTH * HEIGHT; k++) assert_int_equal(seen[k / WIDTH][k % WIDTH], 1);
+  size_t packed = 0;
+  for (size_t k = 0; k < list.packet_count; k++) {
+    assert_int_equal(list.packets[k].first, packed);
+    packed += list.packets[k].count;
+  }
+  assert_int_equal(packed, list.count);
+  assert_int_equal(rays_of_camera(&scene, 640, 640, 640, arena, &list), STATUS_OK);
+  assert_int_equal(list.count, 640);
+  double lowest = 1, highest = -1;
+  for (size_t k = 0; k < list.count; k++) {
+    lowest = fmin(lowest, list.rays[k].direction[1]);
+    highest = fmax(highest, list.rays[k].direction[1]);
+  }
+  assert_true(lowest < -0.35 && highest > 0.35);
+  arena_destroy(arena);
+}
+
+/* The first is the default; all are different. */
+static void test_sweep(void **state)
+{
+  (void)state;
+  for (int quick = 0; quick < 2; quick++) {
+    const size_t count = point_sweep(quick, NULL);
+    struct sweep_point *sweep = calloc(count, sizeof *sweep);
+    assert_non_null(sweep);
+    assert_int_equal(point_sweep(quick, sweep), count);
+    assert_ptr_equal(sweep[0].options.solver, solver_at(0));
+    for (size_t a = 1; a < count; a++) {
+      for (size_t b = a + 1; b < count; b++) {
+        bool same = sweep[a].options.solver == sweep[b].options.solver;
+        for (size_t k = 0; same && k < solver_item_count(); k++)
+          same = solver_item_at(k)->get(&sweep[a].options) == solver_item_at(k)->get(&sweep[b].options);
+        assert_false(same);
+      }
+    }
+    free(sweep);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_front), cmocka_unit_test(test_judge), cmocka_unit_test(test_judge_occluded),
+    cmocka_unit_test(test_rays),  cmocka_unit_test(test_sweep),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
