@@ -49,11 +49,30 @@ static double operate(char op, double p, double q)
   }
 }
 
+/* A colour has five parts in POV-Ray: what happens to the two that say how transparent it is must leave them 0. */
+static bool stays_opaque(struct language *language, char op, const struct value *a, struct place a_place,
+                         const struct value *b, struct place b_place)
+{
+  const struct place both = language_span(&a_place, &b_place);
+  const bool number = a->kind == VALUE_NUMBER || b->kind == VALUE_NUMBER;
+  const bool colour = a->kind == VALUE_COLOUR || b->kind == VALUE_COLOUR;
+  if (colour && number && (op == '+' || op == '-')) {
+    language_error(language, both, "a number added to a colour makes it transparent in POV-Ray; add a vector of three");
+    return false;
+  }
+  if (op == '/' && colour && b->kind != VALUE_NUMBER) {
+    language_error(language, both, "this makes a colour infinitely transparent in POV-Ray; divide by a number");
+    return false;
+  }
+  return true;
+}
+
 struct value value_binary(struct language *language, char op, const struct value *a, struct place a_place,
                           const struct value *b, struct place b_place)
 {
   const bool a_usable = usable(language, a_place, a, "a value");
   if (!usable(language, b_place, b, "a value") || !a_usable) return UNKNOWN;
+  if (!stays_opaque(language, op, a, a_place, b, b_place)) return UNKNOWN;
   struct value r = {.kind = a->kind > b->kind ? a->kind : b->kind};
   for (int k = 0; k < 3; k++) {
     if (op == '/' && b->x[k] == 0) {

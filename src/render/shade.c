@@ -44,11 +44,12 @@ static void add_light(const struct view *view, const struct scene_light *light, 
                       double cosine, double rgb[3])
 {
   const struct scene_finish *finish = &view->texture->finish;
-  const double diffuse = finish->diffuse * (finish->brilliance == 1 ? cosine : pow(cosine, finish->brilliance));
+  const double part = finish->brilliance == 1 ? cosine : pow(cosine, finish->brilliance);
+  const double diffuse = finish->diffuse > 0 ? finish->diffuse * part : 0; /* as the highlights: nothing darkens */
   double highlight = 0;
   if (!light->shadowless) {
-    highlight += finish->phong != 0 ? phong(view, to_light) : 0;
-    highlight += finish->specular != 0 ? specular(view, to_light) : 0;
+    highlight += finish->phong > 0 ? phong(view, to_light) : 0;
+    highlight += finish->specular > 0 ? specular(view, to_light) : 0;
   }
   for (int k = 0; k < 3; k++)
     rgb[k] += light->color[k] * (diffuse * view->texture->pigment[k] + highlight);

@@ -1,0 +1,170 @@
+#!/bin/bash
+# One small scene for each keyword of finishes, lights, cameras, transforms and colours, by both programs: no pixel may differ by
+# more than 1/255 unless it, or one beside it, lies on a silhouette, the edge of a shadow or a crease, as `pscn check` finds them.
+# All patches are flat, so that POV-Ray's triangles are the exact surface.
+set -euo pipefail
+JOBS=4 # POV-Ray mostly waits for itself
+
+command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+export LC_ALL=C
+
+KEY='light_source { <-3, 5, -4>, rgb <1, 0.95, 0.9> }'
+CAMERA='camera { location <0.4, 2.2, -5> look_at <0.1, 0.2, 0> angle 42 }'
+count=0
+# scene NAME: writes the scene of what is set, then sets all back. A floor, and above it a leaning square with a shadow.
+begin() { camera=$CAMERA lights=$KEY sky='background { rgb <0.2, 0.3, 0.5> }' settings='' finish='' pigment='rgb <0.8, 0.5, 0.3>' \
+  before='' object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> }' size=64x48; }
+scene() {
+  count=$((count + 1))
+  local file
+  file=$(printf '%03d %s' $count "$1" | tr ' /' '__')
+  echo "$size" >"$file.size"
+  cat >"$file.pscn" <<END
+#version 3.7;
+global_settings { assumed_gamma 1 $settings }
+$camera
+$sky
+$lights
+$before
+#declare Square = bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2
+  <-0.9, -0.9, 0>, <-0.3, -0.9, 0>, <0.3, -0.9, 0>, <0.9, -0.9, 0>, <-0.9, -0.3, 0>, <-0.3, -0.3, 0>, <0.3, -0.3, 0>, <0.9, -0.3, 0>,
+  <-0.9, 0.3, 0>, <-0.3, 0.3, 0>, <0.3, 0.3, 0>, <0.9, 0.3, 0>, <-0.9, 0.9, 0>, <-0.3, 0.9, 0>, <0.3, 0.9, 0>, <0.9, 0.9, 0>
+  texture { pigment { $pigment } finish { $finish } } }
+$object
+bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2
+  <-3, 0, -3>, <-1, 0, -3>, <1, 0, -3>, <3, 0, -3>, <-3, 0, -1>, <-1, 0, -1>, <1, 0, -1>, <3, 0, -1>,
+  <-3, 0, 1>, <-1, 0, 1>, <1, 0, 1>, <3, 0, 1>, <-3, 0, 3>, <-1, 0, 3>, <1, 0, 3>, <3, 0, 3>
+  texture { pigment { color rgb <0.5, 0.6, 0.7> } finish { $finish } } }
+END
+  begin
+}
+begin
+
+for finish in '' 'ambient 0' 'ambient 0.4' 'ambient rgb <0.1, 0.3, 0.5>' 'ambient -0.2' 'diffuse 0' 'diffuse 1.3' 'brilliance 4' \
+  'brilliance 0.3' 'brilliance 0' 'phong 0.7' 'phong 0.7 phong_size 3' 'phong 0.7 phong_size 200' 'phong_size 10' 'specular 0.7' \
+  'specular 0.7 roughness 0.3' 'specular 0.7 roughness 0.001' 'roughness 0.3' 'specular 0.7 phong 0.4 diffuse 0.2' \
+  'ambient 0.15 diffuse 0.5 brilliance 1.7 phong 0.3 phong_size 25 specular 0.3 roughness 0.05' \
+  'phong 0.2 phong 0.8' 'specular -0.3' 'diffuse -0.3' 'phong -0.3'; do
+  scene "finish { $finish }"
+done
+
+GLOSS='specular 0.4 phong 0.3'
+while read -r light; do
+  lights=$light finish=$GLOSS; scene "light $light"
+done <<'END'
+
+light_source { <-3, 5, -4> rgb 1 }
+light_source { <-3, 5, -4>, rgb 1 shadowless }
+light_source { <3, 4, 5>, rgb <0.2, 1, 0.4> }
+light_source { <3, -4, -5>, rgb 1 }
+light_source { <20, 0.3, -2>, rgb 3 }
+light_source { <0.4, 2.2, -5>, rgb 1 }
+light_source { <0, 0.4, 0.6>, rgb 0.7 }
+light_source { 5, color rgb 1 }
+light_source { y*5, color rgb <0.5, 0.5, -0.2> }
+light_source { <-3, 5, -4>, rgb <1, 0, 0> } light_source { <3, 5, -4>, rgb <0, 1, 0> } light_source { <0, 6, 3>, rgb <0, 0, 1> }
+light_source { <-3, 5, -4>, rgb 0.6 } light_source { <3, 5, -4>, rgb 0.5 shadowless }
+light_source { <0, 0, 0>, rgb 1 translate <2, 6, -3> }
+light_source { <1, 5, 0>, rgb 1 rotate 70*y translate x }
+light_source { <1, 2, -1>, rgb 1 scale <2, 3, 2> rotate <0, 30, 10> }
+light_source { <1, 2, -1>, rgb 1 matrix <1, 0.2, 0, 0, 2, 0, 0.3, 0, 1, 1, 1, -2> }
+END
+for sky in '' 'background { rgb 0.3 }' 'background { color rgb <1.5, 0.2, -0.1> }' 'background { rgb 0.9 } background { rgb 0.1 }'; do
+  scene "sky $sky"
+done
+for settings in 'ambient_light 0' 'ambient_light 2' 'ambient_light rgb <2, 0.5, 1>' 'max_trace_level 1'; do
+  finish='ambient rgb <0.3, 0.4, 0.2>'; scene "settings $settings"
+done
+
+while read -r items; do
+  camera="camera { $items }" object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> } object { Square translate <0.3, 0.2, 3> }'
+  scene "camera $items"
+done <<'END'
+location <0, 0.5, -4>
+perspective location <0, 0.5, -4> direction 2*z
+location <0, 0.5, -4> angle 60
+angle 60 location <0, 0.5, -4> direction 3*z
+location <0, 0.5, -4> angle 110 right 1*x
+right 2*x angle 50 location <0, 0.5, -4>
+location <0, 0.5, -4> direction <0.2, 0.1, 1> right <1.2, 0.2, 0> up <0.1, 0.9, 0.1>
+location <0, 0.5, -4> direction <0.2, 0.1, 1> right <1.2, 0.2, 0> up <0.1, 0.9, 0.1> look_at <0, 0.4, 0>
+location <0, 0.5, -4> direction <0.2, 0.1, 1> right <1.2, 0.2, 0> up <0.1, 0.9, 0.1> angle 50
+location <3, 2, -3> look_at 0
+look_at <0, 0.5, 0> location <3, 2, -3>
+location <3, 2, -3> look_at 0 angle 35 right x up y
+location <3, 2, -3> look_at 0 right -1.33*x
+location <3, 2, -3> look_at 0 up -y
+location <3, 2, -3> look_at 0 up 2*y right 0.7*x direction 1.6*z
+location <3, 2, -3> sky <1, 1, 0.5> look_at 0
+sky z location <3, 2, -3> look_at 0 angle 50
+location <3, 2, -3> look_at 0 sky z angle 50
+location <3, 2, -3> up z sky z right 1.33*x direction y look_at 0
+location <0, 5, 0> look_at 0
+location <0, 5, 0> look_at 0 angle 70 right x
+location <-4, 0.7, 0.4> look_at <0, 0.5, 0> angle 40 angle 60
+location <3, 2, -3> right x*image_width/image_height look_at 0
+END
+for size in 48x64 70x35 33x47; do
+  for items in '' 'right x*image_width/image_height' 'right x*image_width/image_height angle 50' 'up y*image_height/image_width right x'; do
+    keep=$size camera="camera { location <3, 2, -3> look_at 0 $items }"; scene "camera $items at $size"; size=$keep
+  done
+done
+
+while read -r transforms; do
+  object="object { Square $transforms }"; scene "transforms $transforms"
+done <<'END'
+rotate <60, 30, 20> translate <0.2, 0.8, 0>
+translate <0.2, 0.8, 0> rotate <20, 30, 10>
+rotate 40*x rotate 30*y translate y
+rotate 30*y rotate 40*x translate y
+scale <1.2, 0.6, 1> rotate <50, 0, 30> translate y
+rotate <50, 0, 30> scale <1.2, 0.6, 1> translate y
+rotate <50, 0, 30> scale <-1, 1, 1> translate y
+rotate 40*x scale 0.7 translate <0.2, 0.7, 0>
+matrix <1, 0.2, 0.1, 0, 0.8, 0.6, 0.3, 0, 1, 0.1, 0.9, 0>
+rotate 20*x matrix <0.8, 0, 0.1, 0.3, 0.9, 0, 0, 0.2, 1, 0, 1, 0> rotate 10*z
+END
+object='union { object { Square rotate 30*x } object { Square scale 0.4 translate <0, 0.5, -0.6> } rotate 25*y translate <0, 0.9, 0> }'
+scene 'union'
+object='union { union { object { Square translate x } rotate 40*y texture { pigment { rgb <0.9, 0.1, 0.2> } } } scale 0.7 translate <-0.5, 0.8, 0> }'
+scene 'union in union, textured'
+object='#declare Two = union { object { Square } object { Square rotate 90*y } scale 0.6 } object { Two translate <-0.8, 0.6, 0> } object { Two rotate 20*y translate <0.7, 0.6, 0> }'
+scene 'declared union'
+
+while read -r colour; do
+  pigment=$colour before='#declare Paint = rgb <0.2, 0.7, 0.4>; #declare Half = 0.5; #declare V = <0.6, 0.2, 0.1>;'
+  scene "colour $colour"
+done <<'END'
+rgb <0.1, 0.9, 0.4>
+color rgb <0.1, 0.9, 0.4>
+colour rgb <0.1, 0.9, 0.4>
+rgb 0.6
+color rgb Half
+color Paint
+Paint
+color rgb Paint*0.5 + <0.2, 0.2, 0.2>
+0.5*Paint - x/10
+Paint/2
+Paint*Paint
+Paint + Paint
+rgb V
+rgb <Half, Half/2, Paint.green>
+rgb V.x*<1, 0.5, 2> + y*0.2
+rgb <2, 1.2, -0.5>
+END
+
+# judge FILE: the number of pixels away from edges that differ by more than 1/255, of a scene and of its picture.
+cat >judge.sh <<'END'
+file=${1%.pscn}
+"$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --fail 1/255 --failpercent 100 --failpsnr 0 --failmask 3 -o "$file" \
+  --quiet >"$file.log" 2>&1 || { echo "$file: exit code $?"; cat "$file.log"; exit 0; }
+off=$(sed -n 's/.*"over_limit_off_edges": \([0-9]*\).*/\1/p' "$file/check.json")
+[ "$off" = 0 ] || { echo "$file: ${off:-no number of} pixels away from edges differ"; cat "$1" | sed -n '2,7p;12,13p'; }
+END
+ls ./*.pscn | xargs -P $JOBS -n 1 bash judge.sh >complaints
+cat complaints
+echo "$count scenes"
+[ ! -s complaints ] && [ "$(ls -d ./*/ | wc -l)" -eq "$count" ]
