@@ -146,7 +146,7 @@ color rgb Half
 color Paint
 Paint
 color rgb Paint*0.5 + <0.2, 0.2, 0.2>
-0.5*Paint - x/10
+rgb 0.5*Paint - x/10
 Paint/2
 Paint*Paint
 Paint + Paint
