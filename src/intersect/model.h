@@ -49,6 +49,7 @@ struct leaf {
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split in u, and so on */
   uint8_t kept_degree, eliminated_degree;
   bool v_kept;            /* the form keeps v and eliminates u */
+  bool bilinear;          /* so nearly that the resultant of its corners gives a start; default method only */
   uint8_t zeros[2];       /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
 };
 

@@ -277,6 +277,18 @@ static lane_mask trial_first_root(struct packet *p, const struct trial *t, lane_
   return active & ~decided;
 }
 
+/* Stages 2 to 4 of a nearly bilinear leaf, by a resultant of the least degree. Lanes that are left undecided: where the ray is so
+ * slanted that the leaf's curvature matters, the resultant of its full degree has its turn. */
+static lane_mask trial_bilinear(struct packet *p, const struct trial *t, lane_mask active)
+{
+  lanes u, v;
+  trial_bilinear_root(t, &u, &v);
+  const struct refined r = refine(&t->nets, t->leaf, start_within(u), start_within(v), active);
+  p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(r.alone));
+  packet_offer_lanes(p, t, &r, r.alone & inside(&r));
+  return active & ~r.alone;
+}
+
 static void packet_try(struct packet *p, struct trial *t, lane_mask active)
 {
   t->nets.error = p->local[t->axis].error;
@@ -285,8 +297,12 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   if (lanes_any(near)) near = trial_aligned(t, near);
   active = paper ? active : near;
   if (!lanes_any(active)) return;
-  trial_form(p, t);
   p->tracer->counts.patches_tested += (unsigned)__builtin_popcount(lanes_bits(active));
+  if (t->leaf->bilinear) {
+    active = trial_bilinear(p, t, active);
+    if (!lanes_any(active)) return;
+  }
+  trial_form(p, t);
   lane_mask left = active;
   t->variations = lanes_all(-1);
   if (t->patch->solver->polish) left = trial_resultant(t, active);

@@ -73,7 +73,7 @@ LANES_INLINE lanes refine_row_length(lanes p, lanes q, const lanes slope[2])
 LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v, lane_mask active)
 {
   struct refined r = {u, v, {0}, {0}, {0}, {0}};
-  lanes step = lanes_all(2), size_u = {0}, size_v = {0};
+  lanes step = lanes_all(2), mua = {0}, mub = {0}, mva = {0}, mvb = {0};
   lane_mask moving = active;
   for (int n = 0; n < NEWTON_MAX_STEPS && lanes_any(moving); n++) {
     lanes wu[4], du[4], wv[4], dv[4];
@@ -81,16 +81,16 @@ LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct l
     refine_weights(r.v, wv, dv);
     const struct refine_jet a = refine_evaluate(nets->a, wu, du, wv, dv), b = refine_evaluate(nets->b, wu, du, wv, dv);
     const lanes inverse = 1 / (a.du * b.dv - a.dv * b.du);
-    const lanes mua = b.dv * inverse, mub = -a.dv * inverse, mva = -b.du * inverse, mvb = a.du * inverse;
+    mua = lanes_select(moving, b.dv * inverse, mua), mub = lanes_select(moving, -a.dv * inverse, mub);
+    mva = lanes_select(moving, -b.du * inverse, mva), mvb = lanes_select(moving, a.du * inverse, mvb);
     const lanes step_u = mua * a.value + mub * b.value, step_v = mva * a.value + mvb * b.value;
     r.u = lanes_select(moving, r.u - step_u, r.u);
     r.v = lanes_select(moving, r.v - step_v, r.v);
     step = lanes_select(moving, lanes_max(lanes_abs(step_u), lanes_abs(step_v)), step);
-    size_u = lanes_select(moving, refine_row_length(mua, mub, nets->slope), size_u);
-    size_v = lanes_select(moving, refine_row_length(mva, mvb, nets->slope), size_v);
     /* A root far outside the leaf, or no progress (NaN compares false), is no concern of this process. */
     moving &= (step > NEWTON_LAST_STEP) & (lanes_abs(r.u - 0.5) < 2) & (lanes_abs(r.v - 0.5) < 2);
   }
+  const lanes size_u = refine_row_length(mua, mub, nets->slope), size_v = refine_row_length(mva, mvb, nets->slope);
   const lanes size = lanes_max(size_u, size_v);
   const lanes lipschitz = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
   const lanes beta = step + size * nets->error;
