@@ -355,9 +355,9 @@ static void kernel_closest(struct tracer *tracer, size_t count, const struct ray
     struct packet packet;
     packet_start(&packet, tracer, scaled, n, false);
     packet_walk(&packet);
+    finish_hits(tracer->model, n, scaled, packet.best, out_hits + first);
     for (size_t l = 0; l < n; l++) {
       struct hit *hit = &out_hits[first + l];
-      finish_hit(tracer->model, &scaled[l], &packet.best[l], hit);
       if (exponent[l] != 0 && hit->patch != HIT_NONE) hit->t = ldexp(hit->t, -exponent[l]);
       if (hit->certainty == CERTAINTY_CERTAIN) tracer->counts.certain++;
       else tracer->counts.grazing++;

@@ -85,8 +85,10 @@ struct best {
   struct leaf_hit root;
 };
 
-/* Fills the answer from the winner: parameters of the whole patch, improved by a Newton step on the patch with residuals in
- * twice the precision, the point, the normal, the certainty. The direction of `ray` may be scaled. */
-void finish_hit(const struct model *model, const struct ray *ray, const struct best *best, struct hit *out);
+/* Fills the answers of up to LANES rays from their winners: parameters of the whole patch, improved by a Newton step on the patch
+ * with residuals in twice the precision, the point, the normal, the certainty. The directions may be scaled. An answer does not
+ * depend on the others. */
+void finish_hits(const struct model *model, size_t count, const struct ray rays[], const struct best best[],
+                 struct hit out[]);
 
 #endif

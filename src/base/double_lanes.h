@@ -1,0 +1,47 @@
+/* Double-double arithmetic on lanes: base/double_double.h, several numbers side by side.
+ *
+ * Only what the last places of a hit need. Sums are kept as they come (hi, lo), |lo| a few units in the last place of hi, and are
+ * not brought to normal form in between. Needs compilation without contraction.
+ */
+#ifndef PSCN_BASE_DOUBLE_LANES_H
+#define PSCN_BASE_DOUBLE_LANES_H
+
+#include "base/lanes.h"
+
+struct double_lanes {
+  lanes hi, lo;
+};
+
+/* a + b exactly. */
+LANES_INLINE struct double_lanes double_lanes_sum(lanes a, lanes b)
+{
+  const lanes s = a + b, t = s - a;
+  return (struct double_lanes){s, (a - (s - t)) + (b - t)};
+}
+
+/* a b exactly, barring underflow. */
+LANES_INLINE struct double_lanes double_lanes_product(lanes a, lanes b)
+{
+  const lanes p = a * b;
+  return (struct double_lanes){p, lanes_product_error(a, b, p)};
+}
+
+LANES_INLINE struct double_lanes double_lanes_multiply(struct double_lanes a, struct double_lanes b)
+{
+  const struct double_lanes p = double_lanes_product(a.hi, b.hi);
+  return (struct double_lanes){p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi)};
+}
+
+LANES_INLINE struct double_lanes double_lanes_scale(struct double_lanes a, lanes b)
+{
+  const struct double_lanes p = double_lanes_product(a.hi, b);
+  return (struct double_lanes){p.hi, p.lo + a.lo * b};
+}
+
+LANES_INLINE struct double_lanes double_lanes_subtract(struct double_lanes a, struct double_lanes b)
+{
+  const struct double_lanes s = double_lanes_sum(a.hi, -b.hi);
+  return (struct double_lanes){s.hi, s.lo + (a.lo - b.lo)};
+}
+
+#endif

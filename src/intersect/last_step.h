@@ -1,0 +1,141 @@
+/* The last Newton step of several hits of one patch: the last places of U, V and T, the point, the normal.
+ *
+ * Internal to src/intersect; included by finish.c, which is compiled once per instruction set and without contraction.
+ * A root comes from a leaf's net, cut from the patch and rounded: where the ray is steep it is right to a few last places, where
+ * it grazes rounding is magnified. A Newton step on the patch itself, its residuals a(u,v), b(u,v) as if computed in twice the
+ * precision (Ogita, Rump and Oishi, Accurate Sum and Dot Product, 2005: Dot2), makes all of them right to the last places.
+ */
+#ifndef PSCN_INTERSECT_LAST_STEP_H
+#define PSCN_INTERSECT_LAST_STEP_H
+
+#include "base/double_lanes.h"
+#include "intersect/model.h"
+
+enum { LAST_STEPS_MAX = 3 };
+
+/* A step longer than this, in patch parameters, is followed by another: the derivatives that the point and the normal are taken
+ * from are off by about as much, relative to the second derivatives. */
+#define LAST_STEP_LONGEST 0x1p-44
+
+/* |Su x Sv| relative to the squared derivatives down to which it is the normal without further thought. */
+#define PLAIN_NORMAL 0x1p-20
+
+/* Hits of rays with one dominant axis on one patch. */
+struct last_step {
+  const struct model_patch *patch;
+  int axis;
+  lanes origin[3], direction[3];
+  lane_mask improves;        /* the others keep u, v and t as they come */
+  lanes u, v, t;             /* in and out */
+  lanes point[3], normal[3]; /* out: in the patch's frame; unit, of either sense */
+  lanes tangent;             /* out: bound on the derivatives' coordinates */
+  lane_mask plain;           /* out: point and normal are sure */
+};
+
+/* Position in twice the precision and derivatives at (u,v), in the frame of the patch. */
+struct last_step_jet {
+  struct double_lanes s[3];
+  lanes du[3], dv[3];
+};
+
+LANES_INLINE void last_step_weights(lanes t, struct double_lanes w[4], lanes dw[4])
+{
+  const struct double_lanes s = double_lanes_sum(lanes_all(1), -t), tt = double_lanes_product(t, t);
+  const struct double_lanes ss = double_lanes_multiply(s, s), three_t = double_lanes_product(lanes_all(3), t);
+  w[0] = double_lanes_multiply(ss, s), w[1] = double_lanes_multiply(ss, three_t);
+  w[2] = double_lanes_multiply(s, double_lanes_scale(tt, lanes_all(3)));
+  w[3] = double_lanes_scale(tt, t);
+  const lanes st = s.hi * t;
+  dw[0] = -3 * ss.hi, dw[1] = 3 * (ss.hi - 2 * st), dw[2] = 3 * (2 * st - tt.hi), dw[3] = 3 * tt.hi;
+}
+
+LANES_INLINE void last_step_evaluate(const struct model_patch *patch, lanes u, lanes v, struct last_step_jet *out)
+{
+  struct double_lanes wu[4], wv[4];
+  lanes du[4], dv[4];
+  last_step_weights(u, wu, du);
+  last_step_weights(v, wv, dv);
+  for (int c = 0; c < 3; c++) out->s[c].hi = out->s[c].lo = out->du[c] = out->dv[c] = lanes_all(0);
+  for (int n = 0; n < 16; n++) {
+    const struct double_lanes w = double_lanes_multiply(wu[n / 4], wv[n % 4]);
+    const lanes wdu = du[n / 4] * wv[n % 4].hi, wdv = wu[n / 4].hi * dv[n % 4];
+    for (int c = 0; c < 3; c++) {
+      const lanes x = lanes_all(patch->x[c][n / 4][n % 4]);
+      const struct double_lanes product = double_lanes_product(w.hi, x), sum = double_lanes_sum(out->s[c].hi, product.hi);
+      out->s[c].hi = sum.hi;
+      out->s[c].lo += sum.lo + (product.lo + w.lo * x);
+      out->du[c] += wdu * x, out->dv[c] += wdv * x;
+    }
+  }
+}
+
+LANES_INLINE lanes last_step_clamp(lanes t) { return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1)); }
+
+LANES_INLINE void last_step_normal(struct last_step *l, const struct last_step_jet *jet)
+{
+  const lanes *a = jet->du, *b = jet->dv;
+  lanes square = lanes_all(0);
+  l->tangent = lanes_all(0);
+  for (int c = 0; c < 3; c++) {
+    const int i = (c + 1) % 3, j = (c + 2) % 3;
+    l->normal[c] = a[i] * b[j] - a[j] * b[i];
+    square += l->normal[c] * l->normal[c];
+    l->tangent = lanes_max(l->tangent, lanes_abs(a[c]) + lanes_abs(b[c]));
+  }
+  const lanes length = lanes_sqrt(square), inverse = 1 / length;
+  l->plain = length > PLAIN_NORMAL * l->tangent * l->tangent;
+  for (int c = 0; c < 3; c++) l->normal[c] *= inverse;
+}
+
+/* Improves the lanes that ask for it, and takes point and normal of all lanes. A lane whose steps do not end within the patch's
+ * size keeps what it came with. */
+LANES_INLINE void last_step(struct last_step *l)
+{
+  const struct model_patch *patch = l->patch;
+  const int k = l->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+  const lanes dk = l->direction[k], inverse = 1 / dk, ri = l->direction[i] * inverse, rj = l->direction[j] * inverse;
+  const double to_local = 1 / patch->scale; /* a power of two */
+  struct double_lanes start[3];
+  for (int c = 0; c < 3; c++) {
+    start[c] = double_lanes_sum(l->origin[c], lanes_all(-patch->center[c]));
+    start[c].hi *= to_local, start[c].lo *= to_local;
+  }
+  lanes u = l->u, v = l->v, du, dv;
+  struct last_step_jet jet;
+  struct double_lanes way[3]; /* from the ray's origin */
+  lane_mask moving = l->improves;
+  for (int n = 0;; n++) {
+    last_step_evaluate(patch, u, v, &jet);
+    for (int c = 0; c < 3; c++) way[c] = double_lanes_subtract(jet.s[c], start[c]);
+    lanes f[2], fu[2], fv[2];
+    for (int s = 0; s < 2; s++) {
+      const int at = s ? j : i;
+      const struct double_lanes x = double_lanes_scale(way[at], dk), y = double_lanes_scale(way[k], l->direction[at]);
+      const struct double_lanes difference = double_lanes_subtract(x, y);
+      const lanes ratio = s ? rj : ri;
+      f[s] = (difference.hi + difference.lo) * inverse;
+      fu[s] = jet.du[at] - ratio * jet.du[k], fv[s] = jet.dv[at] - ratio * jet.dv[k];
+    }
+    const lanes determinant = 1 / (fu[0] * fv[1] - fv[0] * fu[1]);
+    du = (fv[0] * f[1] - fv[1] * f[0]) * determinant, dv = (fu[1] * f[0] - fu[0] * f[1]) * determinant;
+    const lanes size = lanes_max(lanes_abs(du), lanes_abs(dv));
+    const lane_mask near = (lanes_abs(du) < 1) & (lanes_abs(dv) < 1);
+    moving &= near;
+    du = lanes_select(moving, du, lanes_all(0)), dv = lanes_select(moving, dv, lanes_all(0));
+    const lane_mask again = moving & (size > LAST_STEP_LONGEST);
+    if (n + 1 == LAST_STEPS_MAX || !lanes_any(again)) break;
+    /* A lane that is done stays where it is: what it gets then must not depend on the others. */
+    u = lanes_select(again, u + du, u), v = lanes_select(again, v + dv, v);
+  }
+  const lanes place = way[k].hi + (way[k].lo + (jet.du[k] * du + jet.dv[k] * dv));
+  l->t = lanes_select(moving, place * (patch->scale * inverse), l->t);
+  const lane_mask lost = l->improves & ~moving;
+  l->u = last_step_clamp(lanes_select(lost, l->u, u + du)), l->v = last_step_clamp(lanes_select(lost, l->v, v + dv));
+  const lanes to_u = l->u - u, to_v = l->v - v;
+  for (int c = 0; c < 3; c++)
+    l->point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
+  last_step_normal(l, &jet);
+  l->plain &= ~lost; /* the jet is elsewhere */
+}
+
+#endif
