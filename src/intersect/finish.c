@@ -157,7 +157,8 @@ void finish_hits(const struct model *model, size_t count, const struct ray rays[
   }
   while (left) {
     const unsigned first = (unsigned)__builtin_ctz(left);
-    struct last_step step = {.patch = &model->patches[out[first].patch], .axis = dominant_axis(rays[first].direction)};
+    struct last_step step;
+    step.patch = &model->patches[out[first].patch], step.axis = dominant_axis(rays[first].direction);
     unsigned group = 0;
     for (unsigned l = 0; l < LANES; l++) {
       const bool one = left >> l & 1 && out[l].patch == out[first].patch && dominant_axis(rays[l].direction) == step.axis;

@@ -309,8 +309,9 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   if (t->patch->lanes) left = trial_first_root(p, t, left);
   for (unsigned bits = lanes_bits(left); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    /* The only root of r has been tried already. */
-    if (t->patch->lanes && t->variations[lane] == 1) lane_subdivide(p, t, lane);
+    /* The only root of r has been tried already; and where the root of a nearly bilinear leaf was not proven to be alone the ray
+     * mostly passes the fold by, which subdivision sees at once. */
+    if (t->patch->lanes) lane_subdivide(p, t, lane);
     else lane_alone(p, t, lane);
   }
 }
