@@ -29,13 +29,13 @@ LANES_INLINE struct double_lanes double_lanes_product(lanes a, lanes b)
 LANES_INLINE struct double_lanes double_lanes_multiply(struct double_lanes a, struct double_lanes b)
 {
   const struct double_lanes p = double_lanes_product(a.hi, b.hi);
-  return (struct double_lanes){p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi)};
+  return (struct double_lanes){p.hi, lanes_multiply_add(a.hi, b.lo, lanes_multiply_add(a.lo, b.hi, p.lo))};
 }
 
 LANES_INLINE struct double_lanes double_lanes_scale(struct double_lanes a, lanes b)
 {
   const struct double_lanes p = double_lanes_product(a.hi, b);
-  return (struct double_lanes){p.hi, p.lo + a.lo * b};
+  return (struct double_lanes){p.hi, lanes_multiply_add(a.lo, b, p.lo)};
 }
 
 LANES_INLINE struct double_lanes double_lanes_subtract(struct double_lanes a, struct double_lanes b)

@@ -8,6 +8,7 @@
 #ifndef PSCN_BASE_LANES_H
 #define PSCN_BASE_LANES_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #if defined(__SSE2__)
@@ -30,15 +31,57 @@ typedef int64_t lane_mask __attribute__((vector_size(8 * LANES)));
 /* Lane k: x. (x - 0 keeps every x, -0 and NaN included.) */
 LANES_INLINE lanes lanes_all(double x) { return x - (lanes){0}; }
 
+/* Lane k: x[k * stride]. */
+LANES_INLINE lanes lanes_gather(const double *x, size_t stride)
+{
+#if LANES == 8
+  return (lanes){x[0], x[stride], x[2 * stride], x[3 * stride], x[4 * stride], x[5 * stride], x[6 * stride], x[7 * stride]};
+#elif LANES == 4
+  return (lanes){x[0], x[stride], x[2 * stride], x[3 * stride]};
+#else
+  return (lanes){x[0], x[stride]};
+#endif
+}
+
 /* Lane k: mask ? a : b. */
 LANES_INLINE lanes lanes_select(lane_mask mask, lanes a, lanes b)
 {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return (lanes)_mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)mask), (__m512d)b, (__m512d)a);
+#elif defined(__AVX__)
+  return (lanes)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)mask);
+#else
   return (lanes)((mask & (lane_mask)a) | (~mask & (lane_mask)b));
+#endif
 }
 
 /* Lane k: a < b ? a : b, so b where either is NaN. */
-LANES_INLINE lanes lanes_min(lanes a, lanes b) { return lanes_select(a < b, a, b); }
-LANES_INLINE lanes lanes_max(lanes a, lanes b) { return lanes_select(a > b, a, b); }
+LANES_INLINE lanes lanes_min(lanes a, lanes b)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return (lanes)_mm512_min_pd((__m512d)a, (__m512d)b);
+#elif defined(__AVX__)
+  return (lanes)_mm256_min_pd((__m256d)a, (__m256d)b);
+#elif defined(__SSE2__)
+  return (lanes)_mm_min_pd((__m128d)a, (__m128d)b);
+#else
+  return lanes_select(a < b, a, b);
+#endif
+}
+
+/* Lane k: a > b ? a : b, so b where either is NaN. */
+LANES_INLINE lanes lanes_max(lanes a, lanes b)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return (lanes)_mm512_max_pd((__m512d)a, (__m512d)b);
+#elif defined(__AVX__)
+  return (lanes)_mm256_max_pd((__m256d)a, (__m256d)b);
+#elif defined(__SSE2__)
+  return (lanes)_mm_max_pd((__m128d)a, (__m128d)b);
+#else
+  return lanes_select(a > b, a, b);
+#endif
+}
 
 LANES_INLINE lanes lanes_abs(lanes a) { return (lanes)((lane_mask)a & (INT64_MAX - (lane_mask){0})); }
 
@@ -68,6 +111,18 @@ LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)
 #else
   for (int k = 0; k < LANES; k++) a[k] = __builtin_fma(a[k], b[k], -product[k]);
   return a;
+#endif
+}
+
+/* Lane k: a b + c, with one rounding or two. */
+LANES_INLINE lanes lanes_multiply_add(lanes a, lanes b, lanes c)
+{
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return (lanes)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+#elif defined(__FMA__)
+  return (lanes)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+#else
+  return a * b + c;
 #endif
 }
 

@@ -63,8 +63,8 @@ LANES_INLINE void last_step_evaluate(const struct model_patch *patch, lanes u, l
       const lanes x = lanes_all(patch->x[c][n / 4][n % 4]);
       const struct double_lanes product = double_lanes_product(w.hi, x), sum = double_lanes_sum(out->s[c].hi, product.hi);
       out->s[c].hi = sum.hi;
-      out->s[c].lo += sum.lo + (product.lo + w.lo * x);
-      out->du[c] += wdu * x, out->dv[c] += wdv * x;
+      out->s[c].lo += sum.lo + lanes_multiply_add(w.lo, x, product.lo);
+      out->du[c] = lanes_multiply_add(wdu, x, out->du[c]), out->dv[c] = lanes_multiply_add(wdv, x, out->dv[c]);
     }
   }
 }

@@ -10,8 +10,8 @@
  * What is left goes lane by lane to the scene's solver (candidate.c), and what even that leaves to subdivision.
  */
 #include <math.h>
-#include <string.h>
 
+#include "base/real.h"
 #include "intersect/packet.h"
 #include "intersect/refine.h"
 #include "intersect/subdivide.h"
@@ -25,25 +25,36 @@
 /* A stand-in for the reciprocal of 0: so large that any distance ends up beyond every t, finite so that 0 times it is 0. */
 #define HUGE_INVERSE 0x1p1000
 
+enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
+
+/* `rays` has LANES of them; those from `count` on repeat the first. */
 static void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any)
 {
   const struct model *model = tracer->model;
-  memset(p, 0, sizeof *p);
   p->tracer = tracer, p->rays = rays, p->count = count, p->any = any, p->patch = UINT32_MAX;
-  for (size_t l = 0; l < LANES; l++) {
-    const struct ray *ray = &rays[l < count ? l : 0]; /* idle lanes repeat the first */
-    const int axis = dominant_axis(ray->direction);
-    if (l < count) p->live[l] = p->on_axis[axis][l] = -1, p->axes |= 1u << axis;
-    for (int k = 0; k < 3; k++) {
-      const double d = ray->direction[k], o = ray->origin[k] - model->origin[k];
-      /* The boxes' frame rounds the origin once; that widens the box instead. */
-      const double slack = 2 * UNIT_ROUNDOFF * (fabs(ray->origin[k]) + fabs(model->origin[k]));
-      p->origin[k][l] = ray->origin[k], p->direction[k][l] = d;
-      p->low_origin[k][l] = o + slack, p->high_origin[k][l] = o - slack;
-      p->inverse[k][l] = fabs(d) > 1 / HUGE_INVERSE ? 1 / d : copysign(HUGE_INVERSE, d);
-    }
-    for (int s = 0; s < 2; s++) p->slope[axis][s][l] = ray->direction[(axis + 1 + s) % 3] / ray->direction[axis];
-    p->t_min[l] = ray->t_min, p->t_far[l] = ray->t_max;
+  for (size_t l = 0; l < LANES; l++) p->live[l] = l < count ? -1 : 0, p->best[l].leaf = NULL;
+  lanes size[3];
+  for (int k = 0; k < 3; k++) {
+    const lanes o = lanes_gather(&rays[0].origin[k], RAY_STRIDE), d = lanes_gather(&rays[0].direction[k], RAY_STRIDE);
+    const lanes from = o - model->origin[k];
+    /* The boxes' frame rounds the origin once; that widens the box instead. */
+    const lanes slack = 2 * UNIT_ROUNDOFF * (lanes_abs(o) + fabs(model->origin[k]));
+    size[k] = lanes_abs(d);
+    p->origin[k] = o, p->direction[k] = d;
+    p->low_origin[k] = from + slack, p->high_origin[k] = from - slack;
+    const lanes huge = lanes_select(d < 0, lanes_all(-HUGE_INVERSE), lanes_all(HUGE_INVERSE));
+    p->inverse[k] = lanes_select(size[k] > 1 / HUGE_INVERSE, 1 / d, huge);
+  }
+  p->t_min = lanes_gather(&rays[0].t_min, RAY_STRIDE), p->t_far = lanes_gather(&rays[0].t_max, RAY_STRIDE);
+  /* As dominant_axis has it. */
+  const lane_mask first = (size[0] >= size[1]) & (size[0] >= size[2]), second = ~first & (size[1] >= size[2]);
+  p->on_axis[0] = p->live & first, p->on_axis[1] = p->live & second, p->on_axis[2] = p->live & ~first & ~second;
+  p->axes = 0;
+  for (int k = 0; k < 3; k++) {
+    if (!lanes_any(p->on_axis[k])) continue;
+    p->axes |= 1u << k;
+    for (int s = 0; s < 2; s++)
+      p->slope[k][s] = lanes_select(p->on_axis[k], p->direction[(k + 1 + s) % 3] / p->direction[k], lanes_all(0));
   }
 }
 
@@ -346,20 +357,40 @@ static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
   return r;
 }
 
+/* LANES rays at hand, whose directions need no scaling, or copies of them for which that holds. */
+struct ready {
+  const struct ray *rays;
+  struct ray copy[LANES];
+  int exponent[LANES];
+  bool scaled;
+};
+
+static void rays_ready(size_t count, const struct ray rays[], struct ready *out)
+{
+  out->rays = rays, out->scaled = false;
+  bool plain = count == LANES;
+  for (size_t l = 0; l < count; l++) {
+    const double *d = rays[l].direction, largest = real_max(real_max(fabs(d[0]), fabs(d[1])), fabs(d[2]));
+    plain &= largest >= DIRECTION_MIN && largest <= DIRECTION_MAX;
+  }
+  if (plain) return;
+  out->rays = out->copy, out->scaled = true;
+  for (size_t l = 0; l < LANES; l++) out->copy[l] = ray_scaled(&rays[l < count ? l : 0], &out->exponent[l]);
+}
+
 static void kernel_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
   for (size_t first = 0; first < count; first += LANES) {
     const size_t n = count - first < LANES ? count - first : LANES;
-    struct ray scaled[LANES];
-    int exponent[LANES];
-    for (size_t l = 0; l < n; l++) scaled[l] = ray_scaled(&rays[first + l], &exponent[l]);
+    struct ready ready;
     struct packet packet;
-    packet_start(&packet, tracer, scaled, n, false);
+    rays_ready(n, rays + first, &ready);
+    packet_start(&packet, tracer, ready.rays, n, false);
     packet_walk(&packet);
-    finish_hits(tracer->model, n, scaled, packet.best, out_hits + first);
+    finish_hits(tracer->model, n, ready.rays, packet.best, out_hits + first);
     for (size_t l = 0; l < n; l++) {
       struct hit *hit = &out_hits[first + l];
-      if (exponent[l] != 0 && hit->patch != HIT_NONE) hit->t = ldexp(hit->t, -exponent[l]);
+      if (ready.scaled && ready.exponent[l] != 0 && hit->patch != HIT_NONE) hit->t = ldexp(hit->t, -ready.exponent[l]);
       if (hit->certainty == CERTAINTY_CERTAIN) tracer->counts.certain++;
       else tracer->counts.grazing++;
     }
@@ -371,11 +402,10 @@ static void kernel_occluded(struct tracer *tracer, size_t count, const struct ra
 {
   for (size_t first = 0; first < count; first += LANES) {
     const size_t n = count - first < LANES ? count - first : LANES;
-    struct ray scaled[LANES];
-    int exponent;
-    for (size_t l = 0; l < n; l++) scaled[l] = ray_scaled(&rays[first + l], &exponent);
+    struct ready ready;
     struct packet packet;
-    packet_start(&packet, tracer, scaled, n, true);
+    rays_ready(n, rays + first, &ready);
+    packet_start(&packet, tracer, ready.rays, n, true);
     packet_walk(&packet);
     for (size_t l = 0; l < n; l++) out_occluded[first + l] = packet.best[l].leaf != NULL;
     tracer->counts.rays[1] += n;
