@@ -55,18 +55,23 @@ LANES_INLINE void last_step_evaluate(const struct model_patch *patch, lanes u, l
   lanes du[4], dv[4];
   last_step_weights(u, wu, du);
   last_step_weights(v, wv, dv);
-  for (int c = 0; c < 3; c++) out->s[c].hi = out->s[c].lo = out->du[c] = out->dv[c] = lanes_all(0);
-  for (int n = 0; n < 16; n++) {
-    const struct double_lanes w = double_lanes_multiply(wu[n / 4], wv[n % 4]);
-    const lanes wdu = du[n / 4] * wv[n % 4].hi, wdv = wu[n / 4].hi * dv[n % 4];
-    for (int c = 0; c < 3; c++) {
-      const lanes x = lanes_all(patch->x[c][n / 4][n % 4]);
-      const struct double_lanes product = double_lanes_product(w.hi, x), sum = double_lanes_sum(out->s[c].hi, product.hi);
-      out->s[c].hi = sum.hi;
-      out->s[c].lo += sum.lo + lanes_multiply_add(w.lo, x, product.lo);
-      out->du[c] = lanes_multiply_add(wdu, x, out->du[c]), out->dv[c] = lanes_multiply_add(wdv, x, out->dv[c]);
+  lanes hi[3] = {{0}}, lo[3] = {{0}}, by_u[3] = {{0}}, by_v[3] = {{0}};
+  for (int i = 0; i < 4; i++) {
+#pragma GCC unroll 4
+    for (int j = 0; j < 4; j++) {
+      const struct double_lanes w = double_lanes_multiply(wu[i], wv[j]);
+      const lanes wdu = du[i] * wv[j].hi, wdv = wu[i].hi * dv[j];
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; c++) {
+        const lanes x = lanes_all(patch->x[c][i][j]);
+        const struct double_lanes product = double_lanes_product(w.hi, x), sum = double_lanes_sum(hi[c], product.hi);
+        hi[c] = sum.hi;
+        lo[c] += sum.lo + lanes_multiply_add(w.lo, x, product.lo);
+        by_u[c] = lanes_multiply_add(wdu, x, by_u[c]), by_v[c] = lanes_multiply_add(wdv, x, by_v[c]);
+      }
     }
   }
+  for (int c = 0; c < 3; c++) out->s[c] = (struct double_lanes){hi[c], lo[c]}, out->du[c] = by_u[c], out->dv[c] = by_v[c];
 }
 
 LANES_INLINE lanes last_step_clamp(lanes t) { return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1)); }
