@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
 
-TEST_PACKAGES=(libcmocka-dev libflint-arb-dev locales openimageio-tools povray povray-examples povray-includes)
+TEST_PACKAGES=(chromium libcmocka-dev libflint-arb-dev locales openimageio-tools povray povray-examples povray-includes)
 ASAN_EFFORT=0.0002 # sanitized code looks for faults of memory and arithmetic, which show on few rays
 JOBS=$(nproc)
 
