@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "base/real.h"
+
 enum { BIN_COUNT = 16 };
 
 struct range {
@@ -24,8 +26,8 @@ static const struct bvh_box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFIN
 static void box_add(struct bvh_box *a, const struct bvh_box *b)
 {
   for (int k = 0; k < 3; k++) {
-    a->lo[k] = fmin(a->lo[k], b->lo[k]);
-    a->hi[k] = fmax(a->hi[k], b->hi[k]);
+    a->lo[k] = real_min(a->lo[k], b->lo[k]);
+    a->hi[k] = real_max(a->hi[k], b->hi[k]);
   }
 }
 
@@ -103,7 +105,7 @@ static uint32_t split(const struct builder *b, const struct range *r)
   for (uint32_t k = 0; k < r->count; k++) {
     for (int a = 0; a < 3; a++) {
       const double c = box_center(&b->boxes[b->order[r->first + k]], a);
-      lo[a] = fmin(lo[a], c), hi[a] = fmax(hi[a], c);
+      lo[a] = real_min(lo[a], c), hi[a] = real_max(hi[a], c);
     }
   }
   int axis = -1, plane = 0;

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/real.h"
 #include "geometry/vector.h"
 
 /* (1-t) a + t b; exact at t = 0 and t = 1, and where a = b. */
@@ -71,7 +72,7 @@ void patch_second_derivative_bounds(double x[3][4][4], double out[3])
         if (i < 3 && j < 3) b[k] = 9 * (x[k][i + 1][j + 1] - x[k][i + 1][j] - x[k][i][j + 1] + x[k][i][j]);
         if (j < 2) c[k] = 6 * (x[k][i][j + 2] - 2 * x[k][i][j + 1] + x[k][i][j]);
       }
-      uu = fmax(uu, vector_length(a)), uv = fmax(uv, vector_length(b)), vv = fmax(vv, vector_length(c));
+      uu = real_max(uu, vector_length(a)), uv = real_max(uv, vector_length(b)), vv = real_max(vv, vector_length(c));
     }
   }
   out[0] = uu, out[1] = uv, out[2] = vv;
@@ -97,8 +98,8 @@ static double cubic_excess(const double c[4], int degree)
 {
   double r[4];
   cubic_reduce(c, degree, r);
-  if (degree == 2) return fmax(fabs(c[1] - (r[0] + 2 * r[1]) / 3), fabs(c[2] - (2 * r[1] + r[2]) / 3));
-  return fmax(fabs(c[1] - (2 * r[0] + r[1]) / 3), fabs(c[2] - (r[0] + 2 * r[1]) / 3));
+  if (degree == 2) return real_max(fabs(c[1] - (r[0] + 2 * r[1]) / 3), fabs(c[2] - (2 * r[1] + r[2]) / 3));
+  return real_max(fabs(c[1] - (2 * r[0] + r[1]) / 3), fabs(c[2] - (r[0] + 2 * r[1]) / 3));
 }
 
 void patch_bidegree(double x[3][4][4], double slack, int *out_m, int *out_n)
@@ -108,8 +109,8 @@ void patch_bidegree(double x[3][4][4], double slack, int *out_m, int *out_n)
     for (int i = 0; i < 4; i++) {
       const double column[4] = {x[k][0][i], x[k][1][i], x[k][2][i], x[k][3][i]};
       for (int degree = 1; degree <= 2; degree++) {
-        excess_u[degree] = fmax(excess_u[degree], cubic_excess(column, degree));
-        excess_v[degree] = fmax(excess_v[degree], cubic_excess(x[k][i], degree));
+        excess_u[degree] = real_max(excess_u[degree], cubic_excess(column, degree));
+        excess_v[degree] = real_max(excess_v[degree], cubic_excess(x[k][i], degree));
       }
     }
   }
@@ -178,7 +179,7 @@ bool patch_normal(double x[3][4][4], double u, double v, double out[3])
   static const double noise = 0x1p-44;
   double extent = 0;
   for (int k = 0; k < 3; k++)
-    for (int i = 0; i < 16; i++) extent = fmax(extent, fabs(x[k][i / 4][i % 4] - x[k][0][0]));
+    for (int i = 0; i < 16; i++) extent = real_max(extent, fabs(x[k][i / 4][i % 4] - x[k][0][0]));
   const double least = noise * extent * extent, zero[3] = {0, 0, 0};
   double su[3], sv[3], suu[3], suv[3], svv[3], nu[3], nv[3];
   derivative(x, u, v, 1, 0, su);

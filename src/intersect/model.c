@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
 
@@ -38,8 +39,8 @@ static void patch_frame(double P[4][4][3], double scene_size, struct model_patch
   for (int k = 0; k < 3; k++) {
     lo[k] = INFINITY, hi[k] = -INFINITY;
     for (int i = 0; i < 4; i++)
-      for (int j = 0; j < 4; j++) lo[k] = fmin(lo[k], P[i][j][k]), hi[k] = fmax(hi[k], P[i][j][k]);
-    extent = fmax(extent, hi[k] / 2 - lo[k] / 2);
+      for (int j = 0; j < 4; j++) lo[k] = real_min(lo[k], P[i][j][k]), hi[k] = real_max(hi[k], P[i][j][k]);
+    extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
   }
   int exponent = 0; /* all of the scene is the origin: any scale will do */
   if (extent > 0) frexp(extent, &exponent); /* extent < 2^exponent */
@@ -57,7 +58,7 @@ static double largest_coordinate(double P[4][4][3])
   double size = 0;
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 4; j++)
-      for (int k = 0; k < 3; k++) size = fmax(size, fabs(P[i][j][k]));
+      for (int k = 0; k < 3; k++) size = real_max(size, fabs(P[i][j][k]));
   return size;
 }
 
@@ -73,7 +74,7 @@ static int auto_split(struct model_patch *patch, int most)
         dv[k] = 3 * (patch->x[k][i][j + 1] - patch->x[k][i][j]);
         du[k] = 3 * (patch->x[k][j + 1][i] - patch->x[k][j][i]);
       }
-      first = fmax(first, fmax(vector_length(du), vector_length(dv)));
+      first = real_max(first, real_max(vector_length(du), vector_length(dv)));
     }
   }
   const double turn = (second[0] + 2 * second[1] + second[2]) / 2;
@@ -89,7 +90,7 @@ static void first_derivative_bounds(double x[3][4][4], double out[2])
     for (int j = 0; j < 3; j++) {
       double du[3], dv[3];
       for (int k = 0; k < 3; k++) dv[k] = 3 * (x[k][i][j + 1] - x[k][i][j]), du[k] = 3 * (x[k][j + 1][i] - x[k][j][i]);
-      out[0] = fmax(out[0], vector_length(du)), out[1] = fmax(out[1], vector_length(dv));
+      out[0] = real_max(out[0], vector_length(du)), out[1] = real_max(out[1], vector_length(dv));
     }
   }
 }
@@ -135,8 +136,8 @@ static double reduction_excess(double r[4][4], int m, int n, double x[4][4])
       for (int i = d + 1; i >= 0; i--)
         up[i][j] = ((i > 0 ? i * up[i - 1][j] : 0) + (i <= d ? (d + 1 - i) * up[i][j] : 0)) / (d + 1);
   for (int k = 0; k < 16; k++) {
-    excess = fmax(excess, fabs(up[k / 4][k % 4] - x[k / 4][k % 4]));
-    size = fmax(size, fabs(r[k / 4][k % 4]));
+    excess = real_max(excess, fabs(up[k / 4][k % 4] - x[k / 4][k % 4]));
+    size = real_max(size, fabs(r[k / 4][k % 4]));
   }
   return m == 3 && n == 3 ? 0 : excess + 16 * UNIT_ROUNDOFF * size;
 }
@@ -157,11 +158,11 @@ static enum status leaf_set_form(struct arena *arena, const struct model_patch *
   for (int k = 0; k < 3; k++) {
     double r[4][4];
     patch_reduce(x[k], patch->m, patch->n, r);
-    form->excess = fmax(form->excess, reduction_excess(r, patch->m, patch->n, x[k]));
+    form->excess = real_max(form->excess, reduction_excess(r, patch->m, patch->n, x[k]));
     for (int i = 0; i < 4; i++) {
       for (int j = 0; j < 4; j++) {
         form->x[k][4 * i + j] = leaf->v_kept ? r[j][i] : r[i][j];
-        form->size = fmax(form->size, fabs(r[i][j]));
+        form->size = real_max(form->size, fabs(r[i][j]));
       }
     }
   }
@@ -176,7 +177,7 @@ static enum status leaf_set_form(struct arena *arena, const struct model_patch *
 static bool nearly_bilinear(const struct leaf *leaf)
 {
   const double turn = (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]) / 2;
-  return turn <= BILINEAR_TURN * fmin(leaf->first[0], leaf->first[1]);
+  return turn <= BILINEAR_TURN * real_min(leaf->first[0], leaf->first[1]);
 }
 
 static enum status leaf_prepare(struct model *model, struct model_patch *patch, int column_u, int column_v, struct leaf *leaf,
@@ -191,7 +192,7 @@ static enum status leaf_prepare(struct model *model, struct model_patch *patch, 
     patch_subnet(patch->x[k], u0 - margin, u1 + margin, v0 - margin, v1 + margin, wide[k]);
     memcpy(leaf->x[k], x[k], sizeof leaf->x[k]);
     double lo = INFINITY, hi = -INFINITY;
-    for (int i = 0; i < 16; i++) lo = fmin(lo, leaf->x[k][i]), hi = fmax(hi, leaf->x[k][i]);
+    for (int i = 0; i < 16; i++) lo = real_min(lo, leaf->x[k][i]), hi = real_max(hi, leaf->x[k][i]);
     const double shift = patch->center[k] - model->origin[k];
     const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale);
     box->lo[k] = shift + patch->scale * lo - slack;
@@ -219,22 +220,22 @@ static void prepare_patches(struct model *model)
   const struct scene *scene = model->scene;
   double lo[3] = {0}, hi[3] = {0}, size = 0;
   for (size_t p = 0; p < scene->patch_count; p++) {
-    size = fmax(size, largest_coordinate(scene->patches[p].P));
+    size = real_max(size, largest_coordinate(scene->patches[p].P));
     for (int k = 0; k < 3; k++) {
       for (int i = 0; i < 16; i++) {
         const double c = scene->patches[p].P[i / 4][i % 4][k];
-        lo[k] = p == 0 && i == 0 ? c : fmin(lo[k], c), hi[k] = p == 0 && i == 0 ? c : fmax(hi[k], c);
+        lo[k] = p == 0 && i == 0 ? c : real_min(lo[k], c), hi[k] = p == 0 && i == 0 ? c : real_max(hi[k], c);
       }
     }
   }
-  for (int k = 0; k < 3; k++) model->origin[k] = lo[k] / 2 + hi[k] / 2, model->radius = fmax(model->radius, hi[k] / 2 - lo[k] / 2);
+  for (int k = 0; k < 3; k++) model->origin[k] = lo[k] / 2 + hi[k] / 2, model->radius = real_max(model->radius, hi[k] / 2 - lo[k] / 2);
   int most = AUTO_SPLIT_MAX;
   while (most > 1 && scene->patch_count * (size_t)(most * most) > AUTO_LEAVES_MAX) most /= 2;
   for (size_t p = 0; p < scene->patch_count; p++) {
     struct scene_patch *source = &scene->patches[p];
     struct model_patch *patch = &model->patches[p];
     patch_frame(source->P, size, patch);
-    patch_bidegree(patch->x, DEGREE_SLACK * fmax(1, largest_coordinate(source->P) / patch->scale), &patch->m, &patch->n);
+    patch_bidegree(patch->x, DEGREE_SLACK * real_max(1, largest_coordinate(source->P) / patch->scale), &patch->m, &patch->n);
     patch->solver = &scene->solvers[source->solver];
     patch->lanes = fast_method(patch->solver);
     model->unproven |= !patch->solver->polish;
