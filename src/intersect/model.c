@@ -16,7 +16,7 @@
 /* Leaves of `split auto`: cut until a leaf's derivatives turn by no more than about this fraction of their size, for then one
  * Newton process holds on the whole leaf for all but grazing rays. A choice of speed, not of correctness. */
 #define AUTO_TURN 0.25
-enum { AUTO_SPLIT_MAX = 8 };
+enum { AUTO_SPLIT_MAX = 16 };
 
 /* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory and time to
  * make. The limit on the split is halved until they fit. */
