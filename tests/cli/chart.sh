@@ -5,7 +5,7 @@ try pscn chart "$scene" $small --no-peers --quiet -o out
 ls out | sed 's/chart.svg//' | grep . # gnuplot need not be there
 head -1 out/chart.csv
 # Each line has as many fields as the first, each family is there, and the default, with polish, is right everywhere.
-awk -F, 'NR == 1 { n = NF; for (k = 1; k <= NF; k++) at[$k] = k; next }
+LC_ALL=C awk -F, 'NR == 1 { n = NF; for (k = 1; k <= NF; k++) at[$k] = k; next }
   NF != n { print "fields:", NF, $0 }
   { count[$1]++ }
   $at["polish"] == "on" && ($at["lost"] + $at["invented"] + $at["wrong"] > 0 || $at["t_max"] > 1e-12) { print "not exact:", $0 }
