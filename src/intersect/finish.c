@@ -152,7 +152,7 @@ void finish_hits(const struct model *model, size_t count, const struct ray rays[
   unsigned left = 0; /* lanes with a hit that is not finished */
   for (size_t l = 0; l < count; l++) {
     out[l].patch = best[l].leaf ? best[l].leaf->patch : HIT_NONE;
-    out[l].certainty = model->unproven ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
+    out[l].certainty = model->unproven || best[l].doubt ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
     if (best[l].leaf) left |= 1u << l;
   }
   while (left) {

@@ -132,19 +132,21 @@ static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const 
 {
   const int axis = at->axis;
   const double t = ((w + p->local[axis].start[1][lane]) + p->local[axis].start[0][lane]) * p->local[axis].to_t[lane];
-  struct leaf_hit root = {r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, t, 0, true};
+  struct leaf_hit root = {r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, t, 0, true, false};
   root.t_error = leaf_hit_t_error(at->leaf, &root, p->local[axis].to_t[lane]);
   return root;
 }
 
 /* Makes a root the answer so far where it is nearer than the best, or as near to the last bit and of a lower leaf. That orders all
  * roots, so the answer is the same in whatever order the leaves come, which depends on the other rays of the packet. */
-static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, const struct leaf_hit *root)
+static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, struct leaf_hit *root)
 {
   struct best *best = &p->best[lane];
-  if (!(root->t > p->rays[lane].t_min + root->t_error) || !(root->t < p->rays[lane].t_max)) return;
+  const enum leaf_hit_side side = leaf_hit_side(p->tracer->model, t->leaf, &p->rays[lane], root);
+  best->doubt |= side == SIDE_UNKNOWN;
+  if (side != SIDE_BEHIND || !(root->t < p->rays[lane].t_max)) return;
   if (best->leaf && (root->t > best->root.t || (root->t == best->root.t && t->leaf >= best->leaf))) return;
-  *best = (struct best){t->leaf, *root};
+  best->leaf = t->leaf, best->root = *root;
   p->t_far[lane] = root->t + root->t_error;
   if (p->any) p->live[lane] = 0;
   p->tracer->counts.roots_accepted++;
@@ -156,7 +158,7 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
   const lanes w = trial_place(t, r->u, r->v);
   for (unsigned bits = lanes_bits(hits); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    const struct leaf_hit root = packet_root(p, lane, t, r, lane, w[lane]);
+    struct leaf_hit root = packet_root(p, lane, t, r, lane, w[lane]);
     packet_offer(p, lane, t, &root);
   }
 }
@@ -237,9 +239,9 @@ static void lane_subdivide(struct packet *p, const struct trial *t, unsigned lan
   struct leaf_hit root;
   lane_local_ray(p, t, lane, &ray);
   /* Up to the ray's own end, not the nearest hit so far: what the search can not decide must not depend on the order of leaves. */
-  const struct subdivide_task task = {t->leaf, t->patch, p->tracer->model->scene->patches[t->leaf->patch].P,
+  const struct subdivide_task task = {p->tracer->model, t->leaf, t->patch, p->tracer->model->scene->patches[t->leaf->patch].P,
                                       &p->rays[lane], &ray, p->rays[lane].t_min, p->rays[lane].t_max};
-  if (subdivide_closest(&task, &root)) packet_offer(p, lane, t, &root);
+  if (subdivide_closest(&task, &root, &p->best[lane].doubt)) packet_offer(p, lane, t, &root);
 }
 
 static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)

@@ -8,6 +8,7 @@
 #include "intersect/tracer.h"
 
 struct subdivide_task {
+  const struct model *model;
   const struct leaf *leaf;
   const struct model_patch *patch;  /* the leaf's */
   double (*P)[4][3];                /* its control points in the scene */
@@ -17,7 +18,8 @@ struct subdivide_task {
 };
 
 /* Finds the nearest root with t in (t_min, t_max), or where rounding leaves no answer a point with certain = false. Roots that lie
- * outside the leaf by no more than rounding count. Returns whether there is one; only then is *out written. */
-bool subdivide_closest(const struct subdivide_task *task, struct leaf_hit *out);
+ * outside the leaf by no more than rounding count. Returns whether there is one; only then is *out written. Sets *doubt where some root could not be
+ * told from t_min, and was left out. */
+bool subdivide_closest(const struct subdivide_task *task, struct leaf_hit *out, bool *doubt);
 
 #endif

@@ -1,0 +1,171 @@
+/* A box of a patch under the glass. See zoom.h. */
+#include "intersect/zoom.h"
+
+#include <math.h>
+
+#include "intersect/tracer.h"
+
+/* A value of a or b passes at most this many roundings on the way from the control points to a combination's coefficient over a
+ * box: local net 2, moment and plane 6, to powers 2 x 5, to the box 2 x 9, combination 3; each on terms that sum up to no more
+ * than POWER_GROWTH times the largest value a control point gives, for sum |power| <= 5 of a cubic with |b| <= 1, and inside
+ * the square the box's terms sum up to no more. */
+#define ZOOM_ROUNDINGS 40
+#define POWER_GROWTH 25
+
+/* Roundings, in double, of what is left of a combination scaled to a sum of 1: conversion 1, to Bernstein form 2 x 4. */
+#define ZOOMED_ROUNDINGS 10
+
+static wide wide_abs(wide a) { return a < 0 ? -a : a; }
+static wide wide_max(wide a, wide b) { return a > b ? a : b; }
+
+/* Bernstein coefficients with the stride to powers of s = 2t - 1. */
+static void to_powers(wide *b, int stride)
+{
+  const wide b0 = b[0], b1 = b[stride], b2 = b[2 * stride], b3 = b[3 * stride], eighth = (wide)0.125;
+  b[0] = eighth * ((b0 + b3) + 3 * (b1 + b2));
+  b[stride] = 3 * eighth * ((b3 - b0) + (b2 - b1));
+  b[2 * stride] = 3 * eighth * ((b0 + b3) - (b1 + b2));
+  b[3 * stride] = eighth * ((b3 - b0) - 3 * (b2 - b1));
+}
+
+void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out)
+{
+  const double *d = ray->direction, *o = ray->origin;
+  wide q[3], size = 0;
+  for (int c = 0; c < 3; c++) q[c] = ((wide)o[c] - patch->center[c]) / patch->scale;
+  for (int s = 0; s < 3; s++) {
+    const int i = (k + 1 + s) % 3;
+    const wide slope = (wide)d[i] / d[k], moment = q[i] - slope * q[k];
+    for (int n = 0; n < 16; n++) {
+      const double *p = P[n / 4][n % 4];
+      const wide x = ((wide)p[i] - patch->center[i]) / patch->scale, y = ((wide)p[k] - patch->center[k]) / patch->scale;
+      out->power[s][n / 4][n % 4] = s == 2 ? y : x - slope * y - moment;
+    }
+    for (int n = 0; n < 4; n++) to_powers(out->power[s][n], 1);
+    for (int n = 0; n < 4; n++) to_powers(&out->power[s][0][n], 4);
+    if (s < 2) size = wide_max(size, 2 + wide_abs(q[i]) + wide_abs(q[k]));
+  }
+  out->place = q[k];
+  out->error = WIDE_ROUNDOFF * ZOOM_ROUNDINGS * POWER_GROWTH * size;
+}
+
+/* The polynomial of s with powers c, as powers of r for s = middle + half r. */
+static void move(wide *c, int stride, wide middle, wide half)
+{
+  for (int n = 0; n < 3; n++)
+    for (int k = 2; k >= n; k--) c[k * stride] += middle * c[(k + 1) * stride];
+  wide power = half;
+  for (int k = 1; k < 4; k++) c[k * stride] *= power, power *= half;
+}
+
+/* Powers of r in [-1,1] to Bernstein coefficients there. */
+static void to_bernstein(double *c, int stride)
+{
+  const double c0 = c[0], c1 = c[stride], c2 = c[2 * stride], c3 = c[3 * stride], third = 1.0 / 3;
+  c[0] = (c0 + c2) - (c1 + c3), c[3 * stride] = (c0 + c2) + (c1 + c3);
+  c[stride] = (c0 - third * c2) - (third * c1 - c3), c[2 * stride] = (c0 - third * c2) + (third * c1 - c3);
+}
+
+static void net_of(wide power[4][4], wide factor, double out[4][4])
+{
+  for (int n = 0; n < 16; n++) out[n / 4][n % 4] = (double)(power[n / 4][n % 4] * factor);
+  for (int n = 0; n < 4; n++) to_bernstein(out[n], 1);
+  for (int n = 0; n < 4; n++) to_bernstein(&out[0][n], 4);
+}
+
+/* The combination p a + q b as powers; returns the sum of their sizes. */
+static wide combine(wide a[4][4], wide b[4][4], double p, double q, wide out[4][4])
+{
+  wide sum = 0;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) out[i][j] = p * a[i][j] + q * b[i][j], sum += wide_abs(out[i][j]);
+  return sum;
+}
+
+bool zoom_box(const struct zoom *zoom, const struct leaf *leaf, int split, const double low[2], const double size[2],
+              struct zoomed *out)
+{
+  const int column[2] = {leaf->column_u, leaf->column_v};
+  wide middle[2], half[2], c[3][4][4];
+  for (int s = 0; s < 2; s++) {
+    half[s] = (wide)size[s] / split;
+    middle[s] = 2 * (((wide)column[s] + low[s]) / split) + half[s] - 1;
+  }
+  for (int s = 0; s < 3; s++) {
+    for (int n = 0; n < 16; n++) c[s][n / 4][n % 4] = zoom->power[s][n / 4][n % 4];
+    for (int n = 0; n < 4; n++) move(&c[s][0][n], 4, middle[0], half[0]);
+    for (int n = 0; n < 4; n++) move(c[s][n], 1, middle[1], half[1]);
+  }
+  /* The combination whose first derivatives vanish, as nearly as they can, in the middle: the row of the adjugate Jacobian that
+   * is the larger; and the one across it. Rounded rows are as good: both combinations are formed with what they are. */
+  const double au = (double)c[0][1][0], av = (double)c[0][0][1], bu = (double)c[1][1][0], bv = (double)c[1][0][1];
+  const bool by_v = fabs(bv) + fabs(av) > fabs(bu) + fabs(au);
+  double p = by_v ? bv : bu, q = by_v ? -av : -au;
+  const double largest = fmax(fabs(p), fabs(q));
+  if (!(largest > 0)) return false;
+  p /= largest, q /= largest;
+  const double rows[2][2] = {{p, q}, {-q, p}};
+  out->error = 0;
+  for (int s = 0; s < 2; s++) {
+    wide combination[4][4];
+    const wide sum = combine(c[0], c[1], rows[s][0], rows[s][1], combination), error = 2 * zoom->error;
+    if (!(sum > error)) return false;
+    net_of(combination, 1 / sum, out->net[s]);
+    out->error = fmax(out->error, (double)(error / sum));
+  }
+  out->error += ZOOMED_ROUNDINGS * 0x1p-53;
+  const wide place = c[2][0][0], start = place - zoom->place;
+  c[2][0][0] = 0;
+  net_of(c[2], 1, out->net[2]);
+  out->place = (double)place;
+  out->start[0] = (double)start, out->start[1] = (double)(start - out->start[0]);
+  return true;
+}
+
+/* Value and derivatives of a polynomial of (x, y) by its powers. */
+static void evaluate(wide c[4][4], wide x, wide y, wide *value, wide *dx, wide *dy)
+{
+  *value = *dx = *dy = 0;
+  for (int i = 3; i >= 0; i--) {
+    wide row = 0, row_dy = 0;
+    for (int j = 3; j >= 0; j--) row_dy = row_dy * y + row, row = row * y + c[i][j];
+    *dx = *dx * x + *value, *value = *value * x + row, *dy = *dy * x + row_dy;
+  }
+}
+
+/* The first step starts within the root's radius, some 1e-13, so the second one ends at the rounding of wide arithmetic. */
+enum { SHARPEN_STEPS = 2 };
+
+void leaf_hit_sharpen(const struct model *model, const struct leaf *leaf, const struct ray *ray, struct leaf_hit *root)
+{
+  const struct model_patch *patch = &model->patches[leaf->patch];
+  const double *d = ray->direction;
+  const int k = fabs(d[0]) >= fabs(d[1]) && fabs(d[0]) >= fabs(d[2]) ? 0 : fabs(d[1]) >= fabs(d[2]) ? 1 : 2;
+  struct zoom zoom;
+  zoom_start(patch, model->scene->patches[leaf->patch].P, ray, k, &zoom);
+  root->sharp = true;
+  wide x = 2 * ((wide)leaf->column_u + root->u) / patch->split - 1, y = 2 * ((wide)leaf->column_v + root->v) / patch->split - 1;
+  double size = INFINITY, norm = 0;
+  for (int n = 0; n < SHARPEN_STEPS; n++) {
+    wide a, ax, ay, b, bx, by;
+    evaluate(zoom.power[0], x, y, &a, &ax, &ay);
+    evaluate(zoom.power[1], x, y, &b, &bx, &by);
+    const wide determinant = ax * by - ay * bx;
+    if (determinant == 0) return;
+    const wide step_x = (by * a - ay * b) / determinant, step_y = (ax * b - bx * a) / determinant;
+    x -= step_x, y -= step_y;
+    size = (double)wide_max(wide_abs(step_x), wide_abs(step_y));
+    norm = (double)(wide_max(wide_abs(by) + wide_abs(ay), wide_abs(ax) + wide_abs(bx)) / wide_abs(determinant));
+  }
+  /* As in refine.h: the root is within 2 K |step|^2 + 2 |M| error where K (|step| + |M| error) <= 1/8. Second derivatives by x and y,
+   * half a patch, of a plane polynomial whose slopes are at most 1, are twice the surface's there. */
+  const double half = patch->split / 2.0, error = (double)zoom.error;
+  const double bend = 2 * norm * half * half * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
+  if (!(bend * (size + norm * error) <= 0.125)) return;
+  const double off = 2 * bend * size * size + 2 * norm * error;
+  wide place, unused[2];
+  evaluate(zoom.power[2], x, y, &place, &unused[0], &unused[1]);
+  const double to_t = patch->scale / d[k];
+  root->t = (double)((place - zoom.place) * patch->scale / d[k]);
+  root->t_error = fabs(to_t) * (half * (leaf->first[0] + leaf->first[1]) * off + error) + 4 * 0x1p-53 * fabs(root->t);
+}
