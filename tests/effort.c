@@ -37,3 +37,9 @@ size_t effort_count(size_t full, size_t least)
   if (count < least) count = least;
   return count < full ? count : full;
 }
+
+uint64_t effort_seed(uint64_t seed)
+{
+  const char *text = getenv("PSCN_SEED");
+  return text ? seed + 1000000 * (uint64_t)parse_decimal(text) : seed;
+}

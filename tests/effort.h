@@ -7,10 +7,14 @@
 #define TESTS_EFFORT_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* PSCN_EFFORT as a number in (0,1]; EFFORT_DEFAULT where it is unset or no such number. */
 #define EFFORT_DEFAULT 0.002
 double effort_fraction(void);
+
+/* The seed a heavy test starts from: `seed` itself, or another one for every whole number in PSCN_SEED, so that runs add up. */
+uint64_t effort_seed(uint64_t seed);
 
 /* `full` times the fraction, at least `least` and at most `full`. */
 size_t effort_count(size_t full, size_t least);

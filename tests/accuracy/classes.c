@@ -21,7 +21,8 @@ static void test_class(void **state)
   const struct situation_class *class = *state;
   size_t wanted = effort_count((size_t)(class->share * FULL_RAYS), LEAST_RAYS);
   struct tally tally = {.name = class->name};
-  struct random random = {.state = class->seed};
+  const uint64_t seed = effort_seed(class->seed);
+  struct random random = {.state = seed};
   for (size_t index = 0; tally.rays < wanted; index++) {
     struct situation situation;
     class->generate(&random, index, &situation);
@@ -30,7 +31,7 @@ static void test_class(void **state)
     trial_rays(&trial, situation.rays, SITUATION_RAYS, &tally);
     trial_destroy(&trial);
   }
-  printf("seed %llu\n", (unsigned long long)class->seed);
+  printf("seed %llu\n", (unsigned long long)seed);
   tally_print(&tally);
   tally_assert(&tally);
   tally_free(&tally);

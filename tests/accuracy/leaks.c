@@ -137,7 +137,7 @@ static size_t count_leaks(struct trial *trial, const char *name, const char *sol
 static size_t leaks_of(const struct solver_options *options, size_t rays_wanted, uint64_t seed)
 {
   static const double scales[PLACEMENTS] = {1, 1, 1e6, 1e-6, 1}, shifts[PLACEMENTS] = {0, 1, 1e6, 1e-6, 1e6};
-  struct random random = {.state = seed};
+  struct random random = {.state = seed = effort_seed(seed)};
   double share = (double)rays_wanted / (MODELS * (PLACEMENTS - 1 + EXACT_SHARE) * AIMS);
   size_t leaks = 0, rays = 0;
   for (int which = 0; which < MODELS; which++) {
@@ -212,7 +212,7 @@ static void test_leave(void **state)
   const double least_cosine = 0.1, least_chord = 0.1;
   size_t wanted = effort_count(FULL_RAYS / 10, 800), acne = 0, skipped = 0, outwards = 0;
   static const double scales[] = {1, 1e6, 1e-6, 1}, shifts[] = {0, 1e6, 1e-6, 1e4};
-  struct random random = {.state = 403};
+  struct random random = {.state = effort_seed(403)};
   for (int place = 0; place < 4; place++) {
     struct model model, placed;
     struct placement placement;

@@ -40,7 +40,7 @@ static void run(const char *name, uint64_t seed, double wild, bool fold)
 {
   size_t wanted = effort_count(FULL_RAYS, 2000);
   struct tally tally = {.name = name};
-  struct random random = {.state = seed};
+  struct random random = {.state = seed = effort_seed(seed)};
   for (size_t scene = 0; tally.rays < wanted; scene++) {
     double P[MOST_PATCHES][4][4][3];
     size_t count = scene % 2 ? MOST_PATCHES : 1;

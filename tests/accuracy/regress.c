@@ -1,0 +1,145 @@
+/* Rays that were once answered wrongly, and their like by hand. */
+#include <math.h>
+#include <string.h>
+
+#include "accuracy/models.h"
+#include "accuracy/trial.h"
+#include "cmocka_test.h"
+
+typedef double net[4][4][3];
+
+/* The residuals of the last step are sums in twice the precision, on sizes of some units. */
+#define TWICE_PRECISION (64 * DOUBLE_UNIT * DOUBLE_UNIT)
+
+static struct hit closest(const struct trial *trial, const double origin[3], const double direction[3])
+{
+  struct ray ray = {.t_min = 0, .t_max = INFINITY};
+  memcpy(ray.origin, origin, sizeof ray.origin);
+  memcpy(ray.direction, direction, sizeof ray.direction);
+  struct hit hit;
+  tracer_closest(trial->tracer, 1, &ray, &hit);
+  return hit;
+}
+
+/* z = (2u-1)^2 + (2v-1)^2, times 3 so that the control points are whole. */
+static void bowl(net P)
+{
+  static const double square[4] = {3, -1, -1, 3};
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double p[3] = {2 * i - 3, 2 * j - 3, square[i] + square[j]};
+      memcpy(P[i][j], p, sizeof p);
+    }
+  }
+}
+
+/* A ray that starts next to the surface, flat: whether it meets it is told by less than the error of the leaf's polynomials. */
+static void test_start(void **state)
+{
+  (void)state;
+  net P;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double p[3] = {i - 1.5, j - 1.5, 0};
+      memcpy(P[i][j], p, sizeof p);
+    }
+  }
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3])&P, 1, NULL);
+  const double direction[3] = {1, 0.25, 0x1p-7};
+  for (int k = 40; k < 70; k++) {
+    const double below[3] = {0.25, 0.125, -ldexp(1, -k)}, above[3] = {0.25, 0.125, ldexp(1, -k)};
+    const struct hit hit = closest(&trial, below, direction), miss = closest(&trial, above, direction);
+    assert_int_equal(hit.patch, 0);
+    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+    assert_true(fabs(hit.t - ldexp(1, 7 - k)) <= 4 * DOUBLE_UNIT * ldexp(1, 7 - k) + TWICE_PRECISION);
+    assert_int_equal(miss.patch, HIT_NONE);
+    assert_int_equal(miss.certainty, CERTAINTY_CERTAIN);
+  }
+  const double on[3] = {0.25, 0.125, 0};
+  assert_int_equal(closest(&trial, on, direction).certainty, CERTAINTY_GRAZING);
+  trial_destroy(&trial);
+}
+
+/* Next to the plane in which an edge lies a parameter has more digits than the leaf's polynomials. */
+static void test_small_parameter(void **state)
+{
+  (void)state;
+  struct model model;
+  model_dome(&model);
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3])model.P, model.count, NULL);
+  struct tally tally = {.name = "next to an edge's plane"};
+  const struct ray ray = {{-0x1.4a85fa15db5a8p+1, 0x1.86e95dab6e398p-3, -0x1.d71d17b166ep-9},
+                          {0x1.4a85fa15db5a8p+1, -0x1.86e95dab6e398p-3, 0x1.d71d17b166ep-9}, 0, INFINITY};
+  trial_rays(&trial, &ray, 1, &tally);
+  assert_int_equal(tally.hits, 1);
+  tally_assert(&tally);
+  tally_free(&tally);
+  trial_destroy(&trial);
+}
+
+/* A patch that is a line, met exactly: the answer is the point where the ray passes, not just any of the line. */
+static void test_line(void **state)
+{
+  (void)state;
+  net P;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double p[3] = {i - 1.5 + 0.125 * j, 0.25, 0.25};
+      memcpy(P[i][j], p, sizeof p);
+    }
+  }
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3])&P, 1, NULL);
+  for (int n = -5; n < 6; n++) {
+    const double origin[3] = {n / 4.0 - 0.5, 1.25, 4.25}, direction[3] = {0.5, -1, -4};
+    const struct hit hit = closest(&trial, origin, direction);
+    assert_int_equal(hit.patch, 0);
+    assert_int_equal(hit.certainty, CERTAINTY_GRAZING);
+    assert_true(reference_residual(trial.reference, 0, origin, direction, hit.t, hit.u, hit.v) < 1e-11);
+  }
+  trial_destroy(&trial);
+}
+
+/* Exactly tangent: grazing, there. Off by far less than double precision tells, here 2^-k: proven either way. */
+static void test_tangent(void **state)
+{
+  (void)state;
+  net P;
+  bowl(P);
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3])&P, 1, NULL);
+  for (int n = 0; n < 32; n++) {
+    const double direction[3] = {cos(n), sin(n), 0};
+    double origin[3] = {-8 * direction[0], -8 * direction[1], 0};
+    const struct hit at = closest(&trial, origin, direction);
+    assert_int_equal(at.patch, 0);
+    assert_int_equal(at.certainty, CERTAINTY_GRAZING);
+    assert_true(fabs(at.t - 8) < 1e-6);
+    for (int k = 30; k < 80; k += 7) {
+      origin[2] = -ldexp(1, -k);
+      const struct hit miss = closest(&trial, origin, direction);
+      assert_int_equal(miss.patch, HIT_NONE);
+      assert_int_equal(miss.certainty, CERTAINTY_CERTAIN);
+      origin[2] = ldexp(1, -k);
+      const struct hit hit = closest(&trial, origin, direction);
+      assert_int_equal(hit.patch, 0);
+      assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+      /* 3 (s/3)^2 = 2^-k s from the middle, for x = 3 (2u - 1) */
+      assert_true(fabs(hit.t - (8 - sqrt(3 * origin[2]))) < 1e-13);
+    }
+  }
+  trial_destroy(&trial);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_start),
+      cmocka_unit_test(test_small_parameter),
+      cmocka_unit_test(test_line),
+      cmocka_unit_test(test_tangent),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
