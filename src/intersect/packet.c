@@ -32,7 +32,7 @@ static void packet_start(struct packet *p, struct tracer *tracer, const struct r
 {
   const struct model *model = tracer->model;
   p->tracer = tracer, p->rays = rays, p->count = count, p->any = any, p->patch = UINT32_MAX;
-  for (size_t l = 0; l < LANES; l++) p->live[l] = l < count ? -1 : 0, p->best[l].leaf = NULL;
+  for (size_t l = 0; l < LANES; l++) p->live[l] = l < count ? -1 : 0, p->best[l].leaf = NULL, p->best[l].doubt = false;
   lanes size[3];
   for (int k = 0; k < 3; k++) {
     const lanes o = lanes_gather(&rays[0].origin[k], RAY_STRIDE), d = lanes_gather(&rays[0].direction[k], RAY_STRIDE);
