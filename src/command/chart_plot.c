@@ -102,7 +102,7 @@ static bool write_script(const struct chart *chart, FILE *file)
     for (int right = 0; right < 2; right++)
       any[f][right] = write_family(chart, (enum family)f, right != 0, file);
   }
-  fputs("plot $front using 1:2 with fsteps lw 2 lc rgb '#c02020' dt 2 title 'Pareto front'", file);
+  fputs("plot $front using 1:2 with steps lw 2 lc rgb '#c02020' dt 2 title 'Pareto front'", file);
   for (int f = 0; f < FAMILIES; f++) {
     for (int right = 1; right >= 0; right--) {
       if (any[f][right])
