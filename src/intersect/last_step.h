@@ -2,11 +2,15 @@
  *
  * Internal to src/intersect; included by finish.c, which is compiled once per instruction set and without contraction.
  * A root comes from a leaf's net, cut from the patch and rounded: where the ray is steep it is right to a few last places, where
- * it grazes rounding is magnified. A Newton step on the patch itself, its residuals a(u,v), b(u,v) as if computed in twice the
- * precision (Ogita, Rump and Oishi, Accurate Sum and Dot Product, 2005: Dot2), makes all of them right to the last places.
+ * it grazes rounding is magnified. A Newton step on the patch itself, its residuals a(u,v), b(u,v) as if computed in half as much
+ * precision again, makes all of them right to the last places. The sums are exact in their leading parts because those have few
+ * bits on a common grid (as in Rump, Ogita and Oishi, Accurate Floating-Point Summation, 2008, and Ozaki and others, Error-free
+ * transformations of matrix multiplication, 2012): one multiply-add a product, where sums that keep track of their error take ten.
  */
 #ifndef PSCN_INTERSECT_LAST_STEP_H
 #define PSCN_INTERSECT_LAST_STEP_H
+
+#include <string.h>
 
 #include "base/double_lanes.h"
 #include "intersect/model.h"
@@ -32,46 +36,87 @@ struct last_step {
   lane_mask plain;           /* out: point and normal are sure */
 };
 
-/* Position in twice the precision and derivatives at (u,v), in the frame of the patch. */
+/* A number of size at most 1 as head + tail, exactly, the head a multiple of 2^-26. So the product of two heads, and a sum of such
+ * products of size at most 2, is a multiple of 2^-52 and exact; what the tails add to it is 2^-26 of it, and so is its rounding. */
+struct last_step_split {
+  lanes head, tail;
+};
+
+LANES_INLINE lanes last_step_head(lanes x)
+{
+  const lanes unit = lanes_all(0x1.8p26);
+  return (x + unit) - unit;
+}
+
+LANES_INLINE struct last_step_split last_step_split(struct double_lanes x)
+{
+  const lanes head = last_step_head(x.hi);
+  return (struct last_step_split){head, (x.hi - head) + x.lo};
+}
+
+/* A patch's control net, split; read with one coefficient on all lanes. */
+struct last_step_net {
+  const double *x;
+  double head[48], tail[48];
+};
+
+LANES_INLINE void last_step_split_net(const struct model_patch *patch, struct last_step_net *out)
+{
+  out->x = &patch->x[0][0][0];
+  for (int n = 0; n < 48; n += LANES) {
+    lanes x;
+    memcpy(&x, out->x + n, sizeof x);
+    const lanes head = last_step_head(x), tail = x - head;
+    memcpy(out->head + n, &head, sizeof head), memcpy(out->tail + n, &tail, sizeof tail);
+  }
+}
+
+/* Position as hi + lo, right to some 2^-76, |lo| up to 2^-24, and derivatives at (u,v), in the frame of the patch. */
 struct last_step_jet {
   struct double_lanes s[3];
   lanes du[3], dv[3];
 };
 
-LANES_INLINE void last_step_weights(lanes t, struct double_lanes w[4], lanes dw[4])
+/* Weights w_i of cubic Bernstein polynomials, and their derivatives. */
+LANES_INLINE void last_step_weights(lanes t, struct last_step_split w[4], lanes dw[4])
 {
   const struct double_lanes s = double_lanes_sum(lanes_all(1), -t), tt = double_lanes_product(t, t);
   const struct double_lanes ss = double_lanes_multiply(s, s), three_t = double_lanes_product(lanes_all(3), t);
-  w[0] = double_lanes_multiply(ss, s), w[1] = double_lanes_multiply(ss, three_t);
-  w[2] = double_lanes_multiply(s, double_lanes_scale(tt, lanes_all(3)));
-  w[3] = double_lanes_scale(tt, t);
+  w[0] = last_step_split(double_lanes_multiply(ss, s)), w[1] = last_step_split(double_lanes_multiply(ss, three_t));
+  w[2] = last_step_split(double_lanes_multiply(s, double_lanes_scale(tt, lanes_all(3))));
+  w[3] = last_step_split(double_lanes_scale(tt, t));
   const lanes st = s.hi * t;
   dw[0] = -3 * ss.hi, dw[1] = 3 * (ss.hi - 2 * st), dw[2] = 3 * (2 * st - tt.hi), dw[3] = 3 * tt.hi;
 }
 
-LANES_INLINE void last_step_evaluate(const struct model_patch *patch, lanes u, lanes v, struct last_step_jet *out)
+LANES_INLINE void last_step_evaluate(const struct last_step_net *net, lanes u, lanes v, struct last_step_jet *out)
 {
-  struct double_lanes wu[4], wv[4];
+  struct last_step_split wu[4], wv[4];
   lanes du[4], dv[4];
   last_step_weights(u, wu, du);
   last_step_weights(v, wv, dv);
-  lanes hi[3] = {{0}}, lo[3] = {{0}}, by_u[3] = {{0}}, by_v[3] = {{0}};
-  for (int i = 0; i < 4; i++) {
+  for (int c = 0; c < 3; c++) {
+    lanes hi = {0}, lo = {0}, by_u = {0}, by_v = {0};
 #pragma GCC unroll 4
-    for (int j = 0; j < 4; j++) {
-      const struct double_lanes w = double_lanes_multiply(wu[i], wv[j]);
-      const lanes wdu = du[i] * wv[j].hi, wdv = wu[i].hi * dv[j];
-#pragma GCC unroll 3
-      for (int c = 0; c < 3; c++) {
-        const lanes x = lanes_all(patch->x[c][i][j]);
-        const struct double_lanes product = double_lanes_product(w.hi, x), sum = double_lanes_sum(hi[c], product.hi);
-        hi[c] = sum.hi;
-        lo[c] += sum.lo + lanes_multiply_add(w.lo, x, product.lo);
-        by_u[c] = lanes_multiply_add(wdu, x, by_u[c]), by_v[c] = lanes_multiply_add(wdv, x, by_v[c]);
+    for (int i = 0; i < 4; i++) {
+      lanes row_hi = {0}, row_lo = {0}, row_dv = {0};
+#pragma GCC unroll 4
+      for (int j = 0; j < 4; j++) {
+        const int n = 16 * c + 4 * i + j;
+        const lanes x = lanes_all(net->x[n]);
+        row_hi = lanes_multiply_add(wv[j].head, lanes_all(net->head[n]), row_hi);
+        row_lo = lanes_multiply_add(wv[j].head, lanes_all(net->tail[n]), lanes_multiply_add(wv[j].tail, x, row_lo));
+        row_dv = lanes_multiply_add(dv[j], x, row_dv);
       }
+      const struct last_step_split row = last_step_split((struct double_lanes){row_hi, row_lo});
+      const lanes sum = row_hi + row_lo;
+      hi = lanes_multiply_add(wu[i].head, row.head, hi);
+      lo = lanes_multiply_add(wu[i].head, row.tail, lanes_multiply_add(wu[i].tail, sum, lo));
+      by_u = lanes_multiply_add(du[i], sum, by_u);
+      by_v = lanes_multiply_add(wu[i].head + wu[i].tail, row_dv, by_v);
     }
+    out->s[c] = (struct double_lanes){hi, lo}, out->du[c] = by_u, out->dv[c] = by_v;
   }
-  for (int c = 0; c < 3; c++) out->s[c] = (struct double_lanes){hi[c], lo[c]}, out->du[c] = by_u[c], out->dv[c] = by_v[c];
 }
 
 LANES_INLINE lanes last_step_clamp(lanes t) { return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1)); }
@@ -106,11 +151,13 @@ LANES_INLINE void last_step(struct last_step *l)
     start[c].hi *= to_local, start[c].lo *= to_local;
   }
   lanes u = l->u, v = l->v, du, dv;
+  struct last_step_net net;
+  last_step_split_net(patch, &net);
   struct last_step_jet jet;
   struct double_lanes way[3]; /* from the ray's origin */
   lane_mask moving = l->improves;
   for (int n = 0;; n++) {
-    last_step_evaluate(patch, u, v, &jet);
+    last_step_evaluate(&net, u, v, &jet);
     for (int c = 0; c < 3; c++) way[c] = double_lanes_subtract(jet.s[c], start[c]);
     lanes f[2], fu[2], fv[2];
     for (int s = 0; s < 2; s++) {

@@ -24,10 +24,12 @@ struct refined {
   lane_mask alone;          /* and no other in the leaf */
 };
 
-/* The process stops after a step no longer than this, in leaf parameters: it converges quadratically, so the next step would
- * be below the square of it times the second derivatives, below the rounding of the values. Not a tolerance of the answer,
- * whose radius is computed. */
-#define NEWTON_LAST_STEP 0x1p-28
+/* The process stops where its next step would be no longer than this, in leaf parameters: it converges quadratically, so after
+ * steps s and s' the next is about s'^3/s^2. Not a tolerance of the answer, whose radius is computed, and whose last places are
+ * last_step.h's. */
+#define NEWTON_NEXT_STEP 0x1p-48
+/* What stands for s at the first step, as if the start were that near: it has to be a hit by itself to be the last. */
+#define NEWTON_START 0x1p-18
 enum { NEWTON_MAX_STEPS = 10 };
 
 LANES_INLINE void refine_weights(lanes t, lanes w[4], lanes dw[4])
@@ -73,8 +75,8 @@ LANES_INLINE lanes refine_row_length(lanes p, lanes q, const lanes slope[2])
 LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v, lane_mask active)
 {
   struct refined r = {u, v, {0}, {0}, {0}, {0}};
-  lanes step = lanes_all(2), mua = {0}, mub = {0}, mva = {0}, mvb = {0};
-  lane_mask moving = active;
+  lanes step = lanes_all(NEWTON_START), mua = {0}, mub = {0}, mva = {0}, mvb = {0};
+  lane_mask moving = active, settled = {0};
   for (int n = 0; n < NEWTON_MAX_STEPS && lanes_any(moving); n++) {
     lanes wu[4], du[4], wv[4], dv[4];
     refine_weights(r.u, wu, du);
@@ -86,16 +88,18 @@ LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct l
     const lanes step_u = mua * a.value + mub * b.value, step_v = mva * a.value + mvb * b.value;
     r.u = lanes_select(moving, r.u - step_u, r.u);
     r.v = lanes_select(moving, r.v - step_v, r.v);
-    step = lanes_select(moving, lanes_max(lanes_abs(step_u), lanes_abs(step_v)), step);
+    const lanes here = lanes_max(lanes_abs(step_u), lanes_abs(step_v)), before = step * step;
+    step = lanes_select(moving, here, step);
+    settled |= moving & (here * here * here <= NEWTON_NEXT_STEP * before);
     /* A root far outside the leaf, or no progress (NaN compares false), is no concern of this process. */
-    moving &= (step > NEWTON_LAST_STEP) & (lanes_abs(r.u - 0.5) < 2) & (lanes_abs(r.v - 0.5) < 2);
+    moving &= ~settled & (lanes_abs(r.u - 0.5) < 2) & (lanes_abs(r.v - 0.5) < 2);
   }
   const lanes size_u = refine_row_length(mua, mub, nets->slope), size_v = refine_row_length(mva, mvb, nets->slope);
   const lanes size = lanes_max(size_u, size_v);
   const lanes lipschitz = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
   const lanes beta = step + size * nets->error;
   const lane_mask near = (lanes_abs(r.u - 0.5) < 0.5 + LEAF_MARGIN) & (lanes_abs(r.v - 0.5) < 0.5 + LEAF_MARGIN);
-  r.exists = active & near & (step <= NEWTON_LAST_STEP) & (lipschitz * beta <= 0.125);
+  r.exists = settled & near & (lipschitz * beta <= 0.125);
   const lanes square = 2 * lipschitz * step * step;
   r.radius_u = square + 2 * size_u * nets->error;
   r.radius_v = square + 2 * size_v * nets->error;
