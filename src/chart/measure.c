@@ -36,19 +36,44 @@ static struct timing summarise(const double *values, const double *yard, size_t 
                           sorted_at(sorted, rounds, 0.75), sorted[rounds - 1], sorted_at(ratio, rounds, 0.5) };
 }
 
+/* A turn lasts at least so long, in seconds: fast runners repeat, and go once unmeasured before, for what ran before them has left
+ * its own data in the caches. */
+#define LEAST_TURN 1e-3
+
+enum { MOST_REPEATS = 1000 };
+
+/* Seconds of one run, out of a turn of `repeats`. */
+static double take_turn(const struct runner *runner, enum ray_kind kind, size_t repeats)
+{
+  if (repeats > 1) runner->run(runner->context, kind);
+  const double start = thread_seconds();
+  for (size_t k = 0; k < repeats; k++) runner->run(runner->context, kind);
+  return (thread_seconds() - start) / (double)repeats;
+}
+
+static size_t repeats_for(double seconds)
+{
+  const double repeats = ceil(LEAST_TURN / fmax(seconds, LEAST_TURN / MOST_REPEATS));
+  return (size_t)repeats;
+}
+
 enum status measure_rounds(const struct runner *runners, size_t count, const size_t counts[RAY_KINDS], size_t rounds,
                            const atomic_int *stop, struct timing (*out)[RAY_KINDS])
 {
   double(*seconds)[RAY_KINDS][MEASURE_MAX_ROUNDS] = calloc(count, sizeof *seconds);
-  if (seconds == NULL) return STATUS_LIMIT;
+  size_t(*repeats)[RAY_KINDS] = calloc(count, sizeof *repeats);
+  if (seconds == NULL || repeats == NULL) {
+    free(seconds);
+    free(repeats);
+    return STATUS_LIMIT;
+  }
   bool stopped = false;
-  for (size_t round = 0; round <= rounds && !stopped; round++) { /* the first is thrown away */
+  for (size_t round = 0; round <= rounds && !stopped; round++) { /* the first only tells how often to repeat */
     for (size_t k = 0; k < count && !stopped; k++) {
       for (int kind = 0; kind < RAY_KINDS; kind++) {
         if (!runners[k].kinds[kind] || counts[kind] == 0) continue;
-        const double start = thread_seconds();
-        runners[k].run(runners[k].context, (enum ray_kind)kind);
-        if (round > 0) seconds[k][kind][round - 1] = thread_seconds() - start;
+        if (round == 0) repeats[k][kind] = repeats_for(take_turn(&runners[k], (enum ray_kind)kind, 1));
+        else seconds[k][kind][round - 1] = take_turn(&runners[k], (enum ray_kind)kind, repeats[k][kind]);
       }
       stopped = stop != NULL && atomic_load(stop) != 0;
     }
@@ -61,6 +86,7 @@ enum status measure_rounds(const struct runner *runners, size_t count, const siz
     }
   }
   free(seconds);
+  free(repeats);
   return stopped ? STATUS_INTERRUPTED : STATUS_OK;
 }
 

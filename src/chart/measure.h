@@ -32,7 +32,8 @@ struct runner {
   bool kinds[RAY_KINDS];
 };
 
-/* Runs each runner once unmeasured, then `rounds` times (at most MEASURE_MAX_ROUNDS). counts[kind] is the number of rays.
+/* Runs each runner once unmeasured, then gives it `rounds` turns (at most MEASURE_MAX_ROUNDS); in a turn of fast ones the run is
+ * repeated until 1 ms is full, with warm caches. counts[kind] is the number of rays.
  * out[runner][kind]. STATUS_INTERRUPTED where *stop turns nonzero. */
 enum status measure_rounds(const struct runner *runners, size_t count, const size_t counts[RAY_KINDS], size_t rounds,
                            const atomic_int *stop, struct timing (*out)[RAY_KINDS]) STATUS_MUST_CHECK;

@@ -19,7 +19,12 @@ static void set_paper(struct solver_options *options)
   options->back_substitution = BACK_SUBSTITUTION_EUCLID;
   options->polish = false;
   options->split = 1;
-  options->start = START_COLD;
+  for (size_t k = 0; k < solver_item_count(); k++) {
+    const struct solver_item *item = solver_item_at(k);
+    if (strcmp(item->name, "form") != 0) continue;
+    for (int word = 0; item->keywords[word] != NULL; word++)
+      if (strcmp(item->keywords[word], "paper") == 0) item->set(options, word);
+  }
 }
 
 static double tolerance_at(int power) { return pow(10, -power); }
@@ -45,14 +50,21 @@ static size_t sweep_solver(const struct solver *solver, enum family family, bool
       }
       count++;
     }
-    if (solver->real_only) continue;
-    if (out != NULL) {
+    for (int start = 0; start < 2 && !solver->real_only; start++, count++) {
+      if (out == NULL) continue;
+      out[count].family = FAMILY_PAPER;
       solver_options_default(solver, &out[count].options);
       out[count].options.tolerance = tolerance_at(power);
-      out[count].family = FAMILY_PAPER;
+      out[count].options.start = start == 0 ? START_PREVIOUS : START_COLD;
       set_paper(&out[count].options);
     }
-    count++;
+  }
+  for (int start = 0; start < starts; start++, count++) { /* whole patches, otherwise as by default */
+    if (out == NULL) continue;
+    out[count].family = family;
+    solver_options_default(solver, &out[count].options);
+    out[count].options.split = 1;
+    if (starts > 1) out[count].options.start = start == 0 ? START_PREVIOUS : START_COLD;
   }
   return count;
 }
@@ -83,10 +95,23 @@ static bool beats(const struct chart_point *a, const struct chart_point *b)
   return ta <= tb && ea <= eb && (ta < tb || ea < eb);
 }
 
+/* Times whose quartiles overlap are not told apart. */
+static bool ties(const struct chart_point *a, const struct chart_point *b)
+{
+  const struct timing *p = &a->time[RAYS_CAMERA], *q = &b->time[RAYS_CAMERA];
+  return a->camera.most_of_all <= b->camera.most_of_all && p->lower <= q->upper && q->lower <= p->upper;
+}
+
 void point_front(struct chart_point *points, size_t count)
 {
   for (size_t k = 0; k < count; k++) {
     points[k].front = isfinite(points[k].time[RAYS_CAMERA].median) && isfinite(points[k].camera.most_of_all);
     for (size_t other = 0; points[k].front && other < count; other++) points[k].front = !beats(&points[other], &points[k]);
+  }
+  for (size_t k = 0; k < count; k++) {
+    for (size_t first = 0; points[k].front && first < k; first++) {
+      if (!ties(&points[first], &points[k])) continue;
+      points[k].front = false, points[first].front = true;
+    }
   }
 }

@@ -23,6 +23,7 @@ enum { POINT_NAME_SIZE = 160 };
 struct chart_point {
   enum family family;
   char name[POINT_NAME_SIZE];    /* what ran; of pscn the text behind `solver` */
+  char label[8];                 /* what stands beside the point in the figure, or "" */
   bool ours;                     /* options is set */
   struct solver_options options;
   struct timing time[RAY_KINDS];
@@ -40,7 +41,8 @@ struct sweep_point {
 size_t point_sweep(bool quick, struct sweep_point *out);
 
 /* Marks the points that no other beats: another one that is no slower and no less exact, and one of both better.
- * Exactness is camera.most_of_all. Points without both numbers are never on the front. */
+ * Exactness is camera.most_of_all. Points without both numbers are never on the front. Where noise alone decides, that is,
+ * where an earlier point is no less exact and the quartiles of the times overlap, the earliest such point has the place. */
 void point_front(struct chart_point *points, size_t count);
 
 #endif

@@ -27,7 +27,7 @@ enum {
 
 enum {
   MAX_RAYS = 1 << 22,
-  RAYS = 1024, QUICK_RAYS = 512, /* of the camera, about */
+  RAYS = 4096, QUICK_RAYS = 1024, /* of the camera, about */
   ROUNDS = 5, QUICK_ROUNDS = 3,
   BATCH = 24                      /* points measured in turns; the default solver takes part in every batch */
 };
@@ -36,7 +36,7 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "folder of the results; default: SCENE's name and -chart", "DIR"),
   COMMAND_OPTION("size", 0, OPTION_SIZE, "of the picture in pixels; default 800x600", "WxH"),
-  COMMAND_OPTION("rays", 0, OPTION_RAYS, "about so many camera rays; default 1024, 512 with --quick", "N"),
+  COMMAND_OPTION("rays", 0, OPTION_RAYS, "about so many camera rays; default 4096, 1024 with --quick", "N"),
   COMMAND_OPTION("rounds", 0, OPTION_ROUNDS, "measure each so often; default 5, 3 with --quick", "N"),
   COMMAND_FLAG("quick", 0, OPTION_QUICK, "fewer tolerances, rays and peers: under a minute"),
   COMMAND_FLAG("no-peers", 0, OPTION_NO_PEERS, "ask neither Embree nor POV-Ray"),
@@ -184,6 +184,10 @@ static enum status run_batch(struct chart *chart, const struct sweep_point *swee
   }
   if (status == STATUS_OK)
     status = measure_rounds(runners, 1 + count, counts, chart->rounds, &interrupt_signal, time);
+  if (status == STATUS_OK) {
+    chart->yard_least = fmin(chart->yard_least, time[0][RAYS_CAMERA].median);
+    chart->yard_most = fmax(chart->yard_most, time[0][RAYS_CAMERA].median);
+  }
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     struct chart_point *point = chart_add(chart, sweep[k].family);
     point->ours = true;
@@ -209,37 +213,66 @@ static enum status sweep_solvers(struct chart *chart, const struct sweep_point *
 
 /* ---- the results ---- */
 
-static enum status write_file(const struct chart *chart, const char *name, const void *bytes, size_t size)
+enum { CSV, SVG, PAGE, RESULTS };
+
+struct results {
+  const char *name[RESULTS];
+  struct page page[RESULTS]; /* SVG may be empty */
+};
+
+static void results_free(struct results *results)
+{
+  for (int k = 0; k < RESULTS; k++)
+    page_free(&results->page[k]);
+}
+
+static enum status make_results(struct chart *chart, struct results *out)
+{
+  *out = (struct results){ .name = { "chart.csv", "chart.svg", "chart.html" } };
+  chart_csv(chart, &out->page[CSV]);
+  if (out->page[CSV].failed)
+    return STATUS_LIMIT;
+  const enum status status = chart_plot(chart, &out->page[SVG].text, &out->page[SVG].length);
+  if (status != STATUS_OK)
+    return status;
+  chart_page(chart, out->page[SVG].text, &out->page[PAGE]);
+  return page_finish(&out->page[PAGE]);
+}
+
+static void result_path(const struct chart *chart, const char *name, char out[SCRATCH_PATH_SIZE])
+{
+  snprintf(out, SCRATCH_PATH_SIZE, "%s/%s", chart->output, name);
+}
+
+/* All files, or none. A figure of an earlier chart goes where this one has none. */
+static enum status write_results(const struct chart *chart, const struct results *results)
 {
   char path[SCRATCH_PATH_SIZE];
-  int reason;
-  snprintf(path, sizeof path, "%s/%s", chart->output, name);
-  const enum status status = atomic_file_write(path, bytes, size, &interrupt_signal, &reason);
-  if (status == STATUS_FILE)
-    command_error(chart->command, "cannot write '%s': %s", path, strerror(reason));
+  enum status status = STATUS_OK;
+  for (int k = 0; k < RESULTS && status == STATUS_OK; k++) {
+    int reason;
+    result_path(chart, results->name[k], path);
+    if (results->page[k].text == NULL)
+      (void)unlink(path);
+    else
+      status = atomic_file_write(path, results->page[k].text, results->page[k].length, &interrupt_signal, &reason);
+    if (status == STATUS_FILE)
+      command_error(chart->command, "cannot write '%s': %s", path, strerror(reason));
+    for (int made = 0; made < k && status != STATUS_OK; made++) {
+      result_path(chart, results->name[made], path);
+      (void)unlink(path);
+    }
+  }
   return status;
 }
 
-static enum status write_results(struct chart *chart)
+static enum status show_results(struct chart *chart)
 {
-  struct page csv, page = { 0 };
-  char *svg = NULL;
-  size_t length;
-  chart_csv(chart, &csv);
-  enum status status = csv.failed ? STATUS_LIMIT : write_file(chart, "chart.csv", csv.text, csv.length);
-  page_free(&csv);
+  struct results results;
+  enum status status = make_results(chart, &results);
   if (status == STATUS_OK)
-    status = chart_plot(chart, &svg, &length);
-  if (status == STATUS_OK && svg != NULL)
-    status = write_file(chart, "chart.svg", svg, length);
-  if (status == STATUS_OK) {
-    chart_page(chart, svg, &page);
-    status = page_finish(&page);
-  }
-  if (status == STATUS_OK)
-    status = write_file(chart, "chart.html", page.text, page.length);
-  page_free(&page);
-  free(svg);
+    status = write_results(chart, &results);
+  results_free(&results);
   if (status == STATUS_OK && !chart->quiet) {
     chart_print(chart);
     printf("\n%s/chart.html shows it\n", chart->output);
@@ -281,10 +314,12 @@ static enum status measure(struct chart *chart)
   return status;
 }
 
-static enum status make_folder(const struct chart *chart)
+/* *out_made: whether there was none before. */
+static enum status make_folder(const struct chart *chart, bool *out_made)
 {
   struct stat state;
-  if (mkdir(chart->output, 0777) == 0 || (errno == EEXIST && stat(chart->output, &state) == 0 && S_ISDIR(state.st_mode)))
+  *out_made = mkdir(chart->output, 0777) == 0;
+  if (*out_made || (errno == EEXIST && stat(chart->output, &state) == 0 && S_ISDIR(state.st_mode)))
     return STATUS_OK;
   command_error(chart->command, "cannot make the folder '%s': %s", chart->output, strerror(errno));
   return STATUS_FILE;
@@ -292,21 +327,21 @@ static enum status make_folder(const struct chart *chart)
 
 static enum status chart_scene(struct chart *chart)
 {
+  bool made = false;
   if (!judge_available()) {
     command_error(chart->command, "this build has no reference: its compiler has no quadruple precision, so nothing can be judged");
     return STATUS_LIMIT;
   }
   enum status status = load(chart);
+  interrupt_defer();
   if (status == STATUS_OK)
-    status = make_folder(chart);
-  if (status == STATUS_OK) {
-    interrupt_defer();
+    status = make_folder(chart, &made);
+  if (status == STATUS_OK)
     status = measure(chart);
-    if (status == STATUS_OK)
-      status = write_results(chart);
-    if (status != STATUS_OK)
-      (void)rmdir(chart->output); /* where it is empty, it is ours or worth nothing */
-  }
+  if (status == STATUS_OK)
+    status = show_results(chart);
+  if (status != STATUS_OK && made)
+    (void)rmdir(chart->output); /* stays where something is in it after all */
   if (status == STATUS_LIMIT)
     command_error(chart->command, "out of memory");
   pscn_runner_free(&chart->yardstick);
@@ -333,6 +368,7 @@ static char *default_output(const char *scene)
 static int run(const struct command *command, int argc, const char **argv)
 {
   struct chart chart = { .command = command, .program = "povray", .peers = true,
+                         .yard_least = INFINITY, .yard_most = -INFINITY,
                          .scene_request = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN } };
   struct command_line line;
   char *default_name = NULL;

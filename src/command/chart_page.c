@@ -20,8 +20,13 @@ static void put_row(const struct chart_point *point, struct page *page)
   page_text(page, point->name);
   page_put(page, point->front ? "</b></td>" : "</td>");
   put_cell(page, time->median, 4);
-  put_cell(page, time->lower, 4);
-  put_cell(page, time->upper, 4);
+  page_put(page, "<td>");
+  if (isfinite(time->lower)) {
+    page_number(page, time->lower, 4);
+    page_put(page, " - ");
+    page_number(page, time->upper, 4);
+  }
+  page_put(page, "</td>");
   put_cell(page, time->ratio, 3);
   put_cell(page, point->time[RAYS_SHADOW].median, 4);
   put_cell(page, camera->median, 2);
@@ -37,7 +42,7 @@ static void put_row(const struct chart_point *point, struct page *page)
 
 static void put_table(const struct chart *chart, bool all, struct page *page)
 {
-  page_put(page, "<table>\n<tr><th></th><th>ns a camera ray</th><th>lower quartile</th><th>upper</th><th>ratio to the "
+  page_put(page, "<table>\n<tr><th></th><th>ns a camera ray</th><th>quartiles</th><th>ratio to the "
                  "default</th><th>ns a shadow ray</th><th>T median</th><th>99 %</th><th>largest</th><th>lost</th>"
                  "<th>invented</th><th>wrong</th><th>other patch</th><th>shadows lost</th><th>invented</th></tr>\n");
   for (size_t k = 0; k < chart->point_count; k++) {
@@ -60,6 +65,12 @@ static void put_method(const struct chart *chart, struct page *page)
                  "but more than 1 % apart; <b>other patch</b>: the right place, named as of another patch. In the figure the "
                  "error is that of 99 % of all these rays, where a lost, invented or wrong hit counts as 1; hollow symbols have "
                  "some of those; bars are quartiles of the time. The front joins what nothing else beats in both.</p>\n");
+  page_put(page, "<p>Noise: the default solver took part in every batch of points; the medians of its batches lie between ");
+  page_number(page, chart->yard_least, 4);
+  page_put(page, " and ");
+  page_number(page, chart->yard_most, 4);
+  page_put(page, " ns a camera ray.</p>\n<p>The solver <code>bernstein</code> has neither a basis nor a start to choose: it works in "
+                 "the Bernstein form, from its control polygon.</p>\n");
   for (size_t k = 0; k < chart->note_count; k++) {
     page_put(page, "<p>");
     page_text(page, chart->notes[k]);
@@ -73,7 +84,7 @@ void chart_page(const struct chart *chart, const char *svg, struct page *out)
   const char *name = slash == NULL ? chart->scene_request.path : slash + 1;
   char title[256];
   snprintf(title, sizeof title, "Speed against accuracy: %.200s", name);
-  page_begin(out, title, "svg { max-width: 100%; height: auto } table { font-size: 13px }\n");
+  page_begin(out, title, "svg { max-width: 100%; height: auto } table { font-size: 13px } td:first-child { min-width: 15em }\n");
   if (svg != NULL) {
     const char *body = strstr(svg, "<svg");
     page_put(out, "<figure>\n");

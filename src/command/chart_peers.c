@@ -59,6 +59,14 @@ static bool find_embree(char out[SCRATCH_PATH_SIZE])
   return access(out, X_OK) == 0;
 }
 
+/* A mesh of more triangles is left out: it would take more than a gigabyte. */
+#define MAX_TRIANGLES 8e6
+
+static double triangles(const struct chart *chart, size_t side)
+{
+  return 2.0 * (double)(side * side) * (double)chart->scene->patch_count;
+}
+
 static bool write_question(const struct chart *chart, const struct scratch *folder)
 {
   static const size_t SIDES[] = { 8, 16, 32, 64, 128, 256 }, QUICK_SIDES[] = { 8, 32, 128 };
@@ -66,10 +74,7 @@ static bool write_question(const struct chart *chart, const struct scratch *fold
   memcpy(question.rays, chart->rays, sizeof question.rays);
   question.side_count = chart->quick ? sizeof QUICK_SIDES / sizeof QUICK_SIDES[0] : sizeof SIDES / sizeof SIDES[0];
   memcpy(question.sides, chart->quick ? QUICK_SIDES : SIDES, question.side_count * sizeof question.sides[0]);
-  /* Above this many triangles a mesh is left out: its memory is no part of the comparison. */
-  const size_t most = (size_t)1 << 22;
-  while (question.side_count > 1 && 2 * question.sides[question.side_count - 1] * question.sides[question.side_count - 1] >
-                                      most / (question.patch_count + 1))
+  while (question.side_count > 1 && triangles(chart, question.sides[question.side_count - 1]) > MAX_TRIANGLES)
     question.side_count--;
   question.nets = calloc(question.patch_count + 1, sizeof *question.nets);
   FILE *file = question.nets == NULL ? NULL : scratch_open(folder, "question");
@@ -91,6 +96,8 @@ static void read_embree(struct chart *chart, FILE *file)
     struct chart_point *point = chart_add(chart, FAMILY_EMBREE);
     snprintf(point->name, sizeof point->name, "Embree, %zux%zux2 triangles a patch, %s", answer.side, answer.side,
              answer.width == 1 ? "one by one" : "8 coherent");
+    if (answer.width > 1)
+      snprintf(point->label, sizeof point->label, "%zu", answer.side);
     memcpy(point->time, answer.time, sizeof point->time);
     point->has_shadow = true;
     chart_judge(chart, point);
@@ -199,6 +206,8 @@ static enum status ask_povray_once(struct chart *chart, struct povray *povray, i
   if (status == STATUS_OK) {
     struct chart_point *point = chart_add(chart, FAMILY_POVRAY);
     snprintf(point->name, sizeof point->name, "POV-Ray, type %d, u_steps %d, flatness 0", type, steps);
+    if (type == 1)
+      snprintf(point->label, sizeof point->label, "%d", steps);
     point->time[RAYS_CAMERA] = time;
     for (size_t k = 0; k < camera->count; k++)
       chart->answers[k] = (struct answer){ distance[k] / vector_length(camera->rays[k].direction), ANSWER_PATCH_UNKNOWN };

@@ -12,7 +12,7 @@
 /* What is drawn for an error below it: no error at all has no place on a logarithmic axis. */
 #define LEAST_ERROR 1e-17
 
-static const struct {
+static const struct look {
   const char *title, *color;
   int symbol, hollow; /* gnuplot's point types: all answers right, some wrong */
 } LOOKS[FAMILIES] = {
@@ -22,8 +22,8 @@ static const struct {
   [FAMILY_ABERTH] = { "aberth", "#b7791f", 13, 12 },
   [FAMILY_PAPER] = { "as in the paper", "#718096", 15, 14 },
   [FAMILY_PLAIN_NEWTON] = { "plain 2-D Newton", "#000000", 3, 3 },
-  [FAMILY_EMBREE] = { "Embree, triangles", "#6b46c1", 5, 4 },
-  [FAMILY_POVRAY] = { "POV-Ray", "#d53f8c", 7, 6 },
+  [FAMILY_EMBREE] = { "Embree (triangles a side)", "#6b46c1", 5, 4 },
+  [FAMILY_POVRAY] = { "POV-Ray (u\\\\_steps)", "#0891b2", 5, 4 },
 };
 
 static bool drawn(const struct chart_point *point)
@@ -80,21 +80,34 @@ static bool write_family(const struct chart *chart, enum family family, bool rig
       fprintf(file, "$family%d%d << EOD\n", (int)family, right);
     any = true;
     const struct timing *time = &point->time[RAYS_CAMERA];
-    fprintf(file, "%.6g %.6g %.6g %.6g\n", error_of(point), time->median, time->lower, time->upper);
+    fprintf(file, "%.6g %.6g %.6g %.6g \"%s\"\n", error_of(point), time->median, time->lower, time->upper, point->label);
   }
   if (any)
     fputs("EOD\n", file);
   return any;
 }
 
+/* Bars first, symbols over them, then what stands beside the symbols. */
+static void plot_family(const struct look *look, int family, bool right, bool titled, FILE *file)
+{
+  fprintf(file, ", \\\n  $family%d%d using 1:3:(0):($4-$3) with vectors nohead lc rgb '%s' notitle", family, right, look->color);
+  fprintf(file, ", \\\n  '' using 1:2 with points pt %d ps 0.75 lw 1.3 lc rgb '%s' ", right ? look->symbol : look->hollow,
+          look->color);
+  if (titled)
+    fprintf(file, "title \"%s\"", look->title);
+  else
+    fputs("notitle", file);
+  fprintf(file, ", \\\n  '' using 1:2:5 with labels font ',10' tc rgb '%s' offset 0.3,-0.7 left notitle", look->color);
+}
+
 static bool write_script(const struct chart *chart, FILE *file)
 {
   bool any[FAMILIES][2];
-  fputs("set terminal svg size 860,600 enhanced font 'sans-serif,13' background '#ffffff'\n"
+  fputs("set terminal svg size 900,700 enhanced font 'sans-serif,13' background '#ffffff'\n"
         "set encoding utf8\nset output 'chart.svg'\nset logscale xy\nset format xy '10^{%T}'\n"
         "set xlabel 'error of T, relative: 99 % of the rays (a lost, invented or wrong hit counts as 1)'\n"
-        "set ylabel 'ns a camera ray, one thread'\nset grid lc rgb '#dddddd'\nset key outside right top\n"
-        "set xrange [5e-18:2]\n",
+        "set ylabel 'ns a camera ray, one thread'\nset grid lc rgb '#dddddd'\nset tics scale 0.7\nset mxtics 2\n"
+        "set key outside top center horizontal Left reverse samplen 1.5 width 1\nset xrange [5e-18:4]\n",
         file);
   if (!write_front(chart, file))
     return false;
@@ -106,13 +119,10 @@ static bool write_script(const struct chart *chart, FILE *file)
   for (int f = 0; f < FAMILIES; f++) {
     for (int right = 1; right >= 0; right--) {
       if (any[f][right])
-        fprintf(file, ", \\\n  $family%d%d using 1:2:3:4 with yerrorbars pt %d ps 0.6 lc rgb '%s' %s%s%s", f, right,
-                right ? LOOKS[f].symbol : LOOKS[f].hollow, LOOKS[f].color,
-                right || !any[f][1] ? "title '" : "notitle", right || !any[f][1] ? LOOKS[f].title : "",
-                right || !any[f][1] ? "'" : "");
+        plot_family(&LOOKS[f], f, right != 0, right || !any[f][1], file);
     }
   }
-  fputs("\n", file);
+  fputs(", \\\n  NaN with points pt 6 lc rgb '#444444' title 'hollow: some answers lost, invented or wrong'\n", file);
   return true;
 }
 

@@ -10,7 +10,7 @@
 static struct chart_point point(double ns, double error)
 {
   struct chart_point p = { .camera.most_of_all = error };
-  p.time[RAYS_CAMERA].median = ns;
+  p.time[RAYS_CAMERA].lower = p.time[RAYS_CAMERA].median = p.time[RAYS_CAMERA].upper = ns;
   return p;
 }
 
@@ -26,12 +26,56 @@ static void test_front(void **state)
     point(10, 1),      /* front: the fastest */
     point(NAN, 1e-18), /* no time */
     point(1, NAN),     /* no error */
-    point(50, 1e-5),   /* equal to another of the front: neither beats the other */
+    point(50, 1e-5),   /* equal to another of the front, which comes first */
   };
-  const bool expected[] = { true, false, false, true, false, true, false, false, true };
+  const bool expected[] = { true, false, false, true, false, true, false, false, false };
   const size_t count = sizeof points / sizeof points[0];
   point_front(points, count);
   for (size_t k = 0; k < count; k++) assert_int_equal(points[k].front, expected[k]);
+}
+
+/* What noise alone decides goes to the first; what it does not decide stays. */
+static void test_front_noise(void **state)
+{
+  (void)state;
+  struct chart_point points[] = {
+    point(100, 1e-15), /* as fast as the next within the noise, and as exact */
+    point(98, 1e-15),
+    point(90, 1e-15),  /* faster than noise explains */
+    point(89, 1e-14),  /* hardly faster than the one before, less exact */
+  };
+  points[0].time[RAYS_CAMERA].lower = 97;
+  points[1].time[RAYS_CAMERA].upper = 99;
+  point_front(points, 2);
+  assert_true(points[0].front && !points[1].front);
+  points[3].time[RAYS_CAMERA].upper = 91;
+  point_front(points, 4);
+  assert_true(!points[0].front && !points[1].front && points[2].front && !points[3].front);
+}
+
+static void count_up(void *context, enum ray_kind kind)
+{
+  size_t *calls = context;
+  calls[kind]++;
+}
+
+static void test_measure(void **state)
+{
+  (void)state;
+  size_t calls[2][RAY_KINDS] = { { 0 } };
+  const struct runner runners[2] = { { count_up, calls[0], { true, true } }, { count_up, calls[1], { true, false } } };
+  const size_t counts[RAY_KINDS] = { 10, 0 };
+  struct timing time[2][RAY_KINDS];
+  assert_int_equal(measure_rounds(runners, 2, counts, 5, NULL, time), STATUS_OK);
+  for (int k = 0; k < 2; k++) {
+    const struct timing *t = &time[k][RAYS_CAMERA];
+    assert_true(t->least > 0 && t->least <= t->lower && t->lower <= t->median && t->median <= t->upper && t->upper <= t->most);
+    assert_true(isnan(time[k][RAYS_SHADOW].median)); /* there are no rays of the kind */
+    assert_true(calls[k][RAYS_CAMERA] >= 6 && calls[k][RAYS_SHADOW] == 0);
+  }
+  assert_true(time[0][RAYS_CAMERA].ratio == 1);
+  atomic_int stop = 1;
+  assert_int_equal(measure_rounds(runners, 2, counts, 5, &stop, time), STATUS_INTERRUPTED);
 }
 
 static void test_judge(void **state)
@@ -142,8 +186,9 @@ static void test_sweep(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_front), cmocka_unit_test(test_judge), cmocka_unit_test(test_judge_occluded),
-    cmocka_unit_test(test_rays),  cmocka_unit_test(test_sweep),
+    cmocka_unit_test(test_front), cmocka_unit_test(test_front_noise),    cmocka_unit_test(test_measure),
+    cmocka_unit_test(test_judge), cmocka_unit_test(test_judge_occluded), cmocka_unit_test(test_rays),
+    cmocka_unit_test(test_sweep),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
