@@ -27,7 +27,7 @@ enum {
 
 enum {
   MAX_RAYS = 1 << 22,
-  RAYS = 4096, QUICK_RAYS = 1024, /* of the camera, about */
+  RAYS = 2048, QUICK_RAYS = 1024, /* of the camera, about */
   ROUNDS = 5, QUICK_ROUNDS = 3,
   BATCH = 24                      /* points measured in turns; the default solver takes part in every batch */
 };
@@ -36,7 +36,7 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "folder of the results; default: SCENE's name and -chart", "DIR"),
   COMMAND_OPTION("size", 0, OPTION_SIZE, "of the picture in pixels; default 800x600", "WxH"),
-  COMMAND_OPTION("rays", 0, OPTION_RAYS, "about so many camera rays; default 4096, 1024 with --quick", "N"),
+  COMMAND_OPTION("rays", 0, OPTION_RAYS, "about so many camera rays; default 2048, 1024 with --quick", "N"),
   COMMAND_OPTION("rounds", 0, OPTION_ROUNDS, "measure each so often; default 5, 3 with --quick", "N"),
   COMMAND_FLAG("quick", 0, OPTION_QUICK, "fewer tolerances, rays and peers: under a minute"),
   COMMAND_FLAG("no-peers", 0, OPTION_NO_PEERS, "ask neither Embree nor POV-Ray"),
