@@ -142,7 +142,20 @@ LANES_INLINE unsigned lanes_bits(lane_mask mask)
 #endif
 }
 
-/* Whether any lane, or every lane, of the mask is set. */
+/* The mask whose bits these are. */
+LANES_INLINE lane_mask lanes_mask(unsigned bits)
+{
+#if LANES == 8
+  const lane_mask weight = {1, 2, 4, 8, 16, 32, 64, 128};
+#elif LANES == 4
+  const lane_mask weight = {1, 2, 4, 8};
+#else
+  const lane_mask weight = {1, 2};
+#endif
+  return ((int64_t)bits & weight) == weight;
+}
+
+/* Whether any lane of the mask is set. */
 LANES_INLINE int lanes_any(lane_mask mask) { return lanes_bits(mask) != 0; }
 
 #endif

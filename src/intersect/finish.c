@@ -5,20 +5,15 @@
 #include "geometry/patch.h"
 #include "geometry/vector.h"
 #include "intersect/last_step.h"
-#include "intersect/tracer.h"
+#include "intersect/packet.h"
 
-static double clamp01(double t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
-
-/* The borders of the patch (see geometry/edges.h) that the root lies on within its radius, as bits; a leaf's own borders inside
- * the patch are none. */
-static unsigned borders_of(const struct model_patch *patch, const struct leaf *leaf, const struct leaf_hit *root)
-{
-  const int last = patch->split - 1;
-  return (unsigned)(leaf->column_u == 0 && root->u < root->radius_u) << 0 |
-         (unsigned)(leaf->column_u == last && root->u > 1 - root->radius_u) << 1 |
-         (unsigned)(leaf->column_v == 0 && root->v < root->radius_v) << 2 |
-         (unsigned)(leaf->column_v == last && root->v > 1 - root->radius_v) << 3;
-}
+/* What a settled root is decided by. */
+struct settling {
+  const struct ray *ray;
+  const struct leaf *leaf;
+  unsigned borders; /* of the patch (see geometry/edges.h) that the root lies on within its radius, as bits */
+  bool certain;
+};
 
 /* The side of the border's curve, as seen along d, on which the patch lies at `along`: the sign of det(d, tangent, inward), 0
  * where it is too small a part of what it could be to be sure of. The tangent runs along the border's parameter. */
@@ -55,11 +50,14 @@ static bool passes_border(const struct model *model, uint32_t index, unsigned bo
 }
 
 /* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the sum; in each
- * coordinate, so up to sqrt(3) of it in distance. */
-static double point_error(const struct model_patch *patch, double tangent, double magnitude)
-{
-  return 2 * ((12 + 2 * tangent) * UNIT_ROUNDOFF * patch->scale + UNIT_ROUNDOFF * magnitude);
-}
+ * coordinate, so up to sqrt(3) of it in distance. `tangent` bounds the derivatives' coordinates. */
+#define POINT_ERROR(scale, tangent, magnitude) \
+  (2 * ((12 + 2 * (tangent)) * UNIT_ROUNDOFF * (scale) + UNIT_ROUNDOFF * (magnitude)))
+
+/* A ray that starts nearer to the surface than this and the point's own error cannot be told from one that starts on it: the
+ * rounding of the new origin, and the distance within which subdivision cannot exclude a root: UNDECIDED_ERRORS error bounds of
+ * either plane, with moments of at most 2 as for all rays that start in the patch's box; doubled for the planes' being oblique. */
+#define CLEARANCE(scale, magnitude) (4 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * PLANE_ERROR(2, 2) * (scale))
 
 /* The point, its error bound and the normal at (u,v). */
 static void set_surface(struct model_patch *patch, const double direction[3], struct hit *out)
@@ -72,7 +70,7 @@ static void set_surface(struct model_patch *patch, const double direction[3], st
     tangent = real_max(tangent, fabs(jet.du) + fabs(jet.dv));
     magnitude = real_max(magnitude, fabs(out->point[c]));
   }
-  out->point_error = point_error(patch, tangent, magnitude);
+  out->point_error = POINT_ERROR(patch->scale, tangent, magnitude);
   vector_cross(su, sv, out->normal);
   const double length = vector_length(out->normal);
   if (length > PLAIN_NORMAL * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
@@ -94,10 +92,7 @@ static void settle_border(const struct model *model, unsigned borders, struct hi
   hit->v = other->border < 2 ? along : side;
 }
 
-/* A ray that starts nearer to the surface than this cannot be told from one that starts on it: the point's own error and the
- * rounding of the new origin, and the distance within which subdivision cannot exclude a root: UNDECIDED_ERRORS error bounds of
- * either plane, with moments of at most 2 as for all rays that start in the patch's box; doubled for the planes' being
- * oblique. On a border the neighbour's size counts as well. */
+/* The clearance of a hit, on a border by the size of the neighbour as well. */
 static double clearance(const struct model *model, uint32_t index, unsigned borders, const struct hit *hit)
 {
   double scale = model->patches[index].scale, magnitude = 0;
@@ -106,76 +101,87 @@ static double clearance(const struct model *model, uint32_t index, unsigned bord
     if ((borders >> border & 1) && other != EDGE_NONE) scale = real_max(scale, model->patches[other].scale);
   }
   for (int k = 0; k < 3; k++) magnitude = real_max(magnitude, fabs(hit->point[k]));
-  return hit->point_error + 4 * UNIT_ROUNDOFF * magnitude + 2 * UNDECIDED_ERRORS * PLANE_ERROR(2, 2) * scale;
-}
-
-/* What the last step has found on a lane. */
-static void take_lane(const struct last_step *l, unsigned lane, struct hit *out)
-{
-  struct model_patch *patch = (struct model_patch *)l->patch;
-  out->u = l->u[lane], out->v = l->v[lane], out->t = l->t[lane];
-  double facing = 0, magnitude = 0;
-  for (int c = 0; c < 3; c++) {
-    out->point[c] = patch->center[c] + patch->scale * l->point[c][lane];
-    out->normal[c] = l->normal[c][lane];
-    facing += out->normal[c] * l->direction[c][lane];
-    magnitude = real_max(magnitude, fabs(out->point[c]));
-  }
-  if (!l->plain[lane]) {
-    double direction[3];
-    for (int c = 0; c < 3; c++) direction[c] = l->direction[c][lane];
-    set_surface(patch, direction, out);
-    return;
-  }
-  out->point_error = point_error(patch, l->tangent[lane], magnitude);
-  if (facing > 0) vector_scale(-1, out->normal, out->normal);
+  return hit->point_error + CLEARANCE(scale, magnitude);
 }
 
 /* Certainty, border and clearance of a hit whose place is settled. */
-static void settle(const struct model *model, const struct ray *ray, const struct best *best, struct hit *out)
+static void settle(const struct model *model, const struct settling *s, struct hit *out)
 {
-  const struct leaf *leaf = best->leaf;
+  const uint32_t patch = s->leaf->patch;
   /* The improvement may have taken the last bits of t to the end of the interval. */
-  if (!(out->t > ray->t_min)) out->t = nextafter(ray->t_min, INFINITY);
-  if (!(out->t < ray->t_max)) out->t = nextafter(ray->t_max, -INFINITY);
-  const unsigned borders = borders_of(&model->patches[leaf->patch], leaf, &best->root);
-  if (!best->root.certain || (borders && !passes_border(model, leaf->patch, borders, out->u, out->v, ray->direction)))
+  if (!(out->t > s->ray->t_min)) out->t = nextafter(s->ray->t_min, INFINITY);
+  if (!(out->t < s->ray->t_max)) out->t = nextafter(s->ray->t_max, -INFINITY);
+  if (!s->certain || (s->borders && !passes_border(model, patch, s->borders, out->u, out->v, s->ray->direction)))
     out->certainty = CERTAINTY_GRAZING;
-  settle_border(model, borders, out);
-  if (out->patch != leaf->patch) set_surface(&model->patches[out->patch], ray->direction, out);
-  out->clearance = clearance(model, leaf->patch, borders, out);
+  settle_border(model, s->borders, out);
+  if (out->patch != patch) set_surface(&model->patches[out->patch], s->ray->direction, out);
+  out->clearance = clearance(model, patch, s->borders, out);
 }
 
-void finish_hits(const struct model *model, size_t count, const struct ray rays[], const struct best best[],
-                 struct hit out[])
+/* The lanes of `group`, whose best roots are on one patch and whose rays share an axis. */
+static void finish_group(const struct packet *p, unsigned group, int axis, uint32_t index, struct hit out[])
 {
+  const struct model *model = p->tracer->model;
+  struct model_patch *patch = &model->patches[index];
+  const struct best *best = &p->best;
+  const lane_mask mask = lanes_mask(group);
+  const double split = patch->split;
+  lanes column_u = lanes_all(0), column_v = lanes_all(0);
+  for (unsigned bits = group; bits; bits &= bits - 1) {
+    const int l = __builtin_ctz(bits);
+    column_u[l] = model->leaves[best->leaf[l]].column_u, column_v[l] = model->leaves[best->leaf[l]].column_v;
+  }
+  struct last_step step = {.patch = patch, .axis = axis, .origin = p->origin, .direction = p->direction};
+  step.improves = mask & best->certain;
+  step.u = last_step_clamp((column_u + best->u) / split), step.v = last_step_clamp((column_v + best->v) / split);
+  step.t = best->t;
+  last_step(&step);
+  lanes facing = lanes_all(0), magnitude = lanes_all(0), point[3];
+  for (int c = 0; c < 3; c++) {
+    point[c] = patch->center[c] + patch->scale * step.point[c];
+    facing += step.normal[c] * p->direction[c];
+    magnitude = lanes_max(lanes_abs(point[c]), magnitude);
+  }
+  for (int c = 0; c < 3; c++) step.normal[c] = lanes_select(facing > 0, -step.normal[c], step.normal[c]);
+  const lanes point_error = POINT_ERROR(patch->scale, step.tangent, magnitude);
+  const lanes clear = point_error + CLEARANCE(patch->scale, magnitude);
+  const lane_mask border[4] = {(column_u == 0) & (best->u < best->radius_u), (column_u == split - 1) & (best->u > 1 - best->radius_u),
+                               (column_v == 0) & (best->v < best->radius_v), (column_v == split - 1) & (best->v > 1 - best->radius_v)};
+  const lane_mask within = (step.t > p->t_min) & (step.t < p->t_max);
+  const lane_mask special = border[0] | border[1] | border[2] | border[3] | ~best->certain | ~within;
+  const unsigned specials = lanes_bits(special), plain = lanes_bits(step.plain);
+  for (unsigned bits = group; bits; bits &= bits - 1) {
+    const int l = __builtin_ctz(bits);
+    struct hit *hit = &out[l];
+    hit->u = step.u[l], hit->v = step.v[l], hit->t = step.t[l], hit->patch = index;
+    for (int c = 0; c < 3; c++) hit->point[c] = point[c][l], hit->normal[c] = step.normal[c][l];
+    hit->point_error = point_error[l], hit->clearance = clear[l];
+    if (!(plain >> l & 1)) set_surface(patch, p->rays[l].direction, hit);
+    if (!((specials | ~plain) >> l & 1)) continue;
+    struct settling settling = {&p->rays[l], &model->leaves[best->leaf[l]], 0, best->certain[l]};
+    for (unsigned k = 0; k < 4; k++) settling.borders |= (unsigned)(border[k][l] & 1) << k;
+    settle(model, &settling, hit);
+  }
+}
+
+void finish_hits(const struct packet *p, struct hit out[])
+{
+  const struct model *model = p->tracer->model;
   unsigned left = 0; /* lanes with a hit that is not finished */
-  for (size_t l = 0; l < count; l++) {
-    out[l].patch = best[l].leaf ? best[l].leaf->patch : HIT_NONE;
-    out[l].certainty = model->unproven || best[l].doubt ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
-    if (best[l].leaf) left |= 1u << l;
+  uint32_t patch[LANES];
+  for (unsigned l = 0; l < p->count; l++) {
+    const bool found = p->best.leaf[l] != NO_LEAF;
+    patch[l] = found ? model->leaves[p->best.leaf[l]].patch : HIT_NONE;
+    out[l].patch = HIT_NONE;
+    out[l].certainty = model->unproven || p->best.doubt[l] ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
+    left |= (unsigned)found << l;
   }
   while (left) {
-    const unsigned first = (unsigned)__builtin_ctz(left);
-    struct last_step step;
-    step.patch = &model->patches[out[first].patch], step.axis = dominant_axis(rays[first].direction);
+    const int first = __builtin_ctz(left), axis = p->on_axis[0][first] ? 0 : p->on_axis[1][first] ? 1 : 2;
     unsigned group = 0;
-    for (unsigned l = 0; l < LANES; l++) {
-      const bool one = left >> l & 1 && out[l].patch == out[first].patch && dominant_axis(rays[l].direction) == step.axis;
-      const unsigned at = one ? l : first; /* idle lanes repeat the first */
-      const struct best *b = &best[at];
-      group |= (unsigned)one << l;
-      for (int c = 0; c < 3; c++) step.origin[c][l] = rays[at].origin[c], step.direction[c][l] = rays[at].direction[c];
-      step.u[l] = clamp01(leaf_to_patch(step.patch->split, b->leaf->column_u, b->root.u));
-      step.v[l] = clamp01(leaf_to_patch(step.patch->split, b->leaf->column_v, b->root.v));
-      step.t[l] = b->root.t, step.improves[l] = b->root.certain ? -1 : 0;
-    }
-    last_step(&step);
-    for (unsigned bits = group; bits; bits &= bits - 1) {
-      const unsigned l = (unsigned)__builtin_ctz(bits);
-      take_lane(&step, l, &out[l]);
-      settle(model, &rays[l], &best[l], &out[l]);
-    }
+    for (unsigned l = 0; l < p->count; l++) group |= (unsigned)(patch[l] == patch[first]) << l;
+    group &= left & lanes_bits(p->on_axis[axis]);
+    finish_group(p, group, axis, patch[first], out);
     left &= ~group;
   }
 }

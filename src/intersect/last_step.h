@@ -28,7 +28,7 @@ enum { LAST_STEPS_MAX = 3 };
 struct last_step {
   const struct model_patch *patch;
   int axis;
-  lanes origin[3], direction[3];
+  const lanes *origin, *direction; /* [3] */
   lane_mask improves;        /* the others keep u, v and t as they come */
   lanes u, v, t;             /* in and out */
   lanes point[3], normal[3]; /* out: in the patch's frame; unit, of either sense */

@@ -33,6 +33,9 @@ static double coarse(double x, double grain) { return rint(x / grain) * grain; }
  * no size of its own, and a frame too small would overflow. */
 #define LEAST_EXTENT 0x1p-100
 
+/* A frame no smaller than this: its reciprocal times a direction is finite. */
+#define LEAST_FRAME 0x1p-700
+
 static void patch_frame(double P[4][4][3], double scene_size, struct model_patch *out)
 {
   double extent = LEAST_EXTENT * scene_size, lo[3], hi[3];
@@ -195,8 +198,8 @@ static enum status leaf_prepare(struct model *model, struct model_patch *patch, 
     for (int i = 0; i < 16; i++) lo = real_min(lo, leaf->x[k][i]), hi = real_max(hi, leaf->x[k][i]);
     const double shift = patch->center[k] - model->origin[k];
     const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale);
-    box->lo[k] = shift + patch->scale * lo - slack;
-    box->hi[k] = shift + patch->scale * hi + slack;
+    box->lo[k] = (shift + patch->scale * lo - slack) / model->frame;
+    box->hi[k] = (shift + patch->scale * hi + slack) / model->frame;
   }
   patch_second_derivative_bounds(wide, leaf->second);
   first_derivative_bounds(wide, leaf->first);
@@ -228,7 +231,11 @@ static void prepare_patches(struct model *model)
       }
     }
   }
-  for (int k = 0; k < 3; k++) model->origin[k] = lo[k] / 2 + hi[k] / 2, model->radius = real_max(model->radius, hi[k] / 2 - lo[k] / 2);
+  double extent = real_max(LEAST_EXTENT * size, LEAST_FRAME);
+  for (int k = 0; k < 3; k++) model->origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
+  int exponent;
+  frexp(extent, &exponent); /* extent < 2^exponent */
+  model->frame = ldexp(1, exponent);
   int most = AUTO_SPLIT_MAX;
   while (most > 1 && scene->patch_count * (size_t)(most * most) > AUTO_LEAVES_MAX) most /= 2;
   for (size_t p = 0; p < scene->patch_count; p++) {

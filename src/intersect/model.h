@@ -60,8 +60,7 @@ struct model {
   struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h */
   struct leaf *leaves;
   size_t leaf_count;
-  double origin[3]; /* the frame of the hierarchy's boxes: world - origin, rounded to double */
-  double radius;    /* bound on |world - origin| of all patches, each coordinate */
+  double origin[3], frame; /* of the hierarchy's boxes: (world - origin)/frame, within about [-1,1]; frame a power of two */
   struct bvh bvh;
   bool unproven; /* some patch has `polish off`: no answer is proven */
 };

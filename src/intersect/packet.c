@@ -1,6 +1,6 @@
-/* A packet of rays, one a lane, through the hierarchy and against its leaves.
+/* A packet of rays, one a lane, against the leaves of the hierarchy.
  *
- * Compiled once per instruction set; PSCN_KERNEL names the table that this compilation defines.
+ * Compiled once per instruction set.
  *
  * A candidate (a ray and a leaf whose box it passes) is decided in stages, each for all lanes at once, each able to end it:
  *   1. plane polynomials a, b; if either, or a combination, keeps one sign on its whole net, the leaf is missed;
@@ -17,35 +17,19 @@
 #include "intersect/subdivide.h"
 #include "intersect/trial.h"
 
-/* Growth of a bound by the roundings of computing and comparing it. */
-#define BOUND_GROWTH (1 + 16 * UNIT_ROUNDOFF)
-
-/* ---- the hierarchy ---- */
-
-/* A stand-in for the reciprocal of 0: so large that any distance ends up beyond every t, finite so that 0 times it is 0. */
-#define HUGE_INVERSE 0x1p1000
-
 enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
 
-/* `rays` has LANES of them; those from `count` on repeat the first. */
-static void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any)
+void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any)
 {
-  const struct model *model = tracer->model;
-  p->tracer = tracer, p->rays = rays, p->count = count, p->any = any, p->patch = UINT32_MAX;
-  for (size_t l = 0; l < LANES; l++) p->live[l] = l < count ? -1 : 0, p->best[l].leaf = NULL, p->best[l].doubt = false;
+  p->tracer = tracer, p->rays = rays, p->count = count, p->any = any, p->moved = false, p->patch = UINT32_MAX;
+  p->live = lanes_mask((1u << count) - 1);
   lanes size[3];
   for (int k = 0; k < 3; k++) {
-    const lanes o = lanes_gather(&rays[0].origin[k], RAY_STRIDE), d = lanes_gather(&rays[0].direction[k], RAY_STRIDE);
-    const lanes from = o - model->origin[k];
-    /* The boxes' frame rounds the origin once; that widens the box instead. */
-    const lanes slack = 2 * UNIT_ROUNDOFF * (lanes_abs(o) + fabs(model->origin[k]));
-    size[k] = lanes_abs(d);
-    p->origin[k] = o, p->direction[k] = d;
-    p->low_origin[k] = from + slack, p->high_origin[k] = from - slack;
-    const lanes huge = lanes_select(d < 0, lanes_all(-HUGE_INVERSE), lanes_all(HUGE_INVERSE));
-    p->inverse[k] = lanes_select(size[k] > 1 / HUGE_INVERSE, 1 / d, huge);
+    p->origin[k] = lanes_gather(&rays[0].origin[k], RAY_STRIDE), p->direction[k] = lanes_gather(&rays[0].direction[k], RAY_STRIDE);
+    size[k] = lanes_abs(p->direction[k]);
   }
-  p->t_min = lanes_gather(&rays[0].t_min, RAY_STRIDE), p->t_far = lanes_gather(&rays[0].t_max, RAY_STRIDE);
+  p->longest = lanes_max(lanes_max(size[0], size[1]), size[2]);
+  p->t_min = lanes_gather(&rays[0].t_min, RAY_STRIDE), p->t_far = p->t_max = lanes_gather(&rays[0].t_max, RAY_STRIDE);
   /* As dominant_axis has it. */
   const lane_mask first = (size[0] >= size[1]) & (size[0] >= size[2]), second = ~first & (size[1] >= size[2]);
   p->on_axis[0] = p->live & first, p->on_axis[1] = p->live & second, p->on_axis[2] = p->live & ~first & ~second;
@@ -53,75 +37,13 @@ static void packet_start(struct packet *p, struct tracer *tracer, const struct r
   for (int k = 0; k < 3; k++) {
     if (!lanes_any(p->on_axis[k])) continue;
     p->axes |= 1u << k;
+    p->reciprocal[k] = 1 / p->direction[k];
     for (int s = 0; s < 2; s++)
       p->slope[k][s] = lanes_select(p->on_axis[k], p->direction[(k + 1 + s) % 3] / p->direction[k], lanes_all(0));
   }
-}
-
-/* Lanes whose ray passes the node's child within (t_min, t_far); *out_near is where it enters. Every rounding widens the box:
- * the slack in the origins, and BOUND_GROWTH on the far side (Ize, Robust BVH Ray Traversal, 2013). */
-LANES_INLINE lane_mask packet_box(const struct packet *p, const struct bvh_node *node, int side, lanes *out_near)
-{
-  lanes near = p->t_min, far = p->t_far;
-  for (int k = 0; k < 3; k++) {
-    const lanes a = ((double)node->lo[side][k] - p->low_origin[k]) * p->inverse[k];
-    const lanes b = ((double)node->hi[side][k] - p->high_origin[k]) * p->inverse[k];
-    near = lanes_max(lanes_min(a, b), near);
-    far = lanes_min(lanes_max(a, b), far);
-  }
-  *out_near = near;
-  return p->live & (near <= far * BOUND_GROWTH);
-}
-
-static void packet_leaf(struct packet *p, uint32_t index, lane_mask active);
-
-static double first_lane_of(lanes t, lane_mask mask)
-{
-  return t[__builtin_ctz(lanes_bits(mask))];
-}
-
-static void packet_walk(struct packet *p)
-{
-  const struct bvh *bvh = &p->tracer->model->bvh;
-  struct {
-    lane_mask mask;
-    lanes near;
-    uint32_t child;
-  } stack[BVH_MAX_DEPTH + 2];
-  size_t top = 0;
-  if (bvh->node_count == 0) return;
-  stack[top].child = 0, stack[top].near = p->t_min, stack[top].mask = p->live, top++;
-  while (top > 0) {
-    top--;
-    /* A leaf's test on one lane must not depend on its neighbours, so each lane carries its own mask down. */
-    const lane_mask mask = stack[top].mask & p->live & (stack[top].near <= p->t_far * BOUND_GROWTH);
-    const uint32_t child = stack[top].child;
-    if (!lanes_any(mask)) continue;
-    if (child & (uint32_t)BVH_LEAF) {
-      packet_leaf(p, child & ~(uint32_t)BVH_LEAF, mask);
-      continue;
-    }
-    const struct bvh_node *node = &bvh->nodes[child];
-    lanes near[2];
-    lane_mask hit[2];
-    bool wanted[2];
-    for (int side = 0; side < 2; side++) {
-      hit[side] = mask & packet_box(p, node, side, &near[side]);
-      wanted[side] = lanes_any(hit[side]);
-    }
-    if (node->child[1] == node->child[0]) wanted[1] = false; /* a tree of one box */
-    int first = 0;
-    if (wanted[0] && wanted[1]) {
-      const lane_mask both = hit[0] & hit[1];
-      if (lanes_any(both)) first = first_lane_of(near[1], both) < first_lane_of(near[0], both);
-      else first = first_lane_of(near[1], hit[1]) < first_lane_of(near[0], hit[0]);
-    }
-    for (int n = 1; n >= 0; n--) {
-      const int side = n == 0 ? first : 1 - first;
-      if (!wanted[side]) continue;
-      stack[top].child = node->child[side], stack[top].near = near[side], stack[top].mask = hit[side], top++;
-    }
-  }
+  p->best.u = p->best.v = p->best.radius_u = p->best.radius_v = lanes_all(0), p->best.t = lanes_all(INFINITY);
+  p->best.leaf = NO_LEAF + (lane_mask){0};
+  p->best.certain = p->best.doubt = (lane_mask){0};
 }
 
 /* ---- keeping the nearest ---- */
@@ -141,26 +63,49 @@ static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const 
  * roots, so the answer is the same in whatever order the leaves come, which depends on the other rays of the packet. */
 static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, struct leaf_hit *root)
 {
-  struct best *best = &p->best[lane];
+  struct best *best = &p->best;
+  const int64_t number = t->leaf - p->tracer->model->leaves;
   const enum leaf_hit_side side = leaf_hit_side(p->tracer->model, t->leaf, &p->rays[lane], root);
-  best->doubt |= side == SIDE_UNKNOWN;
-  if (side != SIDE_BEHIND || !(root->t < p->rays[lane].t_max)) return;
-  if (best->leaf && (root->t > best->root.t || (root->t == best->root.t && t->leaf >= best->leaf))) return;
-  best->leaf = t->leaf, best->root = *root;
+  if (side == SIDE_UNKNOWN) best->doubt[lane] = -1;
+  if (side != SIDE_BEHIND || !(root->t < p->t_max[lane])) return;
+  if (root->t > best->t[lane] || (root->t == best->t[lane] && number >= best->leaf[lane])) return;
+  best->u[lane] = root->u, best->v[lane] = root->v, best->radius_u[lane] = root->radius_u, best->radius_v[lane] = root->radius_v;
+  best->t[lane] = root->t, best->leaf[lane] = number, best->certain[lane] = root->certain ? -1 : 0;
   p->t_far[lane] = root->t + root->t_error;
   if (p->any) p->live[lane] = 0;
+  p->moved = true;
   p->tracer->counts.roots_accepted++;
 }
 
+/* The same for the roots of several lanes at once; those next to t_min go the other way. */
 static void packet_offer_lanes(struct packet *p, const struct trial *t, const struct refined *r, lane_mask hits)
 {
   if (!lanes_any(hits)) return;
-  const lanes w = trial_place(t, r->u, r->v);
-  for (unsigned bits = lanes_bits(hits); bits; bits &= bits - 1) {
+  struct best *best = &p->best;
+  const int axis = t->axis;
+  const int64_t number = t->leaf - p->tracer->model->leaves;
+  const lanes to_t = p->local[axis].to_t, w = trial_place(t, r->u, r->v);
+  const lanes at = ((w + p->local[axis].start[1]) + p->local[axis].start[0]) * to_t;
+  const lanes size = lanes_abs(to_t), error = size * (t->leaf->first[0] * r->radius_u + t->leaf->first[1] * r->radius_v) +
+                                              8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w));
+  const lane_mask behind = at > p->t_min + error, unknown = hits & ~behind & ~(at < p->t_min - error);
+  for (unsigned bits = lanes_bits(unknown); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     struct leaf_hit root = packet_root(p, lane, t, r, lane, w[lane]);
     packet_offer(p, lane, t, &root);
   }
+  const lane_mask nearer = (at < best->t) | ((at == best->t) & (number < best->leaf));
+  const lane_mask taken = hits & behind & (at < p->t_max) & nearer;
+  if (!lanes_any(taken)) return;
+  best->u = lanes_select(taken, r->u, best->u), best->v = lanes_select(taken, r->v, best->v);
+  best->radius_u = lanes_select(taken, r->radius_u, best->radius_u);
+  best->radius_v = lanes_select(taken, r->radius_v, best->radius_v);
+  best->t = lanes_select(taken, at, best->t);
+  best->leaf = (taken & number) | (~taken & best->leaf), best->certain |= taken;
+  p->t_far = lanes_select(taken, at + error, p->t_far);
+  if (p->any) p->live &= ~taken;
+  p->moved = true;
+  p->tracer->counts.roots_accepted += (unsigned)__builtin_popcount(lanes_bits(taken));
 }
 
 LANES_INLINE lane_mask inside(const struct refined *r)
@@ -237,11 +182,13 @@ static void lane_subdivide(struct packet *p, const struct trial *t, unsigned lan
   p->tracer->counts.escalated++;
   struct local_ray ray;
   struct leaf_hit root;
+  bool doubt = false;
   lane_local_ray(p, t, lane, &ray);
   /* Up to the ray's own end, not the nearest hit so far: what the search can not decide must not depend on the order of leaves. */
   const struct subdivide_task task = {p->tracer->model, t->leaf, t->patch, p->tracer->model->scene->patches[t->leaf->patch].P,
                                       &p->rays[lane], &ray, p->rays[lane].t_min, p->rays[lane].t_max};
-  if (subdivide_closest(&task, &root, &p->best[lane].doubt)) packet_offer(p, lane, t, &root);
+  if (subdivide_closest(&task, &root, &doubt)) packet_offer(p, lane, t, &root);
+  if (doubt) p->best.doubt[lane] = -1;
 }
 
 static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
@@ -329,7 +276,7 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   }
 }
 
-static void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
+void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
 {
   struct trial t;
   t.leaf = &p->tracer->model->leaves[index];
@@ -340,78 +287,3 @@ static void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
     if (lanes_any(here)) packet_try(p, &t, here);
   }
 }
-
-/* ---- the face ---- */
-
-/* Directions whose longest component is outside these are scaled by a power of two, so that no product over- or underflows. */
-#define DIRECTION_MIN 0x1p-200
-#define DIRECTION_MAX 0x1p200
-
-static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
-{
-  const double *d = ray->direction, largest = fabs(d[dominant_axis(d)]);
-  struct ray r = *ray;
-  *out_exponent = 0;
-  if (largest >= DIRECTION_MIN && largest <= DIRECTION_MAX) return r;
-  frexp(largest, out_exponent);
-  for (int k = 0; k < 3; k++) r.direction[k] = ldexp(d[k], -*out_exponent);
-  r.t_min = ldexp(r.t_min, *out_exponent), r.t_max = ldexp(r.t_max, *out_exponent);
-  return r;
-}
-
-/* LANES rays at hand, whose directions need no scaling, or copies of them for which that holds. */
-struct ready {
-  const struct ray *rays;
-  struct ray copy[LANES];
-  int exponent[LANES];
-  bool scaled;
-};
-
-static void rays_ready(size_t count, const struct ray rays[], struct ready *out)
-{
-  out->rays = rays, out->scaled = false;
-  bool plain = count == LANES;
-  for (size_t l = 0; l < count; l++) {
-    const double *d = rays[l].direction, largest = real_max(real_max(fabs(d[0]), fabs(d[1])), fabs(d[2]));
-    plain &= largest >= DIRECTION_MIN && largest <= DIRECTION_MAX;
-  }
-  if (plain) return;
-  out->rays = out->copy, out->scaled = true;
-  for (size_t l = 0; l < LANES; l++) out->copy[l] = ray_scaled(&rays[l < count ? l : 0], &out->exponent[l]);
-}
-
-static void kernel_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
-{
-  for (size_t first = 0; first < count; first += LANES) {
-    const size_t n = count - first < LANES ? count - first : LANES;
-    struct ready ready;
-    struct packet packet;
-    rays_ready(n, rays + first, &ready);
-    packet_start(&packet, tracer, ready.rays, n, false);
-    packet_walk(&packet);
-    finish_hits(tracer->model, n, ready.rays, packet.best, out_hits + first);
-    for (size_t l = 0; l < n; l++) {
-      struct hit *hit = &out_hits[first + l];
-      if (ready.scaled && ready.exponent[l] != 0 && hit->patch != HIT_NONE) hit->t = ldexp(hit->t, -ready.exponent[l]);
-      if (hit->certainty == CERTAINTY_CERTAIN) tracer->counts.certain++;
-      else tracer->counts.grazing++;
-    }
-    tracer->counts.rays[0] += n;
-  }
-}
-
-static void kernel_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
-{
-  for (size_t first = 0; first < count; first += LANES) {
-    const size_t n = count - first < LANES ? count - first : LANES;
-    struct ready ready;
-    struct packet packet;
-    rays_ready(n, rays + first, &ready);
-    packet_start(&packet, tracer, ready.rays, n, true);
-    packet_walk(&packet);
-    for (size_t l = 0; l < n; l++) out_occluded[first + l] = packet.best[l].leaf != NULL;
-    tracer->counts.rays[1] += n;
-  }
-}
-
-const struct kernel PSCN_KERNEL = {PSCN_KERNEL_NAME, kernel_closest, kernel_occluded};

@@ -8,19 +8,29 @@
 #include "base/lanes.h"
 #include "intersect/tracer.h"
 
+#define NO_LEAF INT64_MAX
+
+/* The best root of every lane. */
+struct best {
+  lanes u, v, radius_u, radius_v, t; /* as of struct leaf_hit; t infinite where there is none */
+  lane_mask leaf;                    /* its number, or NO_LEAF */
+  lane_mask certain;
+  lane_mask doubt; /* some root could not be told from t_min, and was left out */
+};
+
 struct packet {
   struct tracer *tracer;
   const struct ray *rays; /* directions scaled to about 1 */
   size_t count;
   bool any;               /* any hit will do */
+  bool moved;             /* live or t_far is not what it was */
   lane_mask live;         /* lanes with a ray that still looks for a hit */
   lane_mask on_axis[3];   /* lanes whose dominant axis this is */
   unsigned axes;          /* bit k: some lane's */
-  lanes origin[3], direction[3];
-  lanes low_origin[3], high_origin[3], inverse[3]; /* of the slab test */
-  lanes slope[3][2];      /* per axis; 0 on other lanes */
-  lanes t_min, t_far;     /* t_far: the nearest hit so far plus its error */
-  struct best best[LANES];
+  lanes origin[3], direction[3], longest; /* longest: the largest component of the direction */
+  lanes slope[3][2], reciprocal[3]; /* per axis; slope 0 on other lanes */
+  lanes t_min, t_max, t_far;        /* t_far: the nearest hit so far plus its error, or the ray's end */
+  struct best best;
   /* The frame of the patch tried last. */
   uint32_t patch;
   struct {
@@ -56,13 +66,23 @@ LANES_INLINE void packet_set_patch(struct packet *p, uint32_t index)
       lanes sum, error;
       lanes_two_sum(plus, -minus, &sum, &error);
       error += (plus_error - minus_error) + (lo[i] * p->direction[k] - lo[k] * p->direction[i]);
-      p->local[k].moment[s] = (sum + error) / p->direction[k];
+      p->local[k].moment[s] = (sum + error) * p->reciprocal[k];
     }
     p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
-    p->local[k].to_t = patch->scale / p->direction[k];
+    p->local[k].to_t = patch->scale * p->reciprocal[k];
     p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1]));
   }
   p->patch = index;
 }
+
+/* packet.c: no hit yet on the rays, of which there are LANES; those from `count` on repeat the first. */
+void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any);
+
+/* finish.c: the answers of the packet's rays from its best roots: parameters of the whole patch, improved by a Newton step on the
+ * patch itself, and all else that a hit has. t is in units of the scaled direction. */
+void finish_hits(const struct packet *p, struct hit out[]);
+
+/* packet.c: tries the leaf on the lanes of `active`, and keeps what is nearer than the best. */
+void packet_leaf(struct packet *p, uint32_t index, lane_mask active);
 
 #endif

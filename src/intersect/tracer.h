@@ -97,19 +97,4 @@ static const double RESULTANT_WEIGHT[4] = {0, 2, 20, 1376};
 void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
                      struct candidate_roots *out);
 
-/* finish.c: from the winning root to the answer. */
-
-/* The best root of one ray so far. */
-struct best {
-  const struct leaf *leaf; /* NULL: none */
-  struct leaf_hit root;
-  bool doubt; /* some root could not be told from t_min, and was left out */
-};
-
-/* Fills the answers of up to LANES rays from their winners: parameters of the whole patch, improved by a Newton step on the patch
- * with residuals in twice the precision, the point, the normal, the certainty. The directions may be scaled. An answer does not
- * depend on the others. */
-void finish_hits(const struct model *model, size_t count, const struct ray rays[], const struct best best[],
-                 struct hit out[]);
-
 #endif

@@ -1,0 +1,258 @@
+/* Rays through the hierarchy: two packets at a time, their rays side by side as floats.
+ *
+ * Compiled once per instruction set; PSCN_KERNEL names the table that this compilation defines.
+ *
+ * The boxes lie in the frame (world - origin)/frame, all within about [-1,1]. A ray is looked at there by its place: the distance
+ * along its dominant axis, counted from where it enters the frame, so that few bits are enough wherever it comes from. Every
+ * rounding widens the boxes: an absolute slack for the origin's, a relative one for those of the distances (Ize, Robust BVH Ray
+ * Traversal, 2013).
+ */
+#include <math.h>
+
+#include "base/float_lanes.h"
+#include "base/real.h"
+#include "intersect/packet.h"
+
+#define FLOAT_ROUNDOFF 0x1p-24f
+
+/* Growth of a place that others are compared with: four roundings in each of the two (difference, direction, reciprocal, product), one in the
+ * end of the ray, and those of growing. */
+#define PLACE_GROWTH (1 + 16 * FLOAT_ROUNDOFF)
+
+/* All boxes, and the roundings of making them. */
+#define FRAME_HALF 1.0625
+
+/* A ray that starts farther away is moved up to the frame first. */
+#define FRAME_NEAR 16.0
+
+/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it and its sum with
+ * the slack to float. */
+#define ORIGIN_SLACK 0x1p-22
+
+/* A stand-in for the reciprocal of 0: so large that all that is beyond the slack ends up beyond the frame, finite so that 0 times
+ * it is 0. */
+#define HUGE_INVERSE 0x1p80f
+
+struct bundle {
+  struct packet packet[2];
+  float_lanes low_origin[3], high_origin[3], inverse[3], far;
+  lanes start[2], unit[2]; /* of each packet: place = t unit - start */
+  unsigned live;           /* bit k: ray k still looks for a hit */
+};
+
+static void bundle_update(struct bundle *b)
+{
+  lanes far[2];
+  for (int h = 0; h < 2; h++) {
+    const lanes end = b->packet[h].t_far * b->unit[h];
+    far[h] = (end - b->start[h]) + 8 * UNIT_ROUNDOFF * (end + b->start[h]);
+  }
+  b->far = float_lanes_join(far[0], far[1]) * PLACE_GROWTH;
+  b->live = lanes_bits(b->packet[0].live) | lanes_bits(b->packet[1].live) << LANES;
+}
+
+/* The place where the line of a ray enters the frame, or less. */
+static lanes frame_entry(const lanes from[3], const lanes slack[3], const lanes direction[3])
+{
+  lanes enter = {0};
+  for (int k = 0; k < 3; k++) {
+    const lanes half = FRAME_HALF + slack[k], inverse = 1 / direction[k];
+    enter = lanes_max(lanes_min((-half - from[k]) * inverse, (half - from[k]) * inverse), enter);
+  }
+  return enter;
+}
+
+static void bundle_start(struct bundle *b, const struct model *model)
+{
+  const double to_frame = 1 / model->frame; /* a power of two */
+  lanes low[3][2], high[3][2], along[3][2];
+  for (int h = 0; h < 2; h++) {
+    const struct packet *p = &b->packet[h];
+    const lanes shrink = 1 / p->longest;
+    lanes from[3], slack[3], direction[3], farthest = {0};
+    for (int k = 0; k < 3; k++) {
+      along[k][h] = direction[k] = p->direction[k] * shrink;
+      from[k] = (p->origin[k] - model->origin[k]) * to_frame;
+      slack[k] = 16 * UNIT_ROUNDOFF * (lanes_abs(p->origin[k]) + fabs(model->origin[k])) * to_frame;
+      farthest = lanes_max(lanes_abs(from[k]), farthest);
+    }
+    b->unit[h] = p->longest * to_frame;
+    lanes start = p->t_min * b->unit[h];
+    if (lanes_any(farthest > FRAME_NEAR)) start = lanes_max(frame_entry(from, slack, direction), start);
+    b->start[h] = start;
+    for (int k = 0; k < 3; k++) {
+      from[k] += start * direction[k];
+      slack[k] += ORIGIN_SLACK * (1 + lanes_abs(from[k])) + 8 * UNIT_ROUNDOFF * start;
+      low[k][h] = from[k] + slack[k], high[k][h] = from[k] - slack[k];
+    }
+  }
+  for (int k = 0; k < 3; k++) {
+    b->low_origin[k] = float_lanes_join(low[k][0], low[k][1]), b->high_origin[k] = float_lanes_join(high[k][0], high[k][1]);
+    const float_lanes d = float_lanes_join(along[k][0], along[k][1]);
+    const float_lanes huge = float_lanes_select(d < 0, float_lanes_all(-HUGE_INVERSE), float_lanes_all(HUGE_INVERSE));
+    b->inverse[k] = float_lanes_select(float_lanes_abs(d) > 1 / HUGE_INVERSE, 1 / d, huge);
+  }
+  bundle_update(b);
+}
+
+/* Rays that pass the node's child before their ends, as bits; *out_near is where they enter. */
+LANES_INLINE unsigned bundle_box(const struct bundle *b, const struct bvh_node *node, int side, float_lanes *out_near)
+{
+  float_lanes near = float_lanes_all(0), far = b->far;
+  for (int k = 0; k < 3; k++) {
+    const float_lanes one = (node->lo[side][k] - b->low_origin[k]) * b->inverse[k];
+    const float_lanes other = (node->hi[side][k] - b->high_origin[k]) * b->inverse[k];
+    near = float_lanes_max(float_lanes_min(one, other), near);
+    far = float_lanes_min(float_lanes_max(one, other), far);
+  }
+  *out_near = near;
+  return float_lanes_bits(near <= far * PLACE_GROWTH);
+}
+
+static void bundle_leaf(struct bundle *b, uint32_t leaf, unsigned active)
+{
+  const unsigned all = (1u << LANES) - 1;
+  if (active & all) packet_leaf(&b->packet[0], leaf, lanes_mask(active & all));
+  if (active >> LANES) packet_leaf(&b->packet[1], leaf, lanes_mask(active >> LANES));
+  if (!b->packet[0].moved && !b->packet[1].moved) return;
+  b->packet[0].moved = b->packet[1].moved = false;
+  bundle_update(b);
+}
+
+/* The side to be visited first: the one that the first ray that passes both enters first. */
+static int nearer_side(const float_lanes near[2], const unsigned hit[2])
+{
+  const unsigned both = hit[0] & hit[1];
+  const int one = __builtin_ctz(both ? both : hit[0]), other = __builtin_ctz(both ? both : hit[1]);
+  return near[1][other] < near[0][one];
+}
+
+static void bundle_walk(struct bundle *b)
+{
+  const struct bvh *bvh = &b->packet[0].tracer->model->bvh;
+  struct {
+    float_lanes near;
+    unsigned rays; /* a leaf's test on one ray must not depend on its neighbours, so each ray goes its own way */
+    uint32_t child;
+  } stack[BVH_MAX_DEPTH + 2];
+  size_t top = 0;
+  if (bvh->node_count == 0) return;
+  unsigned rays = b->live;
+  uint32_t child = 0;
+  for (;;) {
+    if (child & (uint32_t)BVH_LEAF) {
+      bundle_leaf(b, child & ~(uint32_t)BVH_LEAF, rays);
+    } else {
+      const struct bvh_node *node = &bvh->nodes[child];
+      float_lanes near[2];
+      unsigned hit[2];
+      for (int side = 0; side < 2; side++) hit[side] = rays & bundle_box(b, node, side, &near[side]);
+      if (node->child[1] == node->child[0]) hit[1] = 0; /* a tree of one box */
+      if (hit[0] | hit[1]) {
+        int first = hit[0] == 0;
+        if (hit[0] && hit[1]) {
+          first = nearer_side(near, hit);
+          stack[top].near = near[!first], stack[top].rays = hit[!first], stack[top].child = node->child[!first], top++;
+        }
+        rays = hit[first], child = node->child[first];
+        continue;
+      }
+    }
+    do {
+      if (top == 0) return;
+      top--;
+      rays = stack[top].rays & b->live & float_lanes_bits(stack[top].near <= b->far);
+    } while (rays == 0);
+    child = stack[top].child;
+  }
+}
+
+/* ---- the face ---- */
+
+/* Directions whose longest component is outside these are scaled by a power of two, so that no product over- or underflows. */
+#define DIRECTION_MIN 0x1p-200
+#define DIRECTION_MAX 0x1p200
+
+static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
+{
+  const double *d = ray->direction, largest = fabs(d[dominant_axis(d)]);
+  struct ray r = *ray;
+  *out_exponent = 0;
+  if (largest >= DIRECTION_MIN && largest <= DIRECTION_MAX) return r;
+  frexp(largest, out_exponent);
+  for (int k = 0; k < 3; k++) r.direction[k] = ldexp(d[k], -*out_exponent);
+  r.t_min = ldexp(r.t_min, *out_exponent), r.t_max = ldexp(r.t_max, *out_exponent);
+  return r;
+}
+
+/* The rays of a packet, whose directions need no scaling, or copies of them for which that holds. */
+struct ready {
+  const struct ray *rays;
+  struct ray copy[LANES];
+  int exponent[LANES];
+  bool scaled;
+};
+
+static void rays_ready(size_t count, const struct ray rays[], struct ready *out)
+{
+  out->rays = rays, out->scaled = false;
+  bool plain = count == LANES;
+  for (size_t l = 0; l < count; l++) {
+    const double *d = rays[l].direction, largest = real_max(real_max(fabs(d[0]), fabs(d[1])), fabs(d[2]));
+    plain &= largest >= DIRECTION_MIN && largest <= DIRECTION_MAX;
+  }
+  if (plain) return;
+  out->rays = out->copy, out->scaled = true;
+  for (size_t l = 0; l < LANES; l++) out->copy[l] = ray_scaled(&rays[l < count ? l : 0], &out->exponent[l]);
+}
+
+static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count, const struct ray rays[],
+                         bool any)
+{
+  for (size_t h = 0, first = 0; h < 2; h++, first += LANES) {
+    const size_t left = count > first ? count - first : 0, n = left < LANES ? left : LANES;
+    rays_ready(n, n > 0 ? rays + first : rays, &ready[h]);
+    packet_start(&b->packet[h], tracer, ready[h].rays, n, any);
+  }
+  bundle_start(b, tracer->model);
+}
+
+static void kernel_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
+{
+  for (size_t first = 0; first < count; first += FLOAT_LANES) {
+    struct ready ready[2];
+    struct bundle bundle;
+    bundle_begin(&bundle, ready, tracer, count - first, rays + first, false);
+    bundle_walk(&bundle);
+    for (size_t h = 0; h < 2; h++) {
+      const struct packet *packet = &bundle.packet[h];
+      struct hit *hits = out_hits + first + h * LANES;
+      if (packet->count == 0) continue;
+      finish_hits(packet, hits);
+      for (size_t l = 0; l < packet->count; l++) {
+        if (ready[h].scaled && ready[h].exponent[l] != 0 && hits[l].patch != HIT_NONE)
+          hits[l].t = ldexp(hits[l].t, -ready[h].exponent[l]);
+        if (hits[l].certainty == CERTAINTY_CERTAIN) tracer->counts.certain++;
+        else tracer->counts.grazing++;
+      }
+      tracer->counts.rays[0] += packet->count;
+    }
+  }
+}
+
+static void kernel_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
+{
+  for (size_t first = 0; first < count; first += FLOAT_LANES) {
+    struct ready ready[2];
+    struct bundle bundle;
+    bundle_begin(&bundle, ready, tracer, count - first, rays + first, true);
+    bundle_walk(&bundle);
+    for (size_t h = 0; h < 2; h++) {
+      const struct packet *packet = &bundle.packet[h];
+      for (size_t l = 0; l < packet->count; l++) out_occluded[first + h * LANES + l] = packet->best.leaf[l] != NO_LEAF;
+      tracer->counts.rays[1] += packet->count;
+    }
+  }
+}
+
+const struct kernel PSCN_KERNEL = {PSCN_KERNEL_NAME, kernel_closest, kernel_occluded};
