@@ -1,56 +1,138 @@
 #!/bin/bash
-# Whole-process CPU time of one 800x600 teapot, one thread: pscn beside POV-Ray on the same file.
+# The numbers that pscn is asked for, each a ratio or a difference within this run, the contestants taking turns; prints a table of
+# name, number, and what is asked.
 #
-# Both read the same scene, trace every pixel once with shadows, and write a PNG. POV-Ray's patches are at u_steps 5,
-# v_steps 5, flatness 0, as the file says. The runs take turns; the medians and their ratio are printed.
+#   examples/benchmark.sh [--page] [RUNS]     RUNS of each, default 5; --page writes the table into docs/performance.md too
 #
-#   examples/benchmark.sh [SCENE] [RUNS]
+# The teapot at 800x600, one thread, default solver unless it says otherwise; a few minutes. Times are CPU times, as others may use the
+# machine too; still, an idle one gives steadier numbers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
+. examples/section.sh
+export LC_ALL=C
 
-scene=${1:-scenes/teapot.pscn}
-runs=${2:-5}
-size=800x600
-install_packages "${BUILD_PACKAGES[@]}" povray libembree-dev
+page=
+if [ "${1:-}" = --page ]; then page=docs/performance.md; shift; fi
+runs=${1:-5}
+SCENE=scenes/teapot.pscn
+SIZE=800x600
+TEAPOTS=10000
+
+install_packages "${BUILD_PACKAGES[@]}" povray libembree-dev time
 cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
-cmake --build build >/dev/null
+cmake --build build --target pscn pscn_openimageio resultant_time >/dev/null
 pscn=$PWD/build/src/command/pscn
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/home"
 
-# CPU seconds (user and system) of a command whose words follow.
-cpu_seconds() {
-  local TIMEFORMAT='%U %S' times
-  times=$( { time "$@" >"$folder/log" 2>&1; } 2>&1 ) || { cat "$folder/log" >&2; return 1; }
-  LC_ALL=C awk '{ print $1 + $2 }' <<<"$times"
+say() { echo "$*" >&2; }
+
+# numbers FILE COLUMN: its median, smallest and largest.
+numbers() {
+  awk -v c="$2" '{ print $c }' "$1" | sort -g | awk '{ v[NR] = $1 }
+    END { printf "%.17g %.17g %.17g\n", NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2, v[1], v[NR] }'
 }
+median() { numbers "$1" "$2" | cut -d ' ' -f 1; }
 
-run_pscn() { cpu_seconds "$pscn" render "$scene" --size "$size" --threads 1 --quiet -o "$folder/pscn.png"; }
+# row NAME NUMBER ASKED [REMARK]
+row() { printf '| %s | %s | %s | %s |\n' "$1" "$2" "$3" "${4:-}" >>"$folder/table"; }
+fixed() { awk -v x="$1" -v n="$2" 'BEGIN { printf "%.*f", n, x }'; }
 
-run_povray() {
-  (cd "$(dirname "$scene")" && HOME=$folder/home cpu_seconds povray "+I$(basename "$scene")" "+O$folder/povray.png" \
-    "+W${size%x*}" "+H${size#*x}" +WT1 -D -A)
-}
+printf '| | measured | asked | |\n|---|---|---|---|\n' >"$folder/table"
 
-median() { sort -n "$1" | awk '{ v[NR] = $1 } END { print NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2 }'; }
+# ---- rays in one process ----
 
-export LC_ALL=C
-for ((run = 1; run <= runs; run++)); do
-  run_pscn >>"$folder/pscn.times"
-  run_povray >>"$folder/povray.times"
-done
-ours=$(median "$folder/pscn.times")
-theirs=$(median "$folder/povray.times")
-echo "$scene, $size, one thread, CPU seconds of the whole process, median of $runs runs taking turns:"
-printf '  pscn    %6.3f   (%s)\n' "$ours" "$(sort -n "$folder/pscn.times" | paste -sd ' ')"
-printf '  povray  %6.3f   (%s)\n' "$theirs" "$(sort -n "$folder/povray.times" | paste -sd ' ')"
-awk -v a="$ours" -v b="$theirs" 'BEGIN { printf "  ratio   %6.3f\n", a / b }'
-
-echo
 if cmake --build build --target primary_rays >/dev/null 2>&1; then
-  build/examples/benchmark/primary_rays "$scene" "$runs" 128 'aberth { start previous split 1 }' 'aberth { start cold split 1 }'
+  say "camera rays, beside Embree"
+  build/examples/benchmark/primary_rays "$SCENE" "$runs" 128 'aberth { start previous split 1 }' 'aberth { start cold split 1 }' \
+    >"$folder/rays"
+  # cell NAME COLUMN
+  cell() { awk -F '\t' -v name="$1" -v c="$2" '$1 == name { print $c }' "$folder/rays"; }
+  ns() { echo "$(fixed "$(cell "$1" 2)" 0) ns ($(fixed "$(cell "$1" 3)" 0) - $(fixed "$(cell "$1" 4)" 0))"; }
+  row 'camera rays / Embree rtcIntersect1, 1,081,344 triangles' "$(fixed "$(cell pscn 5)" 2)" 'at most 1.0' \
+    "$(ns pscn) / $(ns 'Embree rtcIntersect1')"
+  row 'camera rays / Embree rtcIntersect8, coherent' "$(fixed "$(cell pscn 6)" 2)" 'aim: 1.0' "$(ns 'Embree rtcIntersect8, coherent')"
+  row '`aberth`, warm, without split / default' "$(fixed "$(cell 'aberth { start previous split 1 }' 7)" 1)" 'at most 4' \
+    "$(ns 'aberth { start previous split 1 }')"
+  row '`aberth`, cold, without split / default' "$(fixed "$(cell 'aberth { start cold split 1 }' 7)" 1)" 'at most 10' \
+    "$(ns 'aberth { start cold split 1 }')"
 else
-  echo "Embree is not installed (libembree-dev): its part is left out"
+  say "Embree is not installed (libembree-dev): what is measured beside it is left out"
+fi
+
+say "r(u)"
+build/examples/benchmark/resultant_time 9 >"$folder/resultant"
+tail -1 "$folder/resultant" | while IFS=$'\t' read -r set lanes middle least most; do
+  row 'r(u) of degree 18, ns a candidate' "$(fixed "$middle" 0)" 'at most 60 at 8 lanes' "$set, $lanes lanes ($least - $most)"
+done
+
+# ---- whole processes ----
+
+# cpu COMMAND...: its CPU seconds, of user and system.
+cpu() {
+  /usr/bin/time -f '%U %S' -o "$folder/time" "$@" >"$folder/log" 2>&1 || { cat "$folder/log" >&2; return 1; }
+  awk '{ print $1 + $2 }' "$folder/time"
+}
+# povray_cpu FILE: in the file's folder.
+povray_cpu() {
+  (cd "$(dirname "$1")" && HOME=$folder/home cpu povray "+I$(basename "$1")" "+O$folder/povray.png" "+W${SIZE%x*}" "+H${SIZE#*x}" \
+    +WT1 -D -A)
+}
+
+if command -v povray >/dev/null; then
+  say "whole processes, beside POV-Ray"
+  for ((run = 0; run < runs; run++)); do
+    ours=$(cpu "$pscn" render "$SCENE" --size "$SIZE" --threads 1 --quiet -o "$folder/pscn.png")
+    theirs=$(povray_cpu "$SCENE")
+    awk -v a="$ours" -v b="$theirs" 'BEGIN { print a, b, a / b }' >>"$folder/processes"
+  done
+  row 'CPU time of the whole process / povray, u_steps 5, flatness 0' "$(fixed "$(median "$folder/processes" 3)" 2)" 'at most 0.4' \
+    "$(fixed "$(median "$folder/processes" 1)" 2) s / $(fixed "$(median "$folder/processes" 2)" 2) s"
+else
+  say "POV-Ray is not installed: what is measured beside it is left out"
+fi
+
+# megabytes SCENE: the peak of the process's memory.
+megabytes() {
+  /usr/bin/time -f %M -o "$folder/time" "$pscn" render "$1" --size "$SIZE" --threads 1 --quiet --stats "$folder/stats.json" \
+    -o "$folder/pscn.png"
+  awk '{ print $1 / 1024 }' "$folder/time"
+}
+# member NAME: of the last statistics.
+member() { awk -F '[:,]' -v name="\"$1\"" '{ for (k = 1; k < NF; k++) if (index($k, name)) { print $(k + 1) + 0; exit } }' "$folder/stats.json"; }
+
+say "memory, and $TEAPOTS teapots"
+echo 'background { rgb 0 }' >"$folder/empty.pscn"
+examples/field.sh 1 >"$folder/one.pscn"
+examples/field.sh "$TEAPOTS" >"$folder/many.pscn"
+turns=$(((runs + 1) / 2))
+for ((run = 0; run < turns; run++)); do
+  empty=$(megabytes "$folder/empty.pscn")
+  teapot=$(megabytes "$SCENE")
+  awk -v a="$teapot" -v b="$empty" 'BEGIN { print a - b, b }' >>"$folder/memory"
+  megabytes "$folder/one.pscn" >/dev/null
+  one=$(awk -v t="$(member render)" -v hits="$(member shadow)" 'BEGIN { print 1e6 * t / hits }')
+  many=$(megabytes "$folder/many.pscn")
+  awk -v one="$one" -v mb="$many" -v empty="$empty" -v parse="$(member parse)" -v build="$(member build)" -v t="$(member render)" \
+    -v hits="$(member shadow)" 'BEGIN { m = 1e6 * t / hits; print parse + build, mb - empty, m / one, m, one, parse, build }' >>"$folder/field"
+done
+row "memory of the process above an empty scene's" "$(fixed "$(median "$folder/memory" 1)" 1) MB" 'under 30 MB' \
+  "empty scene: $(fixed "$(median "$folder/memory" 2)" 0) MB, nearly all of it OpenImageIO and what it loads"
+row "$TEAPOTS teapots: load" "$(fixed "$(median "$folder/field" 1)" 1) s" 'under 3 s' \
+  "parse $(fixed "$(median "$folder/field" 6)" 2) s, build $(fixed "$(median "$folder/field" 7)" 2) s"
+row "$TEAPOTS teapots: memory above an empty scene's" "$(fixed "$(median "$folder/field" 2)" 0) MB" 'under 1000 MB'
+row "$TEAPOTS teapots: time per hit / one teapot's" "$(fixed "$(median "$folder/field" 3)" 2)" 'under 3' \
+  "$(fixed "$(median "$folder/field" 4)" 2) us / $(fixed "$(median "$folder/field" 5)" 2) us, shadow rays and misses included"
+
+cat "$folder/table"
+if [ -n "$page" ]; then
+  {
+    echo "Written by \`examples/benchmark.sh --page\`; medians of $runs turns of its last run, in brackets the smallest and the largest. The"
+    echo "teapot at $SIZE, one thread, the default solver where nothing else is said."
+    echo
+    cat "$folder/table"
+  } >"$folder/section"
+  replace_section "$page" Numbers "$folder/section"
 fi

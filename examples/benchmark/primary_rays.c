@@ -4,7 +4,8 @@
  *
  * All 800x600 camera rays in the renderer's order: pscn's packets by the scene's own solvers, then by each SOLVER ("aberth { split
  * 1 }"), beside Embree's rtcIntersect1 and coherent rtcIntersect8 on SIDE x SIDE x 2 triangles a patch (128). CPU time of the
- * thread. Every ratio is the median over runs of the ratio to rtcIntersect1 in the same run.
+ * thread. A line a contestant, tabs between: name, ns a ray (median over runs, smallest, largest), and the medians of the ratios to
+ * rtcIntersect1, to rtcIntersect8 and to pscn in the same run.
  */
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@
 #include "language/language.h"
 #include "peer/embree_mesh.h"
 
-enum { WIDTH = 800, HEIGHT = 600, MAX_CONTESTANTS = 16, MAX_RUNS = 1000 };
+enum { WIDTH = 800, HEIGHT = 600, MAX_CONTESTANTS = 16, MAX_RUNS = 1000, FIRST_PSCN = 2 };
 
 struct contestant {
   const char *name;
@@ -23,7 +24,7 @@ struct contestant {
   struct scene *scene;
   struct intersector *intersector;
   struct tracer *tracer;
-  double seconds[MAX_RUNS], ratio[MAX_RUNS];
+  double seconds[MAX_RUNS];
 };
 
 static void tell(void *context, const char *text, size_t length)
@@ -74,36 +75,43 @@ static void trace(struct tracer *tracer, const struct ray_list *list)
 static double median(double *values, size_t count)
 {
   qsort(values, count, sizeof *values, compare);
-  return values[count / 2];
+  return (values[(count - 1) / 2] + values[count / 2]) / 2;
+}
+
+static double median_ratio(const struct contestant *a, const struct contestant *b, size_t runs)
+{
+  double ratio[MAX_RUNS];
+  for (size_t r = 0; r < runs; r++) ratio[r] = a->seconds[r] / b->seconds[r];
+  return median(ratio, runs);
 }
 
 static void report(struct contestant *list, size_t count, size_t runs, size_t rays)
 {
-  printf("%-36s %10s %22s %8s\n", "", "ns a ray", "smallest ... largest", "ratio");
+  double ratio[MAX_CONTESTANTS][FIRST_PSCN + 1];
+  for (size_t c = 0; c < count; c++)
+    for (size_t to = 0; to <= FIRST_PSCN; to++) ratio[c][to] = median_ratio(&list[c], &list[to], runs);
+  printf("name\tns a ray\tsmallest\tlargest\tto rtcIntersect1\tto rtcIntersect8\tto pscn\n");
   for (size_t c = 0; c < count; c++) {
-    for (size_t r = 0; r < runs; r++) list[c].ratio[r] = list[c].seconds[r] / list[0].seconds[r];
-  }
-  for (size_t c = 0; c < count; c++) {
-    const double middle = median(list[c].seconds, runs), unit = 1e9 / (double)rays;
-    printf("%-36s %10.1f %10.1f ... %7.1f %8.2f\n", list[c].name, middle * unit, list[c].seconds[0] * unit,
-           list[c].seconds[runs - 1] * unit, median(list[c].ratio, runs));
+    const double unit = 1e9 / (double)rays, middle = median(list[c].seconds, runs) * unit;
+    printf("%s\t%.1f\t%.1f\t%.1f\t%.3f\t%.3f\t%.3f\n", list[c].name, middle, list[c].seconds[0] * unit,
+           list[c].seconds[runs - 1] * unit, ratio[c][0], ratio[c][1], ratio[c][2]);
   }
 }
 
 int main(int argc, char **argv)
 {
   static struct contestant list[MAX_CONTESTANTS];
-  size_t count = 3;
+  size_t count = FIRST_PSCN + 1;
   if (argc < 2) fail("which scene?");
   const size_t runs = argc > 2 ? strtoul(argv[2], NULL, 10) : 9;
   const unsigned side = argc > 3 ? (unsigned)strtoul(argv[3], NULL, 10) : 128;
   if (runs == 0 || runs > MAX_RUNS || side == 0) fail("bad numbers");
   list[0] = (struct contestant){ .name = "Embree rtcIntersect1", .embree_width = 1 };
   list[1] = (struct contestant){ .name = "Embree rtcIntersect8, coherent", .embree_width = 8 };
-  contestant_load(&list[2], argv[1], NULL);
+  contestant_load(&list[FIRST_PSCN], argv[1], NULL);
   for (int k = 4; k < argc && count < MAX_CONTESTANTS; k++) contestant_load(&list[count++], argv[1], argv[k]);
 
-  const struct scene *scene = list[2].scene;
+  const struct scene *scene = list[FIRST_PSCN].scene;
   struct arena *arena = arena_create();
   struct ray_list rays;
   double(*P)[4][4][3] = arena == NULL ? NULL : arena_alloc(arena, scene->patch_count, sizeof *P);
@@ -123,13 +131,13 @@ int main(int argc, char **argv)
       list[c].seconds[r] = clock_seconds() - start;
     }
   }
-  printf("%s, %zu camera rays, %zu triangles, %zu runs (check %.6g)\n", argv[1], rays.count,
-         scene->patch_count * side * side * 2, runs, sum);
+  fprintf(stderr, "%s, %zu camera rays, %zu triangles, %zu runs (Embree's distances add up to %.6g)\n", argv[1], rays.count,
+          scene->patch_count * side * side * 2, runs, sum);
   report(list, count, runs, rays.count);
   embree_rays_destroy(embree);
   embree_mesh_destroy(mesh);
   arena_destroy(arena);
-  for (size_t c = 2; c < count; c++) {
+  for (size_t c = FIRST_PSCN; c < count; c++) {
     tracer_destroy(list[c].tracer);
     intersector_destroy(list[c].intersector);
     scene_destroy(list[c].scene);
