@@ -163,9 +163,25 @@ enum status command_finish_output(const struct command *command)
   return STATUS_FILE;
 }
 
-double command_clock(void)
+static double read_clock(clockid_t clock)
 {
   struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
+  clock_gettime(clock, &now);
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double command_clock(void)
+{
+  return read_clock(CLOCK_MONOTONIC);
+}
+
+struct command_seconds command_now(void)
+{
+  return (struct command_seconds){ read_clock(CLOCK_MONOTONIC), read_clock(CLOCK_PROCESS_CPUTIME_ID) };
+}
+
+struct command_seconds command_since(struct command_seconds start)
+{
+  const struct command_seconds now = command_now();
+  return (struct command_seconds){ now.wall - start.wall, now.cpu - start.cpu };
 }

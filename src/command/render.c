@@ -227,17 +227,18 @@ static enum status make_picture(const struct command *command, const struct requ
   enum status status = image_create(crop->width, crop->height, request->options.channels.width, out);
   if (status == STATUS_OK) {
     name_channels(&request->options.channels, out);
-    const double start = command_clock();
+    const struct command_seconds start = command_now();
     status = intersector_create(report->scene, &intersector);
-    report->build = command_clock() - start;
+    report->build = command_since(start);
   }
   if (status == STATUS_OK) {
     interrupt_defer();
+    const struct command_seconds start = command_now();
     status = render_scene(report->scene, intersector, &request->options, &watch, out->value, &stats);
     progress_end(&progress);
     report->counts = stats.counts;
     report->threads = stats.threads;
-    report->render = stats.seconds;
+    report->render = command_since(start);
   }
   if (status == STATUS_LIMIT)
     command_error(command, "out of memory or threads");
@@ -279,7 +280,7 @@ static enum status render(const struct command *command, struct request *request
   request->scene.height = request->options.height;
   struct scene *scene = NULL;
   struct image image = { 0 };
-  const double start = command_clock();
+  const struct command_seconds start = command_now();
   status = scene_file_load(&request->scene, &scene);
   struct report report = { .scene_path = request->scene.path,
                            .picture_path = request->output,
@@ -288,13 +289,13 @@ static enum status render(const struct command *command, struct request *request
                            .height = request->options.height,
                            .crop = request->options.crop,
                            .samples = request->options.samples,
-                           .parse = command_clock() - start };
+                           .parse = command_since(start) };
   if (status == STATUS_OK)
     status = make_picture(command, request, &report, &image);
   if (status == STATUS_OK) {
-    const double write_start = command_clock();
+    const struct command_seconds write_start = command_now();
     status = write_picture(command, request, &report, &image);
-    report.write = command_clock() - write_start;
+    report.write = command_since(write_start);
   }
   if (status == STATUS_OK)
     status = report_write(command, &report, request->stats);

@@ -30,8 +30,8 @@ void report_print(const struct report *report)
   fprintf(stderr, "patches  %" PRIu64 " tried, %" PRIu64 " of them by subdivision\n", counts->patches_tested,
           counts->escalated);
   fprintf(stderr, "roots    %" PRIu64 " found, %" PRIu64 " accepted\n", counts->roots_found, counts->roots_accepted);
-  fprintf(stderr, "time     %.3f s parse, %.3f s build, %.3f s render, %.3f s write\n", report->parse, report->build,
-          report->render, report->write);
+  fprintf(stderr, "time     %.3f s parse, %.3f s build, %.3f s render, %.3f s write\n", report->parse.wall,
+          report->build.wall, report->render.wall, report->write.wall);
 }
 
 static json_t *count(uint64_t value)
@@ -60,7 +60,8 @@ static json_t *statistics(const struct report *report)
   char solver[SOLVER_TEXT_SIZE];
   solver_text(&report->scene->solvers[0], solver, sizeof solver);
   json_t *root = json_pack(
-    "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:o, s:{s:o, s:o}, s:{s:o, s:o}, s:{s:f, s:f, s:f, s:f}}",
+    "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:o, s:{s:o, s:o}, s:{s:o, s:o}, "
+    "s:{s:f, s:f, s:f, s:f}, s:{s:f, s:f, s:f, s:f}}",
     "version", PSCN_VERSION,
     "scene", path_text(report->scene_path),
     "solver", solver,
@@ -73,7 +74,10 @@ static json_t *statistics(const struct report *report)
     "subdivided", count(counts->escalated),
     "roots", "found", count(counts->roots_found), "accepted", count(counts->roots_accepted),
     "answers", "certain", count(counts->certain), "grazing", count(counts->grazing),
-    "time", "parse", report->parse, "build", report->build, "render", report->render, "write", report->write);
+    "time", "parse", report->parse.wall, "build", report->build.wall, "render", report->render.wall,
+    "write", report->write.wall,
+    "cpu", "parse", report->parse.cpu, "build", report->build.cpu, "render", report->render.cpu,
+    "write", report->write.cpu);
   if (root == NULL || report->picture_path == NULL)
     return root;
   const struct rectangle *crop = &report->crop;
@@ -148,7 +152,7 @@ void report_metadata_fill(const struct report *report, struct report_metadata *o
   snprintf(out->crop, sizeof out->crop, "%zu,%zu,%zu,%zu", report->crop.x, report->crop.y, report->crop.width,
            report->crop.height);
   snprintf(out->samples, sizeof out->samples, "%zu", report->samples);
-  snprintf(out->seconds, sizeof out->seconds, "%.3f", report->render);
+  snprintf(out->seconds, sizeof out->seconds, "%.3f", report->render.wall);
   number_write(solver->tolerance, out->tolerance);
   solver_text(solver, out->solver, sizeof out->solver);
   const time_t now = time(NULL);

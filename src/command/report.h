@@ -18,7 +18,7 @@ struct report {
   size_t width, height, samples, threads;
   struct rectangle crop; /* the part of width x height that the picture shows */
   struct intersect_counts counts;
-  double parse, build, render, write; /* seconds */
+  struct command_seconds parse, build, render, write;
 };
 
 /* A few lines on stderr. */
