@@ -140,9 +140,9 @@ comma: %empty %prec ITEM | ',';
 /* A plain vector or number is a colour wherever POV-Ray takes it for one. */
 colour:
     expression %prec ITEM
-  | RGB expression %prec ITEM                  { $$ = value_colour(language, @2, &$2); }
-  | COLOR expression %prec ITEM                { $$ = value_colour(language, @2, &$2); }
-  | COLOR RGB expression %prec ITEM            { $$ = value_colour(language, @3, &$3); }
+  | RGB expression %prec ITEM                  { $$ = value_rgb(language, @2, &$2); }
+  | COLOR expression %prec ITEM                { $$ = value_color(language, @2, &$2); }
+  | COLOR RGB expression %prec ITEM            { $$ = value_rgb(language, @3, &$3); }
   ;
 
 /* ---- settings, camera, lights ---- */
@@ -159,7 +159,7 @@ global_item:
 
 camera_items: %empty | camera_items camera_item;
 camera_item:
-    PERSPECTIVE
+    PERSPECTIVE                                { camera_perspective(language, @1); }
   | LOCATION expression                        { camera_vector(language, CAMERA_LOCATION, @2, &$2); }
   | DIRECTION expression                       { camera_vector(language, CAMERA_DIRECTION, @2, &$2); }
   | RIGHT expression                           { camera_vector(language, CAMERA_RIGHT, @2, &$2); }
@@ -177,8 +177,8 @@ light_items: %empty | light_items light_item;
 light_item:
     colour %prec ITEM                          { light_value(language, @1, &$1); }
   | ','                                        { light_comma(language, @1); }
-  | SHADOWLESS                                 { light_shadowless(language); }
-  | transform                                  { light_transform(language); }
+  | SHADOWLESS                                 { light_shadowless(language, @1); }
+  | transform                                  { light_transform(language, @1); }
   | declaration
   | error                                      { RECOVER(); }
   ;
@@ -210,11 +210,12 @@ patch_item:
   | error                                      { RECOVER(); }
   ;
 
+/* The objects, then modifiers. */
 union: UNION '{' { union_begin(language, @1); } union_items '}' { $$ = node_end(language); };
 union_items: %empty | union_items union_item;
 union_item:
     object                                     { union_add(language, @1, $1); }
-  | modifier
+  | modifier                                   { union_modified(language); }
   | solver                                     { solver_misplaced(language, @1); }
   | declaration
   | error                                      { RECOVER(); }
@@ -257,7 +258,7 @@ texture_item:
     WORD                                       { texture_named(language, @1, &$1); }
   | pigment_block                              { texture_merge(language, $1); }
   | finish_block                               { texture_merge(language, $1); }
-  | transform
+  | transform                                  { texture_moved(language); }
   | declaration
   | error                                      { RECOVER(); }
   ;
@@ -266,7 +267,7 @@ pigment_block: PIGMENT '{' { texture_begin(language, TEXTURE_PIGMENT); } pigment
 pigment_items: %empty | pigment_items pigment_item;
 pigment_item:
     colour %prec ITEM                          { pigment_value(language, @1, &$1); }
-  | transform
+  | transform                                  { texture_moved(language); }
   | declaration
   | error                                      { RECOVER(); }
   ;

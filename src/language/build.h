@@ -43,6 +43,7 @@ struct value {
   enum value_kind kind;
   double x[3];
   const struct symbol *symbol;
+  bool transparent; /* a colour that POV-Ray gives transparency: a number after `color` stands in all five parts there */
 };
 
 /* p' = p A + b with row vectors. `identity` where nothing has been applied, so that points stay as they are to the bit. */
@@ -50,6 +51,9 @@ struct transform {
   bool identity;
   struct double_double A[3][3], b[3];
 };
+
+/* How far a block has come: what may follow. */
+enum stage { STAGE_SETTINGS, STAGE_BODY, STAGE_MODIFIERS };
 
 /* Which parts of a texture are set. */
 enum {
@@ -68,12 +72,10 @@ enum {
 struct texture {
   unsigned block; /* TEXTURE_PIGMENT, TEXTURE_FINISH or TEXTURE_ALL: the statement it comes from */
   unsigned set;
+  enum stage stage;        /* of the open block: its declared name or colour, then the rest */
   bool coloured, doubtful; /* a colour stands in the open pigment; or what may have been meant as one */
   struct scene_texture is;
 };
-
-/* How far a patch or a copy has come: what may follow. */
-enum stage { STAGE_SETTINGS, STAGE_BODY, STAGE_MODIFIERS };
 
 /* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same points
  * or children. */
@@ -99,6 +101,7 @@ struct node {
 
 struct camera_items {
   double item[6][3];
+  bool begun; /* an item has come */
   bool look_at;
   double angle; /* degrees, 0 where not given */
   struct place place, look_at_place;
@@ -111,7 +114,7 @@ struct light_node {
   struct transform transform;
   struct place place;
   int values; /* position, colour: how many have come */
-  bool after_comma;
+  bool after_comma, modified;
   size_t errors; /* told before it began */
 };
 
@@ -203,11 +206,14 @@ struct value value_binary(struct language *language, char op, const struct value
                           const struct value *b, struct place b_place);
 struct value value_negative(struct language *language, struct place place, const struct value *a);
 struct value value_component(struct language *language, struct place place, const struct value *a, int index);
-struct value value_colour(struct language *language, struct place place, const struct value *a);
+struct value value_rgb(struct language *language, struct place place, const struct value *a);
+struct value value_color(struct language *language, struct place place, const struct value *a);
 /* What is wanted, or an error. Nothing is written to `out` then; value_to_number answers false. */
 void value_to_vector(struct language *language, struct place place, const struct value *a, double out[3]);
 void value_to_colour(struct language *language, struct place place, const struct value *a, double out[3]);
 bool value_to_number(struct language *language, struct place place, const struct value *a, double *out);
+/* As value_to_colour, where POV-Ray heeds transparency: a colour that has some there, or a bare number, is an error. */
+void value_to_opaque(struct language *language, struct place place, const struct value *a, double out[3]);
 /* As a number in [low, high], or an error saying that `what` must be so, and false. */
 bool value_in_range(struct language *language, struct place place, const struct value *a, const char *what, double low,
                     double high, bool whole, double *out);
@@ -253,14 +259,15 @@ void background_end(struct language *language);
 void light_begin(struct language *language, struct place place);
 void light_value(struct language *language, struct place place, const struct value *value);
 void light_comma(struct language *language, struct place place);
-void light_shadowless(struct language *language);
-void light_transform(struct language *language);
+void light_shadowless(struct language *language, struct place place);
+void light_transform(struct language *language, struct place place);
 void light_end(struct language *language);
 
 /* ---- camera.c ---- */
 enum { CAMERA_LOCATION, CAMERA_DIRECTION, CAMERA_RIGHT, CAMERA_UP, CAMERA_SKY, CAMERA_LOOK_AT };
 void camera_default(struct camera_items *out);
 void camera_begin(struct language *language, struct place place);
+void camera_perspective(struct language *language, struct place place);
 void camera_vector(struct language *language, int which, struct place place, const struct value *value);
 void camera_angle(struct language *language, struct place place, const struct value *value);
 void camera_transform(struct language *language, struct place place);
@@ -279,6 +286,7 @@ void patch_solver(struct language *language);
 void patch_end(struct language *language);
 void union_begin(struct language *language, struct place place);
 void union_add(struct language *language, struct place place, struct node *object);
+void union_modified(struct language *language);
 void copy_begin(struct language *language, struct place place);
 void copy_named(struct language *language, struct place place, const struct token *name);
 void copy_object(struct language *language, struct place place, const struct node *object);
@@ -314,6 +322,7 @@ void texture_begin(struct language *language, unsigned block);
 struct texture *texture_end(struct language *language);
 void texture_named(struct language *language, struct place place, const struct token *name);
 void texture_merge(struct language *language, const struct texture *texture);
+void texture_moved(struct language *language); /* a transform, which changes nothing of one colour */
 /* What is set in `from` replaces what is in `to`. */
 void texture_apply(struct texture *to, const struct texture *from);
 void pigment_value(struct language *language, struct place place, const struct value *value);

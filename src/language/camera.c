@@ -27,9 +27,16 @@ void camera_begin(struct language *language, struct place place)
   language->camera.errors = language->diagnostics->error_count;
 }
 
+void camera_perspective(struct language *language, struct place place)
+{
+  if (language->camera.begun) language_error(language, place, "perspective stands first in a camera");
+  language->camera.begun = true;
+}
+
 void camera_vector(struct language *language, int which, struct place place, const struct value *value)
 {
   struct camera_items *camera = &language->camera;
+  camera->begun = true;
   value_to_vector(language, place, value, camera->item[which]);
   if (which != CAMERA_LOOK_AT) return;
   camera->look_at = true;
@@ -39,6 +46,7 @@ void camera_vector(struct language *language, int which, struct place place, con
 void camera_angle(struct language *language, struct place place, const struct value *value)
 {
   double angle;
+  language->camera.begun = true;
   if (!value_to_number(language, place, value, &angle)) return;
   if (angle >= 0 && angle < 180) language->camera.angle = angle;
   else language_error(language, place, "the angle must be at least 0 and less than 180 degrees");

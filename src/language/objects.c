@@ -131,8 +131,13 @@ void union_begin(struct language *language, struct place place) { open_node(lang
 
 void union_add(struct language *language, struct place place, struct node *object)
 {
+  if (language->open->stage == STAGE_MODIFIERS && language_sound(language, language->open->errors)) {
+    language_error(language, place, "the objects of a union stand before its texture and transforms");
+  }
   add_child(language, language->open, object, place);
 }
+
+void union_modified(struct language *language) { language->open->stage = STAGE_MODIFIERS; }
 
 void scene_add(struct language *language, struct place place, struct node *object)
 {

@@ -43,8 +43,10 @@ void background_begin(struct language *language, struct place place)
 
 void background_value(struct language *language, struct place place, const struct value *value)
 {
-  if (language->background_values++ == 1 && language_sound(language, language->background_errors)) language_error(language, place, "background has one colour");
-  value_to_colour(language, place, value, language->background);
+  if (language->background_values++ == 1 && language_sound(language, language->background_errors)) {
+    language_error(language, place, "background has one colour");
+  }
+  value_to_opaque(language, place, value, language->background);
 }
 
 void background_end(struct language *language)
@@ -56,13 +58,13 @@ void background_end(struct language *language)
 
 /* ---- light sources ---- */
 
+/* A light whose colour is not said is black, as in POV-Ray. */
 void light_begin(struct language *language, struct place place)
 {
   struct light_node *light = language_alloc(language, sizeof *light);
   light->place = place;
   light->errors = language->diagnostics->error_count;
   light->transform = transform_identity();
-  for (int k = 0; k < 3; k++) light->light.color[k] = 1; /* as in POV-Ray, where none is said */
   *language->lights_end = light;
   language->lights_end = &light->next;
   language->light = light;
@@ -72,6 +74,9 @@ void light_value(struct language *language, struct place place, const struct val
 {
   struct light_node *light = language->light;
   light->after_comma = false;
+  if (light->modified && language_sound(language, light->errors)) {
+    language_error(language, place, "the position and the colour of a light_source stand before what else there is");
+  }
   switch (light->values++) {
   case 0: value_to_vector(language, place, value, light->light.position); break;
   case 1: value_to_colour(language, place, value, light->light.color); break;
@@ -90,11 +95,25 @@ void light_comma(struct language *language, struct place place)
   light->after_comma = true;
 }
 
-void light_shadowless(struct language *language) { language->light->light.shadowless = true; }
-
-void light_transform(struct language *language)
+static void light_modified(struct language *language, struct place place)
 {
   struct light_node *light = language->light;
+  if (light->values == 0 && !light->modified && language_sound(language, light->errors)) {
+    language_error(language, place, "light_source begins with its position");
+  }
+  light->modified = true;
+}
+
+void light_shadowless(struct language *language, struct place place)
+{
+  light_modified(language, place);
+  language->light->light.shadowless = true;
+}
+
+void light_transform(struct language *language, struct place place)
+{
+  struct light_node *light = language->light;
+  light_modified(language, place);
   light->transform = transform_then(&light->transform, &language->transform);
 }
 

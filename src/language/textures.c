@@ -3,10 +3,10 @@
 
 struct texture texture_default(void)
 {
-  return (struct texture){TEXTURE_ALL, TEXTURE_ALL, false, false,
-                          {.pigment = {0, 0, 0},
-                           .finish = {.ambient = {0.1, 0.1, 0.1}, .diffuse = 0.6, .brilliance = 1, .phong = 0,
-                                      .phong_size = 40, .specular = 0, .roughness = 0.05}}};
+  return (struct texture){.block = TEXTURE_ALL, .set = TEXTURE_ALL,
+                          .is = {.pigment = {0, 0, 0},
+                                 .finish = {.ambient = {0.1, 0.1, 0.1}, .diffuse = 0.6, .brilliance = 1, .phong = 0,
+                                            .phong_size = 40, .specular = 0, .roughness = 0.05}}};
 }
 
 void texture_apply(struct texture *to, const struct texture *from)
@@ -39,11 +39,22 @@ void texture_begin(struct language *language, unsigned block)
 
 struct texture *texture_end(struct language *language) { return language->textures_open[--language->texture_depth]; }
 
-void texture_merge(struct language *language, const struct texture *texture) { texture_apply(current(language), texture); }
+void texture_merge(struct language *language, const struct texture *texture)
+{
+  current(language)->stage = STAGE_BODY;
+  texture_apply(current(language), texture);
+}
+
+void texture_moved(struct language *language) { current(language)->stage = STAGE_MODIFIERS; }
 
 static const char *block_name(unsigned block)
 {
   return block == TEXTURE_ALL ? "a texture" : block == TEXTURE_FINISH ? "a finish" : "a pigment";
+}
+
+static void tell_not_first(struct language *language, struct place place, const struct texture *texture)
+{
+  language_error(language, place, "a declared name stands first in %s", block_name(texture->block));
 }
 
 /* A texture may begin with a declared texture, pigment or finish; a pigment and a finish with one of their own. */
@@ -51,9 +62,12 @@ void texture_named(struct language *language, struct place place, const struct t
 {
   struct texture *texture = current(language);
   const struct symbol *symbol = symbol_find(language, name->text, name->length);
+  const bool first = texture->stage == STAGE_SETTINGS;
+  texture->stage = STAGE_BODY;
   if (!symbol) {
     symbol_unknown(language, place, name, block_name(texture->block));
   } else if (symbol->kind == SYMBOL_TEXTURE && (symbol->texture->block & ~texture->block) == 0) {
+    if (!first) tell_not_first(language, place, texture);
     texture_apply(texture, symbol->texture);
   } else if (symbol->kind != SYMBOL_BROKEN) {
     symbol_mistaken(language, place, symbol, block_name(texture->block));
@@ -64,7 +78,10 @@ void pigment_value(struct language *language, struct place place, const struct v
 {
   struct texture *texture = current(language);
   const struct symbol *symbol = value->symbol;
+  const enum stage stage = texture->stage;
+  texture->stage = STAGE_BODY;
   if (value->kind == VALUE_NAMED && symbol->kind == SYMBOL_TEXTURE && symbol->texture->block == TEXTURE_PIGMENT) {
+    if (stage != STAGE_SETTINGS) tell_not_first(language, place, texture);
     texture_apply(texture, symbol->texture);
     return;
   }
@@ -75,14 +92,16 @@ void pigment_value(struct language *language, struct place place, const struct v
     return;
   }
   if (texture->coloured) language_error(language, place, "a pigment has one colour");
+  else if (stage == STAGE_MODIFIERS) language_error(language, place, "the colour of a pigment stands before its transforms");
   texture->coloured = true;
-  value_to_colour(language, place, value, texture->is.pigment);
+  value_to_opaque(language, place, value, texture->is.pigment);
   texture->set |= TEXTURE_PIGMENT;
 }
 
 void finish_ambient(struct language *language, struct place place, const struct value *value)
 {
   struct texture *texture = current(language);
+  texture->stage = STAGE_BODY;
   value_to_colour(language, place, value, texture->is.finish.ambient);
   texture->set |= TEXTURE_AMBIENT;
 }
@@ -92,6 +111,7 @@ void finish_number(struct language *language, int which, struct place place, con
   struct texture *texture = current(language);
   struct scene_finish *finish = &texture->is.finish;
   double x;
+  texture->stage = STAGE_BODY;
   if (!value_to_number(language, place, value, &x)) return;
   switch (which) {
   case FINISH_DIFFUSE: finish->diffuse = x, texture->set |= TEXTURE_DIFFUSE; break;

@@ -9,9 +9,9 @@
 
 static const struct value UNKNOWN = {.kind = VALUE_UNKNOWN, .x = {1, 1, 1}};
 
-struct value value_of_number(double x) { return (struct value){VALUE_NUMBER, {x, x, x}, NULL}; }
+struct value value_of_number(double x) { return (struct value){.kind = VALUE_NUMBER, .x = {x, x, x}}; }
 
-struct value value_of_vector(const double x[3]) { return (struct value){VALUE_VECTOR, {x[0], x[1], x[2]}, NULL}; }
+struct value value_of_vector(const double x[3]) { return (struct value){.kind = VALUE_VECTOR, .x = {x[0], x[1], x[2]}}; }
 
 struct value value_axis(int axis)
 {
@@ -67,13 +67,20 @@ static bool stays_opaque(struct language *language, char op, const struct value 
   return true;
 }
 
+/* Vectors and other colours have no transparency, and a product with none has none. */
+static bool result_transparent(char op, const struct value *a, const struct value *b)
+{
+  if (op == '*' && a->kind != VALUE_NUMBER && b->kind != VALUE_NUMBER) return a->transparent && b->transparent;
+  return a->transparent || b->transparent;
+}
+
 struct value value_binary(struct language *language, char op, const struct value *a, struct place a_place,
                           const struct value *b, struct place b_place)
 {
   const bool a_usable = usable(language, a_place, a, "a value");
   if (!usable(language, b_place, b, "a value") || !a_usable) return UNKNOWN;
   if (!stays_opaque(language, op, a, a_place, b, b_place)) return UNKNOWN;
-  struct value r = {.kind = a->kind > b->kind ? a->kind : b->kind};
+  struct value r = {.kind = a->kind > b->kind ? a->kind : b->kind, .transparent = result_transparent(op, a, b)};
   for (int k = 0; k < 3; k++) {
     if (op == '/' && b->x[k] == 0) {
       language_error(language, b_place, "division by zero");
@@ -91,7 +98,7 @@ struct value value_binary(struct language *language, char op, const struct value
 struct value value_negative(struct language *language, struct place place, const struct value *a)
 {
   if (!usable(language, place, a, "a value")) return UNKNOWN;
-  return (struct value){a->kind, {-a->x[0], -a->x[1], -a->x[2]}, NULL};
+  return (struct value){.kind = a->kind, .x = {-a->x[0], -a->x[1], -a->x[2]}, .transparent = a->transparent};
 }
 
 /* A number's components are itself, as in POV-Ray. */
@@ -100,10 +107,18 @@ struct value value_component(struct language *language, struct place place, cons
   return usable(language, place, a, "a vector") ? value_of_number(a->x[index]) : UNKNOWN;
 }
 
-struct value value_colour(struct language *language, struct place place, const struct value *a)
+/* A number after rgb is three, and after color five. */
+struct value value_rgb(struct language *language, struct place place, const struct value *a)
 {
   if (!usable(language, place, a, "a colour")) return UNKNOWN;
-  return (struct value){VALUE_COLOUR, {a->x[0], a->x[1], a->x[2]}, NULL};
+  return (struct value){.kind = VALUE_COLOUR, .x = {a->x[0], a->x[1], a->x[2]}, .transparent = a->transparent};
+}
+
+struct value value_color(struct language *language, struct place place, const struct value *a)
+{
+  struct value colour = value_rgb(language, place, a);
+  colour.transparent |= a->kind == VALUE_NUMBER && a->x[0] != 0;
+  return colour;
 }
 
 struct value value_of_parts(struct language *language, const struct value *x, const struct value *y, const struct value *z,
@@ -130,6 +145,15 @@ void value_to_colour(struct language *language, struct place place, const struct
 {
   if (!usable(language, place, a, "a colour")) return;
   for (int k = 0; k < 3; k++) out[k] = a->x[k];
+}
+
+void value_to_opaque(struct language *language, struct place place, const struct value *a, double out[3])
+{
+  if (a->transparent || (a->kind == VALUE_NUMBER && a->x[0] != 0)) {
+    language_error(language, place, "a number alone or after color is a transparent colour in POV-Ray; write rgb before it");
+    return;
+  }
+  value_to_colour(language, place, a, out);
 }
 
 bool value_to_number(struct language *language, struct place place, const struct value *a, double *out)
