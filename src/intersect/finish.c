@@ -136,6 +136,7 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
   step.u = last_step_clamp((column_u + best->u) / split), step.v = last_step_clamp((column_v + best->v) / split);
   step.t = best->t;
   last_step(&step);
+  step.t = lanes_select(best->sharp, best->t, step.t); /* next to the ray's start it has more digits than the last step's sums */
   lanes facing = lanes_all(0), magnitude = lanes_all(0), point[3];
   for (int c = 0; c < 3; c++) {
     point[c] = patch->center[c] + patch->scale * step.point[c];

@@ -33,12 +33,15 @@ static double coarse(double x, double grain) { return rint(x / grain) * grain; }
  * no size of its own, and a frame too small would overflow. */
 #define LEAST_EXTENT 0x1p-100
 
+/* Nor is a patch's frame smaller than this, so that its reciprocal and all products with it are normal numbers. */
+#define LEAST_SCALE 0x1p-1000
+
 /* A frame no smaller than this: its reciprocal times a direction is finite. */
 #define LEAST_FRAME 0x1p-700
 
 static void patch_frame(double P[4][4][3], double scene_size, struct model_patch *out)
 {
-  double extent = LEAST_EXTENT * scene_size, lo[3], hi[3];
+  double extent = scene_size > 0 ? real_max(LEAST_EXTENT * scene_size, LEAST_SCALE) : 0, lo[3], hi[3];
   for (int k = 0; k < 3; k++) {
     lo[k] = INFINITY, hi[k] = -INFINITY;
     for (int i = 0; i < 4; i++)

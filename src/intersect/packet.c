@@ -43,7 +43,7 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
   }
   p->best.u = p->best.v = p->best.radius_u = p->best.radius_v = lanes_all(0), p->best.t = lanes_all(INFINITY);
   p->best.leaf = NO_LEAF + (lane_mask){0};
-  p->best.certain = p->best.doubt = (lane_mask){0};
+  p->best.certain = p->best.sharp = p->best.doubt = (lane_mask){0};
 }
 
 /* ---- keeping the nearest ---- */
@@ -71,6 +71,7 @@ static void packet_offer(struct packet *p, unsigned lane, const struct trial *t,
   if (root->t > best->t[lane] || (root->t == best->t[lane] && number >= best->leaf[lane])) return;
   best->u[lane] = root->u, best->v[lane] = root->v, best->radius_u[lane] = root->radius_u, best->radius_v[lane] = root->radius_v;
   best->t[lane] = root->t, best->leaf[lane] = number, best->certain[lane] = root->certain ? -1 : 0;
+  best->sharp[lane] = root->sharp ? -1 : 0;
   p->t_far[lane] = root->t + root->t_error;
   if (p->any) p->live[lane] = 0;
   p->moved = true;
@@ -101,7 +102,7 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
   best->radius_u = lanes_select(taken, r->radius_u, best->radius_u);
   best->radius_v = lanes_select(taken, r->radius_v, best->radius_v);
   best->t = lanes_select(taken, at, best->t);
-  best->leaf = (taken & number) | (~taken & best->leaf), best->certain |= taken;
+  best->leaf = (taken & number) | (~taken & best->leaf), best->certain |= taken, best->sharp &= ~taken;
   p->t_far = lanes_select(taken, at + error, p->t_far);
   if (p->any) p->live &= ~taken;
   p->moved = true;

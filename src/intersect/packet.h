@@ -14,7 +14,7 @@
 struct best {
   lanes u, v, radius_u, radius_v, t; /* as of struct leaf_hit; t infinite where there is none */
   lane_mask leaf;                    /* its number, or NO_LEAF */
-  lane_mask certain;
+  lane_mask certain, sharp;
   lane_mask doubt; /* some root could not be told from t_min, and was left out */
 };
 

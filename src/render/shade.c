@@ -76,7 +76,7 @@ static void light_packet(const struct scene_light *light, struct tracer *tracer,
     struct ray *ray = &shadow[lit++];
     hit_leave(&hits[k], way, ray->origin);
     vector_subtract(light->position, ray->origin, ray->direction);
-    if (vector_dot(ray->direction, ray->direction) == 0) /* a light at the very point we moved to */
+    if (vector_length(ray->direction) == 0) /* a light at the very point we moved to */
       memcpy(ray->direction, way, sizeof way);
     ray->t_min = 0;
     ray->t_max = 1;
