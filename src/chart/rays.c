@@ -5,6 +5,7 @@
 
 #include "geometry/vector.h"
 #include "render/camera.h"
+#include "render/shade.h"
 #include "render/tile.h"
 
 enum { PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
@@ -58,18 +59,6 @@ enum status rays_of_camera(const struct scene *scene, size_t width, size_t heigh
   return STATUS_OK;
 }
 
-/* The ray from a hit to a light, as the renderer makes it. False where the light is behind. */
-static bool shadow_ray(const struct scene_light *light, const struct hit *hit, struct ray *out)
-{
-  double way[3];
-  vector_subtract(light->position, hit->point, way);
-  if (!(vector_dot(way, hit->normal) > 0)) return false;
-  hit_leave(hit, way, out->origin);
-  vector_subtract(light->position, out->origin, out->direction);
-  out->t_min = 0, out->t_max = 1;
-  return vector_dot(out->direction, out->direction) > 0;
-}
-
 enum status rays_of_shadows(const struct scene *scene, const struct ray_list *camera, const struct hit *hits,
                             struct arena *arena, struct ray_list *out)
 {
@@ -85,7 +74,7 @@ enum status rays_of_shadows(const struct scene *scene, const struct ray_list *ca
       if (scene->lights[l].shadowless) continue;
       const size_t first = out->count;
       for (size_t k = packet->first; k < packet->first + packet->count; k++)
-        out->count += hits[k].patch != HIT_NONE && shadow_ray(&scene->lights[l], &hits[k], &out->rays[out->count]);
+        out->count += hits[k].patch != HIT_NONE && shade_shadow_ray(&scene->lights[l], &hits[k], &out->rays[out->count]);
       if (out->count == first) continue;
       out->packets[out->packet_count++] = (struct ray_packet){ first, out->count - first, new_run };
       new_run = false;

@@ -10,6 +10,7 @@
 #include "image/srgb.h"
 #include "render/camera.h"
 #include "render/render.h"
+#include "render/shade.h"
 
 const int CHECK_CODE[CHECK_CODES] = { 1, 4, 16 };
 
@@ -61,18 +62,7 @@ static void look_at_light(const struct check *check, struct tracer *tracer, size
   bool hidden[PACKET_SIZE] = { false };
   size_t rays = 0;
   for (size_t k = 0; k < count; k++) {
-    double way[3];
-    if (pixels[k].hit.patch == HIT_NONE)
-      continue;
-    vector_subtract(light->position, pixels[k].hit.point, way);
-    if (!(vector_dot(way, pixels[k].hit.normal) > 0))
-      continue;
-    struct ray *ray = &shadow[rays];
-    hit_leave(&pixels[k].hit, way, ray->origin);
-    vector_subtract(light->position, ray->origin, ray->direction);
-    ray->t_min = 0;
-    ray->t_max = 1;
-    if (vector_dot(ray->direction, ray->direction) > 0)
+    if (pixels[k].hit.patch != HIT_NONE && shade_shadow_ray(light, &pixels[k].hit, &shadow[rays]))
       asked[rays++] = &pixels[k];
   }
   if (rays > 0 && !light->shadowless)

@@ -3,10 +3,13 @@
 #include "render/shade.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 #include "geometry/vector.h"
+
+/* Where shadow rays end, of the way to the light. The place at which a ray meets a surface under an angle of sine s is known to
+ * about eps / s of the way, eps = 2^-52: this end is short of a surface that holds the light for all s > 2^-26. */
+static const double SHADOW_END = 1 - 0x1p-26;
 
 /* A lit point seen along a ray. */
 struct view {
@@ -55,6 +58,21 @@ static void add_light(const struct view *view, const struct scene_light *light, 
     rgb[k] += light->color[k] * (diffuse * view->texture->pigment[k] + highlight);
 }
 
+bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, struct ray *out)
+{
+  double way[3];
+  vector_subtract(light->position, hit->point, way);
+  if (!(vector_dot(way, hit->normal) > 0))
+    return false;
+  hit_leave(hit, way, out->origin);
+  vector_subtract(light->position, out->origin, out->direction);
+  if (vector_length(out->direction) == 0) /* a light at the very point we moved to */
+    memcpy(out->direction, way, sizeof way);
+  out->t_min = 0;
+  out->t_max = SHADOW_END;
+  return true;
+}
+
 /* One light on the hits of a packet. */
 static void light_packet(const struct scene_light *light, struct tracer *tracer, size_t count,
                          const struct view views[], const struct hit hits[], double out_rgb[][3])
@@ -63,23 +81,14 @@ static void light_packet(const struct scene_light *light, struct tracer *tracer,
   double to_light[PACKET_SIZE][3], cosine[PACKET_SIZE];
   struct ray shadow[PACKET_SIZE];
   for (size_t k = 0; k < count; k++) {
-    if (hits[k].patch == HIT_NONE)
+    if (hits[k].patch == HIT_NONE || !shade_shadow_ray(light, &hits[k], &shadow[lit]))
       continue;
     double way[3];
     vector_subtract(light->position, hits[k].point, way);
-    const double length = vector_length(way), facing = vector_dot(way, views[k].normal);
-    if (!(facing > 0))
-      continue;
+    const double length = vector_length(way);
     lane[lit] = k;
     vector_scale(1 / length, way, to_light[lit]);
-    cosine[lit] = facing / length;
-    struct ray *ray = &shadow[lit++];
-    hit_leave(&hits[k], way, ray->origin);
-    vector_subtract(light->position, ray->origin, ray->direction);
-    if (vector_length(ray->direction) == 0) /* a light at the very point we moved to */
-      memcpy(ray->direction, way, sizeof way);
-    ray->t_min = 0;
-    ray->t_max = 1;
+    cosine[lit++] = vector_dot(way, views[k].normal) / length;
   }
   bool hidden[PACKET_SIZE] = { false };
   if (lit > 0 && !light->shadowless)

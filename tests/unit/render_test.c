@@ -262,6 +262,39 @@ static void shadows_are_cast(void **state)
   assert_true(dark > 0);
 }
 
+/* A light that lies on a surface is not hidden by it, whichever way its place and the shadow rays' ends are rounded. */
+static void a_light_may_lie_on_a_surface(void **state)
+{
+  (void)state;
+  struct scene scene = scene_of();
+  scene.light_count = 1;
+  patches[0] = square(1, 0, 0);
+  for (int i = 0; i < 4; i++) { /* a floor, wider than the wall, that leans to the left */
+    for (int j = 0; j < 4; j++) {
+      const double x = 2.4 * j - 3.6, floor[3] = { x, 0.1 * x - 0.7, 1.3 * i - 2.1 };
+      memcpy(patches[0].P[i][j], floor, sizeof floor);
+    }
+  }
+  memcpy(lights[0].position, (const double[3]){ 0.3, 0.1 * 0.3 - 0.7, -0.4 }, sizeof lights[0].position);
+  const struct render_options options = options_of("rgb,patch");
+  struct render_stats stats;
+  float *out = render(&scene, &options, &stats);
+  size_t lit = 0;
+  for (size_t y = 0; y < HEIGHT; y++) {
+    for (size_t x = 0; x < WIDTH; x++) {
+      const float *pixel = out + 4 * (y * WIDTH + x);
+      double point[3];
+      point_on_wall(x, y, point);
+      if (pixel[3] != 1 || point[1] < 0.1 * point[0] - 0.7)
+        continue;
+      assert_true((double)pixel[0] > 0.1 * 1 * 0.8 + 1e-3);
+      lit++;
+    }
+  }
+  free(out);
+  assert_true(lit > 1000);
+}
+
 static void channels_tell_of_the_hit(void **state)
 {
   (void)state;
@@ -352,8 +385,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(threads_and_crop_change_nothing), cmocka_unit_test(nor_do_they_with_warm_starts),
     cmocka_unit_test(crop_counts_only_its_rays),       cmocka_unit_test(colours_follow_the_formulas),
-    cmocka_unit_test(shadows_are_cast),                cmocka_unit_test(channels_tell_of_the_hit),
-    cmocka_unit_test(samples_are_a_finer_picture),     cmocka_unit_test(a_stopped_rendering_says_so),
+    cmocka_unit_test(shadows_are_cast),                cmocka_unit_test(a_light_may_lie_on_a_surface),
+    cmocka_unit_test(channels_tell_of_the_hit),        cmocka_unit_test(samples_are_a_finer_picture),
+    cmocka_unit_test(a_stopped_rendering_says_so),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
