@@ -176,6 +176,9 @@ static enum status leaf_set_form(struct arena *arena, const struct model_patch *
   return STATUS_OK;
 }
 
+/* |Su x Sv| relative to the squared derivatives below which a box along the leaf is not worth its rounding. */
+#define LEAST_AREA 0x1p-30
+
 /* A leaf whose derivatives turn by no more than this fraction of their size is tried as a bilinear one first: the root of its
  * corners is off by about an eighth of it, and two Newton steps make that 1e-6. A choice of speed: what comes of it is proven. */
 #define BILINEAR_TURN 1.0
@@ -184,6 +187,36 @@ static bool nearly_bilinear(const struct leaf *leaf)
 {
   const double turn = (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]) / 2;
   return turn <= BILINEAR_TURN * real_min(leaf->first[0], leaf->first[1]);
+}
+
+/* A net whose middle has no normal gets a box that tells nothing. */
+static void leaf_set_slabs(struct leaf *leaf)
+{
+  struct leaf_slabs *slabs = &leaf->slabs;
+  double along_u[3], along_v[3], *normal = slabs->g[0], largest = 0;
+  for (int k = 0; k < 3; k++) {
+    const double *x = leaf->x[k];
+    along_u[k] = 0.5 * ((x[12] - x[0]) + (x[15] - x[3])), along_v[k] = 0.5 * ((x[3] - x[0]) + (x[15] - x[12]));
+  }
+  vector_cross(along_u, along_v, normal);
+  const double area = vector_length(normal);
+  const bool flat = !(area > LEAST_AREA * (vector_dot(along_u, along_u) + vector_dot(along_v, along_v)));
+  vector_scale(flat ? 0 : 1 / area, normal, normal);
+  vector_cross(along_v, normal, slabs->g[1]);
+  vector_cross(normal, along_u, slabs->g[2]);
+  for (int q = 0; q < 3; q++) {
+    double *g = slabs->g[q], lo = INFINITY, hi = -INFINITY;
+    if (q > 0) vector_scale(flat ? 0 : 1 / area, g, g);
+    for (int n = 0; n < 16; n++) {
+      const double x = g[0] * leaf->x[0][n] + g[1] * leaf->x[1][n] + g[2] * leaf->x[2][n];
+      lo = real_min(lo, x), hi = real_max(hi, x);
+    }
+    const double size = fabs(g[0]) + fabs(g[1]) + fabs(g[2]);
+    slabs->offset[q] = 0.5 * (lo + hi);
+    slabs->half[q] = 0.5 * (hi - lo) + 8 * UNIT_ROUNDOFF * size; /* |x| <= 1 */
+    largest = real_max(largest, size);
+  }
+  slabs->slack = flat ? INFINITY : 16 * largest * largest;
 }
 
 static enum status leaf_prepare(struct model *model, struct model_patch *patch, int column_u, int column_v, struct leaf *leaf,
@@ -211,6 +244,7 @@ static enum status leaf_prepare(struct model *model, struct model_patch *patch, 
   for (int k = 0; k < 3; k++) leaf->second[k] *= shrink * shrink;
   for (int k = 0; k < 2; k++) leaf->first[k] *= shrink;
   leaf->bilinear = patch->lanes && nearly_bilinear(leaf);
+  leaf_set_slabs(leaf);
   leaf->column_u = (uint16_t)column_u, leaf->column_v = (uint16_t)column_v;
   return leaf_set_form(model->arena, patch, x, leaf);
 }

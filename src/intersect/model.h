@@ -40,7 +40,15 @@ struct leaf_form {
   double excess;   /* bound on the distance of any coordinate, on the leaf, from the leaf's: the degree is one within rounding */
 };
 
+/* The leaf's net lies where |g_q x - offset_q| <= half_q for three covectors g_q (the normal in its middle, and the two that run with
+ * its parameters): a box along the leaf. */
+struct leaf_slabs {
+  double g[3][3], offset[3], half[3];
+  double slack; /* 16 times the largest product of the covectors' sizes |g_x| + |g_y| + |g_z| */
+};
+
 struct leaf {
+  struct leaf_slabs slabs;
   double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
   double second[3];             /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */

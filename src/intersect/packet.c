@@ -252,17 +252,19 @@ static lane_mask trial_bilinear(struct packet *p, const struct trial *t, lane_ma
 
 static void packet_try(struct packet *p, struct trial *t, lane_mask active)
 {
-  t->nets.error = p->local[t->axis].error;
   const bool paper = !t->patch->solver->polish;
-  lane_mask near = trial_planes(p, t, active);
-  if (lanes_any(near)) near = trial_aligned(t, near);
-  active = paper ? active : near;
+  if (!paper) active = trial_slabs(p, t, active);
   if (!lanes_any(active)) return;
   p->tracer->counts.patches_tested += (unsigned)__builtin_popcount(lanes_bits(active));
+  trial_nets(p, t);
   if (t->leaf->bilinear) {
     active = trial_bilinear(p, t, active);
     if (!lanes_any(active)) return;
   }
+  lane_mask near = trial_planes(t, active);
+  if (lanes_any(near)) near = trial_aligned(t, near);
+  active = paper ? active : near;
+  if (!lanes_any(active)) return;
   trial_form(p, t);
   lane_mask left = active;
   t->variations = lanes_all(-1);

@@ -37,19 +37,46 @@ LANES_INLINE void plane_values(const struct packet *p, int axis, const double x[
   *b = (j - p->local[axis].moment[1]) - p->slope[axis][1] * k;
 }
 
-/* Stage 1. Lanes that may meet the leaf. */
-static lane_mask trial_planes(const struct packet *p, struct trial *t, lane_mask active)
+/* Stage 1. Lanes whose ray may pass the box along the leaf. On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the slabs' forms are
+ * A + B w; two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With e the bound on a plane's error
+ * (local_ray.h), A is off by 2 |g| e and B by 4u |g|, where |A| u <= |g| e/4 and |B| <= |g|: the products by 8 |g_q| |g_r| e in all,
+ * and the right side by less than that. */
+static lane_mask trial_slabs(const struct packet *p, const struct trial *t, lane_mask active)
+{
+  const struct leaf_slabs *slabs = &t->leaf->slabs;
+  const int k = t->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+  lanes a[3], b[3], size[3];
+  for (int q = 0; q < 3; q++) {
+    const double *g = slabs->g[q];
+    a[q] = g[i] * p->local[k].moment[0] + (g[j] * p->local[k].moment[1] - slabs->offset[q]);
+    b[q] = g[i] * p->slope[k][0] + (g[j] * p->slope[k][1] + g[k]);
+    size[q] = lanes_abs(b[q]);
+  }
+  const lanes error = slabs->slack * p->local[k].error;
+  for (int q = 0; q < 3; q++) {
+    const int r = (q + 1) % 3;
+    active &= ~(lanes_abs(a[q] * b[r] - a[r] * b[q]) > slabs->half[q] * size[r] + (slabs->half[r] * size[q] + error));
+  }
+  return active;
+}
+
+static void trial_nets(const struct packet *p, struct trial *t)
+{
+  for (int n = 0; n < 16; n++) plane_values(p, t->axis, t->leaf->x, n, &t->nets.a[n], &t->nets.b[n]);
+  t->nets.slope[0] = p->slope[t->axis][0], t->nets.slope[1] = p->slope[t->axis][1];
+  t->nets.error = p->local[t->axis].error;
+}
+
+/* Stage 1 again, by the whole net. */
+static lane_mask trial_planes(struct trial *t, lane_mask active)
 {
   lanes a_low, a_high, b_low, b_high;
   for (int n = 0; n < 16; n++) {
-    lanes a, b;
-    plane_values(p, t->axis, t->leaf->x, n, &a, &b);
-    t->nets.a[n] = a, t->nets.b[n] = b;
+    const lanes a = t->nets.a[n], b = t->nets.b[n];
     a_low = n ? lanes_min(a, a_low) : a, a_high = n ? lanes_max(a, a_high) : a;
     b_low = n ? lanes_min(b, b_low) : b, b_high = n ? lanes_max(b, b_high) : b;
   }
-  t->nets.slope[0] = p->slope[t->axis][0], t->nets.slope[1] = p->slope[t->axis][1];
-  const lanes e = t->nets.error = p->local[t->axis].error;
+  const lanes e = t->nets.error;
   t->alpha = lanes_max(-a_low, a_high), t->beta = lanes_max(-b_low, b_high);
   return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
 }
