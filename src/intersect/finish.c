@@ -126,12 +126,14 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
   const struct best *best = &p->best;
   const lane_mask mask = lanes_mask(group);
   const double split = patch->split;
-  lanes column_u = lanes_all(0), column_v = lanes_all(0);
-  for (unsigned bits = group; bits; bits &= bits - 1) {
+  const int64_t number = best->leaf[__builtin_ctz(group)];
+  lanes column_u = lanes_all(model->leaves[number].column_u), column_v = lanes_all(model->leaves[number].column_v);
+  for (unsigned bits = group & ~lanes_bits(best->leaf == number); bits; bits &= bits - 1) {
     const int l = __builtin_ctz(bits);
     column_u[l] = model->leaves[best->leaf[l]].column_u, column_v[l] = model->leaves[best->leaf[l]].column_v;
   }
-  struct last_step step = {.patch = patch, .axis = axis, .origin = p->origin, .direction = p->direction};
+  struct last_step step;
+  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;
   step.improves = mask & best->certain;
   step.u = last_step_clamp((column_u + best->u) / split), step.v = last_step_clamp((column_v + best->v) / split);
   step.t = best->t;
@@ -168,21 +170,21 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
 void finish_hits(const struct packet *p, struct hit out[])
 {
   const struct model *model = p->tracer->model;
-  unsigned left = 0; /* lanes with a hit that is not finished */
-  uint32_t patch[LANES];
-  for (unsigned l = 0; l < p->count; l++) {
-    const bool found = p->best.leaf[l] != NO_LEAF;
-    patch[l] = found ? model->leaves[p->best.leaf[l]].patch : HIT_NONE;
-    out[l].patch = HIT_NONE;
-    out[l].certainty = model->unproven || p->best.doubt[l] ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
-    left |= (unsigned)found << l;
-  }
+  const unsigned doubt = model->unproven ? ~0u : lanes_bits(p->best.doubt);
+  unsigned left = lanes_bits(p->best.leaf != NO_LEAF); /* lanes with a hit that is not finished */
+  for (unsigned l = 0; l < p->count; l++)
+    out[l].patch = HIT_NONE, out[l].certainty = doubt >> l & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
   while (left) {
     const int first = __builtin_ctz(left), axis = p->on_axis[0][first] ? 0 : p->on_axis[1][first] ? 1 : 2;
-    unsigned group = 0;
-    for (unsigned l = 0; l < p->count; l++) group |= (unsigned)(patch[l] == patch[first]) << l;
-    group &= left & lanes_bits(p->on_axis[axis]);
-    finish_group(p, group, axis, patch[first], out);
+    const int64_t leaf = p->best.leaf[first];
+    const uint32_t patch = model->leaves[leaf].patch;
+    unsigned group = left & lanes_bits(p->best.leaf == leaf);
+    for (unsigned bits = left & ~group; bits; bits &= bits - 1) {
+      const int l = __builtin_ctz(bits);
+      group |= (unsigned)(model->leaves[p->best.leaf[l]].patch == patch) << l;
+    }
+    group &= lanes_bits(p->on_axis[axis]);
+    finish_group(p, group, axis, patch, out);
     left &= ~group;
   }
 }
