@@ -105,7 +105,7 @@ static bool first_after_all(const struct trial *trial, const struct ray *ray, co
   struct reference_answer truth;
   reference_closest(trial->reference, ray->origin, ray->direction, &truth);
   if (truth.patch == REFERENCE_NONE) return truth.verdict == REFERENCE_GRAZING && hit->t >= truth.t_first;
-  return hit->t <= (double)truth.t * (1 + TRIAL_SAME) + 64 * truth.data.t;
+  return hit->t <= (double)truth.t + TRIAL_SAME_FLOORS * truth.data.t;
 }
 
 static size_t count_leaks(struct trial *trial, const char *name, const char *solver, int kind, size_t count,

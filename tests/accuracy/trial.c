@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accuracy/models.h"
 #include "cmocka_test.h"
 
 enum { MOST_SHOWN = 10 };
@@ -15,8 +16,12 @@ enum { MOST_SHOWN = 10 };
 #define OTHER_SHEET 1e-3
 #define OTHER_SHEET_NEAR (32 * DOUBLE_UNIT)
 
+/* Where the bound on the normal is below this, what the first order leaves out is below its square. */
+#define NORMAL_FIRST_ORDER 1e-3
+
 static void start_intersector(struct trial *trial)
 {
+  for (size_t n = 0; n < trial->scene.solver_count; n++) trial->bare |= !trial->scene.solvers[n].polish;
   assert_int_equal(intersector_create(&trial->scene, &trial->intersector), STATUS_OK);
   assert_int_equal(tracer_create(trial->intersector, &trial->tracer), STATUS_OK);
 }
@@ -105,6 +110,22 @@ static double largest_coordinate(const struct trial *trial, const struct ray *ra
   return size;
 }
 
+static double direction_length(const struct ray *ray)
+{
+  const double *d = ray->direction;
+  return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+}
+
+/* How far in t the answer may be from the reference's, whose floor is given, and be the same hit still. */
+static double same_within(const struct trial *trial, const struct ray *ray, const struct hit *hit, double t, double floor)
+{
+  if (trial->bare) return fmax(TRIAL_BARE_SAME * t, TRIAL_SAME_FLOORS * floor);
+  double allowed = TRIAL_SAME_FLOORS * floor;
+  if (hit->certainty == CERTAINTY_GRAZING)
+    allowed += TRIAL_NEAR * largest_coordinate(trial, ray, hit) / direction_length(ray);
+  return allowed;
+}
+
 /* Whether a hit that should not be there may stand: it says grazing, and ray and patch do come that near. */
 static bool excused(const struct trial *trial, const struct ray *ray, const struct hit *hit)
 {
@@ -134,16 +155,70 @@ static void add_t_error(struct tally *tally, double error)
   tally->t_errors[tally->t_count++] = error;
 }
 
+static double length_of(const double a[3]) { return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+
+/* The largest k-th difference of control points along both parameters, times what makes it a bound of that derivative. */
+static double difference_bound(const double P[4][4][3], int by_u, int by_v)
+{
+  double largest = 0, factor = 1;
+  for (int k = 0; k < by_u; k++) factor *= 3 - k;
+  for (int k = 0; k < by_v; k++) factor *= 3 - k;
+  for (int i = 0; i + by_u < 4; i++) {
+    for (int j = 0; j + by_v < 4; j++) {
+      double d[3] = {0};
+      for (int m = 0; m <= by_u; m++)
+        for (int n = 0; n <= by_v; n++)
+          for (int axis = 0; axis < 3; axis++)
+            d[axis] += ((by_u - m + by_v - n) % 2 ? -1 : 1) * (by_u == 2 && m == 1 ? 2 : 1) * (by_v == 2 && n == 1 ? 2 : 1) *
+                       P[i + m][j + n][axis];
+      largest = fmax(largest, length_of(d));
+    }
+  }
+  return factor * largest;
+}
+
+/* What the floors of u and v, and the roundings of the tangents (16 on coefficients of the patch's size), do to the unit normal
+ * n = S_u x S_v/|S_u x S_v|: to first order |dn| <= |d(S_u x S_v)|/|S_u x S_v|. */
+static double normal_bound(const double P[4][4][3], const struct reference_answer *truth)
+{
+  double su[3], sv[3], cross[3];
+  net_tangents(P, (double)truth->u, (double)truth->v, su, sv);
+  for (int axis = 0; axis < 3; axis++) {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    cross[axis] = su[i] * sv[j] - su[j] * sv[i];
+  }
+  const double du = TRIAL_FLOORS * truth->data.u, dv = TRIAL_FLOORS * truth->data.v, mixed = difference_bound(P, 1, 1);
+  const double rounding = 16 * DOUBLE_UNIT * (difference_bound(P, 1, 0) + difference_bound(P, 0, 1));
+  const double off_u = difference_bound(P, 2, 0) * du + mixed * dv + rounding;
+  const double off_v = mixed * du + difference_bound(P, 0, 2) * dv + rounding;
+  return (off_u * length_of(sv) + off_v * length_of(su)) / length_of(cross) + 8 * DOUBLE_UNIT;
+}
+
+/* The normal, where its bound is small enough for the first order to hold. */
+static void measure_normal(const struct trial *trial, const struct ray *ray, const struct hit *hit,
+                           const struct reference_answer *truth, struct tally *tally)
+{
+  if (!truth->has_normal) return;
+  const double bound = normal_bound((const double(*)[4][3])trial->scene.patches[hit->patch].P, truth);
+  if (!(bound < NORMAL_FIRST_ORDER)) return;
+  double off = 0, facing = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    off = fmax(off, fabs(hit->normal[axis] - truth->normal[axis]));
+    facing += truth->normal[axis] * ray->direction[axis];
+  }
+  if (fabs(facing) <= bound * direction_length(ray)) return; /* seen edge-on: which side is seen is rounding */
+  tally->worst_normal = fmax(tally->worst_normal, off);
+  tally->worst_normal_floor = fmax(tally->worst_normal_floor, off / bound);
+  if (off > bound && tally->bad_normal++ == 0) show("wrong normal", ray, hit, truth, tally);
+}
+
 /* Both found the same hit: how well. */
 static void measure(const struct trial *trial, const struct ray *ray, const struct hit *hit, const struct reference_answer *truth,
                     struct tally *tally)
 {
-  double length = 0, reach = 0;
-  for (int axis = 0; axis < 3; axis++) {
-    length += ray->direction[axis] * ray->direction[axis];
-    reach = fmax(reach, fabs(ray->origin[axis]));
-  }
-  double dt = (double)quad_abs(hit->t - truth->t), origin_rounding = DOUBLE_UNIT * reach / sqrt(length);
+  double reach = 0;
+  for (int axis = 0; axis < 3; axis++) reach = fmax(reach, fabs(ray->origin[axis]));
+  double dt = (double)quad_abs(hit->t - truth->t), origin_rounding = DOUBLE_UNIT * reach / direction_length(ray);
   if (hit->certainty == CERTAINTY_GRAZING) { /* a root that rounding can split or remove: no first-order floor holds */
     tally->worst_t_grazing = fmax(tally->worst_t_grazing, dt / (double)truth->t);
     return;
@@ -163,22 +238,14 @@ static void measure(const struct trial *trial, const struct ray *ray, const stru
   }
   if (beyond) show("T, U or V beyond its floor", ray, hit, truth, tally);
   if (hit->patch != truth->patch || other) return;
-  if (truth->has_normal && truth->data.u + truth->data.v < 1e-12 && truth->incidence > 1e-6) {
-    double off = 0;
-    for (int axis = 0; axis < 3; axis++) off = fmax(off, fabs(hit->normal[axis] - truth->normal[axis]));
-    tally->worst_normal = fmax(tally->worst_normal, off);
-    if (off > TRIAL_NORMAL) {
-      if (tally->bad_normal++ == 0) show("wrong normal", ray, hit, truth, tally);
-    }
-  }
+  measure_normal(trial, ray, hit, truth, tally);
 }
 
 static void judge_hit(const struct trial *trial, const struct ray *ray, const struct hit *hit,
                       const struct reference_answer *truth, struct tally *tally)
 {
   double difference = (double)((quad)hit->t - truth->t);
-  double near = hit->certainty == CERTAINTY_GRAZING ? TRIAL_SAME_GRAZING : TRIAL_SAME;
-  if (fabs(difference) <= fmax(near * (double)truth->t, 64 * truth->data.t)) {
+  if (fabs(difference) <= same_within(trial, ray, hit, (double)truth->t, truth->data.t)) {
     measure(trial, ray, hit, truth, tally);
   } else if (difference > 0) {
     tally->lost++;
@@ -198,11 +265,13 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
   tally->undecided++;
   if (hit->certainty == CERTAINTY_CERTAIN) tally->bold++;
   bool proven = truth->patch != REFERENCE_NONE;
-  if (proven && (hit->patch == HIT_NONE || hit->t > (double)truth->t * (1 + TRIAL_SAME) + 64 * truth->data.t)) {
+  if (proven && (hit->patch == HIT_NONE ||
+                 hit->t > (double)truth->t + same_within(trial, ray, hit, (double)truth->t, truth->data.t))) {
     tally->lost++;
     tally->holes += hit->patch == HIT_NONE;
     show("lost behind a grazing one", ray, hit, truth, tally);
-  } else if (hit->patch != HIT_NONE && hit->t < truth->t_first * (1 - TRIAL_SAME) && !excused(trial, ray, hit)) {
+  } else if (hit->patch != HIT_NONE && hit->t < truth->t_first - same_within(trial, ray, hit, truth->t_first, truth->t_first * DOUBLE_UNIT) &&
+             !excused(trial, ray, hit)) {
     tally->invented++;
     show("invented before a grazing one", ray, hit, truth, tally);
   }
@@ -274,11 +343,11 @@ void tally_print(struct tally *tally)
          tally->name, tally->rays, tally->hits, tally->misses, tally->undecided, tally->lost, tally->invented,
          tally->grazing, tally->over, tally->bold);
   printf("  T relative: median %.2g, 99 %% %.2g, max %.2g; in data floors: T %.2g U %.2g V %.2g; in local floors: "
-         "T %.2g U %.2g V %.2g; normal %.2g; "
+         "T %.2g U %.2g V %.2g; normal %.2g, %.2g of its bound; "
          "T of grazing hits %.2g\n",
          quantile(tally, 0.5), quantile(tally, 0.99), quantile(tally, 1), tally->worst_t_floor, tally->worst_u_floor,
          tally->worst_v_floor, tally->worst_t_local, tally->worst_u_local, tally->worst_v_local, tally->worst_normal,
-         tally->worst_t_grazing);
+         tally->worst_normal_floor, tally->worst_t_grazing);
 }
 
 void tally_assert(struct tally *tally)
