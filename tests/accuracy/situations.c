@@ -236,65 +236,121 @@ static void tangent(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* Opposite edges collapsed, in u, in v, or (every eighth patch) in both; of the others two in eight are a line, along u or
- * along v, and one a point. */
+/* The patch's control points in one, where `edge` counts: those of u = 0, u = 1, v = 0, v = 1. */
+static void collapse(struct situation *s, int edge)
+{
+  const int end = edge % 2 ? 3 : 0;
+  for (int k = 0; k < 4; k++) {
+    double *p = edge < 2 ? point(s, end, k) : point(s, k, end);
+    const double *to = edge < 2 ? point(s, end, 0) : point(s, 0, end);
+    if (p != to) memcpy(p, to, sizeof(double[3]));
+  }
+}
+
+/* Some rays exactly at corners. */
+static void rays_at_corners(struct situation *s)
+{
+  for (int n = 0; n < RAYS / 4; n++) ray_between(s->rays[n].origin, point(s, 3 * (n & 1), 3 * (n >> 1 & 1)), &s->rays[n]);
+}
+
+/* Opposite edges collapsed, in u, in v, or in both: then all corners are the same point. */
 static void collapsed(struct random *random, size_t index, struct situation *s)
 {
   s->count = 1;
   gentle(random, 1, s->P[0]);
-  for (int k = 0; k < 4; k++) {
-    if (index % 8 == 3) { /* all four: every corner is the same point */
-      for (int end = 0; end < 4; end += 3) {
-        memcpy(point(s, end, k), point(s, 0, 0), sizeof(double[3]));
-        memcpy(point(s, k, end), point(s, 0, 0), sizeof(double[3]));
-      }
-    } else if (index % 2) {
-      memcpy(point(s, 0, k), point(s, 0, 0), sizeof(double[3]));
-      memcpy(point(s, 3, k), point(s, 3, 0), sizeof(double[3]));
-    } else {
-      memcpy(point(s, k, 0), point(s, 0, 0), sizeof(double[3]));
-      memcpy(point(s, k, 3), point(s, 0, 3), sizeof(double[3]));
-    }
-  }
-  for (int k = 0; k < 16; k++) {
-    if (index % 8 == 5 || index % 8 == 6) {
-      point(s, k / 4, k % 4)[index % 2] = point(s, k / 4, k % 4)[2] = 0.25;
-    } else if (index % 8 == 7) {
-      memcpy(point(s, k / 4, k % 4), point(s, 0, 0), sizeof(double[3]));
-    }
-  }
+  if (index % 3 != 1) collapse(s, 0), collapse(s, 1);
+  if (index % 3 == 2) memcpy(point(s, 3, 0), point(s, 0, 0), sizeof(double[3])), collapse(s, 1);
+  if (index % 3 != 0) collapse(s, 2), collapse(s, 3);
   rays_at_patch(random, s);
-  for (int n = 0; n < RAYS / 4; n++) /* exactly at a collapsed corner */
-    ray_between(s->rays[n].origin, point(s, 3 * (n & 1), 3 * (n >> 1 & 1)), &s->rays[n]);
+  rays_at_corners(s);
 }
 
-/* Folded back over itself; with a cusp, where a derivative vanishes; or cutting itself along a line: extruded loops of
- * a cubic, some rays aimed exactly at the line. */
-static void folded(struct random *random, size_t index, struct situation *s)
+/* The whole patch is a line, along u or along v, or a point. */
+static void line_or_point(struct random *random, size_t index, struct situation *s)
 {
-  static const double cusp_x[4] = {1, -1, 1, -1}; /* x = (1 - 2u)^3 */
-  /* x and z of a loop: with w = u (1 - u), x = (2u - 1)(3 - 18 w) and z = 6 w, so it crosses itself at (0,1), w = 1/6 */
-  static const double loop_x[4] = {-3, 5, -5, 3}, loop_z[4] = {0, 2, 2, 0};
-  const size_t kind = index % 3;
   s->count = 1;
   gentle(random, 1, s->P[0]);
-  for (int j = 0; j < 4; j++) {
-    for (int i = 0; i < 4; i++) {
-      double *p = point(s, i, j);
-      if (kind == 0) p[0] += i == 1 ? 4 : i == 2 ? -4 : 0;
-      if (kind == 1) p[0] = cusp_x[i];
-      if (kind == 2) {
-        p[0] = loop_x[i];
-        p[1] = j - 1.5;
-        p[2] = loop_z[i];
-      }
+  for (int k = 0; k < 16; k++) {
+    double *p = point(s, k / 4, k % 4);
+    if (index % 3 == 2) {
+      for (int axis = 0; axis < 3; axis++) p[axis] = s->P[0][0][0][axis];
+    } else {
+      p[1 - index % 3] = p[2] = 0.25;
     }
   }
-  if (index / 3 % 2) transpose(s);
   rays_at_patch(random, s);
-  for (int n = 0; kind == 2 && n < RAYS / 4; n++) {
+  rays_at_corners(s);
+}
+
+/* Back over itself, along u or along v. */
+static void folded(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  for (int j = 0; j < 4; j++) point(s, 1, j)[0] += 4, point(s, 2, j)[0] -= 4;
+  if (index % 2) transpose(s);
+  rays_at_patch(random, s);
+}
+
+/* A cusp, where a derivative vanishes: x = (1 - 2u)^3. Some rays exactly at it. */
+static void cusped(struct random *random, size_t index, struct situation *s)
+{
+  static const double cusp[4] = {1, -1, 1, -1};
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      point(s, i, j)[0] = cusp[i];
+      if (index % 4 > 1) point(s, i, j)[2] = cusp[i] * cusp[i] * point(s, 0, j)[2]; /* in z too: both derivatives */
+    }
+  }
+  if (index % 2) transpose(s);
+  rays_at_patch(random, s);
+  for (int n = 0; n < RAYS / 4; n++) {
+    double target[3], v = random_unit(random);
+    net_point((const double(*)[4][3])s->P[0], index % 2 ? v : 0.5, index % 2 ? 0.5 : v, target);
+    ray_between(s->rays[n].origin, target, &s->rays[n]);
+  }
+}
+
+/* Cutting itself along a line: an extruded loop of a cubic. With w = u (1 - u), x = (2u - 1)(3 - 18 w) and z = 6 w, so it crosses
+ * itself at (0,1), w = 1/6. Some rays exactly at that line. */
+static void self_intersecting(struct random *random, size_t index, struct situation *s)
+{
+  static const double loop_x[4] = {-3, 5, -5, 3}, loop_z[4] = {0, 2, 2, 0};
+  s->count = 1;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double p[3] = {loop_x[i], j - 1.5 + 0.2 * random_between(random, -1, 1), loop_z[i]};
+      memcpy(point(s, i, j), p, sizeof p);
+    }
+  }
+  if (index % 2) transpose(s);
+  rays_at_patch(random, s);
+  for (int n = 0; n < RAYS / 4; n++) {
     const double target[3] = {0, random_between(random, -1.5, 1.5), 1};
     ray_between(s->rays[n].origin, target, &s->rays[n]);
+  }
+}
+
+/* Exactly tangent to the bowl 3 z = x^2 + y^2 at its middle: what of the ray is exact stays so, for whole numbers. */
+static void exactly_tangent(struct random *random, size_t index, struct situation *s)
+{
+  static const double square[4] = {3, -1, -1, 3};
+  (void)index;
+  s->count = 1;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double p[3] = {2 * i - 3, 2 * j - 3, square[i] + square[j]};
+      memcpy(point(s, i, j), p, sizeof p);
+    }
+  }
+  for (int n = 0; n < RAYS; n++) {
+    double target[3] = {0}, origin[3];
+    random_vector(random, 8, origin);
+    for (int axis = 0; axis < 3; axis++) origin[axis] = rint(origin[axis] * 1024) / 1024;
+    origin[2] = 0;
+    ray_between(origin, target, &s->rays[n]);
   }
 }
 
@@ -333,6 +389,24 @@ static void sized(struct random *random, size_t index, struct situation *s)
   }
 }
 
+/* Magnitudes near the ends of what the reference works with. Beyond them: property/invariance_test.c, image/magnitudes.sh. */
+static void hostile_size(struct random *random, size_t index, struct situation *s)
+{
+  const double scale = index % 2 ? 1e50 : 1e-50;
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  rays_at_patch(random, s);
+  resize(s, scale, 0);
+  for (int n = 0; n < RAYS; n++) {
+    double target[3];
+    for (int axis = 0; axis < 3; axis++) {
+      target[axis] = scale * (s->rays[n].origin[axis] + s->rays[n].direction[axis]);
+      s->rays[n].origin[axis] *= scale;
+    }
+    ray_between(s->rays[n].origin, target, &s->rays[n]);
+  }
+}
+
 static void far_camera(struct random *random, size_t index, struct situation *s)
 {
   (void)index;
@@ -347,12 +421,12 @@ static void far_camera(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* A fan of rays around a tangent one, 200 or 1e6 times narrower than the patch. */
-static void silhouette(struct random *random, size_t index, struct situation *s)
+/* A fan of rays around a tangent one, `width` times as wide as the patch. */
+static void silhouette(struct random *random, double width, struct situation *s)
 {
   s->count = 1;
   gentle(random, 1.5, s->P[0]);
-  double width = index % 2 ? 1.0 / 200 : 1e-6, target[3], du[3], dv[3], origin[3];
+  double target[3], du[3], dv[3], origin[3];
   double u = random_between(random, 0.1, 0.9), v = random_between(random, 0.1, 0.9);
   net_point((const double(*)[4][3])s->P[0], u, v, target);
   net_tangents((const double(*)[4][3])s->P[0], u, v, du, dv);
@@ -364,6 +438,18 @@ static void silhouette(struct random *random, size_t index, struct situation *s)
     for (int axis = 0; axis < 3; axis++) aim[axis] += target[axis];
     ray_between(origin, aim, &s->rays[n]);
   }
+}
+
+static void magnified_200(struct random *random, size_t index, struct situation *s)
+{
+  (void)index;
+  silhouette(random, 1.0 / 200, s);
+}
+
+static void magnified_million(struct random *random, size_t index, struct situation *s)
+{
+  (void)index;
+  silhouette(random, 1e-6, s);
 }
 
 /* Rays that start on the surface, or a little off it. */
@@ -391,12 +477,18 @@ static const struct situation_class classes[] = {
     {"elevated degree", 505, 1, elevated},
     {"height field along its axis", 506, 1, height_field},
     {"near tangent", 507, 1, tangent},
+    {"exactly tangent", 515, 0.1, exactly_tangent},
     {"collapsed edges", 508, 0.1, collapsed},
-    {"folded and cusped", 509, 1, folded},
+    {"collapsed to a line or a point", 516, 0.1, line_or_point},
+    {"folded", 509, 1, folded},
+    {"cusped", 517, 0.2, cusped},
+    {"self-intersecting", 518, 1, self_intersecting},
     {"repeated points", 510, 1, repeated},
     {"scaled and shifted", 511, 1, sized},
+    {"hostile magnitudes", 519, 1, hostile_size},
     {"camera far away", 512, 1, far_camera},
-    {"magnified silhouette", 513, 1, silhouette},
+    {"silhouette magnified 200 times", 513, 1, magnified_200},
+    {"silhouette magnified a million times", 521, 1, magnified_million},
     {"start on the surface", 514, 1, on_surface},
 };
 
