@@ -238,7 +238,10 @@ static enum status measure_as_written(struct check *check)
   const enum status status = plain_copy(check->request->scene.path, check->povray.folder.path, NAME, &reason);
   if (status == STATUS_OK) {
     tell(check, "POV-Ray: as written");
-    return check_measure_row(check, NAME, 0);
+    const enum status measured = check_measure_row(check, NAME, 0);
+    if (measured == STATUS_OK && check->warnings != NULL)
+      tell(check, check->warnings);
+    return measured;
   }
   if (status == STATUS_FILE)
     command_error(check->command, "cannot copy the scene for POV-Ray: %s", reason);

@@ -33,12 +33,16 @@ struct check_request {
   bool quiet;
 };
 
+/* What a pixel, or one beside it, lies on; where it is several, the last of these. */
+enum check_edge { CHECK_EDGE_NONE, CHECK_EDGE_CREASE, CHECK_EDGE_SHADOW, CHECK_EDGE_SILHOUETTE, CHECK_EDGES };
+extern const char *const CHECK_EDGE_NAME[CHECK_EDGES];
+
 /* What we know of a pixel's centre. */
 struct check_pixel {
   struct hit hit;
   double distance;  /* scene units; INFINITY on a miss */
   uint64_t lights;  /* bit k: light k (of the first 64) reaches the point */
-  bool edge;        /* it or a pixel beside it lies on a silhouette, a shadow's edge or a crease */
+  enum check_edge edge;
 };
 
 struct check_ours {
@@ -47,7 +51,7 @@ struct check_ours {
   double wall, cpu;          /* seconds: reading, building, rendering and encoding, one thread */
 };
 
-/* Differences of distances, relative to ours, over the rays that both say hit. */
+/* Differences of distances, relative to ours, over the rays that both say hit; NaN where there are none. */
 struct check_distances {
   size_t rays, both, only_ours, only_theirs;
   double median, most, max; /* most: 99 of 100 are at most this */
@@ -59,7 +63,7 @@ struct check_row {
   unsigned char *mask; /* [height][width]: POV-Ray hits */
   struct compare_result result;
   size_t over[CHECK_CODES], over_limit;
-  size_t off_edges; /* pixels over the limit that are not on an edge */
+  size_t over_limit_on[CHECK_EDGES]; /* the pixels over the limit by what they lie on */
   size_t mask_ours, mask_theirs; /* pixels only one of us hits */
   struct check_distances distances;
 };
@@ -102,8 +106,22 @@ enum status check_find_worst(struct check *check) STATUS_MUST_CHECK;
 enum status check_difference(const struct check *check, const struct check_row *row, double scale,
                              struct image *out) STATUS_MUST_CHECK;
 
+/* The largest difference of a pixel's R G B, and beyond what it is over the limit. */
+double check_pixel_difference(const struct check *check, const struct check_row *row, size_t x, size_t y);
+double check_limit(const struct check *check);
+
 /* Whether the last row is within the limits; if not, `out` says what is beyond them. */
 bool check_within_limits(const struct check *check, char *out, size_t size);
+
+/* ---- check_edges.c ---- */
+
+/* Finds the edges among our pixels. */
+void check_find_edges(struct check *check);
+
+/* Our picture, dark, with its edges, and on it the pixels over the limit, as spots. The colours R G B, 0 to 1, of what is on
+ * the map: the edges, and the spots by what they lie on. STATUS_LIMIT where memory is short. */
+extern const float CHECK_EDGE_COLOR[CHECK_EDGES][3], CHECK_SPOT_COLOR[2][3]; /* [1]: off edges */
+enum status check_map(const struct check *check, const struct check_row *row, struct image *out) STATUS_MUST_CHECK;
 
 /* ---- check_report.c ---- */
 

@@ -94,38 +94,6 @@ static void look_at_pixels(struct check *check, struct tracer *tracer)
   }
 }
 
-/* ---- edges ---- */
-
-/* Whether the surface steps or bends between two pixels, or the light on it changes. A smooth surface seen by pixels beside
- * each other turns little and stays near both tangent planes. */
-static bool apart(const struct check_pixel *a, const struct check_pixel *b)
-{
-  static const double TURN = 0.9;  /* cosine of 26 degrees */
-  static const double RISE = 0.34; /* sine of 20 degrees: out of a tangent plane */
-  const bool missed = a->hit.patch == HIT_NONE;
-  if (missed || b->hit.patch == HIT_NONE)
-    return missed != (b->hit.patch == HIT_NONE);
-  if (a->lights != b->lights || vector_dot(a->hit.normal, b->hit.normal) < TURN)
-    return true;
-  double step[3];
-  vector_subtract(b->hit.point, a->hit.point, step);
-  const double far = RISE * vector_length(step);
-  return fabs(vector_dot(step, a->hit.normal)) > far || fabs(vector_dot(step, b->hit.normal)) > far;
-}
-
-static void find_edges(struct check *check)
-{
-  for (size_t y = 0; y < check->height; y++) {
-    for (size_t x = 0; x < check->width; x++) {
-      struct check_pixel *pixel = &check->ours.pixel[y * check->width + x];
-      for (size_t v = y == 0 ? 0 : y - 1; v <= y + 1 && v < check->height; v++) {
-        for (size_t u = x == 0 ? 0 : x - 1; u <= x + 1 && u < check->width; u++)
-          pixel->edge |= apart(pixel, &check->ours.pixel[v * check->width + u]);
-      }
-    }
-  }
-}
-
 enum status check_measure_ours(struct check *check)
 {
   struct check_ours *ours = &check->ours;
@@ -156,7 +124,7 @@ enum status check_measure_ours(struct check *check)
   }
   if (status == STATUS_OK) {
     look_at_pixels(check, tracer);
-    find_edges(check);
+    check_find_edges(check);
     if (atomic_load(&interrupt_signal) != 0)
       status = STATUS_INTERRUPTED;
   }
@@ -182,7 +150,7 @@ static struct compare_pair pair_of(const struct check *check, const struct check
                                 .second_channel = RGB };
 }
 
-static double pixel_difference(const struct check *check, const struct check_row *row, size_t x, size_t y)
+double check_pixel_difference(const struct check *check, const struct check_row *row, size_t x, size_t y)
 {
   const float *a = image_pixel(&check->ours.picture, x, y), *b = image_pixel(&row->picture.image, x, y);
   double most = 0;
@@ -191,10 +159,12 @@ static double pixel_difference(const struct check *check, const struct check_row
   return most;
 }
 
+double check_limit(const struct check *check) { return check->request->fail.each + CODE_ROUNDING; }
+
 static void compare_row(const struct check *check, struct check_row *row)
 {
   const struct compare_pair pair = pair_of(check, row);
-  const double limit = check->request->fail.each + CODE_ROUNDING;
+  const double limit = check_limit(check);
   compare_images(&pair, &row->result, NULL, 1);
   for (int k = 0; k < CHECK_CODES; k++)
     row->over[k] = compare_count_over(&pair, CHECK_CODE[k] / 255.0 + CODE_ROUNDING);
@@ -203,7 +173,7 @@ static void compare_row(const struct check *check, struct check_row *row)
     for (size_t x = 0; x < check->width; x++) {
       const size_t index = y * check->width + x;
       const bool hit = check->ours.pixel[index].hit.patch != HIT_NONE;
-      row->off_edges += !check->ours.pixel[index].edge && pixel_difference(check, row, x, y) > limit;
+      row->over_limit_on[check->ours.pixel[index].edge] += check_pixel_difference(check, row, x, y) > limit;
       row->mask_ours += hit && !row->mask[index];
       row->mask_theirs += !hit && row->mask[index];
     }
@@ -229,6 +199,7 @@ static void compare_distances(size_t count, double ours[], const double theirs[]
     if (hit && theirs_hit)
       ours[out->both++] = fabs(theirs[k] - ours[k]) / ours[k];
   }
+  out->median = out->most = out->max = NAN;
   if (out->both == 0)
     return;
   qsort(ours, out->both, sizeof *ours, by_size);
@@ -324,7 +295,7 @@ enum status check_find_worst(struct check *check)
     *worst = (struct check_worst){ 0 };
     for (size_t y = 0; y < check->height; y++) {
       for (size_t x = 0; x < check->width; x++) {
-        const double difference = pixel_difference(check, row, x, y);
+        const double difference = check_pixel_difference(check, row, x, y);
         if (difference > worst->difference && !near_one(check, x, y))
           *worst = (struct check_worst){ .x = x, .y = y, .difference = difference };
       }

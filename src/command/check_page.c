@@ -12,11 +12,13 @@ enum { CROP = 15, CROP_SHOWN = 150 }; /* pixels around a worst one, and their si
 
 static const char STYLE[] =
   ".pixels { image-rendering: pixelated; border: 1px solid #aaa }\n"
-  ".slider { position: relative; max-width: 100%; overflow: hidden; border: 1px solid #aaa }\n"
+  ".slider { position: relative; max-width: 100%; overflow: hidden; outline: 1px solid #aaa; container-type: inline-size }\n"
   ".slider img { max-width: none; width: 100%; height: 100% }\n"
   ".slider .over { position: absolute; left: 0; top: 0; bottom: 0; width: 50%; overflow: hidden; resize: horizontal;\n"
   "  border-right: 2px solid #e33; max-width: 100% }\n"
-  ".slider .over img { position: absolute; left: 0; top: 0 }\n"
+  ".slider .over img { position: absolute; left: 0; top: 0; width: 100cqw }\n"
+  ".worst { display: flex; flex-wrap: wrap; gap: 0 2.5em } .worst section { width: 500px } .worst figure { margin-right: .6em }\n"
+  ".key { display: inline-block; width: .8em; height: .8em; margin-right: .5em; border: 1px solid #888 }\n"
   ".control { width: 100%; margin: .3em 0 }\n"
   ".verdict { padding: .5em .8em; background: #eef5ee; border-left: 4px solid #4a4 }\n"
   ".verdict.beyond { background: #f8eaea; border-color: #c33 }\n";
@@ -38,7 +40,8 @@ static void put_percent(struct page *page, size_t count, size_t of)
 static void put_cell(struct page *page, double value, int digits)
 {
   page_put(page, "<td>");
-  page_number(page, value, digits);
+  if (!isnan(value))
+    page_number(page, value, digits);
   page_put(page, "</td>");
 }
 
@@ -64,7 +67,8 @@ static void put_picture_table(const struct check *check, struct page *page)
       put_percent(page, row->over[c], row->result.pixels);
     page_format(page, "<td>%d/255</td>", (int)lround(255 * row->result.max));
     put_cell(page, row->result.psnr, 4);
-    page_format(page, "<td>%zu</td><td>%zu</td><td>%zu</td>", row->off_edges, row->mask_ours, row->mask_theirs);
+    page_format(page, "<td>%zu</td><td>%zu</td><td>%zu</td>", row->over_limit_on[CHECK_EDGE_NONE], row->mask_ours,
+                row->mask_theirs);
     put_cell(page, row->picture.wall, 3);
     put_cell(page, row->picture.cpu, 3);
     page_put(page, "</tr>\n");
@@ -72,8 +76,7 @@ static void put_picture_table(const struct check *check, struct page *page)
   page_put(page, "<tr><td>pscn, one thread</td><td></td><td></td><td></td><td></td><td></td><td></td><td></td><td></td>");
   put_cell(page, check->ours.wall, 3);
   put_cell(page, check->ours.cpu, 3);
-  page_put(page, "</tr>\n</table>\n<p>Pixels on an edge: they or one beside them see a silhouette, the edge of a shadow, or a "
-                 "crease. There half a pixel's difference of the shape is a difference of the whole colour.</p>\n");
+  page_put(page, "</tr>\n</table>\n");
 }
 
 static void put_distance_table(const struct check *check, struct page *page)
@@ -99,12 +102,11 @@ static void put_distance_table(const struct check *check, struct page *page)
 static void put_slider(const struct check *check, const struct image *theirs, struct page *page)
 {
   page_format(page, "<h2>One over the other</h2>\n<p>Left of the red line pscn, right of it POV-Ray. The line follows the "
-                    "control, or the corner at its foot.</p>\n"
+                    "control below it, and without script the corner at its foot.</p>\n"
                     "<div class=\"slider\" style=\"width:%zupx;aspect-ratio:%zu/%zu\"><img alt=\"POV-Ray\" src=\"",
               check->width, check->width, check->height);
   page_image_data(page, theirs);
-  page_format(page, "\"><div class=\"over\" id=\"over\"><img alt=\"pscn\" style=\"width:%zupx;height:auto\" src=\"",
-              check->width);
+  page_format(page, "\"><div class=\"over\" id=\"over\"><img alt=\"pscn\" src=\"");
   page_image_data(page, &check->ours.picture);
   page_format(page, "\"></div></div>\n<input class=\"control\" style=\"max-width:%zupx\" type=\"range\" min=\"0\" max=\"100\" "
                     "value=\"50\" aria-label=\"share of pscn\" "
@@ -131,19 +133,40 @@ static void put_differences(const struct check *check, struct page *page)
   }
 }
 
-/* The edges of our picture, white on black. */
-static void put_edges(const struct check *check, struct page *page)
+static void put_key(struct page *page, const float color[3], const char *name)
 {
-  struct image edges;
-  if (image_create(check->width, check->height, 1, &edges) != STATUS_OK) {
+  page_format(page, "<tr><td><span class=\"key\" style=\"background: rgb(%d, %d, %d)\"></span>%s</td>",
+              (int)lroundf(255 * color[0]), (int)lroundf(255 * color[1]), (int)lroundf(255 * color[2]), name);
+}
+
+/* The pixels over the limit in the last row, and what they lie on. */
+static void put_places(const struct check *check, struct page *page)
+{
+  static const char *const NAME[CHECK_EDGES] = { "not on an edge", "on creases", "on edges of shadows", "on silhouettes" };
+  const struct check_row *last = &check->row[check->row_count - 1];
+  struct image map;
+  if (check_map(check, last, &map) != STATUS_OK) {
     page->failed = true;
     return;
   }
-  for (size_t k = 0; k < check->width * check->height; k++)
-    edges.value[k] = check->ours.pixel[k].edge ? 1 : 0;
-  snprintf(edges.channel[0].name, IMAGE_NAME_SIZE, "Y");
-  put_figure(page, &edges, 380, "the pixels counted as edges");
-  image_destroy(&edges);
+  page_put(page, "<h2>Where they differ</h2>\n<p>The pixels of the last row beyond ");
+  page_number(page, 255 * check->request->fail.each, 4);
+  page_put(page, "/255, as spots larger than a pixel, on our picture with its edges. A pixel is on an edge where it or one beside "
+                 "it sees a silhouette, the edge of a shadow, or a crease: there half a pixel's difference of the shape is a "
+                 "difference of the whole colour.</p>\n");
+  put_figure(page, &map, 800, "");
+  page_put(page, "<table style=\"display: inline-table\">\n<tr><th>beyond the limit</th><th>pixels</th></tr>\n");
+  for (int edge = CHECK_EDGES - 1; edge >= 0; edge--) {
+    put_key(page, CHECK_SPOT_COLOR[edge == CHECK_EDGE_NONE], NAME[edge]);
+    page_format(page, "<td>%zu</td></tr>\n", last->over_limit_on[edge]);
+  }
+  page_put(page, "<tr><th>edges</th><th></th></tr>\n");
+  for (int edge = CHECK_EDGES - 1; edge > CHECK_EDGE_NONE; edge--) {
+    put_key(page, CHECK_EDGE_COLOR[edge], CHECK_EDGE_NAME[edge]);
+    page_put(page, "<td></td></tr>\n");
+  }
+  page_put(page, "</table>\n");
+  image_destroy(&map);
 }
 
 /* ---- the worst pixels ---- */
@@ -196,8 +219,8 @@ static void put_worst(const struct check *check, const struct check_worst *worst
 {
   const struct image *theirs = &check->row[check->row_count - 1].picture.image;
   const struct check_pixel *pixel = &check->ours.pixel[worst->y * check->width + worst->x];
-  page_format(page, "<h3>Pixel %zu, %zu: %d of 255, %s</h3>\n", worst->x, worst->y, (int)lround(255 * worst->difference),
-              pixel->edge ? "on an edge" : "not on an edge");
+  page_format(page, "<section><h3>Pixel %zu, %zu: %d of 255, %s</h3>\n", worst->x, worst->y,
+              (int)lround(255 * worst->difference), CHECK_EDGE_NAME[pixel->edge]);
   put_crop(&check->ours.picture, worst->x, worst->y, page, "pscn");
   put_crop(theirs, worst->x, worst->y, page, "POV-Ray");
   put_crop(difference, worst->x, worst->y, page, "difference");
@@ -216,7 +239,7 @@ static void put_worst(const struct check *check, const struct check_worst *worst
   put_codes(page, theirs, worst->x, worst->y);
   page_put(page, "; ");
   put_distance(page, worst->distance);
-  page_put(page, "</p>\n");
+  page_put(page, "</p></section>\n");
 }
 
 static void put_all_worst(const struct check *check, struct page *page)
@@ -226,10 +249,11 @@ static void put_all_worst(const struct check *check, struct page *page)
     page->failed = true;
     return;
   }
-  page_format(page, "<h2>The worst pixels of the last row</h2>\n%s",
+  page_format(page, "<h2>The worst pixels of the last row</h2>\n%s<div class=\"worst\">\n",
               check->worst_count == 0 ? "<p>The pictures are the same.</p>\n" : "");
   for (size_t k = 0; k < check->worst_count; k++)
     put_worst(check, &check->worst[k], &difference, page);
+  page_put(page, "</div>\n");
   image_destroy(&difference);
 }
 
@@ -243,7 +267,11 @@ void check_page(const struct check *check, const char *verdict, struct page *pag
   page_text(page, verdict);
   page_put(page, "</p>\n");
   put_figure(page, &check->ours.picture, 590, "pscn");
-  put_figure(page, &last->picture.image, 590, "POV-Ray, the last row of the table");
+  if (last->steps == 0)
+    snprintf(message, sizeof message, "POV-Ray, as written");
+  else
+    snprintf(message, sizeof message, "POV-Ray, u_steps %zu", last->steps);
+  put_figure(page, &last->picture.image, 590, message);
   put_picture_table(check, page);
   if (check->request->grid > 0)
     put_distance_table(check, page);
@@ -251,9 +279,9 @@ void check_page(const struct check *check, const char *verdict, struct page *pag
     page_put(page, "<h2>Convergence</h2>\n");
     check_plot(check, page);
   }
+  put_places(check, page);
   put_slider(check, &last->picture.image, page);
   put_differences(check, page);
-  put_edges(check, page);
   put_all_worst(check, page);
   if (check->warnings != NULL) {
     page_put(page, "<h2>What POV-Ray warns of</h2>\n<pre>");

@@ -27,7 +27,7 @@ static void print_pictures(const struct check *check)
     printf("%-10s", name);
     for (int c = 0; c < CHECK_CODES; c++)
       printf(" %8.4f", percent(row->over[c], row->result.pixels));
-    printf(" %4.0f/255 %8.2f %10zu %10zu %11zu %8.2f %6.2f\n", 255 * row->result.max, row->result.psnr, row->off_edges,
+    printf(" %4.0f/255 %8.2f %10zu %10zu %11zu %8.2f %6.2f\n", 255 * row->result.max, row->result.psnr, row->over_limit_on[CHECK_EDGE_NONE],
            row->mask_ours, row->mask_theirs, row->picture.wall, row->picture.cpu);
   }
   printf("%-84s %8.2f %6.2f\n", "pscn", check->ours.wall, check->ours.cpu);
@@ -40,8 +40,11 @@ static void print_distances(const struct check *check)
     const struct check_distances *d = &check->row[k].distances;
     char name[32];
     row_name(&check->row[k], name, sizeof name);
-    printf("%-10s %9zu %12zu %10zu %11zu %10.2e  %10.2e  %10.2e\n", name, d->rays, d->both, d->only_ours, d->only_theirs,
-           d->median, d->most, d->max);
+    printf("%-10s %9zu %12zu %10zu %11zu", name, d->rays, d->both, d->only_ours, d->only_theirs);
+    if (d->both == 0)
+      printf(" %10s  %10s  %10s\n", "-", "-", "-");
+    else
+      printf(" %10.2e  %10.2e  %10.2e\n", d->median, d->most, d->max);
   }
 }
 
@@ -81,10 +84,14 @@ static json_t *row_json(const struct check *check, const struct check_row *row)
                            count(row->over[2]), "limit", count(row->over_limit));
   json_t *root =
     json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "u_steps", row->steps == 0 ? json_null() : count(row->steps), "over",
-              over, "over_limit_off_edges", count(row->off_edges), "mean", number(r->mean), "rms", number(r->rms),
+              over, "over_limit_off_edges", count(row->over_limit_on[CHECK_EDGE_NONE]), "mean", number(r->mean), "rms", number(r->rms),
               "psnr", number(r->psnr), "max", number(r->max), "worst", json_pack("[i,i]", (int)r->worst_x, (int)r->worst_y));
   if (root == NULL)
     return NULL;
+  json_t *on = json_object();
+  for (int edge = CHECK_EDGE_NONE + 1; edge < CHECK_EDGES; edge++)
+    json_object_set_new(on, CHECK_EDGE_NAME[edge], count(row->over_limit_on[edge]));
+  json_object_set_new(root, "over_limit_on", on);
   json_object_set_new(root, "mask", json_pack("{s:o,s:o}", "only_here", count(row->mask_ours), "only_there",
                                               count(row->mask_theirs)));
   if (check->request->grid > 0)
@@ -101,8 +108,9 @@ static json_t *worst_json(const struct check *check, const struct check_worst *w
                       : json_pack("{s:o,s:o,s:f,s:f,s:b}", "distance", number(pixel->distance), "patch",
                                   count(pixel->hit.patch), "u", pixel->hit.u, "v", pixel->hit.v, "certain",
                                   pixel->hit.certainty == CERTAINTY_CERTAIN);
-  return json_pack("{s:[i,i],s:f,s:b,s:o,s:o}", "pixel", (int)worst->x, (int)worst->y, "difference", worst->difference,
-                   "edge", pixel->edge, "here", here, "there_distance", number(worst->distance));
+  json_t *edge = pixel->edge == CHECK_EDGE_NONE ? json_null() : json_string(CHECK_EDGE_NAME[pixel->edge]);
+  return json_pack("{s:[i,i],s:f,s:o,s:o,s:o}", "pixel", (int)worst->x, (int)worst->y, "difference", worst->difference,
+                   "edge", edge, "here", here, "there_distance", number(worst->distance));
 }
 
 json_t *check_json(const struct check *check)

@@ -61,19 +61,29 @@ static void show_log(const struct povray *povray)
   free(log);
 }
 
+static bool holds(const char *line, size_t length, const char *words)
+{
+  const char *found = strstr(line, words);
+  return found != NULL && found < line + length;
+}
+
+/* It breaks its messages into lines, which begin with a blank but for the first. */
 char *povray_warnings(const struct povray *povray)
 {
   size_t length, used = 0;
   char *log = scratch_read(&povray->folder, LOG_NAME, &length);
   if (log == NULL)
     return NULL;
+  bool within = false;
   for (const char *line = log; *line != '\0';) { /* the lines that are kept move to the front */
     const size_t part = strcspn(line, "\r\n");
-    const char *warning = strstr(line, "Warning: ");
-    if (warning != NULL && warning < line + part) {
+    const bool begins = holds(line, part, "Warning: ") || holds(line, part, "Possible Parse Error: ");
+    within = begins || (within && *line == ' ');
+    if (within) {
+      if (begins && used > 0)
+        log[used++] = '\n'; /* takes the place of the end of the line before */
       memmove(log + used, line, part);
       used += part;
-      log[used++] = '\n';
     }
     line += part + strspn(line + part, "\r\n");
   }
@@ -216,8 +226,11 @@ enum status povray_render(struct povray *povray, const char *name, struct povray
     command_error(povray->command, "cannot read POV-Ray's picture: %s", message);
     return status;
   }
-  if (out->image.width == povray->width && out->image.height == povray->height && out->image.channel_count >= 3)
+  if (out->image.width == povray->width && out->image.height == povray->height && out->image.channel_count >= 3) {
+    for (size_t k = 0; k < povray->width * povray->height * out->image.channel_count; k++)
+      out->image.value[k] = roundf(255 * out->image.value[k]) / 255; /* the reader multiplies by a rounded 1/255 */
     return STATUS_OK;
+  }
   command_error(povray->command, "POV-Ray's picture has %zux%zu pixels and %zu channels, not %zux%zu and 3",
                 out->image.width, out->image.height, out->image.channel_count, povray->width, povray->height);
   image_destroy(&out->image);

@@ -32,7 +32,7 @@ struct povray {
 enum status povray_open(struct povray *povray) STATUS_MUST_CHECK;
 void povray_close(struct povray *povray);
 
-/* Renders a file of the folder. The picture, R G B with the display codes of an 8-bit PNG, is owned by the caller.
+/* Renders a file of the folder. The picture, R G B with the display codes of an 8-bit PNG as k/255, is owned by the caller.
  * STATUS_FILE where POV-Ray cannot be run, STATUS_INPUT where it refuses the text, STATUS_INTERRUPTED. */
 struct povray_picture {
   struct image image;

@@ -87,15 +87,36 @@ expect 0 "$PSCN" check "$scene" --size 60x45 --steps 0 --grid 0 -o quality --fai
   --povray-option +Q0 --quiet
 cmp -s quality/povray.png limits/povray.png && fail "--povray-option changes nothing"
 
+# What is the same is told to be the same, and what nobody hits has no distance; a name that needs care in a shell, in HTML and
+# in a path of POV-Ray's; a scene that POV-Ray reads as one of an older version, with other colours, is told.
+name="a 'name' & \"<more>\" ä"
+mkdir "$name"
+echo '#include "plain.inc"' >"$name/$name.pscn"
+echo 'background { rgb <0.1, 0.5, 0.9> } bicubic_patch { type 1
+  <1, 1, -9>, <2, 1, -9>, <3, 1, -9>, <4, 1, -9>, <1, 2, -9>, <2, 2, -9>, <3, 2, -9>, <4, 2, -9>,
+  <1, 3, -9>, <2, 3, -9>, <3, 3, -9>, <4, 3, -9>, <1, 4, -9>, <2, 4, -9>, <3, 4, -9>, <4, 4, -9> }' >"$name/plain.inc"
+for size in 1x1 700x2; do
+  expect 0 "$PSCN" check "$name/$name.pscn" --size $size --steps 1
+  awk '$1 == "u_steps" && NF == 12 { same = $7 == "inf" && $6 == "0/255" } $1 == "u_steps" && NF == 9 { none = $7 $8 $9 == "---" }
+       END { exit !(same && none) }' out || { fail "not the same, or distances of nothing, at $size:"; cat out; }
+  grep -q 'gamma_correction is turned off' err || { fail "POV-Ray's warning is not told"; cat err; }
+  grep -q 'The pictures are the same' "$name-check/check.html" || fail "the page does not say that the pictures are the same"
+done
+[ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
+
 # An interrupt ends POV-Ray too, and leaves nothing.
-"$PSCN" check "$scene" --size 2000x1500 -o interrupted --quiet 2>err &
-check=$!
-for ((k = 0; k < 100; k++)); do ls "$TMPDIR"/pscn-*/scene.pov >/dev/null 2>&1 && break; sleep 0.1; done
-sleep 0.3
-kill -TERM "$check"
-code=0
-wait "$check" || code=$?
-[ "$code" -eq 143 ] || fail "exit code $code after SIGTERM"
-[ -z "$(ls -A "$TMPDIR")" ] || fail "an interrupt leaves files"
-[ ! -e interrupted ] || fail "an interrupt leaves a folder"
+for signal in INT:130 TERM:143; do
+  set -m # else the shell has the program ignore SIGINT
+  "$PSCN" check "$scene" --size 2000x1500 -o interrupted --quiet 2>err &
+  check=$!
+  set +m
+  for ((k = 0; k < 100; k++)); do ls "$TMPDIR"/pscn-*/scene.pov >/dev/null 2>&1 && break; sleep 0.1; done
+  sleep 0.3
+  kill -"${signal%:*}" "$check"
+  code=0
+  wait "$check" || code=$?
+  [ "$code" -eq "${signal#*:}" ] || fail "exit code $code after SIG${signal%:*}"
+  [ -z "$(ls -A "$TMPDIR")" ] || fail "an interrupt leaves files"
+  [ ! -e interrupted ] || fail "an interrupt leaves a folder"
+done
 exit "$failed"

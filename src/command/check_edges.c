@@ -1,0 +1,108 @@
+/* Where POV-Ray's triangles can give another colour than the surface they stand for: beside silhouettes, the edges of shadows
+ * and creases, half a pixel's difference of the shape is a difference of the whole colour. */
+#include <math.h>
+
+#include "command/check.h"
+#include "geometry/vector.h"
+
+const char *const CHECK_EDGE_NAME[CHECK_EDGES] = { "no edge", "crease", "shadow", "silhouette" };
+
+const float CHECK_EDGE_COLOR[CHECK_EDGES][3] = {
+  { 0, 0, 0 }, { 0.45f, 0.3f, 0.55f }, { 0.2f, 0.5f, 0.3f }, { 0.25f, 0.4f, 0.7f }
+};
+const float CHECK_SPOT_COLOR[2][3] = { { 1, 0.85f, 0.2f }, { 1, 0.15f, 0.15f } };
+
+static const float DARK = 0.22f; /* our picture below the map, times its value */
+
+/* Whether the distance jumps between two pixels: by far more than the surface that is seen less obliquely of the two would
+ * make it change. Of a smooth surface the other is at most some times as oblique. */
+static bool jumps(const double location[3], const struct check_pixel *a, const struct check_pixel *b)
+{
+  static const double MANY = 8;
+  double step[3], view[3];
+  vector_subtract(b->hit.point, a->hit.point, step);
+  vector_subtract(a->hit.point, location, view);
+  const double jump = fabs(a->distance - b->distance), length = vector_length(step);
+  const double aside = sqrt(fmax(0, length * length - jump * jump));
+  const double cosine = fmax(fabs(vector_dot(view, a->hit.normal)), fabs(vector_dot(view, b->hit.normal))) / a->distance;
+  return jump * cosine > MANY * aside;
+}
+
+/* What there is between two pixels. A smooth surface seen by pixels beside each other turns little and stays near both tangent
+ * planes. */
+static enum check_edge edge_between(const struct check *check, const struct check_pixel *a, const struct check_pixel *b)
+{
+  static const double TURN = 0.9;  /* cosine of 26 degrees */
+  static const double RISE = 0.34; /* sine of 20 degrees: out of a tangent plane */
+  const bool a_missed = a->hit.patch == HIT_NONE, b_missed = b->hit.patch == HIT_NONE;
+  if (a_missed || b_missed)
+    return a_missed == b_missed ? CHECK_EDGE_NONE : CHECK_EDGE_SILHOUETTE;
+  double step[3];
+  vector_subtract(b->hit.point, a->hit.point, step);
+  const double far = RISE * vector_length(step);
+  if (fabs(vector_dot(step, a->hit.normal)) > far || fabs(vector_dot(step, b->hit.normal)) > far ||
+      jumps(check->scene->camera.location, a, b))
+    return CHECK_EDGE_SILHOUETTE;
+  if (a->lights != b->lights)
+    return CHECK_EDGE_SHADOW;
+  return vector_dot(a->hit.normal, b->hit.normal) < TURN ? CHECK_EDGE_CREASE : CHECK_EDGE_NONE;
+}
+
+void check_find_edges(struct check *check)
+{
+  for (size_t y = 0; y < check->height; y++) {
+    for (size_t x = 0; x < check->width; x++) {
+      struct check_pixel *pixel = &check->ours.pixel[y * check->width + x];
+      for (size_t v = y == 0 ? 0 : y - 1; v <= y + 1 && v < check->height; v++) {
+        for (size_t u = x == 0 ? 0 : x - 1; u <= x + 1 && u < check->width; u++) {
+          const enum check_edge edge = edge_between(check, pixel, &check->ours.pixel[v * check->width + u]);
+          pixel->edge = edge > pixel->edge ? edge : pixel->edge;
+        }
+      }
+    }
+  }
+}
+
+static void put_color(struct image *image, size_t x, size_t y, const float color[3])
+{
+  for (int k = 0; k < 3; k++)
+    image_pixel(image, x, y)[k] = color[k];
+}
+
+/* The pixels over the limit, on an edge or off all; large enough to be seen where the picture is. */
+static void put_spots(const struct check *check, const struct check_row *row, bool off_edges, struct image *map)
+{
+  const size_t reach = check->width / 500 + (off_edges && check->width > 100);
+  for (size_t y = 0; y < check->height; y++) {
+    for (size_t x = 0; x < check->width; x++) {
+      const bool off = check->ours.pixel[y * check->width + x].edge == CHECK_EDGE_NONE;
+      if (off != off_edges || !(check_pixel_difference(check, row, x, y) > check_limit(check)))
+        continue;
+      for (size_t v = y < reach ? 0 : y - reach; v <= y + reach && v < check->height; v++) {
+        for (size_t u = x < reach ? 0 : x - reach; u <= x + reach && u < check->width; u++)
+          put_color(map, u, v, CHECK_SPOT_COLOR[off]);
+      }
+    }
+  }
+}
+
+enum status check_map(const struct check *check, const struct check_row *row, struct image *out)
+{
+  const enum status status = image_create(check->width, check->height, 3, out);
+  if (status != STATUS_OK)
+    return status;
+  for (int k = 0; k < 3; k++)
+    out->channel[k] = check->ours.picture.channel[k];
+  for (size_t y = 0; y < check->height; y++) {
+    for (size_t x = 0; x < check->width; x++) {
+      const enum check_edge edge = check->ours.pixel[y * check->width + x].edge;
+      float color[3];
+      for (int k = 0; k < 3; k++)
+        color[k] = DARK * image_pixel(&check->ours.picture, x, y)[k];
+      put_color(out, x, y, edge == CHECK_EDGE_NONE ? color : CHECK_EDGE_COLOR[edge]);
+    }
+  }
+  put_spots(check, row, false, out);
+  put_spots(check, row, true, out);
+  return STATUS_OK;
+}
