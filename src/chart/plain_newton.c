@@ -1,31 +1,28 @@
-/* Newton's method on two planes through the ray (J. Kajiya, "Ray tracing parametric patches", SIGGRAPH 1982, for the planes). */
+/* The model for Newton's method alone; plain_newton_kernel.c walks it. */
 #include "chart/plain_newton.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "geometry/bvh.h"
+#include "chart/plain_newton_kernel.h"
 #include "geometry/patch.h"
-
-#define LAST_STEP 1e-12 /* of a parameter: the step that still stands is its square */
-#define EDGE 1e-9       /* of a parameter: roots so far outside a part still count, so that none falls between two */
-
-enum { STEPS = 7 };
-
-struct part {
-  uint32_t patch;
-  double u, v; /* its middle */
-};
 
 struct plain_newton {
   const struct ray_list *rays;
-  double (*x)[3][4][4]; /* of each patch */
-  struct part *parts;
-  struct bvh bvh;
+  struct plain_model model;
+  plain_newton_packet *packet;
   volatile double sink;
 };
 
-static bool build(struct plain_newton *plain, const struct scene *scene)
+static plain_newton_packet *best_kernel(void)
+{
+#ifdef PLAIN_NEWTON_AVX2
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return plain_newton_avx2;
+#endif
+  return plain_newton_baseline;
+}
+
+static bool build(struct plain_model *plain, const struct scene *scene)
 {
   const size_t side = PLAIN_NEWTON_SPLIT, count = scene->patch_count * side * side;
   struct bvh_box *boxes = calloc(count + 1, sizeof *boxes);
@@ -37,7 +34,7 @@ static bool build(struct plain_newton *plain, const struct scene *scene)
   for (size_t n = 0; built && n < count; n++) {
     const size_t patch = n / (side * side), i = n / side % side, j = n % side;
     const double step = 1.0 / PLAIN_NEWTON_SPLIT, u = (double)i * step, v = (double)j * step;
-    plain->parts[n] = (struct part){ (uint32_t)patch, u + step / 2, v + step / 2 };
+    plain->parts[n] = (struct plain_part){ (uint32_t)patch, u + step / 2, v + step / 2 };
     for (int axis = 0; axis < 3; axis++) {
       double net[4][4];
       patch_subnet(plain->x[patch][axis], u, u + step, v, v + step, net);
@@ -58,7 +55,8 @@ struct plain_newton *plain_newton_create(const struct scene *scene, const struct
   struct plain_newton *plain = calloc(1, sizeof *plain);
   if (plain == NULL) return NULL;
   plain->rays = rays;
-  if (build(plain, scene)) return plain;
+  plain->packet = best_kernel();
+  if (build(&plain->model, scene)) return plain;
   plain_newton_destroy(plain);
   return NULL;
 }
@@ -66,88 +64,37 @@ struct plain_newton *plain_newton_create(const struct scene *scene, const struct
 void plain_newton_destroy(struct plain_newton *plain)
 {
   if (plain == NULL) return;
-  bvh_free(&plain->bvh);
-  free(plain->parts);
-  free(plain->x);
+  bvh_free(&plain->model.bvh);
+  free(plain->model.parts);
+  free(plain->model.x);
   free(plain);
 }
 
-/* t of the root that Newton's method comes to from the middle of the part, or INFINITY. */
-static double try_part(const struct plain_newton *plain, const struct part *part, const struct ray *ray)
+/* Answers all rays of a kind, where they are asked for. */
+static void trace(const struct plain_newton *plain, enum ray_kind kind, struct answer *answers, double *sum)
 {
-  const double *d = ray->direction, *o = ray->origin;
-  double(*x)[4][4] = plain->x[part->patch];
-  const int k = fabs(d[0]) > fabs(d[1]) ? (fabs(d[0]) > fabs(d[2]) ? 0 : 2) : (fabs(d[1]) > fabs(d[2]) ? 1 : 2);
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
-  const double pi = d[i] / d[k], pj = d[j] / d[k], half = 0.5 / PLAIN_NEWTON_SPLIT + EDGE;
-  double a[4][4], b[4][4], u = part->u, v = part->v, step = INFINITY;
-  for (int r = 0; r < 4; r++) {
-    for (int c = 0; c < 4; c++) {
-      const double along = x[k][r][c] - o[k];
-      a[r][c] = (x[i][r][c] - o[i]) - pi * along;
-      b[r][c] = (x[j][r][c] - o[j]) - pj * along;
-    }
+  const struct ray_list *list = &plain->rays[kind];
+  struct answer own[PACKET_SIZE];
+  for (size_t p = 0; p < list->packet_count; p++) {
+    const struct ray_packet *packet = &list->packets[p];
+    struct answer *out = answers == NULL ? own : answers + packet->first;
+    plain->packet(&plain->model, packet->count, &list->rays[packet->first], kind == RAYS_SHADOW, out);
+    for (size_t k = 0; k < packet->count; k++) *sum += isfinite(out[k].t) ? out[k].t : 0;
   }
-  for (int n = 0; n < STEPS && step > LAST_STEP; n++) {
-    const struct patch_jet fa = patch_evaluate(a, u, v), fb = patch_evaluate(b, u, v);
-    const double determinant = fa.du * fb.dv - fa.dv * fb.du;
-    const double du = (fa.value * fb.dv - fb.value * fa.dv) / determinant;
-    const double dv = (fb.value * fa.du - fa.value * fb.du) / determinant;
-    u -= du, v -= dv;
-    if (!(fabs(u - part->u) < 8 * half && fabs(v - part->v) < 8 * half)) return INFINITY;
-    step = fmax(fabs(du), fabs(dv));
-  }
-  if (!(step <= 1e-6 && fabs(u - part->u) <= half && fabs(v - part->v) <= half)) return INFINITY;
-  return (patch_evaluate(x[k], u, v).value - o[k]) / d[k];
-}
-
-static double enter_box(const struct bvh_node *node, int side, const double o[3], const double inverse[3], double t_min,
-                        double t_max)
-{
-  for (int k = 0; k < 3; k++) {
-    const double p = ((double)node->lo[side][k] - o[k]) * inverse[k], q = ((double)node->hi[side][k] - o[k]) * inverse[k];
-    t_min = fmax(t_min, fmin(p, q) * (1 - 1e-15));
-    t_max = fmin(t_max, fmax(p, q) * (1 + 1e-15));
-  }
-  return t_min <= t_max ? t_min : INFINITY;
-}
-
-struct answer plain_newton_answer(const struct plain_newton *plain, const struct ray *ray, bool any)
-{
-  struct answer best = { INFINITY, HIT_NONE };
-  double inverse[3], t_max = ray->t_max;
-  uint32_t stack[2 * BVH_MAX_DEPTH];
-  size_t top = 0;
-  for (int k = 0; k < 3; k++) inverse[k] = 1 / ray->direction[k];
-  if (plain->bvh.node_count > 0) stack[top++] = 0;
-  while (top > 0 && !(any && isfinite(best.t))) {
-    const uint32_t at = stack[--top];
-    if (at & (uint32_t)BVH_LEAF) {
-      const struct part *part = &plain->parts[at & ~(uint32_t)BVH_LEAF];
-      const double t = try_part(plain, part, ray);
-      if (t > ray->t_min && t < t_max) best = (struct answer){ t, part->patch }, t_max = t;
-      continue;
-    }
-    const struct bvh_node *node = &plain->bvh.nodes[at];
-    double enter[2];
-    for (int side = 0; side < 2; side++) enter[side] = enter_box(node, side, ray->origin, inverse, ray->t_min, t_max);
-    const int nearer = enter[1] < enter[0];
-    if (isfinite(enter[!nearer])) stack[top++] = node->child[!nearer];
-    if (isfinite(enter[nearer])) stack[top++] = node->child[nearer];
-  }
-  return best;
 }
 
 static void run(void *context, enum ray_kind kind)
 {
   struct plain_newton *plain = context;
-  const struct ray_list *list = &plain->rays[kind];
   double sum = 0;
-  for (size_t k = 0; k < list->count; k++) {
-    const struct answer answer = plain_newton_answer(plain, &list->rays[k], kind == RAYS_SHADOW);
-    if (isfinite(answer.t)) sum += answer.t;
-  }
+  trace(plain, kind, NULL, &sum);
   plain->sink = sum;
 }
 
 struct runner plain_newton_face(struct plain_newton *plain) { return (struct runner){ run, plain, { true, true } }; }
+
+void plain_newton_answers(const struct plain_newton *plain, enum ray_kind kind, struct answer *answers)
+{
+  double sum = 0;
+  trace(plain, kind, answers, &sum);
+}

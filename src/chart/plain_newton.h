@@ -1,5 +1,5 @@
 /* The floor of the chart: Newton's method in two dimensions on the surface, from the middle of every part of a patch whose box
- * the ray meets, and nothing else. No resultant, no proof, no second try: what it does not find is lost. Never a way to render.
+ * the ray meets, one ray a lane as in the renderer, and nothing else. No resultant, no proof, no second try: what it does not find is lost. Never a way to render.
  */
 #ifndef PSCN_CHART_PLAIN_NEWTON_H
 #define PSCN_CHART_PLAIN_NEWTON_H
@@ -16,7 +16,7 @@ struct plain_newton *plain_newton_create(const struct scene *scene, const struct
 void plain_newton_destroy(struct plain_newton *plain);
 struct runner plain_newton_face(struct plain_newton *plain);
 
-/* The answer to one ray; for any hit, of the first one found. */
-struct answer plain_newton_answer(const struct plain_newton *plain, const struct ray *ray, bool any);
+/* The answers to all rays of a kind; to a shadow ray, of some hit. */
+void plain_newton_answers(const struct plain_newton *plain, enum ray_kind kind, struct answer *answers);
 
 #endif

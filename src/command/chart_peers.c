@@ -19,8 +19,12 @@
 static enum status ask_plain_newton(struct chart *chart)
 {
   struct plain_newton *plain = plain_newton_create(chart->scene, chart->rays);
-  if (plain == NULL)
+  struct answer *shadows = malloc((chart->rays[RAYS_SHADOW].count + 1) * sizeof *shadows);
+  if (plain == NULL || shadows == NULL) {
+    plain_newton_destroy(plain);
+    free(shadows);
     return STATUS_LIMIT;
+  }
   chart_tell(chart, "plain Newton");
   const struct runner runners[] = { pscn_runner_face(&chart->yardstick), plain_newton_face(plain) };
   const size_t counts[RAY_KINDS] = { chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count };
@@ -31,14 +35,15 @@ static enum status ask_plain_newton(struct chart *chart)
     snprintf(point->name, sizeof point->name, "2-D Newton from the middle of %dx%d parts", PLAIN_NEWTON_SPLIT,
              PLAIN_NEWTON_SPLIT);
     memcpy(point->time, time[1], sizeof point->time);
-    for (size_t k = 0; k < counts[RAYS_CAMERA]; k++)
-      chart->answers[k] = plain_newton_answer(plain, &chart->rays[RAYS_CAMERA].rays[k], false);
+    plain_newton_answers(plain, RAYS_SHADOW, shadows);
     for (size_t k = 0; k < counts[RAYS_SHADOW]; k++)
-      chart->occluded[k] = isfinite(plain_newton_answer(plain, &chart->rays[RAYS_SHADOW].rays[k], true).t);
+      chart->occluded[k] = isfinite(shadows[k].t);
+    plain_newton_answers(plain, RAYS_CAMERA, chart->answers);
     point->has_shadow = true;
     chart_judge(chart, point);
   }
   plain_newton_destroy(plain);
+  free(shadows);
   return status;
 }
 

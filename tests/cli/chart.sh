@@ -9,6 +9,7 @@ LC_ALL=C awk -F, 'NR == 1 { n = NF; for (k = 1; k <= NF; k++) at[$k] = k; next }
   NF != n { print "fields:", NF, $0 }
   { count[$1]++ }
   $at["polish"] == "on" && ($at["lost"] + $at["invented"] + $at["wrong"] > 0 || $at["t_max"] > 1e-12) { print "not exact:", $0 }
+  $1 == "plain-newton" && !($at["t_median"] < 1e-14) { print "not even plain Newton:", $0 }
   $at["front"] == 1 { front = 1 }
   END { print count["bernstein"], count["newton"], count["laguerre"], count["aberth"], count["paper"], count["plain-newton"], front }' out/chart.csv
 grep -c '<table>' out/chart.html

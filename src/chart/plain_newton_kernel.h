@@ -1,0 +1,28 @@
+/* What plain_newton.c and plain_newton_kernel.c share. The kernel is compiled once per instruction set. */
+#ifndef PSCN_CHART_PLAIN_NEWTON_KERNEL_H
+#define PSCN_CHART_PLAIN_NEWTON_KERNEL_H
+
+#include "chart/judge.h"
+#include "geometry/bvh.h"
+
+struct plain_part {
+  uint32_t patch;
+  double u, v; /* its middle */
+};
+
+struct plain_model {
+  double (*x)[3][4][4]; /* of each patch: control points of the patch, by axis */
+  struct plain_part *parts;
+  struct bvh bvh; /* over the parts */
+};
+
+/* The answers to a packet; for `any`, of some hit. */
+typedef void plain_newton_packet(const struct plain_model *model, size_t count, const struct ray *rays, bool any,
+                                 struct answer *out);
+
+plain_newton_packet plain_newton_baseline;
+#ifdef PLAIN_NEWTON_AVX2
+plain_newton_packet plain_newton_avx2;
+#endif
+
+#endif
