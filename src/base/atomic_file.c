@@ -181,12 +181,14 @@ done:
   return status;
 }
 
+static enum status failure(int reason) { return reason == ENOMEM ? STATUS_LIMIT : STATUS_FILE; }
+
 enum status atomic_file_probe(const char *path, int *out_errno)
 {
   struct target target;
   *out_errno = target_find(path, &target);
   if (*out_errno != 0)
-    return STATUS_FILE;
+    return failure(*out_errno);
   if (target.replaceable) {
     char *name = NULL;
     const int descriptor = temporary_open(target.path, &name);
@@ -202,7 +204,7 @@ enum status atomic_file_probe(const char *path, int *out_errno)
       *out_errno = errno;
   }
   free(target.path);
-  return *out_errno == 0 ? STATUS_OK : STATUS_FILE;
+  return *out_errno == 0 ? STATUS_OK : failure(*out_errno);
 }
 
 enum status atomic_file_write(const char *path, const void *bytes, size_t size, const atomic_int *stop,
@@ -211,9 +213,9 @@ enum status atomic_file_write(const char *path, const void *bytes, size_t size, 
   struct target target;
   *out_errno = target_find(path, &target);
   if (*out_errno != 0)
-    return STATUS_FILE;
+    return failure(*out_errno);
   const enum status status = (target.replaceable ? write_replacing : write_through)(&target, bytes, size, stop,
                                                                                      out_errno);
   free(target.path);
-  return status;
+  return status == STATUS_FILE ? failure(*out_errno) : status;
 }

@@ -250,14 +250,13 @@ static enum status write_results(const struct chart *chart, const struct results
   char path[SCRATCH_PATH_SIZE];
   enum status status = STATUS_OK;
   for (int k = 0; k < RESULTS && status == STATUS_OK; k++) {
-    int reason;
+    int reason = 0;
     result_path(chart, results->name[k], path);
     if (results->page[k].text == NULL)
       (void)unlink(path);
     else
       status = atomic_file_write(path, results->page[k].text, results->page[k].length, &interrupt_signal, &reason);
-    if (status == STATUS_FILE)
-      command_error(chart->command, "cannot write '%s': %s", path, strerror(reason));
+    command_written(chart->command, path, status, reason);
     for (int made = 0; made < k && status != STATUS_OK; made++) {
       result_path(chart, results->name[made], path);
       (void)unlink(path);

@@ -159,9 +159,7 @@ static enum status write_bytes(const struct check *check, const char *folder, co
   int reason;
   snprintf(path, sizeof path, "%s/%s", folder, name);
   const enum status status = atomic_file_write(path, bytes, size, &interrupt_signal, &reason);
-  if (status == STATUS_FILE)
-    command_error(check->command, "cannot write '%s': %s", path, strerror(reason));
-  return status;
+  return command_written(check->command, path, status, reason);
 }
 
 static enum status write_image(const struct check *check, const char *folder, const char *name,

@@ -163,6 +163,13 @@ enum status command_finish_output(const struct command *command)
   return STATUS_FILE;
 }
 
+enum status command_written(const struct command *command, const char *path, enum status status, int reason)
+{
+  if (status == STATUS_FILE || status == STATUS_LIMIT)
+    command_error(command, "cannot write '%s': %s", path, strerror(reason));
+  return status;
+}
+
 static double read_clock(clockid_t clock)
 {
   struct timespec now;

@@ -206,10 +206,8 @@ static enum status write_difference(const struct command *command, const struct 
   }
   int reason;
   status = atomic_file_write(request->output, bytes, size, &interrupt_signal, &reason);
-  if (status == STATUS_FILE)
-    command_error(command, "cannot write '%s': %s", request->output, strerror(reason));
   free(bytes);
-  return status;
+  return command_written(command, request->output, status, reason);
 }
 
 /* The table on stdout. */
@@ -262,14 +260,13 @@ static enum status compare(const struct command *command, const struct request *
   int reason;
   if (request->output != NULL && !image_format_of(request->output, &format))
     return (enum status)command_usage(command, "'%s' ends neither in .png nor in .exr", request->output);
-  if (request->output != NULL && atomic_file_probe(request->output, &reason) != STATUS_OK) {
-    command_error(command, "cannot write '%s': %s", request->output, strerror(reason));
-    return STATUS_FILE;
-  }
+  enum status status = request->output == NULL ? STATUS_OK : atomic_file_probe(request->output, &reason);
+  if (status != STATUS_OK)
+    return command_written(command, request->output, status, reason);
   interrupt_defer();
   struct subject subject = { 0 };
   struct image difference = { 0 };
-  enum status status = read_subject(command, request, &subject);
+  status = read_subject(command, request, &subject);
   if (status != STATUS_OK)
     goto done;
   const struct compare_pair pair = { .first = &subject.image[0],

@@ -189,10 +189,9 @@ static enum status check(const struct command *command, struct request *request)
        (same_file(request->stats, request->scene.path) || strcmp(request->stats, request->output) == 0)))
     return (enum status)command_usage(command, "scene, picture and statistics are three files");
   int reason;
-  if (atomic_file_probe(request->output, &reason) != STATUS_OK) {
-    command_error(command, "cannot write '%s': %s", request->output, strerror(reason));
-    return STATUS_FILE;
-  }
+  status = atomic_file_probe(request->output, &reason);
+  if (status != STATUS_OK)
+    return command_written(command, request->output, status, reason);
   char message[IMAGE_MESSAGE_SIZE];
   if (image_file_ready(message) != STATUS_OK) {
     command_error(command, "cannot write pictures: %s", message);
@@ -265,10 +264,8 @@ static enum status write_picture(const struct command *command, const struct req
   }
   int reason;
   status = atomic_file_write(request->output, bytes, size, &interrupt_signal, &reason);
-  if (status == STATUS_FILE)
-    command_error(command, "cannot write '%s': %s", request->output, strerror(reason));
   free(bytes);
-  return status;
+  return command_written(command, request->output, status, reason);
 }
 
 static enum status render(const struct command *command, struct request *request)

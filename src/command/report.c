@@ -101,11 +101,11 @@ static bool is_stdout(const char *path)
 
 enum status report_probe(const struct command *command, const char *path)
 {
-  int reason;
-  if (path == NULL || is_stdout(path) || atomic_file_probe(path, &reason) == STATUS_OK)
+  if (path == NULL || is_stdout(path))
     return STATUS_OK;
-  command_error(command, "cannot write '%s': %s", path, strerror(reason));
-  return STATUS_FILE;
+  int reason;
+  const enum status status = atomic_file_probe(path, &reason);
+  return command_written(command, path, status, reason);
 }
 
 enum status report_write(const struct command *command, const struct report *report, const char *path)
@@ -132,8 +132,7 @@ enum status report_write_json(const struct command *command, json_t *root, const
   } else {
     int reason;
     status = atomic_file_write(path, line, length + 1, &interrupt_signal, &reason);
-    if (status == STATUS_FILE)
-      command_error(command, "cannot write '%s': %s", path, strerror(reason));
+    command_written(command, path, status, reason);
   }
   free(line);
   return status;
