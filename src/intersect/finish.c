@@ -10,7 +10,7 @@
 /* What a settled root is decided by. */
 struct settling {
   const struct ray *ray;
-  const struct leaf *leaf;
+  uint32_t patch;
   unsigned borders; /* of the patch (see geometry/edges.h) that the root lies on within its radius, as bits */
   bool certain;
 };
@@ -107,7 +107,7 @@ static double clearance(const struct model *model, uint32_t index, unsigned bord
 /* Certainty, border and clearance of a hit whose place is settled. */
 static void settle(const struct model *model, const struct settling *s, struct hit *out)
 {
-  const uint32_t patch = s->leaf->patch;
+  const uint32_t patch = s->patch;
   /* The improvement may have taken the last bits of t to the end of the interval. */
   if (!(out->t > s->ray->t_min)) out->t = nextafter(s->ray->t_min, INFINITY);
   if (!(out->t < s->ray->t_max)) out->t = nextafter(s->ray->t_max, -INFINITY);
@@ -121,21 +121,14 @@ static void settle(const struct model *model, const struct settling *s, struct h
 /* The lanes of `group`, whose best roots are on one patch and whose rays share an axis. */
 static void finish_group(const struct packet *p, unsigned group, int axis, uint32_t index, struct hit out[])
 {
-  const struct model *model = p->tracer->model;
+  const struct model *model = p->model;
   struct model_patch *patch = &model->patches[index];
   const struct best *best = &p->best;
   const lane_mask mask = lanes_mask(group);
-  const double split = patch->split;
-  const int64_t number = best->leaf[__builtin_ctz(group)];
-  lanes column_u = lanes_all(model->leaves[number].column_u), column_v = lanes_all(model->leaves[number].column_v);
-  for (unsigned bits = group & ~lanes_bits(best->leaf == number); bits; bits &= bits - 1) {
-    const int l = __builtin_ctz(bits);
-    column_u[l] = model->leaves[best->leaf[l]].column_u, column_v[l] = model->leaves[best->leaf[l]].column_v;
-  }
   struct last_step step;
   step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;
   step.improves = mask & best->certain;
-  step.u = last_step_clamp((column_u + best->u) / split), step.v = last_step_clamp((column_v + best->v) / split);
+  step.u = last_step_clamp(best->u), step.v = last_step_clamp(best->v);
   step.t = best->t;
   last_step(&step);
   step.t = lanes_select(best->sharp, best->t, step.t); /* next to the ray's start it has more digits than the last step's sums */
@@ -148,8 +141,8 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
   for (int c = 0; c < 3; c++) step.normal[c] = lanes_select(facing > 0, -step.normal[c], step.normal[c]);
   const lanes point_error = POINT_ERROR(patch->scale, step.tangent, magnitude);
   const lanes clear = point_error + CLEARANCE(patch->scale, magnitude);
-  const lane_mask border[4] = {(column_u == 0) & (best->u < best->radius_u), (column_u == split - 1) & (best->u > 1 - best->radius_u),
-                               (column_v == 0) & (best->v < best->radius_v), (column_v == split - 1) & (best->v > 1 - best->radius_v)};
+  const lane_mask border[4] = {best->u < best->radius_u, best->u > 1 - best->radius_u, best->v < best->radius_v,
+                               best->v > 1 - best->radius_v};
   const lane_mask within = (step.t > p->t_min) & (step.t < p->t_max);
   const lane_mask special = border[0] | border[1] | border[2] | border[3] | ~best->certain | ~within;
   const unsigned specials = lanes_bits(special), plain = lanes_bits(step.plain);
@@ -161,7 +154,7 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
     hit->point_error = point_error[l], hit->clearance = clear[l];
     if (!(plain >> l & 1)) set_surface(patch, p->rays[l].direction, hit);
     if (!((specials | ~plain) >> l & 1)) continue;
-    struct settling settling = {&p->rays[l], &model->leaves[best->leaf[l]], 0, best->certain[l]};
+    struct settling settling = {&p->rays[l], index, 0, best->certain[l]};
     for (unsigned k = 0; k < 4; k++) settling.borders |= (unsigned)(border[k][l] & 1) << k;
     settle(model, &settling, hit);
   }
@@ -169,22 +162,16 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
 
 void finish_hits(const struct packet *p, struct hit out[])
 {
-  const struct model *model = p->tracer->model;
+  const struct model *model = p->model;
   const unsigned doubt = model->unproven ? ~0u : lanes_bits(p->best.doubt);
-  unsigned left = lanes_bits(p->best.leaf != NO_LEAF); /* lanes with a hit that is not finished */
+  unsigned left = lanes_bits(p->best.patch != NO_PATCH); /* lanes with a hit that is not finished */
   for (unsigned l = 0; l < p->count; l++)
     out[l].patch = HIT_NONE, out[l].certainty = doubt >> l & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
   while (left) {
     const int first = __builtin_ctz(left), axis = p->on_axis[0][first] ? 0 : p->on_axis[1][first] ? 1 : 2;
-    const int64_t leaf = p->best.leaf[first];
-    const uint32_t patch = model->leaves[leaf].patch;
-    unsigned group = left & lanes_bits(p->best.leaf == leaf);
-    for (unsigned bits = left & ~group; bits; bits &= bits - 1) {
-      const int l = __builtin_ctz(bits);
-      group |= (unsigned)(model->leaves[p->best.leaf[l]].patch == patch) << l;
-    }
-    group &= lanes_bits(p->on_axis[axis]);
-    finish_group(p, group, axis, patch, out);
+    const int64_t patch = p->best.patch[first];
+    const unsigned group = left & lanes_bits((p->best.patch == patch) & p->on_axis[axis]);
+    finish_group(p, group, axis, (uint32_t)patch, out);
     left &= ~group;
   }
 }

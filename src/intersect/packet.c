@@ -19,9 +19,9 @@
 
 enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
 
-void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any)
+void packet_start(struct packet *p, struct tracer *tracer, const struct model *model, const struct ray *rays, size_t count, bool any)
 {
-  p->tracer = tracer, p->rays = rays, p->count = count, p->any = any, p->moved = false, p->patch = UINT32_MAX;
+  p->tracer = tracer, p->model = model, p->rays = rays, p->count = count, p->any = any, p->moved = false, p->patch = UINT32_MAX;
   p->live = lanes_mask((1u << count) - 1);
   lanes size[3];
   for (int k = 0; k < 3; k++) {
@@ -42,7 +42,7 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
       p->slope[k][s] = lanes_select(p->on_axis[k], p->direction[(k + 1 + s) % 3] / p->direction[k], lanes_all(0));
   }
   p->best.u = p->best.v = p->best.radius_u = p->best.radius_v = lanes_all(0), p->best.t = lanes_all(INFINITY);
-  p->best.leaf = NO_LEAF + (lane_mask){0};
+  p->best.patch = p->best.leaf = NO_PATCH + (lane_mask){0};
   p->best.certain = p->best.sharp = p->best.doubt = (lane_mask){0};
 }
 
@@ -64,13 +64,15 @@ static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const 
 static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, struct leaf_hit *root)
 {
   struct best *best = &p->best;
-  const int64_t number = t->leaf - p->tracer->model->leaves;
-  const enum leaf_hit_side side = leaf_hit_side(p->tracer->model, t->leaf, &p->rays[lane], root);
+  const int split = t->patch->split;
+  const int64_t leaf = t->number, patch = t->leaf->patch;
+  const enum leaf_hit_side side = leaf_hit_side(p->model, t->leaf, &p->rays[lane], root);
   if (side == SIDE_UNKNOWN) best->doubt[lane] = -1;
-  if (side != SIDE_BEHIND || !(root->t < p->t_max[lane])) return;
-  if (root->t > best->t[lane] || (root->t == best->t[lane] && number >= best->leaf[lane])) return;
-  best->u[lane] = root->u, best->v[lane] = root->v, best->radius_u[lane] = root->radius_u, best->radius_v[lane] = root->radius_v;
-  best->t[lane] = root->t, best->leaf[lane] = number, best->certain[lane] = root->certain ? -1 : 0;
+  if (side != SIDE_BEHIND || !(root->t < p->t_max[lane]) || root->t > best->t[lane]) return;
+  if (root->t == best->t[lane] && (patch > best->patch[lane] || (patch == best->patch[lane] && leaf >= best->leaf[lane]))) return;
+  best->u[lane] = leaf_to_patch(split, t->leaf->column_u, root->u), best->radius_u[lane] = root->radius_u / split;
+  best->v[lane] = leaf_to_patch(split, t->leaf->column_v, root->v), best->radius_v[lane] = root->radius_v / split;
+  best->t[lane] = root->t, best->patch[lane] = patch, best->leaf[lane] = leaf, best->certain[lane] = root->certain ? -1 : 0;
   best->sharp[lane] = root->sharp ? -1 : 0;
   p->t_far[lane] = root->t + root->t_error;
   if (p->any) p->live[lane] = 0;
@@ -84,7 +86,8 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
   if (!lanes_any(hits)) return;
   struct best *best = &p->best;
   const int axis = t->axis;
-  const int64_t number = t->leaf - p->tracer->model->leaves;
+  const int64_t leaf = t->number, patch = t->leaf->patch;
+  const double part = 1.0 / t->patch->split;
   const lanes to_t = p->local[axis].to_t, w = trial_place(t, r->u, r->v);
   const lanes at = ((w + p->local[axis].start[1]) + p->local[axis].start[0]) * to_t;
   const lanes size = lanes_abs(to_t), error = size * (t->leaf->first[0] * r->radius_u + t->leaf->first[1] * r->radius_v) +
@@ -95,14 +98,15 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
     struct leaf_hit root = packet_root(p, lane, t, r, lane, w[lane]);
     packet_offer(p, lane, t, &root);
   }
-  const lane_mask nearer = (at < best->t) | ((at == best->t) & (number < best->leaf));
-  const lane_mask taken = hits & behind & (at < p->t_max) & nearer;
+  const lane_mask first = (patch < best->patch) | ((patch == best->patch) & (leaf < best->leaf));
+  const lane_mask taken = hits & behind & (at < p->t_max) & ((at < best->t) | ((at == best->t) & first));
   if (!lanes_any(taken)) return;
-  best->u = lanes_select(taken, r->u, best->u), best->v = lanes_select(taken, r->v, best->v);
-  best->radius_u = lanes_select(taken, r->radius_u, best->radius_u);
-  best->radius_v = lanes_select(taken, r->radius_v, best->radius_v);
-  best->t = lanes_select(taken, at, best->t);
-  best->leaf = (taken & number) | (~taken & best->leaf), best->certain |= taken, best->sharp &= ~taken;
+  best->u = lanes_select(taken, (t->leaf->column_u + r->u) * part, best->u);
+  best->v = lanes_select(taken, (t->leaf->column_v + r->v) * part, best->v);
+  best->radius_u = lanes_select(taken, r->radius_u * part, best->radius_u);
+  best->radius_v = lanes_select(taken, r->radius_v * part, best->radius_v);
+  best->t = lanes_select(taken, at, best->t), best->certain |= taken, best->sharp &= ~taken;
+  best->patch = (taken & patch) | (~taken & best->patch), best->leaf = (taken & leaf) | (~taken & best->leaf);
   p->t_far = lanes_select(taken, at + error, p->t_far);
   if (p->any) p->live &= ~taken;
   p->moved = true;
@@ -186,7 +190,7 @@ static void lane_subdivide(struct packet *p, const struct trial *t, unsigned lan
   bool doubt = false;
   lane_local_ray(p, t, lane, &ray);
   /* Up to the ray's own end, not the nearest hit so far: what the search can not decide must not depend on the order of leaves. */
-  const struct subdivide_task task = {p->tracer->model, t->leaf, t->patch, p->tracer->model->scene->patches[t->leaf->patch].P,
+  const struct subdivide_task task = {p->model, t->leaf, t->patch, p->model->scene->patches[t->leaf->patch].P,
                                       &p->rays[lane], &ray, p->rays[lane].t_min, p->rays[lane].t_max};
   if (subdivide_closest(&task, &root, &doubt)) packet_offer(p, lane, t, &root);
   if (doubt) p->best.doubt[lane] = -1;
@@ -282,8 +286,8 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
 {
   struct trial t;
-  t.leaf = &p->tracer->model->leaves[index];
-  t.patch = &p->tracer->model->patches[t.leaf->patch];
+  t.leaf = &p->model->leaves[index], t.number = index;
+  t.patch = &p->model->patches[t.leaf->patch];
   if (p->patch != t.leaf->patch) packet_set_patch(p, t.leaf->patch);
   for (t.axis = 0; t.axis < 3; t.axis++) {
     const lane_mask here = active & p->on_axis[t.axis];

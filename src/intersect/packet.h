@@ -8,18 +8,20 @@
 #include "base/lanes.h"
 #include "intersect/tracer.h"
 
-#define NO_LEAF INT64_MAX
+#define NO_PATCH INT64_MAX
 
 /* The best root of every lane. */
 struct best {
-  lanes u, v, radius_u, radius_v, t; /* as of struct leaf_hit; t infinite where there is none */
-  lane_mask leaf;                    /* its number, or NO_LEAF */
+  lanes u, v, radius_u, radius_v; /* as of struct leaf_hit, but in parameters of the whole patch */
+  lanes t;                        /* infinite where there is none */
+  lane_mask patch, leaf;          /* where it is; NO_PATCH where there is none. They order roots of equal t */
   lane_mask certain, sharp;
   lane_mask doubt; /* some root could not be told from t_min, and was left out */
 };
 
 struct packet {
   struct tracer *tracer;
+  const struct model *model;
   const struct ray *rays; /* directions scaled to about 1 */
   size_t count;
   bool any;               /* any hit will do */
@@ -49,7 +51,7 @@ LANES_INLINE void lanes_two_sum(lanes a, lanes b, lanes *sum, lanes *error)
 
 LANES_INLINE void packet_set_patch(struct packet *p, uint32_t index)
 {
-  const struct model_patch *patch = &p->tracer->model->patches[index];
+  const struct model_patch *patch = &p->model->patches[index];
   lanes hi[3], lo[3];
   const double inverse = 1 / patch->scale;
   for (int k = 0; k < 3; k++) {
@@ -76,7 +78,7 @@ LANES_INLINE void packet_set_patch(struct packet *p, uint32_t index)
 }
 
 /* packet.c: no hit yet on the rays, of which there are LANES; those from `count` on repeat the first. */
-void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any);
+void packet_start(struct packet *p, struct tracer *tracer, const struct model *model, const struct ray *rays, size_t count, bool any);
 
 /* finish.c: the answers of the packet's rays from its best roots: parameters of the whole patch, improved by a Newton step on the
  * patch itself, and all else that a hit has. t is in units of the scaled direction. */

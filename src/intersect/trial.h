@@ -17,7 +17,8 @@ enum { RESULTANT_MAX_DEGREE = 18, RESULTANT_NEWTON_STEPS = 3 };
 /* Everything about the candidates of one leaf on the lanes of one axis. */
 struct trial {
   const struct leaf *leaf;
-  const struct model_patch *patch;
+  const struct model_patch *patch; /* the leaf's */
+  int64_t number;                  /* the leaf's, in its model */
   int axis;
   struct plane_nets nets;
   lanes alpha, beta;                 /* largest |a|, |b| of the nets, then of the form */

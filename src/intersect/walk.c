@@ -129,7 +129,7 @@ static int nearer_side(const float_lanes near[2], const unsigned hit[2])
 
 static void bundle_walk(struct bundle *b)
 {
-  const struct bvh *bvh = &b->packet[0].tracer->model->bvh;
+  const struct bvh *bvh = &b->packet[0].model->bvh;
   struct {
     float_lanes near;
     unsigned rays; /* a leaf's test on one ray must not depend on its neighbours, so each ray goes its own way */
@@ -212,7 +212,7 @@ static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer 
   for (size_t h = 0, first = 0; h < 2; h++, first += LANES) {
     const size_t left = count > first ? count - first : 0, n = left < LANES ? left : LANES;
     rays_ready(n, n > 0 ? rays + first : rays, &ready[h]);
-    packet_start(&b->packet[h], tracer, ready[h].rays, n, any);
+    packet_start(&b->packet[h], tracer, tracer->model, ready[h].rays, n, any);
   }
   bundle_start(b, tracer->model);
 }
@@ -249,7 +249,7 @@ static void kernel_occluded(struct tracer *tracer, size_t count, const struct ra
     bundle_walk(&bundle);
     for (size_t h = 0; h < 2; h++) {
       const struct packet *packet = &bundle.packet[h];
-      for (size_t l = 0; l < packet->count; l++) out_occluded[first + h * LANES + l] = packet->best.leaf[l] != NO_LEAF;
+      for (size_t l = 0; l < packet->count; l++) out_occluded[first + h * LANES + l] = packet->best.patch[l] != NO_PATCH;
       tracer->counts.rays[1] += packet->count;
     }
   }
