@@ -122,7 +122,7 @@ static bool write_script(const struct chart *chart, FILE *file)
         plot_family(&LOOKS[f], f, right != 0, right || !any[f][1], file);
     }
   }
-  fputs(", \\\n  NaN with points pt 6 lc rgb '#444444' title 'hollow: some answers lost, invented or wrong'\n", file);
+  fputs(", \\\n  NaN with points pt 6 lc rgb '#444444' title 'hollow: some are wrong'\n", file);
   return true;
 }
 
