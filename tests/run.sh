@@ -4,6 +4,7 @@
 #   2. as it is built for development.
 # Ends by ctest's summary of the second pass; the exit code is not 0 if either pass failed.
 #
+# CC and CXX are the compilers, gcc and g++ unless they are set; the third build, which is not run, is clang's.
 # PSCN_EFFORT, the fraction of the heavy tests that is done (a number up to 1, or `full`), is 0.002 unless it is set.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -38,8 +39,9 @@ launcher=()
 if command -v ccache >/dev/null; then
   launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 fi
-build dev -DCMAKE_C_COMPILER=gcc -DCMAKE_CXX_COMPILER=g++ "${launcher[@]}"
-build asan -DCMAKE_C_COMPILER=gcc -DCMAKE_CXX_COMPILER=g++ "${launcher[@]}"
+export CC=${CC:-gcc} CXX=${CXX:-g++}
+build dev "${launcher[@]}"
+build asan "${launcher[@]}"
 if command -v clang++ >/dev/null; then
   build clang "${launcher[@]}"
 else
