@@ -39,69 +39,57 @@ const struct solver *solver_find(const char *name, size_t length)
   return NULL;
 }
 
-/* The items of a solver block. One macro writes the two accessors of an item, whose C types differ. */
-#define ITEM_ACCESSORS(field, type)                                          \
-  static void set_##field(struct solver_options *options, double value)      \
-  {                                                                          \
-    options->field = (type)value;                                            \
-  }                                                                          \
-  static double get_##field(const struct solver_options *options)            \
-  {                                                                          \
-    return (double)options->field;                                           \
-  }
-
-ITEM_ACCESSORS(tolerance, double)
-ITEM_ACCESSORS(max_iterations, int)
-ITEM_ACCESSORS(start, enum start)
-ITEM_ACCESSORS(basis, enum basis)
-ITEM_ACCESSORS(resultant, enum resultant)
-ITEM_ACCESSORS(back_substitution, enum back_substitution)
-ITEM_ACCESSORS(split, int)
-ITEM_ACCESSORS(radii, enum radii)
-ITEM_ACCESSORS(stop, enum stop)
-ITEM_ACCESSORS(update, enum update)
-ITEM_ACCESSORS(deflation, enum deflation)
-
-static void set_polish(struct solver_options *options, double value)
-{
-  options->polish = value != 0.0;
-}
-
-static double get_polish(const struct solver_options *options)
-{
-  return options->polish ? 1.0 : 0.0;
-}
-
-static void set_rest(struct solver_options *options, double value)
-{
-  options->rest = value != 0.0;
-}
-
-static double get_rest(const struct solver_options *options)
-{
-  return options->rest ? 1.0 : 0.0;
-}
-
-static void set_refine(struct solver_options *options, double value)
-{
-  options->refine = value != 0.0;
-}
-
-static double get_refine(const struct solver_options *options)
-{
-  return options->refine ? 1.0 : 0.0;
-}
-
 /* The paper's iterations as printed, or what docs/paper.md found best. */
-static void set_form(struct solver_options *options, double value)
+static void choose_form(struct solver_options *options, bool improved)
 {
-  const bool improved = value != 0.0;
   options->radii = improved ? RADII_POLYGON : RADII_CIRCLE;
   options->stop = improved ? STOP_ROUNDING : STOP_STEP;
   options->update = improved ? UPDATE_GAUSS_SEIDEL : UPDATE_JACOBI;
   options->rest = improved;
   options->deflation = improved ? DEFLATION_COMPOSITE : DEFLATION_FORWARD;
   options->refine = improved;
+}
+
+/* Where the form is not named, the paper's goes with the paper's method, whichever of its items is said first. */
+static void follow_form(struct solver_options *options)
+{
+  const bool paper = options->basis == BASIS_POWER && options->resultant == RESULTANT_SYLVESTER &&
+                     options->back_substitution == BACK_SUBSTITUTION_EUCLID && !options->polish;
+  if (!options->form_said) choose_form(options, !paper);
+}
+
+/* The items of a solver block. One macro writes the two accessors of an item, whose C types differ; `after` is done when it was
+ * set. */
+#define ITEM_ACCESSORS(field, type, after)                                   \
+  static void set_##field(struct solver_options *options, double value)      \
+  {                                                                          \
+    options->field = (type)value;                                            \
+    after;                                                                   \
+  }                                                                          \
+  static double get_##field(const struct solver_options *options)            \
+  {                                                                          \
+    return (double)options->field;                                           \
+  }
+
+ITEM_ACCESSORS(tolerance, double, (void)0)
+ITEM_ACCESSORS(max_iterations, int, (void)0)
+ITEM_ACCESSORS(start, enum start, (void)0)
+ITEM_ACCESSORS(split, int, (void)0)
+ITEM_ACCESSORS(basis, enum basis, follow_form(options))
+ITEM_ACCESSORS(resultant, enum resultant, follow_form(options))
+ITEM_ACCESSORS(back_substitution, enum back_substitution, follow_form(options))
+ITEM_ACCESSORS(polish, bool, follow_form(options))
+ITEM_ACCESSORS(radii, enum radii, options->form_said = true)
+ITEM_ACCESSORS(stop, enum stop, options->form_said = true)
+ITEM_ACCESSORS(update, enum update, options->form_said = true)
+ITEM_ACCESSORS(rest, bool, options->form_said = true)
+ITEM_ACCESSORS(deflation, enum deflation, options->form_said = true)
+ITEM_ACCESSORS(refine, bool, options->form_said = true)
+
+static void set_form(struct solver_options *options, double value)
+{
+  choose_form(options, value != 0.0);
+  options->form_said = true;
 }
 
 static double get_form(const struct solver_options *options)
@@ -124,7 +112,7 @@ void solver_options_default(const struct solver *solver, struct solver_options *
     .polish = true,
     .split = 0,
   };
-  set_form(out, 1.0);
+  follow_form(out);
 }
 
 static const char *const form_words[] = {"paper", "improved", NULL};
