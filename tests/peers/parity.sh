@@ -1,9 +1,10 @@
 #!/bin/bash
-# One small scene for each keyword of finishes, lights, cameras, transforms and colours, by both programs: no pixel may differ by
-# more than 1/255 unless it, or one beside it, lies on a silhouette, the edge of a shadow or a crease, as `pscn check` finds them.
-# All patches are flat, so that POV-Ray's triangles are the exact surface.
+# One small scene for each keyword of finishes, lights, cameras, transforms and colours, by both programs. All patches are flat, so
+# that POV-Ray's triangles are the exact surface: no pixel may differ by more than 1/255 but for what rounding does to an edge,
+# MOST pixels of a picture.
 set -euo pipefail
-JOBS=4 # POV-Ray mostly waits for itself
+JOBS=16 # POV-Ray mostly waits for itself
+MOST=2
 
 command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
 folder=$(mktemp -d)
@@ -64,6 +65,8 @@ light_source { <20, 0.3, -2>, rgb 3 }
 light_source { <0.4, 2.2, -5>, rgb 1 }
 light_source { <0, 0.4, 0.6>, rgb 0.7 }
 light_source { 5, color rgb 1 }
+light_source { <1, 3, -2> } light_source { <-3, 5, -4> color 1 }
+light_source { <0.7, 0, -1.3>, rgb <1, 0.8, 0.5> }
 light_source { y*5, color rgb <0.5, 0.5, -0.2> }
 light_source { <-3, 5, -4>, rgb <1, 0, 0> } light_source { <3, 5, -4>, rgb <0, 1, 0> } light_source { <0, 6, 3>, rgb <0, 0, 1> }
 light_source { <-3, 5, -4>, rgb 0.6 } light_source { <3, 5, -4>, rgb 0.5 shadowless }
@@ -134,6 +137,14 @@ scene 'union in union, textured'
 object='#declare Two = union { object { Square } object { Square rotate 90*y } scale 0.6 } object { Two translate <-0.8, 0.6, 0> } object { Two rotate 20*y translate <0.7, 0.6, 0> }'
 scene 'declared union'
 
+object='#declare Matt = texture { pigment { rgb <0.9, 0.1, 0.1> } finish { phong 0.6 ambient 0.2 } }
+#declare Shiny = texture { Matt finish { phong_size 5 } } #declare Polish = finish { diffuse 0.3 specular 0.9 roughness 0.02 }
+#declare Two = union { object { Square texture { Shiny } rotate 60*y } union { object { Square scale 0.3 texture { pigment { rgb y } } }
+  translate <0, 1, -1> texture { Matt } } };
+object { Two texture { Shiny } scale <-0.5, 0.5, 0.5> rotate <10, 200, 0> translate <0.3, 0.8, 0> }
+object { Two scale <0.4, -0.4, 0.4> translate <-1.2, 0.8, 0.4> texture { pigment { rgb <0, 0.3, 1> } finish { Polish } } }'
+scene 'declared textures, mirrored'
+
 while read -r colour; do
   pigment=$colour before='#declare Paint = rgb <0.2, 0.7, 0.4>; #declare Half = 0.5; #declare V = <0.6, 0.2, 0.1>;'
   scene "colour $colour"
@@ -154,16 +165,18 @@ rgb V
 rgb <Half, Half/2, Paint.green>
 rgb V.x*<1, 0.5, 2> + y*0.2
 rgb <2, 1.2, -0.5>
+color V
+color 0
+color rgb Half*V + Paint.red
 END
 
-# judge FILE: the number of pixels away from edges that differ by more than 1/255, of a scene and of its picture.
+# judge FILE: what is wrong with a scene.
 cat >judge.sh <<'END'
 file=${1%.pscn}
-"$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --fail 1/255 --failpercent 100 --failpsnr 0 --failmask 3 -o "$file" \
-  --quiet >"$file.log" 2>&1 || { echo "$file: exit code $?"; cat "$file.log"; exit 0; }
-off=$(sed -n 's/.*"over_limit_off_edges": \([0-9]*\).*/\1/p' "$file/check.json")
-[ "$off" = 0 ] || { echo "$file: ${off:-no number of} pixels away from edges differ"; cat "$1" | sed -n '2,7p;12,13p'; }
+"$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --fail 1/255 --failpercent 0 --allowfailures $MOST --failpsnr 0 \
+  -o "$file" --quiet >"$file.log" 2>&1 || { echo "$file: exit code $?"; cat "$file.log"; sed -n '2,7p;12,13p' "$1"; }
 END
+export MOST
 ls ./*.pscn | xargs -P $JOBS -n 1 bash judge.sh >complaints
 cat complaints
 echo "$count scenes"
