@@ -9,7 +9,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
-. examples/section.sh
+. examples/report.sh
 export LC_ALL=C
 
 page=
@@ -100,8 +100,8 @@ megabytes() {
     -o "$folder/pscn.png"
   awk '{ print $1 / 1024 }' "$folder/time"
 }
-# member NAME: of the last statistics.
-member() { awk -F '[:,]' -v name="\"$1\"" '{ for (k = 1; k < NF; k++) if (index($k, name)) { print $(k + 1) + 0; exit } }' "$folder/stats.json"; }
+# of GROUP NAME...: numbers of its statistics.
+of() { members "$folder/stats.json" "$@"; }
 
 say "memory, and $TEAPOTS teapots"
 echo 'background { rgb 0 }' >"$folder/empty.pscn"
@@ -113,14 +113,14 @@ for ((run = 0; run < turns; run++)); do
   teapot=$(megabytes "$SCENE")
   awk -v a="$teapot" -v b="$empty" 'BEGIN { print a - b, b }' >>"$folder/memory"
   megabytes "$folder/one.pscn" >/dev/null
-  one=$(awk -v t="$(member render)" -v hits="$(member shadow)" 'BEGIN { print 1e6 * t / hits }')
+  one=$(awk -v t="$(of cpu render)" -v hits="$(of rays shadow)" 'BEGIN { print 1e6 * t / hits }')
   many=$(megabytes "$folder/many.pscn")
-  awk -v one="$one" -v mb="$many" -v empty="$empty" -v parse="$(member parse)" -v build="$(member build)" -v t="$(member render)" \
-    -v hits="$(member shadow)" 'BEGIN { m = 1e6 * t / hits; print parse + build, mb - empty, m / one, m, one, parse, build }' >>"$folder/field"
+  awk -v one="$one" -v mb="$many" -v empty="$empty" -v parse="$(of cpu parse)" -v build="$(of cpu build)" \
+    -v t="$(of cpu render)" -v hits="$(of rays shadow)" 'BEGIN { m = 1e6 * t / hits; print parse + build, mb - empty, m / one, m, one, parse, build }' >>"$folder/field"
 done
 row "memory of the process above an empty scene's" "$(fixed "$(median "$folder/memory" 1)" 1) MB" 'under 30 MB' \
   "empty scene: $(fixed "$(median "$folder/memory" 2)" 0) MB, nearly all of it OpenImageIO and what it loads"
-row "$TEAPOTS teapots: load" "$(fixed "$(median "$folder/field" 1)" 1) s" 'under 3 s' \
+row "$TEAPOTS teapots: load, CPU time" "$(fixed "$(median "$folder/field" 1)" 1) s" 'under 3 s' \
   "parse $(fixed "$(median "$folder/field" 6)" 2) s, build $(fixed "$(median "$folder/field" 7)" 2) s"
 row "$TEAPOTS teapots: memory above an empty scene's" "$(fixed "$(median "$folder/field" 2)" 0) MB" 'under 1000 MB'
 row "$TEAPOTS teapots: time per hit / one teapot's" "$(fixed "$(median "$folder/field" 3)" 2)" 'under 3' \

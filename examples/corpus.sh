@@ -3,6 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
+export LC_ALL=C
 
 install_packages "${BUILD_PACKAGES[@]}" libcmocka-dev libflint-arb-dev
 cmake -S . -B build-corpus -G Ninja -DCMAKE_BUILD_TYPE=Release -DPSCN_TESTS=ON

@@ -9,7 +9,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
-. examples/section.sh
+. examples/report.sh
 export LC_ALL=C
 
 MEMORY_LIMIT=8000000 # KiB of address space
@@ -31,22 +31,13 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/home"
 
-# members GROUP NAME...: numbers of the last statistics, by the group they stand in ("" is none).
-members() {
-  awk -v names="$*" 'BEGIN { n = split(names, want, " ") }
-    match($0, /"[^"]*"/) { key = substr($0, RSTART + 1, RLENGTH - 2); rest = substr($0, RSTART + RLENGTH) }
-    /\{$/ { group = key; next } /\}/ { group = "" }
-    group == want[1] { sub(/^[: ]+/, "", rest); value[key] = rest + 0 }
-    END { for (k = 2; k <= n; k++) printf "%.17g%s", value[want[k]], k < n ? " " : "\n" }' "$folder/stats.json"
-}
-
 # ours FILE SIZE THREADS: "parse build render rays hits MB wall" of pscn, in CPU seconds but for the last, the rendering by the clock.
 ours() {
   /usr/bin/time -f %M -o "$folder/memory" "$pscn" render "$1" --size "$2" --threads "$3" --quiet --stats "$folder/stats.json" \
     -o "$folder/pscn.png"
   # shellcheck disable=SC2046
-  set -- $(members rays primary shadow)
-  echo "$(members cpu parse build render) $(($1 + $2)) $2 $(awk '{ print $1 / 1024 }' "$folder/memory") $(members time render)"
+  set -- $(members "$folder/stats.json" rays primary shadow)
+  echo "$(members "$folder/stats.json" cpu parse build render) $(($1 + $2)) $2 $(awk '{ print $1 / 1024 }' "$folder/memory") $(members "$folder/stats.json" time render)"
 }
 
 # theirs FILE SIZE THREADS: "parse trace MB wall" of POV-Ray in the same way, or "- - MB -" where it did not come to an end.

@@ -104,7 +104,7 @@ static bool write_script(const struct chart *chart, FILE *file)
 {
   bool any[FAMILIES][2];
   fputs("set terminal svg size 900,700 enhanced font 'sans-serif,13' background '#ffffff'\n"
-        "set encoding utf8\nset output 'chart.svg'\nset logscale xy\nset format xy '10^{%T}'\n"
+        "set output 'chart.svg'\nset logscale xy\nset format xy '10^{%T}'\n"
         "set xlabel 'error of T, relative: 99 % of the rays (a lost, invented or wrong hit counts as 1)'\n"
         "set ylabel 'ns a camera ray, one thread'\nset grid lc rgb '#dddddd'\nset tics scale 0.7\nset mxtics 2\n"
         "set key outside top center horizontal Left reverse samplen 1.5 width 1\nset xrange [5e-18:4]\n",
