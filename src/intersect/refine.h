@@ -105,7 +105,8 @@ LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct l
   r.radius_v = square + 2 * size_v * nets->error;
   const lanes reach_u = 0.5 + lanes_abs(r.u - 0.5), reach_v = 0.5 + lanes_abs(r.v - 0.5);
   const lanes q = size * ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
-  /* 1.9 instead of 2: room for the Jacobian being taken next to the root and for the rounding of q. */
+  /* 1.9 instead of 2: room for the rounding of q and for the Jacobian being taken next to the root. That is off by the last step,
+   * at most 2^-16 of the leaf after a step of 1, and K <= 2 q, so M J is within 2^-14 of what it is at the root. */
   r.alone = r.exists & (q < 1.9);
   return r;
 }

@@ -18,11 +18,12 @@
 #include "intersect/zoom.h"
 
 /* How far outside a box, in its own parameters, its root may lie and still be told from having none (then the neighbour has it);
- * and the growth of second-derivative bounds, quartic in the extent, when they are used that far outside. */
+ * and the growth of second-derivative bounds, quartic in the extent, when they are used that far outside: (1 + 2/16)^4 = 1.602. */
 #define BOX_MARGIN 0.0625
 #define BOX_MARGIN_GROWTH 1.61
 
-/* Newton's last step in box parameters; see refine.h. */
+/* Newton's last step in box parameters: its square, all that the next one would be, is below the rounding of the values. Not a
+ * tolerance of the answer, whose radius is computed. */
 #define LAST_STEP 0x1p-28
 
 /* A combination whose computed values are within this many of its error bounds all over a box says nothing about it. */
@@ -32,7 +33,8 @@
  * cannot be decided there in double is the pole itself. */
 #define POLE_REACH 0x1p-40
 
-/* The fraction of the leaf's extent along the ray below which an undecidable box is not halved further. */
+/* The fraction of the leaf's extent along the ray below which an undecidable box is not halved further: UNDECIDED_ERRORS of some
+ * hundred roundings each, the distance from the ray at which the planes tell nothing any more. */
 #define SEARCH_RESOLUTION 0x1p-44
 
 /* How often a box may halve in all: 2^-50 of the leaf either way, and some across. How many boxes may be looked at, of the leaf and of a box
