@@ -8,9 +8,9 @@
 
 #include "algebra/root_kernel.h"
 
-/* One row a solver. The tolerance is eps of eq 10: 1e-12 is the least at which the paper's plain iterations still stop by
- * it (eq 10 is absolute, and values of size 100 do not move by less); it decides when to stop, never what is true, for radii and certificates
- * are made afterwards. So do the iterations a root may take: several times what the worst of tests/corpus needs. */
+/* One row a solver. The tolerance is eps of eq 10: 1e-12 is the least at which the paper's plain iterations still stop by it
+ * (eq 10 is absolute, and values of size 100 do not move by less). It decides when to stop, never what is true, for radii and
+ * certificates are made afterwards; nor do the steps a root may take. */
 static const struct solver solvers[] = {
   {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, 1e-12, 64,
    bernstein_find},

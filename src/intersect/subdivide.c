@@ -37,9 +37,9 @@
  * hundred roundings each, the distance from the ray at which the planes tell nothing any more. */
 #define SEARCH_RESOLUTION 0x1p-44
 
-/* How often a box may halve in all: 2^-50 of the leaf either way, and some across. How many boxes may be looked at, of the leaf and of a box
- * under the glass, and how many of those there may be: far above what isolated roots need, which is some hundreds, some tens
- * and a few; only surfaces that lie along the ray over an area come there. */
+/* How often a box may halve in all: 2^-50 of the leaf either way, and some across. How many boxes may be looked at, of the leaf
+ * and of a box under the glass, and how many of those there may be: far above what isolated roots need, which is some hundreds,
+ * some tens and a few; only surfaces that lie along the ray over an area come there. */
 enum { SEARCH_HALVINGS = 120, SEARCH_BOXES = 20000, ZOOMED_BOXES = 2000, SEARCH_ZOOMS = 200 };
 
 enum verdict {
