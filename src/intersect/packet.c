@@ -3,11 +3,13 @@
  * Compiled once per instruction set.
  *
  * A candidate (a ray and a leaf whose box it passes) is decided in stages, each for all lanes at once, each able to end it:
- *   1. plane polynomials a, b; if either, or a combination, keeps one sign on its whole net, the leaf is missed;
- *   2. Bezout's resultant r in Bernstein form; no sign variation: missed; one: exactly one root in the leaf's range;
+ *   1. the box along the leaf; then plane polynomials a, b: if either, or a combination, keeps one sign on its whole net, the leaf is
+ *      missed;
+ *   2. Bezout's resultant r in Bernstein form, no sign variation: missed; one: exactly one root in the leaf's range; of a nearly
+ *      bilinear leaf before that the resultant of its corners, of degree 2, only for a start;
  *   3. that root by Newton from the control polygon of r, v from the null vector, both by Newton on (a, b);
  *   4. the Newton-Kantorovich test: one root, here, and no other in the leaf.
- * What is left goes lane by lane to the scene's solver (candidate.c), and what even that leaves to subdivision.
+ * What is left goes lane by lane to subdivision; with another solver than the default to that first (candidate.c).
  */
 #include <math.h>
 
