@@ -12,7 +12,8 @@ scene=$1
 golden=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/golden/$scene.png
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$PSCN" render "$PSCN_SOURCE_DIR/scenes/$scene.pscn" -o "$folder/$scene.png" --size 160x120 --samples 2 --quiet
+cd "$PSCN_SOURCE_DIR/scenes" # the picture tells the scene's name, which is not to hold a folder of this machine
+"$PSCN" render "$scene.pscn" -o "$folder/$scene.png" --size 160x120 --samples 2 --quiet
 if [ "${PSCN_UPDATE:-}" = 1 ]; then
   cp "$folder/$scene.png" "$golden"
 else
