@@ -84,7 +84,7 @@ void chart_page(const struct chart *chart, const char *svg, struct page *out)
   const char *name = slash == NULL ? chart->scene_request.path : slash + 1;
   char title[256];
   snprintf(title, sizeof title, "Speed against accuracy: %.200s", name);
-  page_begin(out, title, "svg { max-width: 100%; height: auto } table { font-size: 13px } td:first-child { min-width: 15em }\n");
+  page_begin(out, title, "svg { max-width: 100%; height: auto } table { font-size: 13px } td:first-child { min-width: 15em } td:nth-child(3) { white-space: nowrap }\n");
   if (svg != NULL) {
     const char *body = strstr(svg, "<svg");
     page_put(out, "<figure>\n");
