@@ -3,8 +3,14 @@
  * CAGD). */
 #include "accuracy/models.h"
 
+#include <ctype.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "cmocka_test.h"
+#include "geometry/edges.h"
 
 #define ARC 0.5522847498307936 /* 4/3 (sqrt 2 - 1): inner points of the cubic nearest to a quarter circle */
 
@@ -32,8 +38,7 @@ static const double arc_r[4] = {0, ARC, 1, 1}, arc_y[4] = {1, 1, ARC, 0};
 void model_dome(struct model *out)
 {
   static const double base_r[4] = {0, 1.0 / 3, 2.0 / 3, 1}, base_y[4] = {0, 0, 0, 0};
-  out->name = "dome";
-  out->count = 0;
+  *out = (struct model){.name = "dome"};
   add_revolved(out, arc_r, arc_y);
   add_revolved(out, base_r, base_y);
 }
@@ -41,8 +46,7 @@ void model_dome(struct model *out)
 void model_ball(struct model *out)
 {
   static const double below_y[4] = {-1, -1, -ARC, 0};
-  out->name = "ball";
-  out->count = 0;
+  *out = (struct model){.name = "ball"};
   add_revolved(out, arc_r, arc_y);
   add_revolved(out, arc_r, below_y);
 }
@@ -50,8 +54,7 @@ void model_ball(struct model *out)
 void model_torus(struct model *out)
 {
   const double tube = 0.4;
-  out->name = "torus";
-  out->count = 0;
+  *out = (struct model){.name = "torus"};
   for (int quarter = 0; quarter < 4; quarter++) {
     double r[4], y[4];
     for (int i = 0; i < 4; i++) {
@@ -59,6 +62,47 @@ void model_torus(struct model *out)
       y[i] = (quarter & 2 ? -tube : tube) * arc_y[i];
     }
     add_revolved(out, r, y);
+  }
+}
+
+/* The control points as they stand in the scene file: 48 numbers behind each "bicubic_patch". */
+static void read_teapot(struct model *out)
+{
+  enum { PATCHES = 32 };
+  char text[1 << 15];
+  FILE *file = fopen(PSCN_SOURCE_DIR "/scenes/teapot.pscn", "r");
+  assert_non_null(file);
+  text[fread(text, 1, sizeof text - 1, file)] = '\0';
+  fclose(file);
+  char *at = text;
+  for (out->count = 0; out->count < PATCHES; out->count++) {
+    at = strstr(at, "bicubic_patch {");
+    assert_non_null(at);
+    at = strchr(at, '\n');
+    for (int k = 0; k < 48; k++) {
+      at += strcspn(at, "<,") + 1;
+      while (isspace((unsigned char)*at) || *at == '<') at++;
+      out->P[out->count][k / 12][k / 3 % 4][k % 3] = strtod(at, &at) / 2;
+    }
+  }
+}
+
+void model_teapot(struct model *out)
+{
+  enum { WALL = 12, BOTTOM = 28 }; /* rim and body come first, handle, spout and lid between */
+  struct edge_neighbour neighbour[4 * MODEL_MOST_PATCHES];
+  memset(out, 0, sizeof *out);
+  out->name = "teapot";
+  read_teapot(out);
+  assert_int_equal(edges_match(out->P, sizeof out->P[0], out->count, neighbour), 0);
+  for (size_t n = 0; n < out->count; n++) {
+    out->other[n] = n >= WALL && n < BOTTOM;
+    for (int border = 0; border < 4; border++) {
+      double edge[4][3];
+      edge_points(out->P[n], border, edge);
+      const bool collapsed = !memcmp(edge[0], edge[1], sizeof edge[0]) && !memcmp(edge[0], edge[3], sizeof edge[0]);
+      out->open[n][border] = neighbour[4 * n + (size_t)border].patch == EDGE_NONE && !collapsed;
+    }
   }
 }
 
@@ -78,7 +122,8 @@ void model_inside(const struct model *model, struct random *random, double out_p
     out_point[1] = 0.2 * p[1];
     out_point[2] = r * sin(turn);
   } else {
-    double lift = !strcmp(model->name, "dome") ? 0.35 : 0, reach = lift > 0 ? 0.17 : 0.5;
+    const double lift = !strcmp(model->name, "dome") ? 0.35 : !strcmp(model->name, "teapot") ? 0.5 : 0;
+    const double reach = lift > 0 ? 0.17 : 0.5;
     for (int axis = 0; axis < 3; axis++) out_point[axis] = reach * p[axis] + (axis == 1 ? lift : 0);
   }
 }

@@ -1,19 +1,22 @@
-/* Closed models out of patches that share their edges bit for bit. Arrays are P[patch][i][j][xyz]; all about the
- * origin, of outer radius 1 (torus: 1.4).
+/* Models out of patches that share their edges bit for bit. Arrays are P[patch][i][j][xyz]; but for the teapot all are closed and
+ * about the origin, of outer radius 1 (torus: 1.4).
  */
 #ifndef TESTS_ACCURACY_MODELS_H
 #define TESTS_ACCURACY_MODELS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "random.h"
 
-enum { MODEL_MOST_PATCHES = 16 };
+enum { MODEL_MOST_PATCHES = 32 };
 
 struct model {
   const char *name;
   size_t count;
   double P[MODEL_MOST_PATCHES][4][4][3];
+  bool other[MODEL_MOST_PATCHES];   /* not of the wall round the inside: nothing is aimed at it */
+  bool open[MODEL_MOST_PATCHES][4]; /* borders, as in geometry/edges.h, that neither are shared nor collapse */
 };
 
 /* Half a ball with poles at (0,1,0), closed by a flat base whose centre is collapsed too: 8 patches. Row i = 0 is the
@@ -25,6 +28,10 @@ void model_ball(struct model *out);
 
 /* A torus about the y axis, radii 1 and 0.4: 16 patches; u runs around the tube. */
 void model_torus(struct model *out);
+
+/* The body of the teapot of scenes/teapot.pscn: rim, body and bottom, open between rim and lid; handle, spout and lid are there,
+ * and are not of the wall. In units of 2: the body's radius is 1, the bottom at y = 0. */
+void model_teapot(struct model *out);
 
 /* A point well inside: at most half as far from the middle (torus: from the circle inside the tube) as the surface
  * is. */
