@@ -70,7 +70,7 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 %token IMAGE_WIDTH "image_width" IMAGE_HEIGHT "image_height"
 %token SOLVER "solver"
 
-%type <value> expression colour
+%type <value> expression colour quantity
 %type <token> component
 %type <texture> texture_block pigment_block finish_block surface
 %type <node> object patch union copy
@@ -293,11 +293,21 @@ solver: SOLVER WORD                            { solver_begin(language, @2, &$2)
 solver_block: %empty | '{' solver_items '}';
 solver_items: %empty | solver_items solver_item;
 solver_item:
-    WORD NUMBER                                { solver_number(language, @1, &$1, @2, $2.number[0]); }
-  | WORD '+' NUMBER                            { solver_number(language, @1, &$1, @3, $3.number[0]); }
-  | WORD '-' NUMBER                            { solver_number(language, @1, &$1, @3, -$3.number[0]); }
+    WORD quantity                              { solver_quantity(language, @1, &$1, @2, &$2); }
   | WORD WORD                                  { solver_word(language, @1, &$1, @2, &$2); }
   | error                                      { RECOVER(); }
+  ;
+
+/* A name may be a word of the item's; within an expression it stands in parentheses. */
+quantity:
+    NUMBER                                     { $$ = value_of_number($1.number[0]); }
+  | '(' expression ')'                         { $$ = $2; }
+  | quantity '+' quantity                      { $$ = value_binary(language, '+', &$1, @1, &$3, @3); }
+  | quantity '-' quantity                      { $$ = value_binary(language, '-', &$1, @1, &$3, @3); }
+  | quantity '*' quantity                      { $$ = value_binary(language, '*', &$1, @1, &$3, @3); }
+  | quantity '/' quantity                      { $$ = value_binary(language, '/', &$1, @1, &$3, @3); }
+  | '-' quantity %prec SIGN                    { $$ = value_negative(language, @2, &$2); }
+  | '+' quantity %prec SIGN                    { $$ = $2; }
   ;
 
 %%

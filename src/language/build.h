@@ -332,8 +332,9 @@ void finish_number(struct language *language, int which, struct place place, con
 /* ---- solver_statement.c ---- */
 void solver_begin(struct language *language, struct place place, const struct token *name);
 void solver_misplaced(struct language *language, struct place place);
-void solver_number(struct language *language, struct place place, const struct token *item, struct place value_place,
-                   double value);
+void solver_quantity(struct language *language, struct place place, const struct token *item, struct place value_place,
+                     const struct value *value);
+/* A word of the item's, or else the name of a number. */
 void solver_word(struct language *language, struct place place, const struct token *item, struct place value_place,
                  const struct token *value);
 

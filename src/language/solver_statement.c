@@ -96,14 +96,20 @@ static void tell_wanted(struct language *language, struct place place, const str
   }
 }
 
-void solver_number(struct language *language, struct place place, const struct token *name, struct place value_place, double value)
+static void set_number(struct language *language, const struct solver_item *item, struct place place, double value)
 {
-  const struct solver_item *item = item_named(language, place, name);
-  if (!item) return;
   const bool whole = item->kind != SOLVER_ITEM_INTEGER || value == floor(value);
   if (item->kind == SOLVER_ITEM_KEYWORD || !whole || !(value >= item->minimum && value <= item->maximum))
-    tell_wanted(language, value_place, item);
+    tell_wanted(language, place, item);
   else item->set(&language->solver, value);
+}
+
+void solver_quantity(struct language *language, struct place place, const struct token *name, struct place value_place,
+                     const struct value *value)
+{
+  const struct solver_item *item = item_named(language, place, name);
+  double number;
+  if (item && value_to_number(language, value_place, value, &number)) set_number(language, item, value_place, number);
 }
 
 void solver_word(struct language *language, struct place place, const struct token *name, struct place value_place,
@@ -116,7 +122,12 @@ void solver_word(struct language *language, struct place place, const struct tok
     item->set(&language->solver, (double)k);
     return;
   }
-  tell_wanted(language, value_place, item);
+  const struct symbol *symbol = symbol_find(language, value->text, value->length);
+  if (symbol && symbol->kind == SYMBOL_VALUE && symbol->value.kind == VALUE_NUMBER) {
+    set_number(language, item, value_place, symbol->value.x[0]);
+  } else if (!symbol || symbol->kind != SYMBOL_BROKEN) {
+    tell_wanted(language, value_place, item);
+  }
 }
 
 void solver_misplaced(struct language *language, struct place place)
