@@ -108,9 +108,9 @@ precision, which shares nothing with the renderer.
 
 - **What is polished is exact.** Every point with polish, which is the default, whatever its solver, basis, tolerance, start and split,
   stands at one place on the axis of errors, the rounding of doubles, without a bad answer: 2-D Newton and its certificate decide, and what
-  they do not accept goes to subdivision. The tolerance then changes hardly even the time. So certainty is not bought with
-  time: plain Newton, which has the same boxes and lanes but proves nothing and forms no resultant, is not faster than the default, and
-  answers some rays with a farther hit.
+  they do not accept goes to subdivision. The tolerance then changes hardly even the time. Certainty costs little
+  time: plain Newton, which proves nothing and forms no resultant, takes about as long as the default, and answers some rays with a farther
+  hit or none.
 - **Without polish the answer is the solver's.** Tolerances of 1e-1 and 1e-2 give bad answers with any solver. From 1e-4 on most are
   right, to 1e-14; but nothing says which: `bernstein` keeps a few per cent of bad ones on the wild patches at every tolerance, where roots lie close
   together, and `newton` one on the teapot.

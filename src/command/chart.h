@@ -60,7 +60,7 @@ void chart_csv(const struct chart *chart, struct page *out);
 /* The front on standard output. */
 void chart_print(const struct chart *chart);
 
-/* The figure as SVG text in *out, to be freed. Where gnuplot is missing or fails, a warning is told, *out is NULL and the status
+/* The figure as SVG text in *out, to be freed. Where gnuplot is missing or fails, or the rays hit nothing, a warning is told, *out is NULL and the status
  * STATUS_OK all the same. */
 enum status chart_plot(struct chart *chart, char **out, size_t *out_length) STATUS_MUST_CHECK;
 

@@ -91,7 +91,7 @@ void chart_page(const struct chart *chart, const char *svg, struct page *out)
     page_put(out, body == NULL ? svg : body);
     page_put(out, "</figure>\n");
   } else {
-    page_put(out, "<p>The figure is missing: gnuplot was not there to draw it.</p>\n");
+    page_put(out, "<p>There is no figure: gnuplot was not there to draw it, or the rays hit nothing.</p>\n");
   }
   page_put(out, "<h2>The front, and the default</h2>\n");
   put_table(chart, false, out);

@@ -157,6 +157,13 @@ enum status chart_plot(struct chart *chart, char **out, size_t *out_length)
   struct scratch folder;
   *out = NULL;
   *out_length = 0;
+  size_t points = 0;
+  for (size_t k = 0; k < chart->point_count; k++)
+    points += drawn(&chart->points[k]);
+  if (points == 0) {
+    fputs("pscn chart: warning: the rays hit nothing, so there is no figure\n", stderr);
+    return STATUS_OK;
+  }
   if (scratch_create(&folder) != STATUS_OK) {
     command_error(chart->command, "cannot make a temporary folder: %s", strerror(errno));
     return STATUS_FILE;

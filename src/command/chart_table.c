@@ -76,6 +76,17 @@ void chart_csv(const struct chart *chart, struct page *out)
     put_point(&chart->points[k], out);
 }
 
+/* With `digits` behind the point, or with two significant ones where digits is 0. */
+static void print_number(double value, int width, int digits)
+{
+  if (!isfinite(value))
+    printf("%*s", width, "-");
+  else if (digits > 0)
+    printf("%*.*f", width, digits, value);
+  else
+    printf("%*.2g", width, value);
+}
+
 void chart_print(const struct chart *chart)
 {
   printf("%9s %9s  %9s %9s %9s  %6s %6s %6s\n", "ns a ray", "ratio", "T median", "T 99 %", "T max", "lost", "inv.",
@@ -84,9 +95,12 @@ void chart_print(const struct chart *chart)
     const struct chart_point *point = &chart->points[k];
     if (!point->front && k > 0)
       continue;
-    printf("%9.1f %9.3f  %9.2g %9.2g %9.2g  %6zu %6zu %6zu  %s%s\n", point->time[RAYS_CAMERA].median,
-           point->time[RAYS_CAMERA].ratio, point->camera.median, point->camera.most, point->camera.max,
-           point->camera.lost, point->camera.invented, point->camera.wrong, point->name,
+    print_number(point->time[RAYS_CAMERA].median, 9, 1);
+    print_number(point->time[RAYS_CAMERA].ratio, 10, 3);
+    print_number(point->camera.median, 11, 0);
+    print_number(point->camera.most, 10, 0);
+    print_number(point->camera.max, 10, 0);
+    printf("  %6zu %6zu %6zu  %s%s\n", point->camera.lost, point->camera.invented, point->camera.wrong, point->name,
            point->front ? " (front)" : "");
   }
 }

@@ -23,12 +23,17 @@ pscn=$(command -v pscn)
 (PATH=empty; try "$pscn" chart "$scene" $small --no-peers --quiet -o out3)
 ls out3
 
+# Nothing to hit: no figure, and no error.
+echo 'background { rgb 0 }' >nothing.pscn
+try pscn chart nothing.pscn $small --no-peers -o out4 2>&1 | grep -e warning -e '^exit' -e 'bernstein$' | sed 's/^ *[0-9.]* *[0-9.]*//'
+ls out4
+
 # The command line.
 try pscn chart
 try pscn chart "$scene" --rays 0
 try pscn chart "$scene" --rounds 1000
 try pscn chart "$scene" --size 3
-try pscn chart nothing.pscn -o out4
+try pscn chart missing.pscn -o out5
 echo text >file
 try pscn chart "$scene" $small -o file
 try pscn chart "$scene" $small -o nowhere/out
