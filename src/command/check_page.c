@@ -18,6 +18,7 @@ static const char STYLE[] =
   "  border-right: 2px solid #e33; max-width: 100% }\n"
   ".slider .over img { position: absolute; left: 0; top: 0; width: 100cqw }\n"
   ".worst { display: flex; flex-wrap: wrap; gap: 0 2.5em } .worst section { width: 500px } .worst figure { margin-right: .6em }\n"
+  "td { white-space: nowrap }\n"
   ".key { display: inline-block; width: .8em; height: .8em; margin-right: .5em; border: 1px solid #888 }\n"
   ".control { width: 100%; margin: .3em 0 }\n"
   ".verdict { padding: .5em .8em; background: #eef5ee; border-left: 4px solid #4a4 }\n"
@@ -154,7 +155,7 @@ static void put_places(const struct check *check, struct page *page)
   page_put(page, "/255, as spots larger than a pixel, on our picture with its edges. A pixel is on an edge where it or one beside "
                  "it sees a silhouette, the edge of a shadow, or a crease: there half a pixel's difference of the shape is a "
                  "difference of the whole colour.</p>\n");
-  put_figure(page, &map, 800, "");
+  put_figure(page, &map, 800, "pixels beyond the limit");
   page_put(page, "<table style=\"display: inline-table\">\n<tr><th>beyond the limit</th><th>pixels</th></tr>\n");
   for (int edge = CHECK_EDGES - 1; edge >= 0; edge--) {
     put_key(page, CHECK_SPOT_COLOR[edge == CHECK_EDGE_NONE], NAME[edge]);

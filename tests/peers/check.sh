@@ -67,6 +67,12 @@ cmp -s one-check/povray.png one-check/povray-2.png || fail "the scene and its ca
 "$PSCN" render "$scene" -o own.png --size 120x90 --quiet
 "$PSCN" compare own.png one-check/pscn.png --fail 0 --quiet || fail "check's own picture is not render's"
 
+# Every pixel over the limit lies on one kind of edge, or on none.
+tr -d ' {}[]' <one-check/check.json | tr ',' '\n' | sed 's/"over://' | awk -F: '
+  $1 == "\"over_limit_off_edges\"" || $1 == "\"crease\"" || $1 == "\"shadow\"" || $1 == "\"silhouette\"" { parts += $2 }
+  $1 == "\"limit\"" { all += $2; rows++ } END { exit !(rows == 6 && all > 0 && all == parts) }' ||
+  fail "the pixels over the limit are not those on edges and off them"
+
 # Limits, one at a time, on a coarse picture.
 coarse=(--size 60x45 --steps 0 --grid 0 -o limits --failpercent 100 --failpsnr 0 --failmask 100)
 expect 0 "$PSCN" check "$scene" "${coarse[@]}"
