@@ -79,6 +79,12 @@ struct texture {
 
 /* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same points
  * or children. */
+/* What the copies of a declared object know of each other. */
+struct sharing {
+  size_t uses;     /* how often it is named */
+  uint32_t object; /* one more than its index in scene.objects, once it is there */
+};
+
 struct node {
   struct node *next, *first, *last; /* the list it stands in; its own children */
   struct node *outer;               /* while its block is open */
@@ -89,6 +95,7 @@ struct node {
   const struct transform *transform;   /* NULL: none */
   const struct texture *texture;       /* NULL: none of its own */
   const struct solver_options *solver; /* NULL: none of its own */
+  struct sharing *sharing;             /* of the declared object that it is or copies; NULL: neither */
   size_t patch_count;                  /* in it and below */
   int height;                          /* unions below it within each other */
 
@@ -244,7 +251,7 @@ void symbol_unknown(struct language *language, struct place place, const struct 
 void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted);
 void declare_begin(struct language *language, struct place place, const struct token *name, bool local);
 void declare_value(struct language *language, const struct value *value);
-void declare_object(struct language *language, const struct node *object);
+void declare_object(struct language *language, struct node *object);
 void declare_texture(struct language *language, const struct texture *texture);
 void declare_broken(struct language *language); /* the declaration being read has an error */
 

@@ -171,6 +171,7 @@ void copy_named(struct language *language, struct place place, const struct toke
 {
   const struct symbol *symbol = symbol_find(language, name->text, name->length);
   if (symbol && symbol->kind == SYMBOL_OBJECT) {
+    symbol->object->sharing->uses++;
     copy_object(language, place, symbol->object);
     return;
   }

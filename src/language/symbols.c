@@ -140,8 +140,9 @@ void declare_value(struct language *language, const struct value *value)
   symbol->value = *value;
 }
 
-void declare_object(struct language *language, const struct node *object)
+void declare_object(struct language *language, struct node *object)
 {
+  if (!object->sharing) object->sharing = language_alloc(language, sizeof *object->sharing);
   struct symbol *symbol = declared(language);
   symbol->kind = SYMBOL_OBJECT;
   symbol->object = object;

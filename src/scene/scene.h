@@ -35,6 +35,20 @@ struct scene_patch {
   double flatness;
 };
 
+/* A declared object that stands in the scene more than once: its control nets as declared. */
+struct scene_object {
+  double (*P)[4][4][3];
+  size_t patch_count;
+};
+
+/* One of the places where it stands: the patches from `first_patch` on, as many as the object has and in its order, are the object's
+ * with every point p moved to p A + b (row vectors), up to the rounding of p, A and b. */
+struct scene_copy {
+  uint32_t object; /* index into scene.objects */
+  size_t first_patch;
+  double A[3][3], b[3];
+};
+
 struct scene_light {
   double position[3], color[3];
   bool shadowless;
@@ -54,6 +68,10 @@ struct scene {
   size_t light_count;
   struct scene_patch *patches; /* in the order they stand after objects are expanded */
   size_t patch_count;
+  struct scene_object *objects;
+  size_t object_count;
+  struct scene_copy *copies; /* by first_patch; none overlaps another, and what is copied once is none */
+  size_t copy_count;
   struct scene_texture *textures;
   size_t texture_count;
   struct solver_options *solvers; /* [0] is global_settings', the default of every patch */
