@@ -56,8 +56,9 @@ static bool passes_border(const struct model *model, uint32_t index, unsigned bo
 
 /* A ray that starts nearer to the surface than this and the point's own error cannot be told from one that starts on it: the
  * rounding of the new origin, and the distance within which subdivision cannot exclude a root: UNDECIDED_ERRORS error bounds of
- * either plane, with moments of at most 2 as for all rays that start in the patch's box; doubled for the planes' being oblique. */
-#define CLEARANCE(scale, magnitude) (4 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * PLANE_ERROR(2, 2) * (scale))
+ * either plane, with moments of at most 2 as for all rays that start in the patch's box, and what a copy is loose by; doubled for the planes' being oblique. */
+#define CLEARANCE(scale, loose, magnitude) \
+  (4 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * (PLANE_ERROR(2, 2) * (scale) + 2 * (loose)))
 
 /* The point, its error bound and the normal at (u,v). */
 static void set_surface(struct model_patch *patch, const double direction[3], struct hit *out)
@@ -95,13 +96,14 @@ static void settle_border(const struct model *model, unsigned borders, struct hi
 /* The clearance of a hit, on a border by the size of the neighbour as well. */
 static double clearance(const struct model *model, uint32_t index, unsigned borders, const struct hit *hit)
 {
-  double scale = model->patches[index].scale, magnitude = 0;
+  double scale = model->patches[index].scale, loose = model->patches[index].loose, magnitude = 0;
   for (int border = 0; border < 4; border++) {
     const uint32_t other = model->neighbours[4 * (size_t)index + (size_t)border].patch;
-    if ((borders >> border & 1) && other != EDGE_NONE) scale = real_max(scale, model->patches[other].scale);
+    if (!(borders >> border & 1) || other == EDGE_NONE) continue;
+    scale = real_max(scale, model->patches[other].scale), loose = real_max(loose, model->patches[other].loose);
   }
   for (int k = 0; k < 3; k++) magnitude = real_max(magnitude, fabs(hit->point[k]));
-  return hit->point_error + CLEARANCE(scale, magnitude);
+  return hit->point_error + CLEARANCE(scale, loose, magnitude);
 }
 
 /* Certainty, border and clearance of a hit whose place is settled. */
@@ -140,7 +142,7 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
   }
   for (int c = 0; c < 3; c++) step.normal[c] = lanes_select(facing > 0, -step.normal[c], step.normal[c]);
   const lanes point_error = POINT_ERROR(patch->scale, step.tangent, magnitude);
-  const lanes clear = point_error + CLEARANCE(patch->scale, magnitude);
+  const lanes clear = point_error + CLEARANCE(patch->scale, patch->loose, magnitude);
   const lane_mask border[4] = {best->u < best->radius_u, best->u > 1 - best->radius_u, best->v < best->radius_v,
                                best->v > 1 - best->radius_v};
   const lane_mask within = (step.t > p->t_min) & (step.t < p->t_max);

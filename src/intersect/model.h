@@ -4,7 +4,8 @@
  *
  * Every patch has a frame of its own: world = center + scale * local, scale a power of two, center with few bits, so that
  * |local| <= 1 and going to local coordinates rounds almost nothing. All algebra is done in local coordinates, so scale and
- * offset of a scene cost no accuracy. A patch is cut into N x N leaves, the units the hierarchy holds and rays are tried on.
+ * offset of a scene cost no accuracy. A patch is cut into N x N leaves, the units the hierarchy holds and rays are tried on. Where
+ * leaves for all patches would be too many, copies of a declared object share the object's (copies.h).
  */
 #ifndef PSCN_INTERSECT_MODEL_H
 #define PSCN_INTERSECT_MODEL_H
@@ -29,8 +30,9 @@ struct model_patch {
   int m, n;          /* true bidegree in u, v */
   int split;         /* cut into split x split leaves */
   bool lanes;        /* default method: tried on a lane of rays at once */
+  bool copied;       /* its leaves are those of the object it is copied from; then m and n mean nothing */
+  double loose;      /* how far off its surface a ray may be met by those, in the scene; 0 where not copied */
   const struct solver_options *solver;
-  size_t first_leaf;
 };
 
 /* The polynomials a resultant is formed of: the leaf's net at its true degree, the parameter that is kept first. */
@@ -61,6 +63,20 @@ struct leaf {
   uint8_t zeros[2];       /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
 };
 
+/* A declared object whose leaves serve all its copies. */
+struct model_object {
+  const struct scene_object *declared;
+  struct model *model; /* of its patches as declared, about its middle; no scene, no neighbours; owned */
+  double error;        /* bound on how far a point of a copy, or of a ray near it, may be off in the object's coordinates */
+};
+
+/* One of its places: object coordinates are (x - b) W, for a row vector x of the scene. */
+struct model_copy {
+  struct model_object *object;
+  uint32_t first_patch;
+  double W[3][3], b[3];
+};
+
 struct model {
   const struct scene *scene;
   struct arena *arena;
@@ -68,7 +84,12 @@ struct model {
   struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h */
   struct leaf *leaves;
   size_t leaf_count;
+  struct model_object *objects;
+  size_t object_count;
+  struct model_copy *copies; /* box leaf_count + k of the hierarchy is copy k */
+  size_t copy_count;
   double origin[3], frame; /* of the hierarchy's boxes: (world - origin)/frame, within about [-1,1]; frame a power of two */
+  double error; /* widens the boxes; an object's, or 0 */
   struct bvh bvh;
   bool unproven; /* some patch has `polish off`: no answer is proven */
 };
@@ -76,6 +97,10 @@ struct model {
 /* Prepares all patches of the scene, which is borrowed. STATUS_LIMIT where memory is short; then *out is NULL. */
 enum status model_create(const struct scene *scene, struct model **out) STATUS_MUST_CHECK;
 void model_destroy(struct model *model);
+
+/* The model of an object: the patches of `nets`, which is borrowed for the call, cut into at most `most` leaves a side, their boxes
+ * wider by `error`. */
+enum status model_create_object(const struct scene *nets, int most, double error, struct model **out) STATUS_MUST_CHECK;
 
 /* Leaf parameters to parameters of the whole patch. Exact up to one rounding. */
 static inline double leaf_to_patch(int split, int column, double t) { return (column + t) / split; }

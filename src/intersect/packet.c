@@ -13,7 +13,7 @@
  */
 #include <math.h>
 
-#include "base/real.h"
+#include "intersect/leaf.h"
 #include "intersect/packet.h"
 #include "intersect/refine.h"
 #include "intersect/subdivide.h"
@@ -21,17 +21,23 @@
 
 enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
 
-void packet_start(struct packet *p, struct tracer *tracer, const struct model *model, const struct ray *rays, size_t count, bool any)
+void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any)
 {
-  p->tracer = tracer, p->model = model, p->rays = rays, p->count = count, p->any = any, p->moved = false, p->patch = UINT32_MAX;
+  p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
+  p->outer = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);
-  lanes size[3];
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < 3; k++)
     p->origin[k] = lanes_gather(&rays[0].origin[k], RAY_STRIDE), p->direction[k] = lanes_gather(&rays[0].direction[k], RAY_STRIDE);
-    size[k] = lanes_abs(p->direction[k]);
-  }
-  p->longest = lanes_max(lanes_max(size[0], size[1]), size[2]);
   p->t_min = lanes_gather(&rays[0].t_min, RAY_STRIDE), p->t_far = p->t_max = lanes_gather(&rays[0].t_max, RAY_STRIDE);
+  packet_orient(p);
+}
+
+void packet_orient(struct packet *p)
+{
+  lanes size[3];
+  for (int k = 0; k < 3; k++) size[k] = lanes_abs(p->direction[k]);
+  p->moved = false, p->patch = UINT32_MAX;
+  p->longest = lanes_max(lanes_max(size[0], size[1]), size[2]);
   /* As dominant_axis has it. */
   const lane_mask first = (size[0] >= size[1]) & (size[0] >= size[2]), second = ~first & (size[1] >= size[2]);
   p->on_axis[0] = p->live & first, p->on_axis[1] = p->live & second, p->on_axis[2] = p->live & ~first & ~second;
@@ -82,21 +88,27 @@ static void packet_offer(struct packet *p, unsigned lane, const struct trial *t,
   p->tracer->counts.roots_accepted++;
 }
 
+static void lane_subdivide_outside(struct packet *p, const struct trial *t, unsigned lane);
+
 /* The same for the roots of several lanes at once; those next to t_min go the other way. */
 static void packet_offer_lanes(struct packet *p, const struct trial *t, const struct refined *r, lane_mask hits)
 {
   if (!lanes_any(hits)) return;
   struct best *best = &p->best;
   const int axis = t->axis;
-  const int64_t leaf = t->number, patch = t->leaf->patch;
+  const int64_t leaf = t->number, patch = t->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const double part = 1.0 / t->patch->split;
   const lanes to_t = p->local[axis].to_t, w = trial_place(t, r->u, r->v);
   const lanes at = ((w + p->local[axis].start[1]) + p->local[axis].start[0]) * to_t;
   const lanes size = lanes_abs(to_t), error = size * (t->leaf->first[0] * r->radius_u + t->leaf->first[1] * r->radius_v) +
-                                              8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w));
+                                              8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
   const lane_mask behind = at > p->t_min + error, unknown = hits & ~behind & ~(at < p->t_min - error);
   for (unsigned bits = lanes_bits(unknown); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
+    if (p->outer) {
+      lane_subdivide_outside(p, t, lane);
+      continue;
+    }
     struct leaf_hit root = packet_root(p, lane, t, r, lane, w[lane]);
     packet_offer(p, lane, t, &root);
   }
@@ -198,6 +210,23 @@ static void lane_subdivide(struct packet *p, const struct trial *t, unsigned lan
   if (doubt) p->best.doubt[lane] = -1;
 }
 
+/* What cannot be decided in an object's coordinates is decided in the scene's, on a leaf cut for it. */
+static void lane_subdivide_outside(struct packet *p, const struct trial *t, unsigned lane)
+{
+  struct packet *outer = p->outer;
+  struct leaf leaf;
+  struct trial there;
+  const uint32_t patch = p->copy->first_patch + t->leaf->patch;
+  struct model_patch *model_patch = &outer->model->patches[patch];
+  there.patch = model_patch, there.leaf = &leaf, there.number = t->number;
+  leaf_cut(model_patch, t->leaf->column_u, t->leaf->column_v, &leaf);
+  leaf.patch = patch;
+  if (outer->patch != patch) packet_set_patch(outer, patch);
+  there.axis = outer->on_axis[0][lane] ? 0 : outer->on_axis[1][lane] ? 1 : 2;
+  lane_subdivide(outer, &there, lane);
+  if (!outer->live[lane]) p->live[lane] = 0, p->moved = true;
+}
+
 static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
 {
   struct tracer *tracer = p->tracer;
@@ -280,7 +309,8 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     /* The only root of r has been tried already; and where the root of a nearly bilinear leaf was not proven to be alone the ray
      * mostly passes the fold by, which subdivision sees at once. */
-    if (t->patch->lanes) lane_subdivide(p, t, lane);
+    if (p->outer) lane_subdivide_outside(p, t, lane);
+    else if (t->patch->lanes) lane_subdivide(p, t, lane);
     else lane_alone(p, t, lane);
   }
 }

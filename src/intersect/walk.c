@@ -45,7 +45,7 @@ static void bundle_update(struct bundle *b)
   lanes far[2];
   for (int h = 0; h < 2; h++) {
     const lanes end = b->packet[h].t_far * b->unit[h];
-    far[h] = (end - b->start[h]) + 8 * UNIT_ROUNDOFF * (end + b->start[h]);
+    far[h] = (end - b->start[h]) + 8 * UNIT_ROUNDOFF * (lanes_abs(end) + lanes_abs(b->start[h]));
   }
   b->far = float_lanes_join(far[0], far[1]) * PLACE_GROWTH;
   b->live = lanes_bits(b->packet[0].live) | lanes_bits(b->packet[1].live) << LANES;
@@ -54,7 +54,7 @@ static void bundle_update(struct bundle *b)
 /* The place where the line of a ray enters the frame, or less. */
 static lanes frame_entry(const lanes from[3], const lanes slack[3], const lanes direction[3])
 {
-  lanes enter = {0};
+  lanes enter = lanes_all(-INFINITY);
   for (int k = 0; k < 3; k++) {
     const lanes half = FRAME_HALF + slack[k], inverse = 1 / direction[k];
     enter = lanes_max(lanes_min((-half - from[k]) * inverse, (half - from[k]) * inverse), enter);
@@ -77,12 +77,13 @@ static void bundle_start(struct bundle *b, const struct model *model)
       farthest = lanes_max(lanes_abs(from[k]), farthest);
     }
     b->unit[h] = p->longest * to_frame;
-    lanes start = p->t_min * b->unit[h];
+    /* No ray is in the frame before this place: its dominant coordinate is outside. */
+    lanes start = lanes_max(p->t_min * b->unit[h], -(farthest + 2));
     if (lanes_any(farthest > FRAME_NEAR)) start = lanes_max(frame_entry(from, slack, direction), start);
     b->start[h] = start;
     for (int k = 0; k < 3; k++) {
       from[k] += start * direction[k];
-      slack[k] += ORIGIN_SLACK * (1 + lanes_abs(from[k])) + 8 * UNIT_ROUNDOFF * start;
+      slack[k] += ORIGIN_SLACK * (1 + lanes_abs(from[k])) + 8 * UNIT_ROUNDOFF * lanes_abs(start);
       low[k][h] = from[k] + slack[k], high[k][h] = from[k] - slack[k];
     }
   }
@@ -109,11 +110,28 @@ LANES_INLINE unsigned bundle_box(const struct bundle *b, const struct bvh_node *
   return float_lanes_bits(near <= far * PLACE_GROWTH);
 }
 
-static void bundle_leaf(struct bundle *b, uint32_t leaf, unsigned active)
+static void bundle_walk(struct bundle *b);
+
+static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
+  struct bundle inner;
+  for (int h = 0; h < 2; h++) packet_enter(&b->packet[h], copy, lanes_mask(active >> h * LANES), &inner.packet[h]);
+  bundle_start(&inner, copy->object->model);
+  bundle_walk(&inner);
+  for (int h = 0; h < 2; h++) packet_leave(&inner.packet[h]);
+}
+
+/* Tries what box `index` of the hierarchy stands for. */
+static void bundle_leaf(struct bundle *b, uint32_t index, unsigned active)
+{
+  const struct model *model = b->packet[0].model;
   const unsigned all = (1u << LANES) - 1;
-  if (active & all) packet_leaf(&b->packet[0], leaf, lanes_mask(active & all));
-  if (active >> LANES) packet_leaf(&b->packet[1], leaf, lanes_mask(active >> LANES));
+  if (index >= model->leaf_count) {
+    bundle_copy(b, &model->copies[index - model->leaf_count], active);
+  } else {
+    if (active & all) packet_leaf(&b->packet[0], index, lanes_mask(active & all));
+    if (active >> LANES) packet_leaf(&b->packet[1], index, lanes_mask(active >> LANES));
+  }
   if (!b->packet[0].moved && !b->packet[1].moved) return;
   b->packet[0].moved = b->packet[1].moved = false;
   bundle_update(b);
@@ -212,7 +230,7 @@ static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer 
   for (size_t h = 0, first = 0; h < 2; h++, first += LANES) {
     const size_t left = count > first ? count - first : 0, n = left < LANES ? left : LANES;
     rays_ready(n, n > 0 ? rays + first : rays, &ready[h]);
-    packet_start(&b->packet[h], tracer, tracer->model, ready[h].rays, n, any);
+    packet_start(&b->packet[h], tracer, ready[h].rays, n, any);
   }
   bundle_start(b, tracer->model);
 }

@@ -1,0 +1,205 @@
+/* Objects that share their leaves with all their copies: maps and their error bounds. */
+#include "intersect/copies.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/real.h"
+
+/* A map that stretches errors more than this is no gain: what is undecidable in the object would be decided twice. */
+#define MOST_STRETCH 0x1p10
+
+/* A map whose numbers, or whose inverse's, are larger than this could overflow with the rays that are let in (walk.c). */
+#define MOST_SIZE 0x1p100
+
+/* One copy while its object is looked at. */
+struct candidate {
+  const struct scene_copy *copy;
+  double W[3][3], b[3];
+  double error; /* of its patches and rays in the object's coordinates */
+  double widest; /* largest sum of |A| over a column: how much longer an error is in the scene */
+  bool good;
+};
+
+/* The object's nets about the middle of their box, and how far they reach from it. */
+struct middle {
+  double center[3], reach;
+};
+
+static struct middle object_middle(const struct scene_object *object)
+{
+  struct middle m = {{0}, 0};
+  double lo[3], hi[3];
+  for (int k = 0; k < 3; k++) {
+    lo[k] = INFINITY, hi[k] = -INFINITY;
+    for (size_t p = 0; p < object->patch_count; p++)
+      for (int n = 0; n < 16; n++)
+        lo[k] = real_min(lo[k], object->P[p][n / 4][n % 4][k]), hi[k] = real_max(hi[k], object->P[p][n / 4][n % 4][k]);
+    m.center[k] = lo[k] / 2 + hi[k] / 2;
+    m.reach = real_max(m.reach, hi[k] / 2 - lo[k] / 2);
+  }
+  return m;
+}
+
+/* The inverse, by cofactors; false where there is none to speak of. It need not be exact. */
+static bool invert(double A[3][3], double W[3][3])
+{
+  double size = 0;
+  for (int n = 0; n < 9; n++) size = real_max(size, fabs(A[n / 3][n % 3]));
+  if (!(size <= MOST_SIZE && size >= 1 / MOST_SIZE)) return false;
+  double cofactor[3][3], determinant = 0;
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      const int r = (i + 1) % 3, s = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+      cofactor[i][j] = A[r][c] * A[s][d] - A[r][d] * A[s][c];
+    }
+  }
+  for (int j = 0; j < 3; j++) determinant += A[0][j] * cofactor[0][j];
+  bool finite = true;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) W[j][i] = cofactor[i][j] / determinant, finite &= fabs(W[j][i]) <= MOST_SIZE;
+  return finite;
+}
+
+/* The map of a copy, and its error in the object's coordinates: how far the copy's control points are carried past the object's, the
+ * rounding of finding that out, and that of a ray near the object (copy.c): of its origin, which is moved to where the ray passes
+ * the middle of the copy, and of its direction on the way from there through the object. */
+static void candidate_map(struct candidate *c, const struct model *model, const struct scene_object *object, const struct middle *m)
+{
+  double A[3][3];
+  memcpy(A, c->copy->A, sizeof A);
+  c->good = invert(A, c->W);
+  double stretch = 0, back = 0, columns[3];
+  c->widest = 0;
+  for (int k = 0; k < 3; k++) {
+    c->b[k] = c->copy->b[k];
+    columns[k] = 0;
+    for (int i = 0; i < 3; i++) c->b[k] += m->center[i] * A[i][k], columns[k] += fabs(A[i][k]);
+    c->widest = real_max(c->widest, columns[k]);
+  }
+  for (int j = 0; j < 3; j++) {
+    double sum = 0, plain = 0;
+    for (int k = 0; k < 3; k++) sum += columns[k] * fabs(c->W[k][j]), plain += fabs(c->W[k][j]);
+    stretch = real_max(stretch, sum), back = real_max(back, plain);
+  }
+  double off = 0;
+  for (size_t p = 0; p < object->patch_count; p++) {
+    double (*P)[4][3] = model->scene->patches[c->copy->first_patch + p].P;
+    for (int n = 0; n < 16; n++) {
+      for (int j = 0; j < 3; j++) {
+        double x = m->center[j] - object->P[p][n / 4][n % 4][j];
+        for (int k = 0; k < 3; k++) x += (P[n / 4][n % 4][k] - c->b[k]) * c->W[k][j];
+        off = real_max(off, fabs(x));
+      }
+    }
+    c->good &= model->patches[c->copy->first_patch + p].lanes && model->patches[c->copy->first_patch + p].solver->split == 0;
+  }
+  const double passes = 2 * c->widest * m->reach * back; /* the ray's nearest point, from the middle; sqrt(3) < 2 */
+  c->error = off + 16 * UNIT_ROUNDOFF * stretch * (m->reach + passes);
+  c->good &= stretch <= MOST_STRETCH && c->error <= 0x1p-30 * m->reach; /* NaN is no map either */
+}
+
+/* Takes the good ones of the object's copies, where they are two or more. */
+static bool take(struct model *model, const struct scene_object *object, size_t count, const struct candidate candidates[])
+{
+  size_t good = 0;
+  double error = 0;
+  for (size_t k = 0; k < count; k++)
+    if (candidates[k].good) good++, error = real_max(error, candidates[k].error);
+  if (good < 2) return false;
+  struct model_object *shared = &model->objects[model->object_count++];
+  shared->declared = object, shared->error = error;
+  for (size_t k = 0; k < count; k++) {
+    const struct candidate *c = &candidates[k];
+    if (!c->good) continue;
+    struct model_copy *copy = &model->copies[model->copy_count++];
+    copy->object = shared, copy->first_patch = (uint32_t)c->copy->first_patch;
+    memcpy(copy->W, c->W, sizeof copy->W), memcpy(copy->b, c->b, sizeof copy->b);
+    for (size_t p = 0; p < object->patch_count; p++) {
+      struct model_patch *patch = &model->patches[c->copy->first_patch + p];
+      patch->copied = true, patch->loose = error * c->widest;
+    }
+  }
+  return true;
+}
+
+static int by_object(const void *a, const void *b)
+{
+  const struct candidate *x = a, *y = b;
+  if (x->copy->object != y->copy->object) return x->copy->object < y->copy->object ? -1 : 1;
+  return x->copy->first_patch < y->copy->first_patch ? -1 : x->copy->first_patch > y->copy->first_patch;
+}
+
+enum status copies_choose(struct model *model, size_t *own)
+{
+  const struct scene *scene = model->scene;
+  const size_t count = scene->copy_count;
+  if (count == 0) return STATUS_OK;
+  struct candidate *all = calloc(count, sizeof *all);
+  model->objects = arena_alloc(model->arena, scene->object_count, sizeof *model->objects);
+  model->copies = arena_alloc(model->arena, count, sizeof *model->copies);
+  if (!all || !model->objects || !model->copies) {
+    free(all);
+    return STATUS_LIMIT;
+  }
+  for (size_t k = 0; k < count; k++) all[k].copy = &scene->copies[k];
+  qsort(all, count, sizeof *all, by_object);
+  for (size_t first = 0, end; first < count; first = end) {
+    const struct scene_object *object = &scene->objects[all[first].copy->object];
+    const struct middle middle = object_middle(object);
+    for (end = first; end < count && all[end].copy->object == all[first].copy->object; end++)
+      candidate_map(&all[end], model, object, &middle);
+    const size_t before = model->copy_count;
+    if (take(model, object, end - first, all + first)) *own -= (model->copy_count - before - 1) * object->patch_count;
+  }
+  free(all);
+  return STATUS_OK;
+}
+
+/* The model of an object, from its nets about their middle; the solver is that of a copy. */
+static enum status prepare_object(const struct model *model, const struct model_copy *copy, int most, struct model_object *object)
+{
+  const struct scene_object *declared = object->declared;
+  const struct middle middle = object_middle(declared);
+  struct scene_patch *patches = calloc(declared->patch_count, sizeof *patches);
+  if (!patches) return STATUS_LIMIT;
+  for (size_t p = 0; p < declared->patch_count; p++) {
+    patches[p] = model->scene->patches[copy->first_patch + p];
+    for (int n = 0; n < 16; n++)
+      for (int k = 0; k < 3; k++) patches[p].P[n / 4][n % 4][k] = declared->P[p][n / 4][n % 4][k] - middle.center[k];
+  }
+  const struct scene nets = {.patches = patches, .patch_count = declared->patch_count, .solvers = model->scene->solvers};
+  const enum status status = model_create_object(&nets, most, object->error, &object->model);
+  free(patches);
+  return status;
+}
+
+enum status copies_prepare(struct model *model, int most)
+{
+  for (size_t k = 0; k < model->copy_count; k++) {
+    const struct model_copy *copy = &model->copies[k];
+    struct model_object *object = copy->object;
+    if (!object->model) {
+      const enum status status = prepare_object(model, copy, most, object);
+      if (status != STATUS_OK) return status;
+    }
+    for (size_t p = 0; p < object->declared->patch_count; p++)
+      model->patches[copy->first_patch + p].split = object->model->patches[p].split;
+  }
+  return STATUS_OK;
+}
+
+void copy_box(const struct model *model, const struct model_copy *copy, struct bvh_box *out)
+{
+  for (int k = 0; k < 3; k++) {
+    double lo = INFINITY, hi = -INFINITY;
+    for (size_t p = 0; p < copy->object->declared->patch_count; p++) {
+      double (*P)[4][3] = model->scene->patches[copy->first_patch + p].P;
+      for (int n = 0; n < 16; n++) lo = real_min(lo, P[n / 4][n % 4][k]), hi = real_max(hi, P[n / 4][n % 4][k]);
+    }
+    const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo), fabs(hi)) + fabs(model->origin[k]));
+    out->lo[k] = (lo - model->origin[k] - slack) / model->frame;
+    out->hi[k] = (hi - model->origin[k] + slack) / model->frame;
+  }
+}

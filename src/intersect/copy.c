@@ -1,0 +1,64 @@
+/* A packet in the coordinates of an object, and back. Compiled once per instruction set and without contraction.
+ *
+ * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, before it is taken to the object's
+ * coordinates, and all of that in about twice the precision: so it is right to its last places near the object, however far away
+ * it starts. copies.c bounds what rounding is left, model_object.error.
+ */
+#include "base/double_lanes.h"
+#include "intersect/packet.h"
+
+void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner)
+{
+  inner->tracer = outer->tracer, inner->model = copy->object->model, inner->rays = NULL, inner->count = LANES;
+  inner->any = outer->any, inner->outer = outer, inner->copy = copy;
+  inner->live = active & outer->live;
+  lanes ahead = lanes_all(0), square = lanes_all(0);
+  for (int k = 0; k < 3; k++) {
+    const lanes d = outer->direction[k];
+    ahead += (copy->b[k] - outer->origin[k]) * d, square += d * d;
+  }
+  const lanes shift = inner->shift = ahead / square;
+  struct double_lanes from[3]; /* the middle */
+  for (int k = 0; k < 3; k++) {
+    const struct double_lanes way = double_lanes_product(shift, outer->direction[k]);
+    const struct double_lanes origin = double_lanes_sum(outer->origin[k], lanes_all(-copy->b[k]));
+    const struct double_lanes sum = double_lanes_sum(way.hi, origin.hi);
+    from[k] = (struct double_lanes){sum.hi, sum.lo + (way.lo + origin.lo)};
+  }
+  for (int j = 0; j < 3; j++) {
+    lanes hi = lanes_all(0), lo = lanes_all(0), direction = lanes_all(0);
+    for (int k = 0; k < 3; k++) {
+      const struct double_lanes part = double_lanes_scale(from[k], lanes_all(copy->W[k][j]));
+      const struct double_lanes sum = double_lanes_sum(hi, part.hi);
+      hi = sum.hi, lo += sum.lo + part.lo;
+      direction += outer->direction[k] * copy->W[k][j];
+    }
+    inner->origin[j] = hi + lo, inner->direction[j] = direction;
+  }
+  inner->t_min = outer->t_min - shift, inner->t_max = outer->t_max - shift;
+  inner->t_far = (outer->t_far - shift) + 4 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_far));
+  inner->net_error = copy->object->error;
+  packet_orient(inner);
+  inner->t_error = 2 * inner->net_error / inner->longest + 8 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_min));
+}
+
+void packet_leave(const struct packet *inner)
+{
+  struct packet *outer = inner->outer;
+  const struct best *found = &inner->best;
+  struct best *best = &outer->best;
+  const lanes t = inner->shift + found->t;
+  const lane_mask first = (found->patch < best->patch) | ((found->patch == best->patch) & (found->leaf < best->leaf));
+  const lane_mask taken = (found->patch != NO_PATCH) & ((t < best->t) | ((t == best->t) & first));
+  if (!lanes_any(taken)) return;
+  best->u = lanes_select(taken, found->u, best->u), best->v = lanes_select(taken, found->v, best->v);
+  best->radius_u = lanes_select(taken, found->radius_u, best->radius_u);
+  best->radius_v = lanes_select(taken, found->radius_v, best->radius_v);
+  best->t = lanes_select(taken, t, best->t);
+  best->patch = (taken & found->patch) | (~taken & best->patch), best->leaf = (taken & found->leaf) | (~taken & best->leaf);
+  best->certain |= taken, best->sharp &= ~taken;
+  const lanes far = (inner->shift + inner->t_far) + 4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));
+  outer->t_far = lanes_select(taken, lanes_min(far, outer->t_far), outer->t_far);
+  if (outer->any) outer->live &= ~taken;
+  outer->moved = true;
+}

@@ -1,0 +1,182 @@
+/* Preparing leaves: nets, bounds, which parameter to keep, boxes. */
+#include "intersect/leaf.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/real.h"
+#include "geometry/patch.h"
+#include "geometry/vector.h"
+
+/* Rounding of the local net itself: of P - center (half a unit), and of cutting leaves (six lerps of two roundings each in
+ * either direction on values below one). Used for the boxes. */
+#define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
+
+static void first_derivative_bounds(double x[3][4][4], double out[2])
+{
+  out[0] = out[1] = 0;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 3; j++) {
+      double du[3], dv[3];
+      for (int k = 0; k < 3; k++) dv[k] = 3 * (x[k][i][j + 1] - x[k][i][j]), du[k] = 3 * (x[k][j + 1][i] - x[k][j][i]);
+      out[0] = real_max(out[0], vector_length(du)), out[1] = real_max(out[1], vector_length(dv));
+    }
+  }
+}
+
+/* Whether row i (or column i) of the net is one point to the last bit. */
+static bool row_collapsed(double x[3][4][4], int i)
+{
+  for (int k = 0; k < 3; k++)
+    for (int j = 1; j < 4; j++)
+      if (x[k][i][j] != x[k][i][0]) return false;
+  return true;
+}
+
+static bool column_collapsed(double x[3][4][4], int j)
+{
+  for (int k = 0; k < 3; k++)
+    for (int i = 1; i < 4; i++)
+      if (x[k][i][j] != x[k][0][j]) return false;
+  return true;
+}
+
+/* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other would leave
+ * r identically zero at the apex; otherwise the one of higher degree, for the determinant is the smaller then. */
+static bool keep_v(const struct model_patch *patch, double x[3][4][4])
+{
+  const int rows = row_collapsed(x, 0) + row_collapsed(x, 3), columns = column_collapsed(x, 0) + column_collapsed(x, 3);
+  if (rows != columns) return columns > rows;
+  return patch->n > patch->m;
+}
+
+/* How far the polynomial of bidegree (m,n) with the net r is from the bicubic x, on [0,1]^2: the largest distance of x from r's
+ * net raised to (3,3), whose own roundings (two degrees twice, three each) are added. */
+static double reduction_excess(double r[4][4], int m, int n, double x[4][4])
+{
+  double up[4][4], excess = 0, size = 0;
+  memcpy(up, r, sizeof up);
+  for (int d = n; d < 3; d++)
+    for (int i = 0; i <= m; i++)
+      for (int j = d + 1; j >= 0; j--)
+        up[i][j] = ((j > 0 ? j * up[i][j - 1] : 0) + (j <= d ? (d + 1 - j) * up[i][j] : 0)) / (d + 1);
+  for (int d = m; d < 3; d++)
+    for (int j = 0; j < 4; j++)
+      for (int i = d + 1; i >= 0; i--)
+        up[i][j] = ((i > 0 ? i * up[i - 1][j] : 0) + (i <= d ? (d + 1 - i) * up[i][j] : 0)) / (d + 1);
+  for (int k = 0; k < 16; k++) {
+    excess = real_max(excess, fabs(up[k / 4][k % 4] - x[k / 4][k % 4]));
+    size = real_max(size, fabs(r[k / 4][k % 4]));
+  }
+  return m == 3 && n == 3 ? 0 : excess + 16 * UNIT_ROUNDOFF * size;
+}
+
+enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, struct leaf *leaf)
+{
+  double x[3][4][4];
+  memcpy(x, leaf->x, sizeof x);
+  leaf->v_kept = keep_v(patch, x);
+  const int kept = leaf->v_kept ? patch->n : patch->m, eliminated = leaf->v_kept ? patch->m : patch->n;
+  leaf->kept_degree = (uint8_t)kept, leaf->eliminated_degree = (uint8_t)eliminated;
+  const bool low = leaf->v_kept ? column_collapsed(x, 0) : row_collapsed(x, 0);
+  const bool high = leaf->v_kept ? column_collapsed(x, 3) : row_collapsed(x, 3);
+  leaf->zeros[0] = (uint8_t)(low ? eliminated : 0), leaf->zeros[1] = (uint8_t)(high ? eliminated : 0);
+  leaf->form = NULL;
+  if (patch->m == 3 && patch->n == 3 && !leaf->v_kept) return STATUS_OK;
+  struct leaf_form *form = arena_alloc(arena, 1, sizeof *form);
+  if (!form) return STATUS_LIMIT;
+  form->size = 1, form->excess = 0;
+  for (int k = 0; k < 3; k++) {
+    double r[4][4];
+    patch_reduce(x[k], patch->m, patch->n, r);
+    form->excess = real_max(form->excess, reduction_excess(r, patch->m, patch->n, x[k]));
+    for (int i = 0; i < 4; i++) {
+      for (int j = 0; j < 4; j++) {
+        form->x[k][4 * i + j] = leaf->v_kept ? r[j][i] : r[i][j];
+        form->size = real_max(form->size, fabs(r[i][j]));
+      }
+    }
+  }
+  leaf->form = form;
+  return STATUS_OK;
+}
+
+/* |Su x Sv| relative to the squared derivatives below which a box along the leaf is not worth its rounding. */
+#define LEAST_AREA 0x1p-30
+
+/* A leaf whose derivatives turn by no more than this fraction of their size is tried as a bilinear one first: the root of its
+ * corners is off by about an eighth of it, and two Newton steps make that 1e-6. A choice of speed: what comes of it is proven. */
+#define BILINEAR_TURN 1.0
+
+static bool nearly_bilinear(const struct leaf *leaf)
+{
+  const double turn = (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]) / 2;
+  return turn <= BILINEAR_TURN * real_min(leaf->first[0], leaf->first[1]);
+}
+
+/* A net whose middle has no normal gets a box that tells nothing. */
+static void leaf_set_slabs(struct leaf *leaf)
+{
+  struct leaf_slabs *slabs = &leaf->slabs;
+  double along_u[3], along_v[3], *normal = slabs->g[0], largest = 0;
+  for (int k = 0; k < 3; k++) {
+    const double *x = leaf->x[k];
+    along_u[k] = 0.5 * ((x[12] - x[0]) + (x[15] - x[3])), along_v[k] = 0.5 * ((x[3] - x[0]) + (x[15] - x[12]));
+  }
+  vector_cross(along_u, along_v, normal);
+  const double area = vector_length(normal);
+  const bool flat = !(area > LEAST_AREA * (vector_dot(along_u, along_u) + vector_dot(along_v, along_v)));
+  vector_scale(flat ? 0 : 1 / area, normal, normal);
+  vector_cross(along_v, normal, slabs->g[1]);
+  vector_cross(normal, along_u, slabs->g[2]);
+  for (int q = 0; q < 3; q++) {
+    double *g = slabs->g[q], lo = INFINITY, hi = -INFINITY;
+    if (q > 0) vector_scale(flat ? 0 : 1 / area, g, g);
+    for (int n = 0; n < 16; n++) {
+      const double x = g[0] * leaf->x[0][n] + g[1] * leaf->x[1][n] + g[2] * leaf->x[2][n];
+      lo = real_min(lo, x), hi = real_max(hi, x);
+    }
+    const double size = fabs(g[0]) + fabs(g[1]) + fabs(g[2]);
+    slabs->offset[q] = 0.5 * (lo + hi);
+    slabs->half[q] = 0.5 * (hi - lo) + 8 * UNIT_ROUNDOFF * size; /* |x| <= 1 */
+    largest = real_max(largest, size);
+  }
+  slabs->slack = flat ? INFINITY : 16 * largest * largest;
+}
+
+void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf)
+{
+  const double parts = patch->split, step = 1 / parts; /* quotients, so that the last one is 1 whatever the split */
+  const double u0 = column_u / parts, u1 = (column_u + 1) / parts, v0 = column_v / parts, v1 = (column_v + 1) / parts;
+  const double margin = LEAF_MARGIN * step;
+  double wide[3][4][4];
+  for (int k = 0; k < 3; k++) {
+    double x[4][4];
+    patch_subnet(patch->x[k], u0, u1, v0, v1, x);
+    patch_subnet(patch->x[k], u0 - margin, u1 + margin, v0 - margin, v1 + margin, wide[k]);
+    memcpy(leaf->x[k], x, sizeof leaf->x[k]);
+  }
+  patch_second_derivative_bounds(wide, leaf->second);
+  first_derivative_bounds(wide, leaf->first);
+  /* From the widened net's parameters back to the leaf's. */
+  const double shrink = 1 / (1 + 2 * LEAF_MARGIN);
+  for (int k = 0; k < 3; k++) leaf->second[k] *= shrink * shrink;
+  for (int k = 0; k < 2; k++) leaf->first[k] *= shrink;
+  leaf->bilinear = patch->lanes && nearly_bilinear(leaf);
+  leaf_set_slabs(leaf);
+  leaf->column_u = (uint16_t)column_u, leaf->column_v = (uint16_t)column_v;
+  leaf->form = NULL;
+}
+
+void leaf_box(const struct model *model, const struct leaf *leaf, struct bvh_box *box)
+{
+  const struct model_patch *patch = &model->patches[leaf->patch];
+  for (int k = 0; k < 3; k++) {
+    double lo = INFINITY, hi = -INFINITY;
+    for (int i = 0; i < 16; i++) lo = real_min(lo, leaf->x[k][i]), hi = real_max(hi, leaf->x[k][i]);
+    const double shift = patch->center[k] - model->origin[k];
+    const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale) + model->error;
+    box->lo[k] = (shift + patch->scale * lo - slack) / model->frame;
+    box->hi[k] = (shift + patch->scale * hi + slack) / model->frame;
+  }
+}

@@ -1,0 +1,19 @@
+/* Cutting a leaf out of its patch, and all that is known of it beforehand.
+ *
+ * Internal to src/intersect. Pure but for the arena; safe on any thread.
+ */
+#ifndef PSCN_INTERSECT_LEAF_H
+#define PSCN_INTERSECT_LEAF_H
+
+#include "intersect/model.h"
+
+/* The leaf at the columns of the patch, all of it but `patch` and the form. */
+void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf);
+
+/* What resultants are formed of; STATUS_LIMIT where memory is short. */
+enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, struct leaf *leaf) STATUS_MUST_CHECK;
+
+/* Its box in the frame of the model's hierarchy. */
+void leaf_box(const struct model *model, const struct leaf *leaf, struct bvh_box *box);
+
+#endif
