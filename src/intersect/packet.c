@@ -90,6 +90,18 @@ static void packet_offer(struct packet *p, unsigned lane, const struct trial *t,
 
 static void lane_subdivide_outside(struct packet *p, const struct trial *t, unsigned lane);
 
+/* Lanes whose root may lie on a border of the patch. */
+static lane_mask on_border(const struct trial *t, const struct refined *r)
+{
+  const int last = t->patch->split - 1;
+  lane_mask border = {0};
+  if (t->leaf->column_u == 0) border |= r->u < r->radius_u;
+  if (t->leaf->column_u == last) border |= r->u > 1 - r->radius_u;
+  if (t->leaf->column_v == 0) border |= r->v < r->radius_v;
+  if (t->leaf->column_v == last) border |= r->v > 1 - r->radius_v;
+  return border;
+}
+
 /* The same for the roots of several lanes at once; those next to t_min go the other way. */
 static void packet_offer_lanes(struct packet *p, const struct trial *t, const struct refined *r, lane_mask hits)
 {
@@ -103,14 +115,16 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
   const lanes size = lanes_abs(to_t), error = size * (t->leaf->first[0] * r->radius_u + t->leaf->first[1] * r->radius_v) +
                                               8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
   const lane_mask behind = at > p->t_min + error, unknown = hits & ~behind & ~(at < p->t_min - error);
-  for (unsigned bits = lanes_bits(unknown); bits; bits &= bits - 1) {
-    const unsigned lane = (unsigned)__builtin_ctz(bits);
-    if (p->outer) {
-      lane_subdivide_outside(p, t, lane);
-      continue;
+  if (p->outer) {
+    const lane_mask outside = hits & (unknown | on_border(t, r));
+    for (unsigned bits = lanes_bits(outside); bits; bits &= bits - 1) lane_subdivide_outside(p, t, (unsigned)__builtin_ctz(bits));
+    hits &= ~outside;
+  } else {
+    for (unsigned bits = lanes_bits(unknown); bits; bits &= bits - 1) {
+      const unsigned lane = (unsigned)__builtin_ctz(bits);
+      struct leaf_hit root = packet_root(p, lane, t, r, lane, w[lane]);
+      packet_offer(p, lane, t, &root);
     }
-    struct leaf_hit root = packet_root(p, lane, t, r, lane, w[lane]);
-    packet_offer(p, lane, t, &root);
   }
   const lane_mask first = (patch < best->patch) | ((patch == best->patch) & (leaf < best->leaf));
   const lane_mask taken = hits & behind & (at < p->t_max) & ((at < best->t) | ((at == best->t) & first));

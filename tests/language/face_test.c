@@ -198,6 +198,44 @@ static void test_many_empty_copies(void **state)
   scene_destroy(scene);
 }
 
+/* A declared object that is named several times is told to be one, whatever it is in and however it is moved; its patches are where
+ * its copies' maps carry them. */
+static void test_copies(void **state)
+{
+  (void)state;
+  static const char text[] =
+    "#declare P = bicubic_patch { type 1 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> <1,2,0> <2,2,1> <3,2,0>"
+    " <0,3,0> <1,3,0> <2,3,0> <3,3,0> translate <0.1, 0, 0> }\n"
+    "#declare Two = union { object { P rotate <10, 20, 30> } object { P scale <1, -2, 0.3> } translate z }\n"
+    "object { P }\n"
+    "union { object { Two } object { Two rotate 33 * y translate <5, 0, 0.7> } rotate 7 * x }\n"
+    "object { Two matrix <1, 0.5, 0, 0, 1, 0.25, 0.125, 0, 1, 3, 4, 5> scale 2 }\n";
+  struct scene *scene = NULL;
+  assert_int_equal(load(text, sizeof text - 1, &PLAIN, &scene), STATUS_OK);
+  assert_int_equal(scene->patch_count, 7);
+  assert_int_equal(scene->copy_count, 4);
+  assert_int_equal(scene->object_count, 2); /* P by itself, which is named in Two as well, and Two */
+  static const size_t first[4] = {0, 1, 3, 5};
+  double moved = 0;
+  for (size_t c = 0; c < 4; c++) {
+    const struct scene_copy *copy = &scene->copies[c];
+    const struct scene_object *object = &scene->objects[copy->object];
+    assert_int_equal(copy->first_patch, first[c]);
+    assert_int_equal(object->patch_count, c == 0 ? 1 : 2);
+    for (size_t p = 0; p < object->patch_count; p++) {
+      for (int n = 0; n < 48; n++) {
+        const double *from = object->P[p][n / 12][n / 3 % 4], *to = scene->patches[copy->first_patch + p].P[n / 12][n / 3 % 4];
+        double x = copy->b[n % 3], size = fabs(x);
+        for (int i = 0; i < 3; i++) x += from[i] * copy->A[i][n % 3], size += fabs(from[i] * copy->A[i][n % 3]);
+        assert_true(fabs(x - to[n % 3]) <= 16 * 0x1p-53 * size);
+        moved += fabs(from[n % 3] - to[n % 3]);
+      }
+    }
+  }
+  assert_true(moved > 1);
+  scene_destroy(scene);
+}
+
 int main(void)
 {
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
@@ -205,6 +243,7 @@ int main(void)
     cmocka_unit_test(test_files),         cmocka_unit_test(test_unreadable_file),    cmocka_unit_test(test_size),
     cmocka_unit_test(test_solver_text),   cmocka_unit_test(test_wrong_solver_texts), cmocka_unit_test(test_override),
     cmocka_unit_test(test_long_texts),    cmocka_unit_test(test_many_empty_copies),
+    cmocka_unit_test(test_copies),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,204 @@
+/* Copies of an object that share its leaves give the answers of patches that have leaves of their own. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "geometry/vector.h"
+#include "intersect/intersect.h"
+#include "intersect/model.h"
+#include "property/world.h"
+
+enum { SEED = 20261121, RAYS = 512, PATCHES = 1100, PACKET = 8 };
+
+/* A scene of many copies of one object, with and without its list of copies. */
+struct pair {
+  int kind;
+  struct scene scene;
+  struct solver_options solver;
+  struct scene_object object;
+  struct intersector *intersector[2];
+  struct tracer *tracer[2];
+  struct ray rays[RAYS];
+};
+
+/* Any affine map: turned, skew, mirrored, long and short, far away. */
+static void random_map(struct random *random, struct scene_copy *copy)
+{
+  const double size = ldexp(1, (int)(random_bits(random) % 13) - 6);
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) copy->A[i][j] = size * random_between(random, -1, 1);
+    copy->b[i] = random_between(random, -1000, 1000);
+  }
+}
+
+static void moved(const struct scene_copy *copy, world_net from, world_net to)
+{
+  for (int n = 0; n < 16; n++) {
+    for (int k = 0; k < 3; k++) {
+      long double x = copy->b[k];
+      for (int i = 0; i < 3; i++) x += (long double)from[n / 4][n % 4][i] * copy->A[i][k];
+      to[n / 4][n % 4][k] = (double)x;
+    }
+  }
+}
+
+static void pair_open(struct pair *pair, int kind, struct random *random)
+{
+  static world_net nets[WORLD_MAX];
+  memset(pair, 0, sizeof *pair);
+  pair->kind = kind;
+  const size_t count = world_fill((enum world_kind)kind, random, nets), copies = PATCHES / count;
+  pair->object = (struct scene_object){nets, count};
+  struct scene *scene = &pair->scene;
+  solver_options_default(solver_at(0), &pair->solver);
+  scene->solvers = &pair->solver, scene->solver_count = 1;
+  scene->objects = &pair->object, scene->object_count = 1;
+  scene->copies = calloc(copies, sizeof *scene->copies);
+  scene->patches = calloc(copies * count, sizeof *scene->patches);
+  assert_non_null(scene->copies);
+  assert_non_null(scene->patches);
+  scene->patch_count = copies * count, scene->copy_count = copies;
+  for (size_t c = 0; c < copies; c++) {
+    scene->copies[c].first_patch = c * count;
+    random_map(random, &scene->copies[c]);
+    for (size_t p = 0; p < count; p++) moved(&scene->copies[c], nets[p], scene->patches[c * count + p].P);
+  }
+  for (int k = 0; k < 2; k++) {
+    scene->copy_count = k == 0 ? copies : 0;
+    assert_int_equal(intersector_create(scene, &pair->intersector[k]), STATUS_OK);
+    assert_int_equal(tracer_create(pair->intersector[k], &pair->tracer[k]), STATUS_OK);
+  }
+  for (int n = 0; n < RAYS; n++) {
+    world_net aim[WORLD_MAX];
+    const size_t c = random_bits(random) % copies;
+    for (size_t p = 0; p < count; p++) memcpy(aim[p], scene->patches[c * count + p].P, sizeof aim[p]);
+    pair->rays[n] = world_ray(random, aim, count, n % RAY_KINDS);
+  }
+}
+
+static void pair_close(struct pair *pair)
+{
+  for (int k = 0; k < 2; k++) tracer_destroy(pair->tracer[k]), intersector_destroy(pair->intersector[k]);
+  free(pair->scene.copies);
+  free(pair->scene.patches);
+}
+
+/* How far two right answers may be apart, as a part of t: last places of a point and of t, over the sine of the angle of incidence. */
+static double tolerance(const struct ray *ray, const struct hit *hit)
+{
+  const double length = vector_length(ray->direction);
+  const double steep = fabs(vector_dot(ray->direction, hit->normal)) / length;
+  return 4 * hit->point_error / (steep * length) + 0x1p-51 * hit->t;
+}
+
+static bool agree(const struct ray *ray, const struct hit *a, const struct hit *b)
+{
+  if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
+  if ((a->patch == HIT_NONE) != (b->patch == HIT_NONE)) return false;
+  if (a->patch == HIT_NONE) return true;
+  return fabs(a->t - b->t) <= tolerance(ray, a) + tolerance(ray, b);
+}
+
+static void each_kind(uint64_t seed, void (*body)(struct pair *pair))
+{
+  static struct pair pair;
+  struct random random = {seed};
+  for (int kind = 0; kind < WORLD_KINDS; kind++) {
+    pair_open(&pair, kind, &random);
+    body(&pair);
+    pair_close(&pair);
+  }
+}
+
+static void compare(struct pair *pair)
+{
+  int wrong = 0, hits = 0, certain[2] = {0, 0};
+  for (int n = 0; n < RAYS; n += PACKET) {
+    struct hit hits_of[2][PACKET];
+    for (int k = 0; k < 2; k++) tracer_closest(pair->tracer[k], PACKET, &pair->rays[n], hits_of[k]);
+    for (int l = 0; l < PACKET; l++) {
+      const struct hit *a = &hits_of[0][l], *b = &hits_of[1][l];
+      for (int k = 0; k < 2; k++) certain[k] += hits_of[k][l].certainty == CERTAINTY_CERTAIN;
+      hits += a->patch != HIT_NONE;
+      if (agree(&pair->rays[n + l], a, b)) continue;
+      if (wrong++ < 3) {
+        print_message("kind %d ray %d: patch %u t %.17g u %.17g v %.17g, by itself patch %u t %.17g u %.17g v %.17g\n", pair->kind, n + l,
+                      a->patch, a->t, a->u, a->v, b->patch, b->t, b->u, b->v);
+      }
+    }
+  }
+  print_message("kind %d: %d rays, %d hits, certain %d, by themselves %d\n", pair->kind, RAYS, hits, certain[0], certain[1]);
+  assert_int_equal(wrong, 0);
+  assert_true(hits > RAYS / 8);
+  /* What is undecidable in the object is decided in the scene. */
+  assert_true(certain[0] >= certain[1] - RAYS / 200);
+}
+
+static void copies_answer_as_patches_of_their_own(void **state)
+{
+  (void)state;
+  each_kind(SEED, compare);
+}
+
+/* Alone, in company, as any hit. */
+static void company(struct pair *pair)
+{
+  int wrong = 0;
+  for (int n = 0; n < RAYS; n += PACKET) {
+    struct hit together[PACKET], alone;
+    bool occluded[PACKET];
+    tracer_closest(pair->tracer[0], PACKET, &pair->rays[n], together);
+    tracer_occluded(pair->tracer[0], PACKET, &pair->rays[n], occluded);
+    for (int l = 0; l < PACKET; l++) {
+      tracer_closest(pair->tracer[0], 1, &pair->rays[n + l], &alone);
+      wrong += !same_hit(&alone, &together[l]) || occluded[l] != (alone.patch != HIT_NONE);
+    }
+  }
+  assert_int_equal(wrong, 0);
+}
+
+static void answers_do_not_depend_on_companions(void **state)
+{
+  (void)state;
+  each_kind(SEED + 1, company);
+}
+
+/* A ray that leaves a surface does not meet it where it left: what it meets is what it meets without sharing. */
+static void leave(struct pair *pair)
+{
+  struct random random = {SEED};
+  int wrong = 0;
+  for (int n = 0; n < RAYS; n++) {
+    struct hit hit, next[2];
+    tracer_closest(pair->tracer[0], 1, &pair->rays[n], &hit);
+    if (hit.patch == HIT_NONE || hit.certainty != CERTAINTY_CERTAIN) continue;
+    struct ray ray = {{0}, {0}, 0, INFINITY};
+    for (int k = 0; k < 3; k++) ray.direction[k] = random_between(&random, -1, 1);
+    hit_leave(&hit, ray.direction, ray.origin);
+    for (int k = 0; k < 2; k++) tracer_closest(pair->tracer[k], 1, &ray, &next[k]);
+    if (agree(&ray, &next[0], &next[1])) continue;
+    if (wrong++ < 3) {
+      print_message("kind %d ray %d: patch %u t %.17g, by itself patch %u t %.17g; clearance %g\n", pair->kind, n, next[0].patch,
+                    next[0].t, next[1].patch, next[1].t, hit.clearance);
+    }
+  }
+  assert_int_equal(wrong, 0);
+}
+
+static void rays_leave_copies(void **state)
+{
+  (void)state;
+  each_kind(SEED + 2, leave);
+}
+
+int main(void)
+{
+  print_message("seed %d\n", SEED);
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(copies_answer_as_patches_of_their_own),
+    cmocka_unit_test(answers_do_not_depend_on_companions),
+    cmocka_unit_test(rays_leave_copies),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
