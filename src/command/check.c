@@ -1,8 +1,8 @@
 /* pscn check SCENE: the same scene by POV-Ray, side by side.
  *
- * The first row is the scene's own text, so that both programs read the same file. The rows with u_steps are POV-Ray's
- * pictures of the canonical text (scene/dump.h) with the steps of every patch set: in the text of the scene a patch may say
- * nothing of its steps, or take them from a name that means other things as well.
+ * * The first row is the scene's own text, so that both programs read the same file. The rows with u_steps are
+ * POV-Ray's pictures of the canonical text (scene/dump.h) with the steps of every patch set: in the text of the scene
+ * a patch may say nothing of its steps, or take them from a name that means other things as well.
  */
 #include "command/check.h"
 
@@ -287,7 +287,8 @@ static enum status judge(const struct check *check, const char *folder)
   const bool within = check_within_limits(check, beyond, sizeof beyond);
   const struct check_row *last = &check->row[check->row_count - 1];
   if (within)
-    snprintf(verdict, sizeof verdict, "Within the limits: %.4g %% of the pixels differ by more than %.4g of 255, PSNR %.4g dB.",
+    snprintf(verdict, sizeof verdict,
+             "Within the limits: %.4g %% of the pixels differ by more than %.4g of 255, PSNR %.4g dB.",
              100 * (double)last->over_limit / (double)last->result.pixels, 255 * check->request->fail.each,
              last->result.psnr);
   else

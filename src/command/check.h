@@ -1,7 +1,8 @@
 /* What `pscn check` measures, and who shows it.
  *
- * Internal to the files check*.c. Our picture is rendered once; each row is one picture by POV-Ray beside it: first the
- * scene as it is written, then with every patch cut into 2^n x 2^n pieces, n = 1, 2, ... (u_steps n v_steps n flatness 0).
+ * * Internal to the files check*.c. Our picture is rendered once; each row is one picture by POV-Ray beside it: first
+ * the scene as it is written, then with every patch cut into 2^n x 2^n pieces, n = 1, 2, ... (u_steps n v_steps n
+ * flatness 0).
  */
 #ifndef PSCN_COMMAND_CHECK_H
 #define PSCN_COMMAND_CHECK_H
@@ -118,8 +119,8 @@ bool check_within_limits(const struct check *check, char *out, size_t size);
 /* Finds the edges among our pixels. */
 void check_find_edges(struct check *check);
 
-/* Our picture, dark, with its edges, and on it the pixels over the limit, as spots. The colours R G B, 0 to 1, of what is on
- * the map: the edges, and the spots by what they lie on. STATUS_LIMIT where memory is short. */
+/* Our picture, dark, with its edges, and on it the pixels over the limit, as spots. The colours R G B, 0 to 1, of what
+ * is on the map: the edges, and the spots by what they lie on. STATUS_LIMIT where memory is short. */
 extern const float CHECK_EDGE_COLOR[CHECK_EDGES][3], CHECK_SPOT_COLOR[2][3]; /* [1]: off edges */
 enum status check_map(const struct check *check, const struct check_row *row, struct image *out) STATUS_MUST_CHECK;
 

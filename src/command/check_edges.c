@@ -1,5 +1,5 @@
-/* Where POV-Ray's triangles can give another colour than the surface they stand for: beside silhouettes, the edges of shadows
- * and creases, half a pixel's difference of the shape is a difference of the whole colour. */
+/* Where POV-Ray's triangles can give another colour than the surface they stand for: beside silhouettes, the edges of
+ * shadows and creases, half a pixel's difference of the shape is a difference of the whole colour. */
 #include <math.h>
 
 #include "command/check.h"
@@ -14,8 +14,8 @@ const float CHECK_SPOT_COLOR[2][3] = { { 1, 0.85f, 0.2f }, { 1, 0.15f, 0.15f } }
 
 static const float DARK = 0.22f; /* our picture below the map, times its value */
 
-/* Whether the distance jumps between two pixels: by far more than the surface that is seen less obliquely of the two would
- * make it change. Of a smooth surface the other is at most some times as oblique. */
+/* Whether the distance jumps between two pixels: by far more than the surface that is seen less obliquely of the two
+ * would make it change. Of a smooth surface the other is at most some times as oblique. */
 static bool jumps(const double location[3], const struct check_pixel *a, const struct check_pixel *b)
 {
   static const double MANY = 8;
@@ -24,12 +24,12 @@ static bool jumps(const double location[3], const struct check_pixel *a, const s
   vector_subtract(a->hit.point, location, view);
   const double jump = fabs(a->distance - b->distance), length = vector_length(step);
   const double aside = sqrt(fmax(0, length * length - jump * jump));
-  const double cosine = fmax(fabs(vector_dot(view, a->hit.normal)), fabs(vector_dot(view, b->hit.normal))) / a->distance;
-  return jump * cosine > MANY * aside;
+  const double facing = fmax(fabs(vector_dot(view, a->hit.normal)), fabs(vector_dot(view, b->hit.normal)));
+  return jump * facing / a->distance > MANY * aside;
 }
 
-/* What there is between two pixels. A smooth surface seen by pixels beside each other turns little and stays near both tangent
- * planes. */
+/* What there is between two pixels. A smooth surface seen by pixels beside each other turns little and stays near both
+ * tangent planes. */
 static enum check_edge edge_between(const struct check *check, const struct check_pixel *a, const struct check_pixel *b)
 {
   static const double TURN = 0.9;  /* cosine of 26 degrees */

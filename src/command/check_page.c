@@ -1,5 +1,5 @@
-/* The page of `pscn check`. It is read without script: the slider is a box that the reader makes wider; where scripts run,
- * a control below it does the same. */
+/* The page of `pscn check`. It is read without script: the slider is a box that the reader makes wider; where scripts
+ * run, a control below it does the same. */
 #include <math.h>
 #include <stdio.h>
 
@@ -12,12 +12,14 @@ enum { CROP = 15, CROP_SHOWN = 150 }; /* pixels around a worst one, and their si
 
 static const char STYLE[] =
   ".pixels { image-rendering: pixelated; border: 1px solid #aaa }\n"
-  ".slider { position: relative; max-width: 100%; overflow: hidden; outline: 1px solid #aaa; container-type: inline-size }\n"
+  ".slider { position: relative; max-width: 100%; overflow: hidden; outline: 1px solid #aaa;\n"
+  "  container-type: inline-size }\n"
   ".slider img { max-width: none; width: 100%; height: 100% }\n"
   ".slider .over { position: absolute; left: 0; top: 0; bottom: 0; width: 50%; overflow: hidden; resize: horizontal;\n"
   "  border-right: 2px solid #e33; max-width: 100% }\n"
   ".slider .over img { position: absolute; left: 0; top: 0; width: 100cqw }\n"
-  ".worst { display: flex; flex-wrap: wrap; gap: 0 2.5em } .worst section { width: 500px } .worst figure { margin-right: .6em }\n"
+  ".worst { display: flex; flex-wrap: wrap; gap: 0 2.5em } .worst section { width: 500px }\n"
+  ".worst figure { margin-right: .6em }\n"
   "td { white-space: nowrap }\n"
   ".key { display: inline-block; width: .8em; height: .8em; margin-right: .5em; border: 1px solid #888 }\n"
   ".control { width: 100%; margin: .3em 0 }\n"
@@ -56,9 +58,11 @@ static void put_name(struct page *page, const struct check_row *row)
 
 static void put_picture_table(const struct check *check, struct page *page)
 {
-  page_put(page, "<h2>Pictures</h2>\n<p>Each row is POV-Ray's picture beside ours, which is the same in all rows. Rows with "
-                 "u_steps n have every patch cut into 2<sup>n</sup> by 2<sup>n</sup> pieces (flatness 0).</p>\n"
-                 "<table>\n<tr><th>POV-Ray</th><th>beyond<br>1/255</th><th>beyond<br>4/255</th><th>beyond<br>16/255</th>"
+  page_put(page, "<h2>Pictures</h2>\n<p>Each row is POV-Ray's picture beside ours, which is the same in all rows. "
+                 "Rows with u_steps n have every patch cut into 2<sup>n</sup> by 2<sup>n</sup> pieces (flatness "
+                 "0).</p>\n"
+                 "<table>\n<tr><th>POV-Ray</th><th>beyond<br>1/255</th><th>beyond<br>4/255</th>"
+                 "<th>beyond<br>16/255</th>"
                  "<th>max</th><th>PSNR,<br>dB</th><th>beyond the limit,<br>not on an edge</th><th>hit only<br>here</th>"
                  "<th>hit only<br>there</th><th>seconds</th><th>CPU<br>seconds</th></tr>\n");
   for (size_t k = 0; k < check->row_count; k++) {
@@ -74,7 +78,8 @@ static void put_picture_table(const struct check *check, struct page *page)
     put_cell(page, row->picture.cpu, 3);
     page_put(page, "</tr>\n");
   }
-  page_put(page, "<tr><td>pscn, one thread</td><td></td><td></td><td></td><td></td><td></td><td></td><td></td><td></td>");
+  page_put(page, "<tr><td>pscn, one thread</td>"
+                 "<td></td><td></td><td></td><td></td><td></td><td></td><td></td><td></td>");
   put_cell(page, check->ours.wall, 3);
   put_cell(page, check->ours.cpu, 3);
   page_put(page, "</tr>\n</table>\n");
@@ -82,8 +87,9 @@ static void put_picture_table(const struct check *check, struct page *page)
 
 static void put_distance_table(const struct check *check, struct page *page)
 {
-  page_format(page, "<h2>Hits</h2>\n<p>POV-Ray's <code>trace()</code> asked for the point that the ray of every %zuth pixel "
-                    "of every %zuth row meets: the difference of its distance, relative to ours.</p>\n<table>\n"
+  page_format(page, "<h2>Hits</h2>\n<p>POV-Ray's <code>trace()</code> asked for the point that the ray of every "
+                    "%zuth pixel of every %zuth row meets: the difference of its distance, relative to ours.</p>\n"
+                    "<table>\n"
                     "<tr><th>POV-Ray</th><th>rays</th><th>hit by both</th><th>only here</th><th>only there</th>"
                     "<th>median</th><th>99 %%</th><th>max</th></tr>\n",
               check->request->grid, check->request->grid);
@@ -102,15 +108,15 @@ static void put_distance_table(const struct check *check, struct page *page)
 
 static void put_slider(const struct check *check, const struct image *theirs, struct page *page)
 {
-  page_format(page, "<h2>One over the other</h2>\n<p>Left of the red line pscn, right of it POV-Ray. The line follows the "
-                    "control below it, and without script the corner at its foot.</p>\n"
+  page_format(page, "<h2>One over the other</h2>\n<p>Left of the red line pscn, right of it POV-Ray. The line "
+                    "follows the control below it, and without script the corner at its foot.</p>\n"
                     "<div class=\"slider\" style=\"width:%zupx;aspect-ratio:%zu/%zu\"><img alt=\"POV-Ray\" src=\"",
               check->width, check->width, check->height);
   page_image_data(page, theirs);
   page_format(page, "\"><div class=\"over\" id=\"over\"><img alt=\"pscn\" src=\"");
   page_image_data(page, &check->ours.picture);
-  page_format(page, "\"></div></div>\n<input class=\"control\" style=\"max-width:%zupx\" type=\"range\" min=\"0\" max=\"100\" "
-                    "value=\"50\" aria-label=\"share of pscn\" "
+  page_format(page, "\"></div></div>\n<input class=\"control\" style=\"max-width:%zupx\" type=\"range\" min=\"0\" "
+                    "max=\"100\" value=\"50\" aria-label=\"share of pscn\" "
                     "oninput=\"document.getElementById('over').style.width = this.value + '%%'\">\n",
               check->width);
 }
@@ -143,7 +149,8 @@ static void put_key(struct page *page, const float color[3], const char *name)
 /* The pixels over the limit in the last row, and what they lie on. */
 static void put_places(const struct check *check, struct page *page)
 {
-  static const char *const NAME[CHECK_EDGES] = { "not on an edge", "on creases", "on edges of shadows", "on silhouettes" };
+  static const char *const NAME[CHECK_EDGES] = { "not on an edge", "on creases", "on edges of shadows",
+                                                 "on silhouettes" };
   const struct check_row *last = &check->row[check->row_count - 1];
   struct image map;
   if (check_map(check, last, &map) != STATUS_OK) {
@@ -152,9 +159,9 @@ static void put_places(const struct check *check, struct page *page)
   }
   page_put(page, "<h2>Where they differ</h2>\n<p>The pixels of the last row beyond ");
   page_number(page, 255 * check->request->fail.each, 4);
-  page_put(page, "/255, as spots larger than a pixel, on our picture with its edges. A pixel is on an edge where it or one beside "
-                 "it sees a silhouette, the edge of a shadow, or a crease: there half a pixel's difference of the shape is a "
-                 "difference of the whole colour.</p>\n");
+  page_put(page, "/255, as spots larger than a pixel, on our picture with its edges. A pixel is on an edge where it "
+                 "or one beside it sees a silhouette, the edge of a shadow, or a crease: there half a pixel's "
+                 "difference of the shape is a difference of the whole colour.</p>\n");
   put_figure(page, &map, 800, "pixels beyond the limit");
   page_put(page, "<table style=\"display: inline-table\">\n<tr><th>beyond the limit</th><th>pixels</th></tr>\n");
   for (int edge = CHECK_EDGES - 1; edge >= 0; edge--) {

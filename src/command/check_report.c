@@ -19,7 +19,8 @@ static double percent(size_t count, size_t of)
 
 static void print_pictures(const struct check *check)
 {
-  printf("\npictures    %%>1/255  %%>4/255 %%>16/255      max     psnr  off edges  only here  only there  seconds    cpu\n");
+  printf("\npictures    %%>1/255  %%>4/255 %%>16/255      max     psnr  off edges  only here  only there  seconds    "
+         "cpu\n");
   for (size_t k = 0; k < check->row_count; k++) {
     const struct check_row *row = &check->row[k];
     char name[32];
@@ -27,8 +28,8 @@ static void print_pictures(const struct check *check)
     printf("%-10s", name);
     for (int c = 0; c < CHECK_CODES; c++)
       printf(" %8.4f", percent(row->over[c], row->result.pixels));
-    printf(" %4.0f/255 %8.2f %10zu %10zu %11zu %8.2f %6.2f\n", 255 * row->result.max, row->result.psnr, row->over_limit_on[CHECK_EDGE_NONE],
-           row->mask_ours, row->mask_theirs, row->picture.wall, row->picture.cpu);
+    printf(" %4.0f/255 %8.2f %10zu %10zu %11zu %8.2f %6.2f\n", 255 * row->result.max, row->result.psnr,
+           row->over_limit_on[CHECK_EDGE_NONE], row->mask_ours, row->mask_theirs, row->picture.wall, row->picture.cpu);
   }
   printf("%-84s %8.2f %6.2f\n", "pscn", check->ours.wall, check->ours.cpu);
 }
@@ -84,8 +85,10 @@ static json_t *row_json(const struct check *check, const struct check_row *row)
                            count(row->over[2]), "limit", count(row->over_limit));
   json_t *root =
     json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "u_steps", row->steps == 0 ? json_null() : count(row->steps), "over",
-              over, "over_limit_off_edges", count(row->over_limit_on[CHECK_EDGE_NONE]), "mean", number(r->mean), "rms", number(r->rms),
-              "psnr", number(r->psnr), "max", number(r->max), "worst", json_pack("[i,i]", (int)r->worst_x, (int)r->worst_y));
+              over, "over_limit_off_edges", count(row->over_limit_on[CHECK_EDGE_NONE]), "mean", number(r->mean),
+              "rms", number(r->rms),
+              "psnr", number(r->psnr), "max", number(r->max), "worst",
+              json_pack("[i,i]", (int)r->worst_x, (int)r->worst_y));
   if (root == NULL)
     return NULL;
   json_t *on = json_object();

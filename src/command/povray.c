@@ -111,7 +111,8 @@ static enum status run_program(struct povray *povray, const char *const *argumen
   if (status == STATUS_FILE) {
     command_error(povray->command, "cannot run '%s': %s", povray->program, strerror(out->reason));
     if (out->missing)
-      fputs("POV-Ray 3.7 is what scenes are checked against; on Debian 'apt-get install povray' installs it.\n", stderr);
+      fputs("POV-Ray 3.7 is what scenes are checked against; on Debian 'apt-get install povray' installs it.\n",
+            stderr);
   }
   if (status != STATUS_OK)
     return status;
@@ -140,7 +141,8 @@ static enum status ask_version(struct povray *povray)
   return status;
 }
 
-/* It runs in another folder than ours: a relative path is told from here. False (errno says why) where it is too long. */
+/* It runs in another folder than ours: a relative path is told from here. False (errno says why) where that is too
+ * long. */
 static bool find_from_here(const char *path, size_t length, char out[SCRATCH_PATH_SIZE])
 {
   char here[SCRATCH_PATH_SIZE] = "";

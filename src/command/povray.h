@@ -1,8 +1,8 @@
 /* POV-Ray as a peer: the installed program, run on scene texts in a folder of our own.
  *
- * It runs with that folder as its home and without the user's settings, on one thread, without antialiasing, dithering and
- * display, so that the same text gives the same picture everywhere. What it says is kept and shown where it fails. Errors are
- * told on stderr.
+ * * It runs with that folder as its home and without the user's settings, on one thread, without antialiasing,
+ * dithering and display, so that the same text gives the same picture everywhere. What it says is kept and shown where
+ * it fails. Errors are told on stderr.
  */
 #ifndef PSCN_COMMAND_POVRAY_H
 #define PSCN_COMMAND_POVRAY_H
@@ -27,13 +27,13 @@ struct povray {
   char version[64];           /* as it calls itself, once it is open; or "" */
 };
 
-/* Sets up the folder and asks the program for its version. STATUS_FILE where there is no such program, or it is another one.
- * The caller ends with povray_close in any case. */
+/* Sets up the folder and asks the program for its version. STATUS_FILE where there is no such program, or it is
+ * another one. The caller ends with povray_close in any case. */
 enum status povray_open(struct povray *povray) STATUS_MUST_CHECK;
 void povray_close(struct povray *povray);
 
-/* Renders a file of the folder. The picture, R G B with the display codes of an 8-bit PNG as k/255, is owned by the caller.
- * STATUS_FILE where POV-Ray cannot be run, STATUS_INPUT where it refuses the text, STATUS_INTERRUPTED. */
+/* Renders a file of the folder. The picture, R G B with the display codes of an 8-bit PNG as k/255, is owned by the
+ * caller. STATUS_FILE where POV-Ray cannot be run, STATUS_INPUT where it refuses the text, STATUS_INTERRUPTED. */
 struct povray_picture {
   struct image image;
   double wall, cpu; /* seconds of the whole program */

@@ -7,8 +7,9 @@
 
 #include "geometry/vector.h"
 
-/* Where shadow rays end, of the way to the light. The place at which a ray meets a surface under an angle of sine s is known to
- * about eps / s of the way, eps = 2^-52: this end is short of a surface that holds the light for all s > 2^-26. */
+/* Where shadow rays end, of the way to the light. The place at which a ray meets a surface under an angle of sine s is
+ * known to about eps / s of the way, eps = 2^-52: this end is short of a surface that holds the light for all s >
+ * 2^-26. */
 static const double SHADOW_END = 1 - 0x1p-26;
 
 /* A lit point seen along a ray. */

@@ -18,9 +18,9 @@
 #include "intersect/intersect.h"
 #include "scene/scene.h"
 
-/* The ray that asks whether `light` is hidden from `hit`: from beside the surface (hit_leave) to just before the light, so
- * that a surface on which the light lies does not hide it. False where the light is not on the viewer's side; then nothing
- * is written. */
+/* The ray that asks whether `light` is hidden from `hit`: from beside the surface (hit_leave) to just before the
+ * light, so that a surface on which the light lies does not hide it. False where the light is not on the viewer's
+ * side; then nothing is written. */
 bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, struct ray *out);
 
 /* The linear colours of `count` <= PACKET_SIZE rays with their closest hits; shadow rays go through the tracer. */
