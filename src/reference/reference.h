@@ -79,6 +79,10 @@ void reference_destroy(struct reference *reference);
 void reference_closest(const struct reference *reference, const double origin[3], const double direction[3],
                        struct reference_answer *out);
 
+/* The data floor of T of a hit that lies there, or next to it. */
+double reference_floor_at(const struct reference *reference, uint32_t patch, const double origin[3],
+                          const double direction[3], double t, double u, double v);
+
 /* |S(u,v) - (origin + t direction)|, each difference in quadruple precision: how far an answer of any program is from
  * being a common point of ray and patch. */
 double reference_residual(const struct reference *reference, uint32_t patch, const double origin[3],

@@ -177,8 +177,8 @@ static double difference_bound(const double P[4][4][3], int by_u, int by_v)
   return factor * largest;
 }
 
-/* What the floors of u and v, and the roundings of the tangents (16 on coefficients of the patch's size), do to the unit normal
- * n = S_u x S_v/|S_u x S_v|: to first order |dn| <= |d(S_u x S_v)|/|S_u x S_v|. */
+/* What the floors of u and v, and the roundings of the tangents (twelve, on weights that sum up to 6 in size, times the patch's
+ * extent), do to the unit normal n = S_u x S_v/|S_u x S_v|: to first order |dn| <= |d(S_u x S_v)|/|S_u x S_v|. */
 static double normal_bound(const double P[4][4][3], const struct reference_answer *truth)
 {
   double su[3], sv[3], cross[3];
@@ -188,7 +188,10 @@ static double normal_bound(const double P[4][4][3], const struct reference_answe
     cross[axis] = su[i] * sv[j] - su[j] * sv[i];
   }
   const double du = TRIAL_FLOORS * truth->data.u, dv = TRIAL_FLOORS * truth->data.v, mixed = difference_bound(P, 1, 1);
-  const double rounding = 16 * DOUBLE_UNIT * (difference_bound(P, 1, 0) + difference_bound(P, 0, 1));
+  double extent = 0;
+  for (int k = 0; k < 16; k++)
+    for (int axis = 0; axis < 3; axis++) extent = fmax(extent, fabs(P[k / 4][k % 4][axis] - P[0][0][axis]));
+  const double rounding = 12 * 6 * DOUBLE_UNIT * extent;
   const double off_u = difference_bound(P, 2, 0) * du + mixed * dv + rounding;
   const double off_v = mixed * du + difference_bound(P, 0, 2) * dv + rounding;
   return (off_u * length_of(sv) + off_v * length_of(su)) / length_of(cross) + 8 * DOUBLE_UNIT;
@@ -270,8 +273,9 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
     tally->lost++;
     tally->holes += hit->patch == HIT_NONE;
     show("lost behind a grazing one", ray, hit, truth, tally);
-  } else if (hit->patch != HIT_NONE && hit->t < truth->t_first - same_within(trial, ray, hit, truth->t_first, truth->t_first * DOUBLE_UNIT) &&
-             !excused(trial, ray, hit)) {
+  } else if (hit->patch != HIT_NONE && hit->t < truth->t_first) {
+    const double floor = reference_floor_at(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u, hit->v);
+    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, floor) || excused(trial, ray, hit)) return;
     tally->invented++;
     show("invented before a grazing one", ray, hit, truth, tally);
   }
