@@ -269,16 +269,16 @@ static void remember(const struct root_estimates *estimates, struct solver_warm 
   }
 }
 
-void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
-                  struct root_set *out)
+/* The roots with infinite radii. False where there is nothing to solve. */
+static bool find_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
+                       struct scaled *scaled_out, struct root_set *out)
 {
   out->count = 0;
-  struct scaled scaled;
-  if (!scale_polynomial(p, &scaled, out)) {
-    return;
+  if (!scale_polynomial(p, scaled_out, out)) {
+    return false;
   }
   struct root_problem problem;
-  strip_ends(p, &scaled, &problem, out);
+  strip_ends(p, scaled_out, &problem, out);
   if (problem.degree > 0) {
     struct root_estimates estimates;
     estimates.count = 0;
@@ -295,6 +295,23 @@ void solver_solve(const struct polynomial *p, const struct solver_options *optio
     if (previous) {
       remember(&estimates, warm);
     }
+  }
+  return true;
+}
+
+void solver_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
+                  struct root_set *out)
+{
+  struct scaled scaled;
+  (void)find_roots(p, options, warm, &scaled, out);
+}
+
+void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
+                  struct root_set *out)
+{
+  struct scaled scaled;
+  if (!find_roots(p, options, warm, &scaled, out)) {
+    return;
   }
   struct evaluation evaluation;
   evaluation_prepare(p->degree, p->basis, scaled.c, scaled.error, &evaluation);

@@ -119,4 +119,9 @@ const struct solver_item *solver_item_at(size_t index);
 void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out);
 
+/* The same without the judge: for a caller who makes of the roots what he can prove by himself. Radii are infinite, a root may be off the
+ * real axis by rounding, and a root of a vanishing leading coefficient may be far away instead of absent. */
+void solver_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
+                  struct root_set *out);
+
 #endif

@@ -149,7 +149,9 @@ static double largest(const double net[16], int m, int n)
 
 static double resultant_error(int n, double alpha, double beta, double error)
 {
-  return RESULTANT_WEIGHT[n] * pow(alpha * beta, n) *
+  double power = 1;
+  for (int k = 0; k < n; k++) power *= alpha * beta;
+  return RESULTANT_WEIGHT[n] * power *
          (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + n * error * (1 / alpha + 1 / beta));
 }
 
@@ -181,7 +183,8 @@ void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const doubl
   out->count = 0;
   if (r.degree < 1) return;
   struct root_set roots;
-  solver_solve(&r, options, warm_of(tracer, leaf, options), &roots);
+  if (options->polish) solver_roots(&r, options, warm_of(tracer, leaf, options), &roots);
+  else solver_solve(&r, options, warm_of(tracer, leaf, options), &roots);
   tracer->counts.roots_found += (unsigned)roots.count;
   for (int k = 0; k < roots.count; k++) {
     const struct root *root = &roots.root[k];
