@@ -10,7 +10,6 @@
 #include <math.h>
 
 #include "base/float_lanes.h"
-#include "base/real.h"
 #include "intersect/packet.h"
 
 #define FLOAT_ROUNDOFF 0x1p-24f
@@ -203,25 +202,23 @@ static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
   return r;
 }
 
-/* The rays of a packet, whose directions need no scaling, or copies of them for which that holds. */
+/* Copies of a packet's rays where some need scaling, or there are too few. */
 struct ready {
-  const struct ray *rays;
+  bool copied;
   struct ray copy[LANES];
   int exponent[LANES];
-  bool scaled;
 };
 
-static void rays_ready(size_t count, const struct ray rays[], struct ready *out)
+static void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[], bool any)
 {
-  out->rays = rays, out->scaled = false;
-  bool plain = count == LANES;
-  for (size_t l = 0; l < count; l++) {
-    const double *d = rays[l].direction, largest = real_max(real_max(fabs(d[0]), fabs(d[1])), fabs(d[2]));
-    plain &= largest >= DIRECTION_MIN && largest <= DIRECTION_MAX;
+  ready->copied = count < LANES;
+  if (!ready->copied) {
+    packet_start(p, tracer, rays, count, any);
+    ready->copied = lanes_any(~((p->longest >= DIRECTION_MIN) & (p->longest <= DIRECTION_MAX)));
+    if (!ready->copied) return;
   }
-  if (plain) return;
-  out->rays = out->copy, out->scaled = true;
-  for (size_t l = 0; l < LANES; l++) out->copy[l] = ray_scaled(&rays[l < count ? l : 0], &out->exponent[l]);
+  for (size_t l = 0; l < LANES; l++) ready->copy[l] = ray_scaled(&rays[l < count ? l : 0], &ready->exponent[l]);
+  packet_start(p, tracer, ready->copy, count, any);
 }
 
 static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count, const struct ray rays[],
@@ -229,8 +226,7 @@ static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer 
 {
   for (size_t h = 0, first = 0; h < 2; h++, first += LANES) {
     const size_t left = count > first ? count - first : 0, n = left < LANES ? left : LANES;
-    rays_ready(n, n > 0 ? rays + first : rays, &ready[h]);
-    packet_start(&b->packet[h], tracer, ready[h].rays, n, any);
+    packet_begin(&b->packet[h], &ready[h], tracer, n, n > 0 ? rays + first : rays, any);
   }
   bundle_start(b, tracer->model);
 }
@@ -248,7 +244,7 @@ static void kernel_closest(struct tracer *tracer, size_t count, const struct ray
       if (packet->count == 0) continue;
       finish_hits(packet, hits);
       for (size_t l = 0; l < packet->count; l++) {
-        if (ready[h].scaled && ready[h].exponent[l] != 0 && hits[l].patch != HIT_NONE)
+        if (ready[h].copied && ready[h].exponent[l] != 0 && hits[l].patch != HIT_NONE)
           hits[l].t = ldexp(hits[l].t, -ready[h].exponent[l]);
         if (hits[l].certainty == CERTAINTY_CERTAIN) tracer->counts.certain++;
         else tracer->counts.grazing++;
