@@ -61,7 +61,7 @@ struct search {
   struct zoom *zoom;     /* NULL: the box that is searched is under the glass already */
   double start[2], to_t; /* t = ((w + start[1]) + start[0]) to_t */
   double place;          /* x_k where w is 0 */
-  double error;          /* bound on the error of a net's coefficient before any halving */
+  double error[2];       /* bounds on the errors of coefficients of the first two nets before any halving */
   double t_min, t_max, resolution;
   int most_boxes, zooms;
   bool found;
@@ -76,9 +76,9 @@ static double place_to_t(const struct search *s, double w)
 }
 
 /* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the leaf's size. */
-static double box_error(const struct search *s, const struct box *box)
+static void box_error(const struct search *s, const struct box *box, double out[2])
 {
-  return s->error + box->halvings * 4 * UNIT_ROUNDOFF;
+  for (int k = 0; k < 2; k++) out[k] = s->error[k] + box->halvings * 4 * UNIT_ROUNDOFF;
 }
 
 static void box_place(const struct search *s, struct box *box)
@@ -91,9 +91,9 @@ static void box_place(const struct search *s, struct box *box)
 }
 
 /* Where p a + q b stands on the box: its hull in units of its error bound. */
-static void combination(struct box *box, double p, double q, double error, double out[2])
+static void combination(struct box *box, double p, double q, const double error[2], double out[2])
 {
-  const double unit = 1 / ((fabs(p) + fabs(q)) * (error + UNIT_ROUNDOFF * 4));
+  const double unit = 1 / (fabs(p) * (error[0] + UNIT_ROUNDOFF * 4) + fabs(q) * (error[1] + UNIT_ROUNDOFF * 4));
   for (int n = 0; n < 16; n++) {
     const double value = (p * box->net[0][n / 4][n % 4] + q * box->net[1][n / 4][n % 4]) * unit;
     out[0] = n ? real_min(out[0], value) : value, out[1] = n ? real_max(out[1], value) : value;
@@ -102,7 +102,7 @@ static void combination(struct box *box, double p, double q, double error, doubl
 
 /* Tries the combinations a, b and the two rows of the adjugate Jacobian in the middle, which aim along the parameters, or, where
  * the Jacobian is singular, at the one direction in which the surface is seen edge-on. */
-static enum verdict box_test(struct box *box, double error)
+static enum verdict box_test(struct box *box, const double error[2])
 {
   const struct patch_jet a = patch_evaluate(box->net[0], 0.5, 0.5);
   const struct patch_jet b = patch_evaluate(box->net[1], 0.5, 0.5);
@@ -136,7 +136,7 @@ static void second_bounds(struct box *box, double p, double q, double out[3])
 
 /* Newton from the middle, then the test of refine.h in the box's own parameters, with the second derivatives of the plane
  * polynomials themselves. Writes the root in box parameters with its radii; returns whether it is proven and alone. */
-static bool box_solve(struct box *box, double error, double root[2], double radius[2])
+static bool box_solve(struct box *box, const double error[2], double root[2], double radius[2])
 {
   double u = 0.5, v = 0.5, step = 2, m[2][2] = {{0}};
   for (int n = 0; n < 12 && step > LAST_STEP; n++) {
@@ -161,7 +161,7 @@ static bool box_solve(struct box *box, double error, double root[2], double radi
     second_bounds(box, m[k][0], m[k][1], s);
     lipschitz = real_max(lipschitz, growth * (s[0] + 2 * s[1] + s[2]));
     q = real_max(q, growth * ((s[0] + s[1]) * reach_u + (s[1] + s[2]) * reach_v));
-    radius[k] = 2 * (fabs(m[k][0]) + fabs(m[k][1])) * error;
+    radius[k] = 2 * (fabs(m[k][0]) * error[0] + fabs(m[k][1]) * error[1]);
     size = real_max(size, radius[k] / 2);
   }
   for (int k = 0; k < 2; k++) radius[k] += 2 * lipschitz * step * step;
@@ -228,9 +228,10 @@ static void variation(const struct box *box, int first, int last, double *along_
  * which it is longer on the ray. */
 static void box_halve(const struct search *s, struct box *box, struct box out[2])
 {
-  double along_u, along_v;
+  double along_u, along_v, error[2];
   variation(box, 0, 1, &along_u, &along_v);
-  if (real_max(along_u, along_v) <= FLAT_ERRORS * box_error(s, box)) variation(box, 2, 2, &along_u, &along_v);
+  box_error(s, box, error);
+  if (real_max(along_u, along_v) <= FLAT_ERRORS * real_max(error[0], error[1])) variation(box, 2, 2, &along_u, &along_v);
   const bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
   for (int h = 0; h < 2; h++) {
     out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
@@ -271,7 +272,7 @@ static bool box_zoom(struct search *s, const struct box *box)
   struct zoomed zoomed;
   if (++s->zooms > SEARCH_ZOOMS || !zoom_box(s->zoom, task->leaf, task->patch->split, low, size, &zoomed)) return false;
   struct search closer = {.task = task, .start = {zoomed.start[0], zoomed.start[1]}, .to_t = s->to_t, .place = zoomed.place,
-                          .error = zoomed.error, .t_min = s->t_min, .t_max = s->found ? s->best_t : s->t_max,
+                          .error = {zoomed.error[0], zoomed.error[1]}, .t_min = s->t_min, .t_max = s->found ? s->best_t : s->t_max,
                           .resolution = s->resolution, .most_boxes = ZOOMED_BOXES, .doubt = s->doubt};
   struct box whole = {.u = box->u, .v = box->v, .size_u = box->size_u, .size_v = box->size_v, .halvings = 0};
   memcpy(whole.net, zoomed.net, sizeof whole.net);
@@ -292,7 +293,8 @@ static bool box_small(const struct search *s, const struct box *box, enum verdic
 static bool box_decide(struct search *s, struct box *box)
 {
   if (box->near >= s->t_max || box->far <= s->t_min || (s->found && box->near >= s->best_t)) return true;
-  const double error = box_error(s, box);
+  double error[2];
+  box_error(s, box, error);
   const enum verdict verdict = box_test(box, error);
   if (verdict == VERDICT_EMPTY) return true;
   double root[2], radius[2];
@@ -337,7 +339,7 @@ bool subdivide_closest(const struct subdivide_task *task, struct leaf_hit *out, 
   const struct local_ray *ray = task->local;
   struct zoom zoom;
   struct search search = {.task = task, .zoom = &zoom, .start = {ray->start[0], ray->start[1]}, .to_t = ray->to_t,
-                          .error = ray->error, .t_min = task->t_min, .t_max = task->t_max, .most_boxes = SEARCH_BOXES, .doubt = doubt};
+                          .error = {ray->error, ray->error}, .t_min = task->t_min, .t_max = task->t_max, .most_boxes = SEARCH_BOXES, .doubt = doubt};
   struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   double nets[3][16];
   local_ray_nets(ray, task->leaf->x, nets[0], nets[1], nets[2]);

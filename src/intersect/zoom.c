@@ -105,15 +105,13 @@ bool zoom_box(const struct zoom *zoom, const struct leaf *leaf, int split, const
   if (!(largest > 0)) return false;
   p /= largest, q /= largest;
   const double rows[2][2] = {{p, q}, {-q, p}};
-  out->error = 0;
   for (int s = 0; s < 2; s++) {
     wide combination[4][4];
     const wide sum = combine(c[0], c[1], rows[s][0], rows[s][1], combination), error = 2 * zoom->error;
     if (!(sum > error)) return false;
     net_of(combination, 1 / sum, out->net[s]);
-    out->error = fmax(out->error, (double)(error / sum));
+    out->error[s] = (double)(error / sum) + ZOOMED_ROUNDINGS * 0x1p-53;
   }
-  out->error += ZOOMED_ROUNDINGS * 0x1p-53;
   const wide place = c[2][0][0], start = place - zoom->place;
   c[2][0][0] = 0;
   net_of(c[2], 1, out->net[2]);

@@ -23,7 +23,7 @@ struct zoom {
 /* The same over a box, in the box's own parameters. */
 struct zoomed {
   double net[3][4][4]; /* two combinations of a and b with the same common roots, at most 1 in size; x_k less `place` */
-  double error;        /* bound on the error of a coefficient of the first two */
+  double error[2];     /* bounds on the errors of coefficients of the first two */
   double place;        /* x_k in the middle of the box, rounded */
   double start[2];     /* t = ((w + start[1]) + start[0]) scale/d_k for w of net[2] */
 };

@@ -102,6 +102,27 @@ static void test_line(void **state)
   trial_destroy(&trial);
 }
 
+/* Through the corner of a patch that is a line: what one combination of the planes tells badly must not blur the other. */
+static void test_corner_of_line(void **state)
+{
+  (void)state;
+  static const double x[4][4] = {{-0x1.60eb34df6a67dp+0, -0x1.7a04fdefbdbe1p+0, -0x1.a56b7eb02ebfcp+0, -0x1.91e293d3385c4p+0},
+                                 {-0x1.39434e7ae7adcp-2, -0x1.0e8c13ea7fad5p-1, -0x1.11fa41fdaedf9p-1, -0x1.5ceea8c55f3d4p-1},
+                                 {0x1.70f29210ee854p-2, 0x1.37b3ab59ddf7p-1, 0x1.85503f7a90802p-2, 0x1.ebae1309f59d9p-2},
+                                 {0x1.a863a77e6dcdap+0, 0x1.a3b71241f9d58p+0, 0x1.a5ffda26d458bp+0, 0x1.896924b3da50cp+0}};
+  const double origin[3] = {-0x1.8840fa87a9dc9p+1, -0x1.5b577735d14d2p+0, 0x1.050276e605e4p+2};
+  const double direction[3] = {0x1.2e3967237061bp+2, 0x1.9b577735d14d2p+0, -0x1.ea04edcc0bc8p+1};
+  net P;
+  for (int n = 0; n < 16; n++) P[n / 4][n % 4][0] = x[n / 4][n % 4], P[n / 4][n % 4][1] = P[n / 4][n % 4][2] = 0.25;
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3])&P, 1, NULL);
+  const struct hit hit = closest(&trial, origin, direction);
+  assert_int_equal(hit.patch, 0);
+  assert_int_equal(hit.certainty, CERTAINTY_GRAZING);
+  assert_true(reference_residual(trial.reference, 0, origin, direction, hit.t, hit.u, hit.v) < TRIAL_NEAR);
+  trial_destroy(&trial);
+}
+
 /* Exactly tangent: grazing, there. Off by far less than double precision tells, here 2^-k: proven either way. */
 static void test_tangent(void **state)
 {
@@ -139,6 +160,7 @@ int main(void)
       cmocka_unit_test(test_start),
       cmocka_unit_test(test_small_parameter),
       cmocka_unit_test(test_line),
+      cmocka_unit_test(test_corner_of_line),
       cmocka_unit_test(test_tangent),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
