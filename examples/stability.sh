@@ -98,13 +98,13 @@ shares nothing with the renderer.
 
 - **lost**: the reference proves a hit, and the answer is a miss (a hole) or a later hit.
 - **invented**: an answer where the reference proves that nothing is hit, or nearer than its first hit.
-- Two distances are the same hit within 64 times what rounding the input can do (the last columns of the first table say how near they really
-  are); where the answer says \`grazing\`, and 2^-40 of the largest coordinate. Without polish nothing is proven, every answer says
-  \`grazing\`, and what is counted is whether the hit is found, within 1e-6 relative.
+- Two distances are the same hit within 64 times what rounding the input can do (how near they really are is in the last columns of
+  the first table), and 2^-40 of the largest coordinate where the answer says \`grazing\`. Without polish nothing is proven, every answer
+  says \`grazing\`, and what is counted is whether the hit is found, within 1e-6 relative.
 - Errors of T are relative, of the answers that are the same hit.
 
-The paper's form of a solver is \`NAME { $PAPER }\`, at that solver's default tolerance, 1e-12; in the table
-with polish it has the paper's plain iteration, basis, determinant and back-substitution as well.
+The paper's form of a solver is \`NAME { $PAPER }\`,
+at that solver's default tolerance, 1e-12. With polish it has the paper's plain iteration, basis, determinant and back-substitution too.
 
 END
   if [ -s "$folder/failures" ]; then
@@ -126,8 +126,9 @@ END
   tally_rows "$folder/random"
   cat <<END
 
-Rays from inside closed bodies (dome, ball, torus; turned, scaled by 1e6 and 1e-6, shifted by 1e6) at shared edges, corners, poles and
-iso-lines, PSCN_EFFORT=$LEAK_EFFORT of 10,000,000:
+Rays from inside closed bodies (dome, ball, torus, the teapot's body; turned, scaled by 1e6 and 1e-6, shifted by 1e6) at shared edges,
+corners, poles and iso-lines, PSCN_EFFORT=$LEAK_EFFORT of 10,000,000. The longest run so far, PSCN_SEED=1 PSCN_EFFORT=0.5: 5,000,044 rays with the
+default and 100,072 with each other solver and split, no leak.
 
 | run | rays | leaks |
 |---|---|---|
@@ -147,8 +148,8 @@ END
   cat <<END
 ## Holes
 
-The teapot, \`pscn render scenes/teapot.pscn --size $FRAME\`: the default, and the paper's form of three solvers, whose holes are on handle
-and spout.
+The teapot, \`pscn render scenes/teapot.pscn --size $FRAME\`: the default, and the paper's form of three solvers, at eps 1e-12. Aberth's
+roots are nearly all there; those of deflation have holes everywhere, in floor and shadows as well: the paper's finding.
 
 | default | aberth | laguerre | newton |
 |---|---|---|---|
