@@ -5,7 +5,8 @@
 # Ends by ctest's summary of the second pass; the exit code is not 0 if either pass failed.
 #
 # CC and CXX are the compilers, gcc and g++ unless they are set; the third build, which is not run, is clang's.
-# PSCN_EFFORT, the fraction of the heavy tests that is done (a number up to 1, or `full`), is 0.002 unless it is set.
+# PSCN_EFFORT, the fraction of the heavy tests that is done (a number up to 1, or `full`: hours), is 0.002 unless it is set; PSCN_SEED=N
+# takes other rays for every N.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh

@@ -16,7 +16,7 @@
 #include "language/language.h"
 #include "random.h"
 
-enum { FULL_RAYS = 10000, LEAST_RAYS = 64, MOST_CLASSES = 32 };
+enum { FULL_RAYS = 10000, LEAST_RAYS = 32, MOST_CLASSES = 32 };
 
 /* A column of the summary. The texts are what may follow `solver`. */
 struct form {
