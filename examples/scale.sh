@@ -13,7 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export LC_ALL=C
 
 MEMORY_LIMIT=8000000 # KiB of address space
-TIME_LIMIT=100       # seconds
+TIME_LIMIT=200       # seconds
 TURNS=3
 SLOW=8               # seconds: a run that takes longer is not repeated
 SIZE=800x600
