@@ -40,26 +40,26 @@ ours() {
   echo "$(members "$folder/stats.json" cpu parse build render) $(($1 + $2)) $2 $(awk '{ print $1 / 1024 }' "$folder/memory") $(members "$folder/stats.json" time render)"
 }
 
-# theirs FILE SIZE THREADS: "parse trace MB wall" of POV-Ray in the same way, or "- - MB -" where it did not come to an end.
+# theirs FILE SIZE THREADS: "parse trace MB wall" of POV-Ray in the same way, or dashes where it did not come to an end.
 theirs() {
-  local status=0 memory
+  local status=0
   (cd "$(dirname "$1")" && ulimit -v "$MEMORY_LIMIT" && HOME=$folder/home exec timeout "$TIME_LIMIT" /usr/bin/time -f %M -o "$folder/memory" \
     povray "+I$(basename "$1")" "+O$folder/povray.png" "+W${2%x*}" "+H${2#*x}" "+WT$3" -D -A >"$folder/log" 2>&1) || status=$?
-  memory=$(awk 'END { print ($1 + 0 ? $1 / 1024 : "-") }' "$folder/memory")
   if [ "$status" -ne 0 ]; then
-    echo "- - $memory -"
+    echo "- - - -"
     return
   fi
-  tr '\r' '\n' <"$folder/log" | awk -v memory="$memory" '
+  tr '\r' '\n' <"$folder/log" | awk -v memory="$(awk 'END { print $1 / 1024 }' "$folder/memory")" '
     /Parser? Time/ { part = 1 } /Trace Time/ { part = 2 }
     /Trace Time/ { match($0, /\([0-9.]+ seconds\)/); wall = substr($0, RSTART + 1) + 0 }
     /CPU-seconds total/ && part { sub(/.* with /, ""); s[part] += $1; part = 0 }
     END { print s[1] + 0, s[2] + 0, memory, wall + 0 }'
 }
 
-# both FILE SIZE THREADS: the medians of ours and theirs, 11 numbers.
+# both PART FILE SIZE THREADS: ours and theirs, 11 numbers; of the turns the median (PART 0.5) or the least (0).
 both() {
-  local turn took
+  local turn took part=$1
+  shift
   rm -f "$folder/turns"
   for ((turn = 0; turn < TURNS; turn++)); do
     SECONDS=0
@@ -67,12 +67,12 @@ both() {
     took=$SECONDS
     [ "$took" -le "$SLOW" ] || break
   done
-  awk '{ for (k = 1; k <= NF; k++) v[k, NR] = $k }
+  awk -v part="$part" '{ for (k = 1; k <= NF; k++) v[k, NR] = $k }
     END {
       for (k = 1; k <= NF; k++) {
         for (a = 2; a <= NR; a++)
           for (b = a; b > 1 && v[k, b] < v[k, b - 1]; b--) { t = v[k, b]; v[k, b] = v[k, b - 1]; v[k, b - 1] = t }
-        printf "%s%s", v[k, int((NR + 1) / 2)], k < NF ? " " : "\n"
+        printf "%s%s", v[k, 1 + int((NR - 1) * part)], k < NF ? " " : "\n"
       }
     }' "$folder/turns"
 }
@@ -109,7 +109,7 @@ for n in 0 "${teapots[@]}"; do
     patches=$((32 * n))
     examples/field.sh "$n" >"$folder/field.pscn"
   fi
-  both "$folder/field.pscn" "$SIZE" 1 >"$folder/line"
+  both 0.5 "$folder/field.pscn" "$SIZE" 1 >"$folder/line"
   awk -v n="$patches" -v empty="$empty" "$FORMAT"'{
     printf "| %d | %.3f | %.3f | %.2f | %.0f | %.2f | %s | %s | %s | %s |\n", n, $1, $2, $3, 1e9 * $3 / $4, 1e6 * $3 / ($5 ? $5 : 1),
       above($6), f($8, 2), f($9, 2), f($10, 0) }' "$folder/line" | tee -a "$folder/section" >&2
@@ -162,7 +162,7 @@ done | sort -g | awk -v bytes="$(stat -c %s "$folder/text.pscn")" -v patches=$((
 } >>"$folder/section"
 examples/field.sh 1 >"$folder/field.pscn"
 for size in "${SIZES[@]}"; do
-  both "$folder/field.pscn" "$size" 1 >"$folder/line"
+  both 0.5 "$folder/field.pscn" "$size" 1 >"$folder/line"
   awk -v size="$size" -v empty="$empty" "$FORMAT"'{
     printf "| %s | %.2f | %.0f | %s | %s | %s |\n", size, $3, 1e9 * $3 / $4, above($6), f($9, 2), f($10, 0) }' "$folder/line" |
     tee -a "$folder/section" >&2
@@ -174,7 +174,7 @@ done
   echo
   echo "### Threads"
   echo
-  echo "100 teapots at 1600x1200 on a machine of $(nproc) processors, seconds by the clock:"
+  echo "100 teapots at 1600x1200 on a machine of $(nproc) processors, seconds by the clock, the least of $TURNS turns:"
   echo
   echo "| threads | render s | times as fast | POV-Ray: trace s | times as fast |"
   echo "|---|---|---|---|---|"
@@ -183,7 +183,7 @@ examples/field.sh 100 >"$folder/field.pscn"
 one=
 for threads in "${THREADS[@]}"; do
   [ "$threads" -le "$(nproc)" ] || break
-  both "$folder/field.pscn" 1600x1200 "$threads" >"$folder/line"
+  both 0 "$folder/field.pscn" 1600x1200 "$threads" >"$folder/line"
   [ -n "$one" ] || one=$(cat "$folder/line")
   echo "$one $(cat "$folder/line")" | awk -v t="$threads" "$FORMAT"'{
     printf "| %d | %.2f | %.2f | %s | %s |\n", t, $18, $7 / $18, f($22, 2), ($22 + 0 ? f($11 / $22, 2) : "-") }' | tee -a "$folder/section" >&2
