@@ -13,7 +13,8 @@
 #define EFFORT_DEFAULT 0.002
 double effort_fraction(void);
 
-/* The seed a heavy test starts from: `seed` itself, or another one for every whole number in PSCN_SEED, so that runs add up. */
+/* The seed a heavy test starts from: `seed` itself, or another one for every whole number in PSCN_SEED, so that runs
+ * add up. */
 uint64_t effort_seed(uint64_t seed);
 
 /* `full` times the fraction, at least `least` and at most `full`. */

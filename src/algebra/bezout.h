@@ -1,8 +1,9 @@
 /* Bezout's resultant of two polynomials in two parameters, in scaled Bernstein form.
  *
- * a and b are nets a[4 * i + j], i = 0..m the degree that is kept (u), j = 0..n the one that is eliminated (v), 1 <= m, n <= 3,
- * plain Bernstein coefficients. With A_ij = C(m,i) C(n,j) a_ij products are convolutions (Farouki and Rajan 1988). With the
- * minors [kl] = A_k B_l - A_l B_k of the v-coefficients, each of degree 2m in u, r(u) is the determinant of
+ * a and b are nets a[4 * i + j], i = 0..m the degree that is kept (u), j = 0..n the one that is eliminated (v), 1 <=
+ * m, n <= 3, plain Bernstein coefficients. With A_ij = C(m,i) C(n,j) a_ij products are convolutions (Farouki and
+ * Rajan 1988). With the minors [kl] = A_k B_l - A_l B_k of the v-coefficients, each of degree 2m in u, r(u) is the
+ * determinant of
  *   n = 1: [01]    n = 2: |01 02; 02 12|    n = 3: |01 02 03; 02 03+12 13; 03 13 23|
  * of degree 2 m n, r(u) = sum c_k u^k (1-u)^(2mn-k) (paper eq 4-6, in Bezout's form instead of Sylvester's).
  * Where r(u) = 0 the matrix has the null vector (s^(n-1), ..., t^(n-1)), v = t/(s+t).
@@ -21,7 +22,8 @@ enum { BEZOUT_NAME(MAX_DEGREE) = 18 };
 BEZOUT_INLINE double BEZOUT_NAME(binomial)(int n, int k) { return k == 0 || k == n ? 1 : n; }
 
 /* out[0..2m] = A_k B_l - A_l B_k as polynomials in u. */
-BEZOUT_INLINE void BEZOUT_NAME(minor)(int m, int k, int l, const BEZOUT_REAL A[16], const BEZOUT_REAL B[16], BEZOUT_REAL out[7])
+BEZOUT_INLINE void BEZOUT_NAME(minor)(int m, int k, int l, const BEZOUT_REAL A[16], const BEZOUT_REAL B[16],
+                                      BEZOUT_REAL out[7])
 {
 #pragma GCC unroll 8
   for (int e = 0; e <= 2 * m; e++) {
@@ -34,8 +36,8 @@ BEZOUT_INLINE void BEZOUT_NAME(minor)(int m, int k, int l, const BEZOUT_REAL A[1
 }
 
 /* out[0..p+q] = x y, degrees p and q; with `add`, added to out. */
-BEZOUT_INLINE void BEZOUT_NAME(multiply)(int p, int q, const BEZOUT_REAL x[], const BEZOUT_REAL y[], double sign, int add,
-                                         BEZOUT_REAL out[])
+BEZOUT_INLINE void BEZOUT_NAME(multiply)(int p, int q, const BEZOUT_REAL x[], const BEZOUT_REAL y[], double sign,
+                                         int add, BEZOUT_REAL out[])
 {
 #pragma GCC unroll 19
   for (int e = 0; e <= p + q; e++) {
@@ -46,8 +48,8 @@ BEZOUT_INLINE void BEZOUT_NAME(multiply)(int p, int q, const BEZOUT_REAL x[], co
   }
 }
 
-/* c[0..2mn] of the determinant, for coefficients of products by convolution: A and B in scaled Bernstein form give c in scaled
- * Bernstein form, in power form (power of u times power of v) power form. */
+/* c[0..2mn] of the determinant, for coefficients of products by convolution: A and B in scaled Bernstein form give c
+ * in scaled Bernstein form, in power form (power of u times power of v) power form. */
 BEZOUT_INLINE void BEZOUT_NAME(determinant)(int m, int n, const BEZOUT_REAL A[16], const BEZOUT_REAL B[16],
                                             BEZOUT_REAL c[BEZOUT_NAME(MAX_DEGREE) + 1])
 {
@@ -95,9 +97,9 @@ BEZOUT_INLINE void BEZOUT_NAME(resultant)(int m, int n, const BEZOUT_REAL a[16],
   BEZOUT_NAME(determinant)(m, n, A, B, c);
 }
 
-/* The v of the null vector at a root u, for the values p[0..n], q[0..n] that the plain Bernstein v-coefficients of a and b
- * take there: two ways to write it, row 0 and row 1, each v = num[.]/den[.]; row 0 is the better one where `first_better`
- * > 0. den may be 0 (the root v is at infinity, or two hits share u). */
+/* The v of the null vector at a root u, for the values p[0..n], q[0..n] that the plain Bernstein v-coefficients of a
+ * and b take there: two ways to write it, row 0 and row 1, each v = num[.]/den[.]; row 0 is the better one where
+ * `first_better` > 0. den may be 0 (the root v is at infinity, or two hits share u). */
 BEZOUT_INLINE void BEZOUT_NAME(null_vector)(int n, const BEZOUT_REAL p[4], const BEZOUT_REAL q[4], BEZOUT_REAL num[2],
                                             BEZOUT_REAL den[2], BEZOUT_REAL *first_better)
 {

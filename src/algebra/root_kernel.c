@@ -18,8 +18,8 @@ enum { TURN_PERIOD = 5 };
 /* Steps of noise a root may meet before it is done: the others are still moving, and the next step may be a good
  * one. */
 enum { PATIENCE = 2 };
-/* Noise this much longer than the last good step, squared, is not even tried: a step that is noise may be some times too long by
- * chance, one of 8 times is the noise of a vanishing slope. A choice of speed. */
+/* Noise this much longer than the last good step, squared, is not even tried: a step that is noise may be some times
+ * too long by chance, one of 8 times is the noise of a vanishing slope. A choice of speed. */
 #define WILD 64.0
 
 /* Squares of values below this underflow; above it they cannot, times LIFT squared they do not overflow either. */

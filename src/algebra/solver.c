@@ -8,9 +8,9 @@
 
 #include "algebra/root_kernel.h"
 
-/* One row a solver. The tolerance is eps of eq 10: 1e-12 is the least at which the paper's plain iterations still stop by it
- * (eq 10 is absolute, and values of size 100 do not move by less). It decides when to stop, never what is true, for radii and
- * certificates are made afterwards; nor do the steps a root may take. */
+/* One row a solver. The tolerance is eps of eq 10: 1e-12 is the least at which the paper's plain iterations still
+ * stop by it (eq 10 is absolute, and values of size 100 do not move by less). It decides when to stop, never what is
+ * true, for radii and certificates are made afterwards; nor do the steps a root may take. */
 static const struct solver solvers[] = {
   {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, 1e-12, 64,
    bernstein_find},
@@ -60,8 +60,8 @@ static void follow_form(struct solver_options *options)
   if (!options->form_said) choose_form(options, !paper);
 }
 
-/* The items of a solver block. One macro writes the two accessors of an item, whose C types differ; `after` is done when it was
- * set. */
+/* The items of a solver block. One macro writes the two accessors of an item, whose C types differ; `after` is done
+ * when it was set. */
 #define ITEM_ACCESSORS(field, type, after)                                   \
   static void set_##field(struct solver_options *options, double value)      \
   {                                                                          \

@@ -39,9 +39,9 @@ enum start { START_COLD, START_PREVIOUS };
 enum resultant { RESULTANT_BEZOUT, RESULTANT_SYLVESTER };
 enum back_substitution { BACK_SUBSTITUTION_NULL_VECTOR, BACK_SUBSTITUTION_EUCLID };
 
-/* Ways of the complex solvers that go beyond the paper. Each can be had alone; `form` sets them all at once. Where none is named,
- * they are on, but for the paper's own method, whose other choices are named then: basis power, resultant sylvester,
- * back_substitution euclid, polish off. */
+/* Ways of the complex solvers that go beyond the paper. Each can be had alone; `form` sets them all at once. Where
+ * none is named, they are on, but for the paper's own method, whose other choices are named then: basis power,
+ * resultant sylvester, back_substitution euclid, polish off. */
 enum radii { RADII_CIRCLE, RADII_POLYGON }; /* start values on Aberth's circle, or by Newton's polygon (Bini) */
 enum stop { STOP_STEP, STOP_ROUNDING };     /* eq 10 alone, or also where |p| is below its own rounding bound */
 enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL };  /* aberth: the values of the last sweep, or the newest there are */
@@ -66,7 +66,8 @@ struct solver_options {
   bool rest;     /* aberth: a root that has converged is left alone while others still move */
   enum deflation deflation;
   bool refine;   /* newton, laguerre: last steps on the polynomial before deflation */
-  bool form_said; /* some of the six above were set by name: otherwise they follow from the others, see `form` in solver.c */
+  /* some of the six above were set by name: otherwise they follow from the others, see `form` in solver.c */
+  bool form_said;
   bool polish; /* on: 2-D Newton on the patch, and every answer certified; off: the solver's own roots are the answer */
   int split;   /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
 };
@@ -119,8 +120,9 @@ const struct solver_item *solver_item_at(size_t index);
 void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out);
 
-/* The same without the judge: for a caller who makes of the roots what he can prove by himself. Radii are infinite, a root may be off the
- * real axis by rounding, and a root of a vanishing leading coefficient may be far away instead of absent. */
+/* The same without the judge: for a caller who makes of the roots what he can prove by himself. Radii are infinite,
+ * a root may be off the real axis by rounding, and a root of a vanishing leading coefficient may be far away instead
+ * of absent. */
 void solver_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out);
 

@@ -18,8 +18,9 @@
 enum { RADIUS_STEPS = 60 };
 #define RADIUS_ACCURACY 1e-2 /* relative; a start radius needs no more */
 
-/* Warm starts nearer to each other than this, relative to their modulus, are moved apart by as much. Values of a double root
- * are uncertain by the square root of 2^-53, 1e-8, so nothing known is lost; and differences of 1e-9 keep seven digits. */
+/* Warm starts nearer to each other than this, relative to their modulus, are moved apart by as much. Values of a
+ * double root are uncertain by the square root of 2^-53, 1e-8, so nothing known is lost; and differences of 1e-9
+ * keep seven digits. */
 #define COINCIDENCE 1e-9
 
 /* Cauchy's bound. The first guess, the largest of (n |b[k]/b[n]|)^(1/(n-k)), is not below it. */

@@ -5,7 +5,8 @@
 
 enum { MAX_N = 3, MAX_MINOR_DEGREE = 9 };
 
-/* The entry of row r (of n), column c (of 2n) of one half: coefficient v^(n - (c - r)), as a polynomial in u; NULL for 0. */
+/* The entry of row r (of n), column c (of 2n) of one half: coefficient v^(n - (c - r)), as a polynomial in u; NULL
+ * for 0. */
 static const double *entry(int n, int r, int c, const double *A)
 {
   const int j = n - (c - r);

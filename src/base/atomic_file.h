@@ -1,11 +1,11 @@
 /* Files that appear whole or not at all.
  *
- * The bytes are written to a temporary file in the folder of the final name, flushed to the disk, and renamed. Whatever
- * goes wrong, the final name keeps what it had and the temporary file is removed. A symbolic link is followed. A name
- * that is a device or a pipe is written to directly, since it can not be replaced.
+ * The bytes are written to a temporary file in the folder of the final name, flushed to the disk, and renamed.
+ * Whatever goes wrong, the final name keeps what it had and the temporary file is removed. A symbolic link is
+ * followed. A name that is a device or a pipe is written to directly, since it can not be replaced.
  *
- * Both functions answer STATUS_FILE, or STATUS_LIMIT where memory is short, with the reason, an errno value, in *out_errno (0
- * otherwise). Safe on any thread.
+ * Both functions answer STATUS_FILE, or STATUS_LIMIT where memory is short, with the reason, an errno value, in
+ * *out_errno (0 otherwise). Safe on any thread.
  */
 #ifndef PSCN_BASE_ATOMIC_FILE_H
 #define PSCN_BASE_ATOMIC_FILE_H

@@ -82,7 +82,8 @@ static void block_add_line(struct block *block, struct place place, struct sourc
   size_t begin = at.line_begin, column = at.column;
   for (; column > SHOWN_BEFORE; column--) begin = step_forward(text, begin, at.line_end);
   size_t end = begin;
-  for (int shown = 0; end < at.line_end && shown < SHOWN_CHARACTERS; shown++) end = step_forward(text, end, at.line_end);
+  for (int shown = 0; end < at.line_end && shown < SHOWN_CHARACTERS; shown++)
+    end = step_forward(text, end, at.line_end);
   if (place_end > end) place_end = end;
 
   block_add_text(block, begin > at.line_begin ? "  ..." : "  ");
@@ -94,7 +95,8 @@ static void block_add_line(struct block *block, struct place place, struct sourc
   }
   block_add_text(block, "^");
   if (place_begin < place_end) {
-    for (size_t i = step_forward(text, place_begin, at.line_end); i < place_end; i = step_forward(text, i, at.line_end)) {
+    for (size_t i = step_forward(text, place_begin, at.line_end); i < place_end;
+         i = step_forward(text, i, at.line_end)) {
       block_add_text(block, "~");
     }
   }

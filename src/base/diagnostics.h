@@ -7,8 +7,8 @@
  *       camera { loaction <0,0,-5> }
  *                ^~~~~~~~
  *
- * The library never prints: the command's sink does. After DIAGNOSTICS_MAX_ERRORS errors a closing line is told, once, and
- * the rest are only counted. Initialise with { .tell = f, .context = c }. One thread at a time.
+ * The library never prints: the command's sink does. After DIAGNOSTICS_MAX_ERRORS errors a closing line is told,
+ * once, and the rest are only counted. Initialise with { .tell = f, .context = c }. One thread at a time.
  */
 #ifndef PSCN_BASE_DIAGNOSTICS_H
 #define PSCN_BASE_DIAGNOSTICS_H

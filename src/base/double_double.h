@@ -1,7 +1,7 @@
 /* Double-double arithmetic: a number as the unevaluated sum of two doubles, about 106 bits.
  *
- * Dekker, A floating-point technique for extending the available precision (1971); Knuth's two-sum. Results carry a relative
- * error of a few 2^-104. Needs IEEE double arithmetic without contraction. Pure; safe on any thread.
+ * Dekker, A floating-point technique for extending the available precision (1971); Knuth's two-sum. Results carry a
+ * relative error of a few 2^-104. Needs IEEE double arithmetic without contraction. Pure; safe on any thread.
  */
 #ifndef PSCN_BASE_DOUBLE_DOUBLE_H
 #define PSCN_BASE_DOUBLE_DOUBLE_H

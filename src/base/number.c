@@ -1,7 +1,7 @@
-/* Numbers as text. Reading: digits are gathered into an integer and a power of ten; where both are exact in double one
- * multiplication or division rounds correctly (Clinger 1990, "How to read floating point numbers accurately"). Numbers of
- * everyday size are otherwise read and written in integers (decimal.h), the rest by strtod and printf, without a decimal
- * point, which means the same in every locale. */
+/* Numbers as text. Reading: digits are gathered into an integer and a power of ten; where both are exact in double
+ * one multiplication or division rounds correctly (Clinger 1990, "How to read floating point numbers accurately").
+ * Numbers of everyday size are otherwise read and written in integers (decimal.h), the rest by strtod and printf,
+ * without a decimal point, which means the same in every locale. */
 #include "base/number.h"
 
 #include <float.h>
@@ -187,7 +187,8 @@ size_t number_write(double value, char *out)
   char digits[MAX_DIGITS];
   int exponent = 0, count;
   size_t length = 0;
-  for (count = fabs(value) < DBL_MIN ? 1 : SURE_DIGITS; count <= MAX_DIGITS; count++) { /* subnormals hold fewer digits */
+  /* subnormals hold fewer digits */
+  for (count = fabs(value) < DBL_MIN ? 1 : SURE_DIGITS; count <= MAX_DIGITS; count++) {
     round_to_digits(value, count, digits, &exponent);
     int kept = count;
     while (kept > 1 && digits[kept - 1] == '0') kept--;

@@ -1,5 +1,5 @@
-/* Source text: reading a file whole, and finding lines and columns in it. Positions are only wanted for errors, so they are
- * counted from the beginning each time instead of being kept for every token. */
+/* Source text: reading a file whole, and finding lines and columns in it. Positions are only wanted for errors, so
+ * they are counted from the beginning each time instead of being kept for every token. */
 #include "base/source.h"
 
 #include <errno.h>

@@ -1,7 +1,7 @@
 /* Source text: the bytes of one scene file, and where in them a byte offset lies.
  *
- * The bytes are kept as they are in the file (any bytes, NUL included). A source that was included knows the place of its
- * #include. Sources are read-only once made; they own what they point to, except `includer`.
+ * The bytes are kept as they are in the file (any bytes, NUL included). A source that was included knows the place
+ * of its #include. Sources are read-only once made; they own what they point to, except `includer`.
  */
 #ifndef PSCN_BASE_SOURCE_H
 #define PSCN_BASE_SOURCE_H

@@ -60,7 +60,8 @@ void command_line_free(struct command_line *line);
 /* Flushes stdout; STATUS_FILE after telling the error where something was not written. */
 enum status command_finish_output(const struct command *command);
 
-/* Tells why a file was not written, where its status is STATUS_FILE or STATUS_LIMIT (atomic_file.h); answers that status. */
+/* Tells why a file was not written, where its status is STATUS_FILE or STATUS_LIMIT (atomic_file.h); answers that
+ * status. */
 enum status command_written(const struct command *command, const char *path, enum status status, int reason);
 
 /* Seconds of a clock that only goes forward. */

@@ -139,17 +139,19 @@ void page_image_data(struct page *page, const struct image *image)
 void page_begin(struct page *page, const char *title, const char *style)
 {
   *page = (struct page){ 0 };
-  page_put(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                 "<meta name=\"viewport\" content=\"width=device-width\">\n<link rel=\"icon\" href=\"data:,\">\n<title>");
+  page_put(page,
+           "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+           "<meta name=\"viewport\" content=\"width=device-width\">\n<link rel=\"icon\" href=\"data:,\">\n<title>");
   page_text(page, title);
-  page_put(page, "</title>\n<style>\n"
-                 "body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1240px; padding: 0 1em; color: #222 }\n"
-                 "h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em }\n"
-                 "table { border-collapse: collapse } th, td { padding: .25em .7em; text-align: right }\n"
-                 "th { border-bottom: 1px solid #888; font-weight: 600; vertical-align: bottom }\n"
-                 "td:first-child, th:first-child { text-align: left } tr:nth-child(even) td { background: #f3f3f3 }\n"
-                 "figure { display: inline-block; margin: 0 1em 1em 0; vertical-align: top }\n"
-                 "figcaption { color: #555 } img { display: block; max-width: 100% }\n");
+  page_put(page,
+           "</title>\n<style>\n"
+           "body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1240px; padding: 0 1em; color: #222 }\n"
+           "h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em }\n"
+           "table { border-collapse: collapse } th, td { padding: .25em .7em; text-align: right }\n"
+           "th { border-bottom: 1px solid #888; font-weight: 600; vertical-align: bottom }\n"
+           "td:first-child, th:first-child { text-align: left } tr:nth-child(even) td { background: #f3f3f3 }\n"
+           "figure { display: inline-block; margin: 0 1em 1em 0; vertical-align: top }\n"
+           "figcaption { color: #555 } img { display: block; max-width: 100% }\n");
   page_put(page, style);
   page_put(page, "</style>\n</head>\n<body>\n<h1>");
   page_text(page, title);

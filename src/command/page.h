@@ -19,8 +19,8 @@ struct page {
   char message[512]; /* why a picture could not be made, or "" */
 };
 
-/* Begins with the head of a page of that title (plain text) and a style for headings, tables and figures. `style` is further
- * CSS. A page of zeros is empty and may be freed. */
+/* Begins with the head of a page of that title (plain text) and a style for headings, tables and figures. `style` is
+ * further CSS. A page of zeros is empty and may be freed. */
 void page_begin(struct page *page, const char *title, const char *style);
 
 /* Closes the page. STATUS_LIMIT where memory was short, STATUS_FILE where a picture could not be made. */

@@ -1,7 +1,7 @@
 /* Another program, run to its end.
  *
- * The program gets a process group of its own, so that a key pressed at the terminal reaches us alone; when `stop` turns
- * nonzero the whole group is asked to end, then made to, and is reaped. One program at a time.
+ * The program gets a process group of its own, so that a key pressed at the terminal reaches us alone; when `stop`
+ * turns nonzero the whole group is asked to end, then made to, and is reaped. One program at a time.
  */
 #ifndef PSCN_COMMAND_PROCESS_H
 #define PSCN_COMMAND_PROCESS_H
@@ -14,7 +14,8 @@
 struct process_request {
   const char *const *arguments;   /* ended by NULL; [0] is the program, looked for along PATH where it has no slash */
   const char *folder;             /* where it runs, or NULL: here */
-  const char *const *environment; /* pairs NAME, VALUE, ended by NULL, that change ours (a VALUE of NULL unsets); or NULL */
+  /* pairs NAME, VALUE, ended by NULL, that change ours (a VALUE of NULL unsets); or NULL */
+  const char *const *environment;
   const char *output;             /* file that receives what it says on both outputs, seen from our folder */
 };
 

@@ -24,8 +24,8 @@ void scratch_remove(struct scratch *scratch);
  * file that exists. */
 void scratch_path(const struct scratch *scratch, const char *name, char *out);
 
-/* Opens a file of the folder for writing: NULL (errno says why) where that fails. scratch_close answers STATUS_FILE where
- * something was not written. */
+/* Opens a file of the folder for writing: NULL (errno says why) where that fails. scratch_close answers STATUS_FILE
+ * where something was not written. */
 FILE *scratch_open(const struct scratch *scratch, const char *name);
 enum status scratch_close(FILE *file) STATUS_MUST_CHECK;
 

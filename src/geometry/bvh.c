@@ -65,7 +65,8 @@ static int bin_of(double center, double lo, double scale)
   return !(bin > 0) ? 0 : bin >= BIN_COUNT ? BIN_COUNT - 1 : (int)bin;
 }
 
-/* The cheapest of the BIN_COUNT - 1 planes along `axis`; *cost is lowered where one beats it. Returns whether one did. */
+/* The cheapest of the BIN_COUNT - 1 planes along `axis`; *cost is lowered where one beats it. Returns whether one
+ * did. */
 static bool best_plane(const struct builder *b, const struct range *r, int axis, double lo, double scale, double *cost,
                        int *plane)
 {
@@ -113,7 +114,8 @@ static uint32_t split(const struct builder *b, const struct range *r)
     for (int a = 0; a < 3; a++)
       if (hi[a] > lo[a] && best_plane(b, r, a, lo[a], BIN_COUNT / (hi[a] - lo[a]), &cost, &plane)) axis = a;
   }
-  if (axis < 0) return r->count / 2; /* all centres in one place, or the tree grows too deep: halve, which bounds the depth */
+  /* all centres in one place, or the tree grows too deep: halve, which bounds the depth */
+  if (axis < 0) return r->count / 2;
   const double scale = BIN_COUNT / (hi[axis] - lo[axis]);
   uint32_t left = 0;
   for (uint32_t k = 0; k < r->count; k++) {

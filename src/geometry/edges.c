@@ -65,7 +65,8 @@ enum status edges_match(const void *nets, size_t stride, size_t count, struct ed
   }
   qsort(all, count * 4, sizeof *all, compare_borders);
   for (size_t first = 0, end; first < count * 4; first = end) {
-    for (end = first + 1; end < count * 4 && !compare_numbers(&all[first].point[0][0], &all[end].point[0][0], 12);) end++;
+    for (end = first + 1; end < count * 4 && !compare_numbers(&all[first].point[0][0], &all[end].point[0][0], 12);)
+      end++;
     const bool pair = end - first == 2 && !collapsed(&all[first]);
     for (size_t k = first; k < end; k++) {
       const struct border *here = &all[k], *other = &all[first + (k == first)];

@@ -13,8 +13,8 @@
 
 enum { EDGE_NONE = UINT32_MAX };
 
-/* The border that shares its control points with this one. A border met by more than one other, or collapsed to a point, has
- * patch EDGE_NONE, as one met by none. */
+/* The border that shares its control points with this one. A border met by more than one other, or collapsed to a
+ * point, has patch EDGE_NONE, as one met by none. */
 struct edge_neighbour {
   uint32_t patch; /* may be the patch itself */
   uint8_t border;
@@ -24,7 +24,8 @@ struct edge_neighbour {
 /* The four control points of border `border` of the net P[i][j], in the order of the running parameter. */
 void edge_points(double P[4][4][3], int border, double out[4][3]);
 
-/* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes. STATUS_LIMIT where memory is short. */
+/* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes. STATUS_LIMIT where memory is
+ * short. */
 enum status edges_match(const void *nets, size_t stride, size_t count, struct edge_neighbour *out) STATUS_MUST_CHECK;
 
 #endif

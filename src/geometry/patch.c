@@ -1,7 +1,7 @@
 /* The bicubic Bezier patch: subdivision, evaluation, degree, normal.
  *
- * Farin, Curves and Surfaces for CAGD: de Casteljau's algorithm, blossoms, degree reduction. A cubic over [t0,t1] has the
- * control values b(t0,t0,t0), b(t0,t0,t1), b(t0,t1,t1), b(t1,t1,t1) of its blossom b.
+ * Farin, Curves and Surfaces for CAGD: de Casteljau's algorithm, blossoms, degree reduction. A cubic over [t0,t1]
+ * has the control values b(t0,t0,t0), b(t0,t0,t1), b(t0,t1,t1), b(t1,t1,t1) of its blossom b.
  */
 #include "geometry/patch.h"
 
@@ -139,8 +139,8 @@ static void bernstein(int n, double t, double w[4])
   if (n == 3) w[0] = s * s * s, w[1] = 3 * s * s * t, w[2] = 3 * s * t * t, w[3] = t * t * t;
 }
 
-/* The partial derivative of order (p,q), p + q <= 2, as a vector: from the differences of control points, which are exactly
- * zero along a collapsed edge, so that what vanishes with the distance to it keeps its relative accuracy. */
+/* The partial derivative of order (p,q), p + q <= 2, as a vector: from the differences of control points, which are
+ * exactly zero along a collapsed edge, so that what vanishes with the distance to it keeps its relative accuracy. */
 static void derivative(double x[3][4][4], double u, double v, int p, int q, double out[3])
 {
   static const double factor[3] = {1, 3, 6};
@@ -174,8 +174,8 @@ static double cross_sum(const double a[3], const double b[3], const double c[3],
 
 bool patch_normal(double x[3][4][4], double u, double v, double out[3])
 {
-  /* A derivative is right to some tens of units in the last place of the net's extent; a product of two that is less than this
-   * part of the extents' is noise. */
+  /* A derivative is right to some tens of units in the last place of the net's extent; a product of two that is less
+   * than this part of the extents' is noise. */
   static const double noise = 0x1p-44;
   double extent = 0;
   for (int k = 0; k < 3; k++)

@@ -1,7 +1,7 @@
 /* The tensor-product Bezier patch, bicubic, one coordinate at a time.
  *
- * A net is double[4][4] of one coordinate (or of any other function of the surface): net[i][j], u runs across the rows i,
- * v along a row j, S(u,v) = sum B_i(u) B_j(v) net[i][j] (paper eq 1, in Bernstein instead of power form).
+ * A net is double[4][4] of one coordinate (or of any other function of the surface): net[i][j], u runs across the
+ * rows i, v along a row j, S(u,v) = sum B_i(u) B_j(v) net[i][j] (paper eq 1, in Bernstein instead of power form).
  * All functions are pure and safe on any thread. Parameters are not clamped: outside [0,1] the polynomial goes on.
  */
 #ifndef PSCN_GEOMETRY_PATCH_H
@@ -10,8 +10,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* The net of the same polynomial over [u0,u1] x [v0,v1], by blossoming. Exact up to a few roundings relative to the largest
- * |net| where the range lies in [0,1]; u0 = 0, u1 = 1 copy exactly. out may be net. */
+/* The net of the same polynomial over [u0,u1] x [v0,v1], by blossoming. Exact up to a few roundings relative to the
+ * largest |net| where the range lies in [0,1]; u0 = 0, u1 = 1 copy exactly. out may be net. */
 void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, double out[4][4]);
 
 /* Both halves in u (rows) by de Casteljau. out_low and out_high must differ from net and from each other. */

@@ -7,7 +7,10 @@
 
 #include <math.h>
 
-static inline double vector_dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static inline double vector_dot(const double a[3], const double b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /* Squares within these lose nothing to over- or underflow. */
 #define VECTOR_SQUARE_MIN 0x1p-900

@@ -21,7 +21,8 @@ struct compare_pair {
   const size_t *first_channel, *second_channel;
 };
 
-/* One level of limits: passed when more pixels than allowed are over `each`, or one value differs by more than `any`. */
+/* One level of limits: passed when more pixels than allowed are over `each`, or one value differs by more than
+ * `any`. */
 struct compare_limit {
   double each;           /* >= 0 */
   double percent;        /* of the pixels that may be over `each` */

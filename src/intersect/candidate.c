@@ -1,7 +1,7 @@
 /* The scene's own method on one candidate: resultant, roots, back-substitution (paper 2.1 and 2.2).
  *
- * Everything a `solver` statement can choose happens here: the basis, the determinant, the solver, its start, and how v follows
- * from u. What comes out are starting points; with `polish on` the caller proves them.
+ * Everything a `solver` statement can choose happens here: the basis, the determinant, the solver, its start, and
+ * how v follows from u. What comes out are starting points; with `polish on` the caller proves them.
  */
 #include <math.h>
 
@@ -13,8 +13,8 @@
 #define BEZOUT_NAME(name) bezout_##name
 #include "algebra/bezout.h"
 
-/* With polish, a complex root this near to the real axis, or a real one this far outside the leaf, may still start a Newton
- * process that ends in the leaf: rounding moves double roots off the axis by the square root of their error. */
+/* With polish, a complex root this near to the real axis, or a real one this far outside the leaf, may still start a
+ * Newton process that ends in the leaf: rounding moves double roots off the axis by the square root of their error. */
 #define START_MARGIN LEAF_MARGIN
 
 /* One form of the leaf's plane polynomials: coefficients of products by convolution. */
@@ -36,7 +36,8 @@ static void form_net(int m, int n, enum basis basis, const double net[16], doubl
 {
   for (int i = 0; i <= m; i++)
     for (int j = 0; j <= n; j++)
-      out[4 * i + j] = basis == BASIS_POWER ? net[4 * i + j] : bezout_binomial(m, i) * bezout_binomial(n, j) * net[4 * i + j];
+      out[4 * i + j] = basis == BASIS_POWER ? net[4 * i + j]
+                                            : bezout_binomial(m, i) * bezout_binomial(n, j) * net[4 * i + j];
   if (basis != BASIS_POWER) return;
   for (int i = 0; i <= m; i++) to_power(n, out + 4 * i, 1);
   for (int j = 0; j <= n; j++) to_power(m, out + j, 4);
@@ -92,9 +93,10 @@ static void value_and_slope(int n, const double c[4], double v, double *value, d
   *value = b[0] + v * (b[1] - b[0]);
 }
 
-/* Where two roots nearly share u, the null vector is nearly not unique and v is off by far more than u is. It is near enough
- * for Gauss and Newton, at this u, on both plane polynomials. A step longer than the reach means that it was not. A
- * choice, of starting points only: two such steps from within it end at 1e-12, where the curve they follow bends by 1. */
+/* Where two roots nearly share u, the null vector is nearly not unique and v is off by far more than u is. It is
+ * near enough for Gauss and Newton, at this u, on both plane polynomials. A step longer than the reach means that it
+ * was not. A choice, of starting points only: two such steps from within it end at 1e-12, where the curve they
+ * follow bends by 1. */
 enum { NULL_VECTOR_STEPS = 2 };
 #define NULL_VECTOR_REACH 1e-3
 
@@ -163,8 +165,8 @@ static struct solver_warm *warm_of(struct tracer *tracer, const struct leaf *lea
   return &warm->warm;
 }
 
-void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
-                     struct candidate_roots *out)
+void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16],
+                     double error, struct candidate_roots *out)
 {
   const struct solver_options *options = tracer->model->patches[leaf->patch].solver;
   struct form form = {leaf->kept_degree, leaf->eliminated_degree, {0}, {0}};
@@ -188,7 +190,8 @@ void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const doubl
   tracer->counts.roots_found += (unsigned)roots.count;
   for (int k = 0; k < roots.count; k++) {
     const struct root *root = &roots.root[k];
-    const double real = options->polish ? START_MARGIN : options->tolerance; /* paper 2.2: the real ones, as far as eps tells */
+    /* paper 2.2: the real ones, as far as eps tells */
+    const double real = options->polish ? START_MARGIN : options->tolerance;
     const double margin = options->polish ? START_MARGIN : 0;
     if (!(fabs(root->im) <= real && root->re >= -margin && root->re <= 1 + margin)) continue;
     const double v = eliminated_at(&form, options, root->re);

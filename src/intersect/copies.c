@@ -10,7 +10,8 @@
 /* A map that stretches errors more than this is no gain: what is undecidable in the object would be decided twice. */
 #define MOST_STRETCH 0x1p10
 
-/* A map whose numbers, or whose inverse's, are larger than this could overflow with the rays that are let in (walk.c). */
+/* A map whose numbers, or whose inverse's, are larger than this could overflow with the rays that are let in
+ * (walk.c). */
 #define MOST_SIZE 0x1p100
 
 /* One copy while its object is looked at. */
@@ -62,10 +63,12 @@ static bool invert(double A[3][3], double W[3][3])
   return finite;
 }
 
-/* The map of a copy, and its error in the object's coordinates: how far the copy's control points are carried past the object's, the
- * rounding of finding that out, and that of a ray near the object (copy.c): of its origin, which is moved to where the ray passes
- * the middle of the copy, and of its direction on the way from there through the object. */
-static void candidate_map(struct candidate *c, const struct model *model, const struct scene_object *object, const struct middle *m)
+/* The map of a copy, and its error in the object's coordinates: how far the copy's control points are carried past
+ * the object's, the rounding of finding that out, and that of a ray near the object (copy.c): of its origin, which
+ * is moved to where the ray passes the middle of the copy, and of its direction on the way from there through the
+ * object. */
+static void candidate_map(struct candidate *c, const struct model *model, const struct scene_object *object,
+                          const struct middle *m)
 {
   double A[3][3];
   memcpy(A, c->copy->A, sizeof A);
@@ -93,7 +96,8 @@ static void candidate_map(struct candidate *c, const struct model *model, const 
         off = real_max(off, fabs(x));
       }
     }
-    c->good &= model->patches[c->copy->first_patch + p].lanes && model->patches[c->copy->first_patch + p].solver->split == 0;
+    c->good &= model->patches[c->copy->first_patch + p].lanes &&
+               model->patches[c->copy->first_patch + p].solver->split == 0;
   }
   const double passes = 2 * c->widest * m->reach * back; /* the ray's nearest point, from the middle; sqrt(3) < 2 */
   c->error = off + 16 * UNIT_ROUNDOFF * stretch * (m->reach + passes);
@@ -101,7 +105,8 @@ static void candidate_map(struct candidate *c, const struct model *model, const 
 }
 
 /* Takes the good ones of the object's copies, where they are two or more. */
-static bool take(struct model *model, const struct scene_object *object, size_t count, const struct candidate candidates[])
+static bool take(struct model *model, const struct scene_object *object, size_t count,
+                 const struct candidate candidates[])
 {
   size_t good = 0;
   double error = 0;
@@ -158,7 +163,8 @@ enum status copies_choose(struct model *model, size_t *own)
 }
 
 /* The model of an object, from its nets about their middle; the solver is that of a copy. */
-static enum status prepare_object(const struct model *model, const struct model_copy *copy, int most, struct model_object *object)
+static enum status prepare_object(const struct model *model, const struct model_copy *copy, int most,
+                                  struct model_object *object)
 {
   const struct scene_object *declared = object->declared;
   const struct middle middle = object_middle(declared);
@@ -169,7 +175,9 @@ static enum status prepare_object(const struct model *model, const struct model_
     for (int n = 0; n < 16; n++)
       for (int k = 0; k < 3; k++) patches[p].P[n / 4][n % 4][k] = declared->P[p][n / 4][n % 4][k] - middle.center[k];
   }
-  const struct scene nets = {.patches = patches, .patch_count = declared->patch_count, .solvers = model->scene->solvers};
+  const struct scene nets = {.patches = patches,
+                             .patch_count = declared->patch_count,
+                             .solvers = model->scene->solvers};
   const enum status status = model_create_object(&nets, most, object->error, &object->model);
   free(patches);
   return status;

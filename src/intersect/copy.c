@@ -1,8 +1,8 @@
 /* A packet in the coordinates of an object, and back. Compiled once per instruction set and without contraction.
  *
- * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, before it is taken to the object's
- * coordinates, and all of that in about twice the precision: so it is right to its last places near the object, however far away
- * it starts. copies.c bounds what rounding is left, model_object.error.
+ * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, before it is taken to
+ * the object's coordinates, and all of that in about twice the precision: so it is right to its last places near the
+ * object, however far away it starts. copies.c bounds what rounding is left, model_object.error.
  */
 #include "base/double_lanes.h"
 #include "intersect/packet.h"
@@ -39,7 +39,8 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
   inner->t_far = (outer->t_far - shift) + 4 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_far));
   inner->net_error = copy->object->error;
   packet_orient(inner);
-  inner->t_error = 2 * inner->net_error / inner->longest + 8 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_min));
+  inner->t_error = 2 * inner->net_error / inner->longest +
+                   8 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_min));
 }
 
 void packet_leave(const struct packet *inner)
@@ -55,9 +56,11 @@ void packet_leave(const struct packet *inner)
   best->radius_u = lanes_select(taken, found->radius_u, best->radius_u);
   best->radius_v = lanes_select(taken, found->radius_v, best->radius_v);
   best->t = lanes_select(taken, t, best->t);
-  best->patch = (taken & found->patch) | (~taken & best->patch), best->leaf = (taken & found->leaf) | (~taken & best->leaf);
+  best->patch = (taken & found->patch) | (~taken & best->patch),
+  best->leaf = (taken & found->leaf) | (~taken & best->leaf);
   best->certain |= taken, best->sharp &= ~taken;
-  const lanes far = (inner->shift + inner->t_far) + 4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));
+  const lanes far = (inner->shift + inner->t_far) +
+                    4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));
   outer->t_far = lanes_select(taken, lanes_min(far, outer->t_far), outer->t_far);
   if (outer->any) outer->live &= ~taken;
   outer->moved = true;

@@ -15,8 +15,9 @@ struct settling {
   bool certain;
 };
 
-/* The side of the border's curve, as seen along d, on which the patch lies at `along`: the sign of det(d, tangent, inward), 0
- * where it is too small a part of what it could be to be sure of. The tangent runs along the border's parameter. */
+/* The side of the border's curve, as seen along d, on which the patch lies at `along`: the sign of det(d, tangent,
+ * inward), 0 where it is too small a part of what it could be to be sure of. The tangent runs along the border's
+ * parameter. */
 static int inner_side(struct model_patch *patch, int border, double along, const double d[3])
 {
   /* Derivatives are right to some units in the last place of the patch's size 1; the side is sure well above that. */
@@ -34,9 +35,10 @@ static int inner_side(struct model_patch *patch, int border, double along, const
   return side > sure ? 1 : side < -sure ? -1 : 0;
 }
 
-/* A root on a border is proven where the border is shared and the two patches lie on either side of it as seen along the ray:
- * then the ray, wherever it passes within the radius, meets one of them. */
-static bool passes_border(const struct model *model, uint32_t index, unsigned borders, double u, double v, const double d[3])
+/* A root on a border is proven where the border is shared and the two patches lie on either side of it as seen along
+ * the ray: then the ray, wherever it passes within the radius, meets one of them. */
+static bool passes_border(const struct model *model, uint32_t index, unsigned borders, double u, double v,
+                          const double d[3])
 {
   if (borders & (borders - 1)) return false; /* a corner */
   const int border = __builtin_ctz(borders);
@@ -49,14 +51,15 @@ static bool passes_border(const struct model *model, uint32_t index, unsigned bo
   return here * there == -1;
 }
 
-/* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the sum; in each
- * coordinate, so up to sqrt(3) of it in distance. `tangent` bounds the derivatives' coordinates. */
+/* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the
+ * sum; in each coordinate, so up to sqrt(3) of it in distance. `tangent` bounds the derivatives' coordinates. */
 #define POINT_ERROR(scale, tangent, magnitude) \
   (2 * ((12 + 2 * (tangent)) * UNIT_ROUNDOFF * (scale) + UNIT_ROUNDOFF * (magnitude)))
 
-/* A ray that starts nearer to the surface than this and the point's own error cannot be told from one that starts on it: the
- * rounding of the new origin, and the distance within which subdivision cannot exclude a root: UNDECIDED_ERRORS error bounds of
- * either plane, with moments of at most 2 as for all rays that start in the patch's box, and what a copy is loose by; doubled for the planes' being oblique. */
+/* A ray that starts nearer to the surface than this and the point's own error cannot be told from one that starts on
+ * it: the rounding of the new origin, and the distance within which subdivision cannot exclude a root:
+ * UNDECIDED_ERRORS error bounds of either plane, with moments of at most 2 as for all rays that start in the patch's
+ * box, and what a copy is loose by; doubled for the planes' being oblique. */
 #define CLEARANCE(scale, loose, magnitude) \
   (4 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * (PLANE_ERROR(2, 2) * (scale) + 2 * (loose)))
 
@@ -79,15 +82,16 @@ static void set_surface(struct model_patch *patch, const double direction[3], st
   if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);
 }
 
-/* Gives a root on a shared border to the patch that stands first in the scene, so that which of the two has it does not depend on
- * the last bits. A corner is left where it was found. */
+/* Gives a root on a shared border to the patch that stands first in the scene, so that which of the two has it does
+ * not depend on the last bits. A corner is left where it was found. */
 static void settle_border(const struct model *model, unsigned borders, struct hit *hit)
 {
   if (borders == 0 || (borders & (borders - 1))) return;
   const int border = __builtin_ctz(borders);
   const struct edge_neighbour *other = &model->neighbours[4 * (size_t)hit->patch + (size_t)border];
   if (other->patch >= hit->patch) return; /* EDGE_NONE is the largest */
-  const double found = border < 2 ? hit->v : hit->u, along = other->reversed ? 1 - found : found, side = other->border & 1;
+  const double found = border < 2 ? hit->v : hit->u, along = other->reversed ? 1 - found : found,
+               side = other->border & 1;
   hit->patch = other->patch;
   hit->u = other->border < 2 ? side : along;
   hit->v = other->border < 2 ? along : side;
@@ -133,7 +137,8 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
   step.u = last_step_clamp(best->u), step.v = last_step_clamp(best->v);
   step.t = best->t;
   last_step(&step);
-  step.t = lanes_select(best->sharp, best->t, step.t); /* next to the ray's start it has more digits than the last step's sums */
+  /* next to the ray's start it has more digits than the last step's sums */
+  step.t = lanes_select(best->sharp, best->t, step.t);
   lanes facing = lanes_all(0), magnitude = lanes_all(0), point[3];
   for (int c = 0; c < 3; c++) {
     point[c] = patch->center[c] + patch->scale * step.point[c];

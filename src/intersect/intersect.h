@@ -1,13 +1,13 @@
 /* Rays against all patches of a scene: closest hit and any hit, a packet of rays at a time.
  *
- * Build once from a scene, then share between threads; each thread owns one `tracer`, which holds its counters, its scratch
- * memory and its warm starts. No call on a tracer allocates or fails.
+ * Build once from a scene, then share between threads; each thread owns one `tracer`, which holds its counters, its
+ * scratch memory and its warm starts. No call on a tracer allocates or fails.
  *
- * What an answer promises (with `polish on`, the default): of all points where the exact ray meets the exact patches, a hit
- * is the nearest with t in (t_min, t_max); a miss has none. `certain` means this is proven; `grazing` means that the answer
- * can be turned by a change of the input within the rounding bound of the evaluation (a tangency, the border of an open
- * surface, a coincident component): then a hit is reported where a hit cannot be excluded.
- * The answer to a ray does not depend on the rays it shares a packet with.
+ * What an answer promises (with `polish on`, the default): of all points where the exact ray meets the exact
+ * patches, a hit is the nearest with t in (t_min, t_max); a miss has none. `certain` means this is proven; `grazing`
+ * means that the answer can be turned by a change of the input within the rounding bound of the evaluation (a
+ * tangency, the border of an open surface, a coincident component): then a hit is reported where a hit cannot be
+ * excluded. The answer to a ray does not depend on the rays it shares a packet with.
  */
 #ifndef PSCN_INTERSECT_INTERSECT_H
 #define PSCN_INTERSECT_INTERSECT_H
@@ -38,7 +38,8 @@ struct hit {
   double u, v;              /* parameters of the whole patch, in [0,1] */
   double point[3];          /* S(u,v) */
   double point_error;       /* absolute bound on the distance from `point` to the exact patch */
-  double clearance;         /* how far from `point` off the surface a ray must start to be told from one that starts on it */
+  /* how far from `point` off the surface a ray must start to be told from one that starts on it */
+  double clearance;
   double normal[3];         /* unit, facing the ray's origin */
 };
 
@@ -71,8 +72,8 @@ void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[]
 /* Whether anything is hit by each of `count` <= PACKET_SIZE rays. */
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
 
-/* An origin for a ray that leaves the surface at `hit` along `direction`: moved off the surface by the clearance, to the side that
- * `direction` points to. It meets neither the sheet it leaves nor skips one beyond. */
+/* An origin for a ray that leaves the surface at `hit` along `direction`: moved off the surface by the clearance, to
+ * the side that `direction` points to. It meets neither the sheet it leaves nor skips one beyond. */
 void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3]);
 
 const struct intersect_counts *tracer_counts(const struct tracer *tracer);

@@ -8,8 +8,8 @@
 #include "geometry/patch.h"
 #include "geometry/vector.h"
 
-/* Rounding of the local net itself: of P - center (half a unit), and of cutting leaves (six lerps of two roundings each in
- * either direction on values below one). Used for the boxes. */
+/* Rounding of the local net itself: of P - center (half a unit), and of cutting leaves (six lerps of two roundings
+ * each in either direction on values below one). Used for the boxes. */
 #define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
 
 static void first_derivative_bounds(double x[3][4][4], double out[2])
@@ -41,8 +41,9 @@ static bool column_collapsed(double x[3][4][4], int j)
   return true;
 }
 
-/* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other would leave
- * r identically zero at the apex; otherwise the one of higher degree, for the determinant is the smaller then. */
+/* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other
+ * would leave r identically zero at the apex; otherwise the one of higher degree, for the determinant is the smaller
+ * then. */
 static bool keep_v(const struct model_patch *patch, double x[3][4][4])
 {
   const int rows = row_collapsed(x, 0) + row_collapsed(x, 3), columns = column_collapsed(x, 0) + column_collapsed(x, 3);
@@ -50,8 +51,8 @@ static bool keep_v(const struct model_patch *patch, double x[3][4][4])
   return patch->n > patch->m;
 }
 
-/* How far the polynomial of bidegree (m,n) with the net r is from the bicubic x, on [0,1]^2: the largest distance of x from r's
- * net raised to (3,3), whose own roundings (two degrees twice, three each) are added. */
+/* How far the polynomial of bidegree (m,n) with the net r is from the bicubic x, on [0,1]^2: the largest distance of
+ * x from r's net raised to (3,3), whose own roundings (two degrees twice, three each) are added. */
 static double reduction_excess(double r[4][4], int m, int n, double x[4][4])
 {
   double up[4][4], excess = 0, size = 0;
@@ -104,8 +105,9 @@ enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, 
 /* |Su x Sv| relative to the squared derivatives below which a box along the leaf is not worth its rounding. */
 #define LEAST_AREA 0x1p-30
 
-/* A leaf whose derivatives turn by no more than this fraction of their size is tried as a bilinear one first: the root of its
- * corners is off by about an eighth of it, and two Newton steps make that 1e-6. A choice of speed: what comes of it is proven. */
+/* A leaf whose derivatives turn by no more than this fraction of their size is tried as a bilinear one first: the
+ * root of its corners is off by about an eighth of it, and two Newton steps make that 1e-6. A choice of speed: what
+ * comes of it is proven. */
 #define BILINEAR_TURN 1.0
 
 static bool nearly_bilinear(const struct leaf *leaf)
@@ -175,7 +177,8 @@ void leaf_box(const struct model *model, const struct leaf *leaf, struct bvh_box
     double lo = INFINITY, hi = -INFINITY;
     for (int i = 0; i < 16; i++) lo = real_min(lo, leaf->x[k][i]), hi = real_max(hi, leaf->x[k][i]);
     const double shift = patch->center[k] - model->origin[k];
-    const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale) + model->error;
+    const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale) +
+                         model->error;
     box->lo[k] = (shift + patch->scale * lo - slack) / model->frame;
     box->hi[k] = (shift + patch->scale * hi + slack) / model->frame;
   }

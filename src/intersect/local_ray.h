@@ -1,11 +1,11 @@
 /* A ray in the frame of one patch.
  *
- * Internal to src/intersect. Let k be the axis along which the direction d is longest, i and j the two others. The ray is the
- * line where two planes meet (paper eq 2), chosen so that their normals are exactly perpendicular to d:
+ * Internal to src/intersect. Let k be the axis along which the direction d is longest, i and j the two others. The
+ * ray is the line where two planes meet (paper eq 2), chosen so that their normals are exactly perpendicular to d:
  *   x_i - (d_i/d_k) x_k = m[0],   x_j - (d_j/d_k) x_k = m[1].
- * The moments m are formed in double-double from the untouched origin, so that they are right to a few units in the last place
- * of their own size, however far away the ray starts. In local coordinates that size is about 1 for a ray that passes the patch.
- * The place along the ray is read off x_k.
+ * The moments m are formed in double-double from the untouched origin, so that they are right to a few units in the
+ * last place of their own size, however far away the ray starts. In local coordinates that size is about 1 for a ray
+ * that passes the patch. The place along the ray is read off x_k.
  */
 #ifndef PSCN_INTERSECT_LOCAL_RAY_H
 #define PSCN_INTERSECT_LOCAL_RAY_H
@@ -22,9 +22,9 @@ struct local_ray {
   double error;       /* bound on the error of a coefficient or a value (inside [0,1]^2) of either plane's polynomial */
 };
 
-/* Rounding errors, in units of UNIT_ROUNDOFF, of a = (x_i - m) - slope x_k and of its value in Bernstein form, for |x| <= 1:
- * net 8 (see model.c), slope 1, moment 4|m|, the two operations 2 + |m|, and for the value ten products and sums on
- * coefficients of at most 2 + |m|. */
+/* Rounding errors, in units of UNIT_ROUNDOFF, of a = (x_i - m) - slope x_k and of its value in Bernstein form, for
+ * |x| <= 1: net 8 (see model.c), slope 1, moment 4|m|, the two operations 2 + |m|, and for the value ten products
+ * and sums on coefficients of at most 2 + |m|. */
 #define PLANE_ERROR(m0, m1) (UNIT_ROUNDOFF * (36 + 16 * ((m0) + (m1))))
 
 /* The axis along which d is longest. */

@@ -11,24 +11,25 @@
 #include "intersect/copies.h"
 #include "intersect/leaf.h"
 
-/* A declared control point carries half a unit in the last place of its decimal form and a few of its transforms: a patch whose
- * excess over a lower degree is no more than this, relative to its largest coordinate, was meant to be of that degree. */
+/* A declared control point carries half a unit in the last place of its decimal form and a few of its transforms: a
+ * patch whose excess over a lower degree is no more than this, relative to its largest coordinate, was meant to be
+ * of that degree. */
 #define DEGREE_SLACK (8 * UNIT_ROUNDOFF)
 
-/* Leaves of `split auto`: cut until a leaf's derivatives turn by no more than about this fraction of their size, for then one
- * Newton process holds on the whole leaf for all but grazing rays. A choice of speed, not of correctness. */
+/* Leaves of `split auto`: cut until a leaf's derivatives turn by no more than about this fraction of their size, for
+ * then one Newton process holds on the whole leaf for all but grazing rays. A choice of speed, not of correctness. */
 #define AUTO_TURN 0.25
 enum { AUTO_SPLIT_MAX = 16 };
 
-/* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory and time to
- * make. The limit on the split is halved until they fit. */
+/* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory
+ * and time to make. The limit on the split is halved until they fit. */
 enum { AUTO_LEAVES_MAX = 1 << 18 };
 
 /* x rounded to a multiple of the power of two `grain`. */
 static double coarse(double x, double grain) { return rint(x / grain) * grain; }
 
-/* A patch smaller than this part of the scene's coordinates is framed as if it were that large: one that is a single point has
- * no size of its own, and a frame too small would overflow. */
+/* A patch smaller than this part of the scene's coordinates is framed as if it were that large: one that is a single
+ * point has no size of its own, and a frame too small would overflow. */
 #define LEAST_EXTENT 0x1p-100
 
 /* Nor is a patch's frame smaller than this, so that its reciprocal and all products with it are normal numbers. */
@@ -66,7 +67,8 @@ static double largest_coordinate(double P[4][4][3])
   return size;
 }
 
-/* How many leaves a side make every leaf nearly flat: second derivatives fall with the square, first ones with one over it. */
+/* How many leaves a side make every leaf nearly flat: second derivatives fall with the square, first ones with one
+ * over it. */
 static int auto_split(struct model_patch *patch, int most)
 {
   double second[3], first = 0;
@@ -108,7 +110,8 @@ static void prepare_patches(struct model *model)
     }
   }
   double extent = real_max(LEAST_EXTENT * size, LEAST_FRAME);
-  for (int k = 0; k < 3; k++) model->origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
+  for (int k = 0; k < 3; k++)
+    model->origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
   int exponent;
   frexp(extent, &exponent); /* extent < 2^exponent */
   model->frame = ldexp(1, exponent);

@@ -2,10 +2,11 @@
  *
  * Internal to src/intersect. Read-only after model_create, shared by all threads.
  *
- * Every patch has a frame of its own: world = center + scale * local, scale a power of two, center with few bits, so that
- * |local| <= 1 and going to local coordinates rounds almost nothing. All algebra is done in local coordinates, so scale and
- * offset of a scene cost no accuracy. A patch is cut into N x N leaves, the units the hierarchy holds and rays are tried on. Where
- * leaves for all patches would be too many, copies of a declared object share the object's (copies.h).
+ * Every patch has a frame of its own: world = center + scale * local, scale a power of two, center with few bits, so
+ * that |local| <= 1 and going to local coordinates rounds almost nothing. All algebra is done in local coordinates,
+ * so scale and offset of a scene cost no accuracy. A patch is cut into N x N leaves, the units the hierarchy holds
+ * and rays are tried on. Where leaves for all patches would be too many, copies of a declared object share the
+ * object's (copies.h).
  */
 #ifndef PSCN_INTERSECT_MODEL_H
 #define PSCN_INTERSECT_MODEL_H
@@ -39,11 +40,12 @@ struct model_patch {
 struct leaf_form {
   double x[3][16]; /* x[coordinate][4 * i + j], i = 0..degree kept, j = 0..degree eliminated; zero beyond */
   double size;     /* bound on |x| and 1: a net of lower degree may reach beyond the leaf's own */
-  double excess;   /* bound on the distance of any coordinate, on the leaf, from the leaf's: the degree is one within rounding */
+  /* bound on the distance of any coordinate, on the leaf, from the leaf's: the degree is one within rounding */
+  double excess;
 };
 
-/* The leaf's net lies where |g_q x - offset_q| <= half_q for three covectors g_q (the normal in its middle, and the two that run with
- * its parameters): a box along the leaf. */
+/* The leaf's net lies where |g_q x - offset_q| <= half_q for three covectors g_q (the normal in its middle, and the
+ * two that run with its parameters): a box along the leaf. */
 struct leaf_slabs {
   double g[3][3], offset[3], half[3];
   double slack; /* 16 times the largest product of the covectors' sizes |g_x| + |g_y| + |g_z| */
@@ -53,7 +55,8 @@ struct leaf {
   struct leaf_slabs slabs;
   double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
-  double second[3];             /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
+  /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
+  double second[3];
   double first[2];              /* bounds on |Su|, |Sv| there */
   uint32_t patch;
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split in u, and so on */
@@ -67,7 +70,8 @@ struct leaf {
 struct model_object {
   const struct scene_object *declared;
   struct model *model; /* of its patches as declared, about its middle; no scene, no neighbours; owned */
-  double error;        /* bound on how far a point of a copy, or of a ray near it, may be off in the object's coordinates */
+  /* bound on how far a point of a copy, or of a ray near it, may be off in the object's coordinates */
+  double error;
 };
 
 /* One of its places: object coordinates are (x - b) W, for a row vector x of the scene. */
@@ -88,7 +92,8 @@ struct model {
   size_t object_count;
   struct model_copy *copies; /* box leaf_count + k of the hierarchy is copy k */
   size_t copy_count;
-  double origin[3], frame; /* of the hierarchy's boxes: (world - origin)/frame, within about [-1,1]; frame a power of two */
+  /* of the hierarchy's boxes: (world - origin)/frame, within about [-1,1]; frame a power of two */
+  double origin[3], frame;
   double error; /* widens the boxes; an object's, or 0 */
   struct bvh bvh;
   bool unproven; /* some patch has `polish off`: no answer is proven */
@@ -98,8 +103,8 @@ struct model {
 enum status model_create(const struct scene *scene, struct model **out) STATUS_MUST_CHECK;
 void model_destroy(struct model *model);
 
-/* The model of an object: the patches of `nets`, which is borrowed for the call, cut into at most `most` leaves a side, their boxes
- * wider by `error`. */
+/* The model of an object: the patches of `nets`, which is borrowed for the call, cut into at most `most` leaves a
+ * side, their boxes wider by `error`. */
 enum status model_create_object(const struct scene *nets, int most, double error, struct model **out) STATUS_MUST_CHECK;
 
 /* Leaf parameters to parameters of the whole patch. Exact up to one rounding. */

@@ -2,11 +2,12 @@
  *
  * Compiled once per instruction set.
  *
- * A candidate (a ray and a leaf whose box it passes) is decided in stages, each for all lanes at once, each able to end it:
- *   1. the box along the leaf; then plane polynomials a, b: if either, or a combination, keeps one sign on its whole net, the leaf is
- *      missed;
- *   2. Bezout's resultant r in Bernstein form, no sign variation: missed; one: exactly one root in the leaf's range; of a nearly
- *      bilinear leaf before that the resultant of its corners, of degree 2, only for a start;
+ * A candidate (a ray and a leaf whose box it passes) is decided in stages, each for all lanes at once, each able to
+ * end it:
+ *   1. the box along the leaf; then plane polynomials a, b: if either, or a combination, keeps one sign on its whole
+ *      net, the leaf is missed;
+ *   2. Bezout's resultant r in Bernstein form, no sign variation: missed; one: exactly one root in the leaf's range;
+ *      of a nearly bilinear leaf before that the resultant of its corners, of degree 2, only for a start;
  *   3. that root by Newton from the control polygon of r, v from the null vector, both by Newton on (a, b);
  *   4. the Newton-Kantorovich test: one root, here, and no other in the leaf.
  * What is left goes lane by lane to subdivision; with another solver than the default to that first (candidate.c).
@@ -27,7 +28,8 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
   p->outer = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);
   for (int k = 0; k < 3; k++)
-    p->origin[k] = lanes_gather(&rays[0].origin[k], RAY_STRIDE), p->direction[k] = lanes_gather(&rays[0].direction[k], RAY_STRIDE);
+    p->origin[k] = lanes_gather(&rays[0].origin[k], RAY_STRIDE),
+    p->direction[k] = lanes_gather(&rays[0].direction[k], RAY_STRIDE);
   p->t_min = lanes_gather(&rays[0].t_min, RAY_STRIDE), p->t_far = p->t_max = lanes_gather(&rays[0].t_max, RAY_STRIDE);
   packet_orient(p);
 }
@@ -57,8 +59,8 @@ void packet_orient(struct packet *p)
 /* ---- keeping the nearest ---- */
 
 /* The root at x_k = w on a lane, whose place on the ray it sets. */
-static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const struct trial *at, const struct refined *r,
-                                   unsigned n, double w)
+static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const struct trial *at,
+                                   const struct refined *r, unsigned n, double w)
 {
   const int axis = at->axis;
   const double t = ((w + p->local[axis].start[1][lane]) + p->local[axis].start[0][lane]) * p->local[axis].to_t[lane];
@@ -67,8 +69,9 @@ static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const 
   return root;
 }
 
-/* Makes a root the answer so far where it is nearer than the best, or as near to the last bit and of a lower leaf. That orders all
- * roots, so the answer is the same in whatever order the leaves come, which depends on the other rays of the packet. */
+/* Makes a root the answer so far where it is nearer than the best, or as near to the last bit and of a lower leaf.
+ * That orders all roots, so the answer is the same in whatever order the leaves come, which depends on the other
+ * rays of the packet. */
 static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, struct leaf_hit *root)
 {
   struct best *best = &p->best;
@@ -77,10 +80,13 @@ static void packet_offer(struct packet *p, unsigned lane, const struct trial *t,
   const enum leaf_hit_side side = leaf_hit_side(p->model, t->leaf, &p->rays[lane], root);
   if (side == SIDE_UNKNOWN) best->doubt[lane] = -1;
   if (side != SIDE_BEHIND || !(root->t < p->t_max[lane]) || root->t > best->t[lane]) return;
-  if (root->t == best->t[lane] && (patch > best->patch[lane] || (patch == best->patch[lane] && leaf >= best->leaf[lane]))) return;
+  if (root->t == best->t[lane] &&
+      (patch > best->patch[lane] || (patch == best->patch[lane] && leaf >= best->leaf[lane])))
+    return;
   best->u[lane] = leaf_to_patch(split, t->leaf->column_u, root->u), best->radius_u[lane] = root->radius_u / split;
   best->v[lane] = leaf_to_patch(split, t->leaf->column_v, root->v), best->radius_v[lane] = root->radius_v / split;
-  best->t[lane] = root->t, best->patch[lane] = patch, best->leaf[lane] = leaf, best->certain[lane] = root->certain ? -1 : 0;
+  best->t[lane] = root->t, best->patch[lane] = patch, best->leaf[lane] = leaf,
+  best->certain[lane] = root->certain ? -1 : 0;
   best->sharp[lane] = root->sharp ? -1 : 0;
   p->t_far[lane] = root->t + root->t_error;
   if (p->any) p->live[lane] = 0;
@@ -112,12 +118,14 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
   const double part = 1.0 / t->patch->split;
   const lanes to_t = p->local[axis].to_t, w = trial_place(t, r->u, r->v);
   const lanes at = ((w + p->local[axis].start[1]) + p->local[axis].start[0]) * to_t;
-  const lanes size = lanes_abs(to_t), error = size * (t->leaf->first[0] * r->radius_u + t->leaf->first[1] * r->radius_v) +
-                                              8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
+  const lanes size = lanes_abs(to_t),
+              error = size * (t->leaf->first[0] * r->radius_u + t->leaf->first[1] * r->radius_v) +
+                      8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
   const lane_mask behind = at > p->t_min + error, unknown = hits & ~behind & ~(at < p->t_min - error);
   if (p->outer) {
     const lane_mask outside = hits & (unknown | on_border(t, r));
-    for (unsigned bits = lanes_bits(outside); bits; bits &= bits - 1) lane_subdivide_outside(p, t, (unsigned)__builtin_ctz(bits));
+    for (unsigned bits = lanes_bits(outside); bits; bits &= bits - 1)
+      lane_subdivide_outside(p, t, (unsigned)__builtin_ctz(bits));
     hits &= ~outside;
   } else {
     for (unsigned bits = lanes_bits(unknown); bits; bits &= bits - 1) {
@@ -143,7 +151,8 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
 
 LANES_INLINE lane_mask inside(const struct refined *r)
 {
-  return r->exists & (r->u >= -r->radius_u) & (r->u <= 1 + r->radius_u) & (r->v >= -r->radius_v) & (r->v <= 1 + r->radius_v);
+  return r->exists & (r->u >= -r->radius_u) & (r->u <= 1 + r->radius_u) & (r->v >= -r->radius_v) &
+         (r->v <= 1 + r->radius_v);
 }
 
 /* ---- lane by lane: the scene's solver, then subdivision ---- */
@@ -160,7 +169,9 @@ static void proven_add(struct proven *all, const struct trial *t, const struct l
   const struct leaf_hit root = *added;
   for (int k = 0; k < all->count; k++) {
     const struct leaf_hit *old = &all->root[k];
-    if (fabs(old->u - root.u) <= old->radius_u + root.radius_u && fabs(old->v - root.v) <= old->radius_v + root.radius_v) return;
+    if (fabs(old->u - root.u) <= old->radius_u + root.radius_u &&
+        fabs(old->v - root.v) <= old->radius_v + root.radius_v)
+      return;
   }
   const double kept = t->leaf->v_kept ? root.v : root.u, radius = t->leaf->v_kept ? root.radius_v : root.radius_u;
   all->within += kept > radius && kept < 1 - radius;
@@ -168,8 +179,8 @@ static void proven_add(struct proven *all, const struct trial *t, const struct l
   all->root[all->count++] = root;
 }
 
-/* Roots found by the solver, made exact by Newton, several at once: whether they are proven to be all that the leaf has, because
- * one of them is alone in it, or because they are as many as r has sign variations. */
+/* Roots found by the solver, made exact by Newton, several at once: whether they are proven to be all that the leaf
+ * has, because one of them is alone in it, or because they are as many as r has sign variations. */
 static bool lane_prove(struct packet *p, const struct trial *t, unsigned lane, const struct candidate_roots *roots)
 {
   struct plane_nets one;
@@ -217,7 +228,8 @@ static void lane_subdivide(struct packet *p, const struct trial *t, unsigned lan
   struct leaf_hit root;
   bool doubt = false;
   lane_local_ray(p, t, lane, &ray);
-  /* Up to the ray's own end, not the nearest hit so far: what the search can not decide must not depend on the order of leaves. */
+  /* Up to the ray's own end, not the nearest hit so far: what the search can not decide must not depend on the order
+   * of leaves. */
   const struct subdivide_task task = {p->model, t->leaf, t->patch, p->model->scene->patches[t->leaf->patch].P,
                                       &p->rays[lane], &ray, p->rays[lane].t_min, p->rays[lane].t_max};
   if (subdivide_closest(&task, &root, &doubt)) packet_offer(p, lane, t, &root);
@@ -270,8 +282,8 @@ LANES_INLINE lanes start_within(lanes t)
   return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1));
 }
 
-/* Stages 3 and 4. Lanes that are left undecided. Where r has several sign variations, the start is one of its roots, or none; what
- * is found from it still decides the leaf where it is proven to be alone. */
+/* Stages 3 and 4. Lanes that are left undecided. Where r has several sign variations, the start is one of its roots,
+ * or none; what is found from it still decides the leaf where it is proven to be alone. */
 static lane_mask trial_first_root(struct packet *p, const struct trial *t, lane_mask active)
 {
   if (!lanes_any(active)) return active;
@@ -287,8 +299,8 @@ static lane_mask trial_first_root(struct packet *p, const struct trial *t, lane_
   return active & ~decided;
 }
 
-/* Stages 2 to 4 of a nearly bilinear leaf, by a resultant of the least degree. Lanes that are left undecided: where the ray is so
- * slanted that the leaf's curvature matters, the resultant of its full degree has its turn. */
+/* Stages 2 to 4 of a nearly bilinear leaf, by a resultant of the least degree. Lanes that are left undecided: where
+ * the ray is so slanted that the leaf's curvature matters, the resultant of its full degree has its turn. */
 static lane_mask trial_bilinear(struct packet *p, const struct trial *t, lane_mask active)
 {
   lanes u, v;
@@ -321,8 +333,8 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   if (t->patch->lanes) left = trial_first_root(p, t, left);
   for (unsigned bits = lanes_bits(left); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    /* The only root of r has been tried already; and where the root of a nearly bilinear leaf was not proven to be alone the ray
-     * mostly passes the fold by, which subdivision sees at once. */
+    /* The only root of r has been tried already; and where the root of a nearly bilinear leaf was not proven to be
+     * alone the ray mostly passes the fold by, which subdivision sees at once. */
     if (p->outer) lane_subdivide_outside(p, t, lane);
     else if (t->patch->lanes) lane_subdivide(p, t, lane);
     else lane_alone(p, t, lane);

@@ -24,7 +24,8 @@ struct packet {
   const struct model *model;
   const struct ray *rays; /* directions scaled to about 1 */
   size_t count;
-  struct packet *outer;           /* of the scene's rays, where these are the same in an object's coordinates; else NULL */
+  /* of the scene's rays, where these are the same in an object's coordinates; else NULL */
+  struct packet *outer;
   const struct model_copy *copy;  /* then the object's copy */
   lanes shift;                    /* then t of the scene is shift + t */
   bool any;               /* any hit will do */
@@ -35,7 +36,8 @@ struct packet {
   lanes origin[3], direction[3], longest; /* longest: the largest component of the direction */
   lanes slope[3][2], reciprocal[3]; /* per axis; slope 0 on other lanes */
   lanes t_min, t_max, t_far;        /* t_far: the nearest hit so far plus its error, or the ray's end */
-  double net_error;                 /* what control points and rays are off by besides their rounding in a patch's frame */
+  /* what control points and rays are off by besides their rounding in a patch's frame */
+  double net_error;
   lanes t_error;                    /* what that, and the shift, makes of t */
   struct best best;
   /* The frame of the patch tried last. */
@@ -77,7 +79,8 @@ LANES_INLINE void packet_set_patch(struct packet *p, uint32_t index)
     }
     p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
     p->local[k].to_t = patch->scale * p->reciprocal[k];
-    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1])) + 2 * p->net_error * inverse;
+    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1])) +
+                        2 * p->net_error * inverse;
   }
   p->patch = index;
 }
@@ -97,8 +100,8 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
 /* copy.c: what was found there becomes the outer packet's best where it is nearer. */
 void packet_leave(const struct packet *inner);
 
-/* finish.c: the answers of the packet's rays from its best roots: parameters of the whole patch, improved by a Newton step on the
- * patch itself, and all else that a hit has. t is in units of the scaled direction. */
+/* finish.c: the answers of the packet's rays from its best roots: parameters of the whole patch, improved by a
+ * Newton step on the patch itself, and all else that a hit has. t is in units of the scaled direction. */
 void finish_hits(const struct packet *p, struct hit out[]);
 
 #endif

@@ -24,9 +24,9 @@ struct refined {
   lane_mask alone;          /* and no other in the leaf */
 };
 
-/* The process stops where its next step would be no longer than this, in leaf parameters: it converges quadratically, so after
- * steps s and s' the next is about s'^3/s^2. Not a tolerance of the answer, whose radius is computed, and whose last places are
- * last_step.h's. */
+/* The process stops where its next step would be no longer than this, in leaf parameters: it converges
+ * quadratically, so after steps s and s' the next is about s'^3/s^2. Not a tolerance of the answer, whose radius is
+ * computed, and whose last places are last_step.h's. */
 #define NEWTON_NEXT_STEP 0x1p-48
 /* What stands for s at the first step, as if the start were that near: it has to be a hit by itself to be the last. */
 #define NEWTON_START 0x1p-18
@@ -43,8 +43,8 @@ struct refine_jet {
   lanes value, du, dv;
 };
 
-LANES_INLINE struct refine_jet refine_evaluate(const lanes net[16], const lanes wu[4], const lanes du[4], const lanes wv[4],
-                                               const lanes dv[4])
+LANES_INLINE struct refine_jet refine_evaluate(const lanes net[16], const lanes wu[4], const lanes du[4],
+                                               const lanes wv[4], const lanes dv[4])
 {
   struct refine_jet jet = {{0}, {0}, {0}};
   for (int i = 0; i < 4; i++) {
@@ -58,7 +58,8 @@ LANES_INLINE struct refine_jet refine_evaluate(const lanes net[16], const lanes 
   return jet;
 }
 
-/* A row of the inverse Jacobian as a covector of space: its length bounds how fast that parameter moves with the surface. */
+/* A row of the inverse Jacobian as a covector of space: its length bounds how fast that parameter moves with the
+ * surface. */
 LANES_INLINE lanes refine_row_length(lanes p, lanes q, const lanes slope[2])
 {
   const lanes r = p * slope[0] + q * slope[1];
@@ -67,12 +68,13 @@ LANES_INLINE lanes refine_row_length(lanes p, lanes q, const lanes slope[2])
 
 /* Newton's process from (u,v) on the lanes of `active`, then the Newton-Kantorovich test.
  *
- * With M the inverse Jacobian at the last point but one, |step| the last step, e = |M| error what rounding adds to it, and
- * K = |M| (|Suu| + 2 |Suv| + |Svv|) a Lipschitz bound of M J: where K (|step| + e) <= 1/8 there is exactly one root within
- * twice that, and it lies within 2 K |step|^2 + 2 e of where the step went (Ortega and Rheinboldt 12.6). And where
- * the Jacobian, averaged on the way from the root to any point of the leaf, differs from that at the root by less than M can
- * take (half of q below), the leaf has no second root. */
-LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v, lane_mask active)
+ * With M the inverse Jacobian at the last point but one, |step| the last step, e = |M| error what rounding adds to
+ * it, and K = |M| (|Suu| + 2 |Suv| + |Svv|) a Lipschitz bound of M J: where K (|step| + e) <= 1/8 there is exactly
+ * one root within twice that, and it lies within 2 K |step|^2 + 2 e of where the step went (Ortega and Rheinboldt
+ * 12.6). And where the Jacobian, averaged on the way from the root to any point of the leaf, differs from that at
+ * the root by less than M can take (half of q below), the leaf has no second root. */
+LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v,
+                                   lane_mask active)
 {
   struct refined r = {u, v, {0}, {0}, {0}, {0}};
   lanes step = lanes_all(NEWTON_START), mua = {0}, mub = {0}, mva = {0}, mvb = {0};
@@ -104,9 +106,11 @@ LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct l
   r.radius_u = square + 2 * size_u * nets->error;
   r.radius_v = square + 2 * size_v * nets->error;
   const lanes reach_u = 0.5 + lanes_abs(r.u - 0.5), reach_v = 0.5 + lanes_abs(r.v - 0.5);
-  const lanes q = size * ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
-  /* 1.9 instead of 2: room for the rounding of q and for the Jacobian being taken next to the root. That is off by the last step,
-   * at most 2^-16 of the leaf after a step of 1, and K <= 2 q, so M J is within 2^-14 of what it is at the root. */
+  const lanes q = size *
+                  ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
+  /* 1.9 instead of 2: room for the rounding of q and for the Jacobian being taken next to the root. That is off by
+   * the last step, at most 2^-16 of the leaf after a step of 1, and K <= 2 q, so M J is within 2^-14 of what it is
+   * at the root. */
   r.alone = r.exists & (q < 1.9);
   return r;
 }

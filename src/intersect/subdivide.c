@@ -1,12 +1,12 @@
 /* The last resort: the nearest root of (a, b) in a leaf by recursive halving.
  *
- * A box of parameters is dropped where some linear combination of the two plane polynomials keeps one sign on it (the convex
- * hull property), solved where the Newton-Kantorovich test finds a root that is alone in it, and halved otherwise. Boxes are
- * taken nearest first and dropped behind the best root found, so curves of roots (a ray in the plane of a flat patch) cost no
- * more than points. Where a combination is indistinguishable from zero on a box, the surface is seen edge-on there, nearer to
- * tangency than about 1e-7: then the box is searched by itself, with polynomials made for it in wide arithmetic (zoom.h), which
- * scales what is too small to tell. What even that leaves (a double root, a ray in the surface), and poles, are answered by a hit that
- * is not certain.
+ * A box of parameters is dropped where some linear combination of the two plane polynomials keeps one sign on it
+ * (the convex hull property), solved where the Newton-Kantorovich test finds a root that is alone in it, and halved
+ * otherwise. Boxes are taken nearest first and dropped behind the best root found, so curves of roots (a ray in the
+ * plane of a flat patch) cost no more than points. Where a combination is indistinguishable from zero on a box, the
+ * surface is seen edge-on there, nearer to tangency than about 1e-7: then the box is searched by itself, with
+ * polynomials made for it in wide arithmetic (zoom.h), which scales what is too small to tell. What even that leaves
+ * (a double root, a ray in the surface), and poles, are answered by a hit that is not certain.
  */
 #include "intersect/subdivide.h"
 
@@ -17,29 +17,31 @@
 #include "geometry/patch.h"
 #include "intersect/zoom.h"
 
-/* How far outside a box, in its own parameters, its root may lie and still be told from having none (then the neighbour has it);
- * and the growth of second-derivative bounds, quartic in the extent, when they are used that far outside: (1 + 2/16)^4 = 1.602. */
+/* How far outside a box, in its own parameters, its root may lie and still be told from having none (then the
+ * neighbour has it); and the growth of second-derivative bounds, quartic in the extent, when they are used that far
+ * outside: (1 + 2/16)^4 = 1.602. */
 #define BOX_MARGIN 0.0625
 #define BOX_MARGIN_GROWTH 1.61
 
-/* Newton's last step in box parameters: its square, all that the next one would be, is below the rounding of the values. Not a
- * tolerance of the answer, whose radius is computed. */
+/* Newton's last step in box parameters: its square, all that the next one would be, is below the rounding of the
+ * values. Not a tolerance of the answer, whose radius is computed. */
 #define LAST_STEP 0x1p-28
 
 /* A combination whose computed values are within this many of its error bounds all over a box says nothing about it. */
 #define FLAT_ERRORS (UNDECIDED_ERRORS - 1)
 
-/* A leaf is as wide at this distance from a collapsed border, in its parameters, as some tens of the planes' error bounds: what
- * cannot be decided there in double is the pole itself. */
+/* A leaf is as wide at this distance from a collapsed border, in its parameters, as some tens of the planes' error
+ * bounds: what cannot be decided there in double is the pole itself. */
 #define POLE_REACH 0x1p-40
 
-/* The fraction of the leaf's extent along the ray below which an undecidable box is not halved further: UNDECIDED_ERRORS of some
- * hundred roundings each, the distance from the ray at which the planes tell nothing any more. */
+/* The fraction of the leaf's extent along the ray below which an undecidable box is not halved further:
+ * UNDECIDED_ERRORS of some hundred roundings each, the distance from the ray at which the planes tell nothing any
+ * more. */
 #define SEARCH_RESOLUTION 0x1p-44
 
-/* How often a box may halve in all: 2^-50 of the leaf either way, and some across. How many boxes may be looked at, of the leaf
- * and of a box under the glass, and how many of those there may be: far above what isolated roots need, which is some hundreds,
- * some tens and a few; only surfaces that lie along the ray over an area come there. */
+/* How often a box may halve in all: 2^-50 of the leaf either way, and some across. How many boxes may be looked at,
+ * of the leaf and of a box under the glass, and how many of those there may be: far above what isolated roots need,
+ * which is some hundreds, some tens and a few; only surfaces that lie along the ray over an area come there. */
 enum { SEARCH_HALVINGS = 120, SEARCH_BOXES = 20000, ZOOMED_BOXES = 2000, SEARCH_ZOOMS = 200 };
 
 enum verdict {
@@ -75,7 +77,8 @@ static double place_to_t(const struct search *s, double w)
   return ((w + s->start[1]) + s->start[0]) * s->to_t;
 }
 
-/* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the leaf's size. */
+/* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the
+ * leaf's size. */
 static void box_error(const struct search *s, const struct box *box, double out[2])
 {
   for (int k = 0; k < 2; k++) out[k] = s->error[k] + box->halvings * 4 * UNIT_ROUNDOFF;
@@ -100,8 +103,8 @@ static void combination(struct box *box, double p, double q, const double error[
   }
 }
 
-/* Tries the combinations a, b and the two rows of the adjugate Jacobian in the middle, which aim along the parameters, or, where
- * the Jacobian is singular, at the one direction in which the surface is seen edge-on. */
+/* Tries the combinations a, b and the two rows of the adjugate Jacobian in the middle, which aim along the
+ * parameters, or, where the Jacobian is singular, at the one direction in which the surface is seen edge-on. */
 static enum verdict box_test(struct box *box, const double error[2])
 {
   const struct patch_jet a = patch_evaluate(box->net[0], 0.5, 0.5);
@@ -134,8 +137,9 @@ static void second_bounds(struct box *box, double p, double q, double out[3])
   }
 }
 
-/* Newton from the middle, then the test of refine.h in the box's own parameters, with the second derivatives of the plane
- * polynomials themselves. Writes the root in box parameters with its radii; returns whether it is proven and alone. */
+/* Newton from the middle, then the test of refine.h in the box's own parameters, with the second derivatives of the
+ * plane polynomials themselves. Writes the root in box parameters with its radii; returns whether it is proven and
+ * alone. */
 static bool box_solve(struct box *box, const double error[2], double root[2], double radius[2])
 {
   double u = 0.5, v = 0.5, step = 2, m[2][2] = {{0}};
@@ -178,7 +182,8 @@ static void offer(struct search *s, struct leaf_hit *hit)
   s->found = true, s->best_t = hit->t, s->best = *hit;
 }
 
-/* Offers the box's root, where it lies in the leaf; one just outside the box is the neighbour's as well, and the same. */
+/* Offers the box's root, where it lies in the leaf; one just outside the box is the neighbour's as well, and the
+ * same. */
 static void box_offer(struct search *s, struct box *box, const double root[2], const double radius[2])
 {
   const double u = box->u + box->size_u * root[0], v = box->v + box->size_v * root[1];
@@ -223,15 +228,16 @@ static void variation(const struct box *box, int first, int last, double *along_
   }
 }
 
-/* Halves across the parameter along which the box is longer as seen along the ray, for that is what hull tests and Newton's
- * process need: at a tangency boxes get long along the ray and narrow across it. Where it is seen as a point, across the one along
- * which it is longer on the ray. */
+/* Halves across the parameter along which the box is longer as seen along the ray, for that is what hull tests and
+ * Newton's process need: at a tangency boxes get long along the ray and narrow across it. Where it is seen as a
+ * point, across the one along which it is longer on the ray. */
 static void box_halve(const struct search *s, struct box *box, struct box out[2])
 {
   double along_u, along_v, error[2];
   variation(box, 0, 1, &along_u, &along_v);
   box_error(s, box, error);
-  if (real_max(along_u, along_v) <= FLAT_ERRORS * real_max(error[0], error[1])) variation(box, 2, 2, &along_u, &along_v);
+  if (real_max(along_u, along_v) <= FLAT_ERRORS * real_max(error[0], error[1]))
+    variation(box, 2, 2, &along_u, &along_v);
   const bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
   for (int h = 0; h < 2; h++) {
     out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
@@ -246,11 +252,14 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
   for (int h = 0; h < 2; h++) box_place(s, &out[h]);
 }
 
-/* Whether the box lies at a border of the leaf that is one point, or so near to it that it is one in double precision. */
+/* Whether the box lies at a border of the leaf that is one point, or so near to it that it is one in double
+ * precision. */
 static bool box_has_pole(const struct search *s, const struct box *box)
 {
-  const bool at[4] = {box->u == 0 || box->u + box->size_u <= POLE_REACH, box->u + box->size_u == 1 || box->u >= 1 - POLE_REACH,
-                      box->v == 0 || box->v + box->size_v <= POLE_REACH, box->v + box->size_v == 1 || box->v >= 1 - POLE_REACH};
+  const bool at[4] = {box->u == 0 || box->u + box->size_u <= POLE_REACH,
+                      box->u + box->size_u == 1 || box->u >= 1 - POLE_REACH,
+                      box->v == 0 || box->v + box->size_v <= POLE_REACH,
+                      box->v + box->size_v == 1 || box->v >= 1 - POLE_REACH};
   for (int border = 0; border < 4; border++) {
     const int first = border == 1 ? 12 : border == 3 ? 3 : 0, stride = border < 2 ? 1 : 4;
     bool equal = at[border];
@@ -271,9 +280,16 @@ static bool box_zoom(struct search *s, const struct box *box)
   if (s->zooms == 0) zoom_start(task->patch, task->P, task->world, task->local->axis, s->zoom);
   struct zoomed zoomed;
   if (++s->zooms > SEARCH_ZOOMS || !zoom_box(s->zoom, task->leaf, task->patch->split, low, size, &zoomed)) return false;
-  struct search closer = {.task = task, .start = {zoomed.start[0], zoomed.start[1]}, .to_t = s->to_t, .place = zoomed.place,
-                          .error = {zoomed.error[0], zoomed.error[1]}, .t_min = s->t_min, .t_max = s->found ? s->best_t : s->t_max,
-                          .resolution = s->resolution, .most_boxes = ZOOMED_BOXES, .doubt = s->doubt};
+  struct search closer = {.task = task,
+                          .start = {zoomed.start[0], zoomed.start[1]},
+                          .to_t = s->to_t,
+                          .place = zoomed.place,
+                          .error = {zoomed.error[0], zoomed.error[1]},
+                          .t_min = s->t_min,
+                          .t_max = s->found ? s->best_t : s->t_max,
+                          .resolution = s->resolution,
+                          .most_boxes = ZOOMED_BOXES,
+                          .doubt = s->doubt};
   struct box whole = {.u = box->u, .v = box->v, .size_u = box->size_u, .size_v = box->size_v, .halvings = 0};
   memcpy(whole.net, zoomed.net, sizeof whole.net);
   search_run(&closer, &whole);
@@ -281,7 +297,8 @@ static bool box_zoom(struct search *s, const struct box *box)
   return true;
 }
 
-/* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as seen. */
+/* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as
+ * seen. */
 static bool box_small(const struct search *s, const struct box *box, enum verdict verdict)
 {
   const double *first = s->task->leaf->first;
@@ -338,8 +355,15 @@ bool subdivide_closest(const struct subdivide_task *task, struct leaf_hit *out, 
 {
   const struct local_ray *ray = task->local;
   struct zoom zoom;
-  struct search search = {.task = task, .zoom = &zoom, .start = {ray->start[0], ray->start[1]}, .to_t = ray->to_t,
-                          .error = {ray->error, ray->error}, .t_min = task->t_min, .t_max = task->t_max, .most_boxes = SEARCH_BOXES, .doubt = doubt};
+  struct search search = {.task = task,
+                          .zoom = &zoom,
+                          .start = {ray->start[0], ray->start[1]},
+                          .to_t = ray->to_t,
+                          .error = {ray->error, ray->error},
+                          .t_min = task->t_min,
+                          .t_max = task->t_max,
+                          .most_boxes = SEARCH_BOXES,
+                          .doubt = doubt};
   struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   double nets[3][16];
   local_ray_nets(ray, task->leaf->x, nets[0], nets[1], nets[2]);

@@ -17,9 +17,9 @@ struct subdivide_task {
   double t_min, t_max;
 };
 
-/* Finds the nearest root with t in (t_min, t_max), or where rounding leaves no answer a point with certain = false. Roots that lie
- * outside the leaf by no more than rounding count. Returns whether there is one; only then is *out written. Sets *doubt where some root could not be
- * told from t_min, and was left out. */
+/* Finds the nearest root with t in (t_min, t_max), or where rounding leaves no answer a point with certain = false.
+ * Roots that lie outside the leaf by no more than rounding count. Returns whether there is one; only then is *out
+ * written. Sets *doubt where some root could not be told from t_min, and was left out. */
 bool subdivide_closest(const struct subdivide_task *task, struct leaf_hit *out, bool *doubt);
 
 #endif

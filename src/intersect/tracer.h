@@ -36,7 +36,8 @@ struct tracer {
   struct warm_leaf *warm; /* one a leaf, NULL where no patch asks for it */
 };
 
-/* Subdivision gives up on a box where a plane polynomial stays within this many error bounds of zero, its own included. */
+/* Subdivision gives up on a box where a plane polynomial stays within this many error bounds of zero, its own
+ * included. */
 #define UNDECIDED_ERRORS 5
 
 /* A point where a ray meets a leaf. */
@@ -49,22 +50,25 @@ struct leaf_hit {
   bool sharp;                /* t and t_error are leaf_hit_sharpen's */
 };
 
-/* Whether a root lies behind t_min: where that can not be told, nobody can tell whether a ray that starts on the surface meets it. */
+/* Whether a root lies behind t_min: where that can not be told, nobody can tell whether a ray that starts on the
+ * surface meets it. */
 enum leaf_hit_side { SIDE_BEFORE, SIDE_UNKNOWN, SIDE_BEHIND };
 
-/* The bound on the error of a proven root's place on the ray: how far its radii let x_k move, and the roundings of x_k and t. */
+/* The bound on the error of a proven root's place on the ray: how far its radii let x_k move, and the roundings of
+ * x_k and t. */
 static inline double leaf_hit_t_error(const struct leaf *leaf, const struct leaf_hit *hit, double to_t)
 {
   const double size = to_t < 0 ? -to_t : to_t, t = hit->t < 0 ? -hit->t : hit->t, w = hit->w < 0 ? -hit->w : hit->w;
   return size * (leaf->first[0] * hit->radius_u + leaf->first[1] * hit->radius_v) + 8 * UNIT_ROUNDOFF * (t + size * w);
 }
 
-/* zoom.c: t of a proven root to the last place of its own, however near to 0, from control points and ray as they are. */
+/* zoom.c: t of a proven root to the last place of its own, however near to 0, from control points and ray as they
+ * are. */
 void leaf_hit_sharpen(const struct model *model, const struct leaf *leaf, const struct ray *ray, struct leaf_hit *root);
 
 /* The side of t_min that the root is on; sharpens it where that is needed to tell. */
-static inline enum leaf_hit_side leaf_hit_side(const struct model *model, const struct leaf *leaf, const struct ray *ray,
-                                               struct leaf_hit *root)
+static inline enum leaf_hit_side leaf_hit_side(const struct model *model, const struct leaf *leaf,
+                                               const struct ray *ray, struct leaf_hit *root)
 {
   for (int n = 0; n < 2; n++) {
     if (root->t > ray->t_min + root->t_error) return SIDE_BEHIND;
@@ -84,17 +88,18 @@ struct candidate_roots {
   double u[CANDIDATE_MAX_ROOTS], v[CANDIDATE_MAX_ROOTS]; /* leaf parameters, near or in [0,1] */
 };
 
-/* |Bernstein coefficient of r| <= RESULTANT_WEIGHT[n] (alpha beta)^n for nets with |a| <= alpha, |b| <= beta and n eliminated:
- * a minor [kl] is at most 2 C(n,k) C(n,l) alpha beta (Vandermonde's convolution sums the rest to 1), and the determinant is
- * the sum of the products of those bounds. A coefficient of r passes at most RESULTANT_ROUNDINGS roundings: scaling 4, a minor
- * 9 (8 products summed), cofactor 2 x 13 + 8, determinant 13 + 34 + 9. So it is off by at most
+/* |Bernstein coefficient of r| <= RESULTANT_WEIGHT[n] (alpha beta)^n for nets with |a| <= alpha, |b| <= beta and n
+ * eliminated: a minor [kl] is at most 2 C(n,k) C(n,l) alpha beta (Vandermonde's convolution sums the rest to 1), and
+ * the determinant is the sum of the products of those bounds. A coefficient of r passes at most RESULTANT_ROUNDINGS
+ * roundings: scaling 4, a minor 9 (8 products summed), cofactor 2 x 13 + 8, determinant 13 + 34 + 9. So it is off by
+ * at most
  *   RESULTANT_WEIGHT[n] (alpha beta)^n (RESULTANT_ROUNDINGS UNIT_ROUNDOFF + n error (1/alpha + 1/beta)). */
 static const double RESULTANT_WEIGHT[4] = {0, 2, 20, 1376};
 #define RESULTANT_ROUNDINGS 64
 
 /* Forms r from the nets a, b of the leaf's form with the patch's method, finds its roots with the patch's solver and
  * substitutes back. Counts the roots. Starting points only: nothing here is proven. */
-void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
-                     struct candidate_roots *out);
+void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16],
+                     double error, struct candidate_roots *out);
 
 #endif

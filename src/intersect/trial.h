@@ -1,4 +1,5 @@
-/* The first stages of a candidate, on all lanes of one dominant axis at once: plane polynomials, resultant, one of its roots.
+/* The first stages of a candidate, on all lanes of one dominant axis at once: plane polynomials, resultant, one of
+ * its roots.
  *
  * Internal to src/intersect; included by packet.c, which says in what order they come and what each may decide.
  */
@@ -38,10 +39,10 @@ LANES_INLINE void plane_values(const struct packet *p, int axis, const double x[
   *b = (j - p->local[axis].moment[1]) - p->slope[axis][1] * k;
 }
 
-/* Stage 1. Lanes whose ray may pass the box along the leaf. On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the slabs' forms are
- * A + B w; two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With e the bound on a plane's error
- * (local_ray.h), A is off by 2 |g| e and B by 4u |g|, where |A| u <= |g| e/4 and |B| <= |g|: the products by 8 |g_q| |g_r| e in all,
- * and the right side by less than that. */
+/* Stage 1. Lanes whose ray may pass the box along the leaf. On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the
+ * slabs' forms are A + B w; two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With
+ * e the bound on a plane's error (local_ray.h), A is off by 2 |g| e and B by 4u |g|, where |A| u <= |g| e/4 and |B|
+ * <= |g|: the products by 8 |g_q| |g_r| e in all, and the right side by less than that. */
 static lane_mask trial_slabs(const struct packet *p, const struct trial *t, lane_mask active)
 {
   const struct leaf_slabs *slabs = &t->leaf->slabs;
@@ -82,8 +83,9 @@ static lane_mask trial_planes(struct trial *t, lane_mask active)
   return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
 }
 
-/* Stage 1 again, with the two combinations of a and b that aim along the leaf's parameters: near the middle they are like u - u0
- * and v - v0 for the point (u0,v0) where the ray meets the tangent plane, so they tell a ray that passes the leaf by. */
+/* Stage 1 again, with the two combinations of a and b that aim along the leaf's parameters: near the middle they are
+ * like u - u0 and v - v0 for the point (u0,v0) where the ray meets the tangent plane, so they tell a ray that passes
+ * the leaf by. */
 static lane_mask trial_aligned(const struct trial *t, lane_mask active)
 {
   const lanes *a = t->nets.a, *b = t->nets.b;
@@ -116,20 +118,23 @@ static void trial_form(const struct packet *p, struct trial *t)
     }
   }
   t->fa = t->form_a, t->fb = t->form_b;
-  /* Where the ray meets the leaf the form's polynomials are off by their excess, twice for a plane of slope 1. Both moved by a
-   * constant, which moves every coefficient by it, have their common root there: so it counts as an error of coefficients. */
+  /* Where the ray meets the leaf the form's polynomials are off by their excess, twice for a plane of slope 1. Both
+   * moved by a constant, which moves every coefficient by it, have their common root there: so it counts as an error
+   * of coefficients. */
   t->form_error = t->nets.error * form->size + 2 * form->excess;
 }
 
-/* Stage 2 of a nearly bilinear leaf: the bilinear patch through its corners has a resultant of degree 2. Its root that is nearer to
- * the middle, and the parameter that goes with it, are a start for Newton on the leaf itself. */
+/* Stage 2 of a nearly bilinear leaf: the bilinear patch through its corners has a resultant of degree 2. Its root
+ * that is nearer to the middle, and the parameter that goes with it, are a start for Newton on the leaf itself. */
 LANES_INLINE void trial_bilinear_root(const struct trial *t, lanes *out_u, lanes *out_v)
 {
   static const int corner[4] = {0, 3, 12, 15};
   lanes a[16], b[16], c[RESULTANT_MAX_DEGREE + 1];
-  for (int n = 0; n < 4; n++) a[4 * (n / 2) + n % 2] = t->nets.a[corner[n]], b[4 * (n / 2) + n % 2] = t->nets.b[corner[n]];
+  for (int n = 0; n < 4; n++)
+    a[4 * (n / 2) + n % 2] = t->nets.a[corner[n]], b[4 * (n / 2) + n % 2] = t->nets.b[corner[n]];
   bezout_lanes_resultant(1, 1, a, b, c);
-  /* r(u) = c0 (1-u)^2 + c1 u (1-u) + c2 u^2 = r0 + r1 u + r2 u^2; a pair of complex roots is replaced by its real part. */
+  /* r(u) = c0 (1-u)^2 + c1 u (1-u) + c2 u^2 = r0 + r1 u + r2 u^2; a pair of complex roots is replaced by its real
+   * part. */
   const lanes r0 = c[0], r1 = c[1] - 2 * c[0], r2 = (c[0] - c[1]) + c[2];
   const lanes root = lanes_sqrt(lanes_max(r1 * r1 - 4 * (r0 * r2), lanes_all(0)));
   const lanes q = -0.5 * (r1 + lanes_select(r1 < 0, -root, root));
@@ -150,7 +155,9 @@ static lane_mask trial_resultant(struct trial *t, lane_mask active)
   else bezout_lanes_resultant(m, n, t->fa, t->fb, t->c_store);
   t->c = t->c_store + t->leaf->zeros[0];
   t->degree = 2 * m * n - t->leaf->zeros[0] - t->leaf->zeros[1];
-  const lanes product = t->alpha * t->beta, power = n == 1 ? product : n == 2 ? product * product : product * product * product;
+  const lanes product = t->alpha * t->beta, power = n == 1   ? product
+                                                    : n == 2 ? product * product
+                                                             : product * product * product;
   const lanes bound = RESULTANT_WEIGHT[n] * power *
                       (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + n * t->form_error * (1 / t->alpha + 1 / t->beta));
   lanes last = {0}, variations = {0};

@@ -5,14 +5,15 @@
 
 #include "intersect/tracer.h"
 
-/* A value of a or b passes at most this many roundings on the way from the control points to a combination's coefficient over a
- * box: local net 2, moment and plane 6, to powers 2 x 5, to the box 2 x 9, combination 3; each on terms that sum up to no more
- * than POWER_GROWTH times the largest value a control point gives, for sum |power| <= 5 of a cubic with |b| <= 1, and inside
- * the square the box's terms sum up to no more. */
+/* A value of a or b passes at most this many roundings on the way from the control points to a combination's
+ * coefficient over a box: local net 2, moment and plane 6, to powers 2 x 5, to the box 2 x 9, combination 3; each on
+ * terms that sum up to no more than POWER_GROWTH times the largest value a control point gives, for sum |power| <= 5
+ * of a cubic with |b| <= 1, and inside the square the box's terms sum up to no more. */
 #define ZOOM_ROUNDINGS 40
 #define POWER_GROWTH 25
 
-/* Roundings, in double, of what is left of a combination scaled to a sum of 1: conversion 1, to Bernstein form 2 x 4. */
+/* Roundings, in double, of what is left of a combination scaled to a sum of 1: conversion 1, to Bernstein form 2 x
+ * 4. */
 #define ZOOMED_ROUNDINGS 10
 
 static wide wide_abs(wide a) { return a < 0 ? -a : a; }
@@ -96,8 +97,9 @@ bool zoom_box(const struct zoom *zoom, const struct leaf *leaf, int split, const
     for (int n = 0; n < 4; n++) move(&c[s][0][n], 4, middle[0], half[0]);
     for (int n = 0; n < 4; n++) move(c[s][n], 1, middle[1], half[1]);
   }
-  /* The combination whose first derivatives vanish, as nearly as they can, in the middle: the row of the adjugate Jacobian that
-   * is the larger; and the one across it. Rounded rows are as good: both combinations are formed with what they are. */
+  /* The combination whose first derivatives vanish, as nearly as they can, in the middle: the row of the adjugate
+   * Jacobian that is the larger; and the one across it. Rounded rows are as good: both combinations are formed with
+   * what they are. */
   const double au = (double)c[0][1][0], av = (double)c[0][0][1], bu = (double)c[1][1][0], bv = (double)c[1][0][1];
   const bool by_v = fabs(bv) + fabs(av) > fabs(bu) + fabs(au);
   double p = by_v ? bv : bu, q = by_v ? -av : -au;
@@ -131,7 +133,8 @@ static void evaluate(wide c[4][4], wide x, wide y, wide *value, wide *dx, wide *
   }
 }
 
-/* The first step starts within the root's radius, some 1e-13, so the second one ends at the rounding of wide arithmetic. */
+/* The first step starts within the root's radius, some 1e-13, so the second one ends at the rounding of wide
+ * arithmetic. */
 enum { SHARPEN_STEPS = 2 };
 
 void leaf_hit_sharpen(const struct model *model, const struct leaf *leaf, const struct ray *ray, struct leaf_hit *root)
@@ -142,7 +145,8 @@ void leaf_hit_sharpen(const struct model *model, const struct leaf *leaf, const 
   struct zoom zoom;
   zoom_start(patch, model->scene->patches[leaf->patch].P, ray, k, &zoom);
   root->sharp = true;
-  wide x = 2 * ((wide)leaf->column_u + root->u) / patch->split - 1, y = 2 * ((wide)leaf->column_v + root->v) / patch->split - 1;
+  wide x = 2 * ((wide)leaf->column_u + root->u) / patch->split - 1,
+       y = 2 * ((wide)leaf->column_v + root->v) / patch->split - 1;
   double size = INFINITY, norm = 0;
   for (int n = 0; n < SHARPEN_STEPS; n++) {
     wide a, ax, ay, b, bx, by;
@@ -155,8 +159,9 @@ void leaf_hit_sharpen(const struct model *model, const struct leaf *leaf, const 
     size = (double)wide_max(wide_abs(step_x), wide_abs(step_y));
     norm = (double)(wide_max(wide_abs(by) + wide_abs(ay), wide_abs(ax) + wide_abs(bx)) / wide_abs(determinant));
   }
-  /* As in refine.h: the root is within 2 K |step|^2 + 2 |M| error where K (|step| + |M| error) <= 1/8. Second derivatives by x and y,
-   * half a patch, of a plane polynomial whose slopes are at most 1, are twice the surface's there. */
+  /* As in refine.h: the root is within 2 K |step|^2 + 2 |M| error where K (|step| + |M| error) <= 1/8. Second
+   * derivatives by x and y, half a patch, of a plane polynomial whose slopes are at most 1, are twice the surface's
+   * there. */
   const double half = patch->split / 2.0, error = (double)zoom.error;
   const double bend = 2 * norm * half * half * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
   if (!(bend * (size + norm * error) <= 0.125)) return;

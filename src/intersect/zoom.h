@@ -2,9 +2,10 @@
  *
  * Internal to src/intersect. Pure; safe on any thread.
  *
- * Where a ray is nearly tangent, some combination of the two plane polynomials is so small all over a box that double precision
- * can not tell it from zero. Its coefficients over just that box, formed in wide arithmetic from the untouched control points and
- * only then rounded to double, are right to their own last places: what was below all rounding is a polynomial like any other.
+ * Where a ray is nearly tangent, some combination of the two plane polynomials is so small all over a box that
+ * double precision can not tell it from zero. Its coefficients over just that box, formed in wide arithmetic from
+ * the untouched control points and only then rounded to double, are right to their own last places: what was below
+ * all rounding is a polynomial like any other.
  */
 #ifndef PSCN_INTERSECT_ZOOM_H
 #define PSCN_INTERSECT_ZOOM_H
@@ -31,8 +32,8 @@ struct zoomed {
 /* P: the patch's control points in the scene. k: the axis along which the ray is longest. */
 void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out);
 
-/* The box with its low corner at (u,v) of the leaf, in leaf parameters. False where a combination is zero as far as wide
- * arithmetic can tell: then *out means nothing. */
+/* The box with its low corner at (u,v) of the leaf, in leaf parameters. False where a combination is zero as far as
+ * wide arithmetic can tell: then *out means nothing. */
 bool zoom_box(const struct zoom *zoom, const struct leaf *leaf, int split, const double low[2], const double size[2],
               struct zoomed *out);
 

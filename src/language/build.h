@@ -1,7 +1,7 @@
 /* What the grammar's actions do: from values, statements and objects to a scene.
  *
- * Internal to src/language and grammar/. An action that finds an error tells it and goes on with a harmless value, so that one
- * run finds many errors; a scene comes out only where none was found.
+ * Internal to src/language and grammar/. An action that finds an error tells it and goes on with a harmless value,
+ * so that one run finds many errors; a scene comes out only where none was found.
  */
 #ifndef PSCN_LANGUAGE_BUILD_H
 #define PSCN_LANGUAGE_BUILD_H
@@ -43,10 +43,12 @@ struct value {
   enum value_kind kind;
   double x[3];
   const struct symbol *symbol;
-  bool transparent; /* a colour that POV-Ray gives transparency: a number after `color` stands in all five parts there */
+  /* a colour that POV-Ray gives transparency: a number after `color` stands in all five parts there */
+  bool transparent;
 };
 
-/* p' = p A + b with row vectors. `identity` where nothing has been applied, so that points stay as they are to the bit. */
+/* p' = p A + b with row vectors. `identity` where nothing has been applied, so that points stay as they are to the
+ * bit. */
 struct transform {
   bool identity;
   struct double_double A[3][3], b[3];
@@ -77,8 +79,8 @@ struct texture {
   struct scene_texture is;
 };
 
-/* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same points
- * or children. */
+/* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same
+ * points or children. */
 /* What the copies of a declared object know of each other. */
 struct sharing {
   size_t uses;     /* how often it is named */
@@ -195,17 +197,19 @@ void language_error(struct language *language, struct place place, const char *f
 bool language_sound(const struct language *language, size_t errors);
 /* A stated limit: reading ends at the next token, with STATUS_LIMIT. */
 void language_limit(struct language *language, struct place place, const char *text);
-void *language_alloc(struct language *language, size_t size); /* zeroed, never NULL: reading ends at the next token instead */
+/* zeroed, never NULL: reading ends at the next token instead */
+void *language_alloc(struct language *language, size_t size);
 
 /* ---- errors.c ---- */
 struct place language_span(const struct place *first, const struct place *last);
-void language_unexpected(struct language *language, struct place place, bool is_word, const char *const expected[], int count);
+void language_unexpected(struct language *language, struct place place, bool is_word, const char *const expected[],
+                         int count);
 
 /* ---- values.c ---- */
 struct value value_of_number(double x);
 struct value value_of_vector(const double x[3]);
-struct value value_of_parts(struct language *language, const struct value *x, const struct value *y, const struct value *z,
-                            const struct place places[3]);
+struct value value_of_parts(struct language *language, const struct value *x, const struct value *y,
+                            const struct value *z, const struct place places[3]);
 struct value value_axis(int axis);
 struct value value_pi(void);
 struct value value_named(struct language *language, struct place place, const struct token *name);
@@ -243,8 +247,8 @@ void symbols_destroy(struct language *language);
 const struct symbol *symbol_find(const struct language *language, const char *name, size_t length);
 void symbols_leave(struct language *language, int depth); /* forgets the locals of that include depth */
 /* Offers all declared names to a search for the nearest (words.h). */
-void symbols_consider(const struct language *language, const char *word, size_t length, const char **best, size_t *best_length,
-                      size_t *distance);
+void symbols_consider(const struct language *language, const char *word, size_t length, const char **best,
+                      size_t *best_length, size_t *distance);
 /* Tells that a name is unknown, with a guess; `wanted` says what was. */
 void symbol_unknown(struct language *language, struct place place, const struct token *name, const char *wanted);
 /* Tells that a name is something else than what is wanted. */
@@ -285,7 +289,8 @@ bool camera_fold(struct language *language, const struct camera_items *items, st
 /* ---- objects.c ---- */
 enum { PATCH_TYPE, PATCH_FLATNESS, PATCH_U_STEPS, PATCH_V_STEPS };
 void patch_begin(struct language *language, struct place place);
-void patch_number(struct language *language, int which, struct place item, struct place place, const struct value *value);
+void patch_number(struct language *language, int which, struct place item, struct place place,
+                  const struct value *value);
 void patch_point(struct language *language, struct place place, const struct value *value);
 void patch_comma(struct language *language, struct place place);
 void patch_modified(struct language *language);

@@ -1,5 +1,6 @@
-/* The camera's items, folded into location, direction, right and up as POV-Ray 3.7 does it, wherever they stand: the angle sets
- * the length of direction from that of right; look_at comes last and turns the frame, keeping lengths and handedness. */
+/* The camera's items, folded into location, direction, right and up as POV-Ray 3.7 does it, wherever they stand: the
+ * angle sets the length of direction from that of right; look_at comes last and turns the frame, keeping lengths and
+ * handedness. */
 #include <math.h>
 #include <string.h>
 
@@ -64,8 +65,8 @@ void camera_end(struct language *language)
   if (language_sound(language, language->camera.errors)) camera_fold(language, &language->camera, &unused);
 }
 
-/* The length of v, and v of length 1; 0 for a zero vector, whose direction is not written. Nothing over- or underflows but the
- * length itself. */
+/* The length of v, and v of length 1; 0 for a zero vector, whose direction is not written. Nothing over- or
+ * underflows but the length itself. */
 static double unit(const double v[3], double out[3])
 {
   const double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
@@ -123,7 +124,8 @@ static bool fold_frame(struct language *language, const struct camera_items *ite
     language_error(language, items->place, "the camera's direction, right and up must not be zero");
     return false;
   }
-  if (items->angle > 0) frame->direction_length = 0.5 * frame->right_length / tan(0.5 * items->angle * RADIANS_A_DEGREE);
+  if (items->angle > 0)
+    frame->direction_length = 0.5 * frame->right_length / tan(0.5 * items->angle * RADIANS_A_DEGREE);
   if (items->look_at && !turn_frame(language, items, frame)) return false;
   double cross[3];
   vector_cross(frame->right, frame->up, cross);

@@ -31,8 +31,9 @@ static bool contains(const char *const names[], int count, const char *wanted)
 static void list_expected(const char *const expected[], int count, char *out, size_t size)
 {
   enum { MOST_LISTED = 10 };
-  static const char *const in_values[] = {"a number", "a vector", "x", "y", "z", "pi", "image_width", "image_height", "'('",
-                                          "'<'", "'+'", "'-'", "rgb", "color", NULL};
+  static const char *const in_values[] = {"a number",    "a vector",     "x",   "y",   "z",   "pi",
+                                          "image_width", "image_height", "'('", "'<'", "'+'", "'-'",
+                                          "rgb",         "color",        NULL};
   static const char *const anywhere[] = {"'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version",
                                          "the end of the text", NULL};
   const char *list[MOST_LISTED];
@@ -78,7 +79,8 @@ static void tell_foreign(struct language *language, struct place place, const ch
   }
 }
 
-void language_unexpected(struct language *language, struct place place, bool is_word, const char *const expected[], int count)
+void language_unexpected(struct language *language, struct place place, bool is_word, const char *const expected[],
+                         int count)
 {
   enum { LONGEST_SHOWN = 40 };
   const bool told = place.source == language->told.source && place.begin == language->told.begin;

@@ -1,5 +1,5 @@
-/* From the tree of objects to the list of patches: each with its transforms applied, its texture and its solver. And to the list of
- * copies: which runs of patches are one declared object, moved. */
+/* From the tree of objects to the list of patches: each with its transforms applied, its texture and its solver. And
+ * to the list of copies: which runs of patches are one declared object, moved. */
 #include <math.h>
 #include <string.h>
 
@@ -80,8 +80,8 @@ static bool expand_patch(struct expansion *e, const struct node *node, const str
   patch->v_steps = node->v_steps;
   const struct texture none = texture_default();
   const struct scene_texture *texture = with->texture ? &with->texture->is : &none.is;
-  if (!intern(scene->arena, (void **)&scene->textures, &scene->texture_count, &e->texture_capacity, texture, sizeof *texture,
-              &patch->texture)) {
+  if (!intern(scene->arena, (void **)&scene->textures, &scene->texture_count, &e->texture_capacity, texture,
+              sizeof *texture, &patch->texture)) {
     return false;
   }
   if (!with->solver) return true; /* 0: the scene's */
@@ -90,7 +90,8 @@ static bool expand_patch(struct expansion *e, const struct node *node, const str
 }
 
 /* The control nets below a node, from out[0] on; returns their end. */
-static double (*collect_nets(const struct node *node, const struct transform *transform, double (*out)[4][4][3]))[4][4][3]
+static double (*collect_nets(const struct node *node, const struct transform *transform,
+                             double (*out)[4][4][3]))[4][4][3]
 {
   if (node->P) {
     for (int n = 0; n < 16; n++) transform_point(transform, node->P[n / 4][n % 4], (*out)[n / 4][n % 4]);
@@ -118,7 +119,8 @@ static bool begin_copy(struct expansion *e, const struct node *node, const struc
     collect_nets(node, &identity, object->P);
     node->sharing->object = (uint32_t)scene->object_count;
   }
-  struct scene_copy *copy = append(scene->arena, (void **)&scene->copies, &scene->copy_count, &e->copy_capacity, sizeof *copy);
+  struct scene_copy *copy = append(scene->arena, (void **)&scene->copies, &scene->copy_count, &e->copy_capacity,
+                                   sizeof *copy);
   if (!copy) return false;
   copy->object = node->sharing->object - 1;
   copy->first_patch = scene->patch_count;

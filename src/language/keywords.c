@@ -83,7 +83,8 @@ void keywords_consider(const char *word, size_t length, const char **best, size_
   }
 }
 
-void keywords_consider_directives(const char *word, size_t length, const char **best, size_t *best_length, size_t *distance)
+void keywords_consider_directives(const char *word, size_t length, const char **best, size_t *best_length,
+                                  size_t *distance)
 {
   for (size_t k = 0; k < COUNT(DIRECTIVES); k++) {
     words_consider(word, length, DIRECTIVES[k].name, strlen(DIRECTIVES[k].name), best, best_length, distance);

@@ -31,8 +31,8 @@ void language_limit(struct language *language, struct place place, const char *t
   language->ended_early = true;
 }
 
-/* Where memory is short a spare block stands in, and reading ends at the next token; the few blocks wanted until then do not
- * overlap. */
+/* Where memory is short a spare block stands in, and reading ends at the next token; the few blocks wanted until
+ * then do not overlap. */
 void *language_alloc(struct language *language, size_t size)
 {
   void *memory = arena_alloc(language->arena, 1, size);
@@ -51,7 +51,8 @@ void *language_alloc(struct language *language, size_t size)
 static enum status language_create(struct language *language, const struct language_settings *settings,
                                    struct diagnostics *diagnostics)
 {
-  *language = (struct language){.diagnostics = diagnostics, .width = settings->image_width, .height = settings->image_height,
+  *language = (struct language){.diagnostics = diagnostics,
+                                .width = settings->image_width, .height = settings->image_height,
                                 .declaring = {.depth = -1}};
   language->lights_end = &language->lights;
   for (int k = 0; k < 3; k++) language->ambient_light[k] = 1;
@@ -91,7 +92,8 @@ static enum status make_scene(struct language *language, struct scene **out_scen
   scene->arena = arena;
   memcpy(scene->background, language->background, sizeof scene->background);
   memcpy(scene->ambient_light, language->ambient_light, sizeof scene->ambient_light);
-  enum status status = camera_fold(language, &language->camera, &scene->camera) ? add_lights(language, scene) : STATUS_INPUT;
+  enum status status = camera_fold(language, &language->camera, &scene->camera) ? add_lights(language, scene)
+                                                                                : STATUS_INPUT;
   if (status == STATUS_OK) status = objects_expand(language, scene);
   if (status == STATUS_OK) *out_scene = scene;
   else scene_destroy(scene);
@@ -99,7 +101,8 @@ static enum status make_scene(struct language *language, struct scene **out_scen
 }
 
 /* --solver and --tolerance. */
-static enum status override(struct scene *scene, const struct language_settings *settings, struct diagnostics *diagnostics)
+static enum status override(struct scene *scene, const struct language_settings *settings,
+                            struct diagnostics *diagnostics)
 {
   struct solver_options options;
   if (settings->solver_text) {
@@ -112,7 +115,8 @@ static enum status override(struct scene *scene, const struct language_settings 
     const struct solver_item *item = solver_item_at(k);
     if (strcmp(item->name, "tolerance") != 0) continue;
     if (!(settings->tolerance >= item->minimum && settings->tolerance <= item->maximum)) {
-      diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "the tolerance is a number from %g to %g", item->minimum, item->maximum);
+      diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "the tolerance is a number from %g to %g",
+                        item->minimum, item->maximum);
       return STATUS_USAGE;
     }
     for (size_t s = 0; s < scene->solver_count; s++) item->set(&scene->solvers[s], settings->tolerance);
@@ -136,8 +140,8 @@ static void tell_limit(struct diagnostics *diagnostics, enum status status, size
   diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "memory is short");
 }
 
-static enum status load(struct source *source, const struct language_settings *settings, struct diagnostics *diagnostics,
-                        struct scene **out_scene)
+static enum status load(struct source *source, const struct language_settings *settings,
+                        struct diagnostics *diagnostics, struct scene **out_scene)
 {
   struct language language;
   const size_t before = diagnostics->error_count;
@@ -166,8 +170,9 @@ enum status language_load(const char *path, const struct language_settings *sett
   return status;
 }
 
-enum status language_load_text(const char *name, const char *text, size_t length, const struct language_settings *settings,
-                               struct diagnostics *diagnostics, struct scene **out_scene)
+enum status language_load_text(const char *name, const char *text, size_t length,
+                               const struct language_settings *settings, struct diagnostics *diagnostics,
+                               struct scene **out_scene)
 {
   *out_scene = NULL;
   struct source *source = source_from_text(name, text, length);

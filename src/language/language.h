@@ -1,7 +1,7 @@
 /* From scene text to a scene.
  *
- * Reads the language of docs/language.md: a subset of POV-Ray 3.7's with the same meaning, and `solver` statements. Safe on
- * any thread (each call has its own state); independent of the locale.
+ * Reads the language of docs/language.md: a subset of POV-Ray 3.7's with the same meaning, and `solver` statements.
+ * Safe on any thread (each call has its own state); independent of the locale.
  */
 #ifndef PSCN_LANGUAGE_LANGUAGE_H
 #define PSCN_LANGUAGE_LANGUAGE_H
@@ -18,7 +18,8 @@ struct language_settings {
   double tolerance;              /* --tolerance E: overrides that item everywhere, after solver_text; or NAN */
 };
 
-/* Reads the scene file at `path`. The caller destroys *out_scene; on failure it is NULL and diagnostics have been told why:
+/* Reads the scene file at `path`. The caller destroys *out_scene; on failure it is NULL and diagnostics have been
+ * told why:
  *   STATUS_FILE   the file itself cannot be read
  *   STATUS_INPUT  the text is wrong, an included file cannot be read
  *   STATUS_USAGE  settings->solver_text or settings->tolerance is wrong
@@ -26,8 +27,8 @@ struct language_settings {
 STATUS_MUST_CHECK enum status language_load(const char *path, const struct language_settings *settings,
                                             struct diagnostics *diagnostics, struct scene **out_scene);
 
-/* The same for `length` bytes at `text`, called `name` in diagnostics. Includes are looked for relative to the folder part
- * of `name`. */
+/* The same for `length` bytes at `text`, called `name` in diagnostics. Includes are looked for relative to the
+ * folder part of `name`. */
 STATUS_MUST_CHECK enum status language_load_text(const char *name, const char *text, size_t length,
                                                  const struct language_settings *settings,
                                                  struct diagnostics *diagnostics, struct scene **out_scene);

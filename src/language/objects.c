@@ -38,7 +38,8 @@ void patch_begin(struct language *language, struct place place)
   node->patch_count = 1;
 }
 
-void patch_number(struct language *language, int which, struct place item, struct place place, const struct value *value)
+void patch_number(struct language *language, int which, struct place item, struct place place,
+                  const struct value *value)
 {
   struct node *node = language->open;
   double x = 0;
@@ -77,7 +78,8 @@ void patch_point(struct language *language, struct place place, const struct val
 void patch_comma(struct language *language, struct place place)
 {
   struct node *node = language->open;
-  if (node->stage != STAGE_BODY || node->after_comma) language_error(language, place, "a comma stands between control points only");
+  if (node->stage != STAGE_BODY || node->after_comma)
+    language_error(language, place, "a comma stands between control points only");
   node->after_comma = true;
 }
 
@@ -88,7 +90,8 @@ static void points_end(struct language *language)
   node->stage = STAGE_MODIFIERS;
   if (!language_sound(language, node->errors)) return;
   if (node->points != PATCH_POINTS) {
-    language_error(language, node->place, "bicubic_patch needs %d control points, found %d", PATCH_POINTS, node->points);
+    language_error(language, node->place, "bicubic_patch needs %d control points, found %d", PATCH_POINTS,
+                   node->points);
   } else if (node->after_comma) {
     language_error(language, node->place, "a comma stands behind the last control point of this bicubic_patch");
   }
@@ -108,7 +111,8 @@ void patch_end(struct language *language)
 {
   const struct node *node = language->open;
   points_end(language);
-  if (!node->has_type && language_sound(language, node->errors)) language_error(language, node->place, "bicubic_patch needs its type, 0 or 1");
+  if (!node->has_type && language_sound(language, node->errors))
+    language_error(language, node->place, "bicubic_patch needs its type, 0 or 1");
 }
 
 /* ---- unions ---- */
@@ -191,7 +195,8 @@ void copy_modified(struct language *language, struct place place)
 void copy_end(struct language *language)
 {
   const struct node *node = language->open;
-  if (!node->has_object && language_sound(language, node->errors)) language_error(language, node->place, "this object has no object in it");
+  if (!node->has_object && language_sound(language, node->errors))
+    language_error(language, node->place, "this object has no object in it");
 }
 
 /* ---- modifiers ---- */

@@ -81,7 +81,8 @@ void light_value(struct language *language, struct place place, const struct val
   case 0: value_to_vector(language, place, value, light->light.position); break;
   case 1: value_to_colour(language, place, value, light->light.color); break;
   default:
-    if (language_sound(language, light->errors)) language_error(language, place, "light_source has one position and one colour");
+    if (language_sound(language, light->errors))
+      language_error(language, place, "light_source has one position and one colour");
     break;
   }
 }
@@ -120,10 +121,12 @@ void light_transform(struct language *language, struct place place)
 void light_end(struct language *language)
 {
   struct light_node *light = language->light;
-  if (light->values == 0 && language_sound(language, light->errors)) language_error(language, light->place, "light_source needs its position");
+  if (light->values == 0 && language_sound(language, light->errors))
+    language_error(language, light->place, "light_source needs its position");
   double *position = light->light.position;
   transform_point(&light->transform, position, position);
   if (!(isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]))) {
-    language_error(language, light->place, "with its transforms applied, the light's position is too large for numbers");
+    language_error(language, light->place,
+                   "with its transforms applied, the light's position is too large for numbers");
   }
 }

@@ -32,14 +32,17 @@ static void tell_unknown(struct language *language, struct place place, const ch
 {
   const char *best = NULL;
   size_t best_length = 0, distance = words_reach(word->length);
-  for (size_t k = 0; name(k); k++) words_consider(word->text, word->length, name(k), strlen(name(k)), &best, &best_length, &distance);
+  for (size_t k = 0; name(k); k++)
+    words_consider(word->text, word->length, name(k), strlen(name(k)), &best, &best_length, &distance);
   enum { MOST_LISTED = 8 };
   char list[300] = "";
   if (!name(MOST_LISTED)) list_names(name, list, sizeof list);
   if (best) {
-    language_error(language, place, "there is no %s '%.*s'; did you mean '%s'?", what, (int)word->length, word->text, best);
+    language_error(language, place, "there is no %s '%.*s'; did you mean '%s'?", what, (int)word->length, word->text,
+                   best);
   } else {
-    language_error(language, place, "there is no %s '%.*s'%s%s", what, (int)word->length, word->text, list[0] ? ", only " : "", list);
+    language_error(language, place, "there is no %s '%.*s'%s%s", what, (int)word->length, word->text,
+                   list[0] ? ", only " : "", list);
   }
 }
 

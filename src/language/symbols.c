@@ -71,8 +71,8 @@ void symbols_leave(struct language *language, int depth)
 
 /* ---- what is told of names ---- */
 
-void symbols_consider(const struct language *language, const char *word, size_t length, const char **best, size_t *best_length,
-                      size_t *distance)
+void symbols_consider(const struct language *language, const char *word, size_t length, const char **best,
+                      size_t *best_length, size_t *distance)
 {
   for (size_t b = 0; b < BUCKETS; b++) {
     for (const struct symbol *s = language->symbols[b]; s; s = s->next) {
@@ -101,7 +101,9 @@ void symbol_mistaken(struct language *language, struct place place, const struct
   const char *is = "a value";
   if (symbol->kind == SYMBOL_OBJECT) is = "an object";
   if (symbol->kind == SYMBOL_TEXTURE) {
-    is = symbol->texture->block == TEXTURE_ALL ? "a texture" : symbol->texture->block == TEXTURE_PIGMENT ? "a pigment" : "a finish";
+    is = symbol->texture->block == TEXTURE_ALL       ? "a texture"
+         : symbol->texture->block == TEXTURE_PIGMENT ? "a pigment"
+                                                     : "a finish";
   }
   language_error(language, place, "'%.*s' is %s; %s is wanted here", (int)symbol->length, symbol->name, is, wanted);
 }
@@ -113,8 +115,8 @@ void declare_begin(struct language *language, struct place place, const struct t
   language->declaring = (struct declaration){*name, place, local, language->last.depth};
 }
 
-/* The symbol that the open declaration writes to, as in POV-Ray: #local to one of this file, #declare to the innermost there is,
- * or else to one that belongs to all. */
+/* The symbol that the open declaration writes to, as in POV-Ray: #local to one of this file, #declare to the
+ * innermost there is, or else to one that belongs to all. */
 static struct symbol *declared(struct language *language)
 {
   struct declaration *declaring = &language->declaring;

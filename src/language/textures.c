@@ -26,7 +26,10 @@ void texture_apply(struct texture *to, const struct texture *from)
   to->set |= from->set;
 }
 
-static struct texture *current(struct language *language) { return language->textures_open[language->texture_depth - 1]; }
+static struct texture *current(struct language *language)
+{
+  return language->textures_open[language->texture_depth - 1];
+}
 
 void texture_begin(struct language *language, unsigned block)
 {
@@ -92,7 +95,8 @@ void pigment_value(struct language *language, struct place place, const struct v
     return;
   }
   if (texture->coloured) language_error(language, place, "a pigment has one colour");
-  else if (stage == STAGE_MODIFIERS) language_error(language, place, "the colour of a pigment stands before its transforms");
+  else if (stage == STAGE_MODIFIERS)
+    language_error(language, place, "the colour of a pigment stands before its transforms");
   texture->coloured = true;
   value_to_opaque(language, place, value, texture->is.pigment);
   texture->set |= TEXTURE_PIGMENT;

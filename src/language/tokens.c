@@ -26,8 +26,8 @@ static void tell_open_comment(struct language *language)
 
 /* ---- conditions ---- */
 
-/* Skips to the #end of a condition, or if `to_else` to its #else; what is skipped may hold conditions of its own, also those
- * that only POV-Ray has. Answers the token it stopped at; 0 is the end of the source. */
+/* Skips to the #end of a condition, or if `to_else` to its #else; what is skipped may hold conditions of its own,
+ * also those that only POV-Ray has. Answers the token it stopped at; 0 is the end of the source. */
 static int skip_branch(struct language *language, bool to_else)
 {
   for (int depth = 0;;) {
@@ -215,7 +215,8 @@ static int advance(struct language *language)
                              .value = {.text = text_at(place), .length = length_of(place)}};
   if (is_number) memcpy(last->value.number, scan->number, sizeof last->value.number);
   if (token == '{' && language->depth < MAX_NESTING) language->braces[language->depth] = place;
-  if (token == '{' && ++language->depth > MAX_NESTING) language_limit(language, place, "blocks are nested more than 200 deep");
+  if (token == '{' && ++language->depth > MAX_NESTING)
+    language_limit(language, place, "blocks are nested more than 200 deep");
   if (token == '}' && language->depth > 0) language->depth--;
   return last->token;
 }

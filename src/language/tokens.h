@@ -92,15 +92,17 @@ int keyword_directive(const char *text, size_t length);
 
 /* Offers all words of the language, or all its directives, to a search for the nearest (words.h). */
 void keywords_consider(const char *word, size_t length, const char **best, size_t *best_length, size_t *distance);
-void keywords_consider_directives(const char *word, size_t length, const char **best, size_t *best_length, size_t *distance);
+void keywords_consider_directives(const char *word, size_t length, const char **best, size_t *best_length,
+                                  size_t *distance);
 
 /* ---- tokens.c ---- */
 
 /* The next token of the grammar. 0 also where reading must end early. */
 int tokens_next(struct language *language, struct token *out_token, struct place *out_place);
 
-/* After a syntax error: skips to where the next item of the block begins in which the error stands, counting braces, or to its
- * closing brace. The token at which the error was found is taken into account. False where the text has ended. */
+/* After a syntax error: skips to where the next item of the block begins in which the error stands, counting braces,
+ * or to its closing brace. The token at which the error was found is taken into account. False where the text has
+ * ended. */
 bool tokens_recover(struct language *language);
 
 #endif

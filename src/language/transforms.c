@@ -1,6 +1,6 @@
-/* Affine transforms as POV-Ray has them: row vectors, angles in degrees, rotation about x, then y, then z. They are composed
- * in double-double, and a point is rounded once at the end: what comes out is the nearest double of what the scene says, the
- * same on every machine. */
+/* Affine transforms as POV-Ray has them: row vectors, angles in degrees, rotation about x, then y, then z. They are
+ * composed in double-double, and a point is rounded once at the end: what comes out is the nearest double of what
+ * the scene says, the same on every machine. */
 #include <math.h>
 
 #include "language/build.h"
@@ -71,7 +71,8 @@ static struct double_double divide(struct double_double a, double b)
   return dd_normal(q, left.hi / b);
 }
 
-/* Sum of x^n / n! with alternating signs over n = first, first + 2, ...; for |x| <= pi/4 the 15th term is below 2^-106. */
+/* Sum of x^n / n! with alternating signs over n = first, first + 2, ...; for |x| <= pi/4 the 15th term is below
+ * 2^-106. */
 static struct double_double alternating(struct double_double x, int first)
 {
   enum { TERMS = 15 };
@@ -147,11 +148,12 @@ void matrix_add(struct language *language, struct place place, const struct valu
 static struct double_double minor(const double m[12], int i, int j)
 {
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-  return dd_add(dd_two_product(m[3 * i1 + j1], m[3 * i2 + j2]), dd_negate(dd_two_product(m[3 * i1 + j2], m[3 * i2 + j1])));
+  return dd_add(dd_two_product(m[3 * i1 + j1], m[3 * i2 + j2]),
+                dd_negate(dd_two_product(m[3 * i1 + j2], m[3 * i2 + j1])));
 }
 
-/* Whether the determinant is no more than what rounding leaves of a vanishing one: 2^-100 of the size of its terms, a few units
- * of double-double. The rows are scaled first, so that nothing overflows. */
+/* Whether the determinant is no more than what rounding leaves of a vanishing one: 2^-100 of the size of its terms,
+ * a few units of double-double. The rows are scaled first, so that nothing overflows. */
 static bool is_singular(const double matrix[12])
 {
   double m[12], size = 0;

@@ -1,5 +1,5 @@
-/* Values and arithmetic, with POV-Ray's promotion: beside a vector a number stands for three of it, and what a colour takes
- * part in is a colour. */
+/* Values and arithmetic, with POV-Ray's promotion: beside a vector a number stands for three of it, and what a
+ * colour takes part in is a colour. */
 #include <math.h>
 
 #include "base/number.h"
@@ -11,7 +11,10 @@ static const struct value UNKNOWN = {.kind = VALUE_UNKNOWN, .x = {1, 1, 1}};
 
 struct value value_of_number(double x) { return (struct value){.kind = VALUE_NUMBER, .x = {x, x, x}}; }
 
-struct value value_of_vector(const double x[3]) { return (struct value){.kind = VALUE_VECTOR, .x = {x[0], x[1], x[2]}}; }
+struct value value_of_vector(const double x[3])
+{
+  return (struct value){.kind = VALUE_VECTOR, .x = {x[0], x[1], x[2]}};
+}
 
 struct value value_axis(int axis)
 {
@@ -22,7 +25,8 @@ struct value value_axis(int axis)
 
 struct value value_pi(void) { return value_of_number(PI); }
 
-/* Names of objects and textures are told apart where the value is used: a pigment may be named where a colour may stand. */
+/* Names of objects and textures are told apart where the value is used: a pigment may be named where a colour may
+ * stand. */
 struct value value_named(struct language *language, struct place place, const struct token *name)
 {
   const struct symbol *symbol = symbol_find(language, name->text, name->length);
@@ -121,8 +125,8 @@ struct value value_color(struct language *language, struct place place, const st
   return colour;
 }
 
-struct value value_of_parts(struct language *language, const struct value *x, const struct value *y, const struct value *z,
-                            const struct place places[3])
+struct value value_of_parts(struct language *language, const struct value *x, const struct value *y,
+                            const struct value *z, const struct place places[3])
 {
   struct value r = {.kind = VALUE_VECTOR};
   bool known = value_to_number(language, places[0], x, &r.x[0]);
@@ -150,7 +154,8 @@ void value_to_colour(struct language *language, struct place place, const struct
 void value_to_opaque(struct language *language, struct place place, const struct value *a, double out[3])
 {
   if (a->transparent || (a->kind == VALUE_NUMBER && a->x[0] != 0)) {
-    language_error(language, place, "a number alone or after color is a transparent colour in POV-Ray; write rgb before it");
+    language_error(language, place,
+                   "a number alone or after color is a transparent colour in POV-Ray; write rgb before it");
     return;
   }
   value_to_colour(language, place, a, out);

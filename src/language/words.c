@@ -1,4 +1,5 @@
-/* POV-Ray's words that pscn does not have, and the distance between words (Damerau-Levenshtein, neighbours swapped once). */
+/* POV-Ray's words that pscn does not have, and the distance between words (Damerau-Levenshtein, neighbours swapped
+ * once). */
 #include "language/words.h"
 
 #include <string.h>

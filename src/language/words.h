@@ -14,13 +14,13 @@ bool words_foreign_shape(const char *word, size_t length);
 /* Below, at or above 0 as word[0 .. length-1] stands before, is, or stands behind `name` in the order of bytes. */
 int words_compare(const char *word, size_t length, const char *name);
 
-/* Offers a candidate to a search for the nearest word. `best` starts as NULL with *distance = words_reach(length); a candidate
- * within it and nearer than the best one becomes the best. */
+/* Offers a candidate to a search for the nearest word. `best` starts as NULL with *distance = words_reach(length); a
+ * candidate within it and nearer than the best one becomes the best. */
 void words_consider(const char *word, size_t length, const char *candidate, size_t candidate_length, const char **best,
                     size_t *best_length, size_t *distance);
 
-/* How many letters may be wrong in a word of that length for it to be taken for another: a third, at least one. The distance
- * counted is that of insertions, deletions, replacements and swaps of neighbours. */
+/* How many letters may be wrong in a word of that length for it to be taken for another: a third, at least one. The
+ * distance counted is that of insertions, deletions, replacements and swaps of neighbours. */
 size_t words_reach(size_t length);
 
 #endif

@@ -22,8 +22,8 @@ struct embree_rays;
 struct embree_rays *embree_rays_create(const struct ray *rays, size_t count);
 void embree_rays_destroy(struct embree_rays *rays);
 
-/* Traces all rays in order: one by one (width 1), or 8 together said to be coherent (width 8); for the closest hit, or for
- * any. Returns a number made of all answers, so that none can be left out. */
+/* Traces all rays in order: one by one (width 1), or 8 together said to be coherent (width 8); for the closest hit,
+ * or for any. Returns a number made of all answers, so that none can be left out. */
 double embree_trace(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool any);
 
 /* What one ray answers: t of the closest hit, and the patch the triangle is of; HIT_NONE on a miss. */

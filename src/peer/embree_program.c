@@ -1,5 +1,5 @@
-/* pscn-embree QUESTION ANSWER: measures Embree on triangles for `pscn chart`, which runs it where it stands beside pscn. The
- * files are those of chart/exchange.h. Every round times pscn's default solver first, as the yardstick. */
+/* pscn-embree QUESTION ANSWER: measures Embree on triangles for `pscn chart`, which runs it where it stands beside
+ * pscn. The files are those of chart/exchange.h. Every round times pscn's default solver first, as the yardstick. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,7 +35,8 @@ static bool write_answers(const struct exchange_question *question, const struct
   bool good = answers != NULL && occluded != NULL;
   for (size_t k = 0; good && k < camera; k++)
     embree_answer(runner->mesh, runner->rays[RAYS_CAMERA], k, &answers[k].t, &answers[k].patch);
-  for (size_t k = 0; good && k < shadow; k++) occluded[k] = embree_answer_any(runner->mesh, runner->rays[RAYS_SHADOW], k);
+  for (size_t k = 0; good && k < shadow; k++)
+    occluded[k] = embree_answer_any(runner->mesh, runner->rays[RAYS_SHADOW], k);
   good = good && exchange_write_answer(file, &answer, camera, answers, shadow, occluded);
   free(answers);
   free(occluded);

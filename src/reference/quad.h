@@ -1,6 +1,7 @@
 /* Quadruple precision (113 bits of significand), and bicubic Bernstein nets in it.
  *
- * For tests and the chart; shares nothing with the other rooms. All functions are safe on any thread and allocate nothing.
+ * For tests and the chart; shares nothing with the other rooms. All functions are safe on any thread and allocate
+ * nothing.
  */
 #ifndef PSCN_REFERENCE_QUAD_H
 #define PSCN_REFERENCE_QUAD_H

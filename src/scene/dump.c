@@ -1,6 +1,6 @@
-/* A scene as canonical text. One order, one layout, numbers by number_write: equal scenes give equal text. Textures are told
- * apart by what they are and numbered in the order in which patches first use them, so that reading the text back and writing
- * it again changes nothing, however the reader keeps its textures. */
+/* A scene as canonical text. One order, one layout, numbers by number_write: equal scenes give equal text. Textures
+ * are told apart by what they are and numbered in the order in which patches first use them, so that reading the
+ * text back and writing it again changes nothing, however the reader keeps its textures. */
 #include "scene/dump.h"
 
 #include <stdlib.h>
@@ -99,8 +99,8 @@ static size_t texture_hash(const struct scene_texture *texture)
   return (size_t)(hash ^ (hash >> 32));
 }
 
-/* Gives the texture its number: that of an equal one met before, or the next. `table` holds named textures by hash; its size is
- * a power of two, at least twice the number of textures. */
+/* Gives the texture its number: that of an equal one met before, or the next. `table` holds named textures by hash;
+ * its size is a power of two, at least twice the number of textures. */
 static void name_texture(struct dump *dump, uint32_t *table, size_t size, uint32_t texture)
 {
   const struct scene_texture *all = dump->scene->textures;

@@ -1,8 +1,9 @@
 /* A scene written back as canonical text, readable by pscn and by POV-Ray 3.7.
  *
  * Every number is the shortest that reads back to the same double; transforms are applied; the camera is location,
- * direction, right and up; textures are declared by number in the order of their first use; `solver` statements stand inside
- * #ifdef (pscn) and leave out what is the default. Reading the text gives a scene whose dump is the same text, byte for byte.
+ * direction, right and up; textures are declared by number in the order of their first use; `solver` statements
+ * stand inside #ifdef (pscn) and leave out what is the default. Reading the text gives a scene whose dump is the
+ * same text, byte for byte.
  */
 #ifndef PSCN_SCENE_DUMP_H
 #define PSCN_SCENE_DUMP_H
@@ -12,7 +13,8 @@
 #include "base/status.h"
 #include "scene/scene.h"
 
-/* STATUS_FILE where writing fails (errno says why), STATUS_LIMIT where memory is short. Does not flush or close `file`. */
+/* STATUS_FILE where writing fails (errno says why), STATUS_LIMIT where memory is short. Does not flush or close
+ * `file`. */
 STATUS_MUST_CHECK enum status scene_dump(const struct scene *scene, FILE *file);
 
 /* Only the patches, as `#declare NAME = union { ... }`, with the textures they use before it. */

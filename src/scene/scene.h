@@ -1,7 +1,7 @@
 /* What a scene is, after all names, includes, arithmetic and transforms have been resolved.
  *
- * Left-handed world as in POV-Ray. Colours are linear RGB. Everything is finite. A scene and all it points to lives in its
- * arena; once built it is read-only and may be shared by threads.
+ * Left-handed world as in POV-Ray. Colours are linear RGB. Everything is finite. A scene and all it points to lives
+ * in its arena; once built it is read-only and may be shared by threads.
  */
 #ifndef PSCN_SCENE_SCENE_H
 #define PSCN_SCENE_SCENE_H
@@ -41,8 +41,8 @@ struct scene_object {
   size_t patch_count;
 };
 
-/* One of the places where it stands: the patches from `first_patch` on, as many as the object has and in its order, are the object's
- * with every point p moved to p A + b (row vectors), up to the rounding of p, A and b. */
+/* One of the places where it stands: the patches from `first_patch` on, as many as the object has and in its order,
+ * are the object's with every point p moved to p A + b (row vectors), up to the rounding of p, A and b. */
 struct scene_copy {
   uint32_t object; /* index into scene.objects */
   size_t first_patch;

@@ -37,8 +37,9 @@ static void test_class(void **state)
   tally_free(&tally);
 }
 
-/* The limit normal at a collapsed pole may be off by this: directions of control points are rounded when a model is placed at
- * up to POLE_SHIFT times its size, so 2^-53 POLE_SHIFT over the distance of the points next to the pole, and some of those. */
+/* The limit normal at a collapsed pole may be off by this: directions of control points are rounded when a model is
+ * placed at up to POLE_SHIFT times its size, so 2^-53 POLE_SHIFT over the distance of the points next to the pole,
+ * and some of those. */
 #define POLE_SHIFT 10
 #define POLE_NORMAL (64 * POLE_SHIFT * DOUBLE_UNIT)
 
@@ -67,7 +68,8 @@ static void test_poles(void **state)
     model_place(&model, &placement);
     struct trial trial;
     trial_create(&trial, (const double(*)[4][4][3])model.P, model.count, NULL);
-    const double sign = n % 4 == 3 ? -1 : 1, *pole = model.P[sign < 0 ? 4 : 0][0][0]; /* row 0 of the ball's lower half */
+    /* row 0 of the ball's lower half */
+    const double sign = n % 4 == 3 ? -1 : 1, *pole = model.P[sign < 0 ? 4 : 0][0][0];
     struct ray ray = {.t_min = 0, .t_max = INFINITY};
     for (int axis = 0; axis < 3; axis++) {
       ray.origin[axis] = origin[axis];
@@ -93,7 +95,8 @@ int main(void)
   assert_true(count < MOST_CLASSES);
   for (size_t n = 0; n < count; n++) {
     void *class = (void *)(uintptr_t)situation_class_at(n); /* cmocka's state is not const */
-    tests[n] = (struct CMUnitTest){.name = situation_class_at(n)->name, .test_func = test_class, .initial_state = class};
+    tests[n] =
+        (struct CMUnitTest){.name = situation_class_at(n)->name, .test_func = test_class, .initial_state = class};
   }
   tests[count] = (struct CMUnitTest)cmocka_unit_test(test_poles);
   return _cmocka_run_group_tests("classes", tests, count + 1, NULL, NULL);

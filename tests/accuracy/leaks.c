@@ -1,6 +1,6 @@
-/* No ray leaves a closed model: rays from inside the dome, the ball, the torus and the teapot aimed exactly at shared edges,
- * corners, poles and iso-lines (where leaves of a patch meet), general and axis-aligned, with every solver; and rays
- * that leave a hit neither strike the point they leave nor miss what comes next.
+/* No ray leaves a closed model: rays from inside the dome, the ball, the torus and the teapot aimed exactly at
+ * shared edges, corners, poles and iso-lines (where leaves of a patch meet), general and axis-aligned, with every
+ * solver; and rays that leave a hit neither strike the point they leave nor miss what comes next.
  *
  * A ray `origin + t (target - origin)` with the target on the surface hits at t = 1 or before, so a ray that slips
  * through at the target shows even where it strikes the far wall. */

@@ -1,5 +1,5 @@
-/* Models out of patches that share their edges bit for bit. Arrays are P[patch][i][j][xyz]; but for the teapot all are closed and
- * about the origin, of outer radius 1 (torus: 1.4).
+/* Models out of patches that share their edges bit for bit. Arrays are P[patch][i][j][xyz]; but for the teapot all
+ * are closed and about the origin, of outer radius 1 (torus: 1.4).
  */
 #ifndef TESTS_ACCURACY_MODELS_H
 #define TESTS_ACCURACY_MODELS_H
@@ -29,8 +29,8 @@ void model_ball(struct model *out);
 /* A torus about the y axis, radii 1 and 0.4: 16 patches; u runs around the tube. */
 void model_torus(struct model *out);
 
-/* The body of the teapot of scenes/teapot.pscn: rim, body and bottom, open between rim and lid; handle, spout and lid are there,
- * and are not of the wall. In units of 2: the body's radius is 1, the bottom at y = 0. */
+/* The body of the teapot of scenes/teapot.pscn: rim, body and bottom, open between rim and lid; handle, spout and
+ * lid are there, and are not of the wall. In units of 2: the body's radius is 1, the bottom at y = 0. */
 void model_teapot(struct model *out);
 
 /* A point well inside: at most half as far from the middle (torus: from the circle inside the tube) as the surface

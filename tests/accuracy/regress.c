@@ -33,7 +33,8 @@ static void bowl(net P)
   }
 }
 
-/* A ray that starts next to the surface, flat: whether it meets it is told by less than the error of the leaf's polynomials. */
+/* A ray that starts next to the surface, flat: whether it meets it is told by less than the error of the leaf's
+ * polynomials. */
 static void test_start(void **state)
 {
   (void)state;
@@ -102,14 +103,16 @@ static void test_line(void **state)
   trial_destroy(&trial);
 }
 
-/* Through the corner of a patch that is a line: what one combination of the planes tells badly must not blur the other. */
+/* Through the corner of a patch that is a line: what one combination of the planes tells badly must not blur the
+ * other. */
 static void test_corner_of_line(void **state)
 {
   (void)state;
-  static const double x[4][4] = {{-0x1.60eb34df6a67dp+0, -0x1.7a04fdefbdbe1p+0, -0x1.a56b7eb02ebfcp+0, -0x1.91e293d3385c4p+0},
-                                 {-0x1.39434e7ae7adcp-2, -0x1.0e8c13ea7fad5p-1, -0x1.11fa41fdaedf9p-1, -0x1.5ceea8c55f3d4p-1},
-                                 {0x1.70f29210ee854p-2, 0x1.37b3ab59ddf7p-1, 0x1.85503f7a90802p-2, 0x1.ebae1309f59d9p-2},
-                                 {0x1.a863a77e6dcdap+0, 0x1.a3b71241f9d58p+0, 0x1.a5ffda26d458bp+0, 0x1.896924b3da50cp+0}};
+  static const double x[4][4] =
+      {{-0x1.60eb34df6a67dp+0, -0x1.7a04fdefbdbe1p+0, -0x1.a56b7eb02ebfcp+0, -0x1.91e293d3385c4p+0},
+       {-0x1.39434e7ae7adcp-2, -0x1.0e8c13ea7fad5p-1, -0x1.11fa41fdaedf9p-1, -0x1.5ceea8c55f3d4p-1},
+       {0x1.70f29210ee854p-2, 0x1.37b3ab59ddf7p-1, 0x1.85503f7a90802p-2, 0x1.ebae1309f59d9p-2},
+       {0x1.a863a77e6dcdap+0, 0x1.a3b71241f9d58p+0, 0x1.a5ffda26d458bp+0, 0x1.896924b3da50cp+0}};
   const double origin[3] = {-0x1.8840fa87a9dc9p+1, -0x1.5b577735d14d2p+0, 0x1.050276e605e4p+2};
   const double direction[3] = {0x1.2e3967237061bp+2, 0x1.9b577735d14d2p+0, -0x1.ea04edcc0bc8p+1};
   net P;

@@ -88,8 +88,8 @@ static void apex(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* A patch that its mirror image x -> -x maps to itself (u -> 1 - u, every other one v -> 1 - v), and rays in the plane of
- * symmetry and across it: the two hits of a ray along x share one v (one u). */
+/* A patch that its mirror image x -> -x maps to itself (u -> 1 - u, every other one v -> 1 - v), and rays in the
+ * plane of symmetry and across it: the two hits of a ray along x share one v (one u). */
 static void symmetry(struct random *random, size_t index, struct situation *s)
 {
   s->count = 1;
@@ -250,7 +250,8 @@ static void collapse(struct situation *s, int edge)
 /* Some rays exactly at corners. */
 static void rays_at_corners(struct situation *s)
 {
-  for (int n = 0; n < RAYS / 4; n++) ray_between(s->rays[n].origin, point(s, 3 * (n & 1), 3 * (n >> 1 & 1)), &s->rays[n]);
+  for (int n = 0; n < RAYS / 4; n++)
+    ray_between(s->rays[n].origin, point(s, 3 * (n & 1), 3 * (n >> 1 & 1)), &s->rays[n]);
 }
 
 /* Opposite edges collapsed, in u, in v, or in both: then all corners are the same point. */
@@ -313,8 +314,8 @@ static void cusped(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* Cutting itself along a line: an extruded loop of a cubic. With w = u (1 - u), x = (2u - 1)(3 - 18 w) and z = 6 w, so it crosses
- * itself at (0,1), w = 1/6. Some rays exactly at that line. */
+/* Cutting itself along a line: an extruded loop of a cubic. With w = u (1 - u), x = (2u - 1)(3 - 18 w) and z = 6 w,
+ * so it crosses itself at (0,1), w = 1/6. Some rays exactly at that line. */
 static void self_intersecting(struct random *random, size_t index, struct situation *s)
 {
   static const double loop_x[4] = {-3, 5, -5, 3}, loop_z[4] = {0, 2, 2, 0};
@@ -389,7 +390,8 @@ static void sized(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* Magnitudes near the ends of what the reference works with. Beyond them: property/invariance_test.c, image/magnitudes.sh. */
+/* Magnitudes near the ends of what the reference works with. Beyond them: property/invariance_test.c,
+ * image/magnitudes.sh. */
 static void hostile_size(struct random *random, size_t index, struct situation *s)
 {
   const double scale = index % 2 ? 1e50 : 1e-50;

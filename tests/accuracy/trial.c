@@ -117,7 +117,8 @@ static double direction_length(const struct ray *ray)
 }
 
 /* How far in t the answer may be from the reference's, whose floor is given, and be the same hit still. */
-static double same_within(const struct trial *trial, const struct ray *ray, const struct hit *hit, double t, double floor)
+static double same_within(const struct trial *trial, const struct ray *ray, const struct hit *hit, double t,
+                          double floor)
 {
   if (trial->bare) return fmax(TRIAL_BARE_SAME * t, TRIAL_SAME_FLOORS * floor);
   double allowed = TRIAL_SAME_FLOORS * floor;
@@ -157,7 +158,8 @@ static void add_t_error(struct tally *tally, double error)
 
 static double length_of(const double a[3]) { return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 
-/* The largest k-th difference of control points along both parameters, times what makes it a bound of that derivative. */
+/* The largest k-th difference of control points along both parameters, times what makes it a bound of that
+ * derivative. */
 static double difference_bound(const double P[4][4][3], int by_u, int by_v)
 {
   double largest = 0, factor = 1;
@@ -169,16 +171,17 @@ static double difference_bound(const double P[4][4][3], int by_u, int by_v)
       for (int m = 0; m <= by_u; m++)
         for (int n = 0; n <= by_v; n++)
           for (int axis = 0; axis < 3; axis++)
-            d[axis] += ((by_u - m + by_v - n) % 2 ? -1 : 1) * (by_u == 2 && m == 1 ? 2 : 1) * (by_v == 2 && n == 1 ? 2 : 1) *
-                       P[i + m][j + n][axis];
+            d[axis] += ((by_u - m + by_v - n) % 2 ? -1 : 1) * (by_u == 2 && m == 1 ? 2 : 1) *
+                       (by_v == 2 && n == 1 ? 2 : 1) * P[i + m][j + n][axis];
       largest = fmax(largest, length_of(d));
     }
   }
   return factor * largest;
 }
 
-/* What the floors of u and v, and the roundings of the tangents (twelve, on weights that sum up to 6 in size, times the patch's
- * extent), do to the unit normal n = S_u x S_v/|S_u x S_v|: to first order |dn| <= |d(S_u x S_v)|/|S_u x S_v|. */
+/* What the floors of u and v, and the roundings of the tangents (twelve, on weights that sum up to 6 in size, times
+ * the patch's extent), do to the unit normal n = S_u x S_v/|S_u x S_v|: to first order |dn| <= |d(S_u x S_v)|/|S_u x
+ * S_v|. */
 static double normal_bound(const double P[4][4][3], const struct reference_answer *truth)
 {
   double su[3], sv[3], cross[3];
@@ -216,8 +219,8 @@ static void measure_normal(const struct trial *trial, const struct ray *ray, con
 }
 
 /* Both found the same hit: how well. */
-static void measure(const struct trial *trial, const struct ray *ray, const struct hit *hit, const struct reference_answer *truth,
-                    struct tally *tally)
+static void measure(const struct trial *trial, const struct ray *ray, const struct hit *hit,
+                    const struct reference_answer *truth, struct tally *tally)
 {
   double reach = 0;
   for (int axis = 0; axis < 3; axis++) reach = fmax(reach, fabs(ray->origin[axis]));
@@ -274,8 +277,10 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
     tally->holes += hit->patch == HIT_NONE;
     show("lost behind a grazing one", ray, hit, truth, tally);
   } else if (hit->patch != HIT_NONE && hit->t < truth->t_first) {
-    const double floor = reference_floor_at(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u, hit->v);
-    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, floor) || excused(trial, ray, hit)) return;
+    const double floor = reference_floor_at(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u,
+                                            hit->v);
+    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, floor) || excused(trial, ray, hit))
+      return;
     tally->invented++;
     show("invented before a grazing one", ray, hit, truth, tally);
   }

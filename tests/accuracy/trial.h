@@ -43,19 +43,21 @@ struct tally {
   bool quiet;   /* set by the caller: print none */
 };
 
-/* How near to each other ray and patch are at a grazing answer, relative to the largest coordinate of both: a box that subdivision
- * leaves undecided is 2^-44 long in the patch's frame, or as seen along the ray within 5 error bounds of 100 2^-53 of either
- * plane, which is as much; the frame is up to 4 times as large as its patch, and the planes are two: 2 x 4 x 2 x 2^-44. */
+/* How near to each other ray and patch are at a grazing answer, relative to the largest coordinate of both: a box
+ * that subdivision leaves undecided is 2^-44 long in the patch's frame, or as seen along the ray within 5 error
+ * bounds of 100 2^-53 of either plane, which is as much; the frame is up to 4 times as large as its patch, and the
+ * planes are two: 2 x 4 x 2 x 2^-44. */
 #define TRIAL_NEAR 0x1p-40
 
-/* Answers of this distance are the same hit. Certain ones and the reference differ by a few floors. Where a hit is grazing the floor,
- * a first-order bound, holds but for a factor of 4 all the same: along the ray the distance from the surface is c x^2 + s x - d, s
- * the incidence, d what rounding can do; its root is off by d/s at most where it stays, and by some sqrt(d/c) where a second one is
- * so near that d can remove both; but then s^2 < 4 c d, so that d/s > sqrt(d/c)/2. To that comes TRIAL_NEAR. */
+/* Answers of this distance are the same hit. Certain ones and the reference differ by a few floors. Where a hit is
+ * grazing the floor, a first-order bound, holds but for a factor of 4 all the same: along the ray the distance from
+ * the surface is c x^2 + s x - d, s the incidence, d what rounding can do; its root is off by d/s at most where it
+ * stays, and by some sqrt(d/c) where a second one is so near that d can remove both; but then s^2 < 4 c d, so that
+ * d/s > sqrt(d/c)/2. To that comes TRIAL_NEAR. */
 #define TRIAL_SAME_FLOORS 64
 
-/* Without polish nothing is proven, and what is counted is how often the hit is found, within this relative distance of t; 100 times
- * the square root of 2^-53 where roots are nearly double. */
+/* Without polish nothing is proven, and what is counted is how often the hit is found, within this relative distance
+ * of t; 100 times the square root of 2^-53 where roots are nearly double. */
 #define TRIAL_BARE_SAME 1e-6
 
 /* Bounds issue 4 sets. */

@@ -1,9 +1,9 @@
-/* The commands when memory or threads run out: each is run as often as it allocates, and each time another allocation fails. It
- * ends with exit code 5 and a word on stderr, or as ever where what failed could be done without; a file that it writes is whole
- * or not there; nothing leaks (the sanitizers look).
+/* The commands when memory or threads run out: each is run as often as it allocates, and each time another
+ * allocation fails. It ends with exit code 5 and a word on stderr, or as ever where what failed could be done
+ * without; a file that it writes is whole or not there; nothing leaks (the sanitizers look).
  *
- * The linker hands every call of malloc, calloc, realloc, strdup and pthread_create in commands and library to the functions
- * below. What popt, jansson and OpenImageIO allocate is theirs.
+ * The linker hands every call of malloc, calloc, realloc, strdup and pthread_create in commands and library to the
+ * functions below. What popt, jansson and OpenImageIO allocate is theirs.
  */
 #include <errno.h>
 #include <fcntl.h>
@@ -113,9 +113,11 @@ static void feed(const char *text)
 static void test_render(void **state)
 {
   (void)state;
-  const char *const plain[] = {"render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "9x7", "--quiet", "-o", output, NULL};
-  const char *const more[] = {"render", PSCN_SOURCE_DIR "/scenes/nested.pscn", "--size", "9x7", "--threads", "2", "--quiet",
-                              "--solver", "aberth { start previous }", "--stats", stats, "-o", output, NULL};
+  const char *const plain[] = {"render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "9x7", "--quiet", "-o", output,
+                               NULL};
+  const char *const more[] =
+      {"render",   PSCN_SOURCE_DIR "/scenes/nested.pscn", "--size",  "9x7", "--threads", "2",    "--quiet",
+       "--solver", "aberth { start previous }",           "--stats", stats, "-o",        output, NULL};
   assert_true(fail_each(plain, &left, true) > LEAST);
   assert_true(fail_each(more, &left, true) > LEAST);
 }
@@ -147,7 +149,10 @@ static void test_compare(void **state)
   (void)state;
   char picture[64];
   snprintf(picture, sizeof picture, "%s/picture.png", folder);
-  const char *const render[] = {"render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "9x7", "--quiet", "-o", picture, NULL};
+  const char *const render[] = {"render",  PSCN_SOURCE_DIR "/scenes/dome.pscn",
+                                "--size",  "9x7",
+                                "--quiet", "-o",
+                                picture,   NULL};
   const char *const compare[] = {"compare", picture, picture, "-o", output, NULL};
   assert_int_equal(run(render), STATUS_OK);
   assert_true(fail_each(compare, &left, true) > LEAST);

@@ -80,7 +80,8 @@ static void test_solver_text(void **state)
   (void)state;
   struct solver_options options = { 0 };
   struct diagnostics diagnostics = listener();
-  assert_int_equal(language_parse_solver(" aberth { polish off /* a comment */ split 7\n tolerance 1e-7 }", &diagnostics, &options),
+  assert_int_equal(language_parse_solver(" aberth { polish off /* a comment */ split 7\n tolerance 1e-7 }",
+                                         &diagnostics, &options),
                    STATUS_OK);
   assert_string_equal(options.solver->name, "aberth");
   assert_true(!options.polish && options.split == 7 && options.tolerance == 1e-7 && diagnostics.error_count == 0);
@@ -92,13 +93,15 @@ static void test_wrong_solver_texts(void **state)
   static const struct {
     const char *text, *told;
   } cases[] = {
-    { "", "<--solver>:1:1: error: the text ends here, expected a name\n  \n  ^\n" },
-    { "abert", "<--solver>:1:1: error: there is no solver 'abert'; did you mean 'aberth'?\n  abert\n  ^~~~~\n" },
-    { "aberth { polish of }", "<--solver>:1:17: error: polish is off or on\n  aberth { polish of }\n                  ^~\n" },
-    { "aberth { polish", "<--solver>:1:8: error: this brace is not closed\n  aberth { polish\n         ^\n" },
-    { "aberth } x", "<--solver>:1:8: error: unexpected '}', expected '{'\n  aberth } x\n         ^\n" },
-    { "aberth {} camera", "<--solver>:1:11: error: unexpected 'camera', expected the end of the text\n  aberth {} camera\n            ^~~~~~\n" },
-    { "solver aberth", "<--solver>:1:1: error: there is no solver 'solver', only " },
+      {"", "<--solver>:1:1: error: the text ends here, expected a name\n  \n  ^\n"},
+      {"abert", "<--solver>:1:1: error: there is no solver 'abert'; did you mean 'aberth'?\n  abert\n  ^~~~~\n"},
+      {"aberth { polish of }",
+       "<--solver>:1:17: error: polish is off or on\n  aberth { polish of }\n                  ^~\n"},
+      {"aberth { polish", "<--solver>:1:8: error: this brace is not closed\n  aberth { polish\n         ^\n"},
+      {"aberth } x", "<--solver>:1:8: error: unexpected '}', expected '{'\n  aberth } x\n         ^\n"},
+      {"aberth {} camera", "<--solver>:1:11: error: unexpected 'camera', expected the end of the text\n  aberth {} "
+                           "camera\n            ^~~~~~\n"},
+      {"solver aberth", "<--solver>:1:1: error: there is no solver 'solver', only "},
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     struct solver_options options = { .split = 99 };
@@ -198,18 +201,19 @@ static void test_many_empty_copies(void **state)
   scene_destroy(scene);
 }
 
-/* A declared object that is named several times is told to be one, whatever it is in and however it is moved; its patches are where
- * its copies' maps carry them. */
+/* A declared object that is named several times is told to be one, whatever it is in and however it is moved; its
+ * patches are where its copies' maps carry them. */
 static void test_copies(void **state)
 {
   (void)state;
   static const char text[] =
-    "#declare P = bicubic_patch { type 1 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> <1,2,0> <2,2,1> <3,2,0>"
-    " <0,3,0> <1,3,0> <2,3,0> <3,3,0> translate <0.1, 0, 0> }\n"
-    "#declare Two = union { object { P rotate <10, 20, 30> } object { P scale <1, -2, 0.3> } translate z }\n"
-    "object { P }\n"
-    "union { object { Two } object { Two rotate 33 * y translate <5, 0, 0.7> } rotate 7 * x }\n"
-    "object { Two matrix <1, 0.5, 0, 0, 1, 0.25, 0.125, 0, 1, 3, 4, 5> scale 2 }\n";
+      "#declare P = bicubic_patch { type 1 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> "
+      "<1,2,0> <2,2,1> <3,2,0>"
+      " <0,3,0> <1,3,0> <2,3,0> <3,3,0> translate <0.1, 0, 0> }\n"
+      "#declare Two = union { object { P rotate <10, 20, 30> } object { P scale <1, -2, 0.3> } translate z }\n"
+      "object { P }\n"
+      "union { object { Two } object { Two rotate 33 * y translate <5, 0, 0.7> } rotate 7 * x }\n"
+      "object { Two matrix <1, 0.5, 0, 0, 1, 0.25, 0.125, 0, 1, 3, 4, 5> scale 2 }\n";
   struct scene *scene = NULL;
   assert_int_equal(load(text, sizeof text - 1, &PLAIN, &scene), STATUS_OK);
   assert_int_equal(scene->patch_count, 7);
@@ -224,7 +228,8 @@ static void test_copies(void **state)
     assert_int_equal(object->patch_count, c == 0 ? 1 : 2);
     for (size_t p = 0; p < object->patch_count; p++) {
       for (int n = 0; n < 48; n++) {
-        const double *from = object->P[p][n / 12][n / 3 % 4], *to = scene->patches[copy->first_patch + p].P[n / 12][n / 3 % 4];
+        const double *from = object->P[p][n / 12][n / 3 % 4],
+                     *to = scene->patches[copy->first_patch + p].P[n / 12][n / 3 % 4];
         double x = copy->b[n % 3], size = fabs(x);
         for (int i = 0; i < 3; i++) x += from[i] * copy->A[i][n % 3], size += fabs(from[i] * copy->A[i][n % 3]);
         assert_true(fabs(x - to[n % 3]) <= 16 * 0x1p-53 * size);

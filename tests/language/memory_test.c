@@ -1,5 +1,6 @@
-/* Reading when memory runs out: the nth allocation fails, for every n that a text needs. Each time the answer is STATUS_LIMIT
- * with something told, or, where what failed could be done without, the same scene; nothing leaks (the sanitizers look).
+/* Reading when memory runs out: the nth allocation fails, for every n that a text needs. Each time the answer is
+ * STATUS_LIMIT with something told, or, where what failed could be done without, the same scene; nothing leaks (the
+ * sanitizers look).
  *
  * The linker hands every call of malloc, calloc, realloc and strdup in the library to the functions below.
  */

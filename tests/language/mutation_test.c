@@ -1,6 +1,7 @@
-/* Scenes with accidents: the files of ok/ and bad/ with bytes and words changed, cut out, doubled and strewn in. Whatever comes
- * of it, reading ends with a scene or with errors, never both and never neither; a scene is finite, and its dump reads back as
- * the same dump. Run under the sanitizers this also shows that nothing is read or freed wrongly.
+/* Scenes with accidents: the files of ok/ and bad/ with bytes and words changed, cut out, doubled and strewn in.
+ * Whatever comes of it, reading ends with a scene or with errors, never both and never neither; a scene is finite,
+ * and its dump reads back as the same dump. Run under the sanitizers this also shows that nothing is read or freed
+ * wrongly.
  */
 #include <dirent.h>
 #include <math.h>
@@ -24,13 +25,61 @@ enum {
 
 static const struct language_settings SETTINGS = { 800, 600, NULL, NAN };
 
-static const char *const STREWN[] = {
-  "{", "}", "(", ")", "<", ">", ",", ";", "+", "-", "*", "/", ".x", "/*", "*/", "//", "\"", "#", "#ifdef (pscn)", "#else", "#end",
-  "#if", "#macro", "#declare A = ", "#local B = ", "#include \"included/values.inc\"", "#version", "1e308", "1e-320", "0", "-1",
-  "<1, 2, 3>", "<1e200, 0, 0>", "object {", "union {", "bicubic_patch {", "matrix <", "scale 0", "rotate 1e308", "texture {",
-  "pigment {", "finish {", "solver aberth {", "camera {", "look_at", "light_source {", "background { rgb 1 }", "rgb", "x", "A",
-  "sphere", "\n", "\t", "\xc3\xa9", "\xff"
-};
+static const char *const STREWN[] = {"{",
+                                     "}",
+                                     "(",
+                                     ")",
+                                     "<",
+                                     ">",
+                                     ",",
+                                     ";",
+                                     "+",
+                                     "-",
+                                     "*",
+                                     "/",
+                                     ".x",
+                                     "/*",
+                                     "*/",
+                                     "//",
+                                     "\"",
+                                     "#",
+                                     "#ifdef (pscn)",
+                                     "#else",
+                                     "#end",
+                                     "#if",
+                                     "#macro",
+                                     "#declare A = ",
+                                     "#local B = ",
+                                     "#include \"included/values.inc\"",
+                                     "#version",
+                                     "1e308",
+                                     "1e-320",
+                                     "0",
+                                     "-1",
+                                     "<1, 2, 3>",
+                                     "<1e200, 0, 0>",
+                                     "object {",
+                                     "union {",
+                                     "bicubic_patch {",
+                                     "matrix <",
+                                     "scale 0",
+                                     "rotate 1e308",
+                                     "texture {",
+                                     "pigment {",
+                                     "finish {",
+                                     "solver aberth {",
+                                     "camera {",
+                                     "look_at",
+                                     "light_source {",
+                                     "background { rgb 1 }",
+                                     "rgb",
+                                     "x",
+                                     "A",
+                                     "sphere",
+                                     "\n",
+                                     "\t",
+                                     "\xc3\xa9",
+                                     "\xff"};
 
 struct text {
   char *bytes;
@@ -78,7 +127,8 @@ static void tell(void *context, const char *text, size_t length)
 {
   struct told *told = context;
   told->count++;
-  told->whole_lines &= length > 0 && text[length - 1] == '\n' && !memchr(text, '\x1b', length) && !memchr(text, '\0', length);
+  told->whole_lines &= length > 0 && text[length - 1] == '\n' && !memchr(text, '\x1b', length) &&
+                       !memchr(text, '\0', length);
 }
 
 static enum status load(const struct text *text, const char *name, struct scene **out_scene)

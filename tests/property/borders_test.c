@@ -1,7 +1,8 @@
-/* Rays at the border that two patches share, near and far from the origin, for all true bidegrees, judged by the reference.
+/* Rays at the border that two patches share, near and far from the origin, for all true bidegrees, judged by the
+ * reference.
  *
- * Away from the origin a patch of low degree is one only within its rounding; a resultant formed at the low degree without an
- * error for that once dismissed both patches (certain misses, 22 of 4,000 rays at 1e6). */
+ * Away from the origin a patch of low degree is one only within its rounding; a resultant formed at the low degree
+ * without an error for that once dismissed both patches (certain misses, 22 of 4,000 rays at 1e6). */
 #include <math.h>
 #include <string.h>
 
@@ -98,7 +99,8 @@ static void shared_borders_do_not_leak(void **state)
           /* Over the sine of the angle at which the surface is met; relative to t, which is about the scene's size. */
           worst = fmax(worst, fabs((double)((quad)got.t - want.t)) / (double)want.t * want.incidence);
         } else if (leaks++ < 3) {
-          print_message("leak: degree (%d,%d) at %g, certainty %d, u %.3g\n", m, n, offsets[o], got.certainty, (double)want.u);
+          print_message("leak: degree (%d,%d) at %g, certainty %d, u %.3g\n", m, n, offsets[o], got.certainty,
+                        (double)want.u);
         }
       }
       reference_destroy(reference);

@@ -84,7 +84,8 @@ static void pair_close(struct pair *pair)
   free(pair->scene.patches);
 }
 
-/* How far two right answers may be apart, as a part of t: last places of a point and of t, over the sine of the angle of incidence. */
+/* How far two right answers may be apart, as a part of t: last places of a point and of t, over the sine of the
+ * angle of incidence. */
 static double tolerance(const struct ray *ray, const struct hit *hit)
 {
   const double length = vector_length(ray->direction);
@@ -123,12 +124,13 @@ static void compare(struct pair *pair)
       hits += a->patch != HIT_NONE;
       if (agree(&pair->rays[n + l], a, b)) continue;
       if (wrong++ < 3) {
-        print_message("kind %d ray %d: patch %u t %.17g u %.17g v %.17g, by itself patch %u t %.17g u %.17g v %.17g\n", pair->kind, n + l,
-                      a->patch, a->t, a->u, a->v, b->patch, b->t, b->u, b->v);
+        print_message("kind %d ray %d: patch %u t %.17g u %.17g v %.17g, by itself patch %u t %.17g u %.17g v %.17g\n",
+                      pair->kind, n + l, a->patch, a->t, a->u, a->v, b->patch, b->t, b->u, b->v);
       }
     }
   }
-  print_message("kind %d: %d rays, %d hits, certain %d, by themselves %d\n", pair->kind, RAYS, hits, certain[0], certain[1]);
+  print_message("kind %d: %d rays, %d hits, certain %d, by themselves %d\n", pair->kind, RAYS, hits, certain[0],
+                certain[1]);
   assert_int_equal(wrong, 0);
   assert_true(hits > RAYS / 8);
   /* What is undecidable in the object is decided in the scene. */
@@ -179,8 +181,8 @@ static void leave(struct pair *pair)
     for (int k = 0; k < 2; k++) tracer_closest(pair->tracer[k], 1, &ray, &next[k]);
     if (agree(&ray, &next[0], &next[1])) continue;
     if (wrong++ < 3) {
-      print_message("kind %d ray %d: patch %u t %.17g, by itself patch %u t %.17g; clearance %g\n", pair->kind, n, next[0].patch,
-                    next[0].t, next[1].patch, next[1].t, hit.clearance);
+      print_message("kind %d ray %d: patch %u t %.17g, by itself patch %u t %.17g; clearance %g\n", pair->kind, n,
+                    next[0].patch, next[0].t, next[1].patch, next[1].t, hit.clearance);
     }
   }
   assert_int_equal(wrong, 0);

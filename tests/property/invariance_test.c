@@ -1,5 +1,5 @@
-/* What an answer keeps when the scene is scaled, moved or cut otherwise, when the ray is given otherwise, and when another method
- * finds it; intervals of t; leaving a surface. */
+/* What an answer keeps when the scene is scaled, moved or cut otherwise, when the ray is given otherwise, and when
+ * another method finds it; intervals of t; leaving a surface. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,14 +10,15 @@
 
 enum { SEED = 20240511, SCENES = 2, RAYS = 64 };
 
-/* Hits that are computed in two ways differ by the rounding of the plane polynomials over the sine of the angle at which the ray
- * meets the surface: some hundred units roundoff of the scene's size. */
+/* Hits that are computed in two ways differ by the rounding of the plane polynomials over the sine of the angle at
+ * which the ray meets the surface: some hundred units roundoff of the scene's size. */
 #define SAME_T 1e-13
 
 static void print_case(const char *what, int kind, const struct ray *r, const struct hit *a, const struct hit *b)
 {
-  print_message("%s: world %d, origin %.17g %.17g %.17g, direction %.17g %.17g %.17g, t %.17g to %.17g\n", what, kind, r->origin[0],
-                r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2], r->t_min, r->t_max);
+  print_message("%s: world %d, origin %.17g %.17g %.17g, direction %.17g %.17g %.17g, t %.17g to %.17g\n", what, kind,
+                r->origin[0], r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2], r->t_min,
+                r->t_max);
   const struct hit *both[2] = {a, b};
   for (int k = 0; k < 2; k++) {
     const struct hit *h = both[k];
@@ -34,7 +35,8 @@ static struct hit closest(const struct world *world, const struct ray *ray)
   return hit;
 }
 
-/* Whether two answers to rays of the same geometry agree as far as both are certain; b's t is multiplied by `ratio` first. */
+/* Whether two answers to rays of the same geometry agree as far as both are certain; b's t is multiplied by `ratio`
+ * first. */
 static bool agree(const struct ray *ray, const struct hit *a, const struct hit *b, double ratio)
 {
   if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
@@ -58,8 +60,9 @@ static void scale_net(world_net net, double factor, double offset, world_net out
   for (int n = 0; n < 48; n++) out[n / 12][n / 3 % 4][n % 3] = net[n / 12][n / 3 % 4][n % 3] * factor + offset;
 }
 
-/* Answers that no traversal changes: the same to the last bit. Of a pole met exactly, any of the patches that meet there may be
- * answered, at a place within the last bits: where the hierarchy's single precision ends, its order is another. */
+/* Answers that no traversal changes: the same to the last bit. Of a pole met exactly, any of the patches that meet
+ * there may be answered, at a place within the last bits: where the hierarchy's single precision ends, its order is
+ * another. */
 static bool same_or_grazing(const struct hit *a, const struct hit *b)
 {
   if (same_hit(a, b)) return true;
@@ -105,8 +108,8 @@ static void powers_of_two_scale_exactly(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* x, y, z become y, z, x: the axis along which the ray is longest goes along, and with it the two planes, so that no digit of
- * the place changes. (The normal's length is a sum in another order.) */
+/* x, y, z become y, z, x: the axis along which the ray is longest goes along, and with it the two planes, so that no
+ * digit of the place changes. (The normal's length is a sum in another order.) */
 static void turned_axes_answer_alike(void **state)
 {
   (void)state;
@@ -164,7 +167,8 @@ static void the_order_of_patches_does_not_matter(void **state)
         struct hit got = closest(&b, &ray);
         if (got.patch != HIT_NONE) got.patch = (uint32_t)count - 1 - got.patch;
         bool same = same_hit(&want, &got);
-        if (!same && want.certainty == got.certainty && want.patch != got.patch && want.patch != HIT_NONE && got.patch != HIT_NONE) {
+        if (!same && want.certainty == got.certainty && want.patch != got.patch && want.patch != HIT_NONE &&
+            got.patch != HIT_NONE) {
           const double length = vector_length(ray.direction);
           double apart[3];
           vector_subtract(want.point, got.point, apart);
@@ -207,7 +211,8 @@ static void scaled_and_moved_scenes_answer_alike(void **state)
         for (int k = 0; k < 3; k++) changed.origin[k] = ray.origin[k] * changes[c].factor + changes[c].offset;
         const struct hit want = closest(&a, &ray), got = closest(&b, &changed);
         if (n % RAY_KINDS == 5) continue; /* from the surface: whether t = 0 counts is decided by the rounding there */
-        if (!agree(&ray, &want, &got, 1 / changes[c].factor) && wrong++ < 5) print_case("moved", kind, &ray, &want, &got);
+        if (!agree(&ray, &want, &got, 1 / changes[c].factor) && wrong++ < 5)
+          print_case("moved", kind, &ray, &want, &got);
       }
       world_close(&a);
       world_close(&b);
@@ -239,8 +244,10 @@ static void the_length_of_the_direction_does_not_matter(void **state)
       }
       struct hit got = closest(&world, &longer);
       got.t = ldexp(got.t, exponent);
-      if (want.patch != HIT_NONE && exact && !same_hit(&want, &got) && wrong++ < 5) print_case("length", kind, &ray, &want, &got);
-      if ((want.patch == HIT_NONE) != (got.patch == HIT_NONE) && wrong++ < 5) print_case("length", kind, &ray, &want, &got);
+      if (want.patch != HIT_NONE && exact && !same_hit(&want, &got) && wrong++ < 5)
+        print_case("length", kind, &ray, &want, &got);
+      if ((want.patch == HIT_NONE) != (got.patch == HIT_NONE) && wrong++ < 5)
+        print_case("length", kind, &ray, &want, &got);
     }
     world_close(&world);
   }
@@ -313,7 +320,8 @@ static void intervals_of_t_are_respected(void **state)
         const struct hit at = closest(&world, &part);
         if (certain && (before.patch != HIT_NONE || after.patch == HIT_NONE || after.t != forward[0].t) && wrong++ < 5)
           print_case("interval", kind, &part, &forward[0], before.patch != HIT_NONE ? &before : &after);
-        if (at.patch != HIT_NONE && !(at.t > 0 && at.t < part.t_max) && wrong++ < 5) print_case("t_max", kind, &part, &at, &at);
+        if (at.patch != HIT_NONE && !(at.t > 0 && at.t < part.t_max) && wrong++ < 5)
+          print_case("t_max", kind, &part, &at, &at);
         for (int k = 0; k < hits; k++) assert_true(forward[k].t > 0 && (k == 0 || forward[k].t > forward[k - 1].t));
         /* The same points from the other end. */
         const double end = forward[hits - 1].t + 1;
@@ -326,14 +334,16 @@ static void intervals_of_t_are_respected(void **state)
         bool same = seen == hits;
         for (int k = 0; same && k < hits; k++) {
           const struct hit *f = &forward[k], *b = &backward[hits - 1 - k];
-          const double length = vector_length(ray.direction), steep = fabs(vector_dot(ray.direction, f->normal)) / length;
+          const double length = vector_length(ray.direction),
+                       steep = fabs(vector_dot(ray.direction, f->normal)) / length;
           /* The other origin is rounded: the line is another one, by some units of the last place. */
           same = fabs(f->t + b->t - end) * steep * steep <= 1e-12 * fmax(1, end);
         }
         if (!same && wrong++ < 5) {
           print_case("backwards", kind, &ray, &forward[0], &backward[0]);
           for (int k = 0; k < hits; k++) print_message("  forward %.17g on %u\n", forward[k].t, forward[k].patch);
-          for (int k = 0; k < seen; k++) print_message("  backward %.17g on %u\n", end - backward[k].t, backward[k].patch);
+          for (int k = 0; k < seen; k++)
+            print_message("  backward %.17g on %u\n", end - backward[k].t, backward[k].patch);
         }
       }
       world_close(&world);
@@ -386,8 +396,8 @@ static void cuts_and_methods_answer_alike(void **state)
   assert_int_equal(wrong, 0);
 }
 
-/* A ray that leaves a hit, to either side, at no flat angle, does not meet the sheet it leaves; the patches bend by radii above
- * 1/100, so whatever it meets of it is at least that times the sine of 0.1 away. */
+/* A ray that leaves a hit, to either side, at no flat angle, does not meet the sheet it leaves; the patches bend by
+ * radii above 1/100, so whatever it meets of it is at least that times the sine of 0.1 away. */
 static void leaving_a_surface_does_not_meet_it(void **state)
 {
   (void)state;

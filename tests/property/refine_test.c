@@ -9,14 +9,15 @@
 
 enum { SEED = 20240513, CASES = 12000 };
 
-/* The plane polynomials of the exact ray over the exact patch's part under the leaf, in quadruple precision, as a moment and
- * nets in the leaf's frame. */
+/* The plane polynomials of the exact ray over the exact patch's part under the leaf, in quadruple precision, as a
+ * moment and nets in the leaf's frame. */
 struct truth {
   struct quad_net net[2];
   quad moment[2];
 };
 
-static void truth_make(const struct model *model, const struct leaf *leaf, const struct ray *ray, int k, struct truth *out)
+static void truth_make(const struct model *model, const struct leaf *leaf, const struct ray *ray, int k,
+                       struct truth *out)
 {
   const struct model_patch *patch = &model->patches[leaf->patch];
   double(*P)[4][3] = model->scene->patches[leaf->patch].P;
@@ -45,7 +46,8 @@ static bool quad_newton(const struct truth *truth, quad *u, quad *v)
     const struct quad_jet a = quad_net_jet(&truth->net[0], *u, *v), b = quad_net_jet(&truth->net[1], *u, *v);
     const quad determinant = a.du * b.dv - a.dv * b.du;
     if (determinant == 0) return false;
-    const quad du = (a.value * b.dv - b.value * a.dv) / determinant, dv = (b.value * a.du - a.value * b.du) / determinant;
+    const quad du = (a.value * b.dv - b.value * a.dv) / determinant,
+               dv = (b.value * a.du - a.value * b.du) / determinant;
     *u -= du, *v -= dv;
     if (!(quad_abs(*u) < 3 && quad_abs(*v) < 3)) return false;
     if (quad_abs(du) + quad_abs(dv) < 1e-28) return true;
@@ -112,7 +114,8 @@ static void check_planes(struct subject *s, struct random *random)
     refine_weights(lanes_all((double)u), wu, du);
     refine_weights(lanes_all((double)v), wv, dv);
     const quad value = refine_evaluate(wide, wu, du, wv, dv).value[0];
-    worst_value = fmax(worst_value, (double)quad_abs(value - quad_net_jet(&s->truth.net[p], u, v).value) / s->local.error);
+    worst_value = fmax(worst_value,
+                       (double)quad_abs(value - quad_net_jet(&s->truth.net[p], u, v).value) / s->local.error);
   }
   /* start and to_t: t of the local place 0. */
   const struct model_patch *patch = &s->model->patches[s->leaf->patch];
@@ -126,8 +129,9 @@ static void the_plane_polynomials_are_within_their_error(void **state)
 {
   (void)state;
   on_all_leaves(SEED, check_planes);
-  print_message("moments off by %.3g last places; coefficients %.3g, values %.3g of the bound; t of a place %.3g roundings\n",
-                worst_moment, worst_net, worst_value, worst_t);
+  print_message(
+      "moments off by %.3g last places; coefficients %.3g, values %.3g of the bound; t of a place %.3g roundings\n",
+      worst_moment, worst_net, worst_value, worst_t);
   assert_true(worst_moment <= 4);
   assert_true(worst_net <= 1 && worst_value <= 1);
   assert_true(worst_net > 1e-3); /* not vacuous */

@@ -32,15 +32,17 @@ static size_t fill_wild(struct random *random, world_net nets[])
 {
   for (int p = 0; p < 4; p++)
     for (int n = 0; n < 16; n++)
-      set(nets[p][n / 4][n % 4], random_between(random, -1, 1), random_between(random, -1, 1), random_between(random, -1, 1));
+      set(nets[p][n / 4][n % 4], random_between(random, -1, 1), random_between(random, -1, 1),
+          random_between(random, -1, 1));
   return 4;
 }
 
 /* Quarter turns of a profile, with the circle's usual cubic; u = 0 is the pole. */
 static size_t fill_dome(struct random *random, world_net nets[])
 {
-  static const double turn[13][2] = {{1, 0},      {1, 0.552},  {0.552, 1},  {0, 1},       {-0.552, 1}, {-1, 0.552}, {-1, 0},
-                                     {-1, -0.552}, {-0.552, -1}, {0, -1},     {0.552, -1}, {1, -0.552}, {1, 0}};
+  static const double turn[13][2] = {{1, 0},      {1, 0.552},  {0.552, 1},   {0, 1},       {-0.552, 1},
+                                     {-1, 0.552}, {-1, 0},     {-1, -0.552}, {-0.552, -1}, {0, -1},
+                                     {0.552, -1}, {1, -0.552}, {1, 0}};
   const double radius[4] = {0, random_between(random, 0.3, 0.6), 1, 1}, height[4] = {0.9, 0.9, 0.5, 0};
   for (int p = 0; p < 4; p++)
     for (int n = 0; n < 16; n++) {
@@ -71,12 +73,14 @@ static size_t fill_low(struct random *random, world_net nets[])
     const int m = 1 + p / 3, n = 1 + p % 3;
     double low[3][4][4];
     for (int k = 0; k < 48; k++) low[k / 16][k / 4 % 4][k % 4] = random_between(random, -1, 1);
-    for (int e = 0; e < 16; e++) { /* a cubic with the values of a polynomial of degree (m,n) at its four nodes, by elevation */
+    /* a cubic with the values of a polynomial of degree (m,n) at its four nodes, by elevation */
+    for (int e = 0; e < 16; e++) {
       double point[3];
       const double s = (e / 4) / 3.0, t = (e % 4) / 3.0;
       for (int k = 0; k < 3; k++) {
         /* Blossoms of u^a at the control values: u -> i/3, u^2 -> i(i-1)/6, u^3 -> [i = 3]. */
-        const double bu[4] = {1, s, e / 4 * (e / 4 - 1) / 6.0, e / 4 == 3}, bv[4] = {1, t, e % 4 * (e % 4 - 1) / 6.0, e % 4 == 3};
+        const double bu[4] = {1, s, e / 4 * (e / 4 - 1) / 6.0, e / 4 == 3},
+                     bv[4] = {1, t, e % 4 * (e % 4 - 1) / 6.0, e % 4 == 3};
         point[k] = 0;
         for (int a = 0; a <= m; a++)
           for (int b = 0; b <= n; b++) point[k] += low[k][a][b] * bu[a] * bv[b] * 0.5;
@@ -96,10 +100,12 @@ static size_t fill_degenerate(struct random *random, world_net nets[])
     memcpy(nets[1][n / 4][n % 4], nets[1][0][n % 4], sizeof nets[1][0][0]);           /* a curve */
     set(nets[2][n / 4][n % 4], n / 4 / 3.0, n / 4 / 3.0, 0.5);                          /* a line */
     nets[3][n / 4][n % 4][2] = 0.25;                                                   /* folded flat */
-    memcpy(nets[4][n / 4][n % 4], nets[4][n / 4 > 1 ? 3 : 0][n % 4], sizeof nets[4][0][0]); /* ruled, both halves still */
+    /* ruled, both halves still */
+    memcpy(nets[4][n / 4][n % 4], nets[4][n / 4 > 1 ? 3 : 0][n % 4], sizeof nets[4][0][0]);
     if (n / 4 == 0) memcpy(nets[5][0][n % 4], nets[5][0][0], sizeof nets[5][0][0]);   /* collapsed at u = 0 */
     if (n % 4 == 3) memcpy(nets[5][n / 4][3], nets[5][0][3], sizeof nets[5][0][0]);   /* and at v = 1 */
-    if (n / 4 == 0 || n / 4 == 3) memcpy(nets[6][n / 4][n % 4], nets[6][n / 4][0], sizeof nets[6][0][0]); /* two poles */
+    /* two poles */
+    if (n / 4 == 0 || n / 4 == 3) memcpy(nets[6][n / 4][n % 4], nets[6][n / 4][0], sizeof nets[6][0][0]);
     memcpy(nets[7][n / 4][n % 4], nets[7][n % 4][n / 4], sizeof nets[7][0][0]);       /* folded on its diagonal */
   }
   return 8;
@@ -165,12 +171,14 @@ struct ray world_ray(struct random *random, world_net *nets, size_t count, int k
   for (int k = 0; k < 3; k++) ray.direction[k] = point[k] - ray.origin[k];
   if (kind == 3) { /* tangent */
     const double a = random_between(random, -1, 1), b = random_between(random, -1, 1);
-    for (int k = 0; k < 3; k++) ray.direction[k] = a * du[k] + b * dv[k], ray.origin[k] = point[k] - 2 * ray.direction[k];
+    for (int k = 0; k < 3; k++)
+      ray.direction[k] = a * du[k] + b * dv[k], ray.origin[k] = point[k] - 2 * ray.direction[k];
   }
   if (kind == 4) { /* along an axis */
     const int axis = (int)(random_bits(random) % 3);
     const double sign = random_bits(random) % 2 ? 1 : -1;
-    for (int k = 0; k < 3; k++) ray.direction[k] = k == axis ? sign : sign * 0.0, ray.origin[k] = point[k] - 4 * ray.direction[k];
+    for (int k = 0; k < 3; k++)
+      ray.direction[k] = k == axis ? sign : sign * 0.0, ray.origin[k] = point[k] - 4 * ray.direction[k];
   }
   if (kind == 5) { /* from the surface, anywhere */
     for (int k = 0; k < 3; k++) ray.origin[k] = point[k], ray.direction[k] = random_between(random, -1, 1);

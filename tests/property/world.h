@@ -38,8 +38,8 @@ size_t world_fill(enum world_kind kind, struct random *random, world_net nets[WO
 void world_open(struct world *world, world_net *nets, size_t count, const struct solver_options *options);
 void world_close(struct world *world);
 
-/* A ray at the nets, of one of many kinds: through the middle of things, at borders, corners and lines of constant u and v,
- * tangent, along an axis, from far, from the surface itself. t_min 0, t_max INFINITY. */
+/* A ray at the nets, of one of many kinds: through the middle of things, at borders, corners and lines of constant u
+ * and v, tangent, along an axis, from far, from the surface itself. t_min 0, t_max INFINITY. */
 enum { RAY_KINDS = 8 };
 struct ray world_ray(struct random *random, world_net *nets, size_t count, int kind);
 

@@ -124,8 +124,9 @@ static void print_error(double error, bool measured)
 
 static void print_class(const struct situation_class *class, const struct tally row[FORMS])
 {
-  printf("<details><summary>%s (seed %llu): %zu rays; the reference says %zu hits, %zu misses, %zu grazing</summary>\n\n",
-         class->name, (unsigned long long)class->seed, row[0].rays, row[0].hits, row[0].misses, row[0].undecided);
+  printf(
+      "<details><summary>%s (seed %llu): %zu rays; the reference says %zu hits, %zu misses, %zu grazing</summary>\n\n",
+      class->name, (unsigned long long)class->seed, row[0].rays, row[0].hits, row[0].misses, row[0].undecided);
   printf("| solver | lost | of these holes | invented | grazing | worst error of T, certain | grazing |\n"
          "|---|---|---|---|---|---|---|\n");
   for (int form = 0; form < FORMS; form++) {
@@ -148,9 +149,10 @@ static void print_class(const struct situation_class *class, const struct tally 
 /* Whether all is as the paper has it but for polish: what the solver statement of the paper's method must mean. */
 static bool is_papers(const struct solver_options *o)
 {
-  return o->basis == BASIS_POWER && o->resultant == RESULTANT_SYLVESTER && o->back_substitution == BACK_SUBSTITUTION_EUCLID &&
-         o->split == 1 && o->start == START_COLD && o->radii == RADII_CIRCLE && o->stop == STOP_STEP &&
-         o->update == UPDATE_JACOBI && !o->rest && o->deflation == DEFLATION_FORWARD && !o->refine;
+  return o->basis == BASIS_POWER && o->resultant == RESULTANT_SYLVESTER &&
+         o->back_substitution == BACK_SUBSTITUTION_EUCLID && o->split == 1 && o->start == START_COLD &&
+         o->radii == RADII_CIRCLE && o->stop == STOP_STEP && o->update == UPDATE_JACOBI && !o->rest &&
+         o->deflation == DEFLATION_FORWARD && !o->refine;
 }
 
 int main(void)

@@ -117,7 +117,11 @@ static void rounding_goes_outwards(void **state)
   (void)state;
   static struct bvh_box boxes[MANY];
   struct random random = {SEED + 2};
-  static const double offsets[][3] = {{1e6, -1e6, 1e6}, {-1e6, 3e5, 0}, {1e300, -1e300, 1e-300}, {1e-42, -1e-44, 0}, {3e38, 3.5e38, -3.5e38}};
+  static const double offsets[][3] = {{1e6, -1e6, 1e6},
+                                      {-1e6, 3e5, 0},
+                                      {1e300, -1e300, 1e-300},
+                                      {1e-42, -1e-44, 0},
+                                      {3e38, 3.5e38, -3.5e38}};
   for (size_t o = 0; o < sizeof offsets / sizeof *offsets; o++) {
     for (size_t k = 0; k < MANY; k++) boxes[k] = box_at(&random, 1e-3, 1e-6, offsets[o]);
     check(boxes, MANY);
@@ -142,7 +146,8 @@ static void all_equal(void **state)
   check(boxes, MANY);
 }
 
-/* Each box twice as far as the one before: a plane splits one off, so the depth grows by one a box until halving takes over. */
+/* Each box twice as far as the one before: a plane splits one off, so the depth grows by one a box until halving
+ * takes over. */
 static void exponentially_spaced(void **state)
 {
   (void)state;
@@ -161,7 +166,8 @@ static void exponentially_spaced(void **state)
   /* Doubly so: the same spacing on three axes, thousands of boxes in a few clusters. */
   for (size_t k = 0; k < MANY; k++) {
     struct bvh_box *box = &boxes[k];
-    for (int a = 0; a < 3; a++) box->lo[a] = box->hi[a] = ldexp(1 + (double)(k % 7), (int)(k / (size_t)(a + 1) % 900) - 450);
+    for (int a = 0; a < 3; a++)
+      box->lo[a] = box->hi[a] = ldexp(1 + (double)(k % 7), (int)(k / (size_t)(a + 1) % 900) - 450);
   }
   print_message("clusters: depth %d\n", check(boxes, MANY));
 }
@@ -194,8 +200,8 @@ int main(void)
 {
   print_message("seed %d\n", SEED);
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(none_one_two),         cmocka_unit_test(friendly_boxes),       cmocka_unit_test(rounding_goes_outwards),
-    cmocka_unit_test(all_equal),            cmocka_unit_test(exponentially_spaced), cmocka_unit_test(flat_and_long_boxes),
+      cmocka_unit_test(none_one_two), cmocka_unit_test(friendly_boxes),       cmocka_unit_test(rounding_goes_outwards),
+      cmocka_unit_test(all_equal),    cmocka_unit_test(exponentially_spaced), cmocka_unit_test(flat_and_long_boxes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

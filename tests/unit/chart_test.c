@@ -69,7 +69,8 @@ static void test_measure(void **state)
   assert_int_equal(measure_rounds(runners, 2, counts, 5, NULL, time), STATUS_OK);
   for (int k = 0; k < 2; k++) {
     const struct timing *t = &time[k][RAYS_CAMERA];
-    assert_true(t->least > 0 && t->least <= t->lower && t->lower <= t->median && t->median <= t->upper && t->upper <= t->most);
+    assert_true(t->least > 0 && t->least <= t->lower && t->lower <= t->median && t->median <= t->upper &&
+                t->upper <= t->most);
     assert_true(isnan(time[k][RAYS_SHADOW].median)); /* there are no rays of the kind */
     assert_true(calls[k][RAYS_CAMERA] >= 6 && calls[k][RAYS_SHADOW] == 0);
   }
@@ -82,10 +83,15 @@ static void test_judge(void **state)
 {
   (void)state;
   const struct truth truths[] = {
-    { TRUTH_HIT, 2, 0, 4, false },       { TRUTH_HIT, 2, 0x1p-54, 4, false }, { TRUTH_HIT, 2, 0, 4, false },
-    { TRUTH_HIT, 2, 0, 4, true },        { TRUTH_HIT, 2, 0, 4, false },       { TRUTH_MISS, INFINITY, 0, HIT_NONE, false },
-    { TRUTH_MISS, INFINITY, 0, HIT_NONE, false }, { TRUTH_UNDECIDED, INFINITY, 0, HIT_NONE, false },
-    { TRUTH_HIT, 2, 0, 4, false },
+      {TRUTH_HIT, 2, 0, 4, false},
+      {TRUTH_HIT, 2, 0x1p-54, 4, false},
+      {TRUTH_HIT, 2, 0, 4, false},
+      {TRUTH_HIT, 2, 0, 4, true},
+      {TRUTH_HIT, 2, 0, 4, false},
+      {TRUTH_MISS, INFINITY, 0, HIT_NONE, false},
+      {TRUTH_MISS, INFINITY, 0, HIT_NONE, false},
+      {TRUTH_UNDECIDED, INFINITY, 0, HIT_NONE, false},
+      {TRUTH_HIT, 2, 0, 4, false},
   };
   const struct answer answers[] = {
     { 2, 4 },               /* exact */
@@ -140,7 +146,8 @@ static void test_rays(void **state)
   assert_int_equal(list.count, WIDTH * HEIGHT);
   static int seen[HEIGHT][WIDTH];
   for (size_t k = 0; k < list.count; k++) {
-    const int x = (int)floor((list.rays[k].direction[0] + 0.5) * WIDTH), y = (int)floor((0.5 - list.rays[k].direction[1]) * HEIGHT);
+    const int x = (int)floor((list.rays[k].direction[0] + 0.5) * WIDTH),
+              y = (int)floor((0.5 - list.rays[k].direction[1]) * HEIGHT);
     seen[y][x]++;
   }
   for (int k = 0; k < WIDTH * HEIGHT; k++) assert_int_equal(seen[k / WIDTH][k % WIDTH], 1);

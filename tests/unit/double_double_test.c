@@ -45,7 +45,8 @@ static void sums_and_products_of_two_are_exact(void **state)
   }
 }
 
-/* The sum of the operands' sizes, not the result's, carries the error where they cancel: the low parts are added in one double. */
+/* The sum of the operands' sizes, not the result's, carries the error where they cancel: the low parts are added in
+ * one double. */
 static void operations_are_right_to_their_bound(void **state)
 {
   (void)state;
@@ -66,7 +67,8 @@ static void operations_are_right_to_their_bound(void **state)
   for (int k = 0; k < 3; k++) assert_true(worst[k] <= FEW);
 }
 
-/* Sums that cancel to the last bits of the leading doubles keep the relative error too (the accurate sum of two pairs). */
+/* Sums that cancel to the last bits of the leading doubles keep the relative error too (the accurate sum of two
+ * pairs). */
 static void cancelling_sums_are_right(void **state)
 {
   (void)state;

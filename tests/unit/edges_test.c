@@ -21,10 +21,12 @@ static double *border_point(net P, int border, int k)
   return border == 0 ? P[0][k] : border == 1 ? P[3][k] : border == 2 ? P[k][0] : P[k][3];
 }
 
-/* Makes border `to` of Q run along border `from` of P, backwards if asked. Corners of Q's other borders change with it. */
+/* Makes border `to` of Q run along border `from` of P, backwards if asked. Corners of Q's other borders change with
+ * it. */
 static void glue(net P, int from, net Q, int to, bool reversed)
 {
-  for (int k = 0; k < 4; k++) memcpy(border_point(Q, to, k), border_point(P, from, reversed ? 3 - k : k), 3 * sizeof(double));
+  for (int k = 0; k < 4; k++)
+    memcpy(border_point(Q, to, k), border_point(P, from, reversed ? 3 - k : k), 3 * sizeof(double));
 }
 
 static void match(net *nets, size_t count, struct edge_neighbour *out)
@@ -137,8 +139,8 @@ static void nearly_equal_is_not_equal(void **state)
   }
 }
 
-/* -0 and 0 are the same place: a mirrored patch has -0 where its twin has 0. With many such borders sorted at once a sort that
- * told them apart by their bits would tear pairs asunder. */
+/* -0 and 0 are the same place: a mirrored patch has -0 where its twin has 0. With many such borders sorted at once a
+ * sort that told them apart by their bits would tear pairs asunder. */
 static void zeros_of_either_sign_are_equal(void **state)
 {
   (void)state;
@@ -206,7 +208,8 @@ static void a_grid_with_a_stride(void **state)
     for (int b = 0; b < SIDE; b++) {
       double(*P)[4][3] = records[place[a * SIDE + b]].P;
       for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) P[i][j][0] = 3 * a + i, P[i][j][1] = 3 * b + j, P[i][j][2] = height[3 * a + i][3 * b + j];
+        for (int j = 0; j < 4; j++)
+          P[i][j][0] = 3 * a + i, P[i][j][1] = 3 * b + j, P[i][j][2] = height[3 * a + i][3 * b + j];
     }
   }
   static struct edge_neighbour n[4 * COUNT];

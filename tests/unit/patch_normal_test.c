@@ -178,7 +178,8 @@ static void no_normal_where_there_is_no_surface(void **state)
       for (int k = 0; k < 3; k++)
         for (int i = 1; i < 4; i++) memcpy(x[k][i], x[k][0], sizeof x[k][0]);
     } else { /* a line, run through unevenly in both parameters */
-      for (int k = 0; k < 16; k++) x[1][k / 4][k % 4] = 0.5 * x[0][k / 4][k % 4], x[2][k / 4][k % 4] = 0.25 * x[0][k / 4][k % 4];
+      for (int k = 0; k < 16; k++)
+        x[1][k / 4][k % 4] = 0.5 * x[0][k / 4][k % 4], x[2][k / 4][k % 4] = 0.25 * x[0][k / 4][k % 4];
     }
     assert_false(patch_normal(x, n % 5 / 4.0, random_unit(&random), got));
     assert_true(got[0] == 0 && got[1] == 0 && got[2] == 0);

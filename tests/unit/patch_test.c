@@ -12,9 +12,10 @@ enum { SEED = 20240505, CASES = 3000 };
 
 #define UNIT 0x1p-53
 
-/* Roundings that separate a result from the truth, in units of UNIT times the largest |net| L. Values: weights carry 4 relative
- * roundings each, a product and a sum per term; sums of sizes of Bernstein terms are at most L: 2 x 4 + 2 x 5, and the same for
- * subnets by blossoming, six steps of a + t (b - a) with b - a up to 2 L: 6 x (2 x 2 + 1). Derivatives are 3 times a value's. */
+/* Roundings that separate a result from the truth, in units of UNIT times the largest |net| L. Values: weights carry
+ * 4 relative roundings each, a product and a sum per term; sums of sizes of Bernstein terms are at most L: 2 x 4 + 2
+ * x 5, and the same for subnets by blossoming, six steps of a + t (b - a) with b - a up to 2 L: 6 x (2 x 2 + 1).
+ * Derivatives are 3 times a value's. */
 #define VALUE_ROUNDINGS 18
 #define SLOPE_ROUNDINGS (3 * 2 * VALUE_ROUNDINGS)
 #define SUBNET_ROUNDINGS 30
@@ -44,7 +45,11 @@ static void evaluation_is_right_to_its_roundings(void **state)
   for (int n = 0; n < CASES * 5; n++) {
     double net[4][4];
     random_net(&random, net);
-    const double u = n % 11 == 0 ? 0 : n % 11 == 1 ? 1 : n % 11 == 2 ? 1e-9 : random_unit(&random), v = random_unit(&random);
+    const double u = n % 11 == 0   ? 0
+                     : n % 11 == 1 ? 1
+                     : n % 11 == 2 ? 1e-9
+                                   : random_unit(&random),
+                 v = random_unit(&random);
     struct quad_net exact;
     to_quad(net, &exact);
     const struct patch_jet got = patch_evaluate(net, u, v);
@@ -68,7 +73,8 @@ static void corners_are_exact(void **state)
   }
 }
 
-/* A subnet is the same polynomial: compared control value by control value with the restriction in quadruple precision. */
+/* A subnet is the same polynomial: compared control value by control value with the restriction in quadruple
+ * precision. */
 static void subnets_are_right_to_their_roundings(void **state)
 {
   (void)state;
@@ -121,9 +127,11 @@ static void the_whole_is_copied_and_cuts_agree(void **state)
     patch_subnet(net, 0, 1, t, 1, b);
     for (int i = 0; i < 4; i++) assert_true(a[i][0] == net[i][0] && a[i][3] == b[i][0] && b[i][3] == net[i][3]);
     patch_split_u(net, low, high);
-    for (int j = 0; j < 4; j++) assert_true(low[0][j] == net[0][j] && low[3][j] == high[0][j] && high[3][j] == net[3][j]);
+    for (int j = 0; j < 4; j++)
+      assert_true(low[0][j] == net[0][j] && low[3][j] == high[0][j] && high[3][j] == net[3][j]);
     patch_split_v(net, low, high);
-    for (int i = 0; i < 4; i++) assert_true(low[i][0] == net[i][0] && low[i][3] == high[i][0] && high[i][3] == net[i][3]);
+    for (int i = 0; i < 4; i++)
+      assert_true(low[i][0] == net[i][0] && low[i][3] == high[i][0] && high[i][3] == net[i][3]);
   }
   /* A border that is one point stays that point, whatever part of it is taken. */
   double net[4][4], cut[4][4];

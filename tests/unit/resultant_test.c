@@ -1,4 +1,5 @@
-/* Resultants: Bezout's against Sylvester's, against planted roots, and the error bound that the intersector relies on. */
+/* Resultants: Bezout's against Sylvester's, against planted roots, and the error bound that the intersector relies
+ * on. */
 #include <math.h>
 #include <string.h>
 
@@ -122,8 +123,8 @@ static void bezout_is_sylvester_up_to_sign(void **state)
   }
 }
 
-/* r, evaluated, is the determinant of the values: tried at points, so that a wrong binomial here can not hide behind the same
- * one there. */
+/* r, evaluated, is the determinant of the values: tried at points, so that a wrong binomial here can not hide behind
+ * the same one there. */
 static void coefficients_are_those_of_the_determinant_of_values(void **state)
 {
   (void)state;
@@ -153,8 +154,8 @@ static void coefficients_are_those_of_the_determinant_of_values(void **state)
   }
 }
 
-/* The nets of a case: plain random ones, and those that strain a bound: signs that add up, entries of very unlike size, a and
- * b nearly proportional, nets of a flat patch seen edge-on. */
+/* The nets of a case: plain random ones, and those that strain a bound: signs that add up, entries of very unlike
+ * size, a and b nearly proportional, nets of a flat patch seen edge-on. */
 static void strained_nets(struct random *random, int kind, int m, int n, double a[16], double b[16])
 {
   random_net(random, m, n, a);
@@ -175,9 +176,9 @@ static void strained_nets(struct random *random, int kind, int m, int n, double 
 }
 enum { KINDS = 8 };
 
-/* tracer.h: a Bernstein coefficient of r is at most RESULTANT_WEIGHT (alpha beta)^n, and is off by at most that times the
- * roundings and the nets' own error. Both must hold. How far from the truth they are is printed: a bound a million times too
- * large would be true and useless. */
+/* tracer.h: a Bernstein coefficient of r is at most RESULTANT_WEIGHT (alpha beta)^n, and is off by at most that
+ * times the roundings and the nets' own error. Both must hold. How far from the truth they are is printed: a bound a
+ * million times too large would be true and useless. */
 static void the_bound_of_r_holds(void **state)
 {
   (void)state;
@@ -210,15 +211,16 @@ static void the_bound_of_r_holds(void **state)
         }
       }
     }
-    print_message("n = %d: coefficient / bound %.3g, rounding / bound %.3g, with nets off %.3g\n", n, size_ratio, error_ratio,
-                  blurred_ratio);
+    print_message("n = %d: coefficient / bound %.3g, rounding / bound %.3g, with nets off %.3g\n", n, size_ratio,
+                  error_ratio, blurred_ratio);
     assert_true(size_ratio <= 1 && error_ratio <= 1 && blurred_ratio <= 1);
     assert_true(size_ratio > 1e-3); /* not vacuous: some net comes near */
     assert_true(error_ratio > 1e-5);
   }
 }
 
-/* Takes from net[3 or so] a multiple of the weights so that it vanishes at (u,v), in quadruple precision rounded once. */
+/* Takes from net[3 or so] a multiple of the weights so that it vanishes at (u,v), in quadruple precision rounded
+ * once. */
 static void plant(int m, int n, double u, double v, double net[16])
 {
   quad value = 0, norm = 0;
@@ -249,7 +251,10 @@ static void a_common_root_is_a_root_of_r(void **state)
       double a[16], b[16], c[TERMS];
       random_net(&random, m, n, a);
       random_net(&random, m, n, b);
-      const double u = k % 7 == 0 ? 0 : k % 7 == 1 ? 1 : random_unit(&random), v = k % 5 == 0 ? 0 : random_unit(&random);
+      const double u = k % 7 == 0   ? 0
+                       : k % 7 == 1 ? 1
+                                    : random_unit(&random),
+                   v = k % 5 == 0 ? 0 : random_unit(&random);
       plant(m, n, u, v, a);
       plant(m, n, u, v, b);
       const double alpha = largest(a, m, n), beta = largest(b, m, n);
@@ -278,8 +283,8 @@ static void a_common_root_is_a_root_of_r(void **state)
       /* Whichever way is chosen, it is a root where the other one is, unless its denominator vanishes. */
       if (fabs(den[0]) > 0.1 && fabs(den[1]) > 0.1) assert_true(fabs(num[0] / den[0] - num[1] / den[1]) < 1e-10);
     }
-    print_message("n = %d: r(u) / bound %.3g; null vector off %.3g at worst, below 1e-11 on %.2f %%\n", n, worst_r, worst_v,
-                  100 * typical_v / counted);
+    print_message("n = %d: r(u) / bound %.3g; null vector off %.3g at worst, below 1e-11 on %.2f %%\n", n, worst_r,
+                  worst_v, 100 * typical_v / counted);
     assert_true(worst_r <= 1);
     assert_true(typical_v > 0.98 * counted);
   }
@@ -297,8 +302,10 @@ static void null_vectors_of_known_roots(void **state)
     for (int n = 1; n <= 3; n++) {
       double p[4] = {0}, q[4] = {0}, num[2], den[2], better;
       for (int i = 0; i < n; i++) { /* degree elevation by multiplication */
-        p[i] += choose(n - 1, i) * f[i] * c0 / choose(n, i), p[i + 1] += choose(n - 1, i) * f[i] * c1 / choose(n, i + 1);
-        q[i] += choose(n - 1, i) * g[i] * c0 / choose(n, i), q[i + 1] += choose(n - 1, i) * g[i] * c1 / choose(n, i + 1);
+        p[i] += choose(n - 1, i) * f[i] * c0 / choose(n, i),
+            p[i + 1] += choose(n - 1, i) * f[i] * c1 / choose(n, i + 1);
+        q[i] += choose(n - 1, i) * g[i] * c0 / choose(n, i),
+            q[i + 1] += choose(n - 1, i) * g[i] * c1 / choose(n, i + 1);
       }
       bezout_null_vector(n, p, q, num, den, &better);
       const int row = better > 0 ? 0 : 1;
