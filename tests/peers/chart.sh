@@ -1,0 +1,35 @@
+#!/bin/bash
+# The peers of `pscn chart`: each point of a peer has a time, and finer meshes are nearer the surface. The error of a mesh falls with the
+# square of its sides, so from one of the quick chart's meshes to the next, 4 or 8 times as fine, by 16 at least; LEAST_GAIN leaves room
+# for the few rays of a small chart. Which peers are there is said.
+set -euo pipefail
+export LC_ALL=C
+LEAST_GAIN=5
+
+embree=$(dirname "$PSCN")/pscn-embree
+peers=()
+[ ! -x "$embree" ] || peers+=(embree)
+! command -v povray >/dev/null || peers+=(povray)
+[ ${#peers[@]} -gt 0 ] || { echo "skipped: neither pscn-embree nor povray is there" >&2; exit 77; }
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+"$PSCN" chart "$PSCN_SOURCE_DIR/scenes/bent.pscn" --quick --size 160x120 --rays 128 --rounds 1 --quiet -o "$folder/chart"
+
+failed=0
+for peer in "${peers[@]}"; do
+  # Of Embree the points one by one: the coherent ones have the same answers.
+  awk -v peer="$peer" -v gain="$LEAST_GAIN" '
+    NR == 1 { n = split($0, column, ","); for (k = 1; k <= n; k++) at[column[k]] = k; next }
+    {
+      match($0, /"[^"]*"/); name = substr($0, RSTART + 1, RLENGTH - 2)
+      split(substr($0, 1, RSTART - 1) "name" substr($0, RSTART + RLENGTH), f, ",")
+      if (f[1] != peer || name ~ /coherent/) next
+      count++
+      if (!(f[at["ns_median"]] > 0)) { print name ": no time"; bad = 1 }
+      error = f[at["t_99"]] + 0
+      if (count > 1 && !(error * gain < last)) { print name ": error " error " after " last; bad = 1 }
+      last = error
+    }
+    END { print peer ": " count + 0 " meshes, the finest within " last; exit bad || count != 3 }' "$folder/chart/chart.csv" || failed=1
+done
+exit "$failed"
