@@ -13,7 +13,7 @@ peers=()
 [ ${#peers[@]} -gt 0 ] || { echo "skipped: neither pscn-embree nor povray is there" >&2; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$PSCN" chart "$PSCN_SOURCE_DIR/scenes/bent.pscn" --quick --size 160x120 --rays 128 --rounds 1 --quiet -o "$folder/chart"
+"$PSCN" chart "$PSCN_SOURCE_DIR/scenes/bent.pscn" --quick --size 160x120 --rays 256 --rounds 1 --quiet -o "$folder/chart"
 
 failed=0
 for peer in "${peers[@]}"; do
