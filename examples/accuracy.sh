@@ -91,9 +91,9 @@ Written by `examples/accuracy.sh`; the numbers are those of its last run. For an
 
 Camera rays of the scene, chosen evenly, and their shadow rays are answered by every solver, basis, tolerance (1e-1 to 1e-15), with polish
 and without, cold and warm, on whole patches, in the paper's own form, and by the peers: plain 2-D Newton from the middle of each of 8 x 8
-parts of a patch, one ray a lane, which guards nothing; Embree on triangles; POV-Ray. All take turns on one thread; a time is the median
-over the rounds, in brackets its quartiles, and the ratio is the median of the ratios to the default solver within a round. Every answer
-is judged by the reference ([src/reference/reference.h](../src/reference/reference.h)): subdivision and Krawczyk's test in quadruple
+parts of a patch, one ray a lane, which guards nothing; Embree on triangles; POV-Ray. All take turns on one thread; the ratio is
+the median of the ratios to the default solver within a round, and the time that ratio times the default's own median, in brackets with its
+quartiles. Every answer is judged by the reference ([src/reference/reference.h](../src/reference/reference.h)): subdivision and Krawczyk's test in quadruple
 precision, which shares nothing with the renderer.
 
 - **error of T**: relative, of the rays that both hit.

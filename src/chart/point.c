@@ -88,6 +88,18 @@ size_t point_sweep(bool quick, struct sweep_point *out)
   return count;
 }
 
+void point_level(struct chart_point *points, size_t count, const double yard[RAY_KINDS])
+{
+  for (size_t k = 0; k < count; k++) {
+    for (int kind = 0; kind < RAY_KINDS; kind++) {
+      struct timing *time = &points[k].time[kind];
+      const double factor = yard[kind] * time->ratio / time->median;
+      if (!isfinite(factor)) continue;
+      time->least *= factor, time->lower *= factor, time->median *= factor, time->upper *= factor, time->most *= factor;
+    }
+  }
+}
+
 static bool beats(const struct chart_point *a, const struct chart_point *b)
 {
   const double ta = a->time[RAYS_CAMERA].median, tb = b->time[RAYS_CAMERA].median;

@@ -185,8 +185,9 @@ static enum status run_batch(struct chart *chart, const struct sweep_point *swee
   if (status == STATUS_OK)
     status = measure_rounds(runners, 1 + count, counts, chart->rounds, &interrupt_signal, time);
   if (status == STATUS_OK) {
-    chart->yard_least = fmin(chart->yard_least, time[0][RAYS_CAMERA].median);
-    chart->yard_most = fmax(chart->yard_most, time[0][RAYS_CAMERA].median);
+    for (int kind = 0; kind < RAY_KINDS; kind++)
+      chart->yard[kind][chart->yard_count] = time[0][kind].median;
+    chart->yard_count++;
   }
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     struct chart_point *point = chart_add(chart, sweep[k].family);
@@ -293,12 +294,33 @@ static enum status load(struct chart *chart)
   return chart->points == NULL ? STATUS_LIMIT : STATUS_OK;
 }
 
+static int compare(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static void level_times(struct chart *chart)
+{
+  double yard[RAY_KINDS];
+  for (int kind = 0; kind < RAY_KINDS; kind++) {
+    qsort(chart->yard[kind], chart->yard_count, sizeof *chart->yard[kind], compare);
+    yard[kind] = chart->yard[kind][chart->yard_count / 2];
+  }
+  point_level(chart->points, chart->point_count, yard);
+}
+
 static enum status measure(struct chart *chart)
 {
   const size_t count = point_sweep(chart->quick, NULL);
   struct sweep_point *sweep = arena_alloc(chart->arena, count, sizeof *sweep);
   if (sweep == NULL)
     return STATUS_LIMIT;
+  for (int kind = 0; kind < RAY_KINDS; kind++) {
+    chart->yard[kind] = arena_alloc(chart->arena, count / BATCH + 1, sizeof *chart->yard[kind]);
+    if (chart->yard[kind] == NULL)
+      return STATUS_LIMIT;
+  }
   (void)point_sweep(chart->quick, sweep);
   scene_override_solver(chart->scene, &sweep[0].options);
   enum status status = prepare_rays(chart, &sweep[0].options);
@@ -308,8 +330,10 @@ static enum status measure(struct chart *chart)
     status = sweep_solvers(chart, sweep, count);
   if (status == STATUS_OK)
     status = chart_peers(chart);
-  if (status == STATUS_OK)
+  if (status == STATUS_OK) {
+    level_times(chart);
     point_front(chart->points, chart->point_count);
+  }
   return status;
 }
 
@@ -367,7 +391,6 @@ static char *default_output(const char *scene)
 static int run(const struct command *command, int argc, const char **argv)
 {
   struct chart chart = { .command = command, .program = "povray", .peers = true,
-                         .yard_least = INFINITY, .yard_most = -INFINITY,
                          .scene_request = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN } };
   struct command_line line;
   char *default_name = NULL;

@@ -28,7 +28,8 @@ struct chart {
   bool *occluded;               /* room for the shadow rays' */
   double *errors;               /* room for judge_answers */
   struct pscn_runner yardstick; /* the default solver */
-  double yard_least, yard_most; /* of its medians in the batches, ns a camera ray: the noise of the run */
+  double *yard[RAY_KINDS];      /* its medians in the batches, in ns a ray; sorted in the end */
+  size_t yard_count;
   struct chart_point *points;
   size_t point_count, point_room;
   char notes[CHART_NOTES][256]; /* on peers: which version, or why they are missing */

@@ -65,11 +65,13 @@ static void put_method(const struct chart *chart, struct page *page)
                  "but more than 1 % apart; <b>other patch</b>: the right place, named as of another patch. In the figure the "
                  "error is that of 99 % of all these rays, where a lost, invented or wrong hit counts as 1; hollow symbols have "
                  "some of those; bars are quartiles of the time. The front joins what nothing else beats in both.</p>\n");
+  const double *yard = chart->yard[RAYS_CAMERA];
   page_put(page, "<p>Noise: the default solver took part in every batch of points; the medians of its batches lie between ");
-  page_number(page, chart->yard_least, 4);
+  page_number(page, yard[0], 4);
   page_put(page, " and ");
-  page_number(page, chart->yard_most, 4);
-  page_put(page, " ns a camera ray.</p>\n<p>The solver <code>bernstein</code> has neither a basis nor a start to choose: it works in "
+  page_number(page, yard[chart->yard_count - 1], 4);
+  page_put(page, " ns a camera ray. Times are those of a batch in which it takes the median of these: its time times the "
+                 "ratio.</p>\n<p>The solver <code>bernstein</code> has neither a basis nor a start to choose: it works in "
                  "the Bernstein form, from its control polygon.</p>\n");
   for (size_t k = 0; k < chart->note_count; k++) {
     page_put(page, "<p>");

@@ -53,6 +53,20 @@ static void test_front_noise(void **state)
   assert_true(!points[0].front && !points[1].front && points[2].front && !points[3].front);
 }
 
+/* Times follow the yardstick: what was measured while the machine was half as fast is halved. */
+static void test_level(void **state)
+{
+  (void)state;
+  struct chart_point points[] = { point(300, 1e-15), point(NAN, 1e-15) };
+  points[0].time[RAYS_CAMERA].ratio = 1.5; /* the yardstick took 200 */
+  points[1].time[RAYS_CAMERA].ratio = NAN;
+  points[0].time[RAYS_SHADOW] = points[1].time[RAYS_CAMERA];
+  const double yard[RAY_KINDS] = { 100, 50 };
+  point_level(points, 2, yard);
+  assert_true(points[0].time[RAYS_CAMERA].median == 150 && points[0].time[RAYS_CAMERA].upper == 150);
+  assert_true(isnan(points[0].time[RAYS_SHADOW].median) && isnan(points[1].time[RAYS_CAMERA].median));
+}
+
 static void count_up(void *context, enum ray_kind kind)
 {
   size_t *calls = context;
@@ -193,7 +207,7 @@ static void test_sweep(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_front), cmocka_unit_test(test_front_noise),    cmocka_unit_test(test_measure),
+    cmocka_unit_test(test_front), cmocka_unit_test(test_front_noise), cmocka_unit_test(test_level),    cmocka_unit_test(test_measure),
     cmocka_unit_test(test_judge), cmocka_unit_test(test_judge_occluded), cmocka_unit_test(test_rays),
     cmocka_unit_test(test_sweep),
   };
