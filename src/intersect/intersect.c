@@ -13,12 +13,21 @@ struct intersector {
   bool warm; /* some patch asks for `start previous` */
 };
 
-static const struct kernel *kernel_best(void)
+extern const struct kernel kernel_baseline, kernel_avx2, kernel_avx512;
+
+size_t kernels_here(const struct kernel *out[KERNELS_MAX])
 {
-#if defined(PSCN_KERNEL_AVX2)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return &kernel_avx2;
+  size_t count = 0;
+#if defined(PSCN_KERNEL_AVX512)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    out[count++] = &kernel_avx512;
 #endif
-  return &kernel_baseline;
+#if defined(PSCN_KERNEL_AVX2)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) out[count++] = &kernel_avx2;
+#endif
+  out[count++] = &kernel_baseline;
+  return count;
 }
 
 enum status intersector_create(const struct scene *scene, struct intersector **out)
@@ -31,7 +40,9 @@ enum status intersector_create(const struct scene *scene, struct intersector **o
     free(intersector);
     return status;
   }
-  intersector->kernel = kernel_best();
+  const struct kernel *kernels[KERNELS_MAX];
+  kernels_here(kernels);
+  intersector->kernel = kernels[0];
   for (size_t k = 0; k < scene->solver_count; k++) intersector->warm |= scene->solvers[k].start == START_PREVIOUS;
   *out = intersector;
   return STATUS_OK;

@@ -17,10 +17,10 @@ struct kernel {
   void (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
 };
 
-extern const struct kernel kernel_baseline;
-#if defined(PSCN_KERNEL_AVX2)
-extern const struct kernel kernel_avx2;
-#endif
+enum { KERNELS_MAX = 3 };
+
+/* intersect.c: the kernels that this processor can run, the best first; returns how many. */
+size_t kernels_here(const struct kernel *out[KERNELS_MAX]);
 
 /* Warm starts of one leaf, valid where `epoch` is the tracer's. */
 struct warm_leaf {

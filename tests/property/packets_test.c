@@ -112,36 +112,35 @@ static void occluded_is_whether_there_is_a_hit(void **state)
  * the plane polynomials over the sine of the angle at which the ray meets the surface, so grazing hits are given more. */
 #define KERNEL_T 1e-13
 
+static bool kernels_same(const struct ray *ray, const struct hit *a, const struct hit *b)
+{
+  if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
+  if (a->patch == HIT_NONE || b->patch == HIT_NONE) return a->patch == b->patch;
+  const double *d = ray->direction, size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const double steep = fabs(d[0] * a->normal[0] + d[1] * a->normal[1] + d[2] * a->normal[2]) / size;
+  return fabs(a->t - b->t) * steep <= KERNEL_T * fmax(a->t, 1 / size); /* the scenes' size over |d| is t's unit */
+}
+
+/* Every kernel that the processor can run, against the plainest, which is the last of them. */
 static void kernels(struct stage *s)
 {
-#if defined(PSCN_KERNEL_AVX2)
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return;
-  static struct hit other[2][RAYS];
-  const struct kernel *before = s->world->tracer->kernel, *tables[2] = {&kernel_baseline, &kernel_avx2};
-  for (int k = 0; k < 2; k++) {
-    s->world->tracer->kernel = tables[k];
+  static struct hit answers[KERNELS_MAX][RAYS];
+  const struct kernel *before = s->world->tracer->kernel, *here[KERNELS_MAX];
+  const size_t count = kernels_here(here);
+  for (size_t k = 0; k < count; k++) {
+    s->world->tracer->kernel = here[k];
     for (size_t first = 0; first < RAYS; first += PACKET_SIZE)
-      tracer_closest(s->world->tracer, PACKET_SIZE, &s->rays[first], &other[k][first]);
+      tracer_closest(s->world->tracer, PACKET_SIZE, &s->rays[first], &answers[k][first]);
   }
   s->world->tracer->kernel = before;
   int wrong = 0;
-  for (size_t n = 0; n < RAYS; n++) {
-    const struct hit *a = &other[0][n], *b = &other[1][n];
-    if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) continue;
-    bool good = (a->patch == HIT_NONE) == (b->patch == HIT_NONE);
-    if (good && a->patch != HIT_NONE) {
-      const double *d = s->rays[n].direction;
-      const double steep = fabs(d[0] * a->normal[0] + d[1] * a->normal[1] + d[2] * a->normal[2]) /
-                           sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-      const double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]); /* the scenes' size over |d| is t's unit */
-      good = fabs(a->t - b->t) * steep <= KERNEL_T * fmax(a->t, 1 / size);
+  for (size_t k = 0; k + 1 < count; k++) {
+    for (size_t n = 0; n < RAYS; n++) {
+      const struct hit *a = &answers[k][n], *b = &answers[count - 1][n];
+      if (!kernels_same(&s->rays[n], a, b) && wrong++ < 3) print_ray(here[k]->name, s->kind, s->scene, &s->rays[n], a, b);
     }
-    if (!good && wrong++ < 3) print_ray("kernels", s->kind, s->scene, &s->rays[n], a, b);
   }
   assert_int_equal(wrong, 0);
-#else
-  (void)s;
-#endif
 }
 
 static void kernels_agree(void **state)
@@ -188,7 +187,11 @@ static void answers_do_not_depend_on_the_order_of_patches(void **state)
 
 int main(void)
 {
-  print_message("seed %d\n", SEED);
+  const struct kernel *here[KERNELS_MAX];
+  const size_t count = kernels_here(here);
+  print_message("seed %d; kernels here:", SEED);
+  for (size_t k = 0; k < count; k++) print_message(" %s", here[k]->name);
+  print_message("\n");
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(answers_do_not_depend_on_companions),
     cmocka_unit_test(occluded_is_whether_there_is_a_hit),
