@@ -1,7 +1,7 @@
 /* Double-double arithmetic on lanes: base/double_double.h, several numbers side by side.
  *
- * Only what the last places of a hit need. Sums are kept as they come (hi, lo), |lo| a few units in the last place of hi, and are
- * not brought to normal form in between. Needs compilation without contraction.
+ * Only what the last places of a hit need. Sums are kept as they come (hi, lo), |lo| a few units in the last place
+ * of hi, and are not brought to normal form in between. Needs compilation without contraction.
  */
 #ifndef PSCN_BASE_DOUBLE_LANES_H
 #define PSCN_BASE_DOUBLE_LANES_H

@@ -1,6 +1,8 @@
-/* Floats side by side in a register that holds half as many doubles (base/lanes.h): one ray a lane, where few bits will do.
+/* Floats side by side in a register that holds half as many doubles (base/lanes.h): one ray a lane, where few bits
+ * will do.
  *
- * Plain GCC/clang vector extensions. Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are 0 or -1.
+ * Plain GCC/clang vector extensions. Arithmetic operators work lane by lane; a comparison gives a mask whose lanes
+ * are 0 or -1.
  */
 #ifndef PSCN_BASE_FLOAT_LANES_H
 #define PSCN_BASE_FLOAT_LANES_H
@@ -19,9 +21,11 @@ LANES_INLINE float_lanes float_lanes_all(float x) { return x - (float_lanes){0};
 LANES_INLINE float_lanes float_lanes_join(lanes a, lanes b)
 {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (float_lanes)_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps((__m512d)a)), _mm512_cvtpd_ps((__m512d)b), 1);
+  return (float_lanes)_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps((__m512d)a)),
+                                         _mm512_cvtpd_ps((__m512d)b), 1);
 #elif defined(__AVX__)
-  return (float_lanes)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps((__m256d)a)), _mm256_cvtpd_ps((__m256d)b), 1);
+  return (float_lanes)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps((__m256d)a)),
+                                           _mm256_cvtpd_ps((__m256d)b), 1);
 #elif defined(__SSE2__)
   return (float_lanes)_mm_movelh_ps(_mm_cvtpd_ps((__m128d)a), _mm_cvtpd_ps((__m128d)b));
 #else
@@ -41,7 +45,10 @@ LANES_INLINE float_lanes float_lanes_select(float_mask mask, float_lanes a, floa
 #endif
 }
 
-LANES_INLINE float_lanes float_lanes_abs(float_lanes a) { return (float_lanes)((float_mask)a & (INT32_MAX - (float_mask){0})); }
+LANES_INLINE float_lanes float_lanes_abs(float_lanes a)
+{
+  return (float_lanes)((float_mask)a & (INT32_MAX - (float_mask){0}));
+}
 
 /* Lane k: a < b ? a : b, so b where either is NaN. */
 LANES_INLINE float_lanes float_lanes_min(float_lanes a, float_lanes b)

@@ -1,9 +1,9 @@
 /* A few doubles side by side: one ray a lane.
  *
- * Plain GCC/clang vector extensions, so one source serves every instruction set; LANES is what one register of the target
- * holds (vectors wider than that are taken apart into single doubles by the compiler, which costs more than it saves).
- * Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are 0 or -1.
- * A source that uses this is compiled once per instruction set (src/intersect/CMakeLists.txt).
+ * Plain GCC/clang vector extensions, so one source serves every instruction set; LANES is what one register of the
+ * target holds (vectors wider than that are taken apart into single doubles by the compiler, which costs more than
+ * it saves). Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are 0 or -1. A source
+ * that uses this is compiled once per instruction set (src/intersect/CMakeLists.txt).
  */
 #ifndef PSCN_BASE_LANES_H
 #define PSCN_BASE_LANES_H
@@ -35,7 +35,8 @@ LANES_INLINE lanes lanes_all(double x) { return x - (lanes){0}; }
 LANES_INLINE lanes lanes_gather(const double *x, size_t stride)
 {
 #if LANES == 8
-  return (lanes){x[0], x[stride], x[2 * stride], x[3 * stride], x[4 * stride], x[5 * stride], x[6 * stride], x[7 * stride]};
+  return (lanes){x[0],          x[stride],     x[2 * stride], x[3 * stride],
+                 x[4 * stride], x[5 * stride], x[6 * stride], x[7 * stride]};
 #elif LANES == 4
   return (lanes){x[0], x[stride], x[2 * stride], x[3 * stride]};
 #else
@@ -100,8 +101,8 @@ LANES_INLINE lanes lanes_sqrt(lanes a)
 #endif
 }
 
-/* Lane k: a b - product exactly, for product = a b rounded: the rounding error of a product. Written so that no contraction of
- * multiply and add by the compiler can change it. */
+/* Lane k: a b - product exactly, for product = a b rounded: the rounding error of a product. Written so that no
+ * contraction of multiply and add by the compiler can change it. */
 LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)
 {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)

@@ -1,11 +1,12 @@
 /* The last Newton step of several hits of one patch: the last places of U, V and T, the point, the normal.
  *
- * Internal to src/intersect; included by finish.c, which is compiled once per instruction set and without contraction.
- * A root comes from a leaf's net, cut from the patch and rounded: where the ray is steep it is right to a few last places, where
- * it grazes rounding is magnified. A Newton step on the patch itself, its residuals a(u,v), b(u,v) as if computed in half as much
- * precision again, makes all of them right to the last places. The sums are exact in their leading parts because those have few
- * bits on a common grid (as in Rump, Ogita and Oishi, Accurate Floating-Point Summation, 2008, and Ozaki and others, Error-free
- * transformations of matrix multiplication, 2012): one multiply-add a product, where sums that keep track of their error take ten.
+ * Internal to src/intersect; included by finish.c, which is compiled once per instruction set and without
+ * contraction. A root comes from a leaf's net, cut from the patch and rounded: where the ray is steep it is right to
+ * a few last places, where it grazes rounding is magnified. A Newton step on the patch itself, its residuals a(u,v),
+ * b(u,v) as if computed in half as much precision again, makes all of them right to the last places. The sums are
+ * exact in their leading parts because those have few bits on a common grid (as in Rump, Ogita and Oishi, Accurate
+ * Floating-Point Summation, 2008, and Ozaki and others, Error-free transformations of matrix multiplication, 2012):
+ * one multiply-add a product, where sums that keep track of their error take ten.
  */
 #ifndef PSCN_INTERSECT_LAST_STEP_H
 #define PSCN_INTERSECT_LAST_STEP_H
@@ -17,8 +18,8 @@
 
 enum { LAST_STEPS_MAX = 3 };
 
-/* A step longer than this, in patch parameters, is followed by another: the derivatives that the point and the normal are taken
- * from are off by about as much, relative to the second derivatives. */
+/* A step longer than this, in patch parameters, is followed by another: the derivatives that the point and the
+ * normal are taken from are off by about as much, relative to the second derivatives. */
 #define LAST_STEP_LONGEST 0x1p-44
 
 /* |Su x Sv| relative to the squared derivatives down to which it is the normal without further thought. */
@@ -36,8 +37,9 @@ struct last_step {
   lane_mask plain;           /* out: point and normal are sure */
 };
 
-/* A number of size at most 1 as head + tail, exactly, the head a multiple of 2^-26. So the product of two heads, and a sum of such
- * products of size at most 2, is a multiple of 2^-52 and exact; what the tails add to it is 2^-26 of it, and so is its rounding. */
+/* A number of size at most 1 as head + tail, exactly, the head a multiple of 2^-26. So the product of two heads, and
+ * a sum of such products of size at most 2, is a multiple of 2^-52 and exact; what the tails add to it is 2^-26 of
+ * it, and so is its rounding. */
 struct last_step_split {
   lanes head, tail;
 };
@@ -137,8 +139,8 @@ LANES_INLINE void last_step_normal(struct last_step *l, const struct last_step_j
   for (int c = 0; c < 3; c++) l->normal[c] *= inverse;
 }
 
-/* Improves the lanes that ask for it, and takes point and normal of all lanes. A lane whose steps do not end within the patch's
- * size keeps what it came with. */
+/* Improves the lanes that ask for it, and takes point and normal of all lanes. A lane whose steps do not end within
+ * the patch's size keeps what it came with. */
 LANES_INLINE void last_step(struct last_step *l)
 {
   const struct model_patch *patch = l->patch;

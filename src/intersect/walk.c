@@ -2,10 +2,10 @@
  *
  * Compiled once per instruction set; PSCN_KERNEL names the table that this compilation defines.
  *
- * The boxes lie in the frame (world - origin)/frame, all within about [-1,1]. A ray is looked at there by its place: the distance
- * along its dominant axis, counted from where it enters the frame, so that few bits are enough wherever it comes from. Every
- * rounding widens the boxes: an absolute slack for the origin's, a relative one for those of the distances (Ize, Robust BVH Ray
- * Traversal, 2013).
+ * The boxes lie in the frame (world - origin)/frame, all within about [-1,1]. A ray is looked at there by its place:
+ * the distance along its dominant axis, counted from where it enters the frame, so that few bits are enough wherever
+ * it comes from. Every rounding widens the boxes: an absolute slack for the origin's, a relative one for those of
+ * the distances (Ize, Robust BVH Ray Traversal, 2013).
  */
 #include <math.h>
 
@@ -14,8 +14,8 @@
 
 #define FLOAT_ROUNDOFF 0x1p-24f
 
-/* Growth of a place that others are compared with: four roundings in each of the two (difference, direction, reciprocal, product), one in the
- * end of the ray, and those of growing. */
+/* Growth of a place that others are compared with: four roundings in each of the two (difference, direction,
+ * reciprocal, product), one in the end of the ray, and those of growing. */
 #define PLACE_GROWTH (1 + 16 * FLOAT_ROUNDOFF)
 
 /* All boxes, and the roundings of making them. */
@@ -24,12 +24,12 @@
 /* A ray that starts farther away is moved up to the frame first. */
 #define FRAME_NEAR 16.0
 
-/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it and its sum with
- * the slack to float. */
+/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding
+ * it and its sum with the slack to float. */
 #define ORIGIN_SLACK 0x1p-22
 
-/* A stand-in for the reciprocal of 0: so large that all that is beyond the slack ends up beyond the frame, finite so that 0 times
- * it is 0. */
+/* A stand-in for the reciprocal of 0: so large that all that is beyond the slack ends up beyond the frame, finite so
+ * that 0 times it is 0. */
 #define HUGE_INVERSE 0x1p80f
 
 struct bundle {
@@ -87,7 +87,8 @@ static void bundle_start(struct bundle *b, const struct model *model)
     }
   }
   for (int k = 0; k < 3; k++) {
-    b->low_origin[k] = float_lanes_join(low[k][0], low[k][1]), b->high_origin[k] = float_lanes_join(high[k][0], high[k][1]);
+    b->low_origin[k] = float_lanes_join(low[k][0], low[k][1]),
+    b->high_origin[k] = float_lanes_join(high[k][0], high[k][1]);
     const float_lanes d = float_lanes_join(along[k][0], along[k][1]);
     const float_lanes huge = float_lanes_select(d < 0, float_lanes_all(-HUGE_INVERSE), float_lanes_all(HUGE_INVERSE));
     b->inverse[k] = float_lanes_select(float_lanes_abs(d) > 1 / HUGE_INVERSE, 1 / d, huge);
@@ -186,7 +187,8 @@ static void bundle_walk(struct bundle *b)
 
 /* ---- the face ---- */
 
-/* Directions whose longest component is outside these are scaled by a power of two, so that no product over- or underflows. */
+/* Directions whose longest component is outside these are scaled by a power of two, so that no product over- or
+ * underflows. */
 #define DIRECTION_MIN 0x1p-200
 #define DIRECTION_MAX 0x1p200
 
@@ -209,7 +211,8 @@ struct ready {
   int exponent[LANES];
 };
 
-static void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[], bool any)
+static void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count,
+                         const struct ray rays[], bool any)
 {
   ready->copied = count < LANES;
   if (!ready->copied) {
@@ -221,8 +224,8 @@ static void packet_begin(struct packet *p, struct ready *ready, struct tracer *t
   packet_start(p, tracer, ready->copy, count, any);
 }
 
-static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count, const struct ray rays[],
-                         bool any)
+static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count,
+                         const struct ray rays[], bool any)
 {
   for (size_t h = 0, first = 0; h < 2; h++, first += LANES) {
     const size_t left = count > first ? count - first : 0, n = left < LANES ? left : LANES;
@@ -263,7 +266,8 @@ static void kernel_occluded(struct tracer *tracer, size_t count, const struct ra
     bundle_walk(&bundle);
     for (size_t h = 0; h < 2; h++) {
       const struct packet *packet = &bundle.packet[h];
-      for (size_t l = 0; l < packet->count; l++) out_occluded[first + h * LANES + l] = packet->best.patch[l] != NO_PATCH;
+      for (size_t l = 0; l < packet->count; l++)
+        out_occluded[first + h * LANES + l] = packet->best.patch[l] != NO_PATCH;
       tracer->counts.rays[1] += packet->count;
     }
   }

@@ -8,10 +8,11 @@
 
 enum { SEED = 20240510, SCENES = 1, RAYS = 96 };
 
-static void print_ray(const char *what, int world, int scene, const struct ray *r, const struct hit *a, const struct hit *b)
+static void print_ray(const char *what, int world, int scene, const struct ray *r, const struct hit *a,
+                      const struct hit *b)
 {
-  print_message("%s: world %d, scene %d, origin %.17g %.17g %.17g, direction %.17g %.17g %.17g\n", what, world, scene, r->origin[0],
-                r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2]);
+  print_message("%s: world %d, scene %d, origin %.17g %.17g %.17g, direction %.17g %.17g %.17g\n", what, world, scene,
+                r->origin[0], r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2]);
   const struct hit *both[2] = {a, b};
   for (int k = 0; k < 2; k++) {
     const struct hit *h = both[k];
@@ -96,7 +97,8 @@ static void occlusion(struct stage *s)
       tracer_occluded(s->world->tracer, 1, &s->rays[first + n], &alone);
       const bool want = s->alone[first + n].patch != HIT_NONE;
       if (occluded[n] == want && alone == want) continue;
-      if (wrong++ < 2) print_ray("occlusion", s->kind, s->scene, &s->rays[first + n], &s->alone[first + n], &s->alone[first + n]);
+      if (wrong++ < 2)
+        print_ray("occlusion", s->kind, s->scene, &s->rays[first + n], &s->alone[first + n], &s->alone[first + n]);
     }
   }
   assert_int_equal(wrong, 0);
@@ -108,8 +110,9 @@ static void occluded_is_whether_there_is_a_hit(void **state)
   on_all_stages(SEED + 1, occlusion);
 }
 
-/* The kernels may round differently. Where both are certain they agree on hit or miss, and on t to its condition: the rounding of
- * the plane polynomials over the sine of the angle at which the ray meets the surface, so grazing hits are given more. */
+/* The kernels may round differently. Where both are certain they agree on hit or miss, and on t to its condition:
+ * the rounding of the plane polynomials over the sine of the angle at which the ray meets the surface, so grazing
+ * hits are given more. */
 #define KERNEL_T 1e-13
 
 static bool kernels_same(const struct ray *ray, const struct hit *a, const struct hit *b)
@@ -137,7 +140,8 @@ static void kernels(struct stage *s)
   for (size_t k = 0; k + 1 < count; k++) {
     for (size_t n = 0; n < RAYS; n++) {
       const struct hit *a = &answers[k][n], *b = &answers[count - 1][n];
-      if (!kernels_same(&s->rays[n], a, b) && wrong++ < 3) print_ray(here[k]->name, s->kind, s->scene, &s->rays[n], a, b);
+      if (!kernels_same(&s->rays[n], a, b) && wrong++ < 3)
+        print_ray(here[k]->name, s->kind, s->scene, &s->rays[n], a, b);
     }
   }
   assert_int_equal(wrong, 0);

@@ -1,5 +1,5 @@
-/* Lanes against scalar code, on values of every kind. Compiled once per instruction set (CMakeLists.txt); where the processor lacks
- * it the test is skipped. */
+/* Lanes against scalar code, on values of every kind. Compiled once per instruction set (CMakeLists.txt); where the
+ * processor lacks it the test is skipped. */
 #include "base/lanes.h"
 
 #include <float.h>
@@ -15,8 +15,30 @@
 
 /* Volatile, so that nothing is computed by the compiler. */
 static volatile double values[] = {
-  0.0, -0.0, 1.0, -1.0, 0.1, -0.7, 1 + DBL_EPSILON, 3e-8, -1e19, 1e300, -1e-300, FLT_MAX, -2 * (double)FLT_MAX, FLT_MIN / 8,
-  1 + 0x1p-24, 1 + 0x3p-24, DBL_MAX, -DBL_MAX, DBL_MIN, DBL_MIN / 4, -DBL_TRUE_MIN, INFINITY, -INFINITY, NAN,
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    0.1,
+    -0.7,
+    1 + DBL_EPSILON,
+    3e-8,
+    -1e19,
+    1e300,
+    -1e-300,
+    FLT_MAX,
+    -2 * (double)FLT_MAX,
+    FLT_MIN / 8,
+    1 + 0x1p-24,
+    1 + 0x3p-24,
+    DBL_MAX,
+    -DBL_MAX,
+    DBL_MIN,
+    DBL_MIN / 4,
+    -DBL_TRUE_MIN,
+    INFINITY,
+    -INFINITY,
+    NAN,
 };
 enum { VALUES = sizeof values / sizeof values[0], PAIRS = VALUES * VALUES, TRIPLES = PAIRS * VALUES };
 
@@ -89,15 +111,18 @@ static void operators_are_scalar(void **state)
 {
   (void)state;
   for (int n = 0; n < PAIRS; n++) {
-    const lanes a = row(first_value, n), b = row(second_value, n), sum = a + b, product = a * b, ratio = a / b, minus = -a;
-    const unsigned less = lanes_bits(a < b), most = lanes_bits(a <= b), equal = lanes_bits(a == b), no_less = lanes_bits(~(a < b));
+    const lanes a = row(first_value, n), b = row(second_value, n), sum = a + b, product = a * b, ratio = a / b,
+                minus = -a;
+    const unsigned less = lanes_bits(a < b), most = lanes_bits(a <= b), equal = lanes_bits(a == b),
+                   no_less = lanes_bits(~(a < b));
     for (int l = 0; l < LANES; l++) {
       const double x = first_value(n + l), y = second_value(n + l);
       assert_true(same(sum[l], x + y) && same(product[l], x * y) && same(ratio[l], x / y) && same_bits(minus[l], -x));
       assert_true((less >> l & 1) == (x < y) && (most >> l & 1) == (x <= y) && (equal >> l & 1) == (x == y));
       assert_true((no_less >> l & 1) == !(x < y));
     }
-    const float_lanes c = float_row(first_value, n), d = float_row(second_value, n), difference = c - d, quotient = c / d;
+    const float_lanes c = float_row(first_value, n), d = float_row(second_value, n), difference = c - d,
+                      quotient = c / d;
     const unsigned below = float_lanes_bits(c <= d);
     for (int l = 0; l < FLOAT_LANES; l++) {
       const float x = (float)first_value(n + l), y = (float)second_value(n + l);
@@ -156,7 +181,8 @@ static void products_keep_their_error(void **state)
   }
 }
 
-/* Sums and products of doubles are exact; what is made of them is off by some roundings of its low part, a few 2^-105. */
+/* Sums and products of doubles are exact; what is made of them is off by some roundings of its low part, a few
+ * 2^-105. */
 #define DOUBLE_LANES_ERROR 0x1p-102
 
 static bool near(double hi, double lo, struct double_double want, double size)
@@ -214,7 +240,8 @@ __attribute__((noinline)) static int run(void)
 int main(void)
 {
 #if defined(__AVX512F__)
-  const bool here = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  const bool here = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512vl");
 #elif defined(__AVX2__)
   const bool here = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #else
