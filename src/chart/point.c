@@ -114,6 +114,17 @@ static bool ties(const struct chart_point *a, const struct chart_point *b)
   return a->camera.most_of_all <= b->camera.most_of_all && p->lower <= q->upper && q->lower <= p->upper;
 }
 
+/* Whether another one is no less exact, and faster by more than the noise. */
+static bool clearly_beaten(const struct chart_point *points, size_t count, const struct chart_point *point)
+{
+  for (size_t k = 0; k < count; k++) {
+    if (points[k].camera.most_of_all <= point->camera.most_of_all &&
+        points[k].time[RAYS_CAMERA].upper < point->time[RAYS_CAMERA].lower)
+      return true;
+  }
+  return false;
+}
+
 void point_front(struct chart_point *points, size_t count)
 {
   for (size_t k = 0; k < count; k++) {
@@ -122,7 +133,7 @@ void point_front(struct chart_point *points, size_t count)
   }
   for (size_t k = 0; k < count; k++) {
     for (size_t first = 0; points[k].front && first < k; first++) {
-      if (!ties(&points[first], &points[k])) continue;
+      if (!ties(&points[first], &points[k]) || clearly_beaten(points, count, &points[first])) continue;
       points[k].front = false, points[first].front = true;
     }
   }

@@ -51,6 +51,17 @@ static void test_front_noise(void **state)
   points[3].time[RAYS_CAMERA].upper = 91;
   point_front(points, 4);
   assert_true(!points[0].front && !points[1].front && points[2].front && !points[3].front);
+
+  struct chart_point beaten[] = {
+    point(100, 1e-15), /* beaten by the next, so it does not stand for the last, whose quartiles it shares */
+    point(80, 1e-15),
+    point(70, 1e-5),
+  };
+  beaten[0].time[RAYS_CAMERA].lower = beaten[2].time[RAYS_CAMERA].upper = 90;
+  beaten[1].time[RAYS_CAMERA].lower = beaten[1].time[RAYS_CAMERA].upper = 80;
+  beaten[2].time[RAYS_CAMERA].lower = 60;
+  point_front(beaten, 3);
+  assert_true(!beaten[0].front && beaten[1].front && !beaten[2].front); /* the last is no faster than the second */
 }
 
 /* Times follow the yardstick: what was measured while the machine was half as fast is halved. */
