@@ -2,21 +2,19 @@
 #include "command/chart.h"
 
 #include <assert.h>
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "command/interrupt.h"
+#include "command/output.h"
 #include "command/values.h"
 
 enum {
   OPTION_OUTPUT = 1,
-  OPTION_SIZE,
   OPTION_RAYS,
   OPTION_ROUNDS,
   OPTION_QUICK,
@@ -35,7 +33,7 @@ enum {
 static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "folder of the results; default: SCENE's name and -chart", "DIR"),
-  COMMAND_OPTION("size", 0, OPTION_SIZE, "of the picture in pixels; default 800x600", "WxH"),
+  SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
   COMMAND_OPTION("rays", 0, OPTION_RAYS, "about so many camera rays; default 2048, 1024 with --quick", "N"),
   COMMAND_OPTION("rounds", 0, OPTION_ROUNDS, "measure each so often; default 5, 3 with --quick", "N"),
   COMMAND_FLAG("quick", 0, OPTION_QUICK, "fewer tolerances, rays and peers: under a minute"),
@@ -53,9 +51,7 @@ static enum status take_option(const struct command *command, void *context, int
     chart->output = argument;
     break;
   case OPTION_SIZE:
-    if (!value_size(argument, MAX_SIDE, &chart->scene_request.width, &chart->scene_request.height))
-      return (enum status)command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
-    break;
+    return scene_request_take(command, &chart->scene_request, val, argument);
   case OPTION_RAYS:
     if (!value_integer(argument, 1, MAX_RAYS, &chart->wanted))
       return (enum status)command_usage(command, "'%s' is no number of rays from 1 to %d", argument, MAX_RAYS);
@@ -337,17 +333,6 @@ static enum status measure(struct chart *chart)
   return status;
 }
 
-/* *out_made: whether there was none before. */
-static enum status make_folder(const struct chart *chart, bool *out_made)
-{
-  struct stat state;
-  *out_made = mkdir(chart->output, 0777) == 0;
-  if (*out_made || (errno == EEXIST && stat(chart->output, &state) == 0 && S_ISDIR(state.st_mode)))
-    return STATUS_OK;
-  command_error(chart->command, "cannot make the folder '%s': %s", chart->output, strerror(errno));
-  return STATUS_FILE;
-}
-
 static enum status chart_scene(struct chart *chart)
 {
   bool made = false;
@@ -358,7 +343,7 @@ static enum status chart_scene(struct chart *chart)
   enum status status = load(chart);
   interrupt_defer();
   if (status == STATUS_OK)
-    status = make_folder(chart, &made);
+    status = output_folder_make(chart->command, chart->output, &made);
   if (status == STATUS_OK)
     status = measure(chart);
   if (status == STATUS_OK)
@@ -371,21 +356,6 @@ static enum status chart_scene(struct chart *chart)
   arena_destroy(chart->arena);
   scene_destroy(chart->scene);
   return status;
-}
-
-/* "scenes/teapot.pscn" gives "teapot-chart". NULL where memory is short. */
-static char *default_output(const char *scene)
-{
-  static const char SUFFIX[] = "-chart";
-  const char *slash = strrchr(scene, '/'), *base = slash == NULL ? scene : slash + 1;
-  const char *dot = strrchr(base, '.');
-  const size_t length = dot == NULL || dot == base ? strlen(base) : (size_t)(dot - base);
-  char *name = malloc(length + sizeof SUFFIX);
-  if (name != NULL) {
-    memcpy(name, base, length);
-    memcpy(name + length, SUFFIX, sizeof SUFFIX);
-  }
-  return name;
 }
 
 static int run(const struct command *command, int argc, const char **argv)
@@ -402,7 +372,7 @@ static int run(const struct command *command, int argc, const char **argv)
     if (chart.rounds == 0)
       chart.rounds = chart.quick ? QUICK_ROUNDS : ROUNDS;
     if (chart.output == NULL)
-      chart.output = default_name = default_output(chart.scene_request.path);
+      chart.output = default_name = output_folder_name(chart.scene_request.path, "-chart");
     if (chart.output != NULL)
       status = chart_scene(&chart);
     else

@@ -1,20 +1,18 @@
 /* pscn check SCENE: the same scene by POV-Ray, side by side.
  *
- * * The first row is the scene's own text, so that both programs read the same file. The rows with u_steps are
+ * The first row is the scene's own text, so that both programs read the same file. The rows with u_steps are
  * POV-Ray's pictures of the canonical text (scene/dump.h) with the steps of every patch set: in the text of the scene
  * a patch may say nothing of its steps, or take them from a name that means other things as well.
  */
 #include "command/check.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "command/interrupt.h"
+#include "command/output.h"
 #include "command/report.h"
 #include "command/values.h"
 #include "image/image_file.h"
@@ -22,9 +20,6 @@
 
 enum {
   OPTION_OUTPUT = 1,
-  OPTION_SIZE,
-  OPTION_SOLVER,
-  OPTION_TOLERANCE,
   OPTION_STEPS,
   OPTION_GRID,
   OPTION_POVRAY,
@@ -43,9 +38,8 @@ enum { MAX_PIXELS = 1 << 26, MAX_GRID = 100000 };
 static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "folder of the results; default: SCENE's name and -check", "DIR"),
-  COMMAND_OPTION("size", 0, OPTION_SIZE, "of the pictures in pixels; default 800x600", "WxH"),
-  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"),
-  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"),
+  SCENE_SIZE_OPTION("of the pictures in pixels; default 800x600"),
+  SCENE_SOLVER_OPTIONS,
   COMMAND_OPTION("steps", 0, OPTION_STEPS, "POV-Ray's u_steps and v_steps go from 1 to N; 0: none; default 6", "N"),
   COMMAND_OPTION("grid", 0, OPTION_GRID, "compare hits of every Nth pixel and row; 0: none; default 8", "N"),
   COMMAND_OPTION("povray", 0, OPTION_POVRAY, "the program; default povray", "FILE"),
@@ -107,12 +101,8 @@ static enum status take_option(const struct command *command, void *context, int
       return (enum status)command_usage(command, "'%s' is no size WxH of at most %d pixels", argument, MAX_PIXELS);
     break;
   case OPTION_SOLVER:
-    request->scene.solver_text = argument;
-    break;
   case OPTION_TOLERANCE:
-    if (!value_number(argument, &request->scene.tolerance) || request->scene.tolerance == 0)
-      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
-    break;
+    return scene_request_take(command, &request->scene, val, argument);
   case OPTION_STEPS:
     if (!value_integer(argument, 0, CHECK_MAX_STEPS, &request->steps))
       return (enum status)command_usage(command, "'%s' is no number of steps from 0 to %d", argument, CHECK_MAX_STEPS);
@@ -136,21 +126,6 @@ static enum status take_option(const struct command *command, void *context, int
 }
 
 /* ---- the folder of the results ---- */
-
-/* "scenes/teapot.pscn" gives "teapot-check": here, not beside the scene, whose folder need not be ours. */
-static char *default_output(const char *scene)
-{
-  static const char SUFFIX[] = "-check";
-  const char *slash = strrchr(scene, '/'), *base = slash == NULL ? scene : slash + 1;
-  const char *dot = strrchr(base, '.');
-  const size_t length = dot == NULL || dot == base ? strlen(base) : (size_t)(dot - base);
-  char *name = malloc(length + sizeof SUFFIX);
-  if (name != NULL) {
-    memcpy(name, base, length);
-    memcpy(name + length, SUFFIX, sizeof SUFFIX);
-  }
-  return name;
-}
 
 static enum status write_bytes(const struct check *check, const char *folder, const char *name, const void *bytes,
                                size_t size)
@@ -312,7 +287,7 @@ static enum status check_scene(const struct command *command, struct line *line)
 {
   struct check_request *request = &line->request;
   if (line->output == NULL)
-    line->output = line->default_output = default_output(request->scene.path);
+    line->output = line->default_output = output_folder_name(request->scene.path, "-check");
   if (line->output == NULL) {
     command_error(command, "out of memory");
     return STATUS_LIMIT;
@@ -322,12 +297,9 @@ static enum status check_scene(const struct command *command, struct line *line)
     command_error(command, "cannot write pictures: %s", message);
     return STATUS_FILE;
   }
-  struct stat state;
-  const bool made = mkdir(line->output, 0777) == 0;
-  if (!made && !(errno == EEXIST && stat(line->output, &state) == 0 && S_ISDIR(state.st_mode))) {
-    command_error(command, "cannot make the folder '%s': %s", line->output, strerror(errno));
+  bool made;
+  if (output_folder_make(command, line->output, &made) != STATUS_OK)
     return STATUS_FILE;
-  }
   interrupt_defer();
   request->scene.width = line->width;
   request->scene.height = line->height;

@@ -1,6 +1,6 @@
 /* What `pscn check` measures, and who shows it.
  *
- * * Internal to the files check*.c. Our picture is rendered once; each row is one picture by POV-Ray beside it: first
+ * Internal to the files check*.c. Our picture is rendered once; each row is one picture by POV-Ray beside it: first
  * the scene as it is written, then with every patch cut into 2^n x 2^n pieces, n = 1, 2, ... (u_steps n v_steps n
  * flatness 0).
  */

@@ -5,38 +5,18 @@
 
 #include "command/command.h"
 #include "command/scene_file.h"
-#include "command/values.h"
 #include "scene/dump.h"
-
-enum { OPTION_SIZE = 1, OPTION_SOLVER, OPTION_TOLERANCE };
 
 static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
-  COMMAND_OPTION("size", 0, OPTION_SIZE, "what image_width and image_height mean; default 800x600", "WxH"),
-  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"),
-  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"),
+  SCENE_SIZE_OPTION("what image_width and image_height mean; default 800x600"),
+  SCENE_SOLVER_OPTIONS,
   POPT_TABLEEND
 };
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
-  struct scene_request *request = context;
-  switch (val) {
-  case OPTION_SIZE:
-    if (!value_size(argument, MAX_SIDE, &request->width, &request->height))
-      return (enum status)command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
-    break;
-  case OPTION_SOLVER:
-    request->solver_text = argument;
-    break;
-  case OPTION_TOLERANCE:
-    if (!value_number(argument, &request->tolerance) || request->tolerance == 0)
-      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
-    break;
-  default:
-    break;
-  }
-  return STATUS_OK;
+  return scene_request_take(command, context, val, argument);
 }
 
 static int run(const struct command *command, int argc, const char **argv)

@@ -1,6 +1,6 @@
 /* POV-Ray as a peer: the installed program, run on scene texts in a folder of our own.
  *
- * * It runs with that folder as its home and without the user's settings, on one thread, without antialiasing,
+ * It runs with that folder as its home and without the user's settings, on one thread, without antialiasing,
  * dithering and display, so that the same text gives the same picture everywhere. What it says is kept and shown where
  * it fails. Errors are told on stderr.
  */

@@ -1,7 +1,6 @@
 /* pscn render SCENE: a picture. */
 #include "render/render.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +9,7 @@
 #include "base/atomic_file.h"
 #include "command/command.h"
 #include "command/interrupt.h"
+#include "command/output.h"
 #include "command/progress.h"
 #include "command/report.h"
 #include "command/scene_file.h"
@@ -18,9 +18,6 @@
 
 enum {
   OPTION_OUTPUT = 1,
-  OPTION_SIZE,
-  OPTION_SOLVER,
-  OPTION_TOLERANCE,
   OPTION_SAMPLES,
   OPTION_CROP,
   OPTION_THREADS,
@@ -39,9 +36,8 @@ enum {
 static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "the picture, .png or .exr; default: SCENE with .png", "FILE"),
-  COMMAND_OPTION("size", 0, OPTION_SIZE, "of the picture in pixels; default 800x600", "WxH"),
-  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"),
-  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"),
+  SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
+  SCENE_SOLVER_OPTIONS,
   COMMAND_OPTION("samples", 0, OPTION_SAMPLES, "N x N rays a pixel on a regular grid; default 1", "N"),
   COMMAND_OPTION("crop", 0, OPTION_CROP, "only this part, in pixels from the left and top", "X,Y,W,H"),
   COMMAND_OPTION("threads", 0, OPTION_THREADS, "default: one for each processor", "N"),
@@ -81,16 +77,9 @@ static enum status take_option(const struct command *command, void *context, int
     request->output = argument;
     break;
   case OPTION_SIZE:
-    if (!value_size(argument, MAX_SIDE, &options->width, &options->height))
-      return (enum status)command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
-    break;
   case OPTION_SOLVER:
-    request->scene.solver_text = argument;
-    break;
   case OPTION_TOLERANCE:
-    if (!value_number(argument, &request->scene.tolerance) || request->scene.tolerance == 0)
-      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
-    break;
+    return scene_request_take(command, &request->scene, val, argument);
   case OPTION_SAMPLES:
     if (!value_integer(argument, 1, MAX_SAMPLES, &options->samples))
       return (enum status)command_usage(command, "'%s' is no number of samples from 1 to %d", argument, MAX_SAMPLES);
@@ -117,21 +106,6 @@ static enum status take_option(const struct command *command, void *context, int
     break;
   }
   return STATUS_OK;
-}
-
-/* The scene's name with .png instead of its own suffix. NULL where memory is short. */
-static char *default_output(const char *scene)
-{
-  static const char SUFFIX[] = ".png";
-  const char *slash = strrchr(scene, '/'), *base = slash == NULL ? scene : slash + 1;
-  const char *dot = strrchr(base, '.');
-  const size_t length = dot == NULL || dot == base ? strlen(scene) : (size_t)(dot - scene);
-  char *name = malloc(length + sizeof SUFFIX);
-  if (name != NULL) {
-    memcpy(name, scene, length);
-    memcpy(name + length, SUFFIX, sizeof SUFFIX);
-  }
-  return name;
 }
 
 static bool same_file(const char *first, const char *second)
@@ -174,7 +148,7 @@ static enum status check_crop(const struct command *command, struct render_optio
 static enum status check(const struct command *command, struct request *request)
 {
   if (request->output == NULL)
-    request->output = request->default_output = default_output(request->scene.path);
+    request->output = request->default_output = output_name(request->scene.path, ".png");
   if (request->output == NULL) {
     command_error(command, "out of memory");
     return STATUS_LIMIT;
@@ -273,8 +247,6 @@ static enum status render(const struct command *command, struct request *request
   enum status status = check(command, request);
   if (status != STATUS_OK)
     return status;
-  request->scene.width = request->options.width;
-  request->scene.height = request->options.height;
   struct scene *scene = NULL;
   struct image image = { 0 };
   const struct command_seconds start = command_now();
@@ -305,16 +277,16 @@ static enum status render(const struct command *command, struct request *request
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = { .scene.tolerance = NAN,
-                             .options = { .width = DEFAULT_WIDTH,
-                                          .height = DEFAULT_HEIGHT,
-                                          .samples = 1,
+  struct request request = { .scene = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN },
+                             .options = { .samples = 1,
                                           .threads = render_processors(),
                                           .channels = { .count = 1, .width = 3, .kind = { CHANNEL_RGB } } } };
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) {
     request.scene.path = line.positional[0];
+    request.options.width = request.scene.width;
+    request.options.height = request.scene.height;
     status = render(command, &request);
   }
   free(request.default_output);

@@ -14,7 +14,7 @@
 #include "command/values.h"
 #include "language/language.h"
 
-enum { OPTION_SOLVER = 1, OPTION_TOLERANCE, OPTION_STATS, OPTION_QUIET };
+enum { OPTION_STATS = 1, OPTION_QUIET };
 
 enum {
   MAX_COEFFICIENTS = POLYNOMIAL_MAX_DEGREE + 1,
@@ -34,8 +34,8 @@ static const struct poptOption OPTIONS[] = {
 };
 
 struct request {
-  const char *solver_text, *stats;
-  double tolerance; /* or NAN */
+  struct scene_request solver; /* its solver and tolerance alone */
+  const char *stats;
   bool quiet;
 };
 
@@ -44,12 +44,8 @@ static enum status take_option(const struct command *command, void *context, int
   struct request *request = context;
   switch (val) {
   case OPTION_SOLVER:
-    request->solver_text = argument;
-    break;
   case OPTION_TOLERANCE:
-    if (!value_number(argument, &request->tolerance) || request->tolerance == 0)
-      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
-    break;
+    return scene_request_take(command, &request->solver, val, argument);
   case OPTION_STATS:
     request->stats = argument;
     break;
@@ -232,15 +228,15 @@ static bool mentions(const char *text, const char *word)
 
 static enum status choose_solver(const struct request *request, struct solver_options *out)
 {
-  const char *text = request->solver_text == NULL ? DEFAULT_SOLVER : request->solver_text;
+  const char *text = request->solver.solver_text == NULL ? DEFAULT_SOLVER : request->solver.solver_text;
   struct diagnostics diagnostics = stderr_diagnostics();
   const enum status status = language_parse_solver(text, &diagnostics, out);
   if (status != STATUS_OK)
     return status;
   if (!mentions(text, "basis"))
     out->basis = BASIS_POWER;
-  if (!isnan(request->tolerance))
-    out->tolerance = request->tolerance;
+  if (!isnan(request->solver.tolerance))
+    out->tolerance = request->solver.tolerance;
   return STATUS_OK;
 }
 
@@ -267,7 +263,7 @@ static enum status roots(const struct command *command, const struct request *re
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = { .tolerance = NAN };
+  struct request request = { .solver.tolerance = NAN };
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 0, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) {

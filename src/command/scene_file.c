@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "command/values.h"
 #include "language/language.h"
 
 static void tell(void *context, const char *text, size_t length)
@@ -16,6 +17,25 @@ static void tell(void *context, const char *text, size_t length)
 struct diagnostics stderr_diagnostics(void)
 {
   return (struct diagnostics){ .tell = tell };
+}
+
+enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
+                               const char *argument)
+{
+  switch (val) {
+  case OPTION_SIZE:
+    if (!value_size(argument, MAX_SIDE, &request->width, &request->height))
+      return (enum status)command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
+    break;
+  case OPTION_SOLVER:
+    request->solver_text = argument;
+    break;
+  default:
+    if (!value_number(argument, &request->tolerance) || request->tolerance == 0)
+      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
+    break;
+  }
+  return STATUS_OK;
 }
 
 enum status scene_file_load(const struct scene_request *request, struct scene **out)

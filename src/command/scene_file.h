@@ -6,6 +6,7 @@
 
 #include "base/diagnostics.h"
 #include "base/status.h"
+#include "command/command.h"
 #include "scene/scene.h"
 
 /* What a command line says of a scene. */
@@ -18,6 +19,16 @@ struct scene_request {
 
 /* The size of a picture unless --size says another, and the largest. */
 enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600, MAX_SIDE = 1000000 };
+
+/* The options of a scene_request, whose vals are the same in all commands: rows of the table for a solver instead of the
+ * scene's own, and the taking of any of the three. `text` is what the size is of. */
+enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE };
+#define SCENE_SIZE_OPTION(text) COMMAND_OPTION("size", 0, OPTION_SIZE, text, "WxH")
+#define SCENE_SOLVER_OPTIONS \
+  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"), \
+    COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E")
+enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
+                               const char *argument);
 
 /* Reads the scene; the caller destroys it. On failure the errors have been told and *out is NULL. */
 enum status scene_file_load(const struct scene_request *request, struct scene **out) STATUS_MUST_CHECK;

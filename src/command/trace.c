@@ -13,7 +13,7 @@
 #include "geometry/vector.h"
 #include "intersect/intersect.h"
 
-enum { OPTION_SOLVER = 1, OPTION_TOLERANCE, OPTION_BINARY, OPTION_STATS, OPTION_QUIET };
+enum { OPTION_BINARY = 1, OPTION_STATS, OPTION_QUIET };
 
 enum {
   ANSWER_VALUES = 7, /* T U V PATCH NX NY NZ */
@@ -23,8 +23,7 @@ enum {
 
 static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
-  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"),
-  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"),
+  SCENE_SOLVER_OPTIONS,
   COMMAND_FLAG("binary", 0, OPTION_BINARY, "little-endian doubles instead of text"),
   COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output, after the hits", "FILE"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "no summary on a terminal"),
@@ -42,12 +41,8 @@ static enum status take_option(const struct command *command, void *context, int
   struct request *request = context;
   switch (val) {
   case OPTION_SOLVER:
-    request->scene.solver_text = argument;
-    break;
   case OPTION_TOLERANCE:
-    if (!value_number(argument, &request->scene.tolerance) || request->scene.tolerance == 0)
-      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
-    break;
+    return scene_request_take(command, &request->scene, val, argument);
   case OPTION_BINARY:
     request->binary = true;
     break;
