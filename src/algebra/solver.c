@@ -8,17 +8,20 @@
 
 #include "algebra/root_kernel.h"
 
-/* One row a solver. The tolerance is eps of eq 10: 1e-12 is the least at which the paper's plain iterations still
- * stop by it (eq 10 is absolute, and values of size 100 do not move by less). It decides when to stop, never what is
- * true, for radii and certificates are made afterwards; nor do the steps a root may take. */
+/* eps of eq 10, absolute in the unknown: the least at which the paper's plain iterations still stop by it, as values of
+ * size 100 do not move by less. It and the steps a root may take decide when to stop, never what is true: radii and
+ * certificates are made afterwards. */
+#define STOP_TOLERANCE 1e-12
+
+/* One row a solver: name, summary, real roots only, tolerance, steps a root may take. */
 static const struct solver solvers[] = {
-  {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, 1e-12, 64,
-   bernstein_find},
-  {"newton", "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, 1e-12, 200,
-   newton_find},
-  {"laguerre", "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false, 1e-12, 100,
-   laguerre_find},
-  {"aberth", "all roots at once by Aberth's method (eq 9 of the paper)", false, 1e-12, 100, aberth_find},
+  {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, STOP_TOLERANCE,
+   64, bernstein_find},
+  {"newton", "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, STOP_TOLERANCE,
+   200, newton_find},
+  {"laguerre", "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false,
+   STOP_TOLERANCE, 100, laguerre_find},
+  {"aberth", "all roots at once by Aberth's method (eq 9 of the paper)", false, STOP_TOLERANCE, 100, aberth_find},
 };
 
 size_t solver_count(void)
