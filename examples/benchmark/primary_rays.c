@@ -10,8 +10,9 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/clock.h"
+#include "base/sort.h"
 #include "chart/rays.h"
 #include "language/language.h"
 #include "peer/embree_mesh.h"
@@ -31,19 +32,6 @@ static void tell(void *context, const char *text, size_t length)
 {
   (void)context;
   (void)fwrite(text, 1, length, stderr);
-}
-
-static double clock_seconds(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static int compare(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 static void fail(const char *what)
@@ -72,10 +60,11 @@ static void trace(struct tracer *tracer, const struct ray_list *list)
   }
 }
 
+/* Sorts the values. */
 static double median(double *values, size_t count)
 {
-  qsort(values, count, sizeof *values, compare);
-  return (values[(count - 1) / 2] + values[count / 2]) / 2;
+  sort_numbers(values, count);
+  return sorted_quantile(values, count, 0.5);
 }
 
 static double median_ratio(const struct contestant *a, const struct contestant *b, size_t runs)
@@ -125,10 +114,10 @@ int main(int argc, char **argv)
   double sum = 0;
   for (size_t r = 0; r < runs; r++) {
     for (size_t c = 0; c < count; c++) {
-      const double start = clock_seconds();
+      const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
       if (list[c].embree_width == 0) trace(list[c].tracer, &rays);
       else sum += embree_trace(mesh, embree, list[c].embree_width, false);
-      list[c].seconds[r] = clock_seconds() - start;
+      list[c].seconds[r] = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
     }
   }
   fprintf(stderr, "%s, %zu camera rays, %zu triangles, %zu runs (Embree's distances add up to %.6g)\n", argv[1], rays.count,

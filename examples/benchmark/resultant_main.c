@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/sort.h"
 #include "resultant_time.h"
 
 enum { REPEATS = 2000, MAX_RUNS = 1000 };
@@ -13,12 +14,6 @@ struct contestant {
   int present, lanes;
   double ns[MAX_RUNS];
 };
-
-static int compare(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 int main(int argc, char **argv)
 {
@@ -47,8 +42,8 @@ int main(int argc, char **argv)
   fprintf(stderr, "r(u) of degree 18, %zu runs (coefficients add up to %.6g)\n", runs, sum);
   for (size_t k = 0; k < count; k++) {
     if (!list[k].present) continue;
-    qsort(list[k].ns, runs, sizeof list[k].ns[0], compare);
-    printf("%s\t%d\t%.1f\t%.1f\t%.1f\n", list[k].name, list[k].lanes, (list[k].ns[(runs - 1) / 2] + list[k].ns[runs / 2]) / 2,
+    sort_numbers(list[k].ns, runs);
+    printf("%s\t%d\t%.1f\t%.1f\t%.1f\n", list[k].name, list[k].lanes, sorted_quantile(list[k].ns, runs, 0.5),
            list[k].ns[0], list[k].ns[runs - 1]);
   }
   return 0;

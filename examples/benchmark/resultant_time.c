@@ -3,9 +3,7 @@
  */
 #include "resultant_time.h"
 
-#include <stdio.h>
-#include <time.h>
-
+#include "base/clock.h"
 #include "base/lanes.h"
 
 #define BEZOUT_REAL lanes
@@ -13,13 +11,6 @@
 #include "algebra/bezout.h"
 
 enum { NETS = 64, DEGREE = 18 };
-
-static double clock_seconds(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* Out of line, as a kernel calls it: nets in, coefficients out. */
 static __attribute__((noinline)) void form(const lanes a[16], const lanes b[16], lanes c[DEGREE + 1])
@@ -38,14 +29,14 @@ double RESULTANT_TIME(int repeats, int *out_lanes, double *out_sum)
     }
   }
   lanes c[DEGREE + 1], sum = { 0 };
-  const double start = clock_seconds();
+  const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   for (int r = 0; r < repeats; r++) {
     for (int n = 0; n < NETS; n++) {
       form(net[n], net[n + 1], c);
       sum += c[r % (DEGREE + 1)];
     }
   }
-  const double seconds = clock_seconds() - start;
+  const double seconds = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
   *out_lanes = LANES;
   *out_sum = 0;
   for (int k = 0; k < LANES; k++) *out_sum += sum[k];

@@ -4,14 +4,6 @@
 #include <assert.h>
 #include <math.h>
 #include <string.h>
-#include <time.h>
-
-double measure_clock(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 double measure_random(uint64_t *state)
 {

@@ -1,13 +1,10 @@
-/* What the paper's experiments share: a clock, random numbers, eq 11, and solver items by name. */
+/* What the paper's experiments share: random numbers, eq 11, and solver items by name. */
 #ifndef PSCN_EXAMPLES_MEASURE_H
 #define PSCN_EXAMPLES_MEASURE_H
 
 #include <stdint.h>
 
 #include "algebra/root_problem.h"
-
-/* CPU seconds of this thread. */
-double measure_clock(void);
 
 /* Uniform in [0,1); SplitMix64. */
 double measure_random(uint64_t *state);

@@ -14,11 +14,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "algebra/deflation.h"
 #include "algebra/root_problem.h"
 #include "algebra/solver.h"
+#include "base/clock.h"
 #include "measure.h"
 
 enum {
@@ -78,11 +78,11 @@ static struct summary measure(int degree, const struct solver_options *options, 
     struct root_problem problem;
     struct root_estimates roots;
     random_problem(&seed, degree, &problem);
-    const double start = measure_clock();
+    const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
     for (int repeat = 0; repeat < REPEATS; repeat++) {
       find(&problem, options, first_only, &roots);
     }
-    out.seconds += (measure_clock() - start) / REPEATS / POLYNOMIALS;
+    out.seconds += (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start) / REPEATS / POLYNOMIALS;
     const int count = first_only && strcmp(options->solver->name, "aberth") != 0 ? 1 : roots.count;
     for (int r = 0; r < count; r++) {
       const double ratio = measure_eq11(&problem, roots.re[r], roots.im[r]);

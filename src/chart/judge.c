@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/sort.h"
+
 #if defined(PSCN_HAS_QUAD)
 #include "reference/reference.h"
 
@@ -50,12 +52,6 @@ enum status judge_truths(const struct scene *scene, const struct ray_list *rays,
 }
 #endif
 
-static int compare(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* The value that `part` of the sorted ones do not pass. */
 static double quantile(double *values, size_t count, double part)
 {
@@ -95,8 +91,8 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
     errors[both++] = error;
     all[asked++] = wrong ? 1 : error;
   }
-  qsort(errors, both, sizeof *errors, compare);
-  qsort(all, asked, sizeof *all, compare);
+  sort_numbers(errors, both);
+  sort_numbers(all, asked);
   out->median = quantile(errors, both, 0.5);
   out->most = quantile(errors, both, 0.99);
   out->max = quantile(errors, both, 1);

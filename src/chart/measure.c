@@ -3,37 +3,21 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
-static double thread_seconds(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+#include "base/clock.h"
+#include "base/sort.h"
 
-static int compare(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-static double sorted_at(const double *sorted, size_t count, double part)
-{
-  const double place = part * (double)(count - 1);
-  const size_t below = (size_t)place, above = below + 1 < count ? below + 1 : below;
-  return sorted[below] + (place - (double)below) * (sorted[above] - sorted[below]);
-}
+static double thread_seconds(void) { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
 /* values[round] in seconds, of the runner and of the yardstick. Sorts a copy. */
 static struct timing summarise(const double *values, const double *yard, size_t rounds, size_t rays)
 {
   double sorted[MEASURE_MAX_ROUNDS], ratio[MEASURE_MAX_ROUNDS];
   for (size_t k = 0; k < rounds; k++) sorted[k] = 1e9 * values[k] / (double)rays, ratio[k] = values[k] / yard[k];
-  qsort(sorted, rounds, sizeof *sorted, compare);
-  qsort(ratio, rounds, sizeof *ratio, compare);
-  return (struct timing){ sorted[0], sorted_at(sorted, rounds, 0.25), sorted_at(sorted, rounds, 0.5),
-                          sorted_at(sorted, rounds, 0.75), sorted[rounds - 1], sorted_at(ratio, rounds, 0.5) };
+  sort_numbers(sorted, rounds);
+  sort_numbers(ratio, rounds);
+  return (struct timing){ sorted[0], sorted_quantile(sorted, rounds, 0.25), sorted_quantile(sorted, rounds, 0.5),
+                          sorted_quantile(sorted, rounds, 0.75), sorted[rounds - 1], sorted_quantile(ratio, rounds, 0.5) };
 }
 
 /* A turn lasts at least so long, in seconds: fast runners repeat, and go once unmeasured before, for what ran before them has left

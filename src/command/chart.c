@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/sort.h"
 #include "command/interrupt.h"
 #include "command/output.h"
 #include "command/values.h"
@@ -290,17 +291,11 @@ static enum status load(struct chart *chart)
   return chart->points == NULL ? STATUS_LIMIT : STATUS_OK;
 }
 
-static int compare(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static void level_times(struct chart *chart)
 {
   double yard[RAY_KINDS];
   for (int kind = 0; kind < RAY_KINDS; kind++) {
-    qsort(chart->yard[kind], chart->yard_count, sizeof *chart->yard[kind], compare);
+    sort_numbers(chart->yard[kind], chart->yard_count);
     yard[kind] = chart->yard[kind][chart->yard_count / 2];
   }
   point_level(chart->points, chart->point_count, yard);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "base/sort.h"
 #include "chart/exchange.h"
 #include "chart/plain_newton.h"
 #include "command/chart.h"
@@ -161,12 +162,6 @@ static double trace_seconds(const struct povray *povray)
   return value;
 }
 
-static int compare(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* The time of POV-Ray's pixels, without lights and textures, the yardstick after each. */
 static enum status time_povray(struct chart *chart, struct povray *povray, struct timing *out)
 {
@@ -187,8 +182,8 @@ static enum status time_povray(struct chart *chart, struct povray *povray, struc
   free(mask);
   if (status != STATUS_OK)
     return status;
-  qsort(seconds, rounds, sizeof *seconds, compare);
-  qsort(ratio, rounds, sizeof *ratio, compare);
+  sort_numbers(seconds, rounds);
+  sort_numbers(ratio, rounds);
   const double middle = seconds[rounds / 2];
   *out = (struct timing){ seconds[0], (seconds[0] + middle) / 2, middle, (middle + seconds[rounds - 1]) / 2,
                           seconds[rounds - 1], ratio[rounds / 2] };

@@ -10,6 +10,7 @@
 #include <jansson.h>
 #include <stdint.h>
 
+#include "command/command.h"
 #include "command/page.h"
 #include "command/povray.h"
 #include "command/scene_file.h"
@@ -47,9 +48,9 @@ struct check_pixel {
 };
 
 struct check_ours {
-  struct image picture; /* R G B, display codes of 8 bits as k/255 */
-  struct check_pixel *pixel; /* [height][width] */
-  double wall, cpu;          /* seconds: reading, building, rendering and encoding, one thread */
+  struct image picture;        /* R G B, display codes of 8 bits as k/255 */
+  struct check_pixel *pixel;   /* [height][width] */
+  struct command_seconds time; /* of reading, building, rendering and encoding, one thread */
 };
 
 /* Differences of distances, relative to ours, over the rays that both say hit; NaN where there are none. */

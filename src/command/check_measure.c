@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/sort.h"
 #include "command/check.h"
 #include "command/interrupt.h"
 #include "geometry/vector.h"
@@ -23,13 +23,6 @@ static enum status out_of_memory(const struct check *check)
 {
   command_error(check->command, "out of memory");
   return STATUS_LIMIT;
-}
-
-static double process_seconds(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /* ---- ours ---- */
@@ -104,7 +97,7 @@ enum status check_measure_ours(struct check *check)
                                           .channels = { .count = 1, .width = 3, .kind = { CHANNEL_RGB } } };
   const struct render_watch watch = { .stop = &interrupt_signal };
   struct render_stats stats;
-  const double wall = command_clock(), cpu = process_seconds();
+  const struct command_seconds start = command_now();
   enum status status = scene_file_load(&check->request->scene, &check->scene);
   if (status != STATUS_OK) /* told */
     return status;
@@ -115,8 +108,7 @@ enum status check_measure_ours(struct check *check)
     status = render_scene(check->scene, intersector, &options, &watch, ours->picture.value, &stats);
   if (status == STATUS_OK) {
     encode(&ours->picture);
-    ours->wall = command_clock() - wall;
-    ours->cpu = process_seconds() - cpu;
+    ours->time = command_since(start);
     for (int k = 0; k < 3; k++)
       snprintf(ours->picture.channel[k].name, IMAGE_NAME_SIZE, "%c", "RGB"[k]);
     ours->pixel = calloc(check->width * check->height, sizeof *ours->pixel);
@@ -182,12 +174,6 @@ static void compare_row(const struct check *check, struct check_row *row)
 
 /* ---- distances ---- */
 
-static int by_size(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* From the distances of both on the same rays; `ours` is overwritten. */
 static void compare_distances(size_t count, double ours[], const double theirs[], struct check_distances *out)
 {
@@ -202,7 +188,7 @@ static void compare_distances(size_t count, double ours[], const double theirs[]
   out->median = out->most = out->max = NAN;
   if (out->both == 0)
     return;
-  qsort(ours, out->both, sizeof *ours, by_size);
+  sort_numbers(ours, out->both);
   out->median = ours[out->both / 2];
   out->most = ours[(size_t)(0.99 * (double)(out->both - 1))];
   out->max = ours[out->both - 1];

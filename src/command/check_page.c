@@ -80,8 +80,8 @@ static void put_picture_table(const struct check *check, struct page *page)
   }
   page_put(page, "<tr><td>pscn, one thread</td>"
                  "<td></td><td></td><td></td><td></td><td></td><td></td><td></td><td></td>");
-  put_cell(page, check->ours.wall, 3);
-  put_cell(page, check->ours.cpu, 3);
+  put_cell(page, check->ours.time.wall, 3);
+  put_cell(page, check->ours.time.cpu, 3);
   page_put(page, "</tr>\n</table>\n");
 }
 

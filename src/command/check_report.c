@@ -31,7 +31,7 @@ static void print_pictures(const struct check *check)
     printf(" %4.0f/255 %8.2f %10zu %10zu %11zu %8.2f %6.2f\n", 255 * row->result.max, row->result.psnr,
            row->over_limit_on[CHECK_EDGE_NONE], row->mask_ours, row->mask_theirs, row->picture.wall, row->picture.cpu);
   }
-  printf("%-84s %8.2f %6.2f\n", "pscn", check->ours.wall, check->ours.cpu);
+  printf("%-84s %8.2f %6.2f\n", "pscn", check->ours.time.wall, check->ours.time.cpu);
 }
 
 static void print_distances(const struct check *check)
@@ -133,5 +133,5 @@ json_t *check_json(const struct check *check)
   return json_pack("{s:s,s:s,s:s,s:[i,i],s:o,s:b,s:o,s:o,s:{s:f,s:f}}", "version", PSCN_VERSION, "povray",
                    check->povray.version, "scene", request->scene.path, "size", (int)check->width, (int)check->height,
                    "limits", limits, "within_limits", within, "rows", rows, "worst", worst, "time", "wall",
-                   check->ours.wall, "cpu", check->ours.cpu);
+                   check->ours.time.wall, "cpu", check->ours.time.cpu);
 }

@@ -5,7 +5,8 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+#include "base/clock.h"
 
 const struct command *const commands[] = { &command_render,  &command_trace, &command_roots, &command_dump,
                                            &command_compare, &command_check, &command_chart, &command_help,
@@ -170,21 +171,14 @@ enum status command_written(const struct command *command, const char *path, enu
   return status;
 }
 
-static double read_clock(clockid_t clock)
-{
-  struct timespec now;
-  clock_gettime(clock, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 double command_clock(void)
 {
-  return read_clock(CLOCK_MONOTONIC);
+  return clock_seconds(CLOCK_MONOTONIC);
 }
 
 struct command_seconds command_now(void)
 {
-  return (struct command_seconds){ read_clock(CLOCK_MONOTONIC), read_clock(CLOCK_PROCESS_CPUTIME_ID) };
+  return (struct command_seconds){ clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID) };
 }
 
 struct command_seconds command_since(struct command_seconds start)

@@ -7,21 +7,15 @@
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
+
+#include "base/clock.h"
 
 enum {
   EXIT_SIGNAL = 128,
   POLL_NANOSECONDS = 2000000, /* between looks at the child: far below what a rendering takes */
   GRACE_LOOKS = 500           /* looks at a child that was asked to end before it is made to: one second */
 };
-
-static double clock_seconds(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* CPU time of the children waited for so far. */
 static double children_seconds(void)
@@ -95,7 +89,7 @@ enum status process_run(const struct process_request *request, const atomic_int 
   }
   (void)fcntl(report[0], F_SETFD, FD_CLOEXEC);
   (void)fcntl(report[1], F_SETFD, FD_CLOEXEC);
-  const double start = clock_seconds(), cpu_start = children_seconds();
+  const double start = clock_seconds(CLOCK_MONOTONIC), cpu_start = children_seconds();
   const pid_t child = fork();
   if (child == 0)
     become(request, report[1]);
@@ -122,7 +116,7 @@ enum status process_run(const struct process_request *request, const atomic_int 
     return STATUS_FILE;
   }
   out->reason = 0;
-  out->wall = clock_seconds() - start;
+  out->wall = clock_seconds(CLOCK_MONOTONIC) - start;
   out->cpu = children_seconds() - cpu_start;
   out->exit_code = WIFSIGNALED(state) ? EXIT_SIGNAL + WTERMSIG(state) : WEXITSTATUS(state);
   return STATUS_OK;
