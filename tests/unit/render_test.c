@@ -151,6 +151,14 @@ static void point_on_wall(size_t x, size_t y, double out[3])
   out[2] = 2;
 }
 
+/* Pixel n of a picture of "rgb,patch", and the point of the wall, patch 1, that it shows; NULL where it shows
+ * another. */
+static const float *wall_pixel(const float *picture, size_t n, double out_point[3])
+{
+  point_on_wall(n % WIDTH, n / WIDTH, out_point);
+  return picture[4 * n + 3] == 1 ? picture + 4 * n : NULL;
+}
+
 /* Whether a value is the float of a number that was computed in another order: one unit in the last place, or of 1. */
 static bool is_float(float value, double expected)
 {
@@ -240,19 +248,16 @@ static void shadows_are_cast(void **state)
   for (int shadowless = 0; shadowless <= 1; shadowless++) {
     lights[0].shadowless = shadowless != 0;
     float *out = render(&scene, &options, &stats);
-    for (size_t y = 0; y < HEIGHT; y++) {
-      for (size_t x = 0; x < WIDTH; x++) {
-        const float *pixel = out + 4 * (y * WIDTH + x);
-        if (pixel[3] != 1)
-          continue;
-        double point[3];
-        point_on_wall(x, y, point);
-        const bool hidden = shadowless == 0 && fmax(fabs(point[0]), fabs(point[1])) < 5.0 / 3;
-        const bool ambient = fabs((double)pixel[0] - 0.1 * 1 * 0.8) < 1e-6;
-        assert_int_equal(ambient, hidden);
-        dark += hidden;
-        lit += !hidden;
-      }
+    for (size_t n = 0; n < WIDTH * HEIGHT; n++) {
+      double point[3];
+      const float *pixel = wall_pixel(out, n, point);
+      if (pixel == NULL)
+        continue;
+      const bool hidden = shadowless == 0 && fmax(fabs(point[0]), fabs(point[1])) < 5.0 / 3;
+      const bool ambient = fabs((double)pixel[0] - 0.1 * 1 * 0.8) < 1e-6;
+      assert_int_equal(ambient, hidden);
+      dark += hidden;
+      lit += !hidden;
     }
     free(out);
     assert_true(lit > 0);
@@ -280,16 +285,13 @@ static void a_light_may_lie_on_a_surface(void **state)
   struct render_stats stats;
   float *out = render(&scene, &options, &stats);
   size_t lit = 0;
-  for (size_t y = 0; y < HEIGHT; y++) {
-    for (size_t x = 0; x < WIDTH; x++) {
-      const float *pixel = out + 4 * (y * WIDTH + x);
-      double point[3];
-      point_on_wall(x, y, point);
-      if (pixel[3] != 1 || point[1] < 0.1 * point[0] - 0.7)
-        continue;
-      assert_true((double)pixel[0] > 0.1 * 1 * 0.8 + 1e-3);
-      lit++;
-    }
+  for (size_t n = 0; n < WIDTH * HEIGHT; n++) {
+    double point[3];
+    const float *pixel = wall_pixel(out, n, point);
+    if (pixel == NULL || point[1] < 0.1 * point[0] - 0.7)
+      continue;
+    assert_true((double)pixel[0] > 0.1 * 1 * 0.8 + 1e-3);
+    lit++;
   }
   free(out);
   assert_true(lit > 1000);
