@@ -8,22 +8,9 @@
 
 enum { SEED = 20240510, SCENES = 1, RAYS = 96 };
 
-static void print_ray(const char *what, int world, int scene, const struct ray *r, const struct hit *a,
-                      const struct hit *b)
-{
-  print_message("%s: world %d, scene %d, origin %.17g %.17g %.17g, direction %.17g %.17g %.17g\n", what, world, scene,
-                r->origin[0], r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2]);
-  const struct hit *both[2] = {a, b};
-  for (int k = 0; k < 2; k++) {
-    const struct hit *h = both[k];
-    if (h->patch == HIT_NONE) print_message("  miss %d\n", h->certainty);
-    else print_message("  patch %u t %.17g u %.17g v %.17g certainty %d\n", h->patch, h->t, h->u, h->v, h->certainty);
-  }
-}
-
 /* A scene of each kind, several times; `body` gets its world, its nets, its rays and the answers one by one. */
 struct stage {
-  int kind, scene;
+  int kind;
   struct random *random;
   struct world *world;
   world_net *nets;
@@ -40,7 +27,7 @@ static void on_all_stages(uint64_t seed, void (*body)(struct stage *stage))
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
     for (int scene = 0; scene < SCENES; scene++) {
       struct world world;
-      stage.kind = kind, stage.scene = scene, stage.random = &random, stage.world = &world, stage.nets = nets;
+      stage.kind = kind, stage.random = &random, stage.world = &world, stage.nets = nets;
       stage.count = world_fill((enum world_kind)kind, &random, nets);
       world_open(&world, nets, stage.count, NULL);
       for (int n = 0; n < RAYS; n++) {
@@ -69,7 +56,7 @@ static void companions(struct stage *s)
       tracer_closest(s->world->tracer, size, rays, hits);
       for (size_t n = 0; n < size; n++) {
         if (same_hit(&hits[n], &s->alone[order[first + n]])) continue;
-        if (wrong++ < 2) print_ray("companions", s->kind, s->scene, &rays[n], &s->alone[order[first + n]], &hits[n]);
+        if (wrong++ < 2) world_print_case("companions", s->kind, &rays[n], &s->alone[order[first + n]], &hits[n]);
       }
     }
     for (size_t n = RAYS - 1; n > 0; n--) {
@@ -98,7 +85,7 @@ static void occlusion(struct stage *s)
       const bool want = s->alone[first + n].patch != HIT_NONE;
       if (occluded[n] == want && alone == want) continue;
       if (wrong++ < 2)
-        print_ray("occlusion", s->kind, s->scene, &s->rays[first + n], &s->alone[first + n], &s->alone[first + n]);
+        world_print_case("occlusion", s->kind, &s->rays[first + n], &s->alone[first + n], &s->alone[first + n]);
     }
   }
   assert_int_equal(wrong, 0);
@@ -141,7 +128,7 @@ static void kernels(struct stage *s)
     for (size_t n = 0; n < RAYS; n++) {
       const struct hit *a = &answers[k][n], *b = &answers[count - 1][n];
       if (!kernels_same(&s->rays[n], a, b) && wrong++ < 3)
-        print_ray(here[k]->name, s->kind, s->scene, &s->rays[n], a, b);
+        world_print_case(here[k]->name, s->kind, &s->rays[n], a, b);
     }
   }
   assert_int_equal(wrong, 0);
@@ -176,7 +163,7 @@ static void shuffled(struct stage *s)
       if (hit.patch == place[want->patch]) good = hit.t == want->t && hit.u == want->u && hit.v == want->v;
       else good = fabs(hit.t - want->t) <= 1e-9 * want->t, tied++;
     }
-    if (!good && wrong++ < 3) print_ray("order", s->kind, s->scene, &s->rays[n], want, &hit);
+    if (!good && wrong++ < 3) world_print_case("order", s->kind, &s->rays[n], want, &hit);
   }
   world_close(&world);
   assert_int_equal(wrong, 0);

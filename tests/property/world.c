@@ -197,3 +197,29 @@ bool same_hit(const struct hit *a, const struct hit *b)
   return a->t == b->t && a->u == b->u && a->v == b->v && a->point_error == b->point_error &&
          !memcmp(a->point, b->point, sizeof a->point) && !memcmp(a->normal, b->normal, sizeof a->normal);
 }
+
+void world_print_case(const char *what, int kind, const struct ray *r, const struct hit *a, const struct hit *b)
+{
+  print_message("%s: world %d, origin %.17g %.17g %.17g, direction %.17g %.17g %.17g, t %.17g to %.17g\n", what, kind,
+                r->origin[0], r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2], r->t_min,
+                r->t_max);
+  const struct hit *both[2] = {a, b};
+  for (int k = 0; k < 2; k++) {
+    const struct hit *h = both[k];
+    if (h->patch == HIT_NONE) print_message("  miss %d\n", h->certainty);
+    else print_message("  patch %u t %.17g u %.17g v %.17g certainty %d\n", h->patch, h->t, h->u, h->v, h->certainty);
+  }
+}
+
+struct hit world_closest(const struct world *world, const struct ray *ray)
+{
+  struct hit hit;
+  memset(&hit, 0, sizeof hit);
+  tracer_closest(world->tracer, 1, ray, &hit);
+  return hit;
+}
+
+void world_scale_net(world_net net, double factor, double offset, world_net out)
+{
+  for (int n = 0; n < 48; n++) out[n / 12][n / 3 % 4][n % 3] = net[n / 12][n / 3 % 4][n % 3] * factor + offset;
+}

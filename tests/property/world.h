@@ -46,4 +46,13 @@ struct ray world_ray(struct random *random, world_net *nets, size_t count, int k
 /* Whether two hits are the same to the last bit (only the certainty counts for misses). */
 bool same_hit(const struct hit *a, const struct hit *b);
 
+/* The answer to one ray by itself. */
+struct hit world_closest(const struct world *world, const struct ray *ray);
+
+/* Prints a ray and two answers that should agree; `kind` is that of the scene. */
+void world_print_case(const char *what, int kind, const struct ray *ray, const struct hit *a, const struct hit *b);
+
+/* Every coordinate times a factor, then moved by the offset. */
+void world_scale_net(world_net net, double factor, double offset, world_net out);
+
 #endif
