@@ -3,8 +3,8 @@
 #
 #   examples/accuracy.sh [OPTION...]     options of `pscn chart`, such as --quick
 #
-# Takes some fifteen minutes, one with --quick. $PSCN_CHARTS, if set, is a folder with the charts teapot/ and wild/ of an earlier
-# run, from which the page is written without measuring.
+# Takes some fifteen minutes, one with --quick. $PSCN_CHARTS, if set, is a folder with the charts teapot/ and wild/ of
+# an earlier run, from which the page is written without measuring.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
@@ -23,8 +23,8 @@ if [ -z "${PSCN_CHARTS:-}" ]; then
   done
 fi
 
-# For awk: read() makes of a line of chart.csv the array f, by the names of the columns. The name is the only field in quotes, and
-# has commas.
+# For awk: read() makes of a line of chart.csv the array f, by the names of the columns. The name is the only field in
+# quotes, and has commas.
 READ='
   function number(x, digits) { return x == "" ? "" : sprintf("%." digits "g", x) }
   function bad() { return f["lost"] + f["invented"] + f["wrong"] }
@@ -53,7 +53,8 @@ best() {
   rows "$1" "NR == $(cat "$folder/at")"
 }
 
-# What basis, polish and tolerance buy: a line a solver and tolerance, start previous, `split auto`; the paper's form last.
+# What basis, polish and tolerance buy: a line a solver and tolerance, start previous, `split auto`; the paper's form
+# last.
 ways() {
   awk "$READ"'
     function cell() {

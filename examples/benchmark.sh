@@ -1,11 +1,11 @@
 #!/bin/bash
-# The numbers that pscn is asked for, each a ratio or a difference within this run, the contestants taking turns; prints a table of
-# name, number, and what is asked.
+# The numbers that pscn is asked for, each a ratio or a difference within this run, the contestants taking turns; prints
+# a table of name, number, and what is asked.
 #
 #   examples/benchmark.sh [--page] [RUNS]     RUNS of each, default 5; --page writes the table into docs/performance.md too
 #
-# The teapot at 800x600, one thread, default solver unless it says otherwise; a few minutes. Times are CPU times, as others may use the
-# machine too; still, an idle one gives steadier numbers.
+# The teapot at 800x600, one thread, default solver unless it says otherwise; a few minutes. Times are CPU times, as
+# others may use the machine too; still, an idle one gives steadier numbers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh

@@ -4,8 +4,9 @@
 #
 #   examples/scale.sh [TEAPOTS...]       default 1 10 100 1000 10000; takes some five minutes
 #
-# The scenes are fields of teapots (examples/field.sh) and a single patch (scenes/bent.pscn). The two programs take turns, TURNS times,
-# or once where one of them is slow; times are medians of CPU seconds. POV-Ray gets MEMORY_LIMIT and TIME_LIMIT a run.
+# The scenes are fields of teapots (examples/field.sh) and a single patch (scenes/bent.pscn). The two programs take
+# turns, TURNS times, or once where one of them is slow; times are medians of CPU seconds. POV-Ray gets MEMORY_LIMIT and
+# TIME_LIMIT a run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
@@ -31,7 +32,8 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/home"
 
-# ours FILE SIZE THREADS: "parse build render rays hits MB wall" of pscn, in CPU seconds but for the last, the rendering by the clock.
+# ours FILE SIZE THREADS: "parse build render rays hits MB wall" of pscn, in CPU seconds but for the last, the rendering
+# by the clock.
 ours() {
   /usr/bin/time -f %M -o "$folder/memory" "$pscn" render "$1" --size "$2" --threads "$3" --quiet --stats "$folder/stats.json" \
     -o "$folder/pscn.png"
@@ -137,7 +139,8 @@ printf '\n![CPU seconds and memory over patches](performance/scale.svg)\n' >>"$f
 
 # ---- reading ----
 
-# A text without names: every patch written out. Read again and written, the times of both being known from the start of the process.
+# A text without names: every patch written out. Read again and written, the times of both being known from the start of
+# the process.
 examples/field.sh "$TEXT_TEAPOTS" >"$folder/field.pscn"
 "$pscn" dump "$folder/field.pscn" >"$folder/text.pscn"
 for ((turn = 0; turn < TURNS; turn++)); do

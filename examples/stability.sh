@@ -1,8 +1,9 @@
 #!/bin/bash
 # Where methods fail, measured: writes docs/stability.md and its pictures in docs/stability/.
 #
-# Builds with tests, runs the comparison with the reference in every class of tests/accuracy/situations.c, with every solver in
-# our form and in the paper's; the accuracy tests; and renders scenes where holes show, also by POV-Ray where there is one.
+# Builds with tests, runs the comparison with the reference in every class of tests/accuracy/situations.c, with every
+# solver in our form and in the paper's; the accuracy tests; and renders scenes where holes show, also by POV-Ray where
+# there is one.
 #
 #   examples/stability.sh
 #

@@ -1,8 +1,9 @@
 /* The grammar of the language. Each action is one call; what things mean is in src/language.
  *
- * Every block in braces is a flat list of items with an `error` item, and every brace belongs to such a block. So the parser
- * recovers in the block in which the error stands, and tokens_recover, which counts braces, skips to where its next item
- * begins. What may follow what within a block is checked where items have a meaning, which also makes for clearer errors.
+ * Every block in braces is a flat list of items with an `error` item, and every brace belongs to such a block. So the
+ * parser recovers in the block in which the error stands, and tokens_recover, which counts braces, skips to where its
+ * next item begins. What may follow what within a block is checked where items have a meaning, which also makes for
+ * clearer errors.
  */
 %require "3.8"
 %define api.pure full

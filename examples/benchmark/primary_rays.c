@@ -2,10 +2,10 @@
  *
  *   primary_rays SCENE [RUNS [SIDE [SOLVER...]]]
  *
- * All 800x600 camera rays in the renderer's order: pscn's packets by the scene's own solvers, then by each SOLVER ("aberth { split
- * 1 }"), beside Embree's rtcIntersect1 and coherent rtcIntersect8 on SIDE x SIDE x 2 triangles a patch (128). CPU time of the
- * thread. A line a contestant, tabs between: name, ns a ray (median over runs, smallest, largest), and the medians of the ratios to
- * rtcIntersect1, to rtcIntersect8 and to pscn in the same run.
+ * All 800x600 camera rays in the renderer's order: pscn's packets by the scene's own solvers, then by each SOLVER
+ * ("aberth { split 1 }"), beside Embree's rtcIntersect1 and coherent rtcIntersect8 on SIDE x SIDE x 2 triangles a patch
+ * (128). CPU time of the thread. A line a contestant, tabs between: name, ns a ray (median over runs, smallest,
+ * largest), and the medians of the ratios to rtcIntersect1, to rtcIntersect8 and to pscn in the same run.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* resultant_time [RUNS]: ns a candidate for r(u), on every instruction set of this processor, taking turns. A line each, tabs between:
- * instruction set, lanes, median over runs, smallest, largest; the widest last. */
+/* resultant_time [RUNS]: ns a candidate for r(u), on every instruction set of this processor, taking turns. A line
+ * each, tabs between: instruction set, lanes, median over runs, smallest, largest; the widest last. */
 #include <stdio.h>
 #include <stdlib.h>
 

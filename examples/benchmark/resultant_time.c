@@ -1,5 +1,6 @@
-/* How long forming r(u) takes, one candidate a lane: the resultant of degree 18 of two bicubic nets, in scaled Bernstein form, by
- * Bezout's 3x3 determinant. Compiled once per instruction set; resultant_main.c calls those that the processor has.
+/* How long forming r(u) takes, one candidate a lane: the resultant of degree 18 of two bicubic nets, in scaled
+ * Bernstein form, by Bezout's 3x3 determinant. Compiled once per instruction set; resultant_main.c calls those that the
+ * processor has.
  */
 #include "resultant_time.h"
 

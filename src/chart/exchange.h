@@ -1,5 +1,5 @@
-/* What the chart and a peer's program tell each other: files of plain numbers as they stand in memory, for two programs of one
- * build on one machine.
+/* What the chart and a peer's program tell each other: files of plain numbers as they stand in memory, for two programs
+ * of one build on one machine.
  *
  * The question holds patches, rays and what is asked; the answer, for each thing asked, times and answers.
  */

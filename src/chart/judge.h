@@ -1,7 +1,7 @@
 /* Truths about rays from the reference, and answers judged by them.
  *
- * The reference (reference/reference.h) shares no code and no method with the renderer. Where the compiler has no quadruple
- * precision there is none, and judge_truths answers STATUS_LIMIT; judge_available asks.
+ * The reference (reference/reference.h) shares no code and no method with the renderer. Where the compiler has no
+ * quadruple precision there is none, and judge_truths answers STATUS_LIMIT; judge_available asks.
  */
 #ifndef PSCN_CHART_JUDGE_H
 #define PSCN_CHART_JUDGE_H
@@ -55,7 +55,8 @@ enum status judge_truths(const struct scene *scene, const struct ray_list *rays,
 void judge_answers(size_t count, const struct truth *truths, const struct answer *answers, double *errors,
                    struct judgement *out);
 
-/* Any-hit answers: only rays, undecided, hits (rays in shadow), lost and invented are set. A hit beyond t_max is none. */
+/* Any-hit answers: only rays, undecided, hits (rays in shadow), lost and invented are set. A hit beyond t_max is
+ * none. */
 void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const bool *occluded,
                     struct judgement *out);
 

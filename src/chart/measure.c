@@ -20,8 +20,8 @@ static struct timing summarise(const double *values, const double *yard, size_t 
                           sorted_quantile(sorted, rounds, 0.75), sorted[rounds - 1], sorted_quantile(ratio, rounds, 0.5) };
 }
 
-/* A turn lasts at least so long, in seconds: fast runners repeat, and go once unmeasured before, for what ran before them has left
- * its own data in the caches. */
+/* A turn lasts at least so long, in seconds: fast runners repeat, and go once unmeasured before, for what ran before
+ * them has left its own data in the caches. */
 #define LEAST_TURN 1e-3
 
 enum { MOST_REPEATS = 1000 };

@@ -1,7 +1,7 @@
 /* Times of several ways to answer the same rays, taken in turns on one thread.
  *
- * Others use the machine too: every round asks each runner once, so that what disturbs disturbs all, and the ratio to the first
- * runner, the yardstick, is taken within a round.
+ * Others use the machine too: every round asks each runner once, so that what disturbs disturbs all, and the ratio to
+ * the first runner, the yardstick, is taken within a round.
  */
 #ifndef PSCN_CHART_MEASURE_H
 #define PSCN_CHART_MEASURE_H
@@ -16,8 +16,8 @@
 
 enum { MEASURE_MAX_ROUNDS = 64, MEASURE_MAX_RUNNERS = 32 };
 
-/* Nanoseconds of CPU time a ray over the rounds: least, quartiles, most; and the median ratio to the yardstick. All NAN where
- * nothing was measured. */
+/* Nanoseconds of CPU time a ray over the rounds: least, quartiles, most; and the median ratio to the yardstick. All NAN
+ * where nothing was measured. */
 struct timing {
   double least, lower, median, upper, most, ratio;
 };
@@ -32,9 +32,9 @@ struct runner {
   bool kinds[RAY_KINDS];
 };
 
-/* Runs each runner once unmeasured, then gives it `rounds` turns (at most MEASURE_MAX_ROUNDS); in a turn of fast ones the run is
- * repeated until 1 ms is full, with warm caches. counts[kind] is the number of rays.
- * out[runner][kind]. STATUS_INTERRUPTED where *stop turns nonzero. */
+/* Runs each runner once unmeasured, then gives it `rounds` turns (at most MEASURE_MAX_ROUNDS); in a turn of fast ones
+ * the run is repeated until 1 ms is full, with warm caches. counts[kind] is the number of rays. out[runner][kind].
+ * STATUS_INTERRUPTED where *stop turns nonzero. */
 enum status measure_rounds(const struct runner *runners, size_t count, const size_t counts[RAY_KINDS], size_t rounds,
                            const atomic_int *stop, struct timing (*out)[RAY_KINDS]) STATUS_MUST_CHECK;
 

@@ -1,5 +1,6 @@
-/* The floor of the chart: Newton's method in two dimensions on the surface, from the middle of every part of a patch whose box
- * the ray meets, one ray a lane as in the renderer, and nothing else. No resultant, no proof, no second try: what it does not find is lost. Never a way to render.
+/* The floor of the chart: Newton's method in two dimensions on the surface, from the middle of every part of a patch
+ * whose box the ray meets, one ray a lane as in the renderer, and nothing else. No resultant, no proof, no second try:
+ * what it does not find is lost. Never a way to render.
  */
 #ifndef PSCN_CHART_PLAIN_NEWTON_H
 #define PSCN_CHART_PLAIN_NEWTON_H

@@ -13,9 +13,9 @@
 #define EDGE 1e-9      /* of a parameter: roots so far outside a part still count, so that none falls between two */
 #define ASTRAY 8       /* half sides of a part: who goes farther is given up */
 
-/* Relative: where a ray enters a box and where it leaves it are off by three roundings each (the difference, the product
- * and the inverse), and the product with the slack by one more: 7 x 2^-53 in all. With 10 x 2^-53 no ray is lost that
- * only grazes the box. */
+/* Relative: where a ray enters a box and where it leaves it are off by three roundings each (the difference, the
+ * product and the inverse), and the product with the slack by one more: 7 x 2^-53 in all. With 10 x 2^-53 no ray is
+ * lost that only grazes the box. */
 #define BOX_SLACK (1 + 5 * DBL_EPSILON)
 
 enum { STEPS = 5 };

@@ -32,22 +32,23 @@ struct chart_point {
   bool front;
 };
 
-/* The solvers to chart: every solver, basis, start, polish and tolerance that make a difference, and the paper's forms. The
- * first one is the default. Returns how many; out may be NULL. */
+/* The solvers to chart: every solver, basis, start, polish and tolerance that make a difference, and the paper's forms.
+ * The first one is the default. Returns how many; out may be NULL. */
 struct sweep_point {
   enum family family;
   struct solver_options options;
 };
 size_t point_sweep(bool quick, struct sweep_point *out);
 
-/* Scales the times of every point to what they are while the yardstick takes yard[kind], its median of the whole run: the median
- * becomes ratio x yard[kind]. What slows the machine down for a while slows the yardstick of the same rounds down as well. */
+/* Scales the times of every point to what they are while the yardstick takes yard[kind], its median of the whole run:
+ * the median becomes ratio x yard[kind]. What slows the machine down for a while slows the yardstick of the same rounds
+ * down as well. */
 void point_level(struct chart_point *points, size_t count, const double yard[RAY_KINDS]);
 
 /* Marks the points that no other beats: another one that is no slower and no less exact, and one of both better.
- * Exactness is camera.most_of_all. Points without both numbers are never on the front. Where noise alone decides, that is,
- * where an earlier point is no less exact and the quartiles of the times overlap, the earliest such point has the place, unless
- * another one beats it by more than that. */
+ * Exactness is camera.most_of_all. Points without both numbers are never on the front. Where noise alone decides, that
+ * is, where an earlier point is no less exact and the quartiles of the times overlap, the earliest such point has the
+ * place, unless another one beats it by more than that. */
 void point_front(struct chart_point *points, size_t count);
 
 #endif

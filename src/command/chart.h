@@ -1,5 +1,5 @@
-/* `pscn chart`: what its parts share. chart.c runs it; chart_peers.c asks other programs; chart_table.c writes the CSV and the
- * summary, chart_plot.c the figure, chart_page.c the page. */
+/* `pscn chart`: what its parts share. chart.c runs it; chart_peers.c asks other programs; chart_table.c writes the CSV
+ * and the summary, chart_plot.c the figure, chart_page.c the page. */
 #ifndef PSCN_COMMAND_CHART_H
 #define PSCN_COMMAND_CHART_H
 
@@ -48,8 +48,8 @@ void chart_note(struct chart *chart, const char *format, ...) __attribute__((for
 
 /* ---- chart_peers.c ---- */
 
-/* Adds the points of the peers that are there, with a note on each. How many there are at most is CHART_PEER_POINTS. A peer that
- * is missing or fails is noted, no error; STATUS_INTERRUPTED and STATUS_LIMIT are. */
+/* Adds the points of the peers that are there, with a note on each. How many there are at most is CHART_PEER_POINTS. A
+ * peer that is missing or fails is noted, no error; STATUS_INTERRUPTED and STATUS_LIMIT are. */
 enum { CHART_PEER_POINTS = 64 };
 enum status chart_peers(struct chart *chart) STATUS_MUST_CHECK;
 
@@ -61,8 +61,8 @@ void chart_csv(const struct chart *chart, struct page *out);
 /* The front on standard output. */
 void chart_print(const struct chart *chart);
 
-/* The figure as SVG text in *out, to be freed. Where gnuplot is missing or fails, or the rays hit nothing, a warning is told, *out is NULL and the status
- * STATUS_OK all the same. */
+/* The figure as SVG text in *out, to be freed. Where gnuplot is missing or fails, or the rays hit nothing, a warning is
+ * told, *out is NULL and the status STATUS_OK all the same. */
 enum status chart_plot(struct chart *chart, char **out, size_t *out_length) STATUS_MUST_CHECK;
 
 /* The page; svg may be NULL. The caller finishes and frees it. */

@@ -1,5 +1,5 @@
-/* The peers of a chart: plain Newton, which is ours but guards nothing; Embree, by pscn-embree where it stands beside pscn; and
- * POV-Ray, where it is installed. */
+/* The peers of a chart: plain Newton, which is ours but guards nothing; Embree, by pscn-embree where it stands beside
+ * pscn; and POV-Ray, where it is installed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -147,7 +147,8 @@ static enum status ask_embree(struct chart *chart)
 
 /* ---- POV-Ray ---- */
 
-/* "Trace Time: 0 hours 0 minutes 1 seconds (1.234 seconds)", and below it "using 1 thread(s) with 1.200 CPU-seconds total". */
+/* "Trace Time: 0 hours 0 minutes 1 seconds (1.234 seconds)", and below it "using 1 thread(s) with 1.200 CPU-seconds
+ * total". */
 static double trace_seconds(const struct povray *povray)
 {
   size_t length, used;

@@ -7,7 +7,8 @@
 #include "command/command.h"
 
 /* The scene's name with `suffix` instead of its own: "scenes/teapot.pscn" gives "scenes/teapot.png", beside the scene;
- * of a folder "teapot-check", here, for the scene's folder need not be ours. To be freed; NULL where memory is short. */
+ * of a folder "teapot-check", here, for the scene's folder need not be ours. To be freed; NULL where memory is
+ * short. */
 char *output_name(const char *scene, const char *suffix);
 char *output_folder_name(const char *scene, const char *suffix);
 

@@ -20,8 +20,8 @@ struct scene_request {
 /* The size of a picture unless --size says another, and the largest. */
 enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600, MAX_SIDE = 1000000 };
 
-/* The options of a scene_request, whose vals are the same in all commands: rows of the table for a solver instead of the
- * scene's own, and the taking of any of the three. `text` is what the size is of. */
+/* The options of a scene_request, whose vals are the same in all commands: rows of the table for a solver instead of
+ * the scene's own, and the taking of any of the three. `text` is what the size is of. */
 enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE };
 #define SCENE_SIZE_OPTION(text) COMMAND_OPTION("size", 0, OPTION_SIZE, text, "WxH")
 #define SCENE_SOLVER_OPTIONS \

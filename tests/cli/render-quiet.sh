@@ -1,4 +1,5 @@
-# --quiet says nothing; the default name is the scene's; formats by suffix in any case; suffixes of folders do not count.
+# --quiet says nothing; the default name is the scene's; formats by suffix in any case; suffixes of folders do not
+# count.
 mkdir a.b
 cp "$SCENES/flat.pscn" a.b/scene
 cp "$SCENES/flat.pscn" .

@@ -1,7 +1,7 @@
 #!/bin/bash
 # run_case.sh CASE: runs CASE.sh of this folder in a new empty folder and compares what it says with CASE.out (stdout),
-# CASE.err (stderr) and CASE.exit (exit code); a missing file stands for nothing said, or exit code 0. With PSCN_UPDATE=1 the
-# files are written instead; look at the difference before committing it.
+# CASE.err (stderr) and CASE.exit (exit code); a missing file stands for nothing said, or exit code 0. With
+# PSCN_UPDATE=1 the files are written instead; look at the difference before committing it.
 #
 # In a case `pscn` is the program under test, $SCENES the folder of its scenes, and
 #   try COMMAND...   runs a command and says its exit code on stdout, as "exit N"

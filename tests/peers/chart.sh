@@ -1,7 +1,7 @@
 #!/bin/bash
-# The peers of `pscn chart`: each point of a peer has a time, and finer meshes are nearer the surface. The error of a mesh falls with the
-# square of its sides, so from one of the quick chart's meshes to the next, 4 or 8 times as fine, by 16 at least; LEAST_GAIN leaves room
-# for the few rays of a small chart. Which peers are there is said.
+# The peers of `pscn chart`: each point of a peer has a time, and finer meshes are nearer the surface. The error of a
+# mesh falls with the square of its sides, so from one of the quick chart's meshes to the next, 4 or 8 times as fine, by
+# 16 at least; LEAST_GAIN leaves room for the few rays of a small chart. Which peers are there is said.
 set -euo pipefail
 export LC_ALL=C
 LEAST_GAIN=5

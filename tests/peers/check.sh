@@ -1,6 +1,6 @@
 #!/bin/bash
-# `pscn check` against the installed POV-Ray: what it leaves behind, its exit codes, messages and limits, and that POV-Ray comes
-# nearer with every step.
+# `pscn check` against the installed POV-Ray: what it leaves behind, its exit codes, messages and limits, and that
+# POV-Ray comes nearer with every step.
 set -euo pipefail
 
 command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
@@ -20,8 +20,8 @@ expect() {
   [ "$code" -eq "$wanted" ] || { fail "exit code $code instead of $wanted: $*"; cat err; }
 }
 
-# Unguarded solver statements, in the scene and in what it includes; words in comments and strings; a branch for POV-Ray alone
-# that includes a file of the scene's folder and one of POV-Ray's own.
+# Unguarded solver statements, in the scene and in what it includes; words in comments and strings; a branch for POV-Ray
+# alone that includes a file of the scene's folder and one of POV-Ray's own.
 cat >"$scene" <<'END'
 #version 3.7; // solver newton
 global_settings { assumed_gamma 1 solver aberth { start previous } }
@@ -93,8 +93,8 @@ expect 0 "$PSCN" check "$scene" --size 60x45 --steps 0 --grid 0 -o quality --fai
   --povray-option +Q0 --quiet
 cmp -s quality/povray.png limits/povray.png && fail "--povray-option changes nothing"
 
-# What is the same is told to be the same, and what nobody hits has no distance; a name that needs care in a shell, in HTML and
-# in a path of POV-Ray's; a scene that POV-Ray reads as one of an older version, with other colours, is told.
+# What is the same is told to be the same, and what nobody hits has no distance; a name that needs care in a shell, in
+# HTML and in a path of POV-Ray's; a scene that POV-Ray reads as one of an older version, with other colours, is told.
 name="a 'name' & \"<more>\" ä"
 mkdir "$name"
 echo '#include "plain.inc"' >"$name/$name.pscn"

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The numbers of `pscn compare` and of OpenImageIO's idiff on the same files. idiff prints six digits, so they agree when they
-# differ by less than RELATIVE of themselves; pixels and counts agree exactly.
+# The numbers of `pscn compare` and of OpenImageIO's idiff on the same files. idiff prints six digits, so they agree
+# when they differ by less than RELATIVE of themselves; pixels and counts agree exactly.
 set -euo pipefail
 RELATIVE=0.00001
 

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Patches nobody here wrote, from Debian's povray-examples: the teapot's file included as it is, in a scene with its names
-# declared, and the patch of the Bezier example, in a plain texture. Both programs render them, and agree within `pscn check`'s
-# own limits when POV-Ray cuts the patches finely.
+# Patches nobody here wrote, from Debian's povray-examples: the teapot's file included as it is, in a scene with its
+# names declared, and the patch of the Bezier example, in a plain texture. Both programs render them, and agree within
+# `pscn check`'s own limits when POV-Ray cuts the patches finely.
 set -euo pipefail
 
 command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The page of `pscn check` in headless Chromium: nothing on its console, nothing asked of a network, and a screenshot that shows
-# both pictures where they stand on the page.
+# The page of `pscn check` in headless Chromium: nothing on its console, nothing asked of a network, and a screenshot
+# that shows both pictures where they stand on the page.
 set -euo pipefail
 
 command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }

@@ -1,7 +1,7 @@
 #!/bin/bash
-# One small scene for each keyword of finishes, lights, cameras, transforms and colours, by both programs. All patches are flat, so
-# that POV-Ray's triangles are the exact surface: no pixel may differ by more than 1/255 but for what rounding does to an edge,
-# MOST pixels of a picture.
+# One small scene for each keyword of finishes, lights, cameras, transforms and colours, by both programs. All patches
+# are flat, so that POV-Ray's triangles are the exact surface: no pixel may differ by more than 1/255 but for what
+# rounding does to an edge, MOST pixels of a picture.
 set -euo pipefail
 JOBS=16 # POV-Ray mostly waits for itself
 MOST=2

@@ -1,7 +1,7 @@
 #!/bin/bash
-# The colours of a flat patch that fills the picture, by pscn and by POV-Ray, for each keyword of a finish alone and together,
-# and for lights before, behind, and without shadow. Both write 16 bits; they may differ by LIMIT, which leaves room for each
-# program's rounding to 1/65535 and for POV-Ray's single-precision colours.
+# The colours of a flat patch that fills the picture, by pscn and by POV-Ray, for each keyword of a finish alone and
+# together, and for lights before, behind, and without shadow. Both write 16 bits; they may differ by LIMIT, which
+# leaves room for each program's rounding to 1/65535 and for POV-Ray's single-precision colours.
 set -euo pipefail
 LIMIT=0.05/255
 
