@@ -59,8 +59,8 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 %token VERSION "#version" DECLARE "#declare" LOCAL "#local"
 %token GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma" MAX_TRACE_LEVEL "max_trace_level"
 %token AMBIENT_LIGHT "ambient_light"
-%token CAMERA "camera" PERSPECTIVE "perspective" LOCATION "location" DIRECTION "direction" RIGHT "right" UP "up" SKY "sky"
-%token ANGLE "angle" LOOK_AT "look_at"
+%token CAMERA "camera" PERSPECTIVE "perspective" LOCATION "location" DIRECTION "direction" RIGHT "right" UP "up"
+%token SKY "sky" ANGLE "angle" LOOK_AT "look_at"
 %token LIGHT_SOURCE "light_source" SHADOWLESS "shadowless" BACKGROUND "background"
 %token BICUBIC_PATCH "bicubic_patch" TYPE "type" FLATNESS "flatness" U_STEPS "u_steps" V_STEPS "v_steps"
 %token UNION "union" OBJECT "object" TRANSLATE "translate" ROTATE "rotate" SCALE "scale" MATRIX "matrix"
@@ -196,7 +196,8 @@ background_item:
 object: patch | union | copy;
 
 /* Settings, then 16 points, then modifiers. */
-patch: BICUBIC_PATCH '{' { patch_begin(language, @1); } patch_items '}' { patch_end(language); $$ = node_end(language); };
+patch: BICUBIC_PATCH '{' { patch_begin(language, @1); } patch_items '}'
+    { patch_end(language); $$ = node_end(language); };
 patch_items: %empty | patch_items patch_item;
 patch_item:
     TYPE expression %prec ITEM                 { patch_number(language, PATCH_TYPE, @1, @2, &$2); }
@@ -264,7 +265,8 @@ texture_item:
   | error                                      { RECOVER(); }
   ;
 
-pigment_block: PIGMENT '{' { texture_begin(language, TEXTURE_PIGMENT); } pigment_items '}' { $$ = texture_end(language); };
+pigment_block: PIGMENT '{' { texture_begin(language, TEXTURE_PIGMENT); } pigment_items '}'
+    { $$ = texture_end(language); };
 pigment_items: %empty | pigment_items pigment_item;
 pigment_item:
     colour %prec ITEM                          { pigment_value(language, @1, &$1); }

@@ -46,8 +46,8 @@ static void contestant_load(struct contestant *c, const char *path, const char *
   const struct language_settings settings = { WIDTH, HEIGHT, solver, NAN };
   c->name = solver == NULL ? "pscn" : solver;
   if (language_load(path, &settings, &diagnostics, &c->scene) != STATUS_OK) exit(EXIT_FAILURE);
-  if (intersector_create(c->scene, &c->intersector) != STATUS_OK || tracer_create(c->intersector, &c->tracer) != STATUS_OK)
-    fail("out of memory");
+  if (intersector_create(c->scene, &c->intersector) != STATUS_OK) fail("out of memory");
+  if (tracer_create(c->intersector, &c->tracer) != STATUS_OK) fail("out of memory");
 }
 
 static void trace(struct tracer *tracer, const struct ray_list *list)
@@ -104,7 +104,8 @@ int main(int argc, char **argv)
   struct arena *arena = arena_create();
   struct ray_list rays;
   double(*P)[4][4][3] = arena == NULL ? NULL : arena_alloc(arena, scene->patch_count, sizeof *P);
-  if (P == NULL || rays_of_camera(scene, WIDTH, HEIGHT, WIDTH * HEIGHT, arena, &rays) != STATUS_OK) fail("out of memory");
+  if (P == NULL || rays_of_camera(scene, WIDTH, HEIGHT, WIDTH * HEIGHT, arena, &rays) != STATUS_OK)
+    fail("out of memory");
   for (size_t n = 0; n < scene->patch_count; n++)
     for (int k = 0; k < 48; k++) P[n][k / 12][k / 3 % 4][k % 3] = scene->patches[n].P[k / 12][k / 3 % 4][k % 3];
   struct embree_mesh *mesh = embree_mesh_create((const double(*)[4][4][3])P, scene->patch_count, side);
@@ -120,8 +121,8 @@ int main(int argc, char **argv)
       list[c].seconds[r] = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
     }
   }
-  fprintf(stderr, "%s, %zu camera rays, %zu triangles, %zu runs (Embree's distances add up to %.6g)\n", argv[1], rays.count,
-          scene->patch_count * side * side * 2, runs, sum);
+  fprintf(stderr, "%s, %zu camera rays, %zu triangles, %zu runs (Embree's distances add up to %.6g)\n", argv[1],
+          rays.count, scene->patch_count * side * side * 2, runs, sum);
   report(list, count, runs, rays.count);
   embree_rays_destroy(embree);
   embree_mesh_destroy(mesh);

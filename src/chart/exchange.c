@@ -27,8 +27,8 @@ bool exchange_write_question(FILE *file, const struct exchange_question *questio
 bool exchange_read_question(FILE *file, struct arena *arena, struct exchange_question *out)
 {
   char magic[sizeof MAGIC];
-  if (!get(file, magic, sizeof magic, 1) || memcmp(magic, MAGIC, sizeof magic) != 0 || !get(file, out, sizeof *out, 1) ||
-      out->side_count > EXCHANGE_MAX_SIDES || out->rounds > MEASURE_MAX_ROUNDS)
+  if (!get(file, magic, sizeof magic, 1) || memcmp(magic, MAGIC, sizeof magic) != 0 ||
+      !get(file, out, sizeof *out, 1) || out->side_count > EXCHANGE_MAX_SIDES || out->rounds > MEASURE_MAX_ROUNDS)
     return false;
   out->nets = arena_alloc(arena, out->patch_count + 1, sizeof *out->nets);
   bool good = out->nets != NULL && get(file, out->nets, sizeof *out->nets, out->patch_count);
@@ -42,8 +42,8 @@ bool exchange_read_question(FILE *file, struct arena *arena, struct exchange_que
   return good;
 }
 
-bool exchange_write_answer(FILE *file, const struct exchange_answer *answer, size_t camera, const struct answer *answers,
-                           size_t shadow, const bool *occluded)
+bool exchange_write_answer(FILE *file, const struct exchange_answer *answer, size_t camera,
+                           const struct answer *answers, size_t shadow, const bool *occluded)
 {
   return put(file, answer, sizeof *answer, 1) && put(file, answers, sizeof *answers, camera) &&
          put(file, occluded, sizeof *occluded, shadow);

@@ -31,8 +31,8 @@ bool exchange_write_question(FILE *file, const struct exchange_question *questio
 bool exchange_read_question(FILE *file, struct arena *arena, struct exchange_question *out);
 
 /* answers[camera rays], occluded[shadow rays]. */
-bool exchange_write_answer(FILE *file, const struct exchange_answer *answer, size_t camera, const struct answer *answers,
-                           size_t shadow, const bool *occluded);
+bool exchange_write_answer(FILE *file, const struct exchange_answer *answer, size_t camera,
+                           const struct answer *answers, size_t shadow, const bool *occluded);
 bool exchange_read_answer(FILE *file, struct exchange_answer *out, size_t camera, struct answer *answers, size_t shadow,
                           bool *occluded);
 

@@ -87,7 +87,8 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
     const double error = fabs((answers[k].t - truth->t) - truth->t_rest) / truth->t;
     const bool wrong = !(error <= JUDGE_WRONG);
     out->wrong += wrong;
-    out->other_patch += !wrong && answers[k].patch != ANSWER_PATCH_UNKNOWN && answers[k].patch != truth->patch && !truth->shared;
+    const bool other_patch = answers[k].patch != ANSWER_PATCH_UNKNOWN && answers[k].patch != truth->patch;
+    out->other_patch += !wrong && other_patch && !truth->shared;
     errors[both++] = error;
     all[asked++] = wrong ? 1 : error;
   }

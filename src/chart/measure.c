@@ -16,8 +16,12 @@ static struct timing summarise(const double *values, const double *yard, size_t 
   for (size_t k = 0; k < rounds; k++) sorted[k] = 1e9 * values[k] / (double)rays, ratio[k] = values[k] / yard[k];
   sort_numbers(sorted, rounds);
   sort_numbers(ratio, rounds);
-  return (struct timing){ sorted[0], sorted_quantile(sorted, rounds, 0.25), sorted_quantile(sorted, rounds, 0.5),
-                          sorted_quantile(sorted, rounds, 0.75), sorted[rounds - 1], sorted_quantile(ratio, rounds, 0.5) };
+  return (struct timing){ .least = sorted[0],
+                          .lower = sorted_quantile(sorted, rounds, 0.25),
+                          .median = sorted_quantile(sorted, rounds, 0.5),
+                          .upper = sorted_quantile(sorted, rounds, 0.75),
+                          .most = sorted[rounds - 1],
+                          .ratio = sorted_quantile(ratio, rounds, 0.5) };
 }
 
 /* A turn lasts at least so long, in seconds: fast runners repeat, and go once unmeasured before, for what ran before
@@ -103,7 +107,8 @@ static void trace(struct pscn_runner *runner, enum ray_kind kind, struct hit *hi
     bool own_occluded[PACKET_SIZE];
     if (packet->new_run) tracer_forget(runner->tracer);
     if (kind == RAYS_CAMERA)
-      tracer_closest(runner->tracer, packet->count, &list->rays[packet->first], hits == NULL ? own_hits : hits + packet->first);
+      tracer_closest(runner->tracer, packet->count, &list->rays[packet->first],
+                     hits == NULL ? own_hits : hits + packet->first);
     else
       tracer_occluded(runner->tracer, packet->count, &list->rays[packet->first],
                       occluded == NULL ? own_occluded : occluded + packet->first);

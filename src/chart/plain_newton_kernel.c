@@ -39,8 +39,8 @@ LANES_INLINE void weights(lanes u, lanes w[4], lanes d[4])
 }
 
 /* net(u,v), and its derivatives. */
-LANES_INLINE void evaluate(const lanes net[16], const lanes wu[4], const lanes du[4], const lanes wv[4], const lanes dv[4],
-                           lanes out[3])
+LANES_INLINE void evaluate(const lanes net[16], const lanes wu[4], const lanes du[4], const lanes wv[4],
+                           const lanes dv[4], lanes out[3])
 {
   out[0] = out[1] = out[2] = lanes_all(0);
 #pragma GCC unroll 4

@@ -129,7 +129,8 @@ void point_front(struct chart_point *points, size_t count)
 {
   for (size_t k = 0; k < count; k++) {
     points[k].front = isfinite(points[k].time[RAYS_CAMERA].median) && isfinite(points[k].camera.most_of_all);
-    for (size_t other = 0; points[k].front && other < count; other++) points[k].front = !beats(&points[other], &points[k]);
+    for (size_t other = 0; points[k].front && other < count; other++)
+      points[k].front = !beats(&points[other], &points[k]);
   }
   for (size_t k = 0; k < count; k++) {
     for (size_t first = 0; points[k].front && first < k; first++) {

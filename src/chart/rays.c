@@ -10,7 +10,8 @@
 
 enum { PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
 
-static_assert((int)STRIP_HEIGHT == (int)PACKET_HEIGHT && (int)STRIP_WIDTH == (int)TILE_SIZE, "a strip is a row of packets in a tile");
+static_assert((int)STRIP_HEIGHT == (int)PACKET_HEIGHT && (int)STRIP_WIDTH == (int)TILE_SIZE,
+              "a strip is a row of packets in a tile");
 
 /* The picture as strips, counted in the order of the renderer: tile by tile, in a tile from the top. */
 struct strips {
@@ -52,7 +53,8 @@ enum status rays_of_camera(const struct scene *scene, size_t width, size_t heigh
   const size_t total = strips.columns * ceiling(height, TILE_SIZE) * strips.per_tile;
   size_t chosen = ceiling(wanted, STRIP_WIDTH * STRIP_HEIGHT);
   if (wanted >= width * height || chosen > total) chosen = total;
-  const enum status status = list_create(arena, chosen * STRIP_WIDTH * STRIP_HEIGHT, chosen * STRIP_WIDTH / PACKET_WIDTH, out);
+  const size_t rays = chosen * STRIP_WIDTH * STRIP_HEIGHT, packets = chosen * STRIP_WIDTH / PACKET_WIDTH;
+  const enum status status = list_create(arena, rays, packets, out);
   if (status != STATUS_OK) return status;
   for (size_t k = 0; k < chosen; k++) /* the middles of `chosen` equal parts */
     add_strip(scene, &strips, (size_t)(((double)k + 0.5) * (double)total / (double)chosen), out);
@@ -73,8 +75,10 @@ enum status rays_of_shadows(const struct scene *scene, const struct ray_list *ca
     for (size_t l = 0; l < scene->light_count; l++) {
       if (scene->lights[l].shadowless) continue;
       const size_t first = out->count;
-      for (size_t k = packet->first; k < packet->first + packet->count; k++)
-        out->count += hits[k].patch != HIT_NONE && shade_shadow_ray(&scene->lights[l], &hits[k], &out->rays[out->count]);
+      for (size_t k = packet->first; k < packet->first + packet->count; k++) {
+        const bool hit = hits[k].patch != HIT_NONE;
+        out->count += hit && shade_shadow_ray(&scene->lights[l], &hits[k], &out->rays[out->count]);
+      }
       if (out->count == first) continue;
       out->packets[out->packet_count++] = (struct ray_packet){ first, out->count - first, new_run };
       new_run = false;

@@ -59,7 +59,8 @@ static enum status take_option(const struct command *command, void *context, int
     break;
   case OPTION_ROUNDS:
     if (!value_integer(argument, 1, MEASURE_MAX_ROUNDS, &chart->rounds))
-      return (enum status)command_usage(command, "'%s' is no number of rounds from 1 to %d", argument, MEASURE_MAX_ROUNDS);
+      return (enum status)command_usage(command, "'%s' is no number of rounds from 1 to %d", argument,
+                                        MEASURE_MAX_ROUNDS);
     break;
   case OPTION_QUICK:
     chart->quick = true;
@@ -121,8 +122,8 @@ void chart_judge(struct chart *chart, struct chart_point *point)
 
 static enum status prepare_rays(struct chart *chart, const struct solver_options *options)
 {
-  enum status status = rays_of_camera(chart->scene, chart->scene_request.width, chart->scene_request.height, chart->wanted,
-                                      chart->arena, &chart->rays[RAYS_CAMERA]);
+  enum status status = rays_of_camera(chart->scene, chart->scene_request.width, chart->scene_request.height,
+                                      chart->wanted, chart->arena, &chart->rays[RAYS_CAMERA]);
   if (status == STATUS_OK)
     status = pscn_runner_create(chart->scene, options, chart->rays, &chart->yardstick);
   const size_t count = chart->rays[RAYS_CAMERA].count;
@@ -140,11 +141,12 @@ static enum status find_truths(struct chart *chart)
   chart->answers = arena_alloc(chart->arena, camera + 1, sizeof *chart->answers);
   chart->occluded = arena_alloc(chart->arena, shadow + 1, sizeof *chart->occluded);
   chart->errors = arena_alloc(chart->arena, 2 * camera + 1, sizeof *chart->errors);
-  enum status status = chart->answers == NULL || chart->occluded == NULL || chart->errors == NULL ? STATUS_LIMIT : STATUS_OK;
+  const bool room = chart->answers != NULL && chart->occluded != NULL && chart->errors != NULL;
+  enum status status = room ? STATUS_OK : STATUS_LIMIT;
   for (int kind = 0; kind < RAY_KINDS && status == STATUS_OK; kind++) {
-    chart->truths[kind] = arena_alloc(chart->arena, chart->rays[kind].count + 1, sizeof **chart->truths);
-    status = chart->truths[kind] == NULL ? STATUS_LIMIT
-                                         : judge_truths(chart->scene, &chart->rays[kind], &interrupt_signal, chart->truths[kind]);
+    struct truth *truths = arena_alloc(chart->arena, chart->rays[kind].count + 1, sizeof *truths);
+    chart->truths[kind] = truths;
+    status = truths == NULL ? STATUS_LIMIT : judge_truths(chart->scene, &chart->rays[kind], &interrupt_signal, truths);
   }
   return status;
 }
@@ -332,7 +334,8 @@ static enum status chart_scene(struct chart *chart)
 {
   bool made = false;
   if (!judge_available()) {
-    command_error(chart->command, "this build has no reference: its compiler has no quadruple precision, so nothing can be judged");
+    command_error(chart->command, "this build has no reference: its compiler has no quadruple precision, so nothing "
+                                  "can be judged");
     return STATUS_LIMIT;
   }
   enum status status = load(chart);

@@ -55,24 +55,27 @@ static void put_table(const struct chart *chart, bool all, struct page *page)
 static void put_method(const struct chart *chart, struct page *page)
 {
   const struct judgement *camera = &chart->points[0].camera;
-  page_format(page, "<p>%zu camera rays of a picture of %zux%zu pixels, chosen evenly in strips of %dx%d, and their %zu shadow "
-                    "rays; one thread; CPU time, median of %zu rounds in which all take turns. The ratio to the default solver is "
-                    "the median of the ratios within a round. T is judged by subdivision and Krawczyk's test in quadruple "
-                    "precision, which shares nothing with the renderer and left %zu rays undecided (they count nowhere).</p>\n",
+  page_format(page, "<p>%zu camera rays of a picture of %zux%zu pixels, chosen evenly in strips of %dx%d, and their "
+                    "%zu shadow rays; one thread; CPU time, median of %zu rounds in which all take turns. The ratio to "
+                    "the default solver is the median of the ratios within a round. T is judged by subdivision and "
+                    "Krawczyk's test in quadruple precision, which shares nothing with the renderer and left %zu rays "
+                    "undecided (they count nowhere).</p>\n",
               chart->rays[RAYS_CAMERA].count, chart->scene_request.width, chart->scene_request.height, STRIP_WIDTH,
               STRIP_HEIGHT, chart->rays[RAYS_SHADOW].count, chart->rounds, camera->undecided);
-  page_put(page, "<p><b>lost</b>: a hit answered by a miss; <b>invented</b>: a miss answered by a hit; <b>wrong</b>: both hit, "
-                 "but more than 1 % apart; <b>other patch</b>: the right place, named as of another patch. In the figure the "
-                 "error is that of 99 % of all these rays, where a lost, invented or wrong hit counts as 1; hollow symbols have "
-                 "some of those; bars are quartiles of the time. The front joins what nothing else beats in both.</p>\n");
+  page_put(page, "<p><b>lost</b>: a hit answered by a miss; <b>invented</b>: a miss answered by a hit; <b>wrong</b>: "
+                 "both hit, but more than 1 % apart; <b>other patch</b>: the right place, named as of another patch. "
+                 "In the figure the error is that of 99 % of all these rays, where a lost, invented or wrong hit "
+                 "counts as 1; hollow symbols have some of those; bars are quartiles of the time. The front joins what "
+                 "nothing else beats in both.</p>\n");
   const double *yard = chart->yard[RAYS_CAMERA];
-  page_put(page, "<p>Noise: the default solver took part in every batch of points; the medians of its batches lie between ");
+  page_put(page, "<p>Noise: the default solver took part in every batch of points; the medians of its batches lie "
+                 "between ");
   page_number(page, yard[0], 4);
   page_put(page, " and ");
   page_number(page, yard[chart->yard_count - 1], 4);
-  page_put(page, " ns a camera ray. Times are those of a batch in which it takes the median of these: its time times the "
-                 "ratio.</p>\n<p>The solver <code>bernstein</code> has neither a basis nor a start to choose: it works in "
-                 "the Bernstein form, from its control polygon.</p>\n");
+  page_put(page, " ns a camera ray. Times are those of a batch in which it takes the median of these: its time times "
+                 "the ratio.</p>\n<p>The solver <code>bernstein</code> has neither a basis nor a start to choose: it "
+                 "works in the Bernstein form, from its control polygon.</p>\n");
   for (size_t k = 0; k < chart->note_count; k++) {
     page_put(page, "<p>");
     page_text(page, chart->notes[k]);
@@ -86,7 +89,8 @@ void chart_page(const struct chart *chart, const char *svg, struct page *out)
   const char *name = slash == NULL ? chart->scene_request.path : slash + 1;
   char title[256];
   snprintf(title, sizeof title, "Speed against accuracy: %.200s", name);
-  page_begin(out, title, "svg { max-width: 100%; height: auto } table { font-size: 13px } td:first-child { min-width: 15em } td:nth-child(3) { white-space: nowrap }\n");
+  page_begin(out, title, "svg { max-width: 100%; height: auto } table { font-size: 13px } "
+                         "td:first-child { min-width: 15em } td:nth-child(3) { white-space: nowrap }\n");
   if (svg != NULL) {
     const char *body = strstr(svg, "<svg");
     page_put(out, "<figure>\n");

@@ -115,7 +115,8 @@ static enum status ask_embree(struct chart *chart)
   char program[SCRATCH_PATH_SIZE], question[SCRATCH_PATH_SIZE], answer[SCRATCH_PATH_SIZE], log[SCRATCH_PATH_SIZE];
   struct scratch folder;
   if (!find_embree(program)) {
-    chart_note(chart, "Embree is left out: pscn-embree does not stand beside pscn (it is built where libembree-dev is found).");
+    chart_note(chart, "Embree is left out: pscn-embree does not stand beside pscn (it is built where libembree-dev is "
+                      "found).");
     return STATUS_OK;
   }
   chart_tell(chart, "Embree");
@@ -136,8 +137,8 @@ static enum status ask_embree(struct chart *chart)
   if (file != NULL) {
     read_embree(chart, file);
     (void)fclose(file);
-    chart_note(chart, "Embree runs in a program of its own, each mesh in turn with pscn's default solver, one thread; its answers "
-                      "are those of rtcIntersect1 and rtcOccluded1.");
+    chart_note(chart, "Embree runs in a program of its own, each mesh in turn with pscn's default solver, one thread; "
+                      "its answers are those of rtcIntersect1 and rtcOccluded1.");
   } else if (status != STATUS_INTERRUPTED) {
     chart_note(chart, "Embree is left out: pscn-embree failed.");
   }
@@ -201,7 +202,9 @@ static enum status ask_povray_once(struct chart *chart, struct povray *povray, i
   chart_tell(chart, "POV-Ray: type %d, u_steps %d", type, steps);
   double *distance = malloc((camera->count + 1) * sizeof *distance);
   struct timing time;
-  enum status status = distance == NULL ? STATUS_LIMIT : povray_trace(povray, chart->scene, camera->count, camera->rays, distance);
+  enum status status = distance == NULL ? STATUS_LIMIT : STATUS_OK;
+  if (status == STATUS_OK)
+    status = povray_trace(povray, chart->scene, camera->count, camera->rays, distance);
   if (status == STATUS_OK)
     status = time_povray(chart, povray, &time);
   if (status == STATUS_OK) {
@@ -211,7 +214,8 @@ static enum status ask_povray_once(struct chart *chart, struct povray *povray, i
       snprintf(point->label, sizeof point->label, "%d", steps);
     point->time[RAYS_CAMERA] = time;
     for (size_t k = 0; k < camera->count; k++)
-      chart->answers[k] = (struct answer){ distance[k] / vector_length(camera->rays[k].direction), ANSWER_PATCH_UNKNOWN };
+      chart->answers[k] = (struct answer){ distance[k] / vector_length(camera->rays[k].direction),
+                                           ANSWER_PATCH_UNKNOWN };
     chart_judge(chart, point);
   }
   free(distance);
@@ -249,8 +253,8 @@ static enum status ask_povray(struct chart *chart)
       status = ask_povray_once(chart, &povray, type, steps);
   }
   if (status == STATUS_OK)
-    chart_note(chart, "POV-Ray %s: errors from its trace(); the time is the CPU time of its trace phase for all %zux%zu pixels of "
-                      "the scene in white without lights, parsing apart.",
+    chart_note(chart, "POV-Ray %s: errors from its trace(); the time is the CPU time of its trace phase for all "
+                      "%zux%zu pixels of the scene in white without lights, parsing apart.",
                povray.version, povray.width, povray.height);
   else if (status != STATUS_INTERRUPTED && status != STATUS_LIMIT)
     chart_note(chart, "POV-Ray failed, and what is missing of it is left out.");

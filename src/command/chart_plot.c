@@ -80,7 +80,8 @@ static bool write_family(const struct chart *chart, enum family family, bool rig
       fprintf(file, "$family%d%d << EOD\n", (int)family, right);
     any = true;
     const struct timing *time = &point->time[RAYS_CAMERA];
-    fprintf(file, "%.6g %.6g %.6g %.6g \"%s\"\n", error_of(point), time->median, time->lower, time->upper, point->label);
+    fprintf(file, "%.6g %.6g %.6g %.6g \"%s\"\n", error_of(point), time->median, time->lower, time->upper,
+            point->label);
   }
   if (any)
     fputs("EOD\n", file);
@@ -90,9 +91,10 @@ static bool write_family(const struct chart *chart, enum family family, bool rig
 /* Bars first, symbols over them, then what stands beside the symbols. */
 static void plot_family(const struct look *look, int family, bool right, bool titled, FILE *file)
 {
-  fprintf(file, ", \\\n  $family%d%d using 1:3:(0):($4-$3) with vectors nohead lc rgb '%s' notitle", family, right, look->color);
-  fprintf(file, ", \\\n  '' using 1:2 with points pt %d ps 0.75 lw 1.3 lc rgb '%s' ", right ? look->symbol : look->hollow,
+  fprintf(file, ", \\\n  $family%d%d using 1:3:(0):($4-$3) with vectors nohead lc rgb '%s' notitle", family, right,
           look->color);
+  fprintf(file, ", \\\n  '' using 1:2 with points pt %d ps 0.75 lw 1.3 lc rgb '%s' ",
+          right ? look->symbol : look->hollow, look->color);
   if (titled)
     fprintf(file, "title \"%s\"", look->title);
   else
@@ -140,8 +142,8 @@ static enum status run_gnuplot(struct chart *chart, const struct scratch *folder
   if (status == STATUS_OK && result.exit_code == 0)
     *out = scratch_read(folder, "chart.svg", out_length);
   if (*out == NULL && result.missing)
-    fputs("pscn chart: warning: gnuplot is not installed, so there is no figure; the numbers are written all the same. On "
-          "Debian 'apt-get install gnuplot-nox' installs it.\n",
+    fputs("pscn chart: warning: gnuplot is not installed, so there is no figure; the numbers are written all the same. "
+          "On Debian 'apt-get install gnuplot-nox' installs it.\n",
           stderr);
   else if (*out == NULL) {
     char *said = scratch_read(folder, "gnuplot.log", out_length);

@@ -218,9 +218,9 @@ static void test_sweep(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_front), cmocka_unit_test(test_front_noise), cmocka_unit_test(test_level),    cmocka_unit_test(test_measure),
-    cmocka_unit_test(test_judge), cmocka_unit_test(test_judge_occluded), cmocka_unit_test(test_rays),
-    cmocka_unit_test(test_sweep),
+    cmocka_unit_test(test_front), cmocka_unit_test(test_front_noise),    cmocka_unit_test(test_level),
+    cmocka_unit_test(test_measure), cmocka_unit_test(test_judge),        cmocka_unit_test(test_judge_occluded),
+    cmocka_unit_test(test_rays),  cmocka_unit_test(test_sweep),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
