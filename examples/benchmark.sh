@@ -2,7 +2,7 @@
 # The numbers that pscn is asked for, each a ratio or a difference within this run, the contestants taking turns; prints
 # a table of name, number, and what is asked.
 #
-#   examples/benchmark.sh [--page] [RUNS]     RUNS of each, default 5; --page writes the table into docs/performance.md too
+#   examples/benchmark.sh [--page] [RUNS]     RUNS of each, default 5; --page: the table goes into docs/performance.md
 #
 # The teapot at 800x600, one thread, default solver unless it says otherwise; a few minutes. Times are CPU times, as
 # others may use the machine too; still, an idle one gives steadier numbers.
@@ -46,18 +46,19 @@ printf '| | measured | asked | |\n|---|---|---|---|\n' >"$folder/table"
 
 if cmake --build build --target primary_rays >/dev/null 2>&1; then
   say "camera rays, beside Embree"
-  build/examples/benchmark/primary_rays "$SCENE" "$runs" 128 'aberth { start previous split 1 }' 'aberth { start cold split 1 }' \
-    >"$folder/rays"
+  build/examples/benchmark/primary_rays "$SCENE" "$runs" 128 \
+    'aberth { start previous split 1 }' 'aberth { start cold split 1 }' >"$folder/rays"
   # cell NAME COLUMN
   cell() { awk -F '\t' -v name="$1" -v c="$2" '$1 == name { print $c }' "$folder/rays"; }
   ns() { echo "$(fixed "$(cell "$1" 2)" 0) ns ($(fixed "$(cell "$1" 3)" 0) - $(fixed "$(cell "$1" 4)" 0))"; }
   row 'camera rays / Embree rtcIntersect1, 1,081,344 triangles' "$(fixed "$(cell pscn 5)" 2)" 'at most 1.0' \
     "$(ns pscn) / $(ns 'Embree rtcIntersect1')"
-  row 'camera rays / Embree rtcIntersect8, coherent' "$(fixed "$(cell pscn 6)" 2)" 'aim: 1.0' "$(ns 'Embree rtcIntersect8, coherent')"
-  row '`aberth`, warm, without split / default' "$(fixed "$(cell 'aberth { start previous split 1 }' 7)" 1)" 'at most 4' \
-    "$(ns 'aberth { start previous split 1 }')"
-  row '`aberth`, cold, without split / default' "$(fixed "$(cell 'aberth { start cold split 1 }' 7)" 1)" 'at most 10' \
-    "$(ns 'aberth { start cold split 1 }')"
+  row 'camera rays / Embree rtcIntersect8, coherent' "$(fixed "$(cell pscn 6)" 2)" 'aim: 1.0' \
+    "$(ns 'Embree rtcIntersect8, coherent')"
+  row '`aberth`, warm, without split / default' \
+    "$(fixed "$(cell 'aberth { start previous split 1 }' 7)" 1)" 'at most 4' "$(ns 'aberth { start previous split 1 }')"
+  row '`aberth`, cold, without split / default' \
+    "$(fixed "$(cell 'aberth { start cold split 1 }' 7)" 1)" 'at most 10' "$(ns 'aberth { start cold split 1 }')"
 else
   say "Embree is not installed (libembree-dev): what is measured beside it is left out"
 fi
@@ -65,7 +66,8 @@ fi
 say "r(u)"
 build/examples/benchmark/resultant_time 9 >"$folder/resultant"
 tail -1 "$folder/resultant" | while IFS=$'\t' read -r set lanes middle least most; do
-  row 'r(u) of degree 18, ns a candidate' "$(fixed "$middle" 0)" 'at most 60 at 8 lanes' "$set, $lanes lanes ($least - $most)"
+  row 'r(u) of degree 18, ns a candidate' "$(fixed "$middle" 0)" 'at most 60 at 8 lanes' \
+    "$set, $lanes lanes ($least - $most)"
 done
 
 # ---- whole processes ----
@@ -77,8 +79,8 @@ cpu() {
 }
 # povray_cpu FILE: in the file's folder.
 povray_cpu() {
-  (cd "$(dirname "$1")" && HOME=$folder/home cpu povray "+I$(basename "$1")" "+O$folder/povray.png" "+W${SIZE%x*}" "+H${SIZE#*x}" \
-    +WT1 -D -A)
+  (cd "$(dirname "$1")" && HOME=$folder/home cpu povray "+I$(basename "$1")" "+O$folder/povray.png" \
+    "+W${SIZE%x*}" "+H${SIZE#*x}" +WT1 -D -A)
 }
 
 if command -v povray >/dev/null; then
@@ -88,7 +90,8 @@ if command -v povray >/dev/null; then
     theirs=$(povray_cpu "$SCENE")
     awk -v a="$ours" -v b="$theirs" 'BEGIN { print a, b, a / b }' >>"$folder/processes"
   done
-  row 'CPU time of the whole process / povray, u_steps 5, flatness 0' "$(fixed "$(median "$folder/processes" 3)" 2)" 'at most 0.4' \
+  row 'CPU time of the whole process / povray, u_steps 5, flatness 0' \
+    "$(fixed "$(median "$folder/processes" 3)" 2)" 'at most 0.4' \
     "$(fixed "$(median "$folder/processes" 1)" 2) s / $(fixed "$(median "$folder/processes" 2)" 2) s"
 else
   say "POV-Ray is not installed: what is measured beside it is left out"
@@ -96,8 +99,8 @@ fi
 
 # megabytes SCENE: the peak of the process's memory.
 megabytes() {
-  /usr/bin/time -f %M -o "$folder/time" "$pscn" render "$1" --size "$SIZE" --threads 1 --quiet --stats "$folder/stats.json" \
-    -o "$folder/pscn.png"
+  /usr/bin/time -f %M -o "$folder/time" "$pscn" render "$1" --size "$SIZE" --threads 1 --quiet \
+    --stats "$folder/stats.json" -o "$folder/pscn.png"
   awk '{ print $1 / 1024 }' "$folder/time"
 }
 # of GROUP NAME...: numbers of its statistics.
@@ -116,7 +119,8 @@ for ((run = 0; run < turns; run++)); do
   one=$(awk -v t="$(of cpu render)" -v hits="$(of rays shadow)" 'BEGIN { print 1e6 * t / hits }')
   many=$(megabytes "$folder/many.pscn")
   awk -v one="$one" -v mb="$many" -v empty="$empty" -v parse="$(of cpu parse)" -v build="$(of cpu build)" \
-    -v t="$(of cpu render)" -v hits="$(of rays shadow)" 'BEGIN { m = 1e6 * t / hits; print parse + build, mb - empty, m / one, m, one, parse, build }' >>"$folder/field"
+    -v t="$(of cpu render)" -v hits="$(of rays shadow)" \
+    'BEGIN { m = 1e6 * t / hits; print parse + build, mb - empty, m / one, m, one, parse, build }' >>"$folder/field"
 done
 row "memory of the process above an empty scene's" "$(fixed "$(median "$folder/memory" 1)" 1) MB" 'under 30 MB' \
   "empty scene: $(fixed "$(median "$folder/memory" 2)" 0) MB, nearly all of it OpenImageIO and what it loads"
@@ -124,13 +128,14 @@ row "$TEAPOTS teapots: load, CPU time" "$(fixed "$(median "$folder/field" 1)" 1)
   "parse $(fixed "$(median "$folder/field" 6)" 2) s, build $(fixed "$(median "$folder/field" 7)" 2) s"
 row "$TEAPOTS teapots: memory above an empty scene's" "$(fixed "$(median "$folder/field" 2)" 0) MB" 'under 1000 MB'
 row "$TEAPOTS teapots: time per hit / one teapot's" "$(fixed "$(median "$folder/field" 3)" 2)" 'under 3' \
-  "$(fixed "$(median "$folder/field" 4)" 2) us / $(fixed "$(median "$folder/field" 5)" 2) us, shadow rays and misses included"
+  "$(fixed "$(median "$folder/field" 4)" 2) us / $(fixed "$(median "$folder/field" 5)" 2) us, shadow rays and misses \
+included"
 
 cat "$folder/table"
 if [ -n "$page" ]; then
   {
-    echo "Written by \`examples/benchmark.sh --page\`; medians of $runs turns of its last run, in brackets the smallest and the largest. The"
-    echo "teapot at $SIZE, one thread, the default solver where nothing else is said."
+    echo "Written by \`examples/benchmark.sh --page\`; medians of $runs turns of its last run, in brackets the smallest"
+    echo "and the largest. The teapot at $SIZE, one thread, the default solver where nothing else is said."
     echo
     cat "$folder/table"
   } >"$folder/section"

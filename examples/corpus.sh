@@ -12,20 +12,21 @@ cmake --build build-corpus --target corpus_table
   cat <<'TEXT'
 # Hard polynomials
 
-What every solver does on the named polynomials of [tests/corpus/polynomials.txt](../tests/corpus/polynomials.txt), against roots
-guaranteed by arb (FLINT). Made by
+What every solver does on the named polynomials of [tests/corpus/polynomials.txt](../tests/corpus/polynomials.txt),
+against roots guaranteed by arb (FLINT). Made by
 
     examples/corpus.sh
 
-Each cell is the largest error of a root, relative to 1 or to the root's modulus where that is larger, and in brackets the
-iterations of all roots together. Coefficients in the power basis as they stand, each solver with its defaults (tolerance 1e-12),
-`form paper` with the paper's plain iteration. "at the limit": roots that met neither their stopping rule before the iteration
-limit nor a finite error bound; "without value": true roots for which there was none left. `bernstein` is judged by the
-distinct real roots in [0,1] alone, and answers a cluster by one or two candidates.
+Each cell is the largest error of a root, relative to 1 or to the root's modulus where that is larger, and in brackets
+the iterations of all roots together. Coefficients in the power basis as they stand, each solver with its defaults
+(tolerance 1e-12), `form paper` with the paper's plain iteration. "at the limit": roots that met neither their stopping
+rule before the iteration limit nor a finite error bound; "without value": true roots for which there was none left.
+`bernstein` is judged by the distinct real roots in [0,1] alone, and answers a cluster by one or two candidates.
 
 Errors of multiple and clustered roots are what double precision allows: a root of multiplicity m moves by the m-th root
 of a rounding. What the table cannot show is tested (tests/corpus/corpus_test.c): in both bases, at every tolerance, no
-value is farther from a true root than its own error radius says, and no real root in [0,1] is outside all discs of `bernstein`.
+value is farther from a true root than its own error radius says, and no real root in [0,1] is outside all discs of
+`bernstein`.
 
 TEXT
   build-corpus/tests/corpus/corpus_table

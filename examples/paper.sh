@@ -24,7 +24,8 @@ build/examples/paper/patch_experiments scenes/paper.pscn 100 75 >"$data/patch.cs
 gnuplot -e "data='$data'" examples/paper/figures.gp
 
 # Fig 16 and 17: the paper's own form, eps 1e-2, and 200 x magnified, eps 1e-10; and the default solver.
-paper='form paper basis power resultant sylvester back_substitution euclid polish off split 1 start previous max_iterations 500'
+paper='form paper basis power resultant sylvester back_substitution euclid polish off split 1'
+paper="$paper start previous max_iterations 500"
 for method in newton laguerre aberth; do
   build/src/command/pscn render scenes/paper.pscn -o "$data/fig16-$method.png" --size 320x240 --quiet \
     --solver "$method { $paper tolerance 1e-2 }"
@@ -38,8 +39,8 @@ build/src/command/pscn render scenes/paper_magnified.pscn -o "$data/fig17-defaul
 echo 'picture,method,different_percent' >"$data/pictures.csv"
 for figure in 16 17; do
   for method in newton laguerre aberth; do
-    { build/src/command/pscn compare "$data/fig$figure-default.png" "$data/fig$figure-$method.png" 2>/dev/null || true; } |
-      sed -n "s|^over 4/255 .* pixels, \([^ ]*\) %|$figure,$method,\1|p"
+    { build/src/command/pscn compare "$data/fig$figure-default.png" "$data/fig$figure-$method.png" || true; } \
+      2>/dev/null | sed -n "s|^over 4/255 .* pixels, \([^ ]*\) %|$figure,$method,\1|p"
   done
 done >>"$data/pictures.csv"
 echo "docs/paper.md shows what is in $data"

@@ -1,7 +1,8 @@
 # Sourced by the scripts that measure and write a part of a page:
 #
 #   members STATISTICS GROUP NAME...      numbers out of what `pscn render --stats` wrote, such as: cpu parse build
-#   replace_section PAGE HEADING FILE     the part of PAGE below the line "## HEADING", up to the next such line, becomes FILE's text
+#   replace_section PAGE HEADING FILE     the part of PAGE below the line "## HEADING", up to the next such line,
+#                                         becomes FILE's text
 #
 # A PAGE without that heading gets it at its end. The page is replaced as a whole or not at all.
 members() {

@@ -35,18 +35,20 @@ mkdir "$folder/home"
 # ours FILE SIZE THREADS: "parse build render rays hits MB wall" of pscn, in CPU seconds but for the last, the rendering
 # by the clock.
 ours() {
-  /usr/bin/time -f %M -o "$folder/memory" "$pscn" render "$1" --size "$2" --threads "$3" --quiet --stats "$folder/stats.json" \
-    -o "$folder/pscn.png"
+  /usr/bin/time -f %M -o "$folder/memory" "$pscn" render "$1" --size "$2" --threads "$3" --quiet \
+    --stats "$folder/stats.json" -o "$folder/pscn.png"
   # shellcheck disable=SC2046
   set -- $(members "$folder/stats.json" rays primary shadow)
-  echo "$(members "$folder/stats.json" cpu parse build render) $(($1 + $2)) $2 $(awk '{ print $1 / 1024 }' "$folder/memory") $(members "$folder/stats.json" time render)"
+  echo "$(members "$folder/stats.json" cpu parse build render) $(($1 + $2)) $2" \
+    "$(awk '{ print $1 / 1024 }' "$folder/memory") $(members "$folder/stats.json" time render)"
 }
 
 # theirs FILE SIZE THREADS: "parse trace MB wall" of POV-Ray in the same way, or dashes where it did not come to an end.
 theirs() {
   local status=0
-  (cd "$(dirname "$1")" && ulimit -v "$MEMORY_LIMIT" && HOME=$folder/home exec timeout "$TIME_LIMIT" /usr/bin/time -f %M -o "$folder/memory" \
-    povray "+I$(basename "$1")" "+O$folder/povray.png" "+W${2%x*}" "+H${2#*x}" "+WT$3" -D -A >"$folder/log" 2>&1) || status=$?
+  (cd "$(dirname "$1")" && ulimit -v "$MEMORY_LIMIT" && HOME=$folder/home exec timeout "$TIME_LIMIT" \
+    /usr/bin/time -f %M -o "$folder/memory" povray "+I$(basename "$1")" "+O$folder/povray.png" \
+    "+W${2%x*}" "+H${2#*x}" "+WT$3" -D -A >"$folder/log" 2>&1) || status=$?
   if [ "$status" -ne 0 ]; then
     echo "- - - -"
     return
@@ -90,15 +92,16 @@ version=$(povray --version 2>&1 | awk '/POV-Ray [0-9]/ { print $2; exit }')
 # ---- patches ----
 
 {
-  echo "Written by \`examples/scale.sh\`; the numbers are those of its last run. POV-Ray $version reads the same files (type 1,"
-  echo "\`u_steps 5 v_steps 5 flatness 0\`, as they say). Times are CPU seconds of each phase, medians of $TURNS turns (one where a turn"
-  echo "takes more than $SLOW s). Memory is the peak of the process above that of pscn for an empty scene, $empty MB; POV-Ray's is the peak of"
-  echo "the process. POV-Ray was given $((MEMORY_LIMIT / 1000000)) GB of address space and $TIME_LIMIT s a run; a dash says that this was not enough."
+  echo "Written by \`examples/scale.sh\`; the numbers are those of its last run. POV-Ray $version reads the same files"
+  echo "(type 1, \`u_steps 5 v_steps 5 flatness 0\`, as they say). Times are CPU seconds of each phase, medians of"
+  echo "$TURNS turns (one where a turn takes more than $SLOW s). Memory is the peak of the process above that of pscn"
+  echo "for an empty scene, $empty MB; POV-Ray's is the peak of the process. POV-Ray was given"
+  echo "$((MEMORY_LIMIT / 1000000)) GB of address space and $TIME_LIMIT s a run; a dash says that this was not enough."
   echo
   echo "### Patches"
   echo
-  echo "\`scenes/bent.pscn\`, and fields of teapots that are all \`object { Teapot }\` of one \`#declare\` (\`examples/field.sh\`); $SIZE,"
-  echo "one thread, the light at the camera: every hit sends one shadow ray."
+  echo "\`scenes/bent.pscn\`, and fields of teapots that are all \`object { Teapot }\` of one \`#declare\`"
+  echo "(\`examples/field.sh\`); $SIZE, one thread, the light at the camera: every hit sends one shadow ray."
   echo
   echo "| patches | parse s | build s | render s | ns a ray | us a hit | MB | POV-Ray: parse s | trace s | MB |"
   echo "|---|---|---|---|---|---|---|---|---|---|"
@@ -113,7 +116,8 @@ for n in 0 "${teapots[@]}"; do
   fi
   both 0.5 "$folder/field.pscn" "$SIZE" 1 >"$folder/line"
   awk -v n="$patches" -v empty="$empty" "$FORMAT"'{
-    printf "| %d | %.3f | %.3f | %.2f | %.0f | %.2f | %s | %s | %s | %s |\n", n, $1, $2, $3, 1e9 * $3 / $4, 1e6 * $3 / ($5 ? $5 : 1),
+    printf "| %d | %.3f | %.3f | %.2f | %.0f | %.2f | %s | %s | %s | %s |\n",
+      n, $1, $2, $3, 1e9 * $3 / $4, 1e6 * $3 / ($5 ? $5 : 1),
       above($6), f($8, 2), f($9, 2), f($10, 0) }' "$folder/line" | tee -a "$folder/section" >&2
   echo "$patches $(cat "$folder/line")" >>"$folder/patches"
 done
@@ -149,7 +153,10 @@ done | sort -g | awk -v bytes="$(stat -c %s "$folder/text.pscn")" -v patches=$((
   { v[NR] = $1 }
   END {
     t = v[int((NR + 1) / 2)]
-    printf "\n### Reading\n\nThe canonical text of %d patches (`pscn dump`: every one written out, %.1f MB) is read in %.2f s of CPU time: **%.0f MB/s**; asked: 50.\n", patches, bytes / 1e6, t, bytes / 1e6 / t
+    print "\n### Reading\n"
+    printf "The canonical text of %d patches (`pscn dump`: every one written out, %.1f MB) is read in %.2f s of\n",
+      patches, bytes / 1e6, t
+    printf "CPU time: **%.0f MB/s**; asked: 50.\n", bytes / 1e6 / t
   }' | tee -a "$folder/section" >&2
 
 # ---- size ----
@@ -167,7 +174,8 @@ examples/field.sh 1 >"$folder/field.pscn"
 for size in "${SIZES[@]}"; do
   both 0.5 "$folder/field.pscn" "$size" 1 >"$folder/line"
   awk -v size="$size" -v empty="$empty" "$FORMAT"'{
-    printf "| %s | %.2f | %.0f | %s | %s | %s |\n", size, $3, 1e9 * $3 / $4, above($6), f($9, 2), f($10, 0) }' "$folder/line" |
+    printf "| %s | %.2f | %.0f | %s | %s | %s |\n", size, $3, 1e9 * $3 / $4, above($6), f($9, 2), f($10, 0)
+  }' "$folder/line" |
     tee -a "$folder/section" >&2
 done
 
@@ -189,7 +197,8 @@ for threads in "${THREADS[@]}"; do
   both 0 "$folder/field.pscn" 1600x1200 "$threads" >"$folder/line"
   [ -n "$one" ] || one=$(cat "$folder/line")
   echo "$one $(cat "$folder/line")" | awk -v t="$threads" "$FORMAT"'{
-    printf "| %d | %.2f | %.2f | %s | %s |\n", t, $18, $7 / $18, f($22, 2), ($22 + 0 ? f($11 / $22, 2) : "-") }' | tee -a "$folder/section" >&2
+    printf "| %d | %.2f | %.2f | %s | %s |\n", t, $18, $7 / $18, f($22, 2), ($22 + 0 ? f($11 / $22, 2) : "-")
+  }' | tee -a "$folder/section" >&2
 done
 
 cp "$folder/scale.svg" docs/performance/scale.svg

@@ -35,7 +35,10 @@ FRAME=320x240
 INSIDE=401x401
 
 # How many pixels of two pictures differ by more than $3 (1 is white).
-pixels_over() { { "$pscn" compare "$1" "$2" --fail "$3" 2>/dev/null || true; } | awk -v over="$3" '$1 == "over" && $2 == over { print $3 }'; }
+pixels_over() {
+  { "$pscn" compare "$1" "$2" --fail "$3" 2>/dev/null || true; } |
+    awk -v over="$3" '$1 == "over" && $2 == over { print $3 }'
+}
 
 # Runs a program that counts: $1 the effort, $2 its text, the rest its command line. Says on the page when it fails.
 measure() {
@@ -55,8 +58,8 @@ tally_rows() {
     counts = $0; sub(/^[^:]*: /, "", counts); split(counts, n, /[^0-9]+/)
     getline; split($0, e, /[ ,;]+/)
     certain = n[1] ? 100 * (n[1] - n[7]) / n[1] : 0
-    printf "| %s | %d | %d | %d | %d | %d | %.4f %% | %s | %s | %s | %s, %s, %s |\n", name, n[1], n[2], n[4], n[5], n[6], certain,
-      e[5], e[8], e[10], e[15], e[17], e[19]
+    printf "| %s | %d | %d | %d | %d | %d | %.4f %% | %s | %s | %s | %s, %s, %s |\n",
+      name, n[1], n[2], n[4], n[5], n[6], certain, e[5], e[8], e[10], e[15], e[17], e[19]
   }' "$1"
 }
 
@@ -69,16 +72,17 @@ measure "$LEAK_EFFORT" "$folder/leaks" "$tests/accuracy/accuracy-leaks"
 
 "$pscn" render scenes/teapot.pscn --size "$FRAME" --quiet -o "$pictures/teapot-default.png"
 for solver in aberth laguerre newton; do
-  "$pscn" render scenes/teapot.pscn --size "$FRAME" --quiet --solver "$solver { $PAPER }" -o "$pictures/teapot-$solver.png"
-  echo "| \`--solver '$solver { $PAPER }'\` | $(pixels_over "$pictures/teapot-default.png" "$pictures/teapot-$solver.png" 0.02) |"
+  picture=$pictures/teapot-$solver.png
+  "$pscn" render scenes/teapot.pscn --size "$FRAME" --quiet --solver "$solver { $PAPER }" -o "$picture"
+  echo "| \`--solver '$solver { $PAPER }'\` | $(pixels_over "$pictures/teapot-default.png" "$picture" 0.02) |"
 done >"$folder/holes"
 
 "$pscn" render scenes/inside.pscn --size "$INSIDE" --quiet --stats "$folder/inside.json" -o "$pictures/inside-pscn.png"
 certain=$(awk -F'[:,]' '/"certain"/ { print $2 + 0 }' "$folder/inside.json")
 if command -v povray >/dev/null; then
   mkdir "$folder/home"
-  (cd scenes && HOME=$folder/home povray +Iinside.pscn "+O$folder/inside.png" "+W${INSIDE%x*}" "+H${INSIDE#*x}" +WT1 -D -A) \
-    >"$folder/log" 2>&1 || { cat "$folder/log" >&2; exit 1; }
+  (cd scenes && HOME=$folder/home povray +Iinside.pscn "+O$folder/inside.png" \
+    "+W${INSIDE%x*}" "+H${INSIDE#*x}" +WT1 -D -A) >"$folder/log" 2>&1 || { cat "$folder/log" >&2; exit 1; }
   cp "$folder/inside.png" "$pictures/inside-povray.png"
   pinholes=$(pixels_over "$pictures/inside-povray.png" "$pictures/inside-pscn.png" 0.5)
   povray_version=$(povray --version 2>&1 | awk '/^POV-Ray/ { print $2; exit }')
@@ -94,18 +98,19 @@ page=$folder/page
 # Where methods fail
 
 Written by \`examples/stability.sh\`; the numbers are those of its last run. Every answer is judged by the reference
-([src/reference/reference.h](../src/reference/reference.h)): subdivision and Krawczyk's test in quadruple precision, which
-shares nothing with the renderer.
+([src/reference/reference.h](../src/reference/reference.h)): subdivision and Krawczyk's test in quadruple precision,
+which shares nothing with the renderer.
 
 - **lost**: the reference proves a hit, and the answer is a miss (a hole) or a later hit.
 - **invented**: an answer where the reference proves that nothing is hit, or nearer than its first hit.
-- Two distances are the same hit within 64 times what rounding the input can do (how near they really are is in the last columns of
-  the first table), and 2^-40 of the largest coordinate where the answer says \`grazing\`. Without polish nothing is proven, every answer
-  says \`grazing\`, and what is counted is whether the hit is found, within 1e-6 relative.
+- Two distances are the same hit within 64 times what rounding the input can do (how near they really are is in the last
+  columns of the first table), and 2^-40 of the largest coordinate where the answer says \`grazing\`. Without polish
+  nothing is proven, every answer says \`grazing\`, and what is counted is whether the hit is found, within 1e-6
+  relative.
 - Errors of T are relative, of the answers that are the same hit.
 
-The paper's form of a solver is \`NAME { $PAPER }\`,
-at that solver's default tolerance, 1e-12. With polish it has the paper's plain iteration, basis, determinant and back-substitution too.
+The paper's form of a solver is \`NAME { $PAPER }\`, at that solver's default tolerance, 1e-12. With polish it has the
+paper's plain iteration, basis, determinant and back-substitution too.
 
 END
   if [ -s "$folder/failures" ]; then
@@ -116,9 +121,9 @@ END
   cat <<END
 ## The frame, random patches, leaks
 
-All pixels or a seeded choice of them (PSCN_EFFORT=$FRAME_EFFORT; teapot 800x600, the others 320x240), and random rays over random
-patches (PSCN_EFFORT=$RANDOM_EFFORT of 1,000,000). The last column is in units of the data floor: how far one rounding of each input can
-move the hit.
+All pixels or a seeded choice of them (PSCN_EFFORT=$FRAME_EFFORT; teapot 800x600, the others 320x240), and random rays
+over random patches (PSCN_EFFORT=$RANDOM_EFFORT of 1,000,000). The last column is in units of the data floor: how far
+one rounding of each input can move the hit.
 
 | rays of | rays | hits | undecided by the reference | lost | invented | certain | median error of T | 99 % | largest | T, U, V in floors, largest |
 |---|---|---|---|---|---|---|---|---|---|---|
@@ -127,30 +132,32 @@ END
   tally_rows "$folder/random"
   cat <<END
 
-Rays from inside closed bodies (dome, ball, torus, the teapot's body; turned, scaled by 1e6 and 1e-6, shifted by 1e6) at shared edges,
-corners, poles and iso-lines, PSCN_EFFORT=$LEAK_EFFORT of 10,000,000. The longest run so far, PSCN_SEED=1 PSCN_EFFORT=0.5: 5,000,044 rays with the
-default and 100,072 with each other solver and split, no leak.
+Rays from inside closed bodies (dome, ball, torus, the teapot's body; turned, scaled by 1e6 and 1e-6, shifted by 1e6) at
+shared edges, corners, poles and iso-lines, PSCN_EFFORT=$LEAK_EFFORT of 10,000,000. The longest run so far, PSCN_SEED=1
+PSCN_EFFORT=0.5: 5,000,044 rays with the default and 100,072 with each other solver and split, no leak.
 
 | run | rays | leaks |
 |---|---|---|
 END
-  awk '/^seed .* leaks$/ { gsub(/[,:]/, ""); print "| seed " $2 ", " $4 ", split " ($6 ? $6 : "auto") " | " $7 " | " $9 " |" }' "$folder/leaks"
+  awk '/^seed .* leaks$/ {
+    gsub(/[,:]/, ""); print "| seed " $2 ", " $4 ", split " ($6 ? $6 : "auto") " | " $7 " | " $9 " |" }' "$folder/leaks"
   echo
   grep -h '^seed 403: ' "$folder/leaks" | sed 's/^/Rays that leave a hit, /; s/$/./' || true
   cat <<END
 
 ## Classes
 
-PSCN_EFFORT=$TABLE_EFFORT of 10,000 rays a class (fewer where the reference is slow), the same rays for every column. What each class is stands in
-[tests/accuracy/situations.c](../tests/accuracy/situations.c).
+PSCN_EFFORT=$TABLE_EFFORT of 10,000 rays a class (fewer where the reference is slow), the same rays for every column.
+What each class is stands in [tests/accuracy/situations.c](../tests/accuracy/situations.c).
 
 END
   cat "$folder/table"
   cat <<END
 ## Holes
 
-The teapot, \`pscn render scenes/teapot.pscn --size $FRAME\`: the default, and the paper's form of three solvers, at eps 1e-12. Aberth's
-roots are nearly all there; those of deflation have holes everywhere, in floor and shadows as well: the paper's finding.
+The teapot, \`pscn render scenes/teapot.pscn --size $FRAME\`: the default, and the paper's form of three solvers, at eps
+1e-12. Aberth's roots are nearly all there; those of deflation have holes everywhere, in floor and shadows as well: the
+paper's finding.
 
 | default | aberth | laguerre | newton |
 |---|---|---|---|
@@ -162,8 +169,9 @@ $(cat "$folder/holes")
 
 ## Pinholes
 
-[scenes/inside.pscn](../scenes/inside.pscn) is a half ball of four patches, seen from a point of its axis, $INSIDE pixels: the rays of the middle
-row and column lie exactly in the planes where the patches join. Surface dark, background bright yellow.
+[scenes/inside.pscn](../scenes/inside.pscn) is a half ball of four patches, seen from a point of its axis, $INSIDE
+pixels: the rays of the middle row and column lie exactly in the planes where the patches join. Surface dark, background
+bright yellow.
 
 END
   if [ -n "${pinholes:-}" ]; then

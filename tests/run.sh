@@ -23,7 +23,10 @@ build() {
   local preset=$1
   shift
   mkdir -p "build-$preset"
-  cmake --preset "$preset" -G Ninja "$@" >"build-$preset/configure.log" 2>&1 || { cat "build-$preset/configure.log" >&2; return 1; }
+  cmake --preset "$preset" -G Ninja "$@" >"build-$preset/configure.log" 2>&1 || {
+    cat "build-$preset/configure.log" >&2
+    return 1
+  }
   cmake --build "build-$preset" -- -j "$JOBS"
 }
 

@@ -66,20 +66,32 @@ set output data.'/fig13.svg'
 set title 'Fig 13: iterations a root (full: from the ray before)'
 set ylabel 'iterations'
 set yrange [0:30]
-plot for [m = 1:3] patch using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' && strcol(4) eq 'power' ? $5 : NaN) with linespoints lt m lw 2 title word(methods, m), \
-     for [m = 1:3] patch using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' && strcol(4) eq 'power' ? $5 : NaN) with linespoints lt m dt 3 title word(methods, m).', cold'
+plot for [m = 1:3] patch \
+       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' && strcol(4) eq 'power' ? $5 : NaN) \
+       with linespoints lt m lw 2 title word(methods, m), \
+     for [m = 1:3] patch \
+       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' && strcol(4) eq 'power' ? $5 : NaN) \
+       with linespoints lt m dt 3 title word(methods, m).', cold'
 set output data.'/fig14.svg'
 set title 'Fig 14: time of a pixel (full: from the ray before)'
 set ylabel 'microseconds'
 set yrange [0:30]
-plot for [m = 1:3] patch using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' && strcol(4) eq 'power' ? $6 : NaN) with linespoints lt m lw 2 title word(methods, m), \
-     for [m = 1:3] patch using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' && strcol(4) eq 'power' ? $6 : NaN) with linespoints lt m dt 3 title word(methods, m).', cold'
+plot for [m = 1:3] patch \
+       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' && strcol(4) eq 'power' ? $6 : NaN) \
+       with linespoints lt m lw 2 title word(methods, m), \
+     for [m = 1:3] patch \
+       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' && strcol(4) eq 'power' ? $6 : NaN) \
+       with linespoints lt m dt 3 title word(methods, m).', cold'
 set output data.'/fig15.svg'
 set title 'Fig 15: share of pixels whose roots are all accurate (eq 11)'
 set ylabel 'share'
 set yrange [0:1.02]
-plot for [m = 1:3] patch using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' && strcol(4) eq 'power' ? $7 : NaN) with linespoints lt m lw 2 title word(methods, m), \
-     for [m = 1:3] patch using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' && strcol(4) eq 'power' ? $7 : NaN) with linespoints lt m dt 3 title word(methods, m).', cold'
+plot for [m = 1:3] patch \
+       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' && strcol(4) eq 'power' ? $7 : NaN) \
+       with linespoints lt m lw 2 title word(methods, m), \
+     for [m = 1:3] patch \
+       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' && strcol(4) eq 'power' ? $7 : NaN) \
+       with linespoints lt m dt 3 title word(methods, m).', cold'
 
 # Against the order in which the roots were found.
 unset logscale x
@@ -96,6 +108,8 @@ do for [figure in 'fig11,newton fig12,laguerre fig12-aberth,aberth'] {
   name = figure[1:comma - 1]
   method = figure[comma + 1:*]
   set output data.'/'.name.'.svg'
-  set title (name eq 'fig11' ? 'Fig 11: ' : name eq 'fig12' ? 'Fig 12: ' : 'For comparison: ').method.', accuracy against order (below 0 meets eq 11)'
-  plot for [eps in tried] order using 3:(strcol(2) eq method && strcol(1) eq eps ? $5 : NaN) with linespoints title 'eps '.eps
+  set title (name eq 'fig11' ? 'Fig 11: ' : name eq 'fig12' ? 'Fig 12: ' : 'For comparison: ') \
+    .method.', accuracy against order (below 0 meets eq 11)'
+  plot for [eps in tried] order using 3:(strcol(2) eq method && strcol(1) eq eps ? $5 : NaN) \
+       with linespoints title 'eps '.eps
 }

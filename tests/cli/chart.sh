@@ -8,10 +8,15 @@ head -1 out/chart.csv
 LC_ALL=C awk -F, 'NR == 1 { n = NF; for (k = 1; k <= NF; k++) at[$k] = k; next }
   NF != n { print "fields:", NF, $0 }
   { count[$1]++ }
-  $at["polish"] == "on" && ($at["lost"] + $at["invented"] + $at["wrong"] > 0 || $at["t_max"] > 1e-12) { print "not exact:", $0 }
+  $at["polish"] == "on" && ($at["lost"] + $at["invented"] + $at["wrong"] > 0 || $at["t_max"] > 1e-12) {
+    print "not exact:", $0
+  }
   $1 == "plain-newton" && !($at["t_median"] < 1e-14) { print "not even plain Newton:", $0 }
   $at["front"] == 1 { front = 1 }
-  END { print count["bernstein"], count["newton"], count["laguerre"], count["aberth"], count["paper"], count["plain-newton"], front }' out/chart.csv
+  END {
+    print count["bernstein"], count["newton"], count["laguerre"], count["aberth"], count["paper"],
+      count["plain-newton"], front
+  }' out/chart.csv
 grep -c '<table>' out/chart.html
 
 # Without peers: said, and no error.
@@ -25,7 +30,8 @@ ls out3
 
 # Nothing to hit: no figure, and no error.
 echo 'background { rgb 0 }' >nothing.pscn
-try pscn chart nothing.pscn $small --no-peers -o out4 2>&1 | grep -e warning -e '^exit' -e 'bernstein$' | sed 's/^ *[0-9.]* *[0-9.]*//'
+try pscn chart nothing.pscn $small --no-peers -o out4 2>&1 | grep -e warning -e '^exit' -e 'bernstein$' |
+  sed 's/^ *[0-9.]* *[0-9.]*//'
 ls out4
 
 # The command line.

@@ -1,5 +1,7 @@
 # The statistics: their keys, and numbers that are known. Times and the work of the intersector are only there.
-work() { sed -E '/"(parse|build|render|write|version)":/d; s/("(patches_tested|subdivided|found|accepted)": )[0-9]+/\1.../'; }
+work() {
+  sed -E '/"(parse|build|render|write|version)":/d; s/("(patches_tested|subdivided|found|accepted)": )[0-9]+/\1.../'
+}
 scene=$SCENES/flat.pscn
 pscn render "$scene" -o a.png --size 20x10 --samples 2 --threads 1 --tolerance 1e-9 --stats - --quiet | work
 pscn render "$scene" -o a.png --size 20x10 --crop 2,1,8,4 --stats a.json --solver aberth --quiet

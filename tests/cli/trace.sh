@@ -8,6 +8,8 @@ printf '%s\n' '0 0 -4 0 0 1' '0.5 -0.25 3 0 0 -1' '0 0 -4 0 0 -1' '2 0 -4 0 0 1'
 printf '0.5 0 -4 0 0 1\r\n0\t0.5 -4 0 0 1' | try pscn trace "$scene"
 # In text and in binary the same hits.
 printf '0.5 0 -4 0 0 1\n9 0 -4 0 0 1\n' | pscn trace "$scene" --solver aberth
-printf '\0\0\0\0\0\0\340\077\0\0\0\0\0\0\0\0\0\0\0\0\0\0\020\300\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\360\077' >one
-printf '\0\0\0\0\0\0\042\100\0\0\0\0\0\0\0\0\0\0\0\0\0\0\020\300\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\360\077' >two
+zero='\0\0\0\0\0\0\0\0' half='\0\0\0\0\0\0\340\077' one='\0\0\0\0\0\0\360\077'
+nine='\0\0\0\0\0\0\042\100' minus_four='\0\0\0\0\0\0\020\300'
+printf "$half$zero$minus_four$zero$zero$one" >one
+printf "$nine$zero$minus_four$zero$zero$one" >two
 cat one two | pscn trace "$scene" --binary | LC_ALL=C od -A n -v -t f8 -w56 | sed 's/  */ /g'

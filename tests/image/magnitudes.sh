@@ -11,7 +11,8 @@ trap 'rm -rf "$folder"' EXIT
 
 # The scene of bent.pscn with every point times $1.
 write_scene() {
-  sed -E "s/^( *location)(.*)/\1 $1 *\2/; s/^( *look_at)(.*)/\1 $1 *\2/; s/light_source \{ *(<[^>]*>)/light_source { $1 * \1/
+  sed -E "s/^( *location)(.*)/\1 $1 *\2/; s/^( *look_at)(.*)/\1 $1 *\2/
+    s/light_source \{ *(<[^>]*>)/light_source { $1 * \1/
     s/^( +)(<-?[0-9].*)/\1\2/; /^  <-?[0-9]/s/</$1 * </g" "$PSCN_SOURCE_DIR/scenes/bent.pscn"
 }
 

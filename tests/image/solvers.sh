@@ -7,7 +7,8 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 render() { "$PSCN" render "$PSCN_SOURCE_DIR/scenes/$1.pscn" --size 200x150 --quiet "${@:2}"; }
 render "$1" -o "$folder/default.png"
-for solver in bernstein aberth newton laguerre 'aberth { start previous }' 'aberth { basis power }' 'aberth { split 1 }'; do
+for solver in bernstein aberth newton laguerre \
+  'aberth { start previous }' 'aberth { basis power }' 'aberth { split 1 }'; do
   render "$1" -o "$folder/other.png" --solver "$solver"
   echo "$solver"
   "$PSCN" compare "$folder/default.png" "$folder/other.png" --fail $ONE_CODE --quiet

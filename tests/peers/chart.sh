@@ -13,7 +13,8 @@ peers=()
 [ ${#peers[@]} -gt 0 ] || { echo "skipped: neither pscn-embree nor povray is there" >&2; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$PSCN" chart "$PSCN_SOURCE_DIR/scenes/bent.pscn" --quick --size 160x120 --rays 256 --rounds 1 --quiet -o "$folder/chart"
+"$PSCN" chart "$PSCN_SOURCE_DIR/scenes/bent.pscn" --quick --size 160x120 --rays 256 --rounds 1 --quiet \
+  -o "$folder/chart"
 
 failed=0
 for peer in "${peers[@]}"; do
@@ -30,6 +31,7 @@ for peer in "${peers[@]}"; do
       if (count > 1 && !(error * gain < last)) { print name ": error " error " after " last; bad = 1 }
       last = error
     }
-    END { print peer ": " count + 0 " meshes, the finest within " last; exit bad || count != 3 }' "$folder/chart/chart.csv" || failed=1
+    END { print peer ": " count + 0 " meshes, the finest within " last; exit bad || count != 3 }' \
+    "$folder/chart/chart.csv" || failed=1
 done
 exit "$failed"

@@ -89,8 +89,8 @@ sed 's/#declare Shade = Red;/#error "not with POV-Ray"/' "$scene" >"scenes and m
 expect 3 "$PSCN" check "scenes and more/two.pscn" --size 8x6 -o refused
 grep -q 'povray: .*scene.pov.*line 12' err || { fail "the line of the scene is not told"; cat err; }
 [ ! -e refused ] || fail "a folder is left where nothing was found"
-expect 0 "$PSCN" check "$scene" --size 60x45 --steps 0 --grid 0 -o quality --failpercent 100 --failpsnr 0 --failmask 100 \
-  --povray-option +Q0 --quiet
+expect 0 "$PSCN" check "$scene" --size 60x45 --steps 0 --grid 0 -o quality --failpercent 100 --failpsnr 0 \
+  --failmask 100 --povray-option +Q0 --quiet
 cmp -s quality/povray.png limits/povray.png && fail "--povray-option changes nothing"
 
 # What is the same is told to be the same, and what nobody hits has no distance; a name that needs care in a shell, in
@@ -103,10 +103,12 @@ echo 'background { rgb <0.1, 0.5, 0.9> } bicubic_patch { type 1
   <1, 3, -9>, <2, 3, -9>, <3, 3, -9>, <4, 3, -9>, <1, 4, -9>, <2, 4, -9>, <3, 4, -9>, <4, 4, -9> }' >"$name/plain.inc"
 for size in 1x1 700x2; do
   expect 0 "$PSCN" check "$name/$name.pscn" --size $size --steps 1
-  awk '$1 == "u_steps" && NF == 12 { same = $7 == "inf" && $6 == "0/255" } $1 == "u_steps" && NF == 9 { none = $7 $8 $9 == "---" }
+  awk '$1 == "u_steps" && NF == 12 { same = $7 == "inf" && $6 == "0/255" }
+       $1 == "u_steps" && NF == 9 { none = $7 $8 $9 == "---" }
        END { exit !(same && none) }' out || { fail "not the same, or distances of nothing, at $size:"; cat out; }
   grep -q 'gamma_correction is turned off' err || { fail "POV-Ray's warning is not told"; cat err; }
-  grep -q 'The pictures are the same' "$name-check/check.html" || fail "the page does not say that the pictures are the same"
+  grep -q 'The pictures are the same' "$name-check/check.html" ||
+    fail "the page does not say that the pictures are the same"
 done
 [ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
 

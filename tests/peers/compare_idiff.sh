@@ -81,7 +81,8 @@ verdict 0 nan.exr nan.exr
 verdict 0 inf.exr inf.exr
 verdict 1 nan.exr 0.1.exr # the same to idiff
 verdict 1 inf.exr 0.1.exr
-grep -q '63 pixels by more than 1e-06, the most by inf' ours.err || { echo "infinities are not counted:"; cat ours.err; failed=1; }
+grep -q '63 pixels by more than 1e-06, the most by inf' ours.err ||
+  { echo "infinities are not counted:"; cat ours.err; failed=1; }
 verdict 1 gray_a.png a.png # idiff takes what is missing for 0
 grep -q "has no channel" ours.err || failed=1
 verdict 1 a.png 0.1.exr

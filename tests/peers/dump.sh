@@ -13,7 +13,9 @@ export HOME=$folder # POV-Ray wants to write there
 cd "$PSCN_SOURCE_DIR/scenes"
 failed=0
 count=0
-render() { povray "+I$1" "+O$2" +W160 +H120 -D -A +FN8 Work_Threads=1 >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }; }
+render() {
+  povray "+I$1" "+O$2" +W160 +H120 -D -A +FN8 Work_Threads=1 >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+}
 for scene in *.pscn; do
   count=$((count + 1))
   "$PSCN" dump "$scene" --size 160x120 >"$folder/dump.pov"

@@ -6,7 +6,8 @@ set -euo pipefail
 
 command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
 find_example() { # FILE: its place, wherever the package puts it, packed or not
-  { dpkg -L povray-examples 2>/dev/null || find /usr/share/doc/povray* -type f 2>/dev/null; } | grep -E "/$1(\.gz)?$" | head -1
+  { dpkg -L povray-examples 2>/dev/null || find /usr/share/doc/povray* -type f 2>/dev/null; } |
+    grep -E "/$1(\.gz)?$" | head -1
 }
 teapot=$(find_example advanced/teapot/teapot.inc || true)
 bezier=$(find_example objects/bezier.pov || true)
@@ -35,7 +36,8 @@ zcat -f "$bezier" | tr -d '\r' | awk '
   inside { for (k = 1; k <= length($0); k++) { c = substr($0, k, 1); depth += (c == "{") - (c == "}") }
            if (/checker/) sub(/checker.*/, "color rgb <0.9, 0.3, 0.2>"); else if (/quick_color/) next
            print; if (depth == 0) exit }' >bezier.inc
-[ "$(grep -c '<.*>.*<.*>.*<.*>.*<.*>' bezier.inc)" -eq 4 ] || { echo "the patch of $bezier is not where it was"; failed=1; }
+[ "$(grep -c '<.*>.*<.*>.*<.*>.*<.*>' bezier.inc)" -eq 4 ] ||
+  { echo "the patch of $bezier is not where it was"; failed=1; }
 cat >bezier.pscn <<'END'
 #version 3.7;
 global_settings { assumed_gamma 1 }

@@ -15,9 +15,10 @@ fail() { echo "$*"; failed=1; }
 
 # 590 pixels wide: so wide the page shows the pictures, one file pixel each, whatever the browser does to larger ones.
 WIDTH=590 HEIGHT=300
-"$PSCN" check "$PSCN_SOURCE_DIR/tests/cli/scenes/bent.pscn" -o out --size ${WIDTH}x$HEIGHT --steps 2 --failpercent 100 --failpsnr 0 \
-  --failmask 100 --quiet
-grep -Eq '(src|href)="(https?:|//|file:)|url\(|@import' out/check.html && fail "the page asks for something beside itself"
+"$PSCN" check "$PSCN_SOURCE_DIR/tests/cli/scenes/bent.pscn" -o out --size ${WIDTH}x$HEIGHT --steps 2 \
+  --failpercent 100 --failpsnr 0 --failmask 100 --quiet
+grep -Eq '(src|href)="(https?:|//|file:)|url\(|@import' out/check.html &&
+  fail "the page asks for something beside itself"
 
 # browse FILE SCREENSHOT: what the page says on the console is on stderr, as INFO:CONSOLE.
 browse() {
@@ -34,8 +35,10 @@ browse broken.html broken.png
 grep -q 'CONSOLE' log || fail "an error of a page would not be noticed"
 
 # Where the pictures are: the page tells their places itself.
-sed 's|</body>|<script>document.title = [...document.images].slice(0, 2).map(i => { const r = i.getBoundingClientRect();\
-  return [r.left, r.top, r.width, r.height].map(Math.round).join(",") }).join(" ")</script></body>|' out/check.html >places.html
+sed 's|</body>|<script>document.title = [...document.images].slice(0, 2).map(i => {\
+  const r = i.getBoundingClientRect();\
+  return [r.left, r.top, r.width, r.height].map(Math.round).join(",") }).join(" ")</script></body>|' \
+  out/check.html >places.html
 timeout 100 "$browser" --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --hide-scrollbars \
   --force-device-scale-factor=1 --user-data-dir="$folder/profile" --window-size=1300,5000 --dump-dom \
   "file://$PWD/places.html" >dom 2>/dev/null

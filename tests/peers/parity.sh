@@ -16,8 +16,10 @@ KEY='light_source { <-3, 5, -4>, rgb <1, 0.95, 0.9> }'
 CAMERA='camera { location <0.4, 2.2, -5> look_at <0.1, 0.2, 0> angle 42 }'
 count=0
 # scene NAME: writes the scene of what is set, then sets all back. A floor, and above it a leaning square with a shadow.
-begin() { camera=$CAMERA lights=$KEY sky='background { rgb <0.2, 0.3, 0.5> }' settings='' finish='' pigment='rgb <0.8, 0.5, 0.3>' \
-  before='' object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> }' size=64x48; }
+begin() {
+  camera=$CAMERA lights=$KEY sky='background { rgb <0.2, 0.3, 0.5> }' settings='' before='' size=64x48
+  finish='' pigment='rgb <0.8, 0.5, 0.3>' object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> }'
+}
 scene() {
   count=$((count + 1))
   local file
@@ -31,8 +33,10 @@ $sky
 $lights
 $before
 #declare Square = bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2
-  <-0.9, -0.9, 0>, <-0.3, -0.9, 0>, <0.3, -0.9, 0>, <0.9, -0.9, 0>, <-0.9, -0.3, 0>, <-0.3, -0.3, 0>, <0.3, -0.3, 0>, <0.9, -0.3, 0>,
-  <-0.9, 0.3, 0>, <-0.3, 0.3, 0>, <0.3, 0.3, 0>, <0.9, 0.3, 0>, <-0.9, 0.9, 0>, <-0.3, 0.9, 0>, <0.3, 0.9, 0>, <0.9, 0.9, 0>
+  <-0.9, -0.9, 0>, <-0.3, -0.9, 0>, <0.3, -0.9, 0>, <0.9, -0.9, 0>,
+  <-0.9, -0.3, 0>, <-0.3, -0.3, 0>, <0.3, -0.3, 0>, <0.9, -0.3, 0>,
+  <-0.9, 0.3, 0>, <-0.3, 0.3, 0>, <0.3, 0.3, 0>, <0.9, 0.3, 0>,
+  <-0.9, 0.9, 0>, <-0.3, 0.9, 0>, <0.3, 0.9, 0>, <0.9, 0.9, 0>
   texture { pigment { $pigment } finish { $finish } } }
 $object
 bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2
@@ -44,9 +48,10 @@ END
 }
 begin
 
-for finish in '' 'ambient 0' 'ambient 0.4' 'ambient rgb <0.1, 0.3, 0.5>' 'ambient -0.2' 'diffuse 0' 'diffuse 1.3' 'brilliance 4' \
-  'brilliance 0.3' 'brilliance 0' 'phong 0.7' 'phong 0.7 phong_size 3' 'phong 0.7 phong_size 200' 'phong_size 10' 'specular 0.7' \
-  'specular 0.7 roughness 0.3' 'specular 0.7 roughness 0.001' 'roughness 0.3' 'specular 0.7 phong 0.4 diffuse 0.2' \
+for finish in '' 'ambient 0' 'ambient 0.4' 'ambient rgb <0.1, 0.3, 0.5>' 'ambient -0.2' 'diffuse 0' 'diffuse 1.3' \
+  'brilliance 4' 'brilliance 0.3' 'brilliance 0' 'phong 0.7' 'phong 0.7 phong_size 3' 'phong 0.7 phong_size 200' \
+  'phong_size 10' 'specular 0.7' 'specular 0.7 roughness 0.3' 'specular 0.7 roughness 0.001' 'roughness 0.3' \
+  'specular 0.7 phong 0.4 diffuse 0.2' \
   'ambient 0.15 diffuse 0.5 brilliance 1.7 phong 0.3 phong_size 25 specular 0.3 roughness 0.05' \
   'phong 0.2 phong 0.8' 'specular -0.3' 'diffuse -0.3' 'phong -0.3'; do
   scene "finish { $finish }"
@@ -75,7 +80,8 @@ light_source { <1, 5, 0>, rgb 1 rotate 70*y translate x }
 light_source { <1, 2, -1>, rgb 1 scale <2, 3, 2> rotate <0, 30, 10> }
 light_source { <1, 2, -1>, rgb 1 matrix <1, 0.2, 0, 0, 2, 0, 0.3, 0, 1, 1, 1, -2> }
 END
-for sky in '' 'background { rgb 0.3 }' 'background { color rgb <1.5, 0.2, -0.1> }' 'background { rgb 0.9 } background { rgb 0.1 }'; do
+for sky in '' 'background { rgb 0.3 }' 'background { color rgb <1.5, 0.2, -0.1> }' \
+  'background { rgb 0.9 } background { rgb 0.1 }'; do
   scene "sky $sky"
 done
 for settings in 'ambient_light 0' 'ambient_light 2' 'ambient_light rgb <2, 0.5, 1>' 'max_trace_level 1'; do
@@ -83,7 +89,8 @@ for settings in 'ambient_light 0' 'ambient_light 2' 'ambient_light rgb <2, 0.5, 
 done
 
 while read -r items; do
-  camera="camera { $items }" object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> } object { Square translate <0.3, 0.2, 3> }'
+  camera="camera { $items }"
+  object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> } object { Square translate <0.3, 0.2, 3> }'
   scene "camera $items"
 done <<'END'
 location <0, 0.5, -4>
@@ -111,7 +118,8 @@ location <-4, 0.7, 0.4> look_at <0, 0.5, 0> angle 40 angle 60
 location <3, 2, -3> right x*image_width/image_height look_at 0
 END
 for size in 48x64 70x35 33x47; do
-  for items in '' 'right x*image_width/image_height' 'right x*image_width/image_height angle 50' 'up y*image_height/image_width right x'; do
+  for items in '' 'right x*image_width/image_height' 'right x*image_width/image_height angle 50' \
+    'up y*image_height/image_width right x'; do
     keep=$size camera="camera { location <3, 2, -3> look_at 0 $items }"; scene "camera $items at $size"; size=$keep
   done
 done
@@ -130,19 +138,24 @@ rotate 40*x scale 0.7 translate <0.2, 0.7, 0>
 matrix <1, 0.2, 0.1, 0, 0.8, 0.6, 0.3, 0, 1, 0.1, 0.9, 0>
 rotate 20*x matrix <0.8, 0, 0.1, 0.3, 0.9, 0, 0, 0.2, 1, 0, 1, 0> rotate 10*z
 END
-object='union { object { Square rotate 30*x } object { Square scale 0.4 translate <0, 0.5, -0.6> } rotate 25*y translate <0, 0.9, 0> }'
+object='union { object { Square rotate 30*x } object { Square scale 0.4 translate <0, 0.5, -0.6> }
+  rotate 25*y translate <0, 0.9, 0> }'
 scene 'union'
-object='union { union { object { Square translate x } rotate 40*y texture { pigment { rgb <0.9, 0.1, 0.2> } } } scale 0.7 translate <-0.5, 0.8, 0> }'
+object='union { union { object { Square translate x } rotate 40*y texture { pigment { rgb <0.9, 0.1, 0.2> } } }
+  scale 0.7 translate <-0.5, 0.8, 0> }'
 scene 'union in union, textured'
-object='#declare Two = union { object { Square } object { Square rotate 90*y } scale 0.6 } object { Two translate <-0.8, 0.6, 0> } object { Two rotate 20*y translate <0.7, 0.6, 0> }'
+object='#declare Two = union { object { Square } object { Square rotate 90*y } scale 0.6 }
+object { Two translate <-0.8, 0.6, 0> } object { Two rotate 20*y translate <0.7, 0.6, 0> }'
 scene 'declared union'
 
 object='#declare Matt = texture { pigment { rgb <0.9, 0.1, 0.1> } finish { phong 0.6 ambient 0.2 } }
-#declare Shiny = texture { Matt finish { phong_size 5 } } #declare Polish = finish { diffuse 0.3 specular 0.9 roughness 0.02 }
-#declare Two = union { object { Square texture { Shiny } rotate 60*y } union { object { Square scale 0.3 texture { pigment { rgb y } } }
-  translate <0, 1, -1> texture { Matt } } };
+#declare Shiny = texture { Matt finish { phong_size 5 } }
+#declare Polish = finish { diffuse 0.3 specular 0.9 roughness 0.02 }
+#declare Two = union { object { Square texture { Shiny } rotate 60*y }
+  union { object { Square scale 0.3 texture { pigment { rgb y } } } translate <0, 1, -1> texture { Matt } } };
 object { Two texture { Shiny } scale <-0.5, 0.5, 0.5> rotate <10, 200, 0> translate <0.3, 0.8, 0> }
-object { Two scale <0.4, -0.4, 0.4> translate <-1.2, 0.8, 0.4> texture { pigment { rgb <0, 0.3, 1> } finish { Polish } } }'
+object { Two scale <0.4, -0.4, 0.4> translate <-1.2, 0.8, 0.4>
+  texture { pigment { rgb <0, 0.3, 1> } finish { Polish } } }'
 scene 'declared textures, mirrored'
 
 while read -r colour; do
@@ -173,8 +186,12 @@ END
 # judge FILE: what is wrong with a scene.
 cat >judge.sh <<'END'
 file=${1%.pscn}
-"$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --fail 1/255 --failpercent 0 --allowfailures $MOST --failpsnr 0 \
-  -o "$file" --quiet >"$file.log" 2>&1 || { echo "$file: exit code $?"; cat "$file.log"; sed -n '2,7p;12,13p' "$1"; }
+"$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --fail 1/255 --failpercent 0 \
+  --allowfailures $MOST --failpsnr 0 -o "$file" --quiet >"$file.log" 2>&1 || {
+  echo "$file: exit code $?"
+  cat "$file.log"
+  sed '/^#version/d; /^bicubic_patch/,$d' "$1"
+}
 END
 export MOST
 ls ./*.pscn | xargs -P $JOBS -n 1 bash judge.sh >complaints

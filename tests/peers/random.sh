@@ -16,8 +16,10 @@ export LC_ALL=C MOST
 
 cat >parts.inc <<'END'
 #declare Square = bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2
-  <-0.9, -0.9, 0>, <-0.3, -0.9, 0>, <0.3, -0.9, 0>, <0.9, -0.9, 0>, <-0.9, -0.3, 0>, <-0.3, -0.3, 0>, <0.3, -0.3, 0>, <0.9, -0.3, 0>,
-  <-0.9, 0.3, 0>, <-0.3, 0.3, 0>, <0.3, 0.3, 0>, <0.9, 0.3, 0>, <-0.9, 0.9, 0>, <-0.3, 0.9, 0>, <0.3, 0.9, 0>, <0.9, 0.9, 0> }
+  <-0.9, -0.9, 0>, <-0.3, -0.9, 0>, <0.3, -0.9, 0>, <0.9, -0.9, 0>,
+  <-0.9, -0.3, 0>, <-0.3, -0.3, 0>, <0.3, -0.3, 0>, <0.9, -0.3, 0>,
+  <-0.9, 0.3, 0>, <-0.3, 0.3, 0>, <0.3, 0.3, 0>, <0.9, 0.3, 0>,
+  <-0.9, 0.9, 0>, <-0.3, 0.9, 0>, <0.3, 0.9, 0>, <0.9, 0.9, 0> }
 #declare Floor = object { Square rotate 90*x scale 3 }
 #declare Paint = rgb <0.9, 0.6, 0.2>;
 #declare Matt = texture { pigment { color Paint } finish { phong 0.4 ambient 0.2 } }
@@ -37,8 +39,9 @@ function colour(  k) {
   return "color rgb " vector(0, 1) "*" number(0.5, 1) " + x/" number(2, 9)
 }
 function finish(  at, n, k, item, text) {
-  n = split("ambient " (chance(0.5) ? number(-0.2, 0.5) : "rgb " vector(0, 0.5)) ";diffuse " number(-0.2, 1.6) ";brilliance " \
-            number(0, 5) ";phong " number(-0.2, 1.5) ";phong_size " number(0, 200) ";specular " number(-0.2, 1.5) ";roughness " \
+  n = split("ambient " (chance(0.5) ? number(-0.2, 0.5) : "rgb " vector(0, 0.5)) ";diffuse " number(-0.2, 1.6) \
+            ";brilliance " number(0, 5) ";phong " number(-0.2, 1.5) ";phong_size " number(0, 200) \
+            ";specular " number(-0.2, 1.5) ";roughness " \
             (chance(0.5) ? number(0.0005, 0.1) : number(0.1, 2)), item, ";")
   at = int(rand() * n)
   for (k = 0; k < n; k++) if (chance(0.55)) text = text " " item[(at + k) % n + 1]
@@ -61,8 +64,9 @@ function transforms(most,  text, k) {
     else if (k < 0.5) text = text " rotate " vector(-180, 180)
     else if (k < 0.6) text = text " rotate " number(-90, 90) "*y"
     else if (k < 0.8) text = text " scale <" stretch() ", " stretch() ", " stretch() ">"
-    else text = text " matrix <1.2, " number(-0.4, 0.4) ", " number(-0.4, 0.4) ", " number(-0.4, 0.4) ", 0.8, " number(-0.4, 0.4) \
-                ", " number(-0.4, 0.4) ", " number(-0.4, 0.4) ", -1, " number(-0.5, 0.5) ", " number(-0.5, 0.5) ", 0>"
+    else text = text " matrix <1.2, " number(-0.4, 0.4) ", " number(-0.4, 0.4) ", " number(-0.4, 0.4) ", 0.8, " \
+                number(-0.4, 0.4) ", " number(-0.4, 0.4) ", " number(-0.4, 0.4) ", -1, " \
+                number(-0.5, 0.5) ", " number(-0.5, 0.5) ", 0>"
   }
   return text
 }
@@ -70,8 +74,8 @@ function transforms(most,  text, k) {
 # is seen.
 function object(depth,  text, k) {
   if (depth == 2 || chance(0.7))
-    return "object { " (chance(0.7) ? "Square" : "Two") transforms(2) " rotate " vector(-90, 90) " translate " vector(-0.3, 0.3) " " \
-           texture() transforms(1) " }"
+    return "object { " (chance(0.7) ? "Square" : "Two") transforms(2) " rotate " vector(-90, 90) " translate " \
+           vector(-0.3, 0.3) " " texture() transforms(1) " }"
   for (k = 1 + int(rand() * 3); k > 0; k--) text = text " " object(depth + 1)
   return "union {" text transforms(2) " " texture() " }"
 }
@@ -89,7 +93,8 @@ function camera(  text, aimed) {
 function light(  k) {
   k = rand()
   return "light_source { " vector(-6, 6) (chance(0.5) ? " + 4*y" : "") ", rgb " (k < 0.4 ? number(0, 1.2) : \
-         k < 0.8 ? vector(0, 1.2) : vector(-0.3, 1.5)) (chance(0.2) ? " shadowless" : "") (chance(0.3) ? transforms(2) : "") " }"
+         k < 0.8 ? vector(0, 1.2) : vector(-0.3, 1.5)) (chance(0.2) ? " shadowless" : "") \
+         (chance(0.3) ? transforms(2) : "") " }"
 }
 BEGIN {
   srand(seed)
@@ -104,8 +109,11 @@ END
 cat >judge.sh <<'END'
 file=${1%.pscn}
 sizes=(64x48 80x40 48x64 63x49)
-"$PSCN" check "$1" --size "${sizes[$((10#$file % 4))]}" --steps 0 --grid 0 --fail 1/255 --failpercent 0 --allowfailures $MOST \
-  --failpsnr 0 -o "$file" --quiet >"$file.log" 2>&1 || { echo "$file: exit code $?"; cat "$file.log" "$1"; }
+"$PSCN" check "$1" --size "${sizes[$((10#$file % 4))]}" --steps 0 --grid 0 --fail 1/255 --failpercent 0 \
+  --allowfailures $MOST --failpsnr 0 -o "$file" --quiet >"$file.log" 2>&1 || {
+  echo "$file: exit code $?"
+  cat "$file.log" "$1"
+}
 END
 for ((k = 1; k <= SCENES; k++)); do awk -v seed=$((SEED + k)) -f scene.awk >"$(printf '%02d' $k).pscn"; done
 ls ??.pscn | xargs -P $JOBS -n 1 bash judge.sh >complaints
