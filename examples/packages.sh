@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034
 # Installs Debian packages where they are missing. Sourced by quickstart.sh and by tests/run.sh:
 #
 #   install_packages NAME...

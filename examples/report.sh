@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by the scripts that measure and write a part of a page:
 #
 #   members STATISTICS GROUP NAME...      numbers out of what `pscn render --stats` wrote, such as: cpu parse build

@@ -38,9 +38,10 @@ check() {
   agree rms "$(field 'RMS error')" "$(ours rms)"
   agree psnr "$(field 'Peak SNR')" "$(ours psnr)"
   agree max "$(field 'Max error')" "$(ours max)"
-  local place="$(sed -n 's/^ *Max error .*@ (\([0-9]*\), \([0-9]*\), \([^)]*\)).*/\1,\2 channel \3/p' idiff.out)"
+  local place over
+  place=$(sed -n 's/^ *Max error .*@ (\([0-9]*\), \([0-9]*\), \([^)]*\)).*/\1,\2 channel \3/p' idiff.out)
   grep -q "at pixel $place:" ours.out || { echo "idiff's worst: $place"; failed=1; }
-  local over="$(sed -n 's/^ *\([0-9]*\) pixels .* over .*/\1/p' idiff.out | tail -1)"
+  over=$(sed -n 's/^ *\([0-9]*\) pixels .* over .*/\1/p' idiff.out | tail -1)
   [ "$over" = "$(sed -n 's/^over [0-9.e-]* *\([0-9]*\) pixels.*/\1/p' ours.out | tail -1)" ] ||
     { echo "idiff: $over pixels over $3"; failed=1; }
 }

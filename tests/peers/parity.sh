@@ -194,7 +194,7 @@ file=${1%.pscn}
 }
 END
 export MOST
-ls ./*.pscn | xargs -P $JOBS -n 1 bash judge.sh >complaints
+printf '%s\0' ./*.pscn | xargs -0 -P "$JOBS" -n 1 bash judge.sh >complaints
 cat complaints
 echo "$count scenes"
 [ ! -s complaints ] && [ "$(ls -d ./*/ | wc -l)" -eq "$count" ]

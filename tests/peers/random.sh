@@ -116,7 +116,7 @@ sizes=(64x48 80x40 48x64 63x49)
 }
 END
 for ((k = 1; k <= SCENES; k++)); do awk -v seed=$((SEED + k)) -f scene.awk >"$(printf '%02d' $k).pscn"; done
-ls ??.pscn | xargs -P $JOBS -n 1 bash judge.sh >complaints
+printf '%s\0' ??.pscn | xargs -0 -P "$JOBS" -n 1 bash judge.sh >complaints
 cat complaints
 echo "$SCENES scenes from seed $SEED on"
 [ ! -s complaints ] && [ "$(ls -d ./*/ | wc -l)" -eq "$SCENES" ]
