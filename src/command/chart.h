@@ -39,7 +39,7 @@ struct chart {
 /* A new point, all of whose numbers are unknown; there is always room. */
 struct chart_point *chart_add(struct chart *chart, enum family family);
 
-/* Judges chart->answers and, where has_shadow, chart->occluded. */
+/* Judges chart->answers and, where point->has_shadow, chart->occluded. */
 void chart_judge(struct chart *chart, struct chart_point *point);
 
 /* Says what is going on, unless quiet; and keeps a sentence for the page. */
@@ -55,7 +55,7 @@ enum status chart_peers(struct chart *chart) STATUS_MUST_CHECK;
 
 /* ---- chart_table.c, chart_plot.c, chart_page.c ---- */
 
-/* All points, one a line; to be freed. */
+/* All points, one a line; to be finished and freed by the caller. */
 void chart_csv(const struct chart *chart, struct page *out);
 
 /* The front on standard output. */

@@ -1,7 +1,7 @@
 /* Subcommands: what main.c and `pscn help` know of each, and what they share.
  *
- * Results go to stdout, everything else to stderr. A command's run function answers the exit code (enum status, 130 or
- * 143).
+ * Results go to stdout, everything else to stderr. A command's run function answers the exit code: enum status, or
+ * interrupt_exit_code().
  */
 #ifndef PSCN_COMMAND_COMMAND_H
 #define PSCN_COMMAND_COMMAND_H
@@ -54,10 +54,12 @@ typedef enum status command_option_handler(const struct command *command, void *
 /* STATUS_USAGE after telling the error where options are wrong or the number of other arguments is not `count`. The
  * caller ends with command_line_free in any case. */
 enum status command_line_read(const struct command *command, int argc, const char **argv, size_t count,
-                              command_option_handler *handle, void *context, struct command_line *out);
+                              command_option_handler *handle, void *context,
+                              struct command_line *out) STATUS_MUST_CHECK;
 void command_line_free(struct command_line *line);
 
-/* Flushes stdout; STATUS_FILE after telling the error where something was not written. */
+/* Flushes stdout; STATUS_FILE after telling the error where something was not written. Need not be checked where the
+ * command fails anyway. */
 enum status command_finish_output(const struct command *command);
 
 /* Tells why a file was not written, where its status is STATUS_FILE or STATUS_LIMIT (atomic_file.h); answers that

@@ -3,7 +3,8 @@
  *
  * At first a signal ends the process at once. After interrupt_defer it only raises the flag, which long work watches,
  * so that temporary files are removed; the command then answers interrupt_exit_code(). SIGPIPE keeps its default: a
- * reader that goes away ends us.
+ * reader that goes away ends us. A SIGHUP that is ignored when we start, as under nohup, stays ignored; SIGXFSZ is, so
+ * that a file that may grow no further is an error of writing it.
  */
 #ifndef PSCN_COMMAND_INTERRUPT_H
 #define PSCN_COMMAND_INTERRUPT_H
@@ -13,10 +14,11 @@
 /* The number of the signal that came, or 0. */
 extern atomic_int interrupt_signal;
 
+/* Called by main once, before any thread starts. */
 void interrupt_install(void);
 void interrupt_defer(void);
 
-/* 128 + the signal that came. */
+/* 128 + the signal that came; 128 where none has. */
 int interrupt_exit_code(void);
 
 #endif

@@ -15,10 +15,11 @@
 #include "intersect/intersect.h"
 #include "scene/scene.h"
 
+/* All but the last three are set by the caller before povray_open and borrowed until povray_close. */
 struct povray {
   const struct command *command;
   const char *program;        /* looked for along PATH where it has no slash */
-  const char *const *options; /* passed on behind our own; borrowed */
+  const char *const *options; /* passed on behind our own */
   size_t option_count;
   size_t width, height;       /* of pictures, pixels */
   const char *scene_path;     /* its folder is searched for what only POV-Ray includes */

@@ -28,7 +28,7 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE };
   COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"), \
     COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E")
 enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
-                               const char *argument);
+                               const char *argument) STATUS_MUST_CHECK;
 
 /* Reads the scene; the caller destroys it. On failure the errors have been told and *out is NULL. */
 enum status scene_file_load(const struct scene_request *request, struct scene **out) STATUS_MUST_CHECK;

@@ -79,14 +79,14 @@ struct texture {
   struct scene_texture is;
 };
 
-/* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same
- * points or children. */
 /* What the copies of a declared object know of each other. */
 struct sharing {
   size_t uses;     /* how often it is named */
   uint32_t object; /* one more than its index in scene.objects, once it is there */
 };
 
+/* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same
+ * points or children. */
 struct node {
   struct node *next, *first, *last; /* the list it stands in; its own children */
   struct node *outer;               /* while its block is open */

@@ -21,9 +21,9 @@ struct render_options {
 };
 
 struct render_progress {
-  size_t pixels, pixels_total;
-  uint64_t rays; /* primary and shadow rays so far */
-  double seconds;
+  size_t pixels, pixels_total; /* done, and of the crop */
+  uint64_t rays;               /* primary and shadow rays so far */
+  double seconds;              /* of the clock since render_scene was called */
 };
 
 /* How the caller watches. progress is called on the thread that called render_scene, about ten times a second; NULL for
@@ -37,7 +37,7 @@ struct render_watch {
 struct render_stats {
   struct intersect_counts counts; /* rays[0] primary rays, rays[1] shadow rays */
   size_t threads;                 /* that took part */
-  double seconds;
+  double seconds;                 /* of the clock */
 };
 
 /* Renders into out[crop.height][crop.width][channels.width]. The same options give the same values, bit for bit, for

@@ -12,13 +12,13 @@
 
 #include "algebra/solver.h"
 #include "base/arena.h"
-#include "base/status.h"
 
+/* POV-Ray's finish; the formulas stand in render/shade.h. All but the roughness may be negative. */
 struct scene_finish {
-  double ambient[3];
-  double diffuse, brilliance;
-  double phong, phong_size;
-  double specular, roughness;
+  double ambient[3];          /* factor of ambient_light, by colour */
+  double diffuse, brilliance; /* factor, exponent */
+  double phong, phong_size;   /* factor, exponent */
+  double specular, roughness; /* factor, inverse of the exponent, > 0 */
 };
 
 struct scene_texture {
@@ -31,8 +31,9 @@ struct scene_patch {
   uint32_t texture;  /* index into scene.textures */
   uint32_t solver;   /* index into scene.solvers */
   /* Kept for POV-Ray only; they mean nothing to our rays. */
-  int type, u_steps, v_steps;
-  double flatness;
+  int type;             /* 0 or 1 */
+  int u_steps, v_steps; /* 0 to 16: POV-Ray cuts the patch into at most 2^u_steps x 2^v_steps */
+  double flatness;      /* >= 0, scene units */
 };
 
 /* A declared object that stands in the scene more than once: its control nets as declared. */
@@ -50,8 +51,8 @@ struct scene_copy {
 };
 
 struct scene_light {
-  double position[3], color[3];
-  bool shadowless;
+  double position[3], color[3]; /* a part of the colour may be negative */
+  bool shadowless;              /* nothing hides it */
 };
 
 /* Perspective. The primary ray of the point (s,t) of the picture, s and t in [0,1] from the left and top edges, leaves
