@@ -5,7 +5,6 @@
 #ifndef PSCN_BASE_NUMBER_H
 #define PSCN_BASE_NUMBER_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 /* Room for any number written here, with its NUL. */

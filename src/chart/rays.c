@@ -3,7 +3,6 @@
 
 #include <assert.h>
 
-#include "geometry/vector.h"
 #include "render/camera.h"
 #include "render/shade.h"
 #include "render/tile.h"

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/number.h"
 #include "command/chart.h"
 
 static void put_number(struct page *out, double value)

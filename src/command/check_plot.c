@@ -1,6 +1,5 @@
 /* How POV-Ray's answer nears ours with u_steps: two plots with logarithmic axes, as SVG. */
 #include <math.h>
-#include <stdio.h>
 
 #include "command/check.h"
 

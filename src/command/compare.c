@@ -1,7 +1,6 @@
 /* pscn compare A B: the difference of two pictures. */
 #include "image/compare.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

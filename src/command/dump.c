@@ -1,5 +1,4 @@
 /* pscn dump SCENE: the scene as canonical text. */
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 

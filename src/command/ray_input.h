@@ -3,7 +3,6 @@
 #define PSCN_COMMAND_RAY_INPUT_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #include "base/diagnostics.h"
 #include "base/status.h"

@@ -1,7 +1,6 @@
 /* What a run was and did. */
 #include "command/report.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <jansson.h>
 #include <stdlib.h>

@@ -3,7 +3,6 @@
 #define PSCN_COMMAND_REPORT_H
 
 #include <jansson.h>
-#include <stdio.h>
 
 #include "command/command.h"
 #include "command/scene_file.h"

@@ -11,7 +11,6 @@
 #include "command/report.h"
 #include "command/scene_file.h"
 #include "command/stream.h"
-#include "command/values.h"
 #include "language/language.h"
 
 enum { OPTION_STATS = 1, OPTION_QUIET };

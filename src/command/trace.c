@@ -9,7 +9,6 @@
 #include "command/ray_input.h"
 #include "command/report.h"
 #include "command/scene_file.h"
-#include "command/values.h"
 #include "geometry/vector.h"
 #include "intersect/intersect.h"
 

@@ -10,7 +10,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/status.h"
 #include "image/image.h"
 
 /* Which pictures and channels: channel first_channel[k] of `first` is compared with channel second_channel[k] of

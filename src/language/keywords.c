@@ -1,5 +1,4 @@
 /* The words of the language. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "language/tokens.h"

@@ -1,6 +1,5 @@
 /* pscn-embree QUESTION ANSWER: measures Embree on triangles for `pscn chart`, which runs it where it stands beside
  * pscn. The files are those of chart/exchange.h. Every round times pscn's default solver first, as the yardstick. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 /* The face of the language: statuses, settings, solver texts, and texts too long or too deep to stand in a file. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

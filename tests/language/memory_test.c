@@ -5,7 +5,6 @@
  * The linker hands every call of malloc, calloc, realloc and strdup in the library to the functions below.
  */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

@@ -1,7 +1,6 @@
 /* What an answer keeps when the scene is scaled, moved or cut otherwise, when the ray is given otherwise, and when
  * another method finds it. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cmocka_test.h"

@@ -1,6 +1,5 @@
 /* What the answer to a ray may not depend on: the rays beside it, the instruction set, the order of the patches. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "cmocka_test.h"
