@@ -66,14 +66,6 @@ void *arena_alloc(struct arena *arena, size_t count, size_t size)
   return chunk->bytes;
 }
 
-char *arena_copy(struct arena *arena, const char *text, size_t length)
-{
-  if (length == SIZE_MAX) return NULL;
-  char *copy = arena_alloc(arena, length + 1, 1);
-  if (copy && length > 0) memcpy(copy, text, length);
-  return copy;
-}
-
 void arena_destroy(struct arena *arena)
 {
   if (!arena) return;

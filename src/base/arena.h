@@ -16,9 +16,6 @@ struct arena *arena_create(void);
 /* `count` zeroed elements of `size` bytes each, or NULL where memory is short or the product overflows. */
 void *arena_alloc(struct arena *arena, size_t count, size_t size);
 
-/* A copy of the `length` bytes at `text` with a terminating NUL, or NULL where memory is short. */
-char *arena_copy(struct arena *arena, const char *text, size_t length);
-
 /* Frees the arena and all it handed out. NULL is allowed. */
 void arena_destroy(struct arena *arena);
 

@@ -21,7 +21,6 @@ enum {
   CHECK_CODES = 3,       /* the limits 1, 4 and 16 of 255 */
   CHECK_WORST = 8        /* pixels shown magnified */
 };
-extern const int CHECK_CODE[CHECK_CODES];
 
 struct check_request {
   struct scene_request scene;

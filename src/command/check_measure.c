@@ -12,7 +12,7 @@
 #include "render/render.h"
 #include "render/shade.h"
 
-const int CHECK_CODE[CHECK_CODES] = { 1, 4, 16 };
+static const int CODE[CHECK_CODES] = { 1, 4, 16 };
 
 /* Values are multiples of 1/255 rounded to float: a limit of k/255 is passed by those beyond k only. */
 static const double CODE_ROUNDING = 1e-6;
@@ -159,7 +159,7 @@ static void compare_row(const struct check *check, struct check_row *row)
   const double limit = check_limit(check);
   compare_images(&pair, &row->result, NULL, 1);
   for (int k = 0; k < CHECK_CODES; k++)
-    row->over[k] = compare_count_over(&pair, CHECK_CODE[k] / 255.0 + CODE_ROUNDING);
+    row->over[k] = compare_count_over(&pair, CODE[k] / 255.0 + CODE_ROUNDING);
   row->over_limit = compare_count_over(&pair, limit);
   for (size_t y = 0; y < check->height; y++) {
     for (size_t x = 0; x < check->width; x++) {

@@ -8,9 +8,11 @@
 
 #include "base/clock.h"
 
-const struct command *const commands[] = { &command_render,  &command_trace, &command_roots, &command_dump,
-                                           &command_compare, &command_check, &command_chart, &command_help,
-                                           NULL };
+/* In the order of the help text. */
+static const struct command *const commands[] = {
+  &command_render, &command_trace, &command_roots, &command_dump,
+  &command_compare, &command_check, &command_chart, &command_help, NULL
+};
 
 const struct command *command_find(const char *name)
 {

@@ -25,8 +25,7 @@ struct command {
 extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_check,
   command_chart, command_help;
 
-/* All commands, in the order of the help text, ended by NULL; and the one of that name, or NULL. */
-extern const struct command *const commands[];
+/* The command of that name, or NULL. */
 const struct command *command_find(const char *name);
 
 /* The help text of one command, and of all. */

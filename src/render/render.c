@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "base/clock.h"
+
 enum {
   WATCH_NANOSECONDS = 100 * 1000 * 1000, /* between two looks at progress and stop */
   NANOSECONDS = 1000 * 1000 * 1000
@@ -63,15 +65,8 @@ static void *work(void *argument)
   return NULL;
 }
 
-static double seconds_since(const struct timespec *start)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)(now.tv_sec - start->tv_sec) + (double)(now.tv_nsec - start->tv_nsec) / NANOSECONDS;
-}
-
 /* Waits for the last worker, telling progress. */
-static void watch_crew(struct crew *crew, const struct render_watch *watch, const struct timespec *start)
+static void watch_crew(struct crew *crew, const struct render_watch *watch, double start)
 {
   pthread_mutex_lock(&crew->mutex);
   while (crew->running > 0) {
@@ -84,7 +79,7 @@ static void watch_crew(struct crew *crew, const struct render_watch *watch, cons
       const struct render_progress progress = { .pixels = atomic_load(&crew->pixels),
                                                 .pixels_total = crew->job->crop.width * crew->job->crop.height,
                                                 .rays = atomic_load(&crew->rays),
-                                                .seconds = seconds_since(start) };
+                                                .seconds = clock_seconds(CLOCK_MONOTONIC) - start };
       pthread_mutex_unlock(&crew->mutex);
       watch->progress(watch->context, &progress);
       pthread_mutex_lock(&crew->mutex);
@@ -95,7 +90,7 @@ static void watch_crew(struct crew *crew, const struct render_watch *watch, cons
 
 /* Runs the workers to their end. */
 static enum status run_crew(struct crew *crew, size_t count, struct worker workers[], const struct render_watch *watch,
-                            const struct timespec *start)
+                            double start)
 {
   size_t started = 0;
   while (started < count) {
@@ -155,12 +150,23 @@ static bool warm_starts(const struct scene *scene)
   return false;
 }
 
+static void add_counts(struct intersect_counts *sum, const struct intersect_counts *counts)
+{
+  sum->rays[0] += counts->rays[0];
+  sum->rays[1] += counts->rays[1];
+  sum->patches_tested += counts->patches_tested;
+  sum->roots_found += counts->roots_found;
+  sum->roots_accepted += counts->roots_accepted;
+  sum->escalated += counts->escalated;
+  sum->certain += counts->certain;
+  sum->grazing += counts->grazing;
+}
+
 enum status render_scene(const struct scene *scene, const struct intersector *intersector,
                          const struct render_options *options, const struct render_watch *watch, float *out,
                          struct render_stats *out_stats)
 {
-  struct timespec start;
-  clock_gettime(CLOCK_MONOTONIC, &start);
+  const double start = clock_seconds(CLOCK_MONOTONIC);
   *out_stats = (struct render_stats){ 0 };
   const struct tile_job job = { .scene = scene,
                                 .width = options->width,
@@ -182,30 +188,18 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   if (status == STATUS_OK)
     status = crew_synchronise(&crew);
   if (status == STATUS_OK) {
-    status = run_crew(&crew, count, workers, watch, &start);
+    status = run_crew(&crew, count, workers, watch, start);
     pthread_cond_destroy(&crew.ended);
     pthread_mutex_destroy(&crew.mutex);
   }
   for (size_t k = 0; k < count && workers != NULL; k++) {
     if (workers[k].tracer == NULL)
       continue;
-    render_add_counts(&out_stats->counts, tracer_counts(workers[k].tracer));
+    add_counts(&out_stats->counts, tracer_counts(workers[k].tracer));
     tracer_destroy(workers[k].tracer);
   }
   free(workers);
   out_stats->threads = count;
-  out_stats->seconds = seconds_since(&start);
+  out_stats->seconds = clock_seconds(CLOCK_MONOTONIC) - start;
   return status;
-}
-
-void render_add_counts(struct intersect_counts *sum, const struct intersect_counts *counts)
-{
-  sum->rays[0] += counts->rays[0];
-  sum->rays[1] += counts->rays[1];
-  sum->patches_tested += counts->patches_tested;
-  sum->roots_found += counts->roots_found;
-  sum->roots_accepted += counts->roots_accepted;
-  sum->escalated += counts->escalated;
-  sum->certain += counts->certain;
-  sum->grazing += counts->grazing;
 }

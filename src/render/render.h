@@ -50,7 +50,4 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
 /* How many processors this process may use, at least 1. */
 size_t render_processors(void);
 
-/* Adds the counts of one tracer to a sum. */
-void render_add_counts(struct intersect_counts *sum, const struct intersect_counts *counts);
-
 #endif
