@@ -4,7 +4,6 @@
 #include <stdalign.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
   FIRST_CHUNK_BYTES = 4096,

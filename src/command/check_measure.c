@@ -1,7 +1,6 @@
 /* The measurements of `pscn check`. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/sort.h"
 #include "command/check.h"

@@ -1,6 +1,5 @@
 /* pscn dump SCENE: the scene as canonical text. */
 #include <math.h>
-#include <string.h>
 
 #include "command/command.h"
 #include "command/scene_file.h"

@@ -1,6 +1,5 @@
 /* What is proven of one ray and one leaf: the plane polynomials' error bound, and the Newton-Kantorovich test. */
 #include <math.h>
-#include <string.h>
 
 #include "cmocka_test.h"
 #include "intersect/refine.h"
