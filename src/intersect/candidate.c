@@ -1,7 +1,8 @@
 /* The scene's own method on one candidate: resultant, roots, back-substitution (paper 2.1 and 2.2).
  *
  * Everything a `solver` statement can choose happens here: the basis, the determinant, the solver, its start, and
- * how v follows from u. What comes out are starting points; with `polish on` the caller proves them.
+ * how v follows from u. What comes out are starting points; with `polish on` the caller proves them. `solver aberth`
+ * without items that change its numbers has a way of its own on all lanes at once, all_roots.h.
  */
 #include <math.h>
 

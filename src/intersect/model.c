@@ -95,6 +95,15 @@ static bool fast_method(const struct solver_options *s)
          s->back_substitution == BACK_SUBSTITUTION_NULL_VECTOR && s->polish;
 }
 
+/* Aberth's method as it is by default, its roots to start from only, is done on lanes too. */
+static bool all_roots_method(const struct solver_options *s)
+{
+  const struct solver *aberth = solver_find("aberth", sizeof "aberth" - 1);
+  return s->solver == aberth && s->basis == BASIS_BERNSTEIN && s->resultant == RESULTANT_BEZOUT &&
+         s->back_substitution == BACK_SUBSTITUTION_NULL_VECTOR && s->polish && s->radii == RADII_POLYGON &&
+         s->stop == STOP_ROUNDING && s->update == UPDATE_GAUSS_SEIDEL && s->rest;
+}
+
 /* The frame of the hierarchy, and the patches' own. */
 static void prepare_patches(struct model *model)
 {
@@ -120,7 +129,8 @@ static void prepare_patches(struct model *model)
     struct model_patch *patch = &model->patches[p];
     patch_frame(source->P, size, patch);
     patch->solver = &scene->solvers[source->solver];
-    patch->lanes = fast_method(patch->solver);
+    patch->all_roots = all_roots_method(patch->solver);
+    patch->lanes = patch->all_roots || fast_method(patch->solver);
     model->unproven |= !patch->solver->polish;
   }
 }

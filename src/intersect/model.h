@@ -30,7 +30,8 @@ struct model_patch {
   double x[3][4][4]; /* local control net, x[coordinate][i][j], |x| <= 1 */
   int m, n;          /* true bidegree in u, v */
   int split;         /* cut into split x split leaves */
-  bool lanes;        /* default method: tried on a lane of rays at once */
+  bool lanes;        /* default method, or all_roots: tried on a lane of rays at once */
+  bool all_roots;    /* aberth, improved and polished: all roots of r are tried */
   bool copied;       /* its leaves are those of the object it is copied from; then m and n mean nothing */
   double loose;      /* how far off its surface a ray may be met by those, in the scene; 0 where not copied */
   const struct solver_options *solver;

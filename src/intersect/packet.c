@@ -10,10 +10,12 @@
  *      of a nearly bilinear leaf before that the resultant of its corners, of degree 2, only for a start;
  *   3. that root by Newton from the control polygon of r, v from the null vector, both by Newton on (a, b);
  *   4. the Newton-Kantorovich test: one root, here, and no other in the leaf.
- * What is left goes lane by lane to subdivision; with another solver than the default to that first (candidate.c).
+ * With Aberth's method instead of 3 and 4 all roots of r, and boxes (all_roots.h). What is left goes lane by lane to
+ * subdivision; with another solver to that first (candidate.c).
  */
 #include <math.h>
 
+#include "intersect/all_roots.h"
 #include "intersect/leaf.h"
 #include "intersect/packet.h"
 #include "intersect/refine.h"
@@ -264,7 +266,7 @@ static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
   candidate_solve(tracer, t->leaf, a, b, t->form_error[lane], &roots);
   if (!t->patch->solver->polish) {
     for (int n = 0; n < roots.count; n++) {
-      const struct refined r = {lanes_all(roots.u[n]), lanes_all(roots.v[n]), {0}, {0}, {0}, {0}};
+      const struct refined r = {lanes_all(roots.u[n]), lanes_all(roots.v[n]), {0}, {0}, {0}, {0}, {0}, {0}};
       if (!(roots.u[n] >= 0 && roots.u[n] <= 1 && roots.v[n] >= 0 && roots.v[n] <= 1)) continue;
       struct leaf_hit root = packet_root(p, lane, t, &r, 0, trial_place(t, r.u, r.v)[0]);
       root.certain = false;
@@ -273,13 +275,6 @@ static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
     return;
   }
   if (!lane_prove(p, t, lane, &roots)) lane_subdivide(p, t, lane);
-}
-
-/* t within [0,1], or the middle where it is not a number. */
-LANES_INLINE lanes start_within(lanes t)
-{
-  t = lanes_select(t == t, t, lanes_all(0.5));
-  return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1));
 }
 
 /* Stages 3 and 4. Lanes that are left undecided. Where r has several sign variations, the start is one of its roots,
@@ -311,6 +306,17 @@ static lane_mask trial_bilinear(struct packet *p, const struct trial *t, lane_ma
   return active & ~r.alone;
 }
 
+/* Stages 3 and 4 with all roots of r. Lanes that are left undecided. */
+static lane_mask trial_all_roots(struct packet *p, const struct trial *t, lane_mask active)
+{
+  struct all_roots all;
+  if (!lanes_any(active)) return active;
+  const lane_mask decided = all_roots_find(p, t, active, &all);
+  for (int k = 0; k < all.count; k++)
+    packet_offer_lanes(p, t, &all.root[k], decided & all.proven[k] & inside(&all.root[k]));
+  return active & ~decided;
+}
+
 static void packet_try(struct packet *p, struct trial *t, lane_mask active)
 {
   const bool paper = !t->patch->solver->polish;
@@ -330,7 +336,7 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   lane_mask left = active;
   t->variations = lanes_all(-1);
   if (t->patch->solver->polish) left = trial_resultant(t, active);
-  if (t->patch->lanes) left = trial_first_root(p, t, left);
+  if (t->patch->lanes) left = t->patch->all_roots ? trial_all_roots(p, t, left) : trial_first_root(p, t, left);
   for (unsigned bits = lanes_bits(left); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     /* The only root of r has been tried already; and where the root of a nearly bilinear leaf was not proven to be

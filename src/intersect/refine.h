@@ -22,6 +22,8 @@ struct refined {
   lanes radius_u, radius_v; /* the exact root is within */
   lane_mask exists;         /* exactly one root of the exact polynomials within the radii */
   lane_mask alone;          /* and no other in the leaf */
+  lanes size;               /* |M|, see refine() */
+  lanes bend;               /* K (|step| + e), half of how far M J is at most from 1 at the root */
 };
 
 /* The process stops where its next step would be no longer than this, in leaf parameters: it converges
@@ -31,6 +33,11 @@ struct refined {
 /* What stands for s at the first step, as if the start were that near: it has to be a hit by itself to be the last. */
 #define NEWTON_START 0x1p-18
 enum { NEWTON_MAX_STEPS = 10 };
+
+/* Where q (below) is less than this, half of it is less than M can take. 1.9 instead of 2: room for the rounding of q
+ * and for the Jacobian being taken next to the root. That is off by the last step, at most 2^-16 of the leaf after a
+ * step of 1, and K <= 2 q, so M J is within 2^-14 of what it is at the root. */
+#define ALONE_BOUND 1.9
 
 LANES_INLINE void refine_weights(lanes t, lanes w[4], lanes dw[4])
 {
@@ -76,7 +83,7 @@ LANES_INLINE lanes refine_row_length(lanes p, lanes q, const lanes slope[2])
 LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v,
                                    lane_mask active)
 {
-  struct refined r = {u, v, {0}, {0}, {0}, {0}};
+  struct refined r = {u, v, {0}, {0}, {0}, {0}, {0}, {0}};
   lanes step = lanes_all(NEWTON_START), mua = {0}, mub = {0}, mva = {0}, mvb = {0};
   lane_mask moving = active, settled = {0};
   for (int n = 0; n < NEWTON_MAX_STEPS && lanes_any(moving); n++) {
@@ -108,10 +115,8 @@ LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct l
   const lanes reach_u = 0.5 + lanes_abs(r.u - 0.5), reach_v = 0.5 + lanes_abs(r.v - 0.5);
   const lanes q = size *
                   ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
-  /* 1.9 instead of 2: room for the rounding of q and for the Jacobian being taken next to the root. That is off by
-   * the last step, at most 2^-16 of the leaf after a step of 1, and K <= 2 q, so M J is within 2^-14 of what it is
-   * at the root. */
-  r.alone = r.exists & (q < 1.9);
+  r.alone = r.exists & (q < ALONE_BOUND);
+  r.size = size, r.bend = lipschitz * beta;
   return r;
 }
 

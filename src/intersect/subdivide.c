@@ -152,7 +152,7 @@ static bool box_solve(struct box *box, const double error[2], double root[2], do
     const double su = m[0][0] * a.value + m[0][1] * b.value, sv = m[1][0] * a.value + m[1][1] * b.value;
     step = real_max(fabs(su), fabs(sv));
     u -= su, v -= sv;
-    if (!(fabs(u - 0.5) < 2 && fabs(v - 0.5) < 2)) return false;
+    if (!(fabs(u - 0.5) < 1 && fabs(v - 0.5) < 1)) return false;
   }
   if (!(step <= LAST_STEP)) return false;
   const double out_u = real_max(-u, u - 1), out_v = real_max(-v, v - 1);

@@ -222,6 +222,13 @@ static lanes trial_eliminated(const struct trial *t, lanes kept)
   return lanes_select(first, num[0], num[1]) / lanes_select(first, den[0], den[1]);
 }
 
+/* t within [0,1], or the middle where it is not a number. */
+LANES_INLINE lanes start_within(lanes t)
+{
+  t = lanes_select(t == t, t, lanes_all(0.5));
+  return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1));
+}
+
 /* x_k of the points (u,v). */
 static lanes trial_place(const struct trial *t, lanes u, lanes v)
 {

@@ -1,0 +1,163 @@
+/* All roots of r by Aberth's method on all lanes of a packet at once, and what can be proven of them.
+ *
+ * Internal to src/intersect; included by packet.c. This is candidate.c's task, and lane_prove's, for the method that
+ * `solver aberth` means where its roots are only to start from: see all_roots_method in model.c.
+ */
+#ifndef PSCN_INTERSECT_ALL_ROOTS_H
+#define PSCN_INTERSECT_ALL_ROOTS_H
+
+#include "intersect/cover.h"
+
+#include "algebra/aberth_lanes.h"
+
+/* How many roots near [0,1] a lane may try: of 18, more are real in [0,1] next to never. How often the leaf is halved
+ * to see that the ray passes it by before any root is sought. Choices of speed. */
+enum { TRIED_ROOTS = 8, MISS_HALVINGS = 3 };
+
+/* The roots tried, k-th of every lane. */
+struct all_roots {
+  int count;
+  struct refined root[TRIED_ROOTS];
+  lane_mask proven[TRIED_ROOTS]; /* a root that none before it is */
+};
+
+static struct solver_warm *all_roots_warm(const struct packet *p, const struct trial *t)
+{
+  struct tracer *tracer = p->tracer;
+  if (t->patch->solver->start != START_PREVIOUS || !tracer->warm || p->model != tracer->model) return NULL;
+  struct warm_leaf *warm = &tracer->warm[t->number];
+  if (warm->epoch != tracer->epoch) warm->warm.count = 0, warm->epoch = tracer->epoch;
+  return &warm->warm;
+}
+
+/* Start values on the lanes of `active`: the roots kept, taken off the real axis, or cold. */
+static void all_roots_start(struct aberth_lanes *a, const struct solver_warm *warm, lane_mask active)
+{
+  if (warm && warm->count == a->degree) {
+    for (int k = 0; k < a->degree; k++) {
+      const double lift = fabs(warm->im[k]) < ABERTH_LIFT ? (k % 2 ? ABERTH_LIFT : -ABERTH_LIFT) : 0;
+      a->zr[k] = lanes_all(2 * warm->re[k] - 1), a->zi[k] = lanes_all(2 * warm->im[k] + lift);
+    }
+    return;
+  }
+  for (int k = 0; k < a->degree; k++) a->zr[k] = a->zi[k] = lanes_all(1);
+  for (unsigned bits = lanes_bits(active); bits; bits &= bits - 1) aberth_lanes_start(a, (unsigned)__builtin_ctz(bits));
+}
+
+/* Keeps the roots on one of the lanes for the next rays. */
+static void all_roots_keep(const struct aberth_lanes *a, lane_mask done, struct solver_warm *warm)
+{
+  const unsigned bits = lanes_bits(done);
+  if (!warm) return;
+  warm->count = bits ? a->degree : 0;
+  if (!bits) return;
+  const unsigned lane = 31 - (unsigned)__builtin_clz(bits);
+  for (int k = 0; k < a->degree; k++)
+    warm->re[k] = 0.5 + 0.5 * a->zr[k][lane], warm->im[k] = 0.5 * a->zi[k][lane];
+}
+
+/* The roots near [0,1], collected lane by lane: kept[k] the k-th of every lane, has[k] where there is one. */
+static int all_roots_near(const struct aberth_lanes *a, lane_mask done, lanes kept[TRIED_ROOTS],
+                          lane_mask has[TRIED_ROOTS])
+{
+  int counts[LANES] = {0}, most = 0;
+  for (int k = 0; k < TRIED_ROOTS; k++) kept[k] = lanes_all(0.5), has[k] = (lane_mask){0};
+  for (int i = 0; i < a->degree; i++) {
+    const lane_mask near = (lanes_abs(a->zi[i]) <= ABERTH_MARGIN) & (lanes_abs(a->zr[i]) <= 1 + ABERTH_MARGIN);
+    for (unsigned bits = lanes_bits(done & near); bits; bits &= bits - 1) {
+      const unsigned lane = (unsigned)__builtin_ctz(bits);
+      if (counts[lane] == TRIED_ROOTS) continue;
+      const int k = counts[lane]++;
+      kept[k][lane] = 0.5 + 0.5 * a->zr[i][lane], has[k][lane] = -1;
+      most = most > counts[lane] ? most : counts[lane];
+    }
+  }
+  return most;
+}
+
+/* Makes the roots exact and proven. Returns the lanes that are decided: one root is alone in the leaf, or there are
+ * as many as r has sign variations. */
+static lane_mask all_roots_prove(const struct trial *t, int count, const lanes kept[], const lane_mask has[],
+                                 struct all_roots *all)
+{
+  const bool v_kept = t->leaf->v_kept;
+  lane_mask alone = {0};
+  lanes found = {0}, within = {0};
+  all->count = count;
+  for (int k = 0; k < count; k++) {
+    struct refined *r = &all->root[k];
+    lane_mask *proven = &all->proven[k];
+    *proven = (lane_mask){0};
+    const lane_mask open = has[k] & ~alone;
+    *r = (struct refined){.exists = {0}};
+    if (!lanes_any(open)) continue;
+    const lanes at = start_within(kept[k]), other = start_within(trial_eliminated(t, at));
+    *r = refine(&t->nets, t->leaf, v_kept ? other : at, v_kept ? at : other, open);
+    *proven = open & r->exists;
+    for (int j = 0; j < k; j++) {
+      const struct refined *old = &all->root[j];
+      const lane_mask same = all->proven[j] & (lanes_abs(old->u - r->u) <= old->radius_u + r->radius_u) &
+                             (lanes_abs(old->v - r->v) <= old->radius_v + r->radius_v);
+      *proven &= ~same;
+    }
+    const lanes place = v_kept ? r->v : r->u, radius = v_kept ? r->radius_v : r->radius_u;
+    found += lanes_select(*proven, lanes_all(1), lanes_all(0));
+    within += lanes_select(*proven & (place > radius) & (place < 1 - radius), lanes_all(1), lanes_all(0));
+    /* whatever else was found is this root again */
+    const lane_mask only = open & r->alone;
+    for (int j = 0; j < k; j++) all->proven[j] &= ~only;
+    *proven |= only;
+    alone |= only;
+  }
+  return alone | ((found > 0) & (within == t->variations));
+}
+
+/* The same for lanes that this leaves open, by boxes. */
+static lane_mask all_roots_cover(const struct trial *t, const struct all_roots *all, lane_mask open)
+{
+  struct known_root known[TRIED_ROOTS];
+  int count = 0;
+  for (int k = 0; k < all->count; k++) {
+    const struct refined *r = &all->root[k];
+    const lane_mask proven = all->proven[k] & open;
+    if (lanes_any(proven)) known[count++] = (struct known_root){r->u, r->v, r->size, r->bend, proven};
+  }
+  return cover_proves(t, count, known, COVER_HALVINGS, open);
+}
+
+/* The roots of r near [0,1] on the lanes of `active`, as starts: see all_roots_near. */
+static int all_roots_solve(struct packet *p, const struct trial *t, lane_mask active, lanes kept[TRIED_ROOTS],
+                           lane_mask has[TRIED_ROOTS])
+{
+  const struct solver_options *options = t->patch->solver;
+  struct aberth_lanes a;
+  active &= aberth_lanes_set(&a, t->degree, t->c);
+  if (!lanes_any(active)) return 0;
+  struct solver_warm *warm = all_roots_warm(p, t);
+  all_roots_start(&a, warm, active);
+  const double settled = options->tolerance > ABERTH_SETTLED ? options->tolerance : ABERTH_SETTLED;
+  const lane_mask done = aberth_lanes_run(&a, active, settled, options->max_iterations);
+  all_roots_keep(&a, done, warm);
+  p->tracer->counts.roots_found += (unsigned)(a.degree * __builtin_popcount(lanes_bits(done)));
+  return all_roots_near(&a, done, kept, has);
+}
+
+/* The lanes of `active` that are decided, and their roots. */
+static lane_mask all_roots_find(struct packet *p, const struct trial *t, lane_mask active, struct all_roots *all)
+{
+  lanes kept[TRIED_ROOTS];
+  lane_mask has[TRIED_ROOTS];
+  all->count = 0;
+  if (t->degree < 1) return (lane_mask){0};
+  /* One sign variation is a root, which mostly is a hit. */
+  const lane_mask doubtful = active & (t->variations != 1);
+  lane_mask decided = {0};
+  if (lanes_any(doubtful)) decided = cover_proves(t, 0, NULL, MISS_HALVINGS, doubtful);
+  if (!lanes_any(active & ~decided)) return decided;
+  const int count = all_roots_solve(p, t, active & ~decided, kept, has);
+  decided |= all_roots_prove(t, count, kept, has, all);
+  if (lanes_any(active & ~decided)) decided |= all_roots_cover(t, all, active & ~decided);
+  return decided;
+}
+
+#endif

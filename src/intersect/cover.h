@@ -1,0 +1,128 @@
+/* Whether known roots are all that a leaf has: on all lanes at once, by boxes that cover it.
+ *
+ * Internal to src/intersect; included by packet.c. A box of parameters is cleared where a plane polynomial or one of
+ * the combinations that aim along u and v keeps one sign on its net (as trial_planes and trial_aligned do with the
+ * leaf's), or where a proven root is alone on the box and itself together, by the test of refine.h. Other boxes are
+ * halved. What subdivide.c does for one ray in the last resort; this ends most cases before.
+ */
+#ifndef PSCN_INTERSECT_COVER_H
+#define PSCN_INTERSECT_COVER_H
+
+#include <string.h>
+
+#include "intersect/trial.h"
+
+/* Choices of speed: a lane that needs more is better off by itself, for few others do. */
+enum { COVER_HALVINGS = 16, COVER_SPLITS = 160 };
+
+/* A proven root of every lane, in the order they were found. */
+struct known_root {
+  lanes u, v, size, bend; /* refine.h */
+  lane_mask proven;
+};
+
+struct cover_box {
+  lanes a[16], b[16];
+  double u, v, size_u, size_v; /* in leaf parameters */
+  int halvings;
+  lane_mask open;
+};
+
+/* The lanes of `open` on which the root is not alone on the box and itself together. As in refine(), but the box may
+ * be small against K: M J at the root is off from 1 by 2 bend, which counts twice against a bound on q, and the root
+ * by 2 (|step| + e) from where q takes it, which may make q larger by 2 bend. */
+LANES_INLINE lane_mask cover_unknown(const struct leaf *leaf, const struct cover_box *box,
+                                     const struct known_root *root, lane_mask open)
+{
+  const lanes reach_u = lanes_max(root->u - box->u, (box->u + box->size_u) - root->u);
+  const lanes reach_v = lanes_max(root->v - box->v, (box->v + box->size_v) - root->v);
+  const lanes q = root->size * ((leaf->second[0] + leaf->second[1]) * reach_u +
+                                (leaf->second[1] + leaf->second[2]) * reach_v);
+  return open & ~(root->proven & (q + 6 * root->bend < ALONE_BOUND));
+}
+
+/* The cubic at c[0], c[stride] ... into its halves. */
+LANES_INLINE void cover_halve(const lanes *c, int stride, lanes *low, lanes *high)
+{
+  const lanes c0 = c[0], c1 = c[stride], c2 = c[2 * stride], c3 = c[3 * stride];
+  const lanes q0 = 0.5 * (c0 + c1), q1 = 0.5 * (c1 + c2), q2 = 0.5 * (c2 + c3);
+  const lanes r0 = 0.5 * (q0 + q1), r1 = 0.5 * (q1 + q2), s = 0.5 * (r0 + r1);
+  low[0] = c0, low[stride] = q0, low[2 * stride] = r0, low[3 * stride] = s;
+  high[0] = s, high[stride] = r1, high[2 * stride] = q2, high[3 * stride] = c3;
+}
+
+/* Halves the box across the parameter along which it is longer: not as seen along the ray, so that a lane's boxes do
+ * not depend on its neighbours. */
+static void cover_split(const struct leaf *leaf, const struct cover_box *box, struct cover_box out[2])
+{
+  const bool across_u = leaf->first[0] * box->size_u >= leaf->first[1] * box->size_v;
+  for (int h = 0; h < 2; h++) {
+    out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
+    if (across_u) out[h].size_u /= 2, out[h].u += h * out[h].size_u;
+    else out[h].size_v /= 2, out[h].v += h * out[h].size_v;
+    out[h].halvings = box->halvings + 1, out[h].open = box->open;
+  }
+  for (int n = 0; n < 4; n++) {
+    const int at = across_u ? n : 4 * n, stride = across_u ? 4 : 1;
+    cover_halve(box->a + at, stride, out[0].a + at, out[1].a + at);
+    cover_halve(box->b + at, stride, out[0].b + at, out[1].b + at);
+  }
+}
+
+/* The lanes of `open` where neither a nor b nor a combination of them keeps one sign on the box. `size` bounds the
+ * coefficients, `error` what they are off by; a combination has three roundings of its own. */
+LANES_INLINE lane_mask cover_full(const struct cover_box *box, lanes size, lanes error, lane_mask open)
+{
+  const lanes *a = box->a, *b = box->b;
+  const lanes au = (a[13] + a[14]) - (a[1] + a[2]), av = (a[7] + a[11]) - (a[4] + a[8]);
+  const lanes bu = (b[13] + b[14]) - (b[1] + b[2]), bv = (b[7] + b[11]) - (b[4] + b[8]);
+  lanes low[4], high[4];
+  for (int n = 0; n < 16; n++) {
+    const lanes value[4] = {a[n], b[n], bv * a[n] - av * b[n], au * b[n] - bu * a[n]};
+    for (int k = 0; k < 4; k++)
+      low[k] = n ? lanes_min(value[k], low[k]) : value[k], high[k] = n ? lanes_max(value[k], high[k]) : value[k];
+  }
+  const lanes e = error + 8 * UNIT_ROUNDOFF * size;
+  const lanes errors[4] = {error, error, e * (lanes_abs(bv) + lanes_abs(av)), e * (lanes_abs(au) + lanes_abs(bu))};
+  for (int k = 0; k < 4; k++) open &= (low[k] <= errors[k]) & (high[k] >= -errors[k]);
+  return open;
+}
+
+/* The lanes of `open` on which all of the leaf's roots are among `roots`. */
+static lane_mask cover_proves(const struct trial *t, int count, const struct known_root roots[], int halvings,
+                              lane_mask open)
+{
+  struct cover_box stack[COVER_HALVINGS + 2];
+  struct cover_box *whole = &stack[0];
+  memcpy(whole->a, t->nets.a, sizeof whole->a), memcpy(whole->b, t->nets.b, sizeof whole->b);
+  whole->u = whole->v = 0, whole->size_u = whole->size_v = 1, whole->halvings = 0, whole->open = open;
+  lanes size = {0};
+  for (int n = 0; n < 16; n++) size = lanes_max(lanes_max(lanes_abs(t->nets.a[n]), lanes_abs(t->nets.b[n])), size);
+  int top = 1;
+  lanes splits = lanes_all(COVER_SPLITS);
+  while (top > 0) {
+    struct cover_box box = stack[--top];
+    box.open &= open;
+    if (!lanes_any(box.open)) continue;
+    splits -= lanes_select(box.open, lanes_all(1), lanes_all(0));
+    open &= ~(box.open & (splits < 0));
+    if (box.halvings == halvings) open &= ~box.open;
+    box.open &= open;
+    if (!lanes_any(box.open)) continue;
+    cover_split(t->leaf, &box, &stack[top]);
+    /* each halving adds three roundings, of values of the leaf's size */
+    const lanes error = t->nets.error + (box.halvings + 1) * 4 * UNIT_ROUNDOFF * size;
+    const int first = top;
+    for (int h = 0; h < 2; h++) {
+      struct cover_box *half = &stack[first + h];
+      for (int k = 0; k < count; k++) half->open = cover_unknown(t->leaf, half, &roots[k], half->open);
+      if (lanes_any(half->open)) half->open = cover_full(half, size, error, half->open);
+      if (!lanes_any(half->open)) continue;
+      if (top != first + h) stack[top] = *half;
+      top++;
+    }
+  }
+  return open;
+}
+
+#endif

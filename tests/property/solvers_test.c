@@ -1,0 +1,120 @@
+/* Aberth's method on lanes (all_roots.h), whole patches: its answers are the default's, and a ray's answer does not
+ * depend on the rays beside it. */
+#include <math.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "property/world.h"
+
+enum { SEED = 20240521, SCENES = 4, RAYS = 160 };
+
+static struct solver_options aberth(enum start start, int split)
+{
+  struct solver_options options;
+  solver_options_default(solver_find("aberth", 6), &options);
+  options.start = start, options.split = split;
+  return options;
+}
+
+static void answer(struct world *world, const struct ray rays[RAYS], struct hit hits[RAYS])
+{
+  for (size_t n = 0; n < RAYS; n += PACKET_SIZE) tracer_closest(world->tracer, PACKET_SIZE, rays + n, hits + n);
+}
+
+/* The paths may round differently: as packets_test.c has it of kernels. Hits at one t may be of either patch. */
+#define PATH_T 1e-13
+
+static bool same_answer(const struct ray *ray, const struct hit *a, const struct hit *b)
+{
+  if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
+  if (a->patch == HIT_NONE || b->patch == HIT_NONE) return a->patch == b->patch;
+  const double *d = ray->direction, size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const double steep = fabs(d[0] * a->normal[0] + d[1] * a->normal[1] + d[2] * a->normal[2]) / size;
+  return fabs(a->t - b->t) * steep <= PATH_T * fmax(a->t, 1 / size);
+}
+
+static int certain_hits(const struct hit hits[RAYS])
+{
+  int count = 0;
+  for (int n = 0; n < RAYS; n++) count += hits[n].patch != HIT_NONE && hits[n].certainty == CERTAINTY_CERTAIN;
+  return count;
+}
+
+static void answers_are_the_defaults(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *name;
+    enum start start;
+    int split;
+  } ways[] = {
+    {"cold", START_COLD, 1}, {"warm", START_PREVIOUS, 1}, {"leaves", START_COLD, 0}, {"few", START_PREVIOUS, 2}};
+  enum { WAYS = sizeof ways / sizeof ways[0] };
+  struct random random = {SEED};
+  int wrong = 0, certain[1 + WAYS] = {0};
+  uint64_t escalated[1 + WAYS] = {0};
+  for (int scene = 0; scene < SCENES * WORLD_KINDS; scene++) {
+    static world_net nets[WORLD_MAX];
+    static struct ray rays[RAYS];
+    static struct hit want[RAYS], got[RAYS];
+    const int kind = scene % WORLD_KINDS;
+    const size_t count = world_fill((enum world_kind)kind, &random, nets);
+    for (int n = 0; n < RAYS; n++) rays[n] = world_ray(&random, nets, count, n % RAY_KINDS);
+    for (int way = 0; way <= WAYS; way++) {
+      struct world world;
+      const int w = way > 0 ? way - 1 : 0;
+      const struct solver_options options = aberth(ways[w].start, ways[w].split);
+      world_open(&world, nets, count, way > 0 ? &options : NULL);
+      answer(&world, rays, way > 0 ? got : want);
+      certain[way] += certain_hits(way > 0 ? got : want);
+      escalated[way] += tracer_counts(world.tracer)->escalated;
+      world_close(&world);
+      for (int n = 0; way > 0 && n < RAYS; n++)
+        if (!same_answer(&rays[n], &got[n], &want[n]) && wrong++ < 5)
+          world_print_case(ways[way - 1].name, kind, &rays[n], &want[n], &got[n]);
+    }
+  }
+  print_message("certain hits, undecided by lanes: default %d, %d", certain[0], (int)escalated[0]);
+  for (int way = 1; way <= WAYS; way++)
+    print_message("; %s %d, %d", ways[way - 1].name, certain[way], (int)escalated[way]);
+  print_message("\n");
+  assert_int_equal(wrong, 0);
+  /* Not vacuous: most rays hit for certain, and what is certain does not become doubtful. */
+  assert_true(certain[0] > SCENES * WORLD_KINDS * RAYS / 4);
+  for (int way = 1; way <= WAYS; way++) assert_true(certain[way] >= certain[0] - certain[0] / 500);
+}
+
+static void answers_do_not_depend_on_companions(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 1};
+  int wrong = 0;
+  for (int scene = 0; scene < SCENES * WORLD_KINDS; scene++) {
+    static world_net nets[WORLD_MAX];
+    static struct ray rays[RAYS];
+    static struct hit hits[RAYS];
+    const struct solver_options options = aberth(START_COLD, 1);
+    const int kind = scene % WORLD_KINDS;
+    const size_t count = world_fill((enum world_kind)kind, &random, nets);
+    struct world world;
+    world_open(&world, nets, count, &options);
+    for (int n = 0; n < RAYS; n++) rays[n] = world_ray(&random, nets, count, n % RAY_KINDS);
+    answer(&world, rays, hits);
+    for (int n = 0; n < RAYS; n++) {
+      const struct hit alone = world_closest(&world, &rays[n]);
+      if (!same_hit(&alone, &hits[n]) && wrong++ < 5) world_print_case("companions", kind, &rays[n], &alone, &hits[n]);
+    }
+    world_close(&world);
+  }
+  assert_int_equal(wrong, 0);
+}
+
+int main(void)
+{
+  print_message("seed %d\n", SEED);
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(answers_are_the_defaults),
+    cmocka_unit_test(answers_do_not_depend_on_companions),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
