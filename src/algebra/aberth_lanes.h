@@ -33,6 +33,9 @@ enum { ABERTH_LANES_DEGREE = 18 };
 #define ABERTH_CALM 0.0625
 /* Values are kept within this; roots beyond are as good as at infinity. */
 #define ABERTH_FAR 0x1p20
+/* p[k] is off by some roundings of C(n,k) sum |c|. Highest powers below this much of that are noise, and their roots,
+ * far away, of nobody's interest. */
+#define ABERTH_NOISE 0x1p-48
 /* A real value can only move along the real axis: previous roots are taken off it by this much. */
 #define ABERTH_LIFT 0x1p-10
 
@@ -58,7 +61,7 @@ LANES_INLINE lanes aberth_lanes_inverse(lanes x)
 /* sum c[k] u^k (1-u)^(n-k) times 2^n in powers of y, scaled. Lanes where that can be done. */
 static lane_mask aberth_lanes_set(struct aberth_lanes *a, int n, const lanes c[])
 {
-  lanes *p = a->p, largest = {0};
+  lanes *p = a->p, largest = {0}, sum = {0};
   double choose[ABERTH_LANES_DEGREE + 1]; /* (-1)^j C(n-k,j) */
   a->degree = n;
   choose[0] = 1;
@@ -71,7 +74,12 @@ static lane_mask aberth_lanes_set(struct aberth_lanes *a, int n, const lanes c[]
     for (int j = m - 1; j > 0; j--) p[j] = (p[j] + p[j - 1]) + choose[j] * c[k];
     p[0] += c[k];
   }
-  for (int k = 0; k <= n; k++) largest = lanes_max(lanes_abs(p[k]), largest);
+  for (int k = 0; k <= n; k++) sum += lanes_abs(c[k]), largest = lanes_max(lanes_abs(p[k]), largest);
+  lane_mask noise = ~(lane_mask){0};
+  for (int k = n; k > 0 && lanes_any(noise); k--) { /* choose[j] is C(n,j) but for the sign */
+    noise &= lanes_abs(p[k]) <= ABERTH_NOISE * fabs(choose[k]) * sum;
+    p[k] = lanes_select(noise, lanes_all(0), p[k]);
+  }
   const lane_mask able = (largest > 0x1p-500) & (largest < 0x1p500);
   const lanes scale = 1 / lanes_select(able, largest, lanes_all(1));
   for (int k = 0; k <= n; k++) p[k] *= scale;
