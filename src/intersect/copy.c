@@ -58,7 +58,7 @@ void packet_leave(const struct packet *inner)
   best->t = lanes_select(taken, t, best->t);
   best->patch = (taken & found->patch) | (~taken & best->patch),
   best->leaf = (taken & found->leaf) | (~taken & best->leaf);
-  best->certain |= taken, best->sharp &= ~taken;
+  best->certain |= taken, best->sharp &= ~taken, best->final &= ~taken;
   const lanes far = (inner->shift + inner->t_far) +
                     4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));
   outer->t_far = lanes_select(taken, lanes_min(far, outer->t_far), outer->t_far);

@@ -51,18 +51,6 @@ static bool passes_border(const struct model *model, uint32_t index, unsigned bo
   return here * there == -1;
 }
 
-/* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the
- * sum; in each coordinate, so up to sqrt(3) of it in distance. `tangent` bounds the derivatives' coordinates. */
-#define POINT_ERROR(scale, tangent, magnitude) \
-  (2 * ((12 + 2 * (tangent)) * UNIT_ROUNDOFF * (scale) + UNIT_ROUNDOFF * (magnitude)))
-
-/* A ray that starts nearer to the surface than this and the point's own error cannot be told from one that starts on
- * it: the rounding of the new origin, and the distance within which subdivision cannot exclude a root:
- * UNDECIDED_ERRORS error bounds of either plane, with moments of at most 2 as for all rays that start in the patch's
- * box, and what a copy is loose by; doubled for the planes' being oblique. */
-#define CLEARANCE(scale, loose, magnitude) \
-  (4 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * (PLANE_ERROR(2, 2) * (scale) + 2 * (loose)))
-
 /* The point, its error bound and the normal at (u,v). */
 static void set_surface(struct model_patch *patch, const double direction[3], struct hit *out)
 {
@@ -77,7 +65,7 @@ static void set_surface(struct model_patch *patch, const double direction[3], st
   out->point_error = POINT_ERROR(patch->scale, tangent, magnitude);
   vector_cross(su, sv, out->normal);
   const double length = vector_length(out->normal);
-  if (length > PLAIN_NORMAL * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
+  if (length > SURFACE_PLAIN * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
   else patch_normal(patch->x, out->u, out->v, out->normal);
   if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);
 }
@@ -124,47 +112,76 @@ static void settle(const struct model *model, const struct settling *s, struct h
   out->clearance = clearance(model, patch, s->borders, out);
 }
 
-/* The lanes of `group`, whose best roots are on one patch and whose rays share an axis. */
-static void finish_group(const struct packet *p, unsigned group, int axis, uint32_t index, struct hit out[])
+/* The answers of a packet's lanes but for what settle() has to say. */
+struct answers {
+  lanes u, v, t;
+  lanes point[3], normal[3]; /* the normal of unit length and either sense */
+  lanes point_error, clearance;
+  lane_mask plain; /* point and normal are sure */
+};
+
+/* Writes the hits of the lanes of `group`. */
+static void write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
 {
   const struct model *model = p->model;
-  struct model_patch *patch = &model->patches[index];
   const struct best *best = &p->best;
-  const lane_mask mask = lanes_mask(group);
-  struct last_step step;
-  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;
-  step.improves = mask & best->certain;
-  step.u = last_step_clamp(best->u), step.v = last_step_clamp(best->v);
-  step.t = best->t;
-  last_step(&step);
-  /* next to the ray's start it has more digits than the last step's sums */
-  step.t = lanes_select(best->sharp, best->t, step.t);
-  lanes facing = lanes_all(0), magnitude = lanes_all(0), point[3];
-  for (int c = 0; c < 3; c++) {
-    point[c] = patch->center[c] + patch->scale * step.point[c];
-    facing += step.normal[c] * p->direction[c];
-    magnitude = lanes_max(lanes_abs(point[c]), magnitude);
-  }
-  for (int c = 0; c < 3; c++) step.normal[c] = lanes_select(facing > 0, -step.normal[c], step.normal[c]);
-  const lanes point_error = POINT_ERROR(patch->scale, step.tangent, magnitude);
-  const lanes clear = point_error + CLEARANCE(patch->scale, patch->loose, magnitude);
+  lanes facing = lanes_all(0), normal[3];
+  for (int c = 0; c < 3; c++) facing += a->normal[c] * p->direction[c];
+  for (int c = 0; c < 3; c++) normal[c] = lanes_select(facing > 0, -a->normal[c], a->normal[c]);
+  /* next to the ray's start a sharp root has more digits than the last step's sums */
+  const lanes t = lanes_select(best->sharp, best->t, a->t);
   const lane_mask border[4] = {best->u < best->radius_u, best->u > 1 - best->radius_u, best->v < best->radius_v,
                                best->v > 1 - best->radius_v};
-  const lane_mask within = (step.t > p->t_min) & (step.t < p->t_max);
-  const lane_mask special = border[0] | border[1] | border[2] | border[3] | ~best->certain | ~within;
-  const unsigned specials = lanes_bits(special), plain = lanes_bits(step.plain);
+  const lane_mask within = (t > p->t_min) & (t < p->t_max);
+  const lane_mask special = border[0] | border[1] | border[2] | border[3] | ~best->certain | ~within | ~a->plain;
+  const unsigned specials = lanes_bits(special), plain = lanes_bits(a->plain);
   for (unsigned bits = group; bits; bits &= bits - 1) {
     const int l = __builtin_ctz(bits);
     struct hit *hit = &out[l];
-    hit->u = step.u[l], hit->v = step.v[l], hit->t = step.t[l], hit->patch = index;
-    for (int c = 0; c < 3; c++) hit->point[c] = point[c][l], hit->normal[c] = step.normal[c][l];
-    hit->point_error = point_error[l], hit->clearance = clear[l];
-    if (!(plain >> l & 1)) set_surface(patch, p->rays[l].direction, hit);
-    if (!((specials | ~plain) >> l & 1)) continue;
-    struct settling settling = {&p->rays[l], index, 0, best->certain[l]};
+    const uint32_t patch = (uint32_t)best->patch[l];
+    hit->u = a->u[l], hit->v = a->v[l], hit->t = t[l], hit->patch = patch;
+    for (int c = 0; c < 3; c++) hit->point[c] = a->point[c][l], hit->normal[c] = normal[c][l];
+    hit->point_error = a->point_error[l], hit->clearance = a->clearance[l];
+    if (!(specials >> l & 1)) continue;
+    if (!(plain >> l & 1)) set_surface(&model->patches[patch], p->rays[l].direction, hit);
+    struct settling settling = {&p->rays[l], patch, 0, best->certain[l]};
     for (unsigned k = 0; k < 4; k++) settling.borders |= (unsigned)(border[k][l] & 1) << k;
     settle(model, &settling, hit);
   }
+}
+
+/* The lanes of `group`, whose best roots are final. */
+static void finish_final(const struct packet *p, unsigned group, struct hit out[])
+{
+  const struct best *best = &p->best;
+  struct answers a;
+  a.u = surface_clamp(best->u), a.v = surface_clamp(best->v), a.t = best->t;
+  a.plain = surface_normal(best->normal, best->tangent, a.normal);
+  for (int c = 0; c < 3; c++) a.point[c] = best->point[c];
+  a.point_error = best->point_error, a.clearance = best->clearance;
+  write_hits(p, group, &a, out);
+}
+
+/* The lanes of `group`, whose best roots are on one patch and whose rays share an axis. */
+static void finish_group(const struct packet *p, unsigned group, int axis, uint32_t index, struct hit out[])
+{
+  struct model_patch *patch = &p->model->patches[index];
+  const struct best *best = &p->best;
+  struct last_step step;
+  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;
+  step.improves = lanes_mask(group) & best->certain;
+  step.u = surface_clamp(best->u), step.v = surface_clamp(best->v), step.t = best->t;
+  last_step(&step);
+  struct answers a = {.u = step.u, .v = step.v, .t = step.t, .plain = step.plain};
+  lanes magnitude = lanes_all(0);
+  for (int c = 0; c < 3; c++) {
+    a.point[c] = patch->center[c] + patch->scale * step.point[c];
+    a.normal[c] = step.normal[c];
+    magnitude = lanes_max(lanes_abs(a.point[c]), magnitude);
+  }
+  a.point_error = POINT_ERROR(patch->scale, step.tangent, magnitude);
+  a.clearance = a.point_error + CLEARANCE(patch->scale, patch->loose, magnitude);
+  write_hits(p, group, &a, out);
 }
 
 void finish_hits(const struct packet *p, struct hit out[])
@@ -174,8 +191,12 @@ void finish_hits(const struct packet *p, struct hit out[])
   unsigned left = lanes_bits(p->best.patch != NO_PATCH); /* lanes with a hit that is not finished */
   for (unsigned l = 0; l < p->count; l++)
     out[l].patch = HIT_NONE, out[l].certainty = doubt >> l & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
+  const unsigned final = left & lanes_bits(p->best.final);
+  if (final) finish_final(p, final, out);
+  left &= ~final;
   while (left) {
-    const int first = __builtin_ctz(left), axis = p->on_axis[0][first] ? 0 : p->on_axis[1][first] ? 1 : 2;
+    const unsigned first = (unsigned)__builtin_ctz(left);
+    const int axis = packet_axis(p, first);
     const int64_t patch = p->best.patch[first];
     const unsigned group = left & lanes_bits((p->best.patch == patch) & p->on_axis[axis]);
     finish_group(p, group, axis, (uint32_t)patch, out);

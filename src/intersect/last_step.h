@@ -15,15 +15,13 @@
 
 #include "base/double_lanes.h"
 #include "intersect/model.h"
+#include "intersect/surface.h"
 
 enum { LAST_STEPS_MAX = 3 };
 
 /* A step longer than this, in patch parameters, is followed by another: the derivatives that the point and the
  * normal are taken from are off by about as much, relative to the second derivatives. */
 #define LAST_STEP_LONGEST 0x1p-44
-
-/* |Su x Sv| relative to the squared derivatives down to which it is the normal without further thought. */
-#define PLAIN_NORMAL 0x1p-20
 
 /* Hits of rays with one dominant axis on one patch. */
 struct last_step {
@@ -121,22 +119,12 @@ LANES_INLINE void last_step_evaluate(const struct last_step_net *net, lanes u, l
   }
 }
 
-LANES_INLINE lanes last_step_clamp(lanes t) { return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1)); }
-
 LANES_INLINE void last_step_normal(struct last_step *l, const struct last_step_jet *jet)
 {
-  const lanes *a = jet->du, *b = jet->dv;
-  lanes square = lanes_all(0);
-  l->tangent = lanes_all(0);
-  for (int c = 0; c < 3; c++) {
-    const int i = (c + 1) % 3, j = (c + 2) % 3;
-    l->normal[c] = a[i] * b[j] - a[j] * b[i];
-    square += l->normal[c] * l->normal[c];
-    l->tangent = lanes_max(l->tangent, lanes_abs(a[c]) + lanes_abs(b[c]));
-  }
-  const lanes length = lanes_sqrt(square), inverse = 1 / length;
-  l->plain = length > PLAIN_NORMAL * l->tangent * l->tangent;
-  for (int c = 0; c < 3; c++) l->normal[c] *= inverse;
+  lanes normal[3];
+  l->tangent = surface_tangent(jet->du, jet->dv);
+  surface_cross(jet->du, jet->dv, normal);
+  l->plain = surface_normal(normal, l->tangent, l->normal);
 }
 
 /* Improves the lanes that ask for it, and takes point and normal of all lanes. A lane whose steps do not end within
@@ -184,7 +172,7 @@ LANES_INLINE void last_step(struct last_step *l)
   const lanes place = way[k].hi + (way[k].lo + (jet.du[k] * du + jet.dv[k] * dv));
   l->t = lanes_select(moving, place * (patch->scale * inverse), l->t);
   const lane_mask lost = l->improves & ~moving;
-  l->u = last_step_clamp(lanes_select(lost, l->u, u + du)), l->v = last_step_clamp(lanes_select(lost, l->v, v + dv));
+  l->u = surface_clamp(lanes_select(lost, l->u, u + du)), l->v = surface_clamp(lanes_select(lost, l->v, v + dv));
   const lanes to_u = l->u - u, to_v = l->v - v;
   for (int c = 0; c < 3; c++)
     l->point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));

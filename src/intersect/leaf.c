@@ -106,8 +106,7 @@ enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, 
 #define LEAST_AREA 0x1p-30
 
 /* A leaf whose derivatives turn by no more than this fraction of their size is tried as a bilinear one first: the
- * root of its corners is off by about an eighth of it, and two Newton steps make that 1e-6. A choice of speed: what
- * comes of it is proven. */
+ * root of that is off by an eighth of it at most. A choice of speed: what comes of it is proven. */
 #define BILINEAR_TURN 1.0
 
 static bool nearly_bilinear(const struct leaf *leaf)
@@ -146,17 +145,82 @@ static void leaf_set_slabs(struct leaf *leaf)
   slabs->slack = flat ? INFINITY : 16 * largest * largest;
 }
 
-void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf)
+/* With parameters of four bits behind the point and coordinates of HEAD_BITS, three halfway values in either
+ * direction are multiples of 2^-44, and their Taylor coefficients of 2^-50: nothing is rounded. */
+enum { EXACT_SPLIT = 16, HEAD_BITS = 20 };
+
+/* The leaf's net as hi + lo. hi is cut from the coordinates' first HEAD_BITS bits: exactly where the split is a power
+ * of two up to EXACT_SPLIT. lo, which is smaller by as many bits, is rounded. */
+static void cut_net(struct model_patch *patch, int column_u, int column_v, double hi[3][4][4], double lo[3][4][4])
 {
-  const double parts = patch->split, step = 1 / parts; /* quotients, so that the last one is 1 whatever the split */
+  const double parts = patch->split; /* quotients, so that the last one is 1 whatever the split */
   const double u0 = column_u / parts, u1 = (column_u + 1) / parts, v0 = column_v / parts, v1 = (column_v + 1) / parts;
-  const double margin = LEAF_MARGIN * step;
-  double wide[3][4][4];
+  const double round = 0x1.8p52 / (1 << HEAD_BITS);
+  for (int k = 0; k < 3; k++) {
+    double head[4][4], tail[4][4];
+    for (int n = 0; n < 16; n++) {
+      const double x = patch->x[k][n / 4][n % 4];
+      head[n / 4][n % 4] = (x + round) - round, tail[n / 4][n % 4] = x - head[n / 4][n % 4];
+    }
+    patch_subnet(head, u0, u1, v0, v1, hi[k]);
+    patch_subnet(tail, u0, u1, v0, v1, lo[k]);
+  }
+}
+
+static double to_grain(double x) { return rint(x * (1 / LEAF_GRAIN)) * LEAF_GRAIN; }
+
+/* Taylor coefficients about the middle, of a cubic in Bernstein form. */
+static void taylor(double b0, double b1, double b2, double b3, double out[4])
+{
+  out[0] = ((b0 + b3) + 3 * (b1 + b2)) / 8, out[1] = 0.75 * ((b3 - b0) + (b2 - b1));
+  out[2] = 1.5 * ((b0 + b3) - (b1 + b2)), out[3] = (b3 - b0) - 3 * (b2 - b1);
+}
+
+static void taylor_net(double x[4][4], double out[16])
+{
+  double rows[4][4], column[4];
+  for (int i = 0; i < 4; i++) taylor(x[i][0], x[i][1], x[i][2], x[i][3], rows[i]);
+  for (int j = 0; j < 4; j++) {
+    taylor(rows[0][j], rows[1][j], rows[2][j], rows[3][j], column);
+    for (int i = 0; i < 4; i++) out[4 * i + j] = column[i];
+  }
+}
+
+/* Twice what a root may be off by, in the patch's frame, after the last step of Newton's process: a quarter of
+ * UNIT_ROUNDOFF. */
+#define LAST_STEP_CURVE (UNIT_ROUNDOFF / 2)
+
+static void set_parts(const struct model_patch *patch, const struct leaf *leaf, double hi[3][4][4],
+                      double lo[3][4][4], struct leaf_parts *out)
+{
+  static const int bilinear[4] = {0, 4, 1, 5};
+  for (int k = 0; k < 3; k++) {
+    double head[16], tail[16], *rest = out->rest[k];
+    taylor_net(hi[k], head);
+    taylor_net(lo[k], tail);
+    for (int n = 0; n < 4; n++) {
+      const int at = bilinear[n];
+      out->base[k][n] = to_grain(head[at]);
+      head[at] -= out->base[k][n];
+    }
+    for (int n = 0; n < 16; n++) rest[n] = head[n] + tail[n];
+  }
+  const double second = leaf->second[0] + 2 * leaf->second[1] + leaf->second[2];
+  const double first = real_min(leaf->first[0], leaf->first[1]);
+  out->last_step = real_min(NEWTON_LAST_STEP, sqrt(LAST_STEP_CURVE / real_max(second, LAST_STEP_CURVE)));
+  out->plain_step = 2 * UNIT_ROUNDOFF * first / real_max(second, UNIT_ROUNDOFF * first);
+  out->exact = patch->split <= EXACT_SPLIT && (patch->split & (patch->split - 1)) == 0;
+}
+
+void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf, struct leaf_parts *room)
+{
+  double hi[3][4][4], lo[3][4][4], wide[3][4][4];
+  cut_net(patch, column_u, column_v, hi, lo);
   for (int k = 0; k < 3; k++) {
     double x[4][4];
-    patch_subnet(patch->x[k], u0, u1, v0, v1, x);
-    patch_subnet(patch->x[k], u0 - margin, u1 + margin, v0 - margin, v1 + margin, wide[k]);
-    memcpy(leaf->x[k], x, sizeof leaf->x[k]);
+    for (int n = 0; n < 16; n++) leaf->x[k][n] = hi[k][n / 4][n % 4] + lo[k][n / 4][n % 4];
+    memcpy(x, leaf->x[k], sizeof x);
+    patch_subnet(x, -LEAF_MARGIN, 1 + LEAF_MARGIN, -LEAF_MARGIN, 1 + LEAF_MARGIN, wide[k]);
   }
   patch_second_derivative_bounds(wide, leaf->second);
   first_derivative_bounds(wide, leaf->first);
@@ -164,7 +228,8 @@ void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf
   const double shrink = 1 / (1 + 2 * LEAF_MARGIN);
   for (int k = 0; k < 3; k++) leaf->second[k] *= shrink * shrink;
   for (int k = 0; k < 2; k++) leaf->first[k] *= shrink;
-  leaf->bilinear = patch->lanes && !patch->all_roots && nearly_bilinear(leaf);
+  leaf->parts = room && patch->lanes && !patch->all_roots && nearly_bilinear(leaf) ? room : NULL;
+  if (leaf->parts) set_parts(patch, leaf, hi, lo, room);
   leaf_set_slabs(leaf);
   leaf->column_u = (uint16_t)column_u, leaf->column_v = (uint16_t)column_v;
   leaf->form = NULL;

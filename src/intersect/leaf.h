@@ -7,8 +7,9 @@
 
 #include "intersect/model.h"
 
-/* The leaf at the columns of the patch, all of it but `patch` and the form. */
-void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf);
+/* The leaf at the columns of the patch, all of it but `patch` and the form. Its parts, where it has them, are written
+ * to *room, which stays the caller's; no parts where that is NULL. */
+void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf, struct leaf_parts *room);
 
 /* What resultants are formed of; STATUS_LIMIT where memory is short. */
 enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, struct leaf *leaf) STATUS_MUST_CHECK;

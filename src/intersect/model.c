@@ -151,11 +151,15 @@ static void split_patches(struct model *model, int most)
 static enum status prepare_leaves(struct model *model, struct bvh_box boxes[])
 {
   size_t l = 0;
+  struct leaf_parts *room = NULL; /* for the next leaf that has parts */
   for (size_t p = 0; p < model->scene->patch_count; p++) {
     struct model_patch *patch = &model->patches[p];
     for (int k = 0; k < patch->split * patch->split && !patch->copied; k++, l++) {
       struct leaf *leaf = &model->leaves[l];
-      leaf_cut(patch, k / patch->split, k % patch->split, leaf);
+      if (!room) room = arena_alloc(model->arena, 1, sizeof *room);
+      if (!room) return STATUS_LIMIT;
+      leaf_cut(patch, k / patch->split, k % patch->split, leaf, room);
+      if (leaf->parts) room = NULL;
       leaf->patch = (uint32_t)p;
       leaf_box(model, leaf, &boxes[l]);
       const enum status status = leaf_set_form(model->arena, patch, leaf);

@@ -25,6 +25,9 @@
 /* How far outside [0,1] a leaf's polynomials are still used (its second-derivative bounds hold up to there). */
 #define LEAF_MARGIN 0.125
 
+/* Newton's process on a leaf ends with a step no longer than this, in leaf parameters. */
+#define NEWTON_LAST_STEP 0x1p-16
+
 struct model_patch {
   double center[3], scale;
   double x[3][4][4]; /* local control net, x[coordinate][i][j], |x| <= 1 */
@@ -45,6 +48,21 @@ struct leaf_form {
   double excess;
 };
 
+/* A nearly bilinear leaf as x = c + s A + t B + st C + rest(s,t), s = u - 1/2 and t = v - 1/2: the Taylor polynomial
+ * about its middle, the first four coefficients taken out with few bits, as multiples of LEAF_GRAIN. So s A and the like
+ * are exact where s has few bits as well, and what is rounded is of the size of the rest, which is how far the leaf
+ * bends and what the four have beyond the grain. */
+struct leaf_parts {
+  double base[3][4];  /* c, A, B, C of each coordinate */
+  double rest[3][16]; /* coefficient of s^i t^j at rest[coordinate][4 * i + j] */
+  bool exact;         /* but for rounding the rest: cut without rounding */
+  /* steps up to these, in leaf parameters, leave the root right to the rounding of its coordinates, and derivatives
+   * right to their own */
+  double last_step, plain_step;
+};
+
+#define LEAF_GRAIN 0x1p-24
+
 /* The leaf's net lies where |g_q x - offset_q| <= half_q for three covectors g_q (the normal in its middle, and the
  * two that run with its parameters): a box along the leaf. */
 struct leaf_slabs {
@@ -56,6 +74,8 @@ struct leaf {
   struct leaf_slabs slabs;
   double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
+  /* not NULL where the resultant of its bilinear part gives a start; default method only */
+  const struct leaf_parts *parts;
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
   double first[2];              /* bounds on |Su|, |Sv| there */
@@ -63,7 +83,6 @@ struct leaf {
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split in u, and so on */
   uint8_t kept_degree, eliminated_degree;
   bool v_kept;            /* the form keeps v and eliminates u */
-  bool bilinear;          /* so nearly that the resultant of its corners gives a start; default method only */
   uint8_t zeros[2];       /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
 };
 

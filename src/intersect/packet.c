@@ -20,6 +20,7 @@
 #include "intersect/packet.h"
 #include "intersect/refine.h"
 #include "intersect/subdivide.h"
+#include "intersect/surface.h"
 #include "intersect/trial.h"
 
 enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
@@ -50,12 +51,15 @@ void packet_orient(struct packet *p)
     if (!lanes_any(p->on_axis[k])) continue;
     p->axes |= 1u << k;
     p->reciprocal[k] = 1 / p->direction[k];
-    for (int s = 0; s < 2; s++)
-      p->slope[k][s] = lanes_select(p->on_axis[k], p->direction[(k + 1 + s) % 3] / p->direction[k], lanes_all(0));
+    for (int s = 0; s < 2; s++) {
+      const lanes d = p->direction[(k + 1 + s) % 3], slope = d * p->reciprocal[k];
+      p->slope[k][s] = lanes_select(p->on_axis[k], slope, lanes_all(0));
+      p->slope_rest[k][s] = -lanes_product_error(slope, p->direction[k], d) * p->reciprocal[k];
+    }
   }
   p->best.u = p->best.v = p->best.radius_u = p->best.radius_v = lanes_all(0), p->best.t = lanes_all(INFINITY);
   p->best.patch = p->best.leaf = NO_PATCH + (lane_mask){0};
-  p->best.certain = p->best.sharp = p->best.doubt = (lane_mask){0};
+  p->best.certain = p->best.sharp = p->best.final = p->best.doubt = (lane_mask){0};
 }
 
 /* ---- keeping the nearest ---- */
@@ -69,6 +73,12 @@ static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const 
   struct leaf_hit root = {r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, t, 0, true, false};
   root.t_error = leaf_hit_t_error(at->leaf, &root, p->local[axis].to_t[lane]);
   return root;
+}
+
+/* Places on the rays where x_k = w. */
+LANES_INLINE lanes packet_place_to_t(const struct packet *p, int axis, lanes w)
+{
+  return ((w + p->local[axis].start[1]) + p->local[axis].start[0]) * p->local[axis].to_t;
 }
 
 /* Makes a root the answer so far where it is nearer than the best, or as near to the last bit and of a lower leaf.
@@ -89,7 +99,7 @@ static void packet_offer(struct packet *p, unsigned lane, const struct trial *t,
   best->v[lane] = leaf_to_patch(split, t->leaf->column_v, root->v), best->radius_v[lane] = root->radius_v / split;
   best->t[lane] = root->t, best->patch[lane] = patch, best->leaf[lane] = leaf,
   best->certain[lane] = root->certain ? -1 : 0;
-  best->sharp[lane] = root->sharp ? -1 : 0;
+  best->sharp[lane] = root->sharp ? -1 : 0, best->final[lane] = 0;
   p->t_far[lane] = root->t + root->t_error;
   if (p->any) p->live[lane] = 0;
   p->moved = true;
@@ -110,17 +120,15 @@ static lane_mask on_border(const struct trial *t, const struct refined *r)
   return border;
 }
 
-/* The same for the roots of several lanes at once; those next to t_min go the other way. */
-static void packet_offer_lanes(struct packet *p, const struct trial *t, const struct refined *r, lane_mask hits)
+/* The same for the roots of several lanes at once, at x_k = w and on the ray at `at`; those next to t_min go the
+ * other way. Returns the lanes that took theirs. */
+static lane_mask packet_offer_lanes(struct packet *p, const struct trial *t, const struct refined *r, lanes w, lanes at,
+                                    lane_mask hits)
 {
-  if (!lanes_any(hits)) return;
   struct best *best = &p->best;
-  const int axis = t->axis;
   const int64_t leaf = t->number, patch = t->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const double part = 1.0 / t->patch->split;
-  const lanes to_t = p->local[axis].to_t, w = trial_place(t, r->u, r->v);
-  const lanes at = ((w + p->local[axis].start[1]) + p->local[axis].start[0]) * to_t;
-  const lanes size = lanes_abs(to_t),
+  const lanes size = lanes_abs(p->local[t->axis].to_t),
               error = size * (t->leaf->first[0] * r->radius_u + t->leaf->first[1] * r->radius_v) +
                       8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
   const lane_mask behind = at > p->t_min + error, unknown = hits & ~behind & ~(at < p->t_min - error);
@@ -138,17 +146,39 @@ static void packet_offer_lanes(struct packet *p, const struct trial *t, const st
   }
   const lane_mask first = (patch < best->patch) | ((patch == best->patch) & (leaf < best->leaf));
   const lane_mask taken = hits & behind & (at < p->t_max) & ((at < best->t) | ((at == best->t) & first));
-  if (!lanes_any(taken)) return;
+  if (!lanes_any(taken)) return taken;
   best->u = lanes_select(taken, (t->leaf->column_u + r->u) * part, best->u);
   best->v = lanes_select(taken, (t->leaf->column_v + r->v) * part, best->v);
   best->radius_u = lanes_select(taken, r->radius_u * part, best->radius_u);
   best->radius_v = lanes_select(taken, r->radius_v * part, best->radius_v);
-  best->t = lanes_select(taken, at, best->t), best->certain |= taken, best->sharp &= ~taken;
+  best->t = lanes_select(taken, at, best->t), best->certain |= taken, best->sharp &= ~taken, best->final &= ~taken;
   best->patch = (taken & patch) | (~taken & best->patch), best->leaf = (taken & leaf) | (~taken & best->leaf);
   p->t_far = lanes_select(taken, at + error, p->t_far);
   if (p->any) p->live &= ~taken;
   p->moved = true;
   p->tracer->counts.roots_accepted += (unsigned)__builtin_popcount(lanes_bits(taken));
+  return taken;
+}
+
+/* Keeps what a leaf's root says of the surface. */
+static void packet_keep(struct packet *p, const struct model_patch *patch, const struct leaf_root *root,
+                        lane_mask taken)
+{
+  struct best *best = &p->best;
+  lanes normal[3], magnitude = lanes_all(0);
+  surface_cross(root->su, root->sv, normal);
+  for (int c = 0; c < 3; c++) {
+    const lanes point = patch->center[c] + patch->scale * root->point[c];
+    best->point[c] = lanes_select(taken, point, best->point[c]);
+    best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
+    magnitude = lanes_max(lanes_abs(point), magnitude);
+  }
+  const lanes tangent = surface_tangent(root->su, root->sv);
+  const lanes point_error = POINT_ERROR(patch->scale, patch->split * tangent, magnitude);
+  best->tangent = lanes_select(taken, tangent, best->tangent);
+  best->point_error = lanes_select(taken, point_error, best->point_error);
+  best->clearance = lanes_select(taken, point_error + CLEARANCE(patch->scale, patch->loose, magnitude), best->clearance);
+  best->final |= taken;
 }
 
 LANES_INLINE lane_mask inside(const struct refined *r)
@@ -247,10 +277,10 @@ static void lane_subdivide_outside(struct packet *p, const struct trial *t, unsi
   const uint32_t patch = p->copy->first_patch + t->leaf->patch;
   struct model_patch *model_patch = &outer->model->patches[patch];
   there.patch = model_patch, there.leaf = &leaf, there.number = t->number;
-  leaf_cut(model_patch, t->leaf->column_u, t->leaf->column_v, &leaf);
+  leaf_cut(model_patch, t->leaf->column_u, t->leaf->column_v, &leaf, NULL);
   leaf.patch = patch;
   if (outer->patch != patch) packet_set_patch(outer, patch);
-  there.axis = outer->on_axis[0][lane] ? 0 : outer->on_axis[1][lane] ? 1 : 2;
+  there.axis = packet_axis(outer, lane);
   lane_subdivide(outer, &there, lane);
   if (!outer->live[lane]) p->live[lane] = 0, p->moved = true;
 }
@@ -290,7 +320,10 @@ static lane_mask trial_first_root(struct packet *p, const struct trial *t, lane_
   /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
   const lane_mask single = (t->variations == 1) & r.exists & (k > radius) & (k < 1 - radius);
   const lane_mask decided = active & (r.alone | single);
-  packet_offer_lanes(p, t, &r, decided & inside(&r));
+  const lane_mask hits = decided & inside(&r);
+  if (!lanes_any(hits)) return active & ~decided;
+  const lanes w = trial_place(t, r.u, r.v);
+  packet_offer_lanes(p, t, &r, w, packet_place_to_t(p, t->axis, w), hits);
   return active & ~decided;
 }
 
@@ -298,12 +331,15 @@ static lane_mask trial_first_root(struct packet *p, const struct trial *t, lane_
  * the ray is so slanted that the leaf's curvature matters, the resultant of its full degree has its turn. */
 static lane_mask trial_bilinear(struct packet *p, const struct trial *t, lane_mask active)
 {
-  lanes u, v;
-  trial_bilinear_root(t, &u, &v);
-  const struct refined r = refine(&t->nets, t->leaf, start_within(u), start_within(v), active);
-  p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(r.alone));
-  packet_offer_lanes(p, t, &r, r.alone & inside(&r));
-  return active & ~r.alone;
+  struct leaf_root root;
+  leaf_root_solve(p, t->leaf, t->axis, active, &root);
+  p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(root.at.alone));
+  const lane_mask hits = root.at.alone & inside(&root.at);
+  if (lanes_any(hits)) {
+    const lane_mask taken = packet_offer_lanes(p, t, &root.at, root.w, root.t, hits);
+    if (t->leaf->parts->exact && !p->any && !p->outer && lanes_any(taken)) packet_keep(p, t->patch, &root, taken);
+  }
+  return active & ~root.at.alone;
 }
 
 /* Stages 3 and 4 with all roots of r. Lanes that are left undecided. */
@@ -323,11 +359,11 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   if (!paper) active = trial_slabs(p, t, active);
   if (!lanes_any(active)) return;
   p->tracer->counts.patches_tested += (unsigned)__builtin_popcount(lanes_bits(active));
-  trial_nets(p, t);
-  if (t->leaf->bilinear) {
+  if (t->leaf->parts) {
     active = trial_bilinear(p, t, active);
     if (!lanes_any(active)) return;
   }
+  trial_nets(p, t);
   lane_mask near = trial_planes(t, active);
   if (lanes_any(near)) near = trial_aligned(t, near);
   active = paper ? active : near;

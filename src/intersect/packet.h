@@ -6,6 +6,7 @@
 #define PSCN_INTERSECT_PACKET_H
 
 #include "base/lanes.h"
+#include "intersect/refine.h"
 #include "intersect/tracer.h"
 
 #define NO_PATCH INT64_MAX
@@ -16,6 +17,10 @@ struct best {
   lanes t;                        /* infinite where there is none */
   lane_mask patch, leaf;          /* where it is; NO_PATCH where there is none. They order roots of equal t */
   lane_mask certain, sharp;
+  lane_mask final; /* right to the last places, and what follows is set; the others' comes from last_step.h */
+  lanes point[3], normal[3];        /* in the scene; the normal of any length and sense */
+  lanes tangent;                    /* bound on the derivatives' coordinates that the normal is the product of */
+  lanes point_error, clearance;     /* as of struct hit */
   lane_mask doubt; /* some root could not be told from t_min, and was left out */
 };
 
@@ -35,6 +40,7 @@ struct packet {
   unsigned axes;          /* bit k: some lane's */
   lanes origin[3], direction[3], longest; /* longest: the largest component of the direction */
   lanes slope[3][2], reciprocal[3]; /* per axis; slope 0 on other lanes */
+  lanes slope_rest[3][2];           /* what its rounding took away */
   lanes t_min, t_max, t_far;        /* t_far: the nearest hit so far plus its error, or the ray's end */
   /* what control points and rays are off by besides their rounding in a patch's frame */
   double net_error;
@@ -43,9 +49,15 @@ struct packet {
   /* The frame of the patch tried last. */
   uint32_t patch;
   struct {
-    lanes moment[2], start[2], to_t, error;
+    lanes moment[2], moment_rest[2], start[2], to_t, error;
   } local[3];
 };
+
+/* The dominant axis of a lane that looks for a hit. */
+static inline int packet_axis(const struct packet *p, unsigned lane)
+{
+  return p->on_axis[0][lane] ? 0 : p->on_axis[1][lane] ? 1 : 2;
+}
 
 /* The lanes' rays in the frame of a patch, as local_ray.c makes it for one ray. */
 
@@ -75,7 +87,10 @@ LANES_INLINE void packet_set_patch(struct packet *p, uint32_t index)
       lanes sum, error;
       lanes_two_sum(plus, -minus, &sum, &error);
       error += (plus_error - minus_error) + (lo[i] * p->direction[k] - lo[k] * p->direction[i]);
-      p->local[k].moment[s] = (sum + error) * p->reciprocal[k];
+      const lanes moment = (sum + error) * p->reciprocal[k];
+      p->local[k].moment[s] = moment;
+      p->local[k].moment_rest[s] =
+          (error - lanes_product_error(moment, p->direction[k], sum)) * p->reciprocal[k];
     }
     p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
     p->local[k].to_t = patch->scale * p->reciprocal[k];
@@ -99,6 +114,17 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
 
 /* copy.c: what was found there becomes the outer packet's best where it is nearer. */
 void packet_leave(const struct packet *inner);
+
+/* What is known of a root on a nearly bilinear leaf. Points and derivatives are in the frame of its patch. */
+struct leaf_root {
+  struct refined at;
+  lanes w, t;                   /* place on the ray */
+  lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters */
+};
+
+/* leaf_root.c: the root on a leaf that has parts, on the lanes of `active`: a start from the resultant of its bilinear
+ * part, of degree 2, Newton's process to the last places, and the test. */
+void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, lane_mask active, struct leaf_root *out);
 
 /* finish.c: the answers of the packet's rays from its best roots: parameters of the whole patch, improved by a
  * Newton step on the patch itself, and all else that a hit has. t is in units of the scaled direction. */

@@ -35,8 +35,8 @@ struct refined {
 enum { NEWTON_MAX_STEPS = 10 };
 
 /* Where q (below) is less than this, half of it is less than M can take. 1.9 instead of 2: room for the rounding of q
- * and for the Jacobian being taken next to the root. That is off by the last step, at most 2^-16 of the leaf after a
- * step of 1, and K <= 2 q, so M J is within 2^-14 of what it is at the root. */
+ * and for the Jacobian being taken next to the root. That is off by the last step, at most NEWTON_LAST_STEP of the
+ * leaf, which NEWTON_NEXT_STEP makes of a step of 1, and K <= 2 q, so M J is within 2^-14 of what it is at the root. */
 #define ALONE_BOUND 1.9
 
 LANES_INLINE void refine_weights(lanes t, lanes w[4], lanes dw[4])
@@ -73,18 +73,45 @@ LANES_INLINE lanes refine_row_length(lanes p, lanes q, const lanes slope[2])
   return lanes_sqrt(p * p + q * q + r * r);
 }
 
-/* Newton's process from (u,v) on the lanes of `active`, then the Newton-Kantorovich test.
+/* The inverse Jacobian M: steps are M (a, b). */
+struct refine_inverse {
+  lanes ua, ub, va, vb;
+};
+
+/* The Newton-Kantorovich test: sets all but u and v of *r, which hold where the process went on the lanes that
+ * `settled`.
  *
  * With M the inverse Jacobian at the last point but one, |step| the last step, e = |M| error what rounding adds to
  * it, and K = |M| (|Suu| + 2 |Suv| + |Svv|) a Lipschitz bound of M J: where K (|step| + e) <= 1/8 there is exactly
  * one root within twice that, and it lies within 2 K |step|^2 + 2 e of where the step went (Ortega and Rheinboldt
  * 12.6). And where the Jacobian, averaged on the way from the root to any point of the leaf, differs from that at
  * the root by less than M can take (half of q below), the leaf has no second root. */
+LANES_INLINE void refine_prove(const struct leaf *leaf, const struct refine_inverse *m, const lanes slope[2],
+                               lanes error, lanes step, lane_mask settled, struct refined *r)
+{
+  const lanes size_u = refine_row_length(m->ua, m->ub, slope), size_v = refine_row_length(m->va, m->vb, slope);
+  const lanes size = lanes_max(size_u, size_v);
+  const lanes lipschitz = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
+  const lanes beta = step + size * error;
+  const lane_mask near = (lanes_abs(r->u - 0.5) < 0.5 + LEAF_MARGIN) & (lanes_abs(r->v - 0.5) < 0.5 + LEAF_MARGIN);
+  r->exists = settled & near & (lipschitz * beta <= 0.125);
+  const lanes square = 2 * lipschitz * step * step;
+  r->radius_u = square + 2 * size_u * error;
+  r->radius_v = square + 2 * size_v * error;
+  const lanes reach_u = 0.5 + lanes_abs(r->u - 0.5), reach_v = 0.5 + lanes_abs(r->v - 0.5);
+  const lanes q = size *
+                  ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
+  r->alone = r->exists & (q < ALONE_BOUND);
+  r->size = size, r->bend = lipschitz * beta;
+}
+
+/* Newton's process from (u,v) on the lanes of `active`, and the test. */
 LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v,
                                    lane_mask active)
 {
   struct refined r = {u, v, {0}, {0}, {0}, {0}, {0}, {0}};
-  lanes step = lanes_all(NEWTON_START), mua = {0}, mub = {0}, mva = {0}, mvb = {0};
+  struct refine_inverse m = {{0}, {0}, {0}, {0}};
+  lanes step = lanes_all(NEWTON_START);
   lane_mask moving = active, settled = {0};
   for (int n = 0; n < NEWTON_MAX_STEPS && lanes_any(moving); n++) {
     lanes wu[4], du[4], wv[4], dv[4];
@@ -92,9 +119,9 @@ LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct l
     refine_weights(r.v, wv, dv);
     const struct refine_jet a = refine_evaluate(nets->a, wu, du, wv, dv), b = refine_evaluate(nets->b, wu, du, wv, dv);
     const lanes inverse = 1 / (a.du * b.dv - a.dv * b.du);
-    mua = lanes_select(moving, b.dv * inverse, mua), mub = lanes_select(moving, -a.dv * inverse, mub);
-    mva = lanes_select(moving, -b.du * inverse, mva), mvb = lanes_select(moving, a.du * inverse, mvb);
-    const lanes step_u = mua * a.value + mub * b.value, step_v = mva * a.value + mvb * b.value;
+    m.ua = lanes_select(moving, b.dv * inverse, m.ua), m.ub = lanes_select(moving, -a.dv * inverse, m.ub);
+    m.va = lanes_select(moving, -b.du * inverse, m.va), m.vb = lanes_select(moving, a.du * inverse, m.vb);
+    const lanes step_u = m.ua * a.value + m.ub * b.value, step_v = m.va * a.value + m.vb * b.value;
     r.u = lanes_select(moving, r.u - step_u, r.u);
     r.v = lanes_select(moving, r.v - step_v, r.v);
     const lanes here = lanes_max(lanes_abs(step_u), lanes_abs(step_v)), before = step * step;
@@ -103,20 +130,7 @@ LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct l
     /* A root far outside the leaf, or no progress (NaN compares false), is no concern of this process. */
     moving &= ~settled & (lanes_abs(r.u - 0.5) < 2) & (lanes_abs(r.v - 0.5) < 2);
   }
-  const lanes size_u = refine_row_length(mua, mub, nets->slope), size_v = refine_row_length(mva, mvb, nets->slope);
-  const lanes size = lanes_max(size_u, size_v);
-  const lanes lipschitz = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
-  const lanes beta = step + size * nets->error;
-  const lane_mask near = (lanes_abs(r.u - 0.5) < 0.5 + LEAF_MARGIN) & (lanes_abs(r.v - 0.5) < 0.5 + LEAF_MARGIN);
-  r.exists = settled & near & (lipschitz * beta <= 0.125);
-  const lanes square = 2 * lipschitz * step * step;
-  r.radius_u = square + 2 * size_u * nets->error;
-  r.radius_v = square + 2 * size_v * nets->error;
-  const lanes reach_u = 0.5 + lanes_abs(r.u - 0.5), reach_v = 0.5 + lanes_abs(r.v - 0.5);
-  const lanes q = size *
-                  ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
-  r.alone = r.exists & (q < ALONE_BOUND);
-  r.size = size, r.bend = lipschitz * beta;
+  refine_prove(leaf, &m, nets->slope, nets->error, step, settled, &r);
   return r;
 }
 

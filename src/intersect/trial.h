@@ -124,29 +124,6 @@ static void trial_form(const struct packet *p, struct trial *t)
   t->form_error = t->nets.error * form->size + 2 * form->excess;
 }
 
-/* Stage 2 of a nearly bilinear leaf: the bilinear patch through its corners has a resultant of degree 2. Its root
- * that is nearer to the middle, and the parameter that goes with it, are a start for Newton on the leaf itself. */
-LANES_INLINE void trial_bilinear_root(const struct trial *t, lanes *out_u, lanes *out_v)
-{
-  static const int corner[4] = {0, 3, 12, 15};
-  lanes a[16], b[16], c[RESULTANT_MAX_DEGREE + 1];
-  for (int n = 0; n < 4; n++)
-    a[4 * (n / 2) + n % 2] = t->nets.a[corner[n]], b[4 * (n / 2) + n % 2] = t->nets.b[corner[n]];
-  bezout_lanes_resultant(1, 1, a, b, c);
-  /* r(u) = c0 (1-u)^2 + c1 u (1-u) + c2 u^2 = r0 + r1 u + r2 u^2; a pair of complex roots is replaced by its real
-   * part. */
-  const lanes r0 = c[0], r1 = c[1] - 2 * c[0], r2 = (c[0] - c[1]) + c[2];
-  const lanes root = lanes_sqrt(lanes_max(r1 * r1 - 4 * (r0 * r2), lanes_all(0)));
-  const lanes q = -0.5 * (r1 + lanes_select(r1 < 0, -root, root));
-  const lanes first = r0 / q, second = q / r2;
-  const lanes u = lanes_select(lanes_abs(second - 0.5) < lanes_abs(first - 0.5), second, first);
-  const lanes p0 = a[0] + u * (a[4] - a[0]), p1 = a[1] + u * (a[5] - a[1]);
-  const lanes q0 = b[0] + u * (b[4] - b[0]), q1 = b[1] + u * (b[5] - b[1]);
-  const lanes slope_a = p0 - p1, slope_b = q0 - q1;
-  const lane_mask steep = lanes_abs(slope_a) > lanes_abs(slope_b);
-  *out_u = u, *out_v = lanes_select(steep, p0, q0) / lanes_select(steep, slope_a, slope_b);
-}
-
 /* Stage 2: r and the sign variations of its coefficients. Lanes that may meet the leaf. */
 static lane_mask trial_resultant(struct trial *t, lane_mask active)
 {

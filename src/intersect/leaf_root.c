@@ -1,0 +1,181 @@
+/* The root of a ray on a nearly bilinear leaf, from the resultant to the last places of the answer.
+ *
+ * Compiled once per instruction set, without contraction. The start is a root of the bilinear part alone; Newton's
+ * process on the planes' polynomials follows, as in refine.h. But the surface is evaluated as the sum of the leaf's
+ * parts (model.h), and the planes' residuals keep what their leading terms round away, so the root that it ends at needs
+ * no other look: it is right to the rounding of the bend of its leaf. Point and normal come from the last evaluation.
+ * Parameters are s = u - 1/2 and t = v - 1/2.
+ */
+#include "intersect/packet.h"
+#include "intersect/surface.h"
+
+/* A number of size at most 4 as a multiple of 2^-26 and the rest. The products of the first with multiples of
+ * LEAF_GRAIN, and their sums of size at most 8, are exact. */
+struct split {
+  lanes head, tail;
+};
+
+LANES_INLINE struct split split(lanes x)
+{
+  const lanes unit = lanes_all(0x1.8p26), head = (x + unit) - unit;
+  return (struct split){head, x - head};
+}
+
+/* ---- the surface ---- */
+
+/* One coordinate of the leaf: its value as hi + lo, |lo| of the size of the leaf's bend, and derivatives. */
+struct coordinate {
+  lanes hi, lo, ds, dt;
+};
+
+struct place {
+  lanes s, t;
+  struct split split_s, split_t, split_st;
+};
+
+LANES_INLINE struct coordinate coordinate_at(const double base[4], const double rest[16], const struct place *at)
+{
+  const lanes A = lanes_all(base[1]), B = lanes_all(base[2]), C = lanes_all(base[3]), s = at->s, t = at->t;
+  struct coordinate x;
+  x.hi = lanes_multiply_add(at->split_s.head, A, lanes_all(base[0]));
+  x.hi = lanes_multiply_add(at->split_st.head, C, lanes_multiply_add(at->split_t.head, B, x.hi));
+  x.lo = lanes_multiply_add(at->split_t.tail, B, at->split_s.tail * A);
+  x.lo = lanes_multiply_add(at->split_st.tail, C, x.lo);
+  x.ds = lanes_multiply_add(t, C, A), x.dt = lanes_multiply_add(s, C, B);
+  /* Horner's scheme, of each row and of the rows, and its derivative. */
+  lanes bend = {0}, bend_ds = {0}, bend_dt = {0};
+#pragma GCC unroll 4
+  for (int i = 3; i >= 0; i--) {
+    const double *r = rest + 4 * i;
+    lanes row_dt = lanes_all(r[3]), row = lanes_multiply_add(row_dt, t, lanes_all(r[2]));
+    row_dt = lanes_multiply_add(row_dt, t, row), row = lanes_multiply_add(row, t, lanes_all(r[1]));
+    row_dt = lanes_multiply_add(row_dt, t, row), row = lanes_multiply_add(row, t, lanes_all(r[0]));
+    bend_ds = i == 3 ? bend_ds : lanes_multiply_add(bend_ds, s, bend);
+    bend = i == 3 ? row : lanes_multiply_add(bend, s, row);
+    bend_dt = i == 3 ? row_dt : lanes_multiply_add(bend_dt, s, row_dt);
+  }
+  x.lo += bend, x.ds += bend_ds, x.dt += bend_dt;
+  return x;
+}
+
+/* Out of line: inlined into a loop, its coefficients are all copied to the stack first. */
+__attribute__((noinline)) static void surface_at(const struct leaf_parts *parts, lanes s, lanes t,
+                                                 struct coordinate out[3])
+{
+  const lanes st = s * t;
+  struct place at = {s, t, split(s), split(t), split(st)};
+  at.split_st.tail += lanes_product_error(s, t, st);
+  for (int c = 0; c < 3; c++) out[c] = coordinate_at(parts->base[c], parts->rest[c], &at);
+}
+
+/* Moves the derivatives of a coordinate from (s,t) on by (to_s,to_t), by second derivatives. */
+LANES_INLINE void turn(const double base[4], const double rest[16], lanes s, lanes t, lanes to_s, lanes to_t,
+                       lane_mask where, struct coordinate *x)
+{
+  lanes ss = {0}, st = {0}, tt = {0};
+#pragma GCC unroll 4
+  for (int i = 3; i >= 0; i--) {
+    const double *r = rest + 4 * i;
+    const lanes cubic = lanes_all(3 * r[3]), square = lanes_all(r[2]), cubic_t = cubic * t;
+    if (i >= 2) {
+      lanes row = lanes_multiply_add(lanes_all(r[3]), t, square);
+      row = lanes_multiply_add(lanes_multiply_add(row, t, lanes_all(r[1])), t, lanes_all(r[0]));
+      ss = lanes_multiply_add(ss, s, i * (i - 1) * row);
+    }
+    if (i >= 1) st = lanes_multiply_add(st, s, i * lanes_multiply_add(cubic_t + 2 * square, t, lanes_all(r[1])));
+    tt = lanes_multiply_add(tt, s, cubic_t + square);
+  }
+  st += base[3], tt *= 2;
+  x->ds = lanes_select(where, x->ds + (ss * to_s + st * to_t), x->ds);
+  x->dt = lanes_select(where, x->dt + (st * to_s + tt * to_t), x->dt);
+}
+
+/* ---- the planes ---- */
+
+/* Of the plane x_i - slope x_k = moment: its polynomial's value and derivatives. */
+struct plane {
+  lanes value, ds, dt;
+};
+
+LANES_INLINE struct plane plane_at(const struct packet *p, int axis, int number, const struct coordinate *i,
+                                   const struct coordinate *k)
+{
+  const lanes slope = p->slope[axis][number];
+  const lanes along = slope * k->hi, along_error = lanes_product_error(slope, k->hi, along);
+  lanes side, side_error;
+  lanes_two_sum(i->hi, -p->local[axis].moment[number], &side, &side_error);
+  const lanes rest = (i->lo - p->local[axis].moment_rest[number]) -
+                     lanes_multiply_add(slope, k->lo, p->slope_rest[axis][number] * k->hi);
+  return (struct plane){(side - along) + (rest + (side_error - along_error)), i->ds - slope * k->ds,
+                        i->dt - slope * k->dt};
+}
+
+LANES_INLINE lanes plane_of(const struct packet *p, int axis, int number, const double base[3][4], int n)
+{
+  return base[(axis + 1 + number) % 3][n] - p->slope[axis][number] * base[axis][n];
+}
+
+/* 0 where t is not a number, and within the leaf. */
+LANES_INLINE lanes start_within(lanes t)
+{
+  return lanes_min(lanes_max(lanes_select(t == t, t, lanes_all(0)), lanes_all(-0.5)), lanes_all(0.5));
+}
+
+/* The root of the bilinear parts a = a0 + s a1 + t a2 + st a3, b alike, that is nearer to the middle: t eliminated by
+ * Bezout's determinant (a0 + s a1)(b2 + s b3) - (a2 + s a3)(b0 + s b1) = r0 + r1 s + r2 s^2. A pair of complex roots
+ * is replaced by its real part. */
+LANES_INLINE void start(const struct packet *p, const struct leaf_parts *parts, int axis, lanes *out_s, lanes *out_t)
+{
+  lanes a[4], b[4];
+  for (int n = 0; n < 4; n++) a[n] = plane_of(p, axis, 0, parts->base, n), b[n] = plane_of(p, axis, 1, parts->base, n);
+  a[0] -= p->local[axis].moment[0], b[0] -= p->local[axis].moment[1];
+  const lanes r0 = a[0] * b[2] - a[2] * b[0], r2 = a[1] * b[3] - a[3] * b[1];
+  const lanes r1 = (a[0] * b[3] - a[3] * b[0]) + (a[1] * b[2] - a[2] * b[1]);
+  const lanes root = lanes_sqrt(lanes_max(r1 * r1 - 4 * (r0 * r2), lanes_all(0)));
+  const lanes s = start_within(-2 * r0 / (r1 + lanes_select(r1 < 0, -root, root)));
+  const lanes slope_a = a[2] + s * a[3], slope_b = b[2] + s * b[3];
+  const lane_mask steep = lanes_abs(slope_a) > lanes_abs(slope_b);
+  const lanes value = lanes_select(steep, a[0] + s * a[1], b[0] + s * b[1]);
+  *out_s = s, *out_t = start_within(-value / lanes_select(steep, slope_a, slope_b));
+}
+
+void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, lane_mask active, struct leaf_root *out)
+{
+  const struct leaf_parts *parts = leaf->parts;
+  const int k = axis;
+  struct coordinate x[3];
+  struct refine_inverse m;
+  lanes s, t, step_s, step_t, step;
+  lane_mask settled, moving = active;
+  start(p, parts, k, &s, &t);
+  for (int n = 1;; n++) {
+    surface_at(parts, s, t, x);
+    const struct plane a = plane_at(p, k, 0, &x[(k + 1) % 3], &x[k]), b = plane_at(p, k, 1, &x[(k + 2) % 3], &x[k]);
+    const lanes inverse = 1 / (a.ds * b.dt - a.dt * b.ds);
+    m = (struct refine_inverse){b.dt * inverse, -a.dt * inverse, -b.ds * inverse, a.ds * inverse};
+    step_s = m.ua * a.value + m.ub * b.value, step_t = m.va * a.value + m.vb * b.value;
+    step = lanes_max(lanes_abs(step_s), lanes_abs(step_t));
+    settled = active & (step <= parts->last_step);
+    /* A root far outside the leaf, or no progress (NaN compares false), is no concern of this process. */
+    moving &= ~settled & (lanes_abs(s - step_s) < 2) & (lanes_abs(t - step_t) < 2);
+    if (n == NEWTON_MAX_STEPS || !lanes_any(moving)) break;
+    /* A lane that is done stays where it is: what it gets then must not depend on the others. */
+    s = lanes_select(moving, s - step_s, s), t = lanes_select(moving, t - step_t, t);
+  }
+  out->at.u = (s - step_s) + 0.5, out->at.v = (t - step_t) + 0.5;
+  refine_prove(leaf, &m, p->slope[k], p->local[k].error, step, settled, &out->at);
+  lanes way, way_error;
+  lanes_two_sum(x[k].hi, p->local[k].start[0], &way, &way_error);
+  const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
+  out->w = x[k].hi + rest;
+  out->t = (way + (rest + (way_error + p->local[k].start[1]))) * p->local[k].to_t;
+  /* The point is on the leaf, where the root is just outside by its rounding. */
+  const lanes half = lanes_all(0.5);
+  const lanes to_s = lanes_max(lanes_min(s - step_s, half), -half) - s;
+  const lanes to_t = lanes_max(lanes_min(t - step_t, half), -half) - t;
+  for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo + (x[c].ds * to_s + x[c].dt * to_t));
+  const lane_mask turned = settled & (step > parts->plain_step);
+  if (lanes_any(turned))
+    for (int c = 0; c < 3; c++) turn(parts->base[c], parts->rest[c], s, t, to_s, to_t, turned, &x[c]);
+  for (int c = 0; c < 3; c++) out->su[c] = x[c].ds, out->sv[c] = x[c].dt;
+}
