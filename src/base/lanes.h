@@ -31,16 +31,69 @@ typedef int64_t lane_mask __attribute__((vector_size(8 * LANES)));
 /* Lane k: x. (x - 0 keeps every x, -0 and NaN included.) */
 LANES_INLINE lanes lanes_all(double x) { return x - (lanes){0}; }
 
-/* Lane k: x[k * stride]. */
-LANES_INLINE lanes lanes_gather(const double *x, size_t stride)
+#if defined(__AVX__)
+LANES_INLINE void lanes_turn_square(__m256d x[4])
+{
+  const __m256d a = _mm256_unpacklo_pd(x[0], x[1]), b = _mm256_unpackhi_pd(x[0], x[1]);
+  const __m256d c = _mm256_unpacklo_pd(x[2], x[3]), d = _mm256_unpackhi_pd(x[2], x[3]);
+  x[0] = _mm256_permute2f128_pd(a, c, 0x20), x[1] = _mm256_permute2f128_pd(b, d, 0x20);
+  x[2] = _mm256_permute2f128_pd(a, c, 0x31), x[3] = _mm256_permute2f128_pd(b, d, 0x31);
+}
+
+LANES_INLINE void lanes_load_square(const double *from, size_t stride, __m256d x[4])
+{
+  x[0] = _mm256_loadu_pd(from), x[1] = _mm256_loadu_pd(from + stride);
+  x[2] = _mm256_loadu_pd(from + 2 * stride), x[3] = _mm256_loadu_pd(from + 3 * stride);
+  lanes_turn_square(x);
+}
+
+LANES_INLINE void lanes_store_square(__m256d x[4], double *to, size_t stride)
+{
+  lanes_turn_square(x);
+  _mm256_storeu_pd(to, x[0]), _mm256_storeu_pd(to + stride, x[1]);
+  _mm256_storeu_pd(to + 2 * stride, x[2]), _mm256_storeu_pd(to + 3 * stride, x[3]);
+}
+#endif
+
+/* Lane k of *a, *b, *c, *d: from[k * stride] and the three numbers behind it. */
+LANES_INLINE void lanes_load4(const double *from, size_t stride, lanes *a, lanes *b, lanes *c, lanes *d)
 {
 #if LANES == 8
-  return (lanes){x[0],          x[stride],     x[2 * stride], x[3 * stride],
-                 x[4 * stride], x[5 * stride], x[6 * stride], x[7 * stride]};
+  __m256d x[4], y[4];
+  lanes_load_square(from, stride, x), lanes_load_square(from + 4 * stride, stride, y);
+  *a = (lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(x[0]), y[0], 1);
+  *b = (lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(x[1]), y[1], 1);
+  *c = (lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(x[2]), y[2], 1);
+  *d = (lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(x[3]), y[3], 1);
 #elif LANES == 4
-  return (lanes){x[0], x[stride], x[2 * stride], x[3 * stride]};
+  __m256d x[4];
+  lanes_load_square(from, stride, x);
+  *a = (lanes)x[0], *b = (lanes)x[1], *c = (lanes)x[2], *d = (lanes)x[3];
 #else
-  return (lanes){x[0], x[stride]};
+  for (size_t k = 0; k < LANES; k++) {
+    const double *x = from + k * stride;
+    (*a)[k] = x[0], (*b)[k] = x[1], (*c)[k] = x[2], (*d)[k] = x[3];
+  }
+#endif
+}
+
+/* The other way: to[k * stride] and the three behind it are lane k of a, b, c, d. */
+LANES_INLINE void lanes_store4(lanes a, lanes b, lanes c, lanes d, double *to, size_t stride)
+{
+#if LANES == 8
+  __m256d x[4] = {_mm512_castpd512_pd256((__m512d)a), _mm512_castpd512_pd256((__m512d)b),
+                  _mm512_castpd512_pd256((__m512d)c), _mm512_castpd512_pd256((__m512d)d)};
+  __m256d y[4] = {_mm512_extractf64x4_pd((__m512d)a, 1), _mm512_extractf64x4_pd((__m512d)b, 1),
+                  _mm512_extractf64x4_pd((__m512d)c, 1), _mm512_extractf64x4_pd((__m512d)d, 1)};
+  lanes_store_square(x, to, stride), lanes_store_square(y, to + 4 * stride, stride);
+#elif LANES == 4
+  __m256d x[4] = {(__m256d)a, (__m256d)b, (__m256d)c, (__m256d)d};
+  lanes_store_square(x, to, stride);
+#else
+  for (size_t k = 0; k < LANES; k++) {
+    double *x = to + k * stride;
+    x[0] = a[k], x[1] = b[k], x[2] = c[k], x[3] = d[k];
+  }
 #endif
 }
 

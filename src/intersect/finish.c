@@ -120,11 +120,15 @@ struct answers {
   lane_mask plain; /* point and normal are sure */
 };
 
+/* Lanes whose answer, whatever it is, is not sure. */
+static unsigned packet_doubt(const struct packet *p) { return p->model->unproven ? ~0u : lanes_bits(p->best.doubt); }
+
 /* Writes the hits of the lanes of `group`. */
 static void write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
 {
   const struct model *model = p->model;
   const struct best *best = &p->best;
+  const unsigned doubt = packet_doubt(p);
   lanes facing = lanes_all(0), normal[3];
   for (int c = 0; c < 3; c++) facing += a->normal[c] * p->direction[c];
   for (int c = 0; c < 3; c++) normal[c] = lanes_select(facing > 0, -a->normal[c], a->normal[c]);
@@ -135,14 +139,18 @@ static void write_hits(const struct packet *p, unsigned group, const struct answ
   const lane_mask within = (t > p->t_min) & (t < p->t_max);
   const lane_mask special = border[0] | border[1] | border[2] | border[3] | ~best->certain | ~within | ~a->plain;
   const unsigned specials = lanes_bits(special), plain = lanes_bits(a->plain);
+  double row[LANES][12];
+  lanes_store4(t, a->u, a->v, a->point_error, &row[0][0], 12);
+  lanes_store4(a->point[0], a->point[1], a->point[2], a->clearance, &row[0][4], 12);
+  lanes_store4(normal[0], normal[1], normal[2], t, &row[0][8], 12);
   for (unsigned bits = group; bits; bits &= bits - 1) {
     const int l = __builtin_ctz(bits);
     struct hit *hit = &out[l];
+    const double *x = row[l];
     const uint32_t patch = (uint32_t)best->patch[l];
-    hit->u = a->u[l], hit->v = a->v[l], hit->t = t[l], hit->patch = patch;
-    for (int c = 0; c < 3; c++) hit->point[c] = a->point[c][l], hit->normal[c] = normal[c][l];
-    hit->point_error = a->point_error[l], hit->clearance = a->clearance[l];
-    if (!(specials >> l & 1)) continue;
+    *hit = (struct hit){patch, CERTAINTY_CERTAIN, x[0], x[1], x[2], {x[4], x[5], x[6]}, x[3], x[7], {x[8], x[9], x[10]}};
+    if (!((specials | doubt) >> l & 1)) continue;
+    if (doubt >> l & 1) hit->certainty = CERTAINTY_GRAZING;
     if (!(plain >> l & 1)) set_surface(&model->patches[patch], p->rays[l].direction, hit);
     struct settling settling = {&p->rays[l], patch, 0, best->certain[l]};
     for (unsigned k = 0; k < 4; k++) settling.borders |= (unsigned)(border[k][l] & 1) << k;
@@ -186,11 +194,12 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
 
 void finish_hits(const struct packet *p, struct hit out[])
 {
-  const struct model *model = p->model;
-  const unsigned doubt = model->unproven ? ~0u : lanes_bits(p->best.doubt);
   unsigned left = lanes_bits(p->best.patch != NO_PATCH); /* lanes with a hit that is not finished */
-  for (unsigned l = 0; l < p->count; l++)
-    out[l].patch = HIT_NONE, out[l].certainty = doubt >> l & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
+  const unsigned doubt = packet_doubt(p);
+  for (unsigned bits = ~left & ((1u << p->count) - 1); bits; bits &= bits - 1) {
+    struct hit *miss = &out[__builtin_ctz(bits)];
+    miss->patch = HIT_NONE, miss->certainty = doubt >> (miss - out) & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
+  }
   const unsigned final = left & lanes_bits(p->best.final);
   if (final) finish_final(p, final, out);
   left &= ~final;

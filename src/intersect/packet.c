@@ -13,7 +13,9 @@
  * With Aberth's method instead of 3 and 4 all roots of r, and boxes (all_roots.h). What is left goes lane by lane to
  * subdivision; with another solver to that first (candidate.c).
  */
+#include <assert.h>
 #include <math.h>
+#include <stddef.h>
 
 #include "intersect/all_roots.h"
 #include "intersect/leaf.h"
@@ -23,17 +25,20 @@
 #include "intersect/surface.h"
 #include "intersect/trial.h"
 
+/* A ray is eight doubles in a row. */
 enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
+static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(double) &&
+                offsetof(struct ray, t_min) == 6 * sizeof(double), "read as two fours");
 
 void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any)
 {
   p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
   p->outer = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);
-  for (int k = 0; k < 3; k++)
-    p->origin[k] = lanes_gather(&rays[0].origin[k], RAY_STRIDE),
-    p->direction[k] = lanes_gather(&rays[0].direction[k], RAY_STRIDE);
-  p->t_min = lanes_gather(&rays[0].t_min, RAY_STRIDE), p->t_far = p->t_max = lanes_gather(&rays[0].t_max, RAY_STRIDE);
+  lanes *o = p->origin, *d = p->direction;
+  lanes_load4(rays->origin, RAY_STRIDE, &o[0], &o[1], &o[2], &d[0]);
+  lanes_load4(&rays->direction[1], RAY_STRIDE, &d[1], &d[2], &p->t_min, &p->t_max);
+  p->t_far = p->t_max;
   packet_orient(p);
 }
 
@@ -389,7 +394,8 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
   t.leaf = &p->model->leaves[index], t.number = index;
   t.patch = &p->model->patches[t.leaf->patch];
   if (p->patch != t.leaf->patch) packet_set_patch(p, t.leaf->patch);
-  for (t.axis = 0; t.axis < 3; t.axis++) {
+  for (unsigned bits = p->axes; bits; bits &= bits - 1) {
+    t.axis = __builtin_ctz(bits);
     const lane_mask here = active & p->on_axis[t.axis];
     if (lanes_any(here)) packet_try(p, &t, here);
   }

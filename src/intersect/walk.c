@@ -246,12 +246,11 @@ static void kernel_closest(struct tracer *tracer, size_t count, const struct ray
       struct hit *hits = out_hits + first + h * LANES;
       if (packet->count == 0) continue;
       finish_hits(packet, hits);
-      for (size_t l = 0; l < packet->count; l++) {
-        if (ready[h].copied && ready[h].exponent[l] != 0 && hits[l].patch != HIT_NONE)
-          hits[l].t = ldexp(hits[l].t, -ready[h].exponent[l]);
-        if (hits[l].certainty == CERTAINTY_CERTAIN) tracer->counts.certain++;
-        else tracer->counts.grazing++;
-      }
+      size_t grazing = 0;
+      for (size_t l = 0; l < packet->count; l++) grazing += hits[l].certainty == CERTAINTY_GRAZING;
+      tracer->counts.grazing += grazing, tracer->counts.certain += packet->count - grazing;
+      for (size_t l = 0; l < packet->count && ready[h].copied; l++)
+        if (ready[h].exponent[l] != 0 && hits[l].patch != HIT_NONE) hits[l].t = ldexp(hits[l].t, -ready[h].exponent[l]);
       tracer->counts.rays[0] += packet->count;
     }
   }
