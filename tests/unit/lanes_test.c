@@ -71,15 +71,21 @@ static bool same_float(float a, float b) { return same_float_bits(a, b) || (isna
 static void lanes_are_placed(void **state)
 {
   (void)state;
-  double grid[3 * LANES];
+  enum { STRIDE = 5 };
+  double grid[STRIDE * LANES], back[STRIDE * LANES];
   for (int n = 0; n < VALUES; n++) {
-    for (int k = 0; k < 3 * LANES; k++) grid[k] = first_value(n + k);
-    const lanes all = lanes_all(first_value(n)), every = lanes_gather(grid, 1), third = lanes_gather(grid, 3);
+    for (int k = 0; k < STRIDE * LANES; k++) grid[k] = first_value(n + k), back[k] = 7;
+    const lanes all = lanes_all(first_value(n));
+    lanes four[4];
+    lanes_load4(grid, STRIDE, &four[0], &four[1], &four[2], &four[3]);
+    lanes_store4(four[0], four[1], four[2], four[3], back, STRIDE);
     const float_lanes float_all = float_lanes_all((float)first_value(n));
     const float_lanes joined = float_lanes_join(row(first_value, n), row(first_value, n + LANES));
     for (int l = 0; l < LANES; l++) {
       assert_true(same_bits(all[l], first_value(n)));
-      assert_true(same_bits(every[l], grid[l]) && same_bits(third[l], grid[3 * l]));
+      for (int k = 0; k < 4; k++) assert_true(same_bits(four[k][l], grid[STRIDE * l + k]));
+      for (int k = 0; k < 4; k++) assert_true(same_bits(back[STRIDE * l + k], grid[STRIDE * l + k]));
+      assert_true(back[STRIDE * l + 4] == 7);
     }
     for (int l = 0; l < FLOAT_LANES; l++) {
       assert_true(same_float_bits(float_all[l], (float)first_value(n)));
