@@ -123,8 +123,8 @@ struct answers {
 /* Lanes whose answer, whatever it is, is not sure. */
 static unsigned packet_doubt(const struct packet *p) { return p->model->unproven ? ~0u : lanes_bits(p->best.doubt); }
 
-/* Writes the hits of the lanes of `group`. */
-static void write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
+/* Writes the hits of the lanes of `group`. Returns how many are not certain. */
+static unsigned write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
 {
   const struct model *model = p->model;
   const struct best *best = &p->best;
@@ -140,6 +140,7 @@ static void write_hits(const struct packet *p, unsigned group, const struct answ
   const lane_mask special = border[0] | border[1] | border[2] | border[3] | ~best->certain | ~within | ~a->plain;
   const unsigned specials = lanes_bits(special), plain = lanes_bits(a->plain);
   double row[LANES][12];
+  unsigned grazing = 0;
   lanes_store4(t, a->u, a->v, a->point_error, &row[0][0], 12);
   lanes_store4(a->point[0], a->point[1], a->point[2], a->clearance, &row[0][4], 12);
   lanes_store4(normal[0], normal[1], normal[2], t, &row[0][8], 12);
@@ -155,11 +156,13 @@ static void write_hits(const struct packet *p, unsigned group, const struct answ
     struct settling settling = {&p->rays[l], patch, 0, best->certain[l]};
     for (unsigned k = 0; k < 4; k++) settling.borders |= (unsigned)(border[k][l] & 1) << k;
     settle(model, &settling, hit);
+    grazing += hit->certainty == CERTAINTY_GRAZING;
   }
+  return grazing;
 }
 
 /* The lanes of `group`, whose best roots are final. */
-static void finish_final(const struct packet *p, unsigned group, struct hit out[])
+static unsigned finish_final(const struct packet *p, unsigned group, struct hit out[])
 {
   const struct best *best = &p->best;
   struct answers a;
@@ -167,11 +170,11 @@ static void finish_final(const struct packet *p, unsigned group, struct hit out[
   a.plain = surface_normal(best->normal, best->tangent, a.normal);
   for (int c = 0; c < 3; c++) a.point[c] = best->point[c];
   a.point_error = best->point_error, a.clearance = best->clearance;
-  write_hits(p, group, &a, out);
+  return write_hits(p, group, &a, out);
 }
 
 /* The lanes of `group`, whose best roots are on one patch and whose rays share an axis. */
-static void finish_group(const struct packet *p, unsigned group, int axis, uint32_t index, struct hit out[])
+static unsigned finish_group(const struct packet *p, unsigned group, int axis, uint32_t index, struct hit out[])
 {
   struct model_patch *patch = &p->model->patches[index];
   const struct best *best = &p->best;
@@ -189,26 +192,28 @@ static void finish_group(const struct packet *p, unsigned group, int axis, uint3
   }
   a.point_error = POINT_ERROR(patch->scale, step.tangent, magnitude);
   a.clearance = a.point_error + CLEARANCE(patch->scale, patch->loose, magnitude);
-  write_hits(p, group, &a, out);
+  return write_hits(p, group, &a, out);
 }
 
-void finish_hits(const struct packet *p, struct hit out[])
+unsigned finish_hits(const struct packet *p, struct hit out[])
 {
   unsigned left = lanes_bits(p->best.patch != NO_PATCH); /* lanes with a hit that is not finished */
-  const unsigned doubt = packet_doubt(p);
-  for (unsigned bits = ~left & ((1u << p->count) - 1); bits; bits &= bits - 1) {
-    struct hit *miss = &out[__builtin_ctz(bits)];
-    miss->patch = HIT_NONE, miss->certainty = doubt >> (miss - out) & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
+  const unsigned misses = ~left & ((1u << p->count) - 1), doubt = misses & packet_doubt(p);
+  for (unsigned bits = misses; bits; bits &= bits - 1) {
+    const int l = __builtin_ctz(bits);
+    out[l].patch = HIT_NONE, out[l].certainty = doubt >> l & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
   }
+  unsigned grazing = (unsigned)__builtin_popcount(doubt);
   const unsigned final = left & lanes_bits(p->best.final);
-  if (final) finish_final(p, final, out);
+  if (final) grazing += finish_final(p, final, out);
   left &= ~final;
   while (left) {
     const unsigned first = (unsigned)__builtin_ctz(left);
     const int axis = packet_axis(p, first);
     const int64_t patch = p->best.patch[first];
     const unsigned group = left & lanes_bits((p->best.patch == patch) & p->on_axis[axis]);
-    finish_group(p, group, axis, (uint32_t)patch, out);
+    grazing += finish_group(p, group, axis, (uint32_t)patch, out);
     left &= ~group;
   }
+  return grazing;
 }

@@ -116,7 +116,7 @@ LANES_INLINE lanes plane_of(const struct packet *p, int axis, int number, const 
 }
 
 /* 0 where t is not a number, and within the leaf. */
-LANES_INLINE lanes start_within(lanes t)
+LANES_INLINE lanes near_middle(lanes t)
 {
   return lanes_min(lanes_max(lanes_select(t == t, t, lanes_all(0)), lanes_all(-0.5)), lanes_all(0.5));
 }
@@ -132,11 +132,11 @@ LANES_INLINE void start(const struct packet *p, const struct leaf_parts *parts, 
   const lanes r0 = a[0] * b[2] - a[2] * b[0], r2 = a[1] * b[3] - a[3] * b[1];
   const lanes r1 = (a[0] * b[3] - a[3] * b[0]) + (a[1] * b[2] - a[2] * b[1]);
   const lanes root = lanes_sqrt(lanes_max(r1 * r1 - 4 * (r0 * r2), lanes_all(0)));
-  const lanes s = start_within(-2 * r0 / (r1 + lanes_select(r1 < 0, -root, root)));
+  const lanes s = near_middle(-2 * r0 / (r1 + lanes_select(r1 < 0, -root, root)));
   const lanes slope_a = a[2] + s * a[3], slope_b = b[2] + s * b[3];
   const lane_mask steep = lanes_abs(slope_a) > lanes_abs(slope_b);
   const lanes value = lanes_select(steep, a[0] + s * a[1], b[0] + s * b[1]);
-  *out_s = s, *out_t = start_within(-value / lanes_select(steep, slope_a, slope_b));
+  *out_s = s, *out_t = near_middle(-value / lanes_select(steep, slope_a, slope_b));
 }
 
 void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, lane_mask active, struct leaf_root *out)

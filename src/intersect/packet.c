@@ -80,12 +80,6 @@ static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const 
   return root;
 }
 
-/* Places on the rays where x_k = w. */
-LANES_INLINE lanes packet_place_to_t(const struct packet *p, int axis, lanes w)
-{
-  return ((w + p->local[axis].start[1]) + p->local[axis].start[0]) * p->local[axis].to_t;
-}
-
 /* Makes a root the answer so far where it is nearer than the best, or as near to the last bit and of a lower leaf.
  * That orders all roots, so the answer is the same in whatever order the leaves come, which depends on the other
  * rays of the packet. */
@@ -163,6 +157,13 @@ static lane_mask packet_offer_lanes(struct packet *p, const struct trial *t, con
   p->moved = true;
   p->tracer->counts.roots_accepted += (unsigned)__builtin_popcount(lanes_bits(taken));
   return taken;
+}
+
+static void packet_offer_refined(struct packet *p, const struct trial *t, const struct refined *r, lane_mask hits)
+{
+  if (!lanes_any(hits)) return;
+  const lanes w = trial_place(t, r->u, r->v), *start = p->local[t->axis].start;
+  packet_offer_lanes(p, t, r, w, ((w + start[1]) + start[0]) * p->local[t->axis].to_t, hits);
 }
 
 /* Keeps what a leaf's root says of the surface. */
@@ -325,10 +326,7 @@ static lane_mask trial_first_root(struct packet *p, const struct trial *t, lane_
   /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
   const lane_mask single = (t->variations == 1) & r.exists & (k > radius) & (k < 1 - radius);
   const lane_mask decided = active & (r.alone | single);
-  const lane_mask hits = decided & inside(&r);
-  if (!lanes_any(hits)) return active & ~decided;
-  const lanes w = trial_place(t, r.u, r.v);
-  packet_offer_lanes(p, t, &r, w, packet_place_to_t(p, t->axis, w), hits);
+  packet_offer_refined(p, t, &r, decided & inside(&r));
   return active & ~decided;
 }
 
@@ -354,7 +352,7 @@ static lane_mask trial_all_roots(struct packet *p, const struct trial *t, lane_m
   if (!lanes_any(active)) return active;
   const lane_mask decided = all_roots_find(p, t, active, &all);
   for (int k = 0; k < all.count; k++)
-    packet_offer_lanes(p, t, &all.root[k], decided & all.proven[k] & inside(&all.root[k]));
+    packet_offer_refined(p, t, &all.root[k], decided & all.proven[k] & inside(&all.root[k]));
   return active & ~decided;
 }
 

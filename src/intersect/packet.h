@@ -127,7 +127,8 @@ struct leaf_root {
 void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, lane_mask active, struct leaf_root *out);
 
 /* finish.c: the answers of the packet's rays from its best roots: parameters of the whole patch, improved by a
- * Newton step on the patch itself, and all else that a hit has. t is in units of the scaled direction. */
-void finish_hits(const struct packet *p, struct hit out[]);
+ * Newton step on the patch itself where they are not right to the last places yet, and all else that a hit has. t is
+ * in units of the scaled direction. Returns how many are not certain. */
+unsigned finish_hits(const struct packet *p, struct hit out[]);
 
 #endif

@@ -245,9 +245,7 @@ static void kernel_closest(struct tracer *tracer, size_t count, const struct ray
       const struct packet *packet = &bundle.packet[h];
       struct hit *hits = out_hits + first + h * LANES;
       if (packet->count == 0) continue;
-      finish_hits(packet, hits);
-      size_t grazing = 0;
-      for (size_t l = 0; l < packet->count; l++) grazing += hits[l].certainty == CERTAINTY_GRAZING;
+      const unsigned grazing = finish_hits(packet, hits);
       tracer->counts.grazing += grazing, tracer->counts.certain += packet->count - grazing;
       for (size_t l = 0; l < packet->count && ready[h].copied; l++)
         if (ready[h].exponent[l] != 0 && hits[l].patch != HIT_NONE) hits[l].t = ldexp(hits[l].t, -ready[h].exponent[l]);
