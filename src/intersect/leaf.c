@@ -186,6 +186,23 @@ static void taylor_net(double x[4][4], double out[16])
   }
 }
 
+/* A bound on what third derivatives make of parameter vectors of maximum norm 1, over the leaf widened by LEAF_MARGIN:
+ * that of the sum of each coordinate's terms. */
+static double third_bound(const struct leaf_parts *parts)
+{
+  static const double falling[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 2, 0}, {1, 3, 6, 6}}; /* n!/(n-k)! */
+  const double reach = 0.5 + LEAF_MARGIN, power[4] = {1, reach, reach * reach, reach * reach * reach};
+  double sum[3] = {0, 0, 0};
+  for (int k = 0; k < 3; k++)
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++)
+        for (int a = 0; a <= 3; a++)
+          if (i >= a && j >= 3 - a)
+            sum[k] += (a == 0 || a == 3 ? 1 : 3) * falling[i][a] * falling[j][3 - a] * power[i - a] *
+                      power[j - (3 - a)] * fabs(parts->rest[k][4 * i + j]);
+  return vector_length(sum);
+}
+
 /* Twice what a root may be off by, in the patch's frame, after the last step of Newton's process: a quarter of
  * UNIT_ROUNDOFF. */
 #define LAST_STEP_CURVE (UNIT_ROUNDOFF / 2)
@@ -209,6 +226,7 @@ static void set_parts(const struct model_patch *patch, const struct leaf *leaf, 
   const double first = real_min(leaf->first[0], leaf->first[1]);
   out->last_step = real_min(NEWTON_LAST_STEP, sqrt(LAST_STEP_CURVE / real_max(second, LAST_STEP_CURVE)));
   out->plain_step = 2 * UNIT_ROUNDOFF * first / real_max(second, UNIT_ROUNDOFF * first);
+  out->third = third_bound(out);
   out->exact = patch->split <= EXACT_SPLIT && (patch->split & (patch->split - 1)) == 0;
 }
 

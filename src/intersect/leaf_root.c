@@ -68,11 +68,14 @@ __attribute__((noinline)) static void surface_at(const struct leaf_parts *parts,
   for (int c = 0; c < 3; c++) out[c] = coordinate_at(parts->base[c], parts->rest[c], &at);
 }
 
-/* Moves the derivatives of a coordinate from (s,t) on by (to_s,to_t), by second derivatives. */
-LANES_INLINE void turn(const double base[4], const double rest[16], lanes s, lanes t, lanes to_s, lanes to_t,
-                       lane_mask where, struct coordinate *x)
+/* Second derivatives of a coordinate. */
+struct curvature {
+  lanes ss, st, tt;
+};
+
+LANES_INLINE struct curvature curvature_at(const double base[4], const double rest[16], lanes s, lanes t)
 {
-  lanes ss = {0}, st = {0}, tt = {0};
+  struct curvature x = {{0}, {0}, {0}};
 #pragma GCC unroll 4
   for (int i = 3; i >= 0; i--) {
     const double *r = rest + 4 * i;
@@ -80,14 +83,32 @@ LANES_INLINE void turn(const double base[4], const double rest[16], lanes s, lan
     if (i >= 2) {
       lanes row = lanes_multiply_add(lanes_all(r[3]), t, square);
       row = lanes_multiply_add(lanes_multiply_add(row, t, lanes_all(r[1])), t, lanes_all(r[0]));
-      ss = lanes_multiply_add(ss, s, i * (i - 1) * row);
+      x.ss = lanes_multiply_add(x.ss, s, i * (i - 1) * row);
     }
-    if (i >= 1) st = lanes_multiply_add(st, s, i * lanes_multiply_add(cubic_t + 2 * square, t, lanes_all(r[1])));
-    tt = lanes_multiply_add(tt, s, cubic_t + square);
+    if (i >= 1) x.st = lanes_multiply_add(x.st, s, i * lanes_multiply_add(cubic_t + 2 * square, t, lanes_all(r[1])));
+    x.tt = lanes_multiply_add(x.tt, s, cubic_t + square);
   }
-  st += base[3], tt *= 2;
-  x->ds = lanes_select(where, x->ds + (ss * to_s + st * to_t), x->ds);
-  x->dt = lanes_select(where, x->dt + (st * to_s + tt * to_t), x->dt);
+  x.st += base[3], x.tt *= 2;
+  return x;
+}
+
+/* Out of line for the same reason. */
+__attribute__((noinline)) static void curvatures_at(const struct leaf_parts *parts, lanes s, lanes t,
+                                                    struct curvature out[3])
+{
+  for (int c = 0; c < 3; c++) out[c] = curvature_at(parts->base[c], parts->rest[c], s, t);
+}
+
+/* Moves the derivatives from (s,t) on by (to_s,to_t), by second derivatives. */
+LANES_INLINE void surface_turn(const struct leaf_parts *parts, lanes s, lanes t, lanes to_s, lanes to_t,
+                               lane_mask where, struct coordinate x[3])
+{
+  struct curvature h[3];
+  curvatures_at(parts, s, t, h);
+  for (int c = 0; c < 3; c++) {
+    x[c].ds = lanes_select(where, x[c].ds + (h[c].ss * to_s + h[c].st * to_t), x[c].ds);
+    x[c].dt = lanes_select(where, x[c].dt + (h[c].st * to_s + h[c].tt * to_t), x[c].dt);
+  }
 }
 
 /* ---- the planes ---- */
@@ -139,6 +160,57 @@ LANES_INLINE void start(const struct packet *p, const struct leaf_parts *parts, 
   *out_s = s, *out_t = near_middle(-value / lanes_select(steep, slope_a, slope_b));
 }
 
+/* Bounds on a row of M J: its own parameter's element is at least `least`, the other within `cross`. */
+struct row {
+  lanes least, cross;
+};
+
+/* How far that of J(c + d), |d| up to `reach`, may be from J(c) + H d, all rounding included, is `rest`. */
+struct halfway {
+  struct coordinate x[3]; /* at c */
+  struct curvature h[3];
+  lanes reach, rest;
+};
+
+LANES_INLINE struct row row_bounds(const struct packet *p, int axis, const struct halfway *at, lanes ma, lanes mb,
+                                   bool second)
+{
+  const struct coordinate *xk = &at->x[axis], *xi = &at->x[(axis + 1) % 3], *xj = &at->x[(axis + 2) % 3];
+  const struct curvature *hk = &at->h[axis], *hi = &at->h[(axis + 1) % 3], *hj = &at->h[(axis + 2) % 3];
+  const lanes mk = -(ma * p->slope[axis][0] + mb * p->slope[axis][1]);
+  const lanes ds = ma * xi->ds + mb * xj->ds + mk * xk->ds, dt = ma * xi->dt + mb * xj->dt + mk * xk->dt;
+  const lanes ss = lanes_abs(ma * hi->ss + mb * hj->ss + mk * hk->ss);
+  const lanes st = lanes_abs(ma * hi->st + mb * hj->st + mk * hk->st);
+  const lanes tt = lanes_abs(ma * hi->tt + mb * hj->tt + mk * hk->tt);
+  const lanes off_s = at->reach * (ss + st) + at->rest, off_t = at->reach * (st + tt) + at->rest;
+  return second ? (struct row){dt - off_t, lanes_abs(ds) + off_s} : (struct row){ds - off_s, lanes_abs(dt) + off_t};
+}
+
+/* Rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size 1:
+ * the net, and some twenty operations. */
+#define DERIVATIVE_ROUNDINGS 64
+
+/* Lanes whose proven root, near (s,t), is alone in the leaf, by a closer look than refine_prove's.
+ *
+ * On the way from the root to a point of the leaf the Jacobian is on average what it is halfway, but for |T|/24 of
+ * third derivatives times the way squared, which is at most 1 + LEAF_MARGIN long. Halfways are within 1/4 of the one to
+ * the middle of the leaf, c: there the Jacobian is J(c) + H(c) d but for |T|/32. Where no such matrix can be singular,
+ * because M times it has a positive diagonal whose product is larger than that of the other elements, no other point
+ * of the leaf has the root's values. */
+LANES_INLINE lane_mask alone_at(const struct packet *p, int axis, const struct leaf *leaf,
+                                const struct refine_inverse *m, const struct refined *r, lanes step, lanes s, lanes t)
+{
+  struct halfway at;
+  surface_at(leaf->parts, 0.5 * s, 0.5 * t, at.x);
+  curvatures_at(leaf->parts, 0.5 * s, 0.5 * t, at.h);
+  const double way = 1 + LEAF_MARGIN, third = leaf->parts->third * (way * way / 24 + 1.0 / 32);
+  at.reach = 0.25 + (step + lanes_max(r->radius_u, r->radius_v)); /* (s,t) is not the root itself */
+  at.rest = r->size * (third + DERIVATIVE_ROUNDINGS * UNIT_ROUNDOFF * (1 + leaf->first[0] + leaf->first[1]));
+  const struct row u = row_bounds(p, axis, &at, m->ua, m->ub, false);
+  const struct row v = row_bounds(p, axis, &at, m->va, m->vb, true);
+  return (u.least > 0) & (v.least > 0) & (u.least * v.least > (1 + 8 * UNIT_ROUNDOFF) * (u.cross * v.cross));
+}
+
 void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, lane_mask active, struct leaf_root *out)
 {
   const struct leaf_parts *parts = leaf->parts;
@@ -164,6 +236,8 @@ void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, 
   }
   out->at.u = (s - step_s) + 0.5, out->at.v = (t - step_t) + 0.5;
   refine_prove(leaf, &m, p->slope[k], p->local[k].error, step, settled, &out->at);
+  const lane_mask open = out->at.exists & ~out->at.alone;
+  if (lanes_any(open)) out->at.alone |= open & alone_at(p, k, leaf, &m, &out->at, step, s, t);
   lanes way, way_error;
   lanes_two_sum(x[k].hi, p->local[k].start[0], &way, &way_error);
   const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
@@ -176,6 +250,6 @@ void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, 
   for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo + (x[c].ds * to_s + x[c].dt * to_t));
   const lane_mask turned = settled & (step > parts->plain_step);
   if (lanes_any(turned))
-    for (int c = 0; c < 3; c++) turn(parts->base[c], parts->rest[c], s, t, to_s, to_t, turned, &x[c]);
+    surface_turn(parts, s, t, to_s, to_t, turned, x);
   for (int c = 0; c < 3; c++) out->su[c] = x[c].ds, out->sv[c] = x[c].dt;
 }

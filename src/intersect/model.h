@@ -59,6 +59,7 @@ struct leaf_parts {
   /* steps up to these, in leaf parameters, leave the root right to the rounding of its coordinates, and derivatives
    * right to their own */
   double last_step, plain_step;
+  double third; /* bound on third derivatives */
 };
 
 #define LEAF_GRAIN 0x1p-24

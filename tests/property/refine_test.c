@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "cmocka_test.h"
-#include "intersect/refine.h"
+#include "intersect/packet.h"
 #include "property/world.h"
 #include "reference/quad.h"
 
@@ -13,6 +13,7 @@ enum { SEED = 20240513, CASES = 12000 };
 struct truth {
   struct quad_net net[2];
   quad moment[2];
+  struct quad_net x[3]; /* the leaf's own */
 };
 
 static void truth_make(const struct model *model, const struct leaf *leaf, const struct ray *ray, int k,
@@ -20,7 +21,7 @@ static void truth_make(const struct model *model, const struct leaf *leaf, const
 {
   const struct model_patch *patch = &model->patches[leaf->patch];
   double(*P)[4][3] = model->scene->patches[leaf->patch].P;
-  struct quad_net x[3];
+  struct quad_net *x = out->x;
   quad q[3];
   for (int c = 0; c < 3; c++) {
     struct quad_net whole;
@@ -137,8 +138,38 @@ static void the_plane_polynomials_are_within_their_error(void **state)
   assert_true(worst_t <= 2);
 }
 
-static int exist, alone, outside_radius, not_alone;
-static double worst_radius;
+/* What became of the claims on proven roots. */
+struct tally {
+  int exist, alone, outside_radius, not_alone;
+  double worst_radius;
+};
+
+/* Checks the claims of lane 0, and sets (u,v) to the exact root. Returns whether there is one. */
+static bool check_root(const struct truth *truth, const struct refined *r, struct random *random, struct tally *tally,
+                       quad *u, quad *v)
+{
+  if (!(lanes_bits(r->exists) & 1)) return false;
+  tally->exist++;
+  *u = r->u[0], *v = r->v[0];
+  if (!quad_newton(truth, u, v)) {
+    tally->outside_radius++;
+    return false;
+  }
+  const double du = (double)quad_abs(*u - r->u[0]), dv = (double)quad_abs(*v - r->v[0]);
+  if (!(du <= r->radius_u[0] && dv <= r->radius_v[0])) tally->outside_radius++;
+  tally->worst_radius = fmax(tally->worst_radius, fmax(du / r->radius_u[0], dv / r->radius_v[0]));
+  if (!(lanes_bits(r->alone) & 1)) return true;
+  tally->alone++;
+  for (int n = 0; n < 25; n++) { /* no second root, from wherever it is looked for */
+    quad x = (n % 5 + random_unit(random)) / 5, y = (n / 5 + random_unit(random)) / 5;
+    if (!quad_newton(truth, &x, &y)) continue;
+    if (x < 0 || x > 1 || y < 0 || y > 1) continue;
+    if (quad_abs(x - *u) > 1e-20 || quad_abs(y - *v) > 1e-20) tally->not_alone++;
+  }
+  return true;
+}
+
+static struct tally refined;
 
 static void check_refine(struct subject *s, struct random *random)
 {
@@ -149,24 +180,8 @@ static void check_refine(struct subject *s, struct random *random)
   for (int start = 0; start < 4; start++) {
     const double u0 = random_between(random, -0.1, 1.1), v0 = random_between(random, -0.1, 1.1);
     const struct refined r = refine(&nets, s->leaf, lanes_all(u0), lanes_all(v0), lanes_all(0) == lanes_all(0));
-    if (!(lanes_bits(r.exists) & 1)) continue;
-    exist++;
-    quad u = r.u[0], v = r.v[0];
-    if (!quad_newton(&s->truth, &u, &v)) {
-      outside_radius++;
-      continue;
-    }
-    const double du = (double)quad_abs(u - r.u[0]), dv = (double)quad_abs(v - r.v[0]);
-    if (!(du <= r.radius_u[0] && dv <= r.radius_v[0])) outside_radius++;
-    worst_radius = fmax(worst_radius, fmax(du / r.radius_u[0], dv / r.radius_v[0]));
-    if (!(lanes_bits(r.alone) & 1)) continue;
-    alone++;
-    for (int n = 0; n < 25; n++) { /* no second root, from wherever it is looked for */
-      quad x = (n % 5 + random_unit(random)) / 5, y = (n / 5 + random_unit(random)) / 5;
-      if (!quad_newton(&s->truth, &x, &y)) continue;
-      if (x < 0 || x > 1 || y < 0 || y > 1) continue;
-      if (quad_abs(x - u) > 1e-20 || quad_abs(y - v) > 1e-20) not_alone++;
-    }
+    quad u, v;
+    check_root(&s->truth, &r, random, &refined, &u, &v);
   }
 }
 
@@ -174,10 +189,92 @@ static void proven_roots_are_where_they_are_said_to_be(void **state)
 {
   (void)state;
   on_all_leaves(SEED + 1, check_refine);
-  print_message("%d proven, %d of them alone; at most %.3g of the radius away\n", exist, alone, worst_radius);
-  assert_true(exist > 100 && alone > 50);
-  assert_int_equal(outside_radius, 0);
-  assert_int_equal(not_alone, 0);
+  print_message("%d proven, %d of them alone; at most %.3g of the radius away\n", refined.exist, refined.alone,
+                refined.worst_radius);
+  assert_true(refined.exist > 100 && refined.alone > 50);
+  assert_int_equal(refined.outside_radius, 0);
+  assert_int_equal(refined.not_alone, 0);
+}
+
+/* Turns the ray to a point of the leaf, from some of its sizes away; the smaller `slant` is, the flatter, and the
+ * more likely to meet the leaf twice. */
+static void aim(struct subject *s, struct random *random, double slant)
+{
+  const struct model_patch *patch = &s->model->patches[s->leaf->patch];
+  const quad u = random_unit(random), v = random_unit(random);
+  struct quad_jet jet[3];
+  double along[3], normal[3];
+  for (int c = 0; c < 3; c++) jet[c] = quad_net_jet(&s->truth.x[c], u, v);
+  for (int c = 0; c < 3; c++) {
+    const int i = (c + 1) % 3, j = (c + 2) % 3;
+    normal[c] = (double)(jet[i].du * jet[j].dv - jet[j].du * jet[i].dv);
+  }
+  const double turn = random_between(random, -1, 1), way = random_between(random, 2, 9);
+  const double size = hypot(normal[0], hypot(normal[1], normal[2]));
+  for (int c = 0; c < 3; c++) {
+    along[c] = (double)(jet[c].du + turn * jet[c].dv) + (size > 0 ? slant * normal[c] / sqrt(size) : 0);
+    s->ray.direction[c] = along[c];
+    s->ray.origin[c] = patch->center[c] + patch->scale * ((double)jet[c].value - way * along[c]);
+  }
+}
+
+static struct tally leaf_roots;
+static int closer_look; /* alone, though refine_prove would not say so */
+static double worst_residual, worst_place, worst_point, worst_tangent;
+
+static void check_leaf_root(struct subject *s, struct random *random)
+{
+  struct ray rays[LANES];
+  struct packet p;
+  struct leaf_root root;
+  if (!s->leaf->parts) return;
+  static const double slants[] = {0.5, 0.2, 0.1, 0.05};
+  aim(s, random, slants[random_bits(random) % 4]);
+  local_ray_make(&s->model->patches[s->leaf->patch], &s->ray, &s->local);
+  truth_make(s->model, s->leaf, &s->ray, s->local.axis, &s->truth);
+  for (int l = 0; l < LANES; l++) rays[l] = s->ray;
+  packet_start(&p, s->world.tracer, rays, LANES, false);
+  packet_set_patch(&p, s->leaf->patch);
+  const int k = s->local.axis;
+  assert_int_equal(packet_axis(&p, 0), k);
+  leaf_root_solve(&p, s->leaf, k, lanes_all(0) == lanes_all(0), &root);
+  quad u, v;
+  if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts->exact) return;
+  const double second = s->leaf->second[0] + 2 * s->leaf->second[1] + s->leaf->second[2];
+  if ((lanes_bits(root.at.alone) & 1) && root.at.size[0] * second > 2 * ALONE_BOUND) closer_look++;
+  /* Off the ray by: one rounding of a coordinate of the patch, of size 1, of the surface's way under the rounding of
+   * u and v, and the bend's. */
+  const quad at_u = root.at.u[0], at_v = root.at.v[0];
+  for (int n = 0; n < 2; n++) {
+    const quad off = quad_net_jet(&s->truth.net[n], at_u, at_v).value;
+    worst_residual = fmax(worst_residual, (double)quad_abs(off) / UNIT_ROUNDOFF);
+  }
+  const struct model_patch *patch = &s->model->patches[s->leaf->patch];
+  const quad start = ((quad)patch->center[k] - s->ray.origin[k]) / patch->scale;
+  const struct quad_jet exact = quad_net_jet(&s->truth.x[k], u, v);
+  const double place = (double)quad_abs((quad)root.t[0] * s->ray.direction[k] / patch->scale - (exact.value + start));
+  worst_place = fmax(worst_place, place / (UNIT_ROUNDOFF * (root.at.size[0] + (double)quad_abs(exact.value + start))));
+  for (int c = 0; c < 3 && at_u >= 0 && at_u <= 1 && at_v >= 0 && at_v <= 1; c++) {
+    const struct quad_jet jet = quad_net_jet(&s->truth.x[c], at_u, at_v);
+    const double size = s->leaf->first[0] + s->leaf->first[1];
+    worst_point = fmax(worst_point, (double)quad_abs(root.point[c][0] - jet.value) / UNIT_ROUNDOFF);
+    worst_tangent = fmax(worst_tangent, (double)quad_abs(root.su[c][0] - jet.du) / (UNIT_ROUNDOFF * (size + 1)));
+    worst_tangent = fmax(worst_tangent, (double)quad_abs(root.sv[c][0] - jet.dv) / (UNIT_ROUNDOFF * (size + 1)));
+  }
+}
+
+static void roots_of_nearly_bilinear_leaves_are_right_to_the_last_places(void **state)
+{
+  (void)state;
+  on_all_leaves(SEED + 2, check_leaf_root);
+  print_message("%d proven, %d of them alone, %d by a closer look; at most %.3g of the radius away\n", leaf_roots.exist,
+                leaf_roots.alone, closer_look, leaf_roots.worst_radius);
+  print_message("in roundings: off the ray %.3g, places %.3g, points %.3g, derivatives %.3g\n", worst_residual,
+                worst_place, worst_point, worst_tangent);
+  assert_true(leaf_roots.exist > 100 && leaf_roots.alone > 50 && closer_look > 10);
+  assert_int_equal(leaf_roots.outside_radius, 0);
+  assert_int_equal(leaf_roots.not_alone, 0);
+  assert_true(worst_residual <= 0.5 && worst_place <= 0.5 && worst_point <= 0.5 && worst_tangent <= 0.5);
 }
 
 int main(void)
@@ -186,6 +283,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_plane_polynomials_are_within_their_error),
     cmocka_unit_test(proven_roots_are_where_they_are_said_to_be),
+    cmocka_unit_test(roots_of_nearly_bilinear_leaves_are_right_to_the_last_places),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
