@@ -58,26 +58,39 @@ LANES_INLINE lanes aberth_lanes_inverse(lanes x)
 #endif
 }
 
+/* p = sum over k of c[k] (1+y)^k (1-y)^(n-k) in powers of y, and choose[j] = C(n,j). Terms k and n-k are together
+ * (1-y^2)^k sum over j of C(n-2k,j) y^j (c[n-k] + c[k]), the difference where j is odd; and 1-y^2 is taken out as in
+ * Horner's scheme. */
+LANES_INLINE void aberth_lanes_powers(int n, const lanes c[], lanes p[], double choose[])
+{
+  for (int j = 0; j <= n; j++) p[j] = lanes_all(0), choose[j] = 0;
+  choose[0] = 1;
+  if (n % 2 == 0) p[0] = c[n / 2];
+#pragma GCC unroll 10
+  for (int k = (n - 1) / 2; k >= 0; k--) {
+    const int m = n - 2 * k;
+    const lanes even = c[n - k] + c[k], odd = c[n - k] - c[k];
+#pragma GCC unroll 20
+    for (int j = m; j > 0; j--) choose[j] += (m > 1 ? 2 : 1) * choose[j - 1] + (m > 1 && j > 1 ? choose[j - 2] : 0);
+#pragma GCC unroll 20
+    for (int j = m; j > 1; j--) p[j] -= p[j - 2];
+#pragma GCC unroll 20
+    for (int j = 0; j <= m; j++) p[j] += choose[j] * (j % 2 ? odd : even);
+  }
+}
+
 /* sum c[k] u^k (1-u)^(n-k) times 2^n in powers of y, scaled. Lanes where that can be done. */
 static lane_mask aberth_lanes_set(struct aberth_lanes *a, int n, const lanes c[])
 {
   lanes *p = a->p, largest = {0}, sum = {0};
-  double choose[ABERTH_LANES_DEGREE + 1]; /* (-1)^j C(n-k,j) */
+  double choose[ABERTH_LANES_DEGREE + 1];
   a->degree = n;
-  choose[0] = 1;
-  p[0] = c[n];
-  for (int k = n - 1; k >= 0; k--) { /* p <- p (1+y) + c[k] (1-y)^(n-k) */
-    const int m = n - k;
-    choose[m] = 0;
-    for (int j = m; j > 0; j--) choose[j] -= choose[j - 1];
-    p[m] = p[m - 1] + choose[m] * c[k];
-    for (int j = m - 1; j > 0; j--) p[j] = (p[j] + p[j - 1]) + choose[j] * c[k];
-    p[0] += c[k];
-  }
+  if (n == ABERTH_LANES_DEGREE) aberth_lanes_powers(ABERTH_LANES_DEGREE, c, p, choose); /* constants then */
+  else aberth_lanes_powers(n, c, p, choose);
   for (int k = 0; k <= n; k++) sum += lanes_abs(c[k]), largest = lanes_max(lanes_abs(p[k]), largest);
   lane_mask noise = ~(lane_mask){0};
-  for (int k = n; k > 0 && lanes_any(noise); k--) { /* choose[j] is C(n,j) but for the sign */
-    noise &= lanes_abs(p[k]) <= ABERTH_NOISE * fabs(choose[k]) * sum;
+  for (int k = n; k > 0 && lanes_any(noise); k--) {
+    noise &= lanes_abs(p[k]) <= ABERTH_NOISE * choose[k] * sum;
     p[k] = lanes_select(noise, lanes_all(0), p[k]);
   }
   const lane_mask able = (largest > 0x1p-500) & (largest < 0x1p500);

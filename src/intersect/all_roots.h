@@ -18,6 +18,7 @@ enum { TRIED_ROOTS = 8, MISS_HALVINGS = 3 };
 struct all_roots {
   int count;
   struct refined root[TRIED_ROOTS];
+  struct leaf_root whole[TRIED_ROOTS]; /* the same, where the leaf has parts */
   lane_mask proven[TRIED_ROOTS]; /* a root that none before it is */
 };
 
@@ -77,7 +78,7 @@ static int all_roots_near(const struct aberth_lanes *a, lane_mask done, lanes ke
 
 /* Makes the roots exact and proven. Returns the lanes that are decided: one root is alone in the leaf, or there are
  * as many as r has sign variations. */
-static lane_mask all_roots_prove(const struct trial *t, int count, const lanes kept[], const lane_mask has[],
+static lane_mask all_roots_prove(const struct packet *p, const struct trial *t, int count, const lanes kept[], const lane_mask has[],
                                  struct all_roots *all)
 {
   const bool v_kept = t->leaf->v_kept;
@@ -92,7 +93,9 @@ static lane_mask all_roots_prove(const struct trial *t, int count, const lanes k
     *r = (struct refined){.exists = {0}};
     if (!lanes_any(open)) continue;
     const lanes at = start_within(kept[k]), other = start_within(trial_eliminated(t, at));
-    *r = refine(&t->nets, t->leaf, v_kept ? other : at, v_kept ? at : other, open);
+    const lanes start[2] = {v_kept ? other : at, v_kept ? at : other};
+    if (t->leaf->parts) leaf_root_solve(p, t->leaf, t->axis, start, open, &all->whole[k]), *r = all->whole[k].at;
+    else *r = refine(&t->nets, t->leaf, start[0], start[1], open);
     *proven = open & r->exists;
     for (int j = 0; j < k; j++) {
       const struct refined *old = &all->root[j];
@@ -155,7 +158,7 @@ static lane_mask all_roots_find(struct packet *p, const struct trial *t, lane_ma
   if (lanes_any(doubtful)) decided = cover_proves(t, 0, NULL, MISS_HALVINGS, doubtful);
   if (!lanes_any(active & ~decided)) return decided;
   const int count = all_roots_solve(p, t, active & ~decided, kept, has);
-  decided |= all_roots_prove(t, count, kept, has, all);
+  decided |= all_roots_prove(p, t, count, kept, has, all);
   if (lanes_any(active & ~decided)) decided |= all_roots_cover(t, all, active & ~decided);
   return decided;
 }

@@ -246,7 +246,7 @@ void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf
   const double shrink = 1 / (1 + 2 * LEAF_MARGIN);
   for (int k = 0; k < 3; k++) leaf->second[k] *= shrink * shrink;
   for (int k = 0; k < 2; k++) leaf->first[k] *= shrink;
-  leaf->parts = room && patch->lanes && !patch->all_roots && nearly_bilinear(leaf) ? room : NULL;
+  leaf->parts = room && patch->lanes && nearly_bilinear(leaf) ? room : NULL;
   if (leaf->parts) set_parts(patch, leaf, hi, lo, room);
   leaf_set_slabs(leaf);
   leaf->column_u = (uint16_t)column_u, leaf->column_v = (uint16_t)column_v;

@@ -1,7 +1,7 @@
 /* The root of a ray on a nearly bilinear leaf, from the resultant to the last places of the answer.
  *
- * Compiled once per instruction set, without contraction. The start is a root of the bilinear part alone; Newton's
- * process on the planes' polynomials follows, as in refine.h. But the surface is evaluated as the sum of the leaf's
+ * Compiled once per instruction set, without contraction. The start is a root of the bilinear part alone, or
+ * given; Newton's process on the planes' polynomials follows, as in refine.h. But the surface is evaluated as the sum of the leaf's
  * parts (model.h), and the planes' residuals keep what their leading terms round away, so the root that it ends at needs
  * no other look: it is right to the rounding of the bend of its leaf. Point and normal come from the last evaluation.
  * Parameters are s = u - 1/2 and t = v - 1/2.
@@ -145,7 +145,8 @@ LANES_INLINE lanes near_middle(lanes t)
 /* The root of the bilinear parts a = a0 + s a1 + t a2 + st a3, b alike, that is nearer to the middle: t eliminated by
  * Bezout's determinant (a0 + s a1)(b2 + s b3) - (a2 + s a3)(b0 + s b1) = r0 + r1 s + r2 s^2. A pair of complex roots
  * is replaced by its real part. */
-LANES_INLINE void start(const struct packet *p, const struct leaf_parts *parts, int axis, lanes *out_s, lanes *out_t)
+LANES_INLINE void bilinear_root(const struct packet *p, const struct leaf_parts *parts, int axis, lanes *out_s,
+                                lanes *out_t)
 {
   lanes a[4], b[4];
   for (int n = 0; n < 4; n++) a[n] = plane_of(p, axis, 0, parts->base, n), b[n] = plane_of(p, axis, 1, parts->base, n);
@@ -211,7 +212,8 @@ LANES_INLINE lane_mask alone_at(const struct packet *p, int axis, const struct l
   return (u.least > 0) & (v.least > 0) & (u.least * v.least > (1 + 8 * UNIT_ROUNDOFF) * (u.cross * v.cross));
 }
 
-void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, lane_mask active, struct leaf_root *out)
+void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
+                     struct leaf_root *out)
 {
   const struct leaf_parts *parts = leaf->parts;
   const int k = axis;
@@ -219,7 +221,8 @@ void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, 
   struct refine_inverse m;
   lanes s, t, step_s, step_t, step;
   lane_mask settled, moving = active;
-  start(p, parts, k, &s, &t);
+  if (start) s = start[0] - 0.5, t = start[1] - 0.5;
+  else bilinear_root(p, parts, k, &s, &t);
   for (int n = 1;; n++) {
     surface_at(parts, s, t, x);
     const struct plane a = plane_at(p, k, 0, &x[(k + 1) % 3], &x[k]), b = plane_at(p, k, 1, &x[(k + 2) % 3], &x[k]);

@@ -75,7 +75,7 @@ struct leaf {
   struct leaf_slabs slabs;
   double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
-  /* not NULL where the resultant of its bilinear part gives a start; default method only */
+  /* not NULL where it is nearly bilinear, and tried on lanes */
   const struct leaf_parts *parts;
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];

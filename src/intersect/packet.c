@@ -187,6 +187,13 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
   best->final |= taken;
 }
 
+static void packet_offer_root(struct packet *p, const struct trial *t, const struct leaf_root *root, lane_mask hits)
+{
+  if (!lanes_any(hits)) return;
+  const lane_mask taken = packet_offer_lanes(p, t, &root->at, root->w, root->t, hits);
+  if (t->leaf->parts->exact && !p->any && !p->outer && lanes_any(taken)) packet_keep(p, t->patch, root, taken);
+}
+
 LANES_INLINE lane_mask inside(const struct refined *r)
 {
   return r->exists & (r->u >= -r->radius_u) & (r->u <= 1 + r->radius_u) & (r->v >= -r->radius_v) &
@@ -335,13 +342,9 @@ static lane_mask trial_first_root(struct packet *p, const struct trial *t, lane_
 static lane_mask trial_bilinear(struct packet *p, const struct trial *t, lane_mask active)
 {
   struct leaf_root root;
-  leaf_root_solve(p, t->leaf, t->axis, active, &root);
+  leaf_root_solve(p, t->leaf, t->axis, NULL, active, &root);
   p->tracer->counts.roots_found += (unsigned)__builtin_popcount(lanes_bits(root.at.alone));
-  const lane_mask hits = root.at.alone & inside(&root.at);
-  if (lanes_any(hits)) {
-    const lane_mask taken = packet_offer_lanes(p, t, &root.at, root.w, root.t, hits);
-    if (t->leaf->parts->exact && !p->any && !p->outer && lanes_any(taken)) packet_keep(p, t->patch, &root, taken);
-  }
+  packet_offer_root(p, t, &root, root.at.alone & inside(&root.at));
   return active & ~root.at.alone;
 }
 
@@ -351,8 +354,11 @@ static lane_mask trial_all_roots(struct packet *p, const struct trial *t, lane_m
   struct all_roots all;
   if (!lanes_any(active)) return active;
   const lane_mask decided = all_roots_find(p, t, active, &all);
-  for (int k = 0; k < all.count; k++)
-    packet_offer_refined(p, t, &all.root[k], decided & all.proven[k] & inside(&all.root[k]));
+  for (int k = 0; k < all.count; k++) {
+    const lane_mask hits = decided & all.proven[k] & inside(&all.root[k]);
+    if (t->leaf->parts) packet_offer_root(p, t, &all.whole[k], hits);
+    else packet_offer_refined(p, t, &all.root[k], hits);
+  }
   return active & ~decided;
 }
 
@@ -362,7 +368,7 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   if (!paper) active = trial_slabs(p, t, active);
   if (!lanes_any(active)) return;
   p->tracer->counts.patches_tested += (unsigned)__builtin_popcount(lanes_bits(active));
-  if (t->leaf->parts) {
+  if (t->leaf->parts && !t->patch->all_roots) {
     active = trial_bilinear(p, t, active);
     if (!lanes_any(active)) return;
   }

@@ -122,9 +122,11 @@ struct leaf_root {
   lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters */
 };
 
-/* leaf_root.c: the root on a leaf that has parts, on the lanes of `active`: a start from the resultant of its bilinear
- * part, of degree 2, Newton's process to the last places, and the test. */
-void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, lane_mask active, struct leaf_root *out);
+/* leaf_root.c: a root on a leaf that has parts, on the lanes of `active`: by Newton's process to the last places, and
+ * the test. It starts from start[0], start[1], values of u and v, or where `start` is NULL from a root of the resultant
+ * of the bilinear part, of degree 2. */
+void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
+                     struct leaf_root *out);
 
 /* finish.c: the answers of the packet's rays from its best roots: parameters of the whole patch, improved by a
  * Newton step on the patch itself where they are not right to the last places yet, and all else that a hit has. t is
