@@ -47,18 +47,11 @@ void packet_leave(const struct packet *inner)
 {
   struct packet *outer = inner->outer;
   const struct best *found = &inner->best;
-  struct best *best = &outer->best;
   const lanes t = inner->shift + found->t;
-  const lane_mask first = (found->patch < best->patch) | ((found->patch == best->patch) & (found->leaf < best->leaf));
-  const lane_mask taken = (found->patch != NO_PATCH) & ((t < best->t) | ((t == best->t) & first));
+  const lane_mask taken = (found->patch != NO_PATCH) & best_after(&outer->best, t, found->patch, found->leaf);
   if (!lanes_any(taken)) return;
-  best->u = lanes_select(taken, found->u, best->u), best->v = lanes_select(taken, found->v, best->v);
-  best->radius_u = lanes_select(taken, found->radius_u, best->radius_u);
-  best->radius_v = lanes_select(taken, found->radius_v, best->radius_v);
-  best->t = lanes_select(taken, t, best->t);
-  best->patch = (taken & found->patch) | (~taken & best->patch),
-  best->leaf = (taken & found->leaf) | (~taken & best->leaf);
-  best->certain |= taken, best->sharp &= ~taken, best->final &= ~taken;
+  const lanes place[2] = {found->u, found->v}, radius[2] = {found->radius_u, found->radius_v};
+  best_take(&outer->best, taken, place, radius, t, found->patch, found->leaf);
   const lanes far = (inner->shift + inner->t_far) +
                     4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));
   outer->t_far = lanes_select(taken, lanes_min(far, outer->t_far), outer->t_far);

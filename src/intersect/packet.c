@@ -80,9 +80,7 @@ static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const 
   return root;
 }
 
-/* Makes a root the answer so far where it is nearer than the best, or as near to the last bit and of a lower leaf.
- * That orders all roots, so the answer is the same in whatever order the leaves come, which depends on the other
- * rays of the packet. */
+/* Makes a root the answer so far where it comes before the best, as best_after() has it. */
 static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, struct leaf_hit *root)
 {
   struct best *best = &p->best;
@@ -124,7 +122,6 @@ static lane_mask on_border(const struct trial *t, const struct refined *r)
 static lane_mask packet_offer_lanes(struct packet *p, const struct trial *t, const struct refined *r, lanes w, lanes at,
                                     lane_mask hits)
 {
-  struct best *best = &p->best;
   const int64_t leaf = t->number, patch = t->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const double part = 1.0 / t->patch->split;
   const lanes size = lanes_abs(p->local[t->axis].to_t),
@@ -143,15 +140,12 @@ static lane_mask packet_offer_lanes(struct packet *p, const struct trial *t, con
       packet_offer(p, lane, t, &root);
     }
   }
-  const lane_mask first = (patch < best->patch) | ((patch == best->patch) & (leaf < best->leaf));
-  const lane_mask taken = hits & behind & (at < p->t_max) & ((at < best->t) | ((at == best->t) & first));
+  const lane_mask none = {0}, patches = patch + none, leaves = leaf + none;
+  const lane_mask taken = hits & behind & (at < p->t_max) & best_after(&p->best, at, patches, leaves);
   if (!lanes_any(taken)) return taken;
-  best->u = lanes_select(taken, (t->leaf->column_u + r->u) * part, best->u);
-  best->v = lanes_select(taken, (t->leaf->column_v + r->v) * part, best->v);
-  best->radius_u = lanes_select(taken, r->radius_u * part, best->radius_u);
-  best->radius_v = lanes_select(taken, r->radius_v * part, best->radius_v);
-  best->t = lanes_select(taken, at, best->t), best->certain |= taken, best->sharp &= ~taken, best->final &= ~taken;
-  best->patch = (taken & patch) | (~taken & best->patch), best->leaf = (taken & leaf) | (~taken & best->leaf);
+  const lanes place[2] = {(t->leaf->column_u + r->u) * part, (t->leaf->column_v + r->v) * part};
+  const lanes radius[2] = {r->radius_u * part, r->radius_v * part};
+  best_take(&p->best, taken, place, radius, at, patches, leaves);
   p->t_far = lanes_select(taken, at + error, p->t_far);
   if (p->any) p->live &= ~taken;
   p->moved = true;

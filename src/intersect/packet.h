@@ -24,6 +24,26 @@ struct best {
   lane_mask doubt; /* some root could not be told from t_min, and was left out */
 };
 
+/* Lanes where a root at t comes before the best: nearer, or as near to the last bit and of a lower patch or leaf. That
+ * orders all roots, so the answer is the same in whatever order they come. */
+LANES_INLINE lane_mask best_after(const struct best *best, lanes t, lane_mask patch, lane_mask leaf)
+{
+  const lane_mask first = (patch < best->patch) | ((patch == best->patch) & (leaf < best->leaf));
+  return (t < best->t) | ((t == best->t) & first);
+}
+
+/* Takes over a certain root on the lanes of `taken`. */
+LANES_INLINE void best_take(struct best *best, lane_mask taken, const lanes at[2], const lanes radius[2], lanes t,
+                            lane_mask patch, lane_mask leaf)
+{
+  best->u = lanes_select(taken, at[0], best->u), best->v = lanes_select(taken, at[1], best->v);
+  best->radius_u = lanes_select(taken, radius[0], best->radius_u);
+  best->radius_v = lanes_select(taken, radius[1], best->radius_v);
+  best->t = lanes_select(taken, t, best->t);
+  best->patch = (taken & patch) | (~taken & best->patch), best->leaf = (taken & leaf) | (~taken & best->leaf);
+  best->certain |= taken, best->sharp &= ~taken, best->final &= ~taken;
+}
+
 struct packet {
   struct tracer *tracer;
   const struct model *model;
