@@ -78,8 +78,8 @@ static int all_roots_near(const struct aberth_lanes *a, lane_mask done, lanes ke
 
 /* Makes the roots exact and proven. Returns the lanes that are decided: one root is alone in the leaf, or there are
  * as many as r has sign variations. */
-static lane_mask all_roots_prove(const struct packet *p, const struct trial *t, int count, const lanes kept[], const lane_mask has[],
-                                 struct all_roots *all)
+static lane_mask all_roots_prove(const struct packet *p, const struct trial *t, int count, const lanes kept[],
+                                 const lane_mask has[], struct all_roots *all)
 {
   const bool v_kept = t->leaf->v_kept;
   lane_mask alone = {0};

@@ -149,7 +149,9 @@ static unsigned write_hits(const struct packet *p, unsigned group, const struct 
     struct hit *hit = &out[l];
     const double *x = row[l];
     const uint32_t patch = (uint32_t)best->patch[l];
-    *hit = (struct hit){patch, CERTAINTY_CERTAIN, x[0], x[1], x[2], {x[4], x[5], x[6]}, x[3], x[7], {x[8], x[9], x[10]}};
+    *hit = (struct hit){.patch = patch, .certainty = CERTAINTY_CERTAIN, .t = x[0], .u = x[1], .v = x[2],
+                        .point = {x[4], x[5], x[6]}, .point_error = x[3], .clearance = x[7],
+                        .normal = {x[8], x[9], x[10]}};
     if (!((specials | doubt) >> l & 1)) continue;
     if (doubt >> l & 1) hit->certainty = CERTAINTY_GRAZING;
     if (!(plain >> l & 1)) set_surface(&model->patches[patch], p->rays[l].direction, hit);

@@ -1,10 +1,10 @@
 /* The root of a ray on a nearly bilinear leaf, from the resultant to the last places of the answer.
  *
- * Compiled once per instruction set, without contraction. The start is a root of the bilinear part alone, or
- * given; Newton's process on the planes' polynomials follows, as in refine.h. But the surface is evaluated as the sum of the leaf's
- * parts (model.h), and the planes' residuals keep what their leading terms round away, so the root that it ends at needs
- * no other look: it is right to the rounding of the bend of its leaf. Point and normal come from the last evaluation.
- * Parameters are s = u - 1/2 and t = v - 1/2.
+ * Compiled once per instruction set, without contraction. The start is a root of the bilinear part alone, or given;
+ * Newton's process on the planes' polynomials follows, as in refine.h. But the surface is evaluated as the sum of the
+ * leaf's parts (model.h), and the planes' residuals keep what their leading terms round away, so the root that it ends
+ * at needs no other look: it is right to the rounding of the bend of its leaf. Point and normal come from the last
+ * evaluation. Parameters are s = u - 1/2 and t = v - 1/2.
  */
 #include "intersect/packet.h"
 #include "intersect/surface.h"

@@ -49,9 +49,9 @@ struct leaf_form {
 };
 
 /* A nearly bilinear leaf as x = c + s A + t B + st C + rest(s,t), s = u - 1/2 and t = v - 1/2: the Taylor polynomial
- * about its middle, the first four coefficients taken out with few bits, as multiples of LEAF_GRAIN. So s A and the like
- * are exact where s has few bits as well, and what is rounded is of the size of the rest, which is how far the leaf
- * bends and what the four have beyond the grain. */
+ * about its middle, the first four coefficients taken out with few bits, as multiples of LEAF_GRAIN. So s A and the
+ * like are exact where s has few bits as well, and what is rounded is of the size of the rest, which is how far the
+ * leaf bends and what the four have beyond the grain. */
 struct leaf_parts {
   double base[3][4];  /* c, A, B, C of each coordinate */
   double rest[3][16]; /* coefficient of s^i t^j at rest[coordinate][4 * i + j] */

@@ -177,7 +177,8 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
   const lanes point_error = POINT_ERROR(patch->scale, patch->split * tangent, magnitude);
   best->tangent = lanes_select(taken, tangent, best->tangent);
   best->point_error = lanes_select(taken, point_error, best->point_error);
-  best->clearance = lanes_select(taken, point_error + CLEARANCE(patch->scale, patch->loose, magnitude), best->clearance);
+  const lanes clearance = point_error + CLEARANCE(patch->scale, patch->loose, magnitude);
+  best->clearance = lanes_select(taken, clearance, best->clearance);
   best->final |= taken;
 }
 
