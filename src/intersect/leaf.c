@@ -203,9 +203,9 @@ static double third_bound(const struct leaf_parts *parts)
   return vector_length(sum);
 }
 
-/* Twice what a root may be off by, in the patch's frame, after the last step of Newton's process: a quarter of
- * UNIT_ROUNDOFF. */
-#define LAST_STEP_CURVE (UNIT_ROUNDOFF / 2)
+/* Twice what a root may be off by, in the patch's frame, after the last step of Newton's process: well below what
+ * rounds it. */
+#define LAST_STEP_CURVE (UNIT_ROUNDOFF / 32)
 
 static void set_parts(const struct model_patch *patch, const struct leaf *leaf, double hi[3][4][4],
                       double lo[3][4][4], struct leaf_parts *out)
