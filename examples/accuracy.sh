@@ -116,27 +116,30 @@ precision, which shares nothing with the renderer.
 - **What is polished is exact.** Every point with polish, which is the default, whatever its solver, basis, tolerance,
   start and split, stands at one place on the axis of errors, the rounding of doubles, without a bad answer: 2-D Newton
   and its certificate decide, and what they do not accept goes to subdivision. The tolerance then changes hardly even
-  the time. Certainty costs little: plain Newton, which proves nothing and forms no resultant, takes 0.6 to 1.1 of the
-  default's time, and answers up to one ray in a hundred with a farther hit or none.
+  the time. Certainty costs little: plain Newton, which proves nothing and forms no resultant, takes 0.7 of the
+  default's time on the wild patches and 1.1 on the teapot, and answers up to one hit in twenty with a farther one or
+  none.
 - **Without polish the answer is the solver's.** Tolerances of 1e-1 and 1e-2 give bad answers with any solver. From 1e-4
   on most are right, to 1e-14; but nothing says which: `bernstein` keeps a few per cent of bad ones on the wild patches
-  at every tolerance, where roots lie close together, and `newton` one on the teapot.
+  at every tolerance, where roots lie close together, and one on the teapot.
 - **The paper's form** (power basis on whole patches, Sylvester, Euclid's algorithm for v, no polish) separates the
   solvers as the paper says: `aberth` from 1e-4 on has hardly a bad answer, `newton` and `laguerre` have some at every
   tolerance, 3 % of the teapot's rays and up to most hits of the wild patches. But the error of T stops at 1e-11
   (teapot) and 1e-6 (wild), for the coefficients are no better, and tolerances below that only cost time, up to the
   iteration limit. It is also the slowest, as every candidate costs all 18 roots.
-- **Basis.** On the leaves that `split auto` makes, the complex solvers without polish are two to eight times as fast in
-  the power basis of the leaf: in Bernstein form the many roots far from the leaf crowd together at x = -1. With polish,
-  where roots are only starts, less is left of that. `bernstein`, which looks for roots within the leaf alone, has no
-  such trouble.
+- **Basis.** On the leaves that `split auto` makes, the complex solvers without polish are mostly two to six times as
+  fast in the power basis of the leaf: in Bernstein form the many roots far from the leaf crowd together at x = -1. With
+  polish, where roots are only starts, less is left of that. `bernstein`, which looks for roots within the leaf alone,
+  has no such trouble.
 - **POV-Ray's error is that of its triangles**: a step more in `u_steps` divides it by four. Few steps lose hits, invent
   others, and miss the nearest surface: the larger part of the wild scene's hits at `u_steps 1`, and still a ray here
   and there at the usual 4 or 5. Type 1 costs little more with each step, type 0 several times as much. Its median on
   the teapot is small only because half of the rays meet the flat floor.
-- **Embree is faster, and wrong in the same way**: the same mesh gives the same bad answers as POV-Ray's (8 x 8 is
-  `u_steps 3`). A million triangles bring 99 % of the rays within 1e-5 or so; more of them cost as much time as
-  exactness does on the teapot. Single precision ends at 6e-8, even on a flat floor.
+- **Embree is wrong in the same way, and no longer much faster**: the same mesh gives the same bad answers as POV-Ray's
+  (8 x 8 is `u_steps 3`). Rays one by one through the teapot's meshes of 64 x 64 x 2 triangles a patch take as long as
+  the exact answer, finer ones longer; 8 coherent rays at once, half to all of it. A million triangles bring 99 % of the
+  rays within 1e-5 or so. The wild scene has few patches, and its meshes are faster. Single precision ends at 6e-8, even
+  on a flat floor.
 
 END
   for scene in "${SCENES[@]}"; do
