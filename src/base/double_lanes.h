@@ -1,7 +1,8 @@
 /* Double-double arithmetic on lanes: base/double_double.h, several numbers side by side.
  *
  * Only what the last places of a hit need. Sums are kept as they come (hi, lo), |lo| a few units in the last place
- * of hi, and are not brought to normal form in between. Needs compilation without contraction.
+ * of hi, and are not brought to normal form in between. Needs compilation without contraction; double_lanes_sum alone
+ * does not.
  */
 #ifndef PSCN_BASE_DOUBLE_LANES_H
 #define PSCN_BASE_DOUBLE_LANES_H
@@ -42,6 +43,24 @@ LANES_INLINE struct double_lanes double_lanes_subtract(struct double_lanes a, st
 {
   const struct double_lanes s = double_lanes_sum(a.hi, -b.hi);
   return (struct double_lanes){s.hi, s.lo + (a.lo - b.lo)};
+}
+
+/* A number of size up to 2^24 as head + tail, exactly, the head a multiple of 2^-26: products of heads with numbers of
+ * few bits are exact, and so are their sums. */
+struct split_lanes {
+  lanes head, tail;
+};
+
+LANES_INLINE lanes split_lanes_head(lanes x)
+{
+  const lanes unit = lanes_all(0x1.8p26);
+  return (x + unit) - unit;
+}
+
+LANES_INLINE struct split_lanes split_lanes_of(lanes x)
+{
+  const lanes head = split_lanes_head(x);
+  return (struct split_lanes){head, x - head};
 }
 
 #endif

@@ -1,8 +1,14 @@
-/* The smaller and the larger of two doubles, as one instruction each. Unlike fmin and fmax: b where either is NaN. */
+/* Small things about doubles that the standard library has not, or slower. */
 #ifndef PSCN_BASE_REAL_H
 #define PSCN_BASE_REAL_H
 
+#include <math.h>
+
+/* The smaller and the larger of two doubles, as one instruction each. Unlike fmin and fmax: b where either is NaN. */
 static inline double real_min(double a, double b) { return a < b ? a : b; }
 static inline double real_max(double a, double b) { return a > b ? a : b; }
+
+/* x rounded to a multiple of the power of two `grain`. */
+static inline double real_coarse(double x, double grain) { return rint(x / grain) * grain; }
 
 #endif

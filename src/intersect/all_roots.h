@@ -17,8 +17,7 @@ enum { TRIED_ROOTS = 8, MISS_HALVINGS = 3 };
 /* The roots tried, k-th of every lane. */
 struct all_roots {
   int count;
-  struct refined root[TRIED_ROOTS];
-  struct leaf_root whole[TRIED_ROOTS]; /* the same, where the leaf has parts */
+  struct leaf_root root[TRIED_ROOTS]; /* where the leaf has no parts, only `at` */
   lane_mask proven[TRIED_ROOTS]; /* a root that none before it is */
 };
 
@@ -86,7 +85,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct trial *t, 
   lanes found = {0}, within = {0};
   all->count = count;
   for (int k = 0; k < count; k++) {
-    struct refined *r = &all->root[k];
+    struct refined *r = &all->root[k].at;
     lane_mask *proven = &all->proven[k];
     *proven = (lane_mask){0};
     const lane_mask open = has[k] & ~alone;
@@ -94,11 +93,11 @@ static lane_mask all_roots_prove(const struct packet *p, const struct trial *t, 
     if (!lanes_any(open)) continue;
     const lanes at = start_within(kept[k]), other = start_within(trial_eliminated(t, at));
     const lanes start[2] = {v_kept ? other : at, v_kept ? at : other};
-    if (t->leaf->parts) leaf_root_solve(p, t->leaf, t->axis, start, open, &all->whole[k]), *r = all->whole[k].at;
+    if (t->leaf->parts) leaf_root_solve(p, t->leaf, t->axis, start, open, &all->root[k]);
     else *r = refine(&t->nets, t->leaf, start[0], start[1], open);
     *proven = open & r->exists;
     for (int j = 0; j < k; j++) {
-      const struct refined *old = &all->root[j];
+      const struct refined *old = &all->root[j].at;
       const lane_mask same = all->proven[j] & (lanes_abs(old->u - r->u) <= old->radius_u + r->radius_u) &
                              (lanes_abs(old->v - r->v) <= old->radius_v + r->radius_v);
       *proven &= ~same;
@@ -121,7 +120,7 @@ static lane_mask all_roots_cover(const struct trial *t, const struct all_roots *
   struct known_root known[TRIED_ROOTS];
   int count = 0;
   for (int k = 0; k < all->count; k++) {
-    const struct refined *r = &all->root[k];
+    const struct refined *r = &all->root[k].at;
     const lane_mask proven = all->proven[k] & open;
     if (lanes_any(proven)) known[count++] = (struct known_root){r->u, r->v, r->size, r->bend, proven};
   }

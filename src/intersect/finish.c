@@ -115,8 +115,8 @@ static void settle(const struct model *model, const struct settling *s, struct h
 /* The answers of a packet's lanes but for what settle() has to say. */
 struct answers {
   lanes u, v, t;
-  lanes point[3], normal[3]; /* the normal of unit length and either sense */
-  lanes point_error, clearance;
+  struct surface_point point;
+  lanes normal[3]; /* of unit length and either sense */
   lane_mask plain; /* point and normal are sure */
 };
 
@@ -141,8 +141,9 @@ static unsigned write_hits(const struct packet *p, unsigned group, const struct 
   const unsigned specials = lanes_bits(special), plain = lanes_bits(a->plain);
   double row[LANES][12];
   unsigned grazing = 0;
-  lanes_store4(t, a->u, a->v, a->point_error, &row[0][0], 12);
-  lanes_store4(a->point[0], a->point[1], a->point[2], a->clearance, &row[0][4], 12);
+  const struct surface_point *point = &a->point;
+  lanes_store4(t, a->u, a->v, point->error, &row[0][0], 12);
+  lanes_store4(point->at[0], point->at[1], point->at[2], point->clearance, &row[0][4], 12);
   lanes_store4(normal[0], normal[1], normal[2], t, &row[0][8], 12);
   for (unsigned bits = group; bits; bits &= bits - 1) {
     const int l = __builtin_ctz(bits);
@@ -170,8 +171,7 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
   struct answers a;
   a.u = surface_clamp(best->u), a.v = surface_clamp(best->v), a.t = best->t;
   a.plain = surface_normal(best->normal, best->tangent, a.normal);
-  for (int c = 0; c < 3; c++) a.point[c] = best->point[c];
-  a.point_error = best->point_error, a.clearance = best->clearance;
+  a.point = best->point;
   return write_hits(p, group, &a, out);
 }
 
@@ -186,14 +186,8 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, u
   step.u = surface_clamp(best->u), step.v = surface_clamp(best->v), step.t = best->t;
   last_step(&step);
   struct answers a = {.u = step.u, .v = step.v, .t = step.t, .plain = step.plain};
-  lanes magnitude = lanes_all(0);
-  for (int c = 0; c < 3; c++) {
-    a.point[c] = patch->center[c] + patch->scale * step.point[c];
-    a.normal[c] = step.normal[c];
-    magnitude = lanes_max(lanes_abs(a.point[c]), magnitude);
-  }
-  a.point_error = POINT_ERROR(patch->scale, step.tangent, magnitude);
-  a.clearance = a.point_error + CLEARANCE(patch->scale, patch->loose, magnitude);
+  a.point = surface_point(patch, step.point, step.tangent);
+  for (int c = 0; c < 3; c++) a.normal[c] = step.normal[c];
   return write_hits(p, group, &a, out);
 }
 

@@ -35,23 +35,13 @@ struct last_step {
   lane_mask plain;           /* out: point and normal are sure */
 };
 
-/* A number of size at most 1 as head + tail, exactly, the head a multiple of 2^-26. So the product of two heads, and
- * a sum of such products of size at most 2, is a multiple of 2^-52 and exact; what the tails add to it is 2^-26 of
- * it, and so is its rounding. */
-struct last_step_split {
-  lanes head, tail;
-};
-
-LANES_INLINE lanes last_step_head(lanes x)
+/* Splits a number of size at most 1: so the product of two heads, and a sum of such products of size at most 2, is a
+ * multiple of 2^-52 and exact; what the tails add to it is 2^-26 of it, and so is its rounding. */
+LANES_INLINE struct split_lanes last_step_split(struct double_lanes x)
 {
-  const lanes unit = lanes_all(0x1.8p26);
-  return (x + unit) - unit;
-}
-
-LANES_INLINE struct last_step_split last_step_split(struct double_lanes x)
-{
-  const lanes head = last_step_head(x.hi);
-  return (struct last_step_split){head, (x.hi - head) + x.lo};
+  struct split_lanes split = split_lanes_of(x.hi);
+  split.tail += x.lo;
+  return split;
 }
 
 /* A patch's control net, split; read with one coefficient on all lanes. */
@@ -66,7 +56,7 @@ LANES_INLINE void last_step_split_net(const struct model_patch *patch, struct la
   for (int n = 0; n < 48; n += LANES) {
     lanes x;
     memcpy(&x, out->x + n, sizeof x);
-    const lanes head = last_step_head(x), tail = x - head;
+    const lanes head = split_lanes_head(x), tail = x - head;
     memcpy(out->head + n, &head, sizeof head), memcpy(out->tail + n, &tail, sizeof tail);
   }
 }
@@ -78,7 +68,7 @@ struct last_step_jet {
 };
 
 /* Weights w_i of cubic Bernstein polynomials, and their derivatives. */
-LANES_INLINE void last_step_weights(lanes t, struct last_step_split w[4], lanes dw[4])
+LANES_INLINE void last_step_weights(lanes t, struct split_lanes w[4], lanes dw[4])
 {
   const struct double_lanes s = double_lanes_sum(lanes_all(1), -t), tt = double_lanes_product(t, t);
   const struct double_lanes ss = double_lanes_multiply(s, s), three_t = double_lanes_product(lanes_all(3), t);
@@ -91,7 +81,7 @@ LANES_INLINE void last_step_weights(lanes t, struct last_step_split w[4], lanes 
 
 LANES_INLINE void last_step_evaluate(const struct last_step_net *net, lanes u, lanes v, struct last_step_jet *out)
 {
-  struct last_step_split wu[4], wv[4];
+  struct split_lanes wu[4], wv[4];
   lanes du[4], dv[4];
   last_step_weights(u, wu, du);
   last_step_weights(v, wv, dv);
@@ -108,7 +98,7 @@ LANES_INLINE void last_step_evaluate(const struct last_step_net *net, lanes u, l
         row_lo = lanes_multiply_add(wv[j].head, lanes_all(net->tail[n]), lanes_multiply_add(wv[j].tail, x, row_lo));
         row_dv = lanes_multiply_add(dv[j], x, row_dv);
       }
-      const struct last_step_split row = last_step_split((struct double_lanes){row_hi, row_lo});
+      const struct split_lanes row = last_step_split((struct double_lanes){row_hi, row_lo});
       const lanes sum = row_hi + row_lo;
       hi = lanes_multiply_add(wu[i].head, row.head, hi);
       lo = lanes_multiply_add(wu[i].head, row.tail, lanes_multiply_add(wu[i].tail, sum, lo));

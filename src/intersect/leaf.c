@@ -167,8 +167,6 @@ static void cut_net(struct model_patch *patch, int column_u, int column_v, doubl
   }
 }
 
-static double to_grain(double x) { return rint(x * (1 / LEAF_GRAIN)) * LEAF_GRAIN; }
-
 /* Taylor coefficients about the middle, of a cubic in Bernstein form. */
 static void taylor(double b0, double b1, double b2, double b3, double out[4])
 {
@@ -217,7 +215,7 @@ static void set_parts(const struct model_patch *patch, const struct leaf *leaf, 
     taylor_net(lo[k], tail);
     for (int n = 0; n < 4; n++) {
       const int at = bilinear[n];
-      out->base[k][n] = to_grain(head[at]);
+      out->base[k][n] = real_coarse(head[at], LEAF_GRAIN);
       head[at] -= out->base[k][n];
     }
     for (int n = 0; n < 16; n++) rest[n] = head[n] + tail[n];

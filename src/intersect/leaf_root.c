@@ -6,20 +6,9 @@
  * at needs no other look: it is right to the rounding of the bend of its leaf. Point and normal come from the last
  * evaluation. Parameters are s = u - 1/2 and t = v - 1/2.
  */
+#include "base/double_lanes.h"
 #include "intersect/packet.h"
 #include "intersect/surface.h"
-
-/* A number of size at most 4 as a multiple of 2^-26 and the rest. The products of the first with multiples of
- * LEAF_GRAIN, and their sums of size at most 8, are exact. */
-struct split {
-  lanes head, tail;
-};
-
-LANES_INLINE struct split split(lanes x)
-{
-  const lanes unit = lanes_all(0x1.8p26), head = (x + unit) - unit;
-  return (struct split){head, x - head};
-}
 
 /* ---- the surface ---- */
 
@@ -28,9 +17,10 @@ struct coordinate {
   lanes hi, lo, ds, dt;
 };
 
+/* The products of heads of size at most 4 with multiples of LEAF_GRAIN, and their sums of size at most 8, are exact. */
 struct place {
   lanes s, t;
-  struct split split_s, split_t, split_st;
+  struct split_lanes split_s, split_t, split_st;
 };
 
 LANES_INLINE struct coordinate coordinate_at(const double base[4], const double rest[16], const struct place *at)
@@ -63,7 +53,7 @@ __attribute__((noinline)) static void surface_at(const struct leaf_parts *parts,
                                                  struct coordinate out[3])
 {
   const lanes st = s * t;
-  struct place at = {s, t, split(s), split(t), split(st)};
+  struct place at = {s, t, split_lanes_of(s), split_lanes_of(t), split_lanes_of(st)};
   at.split_st.tail += lanes_product_error(s, t, st);
   for (int c = 0; c < 3; c++) out[c] = coordinate_at(parts->base[c], parts->rest[c], &at);
 }
@@ -123,11 +113,10 @@ LANES_INLINE struct plane plane_at(const struct packet *p, int axis, int number,
 {
   const lanes slope = p->slope[axis][number];
   const lanes along = slope * k->hi, along_error = lanes_product_error(slope, k->hi, along);
-  lanes side, side_error;
-  lanes_two_sum(i->hi, -p->local[axis].moment[number], &side, &side_error);
+  const struct double_lanes side = double_lanes_sum(i->hi, -p->local[axis].moment[number]);
   const lanes rest = (i->lo - p->local[axis].moment_rest[number]) -
                      lanes_multiply_add(slope, k->lo, p->slope_rest[axis][number] * k->hi);
-  return (struct plane){(side - along) + (rest + (side_error - along_error)), i->ds - slope * k->ds,
+  return (struct plane){(side.hi - along) + (rest + (side.lo - along_error)), i->ds - slope * k->ds,
                         i->dt - slope * k->dt};
 }
 
@@ -241,18 +230,16 @@ void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, 
   refine_prove(leaf, &m, p->slope[k], p->local[k].error, step, settled, &out->at);
   const lane_mask open = out->at.exists & ~out->at.alone;
   if (lanes_any(open)) out->at.alone |= open & alone_at(p, k, leaf, &m, &out->at, step, s, t);
-  lanes way, way_error;
-  lanes_two_sum(x[k].hi, p->local[k].start[0], &way, &way_error);
+  const struct double_lanes way = double_lanes_sum(x[k].hi, p->local[k].start[0]);
   const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
   out->w = x[k].hi + rest;
-  out->t = (way + (rest + (way_error + p->local[k].start[1]))) * p->local[k].to_t;
+  out->t = (way.hi + (rest + (way.lo + p->local[k].start[1]))) * p->local[k].to_t;
   /* The point is on the leaf, where the root is just outside by its rounding. */
   const lanes half = lanes_all(0.5);
   const lanes to_s = lanes_max(lanes_min(s - step_s, half), -half) - s;
   const lanes to_t = lanes_max(lanes_min(t - step_t, half), -half) - t;
   for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo + (x[c].ds * to_s + x[c].dt * to_t));
   const lane_mask turned = settled & (step > parts->plain_step);
-  if (lanes_any(turned))
-    surface_turn(parts, s, t, to_s, to_t, turned, x);
+  if (lanes_any(turned)) surface_turn(parts, s, t, to_s, to_t, turned, x);
   for (int c = 0; c < 3; c++) out->su[c] = x[c].ds, out->sv[c] = x[c].dt;
 }

@@ -23,8 +23,8 @@ struct local_ray {
 };
 
 /* Rounding errors, in units of UNIT_ROUNDOFF, of a = (x_i - m) - slope x_k and of its value in Bernstein form, for
- * |x| <= 1: net 8 (see model.c), slope 1, moment 4|m|, the two operations 2 + |m|, and for the value ten products
- * and sums on coefficients of at most 2 + |m|. */
+ * |x| <= 1: net 8 (see model.c), slope 2 (packet.c multiplies by the reciprocal), moment 4|m|, the two operations
+ * 2 + |m|, and for the value ten products and sums on coefficients of at most 2 + |m|. */
 #define PLANE_ERROR(m0, m1) (UNIT_ROUNDOFF * (36 + 16 * ((m0) + (m1))))
 
 /* The axis along which d is longest. */

@@ -25,9 +25,6 @@ enum { AUTO_SPLIT_MAX = 16 };
  * and time to make. The limit on the split is halved until they fit. */
 enum { AUTO_LEAVES_MAX = 1 << 18 };
 
-/* x rounded to a multiple of the power of two `grain`. */
-static double coarse(double x, double grain) { return rint(x / grain) * grain; }
-
 /* A patch smaller than this part of the scene's coordinates is framed as if it were that large: one that is a single
  * point has no size of its own, and a frame too small would overflow. */
 #define LEAST_EXTENT 0x1p-100
@@ -52,7 +49,7 @@ static void patch_frame(double P[4][4][3], double scene_size, struct model_patch
   out->scale = ldexp(1, exponent + 1); /* the center may be a grain off the middle */
   for (int k = 0; k < 3; k++) {
     const double middle = lo[k] / 2 + hi[k] / 2, grain = out->scale / 4;
-    out->center[k] = fabs(middle) < grain * 0x1p50 ? coarse(middle, grain) : middle;
+    out->center[k] = fabs(middle) < grain * 0x1p50 ? real_coarse(middle, grain) : middle;
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) out->x[k][i][j] = (P[i][j][k] - out->center[k]) / out->scale;
   }

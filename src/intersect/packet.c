@@ -7,7 +7,7 @@
  *   1. the box along the leaf; then plane polynomials a, b: if either, or a combination, keeps one sign on its whole
  *      net, the leaf is missed;
  *   2. Bezout's resultant r in Bernstein form, no sign variation: missed; one: exactly one root in the leaf's range;
- *      of a nearly bilinear leaf before that the resultant of its corners, of degree 2, only for a start;
+ *      of a nearly bilinear leaf before that the resultant of its bilinear part, of degree 2, only for a start;
  *   3. that root by Newton from the control polygon of r, v from the null vector, both by Newton on (a, b);
  *   4. the Newton-Kantorovich test: one root, here, and no other in the leaf.
  * With Aberth's method instead of 3 and 4 all roots of r, and boxes (all_roots.h). What is left goes lane by lane to
@@ -88,10 +88,9 @@ static void packet_offer(struct packet *p, unsigned lane, const struct trial *t,
   const int64_t leaf = t->number, patch = t->leaf->patch;
   const enum leaf_hit_side side = leaf_hit_side(p->model, t->leaf, &p->rays[lane], root);
   if (side == SIDE_UNKNOWN) best->doubt[lane] = -1;
-  if (side != SIDE_BEHIND || !(root->t < p->t_max[lane]) || root->t > best->t[lane]) return;
-  if (root->t == best->t[lane] &&
-      (patch > best->patch[lane] || (patch == best->patch[lane] && leaf >= best->leaf[lane])))
-    return;
+  if (side != SIDE_BEHIND || !(root->t < p->t_max[lane])) return;
+  const lane_mask none = {0}, before = best_after(best, lanes_all(root->t), patch + none, leaf + none);
+  if (!before[lane]) return;
   best->u[lane] = leaf_to_patch(split, t->leaf->column_u, root->u), best->radius_u[lane] = root->radius_u / split;
   best->v[lane] = leaf_to_patch(split, t->leaf->column_v, root->v), best->radius_v[lane] = root->radius_v / split;
   best->t[lane] = root->t, best->patch[lane] = patch, best->leaf[lane] = leaf,
@@ -165,20 +164,17 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
                         lane_mask taken)
 {
   struct best *best = &p->best;
-  lanes normal[3], magnitude = lanes_all(0);
+  lanes normal[3];
   surface_cross(root->su, root->sv, normal);
-  for (int c = 0; c < 3; c++) {
-    const lanes point = patch->center[c] + patch->scale * root->point[c];
-    best->point[c] = lanes_select(taken, point, best->point[c]);
-    best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
-    magnitude = lanes_max(lanes_abs(point), magnitude);
-  }
   const lanes tangent = surface_tangent(root->su, root->sv);
-  const lanes point_error = POINT_ERROR(patch->scale, patch->split * tangent, magnitude);
+  const struct surface_point point = surface_point(patch, root->point, patch->split * tangent);
+  for (int c = 0; c < 3; c++) {
+    best->point.at[c] = lanes_select(taken, point.at[c], best->point.at[c]);
+    best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
+  }
   best->tangent = lanes_select(taken, tangent, best->tangent);
-  best->point_error = lanes_select(taken, point_error, best->point_error);
-  const lanes clearance = point_error + CLEARANCE(patch->scale, patch->loose, magnitude);
-  best->clearance = lanes_select(taken, clearance, best->clearance);
+  best->point.error = lanes_select(taken, point.error, best->point.error);
+  best->point.clearance = lanes_select(taken, point.clearance, best->point.clearance);
   best->final |= taken;
 }
 
@@ -350,9 +346,9 @@ static lane_mask trial_all_roots(struct packet *p, const struct trial *t, lane_m
   if (!lanes_any(active)) return active;
   const lane_mask decided = all_roots_find(p, t, active, &all);
   for (int k = 0; k < all.count; k++) {
-    const lane_mask hits = decided & all.proven[k] & inside(&all.root[k]);
-    if (t->leaf->parts) packet_offer_root(p, t, &all.whole[k], hits);
-    else packet_offer_refined(p, t, &all.root[k], hits);
+    const lane_mask hits = decided & all.proven[k] & inside(&all.root[k].at);
+    if (t->leaf->parts) packet_offer_root(p, t, &all.root[k], hits);
+    else packet_offer_refined(p, t, &all.root[k].at, hits);
   }
   return active & ~decided;
 }

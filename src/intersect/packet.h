@@ -5,8 +5,9 @@
 #ifndef PSCN_INTERSECT_PACKET_H
 #define PSCN_INTERSECT_PACKET_H
 
-#include "base/lanes.h"
+#include "base/double_lanes.h"
 #include "intersect/refine.h"
+#include "intersect/surface.h"
 #include "intersect/tracer.h"
 
 #define NO_PATCH INT64_MAX
@@ -18,9 +19,9 @@ struct best {
   lane_mask patch, leaf;          /* where it is; NO_PATCH where there is none. They order roots of equal t */
   lane_mask certain, sharp;
   lane_mask final; /* right to the last places, and what follows is set; the others' comes from last_step.h */
-  lanes point[3], normal[3];        /* in the scene; the normal of any length and sense */
+  struct surface_point point;
+  lanes normal[3];                  /* of any length and sense */
   lanes tangent;                    /* bound on the derivatives' coordinates that the normal is the product of */
-  lanes point_error, clearance;     /* as of struct hit */
   lane_mask doubt; /* some root could not be told from t_min, and was left out */
 };
 
@@ -81,21 +82,14 @@ static inline int packet_axis(const struct packet *p, unsigned lane)
 
 /* The lanes' rays in the frame of a patch, as local_ray.c makes it for one ray. */
 
-LANES_INLINE void lanes_two_sum(lanes a, lanes b, lanes *sum, lanes *error)
-{
-  *sum = a + b;
-  const lanes t = *sum - a;
-  *error = (a - (*sum - t)) + (b - t);
-}
-
 LANES_INLINE void packet_set_patch(struct packet *p, uint32_t index)
 {
   const struct model_patch *patch = &p->model->patches[index];
   lanes hi[3], lo[3];
   const double inverse = 1 / patch->scale;
   for (int k = 0; k < 3; k++) {
-    lanes_two_sum(p->origin[k], lanes_all(-patch->center[k]), &hi[k], &lo[k]);
-    hi[k] *= inverse, lo[k] *= inverse;
+    const struct double_lanes from = double_lanes_sum(p->origin[k], lanes_all(-patch->center[k]));
+    hi[k] = from.hi * inverse, lo[k] = from.lo * inverse;
   }
   for (int k = 0; k < 3; k++) {
     if (!(p->axes & 1u << k)) continue;
@@ -104,13 +98,12 @@ LANES_INLINE void packet_set_patch(struct packet *p, uint32_t index)
       const lanes plus = hi[i] * p->direction[k], minus = hi[k] * p->direction[i];
       const lanes plus_error = lanes_product_error(hi[i], p->direction[k], plus);
       const lanes minus_error = lanes_product_error(hi[k], p->direction[i], minus);
-      lanes sum, error;
-      lanes_two_sum(plus, -minus, &sum, &error);
-      error += (plus_error - minus_error) + (lo[i] * p->direction[k] - lo[k] * p->direction[i]);
-      const lanes moment = (sum + error) * p->reciprocal[k];
+      struct double_lanes sum = double_lanes_sum(plus, -minus);
+      sum.lo += (plus_error - minus_error) + (lo[i] * p->direction[k] - lo[k] * p->direction[i]);
+      const lanes moment = (sum.hi + sum.lo) * p->reciprocal[k];
       p->local[k].moment[s] = moment;
       p->local[k].moment_rest[s] =
-          (error - lanes_product_error(moment, p->direction[k], sum)) * p->reciprocal[k];
+          (sum.lo - lanes_product_error(moment, p->direction[k], sum.hi)) * p->reciprocal[k];
     }
     p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
     p->local[k].to_t = patch->scale * p->reciprocal[k];

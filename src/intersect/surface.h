@@ -41,6 +41,25 @@ LANES_INLINE void surface_cross(const lanes su[3], const lanes sv[3], lanes out[
   }
 }
 
+/* A point in the scene, its error and clearance as of struct hit. */
+struct surface_point {
+  lanes at[3], error, clearance;
+};
+
+/* From a point in the frame of the patch; `tangent` as of POINT_ERROR. */
+LANES_INLINE struct surface_point surface_point(const struct model_patch *patch, const lanes local[3], lanes tangent)
+{
+  struct surface_point point;
+  lanes magnitude = lanes_all(0);
+  for (int c = 0; c < 3; c++) {
+    point.at[c] = patch->center[c] + patch->scale * local[c];
+    magnitude = lanes_max(lanes_abs(point.at[c]), magnitude);
+  }
+  point.error = POINT_ERROR(patch->scale, tangent, magnitude);
+  point.clearance = point.error + CLEARANCE(patch->scale, patch->loose, magnitude);
+  return point;
+}
+
 /* The unit normal from the cross product of derivatives; lanes where it is sure. */
 LANES_INLINE lane_mask surface_normal(const lanes cross[3], lanes tangent, lanes out[3])
 {
