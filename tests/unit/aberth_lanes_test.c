@@ -2,9 +2,8 @@
  * instruction set (CMakeLists.txt); where the processor lacks it the test is skipped. */
 #include "algebra/aberth_lanes.h"
 
-#include <stdio.h>
-
 #include "cmocka_test.h"
+#include "lanes_main.h"
 #include "random.h"
 
 enum { SEED = 20240522, ROUNDS = 400, SWEEPS = 100 };
@@ -175,17 +174,4 @@ __attribute__((noinline)) static int run(void)
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
-int main(void)
-{
-#if defined(__AVX512F__)
-  const bool here = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                    __builtin_cpu_supports("avx512vl");
-#elif defined(__AVX2__)
-  const bool here = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#else
-  const bool here = true;
-#endif
-  if (here) return run();
-  fputs("this processor has no such lanes\n", stderr);
-  return TEST_SKIP;
-}
+int main(void) { return lanes_main(run); }

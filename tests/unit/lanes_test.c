@@ -5,13 +5,13 @@
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/double_double.h"
 #include "base/double_lanes.h"
 #include "base/float_lanes.h"
 #include "cmocka_test.h"
+#include "lanes_main.h"
 
 /* Volatile, so that nothing is computed by the compiler. */
 static volatile double values[] = {
@@ -243,17 +243,4 @@ __attribute__((noinline)) static int run(void)
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
 
-int main(void)
-{
-#if defined(__AVX512F__)
-  const bool here = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                    __builtin_cpu_supports("avx512vl");
-#elif defined(__AVX2__)
-  const bool here = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#else
-  const bool here = true;
-#endif
-  if (here) return run();
-  fputs("this processor has no such lanes\n", stderr);
-  return TEST_SKIP;
-}
+int main(void) { return lanes_main(run); }
