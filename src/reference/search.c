@@ -252,6 +252,9 @@ static double cubic_value(const double c[4], double t, double *derivative)
   return s * q0 + t * q1;
 }
 
+/* A step this short, in box coordinates, leaves a start that is right to about its square. */
+#define NEWTON_SETTLED 1e-9
+
 /* Newton's method for F = 0 in the box's own coordinates, from its middle. Only a start for what follows: nothing is
  * proven. */
 static bool newton(const double F[2][4][4], double *out_s, double *out_t)
@@ -272,7 +275,7 @@ static bool newton(const double F[2][4][4], double *out_s, double *out_t)
     s -= ds;
     t -= dt;
     if (!(fabs(s - 0.5) < 1) || !(fabs(t - 0.5) < 1)) return false;
-    if (fabs(ds) + fabs(dt) < 1e-9) break;
+    if (fabs(ds) + fabs(dt) < NEWTON_SETTLED) break;
   }
   *out_s = s;
   *out_t = t;
