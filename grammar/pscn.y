@@ -51,6 +51,7 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
   struct value value;
   struct texture *texture;
   struct node *node;
+  struct symbol *symbol;
 }
 
 %token END 0 "the end of the text"
@@ -75,6 +76,10 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 %type <token> component
 %type <texture> texture_block pigment_block finish_block surface
 %type <node> object patch union copy
+%type <symbol> declare
+
+/* A declaration that an error ends: its name is not unknown as well. */
+%destructor { declare_broken($$); } <symbol>
 
 /* Where an expression may be followed by the next item, "+" and "-" belong to the expression, as in POV-Ray. */
 %precedence ITEM
@@ -101,12 +106,12 @@ statement:
   ;
 
 declaration:
-    declare colour ';'                         { declare_value(language, &$2); }
-  | declare object                             { declare_object(language, $2); } semicolon
-  | declare surface                            { declare_texture(language, $2); } semicolon
+    declare colour ';'                         { declare_value($1, &$2); }
+  | declare object                             { declare_object(language, $1, $2); } semicolon
+  | declare surface                            { declare_texture(language, $1, $2); } semicolon
   ;
-declare: DECLARE WORD '='                      { declare_begin(language, @2, &$2, false); }
-  | LOCAL WORD '='                             { declare_begin(language, @2, &$2, true); };
+declare: DECLARE WORD '='                      { $$ = declare_begin(language, &$2, false); }
+  | LOCAL WORD '='                             { $$ = declare_begin(language, &$2, true); };
 semicolon: %empty | ';';
 
 /* ---- values ---- */

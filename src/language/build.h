@@ -72,6 +72,7 @@ enum {
 };
 
 struct texture {
+  struct texture *outer; /* while its block is open */
   unsigned block; /* TEXTURE_PIGMENT, TEXTURE_FINISH or TEXTURE_ALL: the statement it comes from */
   unsigned set;
   enum stage stage;        /* of the open block: its declared name or colour, then the rest */
@@ -127,14 +128,6 @@ struct light_node {
   size_t errors; /* told before it began */
 };
 
-/* What `#declare NAME =` has begun. */
-struct declaration {
-  struct token name;
-  struct place place;
-  bool local;
-  int depth; /* of braces; -1 where none is open */
-};
-
 /* The last token handed to the parser, and what it takes to hand it out again. */
 struct delivered {
   int token;
@@ -168,12 +161,10 @@ struct language {
   struct place unknown;         /* the last word told to be unknown */
 
   struct symbol **symbols; /* symbols.c */
-  struct declaration declaring;
 
   struct node *open; /* the innermost open object */
   int nesting;
-  struct texture *textures_open[3]; /* texture, and pigment or finish in it */
-  int texture_depth;
+  struct texture *texture; /* the innermost open texture, pigment or finish */
   struct transform transform; /* the last one said */
   double matrix[12];
   int matrix_count;
@@ -230,7 +221,7 @@ bool value_in_range(struct language *language, struct place place, const struct 
                     double high, bool whole, double *out);
 
 /* ---- symbols.c ---- */
-enum symbol_kind { SYMBOL_VALUE, SYMBOL_TEXTURE, SYMBOL_OBJECT, SYMBOL_BROKEN };
+enum symbol_kind { SYMBOL_BEGUN, SYMBOL_VALUE, SYMBOL_TEXTURE, SYMBOL_OBJECT, SYMBOL_BROKEN };
 struct symbol {
   struct symbol *next;
   const char *name;
@@ -244,7 +235,10 @@ struct symbol {
 };
 bool symbols_create(struct language *language); /* with `pscn` declared */
 void symbols_destroy(struct language *language);
+/* What a name stands for, or NULL: where it is not declared, or its declaration has only begun. */
 const struct symbol *symbol_find(const struct language *language, const char *name, size_t length);
+/* Whether #ifdef takes it for declared: from the = of its declaration on, as in POV-Ray. */
+bool symbol_known(const struct language *language, const char *name, size_t length);
 void symbols_leave(struct language *language, int depth); /* forgets the locals of that include depth */
 /* Offers all declared names to a search for the nearest (words.h). */
 void symbols_consider(const struct language *language, const char *word, size_t length, const char **best,
@@ -253,11 +247,12 @@ void symbols_consider(const struct language *language, const char *word, size_t 
 void symbol_unknown(struct language *language, struct place place, const struct token *name, const char *wanted);
 /* Tells that a name is something else than what is wanted. */
 void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted);
-void declare_begin(struct language *language, struct place place, const struct token *name, bool local);
-void declare_value(struct language *language, const struct value *value);
-void declare_object(struct language *language, struct node *object);
-void declare_texture(struct language *language, const struct texture *texture);
-void declare_broken(struct language *language); /* the declaration being read has an error */
+/* The symbol that a declaration writes to; declarations may stand within each other. */
+struct symbol *declare_begin(struct language *language, const struct token *name, bool local);
+void declare_value(struct symbol *symbol, const struct value *value);
+void declare_object(struct language *language, struct symbol *symbol, struct node *object);
+void declare_texture(struct language *language, struct symbol *symbol, const struct texture *texture);
+void declare_broken(struct symbol *symbol); /* its declaration has an error */
 
 /* ---- settings.c: global_settings, background, light sources ---- */
 void language_version(struct language *language, struct place place, const struct value *value);

@@ -51,8 +51,7 @@ static enum status language_create(struct language *language, const struct langu
                                    struct diagnostics *diagnostics)
 {
   *language = (struct language){.diagnostics = diagnostics,
-                                .width = settings->image_width, .height = settings->image_height,
-                                .declaring = {.depth = -1}};
+                                .width = settings->image_width, .height = settings->image_height};
   language->lights_end = &language->lights;
   for (int k = 0; k < 3; k++) language->ambient_light[k] = 1;
   camera_default(&language->camera);

@@ -179,6 +179,7 @@ void copy_named(struct language *language, struct place place, const struct toke
     copy_object(language, place, symbol->object);
     return;
   }
+  language->open->has_object = true; /* it was meant to be */
   if (!symbol) symbol_unknown(language, place, name, "an object");
   else if (symbol->kind != SYMBOL_BROKEN) symbol_mistaken(language, place, symbol, "an object");
 }

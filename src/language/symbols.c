@@ -55,7 +55,13 @@ void symbols_destroy(struct language *language) { free(language->symbols); }
 
 const struct symbol *symbol_find(const struct language *language, const char *name, size_t length)
 {
-  return find(language, name, length, -1);
+  const struct symbol *symbol = find(language, name, length, -1);
+  return symbol && symbol->kind != SYMBOL_BEGUN ? symbol : NULL;
+}
+
+bool symbol_known(const struct language *language, const char *name, size_t length)
+{
+  return find(language, name, length, -1) != NULL;
 }
 
 void symbols_leave(struct language *language, int depth)
@@ -76,7 +82,7 @@ void symbols_consider(const struct language *language, const char *word, size_t 
 {
   for (size_t b = 0; b < BUCKETS; b++) {
     for (const struct symbol *s = language->symbols[b]; s; s = s->next) {
-      words_consider(word, length, s->name, s->length, best, best_length, distance);
+      if (s->kind != SYMBOL_BEGUN) words_consider(word, length, s->name, s->length, best, best_length, distance);
     }
   }
 }
@@ -110,28 +116,20 @@ void symbol_mistaken(struct language *language, struct place place, const struct
 
 /* ---- declarations ---- */
 
-void declare_begin(struct language *language, struct place place, const struct token *name, bool local)
+/* As in POV-Ray: #local writes to a name of this file, #declare to the innermost there is, or else to one that belongs
+ * to all. Which one is settled before the value is read: a declaration within the first one of its own name hides
+ * that, within a later one the outer one is the last to write. */
+struct symbol *declare_begin(struct language *language, const struct token *name, bool local)
 {
-  language->declaring = (struct declaration){*name, place, local, language->last.depth};
-}
-
-/* The symbol that the open declaration writes to, as in POV-Ray: #local to one of this file, #declare to the
- * innermost there is, or else to one that belongs to all. */
-static struct symbol *declared(struct language *language)
-{
-  struct declaration *declaring = &language->declaring;
-  const char *name = declaring->name.text;
-  const size_t length = declaring->name.length;
-  const int depth = declaring->local ? language->include_depth : -1;
-  declaring->depth = -1;
-  struct symbol *symbol = find(language, name, length, depth);
-  return symbol ? symbol : add(language, name, length, declaring->local ? depth : 0);
+  const int depth = local ? language->include_depth : -1;
+  struct symbol *symbol = find(language, name->text, name->length, depth);
+  if (symbol && symbol->kind != SYMBOL_BEGUN) return symbol;
+  return add(language, name->text, name->length, local ? depth : 0);
 }
 
 /* A value that is but the name of something else declares another name for it. */
-void declare_value(struct language *language, const struct value *value)
+void declare_value(struct symbol *symbol, const struct value *value)
 {
-  struct symbol *symbol = declared(language);
   if (value->kind == VALUE_NAMED) {
     symbol->kind = value->symbol->kind;
     symbol->object = value->symbol->object;
@@ -142,28 +140,21 @@ void declare_value(struct language *language, const struct value *value)
   symbol->value = *value;
 }
 
-void declare_object(struct language *language, struct node *object)
+void declare_object(struct language *language, struct symbol *symbol, struct node *object)
 {
   if (!object->sharing) object->sharing = language_alloc(language, sizeof *object->sharing);
-  struct symbol *symbol = declared(language);
   symbol->kind = SYMBOL_OBJECT;
   symbol->object = object;
 }
 
 /* A declared block is whole: what it leaves open has the default. */
-void declare_texture(struct language *language, const struct texture *texture)
+void declare_texture(struct language *language, struct symbol *symbol, const struct texture *texture)
 {
   struct texture *whole = language_alloc(language, sizeof *whole);
   *whole = *texture;
   whole->set = texture->block;
-  struct symbol *symbol = declared(language);
   symbol->kind = SYMBOL_TEXTURE;
   symbol->texture = whole;
 }
 
-/* So that its name is not unknown as well. */
-void declare_broken(struct language *language)
-{
-  if (language->declaring.depth < 0 || language->declaring.depth != language->last.depth) return;
-  declared(language)->kind = SYMBOL_BROKEN;
-}
+void declare_broken(struct symbol *symbol) { symbol->kind = SYMBOL_BROKEN; }

@@ -26,29 +26,30 @@ void texture_apply(struct texture *to, const struct texture *from)
   to->set |= from->set;
 }
 
-static struct texture *current(struct language *language)
-{
-  return language->textures_open[language->texture_depth - 1];
-}
-
 void texture_begin(struct language *language, unsigned block)
 {
   struct texture *texture = language_alloc(language, sizeof *texture);
   *texture = texture_default();
   texture->block = block;
   if (block != TEXTURE_ALL) texture->set = 0;
-  if (language->texture_depth < 3) language->textures_open[language->texture_depth++] = texture;
+  texture->outer = language->texture;
+  language->texture = texture;
 }
 
-struct texture *texture_end(struct language *language) { return language->textures_open[--language->texture_depth]; }
+struct texture *texture_end(struct language *language)
+{
+  struct texture *texture = language->texture;
+  language->texture = texture->outer;
+  return texture;
+}
 
 void texture_merge(struct language *language, const struct texture *texture)
 {
-  current(language)->stage = STAGE_BODY;
-  texture_apply(current(language), texture);
+  language->texture->stage = STAGE_BODY;
+  texture_apply(language->texture, texture);
 }
 
-void texture_moved(struct language *language) { current(language)->stage = STAGE_MODIFIERS; }
+void texture_moved(struct language *language) { language->texture->stage = STAGE_MODIFIERS; }
 
 static const char *block_name(unsigned block)
 {
@@ -63,7 +64,7 @@ static void tell_not_first(struct language *language, struct place place, const 
 /* A texture may begin with a declared texture, pigment or finish; a pigment and a finish with one of their own. */
 void texture_named(struct language *language, struct place place, const struct token *name)
 {
-  struct texture *texture = current(language);
+  struct texture *texture = language->texture;
   const struct symbol *symbol = symbol_find(language, name->text, name->length);
   const bool first = texture->stage == STAGE_SETTINGS;
   texture->stage = STAGE_BODY;
@@ -79,7 +80,7 @@ void texture_named(struct language *language, struct place place, const struct t
 
 void pigment_value(struct language *language, struct place place, const struct value *value)
 {
-  struct texture *texture = current(language);
+  struct texture *texture = language->texture;
   const struct symbol *symbol = value->symbol;
   const enum stage stage = texture->stage;
   texture->stage = STAGE_BODY;
@@ -104,7 +105,7 @@ void pigment_value(struct language *language, struct place place, const struct v
 
 void finish_ambient(struct language *language, struct place place, const struct value *value)
 {
-  struct texture *texture = current(language);
+  struct texture *texture = language->texture;
   texture->stage = STAGE_BODY;
   value_to_colour(language, place, value, texture->is.finish.ambient);
   texture->set |= TEXTURE_AMBIENT;
@@ -112,7 +113,7 @@ void finish_ambient(struct language *language, struct place place, const struct 
 
 void finish_number(struct language *language, int which, struct place place, const struct value *value)
 {
-  struct texture *texture = current(language);
+  struct texture *texture = language->texture;
   struct scene_finish *finish = &texture->is.finish;
   double x;
   texture->stage = STAGE_BODY;

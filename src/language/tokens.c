@@ -61,7 +61,7 @@ static bool condition_holds(struct language *language, const char *directive)
     token = pscn_scan_next(scan);
     const struct place name = sources_here(language);
     if (is_word(token)) {
-      declared = symbol_find(language, text_at(name), length_of(name)) != NULL;
+      declared = symbol_known(language, text_at(name), length_of(name));
       token = pscn_scan_next(scan);
       if (token == ')') return declared;
     }
@@ -285,7 +285,6 @@ bool tokens_recover(struct language *language)
   const bool twice = last->place.source == language->recovered.source && last->place.begin == language->recovered.begin;
   language->recovered = last->place;
   language->last.again = false;
-  declare_broken(language);
 
   for (bool first = true;; first = false, advance(language)) {
     const int token = last->token;
