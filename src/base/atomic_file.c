@@ -64,30 +64,29 @@ static int target_find(const char *path, struct target *out)
   return out->path == NULL ? errno : 0;
 }
 
-/* Creates a new file next to `path`. Answers its descriptor, or -1 with errno set; *out_name is owned by the caller. */
-static int temporary_open(const char *path, char **out_name)
+/* Makes a new name next to `path`: of the file `same`, or where that is NULL of a new one, whose descriptor is
+ * *out_descriptor. Answers the name, owned by the caller, or NULL with errno set. */
+static char *temporary_name(const char *path, const char *same, int *out_descriptor)
 {
-  *out_name = NULL;
   char *name = directory_of(path);
   if (name == NULL) {
     errno = ENOMEM;
-    return -1;
+    return NULL;
   }
   char *end = name + strlen(name);
   for (int attempt = 0; attempt < NAME_ATTEMPTS; attempt++) {
     snprintf(end, NAME_SPACE, "/.pscn-%ld-%d.tmp", (long)getpid(), attempt);
-    const int descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) {
-      *out_name = name;
-      return descriptor;
-    }
+    const int made = same != NULL ? link(same, name)
+                                  : (*out_descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (made >= 0)
+      return name;
     if (errno != EEXIST)
       break;
   }
   const int reason = errno;
   free(name);
   errno = reason;
-  return -1;
+  return NULL;
 }
 
 static enum status write_all(int descriptor, const unsigned char *bytes, size_t size, const atomic_int *stop,
@@ -139,45 +138,75 @@ static enum status write_through(const struct target *target, const unsigned cha
   return status;
 }
 
-static enum status write_replacing(const struct target *target, const unsigned char *bytes, size_t size,
-                                   const atomic_int *stop, int *out_errno)
+/* A file on its way to its name. */
+struct staged {
+  struct target target;
+  char *fresh; /* the new file, complete and on the disk, or NULL; owned, as is `old` */
+  char *old;   /* another name of the old file, for the case that a later one fails; or NULL */
+  bool placed; /* the name has what it is to have */
+};
+
+/* Writes the new file beside the name. */
+static enum status stage_bytes(const struct atomic_file *file, const atomic_int *stop, struct staged *out,
+                               int *out_errno)
 {
-  char *name = NULL;
-  int descriptor = temporary_open(target->path, &name);
-  if (descriptor < 0) {
+  int descriptor = -1;
+  out->fresh = temporary_name(out->target.path, NULL, &descriptor);
+  if (out->fresh == NULL) {
     *out_errno = errno;
     return STATUS_FILE;
   }
-  enum status status = write_all(descriptor, bytes, size, stop, out_errno);
-  if (status != STATUS_OK)
-    goto done;
-  status = STATUS_FILE;
-  if (target->exists && fchmod(descriptor, target->mode) != 0)
-    goto failed;
-  if (fsync(descriptor) != 0 && errno != EINVAL) /* EINVAL: a file system without it */
-    goto failed;
-  const int closed = close(descriptor);
-  descriptor = -1;
-  if (closed != 0)
-    goto failed;
-  if (stop != NULL && atomic_load(stop) != 0) {
-    status = STATUS_INTERRUPTED;
-    goto done;
+  enum status status = write_all(descriptor, file->bytes, file->size, stop, out_errno);
+  if (status == STATUS_OK && ((out->target.exists && fchmod(descriptor, out->target.mode) != 0) ||
+                              (fsync(descriptor) != 0 && errno != EINVAL))) { /* EINVAL: a file system without it */
+    *out_errno = errno;
+    status = STATUS_FILE;
   }
-  if (rename(name, target->path) != 0)
-    goto failed;
-  sync_directory(target->path);
-  free(name);
-  return STATUS_OK;
-
-failed:
-  *out_errno = errno;
-done:
-  if (descriptor >= 0)
-    (void)close(descriptor);
-  (void)unlink(name);
-  free(name);
+  if (close(descriptor) != 0 && status == STATUS_OK) {
+    *out_errno = errno;
+    status = STATUS_FILE;
+  }
   return status;
+}
+
+static enum status stage(const struct atomic_file *file, const atomic_int *stop, struct staged *out, int *out_errno)
+{
+  *out_errno = target_find(file->path, &out->target);
+  if (*out_errno != 0)
+    return STATUS_FILE;
+  return file->bytes != NULL && out->target.replaceable ? stage_bytes(file, stop, out, out_errno) : STATUS_OK;
+}
+
+/* Gives the name its new file. `alone`: no other one can fail after it, so the old file need not be kept. */
+static enum status place(const struct atomic_file *file, bool alone, const atomic_int *stop, struct staged *staged,
+                         int *out_errno)
+{
+  const struct target *target = &staged->target;
+  if (!target->replaceable)
+    return file->bytes == NULL ? STATUS_OK : write_through(target, file->bytes, file->size, stop, out_errno);
+  if (target->exists && !alone)
+    staged->old = temporary_name(target->path, target->path, NULL); /* a file system without links keeps none */
+  const bool gone = staged->fresh == NULL && (!target->exists || unlink(target->path) == 0);
+  staged->placed = gone || (staged->fresh != NULL && rename(staged->fresh, target->path) == 0);
+  if (staged->placed)
+    return STATUS_OK;
+  *out_errno = errno;
+  return STATUS_FILE;
+}
+
+/* Leaves nothing but the final name: with what is placed where all went well, else as it was before. */
+static void settle(struct staged *staged, bool well)
+{
+  const bool undo = !well && staged->placed;
+  if (staged->old != NULL)
+    (void)(undo ? rename(staged->old, staged->target.path) : unlink(staged->old));
+  else if (undo && !staged->target.exists)
+    (void)unlink(staged->target.path);
+  if (!staged->placed && staged->fresh != NULL)
+    (void)unlink(staged->fresh);
+  free(staged->target.path);
+  free(staged->fresh);
+  free(staged->old);
 }
 
 static enum status failure(int reason) { return reason == ENOMEM ? STATUS_LIMIT : STATUS_FILE; }
@@ -189,9 +218,9 @@ enum status atomic_file_probe(const char *path, int *out_errno)
   if (*out_errno != 0)
     return failure(*out_errno);
   if (target.replaceable) {
-    char *name = NULL;
-    const int descriptor = temporary_open(target.path, &name);
-    if (descriptor >= 0) {
+    int descriptor = -1;
+    char *name = temporary_name(target.path, NULL, &descriptor);
+    if (name != NULL) {
       (void)close(descriptor);
       (void)unlink(name);
       free(name);
@@ -206,15 +235,35 @@ enum status atomic_file_probe(const char *path, int *out_errno)
   return *out_errno == 0 ? STATUS_OK : failure(*out_errno);
 }
 
+enum status atomic_files_write(const struct atomic_file *files, size_t count, const atomic_int *stop,
+                               size_t *out_failed, int *out_errno)
+{
+  struct staged *staged = calloc(count + 1, sizeof *staged);
+  enum status status = staged == NULL ? STATUS_LIMIT : STATUS_OK;
+  *out_failed = 0;
+  *out_errno = staged == NULL ? ENOMEM : 0;
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
+    *out_failed = k;
+    status = stage(&files[k], stop, &staged[k], out_errno);
+  }
+  if (status == STATUS_OK && stop != NULL && atomic_load(stop) != 0)
+    status = STATUS_INTERRUPTED;
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
+    *out_failed = k;
+    status = place(&files[k], count == 1, stop, &staged[k], out_errno);
+  }
+  for (size_t k = 0; staged != NULL && k < count; k++) {
+    if (status == STATUS_OK && staged[k].placed)
+      sync_directory(staged[k].target.path);
+    settle(&staged[k], status == STATUS_OK);
+  }
+  free(staged);
+  return status == STATUS_FILE ? failure(*out_errno) : status;
+}
+
 enum status atomic_file_write(const char *path, const void *bytes, size_t size, const atomic_int *stop,
                               int *out_errno)
 {
-  struct target target;
-  *out_errno = target_find(path, &target);
-  if (*out_errno != 0)
-    return failure(*out_errno);
-  const enum status status = (target.replaceable ? write_replacing : write_through)(&target, bytes, size, stop,
-                                                                                     out_errno);
-  free(target.path);
-  return status == STATUS_FILE ? failure(*out_errno) : status;
+  size_t failed;
+  return atomic_files_write(&(struct atomic_file){ path, size == 0 ? "" : bytes, size }, 1, stop, &failed, out_errno);
 }

@@ -1,10 +1,10 @@
-/* Files that appear whole or not at all.
+/* Files that appear whole or not at all, and several together.
  *
  * The bytes are written to a temporary file in the folder of the final name, flushed to the disk, and renamed.
  * Whatever goes wrong, the final name keeps what it had and the temporary file is removed. A symbolic link is
  * followed. A name that is a device or a pipe is written to directly, since it can not be replaced.
  *
- * Both functions answer STATUS_FILE, or STATUS_LIMIT where memory is short, with the reason, an errno value, in
+ * All functions answer STATUS_FILE, or STATUS_LIMIT where memory is short, with the reason, an errno value, in
  * *out_errno (0 otherwise). Safe on any thread.
  */
 #ifndef PSCN_BASE_ATOMIC_FILE_H
@@ -23,5 +23,17 @@ enum status atomic_file_probe(const char *path, int *out_errno) STATUS_MUST_CHEC
  * own. */
 enum status atomic_file_write(const char *path, const void *bytes, size_t size, const atomic_int *stop,
                               int *out_errno) STATUS_MUST_CHECK;
+
+/* One of several files. Without bytes (NULL) there is to be none of that name afterwards. */
+struct atomic_file {
+  const char *path;
+  const void *bytes;
+  size_t size;
+};
+
+/* The same for all files of a result: none gets its name before each is complete on the disk, and where one cannot get
+ * it, those before it become again what they were (where the file system has hard links). *out_failed: which it was. */
+enum status atomic_files_write(const struct atomic_file *files, size_t count, const atomic_int *stop,
+                               size_t *out_failed, int *out_errno) STATUS_MUST_CHECK;
 
 #endif

@@ -13,4 +13,21 @@ static inline double clock_seconds(clockid_t clock)
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Time taken, in seconds: by the clock, and of the processor by all threads of the process. */
+struct seconds {
+  double wall, cpu;
+};
+
+/* A moment, and what has passed since one. */
+static inline struct seconds seconds_now(void)
+{
+  return (struct seconds){ clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID) };
+}
+
+static inline struct seconds seconds_since(struct seconds start)
+{
+  const struct seconds now = seconds_now();
+  return (struct seconds){ now.wall - start.wall, now.cpu - start.cpu };
+}
+
 #endif

@@ -11,6 +11,7 @@
 #include "command/page.h"
 #include "command/povray.h"
 #include "command/scene_file.h"
+#include "scene/dump.h"
 
 enum { CHART_NOTES = 4 };
 

@@ -10,6 +10,7 @@
 #include <jansson.h>
 #include <stdint.h>
 
+#include "base/clock.h"
 #include "command/command.h"
 #include "command/page.h"
 #include "command/povray.h"
@@ -49,7 +50,7 @@ struct check_pixel {
 struct check_ours {
   struct image picture;        /* R G B, display codes of 8 bits as k/255 */
   struct check_pixel *pixel;   /* [height][width] */
-  struct command_seconds time; /* of reading, building, rendering and encoding, one thread */
+  struct seconds time; /* of reading, building, rendering and encoding, one thread */
 };
 
 /* Differences of distances, relative to ours, over the rays that both say hit; NaN where there are none. */

@@ -96,7 +96,7 @@ enum status check_measure_ours(struct check *check)
                                           .channels = { .count = 1, .width = 3, .kind = { CHANNEL_RGB } } };
   const struct render_watch watch = { .stop = &interrupt_signal };
   struct render_stats stats;
-  const struct command_seconds start = command_now();
+  const struct seconds start = seconds_now();
   enum status status = scene_file_load(&check->request->scene, &check->scene);
   if (status != STATUS_OK) /* told */
     return status;
@@ -107,7 +107,7 @@ enum status check_measure_ours(struct check *check)
     status = render_scene(check->scene, intersector, &options, &watch, ours->picture.value, &stats);
   if (status == STATUS_OK) {
     encode(&ours->picture);
-    ours->time = command_since(start);
+    ours->time = seconds_since(start);
     for (int k = 0; k < 3; k++)
       snprintf(ours->picture.channel[k].name, IMAGE_NAME_SIZE, "%c", "RGB"[k]);
     ours->pixel = calloc(check->width * check->height, sizeof *ours->pixel);

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "command/check.h"
-#include "command/version.h"
+#include "base/version.h"
 
 static void row_name(const struct check_row *row, char *out, size_t size)
 {

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/clock.h"
-
 /* In the order of the help text. */
 static const struct command *const commands[] = {
   &command_render, &command_trace, &command_roots, &command_dump,
@@ -171,20 +169,4 @@ enum status command_written(const struct command *command, const char *path, enu
   if (status == STATUS_FILE || status == STATUS_LIMIT)
     command_error(command, "cannot write '%s': %s", path, strerror(reason));
   return status;
-}
-
-double command_clock(void)
-{
-  return clock_seconds(CLOCK_MONOTONIC);
-}
-
-struct command_seconds command_now(void)
-{
-  return (struct command_seconds){ clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID) };
-}
-
-struct command_seconds command_since(struct command_seconds start)
-{
-  const struct command_seconds now = command_now();
-  return (struct command_seconds){ now.wall - start.wall, now.cpu - start.cpu };
 }

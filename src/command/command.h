@@ -65,18 +65,6 @@ enum status command_finish_output(const struct command *command);
  * status. */
 enum status command_written(const struct command *command, const char *path, enum status status, int reason);
 
-/* Seconds of a clock that only goes forward. */
-double command_clock(void);
-
-/* Time taken, in seconds: of a clock, and of the processor by all threads of the process. */
-struct command_seconds {
-  double wall, cpu;
-};
-
-/* A moment, and what has passed since one. */
-struct command_seconds command_now(void);
-struct command_seconds command_since(struct command_seconds start);
-
 /* A row of the table for an option that takes an argument, for one that takes none, and for the one that every command
  * has, which command_line_read answers. `letter` is the short name, or 0. */
 enum { OPTION_HELP = 1000 };

@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/version.h"
 #include "command/command.h"
 #include "command/interrupt.h"
-#include "command/version.h"
 
 int main(int argc, char **argv)
 {

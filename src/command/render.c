@@ -200,18 +200,18 @@ static enum status make_picture(const struct command *command, const struct requ
   enum status status = image_create(crop->width, crop->height, request->options.channels.width, out);
   if (status == STATUS_OK) {
     name_channels(&request->options.channels, out);
-    const struct command_seconds start = command_now();
+    const struct seconds start = seconds_now();
     status = intersector_create(report->scene, &intersector);
-    report->build = command_since(start);
+    report->build = seconds_since(start);
   }
   if (status == STATUS_OK) {
     interrupt_defer();
-    const struct command_seconds start = command_now();
+    const struct seconds start = seconds_now();
     status = render_scene(report->scene, intersector, &request->options, &watch, out->value, &stats);
     progress_end(&progress);
     report->counts = stats.counts;
     report->threads = stats.threads;
-    report->render = command_since(start);
+    report->render = seconds_since(start);
   }
   if (status == STATUS_LIMIT)
     command_error(command, "out of memory or threads");
@@ -249,7 +249,7 @@ static enum status render(const struct command *command, struct request *request
     return status;
   struct scene *scene = NULL;
   struct image image = { 0 };
-  const struct command_seconds start = command_now();
+  const struct seconds start = seconds_now();
   status = scene_file_load(&request->scene, &scene);
   struct report report = { .scene_path = request->scene.path,
                            .picture_path = request->output,
@@ -258,13 +258,13 @@ static enum status render(const struct command *command, struct request *request
                            .height = request->options.height,
                            .crop = request->options.crop,
                            .samples = request->options.samples,
-                           .parse = command_since(start) };
+                           .parse = seconds_since(start) };
   if (status == STATUS_OK)
     status = make_picture(command, request, &report, &image);
   if (status == STATUS_OK) {
-    const struct command_seconds write_start = command_now();
+    const struct seconds write_start = seconds_now();
     status = write_picture(command, request, &report, &image);
-    report.write = command_since(write_start);
+    report.write = seconds_since(write_start);
   }
   if (status == STATUS_OK)
     status = report_write(command, &report, request->stats);

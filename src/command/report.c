@@ -9,8 +9,8 @@
 
 #include "base/atomic_file.h"
 #include "base/number.h"
+#include "base/version.h"
 #include "command/interrupt.h"
-#include "command/version.h"
 
 enum { JSON_DIGITS = 15 }; /* of numbers in the statistics: 1e-12 stays 1e-12 */
 

@@ -4,11 +4,13 @@
 
 #include <jansson.h>
 
+#include "base/clock.h"
 #include "command/command.h"
 #include "command/scene_file.h"
 #include "image/image_file.h"
 #include "intersect/intersect.h"
 #include "render/tile.h"
+#include "scene/dump.h"
 
 struct report {
   const char *scene_path;
@@ -17,7 +19,7 @@ struct report {
   size_t width, height, samples, threads;
   struct rectangle crop; /* the part of width x height that the picture shows */
   struct intersect_counts counts;
-  struct command_seconds parse, build, render, write;
+  struct seconds parse, build, render, write;
 };
 
 /* A few lines on stderr. */

@@ -6,12 +6,14 @@
 #include <unistd.h>
 
 #include "algebra/solver.h"
+#include "base/clock.h"
 #include "base/number.h"
 #include "command/command.h"
 #include "command/report.h"
 #include "command/scene_file.h"
 #include "command/stream.h"
 #include "language/language.h"
+#include "scene/dump.h"
 
 enum { OPTION_STATS = 1, OPTION_QUIET };
 
@@ -123,13 +125,13 @@ static void answer(struct session *session, int degree, const double c[])
   struct polynomial p = power;
   double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
   struct root_set roots;
-  const double start = command_clock();
+  const double start = clock_seconds(CLOCK_MONOTONIC);
   if (session->options.basis == BASIS_BERNSTEIN) {
     polynomial_to_bernstein(&power, bernstein, error);
     p = (struct polynomial){ degree, BASIS_BERNSTEIN, bernstein, error };
   }
   solver_solve(&p, &session->options, &session->warm, &roots);
-  session->solve += command_clock() - start;
+  session->solve += clock_seconds(CLOCK_MONOTONIC) - start;
   session->polynomials++;
   session->roots += (size_t)roots.count;
   for (int k = 0; k < roots.count; k++) {

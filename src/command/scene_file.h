@@ -36,9 +36,4 @@ enum status scene_file_load(const struct scene_request *request, struct scene **
 /* Diagnostics that are told on stderr. */
 struct diagnostics stderr_diagnostics(void);
 
-/* A solver as a scene has it, with the items that differ from that solver's defaults: "aberth { polish off }". The text
- * is cut off at `size` bytes, which is no limit for the items there are: SOLVER_TEXT_SIZE holds them all. */
-enum { SOLVER_TEXT_SIZE = 512 };
-void solver_text(const struct solver_options *options, char *out, size_t size);
-
 #endif

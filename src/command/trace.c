@@ -149,27 +149,27 @@ static enum status trace(const struct command *command, struct request *request)
   struct intersector *intersector = NULL;
   struct tracer *tracer = NULL;
   struct ray_input input = { .binary = request->binary };
-  struct command_seconds start = command_now();
+  struct seconds start = seconds_now();
   enum status status = report_probe(command, request->stats);
   if (status != STATUS_OK)
     return status;
   status = scene_file_load(&request->scene, &scene);
   struct report report = { .scene_path = request->scene.path, .scene = scene, .threads = 1 };
-  report.parse = command_since(start);
+  report.parse = seconds_since(start);
   if (status != STATUS_OK)
     return status;
 
-  start = command_now();
+  start = seconds_now();
   status = intersector_create(scene, &intersector);
   if (status == STATUS_OK)
     status = tracer_create(intersector, &tracer);
   if (status == STATUS_OK)
     status = ray_input_open(STDIN_FILENO, request->binary, &input);
-  report.build = command_since(start);
+  report.build = seconds_since(start);
   if (status == STATUS_OK) {
-    start = command_now();
+    start = seconds_now();
     status = trace_stream(command, tracer, &input);
-    report.render = command_since(start);
+    report.render = seconds_since(start);
     report.counts = *tracer_counts(tracer);
   }
   if (status == STATUS_LIMIT)

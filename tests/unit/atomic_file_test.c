@@ -11,6 +11,19 @@
 
 #include "cmocka_test.h"
 
+/* Renamings that succeed before one fails (the linker hands them over to us); negative: all do. */
+static long rename_left = -1;
+
+int __real_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to);
+
+int __wrap_rename(const char *from, const char *to)
+{
+  if (rename_left < 0 || rename_left-- > 0) return __real_rename(from, to);
+  errno = EIO;
+  return -1;
+}
+
 /* A new empty folder for each test, and the process's mask of permissions set to a known value. */
 static int enter_folder(void **state)
 {
@@ -172,6 +185,53 @@ static void leftovers_of_others_do_not_disturb(void **state)
   expect_text(name, "left over");
 }
 
+/* Several files: all, or none and the old ones stay. The last name is a folder, found when everything is written. */
+static void several_files_appear_together(void **state)
+{
+  (void)state;
+  struct atomic_file files[] = { { "first", "new", 3 }, { "second", "new", 3 }, { "gone", NULL, 0 },
+                                 { "last", "new", 3 } };
+  size_t failed;
+  int reason;
+  put("first", "old");
+  put("gone", "old");
+  assert_int_equal(mkdir("last", 0777), 0);
+  assert_int_equal(atomic_files_write(files, 4, NULL, &failed, &reason), STATUS_FILE);
+  assert_true(failed == 3 && reason == EISDIR && count_entries() == 3);
+  expect_text("first", "old");
+  assert_int_equal(rmdir("last"), 0);
+  assert_int_equal(atomic_files_write(files, 4, NULL, &failed, &reason), STATUS_OK);
+  assert_int_equal(count_entries(), 3);
+  expect_text("first", "new");
+  expect_text("second", "new");
+  expect_text("last", "new");
+  atomic_int stop = 2;
+  files[0].bytes = "two", files[1].bytes = NULL;
+  assert_int_equal(atomic_files_write(files, 4, &stop, &failed, &reason), STATUS_INTERRUPTED);
+  expect_text("first", "new");
+  assert_int_equal(count_entries(), 3);
+}
+
+/* The same where a name cannot be given in the end. */
+static void a_failing_name_undoes_those_before(void **state)
+{
+  (void)state;
+  const struct atomic_file files[] = { { "kept", "new", 3 }, { "made", "new", 3 }, { "removed", NULL, 0 },
+                                       { "there", "new", 3 } };
+  size_t failed;
+  int reason;
+  put("kept", "old");
+  put("removed", "old");
+  put("there", "old");
+  rename_left = 2; /* of kept and made; the third, of there, fails */
+  assert_int_equal(atomic_files_write(files, 4, NULL, &failed, &reason), STATUS_FILE);
+  rename_left = -1;
+  assert_true(failed == 3 && reason == EIO && count_entries() == 3);
+  expect_text("kept", "old");
+  expect_text("removed", "old");
+  expect_text("there", "old");
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
 
 int main(void)
@@ -184,6 +244,8 @@ int main(void)
     IN_FOLDER(device_is_written_to_not_replaced),
     IN_FOLDER(stopped_write_leaves_the_old_file),
     IN_FOLDER(leftovers_of_others_do_not_disturb),
+    IN_FOLDER(several_files_appear_together),
+    IN_FOLDER(a_failing_name_undoes_those_before),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
