@@ -1,9 +1,7 @@
 /* What the paper's experiments share. */
 #include "measure.h"
 
-#include <assert.h>
 #include <math.h>
-#include <string.h>
 
 double measure_random(uint64_t *state)
 {
@@ -17,14 +15,4 @@ double measure_eq11(const struct root_problem *problem, double re, double im)
 {
   const struct polynomial p = {problem->degree, problem->basis, problem->c, NULL};
   return isfinite(re) && isfinite(im) ? polynomial_eq11(&p, re, im) : INFINITY;
-}
-
-void measure_set(struct solver_options *options, const char *item, double value)
-{
-  size_t i = 0;
-  while (strcmp(solver_item_at(i)->name, item) != 0) {
-    i++;
-    assert(i < solver_item_count());
-  }
-  solver_item_at(i)->set(options, value);
 }

@@ -1,4 +1,4 @@
-/* What the paper's experiments share: random numbers, eq 11, and solver items by name. */
+/* What the paper's experiments share: random numbers and eq 11. */
 #ifndef PSCN_EXAMPLES_MEASURE_H
 #define PSCN_EXAMPLES_MEASURE_H
 
@@ -11,8 +11,5 @@ double measure_random(uint64_t *state);
 
 /* polynomial_eq11 of a value that need not be finite; below 1 the root is accurate. */
 double measure_eq11(const struct root_problem *problem, double re, double im);
-
-/* Sets an item of a solver block; the name must be one. */
-void measure_set(struct solver_options *options, const char *item, double value);
 
 #endif

@@ -111,7 +111,7 @@ static void experiment(enum basis basis, const double *c, size_t pixels)
       for (int previous = 0; previous < 2; previous++) {
         struct solver_options options;
         solver_options_default(solver_find(methods[m], strlen(methods[m])), &options);
-        measure_set(&options, "form", 0.0);
+        solver_options_form(&options, false);
         options.tolerance = pow(10.0, -digits);
         options.max_iterations = 500;
         struct solver_warm warm = {0};

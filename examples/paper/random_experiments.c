@@ -19,6 +19,7 @@
 #include "algebra/solver.h"
 #include "base/clock.h"
 #include "measure.h"
+#include "scene/method.h"
 
 enum {
   POLYNOMIALS = 100,
@@ -34,8 +35,7 @@ static struct solver_options paper_options(const char *method, double tolerance)
 {
   struct solver_options options;
   solver_options_default(solver_find(method, strlen(method)), &options);
-  measure_set(&options, "form", 0.0);
-  measure_set(&options, "basis", BASIS_POWER);
+  solver_options_form(&options, false);
   options.tolerance = tolerance;
   options.max_iterations = 500;
   return options;
@@ -190,12 +190,11 @@ static void improvements(void)
   printf("method,variant,eps,iterations,us_all,accurate,log10_ratio,unconverged\n");
   for (size_t v = 0; v < sizeof variants / sizeof variants[0]; v++) {
     for (int tight = 0; tight < 2; tight++) {
-      struct solver_options options = paper_options(variants[v].method, tight ? 1e-12 : 1e-6);
-      for (int i = 0; i < 4 && variants[v].item[i] != NULL; i++) {
-        measure_set(&options, variants[v].item[i], variants[v].value[i]);
-      }
-      const struct summary all = measure(PAPER_DEGREE, &options, false, 99);
-      printf("%s,%s,%g,%.2f,%.2f,%.4f,%.2f,%.4f\n", variants[v].method, variants[v].name, options.tolerance,
+      struct method method = {.roots = paper_options(variants[v].method, tight ? 1e-12 : 1e-6)};
+      for (int i = 0; i < 4 && variants[v].item[i] != NULL; i++)
+        method_item_find(variants[v].item[i])->set(&method, variants[v].value[i]);
+      const struct summary all = measure(PAPER_DEGREE, &method.roots, false, 99);
+      printf("%s,%s,%g,%.2f,%.2f,%.4f,%.2f,%.4f\n", variants[v].method, variants[v].name, method.roots.tolerance,
              all.iterations, all.seconds * 1e6, all.accurate, all.error, all.unconverged);
     }
   }

@@ -1,5 +1,4 @@
-/* The table of solvers, the items of a solver block, and the way every polynomial goes: scaled, stripped, solved,
- * judged. */
+/* The table of solvers, and the way every polynomial goes: scaled, stripped, solved, judged. */
 #include "algebra/solver.h"
 
 #include <float.h>
@@ -13,15 +12,16 @@
  * certificates are made afterwards. */
 #define STOP_TOLERANCE 1e-12
 
-/* One row a solver: name, summary, real roots only, tolerance, steps a root may take. */
+/* One row a solver: name, summary, real roots only, form on lanes, tolerance, steps a root may take. */
 static const struct solver solvers[] = {
-  {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, STOP_TOLERANCE,
-   64, bernstein_find},
-  {"newton", "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, STOP_TOLERANCE,
-   200, newton_find},
+  {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true,
+   SOLVER_LANES_SIGNS, STOP_TOLERANCE, 64, bernstein_find},
+  {"newton", "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false,
+   SOLVER_LANES_NONE, STOP_TOLERANCE, 200, newton_find},
   {"laguerre", "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false,
-   STOP_TOLERANCE, 100, laguerre_find},
-  {"aberth", "all roots at once by Aberth's method (eq 9 of the paper)", false, STOP_TOLERANCE, 100, aberth_find},
+   SOLVER_LANES_NONE, STOP_TOLERANCE, 100, laguerre_find},
+  {"aberth", "all roots at once by Aberth's method (eq 9 of the paper)", false, SOLVER_LANES_ABERTH, STOP_TOLERANCE,
+   100, aberth_find},
 };
 
 size_t solver_count(void)
@@ -44,8 +44,7 @@ const struct solver *solver_find(const char *name, size_t length)
   return NULL;
 }
 
-/* The paper's iterations as printed, or what docs/paper.md found best. */
-static void choose_form(struct solver_options *options, bool improved)
+void solver_options_form(struct solver_options *options, bool improved)
 {
   options->radii = improved ? RADII_POLYGON : RADII_CIRCLE;
   options->stop = improved ? STOP_ROUNDING : STOP_STEP;
@@ -55,129 +54,17 @@ static void choose_form(struct solver_options *options, bool improved)
   options->refine = improved;
 }
 
-/* Where the form is not named, the paper's goes with the paper's method, whichever of its items is said first. */
-static void follow_form(struct solver_options *options)
+bool solver_options_paper(const struct solver_options *options)
 {
-  const bool paper = options->basis == BASIS_POWER && options->resultant == RESULTANT_SYLVESTER &&
-                     options->back_substitution == BACK_SUBSTITUTION_EUCLID && !options->polish;
-  if (!options->form_said) choose_form(options, !paper);
-}
-
-/* The items of a solver block. One macro writes the two accessors of an item, whose C types differ; `after` is done
- * when it was set. */
-#define ITEM_ACCESSORS(field, type, after)                                   \
-  static void set_##field(struct solver_options *options, double value)      \
-  {                                                                          \
-    options->field = (type)value;                                            \
-    after;                                                                   \
-  }                                                                          \
-  static double get_##field(const struct solver_options *options)            \
-  {                                                                          \
-    return (double)options->field;                                           \
-  }
-
-ITEM_ACCESSORS(tolerance, double, (void)0)
-ITEM_ACCESSORS(max_iterations, int, (void)0)
-ITEM_ACCESSORS(start, enum start, (void)0)
-ITEM_ACCESSORS(split, int, (void)0)
-ITEM_ACCESSORS(basis, enum basis, follow_form(options))
-ITEM_ACCESSORS(resultant, enum resultant, follow_form(options))
-ITEM_ACCESSORS(back_substitution, enum back_substitution, follow_form(options))
-ITEM_ACCESSORS(polish, bool, follow_form(options))
-ITEM_ACCESSORS(radii, enum radii, options->form_said = true)
-ITEM_ACCESSORS(stop, enum stop, options->form_said = true)
-ITEM_ACCESSORS(update, enum update, options->form_said = true)
-ITEM_ACCESSORS(rest, bool, options->form_said = true)
-ITEM_ACCESSORS(deflation, enum deflation, options->form_said = true)
-ITEM_ACCESSORS(refine, bool, options->form_said = true)
-
-static void set_form(struct solver_options *options, double value)
-{
-  choose_form(options, value != 0.0);
-  options->form_said = true;
-}
-
-static double get_form(const struct solver_options *options)
-{
-  const bool paper = options->radii == RADII_CIRCLE && options->stop == STOP_STEP && options->update == UPDATE_JACOBI &&
-                     !options->rest && options->deflation == DEFLATION_FORWARD && !options->refine;
-  return paper ? 0.0 : 1.0;
+  return options->radii == RADII_CIRCLE && options->stop == STOP_STEP && options->update == UPDATE_JACOBI &&
+         !options->rest && options->deflation == DEFLATION_FORWARD && !options->refine;
 }
 
 void solver_options_default(const struct solver *solver, struct solver_options *out)
 {
   *out = (struct solver_options){
-    .solver = solver,
-    .tolerance = solver->tolerance,
-    .max_iterations = solver->max_iterations,
-    .start = START_COLD,
-    .basis = BASIS_BERNSTEIN,
-    .resultant = RESULTANT_BEZOUT,
-    .back_substitution = BACK_SUBSTITUTION_NULL_VECTOR,
-    .polish = true,
-    .split = 0,
-  };
-  follow_form(out);
-}
-
-static const char *const form_words[] = {"paper", "improved", NULL};
-static const char *const radii_words[] = {"circle", "polygon", NULL};
-static const char *const stop_words[] = {"step", "rounding", NULL};
-static const char *const update_words[] = {"jacobi", "gauss_seidel", NULL};
-static const char *const deflation_words[] = {"forward", "composite", NULL};
-static const char *const start_words[] = {"cold", "previous", NULL};
-static const char *const basis_words[] = {"bernstein", "power", NULL};
-static const char *const resultant_words[] = {"bezout", "sylvester", NULL};
-static const char *const back_substitution_words[] = {"null_vector", "euclid", NULL};
-static const char *const off_on[] = {"off", "on", NULL};
-static const char *const split_words[] = {"auto", NULL};
-
-/* Limits: a tolerance of 1 in a parameter of [0,1] asks for nothing; iterations are bounded so that no solve can
- * hang. */
-#define MAX_TOLERANCE 1.0
-#define MAX_ITERATIONS 10000
-#define MAX_SPLIT 64
-
-static const struct solver_item items[] = {
-  {"tolerance", "a root has converged when a step is below this (eps of eq 10), absolute in u", SOLVER_ITEM_NUMBER,
-   NULL, DBL_MIN, MAX_TOLERANCE, set_tolerance, get_tolerance},
-  {"max_iterations", "steps a root may take", SOLVER_ITEM_INTEGER, NULL, 1, MAX_ITERATIONS, set_max_iterations,
-   get_max_iterations},
-  {"start", "from Aberth's circle, or from the roots of the previous ray on the same patch", SOLVER_ITEM_KEYWORD,
-   start_words, 0, 1, set_start, get_start},
-  {"basis", "in which the resultant is written", SOLVER_ITEM_KEYWORD, basis_words, 0, 1, set_basis, get_basis},
-  {"resultant", "how v is eliminated", SOLVER_ITEM_KEYWORD, resultant_words, 0, 1, set_resultant, get_resultant},
-  {"back_substitution", "how v is found from u", SOLVER_ITEM_KEYWORD, back_substitution_words, 0, 1,
-   set_back_substitution, get_back_substitution},
-  {"polish", "on: Newton on the patch itself, and every answer certified; off: the solver's roots are the answer",
-   SOLVER_ITEM_KEYWORD, off_on, 0, 1, set_polish, get_polish},
-  {"split", "each patch is cut into N x N leaves; 1 = whole patches", SOLVER_ITEM_INTEGER, split_words, 1, MAX_SPLIT,
-   set_split, get_split},
-  /* form stands before the items it sets, so that a block written in this order reads back the same. */
-  {"form", "all of the following at once: the paper's iterations as printed, or improved", SOLVER_ITEM_KEYWORD,
-   form_words, 0, 1, set_form, get_form},
-  {"radii", "cold start values on Aberth's circle, or on circles by Newton's polygon", SOLVER_ITEM_KEYWORD, radii_words,
-   0, 1, set_radii, get_radii},
-  {"stop", "by eq 10 alone, or also where the value is below its own rounding bound", SOLVER_ITEM_KEYWORD, stop_words,
-   0, 1, set_stop, get_stop},
-  {"update", "aberth: from the values before the sweep, or from the newest", SOLVER_ITEM_KEYWORD, update_words, 0, 1,
-   set_update, get_update},
-  {"rest", "aberth: a root that is done is left alone while others move", SOLVER_ITEM_KEYWORD, off_on, 0, 1, set_rest,
-   get_rest},
-  {"deflation", "newton, laguerre: division from the highest power, or from both ends", SOLVER_ITEM_KEYWORD,
-   deflation_words, 0, 1, set_deflation, get_deflation},
-  {"refine", "newton, laguerre: last steps on the polynomial before deflation", SOLVER_ITEM_KEYWORD, off_on, 0, 1,
-   set_refine, get_refine},
-};
-
-size_t solver_item_count(void)
-{
-  return sizeof items / sizeof items[0];
-}
-
-const struct solver_item *solver_item_at(size_t index)
-{
-  return index < solver_item_count() ? &items[index] : NULL;
+    .solver = solver, .tolerance = solver->tolerance, .max_iterations = solver->max_iterations, .start = START_COLD};
+  solver_options_form(out, true);
 }
 
 const struct root_kernel *root_kernel_best(void)

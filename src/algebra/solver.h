@@ -36,12 +36,8 @@ struct root_set {
 };
 
 enum start { START_COLD, START_PREVIOUS };
-enum resultant { RESULTANT_BEZOUT, RESULTANT_SYLVESTER };
-enum back_substitution { BACK_SUBSTITUTION_NULL_VECTOR, BACK_SUBSTITUTION_EUCLID };
 
-/* Ways of the complex solvers that go beyond the paper. Each can be had alone; `form` sets them all at once. Where
- * none is named, they are on, but for the paper's own method, whose other choices are named then: basis power,
- * resultant sylvester, back_substitution euclid, polish off. */
+/* Ways of the complex solvers that go beyond the paper. Each can be had alone; solver_options_form sets them all. */
 enum radii { RADII_CIRCLE, RADII_POLYGON }; /* start values on Aberth's circle, or by Newton's polygon (Bini) */
 enum stop { STOP_STEP, STOP_ROUNDING };     /* eq 10 alone, or also where |p| is below its own rounding bound */
 enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL };  /* aberth: the values of the last sweep, or the newest there are */
@@ -51,25 +47,18 @@ struct solver;
 struct root_problem;   /* internal: root_problem.h */
 struct root_estimates; /* internal: root_problem.h */
 
-/* What one `solver` statement says. Filled by solver_options_default, then changed item by item. */
+/* What is asked of a solver. Filled by solver_options_default, then changed one by one. */
 struct solver_options {
   const struct solver *solver;
   double tolerance;   /* eps of the paper's eq 10, > 0; absolute in u, as in the paper */
   int max_iterations; /* per root, >= 1 */
   enum start start;
-  enum basis basis;
-  enum resultant resultant;
-  enum back_substitution back_substitution;
   enum radii radii;
   enum stop stop;
   enum update update;
   bool rest;     /* aberth: a root that has converged is left alone while others still move */
   enum deflation deflation;
   bool refine;   /* newton, laguerre: last steps on the polynomial before deflation */
-  /* some of the six above were set by name: otherwise they follow from the others, see `form` in solver.c */
-  bool form_said;
-  bool polish; /* on: 2-D Newton on the patch, and every answer certified; off: the solver's own roots are the answer */
-  int split;   /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
 };
 
 /* Roots of the previous polynomial of a family, kept for `start previous`. Zero-initialised means "none yet". */
@@ -78,10 +67,15 @@ struct solver_warm {
   double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
 };
 
+/* What a solver has for many polynomials in scaled Bernstein form at once, one a lane, where all choices are the
+ * improved ones: nothing; sign variations, and nothing to be solved where they are 0 or 1; aberth_lanes.h. */
+enum solver_lanes { SOLVER_LANES_NONE, SOLVER_LANES_SIGNS, SOLVER_LANES_ABERTH };
+
 struct solver {
   const char *name;    /* the keyword in a scene */
   const char *summary; /* one line for `pscn help` */
   bool real_only;      /* finds only real roots in [0,1] */
+  enum solver_lanes lanes;
   double tolerance;    /* what a bare `solver NAME` means */
   int max_iterations;
   /* The method itself; solver_solve calls it. Contract in root_problem.h. */
@@ -94,28 +88,16 @@ size_t solver_count(void);
 const struct solver *solver_at(size_t index);
 const struct solver *solver_find(const char *name, size_t length); /* NULL where there is none */
 
-/* The defaults of one solver, the ones a bare `solver NAME` has. */
+/* What a solver does by default: the improved form. */
 void solver_options_default(const struct solver *solver, struct solver_options *out);
 
-/* The items of a solver block, as data: the language reads and writes them from this table, so an item added here needs
- * no change in the grammar. */
-enum solver_item_kind { SOLVER_ITEM_NUMBER, SOLVER_ITEM_INTEGER, SOLVER_ITEM_KEYWORD };
-
-struct solver_item {
-  const char *name;
-  const char *summary;
-  enum solver_item_kind kind;
-  const char *const *keywords; /* ends with NULL: values of a KEYWORD, words for 0, 1, ... of an INTEGER; or NULL */
-  double minimum, maximum;     /* inclusive range for NUMBER and INTEGER */
-  void (*set)(struct solver_options *options, double value); /* value: the number, or the keyword's index */
-  double (*get)(const struct solver_options *options);
-};
-
-size_t solver_item_count(void);
-const struct solver_item *solver_item_at(size_t index);
+/* Sets radii, stop, update, rest, deflation and refine: to what docs/paper.md found best, or to the paper's iterations
+ * as printed; and whether they are the paper's. */
+void solver_options_form(struct solver_options *options, bool improved);
+bool solver_options_paper(const struct solver_options *options);
 
 /* Solves p with options->solver and judges the answer: radii and statuses are set by one validation shared by all
- * solvers. p may be in either basis: the roots are found in p's own (options->basis is for the caller, who forms p).
+ * solvers. p may be in either basis: the roots are found in p's own.
  * warm may be NULL; with start previous it is read, and afterwards holds the new roots. */
 void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out);

@@ -80,7 +80,7 @@ enum status measure_rounds(const struct runner *runners, size_t count, const siz
 
 /* ---- pscn itself ---- */
 
-enum status pscn_runner_create(const struct scene *scene, const struct solver_options *options,
+enum status pscn_runner_create(const struct scene *scene, const struct method *options,
                                const struct ray_list *rays, struct pscn_runner *out)
 {
   *out = (struct pscn_runner){ .scene = *scene, .options = *options, .rays = rays };

@@ -41,14 +41,14 @@ enum status measure_rounds(const struct runner *runners, size_t count, const siz
 /* pscn as a runner: the scene with one solver for all patches. */
 struct pscn_runner {
   struct scene scene; /* a copy that shares all but its solver */
-  struct solver_options options;
+  struct method options;
   struct intersector *intersector;
   struct tracer *tracer;
   const struct ray_list *rays; /* [RAY_KINDS] */
 };
 
 /* Borrows the scene and rays[RAY_KINDS]; *out must not move. pscn_runner_free in any case. */
-enum status pscn_runner_create(const struct scene *scene, const struct solver_options *options,
+enum status pscn_runner_create(const struct scene *scene, const struct method *options,
                                const struct ray_list *rays, struct pscn_runner *out) STATUS_MUST_CHECK;
 void pscn_runner_free(struct pscn_runner *runner);
 struct runner pscn_runner_face(struct pscn_runner *runner);

@@ -12,19 +12,15 @@ const char *family_name(enum family family)
 }
 
 /* Everything the paper does, in the words of a solver block. */
-static void set_paper(struct solver_options *options)
+static void set_paper(struct method *options)
 {
   options->basis = BASIS_POWER;
   options->resultant = RESULTANT_SYLVESTER;
   options->back_substitution = BACK_SUBSTITUTION_EUCLID;
   options->polish = false;
   options->split = 1;
-  for (size_t k = 0; k < solver_item_count(); k++) {
-    const struct solver_item *item = solver_item_at(k);
-    if (strcmp(item->name, "form") != 0) continue;
-    for (int word = 0; item->keywords[word] != NULL; word++)
-      if (strcmp(item->keywords[word], "paper") == 0) item->set(options, word);
-  }
+  solver_options_form(&options->roots, false);
+  options->form_said = true;
 }
 
 static double tolerance_at(int power) { return pow(10, -power); }
@@ -40,11 +36,11 @@ static size_t sweep_solver(const struct solver *solver, enum family family, bool
       if (out != NULL) {
         struct sweep_point *point = &out[count];
         point->family = family;
-        solver_options_default(solver, &point->options);
-        point->options.tolerance = tolerance_at(power);
+        method_default(solver, &point->options);
+        point->options.roots.tolerance = tolerance_at(power);
         point->options.polish = way % 2 == 0;
         if (starts > 1) {
-          point->options.start = way / 2 % 2 == 0 ? START_PREVIOUS : START_COLD;
+          point->options.roots.start = way / 2 % 2 == 0 ? START_PREVIOUS : START_COLD;
           point->options.basis = way / 4 == 0 ? BASIS_BERNSTEIN : BASIS_POWER;
         }
       }
@@ -53,18 +49,18 @@ static size_t sweep_solver(const struct solver *solver, enum family family, bool
     for (int start = 0; start < 2 && !solver->real_only; start++, count++) {
       if (out == NULL) continue;
       out[count].family = FAMILY_PAPER;
-      solver_options_default(solver, &out[count].options);
-      out[count].options.tolerance = tolerance_at(power);
-      out[count].options.start = start == 0 ? START_PREVIOUS : START_COLD;
+      method_default(solver, &out[count].options);
+      out[count].options.roots.tolerance = tolerance_at(power);
+      out[count].options.roots.start = start == 0 ? START_PREVIOUS : START_COLD;
       set_paper(&out[count].options);
     }
   }
   for (int start = 0; start < starts; start++, count++) { /* whole patches, otherwise as by default */
     if (out == NULL) continue;
     out[count].family = family;
-    solver_options_default(solver, &out[count].options);
+    method_default(solver, &out[count].options);
     out[count].options.split = 1;
-    if (starts > 1) out[count].options.start = start == 0 ? START_PREVIOUS : START_COLD;
+    if (starts > 1) out[count].options.roots.start = start == 0 ? START_PREVIOUS : START_COLD;
   }
   return count;
 }
@@ -78,7 +74,7 @@ size_t point_sweep(bool quick, struct sweep_point *out)
                   { "aberth", FAMILY_ABERTH } };
   if (out != NULL) {
     out[0].family = FAMILY_DEFAULT;
-    solver_options_default(solver_at(0), &out[0].options);
+    method_default(solver_at(0), &out[0].options);
   }
   size_t count = 1;
   for (size_t k = 0; k < sizeof SOLVERS / sizeof SOLVERS[0]; k++) {

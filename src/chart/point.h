@@ -25,7 +25,7 @@ struct chart_point {
   char name[POINT_NAME_SIZE];    /* what ran; of pscn the text behind `solver` */
   char label[8];                 /* what stands beside the point in the figure, or "" */
   bool ours;                     /* options is set */
-  struct solver_options options;
+  struct method options;
   struct timing time[RAY_KINDS];
   struct judgement camera, shadow;
   bool has_shadow;               /* shadow is set */
@@ -36,7 +36,7 @@ struct chart_point {
  * The first one is the default. Returns how many; out may be NULL. */
 struct sweep_point {
   enum family family;
-  struct solver_options options;
+  struct method options;
 };
 size_t point_sweep(bool quick, struct sweep_point *out);
 

@@ -120,7 +120,7 @@ void chart_judge(struct chart *chart, struct chart_point *point)
 
 /* ---- the rays, and the truth about them ---- */
 
-static enum status prepare_rays(struct chart *chart, const struct solver_options *options)
+static enum status prepare_rays(struct chart *chart, const struct method *options)
 {
   enum status status = rays_of_camera(chart->scene, chart->scene_request.width, chart->scene_request.height,
                                       chart->wanted, chart->arena, &chart->rays[RAYS_CAMERA]);
@@ -192,7 +192,7 @@ static enum status run_batch(struct chart *chart, const struct sweep_point *swee
     struct chart_point *point = chart_add(chart, sweep[k].family);
     point->ours = true;
     point->options = sweep[k].options;
-    solver_text(&point->options, point->name, sizeof point->name);
+    method_text(&point->options, point->name, sizeof point->name);
     memcpy(point->time, time[1 + k], sizeof point->time);
     judge_ours(chart, &ours[k], point);
   }

@@ -11,7 +11,7 @@
 #include "command/page.h"
 #include "command/povray.h"
 #include "command/scene_file.h"
-#include "scene/dump.h"
+#include "scene/method.h"
 
 enum { CHART_NOTES = 4 };
 

@@ -18,18 +18,18 @@ static void put_count(struct page *out, size_t value)
 
 static void put_solver(const struct chart_point *point, struct page *out)
 {
-  const struct solver_options *options = &point->options;
+  const struct method *method = &point->options;
   if (!point->ours) {
     page_put(out, ",,,,,,");
     return;
   }
-  page_format(out, ",%s,%s", options->solver->name, options->basis == BASIS_POWER ? "power" : "bernstein");
-  put_number(out, options->tolerance);
-  page_format(out, ",%s,%s,", options->polish ? "on" : "off", options->start == START_PREVIOUS ? "previous" : "cold");
-  if (options->split == 0)
+  page_format(out, ",%s,%s", method->roots.solver->name, method->basis == BASIS_POWER ? "power" : "bernstein");
+  put_number(out, method->roots.tolerance);
+  page_format(out, ",%s,%s,", method->polish ? "on" : "off", method->roots.start == START_PREVIOUS ? "previous" : "cold");
+  if (method->split == 0)
     page_put(out, "auto");
   else
-    page_format(out, "%d", options->split);
+    page_format(out, "%d", method->split);
 }
 
 static void put_time(const struct timing *time, struct page *out)

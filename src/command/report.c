@@ -17,8 +17,8 @@ enum { JSON_DIGITS = 15 }; /* of numbers in the statistics: 1e-12 stays 1e-12 */
 void report_print(const struct report *report)
 {
   const struct intersect_counts *counts = &report->counts;
-  char solver[SOLVER_TEXT_SIZE];
-  solver_text(&report->scene->solvers[0], solver, sizeof solver);
+  char solver[METHOD_TEXT_SIZE];
+  method_text(&report->scene->solvers[0], solver, sizeof solver);
   if (report->picture_path != NULL)
     fprintf(stderr, "%s: %zu x %zu pixels, %zu x %zu samples each\n", report->picture_path, report->crop.width,
             report->crop.height, report->samples, report->samples);
@@ -56,15 +56,15 @@ static json_t *path_text(const char *path)
 static json_t *statistics(const struct report *report)
 {
   const struct intersect_counts *counts = &report->counts;
-  char solver[SOLVER_TEXT_SIZE];
-  solver_text(&report->scene->solvers[0], solver, sizeof solver);
+  char solver[METHOD_TEXT_SIZE];
+  method_text(&report->scene->solvers[0], solver, sizeof solver);
   json_t *root = json_pack(
     "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:o, s:{s:o, s:o}, s:{s:o, s:o}, "
     "s:{s:f, s:f, s:f, s:f}, s:{s:f, s:f, s:f, s:f}}",
     "version", PSCN_VERSION,
     "scene", path_text(report->scene_path),
     "solver", solver,
-    "tolerance", report->scene->solvers[0].tolerance,
+    "tolerance", report->scene->solvers[0].roots.tolerance,
     "threads", count(report->threads),
     "patches", count(report->scene->patch_count),
     "lights", count(report->scene->light_count),
@@ -144,15 +144,15 @@ static void add(struct report_metadata *metadata, const char *name, const char *
 
 void report_metadata_fill(const struct report *report, struct report_metadata *out)
 {
-  const struct solver_options *solver = &report->scene->solvers[0];
+  const struct method *solver = &report->scene->solvers[0];
   out->count = 0;
   snprintf(out->size, sizeof out->size, "%zux%zu", report->width, report->height);
   snprintf(out->crop, sizeof out->crop, "%zu,%zu,%zu,%zu", report->crop.x, report->crop.y, report->crop.width,
            report->crop.height);
   snprintf(out->samples, sizeof out->samples, "%zu", report->samples);
   snprintf(out->seconds, sizeof out->seconds, "%.3f", report->render.wall);
-  number_write(solver->tolerance, out->tolerance);
-  solver_text(solver, out->solver, sizeof out->solver);
+  number_write(solver->roots.tolerance, out->tolerance);
+  method_text(solver, out->solver, sizeof out->solver);
   const time_t now = time(NULL);
   struct tm calendar;
   if (gmtime_r(&now, &calendar) == NULL ||

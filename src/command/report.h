@@ -10,7 +10,7 @@
 #include "image/image_file.h"
 #include "intersect/intersect.h"
 #include "render/tile.h"
-#include "scene/dump.h"
+#include "scene/method.h"
 
 struct report {
   const char *scene_path;
@@ -39,7 +39,7 @@ struct report_metadata {
   struct image_attribute attribute[16];
   size_t count;
   char size[64], crop[96], samples[32], tolerance[32], seconds[32], date[32];
-  char solver[SOLVER_TEXT_SIZE];
+  char solver[METHOD_TEXT_SIZE];
 };
 void report_metadata_fill(const struct report *report, struct report_metadata *out);
 

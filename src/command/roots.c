@@ -13,7 +13,7 @@
 #include "command/scene_file.h"
 #include "command/stream.h"
 #include "language/language.h"
-#include "scene/dump.h"
+#include "scene/method.h"
 
 enum { OPTION_STATS = 1, OPTION_QUIET };
 
@@ -58,7 +58,7 @@ static enum status take_option(const struct command *command, void *context, int
 }
 
 struct session {
-  struct solver_options options;
+  struct method method;
   struct solver_warm warm;
   size_t polynomials, roots, iterations, accurate;
   size_t statuses[ROOT_CLUSTER + 1];
@@ -126,11 +126,11 @@ static void answer(struct session *session, int degree, const double c[])
   double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
   struct root_set roots;
   const double start = clock_seconds(CLOCK_MONOTONIC);
-  if (session->options.basis == BASIS_BERNSTEIN) {
+  if (session->method.basis == BASIS_BERNSTEIN) {
     polynomial_to_bernstein(&power, bernstein, error);
     p = (struct polynomial){ degree, BASIS_BERNSTEIN, bernstein, error };
   }
-  solver_solve(&p, &session->options, &session->warm, &roots);
+  solver_solve(&p, &session->method.roots, &session->warm, &roots);
   session->solve += clock_seconds(CLOCK_MONOTONIC) - start;
   session->polynomials++;
   session->roots += (size_t)roots.count;
@@ -192,20 +192,20 @@ static json_t *count(size_t value)
 
 static json_t *statistics(const struct session *session)
 {
-  char solver[SOLVER_TEXT_SIZE];
-  solver_text(&session->options, solver, sizeof solver);
+  char solver[METHOD_TEXT_SIZE];
+  method_text(&session->method, solver, sizeof solver);
   return json_pack("{s:o, s:o, s:o, s:f, s:{s:o, s:o, s:o}, s:s, s:f, s:{s:f}}", "polynomials",
                    count(session->polynomials), "roots", count(session->roots), "iterations",
                    count(session->iterations), "accurate", share(session->accurate, session->roots), "status",
                    "converged", count(session->statuses[ROOT_CONVERGED]), "cluster",
                    count(session->statuses[ROOT_CLUSTER]), "limit", count(session->statuses[ROOT_LIMIT]), "solver",
-                   solver, "tolerance", session->options.tolerance, "time", "solve", session->solve);
+                   solver, "tolerance", session->method.roots.tolerance, "time", "solve", session->solve);
 }
 
 static void print_summary(const struct session *session)
 {
-  char solver[SOLVER_TEXT_SIZE];
-  solver_text(&session->options, solver, sizeof solver);
+  char solver[METHOD_TEXT_SIZE];
+  method_text(&session->method, solver, sizeof solver);
   fprintf(stderr, "solver   %s\n", solver);
   fprintf(stderr, "roots    %zu of %zu polynomials: %zu converged, %zu in clusters, %zu at the limit\n", session->roots,
           session->polynomials, session->statuses[ROOT_CONVERGED], session->statuses[ROOT_CLUSTER],
@@ -227,7 +227,7 @@ static bool mentions(const char *text, const char *word)
   return false;
 }
 
-static enum status choose_solver(const struct request *request, struct solver_options *out)
+static enum status choose_solver(const struct request *request, struct method *out)
 {
   const char *text = request->solver.solver_text == NULL ? DEFAULT_SOLVER : request->solver.solver_text;
   struct diagnostics diagnostics = stderr_diagnostics();
@@ -237,7 +237,7 @@ static enum status choose_solver(const struct request *request, struct solver_op
   if (!mentions(text, "basis"))
     out->basis = BASIS_POWER;
   if (!isnan(request->solver.tolerance))
-    out->tolerance = request->solver.tolerance;
+    out->roots.tolerance = request->solver.tolerance;
   return STATUS_OK;
 }
 
@@ -247,7 +247,7 @@ static enum status roots(const struct command *command, const struct request *re
   struct stream stream = { 0 };
   enum status status = report_probe(command, request->stats);
   if (status == STATUS_OK)
-    status = choose_solver(request, &session.options);
+    status = choose_solver(request, &session.method);
   if (status == STATUS_OK)
     status = stream_open(STDIN_FILENO, &stream);
   if (status == STATUS_OK)

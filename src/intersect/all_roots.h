@@ -24,7 +24,7 @@ struct all_roots {
 static struct solver_warm *all_roots_warm(const struct packet *p, const struct trial *t)
 {
   struct tracer *tracer = p->tracer;
-  if (t->patch->solver->start != START_PREVIOUS || !tracer->warm || p->model != tracer->model) return NULL;
+  if (t->patch->solver->roots.start != START_PREVIOUS || !tracer->warm || p->model != tracer->model) return NULL;
   struct warm_leaf *warm = &tracer->warm[t->number];
   if (warm->epoch != tracer->epoch) warm->warm.count = 0, warm->epoch = tracer->epoch;
   return &warm->warm;
@@ -131,7 +131,7 @@ static lane_mask all_roots_cover(const struct trial *t, const struct all_roots *
 static int all_roots_solve(struct packet *p, const struct trial *t, lane_mask active, lanes kept[TRIED_ROOTS],
                            lane_mask has[TRIED_ROOTS])
 {
-  const struct solver_options *options = t->patch->solver;
+  const struct solver_options *options = &t->patch->solver->roots;
   struct aberth_lanes a;
   active &= aberth_lanes_set(&a, t->degree, t->c);
   if (!lanes_any(active)) return 0;

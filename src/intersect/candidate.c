@@ -117,16 +117,16 @@ static double null_vector(int n, const double p[4], const double q[4])
   return v;
 }
 
-static double eliminated_at(const struct form *form, const struct solver_options *options, double u)
+static double eliminated_at(const struct form *form, const struct method *method, double u)
 {
   double p[4], q[4];
-  at_kept(form, options->basis, u, form->A, p);
-  at_kept(form, options->basis, u, form->B, q);
-  if (options->back_substitution == BACK_SUBSTITUTION_EUCLID) {
-    if (options->basis != BASIS_POWER) to_power(form->n, p, 1), to_power(form->n, q, 1);
+  at_kept(form, method->basis, u, form->A, p);
+  at_kept(form, method->basis, u, form->B, q);
+  if (method->back_substitution == BACK_SUBSTITUTION_EUCLID) {
+    if (method->basis != BASIS_POWER) to_power(form->n, p, 1), to_power(form->n, q, 1);
     return euclid(form->n, p, q);
   }
-  if (options->basis == BASIS_POWER) {
+  if (method->basis == BASIS_POWER) {
     /* The null vector of the power form is (1, v, v^2); Bernstein values give it with s + t = 1 instead. */
     double P[4], Q[4];
     for (int j = 0; j <= form->n; j++) {
@@ -158,9 +158,9 @@ static double resultant_error(int n, double alpha, double beta, double error)
          (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + n * error * (1 / alpha + 1 / beta));
 }
 
-static struct solver_warm *warm_of(struct tracer *tracer, const struct leaf *leaf, const struct solver_options *options)
+static struct solver_warm *warm_of(struct tracer *tracer, const struct leaf *leaf, const struct method *method)
 {
-  if (options->start != START_PREVIOUS || !tracer->warm) return NULL;
+  if (method->roots.start != START_PREVIOUS || !tracer->warm) return NULL;
   struct warm_leaf *warm = &tracer->warm[leaf - tracer->model->leaves];
   if (warm->epoch != tracer->epoch) warm->warm.count = 0, warm->epoch = tracer->epoch;
   return &warm->warm;
@@ -169,15 +169,15 @@ static struct solver_warm *warm_of(struct tracer *tracer, const struct leaf *lea
 void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16],
                      double error, struct candidate_roots *out)
 {
-  const struct solver_options *options = tracer->model->patches[leaf->patch].solver;
+  const struct method *method = tracer->model->patches[leaf->patch].solver;
   struct form form = {leaf->kept_degree, leaf->eliminated_degree, {0}, {0}};
-  form_net(form.m, form.n, options->basis, a, form.A);
-  form_net(form.m, form.n, options->basis, b, form.B);
+  form_net(form.m, form.n, method->basis, a, form.A);
+  form_net(form.m, form.n, method->basis, b, form.B);
   double c[19], bound[19];
-  if (options->resultant == RESULTANT_SYLVESTER) sylvester_determinant(form.m, form.n, form.A, form.B, c);
+  if (method->resultant == RESULTANT_SYLVESTER) sylvester_determinant(form.m, form.n, form.A, form.B, c);
   else bezout_determinant(form.m, form.n, form.A, form.B, c);
-  struct polynomial r = {2 * form.m * form.n, options->basis, c, NULL};
-  if (options->basis == BASIS_BERNSTEIN) {
+  struct polynomial r = {2 * form.m * form.n, method->basis, c, NULL};
+  if (method->basis == BASIS_BERNSTEIN) {
     double choose = resultant_error(form.n, largest(a, form.m, form.n), largest(b, form.m, form.n), error);
     for (int k = 0; k <= r.degree; k++) bound[k] = choose, choose = choose * (r.degree - k) / (k + 1);
     r.c = c + leaf->zeros[0], r.error = bound + leaf->zeros[0];
@@ -186,16 +186,16 @@ void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const doubl
   out->count = 0;
   if (r.degree < 1) return;
   struct root_set roots;
-  if (options->polish) solver_roots(&r, options, warm_of(tracer, leaf, options), &roots);
-  else solver_solve(&r, options, warm_of(tracer, leaf, options), &roots);
+  if (method->polish) solver_roots(&r, &method->roots, warm_of(tracer, leaf, method), &roots);
+  else solver_solve(&r, &method->roots, warm_of(tracer, leaf, method), &roots);
   tracer->counts.roots_found += (unsigned)roots.count;
   for (int k = 0; k < roots.count; k++) {
     const struct root *root = &roots.root[k];
     /* paper 2.2: the real ones, as far as eps tells */
-    const double real = options->polish ? START_MARGIN : options->tolerance;
-    const double margin = options->polish ? START_MARGIN : 0;
+    const double real = method->polish ? START_MARGIN : method->roots.tolerance;
+    const double margin = method->polish ? START_MARGIN : 0;
     if (!(fabs(root->im) <= real && root->re >= -margin && root->re <= 1 + margin)) continue;
-    const double v = eliminated_at(&form, options, root->re);
+    const double v = eliminated_at(&form, method, root->re);
     if (!(v >= -1 && v <= 2)) continue;
     out->u[out->count] = leaf->v_kept ? v : root->re;
     out->v[out->count++] = leaf->v_kept ? root->re : v;

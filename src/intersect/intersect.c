@@ -43,7 +43,7 @@ enum status intersector_create(const struct scene *scene, struct intersector **o
   const struct kernel *kernels[KERNELS_MAX];
   kernels_here(kernels);
   intersector->kernel = kernels[0];
-  for (size_t k = 0; k < scene->solver_count; k++) intersector->warm |= scene->solvers[k].start == START_PREVIOUS;
+  for (size_t k = 0; k < scene->solver_count; k++) intersector->warm |= scene->solvers[k].roots.start == START_PREVIOUS;
   *out = intersector;
   return STATUS_OK;
 }

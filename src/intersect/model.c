@@ -86,19 +86,15 @@ static int auto_split(struct model_patch *patch, int most)
   return split;
 }
 
-static bool fast_method(const struct solver_options *s)
+/* What the patch's solver does on lanes: the whole method as it is by default, or nothing. */
+static enum solver_lanes lanes_of(const struct method *s)
 {
-  return s->solver == solver_at(0) && s->basis == BASIS_BERNSTEIN && s->resultant == RESULTANT_BEZOUT &&
-         s->back_substitution == BACK_SUBSTITUTION_NULL_VECTOR && s->polish;
-}
-
-/* Aberth's method as it is by default, its roots to start from only, is done on lanes too. */
-static bool all_roots_method(const struct solver_options *s)
-{
-  const struct solver *aberth = solver_find("aberth", sizeof "aberth" - 1);
-  return s->solver == aberth && s->basis == BASIS_BERNSTEIN && s->resultant == RESULTANT_BEZOUT &&
-         s->back_substitution == BACK_SUBSTITUTION_NULL_VECTOR && s->polish && s->radii == RADII_POLYGON &&
-         s->stop == STOP_ROUNDING && s->update == UPDATE_GAUSS_SEIDEL && s->rest;
+  const struct solver_options *r = &s->roots;
+  const bool all = s->basis == BASIS_BERNSTEIN && s->resultant == RESULTANT_BEZOUT &&
+                   s->back_substitution == BACK_SUBSTITUTION_NULL_VECTOR && s->polish;
+  const bool improved = r->radii == RADII_POLYGON && r->stop == STOP_ROUNDING && r->update == UPDATE_GAUSS_SEIDEL &&
+                        r->rest; /* what Aberth's method has of choices */
+  return all && (improved || r->solver->lanes != SOLVER_LANES_ABERTH) ? r->solver->lanes : SOLVER_LANES_NONE;
 }
 
 /* The frame of the hierarchy, and the patches' own. */
@@ -126,8 +122,8 @@ static void prepare_patches(struct model *model)
     struct model_patch *patch = &model->patches[p];
     patch_frame(source->P, size, patch);
     patch->solver = &scene->solvers[source->solver];
-    patch->all_roots = all_roots_method(patch->solver);
-    patch->lanes = patch->all_roots || fast_method(patch->solver);
+    patch->all_roots = lanes_of(patch->solver) == SOLVER_LANES_ABERTH;
+    patch->lanes = lanes_of(patch->solver) != SOLVER_LANES_NONE;
     model->unproven |= !patch->solver->polish;
   }
 }

@@ -97,7 +97,7 @@ struct node {
   double flatness;
   const struct transform *transform;   /* NULL: none */
   const struct texture *texture;       /* NULL: none of its own */
-  const struct solver_options *solver; /* NULL: none of its own */
+  const struct method *solver; /* NULL: none of its own */
   struct sharing *sharing;             /* of the declared object that it is or copies; NULL: neither */
   size_t patch_count;                  /* in it and below */
   int height;                          /* unions below it within each other */
@@ -168,13 +168,13 @@ struct language {
   struct transform transform; /* the last one said */
   double matrix[12];
   int matrix_count;
-  struct solver_options solver; /* the last one said */
+  struct method solver; /* the last one said */
 
   struct camera_items camera;
   bool has_camera;
   struct light_node *lights, **lights_end, *light;
   struct node scene; /* the union of all objects */
-  struct solver_options global_solver;
+  struct method global_solver;
   double background[3], ambient_light[3];
   struct place background_place; /* of the open block */
   int background_values;

@@ -20,7 +20,7 @@ struct expansion {
 struct inherited {
   struct transform transform;
   const struct texture *texture;       /* of the nearest node that has one, or NULL */
-  const struct solver_options *solver; /* likewise */
+  const struct method *solver; /* likewise */
 };
 
 /* A new element of a list that grows by doubling in the arena, or NULL where memory is short. */

@@ -55,7 +55,7 @@ static enum status language_create(struct language *language, const struct langu
   language->lights_end = &language->lights;
   for (int k = 0; k < 3; k++) language->ambient_light[k] = 1;
   camera_default(&language->camera);
-  solver_options_default(solver_at(0), &language->global_solver);
+  method_default(solver_at(0), &language->global_solver);
   language->arena = arena_create();
   return language->arena && symbols_create(language) ? STATUS_OK : STATUS_LIMIT;
 }
@@ -102,23 +102,20 @@ static enum status make_scene(struct language *language, struct scene **out_scen
 static enum status override(struct scene *scene, const struct language_settings *settings,
                             struct diagnostics *diagnostics)
 {
-  struct solver_options options;
+  struct method method;
   if (settings->solver_text) {
-    const enum status status = language_parse_solver(settings->solver_text, diagnostics, &options);
+    const enum status status = language_parse_solver(settings->solver_text, diagnostics, &method);
     if (status != STATUS_OK) return status;
-    scene_override_solver(scene, &options);
+    scene_override_solver(scene, &method);
   }
   if (isnan(settings->tolerance)) return STATUS_OK;
-  for (size_t k = 0; k < solver_item_count(); k++) {
-    const struct solver_item *item = solver_item_at(k);
-    if (strcmp(item->name, "tolerance") != 0) continue;
-    if (!(settings->tolerance >= item->minimum && settings->tolerance <= item->maximum)) {
-      diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "the tolerance is a number from %g to %g",
-                        item->minimum, item->maximum);
-      return STATUS_USAGE;
-    }
-    for (size_t s = 0; s < scene->solver_count; s++) item->set(&scene->solvers[s], settings->tolerance);
+  const struct method_item *item = method_item_find("tolerance");
+  if (!(settings->tolerance >= item->minimum && settings->tolerance <= item->maximum)) {
+    diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "the tolerance is a number from %g to %g",
+                      item->minimum, item->maximum);
+    return STATUS_USAGE;
   }
+  for (size_t s = 0; s < scene->solver_count; s++) item->set(&scene->solvers[s], settings->tolerance);
   return STATUS_OK;
 }
 
@@ -179,7 +176,7 @@ enum status language_load_text(const char *name, const char *text, size_t length
   return STATUS_LIMIT;
 }
 
-enum status language_parse_solver(const char *text, struct diagnostics *diagnostics, struct solver_options *out_options)
+enum status language_parse_solver(const char *text, struct diagnostics *diagnostics, struct method *out_method)
 {
   const struct language_settings settings = {1, 1, NULL, NAN};
   struct language language;
@@ -190,7 +187,7 @@ enum status language_parse_solver(const char *text, struct diagnostics *diagnost
     struct source *source = source_from_text("<--solver>", text, strlen(text));
     status = source && sources_open(&language, source) ? parse(&language) : STATUS_LIMIT;
   }
-  if (status == STATUS_OK) *out_options = language.solver;
+  if (status == STATUS_OK) *out_method = language.solver;
   if (status == STATUS_INPUT) status = STATUS_USAGE;
   tell_limit(diagnostics, status, before);
   language_destroy(&language);

@@ -34,8 +34,8 @@ STATUS_MUST_CHECK enum status language_load_text(const char *name, const char *t
                                                  struct diagnostics *diagnostics, struct scene **out_scene);
 
 /* Reads what may follow `solver` in a scene, such as "aberth { polish off }". Errors point into "<--solver>".
- * STATUS_USAGE or STATUS_LIMIT on failure; *out_options is then unchanged. */
+ * STATUS_USAGE or STATUS_LIMIT on failure; *out_method is then unchanged. */
 STATUS_MUST_CHECK enum status language_parse_solver(const char *text, struct diagnostics *diagnostics,
-                                                    struct solver_options *out_options);
+                                                    struct method *out_method);
 
 #endif

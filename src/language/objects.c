@@ -102,7 +102,7 @@ void patch_modified(struct language *language) { points_end(language); }
 void patch_solver(struct language *language)
 {
   points_end(language);
-  struct solver_options *solver = language_alloc(language, sizeof *solver);
+  struct method *solver = language_alloc(language, sizeof *solver);
   *solver = language->solver;
   language->open->solver = solver;
 }

@@ -1,4 +1,4 @@
-/* `solver NAME { item value ... }`: names, items and ranges come from the tables in algebra/solver.h. */
+/* `solver NAME { item value ... }`: names, items and ranges come from the tables in algebra/solver.h and scene/method.h. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@ typedef const char *name_at(size_t index); /* NULL behind the last */
 
 static const char *solver_name(size_t index) { return index < solver_count() ? solver_at(index)->name : NULL; }
 
-static const char *item_name(size_t index) { return index < solver_item_count() ? solver_item_at(index)->name : NULL; }
+static const char *item_name(size_t index) { return index < method_item_count() ? method_item_at(index)->name : NULL; }
 
 /* "a, b or c" */
 static void list_names(name_at *name, char *out, size_t size)
@@ -53,13 +53,13 @@ void solver_begin(struct language *language, struct place place, const struct to
     tell_unknown(language, place, "solver", name, solver_name);
     solver = solver_at(0);
   }
-  solver_options_default(solver, &language->solver);
+  method_default(solver, &language->solver);
 }
 
-static const struct solver_item *item_named(struct language *language, struct place place, const struct token *name)
+static const struct method_item *item_named(struct language *language, struct place place, const struct token *name)
 {
-  for (size_t k = 0; k < solver_item_count(); k++) {
-    const struct solver_item *item = solver_item_at(k);
+  for (size_t k = 0; k < method_item_count(); k++) {
+    const struct method_item *item = method_item_at(k);
     if (words_compare(name->text, name->length, item->name) == 0) return item;
   }
   tell_unknown(language, place, "solver item", name, item_name);
@@ -67,7 +67,7 @@ static const struct solver_item *item_named(struct language *language, struct pl
 }
 
 /* "a, b or c" of the item's words. */
-static void list_words(const struct solver_item *item, char *out, size_t size)
+static void list_words(const struct method_item *item, char *out, size_t size)
 {
   size_t used = 0;
   out[0] = '\0';
@@ -77,15 +77,15 @@ static void list_words(const struct solver_item *item, char *out, size_t size)
   }
 }
 
-static void tell_wanted(struct language *language, struct place place, const struct solver_item *item)
+static void tell_wanted(struct language *language, struct place place, const struct method_item *item)
 {
   char words[200];
   list_words(item, words, sizeof words);
-  if (item->kind == SOLVER_ITEM_KEYWORD) {
+  if (item->kind == METHOD_ITEM_KEYWORD) {
     language_error(language, place, "%s is %s", item->name, words);
     return;
   }
-  const char *number = item->kind == SOLVER_ITEM_INTEGER ? "a whole number" : "a number";
+  const char *number = item->kind == METHOD_ITEM_INTEGER ? "a whole number" : "a number";
   char from[NUMBER_TEXT_SIZE], to[NUMBER_TEXT_SIZE];
   number_write(item->minimum, from);
   number_write(item->maximum, to);
@@ -99,10 +99,10 @@ static void tell_wanted(struct language *language, struct place place, const str
   }
 }
 
-static void set_number(struct language *language, const struct solver_item *item, struct place place, double value)
+static void set_number(struct language *language, const struct method_item *item, struct place place, double value)
 {
-  const bool whole = item->kind != SOLVER_ITEM_INTEGER || value == floor(value);
-  if (item->kind == SOLVER_ITEM_KEYWORD || !whole || !(value >= item->minimum && value <= item->maximum))
+  const bool whole = item->kind != METHOD_ITEM_INTEGER || value == floor(value);
+  if (item->kind == METHOD_ITEM_KEYWORD || !whole || !(value >= item->minimum && value <= item->maximum))
     tell_wanted(language, place, item);
   else item->set(&language->solver, value);
 }
@@ -110,7 +110,7 @@ static void set_number(struct language *language, const struct solver_item *item
 void solver_quantity(struct language *language, struct place place, const struct token *name, struct place value_place,
                      const struct value *value)
 {
-  const struct solver_item *item = item_named(language, place, name);
+  const struct method_item *item = item_named(language, place, name);
   double number;
   if (item && value_to_number(language, value_place, value, &number)) set_number(language, item, value_place, number);
 }
@@ -118,7 +118,7 @@ void solver_quantity(struct language *language, struct place place, const struct
 void solver_word(struct language *language, struct place place, const struct token *name, struct place value_place,
                  const struct token *value)
 {
-  const struct solver_item *item = item_named(language, place, name);
+  const struct method_item *item = item_named(language, place, name);
   if (!item) return;
   for (size_t k = 0; item->keywords && item->keywords[k]; k++) {
     if (words_compare(value->text, value->length, item->keywords[k]) != 0) continue;

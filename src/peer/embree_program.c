@@ -68,8 +68,8 @@ static bool answer_question(const struct exchange_question *question, struct are
   if (patches == NULL) return false;
   for (size_t n = 0; n < question->patch_count; n++) memcpy(patches[n].P, question->nets[n], sizeof patches[n].P);
   const struct scene scene = { .patches = patches, .patch_count = question->patch_count };
-  struct solver_options options;
-  solver_options_default(solver_at(0), &options);
+  struct method options;
+  method_default(solver_at(0), &options);
   struct pscn_runner yardstick;
   struct embree_rays *rays[RAY_KINDS] = { NULL };
   bool good = pscn_runner_create(&scene, &options, question->rays, &yardstick) == STATUS_OK;

@@ -8,60 +8,6 @@
 
 #include "base/number.h"
 
-/* Text that grows at the end of a fixed space. */
-struct text {
-  char *out;
-  size_t size, length;
-};
-
-static void append(struct text *text, const char *word)
-{
-  const size_t length = strlen(word);
-  if (length >= text->size - text->length)
-    return;
-  memcpy(text->out + text->length, word, length + 1);
-  text->length += length;
-}
-
-static void append_value(struct text *text, const struct solver_item *item, double value)
-{
-  size_t words = 0;
-  while (item->keywords != NULL && item->keywords[words] != NULL)
-    words++;
-  if (value >= 0 && value < (double)words) {
-    append(text, item->keywords[(size_t)value]);
-    return;
-  }
-  char number[NUMBER_TEXT_SIZE];
-  number_write(value, number);
-  append(text, number);
-}
-
-void solver_text(const struct solver_options *options, char *out, size_t size)
-{
-  struct text text = { .out = out, .size = size };
-  struct solver_options said; /* what the text so far means */
-  solver_options_default(options->solver, &said);
-  out[0] = '\0';
-  append(&text, options->solver->name);
-  bool any = false;
-  for (size_t k = 0; k < solver_item_count(); k++) {
-    const struct solver_item *item = solver_item_at(k);
-    const double value = item->get(options);
-    if (value == item->get(&said))
-      continue;
-    item->set(&said, value);
-    append(&text, any ? " " : " { ");
-    append(&text, item->name);
-    append(&text, " ");
-    append_value(&text, item, value);
-    any = true;
-  }
-  append(&text, any ? " }" : "");
-}
-
-/* ---- the scene ---- */
-
 struct dump {
   const struct scene *scene;
   FILE *file;
@@ -98,22 +44,13 @@ static void put_vector(struct dump *dump, const char *before, const double v[3])
   put(dump, ">");
 }
 
-static void put_solver(struct dump *dump, const struct solver_options *options)
+static void put_solver(struct dump *dump, const struct method *method)
 {
-  char text[SOLVER_TEXT_SIZE];
-  solver_text(options, text, sizeof text);
+  char text[METHOD_TEXT_SIZE];
+  method_text(method, text, sizeof text);
   put(dump, "#ifdef (pscn)\n  solver ");
   put(dump, text);
   put(dump, "\n#end\n");
-}
-
-static bool same_solver(const struct solver_options *a, const struct solver_options *b)
-{
-  bool same = a->solver == b->solver;
-  for (size_t i = 0; same && i < solver_item_count(); i++) {
-    same = solver_item_at(i)->get(a) == solver_item_at(i)->get(b);
-  }
-  return same;
 }
 
 /* ---- textures ---- */
@@ -227,8 +164,8 @@ static void put_patch(struct dump *dump, const struct scene_patch *patch)
   put(dump, "\n  texture { ");
   put_texture_name(dump, dump->names[patch->texture]);
   put(dump, " }\n");
-  const struct solver_options *solvers = dump->scene->solvers;
-  if (!same_solver(&solvers[patch->solver], &solvers[0])) put_solver(dump, &solvers[patch->solver]);
+  const struct method *solvers = dump->scene->solvers;
+  if (!method_equal(&solvers[patch->solver], &solvers[0])) put_solver(dump, &solvers[patch->solver]);
   put(dump, "}\n");
 }
 

@@ -21,10 +21,4 @@ STATUS_MUST_CHECK enum status scene_dump(const struct scene *scene, FILE *file);
 /* Only the patches, as `#declare NAME = union { ... }`, with the textures they use before it. */
 STATUS_MUST_CHECK enum status scene_dump_union(const struct scene *scene, const char *name, FILE *file);
 
-/* A solver as a scene has it, with the items that differ from that solver's defaults and from what the items before them
- * make of these: "aberth { polish off }". The text is cut off at `size` bytes, which is no limit for the items there are:
- * SOLVER_TEXT_SIZE holds them all. */
-enum { SOLVER_TEXT_SIZE = 512 };
-void solver_text(const struct solver_options *options, char *out, size_t size);
-
 #endif

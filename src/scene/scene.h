@@ -10,8 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "algebra/solver.h"
 #include "base/arena.h"
+#include "scene/method.h"
 
 /* POV-Ray's finish; the formulas stand in render/shade.h. All but the roughness may be negative. */
 struct scene_finish {
@@ -75,12 +75,12 @@ struct scene {
   size_t copy_count;
   struct scene_texture *textures;
   size_t texture_count;
-  struct solver_options *solvers; /* [0] is global_settings', the default of every patch */
+  struct method *solvers; /* [0] is global_settings', the default of every patch */
   size_t solver_count;
 };
 
-/* Makes `options` the solver of every patch (--solver and --tolerance on the command line). */
-void scene_override_solver(struct scene *scene, const struct solver_options *options);
+/* Makes `method` the solver of every patch (--solver and --tolerance on the command line). */
+void scene_override_solver(struct scene *scene, const struct method *method);
 
 /* Frees the scene's arena. NULL is allowed. */
 void scene_destroy(struct scene *scene);

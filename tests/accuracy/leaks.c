@@ -144,7 +144,7 @@ static size_t count_leaks(struct trial *trial, const char *name, const char *sol
 
 /* Placement 0 leaves the model where it is (and then rays are axis-aligned too); the others turn, scale and shift it.
  * */
-static size_t leaks_of(const struct solver_options *options, size_t rays_wanted, uint64_t seed)
+static size_t leaks_of(const struct method *options, size_t rays_wanted, uint64_t seed)
 {
   static const double scales[PLACEMENTS] = {1, 1, 1e6, 1e-6, 1}, shifts[PLACEMENTS] = {0, 1, 1e6, 1e-6, 1e6};
   struct random random = {.state = seed = effort_seed(seed)};
@@ -167,23 +167,23 @@ static size_t leaks_of(const struct solver_options *options, size_t rays_wanted,
           size_t count = each - first < PACKET_SIZE ? each - first : PACKET_SIZE;
           for (size_t n = 0; n < count; n++)
             random_ray(&model, place > 0 ? &placement : NULL, &placed, kind, &random, &packet[n]);
-          leaks += count_leaks(&trial, model.name, options->solver->name, kind, count, packet);
+          leaks += count_leaks(&trial, model.name, options->roots.solver->name, kind, count, packet);
           rays += count;
         }
       }
       trial_destroy(&trial);
     }
   }
-  printf("seed %llu, solver %s, split %d: %zu rays, %zu leaks\n", (unsigned long long)seed, options->solver->name,
-         options->split, rays, leaks);
+  printf("seed %llu, solver %s, split %d: %zu rays, %zu leaks\n", (unsigned long long)seed,
+         options->roots.solver->name, options->split, rays, leaks);
   return leaks;
 }
 
 static void test_default(void **state)
 {
   (void)state;
-  struct solver_options options;
-  solver_options_default(solver_at(0), &options);
+  struct method options;
+  method_default(solver_at(0), &options);
   assert_int_equal(leaks_of(&options, effort_count(FULL_RAYS, 4000), 401), 0);
 }
 
@@ -192,8 +192,8 @@ static void test_other_solvers(void **state)
   (void)state;
   size_t leaks = 0;
   for (size_t n = 1; n < solver_count(); n++) {
-    struct solver_options options;
-    solver_options_default(solver_at(n), &options);
+    struct method options;
+    method_default(solver_at(n), &options);
     leaks += leaks_of(&options, effort_count((size_t)(OTHERS_SHARE * FULL_RAYS), 1000), 402 + n);
   }
   assert_int_equal(leaks, 0);
@@ -206,8 +206,8 @@ static void test_splits(void **state)
   static const int splits[] = {1, 2, 3, 16};
   size_t leaks = 0;
   for (size_t n = 0; n < sizeof splits / sizeof splits[0]; n++) {
-    struct solver_options options;
-    solver_options_default(solver_at(0), &options);
+    struct method options;
+    method_default(solver_at(0), &options);
     options.split = splits[n];
     leaks += leaks_of(&options, effort_count((size_t)(OTHERS_SHARE * FULL_RAYS), 1000), 420 + n);
   }

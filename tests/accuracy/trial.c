@@ -38,13 +38,13 @@ static void trial_start(struct trial *trial)
   start_intersector(trial);
 }
 
-void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct solver_options *solver)
+void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct method *solver)
 {
   memset(trial, 0, sizeof *trial);
   if (solver) {
     trial->solver = *solver;
   } else {
-    solver_options_default(solver_at(0), &trial->solver);
+    method_default(solver_at(0), &trial->solver);
   }
   trial->own_patches = calloc(count ? count : 1, sizeof *trial->own_patches);
   assert_non_null(trial->own_patches);
@@ -56,7 +56,7 @@ void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count,
   trial_start(trial);
 }
 
-void trial_create_beside(struct trial *trial, const struct trial *first, const struct solver_options *solver)
+void trial_create_beside(struct trial *trial, const struct trial *first, const struct method *solver)
 {
   *trial = (struct trial){
       .scene = first->scene, .solver = *solver, .reference = first->reference, .reference_borrowed = true};

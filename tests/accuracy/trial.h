@@ -12,7 +12,7 @@
 
 struct trial {
   struct scene scene; /* lives as long as the trial; where the trial made it, arena is NULL */
-  struct solver_options solver;
+  struct method solver;
   struct intersector *intersector;
   struct tracer *tracer;
   struct reference *reference;
@@ -66,10 +66,10 @@ struct tally {
 
 /* Makes intersector, tracer and reference of `count` nets. solver may be NULL (the default). Aborts the running
  * cmocka test where that fails. */
-void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct solver_options *solver);
+void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct method *solver);
 
 /* The patches of `first` with another solver. Borrows patches and reference: `first` must outlive it. */
-void trial_create_beside(struct trial *trial, const struct trial *first, const struct solver_options *solver);
+void trial_create_beside(struct trial *trial, const struct trial *first, const struct method *solver);
 
 /* As trial_create, of a scene, which is borrowed. */
 void trial_of_scene(struct trial *trial, const struct scene *scene);

@@ -68,11 +68,7 @@ static void cell(const struct corpus_entry *entry, const struct exact_roots *exa
 {
   struct solver_options options;
   solver_options_default(solver_find(column->method, strlen(column->method)), &options);
-  for (size_t i = 0; i < solver_item_count(); i++) {
-    if (strcmp(solver_item_at(i)->name, "form") == 0) {
-      solver_item_at(i)->set(&options, column->improved ? 1.0 : 0.0);
-    }
-  }
+  solver_options_form(&options, column->improved);
   const struct polynomial p = {entry->degree, BASIS_POWER, entry->c, NULL};
   struct root_set found;
   solver_solve(&p, &options, NULL, &found);

@@ -80,12 +80,6 @@ static void answers_are_true(void **state)
 {
   const struct fixture *fixture = *state;
   static const double tolerances[] = {0.0 /* the default */, 1e-2, 1e-6, 1e-300};
-  const struct solver_item *form = NULL;
-  for (size_t i = 0; i < solver_item_count(); i++) {
-    if (strcmp(solver_item_at(i)->name, "form") == 0) {
-      form = solver_item_at(i);
-    }
-  }
   int wrong = 0;
   for (size_t s = 0; s < solver_count(); s++) {
     for (size_t i = 0; i < fixture->count; i++) {
@@ -95,7 +89,7 @@ static void answers_are_true(void **state)
           for (int improved = 0; improved < 2; improved++) {
             struct solver_options options;
             solver_options_default(solver_at(s), &options);
-            form->set(&options, improved);
+            solver_options_form(&options, improved);
             options.tolerance = t > 0 ? tolerances[t] : options.tolerance;
             options.start = improved ? START_COLD : START_PREVIOUS;
             const struct polynomial p = polynomial_of(&fixture->entry[i], (enum basis)basis);

@@ -77,13 +77,13 @@ static void test_size(void **state)
 static void test_solver_text(void **state)
 {
   (void)state;
-  struct solver_options options = { 0 };
+  struct method options = { 0 };
   struct diagnostics diagnostics = listener();
   assert_int_equal(language_parse_solver(" aberth { polish off /* a comment */ split 7\n tolerance 1e-7 }",
                                          &diagnostics, &options),
                    STATUS_OK);
-  assert_string_equal(options.solver->name, "aberth");
-  assert_true(!options.polish && options.split == 7 && options.tolerance == 1e-7 && diagnostics.error_count == 0);
+  assert_string_equal(options.roots.solver->name, "aberth");
+  assert_true(!options.polish && options.split == 7 && options.roots.tolerance == 1e-7 && diagnostics.error_count == 0);
 }
 
 static void test_wrong_solver_texts(void **state)
@@ -103,7 +103,7 @@ static void test_wrong_solver_texts(void **state)
       {"solver aberth", "<--solver>:1:1: error: there is no solver 'solver', only "},
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-    struct solver_options options = { .split = 99 };
+    struct method options = { .split = 99 };
     struct diagnostics diagnostics = listener();
     assert_int_equal(language_parse_solver(cases[k].text, &diagnostics, &options), STATUS_USAGE);
     assert_int_equal(options.split, 99);
@@ -123,21 +123,21 @@ static void test_override(void **state)
   struct scene *scene = NULL;
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_OK);
   assert_int_equal(scene->solver_count, 2);
-  assert_string_equal(scene->solvers[0].solver->name, "aberth");
-  assert_string_equal(scene->solvers[scene->patches[0].solver].solver->name, "newton");
-  for (size_t k = 0; k < 2; k++) assert_true(scene->solvers[k].tolerance == 1e-8);
+  assert_string_equal(scene->solvers[0].roots.solver->name, "aberth");
+  assert_string_equal(scene->solvers[scene->patches[0].solver].roots.solver->name, "newton");
+  for (size_t k = 0; k < 2; k++) assert_true(scene->solvers[k].roots.tolerance == 1e-8);
   scene_destroy(scene);
 
   settings.solver_text = "laguerre { tolerance 1e-5 }";
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_OK);
-  const struct solver_options *used = &scene->solvers[scene->patches[0].solver];
-  assert_string_equal(used->solver->name, "laguerre");
-  assert_true(used->tolerance == 1e-8);
+  const struct method *used = &scene->solvers[scene->patches[0].solver];
+  assert_string_equal(used->roots.solver->name, "laguerre");
+  assert_true(used->roots.tolerance == 1e-8);
   scene_destroy(scene);
 
   settings.tolerance = NAN;
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_OK);
-  assert_true(scene->solvers[scene->patches[0].solver].tolerance == 1e-5);
+  assert_true(scene->solvers[scene->patches[0].solver].roots.tolerance == 1e-5);
   scene_destroy(scene);
 
   settings.tolerance = 0;

@@ -45,9 +45,9 @@ const struct root_kernel *root_kernel_best(void)
   return &root_kernel_baseline;
 }
 
-static const struct solver newton_row = {"newton", "", false, 1e-300, 1, newton_find};
-static const struct solver laguerre_row = {"laguerre", "", false, 1e-300, 1, laguerre_find};
-static const struct solver aberth_row = {"aberth", "", false, 1e-300, 1, aberth_find};
+static const struct solver newton_row = {"newton", "", false, SOLVER_LANES_NONE, 1e-300, 1, newton_find};
+static const struct solver laguerre_row = {"laguerre", "", false, SOLVER_LANES_NONE, 1e-300, 1, laguerre_find};
+static const struct solver aberth_row = {"aberth", "", false, SOLVER_LANES_NONE, 1e-300, 1, aberth_find};
 
 // The counter at the first steps of a method: between two of them lies one iteration.
 enum { STEPS = 2 };

@@ -15,7 +15,7 @@ enum { SEED = 20261121, RAYS = 512, PATCHES = 1100, PACKET = 8 };
 struct pair {
   int kind;
   struct scene scene;
-  struct solver_options solver;
+  struct method solver;
   struct scene_object object;
   struct intersector *intersector[2];
   struct tracer *tracer[2];
@@ -51,7 +51,7 @@ static void pair_open(struct pair *pair, int kind, struct random *random)
   const size_t count = world_fill((enum world_kind)kind, random, nets), copies = PATCHES / count;
   pair->object = (struct scene_object){nets, count};
   struct scene *scene = &pair->scene;
-  solver_options_default(solver_at(0), &pair->solver);
+  method_default(solver_at(0), &pair->solver);
   scene->solvers = &pair->solver, scene->solver_count = 1;
   scene->objects = &pair->object, scene->object_count = 1;
   scene->copies = calloc(copies, sizeof *scene->copies);

@@ -272,8 +272,8 @@ static void cuts_and_methods_answer_alike(void **state)
     }
     world_close(&first);
     for (int way = 0; way < 8 + 3 * (int)solver_count(); way += 1 + kind % 2) {
-      struct solver_options options;
-      solver_options_default(way < 8 ? solver_at(0) : solver_at((size_t)(way - 8) / 3), &options);
+      struct method options;
+      method_default(way < 8 ? solver_at(0) : solver_at((size_t)(way - 8) / 3), &options);
       if (way < 8) options.split = splits[way];
       if (way >= 8 && way % 3 == 1) options.resultant = RESULTANT_SYLVESTER;
       if (way >= 8 && way % 3 == 2) options.back_substitution = BACK_SUBSTITUTION_EUCLID;
@@ -284,7 +284,7 @@ static void cuts_and_methods_answer_alike(void **state)
         const struct hit got = world_closest(&world, &rays[n]);
         if (agree(&rays[n], &want[n], &got, 1)) continue;
         if (wrong++ < 8) {
-          print_message("way %d (%s, split %d)\n", way, options.solver->name, options.split);
+          print_message("way %d (%s, split %d)\n", way, options.roots.solver->name, options.split);
           world_print_case("method", kind, &rays[n], &want[n], &got);
         }
       }
@@ -301,9 +301,9 @@ static void warm_starts_are_reproducible(void **state)
   world_net nets[WORLD_MAX];
   for (size_t s = 0; s < solver_count(); s++) {
     for (int kind = 0; kind < WORLD_KINDS; kind += 2) {
-      struct solver_options options;
-      solver_options_default(solver_at(s), &options);
-      options.start = START_PREVIOUS;
+      struct method options;
+      method_default(solver_at(s), &options);
+      options.roots.start = START_PREVIOUS;
       struct world world;
       const size_t count = world_fill((enum world_kind)kind, &random, nets);
       world_open(&world, nets, count, &options);

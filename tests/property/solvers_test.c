@@ -8,11 +8,11 @@
 
 enum { SEED = 20240521, SCENES = 4, RAYS = 160 };
 
-static struct solver_options aberth(enum start start, int split)
+static struct method aberth(enum start start, int split)
 {
-  struct solver_options options;
-  solver_options_default(solver_find("aberth", 6), &options);
-  options.start = start, options.split = split;
+  struct method options;
+  method_default(solver_find("aberth", 6), &options);
+  options.roots.start = start, options.split = split;
   return options;
 }
 
@@ -63,7 +63,7 @@ static void answers_are_the_defaults(void **state)
     for (int way = 0; way <= WAYS; way++) {
       struct world world;
       const int w = way > 0 ? way - 1 : 0;
-      const struct solver_options options = aberth(ways[w].start, ways[w].split);
+      const struct method options = aberth(ways[w].start, ways[w].split);
       world_open(&world, nets, count, way > 0 ? &options : NULL);
       answer(&world, rays, way > 0 ? got : want);
       certain[way] += certain_hits(way > 0 ? got : want);
@@ -93,7 +93,7 @@ static void answers_do_not_depend_on_companions(void **state)
     static world_net nets[WORLD_MAX];
     static struct ray rays[RAYS];
     static struct hit hits[RAYS];
-    const struct solver_options options = aberth(START_COLD, 1);
+    const struct method options = aberth(START_COLD, 1);
     const int kind = scene % WORLD_KINDS;
     const size_t count = world_fill((enum world_kind)kind, &random, nets);
     struct world world;

@@ -123,11 +123,11 @@ size_t world_fill(enum world_kind kind, struct random *random, world_net nets[WO
   }
 }
 
-void world_open(struct world *world, world_net *nets, size_t count, const struct solver_options *options)
+void world_open(struct world *world, world_net *nets, size_t count, const struct method *options)
 {
   memset(world, 0, sizeof *world);
   if (options) world->solver = *options;
-  else solver_options_default(solver_at(0), &world->solver);
+  else method_default(solver_at(0), &world->solver);
   world->scene.solvers = &world->solver, world->scene.solver_count = 1;
   world->scene.patches = calloc(count + 1, sizeof *world->scene.patches);
   assert_non_null(world->scene.patches);

@@ -13,7 +13,7 @@ typedef double world_net[4][4][3];
 /* A scene of bare patches with one solver, prepared, with one tracer. */
 struct world {
   struct scene scene;
-  struct solver_options solver;
+  struct method solver;
   struct intersector *intersector;
   struct tracer *tracer;
 };
@@ -35,7 +35,7 @@ enum { WORLD_MAX = 16 };
 size_t world_fill(enum world_kind kind, struct random *random, world_net nets[WORLD_MAX]);
 
 /* Copies the nets and prepares the scene; `options` may be NULL for the default. Asserts where that fails. */
-void world_open(struct world *world, world_net *nets, size_t count, const struct solver_options *options);
+void world_open(struct world *world, world_net *nets, size_t count, const struct method *options);
 void world_close(struct world *world);
 
 /* A ray at the nets, of one of many kinds: through the middle of things, at borders, corners and lines of constant u

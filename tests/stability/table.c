@@ -46,7 +46,7 @@ static const struct form forms[] = {
 };
 enum { FORMS = sizeof forms / sizeof forms[0] };
 
-static struct solver_options options[FORMS];
+static struct method options[FORMS];
 static struct tally tallies[MOST_CLASSES][FORMS];
 
 static void tell(void *context, const char *text, size_t length)
@@ -147,12 +147,11 @@ static void print_class(const struct situation_class *class, const struct tally 
 }
 
 /* Whether all is as the paper has it but for polish: what the solver statement of the paper's method must mean. */
-static bool is_papers(const struct solver_options *o)
+static bool is_papers(const struct method *o)
 {
   return o->basis == BASIS_POWER && o->resultant == RESULTANT_SYLVESTER &&
-         o->back_substitution == BACK_SUBSTITUTION_EUCLID && o->split == 1 && o->start == START_COLD &&
-         o->radii == RADII_CIRCLE && o->stop == STOP_STEP && o->update == UPDATE_JACOBI && !o->rest &&
-         o->deflation == DEFLATION_FORWARD && !o->refine;
+         o->back_substitution == BACK_SUBSTITUTION_EUCLID && o->split == 1 && o->roots.start == START_COLD &&
+         solver_options_paper(&o->roots);
 }
 
 int main(void)

@@ -60,32 +60,28 @@ static int read_teapot(void **state)
 struct target {
   struct scene scene;
   struct scene_patch patch;
-  struct solver_options solver;
+  struct method solver;
   struct intersector *intersector;
   struct tracer *tracer;
 };
 
-static struct solver_options aberth(bool polish, bool paper)
+static struct method aberth(bool polish, bool paper)
 {
-  struct solver_options options;
-  solver_options_default(solver_find("aberth", 6), &options);
+  struct method options;
+  method_default(solver_find("aberth", 6), &options);
   options.polish = polish;
   options.split = 1;
   if (paper) {
     options.basis = BASIS_POWER;
     options.resultant = RESULTANT_SYLVESTER;
     options.back_substitution = BACK_SUBSTITUTION_EUCLID;
-    options.tolerance = 1e-10;
-    for (size_t i = 0; i < solver_item_count(); i++) {
-      if (strcmp(solver_item_at(i)->name, "form") == 0) {
-        solver_item_at(i)->set(&options, 0.0);
-      }
-    }
+    options.roots.tolerance = 1e-10;
+    solver_options_form(&options.roots, false);
   }
   return options;
 }
 
-static void target_create(struct target *target, const double P[4][4][3], struct solver_options options)
+static void target_create(struct target *target, const double P[4][4][3], struct method options)
 {
   *target = (struct target){.solver = options};
   memcpy(target->patch.P, P, sizeof target->patch.P);

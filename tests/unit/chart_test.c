@@ -202,12 +202,12 @@ static void test_sweep(void **state)
     struct sweep_point *sweep = calloc(count, sizeof *sweep);
     assert_non_null(sweep);
     assert_int_equal(point_sweep(quick, sweep), count);
-    assert_ptr_equal(sweep[0].options.solver, solver_at(0));
+    assert_ptr_equal(sweep[0].options.roots.solver, solver_at(0));
     for (size_t a = 1; a < count; a++) {
       for (size_t b = a + 1; b < count; b++) {
-        bool same = sweep[a].options.solver == sweep[b].options.solver;
-        for (size_t k = 0; same && k < solver_item_count(); k++)
-          same = solver_item_at(k)->get(&sweep[a].options) == solver_item_at(k)->get(&sweep[b].options);
+        bool same = sweep[a].options.roots.solver == sweep[b].options.roots.solver;
+        for (size_t k = 0; same && k < method_item_count(); k++)
+          same = method_item_at(k)->get(&sweep[a].options) == method_item_at(k)->get(&sweep[b].options);
         assert_false(same);
       }
     }

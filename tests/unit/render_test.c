@@ -14,7 +14,7 @@ static struct scene_texture texture = {
   .pigment = { 0.8, 0.5, 0.3 },
   .finish = { .ambient = { 0.1, 0.2, 0.3 }, .diffuse = 0.6, .brilliance = 1, .phong_size = 40, .roughness = 0.05 }
 };
-static struct solver_options solver;
+static struct method solver;
 static struct scene_patch patches[2];
 static struct scene_light lights[2];
 
@@ -35,7 +35,7 @@ static struct scene_patch square(double half, double z, double bulge)
 /* A bulging square before a flat one that does not fill the picture, seen along z. Tests change it as they need. */
 static struct scene scene_of(void)
 {
-  solver_options_default(solver_at(0), &solver);
+  method_default(solver_at(0), &solver);
   patches[0] = square(1, 0, 1.5);
   patches[1] = square(3, 2, 0);
   lights[0] = (struct scene_light){ .position = { 2, 4, -6 }, .color = { 1, 0.9, 0.8 } };
@@ -122,11 +122,11 @@ static void nor_do_they_with_warm_starts(void **state)
   const struct scene scene = scene_of();
   const struct solver *aberth = solver_find("aberth", strlen("aberth"));
   assert_non_null(aberth);
-  solver_options_default(aberth, &solver);
-  solver.start = START_PREVIOUS;
+  method_default(aberth, &solver);
+  solver.roots.start = START_PREVIOUS;
   solver.polish = false;
   solver.split = 1;
-  solver.tolerance = 0.05; /* coarse, so that answers do depend on where the solver starts */
+  solver.roots.tolerance = 0.05; /* coarse, so that answers do depend on where the solver starts */
   expect_invariance(&scene);
 }
 

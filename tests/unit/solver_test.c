@@ -44,72 +44,6 @@ static void table(void **state)
   assert_non_null(solver_find("aberth", 6));
 }
 
-/* What get reads, set writes; in the order of the table a block reads back as it was. */
-static void items_round_trip(void **state)
-{
-  (void)state;
-  for (size_t i = 0; i < solver_item_count(); i++) {
-    const struct solver_item *item = solver_item_at(i);
-    struct solver_options options, copy;
-    solver_options_default(solver_at(0), &options);
-    int words = 0;
-    while (item->keywords != NULL && item->keywords[words] != NULL) {
-      words++;
-    }
-    const double last = item->kind == SOLVER_ITEM_KEYWORD ? words - 1 : item->maximum;
-    item->set(&options, last);
-    assert_true(item->get(&options) == last);
-    item->set(&options, item->kind == SOLVER_ITEM_KEYWORD ? 0.0 : item->minimum);
-    assert_true(item->get(&options) == (item->kind == SOLVER_ITEM_KEYWORD ? 0.0 : item->minimum));
-    solver_options_default(solver_at(0), &copy);
-    for (size_t k = 0; k < solver_item_count(); k++) {
-      solver_item_at(k)->set(&copy, solver_item_at(k)->get(&options));
-    }
-    for (size_t k = 0; k < solver_item_count(); k++) {
-      assert_true(solver_item_at(k)->get(&copy) == solver_item_at(k)->get(&options));
-    }
-  }
-}
-
-static const struct solver_item *item_of(const char *name)
-{
-  for (size_t i = 0; i < solver_item_count(); i++) {
-    if (strcmp(solver_item_at(i)->name, name) == 0) {
-      return solver_item_at(i);
-    }
-  }
-  return NULL;
-}
-
-/* The paper's choices bring the paper's iteration, in whatever order they are made, unless a form is named. */
-static void form_follows_the_paper(void **state)
-{
-  (void)state;
-  static const struct {
-    const char *name;
-    double value;
-  } choices[] = {{"basis", BASIS_POWER}, {"resultant", RESULTANT_SYLVESTER},
-                 {"back_substitution", BACK_SUBSTITUTION_EUCLID}, {"polish", 0.0}};
-  const struct solver_item *form = item_of("form");
-  assert_non_null(form);
-  for (int first = 0; first < 4; first++) {
-    struct solver_options options, said;
-    solver_options_default(solver_find("aberth", 6), &options);
-    solver_options_default(solver_find("aberth", 6), &said);
-    form->set(&said, 1.0);
-    for (int k = 0; k < 4; k++) {
-      assert_true(form->get(&options) == 1.0);
-      const struct solver_item *item = item_of(choices[(first + k) % 4].name);
-      assert_non_null(item);
-      item->set(&options, choices[(first + k) % 4].value);
-      item->set(&said, choices[(first + k) % 4].value);
-    }
-    assert_true(form->get(&options) == 0.0 && form->get(&said) == 1.0);
-    item_of("polish")->set(&options, 1.0);
-    assert_true(form->get(&options) == 1.0);
-  }
-}
-
 static void hopeless_input(void **state)
 {
   (void)state;
@@ -299,10 +233,9 @@ static void division(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(table),         cmocka_unit_test(items_round_trip), cmocka_unit_test(form_follows_the_paper),
-    cmocka_unit_test(hopeless_input),
-    cmocka_unit_test(exact_ends),    cmocka_unit_test(raised_degree),    cmocka_unit_test(random_roots),
-    cmocka_unit_test(warm_start),    cmocka_unit_test(limits),           cmocka_unit_test(division),
+    cmocka_unit_test(table),         cmocka_unit_test(hopeless_input), cmocka_unit_test(exact_ends),
+    cmocka_unit_test(raised_degree), cmocka_unit_test(random_roots),   cmocka_unit_test(warm_start),
+    cmocka_unit_test(limits),        cmocka_unit_test(division),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

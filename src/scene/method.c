@@ -1,0 +1,173 @@
+/* The items of a solver block, and a method as text. */
+#include "scene/method.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "base/number.h"
+
+/* Where the form of the iteration is not named, the paper's goes with the paper's method, whichever of its items is
+ * said first. */
+static void follow_form(struct method *method)
+{
+  const bool paper = method->basis == BASIS_POWER && method->resultant == RESULTANT_SYLVESTER &&
+                     method->back_substitution == BACK_SUBSTITUTION_EUCLID && !method->polish;
+  if (!method->form_said) solver_options_form(&method->roots, !paper);
+}
+
+/* The items of a solver block. One macro writes the two accessors of an item, whose C types differ; `after` is done
+ * when it was set. */
+#define ITEM_ACCESSORS(name, field, type, after)                \
+  static void set_##name(struct method *method, double value)   \
+  {                                                             \
+    method->field = (type)value;                                \
+    after;                                                      \
+  }                                                             \
+  static double get_##name(const struct method *method) { return (double)method->field; }
+
+ITEM_ACCESSORS(tolerance, roots.tolerance, double, (void)0)
+ITEM_ACCESSORS(max_iterations, roots.max_iterations, int, (void)0)
+ITEM_ACCESSORS(start, roots.start, enum start, (void)0)
+ITEM_ACCESSORS(split, split, int, (void)0)
+ITEM_ACCESSORS(basis, basis, enum basis, follow_form(method))
+ITEM_ACCESSORS(resultant, resultant, enum resultant, follow_form(method))
+ITEM_ACCESSORS(back_substitution, back_substitution, enum back_substitution, follow_form(method))
+ITEM_ACCESSORS(polish, polish, bool, follow_form(method))
+ITEM_ACCESSORS(radii, roots.radii, enum radii, method->form_said = true)
+ITEM_ACCESSORS(stop, roots.stop, enum stop, method->form_said = true)
+ITEM_ACCESSORS(update, roots.update, enum update, method->form_said = true)
+ITEM_ACCESSORS(rest, roots.rest, bool, method->form_said = true)
+ITEM_ACCESSORS(deflation, roots.deflation, enum deflation, method->form_said = true)
+ITEM_ACCESSORS(refine, roots.refine, bool, method->form_said = true)
+
+static void set_form(struct method *method, double value)
+{
+  solver_options_form(&method->roots, value != 0.0);
+  method->form_said = true;
+}
+
+static double get_form(const struct method *method) { return solver_options_paper(&method->roots) ? 0.0 : 1.0; }
+
+static const char *const form_words[] = {"paper", "improved", NULL};
+static const char *const radii_words[] = {"circle", "polygon", NULL};
+static const char *const stop_words[] = {"step", "rounding", NULL};
+static const char *const update_words[] = {"jacobi", "gauss_seidel", NULL};
+static const char *const deflation_words[] = {"forward", "composite", NULL};
+static const char *const start_words[] = {"cold", "previous", NULL};
+static const char *const basis_words[] = {"bernstein", "power", NULL};
+static const char *const resultant_words[] = {"bezout", "sylvester", NULL};
+static const char *const back_substitution_words[] = {"null_vector", "euclid", NULL};
+static const char *const off_on[] = {"off", "on", NULL};
+static const char *const split_words[] = {"auto", NULL};
+
+/* Limits: a tolerance of 1 in a parameter of [0,1] asks for nothing; iterations are bounded so that no solve can
+ * hang. */
+#define MAX_TOLERANCE 1.0
+#define MAX_ITERATIONS 10000
+#define MAX_SPLIT 64
+
+static const struct method_item items[] = {
+  {"tolerance", "a root has converged when a step is below this (eps of eq 10), absolute in u", METHOD_ITEM_NUMBER,
+   NULL, DBL_MIN, MAX_TOLERANCE, set_tolerance, get_tolerance},
+  {"max_iterations", "steps a root may take", METHOD_ITEM_INTEGER, NULL, 1, MAX_ITERATIONS, set_max_iterations,
+   get_max_iterations},
+  {"start", "from Aberth's circle, or from the roots of the previous ray on the same patch", METHOD_ITEM_KEYWORD,
+   start_words, 0, 1, set_start, get_start},
+  {"basis", "in which the resultant is written", METHOD_ITEM_KEYWORD, basis_words, 0, 1, set_basis, get_basis},
+  {"resultant", "how v is eliminated", METHOD_ITEM_KEYWORD, resultant_words, 0, 1, set_resultant, get_resultant},
+  {"back_substitution", "how v is found from u", METHOD_ITEM_KEYWORD, back_substitution_words, 0, 1,
+   set_back_substitution, get_back_substitution},
+  {"polish", "on: Newton on the patch itself, and every answer certified; off: the solver's roots are the answer",
+   METHOD_ITEM_KEYWORD, off_on, 0, 1, set_polish, get_polish},
+  {"split", "each patch is cut into N x N leaves; 1 = whole patches", METHOD_ITEM_INTEGER, split_words, 1, MAX_SPLIT,
+   set_split, get_split},
+  /* form stands before the items it sets, so that a block written in this order reads back the same. */
+  {"form", "all of the following at once: the paper's iterations as printed, or improved", METHOD_ITEM_KEYWORD,
+   form_words, 0, 1, set_form, get_form},
+  {"radii", "cold start values on Aberth's circle, or on circles by Newton's polygon", METHOD_ITEM_KEYWORD, radii_words,
+   0, 1, set_radii, get_radii},
+  {"stop", "by eq 10 alone, or also where the value is below its own rounding bound", METHOD_ITEM_KEYWORD, stop_words,
+   0, 1, set_stop, get_stop},
+  {"update", "aberth: from the values before the sweep, or from the newest", METHOD_ITEM_KEYWORD, update_words, 0, 1,
+   set_update, get_update},
+  {"rest", "aberth: a root that is done is left alone while others move", METHOD_ITEM_KEYWORD, off_on, 0, 1, set_rest,
+   get_rest},
+  {"deflation", "newton, laguerre: division from the highest power, or from both ends", METHOD_ITEM_KEYWORD,
+   deflation_words, 0, 1, set_deflation, get_deflation},
+  {"refine", "newton, laguerre: last steps on the polynomial before deflation", METHOD_ITEM_KEYWORD, off_on, 0, 1,
+   set_refine, get_refine},
+};
+
+size_t method_item_count(void) { return sizeof items / sizeof items[0]; }
+
+const struct method_item *method_item_at(size_t index) { return index < method_item_count() ? &items[index] : NULL; }
+
+const struct method_item *method_item_find(const char *name)
+{
+  for (size_t k = 0; k < method_item_count(); k++)
+    if (strcmp(items[k].name, name) == 0) return &items[k];
+  return NULL;
+}
+
+void method_default(const struct solver *solver, struct method *out)
+{
+  *out = (struct method){.basis = BASIS_BERNSTEIN,
+                         .resultant = RESULTANT_BEZOUT,
+                         .back_substitution = BACK_SUBSTITUTION_NULL_VECTOR,
+                         .polish = true,
+                         .split = 0};
+  solver_options_default(solver, &out->roots);
+}
+
+bool method_equal(const struct method *a, const struct method *b)
+{
+  bool equal = a->roots.solver == b->roots.solver;
+  for (size_t k = 0; equal && k < method_item_count(); k++) equal = items[k].get(a) == items[k].get(b);
+  return equal;
+}
+
+/* Text that grows at the end of a fixed space. */
+struct text {
+  char *out;
+  size_t size, length;
+};
+
+static void append(struct text *text, const char *word)
+{
+  const size_t length = strlen(word);
+  if (length >= text->size - text->length) return;
+  memcpy(text->out + text->length, word, length + 1);
+  text->length += length;
+}
+
+static void append_value(struct text *text, const struct method_item *item, double value)
+{
+  size_t words = 0;
+  while (item->keywords && item->keywords[words]) words++;
+  char number[NUMBER_TEXT_SIZE];
+  const bool word = value >= 0 && value < (double)words;
+  if (!word) number_write(value, number);
+  append(text, word ? item->keywords[(size_t)value] : number);
+}
+
+void method_text(const struct method *method, char *out, size_t size)
+{
+  struct text text = {.out = out, .size = size};
+  struct method said; /* what the text so far means */
+  method_default(method->roots.solver, &said);
+  out[0] = '\0';
+  append(&text, method->roots.solver->name);
+  bool any = false;
+  for (size_t k = 0; k < method_item_count(); k++) {
+    const struct method_item *item = &items[k];
+    const double value = item->get(method);
+    if (value == item->get(&said)) continue;
+    item->set(&said, value);
+    append(&text, any ? " " : " { ");
+    append(&text, item->name);
+    append(&text, " ");
+    append_value(&text, item, value);
+    any = true;
+  }
+  append(&text, any ? " }" : "");
+}

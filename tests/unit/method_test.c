@@ -1,0 +1,91 @@
+/* The items of a solver block: see scene/method.h. */
+#include "scene/method.h"
+
+#include <string.h>
+
+#include "cmocka_test.h"
+
+/* What get reads, set writes; in the order of the table a block reads back as it was. */
+static void items_round_trip(void **state)
+{
+  (void)state;
+  for (size_t i = 0; i < method_item_count(); i++) {
+    const struct method_item *item = method_item_at(i);
+    struct method options, copy;
+    method_default(solver_at(0), &options);
+    int words = 0;
+    while (item->keywords != NULL && item->keywords[words] != NULL) {
+      words++;
+    }
+    const double last = item->kind == METHOD_ITEM_KEYWORD ? words - 1 : item->maximum;
+    item->set(&options, last);
+    assert_true(item->get(&options) == last);
+    item->set(&options, item->kind == METHOD_ITEM_KEYWORD ? 0.0 : item->minimum);
+    assert_true(item->get(&options) == (item->kind == METHOD_ITEM_KEYWORD ? 0.0 : item->minimum));
+    method_default(solver_at(0), &copy);
+    for (size_t k = 0; k < method_item_count(); k++) {
+      method_item_at(k)->set(&copy, method_item_at(k)->get(&options));
+    }
+    assert_true(method_equal(&copy, &options));
+  }
+}
+
+/* The paper's choices bring the paper's iteration, in whatever order they are made, unless a form is named. */
+static void form_follows_the_paper(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *name;
+    double value;
+  } choices[] = {{"basis", BASIS_POWER}, {"resultant", RESULTANT_SYLVESTER},
+                 {"back_substitution", BACK_SUBSTITUTION_EUCLID}, {"polish", 0.0}};
+  const struct method_item *form = method_item_find("form");
+  assert_non_null(form);
+  for (int first = 0; first < 4; first++) {
+    struct method options, said;
+    method_default(solver_find("aberth", 6), &options);
+    method_default(solver_find("aberth", 6), &said);
+    form->set(&said, 1.0);
+    for (int k = 0; k < 4; k++) {
+      assert_true(form->get(&options) == 1.0);
+      const struct method_item *item = method_item_find(choices[(first + k) % 4].name);
+      assert_non_null(item);
+      item->set(&options, choices[(first + k) % 4].value);
+      item->set(&said, choices[(first + k) % 4].value);
+    }
+    assert_true(form->get(&options) == 0.0 && form->get(&said) == 1.0);
+    method_item_find("polish")->set(&options, 1.0);
+    assert_true(form->get(&options) == 1.0);
+  }
+}
+
+/* What follows from the rest is left out of the text; what does not fit is cut off between two words. */
+static void text_says_what_differs(void **state)
+{
+  (void)state;
+  struct method method;
+  char text[METHOD_TEXT_SIZE];
+  method_default(solver_find("newton", 6), &method);
+  method_text(&method, text, sizeof text);
+  assert_string_equal(text, "newton");
+  method_item_find("split")->set(&method, 3);
+  method_item_find("polish")->set(&method, 0);
+  method_text(&method, text, sizeof text);
+  assert_string_equal(text, "newton { polish off split 3 }");
+  char little[12];
+  method_text(&method, little, sizeof little);
+  assert_memory_equal(little, "newton", 6);
+  assert_true(strlen(little) < sizeof little);
+  assert_null(method_item_find("nothing"));
+  assert_null(method_item_at(method_item_count()));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(items_round_trip),
+    cmocka_unit_test(form_follows_the_paper),
+    cmocka_unit_test(text_says_what_differs),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
