@@ -76,18 +76,30 @@ static enum status read_all(struct source *source, int file, size_t guess, const
   return STATUS_OK;
 }
 
-enum status source_read(const char *path, struct source **out_source, const char **out_reason)
+/* Why a file that is open is not read, or NULL. */
+static const char *refusal(mode_t mode, enum source_kind kind)
+{
+  if (S_ISDIR(mode)) return reason_text(EISDIR);
+  if (S_ISREG(mode)) return NULL;
+  if (!S_ISFIFO(mode) && !S_ISSOCK(mode)) return "it is a device";
+  return kind == SOURCE_FILE ? "it is a pipe" : NULL;
+}
+
+enum status source_read(const char *path, enum source_kind kind, struct source **out_source, const char **out_reason)
 {
   *out_reason = "memory is short";
   struct source *source = source_create(path);
   if (!source) return STATUS_LIMIT;
   enum status status = STATUS_FILE;
   struct stat info;
-  int file = open(path, O_RDONLY | O_CLOEXEC);
+  /* A pipe that is refused must not be waited for. */
+  int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | (kind == SOURCE_FILE ? O_NONBLOCK : 0));
   if (file < 0 || fstat(file, &info) != 0) {
     *out_reason = reason_text(errno);
     goto done;
   }
+  if ((*out_reason = refusal(info.st_mode, kind)) != NULL) goto done;
+  *out_reason = "memory is short";
   source->device = (uint64_t)info.st_dev;
   source->inode = (uint64_t)info.st_ino;
   size_t guess = READ_STEP_BYTES;
@@ -102,6 +114,27 @@ done:
     *out_source = source;
   }
   return status;
+}
+
+bool source_identify(const char *path, uint64_t *out_device, uint64_t *out_inode)
+{
+  struct stat info;
+  if (stat(path, &info) != 0) return false;
+  *out_device = (uint64_t)info.st_dev;
+  *out_inode = (uint64_t)info.st_ino;
+  return true;
+}
+
+struct source *source_share(const struct source *source, const char *path)
+{
+  struct source *other = source_create(path);
+  if (!other) return NULL;
+  other->text = source->text;
+  other->length = source->length;
+  other->device = source->device;
+  other->inode = source->inode;
+  other->shared = true;
+  return other;
 }
 
 struct source *source_from_text(const char *name, const char *text, size_t length)
@@ -158,6 +191,6 @@ void source_destroy(struct source *source)
 {
   if (!source) return;
   free(source->name);
-  free(source->text);
+  if (!source->shared) free(source->text);
   free(source);
 }

@@ -6,6 +6,7 @@
 #ifndef PSCN_BASE_SOURCE_H
 #define PSCN_BASE_SOURCE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -14,6 +15,7 @@
 struct source {
   char *name;       /* as shown in diagnostics: the path, or a word in <> for text that has none */
   char *text;       /* length bytes, then two NULs */
+  bool shared;      /* the text belongs to another source of the same file */
   size_t length;
   uint64_t device, inode; /* what file it is; 0,0 for text */
   const struct source *includer; /* the source whose #include opened this one, or NULL */
@@ -29,9 +31,19 @@ struct place {
 /* The longest file that is read. Longer ones are STATUS_LIMIT. */
 #define SOURCE_MAX_BYTES ((size_t)1 << 30)
 
+/* What may be read: files only, or also pipes, whose end is waited for. Devices and folders are an error. */
+enum source_kind { SOURCE_FILE, SOURCE_FILE_OR_PIPE };
+
 /* Reads the whole file at `path` (opened once, so pipes work). STATUS_FILE: out_reason says why in English words and
  * nothing is written to out_source; STATUS_LIMIT: memory or SOURCE_MAX_BYTES. The caller destroys the source. */
-STATUS_MUST_CHECK enum status source_read(const char *path, struct source **out_source, const char **out_reason);
+STATUS_MUST_CHECK enum status source_read(const char *path, enum source_kind kind, struct source **out_source,
+                                          const char **out_reason);
+
+/* What file `path` names now; false where there is none. */
+bool source_identify(const char *path, uint64_t *out_device, uint64_t *out_inode);
+
+/* A source of the same text under the name `path`, valid as long as `source`, or NULL where memory is short. */
+struct source *source_share(const struct source *source, const char *path);
 
 /* A source of a copy of `length` bytes at `text`, or NULL where memory is short. */
 struct source *source_from_text(const char *name, const char *text, size_t length);

@@ -39,7 +39,7 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "folder of the results; default: SCENE's name and -check", "DIR"),
   SCENE_SIZE_OPTION("of the pictures in pixels; default 800x600"),
-  SCENE_SOLVER_OPTIONS,
+  SCENE_OPTIONS,
   COMMAND_OPTION("steps", 0, OPTION_STEPS, "POV-Ray's u_steps and v_steps go from 1 to N; 0: none; default 6", "N"),
   COMMAND_OPTION("grid", 0, OPTION_GRID, "compare hits of every Nth pixel and row; 0: none; default 8", "N"),
   COMMAND_OPTION("povray", 0, OPTION_POVRAY, "the program; default povray", "FILE"),
@@ -100,8 +100,7 @@ static enum status take_option(const struct command *command, void *context, int
     if (!value_size(argument, MAX_SIDE, &line->width, &line->height) || line->height > MAX_PIXELS / line->width)
       return (enum status)command_usage(command, "'%s' is no size WxH of at most %d pixels", argument, MAX_PIXELS);
     break;
-  case OPTION_SOLVER:
-  case OPTION_TOLERANCE:
+  SCENE_OPTION_CASES:
     return scene_request_take(command, &request->scene, val, argument);
   case OPTION_STEPS:
     if (!value_integer(argument, 0, CHECK_MAX_STEPS, &request->steps))

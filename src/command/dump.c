@@ -8,7 +8,7 @@
 static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   SCENE_SIZE_OPTION("what image_width and image_height mean; default 800x600"),
-  SCENE_SOLVER_OPTIONS,
+  SCENE_OPTIONS,
   POPT_TABLEEND
 };
 

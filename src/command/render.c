@@ -37,7 +37,7 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "the picture, .png or .exr; default: SCENE with .png", "FILE"),
   SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
-  SCENE_SOLVER_OPTIONS,
+  SCENE_OPTIONS,
   COMMAND_OPTION("samples", 0, OPTION_SAMPLES, "N x N rays a pixel on a regular grid; default 1", "N"),
   COMMAND_OPTION("crop", 0, OPTION_CROP, "only this part, in pixels from the left and top", "X,Y,W,H"),
   COMMAND_OPTION("threads", 0, OPTION_THREADS, "default: one for each processor", "N"),
@@ -77,8 +77,7 @@ static enum status take_option(const struct command *command, void *context, int
     request->output = argument;
     break;
   case OPTION_SIZE:
-  case OPTION_SOLVER:
-  case OPTION_TOLERANCE:
+  SCENE_OPTION_CASES:
     return scene_request_take(command, &request->scene, val, argument);
   case OPTION_SAMPLES:
     if (!value_integer(argument, 1, MAX_SAMPLES, &options->samples))

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "command/values.h"
 #include "language/language.h"
@@ -29,6 +30,10 @@ enum status scene_request_take(const struct command *command, struct scene_reque
   case OPTION_SOLVER:
     request->solver_text = argument;
     break;
+  case OPTION_MAX_MEMORY:
+    if (!value_bytes(argument, &request->max_memory))
+      return (enum status)command_usage(command, "'%s' is no size of memory, such as 500M or 2G", argument);
+    break;
   default:
     if (!value_number(argument, &request->tolerance) || request->tolerance == 0)
       return (enum status)command_usage(command, "'%s' is no tolerance", argument);
@@ -37,12 +42,24 @@ enum status scene_request_take(const struct command *command, struct scene_reque
   return STATUS_OK;
 }
 
+/* A text of a few lines can ask for any number of patches: more than a share of the memory is asked for knowingly. */
+static size_t default_memory(void)
+{
+  const size_t most = (size_t)8 << 30, share = 4;
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page <= 0 || (size_t)pages > most * share / (size_t)page)
+    return most;
+  return (size_t)pages * (size_t)page / share;
+}
+
 enum status scene_file_load(const struct scene_request *request, struct scene **out)
 {
   const struct language_settings settings = { .image_width = (int)request->width,
                                               .image_height = (int)request->height,
                                               .solver_text = request->solver_text,
-                                              .tolerance = request->tolerance };
+                                              .tolerance = request->tolerance,
+                                              .max_memory =
+                                                request->max_memory != 0 ? request->max_memory : default_memory() };
   struct diagnostics diagnostics = stderr_diagnostics();
   return language_load(request->path, &settings, &diagnostics, out);
 }

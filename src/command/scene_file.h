@@ -15,18 +15,25 @@ struct scene_request {
   size_t width, height;    /* of the picture: image_width and image_height */
   const char *solver_text; /* or NULL */
   double tolerance;        /* or NAN */
+  size_t max_memory;       /* bytes, or 0: the default */
 };
 
 /* The size of a picture unless --size says another, and the largest. */
 enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600, MAX_SIDE = 1000000 };
 
-/* The options of a scene_request, whose vals are the same in all commands: rows of the table for a solver instead of
- * the scene's own, and the taking of any of the three. `text` is what the size is of. */
-enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE };
+/* The options of a scene_request, whose vals are the same in all commands: rows of the table for reading a scene, the
+ * cases of a switch over vals, and the taking of any of them. `text` is what the size is of. */
+enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE, OPTION_MAX_MEMORY };
+#define SCENE_OPTION_CASES \
+  case OPTION_SOLVER: \
+  case OPTION_TOLERANCE: \
+  case OPTION_MAX_MEMORY
 #define SCENE_SIZE_OPTION(text) COMMAND_OPTION("size", 0, OPTION_SIZE, text, "WxH")
-#define SCENE_SOLVER_OPTIONS \
+#define SCENE_OPTIONS \
   COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"), \
-    COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E")
+    COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"), \
+    COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY, "that the scene may take; default a quarter of all, at most 8G", \
+                   "SIZE")
 enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
                                const char *argument) STATUS_MUST_CHECK;
 

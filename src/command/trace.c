@@ -22,7 +22,7 @@ enum {
 
 static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
-  SCENE_SOLVER_OPTIONS,
+  SCENE_OPTIONS,
   COMMAND_FLAG("binary", 0, OPTION_BINARY, "little-endian doubles instead of text"),
   COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output, after the hits", "FILE"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "no summary on a terminal"),
@@ -39,8 +39,7 @@ static enum status take_option(const struct command *command, void *context, int
 {
   struct request *request = context;
   switch (val) {
-  case OPTION_SOLVER:
-  case OPTION_TOLERANCE:
+  SCENE_OPTION_CASES:
     return scene_request_take(command, &request->scene, val, argument);
   case OPTION_BINARY:
     request->binary = true;

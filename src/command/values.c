@@ -2,6 +2,7 @@
 #include "command/values.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "base/number.h"
@@ -60,6 +61,20 @@ bool value_number(const char *text, double *out)
   if (*text != '\0' || divisor == 0 || !isfinite(value / divisor))
     return false;
   *out = value / divisor;
+  return true;
+}
+
+bool value_bytes(const char *text, size_t *out)
+{
+  static const char units[] = "KMGT";
+  size_t value;
+  if (!read_integer(&text, SIZE_MAX, &value) || value == 0)
+    return false;
+  const char *unit = *text != '\0' ? strchr(units, *text) : NULL;
+  const int shift = unit != NULL ? 10 * (int)(unit - units + 1) : 0;
+  if (*(text + (unit != NULL)) != '\0' || value > SIZE_MAX >> shift)
+    return false;
+  *out = value << shift;
   return true;
 }
 

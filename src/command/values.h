@@ -16,6 +16,9 @@ bool value_integer(const char *text, size_t minimum, size_t maximum, size_t *out
 /* A finite number >= 0, or a quotient of two ("4/255"). */
 bool value_number(const char *text, double *out);
 
+/* Bytes: decimal digits, at least 1, with K, M, G or T (powers of 1024) behind them or nothing. */
+bool value_bytes(const char *text, size_t *out);
+
 /* "800x600", each side 1 to maximum. */
 bool value_size(const char *text, size_t maximum, size_t *out_width, size_t *out_height);
 

@@ -13,6 +13,7 @@
 #include "base/diagnostics.h"
 #include "base/double_double.h"
 #include "base/source.h"
+#include "language/table.h"
 #include "scene/scene.h"
 
 /* Blocks open within each other, and declared objects within declared objects. */
@@ -151,7 +152,11 @@ struct language {
   int made_up;         /* tokens handed out before those of the text */
   struct frame *frame; /* the sources being read */
   struct source_list *all_sources;
+  struct table files; /* the first source of each file read */
   int include_depth, source_count;
+  size_t text_bytes;  /* of all sources together */
+  size_t memory_bytes, max_memory; /* held while reading; allowed */
+  bool unaffordable;               /* more was wanted */
   int raw_words; /* in a solver statement all words are plain: 1 before the name, 2 after it, 3 in its block */
   int depth;     /* braces open */
   struct place braces[MAX_NESTING];
@@ -160,7 +165,8 @@ struct language {
   struct place recovered, told; /* where the last recovery began, what the last syntax error was about */
   struct place unknown;         /* the last word told to be unknown */
 
-  struct symbol **symbols; /* symbols.c */
+  struct table symbols;  /* symbols.c */
+  struct symbol *locals; /* of the files being read, the newest first */
 
   struct node *open; /* the innermost open object */
   int nesting;
@@ -188,6 +194,8 @@ void language_error(struct language *language, struct place place, const char *f
 bool language_sound(const struct language *language, size_t errors);
 /* A stated limit: reading ends at the next token, with STATUS_LIMIT. */
 void language_limit(struct language *language, struct place place, const char *text);
+/* Whether so many more bytes are within what settings.max_memory allows; if so they are counted. */
+bool language_afford(struct language *language, size_t bytes);
 /* zeroed, never NULL: reading ends at the next token instead */
 void *language_alloc(struct language *language, size_t size);
 
@@ -223,10 +231,10 @@ bool value_in_range(struct language *language, struct place place, const struct 
 /* ---- symbols.c ---- */
 enum symbol_kind { SYMBOL_BEGUN, SYMBOL_VALUE, SYMBOL_TEXTURE, SYMBOL_OBJECT, SYMBOL_BROKEN };
 struct symbol {
-  struct symbol *next;
+  struct table_entry entry;
+  struct symbol *older; /* local before it */
   const char *name;
   size_t length;
-  unsigned hash;
   int depth; /* 0: belongs to all; otherwise the include depth of its #local */
   enum symbol_kind kind;
   struct value value;
@@ -234,7 +242,6 @@ struct symbol {
   const struct node *object;
 };
 bool symbols_create(struct language *language); /* with `pscn` declared */
-void symbols_destroy(struct language *language);
 /* What a name stands for, or NULL: where it is not declared, or its declaration has only begun. */
 const struct symbol *symbol_find(const struct language *language, const char *name, size_t length);
 /* Whether #ifdef takes it for declared: from the = of its declaration on, as in POV-Ray. */

@@ -30,11 +30,18 @@ void language_limit(struct language *language, struct place place, const char *t
   language->ended_early = true;
 }
 
+bool language_afford(struct language *language, size_t bytes)
+{
+  language->unaffordable |= bytes > language->max_memory - language->memory_bytes;
+  if (!language->unaffordable) language->memory_bytes += bytes;
+  return !language->unaffordable;
+}
+
 /* Where memory is short a spare block stands in, and reading ends at the next token; the few blocks wanted until
  * then do not overlap. */
 void *language_alloc(struct language *language, size_t size)
 {
-  void *memory = arena_alloc(language->arena, 1, size);
+  void *memory = language_afford(language, size) ? arena_alloc(language->arena, 1, size) : NULL;
   if (memory) return memory;
   language->ended_early = true;
   const size_t alignment = _Alignof(max_align_t), room = (size + alignment - 1) / alignment * alignment;
@@ -57,13 +64,13 @@ static enum status language_create(struct language *language, const struct langu
   camera_default(&language->camera);
   method_default(solver_at(0), &language->global_solver);
   language->arena = arena_create();
+  language->max_memory = settings->max_memory ? settings->max_memory : SIZE_MAX;
   return language->arena && symbols_create(language) ? STATUS_OK : STATUS_LIMIT;
 }
 
 static void language_destroy(struct language *language)
 {
   sources_close(language);
-  symbols_destroy(language);
   arena_destroy(language->arena);
 }
 
@@ -129,10 +136,12 @@ static enum status parse(struct language *language)
 }
 
 /* A reading that ended for want of memory has not said so itself. */
-static void tell_limit(struct diagnostics *diagnostics, enum status status, size_t errors_before)
+static void tell_limit(const struct language *language, enum status status, size_t errors_before)
 {
-  if (status != STATUS_LIMIT || diagnostics->error_count > errors_before) return;
-  diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "memory is short");
+  if (status != STATUS_LIMIT || language->diagnostics->error_count > errors_before) return;
+  diagnostics_error(language->diagnostics, (struct place){NULL, 0, 0}, "%s",
+                    language->unaffordable ? "reading takes more memory than is allowed; --max-memory allows more"
+                                           : "memory is short");
 }
 
 static enum status load(struct source *source, const struct language_settings *settings,
@@ -144,7 +153,7 @@ static enum status load(struct source *source, const struct language_settings *s
   if (status != STATUS_OK) source_destroy(source);
   else status = sources_open(&language, source) ? parse(&language) : STATUS_LIMIT;
   if (status == STATUS_OK) status = make_scene(&language, out_scene);
-  tell_limit(diagnostics, status, before);
+  tell_limit(&language, status, before);
   language_destroy(&language);
   if (status == STATUS_OK) status = override(*out_scene, settings, diagnostics);
   if (status == STATUS_OK) return STATUS_OK;
@@ -159,7 +168,7 @@ enum status language_load(const char *path, const struct language_settings *sett
   *out_scene = NULL;
   struct source *source;
   const char *reason;
-  const enum status status = source_read(path, &source, &reason);
+  const enum status status = source_read(path, SOURCE_FILE_OR_PIPE, &source, &reason);
   if (status == STATUS_OK) return load(source, settings, diagnostics, out_scene);
   diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "%s: %s", path, reason);
   return status;
@@ -178,7 +187,7 @@ enum status language_load_text(const char *name, const char *text, size_t length
 
 enum status language_parse_solver(const char *text, struct diagnostics *diagnostics, struct method *out_method)
 {
-  const struct language_settings settings = {1, 1, NULL, NAN};
+  const struct language_settings settings = {.image_width = 1, .image_height = 1, .tolerance = NAN};
   struct language language;
   const size_t before = diagnostics->error_count;
   enum status status = language_create(&language, &settings, diagnostics);
@@ -189,7 +198,7 @@ enum status language_parse_solver(const char *text, struct diagnostics *diagnost
   }
   if (status == STATUS_OK) *out_method = language.solver;
   if (status == STATUS_INPUT) status = STATUS_USAGE;
-  tell_limit(diagnostics, status, before);
+  tell_limit(&language, status, before);
   language_destroy(&language);
   return status;
 }

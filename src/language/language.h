@@ -16,6 +16,7 @@ struct language_settings {
   int image_width, image_height; /* pixels, >= 1: what image_width and image_height mean in the scene */
   const char *solver_text;       /* --solver TEXT: overrides every solver statement of the scene; or NULL */
   double tolerance;              /* --tolerance E: overrides that item everywhere, after solver_text; or NAN */
+  size_t max_memory;             /* --max-memory SIZE: bytes that the text and the patches may take; or 0: no limit */
 };
 
 /* Reads the scene file at `path`. The caller destroys *out_scene; on failure it is NULL and diagnostics have been

@@ -1,10 +1,14 @@
 /* Patches, unions and copies of declared objects. */
 #include <math.h>
+#include <stdio.h>
 
 #include "language/build.h"
 
 /* Patches of one scene: what fits in the memory of a large machine. */
 #define MAX_PATCHES ((size_t)50 * 1000 * 1000)
+
+/* What rendering holds of a patch at least: its net, its boxes, its places in lists. Measured on copies of one patch. */
+#define PATCH_BYTES ((size_t)1400)
 
 enum {
   PATCH_POINTS = 16,
@@ -117,16 +121,26 @@ void patch_end(struct language *language)
 
 /* ---- unions ---- */
 
+/* Patches are counted, never built, until all text has been read. */
+static void count_patches(struct language *language, struct node *parent, struct place place)
+{
+  char text[100];
+  const size_t affordable = language->max_memory / PATCH_BYTES;
+  const size_t most = affordable < MAX_PATCHES ? affordable : MAX_PATCHES;
+  if (parent->patch_count <= most) return;
+  snprintf(text, sizeof text, "the scene has more than %zu patches%s", most,
+           affordable < MAX_PATCHES ? "; --max-memory allows more" : "");
+  language_limit(language, place, text);
+  parent->patch_count = most;
+}
+
 static void add_child(struct language *language, struct node *parent, struct node *child, struct place place)
 {
   if (parent->last) parent->last->next = child;
   else parent->first = child;
   parent->last = child;
   parent->patch_count += child->patch_count;
-  if (parent->patch_count > MAX_PATCHES) {
-    language_limit(language, place, "the scene has more than 50000000 patches");
-    parent->patch_count = MAX_PATCHES;
-  }
+  count_patches(language, parent, place);
   if (child->height >= parent->height) parent->height = child->height + 1;
   if (parent->height == MAX_NESTING) language_limit(language, place, "objects are nested more than 200 deep");
 }

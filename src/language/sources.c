@@ -10,24 +10,38 @@ enum {
   MAX_SOURCES = 10000 /* files that include each other without a cycle can still ask for any number of reads */
 };
 
+/* Likewise of the bytes in them: a minute's reading. */
+#define MAX_TEXT_BYTES ((size_t)4 << 30)
+
 /* Every source read stays until the end: tokens, names and places point into their texts. */
 struct source_list {
+  struct table_entry entry; /* of the first source of its file */
   struct source_list *next;
   struct source *source;
 };
+
+static uint64_t hash_of_file(uint64_t device, uint64_t inode)
+{
+  return table_hash((const uint64_t[]){device, inode}, 2 * sizeof(uint64_t));
+}
 
 bool sources_open(struct language *language, struct source *source)
 {
   struct source_list *entry = calloc(1, sizeof *entry);
   struct frame *frame = calloc(1, sizeof *frame);
-  if (!entry || !frame || !pscn_scan_open(&frame->scan, source->text, source->length)) {
+  const size_t taken = source->shared ? 0 : source->length;
+  if (!entry || !frame || !language_afford(language, taken) || !pscn_scan_open(&frame->scan, source->text, source->length)) {
     free(entry);
     free(frame);
     source_destroy(source);
     return false;
   }
-  *entry = (struct source_list){language->all_sources, source};
+  *entry = (struct source_list){.next = language->all_sources, .source = source};
   language->all_sources = entry;
+  if (!source->shared && source->inode != 0 &&
+      !table_add(&language->files, language->arena, &entry->entry, hash_of_file(source->device, source->inode)))
+    language->ended_early = true;
+  language->text_bytes += source->length;
   frame->source = source;
   frame->outer = language->frame;
   language->frame = frame;
@@ -96,6 +110,19 @@ static void tell_cycle(struct language *language, struct place place, const stru
   language_error(language, place, "files include each other: %s%s", text, again->name);
 }
 
+/* The first source of the file at `path`, if it has been read already. */
+static const struct source *known_file(const struct language *language, const char *path)
+{
+  uint64_t device, inode;
+  if (!source_identify(path, &device, &inode)) return NULL;
+  const struct table_entry *entry = table_find(&language->files, hash_of_file(device, inode));
+  for (; entry; entry = table_next(entry)) {
+    const struct source *source = ((const struct source_list *)entry)->source;
+    if (source->device == device && source->inode == inode) return source;
+  }
+  return NULL;
+}
+
 static bool is_open(const struct language *language, const struct source *source)
 {
   const struct frame *f = language->frame;
@@ -118,10 +145,16 @@ static struct source *read_included(struct language *language, struct place plac
     language->ended_early = true;
     return NULL;
   }
-  const enum status status = source_read(path, &source, &reason);
-  if (status != STATUS_OK) {
+  const struct source *known = known_file(language, path);
+  enum status status = STATUS_OK;
+  if (known) source = source_share(known, path);
+  else status = source_read(path, SOURCE_FILE, &source, &reason);
+  if (status == STATUS_FILE) {
     language_error(language, place, "cannot include '%s': %s", path, reason);
-    if (status == STATUS_LIMIT) language->ended_early = true;
+    return NULL;
+  }
+  if (!source) {
+    language_limit(language, place, known ? "memory is short" : reason);
     return NULL;
   }
   if (is_open(language, source)) {
@@ -146,6 +179,10 @@ void sources_include(struct language *language)
   }
   if (language->source_count == MAX_SOURCES) {
     language_limit(language, place, "more than 10000 files are included");
+    return;
+  }
+  if (language->text_bytes > MAX_TEXT_BYTES) {
+    language_limit(language, place, "more than 4 GiB of text are included");
     return;
   }
   struct source *source = read_included(language, place);

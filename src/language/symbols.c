@@ -1,28 +1,18 @@
-/* Declared names: a hash table of chains. */
-#include <stdlib.h>
+/* Declared names. */
 #include <string.h>
 
 #include "language/build.h"
 #include "language/tokens.h"
 #include "language/words.h"
 
-enum { BUCKETS = 4096 };
-
-/* FNV-1a. */
-static unsigned hash_of(const char *name, size_t length)
-{
-  unsigned hash = 2166136261u;
-  for (size_t k = 0; k < length; k++) hash = (hash ^ (unsigned char)name[k]) * 16777619u;
-  return hash;
-}
-
 /* The innermost of that name; with `depth` at least 0, only that of that depth. */
 static struct symbol *find(const struct language *language, const char *name, size_t length, int depth)
 {
-  const unsigned hash = hash_of(name, length);
   struct symbol *best = NULL;
-  for (struct symbol *s = language->symbols[hash % BUCKETS]; s; s = s->next) {
-    if (s->hash != hash || s->length != length || memcmp(s->name, name, length) != 0) continue;
+  struct table_entry *entry = table_find(&language->symbols, table_hash(name, length));
+  for (; entry; entry = table_next(entry)) {
+    struct symbol *s = (struct symbol *)entry;
+    if (s->length != length || memcmp(s->name, name, length) != 0) continue;
     if (depth >= 0 && s->depth != depth) continue;
     if (!best || s->depth > best->depth) best = s;
   }
@@ -32,26 +22,25 @@ static struct symbol *find(const struct language *language, const char *name, si
 static struct symbol *add(struct language *language, const char *name, size_t length, int depth)
 {
   struct symbol *symbol = language_alloc(language, sizeof *symbol);
+  *symbol = (struct symbol){.name = name, .length = length, .depth = depth};
   if (language->ended_early) return symbol;
-  const unsigned hash = hash_of(name, length);
-  *symbol = (struct symbol){.next = language->symbols[hash % BUCKETS], .name = name, .length = length, .hash = hash,
-                            .depth = depth};
-  language->symbols[hash % BUCKETS] = symbol;
+  if (!table_add(&language->symbols, language->arena, &symbol->entry, table_hash(name, length))) {
+    language->ended_early = true;
+  } else if (depth > 0) {
+    symbol->older = language->locals;
+    language->locals = symbol;
+  }
   return symbol;
 }
 
 bool symbols_create(struct language *language)
 {
   static const char name[] = "pscn";
-  language->symbols = calloc(BUCKETS, sizeof *language->symbols);
-  if (!language->symbols) return false;
   struct symbol *symbol = add(language, name, sizeof name - 1, 0);
   symbol->kind = SYMBOL_VALUE;
   symbol->value = value_of_number(1);
   return !language->ended_early;
 }
-
-void symbols_destroy(struct language *language) { free(language->symbols); }
 
 const struct symbol *symbol_find(const struct language *language, const char *name, size_t length)
 {
@@ -66,13 +55,8 @@ bool symbol_known(const struct language *language, const char *name, size_t leng
 
 void symbols_leave(struct language *language, int depth)
 {
-  if (depth == 0) return;
-  for (size_t b = 0; b < BUCKETS; b++) {
-    for (struct symbol **s = &language->symbols[b]; *s;) {
-      if ((*s)->depth >= depth) *s = (*s)->next;
-      else s = &(*s)->next;
-    }
-  }
+  for (; language->locals && language->locals->depth >= depth; language->locals = language->locals->older)
+    table_remove(&language->symbols, &language->locals->entry);
 }
 
 /* ---- what is told of names ---- */
@@ -80,8 +64,9 @@ void symbols_leave(struct language *language, int depth)
 void symbols_consider(const struct language *language, const char *word, size_t length, const char **best,
                       size_t *best_length, size_t *distance)
 {
-  for (size_t b = 0; b < BUCKETS; b++) {
-    for (const struct symbol *s = language->symbols[b]; s; s = s->next) {
+  for (size_t k = 0; k < language->symbols.size; k++) {
+    for (const struct table_entry *entry = language->symbols.heads[k]; entry; entry = entry->next) {
+      const struct symbol *s = (const struct symbol *)entry;
       if (s->kind != SYMBOL_BEGUN) words_consider(word, length, s->name, s->length, best, best_length, distance);
     }
   }
@@ -92,6 +77,7 @@ void symbol_unknown(struct language *language, struct place place, const struct 
   const char *best = NULL;
   size_t best_length = 0, distance = words_reach(name->length);
   language->unknown = place;
+  if (diagnostics_full(language->diagnostics)) distance = 0; /* nobody would read the guess */
   symbols_consider(language, name->text, name->length, &best, &best_length, &distance);
   keywords_consider(name->text, name->length, &best, &best_length, &distance);
   if (best) {

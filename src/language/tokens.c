@@ -151,9 +151,19 @@ static bool end_of_source(struct language *language)
   return true;
 }
 
+/* Text from a command line names no files and asks nothing. */
+static bool refused_directive(struct language *language, int token)
+{
+  const bool directive = token >= TOKEN_INCLUDE && token <= TOKEN_UNKNOWN_DIRECTIVE;
+  if (!language->solver_only || !(directive || (token >= PSCN_TOKEN_VERSION && token <= PSCN_TOKEN_LOCAL))) return false;
+  language_error(language, sources_here(language), "the text of a solver has no directives");
+  return true;
+}
+
 /* Deals with what is not the grammar's: true where `token` was such and the next one is wanted. */
 static bool aside(struct language *language, int token)
 {
+  if (refused_directive(language, token)) return true;
   switch (token) {
   case 0: return end_of_source(language);
   case TOKEN_INCLUDE: sources_include(language); return true;

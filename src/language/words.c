@@ -118,6 +118,7 @@ void words_consider(const char *word, size_t length, const char *candidate, size
                     size_t *best_length, size_t *distance)
 {
   if (length > LONGEST_COMPARED || candidate_length > LONGEST_COMPARED) return;
+  if (length > candidate_length + *distance || candidate_length > length + *distance) return;
   const size_t d = distance_between(word, length, candidate, candidate_length);
   /* A word all of whose letters are wrong is no misspelling. */
   if (d >= length || d > *distance || (*best && d == *distance)) return;

@@ -16,7 +16,7 @@
 #include "language/language.h"
 #include "scene/dump.h"
 
-static const struct language_settings SETTINGS = { 800, 600, NULL, NAN };
+static const struct language_settings SETTINGS = { .image_width = 800, .image_height = 600, .tolerance = NAN };
 
 static void tell(void *context, const char *text, size_t length)
 {

@@ -1,5 +1,6 @@
 /* The face of the language: statuses, settings, solver texts, and texts too long or too deep to stand in a file. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -25,7 +26,7 @@ static struct diagnostics listener(void)
   return (struct diagnostics){ .tell = tell };
 }
 
-static const struct language_settings PLAIN = { 320, 200, NULL, NAN };
+static const struct language_settings PLAIN = { .image_width = 320, .image_height = 200, .tolerance = NAN };
 
 static enum status load(const char *text, size_t length, const struct language_settings *settings, struct scene **out)
 {
@@ -100,6 +101,9 @@ static void test_wrong_solver_texts(void **state)
       {"aberth } x", "<--solver>:1:8: error: unexpected '}', expected '{'\n  aberth } x\n         ^\n"},
       {"aberth {} camera", "<--solver>:1:11: error: unexpected 'camera', expected the end of the text\n  aberth {} "
                            "camera\n            ^~~~~~\n"},
+      {"#include \"ok/empty.pscn\"", "<--solver>:1:1: error: the text of a solver has no directives\n"},
+      {"aberth #ifdef (pscn)", "<--solver>:1:8: error: the text of a solver has no directives\n"},
+      {"aberth { #declare A = 1; }", "<--solver>:1:10: error: the text of a solver has no directives\n"},
       {"solver aberth", "<--solver>:1:1: error: there is no solver 'solver', only "},
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -119,7 +123,7 @@ static void test_override(void **state)
   static const char text[] =
     "#declare P = bicubic_patch { type 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 solver newton { tolerance 1e-3 } }"
     "object { P } global_settings { solver aberth { tolerance 1e-4 } }";
-  struct language_settings settings = { 1, 1, NULL, 1e-8 };
+  struct language_settings settings = { .image_width = 1, .image_height = 1, .tolerance = 1e-8 };
   struct scene *scene = NULL;
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_OK);
   assert_int_equal(scene->solver_count, 2);
@@ -142,7 +146,7 @@ static void test_override(void **state)
 
   settings.tolerance = 0;
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
-  settings = (struct language_settings){ 1, 1, "nothing", NAN };
+  settings = (struct language_settings){ .image_width = 1, .image_height = 1, .solver_text = "nothing", .tolerance = NAN };
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
   assert_null(scene);
 }
@@ -185,6 +189,85 @@ static void test_long_texts(void **state)
     scene_destroy(scene);
     free(text);
   }
+}
+
+/* A quarter of a million names, many more that are not known, and ten thousand files that forget theirs: minutes if any
+ * of it took time in proportion to all that there is. */
+static void test_many_names(void **state)
+{
+  (void)state;
+  enum { NAMES = 250000 };
+  char *text = NULL;
+  size_t length = 0;
+  FILE *memory = open_memstream(&text, &length);
+  assert_non_null(memory);
+  for (int k = 0; k < NAMES; k++) assert_true(fprintf(memory, "#declare Name%d = %d;\n", k, k) > 0);
+  for (int k = 0; k < 9000; k++) assert_true(fprintf(memory, "#include \"ok/included/local.inc\"\n") > 0);
+  assert_true(fprintf(memory, "background { rgb Name%d }\n", NAMES - 1) > 0);
+  assert_int_equal(fflush(memory), 0);
+  struct scene *scene = NULL;
+  assert_int_equal(load(text, length, &PLAIN, &scene), STATUS_OK);
+  assert_true(scene->background[0] == NAMES - 1);
+  scene_destroy(scene);
+  for (int k = 0; k < NAMES; k++) assert_true(fprintf(memory, "#declare Other%d = Nmae%d;\n", k, k) > 0);
+  assert_int_equal(fclose(memory), 0);
+  assert_int_equal(load(text, length, &PLAIN, &scene), STATUS_INPUT);
+  free(text);
+}
+
+/* Files that include each other hold each text once. */
+static void test_included_often(void **state)
+{
+  (void)state;
+  struct language_settings settings = PLAIN;
+  struct scene *scene = NULL;
+  struct diagnostics diagnostics = listener();
+  settings.max_memory = 200 * 1000;
+  assert_int_equal(language_load("ok/includes_often.pscn", &settings, &diagnostics, &scene), STATUS_OK);
+  scene_destroy(scene);
+  settings.max_memory = 10 * 1000;
+  diagnostics = listener();
+  assert_int_equal(language_load("ok/includes_often.pscn", &settings, &diagnostics, &scene), STATUS_LIMIT);
+  assert_non_null(strstr(told, "--max-memory allows more"));
+}
+
+/* Patches are counted before any is built: at once, however many there are. */
+static void test_max_memory(void **state)
+{
+  (void)state;
+  char text[10000] = "#declare U = bicubic_patch { type 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 }";
+  for (int k = 0; k < 24; k++) strcat(text, "#declare U = union { object { U } object { U } }");
+  strcat(text, "object { U }");
+  struct language_settings settings = PLAIN;
+  struct scene *scene = NULL;
+  settings.max_memory = (size_t)2 << 30;
+  assert_int_equal(load(text, strlen(text), &settings, &scene), STATUS_LIMIT);
+  assert_non_null(strstr(told, "the scene has more than 1533916 patches; --max-memory allows more"));
+  assert_null(scene);
+}
+
+/* What is included is a file; a pipe that nobody writes to is not waited for. */
+static void test_included_kinds(void **state)
+{
+  (void)state;
+  char folder[] = "/tmp/pscn-XXXXXX", path[64], text[200];
+  assert_non_null(mkdtemp(folder));
+  (void)snprintf(path, sizeof path, "%s/pipe", folder);
+  assert_int_equal(mkfifo(path, 0600), 0);
+  const char *const names[] = { path, "/dev/zero", "/dev/null", "ok" };
+  static const char *const reasons[] = { ": it is a pipe\n", ": it is a device\n", ": it is a device\n",
+                                         ": it is a directory\n" };
+  for (size_t k = 0; k < 4; k++) {
+    struct scene *scene = NULL;
+    (void)snprintf(text, sizeof text, "#include \"%s\"", names[k]);
+    assert_int_equal(load(text, strlen(text), &PLAIN, &scene), STATUS_INPUT);
+    assert_non_null(strstr(told, reasons[k]));
+  }
+  struct scene *scene = NULL;
+  struct diagnostics diagnostics = listener();
+  assert_int_equal(language_load("/dev/zero", &PLAIN, &diagnostics, &scene), STATUS_FILE);
+  unlink(path);
+  rmdir(folder);
 }
 
 /* 2^150 copies of nothing take no time. */
@@ -246,7 +329,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_files),         cmocka_unit_test(test_unreadable_file),    cmocka_unit_test(test_size),
     cmocka_unit_test(test_solver_text),   cmocka_unit_test(test_wrong_solver_texts), cmocka_unit_test(test_override),
-    cmocka_unit_test(test_long_texts),    cmocka_unit_test(test_many_empty_copies),
+    cmocka_unit_test(test_long_texts),    cmocka_unit_test(test_many_empty_copies),  cmocka_unit_test(test_many_names),
+    cmocka_unit_test(test_max_memory),    cmocka_unit_test(test_included_often),     cmocka_unit_test(test_included_kinds),
     cmocka_unit_test(test_copies),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -23,7 +23,7 @@ enum {
   MAX_FILES = 200
 };
 
-static const struct language_settings SETTINGS = { 800, 600, NULL, NAN };
+static const struct language_settings SETTINGS = { .image_width = 800, .image_height = 600, .tolerance = NAN };
 
 static const char *const STREWN[] = {"{",
                                      "}",
