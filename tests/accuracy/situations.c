@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "accuracy/generate.h"
 #include "accuracy/models.h"
 
 enum { RAYS = SITUATION_RAYS };
@@ -11,34 +12,6 @@ enum { RAYS = SITUATION_RAYS };
 /* ---- pieces the generators share ---- */
 
 static double *point(struct situation *s, int i, int j) { return s->P[0][i][j]; }
-
-/* A nearly regular net over [-1.5,1.5]^2 with heights of +-`height`. */
-static void gentle(struct random *random, double height, double P[4][4][3])
-{
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      P[i][j][0] = i - 1.5 + 0.2 * random_between(random, -1, 1);
-      P[i][j][1] = j - 1.5 + 0.2 * random_between(random, -1, 1);
-      P[i][j][2] = height * random_between(random, -1, 1);
-    }
-  }
-}
-
-/* origin may be the ray's own. */
-static void ray_between(const double origin[3], const double target[3], struct ray *ray)
-{
-  for (int axis = 0; axis < 3; axis++) {
-    ray->direction[axis] = target[axis] - origin[axis];
-    ray->origin[axis] = origin[axis];
-  }
-  ray->t_min = 0;
-  ray->t_max = INFINITY;
-}
-
-static void random_vector(struct random *random, double size, double out[3])
-{
-  for (int axis = 0; axis < 3; axis++) out[axis] = size * random_between(random, -1, 1);
-}
 
 /* Rays at random points of patch 0 from all around. */
 static void rays_at_patch(struct random *random, struct situation *s)
@@ -63,12 +36,6 @@ static void transpose(struct situation *s)
       memcpy(point(s, j, i), p, sizeof p);
     }
   }
-}
-
-/* 10^-k, k counting with the index. */
-static double decade(size_t index, int first, int last)
-{
-  return pow(10, -(double)(first + (int)(index % (size_t)(last - first + 1))));
 }
 
 /* ---- the classes ---- */

@@ -1,0 +1,210 @@
+/* Answers against the exact roots of all patches; see certificate.h. */
+#include "accuracy/certificate.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "accuracy/exact.h"
+#include "accuracy/trial.h"
+#include "cmocka_test.h"
+
+/* Relative to the largest coordinate of point and origin: T may be off by this much besides, which is well below one
+ * rounding of a coordinate. Where a patch is thin, its floor is smaller still. */
+#define LEAST_ALLOWED 0x1p-60
+
+/* A grazing answer may overlook a root this near to the ray's origin, relative to the same. */
+#define AT_ORIGIN 0x1p-46
+
+/* However ill-conditioned a certain hit is, T is right to this share. */
+#define MOST_ALLOWED 0x1p-10
+
+const char *const finding_names[FINDINGS] = {"proven", "undecided", "lost", "later", "invented"};
+
+void certifier_create(struct certifier *certifier, const struct scene *scene, struct reference *reference)
+{
+  *certifier = (struct certifier){scene, reference, NULL};
+  certifier->boxes = calloc(scene->patch_count ? scene->patch_count : 1, sizeof *certifier->boxes);
+  assert_non_null(certifier->boxes);
+  for (size_t n = 0; n < scene->patch_count; n++) {
+    for (int axis = 0; axis < 3; axis++) {
+      double low = INFINITY, high = -INFINITY;
+      for (int k = 0; k < 16; k++) {
+        const double x = scene->patches[n].P[k / 4][k % 4][axis];
+        low = fmin(low, x), high = fmax(high, x);
+      }
+      certifier->boxes[n][0][axis] = low, certifier->boxes[n][1][axis] = high;
+    }
+  }
+}
+
+void certifier_destroy(struct certifier *certifier) { free(certifier->boxes); }
+
+/* False only where the line surely passes the box by: in the plane of any two axes the corners lie all on one side,
+ * by more than 8 roundings. */
+static bool may_meet(const double box[2][3], const struct ray *ray)
+{
+  for (int k = 0; k < 3; k++) {
+    const int i = (k + 1) % 3;
+    const double di = ray->direction[i], dk = ray->direction[k];
+    double low = INFINITY, high = -INFINITY, size = 0;
+    for (int corner = 0; corner < 4; corner++) {
+      const double x = box[corner & 1][i] - ray->origin[i], y = box[corner >> 1][k] - ray->origin[k];
+      const double side = dk * x - di * y;
+      if (!isfinite(side)) return true;
+      low = fmin(low, side), high = fmax(high, side);
+      size = fmax(size, fabs(dk * x) + fabs(di * y));
+    }
+    const double error = 8 * DOUBLE_UNIT * size + 0x1p-1060;
+    if (low > error || high < -error) return false;
+  }
+  return true;
+}
+
+static double length_of(const double a[3]) { return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+
+struct judging {
+  const struct certifier *certifier;
+  const struct ray *ray;
+  const struct hit *hit;
+  struct certificate *out;
+  double allowed;                /* what T may be off by, at the answer's own place */
+  struct exact_root at, before;  /* the root at T; the first before it */
+  uint32_t at_patch, before_patch; /* or REFERENCE_NONE */
+  bool doubt_at, doubt_before;
+};
+
+/* The largest coordinate of the origin and of the point at t, in units of t. */
+static double size_at(const struct ray *ray, double t)
+{
+  double size = 0;
+  for (int axis = 0; axis < 3; axis++)
+    size = fmax(size, fmax(fabs(ray->origin[axis]), fabs(ray->origin[axis] + t * ray->direction[axis])));
+  return size / length_of(ray->direction);
+}
+
+static double floor_at(const struct judging *j, uint32_t patch, double t, double u, double v)
+{
+  const double f = reference_floor_at(j->certifier->reference, patch, j->ray->origin, j->ray->direction, t, u, v);
+  const double least = LEAST_ALLOWED / CERTIFICATE_FLOORS * size_at(j->ray, t);
+  return f > least ? f : f > 0 ? least : INFINITY; /* not a number: singular */
+}
+
+/* All roots of a patch that matter to a hit. */
+static void judge_patch(struct judging *j, uint32_t patch)
+{
+  const double T = j->hit->t, end = T + 2 * j->allowed;
+  const bool certain = j->hit->certainty == CERTAINTY_CERTAIN;
+  const double at_origin = AT_ORIGIN * size_at(j->ray, 0);
+  struct exact_roots roots;
+  exact_patch_roots(j->certifier->scene->patches[patch].P, j->ray->origin, j->ray->direction, j->ray->t_min,
+                    j->ray->t_max < end ? j->ray->t_max : end, T, &roots);
+  j->out->boxes += roots.boxes;
+  for (size_t n = 0; n < roots.count; n++) {
+    const struct exact_root *root = &roots.root[n];
+    if (!root->proven) {
+      j->doubt_before |= root->t_off < -j->allowed;
+      j->doubt_at |= root->t_off <= j->allowed && root->t_end >= -j->allowed;
+      continue;
+    }
+    const double off = fabs(root->t_off) / floor_at(j, patch, T + root->t_off, root->u, root->v);
+    if (off <= CERTIFICATE_FLOORS && (j->at_patch == REFERENCE_NONE || off < j->out->off))
+      j->at = *root, j->at_patch = patch, j->out->off = off;
+    const bool before = root->t_off < 0 && off > CERTIFICATE_FLOORS &&
+                        (certain || (-root->t_off > j->allowed && T + root->t_off > at_origin));
+    if (before && (j->before_patch == REFERENCE_NONE || root->t_off < j->before.t_off))
+      j->before = *root, j->before_patch = patch;
+  }
+}
+
+static void tell_root(struct judging *j, const struct exact_root *root, uint32_t patch)
+{
+  struct certificate *out = j->out;
+  out->t = j->hit->t + root->t_off, out->u = root->u, out->v = root->v, out->patch = patch;
+  out->off = fabs(root->t_off) / floor_at(j, patch, out->t, root->u, root->v);
+}
+
+/* Where there is no root at T: the nearest one there is. */
+static void nearest_root(struct judging *j)
+{
+  const struct certifier *c = j->certifier;
+  double nearest = INFINITY;
+  for (size_t n = 0; n < c->scene->patch_count; n++) {
+    if (!may_meet((const double(*)[3])c->boxes[n], j->ray)) continue;
+    struct exact_roots roots;
+    exact_patch_roots(c->scene->patches[n].P, j->ray->origin, j->ray->direction, j->ray->t_min, j->ray->t_max,
+                      j->hit->t, &roots);
+    for (size_t k = 0; k < roots.count; k++) {
+      const struct exact_root *root = &roots.root[k];
+      if (!root->proven || fabs(root->t_off) >= nearest) continue;
+      nearest = fabs(root->t_off);
+      tell_root(j, root, (uint32_t)n);
+    }
+  }
+}
+
+static void judge_hit(struct judging *j)
+{
+  const struct hit *hit = j->hit;
+  const bool certain = hit->certainty == CERTAINTY_CERTAIN;
+  double size = length_of(j->ray->direction) * size_at(j->ray, hit->t);
+  for (int axis = 0; axis < 3; axis++)
+    size = fmax(size, fmax(fabs(j->certifier->boxes[hit->patch][0][axis]), fabs(j->certifier->boxes[hit->patch][1][axis])));
+  const double near = TRIAL_NEAR * size / length_of(j->ray->direction);
+  const double floor = floor_at(j, hit->patch, hit->t, hit->u, hit->v);
+  j->allowed = certain ? CERTIFICATE_FLOORS * floor : near + TRIAL_SAME_FLOORS * floor;
+  const double most = certain ? MOST_ALLOWED * hit->t : 0x1p10 * near;
+  if (!(j->allowed <= most)) j->allowed = most;
+  for (size_t n = 0; n < j->certifier->scene->patch_count; n++)
+    if (may_meet((const double(*)[3])j->certifier->boxes[n], j->ray)) judge_patch(j, (uint32_t)n);
+  struct certificate *out = j->out;
+  const bool exists = j->at_patch != REFERENCE_NONE;
+  const bool before = j->before_patch != REFERENCE_NONE && !(exists && j->at.t_off <= j->before.t_off);
+  out->sure = exists && !before && !j->doubt_before;
+  if (exists) tell_root(j, &j->at, j->at_patch);
+  if (before) {
+    tell_root(j, &j->before, j->before_patch);
+    out->finding = FINDING_LATER;
+  } else if (!certain) {
+    const double off = reference_residual(j->certifier->reference, hit->patch, j->ray->origin, j->ray->direction, hit->t,
+                                          hit->u, hit->v);
+    out->finding = off <= TRIAL_NEAR * size ? FINDING_PROVEN : FINDING_INVENTED;
+  } else if (!exists && !j->doubt_at) {
+    out->finding = FINDING_INVENTED;
+  } else {
+    out->finding = exists && !j->doubt_before ? FINDING_PROVEN : FINDING_UNDECIDED;
+  }
+  if (out->finding == FINDING_INVENTED) nearest_root(j);
+}
+
+static void judge_miss(struct judging *j)
+{
+  const struct certifier *c = j->certifier;
+  const bool grazing = j->hit->certainty == CERTAINTY_GRAZING;
+  bool doubt = false;
+  for (size_t n = 0; n < c->scene->patch_count; n++) {
+    if (!may_meet((const double(*)[3])c->boxes[n], j->ray)) continue;
+    struct exact_roots roots;
+    exact_patch_roots(c->scene->patches[n].P, j->ray->origin, j->ray->direction, j->ray->t_min, j->ray->t_max, 0,
+                      &roots);
+    j->out->boxes += roots.boxes;
+    for (size_t k = 0; k < roots.count; k++) {
+      const struct exact_root *root = &roots.root[k];
+      doubt |= !root->proven;
+      if (!root->proven || root->t_off >= j->out->t) continue;
+      if (grazing && root->t_off < AT_ORIGIN * size_at(j->ray, 0)) continue;
+      j->out->finding = FINDING_LOST;
+      j->out->t = root->t_off, j->out->u = root->u, j->out->v = root->v, j->out->patch = (uint32_t)n;
+    }
+  }
+  if (j->out->finding == FINDING_LOST) return;
+  j->out->sure = !doubt;
+  j->out->finding = doubt && !grazing ? FINDING_UNDECIDED : FINDING_PROVEN;
+}
+
+void certify(const struct certifier *certifier, const struct ray *ray, const struct hit *hit, struct certificate *out)
+{
+  *out = (struct certificate){.finding = FINDING_PROVEN, .t = INFINITY, .patch = REFERENCE_NONE};
+  struct judging j = {.certifier = certifier, .ray = ray, .hit = hit, .out = out};
+  j.at_patch = j.before_patch = REFERENCE_NONE;
+  (hit->patch == HIT_NONE ? judge_miss : judge_hit)(&j);
+}

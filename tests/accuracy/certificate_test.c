@@ -1,0 +1,154 @@
+/* Every answer proven or refuted by the exact judge: all classes of situations.h and hostile.h, with every solver and
+ * with whole patches. Nothing may be refuted, whatever the answer called itself. Prints for each class and solver the
+ * counts, the share of grazing answers, and the slowest ray. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "accuracy/certificate.h"
+#include "accuracy/exact.h"
+#include "accuracy/hostile.h"
+#include "accuracy/trial.h"
+#include "cmocka_test.h"
+#include "effort.h"
+#include "random.h"
+
+/* The default solver gets all rays, the others this share. */
+#define OTHERS_SHARE 0.1
+enum { FULL_RAYS = 1000000, LEAST_RAYS = 16, MOST_CLASSES = 64, MOST_SHOWN = 6 };
+
+struct method {
+  const char *solver;
+  int split; /* 0: the solver's own */
+};
+static const struct method methods[] = {{"bernstein", 0}, {"newton", 0},    {"laguerre", 0},
+                                        {"aberth", 0},    {"bernstein", 1}, {"bernstein", 8}};
+enum { METHODS = sizeof methods / sizeof methods[0] };
+
+struct count {
+  size_t rays, answers[2][FINDINGS]; /* certain, grazing */
+  size_t grazing_sure;               /* grazing though the judge proves the answer */
+  double slowest;                    /* seconds */
+  struct ray slowest_ray;
+};
+
+static const struct situation_class *class_at(size_t n)
+{
+  const size_t count = situation_class_count();
+  return n < count ? situation_class_at(n) : hostile_class_at(n - count);
+}
+
+static double seconds(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void show(const char *name, const struct method *method, const struct situation *s, const struct ray *ray,
+                 const struct hit *hit, const struct certificate *c)
+{
+  static size_t shown = 0;
+  if (shown++ >= MOST_SHOWN && !getenv("PSCN_SHOW")) return;
+  const double *o = ray->origin, *d = ray->direction;
+  printf("%s, %s, split %d: %s %s\n  ray %.17g %.17g %.17g %.17g %.17g %.17g\n", name, method->solver, method->split,
+         hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[c->finding], o[0], o[1], o[2], d[0],
+         d[1], d[2]);
+  if (hit->patch != HIT_NONE)
+    printf("  answer t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
+  if (c->patch != REFERENCE_NONE)
+    printf("  truth  t %.17g u %.17g v %.17g patch %u, %.3g floors\n", c->t, c->u, c->v, (unsigned)c->patch, c->off);
+  if (!getenv("PSCN_SHOW")) return;
+  printf("  scene\n");
+  for (size_t n = 0; n < s->count; n++) {
+    printf("bicubic_patch { type 1 flatness 0 u_steps 5 v_steps 5\n");
+    for (int k = 0; k < 16; k++)
+      printf("  <%.17g, %.17g, %.17g>%s\n", s->P[n][k / 4][k % 4][0], s->P[n][k / 4][k % 4][1],
+             s->P[n][k / 4][k % 4][2], k < 15 ? "," : "\n pigment { color rgb 1 } }");
+  }
+}
+
+static void run_situation(const char *name, const struct method *method, const struct situation *s,
+                          struct count *count)
+{
+  struct solver_options options;
+  for (size_t n = 0; n < solver_count(); n++)
+    if (!strcmp(solver_at(n)->name, method->solver)) solver_options_default(solver_at(n), &options);
+  if (method->split) options.split = method->split;
+  struct trial trial;
+  struct certifier certifier;
+  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &options);
+  certifier_create(&certifier, &trial.scene, trial.reference);
+  for (int n = 0; n < SITUATION_RAYS; n++) {
+    struct hit hit;
+    struct certificate certificate;
+    const double start = seconds();
+    tracer_closest(trial.tracer, 1, &s->rays[n], &hit);
+    const double time = seconds() - start;
+    certify(&certifier, &s->rays[n], &hit, &certificate);
+    const bool grazing = hit.certainty != CERTAINTY_CERTAIN;
+    count->rays++, count->answers[grazing][certificate.finding]++;
+    count->grazing_sure += grazing && certificate.finding == FINDING_PROVEN && certificate.sure;
+    if (time > count->slowest) count->slowest = time, count->slowest_ray = s->rays[n];
+    if (certificate.finding > FINDING_UNDECIDED) show(name, method, s, &s->rays[n], &hit, &certificate);
+  }
+  certifier_destroy(&certifier);
+  trial_destroy(&trial);
+}
+
+static size_t refuted(const size_t answers[FINDINGS])
+{
+  size_t sum = 0;
+  for (int n = FINDING_UNDECIDED + 1; n < FINDINGS; n++) sum += answers[n];
+  return sum;
+}
+
+static void print_count(const char *name, const struct method *method, uint64_t seed, const struct count *c)
+{
+  const size_t *certain = c->answers[0], *grazing = c->answers[1];
+  const size_t grazes = grazing[FINDING_PROVEN] + grazing[FINDING_UNDECIDED] + refuted(grazing);
+  printf("%-36s %-9s %2d %7zu rays: certain %6zu, %zu undecided, %zu refuted; grazing %zu, %zu provable, %zu refuted; "
+         "lost %zu later %zu invented %zu; slowest %.2f ms; seed %llu\n",
+         name, method->solver, method->split, c->rays, certain[FINDING_PROVEN], certain[FINDING_UNDECIDED],
+         refuted(certain), grazes, c->grazing_sure, refuted(grazing), certain[FINDING_LOST] + grazing[FINDING_LOST],
+         certain[FINDING_LATER] + grazing[FINDING_LATER], certain[FINDING_INVENTED] + grazing[FINDING_INVENTED],
+         1e3 * c->slowest, (unsigned long long)seed);
+  fflush(stdout);
+}
+
+static void test_class(void **state)
+{
+  const struct situation_class *class = *state;
+  size_t bad = 0;
+  const char *only = getenv("PSCN_CLASS");
+  if (only && !strstr(class->name, only)) return;
+  for (int m = 0; m < METHODS; m++) {
+    struct count count = {0};
+    const size_t wanted = effort_count((size_t)(class->share * (m ? OTHERS_SHARE : 1) * FULL_RAYS), LEAST_RAYS);
+    const uint64_t seed = effort_seed(class->seed);
+    struct random random = {.state = seed + (uint64_t)m * 1000};
+    for (size_t index = 0; count.rays < wanted; index++) {
+      struct situation situation;
+      class->generate(&random, index, &situation);
+      run_situation(class->name, &methods[m], &situation, &count);
+    }
+    print_count(class->name, &methods[m], seed, &count);
+    bad += refuted(count.answers[0]) + refuted(count.answers[1]);
+  }
+  exact_cleanup();
+  assert_int_equal(bad, 0);
+}
+
+int main(void)
+{
+  struct CMUnitTest tests[MOST_CLASSES];
+  const size_t count = situation_class_count() + hostile_class_count();
+  assert_true(count <= MOST_CLASSES);
+  for (size_t n = 0; n < count; n++) {
+    void *class = (void *)(uintptr_t)class_at(n); /* cmocka's state is not const */
+    tests[n] = (struct CMUnitTest){.name = class_at(n)->name, .test_func = test_class, .initial_state = class};
+  }
+  return _cmocka_run_group_tests("certificates", tests, count, NULL, NULL);
+}

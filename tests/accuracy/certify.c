@@ -1,0 +1,86 @@
+/* Checks the answers of a scene: rays on stdin, `ox oy oz dx dy dz` a line; every refuted answer on stdout, then the
+ * counts. For hunting by hand.
+ *
+ *   certify SCENE [SOLVER] [--all] < rays
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "accuracy/certificate.h"
+#include "accuracy/exact.h"
+#include "accuracy/trial.h"
+#include "base/diagnostics.h"
+#include "cmocka_test.h"
+#include "language/language.h"
+
+static void tell(void *context, const char *text, size_t length)
+{
+  (void)context;
+  fwrite(text, 1, length, stderr);
+}
+
+static void show(size_t line, const struct ray *ray, const struct hit *hit, const struct certificate *c)
+{
+  const double *o = ray->origin, *d = ray->direction;
+  printf("%s, line %zu: %.17g %.17g %.17g %.17g %.17g %.17g\n", finding_names[c->finding], line, o[0], o[1], o[2], d[0],
+         d[1], d[2]);
+  printf("  answer: %s ", hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing");
+  if (hit->patch == HIT_NONE) printf("miss");
+  else printf("t %.17g u %.17g v %.17g patch %u", hit->t, hit->u, hit->v, (unsigned)hit->patch);
+  printf("\n  truth:  ");
+  if (c->patch == REFERENCE_NONE) printf("none proven");
+  else printf("t %.17g u %.17g v %.17g patch %u", c->t, c->u, c->v, (unsigned)c->patch);
+  printf(" (%.3g floors, %zu boxes)\n", c->off, c->boxes);
+}
+
+static double seconds(clockid_t clock)
+{
+  struct timespec now;
+  clock_gettime(clock, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+int main(int argc, char **argv)
+{
+  const bool all = argc > 2 && !strcmp(argv[argc - 1], "--all");
+  if (argc < 2) return 2;
+  struct diagnostics diagnostics = {.tell = tell};
+  struct language_settings settings = {.image_width = 800, .image_height = 600, .tolerance = NAN};
+  if (argc > 2 + all) settings.solver_text = argv[2];
+  struct scene *scene = NULL;
+  if (language_load(argv[1], &settings, &diagnostics, &scene) != STATUS_OK) return 3;
+  struct trial trial;
+  trial_of_scene(&trial, scene);
+  struct certifier certifier;
+  certifier_create(&certifier, scene, trial.reference);
+  struct ray ray = {.t_min = 0, .t_max = INFINITY};
+  double *o = ray.origin, *d = ray.direction, slowest = 0, judging = 0;
+  size_t line = 0, slowest_line = 0, counts[2][FINDINGS] = {{0}};
+  while (scanf("%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]) == 6) {
+    struct hit hit;
+    struct certificate certificate;
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    tracer_closest(trial.tracer, 1, &ray, &hit);
+    const double end = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    line++;
+    if (end - start > slowest) slowest = end - start, slowest_line = line;
+    certify(&certifier, &ray, &hit, &certificate);
+    judging += seconds(CLOCK_PROCESS_CPUTIME_ID) - end;
+    counts[hit.certainty != CERTAINTY_CERTAIN][certificate.finding]++;
+    if (all || certificate.finding > FINDING_UNDECIDED) show(line, &ray, &hit, &certificate);
+  }
+  for (int graze = 0; graze < 2; graze++) {
+    printf("%s:", graze ? "grazing" : "certain");
+    for (int n = 0; n < FINDINGS; n++) printf(" %s %zu", finding_names[n], counts[graze][n]);
+    printf("\n");
+  }
+  printf("slowest: line %zu, %.3g ms; judging took %.3g s\n", slowest_line, 1e3 * slowest, judging);
+  certifier_destroy(&certifier);
+  trial_destroy(&trial);
+  scene_destroy(scene);
+  exact_cleanup();
+  return 0;
+}

@@ -1,0 +1,13 @@
+/* Rays that an adversary would aim: rings of every radius from 1e-18 to 1 round all that is special about a surface,
+ * starts next to it, nets that are degenerate but for some roundings, coordinates of every size. For the exact judge
+ * (certificate.h); the classes of situations.h are the reference's as well.
+ */
+#ifndef TESTS_ACCURACY_HOSTILE_H
+#define TESTS_ACCURACY_HOSTILE_H
+
+#include "accuracy/situations.h"
+
+size_t hostile_class_count(void);
+const struct situation_class *hostile_class_at(size_t index); /* index < the count */
+
+#endif
