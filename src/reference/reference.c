@@ -268,13 +268,14 @@ void reference_closest(const struct reference *reference, const double origin[3]
   if (answer >= 0) describe(reference, &all.list[answer], origin, direction, out);
 }
 
-double reference_floor_at(const struct reference *reference, uint32_t patch, const double origin[3],
-                          const double direction[3], double t, double u, double v)
+void reference_floors_at(const struct reference *reference, uint32_t patch, const double origin[3],
+                         const double direction[3], double t, double u, double v, struct reference_floor *out_data,
+                         struct reference_floor *out_local)
 {
   const struct candidate at = {.root = {.u = u, .v = v, .t = t}, .patch = patch};
   struct reference_answer answer;
   describe(reference, &at, origin, direction, &answer);
-  return answer.data.t;
+  *out_data = answer.data, *out_local = answer.local;
 }
 
 double reference_residual(const struct reference *reference, uint32_t patch, const double origin[3],

@@ -19,13 +19,13 @@
 #define OTHERS_SHARE 0.1
 enum { FULL_RAYS = 1000000, LEAST_RAYS = 16, MOST_CLASSES = 64, MOST_SHOWN = 6 };
 
-struct method {
+struct form {
   const char *solver;
   int split; /* 0: the solver's own */
 };
-static const struct method methods[] = {{"bernstein", 0}, {"newton", 0},    {"laguerre", 0},
+static const struct form forms[] = {{"bernstein", 0}, {"newton", 0},    {"laguerre", 0},
                                         {"aberth", 0},    {"bernstein", 1}, {"bernstein", 8}};
-enum { METHODS = sizeof methods / sizeof methods[0] };
+enum { FORMS = sizeof forms / sizeof forms[0] };
 
 struct count {
   size_t rays, answers[2][FINDINGS]; /* certain, grazing */
@@ -47,13 +47,13 @@ static double seconds(void)
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void show(const char *name, const struct method *method, const struct situation *s, const struct ray *ray,
+static void show(const char *name, const struct form *form, const struct situation *s, const struct ray *ray,
                  const struct hit *hit, const struct certificate *c)
 {
   static size_t shown = 0;
   if (shown++ >= MOST_SHOWN && !getenv("PSCN_SHOW")) return;
   const double *o = ray->origin, *d = ray->direction;
-  printf("%s, %s, split %d: %s %s\n  ray %.17g %.17g %.17g %.17g %.17g %.17g\n", name, method->solver, method->split,
+  printf("%s, %s, split %d: %s %s\n  ray %.17g %.17g %.17g %.17g %.17g %.17g\n", name, form->solver, form->split,
          hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[c->finding], o[0], o[1], o[2], d[0],
          d[1], d[2]);
   if (hit->patch != HIT_NONE)
@@ -70,16 +70,16 @@ static void show(const char *name, const struct method *method, const struct sit
   }
 }
 
-static void run_situation(const char *name, const struct method *method, const struct situation *s,
+static void run_situation(const char *name, const struct form *form, const struct situation *s,
                           struct count *count)
 {
-  struct solver_options options;
+  struct method method;
   for (size_t n = 0; n < solver_count(); n++)
-    if (!strcmp(solver_at(n)->name, method->solver)) solver_options_default(solver_at(n), &options);
-  if (method->split) options.split = method->split;
+    if (!strcmp(solver_at(n)->name, form->solver)) method_default(solver_at(n), &method);
+  if (form->split) method.split = form->split;
   struct trial trial;
   struct certifier certifier;
-  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &options);
+  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &method);
   certifier_create(&certifier, &trial.scene, trial.reference);
   for (int n = 0; n < SITUATION_RAYS; n++) {
     struct hit hit;
@@ -92,7 +92,7 @@ static void run_situation(const char *name, const struct method *method, const s
     count->rays++, count->answers[grazing][certificate.finding]++;
     count->grazing_sure += grazing && certificate.finding == FINDING_PROVEN && certificate.sure;
     if (time > count->slowest) count->slowest = time, count->slowest_ray = s->rays[n];
-    if (certificate.finding > FINDING_UNDECIDED) show(name, method, s, &s->rays[n], &hit, &certificate);
+    if (certificate.finding > FINDING_UNDECIDED) show(name, form, s, &s->rays[n], &hit, &certificate);
   }
   certifier_destroy(&certifier);
   trial_destroy(&trial);
@@ -105,13 +105,13 @@ static size_t refuted(const size_t answers[FINDINGS])
   return sum;
 }
 
-static void print_count(const char *name, const struct method *method, uint64_t seed, const struct count *c)
+static void print_count(const char *name, const struct form *form, uint64_t seed, const struct count *c)
 {
   const size_t *certain = c->answers[0], *grazing = c->answers[1];
   const size_t grazes = grazing[FINDING_PROVEN] + grazing[FINDING_UNDECIDED] + refuted(grazing);
   printf("%-36s %-9s %2d %7zu rays: certain %6zu, %zu undecided, %zu refuted; grazing %zu, %zu provable, %zu refuted; "
          "lost %zu later %zu invented %zu; slowest %.2f ms; seed %llu\n",
-         name, method->solver, method->split, c->rays, certain[FINDING_PROVEN], certain[FINDING_UNDECIDED],
+         name, form->solver, form->split, c->rays, certain[FINDING_PROVEN], certain[FINDING_UNDECIDED],
          refuted(certain), grazes, c->grazing_sure, refuted(grazing), certain[FINDING_LOST] + grazing[FINDING_LOST],
          certain[FINDING_LATER] + grazing[FINDING_LATER], certain[FINDING_INVENTED] + grazing[FINDING_INVENTED],
          1e3 * c->slowest, (unsigned long long)seed);
@@ -124,7 +124,7 @@ static void test_class(void **state)
   size_t bad = 0;
   const char *only = getenv("PSCN_CLASS");
   if (only && !strstr(class->name, only)) return;
-  for (int m = 0; m < METHODS; m++) {
+  for (int m = 0; m < FORMS; m++) {
     struct count count = {0};
     const size_t wanted = effort_count((size_t)(class->share * (m ? OTHERS_SHARE : 1) * FULL_RAYS), LEAST_RAYS);
     const uint64_t seed = effort_seed(class->seed);
@@ -132,9 +132,9 @@ static void test_class(void **state)
     for (size_t index = 0; count.rays < wanted; index++) {
       struct situation situation;
       class->generate(&random, index, &situation);
-      run_situation(class->name, &methods[m], &situation, &count);
+      run_situation(class->name, &forms[m], &situation, &count);
     }
-    print_count(class->name, &methods[m], seed, &count);
+    print_count(class->name, &forms[m], seed, &count);
     bad += refuted(count.answers[0]) + refuted(count.answers[1]);
   }
   exact_cleanup();
