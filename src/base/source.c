@@ -3,32 +3,17 @@
 #include "base/source.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/input.h"
+
 enum {
   TEXT_PADDING = 2,         /* the NULs behind the text, for scanners that want a sentinel */
   READ_STEP_BYTES = 1 << 16 /* first guess for what has no size, such as a pipe */
 };
-
-/* Words of our own instead of strerror's, which change with the locale and the system. */
-static const char *reason_text(int error)
-{
-  switch (error) {
-  case ENOENT: return "there is no such file";
-  case ENOTDIR: return "a part of the path is no directory";
-  case EACCES: return "permission denied";
-  case EISDIR: return "it is a directory";
-  case ELOOP: return "too many symbolic links";
-  case ENAMETOOLONG: return "the name is too long";
-  case EMFILE:
-  case ENFILE: return "too many open files";
-  default: return "it cannot be read";
-  }
-}
 
 static struct source *source_create(const char *name)
 {
@@ -67,7 +52,7 @@ static enum status read_all(struct source *source, int file, size_t guess, const
     if (got == 0) break;
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) {
-      *out_reason = reason_text(errno);
+      *out_reason = input_reason(errno);
       return STATUS_FILE;
     }
     source->length += (size_t)got;
@@ -76,43 +61,33 @@ static enum status read_all(struct source *source, int file, size_t guess, const
   return STATUS_OK;
 }
 
-/* Why a file that is open is not read, or NULL. */
-static const char *refusal(mode_t mode, enum source_kind kind)
+enum status source_read(const char *path, enum input_kind kind, struct source **out_source, const char **out_reason)
 {
-  if (S_ISDIR(mode)) return reason_text(EISDIR);
-  if (S_ISREG(mode)) return NULL;
-  if (!S_ISFIFO(mode) && !S_ISSOCK(mode)) return "it is a device";
-  return kind == SOURCE_FILE ? "it is a pipe" : NULL;
+  const int file = input_open(path, kind, out_reason);
+  return file < 0 ? STATUS_FILE : source_read_open(path, file, out_source, out_reason);
 }
 
-enum status source_read(const char *path, enum source_kind kind, struct source **out_source, const char **out_reason)
+enum status source_read_open(const char *name, int file, struct source **out_source, const char **out_reason)
 {
-  *out_reason = "memory is short";
-  struct source *source = source_create(path);
-  if (!source) return STATUS_LIMIT;
-  enum status status = STATUS_FILE;
+  *out_reason = input_reason(ENOMEM);
+  struct source *source = source_create(name);
+  enum status status = source == NULL ? STATUS_LIMIT : STATUS_FILE;
   struct stat info;
-  /* A pipe that is refused must not be waited for. */
-  int file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | (kind == SOURCE_FILE ? O_NONBLOCK : 0));
-  if (file < 0 || fstat(file, &info) != 0) {
-    *out_reason = reason_text(errno);
+  if (source == NULL)
+    goto done;
+  if (fstat(file, &info) != 0) {
+    *out_reason = input_reason(errno);
     goto done;
   }
-  if ((*out_reason = refusal(info.st_mode, kind)) != NULL) goto done;
-  *out_reason = "memory is short";
   source->device = (uint64_t)info.st_dev;
   source->inode = (uint64_t)info.st_ino;
   size_t guess = READ_STEP_BYTES;
   if (S_ISREG(info.st_mode) && info.st_size > 0) guess = (size_t)info.st_size + 1; /* one more, to see the end */
   status = read_all(source, file, guess, out_reason);
 done:
-  if (file >= 0) close(file);
-  if (status != STATUS_OK) {
-    source_destroy(source);
-    source = NULL;
-  } else {
-    *out_source = source;
-  }
+  (void)close(file);
+  if (status == STATUS_OK) *out_source = source;
+  else source_destroy(source);
   return status;
 }
 

@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/input.h"
 #include "base/status.h"
 
 struct source {
@@ -31,13 +32,13 @@ struct place {
 /* The longest file that is read. Longer ones are STATUS_LIMIT. */
 #define SOURCE_MAX_BYTES ((size_t)1 << 30)
 
-/* What may be read: files only, or also pipes, whose end is waited for. Devices and folders are an error. */
-enum source_kind { SOURCE_FILE, SOURCE_FILE_OR_PIPE };
-
-/* Reads the whole file at `path` (opened once, so pipes work). STATUS_FILE: out_reason says why in English words and
- * nothing is written to out_source; STATUS_LIMIT: memory or SOURCE_MAX_BYTES. The caller destroys the source. */
-STATUS_MUST_CHECK enum status source_read(const char *path, enum source_kind kind, struct source **out_source,
+/* Reads the whole file at `path` (input.h; opened once, so pipes work). STATUS_FILE: out_reason says why in English
+ * words and nothing is written to out_source; STATUS_LIMIT: memory or SOURCE_MAX_BYTES. The caller destroys the source.
+ * source_read_open reads what is open already, whatever it is, and closes it; `name` is shown in diagnostics. */
+STATUS_MUST_CHECK enum status source_read(const char *path, enum input_kind kind, struct source **out_source,
                                           const char **out_reason);
+STATUS_MUST_CHECK enum status source_read_open(const char *name, int file, struct source **out_source,
+                                               const char **out_reason);
 
 /* What file `path` names now; false where there is none. */
 bool source_identify(const char *path, uint64_t *out_device, uint64_t *out_inode);

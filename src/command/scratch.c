@@ -81,7 +81,7 @@ char *scratch_read(const struct scratch *scratch, const char *name, size_t *out_
   const char *reason;
   struct source *source = NULL;
   scratch_path(scratch, name, path);
-  if (source_read(path, SOURCE_FILE, &source, &reason) != STATUS_OK)
+  if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK)
     return NULL;
   char *text = source->text;
   *out_length = source->length;

@@ -4,7 +4,9 @@
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/input.h"
 #include "image/image_module.h"
 
 struct format_traits {
@@ -94,6 +96,13 @@ enum status image_read(const char *path, struct image *out, char *message)
 {
   *out = (struct image){ 0 };
   message[0] = '\0';
+  const char *reason;
+  const int file = input_open(path, INPUT_FILE, &reason);
+  if (file < 0) {
+    snprintf(message, IMAGE_MESSAGE_SIZE, "%s", reason);
+    return STATUS_FILE;
+  }
+  (void)close(file); /* OpenImageIO opens files itself, each format anew, and says nothing of why it cannot */
   const struct image_module *module = load_module(message);
   return module == NULL ? STATUS_FILE : module->read(path, out, message);
 }

@@ -7,7 +7,6 @@ extern "C" {
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -119,11 +118,6 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
 
 std::string read(const char *path, image &out, status &result)
 {
-  /* OpenImageIO does not say why a file can not be opened, the system does. */
-  std::FILE *probe = std::fopen(path, "rb");
-  if (probe == nullptr)
-    return std::strerror(errno);
-  std::fclose(probe);
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
   if (!input) {
     const std::string reason = OIIO::geterror();

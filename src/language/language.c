@@ -168,7 +168,7 @@ enum status language_load(const char *path, const struct language_settings *sett
   *out_scene = NULL;
   struct source *source;
   const char *reason;
-  const enum status status = source_read(path, SOURCE_FILE_OR_PIPE, &source, &reason);
+  const enum status status = source_read(path, INPUT_FILE_OR_PIPE, &source, &reason);
   if (status == STATUS_OK) return load(source, settings, diagnostics, out_scene);
   diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "%s: %s", path, reason);
   return status;

@@ -100,7 +100,7 @@ static void copy_include(struct copy *copy)
   memcpy(path, includer, folder);
   memcpy(path + folder, name, length);
   path[folder + length] = '\0';
-  if (source_read(path, SOURCE_FILE, &source, &reason) != STATUS_OK)
+  if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK)
     return;
   const size_t index = add_source(copy->all, source);
   if (index == MAX_FILES) {
@@ -180,7 +180,7 @@ enum status plain_copy(const char *path, const char *folder, const char *name, c
 {
   struct copies copies = { .folder = folder, .name = name };
   struct source *scene = NULL;
-  enum status status = source_read(path, SOURCE_FILE_OR_PIPE, &scene, &copies.reason);
+  enum status status = source_read(path, INPUT_FILE_OR_PIPE, &scene, &copies.reason);
   if (status == STATUS_OK && add_source(&copies, scene) == MAX_FILES)
     status = STATUS_LIMIT;
   for (size_t k = 0; k < copies.count && status == STATUS_OK; k++) /* copying adds what is included */

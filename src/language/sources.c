@@ -148,7 +148,7 @@ static struct source *read_included(struct language *language, struct place plac
   const struct source *known = known_file(language, path);
   enum status status = STATUS_OK;
   if (known) source = source_share(known, path);
-  else status = source_read(path, SOURCE_FILE, &source, &reason);
+  else status = source_read(path, INPUT_FILE, &source, &reason);
   if (status == STATUS_FILE) {
     language_error(language, place, "cannot include '%s': %s", path, reason);
     return NULL;

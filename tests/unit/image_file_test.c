@@ -151,7 +151,7 @@ static void unreadable_files_are_told(void **state)
   struct image image;
   unlink(path);
   assert_int_equal(image_read(path, &image, message), STATUS_FILE);
-  assert_string_equal(message, "No such file or directory");
+  assert_string_equal(message, "there is no such file");
   for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
     FILE *file = fopen(path, "wb");
     assert_non_null(file);

@@ -1,0 +1,19 @@
+# What is read is a file or a pipe; what has no end is refused at once, whoever asks for it.
+scene=$SCENES/flat.pscn
+within() { try timeout 20 "$@"; }
+for device in /dev/zero /dev/full /dev/null /dev/random; do
+  within pscn compare $device $device
+  within pscn dump $device
+  within pscn render $device -o a.png
+done
+echo '#include "/dev/zero"' >device.pscn
+within pscn dump device.pscn
+# A pipe is read once, by any name.
+mkfifo pipe
+cat "$scene" >pipe &
+pscn dump pipe | cmp - <(pscn dump "$scene") && echo same
+pscn dump <(cat "$scene") | cmp - <(pscn dump "$scene") && echo same
+within pscn compare pipe pipe
+within pscn compare <(cat "$scene") pipe 2>&1 | sed 's|/dev/fd/[0-9]*|PIPE|'
+within pscn compare . .
+ls -A
