@@ -192,7 +192,7 @@ static void describe(const struct reference *reference, const struct candidate *
   out->radius = c->root.radius;
   out->t_radius = c->root.t_radius;
   quad M[3][3], point[3], normal[3];
-  double data[3], local[3];
+  double data[3], local[3], whole[3];
   for (int axis = 0; axis < 3; axis++) {
     struct quad_net net, sizes, spread;
     for (int k = 0; k < 16; k++) net.c[k / 4][k % 4] = patch->P[k / 4][k % 4][axis];
@@ -208,9 +208,11 @@ static void describe(const struct reference *reference, const struct candidate *
     data[axis] = (double)quad_net_jet(&sizes, out->u, out->v).value + fabs(origin[axis]) +
                  fabs((double)out->t * direction[axis]);
     local[axis] = (double)quad_net_jet(&spread, out->u, out->v).value;
+    whole[axis] = (double)quad_net_magnitude(&spread);
   }
   floor_bound(M, data, (double)out->t, (double)out->u, (double)out->v, &out->data);
   floor_bound(M, local, (double)out->t, (double)out->u, (double)out->v, &out->local);
+  floor_bound(M, whole, (double)out->t, (double)out->u, (double)out->v, &out->whole);
 
   quad square = 0, along = 0, length = 0, tangents[2] = {0};
   for (int axis = 0; axis < 3; axis++) {
@@ -268,14 +270,14 @@ void reference_closest(const struct reference *reference, const double origin[3]
   if (answer >= 0) describe(reference, &all.list[answer], origin, direction, out);
 }
 
-void reference_floors_at(const struct reference *reference, uint32_t patch, const double origin[3],
-                         const double direction[3], double t, double u, double v, struct reference_floor *out_data,
-                         struct reference_floor *out_local)
+double reference_floor_at(const struct reference *reference, uint32_t patch, const double origin[3],
+                          const double direction[3], double t, double u, double v, double *out_larger)
 {
   const struct candidate at = {.root = {.u = u, .v = v, .t = t}, .patch = patch};
   struct reference_answer answer;
   describe(reference, &at, origin, direction, &answer);
-  *out_data = answer.data, *out_local = answer.local;
+  *out_larger = fmax(answer.data.t, answer.whole.t);
+  return answer.data.t;
 }
 
 double reference_residual(const struct reference *reference, uint32_t patch, const double origin[3],

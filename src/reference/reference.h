@@ -43,9 +43,10 @@ enum { REFERENCE_NONE = UINT32_MAX };
 /* How far rounding alone can move a hit: a first-order bound.
  *
  * S(u,v) - o - t d = 0 is solved in double with residuals known only to `terms` units of rounding, so (u,v,t) moves
- * by at most |[S_u S_v -d]^-1| (2^-53 terms), entry by entry, and each result is rounded once. Two choices of terms:
+ * by at most |[S_u S_v -d]^-1| (2^-53 terms), entry by entry, and each result is rounded once. Three choices of terms:
  * data:  sum B_i B_j |P_ij| + |o| + |t d|   every input coordinate changed by one rounding;
- * local: sum B_i B_j |P_ij - S|             the origin moved to the hit first, exactly: only the bicubic is rounded. */
+ * local: sum B_i B_j |P_ij - S|             the origin moved to the hit first, exactly: only the bicubic is rounded;
+ * whole: max |P_ij - S|                     the same, by roundings of the patch's extent. */
 struct reference_floor {
   double t, u, v;
 };
@@ -64,7 +65,7 @@ struct reference_answer {
   bool has_normal;      /* false where S_u x S_v vanishes (a collapsed pole) */
   double normal[3];     /* unit, facing the origin */
   double incidence;     /* |normal . direction| / |direction|: 0 is tangent */
-  struct reference_floor data, local;
+  struct reference_floor data, local, whole;
 };
 
 struct reference;
@@ -79,10 +80,9 @@ void reference_destroy(struct reference *reference);
 void reference_closest(const struct reference *reference, const double origin[3], const double direction[3],
                        struct reference_answer *out);
 
-/* The floors of a hit that lies there, or next to it. */
-void reference_floors_at(const struct reference *reference, uint32_t patch, const double origin[3],
-                         const double direction[3], double t, double u, double v, struct reference_floor *out_data,
-                         struct reference_floor *out_local);
+/* The floors of T of a hit that lies there, or next to it: the data's; and the larger of that and the whole patch's. */
+double reference_floor_at(const struct reference *reference, uint32_t patch, const double origin[3],
+                          const double direction[3], double t, double u, double v, double *out_larger);
 
 /* |S(u,v) - (origin + t direction)|, each difference in quadruple precision: how far an answer of any program is from
  * being a common point of ray and patch. */

@@ -84,9 +84,8 @@ static double size_at(const struct ray *ray, double t)
 
 static double floor_at(const struct judging *j, uint32_t patch, double t, double u, double v)
 {
-  struct reference_floor data, local;
-  reference_floors_at(j->certifier->reference, patch, j->ray->origin, j->ray->direction, t, u, v, &data, &local);
-  const double f = fmax(data.t, local.t);
+  double f;
+  reference_floor_at(j->certifier->reference, patch, j->ray->origin, j->ray->direction, t, u, v, &f);
   const double least = LEAST_ALLOWED / CERTIFICATE_FLOORS * size_at(j->ray, t);
   return f > least ? f : f > 0 ? least : INFINITY; /* not a number: singular */
 }

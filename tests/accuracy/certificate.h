@@ -1,7 +1,7 @@
 /* Proves or refutes answers of the intersector, with what exact.h finds.
  *
  * certain hit   proven where a root is at T, within CERTIFICATE_FLOORS of how far one rounding of each input, or of the
- *               patch about the hit, moves it, and none is before it; refuted where there is none at T, or a proven one before it
+ *               patch's extent, moves it, and none is before it; refuted where there is none at T, or a proven one before it
  * certain miss  proven where there is no root, refuted where there is one
  * grazing       as an answer refuted where a proven root is lost: before T, or at all. A hit must be as near to ray and
  *               patch as trial.h's TRIAL_NEAR has it.

@@ -277,10 +277,10 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
     tally->holes += hit->patch == HIT_NONE;
     show("lost behind a grazing one", ray, hit, truth, tally);
   } else if (hit->patch != HIT_NONE && hit->t < truth->t_first) {
-    struct reference_floor data, local;
-    reference_floors_at(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u, hit->v, &data,
-                        &local);
-    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, data.t) || excused(trial, ray, hit))
+    double larger;
+    const double floor = reference_floor_at(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u,
+                                            hit->v, &larger);
+    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, floor) || excused(trial, ray, hit))
       return;
     tally->invented++;
     show("invented before a grazing one", ray, hit, truth, tally);
