@@ -72,8 +72,6 @@ static struct stream_fault parse_line(const struct stream_line *line, double out
   size_t at = 0, end = 0;
   int count = 0, found;
   struct stream_fault fault;
-  if (line->length > STREAM_MAX_LINE)
-    return (struct stream_fault){ "the line is too long", 0, 1 };
   while ((found = stream_number(line, &at, &high_first[count], &end, &fault)) > 0 && count < MAX_COEFFICIENTS) {
     at = end;
     count++;
@@ -144,40 +142,14 @@ static void answer(struct session *session, int degree, const double c[])
   write_roots(&roots);
 }
 
-/* Answers until the stream ends, or a bad line comes, or something fails. Before it waits for the stream, what has come
- * so far is answered. */
-static enum status answer_stream(const struct command *command, struct session *session, struct stream *stream)
+static struct stream_fault take(void *context, const struct stream_line *line)
 {
-  enum stream_result result = STREAM_MORE;
-  while (result == STREAM_MORE && !stream_at_end(stream) && !ferror(stdout)) {
-    struct stream_line line;
-    double c[MAX_COEFFICIENTS];
-    int degree = 0;
-    if (!stream_line(stream, &line)) {
-      const enum status status = command_finish_output(command);
-      if (status != STATUS_OK)
-        return status;
-      result = stream_refill(stream);
-      continue;
-    }
-    if (line.length == 0 && line.bytes == 0)
-      continue; /* the end of the stream has just been seen */
-    const struct stream_fault fault = parse_line(&line, c, &degree);
-    if (fault.text != NULL) {
-      const enum status status = command_finish_output(command);
-      struct diagnostics diagnostics = stderr_diagnostics();
-      return status != STATUS_OK ? status : stream_explain(stream, &line, fault, &diagnostics);
-    }
-    answer(session, degree, c);
-    stream_take(stream, line.bytes);
-  }
-  const enum status status = command_finish_output(command);
-  if (status != STATUS_OK || result == STREAM_MORE)
-    return status;
-  if (result == STREAM_LIMIT)
-    return STATUS_LIMIT;
-  command_error(command, "cannot read standard input: %s", strerror(stream->reason));
-  return STATUS_FILE;
+  double c[MAX_COEFFICIENTS];
+  int degree = 0;
+  const struct stream_fault fault = parse_line(line, c, &degree);
+  if (fault.text == NULL)
+    answer(context, degree, c);
+  return fault;
 }
 
 static double share(size_t part, size_t whole)
@@ -244,21 +216,16 @@ static enum status choose_solver(const struct request *request, struct method *o
 static enum status roots(const struct command *command, const struct request *request)
 {
   struct session session = { 0 };
-  struct stream stream = { 0 };
+  const struct stream_reader reader = { .take = take, .context = &session };
   enum status status = report_probe(command, request->stats);
   if (status == STATUS_OK)
     status = choose_solver(request, &session.method);
   if (status == STATUS_OK)
-    status = stream_open(STDIN_FILENO, &stream);
-  if (status == STATUS_OK)
-    status = answer_stream(command, &session, &stream);
-  if (status == STATUS_LIMIT)
-    command_error(command, "out of memory");
+    status = stream_read(command, &reader);
   if (status == STATUS_OK && request->stats != NULL)
     status = report_write_json(command, statistics(&session), request->stats);
   if (status == STATUS_OK && !request->quiet && isatty(STDERR_FILENO) == 1)
     print_summary(&session);
-  stream_free(&stream);
   return status;
 }
 

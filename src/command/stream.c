@@ -1,4 +1,4 @@
-/* A stream read by lines or records. */
+/* Standard input read by lines or records. */
 #include "command/stream.h"
 
 #include <errno.h>
@@ -8,23 +8,26 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "command/scene_file.h"
 
-enum { BUFFER_SIZE = 1 << 16 };
+/* How standard input is called in diagnostics. */
+#define NAME "<stdin>"
 
-enum status stream_open(int descriptor, struct stream *out)
-{
-  *out = (struct stream){ .descriptor = descriptor, .size = BUFFER_SIZE };
-  out->buffer = malloc(out->size);
-  return out->buffer == NULL ? STATUS_LIMIT : STATUS_OK;
-}
+enum {
+  BUFFER_SIZE = 1 << 16,
+  MAX_LINE = 1 << 20 /* bytes */
+};
 
-void stream_free(struct stream *stream)
-{
-  free(stream->buffer);
-  *stream = (struct stream){ 0 };
-}
+/* The stream of a file descriptor, from its first byte. */
+struct stream {
+  bool ended;
+  char *buffer;
+  size_t size, begin, end; /* of the buffer, and of what in it is still to be read */
+  size_t count;            /* lines or records read */
+};
 
-enum stream_result stream_refill(struct stream *stream)
+/* Reads more bytes behind those that are left; waits for them. */
+static enum status refill(const struct command *command, struct stream *stream)
 {
   memmove(stream->buffer, stream->buffer + stream->begin, stream->end - stream->begin);
   stream->end -= stream->begin;
@@ -32,29 +35,36 @@ enum stream_result stream_refill(struct stream *stream)
   if (stream->end == stream->size) {
     char *larger = realloc(stream->buffer, 2 * stream->size);
     if (larger == NULL)
-      return STREAM_LIMIT;
+      return STATUS_LIMIT;
     stream->buffer = larger;
     stream->size *= 2;
   }
   ssize_t length;
   do
-    length = read(stream->descriptor, stream->buffer + stream->end, stream->size - stream->end);
+    length = read(STDIN_FILENO, stream->buffer + stream->end, stream->size - stream->end);
   while (length < 0 && errno == EINTR);
   if (length < 0) {
-    stream->reason = errno;
-    return STREAM_FAILED;
+    command_error(command, "cannot read standard input: %s", strerror(errno));
+    return STATUS_FILE;
   }
   stream->ended = length == 0;
   stream->end += (size_t)length;
-  return STREAM_MORE;
+  return STATUS_OK;
 }
 
-bool stream_line(const struct stream *stream, struct stream_line *out)
+/* The line or record at the beginning of what is left, false where its end is still to come. A line longer than MAX_LINE
+ * comes as the part that has been read. */
+static bool find_line(const struct stream *stream, size_t record, struct stream_line *out)
 {
   const char *line = stream->buffer + stream->begin;
   const size_t left = stream->end - stream->begin;
+  if (record != 0) {
+    out->text = line;
+    out->length = out->bytes = left < record ? left : record;
+    return left >= record || stream->ended;
+  }
   const char *newline = memchr(line, '\n', left);
-  if (newline == NULL && !stream->ended && left <= STREAM_MAX_LINE)
+  if (newline == NULL && !stream->ended && left <= MAX_LINE)
     return false;
   const size_t length = newline == NULL ? left : (size_t)(newline - line);
   out->text = line;
@@ -90,22 +100,66 @@ int stream_number(const struct stream_line *line, size_t *at, double *out_value,
   return -1;
 }
 
-enum status stream_explain(const struct stream *stream, const struct stream_line *line, struct stream_fault fault,
-                           struct diagnostics *diagnostics)
+/* Tells the fault of the line at the beginning of what is left. */
+static enum status explain(const struct stream *stream, const struct stream_line *line, size_t record,
+                           struct stream_fault fault)
 {
+  struct diagnostics diagnostics = stderr_diagnostics();
+  if (record != 0) {
+    diagnostics_error(&diagnostics, (struct place){ NULL, 0, 0 }, "%s, record %zu: %s", NAME, stream->count + 1,
+                      fault.text);
+    return STATUS_INPUT;
+  }
   /* The line alone, standing where it stood in the stream: after as many line ends. */
-  const size_t length = line->length > STREAM_MAX_LINE ? 1 : line->length;
+  const size_t length = line->length > MAX_LINE ? 1 : line->length;
   char *text = length > SIZE_MAX - stream->count ? NULL : malloc(stream->count + length + 1);
   if (text == NULL)
     return STATUS_LIMIT;
   memset(text, '\n', stream->count);
   memcpy(text + stream->count, line->text, length);
-  struct source *source = source_from_text(STREAM_NAME, text, stream->count + length);
+  struct source *source = source_from_text(NAME, text, stream->count + length);
   free(text);
   if (source == NULL)
     return STATUS_LIMIT;
   const struct place place = { source, stream->count + fault.begin, stream->count + fault.end };
-  diagnostics_error(diagnostics, place, "%s", fault.text);
+  diagnostics_error(&diagnostics, place, "%s", fault.text);
   source_destroy(source);
   return STATUS_INPUT;
+}
+
+static enum status write_answers(const struct command *command, const struct stream_reader *reader)
+{
+  if (reader->answer != NULL)
+    reader->answer(reader->context);
+  return command_finish_output(command);
+}
+
+enum status stream_read(const struct command *command, const struct stream_reader *reader)
+{
+  struct stream stream = { .size = BUFFER_SIZE, .buffer = malloc(BUFFER_SIZE) };
+  struct stream_line line = { 0 };
+  struct stream_fault fault = { 0 };
+  enum status status = stream.buffer == NULL ? STATUS_LIMIT : STATUS_OK;
+  while (status == STATUS_OK && !(stream.ended && stream.begin == stream.end) && !ferror(stdout)) {
+    if (!find_line(&stream, reader->record, &line)) {
+      status = write_answers(command, reader); /* of what has come: who asks may wait for them before asking again */
+      if (status == STATUS_OK)
+        status = refill(command, &stream);
+      continue;
+    }
+    fault = line.length > MAX_LINE ? (struct stream_fault){ "the line is too long", 0, 1 }
+                                   : reader->take(reader->context, &line);
+    if (fault.text != NULL)
+      break;
+    stream.begin += line.bytes;
+    stream.count++;
+  }
+  if (status == STATUS_OK)
+    status = write_answers(command, reader);
+  if (status == STATUS_OK && fault.text != NULL)
+    status = explain(&stream, &line, reader->record, fault);
+  if (status == STATUS_LIMIT)
+    command_error(command, "out of memory");
+  free(stream.buffer);
+  return status;
 }

@@ -1,62 +1,16 @@
-/* A stream read by lines or records, and what is wrong with one of them. */
+/* Standard input read by lines or records, as a dialogue: whatever has come is answered before more is waited for. */
 #ifndef PSCN_COMMAND_STREAM_H
 #define PSCN_COMMAND_STREAM_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
-#include "base/diagnostics.h"
-#include "base/status.h"
+#include "command/command.h"
 
-/* How standard input is called in diagnostics. */
-#define STREAM_NAME "<stdin>"
-
-/* The longest line, in bytes. */
-enum { STREAM_MAX_LINE = 1 << 20 };
-
-/* The stream of a file descriptor, from its first byte. */
-struct stream {
-  int descriptor;
-  bool ended;
-  char *buffer;
-  size_t size, begin, end; /* of the buffer, and of what in it is still to be read */
-  size_t count;            /* lines or records read */
-  int reason;              /* errno of STREAM_FAILED */
-};
-
-/* STATUS_LIMIT where memory is short. The caller ends with stream_free in any case. */
-enum status stream_open(int descriptor, struct stream *out) STATUS_MUST_CHECK;
-void stream_free(struct stream *stream);
-
-enum stream_result {
-  STREAM_MORE,   /* there are more bytes, or the end was reached */
-  STREAM_FAILED, /* the stream can not be read: `reason` says why */
-  STREAM_LIMIT   /* memory */
-};
-
-/* Reads more bytes behind those that are left; waits for them. */
-enum stream_result stream_refill(struct stream *stream);
-
-/* Everything was read and taken. */
-static inline bool stream_at_end(const struct stream *stream)
-{
-  return stream->ended && stream->begin == stream->end;
-}
-
-/* The line at the beginning of what is left, without its end, LF or CRLF; `bytes` is its length with it. False where
- * its end is still to come. A line longer than STREAM_MAX_LINE comes as the part that has been read. */
+/* A line without its end, LF or CRLF, or a record; `bytes` is its length with the end. */
 struct stream_line {
   const char *text;
   size_t length, bytes;
 };
-bool stream_line(const struct stream *stream, struct stream_line *out);
-
-/* Steps over a line or record. */
-static inline void stream_take(struct stream *stream, size_t bytes)
-{
-  stream->begin += bytes;
-  stream->count++;
-}
 
 /* What is wrong with a line, and where in it: bytes begin .. end-1. text is NULL where nothing is. */
 struct stream_fault {
@@ -64,14 +18,24 @@ struct stream_fault {
   size_t begin, end;
 };
 
+/* What a command does with its input. `take` is told each line or record, and what is wrong with it is what it answers;
+ * the last record may be cut off. `answer`, which may be NULL, is to write to stdout whatever is still to be said of
+ * what was taken. */
+struct stream_reader {
+  struct stream_fault (*take)(void *context, const struct stream_line *line);
+  void (*answer)(void *context);
+  void *context;
+  size_t record; /* bytes of a record, 0: lines */
+};
+
+/* Reads until standard input ends, or a line is wrong, which is told after all answers to those before it, or something
+ * fails: STATUS_INPUT, STATUS_FILE or STATUS_LIMIT, told. */
+enum status stream_read(const struct command *command, const struct stream_reader *reader) STATUS_MUST_CHECK;
+
 /* Reads the next number of a line, from byte *at on, and steps over it: 1; 0 where the line holds no more; -1 where
  * what stands there is no finite number, told in out_fault. Either way *at is then the first byte of the word, and
  * out_end the first behind it. */
 int stream_number(const struct stream_line *line, size_t *at, double *out_value, size_t *out_end,
                   struct stream_fault *out_fault);
-
-/* Tells the fault of the line at the beginning of what is left. STATUS_INPUT, or STATUS_LIMIT where memory is short. */
-enum status stream_explain(const struct stream *stream, const struct stream_line *line, struct stream_fault fault,
-                           struct diagnostics *diagnostics) STATUS_MUST_CHECK;
 
 #endif

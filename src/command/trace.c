@@ -1,21 +1,23 @@
 /* pscn trace SCENE: rays on stdin, hits on stdout. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/number.h"
 #include "command/command.h"
-#include "command/ray_input.h"
 #include "command/report.h"
 #include "command/scene_file.h"
+#include "command/stream.h"
 #include "geometry/vector.h"
 #include "intersect/intersect.h"
 
-enum { OPTION_BINARY = 1, OPTION_STATS, OPTION_QUIET };
+enum { OPTION_BINARY = 1, OPTION_CERTAINTY, OPTION_STATS, OPTION_QUIET };
 
 enum {
-  ANSWER_VALUES = 7, /* T U V PATCH NX NY NZ */
+  RAY_VALUES = 6,    /* ox oy oz dx dy dz */
+  ANSWER_VALUES = 8, /* T U V PATCH NX NY NZ, and with --certainty 1 or 0 */
   ANSWER_SIZE = ANSWER_VALUES * NUMBER_TEXT_SIZE + 16, /* bytes of an answer as text, at most */
   OUTPUT_BUFFER = 1 << 16
 };
@@ -24,6 +26,7 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   SCENE_OPTIONS,
   COMMAND_FLAG("binary", 0, OPTION_BINARY, "little-endian doubles instead of text"),
+  COMMAND_FLAG("certainty", 0, OPTION_CERTAINTY, "whether each answer is 'certain' or 'grazing'"),
   COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output, after the hits", "FILE"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "no summary on a terminal"),
   POPT_TABLEEND
@@ -32,7 +35,7 @@ static const struct poptOption OPTIONS[] = {
 struct request {
   struct scene_request scene;
   const char *stats;
-  bool binary, quiet;
+  bool binary, certainty, quiet;
 };
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
@@ -44,6 +47,9 @@ static enum status take_option(const struct command *command, void *context, int
   case OPTION_BINARY:
     request->binary = true;
     break;
+  case OPTION_CERTAINTY:
+    request->certainty = true;
+    break;
   case OPTION_STATS:
     request->stats = argument;
     break;
@@ -54,13 +60,22 @@ static enum status take_option(const struct command *command, void *context, int
   return STATUS_OK;
 }
 
-/* The numbers of an answer; a miss has T infinite and PATCH -1. */
+/* Rays that wait for an answer, and who answers them. */
+struct session {
+  const struct request *request;
+  struct tracer *tracer;
+  size_t count;
+  struct ray rays[PACKET_SIZE];
+};
+
+/* The numbers of an answer, of which the last is for --certainty; a miss has T infinite and PATCH -1. */
 static void answer_values(const struct ray *ray, const struct hit *hit, double out[ANSWER_VALUES])
 {
   const bool missed = hit->patch == HIT_NONE;
   memset(out, 0, ANSWER_VALUES * sizeof *out);
   out[0] = missed ? INFINITY : hit->t * vector_length(ray->direction);
   out[3] = missed ? -1 : (double)hit->patch;
+  out[7] = hit->certainty == CERTAINTY_CERTAIN;
   if (!missed) {
     out[1] = hit->u;
     out[2] = hit->v;
@@ -69,7 +84,7 @@ static void answer_values(const struct ray *ray, const struct hit *hit, double o
   }
 }
 
-static void write_text(const struct ray *ray, const struct hit *hit)
+static void write_text(const struct request *request, const struct ray *ray, const struct hit *hit)
 {
   double value[ANSWER_VALUES];
   char line[ANSWER_SIZE] = "miss";
@@ -78,76 +93,116 @@ static void write_text(const struct ray *ray, const struct hit *hit)
     answer_values(ray, hit, value);
     memcpy(line, "hit", 3);
     length = 3;
-    for (int k = 0; k < ANSWER_VALUES; k++) {
+    for (int k = 0; k < ANSWER_VALUES - 1; k++) {
       line[length++] = ' ';
       length += number_write_17(value[k], line + length);
     }
+  }
+  if (request->certainty) {
+    memcpy(line + length, hit->certainty == CERTAINTY_CERTAIN ? " certain" : " grazing", 8);
+    length += 8;
   }
   line[length++] = '\n';
   fwrite(line, 1, length, stdout);
 }
 
-static void write_binary(const struct ray *ray, const struct hit *hit)
+static void write_binary(const struct request *request, const struct ray *ray, const struct hit *hit)
 {
   double value[ANSWER_VALUES];
   unsigned char bytes[8 * ANSWER_VALUES];
+  const size_t count = request->certainty ? ANSWER_VALUES : ANSWER_VALUES - 1;
   answer_values(ray, hit, value);
-  for (int k = 0; k < ANSWER_VALUES; k++) {
+  for (size_t k = 0; k < count; k++) {
     uint64_t bits;
     memcpy(&bits, &value[k], sizeof bits);
-    for (int b = 0; b < 8; b++)
+    for (size_t b = 0; b < 8; b++)
       bytes[8 * k + b] = (unsigned char)(bits >> (8 * b) & 0xff);
   }
-  fwrite(bytes, 1, sizeof bytes, stdout);
+  fwrite(bytes, 8, count, stdout);
 }
 
-static void answer(struct tracer *tracer, bool binary, size_t count, const struct ray rays[])
+static void answer(void *context)
 {
+  struct session *session = context;
   struct hit hits[PACKET_SIZE];
-  if (count == 0)
-    return;
-  tracer_closest(tracer, count, rays, hits);
-  for (size_t k = 0; k < count; k++)
-    (binary ? write_binary : write_text)(&rays[k], &hits[k]);
+  if (session->count > 0)
+    tracer_closest(session->tracer, session->count, session->rays, hits);
+  for (size_t k = 0; k < session->count; k++)
+    (session->request->binary ? write_binary : write_text)(session->request, &session->rays[k], &hits[k]);
+  session->count = 0;
 }
 
-/* Answers until the stream ends, or a bad line comes, or something fails. */
-static enum status trace_stream(const struct command *command, struct tracer *tracer, struct ray_input *input)
+/* Makes a ray of six finite numbers; false where the direction is zero. The direction has a power of two taken out, so
+ * that its length neither overflows nor underflows. */
+static bool make_ray(const double value[RAY_VALUES], struct ray *out)
 {
-  struct ray rays[PACKET_SIZE];
-  size_t count = 0;
-  enum ray_input_result result;
-  do {
-    result = ray_input_next(input, &rays[count]);
-    if (result == RAY_INPUT_RAY && ++count < PACKET_SIZE)
-      continue;
-    answer(tracer, input->binary, count, rays);
-    count = 0;
-    const bool more = result == RAY_INPUT_RAY;
-    const enum status status = more && !ferror(stdout) ? STATUS_OK : command_finish_output(command);
-    if (status != STATUS_OK)
-      return status;
-  } while (result == RAY_INPUT_RAY || result == RAY_INPUT_PENDING);
-
-  enum status status = STATUS_OK;
-  if (result == RAY_INPUT_FAILED) {
-    command_error(command, "cannot read standard input: %s", strerror(input->stream.reason));
-    status = STATUS_FILE;
-  } else if (result == RAY_INPUT_BAD) {
-    struct diagnostics diagnostics = stderr_diagnostics();
-    status = ray_input_explain(input, &diagnostics);
-  } else if (result == RAY_INPUT_LIMIT) {
-    status = STATUS_LIMIT;
+  const double largest = fmax(fmax(fabs(value[3]), fabs(value[4])), fabs(value[5]));
+  int exponent;
+  if (largest == 0)
+    return false;
+  (void)frexp(largest, &exponent);
+  for (int k = 0; k < 3; k++) {
+    out->origin[k] = value[k];
+    out->direction[k] = ldexp(value[k + 3], -exponent);
   }
-  return status;
+  out->t_min = 0;
+  out->t_max = INFINITY;
+  return true;
+}
+
+/* Reads "ox oy oz dx dy dz"; the fault's text is NULL where all is well. */
+static struct stream_fault parse_line(const struct stream_line *line, struct ray *out)
+{
+  double value[RAY_VALUES + 1];
+  size_t at = 0, end = 0, direction = 0;
+  struct stream_fault fault;
+  for (int k = 0; k < RAY_VALUES; k++) {
+    const int found = stream_number(line, &at, &value[k], &end, &fault);
+    if (found < 0)
+      return fault;
+    if (found == 0)
+      return (struct stream_fault){ "a ray is six numbers: ox oy oz dx dy dz", fault.begin, fault.end };
+    direction = k == 3 ? at : direction;
+    at = end;
+  }
+  const size_t last = end;
+  if (stream_number(line, &at, &value[RAY_VALUES], &end, &fault) != 0)
+    return (struct stream_fault){ "a ray is six numbers, and here is more", fault.begin, fault.end };
+  return (struct stream_fault){ make_ray(value, out) ? NULL : "the direction is zero", direction, last };
+}
+
+/* The same of six little-endian doubles. */
+static struct stream_fault parse_record(const struct stream_line *record, struct ray *out)
+{
+  double value[RAY_VALUES];
+  if (record->length < sizeof value)
+    return (struct stream_fault){ .text = "the stream ends inside a record of 48 bytes" };
+  for (int k = 0; k < RAY_VALUES; k++) {
+    uint64_t bits = 0;
+    for (int b = 7; b >= 0; b--)
+      bits = bits << 8 | (unsigned char)record->text[8 * k + b];
+    memcpy(&value[k], &bits, sizeof bits);
+    if (!isfinite(value[k]))
+      return (struct stream_fault){ .text = "a number is not finite" };
+  }
+  return (struct stream_fault){ .text = make_ray(value, out) ? NULL : "the direction is zero" };
+}
+
+static struct stream_fault take(void *context, const struct stream_line *line)
+{
+  struct session *session = context;
+  const struct stream_fault fault =
+    (session->request->binary ? parse_record : parse_line)(line, &session->rays[session->count]);
+  if (fault.text == NULL && ++session->count == PACKET_SIZE)
+    answer(session);
+  return fault;
 }
 
 static enum status trace(const struct command *command, struct request *request)
 {
   struct scene *scene = NULL;
   struct intersector *intersector = NULL;
-  struct tracer *tracer = NULL;
-  struct ray_input input = { .binary = request->binary };
+  struct session session = { .request = request };
   struct seconds start = seconds_now();
   enum status status = report_probe(command, request->stats);
   if (status != STATUS_OK)
@@ -161,25 +216,23 @@ static enum status trace(const struct command *command, struct request *request)
   start = seconds_now();
   status = intersector_create(scene, &intersector);
   if (status == STATUS_OK)
-    status = tracer_create(intersector, &tracer);
-  if (status == STATUS_OK)
-    status = ray_input_open(STDIN_FILENO, request->binary, &input);
+    status = tracer_create(intersector, &session.tracer);
+  if (status == STATUS_LIMIT)
+    command_error(command, "out of memory");
   report.build = seconds_since(start);
   if (status == STATUS_OK) {
     start = seconds_now();
-    status = trace_stream(command, tracer, &input);
+    const struct stream_reader reader = { take, answer, &session, request->binary ? RAY_VALUES * sizeof(double) : 0 };
+    status = stream_read(command, &reader);
     report.render = seconds_since(start);
-    report.counts = *tracer_counts(tracer);
+    report.counts = *tracer_counts(session.tracer);
   }
-  if (status == STATUS_LIMIT)
-    command_error(command, "out of memory");
   if (status == STATUS_OK)
     status = report_write(command, &report, request->stats);
   if (status == STATUS_OK && !request->quiet && isatty(STDERR_FILENO) == 1)
     report_print(&report);
-  ray_input_free(&input);
-  if (tracer != NULL)
-    tracer_destroy(tracer);
+  if (session.tracer != NULL)
+    tracer_destroy(session.tracer);
   if (intersector != NULL)
     intersector_destroy(intersector);
   scene_destroy(scene);
@@ -212,7 +265,10 @@ const struct command command_trace = {
     "origin. A bad line ends the run with its number, after the answers to the lines before it.\n"
     "\n"
     "--binary: a ray is six little-endian doubles, an answer seven, T U V PATCH NX NY NZ; a miss has T infinite,\n"
-    "PATCH -1 and zeros.\n",
+    "PATCH -1 and zeros.\n"
+    "\n"
+    "--certainty: each line ends with 'certain' where the answer is proven, or with 'grazing' where a change of the\n"
+    "input within rounding could turn it; a binary answer has an eighth number, 1 or 0.\n",
   .options = OPTIONS,
   .run = run,
 };

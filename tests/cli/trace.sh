@@ -13,3 +13,26 @@ nine='\0\0\0\0\0\0\042\100' minus_four='\0\0\0\0\0\0\020\300'
 printf "$half$zero$minus_four$zero$zero$one" >one
 printf "$nine$zero$minus_four$zero$zero$one" >two
 cat one two | pscn trace "$scene" --binary | LC_ALL=C od -A n -v -t f8 -w56 | sed 's/  */ /g'
+# With what is proven and what is not: the border of an open surface.
+printf '0.5 0 -4 0 0 1\n9 0 -4 0 0 1\n1 0 -4 0 0 1\n' | pscn trace "$scene" --certainty
+cat one two | pscn trace "$scene" --binary --certainty | LC_ALL=C od -A n -v -t f8 -w64 | sed 's/  */ /g'
+# Each answer comes before more is asked.
+mkfifo ask tell
+dialogue() { # WHAT COMMAND...: writes `one` and `two` in turn, and waits in between for $1 to have read an answer
+  local listen=$1
+  shift
+  pscn trace "$scene" "$@" <ask >tell &
+  exec 3>ask 4<tell
+  for ray in one two; do
+    cat $ray >&3
+    $listen <&4 || echo "no answer"
+  done
+  exec 3>&- 4<&-
+  wait
+}
+line() { timeout 20 head -n 1; }
+record() { timeout 20 head -c 56 | LC_ALL=C od -A n -v -t f8 -w56 | sed 's/  */ /g'; }
+dialogue record --binary
+echo '0 0 -4 0 0 1' >one
+echo '9 0 -4 0 0 1' >two
+dialogue line
