@@ -8,9 +8,9 @@
 #include "accuracy/trial.h"
 #include "cmocka_test.h"
 
-/* Relative to the largest coordinate of point and origin: T may be off by this much besides, which is well below one
- * rounding of a coordinate. Where a patch is thin, its floor is smaller still. */
-#define LEAST_ALLOWED 0x1p-60
+/* How near to its patch a grazing hit must be, relative to the largest coordinate: TRIAL_NEAR for each of three, and
+ * some. */
+#define GRAZING_NEAR (4 * TRIAL_NEAR)
 
 /* A grazing answer may overlook a root this near to the ray's origin, relative to the same. */
 #define AT_ORIGIN 0x1p-46
@@ -60,8 +60,6 @@ static bool may_meet(const double box[2][3], const struct ray *ray)
   return true;
 }
 
-static double length_of(const double a[3]) { return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
-
 struct judging {
   const struct certifier *certifier;
   const struct ray *ray;
@@ -73,21 +71,9 @@ struct judging {
   bool doubt_at, doubt_before;
 };
 
-/* The largest coordinate of the origin and of the point at t, in units of t. */
-static double size_at(const struct ray *ray, double t)
-{
-  double size = 0;
-  for (int axis = 0; axis < 3; axis++)
-    size = fmax(size, fmax(fabs(ray->origin[axis]), fabs(ray->origin[axis] + t * ray->direction[axis])));
-  return size / length_of(ray->direction);
-}
-
 static double floor_at(const struct judging *j, uint32_t patch, double t, double u, double v)
 {
-  double f;
-  reference_floor_at(j->certifier->reference, patch, j->ray->origin, j->ray->direction, t, u, v, &f);
-  const double least = LEAST_ALLOWED / CERTIFICATE_FLOORS * size_at(j->ray, t);
-  return f > least ? f : f > 0 ? least : INFINITY; /* not a number: singular */
+  return trial_floor(j->certifier->reference, j->ray, patch, t, u, v);
 }
 
 /* All roots of a patch that matter to a hit. */
@@ -95,7 +81,7 @@ static void judge_patch(struct judging *j, uint32_t patch)
 {
   const double T = j->hit->t, end = T + 2 * j->allowed;
   const bool certain = j->hit->certainty == CERTAINTY_CERTAIN;
-  const double at_origin = AT_ORIGIN * size_at(j->ray, 0);
+  const double at_origin = AT_ORIGIN * trial_size(j->ray, 0);
   struct exact_roots roots;
   exact_patch_roots(j->certifier->scene->patches[patch].P, j->ray->origin, j->ray->direction, j->ray->t_min,
                     j->ray->t_max < end ? j->ray->t_max : end, T, &roots);
@@ -147,10 +133,10 @@ static void judge_hit(struct judging *j)
 {
   const struct hit *hit = j->hit;
   const bool certain = hit->certainty == CERTAINTY_CERTAIN;
-  double size = length_of(j->ray->direction) * size_at(j->ray, hit->t);
-  for (int axis = 0; axis < 3; axis++)
-    size = fmax(size, fmax(fabs(j->certifier->boxes[hit->patch][0][axis]), fabs(j->certifier->boxes[hit->patch][1][axis])));
-  const double near = TRIAL_NEAR * size / length_of(j->ray->direction);
+  const double *d = j->ray->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  double size = length * trial_size(j->ray, hit->t); /* the patch's included */
+  for (int k = 0; k < 6; k++) size = fmax(size, fabs(j->certifier->boxes[hit->patch][k / 3][k % 3]));
+  const double near = TRIAL_NEAR * size / length;
   const double floor = floor_at(j, hit->patch, hit->t, hit->u, hit->v);
   j->allowed = certain ? CERTIFICATE_FLOORS * floor : near + TRIAL_SAME_FLOORS * floor;
   const double most = certain ? MOST_ALLOWED * hit->t : 0x1p10 * near;
@@ -168,7 +154,7 @@ static void judge_hit(struct judging *j)
   } else if (!certain) {
     const double off = reference_residual(j->certifier->reference, hit->patch, j->ray->origin, j->ray->direction, hit->t,
                                           hit->u, hit->v);
-    out->finding = off <= TRIAL_NEAR * size ? FINDING_PROVEN : FINDING_INVENTED;
+    out->finding = off <= GRAZING_NEAR * size ? FINDING_PROVEN : FINDING_INVENTED;
   } else if (!exists && !j->doubt_at) {
     out->finding = FINDING_INVENTED;
   } else {
@@ -192,7 +178,7 @@ static void judge_miss(struct judging *j)
       const struct exact_root *root = &roots.root[k];
       doubt |= !root->proven;
       if (!root->proven || root->t_off >= j->out->t) continue;
-      if (grazing && root->t_off < AT_ORIGIN * size_at(j->ray, 0)) continue;
+      if (grazing && root->t_off < AT_ORIGIN * trial_size(j->ray, 0)) continue;
       j->out->finding = FINDING_LOST;
       j->out->t = root->t_off, j->out->u = root->u, j->out->v = root->v, j->out->patch = (uint32_t)n;
     }

@@ -15,6 +15,9 @@
 #include "effort.h"
 #include "random.h"
 
+/* No ray of any scene may take longer, in seconds. Timing decides no test; it is printed. */
+#define SLOW 2e-3
+
 /* The default solver gets all rays, the others this share. */
 #define OTHERS_SHARE 0.1
 enum { FULL_RAYS = 1000000, LEAST_RAYS = 16, MOST_CLASSES = 64, MOST_SHOWN = 6 };
@@ -30,15 +33,9 @@ enum { FORMS = sizeof forms / sizeof forms[0] };
 struct count {
   size_t rays, answers[2][FINDINGS]; /* certain, grazing */
   size_t grazing_sure;               /* grazing though the judge proves the answer */
+  size_t slow;                       /* above SLOW */
   double slowest;                    /* seconds */
-  struct ray slowest_ray;
 };
-
-static const struct situation_class *class_at(size_t n)
-{
-  const size_t count = situation_class_count();
-  return n < count ? situation_class_at(n) : hostile_class_at(n - count);
-}
 
 static double seconds(void)
 {
@@ -47,27 +44,44 @@ static double seconds(void)
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* With PSCN_SHOW set everything is shown, and the scene too. */
 static void show(const char *name, const struct form *form, const struct situation *s, const struct ray *ray,
-                 const struct hit *hit, const struct certificate *c)
+                 const struct hit *hit, const char *what)
 {
-  static size_t shown = 0;
-  if (shown++ >= MOST_SHOWN && !getenv("PSCN_SHOW")) return;
   const double *o = ray->origin, *d = ray->direction;
   printf("%s, %s, split %d: %s %s\n  ray %.17g %.17g %.17g %.17g %.17g %.17g\n", name, form->solver, form->split,
-         hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[c->finding], o[0], o[1], o[2], d[0],
-         d[1], d[2]);
+         hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", what, o[0], o[1], o[2], d[0], d[1], d[2]);
   if (hit->patch != HIT_NONE)
     printf("  answer t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
-  if (c->patch != REFERENCE_NONE)
-    printf("  truth  t %.17g u %.17g v %.17g patch %u, %.3g floors\n", c->t, c->u, c->v, (unsigned)c->patch, c->off);
   if (!getenv("PSCN_SHOW")) return;
-  printf("  scene\n");
   for (size_t n = 0; n < s->count; n++) {
     printf("bicubic_patch { type 1 flatness 0 u_steps 5 v_steps 5\n");
     for (int k = 0; k < 16; k++)
       printf("  <%.17g, %.17g, %.17g>%s\n", s->P[n][k / 4][k % 4][0], s->P[n][k / 4][k % 4][1],
              s->P[n][k / 4][k % 4][2], k < 15 ? "," : "\n pigment { color rgb 1 } }");
   }
+}
+
+static void show_refuted(const char *name, const struct form *form, const struct situation *s, const struct ray *ray,
+                         const struct hit *hit, const struct certificate *c)
+{
+  static size_t shown = 0;
+  if (shown++ >= MOST_SHOWN && !getenv("PSCN_SHOW")) return;
+  if (c->patch != REFERENCE_NONE)
+    printf("  truth  t %.17g u %.17g v %.17g patch %u, %.3g floors\n", c->t, c->u, c->v, (unsigned)c->patch, c->off);
+  show(name, form, s, ray, hit, finding_names[c->finding]);
+}
+
+/* Traces the ray, twice where the first time is long: the machine may have been busy. */
+static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
+{
+  double least = INFINITY;
+  for (int n = 0; n < 2 && least > SLOW; n++) {
+    const double start = seconds();
+    tracer_closest(trial->tracer, 1, ray, out);
+    least = fmin(least, seconds() - start);
+  }
+  return least;
 }
 
 static void run_situation(const char *name, const struct form *form, const struct situation *s,
@@ -84,15 +98,14 @@ static void run_situation(const char *name, const struct form *form, const struc
   for (int n = 0; n < SITUATION_RAYS; n++) {
     struct hit hit;
     struct certificate certificate;
-    const double start = seconds();
-    tracer_closest(trial.tracer, 1, &s->rays[n], &hit);
-    const double time = seconds() - start;
+    const double time = trace(&trial, &s->rays[n], &hit);
     certify(&certifier, &s->rays[n], &hit, &certificate);
     const bool grazing = hit.certainty != CERTAINTY_CERTAIN;
     count->rays++, count->answers[grazing][certificate.finding]++;
     count->grazing_sure += grazing && certificate.finding == FINDING_PROVEN && certificate.sure;
-    if (time > count->slowest) count->slowest = time, count->slowest_ray = s->rays[n];
-    if (certificate.finding > FINDING_UNDECIDED) show(name, form, s, &s->rays[n], &hit, &certificate);
+    count->slowest = fmax(count->slowest, time), count->slow += time > SLOW;
+    if (time > SLOW && getenv("PSCN_SHOW")) show(name, form, s, &s->rays[n], &hit, "slow");
+    if (certificate.finding > FINDING_UNDECIDED) show_refuted(name, form, s, &s->rays[n], &hit, &certificate);
   }
   certifier_destroy(&certifier);
   trial_destroy(&trial);
@@ -110,11 +123,11 @@ static void print_count(const char *name, const struct form *form, uint64_t seed
   const size_t *certain = c->answers[0], *grazing = c->answers[1];
   const size_t grazes = grazing[FINDING_PROVEN] + grazing[FINDING_UNDECIDED] + refuted(grazing);
   printf("%-36s %-9s %2d %7zu rays: certain %6zu, %zu undecided, %zu refuted; grazing %zu, %zu provable, %zu refuted; "
-         "lost %zu later %zu invented %zu; slowest %.2f ms; seed %llu\n",
+         "lost %zu later %zu invented %zu; %zu slow, slowest %.2f ms; seed %llu\n",
          name, form->solver, form->split, c->rays, certain[FINDING_PROVEN], certain[FINDING_UNDECIDED],
          refuted(certain), grazes, c->grazing_sure, refuted(grazing), certain[FINDING_LOST] + grazing[FINDING_LOST],
          certain[FINDING_LATER] + grazing[FINDING_LATER], certain[FINDING_INVENTED] + grazing[FINDING_INVENTED],
-         1e3 * c->slowest, (unsigned long long)seed);
+         c->slow, 1e3 * c->slowest, (unsigned long long)seed);
   fflush(stdout);
 }
 
@@ -144,11 +157,11 @@ static void test_class(void **state)
 int main(void)
 {
   struct CMUnitTest tests[MOST_CLASSES];
-  const size_t count = situation_class_count() + hostile_class_count();
+  const size_t count = every_class_count();
   assert_true(count <= MOST_CLASSES);
   for (size_t n = 0; n < count; n++) {
-    void *class = (void *)(uintptr_t)class_at(n); /* cmocka's state is not const */
-    tests[n] = (struct CMUnitTest){.name = class_at(n)->name, .test_func = test_class, .initial_state = class};
+    void *class = (void *)(uintptr_t)every_class_at(n); /* cmocka's state is not const */
+    tests[n] = (struct CMUnitTest){.name = every_class_at(n)->name, .test_func = test_class, .initial_state = class};
   }
   return _cmocka_run_group_tests("certificates", tests, count, NULL, NULL);
 }

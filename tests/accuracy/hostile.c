@@ -462,6 +462,10 @@ static const struct situation_class classes[] = {
     {"coincident patches", 717, 0.5, coincident},
 };
 
-size_t hostile_class_count(void) { return sizeof classes / sizeof classes[0]; }
+size_t every_class_count(void) { return situation_class_count() + sizeof classes / sizeof classes[0]; }
 
-const struct situation_class *hostile_class_at(size_t index) { return &classes[index]; }
+const struct situation_class *every_class_at(size_t index)
+{
+  const size_t first = situation_class_count();
+  return index < first ? situation_class_at(index) : &classes[index - first];
+}

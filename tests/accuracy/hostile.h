@@ -7,7 +7,8 @@
 
 #include "accuracy/situations.h"
 
-size_t hostile_class_count(void);
-const struct situation_class *hostile_class_at(size_t index); /* index < the count */
+/* Those of situations.h first. */
+size_t every_class_count(void);
+const struct situation_class *every_class_at(size_t index); /* index < the count */
 
 #endif

@@ -116,6 +116,22 @@ static double direction_length(const struct ray *ray)
   return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
+double trial_size(const struct ray *ray, double t)
+{
+  double size = 0;
+  for (int axis = 0; axis < 3; axis++)
+    size = fmax(size, fmax(fabs(ray->origin[axis]), fabs(ray->origin[axis] + t * ray->direction[axis])));
+  return size / direction_length(ray);
+}
+
+double trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t, double u,
+                   double v)
+{
+  double floor;
+  reference_floor_at(reference, patch, ray->origin, ray->direction, t, u, v, &floor);
+  return floor > 0 ? fmax(floor, TRIAL_LEAST * trial_size(ray, t)) : INFINITY; /* not a number: singular */
+}
+
 /* How far in t the answer may be from the reference's, whose floor is given, and be the same hit still. */
 static double same_within(const struct trial *trial, const struct ray *ray, const struct hit *hit, double t,
                           double floor)

@@ -64,6 +64,16 @@ struct tally {
 #define TRIAL_T_RELATIVE 1e-12
 #define TRIAL_FLOORS 4
 
+/* The largest coordinate of the origin and of the point at t, in units of t. */
+double trial_size(const struct ray *ray, double t);
+
+/* How far off T of a certain hit may be, but for a small factor: what one rounding of each input moves it, or one of
+ * the patch's extent, or TRIAL_LEAST of the largest coordinate, which is well below a rounding: where a patch is thin,
+ * its floor is smaller still. */
+#define TRIAL_LEAST 0x1p-62
+double trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t, double u,
+                   double v);
+
 /* Makes intersector, tracer and reference of `count` nets. solver may be NULL (the default). Aborts the running
  * cmocka test where that fails. */
 void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct method *solver);

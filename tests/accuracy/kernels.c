@@ -1,0 +1,127 @@
+/* Every kernel that the processor can run gives the same answers, whatever the ray and beside whatever other rays: the
+ * same hit or miss, certainty and patch; T, U, V may differ in their last places only. And any hit is found exactly
+ * where a closest one is. All classes of hostile.h, prints for each what differs. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accuracy/hostile.h"
+#include "accuracy/kernel_choice.h"
+#include "accuracy/trial.h"
+#include "cmocka_test.h"
+#include "effort.h"
+#include "random.h"
+
+enum { FULL_RAYS = 100000, LEAST_RAYS = 128, MOST_CLASSES = 64, MOST_SHOWN = 4 };
+
+struct count {
+  size_t rays;
+  size_t verdict, certainty, patch; /* that differ between kernels */
+  size_t place;                     /* T differs, but for the last bits of certain ones: by more than DIFFERENT */
+  size_t bits;                      /* T, U or V differ at all */
+  size_t company, occlusion;        /* an answer depends on the rays beside it; any hit is not where a closest is */
+  double worst;                     /* difference of T in floors, both certain */
+};
+
+/* T of certain answers may differ by this many floors: of one rounding of the inputs or of the patch's extent. */
+#define DIFFERENT 8
+
+static bool same(const struct hit *a, const struct hit *b)
+{
+  if (a->patch != b->patch || a->certainty != b->certainty) return false;
+  return a->patch == HIT_NONE || (a->t == b->t && a->u == b->u && a->v == b->v);
+}
+
+static void show(const char *class, const char *what, const struct ray *ray, const struct hit *a, const struct hit *b)
+{
+  static size_t shown = 0;
+  if (shown++ >= MOST_SHOWN && !getenv("PSCN_SHOW")) return;
+  const double *o = ray->origin, *d = ray->direction;
+  printf("%s: %s\n  ray %.17g %.17g %.17g %.17g %.17g %.17g\n", class, what, o[0], o[1], o[2], d[0], d[1], d[2]);
+  const struct hit *const hits[2] = {a, b};
+  for (int n = 0; n < 2; n++) {
+    printf("  %s ", hits[n]->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing");
+    if (hits[n]->patch == HIT_NONE) printf("miss\n");
+    else printf("t %.17g u %.17g v %.17g patch %u\n", hits[n]->t, hits[n]->u, hits[n]->v, (unsigned)hits[n]->patch);
+  }
+}
+
+static void compare(const char *class, const char *kernel, const struct reference *reference, const struct ray *ray, const struct hit *plain,
+                    const struct hit *other, struct count *count)
+{
+  if (same(plain, other)) return;
+  size_t *which = &count->bits;
+  const bool both = plain->patch != HIT_NONE && other->patch != HIT_NONE;
+  if (!both && plain->patch != other->patch) which = &count->verdict;
+  else if (plain->certainty != other->certainty) which = &count->certainty;
+  else if (plain->patch != other->patch) which = &count->patch;
+  else if (plain->certainty == CERTAINTY_CERTAIN) {
+    const double floor = trial_floor(reference, ray, plain->patch, plain->t, plain->u, plain->v);
+    const double off = plain->t == other->t ? 0 : fabs(plain->t - other->t) / floor;
+    count->worst = fmax(count->worst, off);
+    if (off > DIFFERENT) which = &count->place;
+  }
+  ++*which;
+  if (which != &count->bits) show(class, kernel, ray, plain, other);
+}
+
+static void run_situation(const char *class, const struct situation *s, struct count *count)
+{
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, NULL);
+  const size_t kernels = kernel_choices();
+  struct hit alone[SITUATION_RAYS], hits[SITUATION_RAYS];
+  for (size_t k = kernels; k-- > 0;) {
+    const char *name = kernel_choose(trial.tracer, k);
+    for (int n = 0; n < SITUATION_RAYS; n += PACKET_SIZE)
+      tracer_closest(trial.tracer, PACKET_SIZE, &s->rays[n], &hits[n]);
+    if (k == kernels - 1) memcpy(alone, hits, sizeof alone);
+    for (int n = 0; n < SITUATION_RAYS; n++)
+      compare(class, name, trial.reference, &s->rays[n], &alone[n], &hits[n], count);
+    for (int n = 0; n < SITUATION_RAYS; n++) {
+      struct hit single;
+      bool occluded;
+      tracer_closest(trial.tracer, 1, &s->rays[n], &single);
+      tracer_occluded(trial.tracer, 1, &s->rays[n], &occluded);
+      if (!same(&single, &hits[n])) count->company++, show(class, "company", &s->rays[n], &single, &hits[n]);
+      if (occluded != (single.patch != HIT_NONE))
+        count->occlusion++, show(class, "occlusion", &s->rays[n], &single, &single);
+    }
+  }
+  count->rays += SITUATION_RAYS;
+  trial_destroy(&trial);
+}
+
+static void test_class(void **state)
+{
+  const struct situation_class *class = *state;
+  const char *only = getenv("PSCN_CLASS");
+  if (only && !strstr(class->name, only)) return;
+  struct count c = {0};
+  const size_t wanted = effort_count((size_t)(class->share * FULL_RAYS), LEAST_RAYS);
+  const uint64_t seed = effort_seed(class->seed);
+  struct random random = {.state = seed};
+  for (size_t index = 0; c.rays < wanted; index++) {
+    struct situation situation;
+    class->generate(&random, index, &situation);
+    run_situation(class->name, &situation, &c);
+  }
+  printf("%-36s %7zu rays: verdict %zu, certainty %zu, patch %zu, T %zu, last bits %zu differ; T by %.2g floors; company %zu, "
+         "occlusion %zu; seed %llu\n",
+         class->name, c.rays, c.verdict, c.certainty, c.patch, c.place, c.bits, c.worst, c.company, c.occlusion,
+         (unsigned long long)seed);
+  assert_int_equal(c.verdict + c.certainty + c.patch + c.place + c.company + c.occlusion, 0);
+}
+
+int main(void)
+{
+  struct CMUnitTest tests[MOST_CLASSES];
+  const size_t count = every_class_count();
+  assert_true(count <= MOST_CLASSES);
+  for (size_t n = 0; n < count; n++) {
+    void *class = (void *)(uintptr_t)every_class_at(n); /* cmocka's state is not const */
+    tests[n] = (struct CMUnitTest){.name = every_class_at(n)->name, .test_func = test_class, .initial_state = class};
+  }
+  return _cmocka_run_group_tests("kernels", tests, count, NULL, NULL);
+}
