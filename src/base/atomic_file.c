@@ -1,21 +1,24 @@
-/* Files that appear whole or not at all: temporary file in the same folder, fsync, rename. */
-#define _XOPEN_SOURCE 700 /* for realpath, which glibc keeps behind it */
+/* Files that appear whole or not at all: a file without a name in the same folder, fsync, link, rename. Where the file
+ * system knows only files with names, it has one from the beginning that nobody can guess. */
+#define _GNU_SOURCE /* O_TMPFILE, realpath */
 #include "base/atomic_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
 
 enum {
-  CHUNK = 1 << 20,      /* bytes written between two looks at `stop` */
-  NAME_ATTEMPTS = 1000, /* temporary names tried: others may stem from a killed process with our number */
-  NAME_SPACE = 64       /* room for the temporary file's own name, at most "/.pscn-" + two numbers + ".tmp" */
+  CHUNK = 1 << 20,    /* bytes written between two looks at `stop` */
+  NAME_ATTEMPTS = 10, /* temporary names tried: of 2^64, so that one is enough but where somebody guesses */
+  NAME_SPACE = 64     /* room for the temporary file's own name, "/.pscn-" + 16 digits + ".tmp" */
 };
 
 /* What the final name is before we write. */
@@ -64,26 +67,49 @@ static int target_find(const char *path, struct target *out)
   return out->path == NULL ? errno : 0;
 }
 
-/* Makes a new name next to `path`: of the file `same`, or where that is NULL of a new one, whose descriptor is
- * *out_descriptor. Answers the name, owned by the caller, or NULL with errno set. */
-static char *temporary_name(const char *path, const char *same, int *out_descriptor)
+/* Nobody else can read the new file before it has its name; an old one's permissions are given to it then. */
+static mode_t first_mode(const struct target *target) { return target->exists ? 0600 : 0666; }
+
+/* A file without a name in the target's folder: its descriptor, or -1 with errno set, EOPNOTSUPP where the file system
+ * has none of these. Naming it goes through /proc. */
+static int unnamed_open(const struct target *target)
 {
-  char *name = directory_of(path);
-  if (name == NULL) {
-    errno = ENOMEM;
-    return NULL;
-  }
-  char *end = name + strlen(name);
-  for (int attempt = 0; attempt < NAME_ATTEMPTS; attempt++) {
-    snprintf(end, NAME_SPACE, "/.pscn-%ld-%d.tmp", (long)getpid(), attempt);
-    const int made = same != NULL ? link(same, name)
-                                  : (*out_descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  char *directory = directory_of(target->path);
+  int descriptor = -1;
+  errno = ENOMEM;
+  if (directory != NULL && access("/proc/self/fd", X_OK) != 0)
+    errno = EOPNOTSUPP;
+  else if (directory != NULL)
+    descriptor = open(directory, O_TMPFILE | O_WRONLY | O_CLOEXEC, first_mode(target));
+  const int reason = errno == EISDIR || errno == EINVAL ? EOPNOTSUPP : errno;
+  free(directory);
+  errno = reason;
+  return descriptor;
+}
+
+/* Makes a new name next to the target: of the file `same`, or where that is NULL of a new one, whose descriptor is
+ * *out_descriptor. Answers the name, owned by the caller, or NULL with errno set. */
+static char *temporary_name(const struct target *target, const char *same, int *out_descriptor)
+{
+  char *name = directory_of(target->path);
+  int reason = ENOMEM;
+  for (int attempt = 0; name != NULL && attempt < NAME_ATTEMPTS; attempt++) {
+    uint64_t number;
+    if (getrandom(&number, sizeof number, 0) != (ssize_t)sizeof number) {
+      reason = errno;
+      break;
+    }
+    char *end = name + (attempt == 0 ? strlen(name) : (size_t)(strrchr(name, '/') - name));
+    snprintf(end, NAME_SPACE, "/.pscn-%016" PRIx64 ".tmp", number);
+    const int made =
+      same != NULL ? linkat(AT_FDCWD, same, AT_FDCWD, name, AT_SYMLINK_FOLLOW)
+                   : (*out_descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, first_mode(target)));
     if (made >= 0)
       return name;
-    if (errno != EEXIST)
+    reason = errno;
+    if (reason != EEXIST)
       break;
   }
-  const int reason = errno;
   free(name);
   errno = reason;
   return NULL;
@@ -141,32 +167,30 @@ static enum status write_through(const struct target *target, const unsigned cha
 /* A file on its way to its name. */
 struct staged {
   struct target target;
-  char *fresh; /* the new file, complete and on the disk, or NULL; owned, as is `old` */
-  char *old;   /* another name of the old file, for the case that a later one fails; or NULL */
-  bool placed; /* the name has what it is to have */
+  int descriptor; /* of the new file, complete and on the disk; -1 where there is none */
+  char *fresh;    /* the name it has so far, or NULL; owned, as is `old` */
+  char *old;      /* another name of the old file, for the case that a later one fails; or NULL */
+  bool placed;    /* the name has what it is to have */
 };
 
 /* Writes the new file beside the name. */
 static enum status stage_bytes(const struct atomic_file *file, const atomic_int *stop, struct staged *out,
                                int *out_errno)
 {
-  int descriptor = -1;
-  out->fresh = temporary_name(out->target.path, NULL, &descriptor);
-  if (out->fresh == NULL) {
+  const struct target *target = &out->target;
+  out->descriptor = unnamed_open(target);
+  if (out->descriptor < 0 && errno == EOPNOTSUPP)
+    out->fresh = temporary_name(target, NULL, &out->descriptor);
+  if (out->descriptor < 0) {
     *out_errno = errno;
     return STATUS_FILE;
   }
-  enum status status = write_all(descriptor, file->bytes, file->size, stop, out_errno);
-  if (status == STATUS_OK && ((out->target.exists && fchmod(descriptor, out->target.mode) != 0) ||
-                              (fsync(descriptor) != 0 && errno != EINVAL))) { /* EINVAL: a file system without it */
-    *out_errno = errno;
-    status = STATUS_FILE;
-  }
-  if (close(descriptor) != 0 && status == STATUS_OK) {
-    *out_errno = errno;
-    status = STATUS_FILE;
-  }
-  return status;
+  const enum status status = write_all(out->descriptor, file->bytes, file->size, stop, out_errno);
+  if (status != STATUS_OK || ((!target->exists || fchmod(out->descriptor, target->mode) == 0) &&
+                              (fsync(out->descriptor) == 0 || errno == EINVAL))) /* EINVAL: a file system without it */
+    return status;
+  *out_errno = errno;
+  return STATUS_FILE;
 }
 
 static enum status stage(const struct atomic_file *file, const atomic_int *stop, struct staged *out, int *out_errno)
@@ -177,7 +201,21 @@ static enum status stage(const struct atomic_file *file, const atomic_int *stop,
   return file->bytes != NULL && out->target.replaceable ? stage_bytes(file, stop, out, out_errno) : STATUS_OK;
 }
 
-/* Gives the name its new file. `alone`: no other one can fail after it, so the old file need not be kept. */
+/* Gives the new file its name: at once where that is free, else by way of another one. */
+static bool replace(struct staged *staged)
+{
+  const struct target *target = &staged->target;
+  if (staged->fresh == NULL) {
+    char self[NAME_SPACE];
+    snprintf(self, sizeof self, "/proc/self/fd/%d", staged->descriptor);
+    if (!target->exists && linkat(AT_FDCWD, self, AT_FDCWD, target->path, AT_SYMLINK_FOLLOW) == 0)
+      return true;
+    staged->fresh = temporary_name(target, self, NULL);
+  }
+  return staged->fresh != NULL && rename(staged->fresh, target->path) == 0;
+}
+
+/* Gives the name what it is to have. `alone`: no other one can fail after it, so the old file need not be kept. */
 static enum status place(const struct atomic_file *file, bool alone, const atomic_int *stop, struct staged *staged,
                          int *out_errno)
 {
@@ -185,9 +223,8 @@ static enum status place(const struct atomic_file *file, bool alone, const atomi
   if (!target->replaceable)
     return file->bytes == NULL ? STATUS_OK : write_through(target, file->bytes, file->size, stop, out_errno);
   if (target->exists && !alone)
-    staged->old = temporary_name(target->path, target->path, NULL); /* a file system without links keeps none */
-  const bool gone = staged->fresh == NULL && (!target->exists || unlink(target->path) == 0);
-  staged->placed = gone || (staged->fresh != NULL && rename(staged->fresh, target->path) == 0);
+    staged->old = temporary_name(target, target->path, NULL); /* a file system without links keeps none */
+  staged->placed = file->bytes != NULL ? replace(staged) : !target->exists || unlink(target->path) == 0;
   if (staged->placed)
     return STATUS_OK;
   *out_errno = errno;
@@ -204,6 +241,8 @@ static void settle(struct staged *staged, bool well)
     (void)unlink(staged->target.path);
   if (!staged->placed && staged->fresh != NULL)
     (void)unlink(staged->fresh);
+  if (staged->descriptor >= 0)
+    (void)close(staged->descriptor);
   free(staged->target.path);
   free(staged->fresh);
   free(staged->old);
@@ -218,18 +257,13 @@ enum status atomic_file_probe(const char *path, int *out_errno)
   if (*out_errno != 0)
     return failure(*out_errno);
   if (target.replaceable) {
-    int descriptor = -1;
-    char *name = temporary_name(target.path, NULL, &descriptor);
-    if (name != NULL) {
+    const int descriptor = unnamed_open(&target);
+    char *directory = descriptor < 0 && errno == EOPNOTSUPP ? directory_of(target.path) : NULL;
+    if (descriptor < 0 && (directory == NULL || access(directory, W_OK | X_OK) != 0))
+      *out_errno = errno;
+    if (descriptor >= 0)
       (void)close(descriptor);
-      (void)unlink(name);
-      free(name);
-    } else {
-      *out_errno = errno;
-    }
-    /* A name too long for the file system shows only when it is made, so ask for it itself. */
-    if (*out_errno == 0 && !target.exists && access(target.path, F_OK) != 0 && errno != ENOENT)
-      *out_errno = errno;
+    free(directory);
   }
   free(target.path);
   return *out_errno == 0 ? STATUS_OK : failure(*out_errno);
@@ -242,6 +276,8 @@ enum status atomic_files_write(const struct atomic_file *files, size_t count, co
   enum status status = staged == NULL ? STATUS_LIMIT : STATUS_OK;
   *out_failed = 0;
   *out_errno = staged == NULL ? ENOMEM : 0;
+  for (size_t k = 0; staged != NULL && k < count; k++)
+    staged[k].descriptor = -1;
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     *out_failed = k;
     status = stage(&files[k], stop, &staged[k], out_errno);

@@ -1,7 +1,8 @@
 /* Files that appear whole or not at all, and several together.
  *
- * The bytes are written to a temporary file in the folder of the final name, flushed to the disk, and renamed.
- * Whatever goes wrong, the final name keeps what it had and the temporary file is removed. A symbolic link is
+ * The bytes are written to a file without a name in the folder of the final one, flushed to the disk, and named then:
+ * a process that is killed leaves nothing, but for an instant where it replaces an old file.
+ * Whatever goes wrong, the final name keeps what it had and nothing else stays. A symbolic link is
  * followed. A name that is a device or a pipe is written to directly, since it can not be replaced.
  *
  * All functions answer STATUS_FILE, or STATUS_LIMIT where memory is short, with the reason, an errno value, in
