@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "command/command.h"
-#include "command/interrupt.h"
+#include "command/output.h"
 #include "command/values.h"
 #include "image/image_file.h"
 
@@ -203,10 +202,9 @@ static enum status write_difference(const struct command *command, const struct 
     command_error(command, "cannot make '%s': %s", request->output, message);
     return status;
   }
-  int reason;
-  status = atomic_file_write(request->output, bytes, size, &interrupt_signal, &reason);
+  status = output_write(command, request->output, bytes, size);
   free(bytes);
-  return command_written(command, request->output, status, reason);
+  return status;
 }
 
 /* The table on stdout. */
@@ -242,7 +240,9 @@ static enum status judge(const struct command *command, const struct request *re
     printf("over %-9.9g %zu pixels, %.4g %%\n", request->fail.each, failing,
            100 * (double)failing / (double)result->pixels);
   if (compare_limit_passed(&request->fail, result, failing)) {
-    (void)command_finish_output(command);
+    const enum status status = command_finish_output(command);
+    if (status != STATUS_OK)
+      return status;
     command_error(command, "'%s' and '%s' differ: %zu pixels by more than %.9g, the most by %.9g", request->first,
                   request->second, failing, request->fail.each, result->max);
     return STATUS_DIFFERENT;
@@ -256,13 +256,15 @@ static enum status judge(const struct command *command, const struct request *re
 static enum status compare(const struct command *command, const struct request *request)
 {
   enum image_format format = IMAGE_PNG;
-  int reason;
   if (request->output != NULL && !image_format_of(request->output, &format))
     return (enum status)command_usage(command, "'%s' ends neither in .png nor in .exr", request->output);
-  enum status status = request->output == NULL ? STATUS_OK : atomic_file_probe(request->output, &reason);
+  enum status status = output_spare(command, request->output, request->first);
+  if (status == STATUS_OK)
+    status = output_spare(command, request->output, request->second);
+  if (status == STATUS_OK)
+    status = output_probe(command, request->output);
   if (status != STATUS_OK)
-    return command_written(command, request->output, status, reason);
-  interrupt_defer();
+    return status;
   struct subject subject = { 0 };
   struct image difference = { 0 };
   status = read_subject(command, request, &subject);
@@ -301,7 +303,7 @@ static enum status compare(const struct command *command, const struct request *
 done:
   image_destroy(&difference);
   subject_free(&subject);
-  return atomic_load(&interrupt_signal) != 0 ? STATUS_INTERRUPTED : status;
+  return status;
 }
 
 static int run(const struct command *command, int argc, const char **argv)
@@ -317,7 +319,7 @@ static int run(const struct command *command, int argc, const char **argv)
     status = compare(command, &request);
   }
   command_line_free(&line);
-  return status == STATUS_INTERRUPTED ? interrupt_exit_code() : (int)status;
+  return (int)status;
 }
 
 const struct command command_compare = {

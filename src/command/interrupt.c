@@ -35,6 +35,11 @@ void interrupt_defer(void)
   atomic_store(&deferred, true);
 }
 
+void interrupt_resume(void)
+{
+  atomic_store(&deferred, false);
+}
+
 int interrupt_exit_code(void)
 {
   return EXIT_SIGNAL + atomic_load(&interrupt_signal);

@@ -1,8 +1,9 @@
 /* SIGINT, SIGTERM and SIGHUP: the process ends with 128 + the signal's number (130, 143, 129) and leaves nothing
  * behind.
  *
- * At first a signal ends the process at once. After interrupt_defer it only raises the flag, which long work watches,
- * so that temporary files are removed; the command then answers interrupt_exit_code(). SIGPIPE keeps its default: a
+ * A signal ends the process at once. Between interrupt_defer and interrupt_resume it only raises the flag, for whoever
+ * has something to put away first, and watches it; the command then answers STATUS_INTERRUPTED, of which main makes
+ * interrupt_exit_code(). SIGPIPE keeps its default: a
  * reader that goes away ends us. A SIGHUP that is ignored when we start, as under nohup, stays ignored; SIGXFSZ is, so
  * that a file that may grow no further is an error of writing it.
  */
@@ -17,6 +18,7 @@ extern atomic_int interrupt_signal;
 /* Called by main once, before any thread starts. */
 void interrupt_install(void);
 void interrupt_defer(void);
+void interrupt_resume(void);
 
 /* 128 + the signal that came; 128 where none has. */
 int interrupt_exit_code(void);

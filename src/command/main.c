@@ -1,4 +1,5 @@
 /* pscn: a table of subcommands. */
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -6,8 +7,19 @@
 #include "command/command.h"
 #include "command/interrupt.h"
 
+/* A standard stream that was closed gets a descriptor that refuses its use, so that no file of ours is opened in its
+ * place and takes what is meant for it. */
+static void hold_streams(void)
+{
+  for (int stream = 0; stream <= 2; stream++) {
+    if (fcntl(stream, F_GETFD) == -1)
+      (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+  }
+}
+
 int main(int argc, char **argv)
 {
+  hold_streams();
   interrupt_install();
   if (argc < 2) {
     command_print_overview(stderr);
@@ -23,5 +35,6 @@ int main(int argc, char **argv)
   const struct command *command = command_find(name);
   if (command == NULL)
     return command_usage(NULL, "unknown command '%s'", name);
-  return command->run(command, argc - 1, (const char **)argv + 1);
+  const int code = command->run(command, argc - 1, (const char **)argv + 1);
+  return code == STATUS_INTERRUPTED ? interrupt_exit_code() : code;
 }

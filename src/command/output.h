@@ -1,4 +1,4 @@
-/* Where results go unless the command line says it, and the folders they go to. */
+/* Where results go, how they get there, and what they must not overwrite. */
 #ifndef PSCN_COMMAND_OUTPUT_H
 #define PSCN_COMMAND_OUTPUT_H
 
@@ -6,8 +6,21 @@
 
 #include "command/command.h"
 
-/* The scene's name with `suffix` instead of its own: "scenes/teapot.pscn" gives "scenes/teapot.png", beside the scene;
- * of a folder "teapot-check", here, for the scene's folder need not be ours. To be freed; NULL where memory is
+/* The name that means standard output, or as a scene's standard input. */
+bool output_is_standard(const char *path);
+
+/* Asks before the work whether a file can be written, and writes it whole (atomic_file.h) after. NULL is nowhere, "-"
+ * standard output. Errors are told. A signal that comes while it is written leaves what was there: STATUS_INTERRUPTED. */
+enum status output_probe(const struct command *command, const char *path) STATUS_MUST_CHECK;
+enum status output_write(const struct command *command, const char *path, const void *bytes,
+                         size_t size) STATUS_MUST_CHECK;
+
+/* STATUS_USAGE, told, where `path` would overwrite `other`, an input or another output: the same file, by whatever name.
+ * NULLs and devices overwrite nothing. */
+enum status output_spare(const struct command *command, const char *path, const char *other) STATUS_MUST_CHECK;
+
+/* The scene's name with `suffix` instead of its own: "scenes/teapot.pscn" gives "scenes/teapot.png", beside the scene,
+ * and "-" stays what it is; of a folder "teapot-check", here, for the scene's folder need not be ours. To be freed; NULL where memory is
  * short. */
 char *output_name(const char *scene, const char *suffix);
 char *output_folder_name(const char *scene, const char *suffix);

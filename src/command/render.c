@@ -4,9 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "command/command.h"
 #include "command/interrupt.h"
 #include "command/output.h"
@@ -107,23 +106,20 @@ static enum status take_option(const struct command *command, void *context, int
   return STATUS_OK;
 }
 
-static bool same_file(const char *first, const char *second)
-{
-  struct stat a, b;
-  return stat(first, &a) == 0 && stat(second, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
-
 static enum status check_format(const struct command *command, struct request *request)
 {
   const struct channel_list *channels = &request->options.channels;
-  if (!image_format_of(request->output, &request->format))
+  const bool plain = channels->count == 1 && channels->kind[0] == CHANNEL_RGB;
+  if (output_is_standard(request->output))
+    request->format = plain && request->bits != 32 ? IMAGE_PNG : IMAGE_EXR;
+  else if (!image_format_of(request->output, &request->format))
     return (enum status)command_usage(command, "'%s' ends neither in .png nor in .exr", request->output);
   if (request->bits == 0)
     request->bits = (size_t)image_format_default_bits(request->format);
   if (!image_format_has_bits(request->format, (int)request->bits))
     return (enum status)command_usage(command, "'%s' cannot have %zu bits a value: %s", request->output, request->bits,
                                       request->format == IMAGE_PNG ? "a PNG has 8 or 16" : "an EXR has 16 or 32");
-  if (request->format == IMAGE_PNG && (channels->count != 1 || channels->kind[0] != CHANNEL_RGB))
+  if (request->format == IMAGE_PNG && !plain)
     return (enum status)command_usage(command, "a PNG holds the channel rgb only; other channels need an .exr");
   return STATUS_OK;
 }
@@ -143,6 +139,16 @@ static enum status check_crop(const struct command *command, struct render_optio
   return STATUS_OK;
 }
 
+/* What is written is no other file of the command; `scene` NULL: as far as known before it is read. */
+static enum status check_outputs(const struct command *command, const struct request *request,
+                                 const struct scene *scene)
+{
+  enum status status = output_spare(command, request->stats, request->output);
+  if (status == STATUS_OK)
+    status = scene_file_spare(command, &request->scene, scene, request->output);
+  return status == STATUS_OK ? scene_file_spare(command, &request->scene, scene, request->stats) : status;
+}
+
 /* Whatever can be known to be wrong before the work starts. */
 static enum status check(const struct command *command, struct request *request)
 {
@@ -152,25 +158,26 @@ static enum status check(const struct command *command, struct request *request)
     command_error(command, "out of memory");
     return STATUS_LIMIT;
   }
+  if (output_is_standard(request->output) && isatty(STDOUT_FILENO) == 1)
+    return (enum status)command_usage(command, "a picture is not written to a terminal; -o FILE says where to");
   enum status status = check_format(command, request);
   if (status == STATUS_OK)
     status = check_crop(command, &request->options);
   if (status != STATUS_OK)
     return status;
-  if (same_file(request->output, request->scene.path) ||
-      (request->stats != NULL &&
-       (same_file(request->stats, request->scene.path) || strcmp(request->stats, request->output) == 0)))
-    return (enum status)command_usage(command, "scene, picture and statistics are three files");
-  int reason;
-  status = atomic_file_probe(request->output, &reason);
+  status = check_outputs(command, request, NULL);
+  if (status == STATUS_OK)
+    status = output_probe(command, request->output);
+  if (status == STATUS_OK)
+    status = output_probe(command, request->stats);
   if (status != STATUS_OK)
-    return command_written(command, request->output, status, reason);
+    return status;
   char message[IMAGE_MESSAGE_SIZE];
   if (image_file_ready(message) != STATUS_OK) {
     command_error(command, "cannot write pictures: %s", message);
     return STATUS_FILE;
   }
-  return report_probe(command, request->stats);
+  return STATUS_OK;
 }
 
 static void name_channels(const struct channel_list *channels, struct image *image)
@@ -208,6 +215,9 @@ static enum status make_picture(const struct command *command, const struct requ
     const struct seconds start = seconds_now();
     status = render_scene(report->scene, intersector, &request->options, &watch, out->value, &stats);
     progress_end(&progress);
+    interrupt_resume();
+    if (atomic_load(&interrupt_signal) != 0)
+      status = STATUS_INTERRUPTED;
     report->counts = stats.counts;
     report->threads = stats.threads;
     report->render = seconds_since(start);
@@ -235,10 +245,9 @@ static enum status write_picture(const struct command *command, const struct req
     command_error(command, "cannot make '%s': %s", request->output, message);
     return status;
   }
-  int reason;
-  status = atomic_file_write(request->output, bytes, size, &interrupt_signal, &reason);
+  status = output_write(command, request->output, bytes, size);
   free(bytes);
-  return command_written(command, request->output, status, reason);
+  return status;
 }
 
 static enum status render(const struct command *command, struct request *request)
@@ -258,6 +267,8 @@ static enum status render(const struct command *command, struct request *request
                            .crop = request->options.crop,
                            .samples = request->options.samples,
                            .parse = seconds_since(start) };
+  if (status == STATUS_OK)
+    status = check_outputs(command, request, scene);
   if (status == STATUS_OK)
     status = make_picture(command, request, &report, &image);
   if (status == STATUS_OK) {
@@ -290,7 +301,7 @@ static int run(const struct command *command, int argc, const char **argv)
   }
   free(request.default_output);
   command_line_free(&line);
-  return status == STATUS_INTERRUPTED ? interrupt_exit_code() : (int)status;
+  return (int)status;
 }
 
 const struct command command_render = {

@@ -7,10 +7,9 @@
 #include <string.h>
 #include <time.h>
 
-#include "base/atomic_file.h"
 #include "base/number.h"
 #include "base/version.h"
-#include "command/interrupt.h"
+#include "command/output.h"
 
 enum { JSON_DIGITS = 15 }; /* of numbers in the statistics: 1e-12 stays 1e-12 */
 
@@ -93,20 +92,6 @@ static json_t *statistics(const struct report *report)
   return NULL;
 }
 
-static bool is_stdout(const char *path)
-{
-  return strcmp(path, "-") == 0;
-}
-
-enum status report_probe(const struct command *command, const char *path)
-{
-  if (path == NULL || is_stdout(path))
-    return STATUS_OK;
-  int reason;
-  const enum status status = atomic_file_probe(path, &reason);
-  return command_written(command, path, status, reason);
-}
-
 enum status report_write(const struct command *command, const struct report *report, const char *path)
 {
   return path == NULL ? STATUS_OK : report_write_json(command, statistics(report), path);
@@ -124,15 +109,7 @@ enum status report_write_json(const struct command *command, json_t *root, const
   }
   const size_t length = strlen(line);
   memcpy(line + length, "\n", 2);
-  enum status status;
-  if (is_stdout(path)) {
-    fputs(line, stdout);
-    status = command_finish_output(command);
-  } else {
-    int reason;
-    status = atomic_file_write(path, line, length + 1, &interrupt_signal, &reason);
-    command_written(command, path, status, reason);
-  }
+  const enum status status = output_write(command, path, line, length + 1);
   free(line);
   return status;
 }

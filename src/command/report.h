@@ -25,9 +25,7 @@ struct report {
 /* A few lines on stderr. */
 void report_print(const struct report *report);
 
-/* Asks before the work whether the statistics can be written, and writes them after. `path` "-" is stdout, NULL is
- * nowhere. Errors are told. */
-enum status report_probe(const struct command *command, const char *path) STATUS_MUST_CHECK;
+/* Writes the statistics (output.h). */
 enum status report_write(const struct command *command, const struct report *report,
                          const char *path) STATUS_MUST_CHECK;
 

@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/number.h"
 #include "command/command.h"
+#include "command/output.h"
 #include "command/report.h"
 #include "command/scene_file.h"
 #include "command/stream.h"
@@ -217,7 +218,9 @@ static enum status roots(const struct command *command, const struct request *re
 {
   struct session session = { 0 };
   const struct stream_reader reader = { .take = take, .context = &session };
-  enum status status = report_probe(command, request->stats);
+  enum status status = output_spare(command, request->stats, "/dev/stdin");
+  if (status == STATUS_OK)
+    status = output_probe(command, request->stats);
   if (status == STATUS_OK)
     status = choose_solver(request, &session.method);
   if (status == STATUS_OK)

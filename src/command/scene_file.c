@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "command/output.h"
 #include "command/values.h"
 #include "language/language.h"
 
@@ -61,5 +62,27 @@ enum status scene_file_load(const struct scene_request *request, struct scene **
                                               .max_memory =
                                                 request->max_memory != 0 ? request->max_memory : default_memory() };
   struct diagnostics diagnostics = stderr_diagnostics();
-  return language_load(request->path, &settings, &diagnostics, out);
+  if (!output_is_standard(request->path))
+    return language_load(request->path, &settings, &diagnostics, out);
+  struct source *text;
+  const char *reason;
+  *out = NULL;
+  enum status status = source_read_open("stdin", dup(STDIN_FILENO), &text, &reason);
+  if (status != STATUS_OK) {
+    diagnostics_error(&diagnostics, (struct place){ NULL, 0, 0 }, "stdin: %s", reason);
+    return status;
+  }
+  status = language_load_text(text->name, text->text, text->length, &settings, &diagnostics, out);
+  source_destroy(text);
+  return status;
+}
+
+enum status scene_file_spare(const struct command *command, const struct scene_request *request,
+                             const struct scene *scene, const char *output)
+{
+  enum status status =
+    output_spare(command, output, output_is_standard(request->path) ? "/dev/stdin" : request->path);
+  for (size_t k = 0; scene != NULL && k < scene->file_count && status == STATUS_OK; k++)
+    status = output_spare(command, output, scene->files[k]);
+  return status;
 }

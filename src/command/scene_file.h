@@ -37,8 +37,14 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE, OPTION_MA
 enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
                                const char *argument) STATUS_MUST_CHECK;
 
-/* Reads the scene; the caller destroys it. On failure the errors have been told and *out is NULL. */
+/* Reads the scene, from standard input where its path is "-"; the caller destroys it. On failure the errors have been
+ * told and *out is NULL. */
 enum status scene_file_load(const struct scene_request *request, struct scene **out) STATUS_MUST_CHECK;
+
+/* STATUS_USAGE, told, where `output` (NULL: nowhere) would overwrite what the scene is read from. To be asked before it is
+ * read, with NULL for the scene, and again when what it includes is known. */
+enum status scene_file_spare(const struct command *command, const struct scene_request *request,
+                             const struct scene *scene, const char *output) STATUS_MUST_CHECK;
 
 /* Diagnostics that are told on stderr. */
 struct diagnostics stderr_diagnostics(void);

@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "command/command.h"
+#include "command/output.h"
 #include "command/report.h"
 #include "command/scene_file.h"
 #include "command/stream.h"
@@ -204,14 +205,22 @@ static enum status trace(const struct command *command, struct request *request)
   struct intersector *intersector = NULL;
   struct session session = { .request = request };
   struct seconds start = seconds_now();
-  enum status status = report_probe(command, request->stats);
+  if (output_is_standard(request->scene.path))
+    return (enum status)command_usage(command, "the rays come from standard input, the scene from a file");
+  enum status status = scene_file_spare(command, &request->scene, NULL, request->stats);
+  if (status == STATUS_OK)
+    status = output_spare(command, request->stats, "/dev/stdin");
+  if (status == STATUS_OK)
+    status = output_probe(command, request->stats);
   if (status != STATUS_OK)
     return status;
   status = scene_file_load(&request->scene, &scene);
+  if (status == STATUS_OK)
+    status = scene_file_spare(command, &request->scene, scene, request->stats);
   struct report report = { .scene_path = request->scene.path, .scene = scene, .threads = 1 };
   report.parse = seconds_since(start);
   if (status != STATUS_OK)
-    return status;
+    goto done;
 
   start = seconds_now();
   status = intersector_create(scene, &intersector);
@@ -231,6 +240,7 @@ static enum status trace(const struct command *command, struct request *request)
     status = report_write(command, &report, request->stats);
   if (status == STATUS_OK && !request->quiet && isatty(STDERR_FILENO) == 1)
     report_print(&report);
+done:
   if (session.tracer != NULL)
     tracer_destroy(session.tracer);
   if (intersector != NULL)

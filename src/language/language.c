@@ -100,6 +100,7 @@ static enum status make_scene(struct language *language, struct scene **out_scen
   enum status status = camera_fold(language, &language->camera, &scene->camera) ? add_lights(language, scene)
                                                                                 : STATUS_INPUT;
   if (status == STATUS_OK) status = objects_expand(language, scene);
+  if (status == STATUS_OK && !sources_list(language, scene)) status = STATUS_LIMIT;
   if (status == STATUS_OK) *out_scene = scene;
   else scene_destroy(scene);
   return status;

@@ -49,6 +49,20 @@ bool sources_open(struct language *language, struct source *source)
   return true;
 }
 
+bool sources_list(const struct language *language, struct scene *scene)
+{
+  scene->files = arena_alloc(scene->arena, (size_t)language->source_count, sizeof *scene->files);
+  for (const struct source_list *entry = language->all_sources; scene->files && entry; entry = entry->next) {
+    const struct source *source = entry->source;
+    if (source->shared || source->inode == 0) continue;
+    char *name = arena_alloc(scene->arena, strlen(source->name) + 1, 1);
+    if (!name) return false;
+    strcpy(name, source->name);
+    scene->files[scene->file_count++] = name;
+  }
+  return scene->files != NULL;
+}
+
 void sources_leave(struct language *language)
 {
   struct frame *frame = language->frame;

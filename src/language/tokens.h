@@ -74,6 +74,9 @@ struct frame {
 /* Begins to read a source, which is taken over even on failure: false where memory is short. */
 bool sources_open(struct language *language, struct source *source);
 
+/* Tells the scene which files were read; false where memory is short. */
+bool sources_list(const struct language *language, struct scene *scene);
+
 /* Reads the file name behind #include and begins to read that file, or tells an error. */
 void sources_include(struct language *language);
 

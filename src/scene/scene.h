@@ -77,6 +77,8 @@ struct scene {
   size_t texture_count;
   struct method *solvers; /* [0] is global_settings', the default of every patch */
   size_t solver_count;
+  const char **files; /* the paths of the files that were read for it */
+  size_t file_count;
 };
 
 /* Makes `method` the solver of every patch (--solver and --tolerance on the command line). */

@@ -1,0 +1,33 @@
+# No command writes over what it reads, or twice to one file, by whatever name.
+cp "$SCENES/flat.pscn" scene.pscn
+printf '#include "scene.pscn"\n' >main.pscn
+ln scene.pscn hard.png
+ln -s scene.pscn soft.png
+mkdir folder
+small="--size 8x6 --quiet"
+sums() { cat scene.pscn main.pscn | cksum; }
+before=$(sums)
+for name in hard.png soft.png ./folder/../hard.png; do
+  try pscn render scene.pscn -o $name $small
+  try pscn render main.pscn -o $name $small
+  try pscn render main.pscn -o a.png --stats $name $small
+  try pscn render - -o $name $small <scene.pscn
+  try pscn trace main.pscn --stats $name </dev/null
+  try pscn trace main.pscn --stats $name <scene.pscn
+done
+try pscn render scene.pscn -o a.png --stats ./folder/../a.png $small
+try pscn render scene.pscn -o - --stats - $small
+echo '1 0 -1' >polynomials
+try pscn roots --stats polynomials <polynomials
+cat polynomials
+pscn render scene.pscn -o a.png $small
+pscn render scene.pscn -o b.png $small
+ln a.png c.png
+cksum a.png >sum
+try pscn compare a.png b.png -o a.png
+try pscn compare b.png a.png -o c.png
+cksum a.png | cmp - sum && echo "the picture is the same"
+[ "$(sums)" = "$before" ] && echo "the scene is the same"
+# What is no file cannot be overwritten.
+try pscn render scene.pscn -o a.png $small --stats /dev/null </dev/null
+ls -A
