@@ -24,9 +24,10 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
   out->count = n;
   for (int i = 0; i < n; i++) {
     a.active[i] = i;
-    a.last_step[i] = INFINITY;
+    a.last_step[i] = a.checked[i] = INFINITY;
     out->iterations[i] = a.noisy[i] = 0;
     out->converged[i] = out->cluster[i] = false;
+    out->reach[i] = 0.0;
   }
   for (int number = 1; number <= options->max_iterations && a.active_count > 0; number++) {
     kernel->aberth_sweep(&a, options, number, out);

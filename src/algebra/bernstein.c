@@ -165,13 +165,10 @@ static void flush_cluster(struct search *search)
   const double spread = sqrt(fmax(vertex * vertex - value / half_curvature, 0.0));
   const double left = chart_to_u(chart, z0 + vertex - spread), right = chart_to_u(chart, z0 + vertex + spread);
   const bool inside = left >= low && left <= high && right >= low && right <= high;
-  if (!inside) {
-    root_estimates_add(search->out, middle, 0.0, 1, true, true);
-    return;
-  }
-  root_estimates_add(search->out, left, 0.0, 1, true, true);
-  if (right != left) {
-    root_estimates_add(search->out, right, 0.0, 1, true, true);
+  const double at[2] = {inside ? left : middle, right};
+  for (int k = 0; k < (inside && right != left ? 2 : 1); k++) {
+    root_estimates_add(search->out, at[k], 0.0, 1, true, true);
+    search->out->reach[search->out->count - 1] = fmax(at[k] - low, high - at[k]);
   }
 }
 

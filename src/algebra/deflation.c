@@ -1,9 +1,9 @@
 /* One root at a time: the loop that Newton's and Laguerre's methods share (sections 3.1 and 3.2 of the paper).
  *
- * The i-th root is sought from the i-th start value, in what is left of the polynomial after the roots before it were
- * divided out. Forward division (from the highest power, the paper's) is stable for roots found in order of increasing
+ * A root is sought in what is left of the polynomial after the roots before it were divided out, from its first start
+ * value (or from the i-th root of the polynomial before, with `start previous`). Forward division (from the highest power, the paper's) is stable for roots found in order of increasing
  * modulus, backward division for the opposite; the composite takes each where it is stable and joins them at the
- * largest term |c[k] a^k| (Peters and Wilkinson, "Practical problems arising in the solution of polynomial equations",
+ * largest terms |c[k] a^k| (Peters and Wilkinson, "Practical problems arising in the solution of polynomial equations",
  * 1971).
  *
  * A value is taken for a real root where dropping its imaginary part does not raise |p| above what it was or above its
@@ -16,38 +16,49 @@
 #include "algebra/root_kernel.h"
 #include "algebra/start.h"
 
-/* Every so many steps on one root the step is turned by one radian: a real start on a polynomial without real roots
- * would never leave the axis, and cycles end. */
-enum { TURN_PERIOD = 8 };
-
 /* No step is longer than this many times |x| + the mean modulus of the roots: where p' nearly vanishes the way back
  * would take hundreds of steps. */
 #define LONGEST_STEP 8.0
 
+/* A step that is no shorter than this much of the one so many steps before is turned by one radian, and from there on
+ * steps are at most half as long as before, the first time 1/2 of |x| + the mean modulus: a real start on a polynomial
+ * without real roots would never leave the axis, and Laguerre's method jumps to and fro between the middle of roots on a
+ * circle and far outside. On its way from afar Newton's method shortens its steps by 1/n each: at degree 64 the seventh
+ * is still 0.9 of the first. */
+enum { TURN_PERIOD = 7 };
+#define STUCK 0.9
+
+/* A term this much of the largest one counts as nearly the largest: two that tie, or three of a double root. */
+#define NEARLY 0.25
+
 /* Steps of `refine` on the whole polynomial. */
 enum { REFINE_STEPS = 2 };
+
+/* Where the halves of a quotient meet: in the middle of the terms |c[k]| modulus^k that are nearly the largest. On either
+ * side of such a term a half is still exact to rounding, and beyond the last one it is not. */
+static int joint(int n, const double c[], double modulus)
+{
+  double term[POLYNOMIAL_MAX_DEGREE + 1], largest = 0.0, power = 1.0;
+  int first = -1, last = 0;
+  for (int k = 0; k <= n; k++, power *= modulus) {
+    term[k] = fabs(c[k] * power);
+    largest = fmax(largest, term[k]);
+  }
+  for (int k = 0; k <= n; k++) {
+    if (!(term[k] >= NEARLY * largest)) continue;
+    first = first < 0 ? k : first;
+    last = k;
+  }
+  return first < 0 ? 0 : (first + last) / 2;
+}
 
 void deflation_divide_linear(enum deflation how, int n, double c[], double a)
 {
   double forward[POLYNOMIAL_MAX_DEGREE + 1], backward[POLYNOMIAL_MAX_DEGREE + 1];
+  const int join = how == DEFLATION_COMPOSITE && a != 0.0 ? joint(n, c, a) : 0; /* forward from here on */
   forward[n - 1] = c[n];
-  for (int k = n - 1; k > 0; k--) {
-    forward[k - 1] = c[k] + a * forward[k];
-  }
-  int join = 0; /* backward below, forward from here on */
-  if (how == DEFLATION_COMPOSITE && a != 0.0) {
-    double largest = 0.0, power = 1.0;
-    for (int k = 0; k <= n; k++, power *= a) {
-      if (fabs(c[k] * power) > largest) {
-        largest = fabs(c[k] * power);
-        join = k;
-      }
-    }
-    backward[0] = -c[0] / a;
-    for (int k = 1; k < join; k++) {
-      backward[k] = (backward[k - 1] - c[k]) / a;
-    }
-  }
+  for (int k = n - 1; k > join; k--) forward[k - 1] = c[k] + a * forward[k];
+  for (int k = 0; k < join; k++) backward[k] = ((k > 0 ? backward[k - 1] : 0.0) - c[k]) / a;
   memcpy(c, backward, sizeof c[0] * (size_t)join);
   memcpy(c + join, forward + join, sizeof c[0] * (size_t)(n - join));
 }
@@ -55,24 +66,12 @@ void deflation_divide_linear(enum deflation how, int n, double c[], double a)
 void deflation_divide_quadratic(enum deflation how, int n, double c[], double sum, double product)
 {
   double forward[POLYNOMIAL_MAX_DEGREE + 2], backward[POLYNOMIAL_MAX_DEGREE + 1];
+  int join = how == DEFLATION_COMPOSITE && product > 0.0 ? joint(n, c, sqrt(product)) : 0;
+  if (join > n - 1) join = n - 1;
   forward[n] = forward[n - 1] = 0.0; /* above the quotient */
-  for (int k = n - 2; k >= 0; k--) {
-    forward[k] = c[k + 2] + sum * forward[k + 1] - product * forward[k + 2];
-  }
-  int join = 0;
-  if (how == DEFLATION_COMPOSITE && product > 0.0) {
-    const double modulus = sqrt(product);
-    double largest = 0.0, power = 1.0;
-    for (int k = 0; k <= n; k++, power *= modulus) {
-      if (fabs(c[k] * power) > largest) {
-        largest = fabs(c[k] * power);
-        join = k < n - 1 ? k : n - 1;
-      }
-    }
-    for (int k = 0; k < join; k++) {
-      backward[k] = (c[k] + sum * (k > 0 ? backward[k - 1] : 0.0) - (k > 1 ? backward[k - 2] : 0.0)) / product;
-    }
-  }
+  for (int k = n - 2; k >= join; k--) forward[k] = c[k + 2] + sum * forward[k + 1] - product * forward[k + 2];
+  for (int k = 0; k < join; k++)
+    backward[k] = (c[k] + sum * (k > 0 ? backward[k - 1] : 0.0) - (k > 1 ? backward[k - 2] : 0.0)) / product;
   memcpy(c, backward, sizeof c[0] * (size_t)join);
   memcpy(c + join, forward + join, sizeof c[0] * (size_t)(n - 1 - join));
 }
@@ -156,20 +155,30 @@ static double step_in_u(enum basis basis, struct complex_number x, struct comple
   return complex_norm(step) / (complex_norm(x) * complex_norm(complex_add(x, step)));
 }
 
+/* |u|^2 */
+static double square_in_u(enum basis basis, struct complex_number x)
+{
+  const double square = complex_norm(x);
+  x.re += basis == BASIS_POWER ? 0.0 : 1.0;
+  return basis == BASIS_POWER ? square : square / complex_norm(x);
+}
+
 struct sought {
   struct complex_number x;
   int iterations;
   bool converged;
 };
 
-/* The paper's iteration, from `start`, on a polynomial of degree n. */
+/* The paper's iteration, from `start`. */
 static struct sought seek(const struct root_problem *problem, const struct solver_options *options,
-                          const struct deflation_method *method, int n, const double c[], double mean_modulus,
-                          struct complex_number start)
+                          const struct deflation_method *method, struct complex_number start)
 {
+  const int n = problem->degree;
+  const double *c = problem->c, mean_modulus = start_mean_modulus(problem);
   struct sought out = {start, 0, false};
   const double tolerance = options->tolerance * options->tolerance;
-  double last = INFINITY;
+  const bool relative = options->stop == STOP_ROUNDING; /* the paper's tolerance is absolute */
+  double last = INFINITY, checked = INFINITY, longest = LONGEST_STEP;
   while (!out.converged && out.iterations < options->max_iterations) {
     out.iterations++;
     const struct local_values here =
@@ -180,7 +189,7 @@ static struct sought seek(const struct root_problem *problem, const struct solve
     }
     struct complex_number move = method->step(&here.view);
     const bool usable = isfinite(move.re) && isfinite(move.im);
-    const double reach = LONGEST_STEP * (complex_modulus(out.x) + mean_modulus);
+    const double reach = longest * (complex_modulus(out.x) + mean_modulus);
     if (!usable) {
       move = (struct complex_number){0.25 * reach, 0.125 * reach};
     }
@@ -196,9 +205,15 @@ static struct sought seek(const struct root_problem *problem, const struct solve
         break;
       }
     }
-    out.converged = out.converged || (usable && in_u < tolerance);
+    const double square = relative ? square_in_u(problem->basis, out.x) : 1.0;
+    out.converged = out.converged || (usable && in_u < (square < 1.0 ? tolerance * square : tolerance));
     if (!out.converged && out.iterations % TURN_PERIOD == 0) {
-      move = complex_multiply(move, (struct complex_number){0.5403023058681398, 0.8414709848078965}); /* exp(i) */
+      const double now = complex_norm(move);
+      if (now >= STUCK * STUCK * checked) {
+        move = complex_multiply(move, (struct complex_number){0.5403023058681398, 0.8414709848078965}); /* exp(i) */
+        longest = longest > 1.0 ? 0.5 : 0.5 * longest;
+      }
+      checked = now;
     }
     out.x = complex_add(out.x, move);
     last = in_u;
@@ -248,20 +263,24 @@ void deflation_find(const struct root_problem *problem, const struct solver_opti
                     const struct solver_warm *warm, const struct deflation_method *method, int wanted,
                     struct root_estimates *out)
 {
-  double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE], c[POLYNOMIAL_MAX_DEGREE + 1];
+  double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
+  struct root_problem rest = *problem;
+  double *c = rest.c;
   out->count = 0;
   start_values(problem, options->radii, warm, re, im);
-  memcpy(c, problem->c, sizeof c[0] * (size_t)(problem->degree + 1));
-  const double mean_modulus = start_mean_modulus(problem);
+  const bool cold = warm == NULL || warm->count != problem->degree;
   int n = problem->degree;
   while (n > problem->degree - wanted) {
-    const int order = problem->degree - n;
+    /* A cold start is the first start value of what is left, whose circle holds all of its roots. */
+    const int order = cold ? 0 : problem->degree - n;
+    rest.degree = n;
+    if (cold && n < problem->degree) start_values(&rest, options->radii, NULL, re, im);
     const struct complex_number start = {re[order], im[order]};
     struct sought found;
     if (n == 1) {
       found = (struct sought){{-c[0] / c[1], 0.0}, 0, true};
     } else {
-      found = seek(problem, options, method, n, c, mean_modulus, start);
+      found = seek(&rest, options, method, start);
     }
     if (n == 1 || taken_for_real(n, c, found.x)) {
       found.x.im = 0.0;

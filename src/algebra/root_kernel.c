@@ -11,9 +11,10 @@
 /* A slope known to less than half of itself makes the first-order bound poor: then the higher orders are asked too. */
 #define SLOPE_CERTAINTY 0.5
 
-/* Every so many sweeps the steps of the roots still moving are turned by an angle of their own. Symmetric starts (real
- * values seeking a complex pair, pairs seeking two real roots) would otherwise never part. */
+/* Every so many sweeps a step no shorter than this much of the one so many before is turned by the root's own angle.
+ * Symmetric starts (real values seeking a complex pair, pairs seeking two real roots) would otherwise never part. */
 enum { TURN_PERIOD = 5 };
+#define STUCK 0.9
 
 /* Steps of noise a root may meet before it is done: the others are still moving, and the next step may be a good
  * one. */
@@ -87,6 +88,7 @@ LANES_INLINE void divide(lanes ar, lanes ai, lanes br, lanes bi, lanes *out_re, 
 struct aberth_step {
   lanes re, im;
   lanes step_square; /* |step|^2 in u */
+  lanes square;      /* |u|^2 */
   lane_mask resting; /* P is 0, or (where asked for) |P| below its rounding bound */
 };
 
@@ -121,15 +123,18 @@ LANES_INLINE void step_lanes(const struct aberth *a, lanes xr, lanes xi, bool bo
   const lanes step_square = out->re * out->re + out->im * out->im;
   if (a->p.basis == BASIS_POWER) {
     out->step_square = step_square;
+    out->square = square;
   } else { /* |du| = |dx| / (|1 + x| |1 + x + dx|) */
     const lanes ar = 1.0 + xr, br = ar + out->re, bi = xi + out->im;
     out->step_square = step_square / ((ar * ar + xi * xi) * (br * br + bi * bi));
+    out->square = square / (ar * ar + xi * xi);
   }
 }
 
-/* What one root does with its step. True when it is done. */
+/* What one root does with its step, of which `square` is |step|^2 in u; eq 10 is met where that is below `limit`. True
+ * when it is done. */
 static bool take_step(struct aberth *a, const struct solver_options *options, bool turning, int i, double dx, double dy,
-                      double square, bool resting)
+                      double square, double limit, bool resting)
 {
   const double xr = a->zr[i], xi = a->zi[i];
   const bool usable = isfinite(dx) && isfinite(dy) && !isnan(square);
@@ -150,13 +155,14 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
       dx = 0.25 * xr - 0.125 * xi;
       dy = 0.25 * xi + 0.125 * xr;
     }
-    done = usable && square < options->tolerance * options->tolerance;
-    if (turning && !done) {
+    done = usable && square < limit;
+    if (turning && !done && square >= STUCK * STUCK * a->checked[i]) {
       const double angle = 0.3 + 0.37 * i, c = cos(angle), s = sin(angle), turned = c * dx - s * dy;
       dy = s * dx + c * dy;
       dx = turned;
     }
     a->last_step[i] = usable ? square : INFINITY;
+    if (turning) a->checked[i] = a->last_step[i];
   }
   a->next_zr[i] = xr + dx;
   a->next_zi[i] = xi + dy;
@@ -166,6 +172,9 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
 static void aberth_sweep(struct aberth *a, const struct solver_options *options, int number, struct root_estimates *out)
 {
   const bool turning = number % TURN_PERIOD == 0;
+  /* The paper's tolerance is absolute. */
+  const bool relative = options->stop == STOP_ROUNDING;
+  const double tolerance = options->tolerance * options->tolerance;
   int moving = 0, still_active = 0;
   const int active_count = a->active_count;
   int active[POLYNOMIAL_MAX_DEGREE];
@@ -186,8 +195,9 @@ static void aberth_sweep(struct aberth *a, const struct solver_options *options,
     }
     for (int l = 0; l < used; l++) {
       const int i = active[first + l];
+      const double limit = relative && step.square[l] < 1.0 ? tolerance * step.square[l] : tolerance;
       const bool done =
-        take_step(a, options, turning, i, step.re[l], step.im[l], step.step_square[l], step.resting[l] != 0);
+        take_step(a, options, turning, i, step.re[l], step.im[l], step.step_square[l], limit, step.resting[l] != 0);
       out->iterations[i]++;
       out->converged[i] = done;
       moving += !done;

@@ -22,6 +22,7 @@ struct aberth {
   double zr[POLYNOMIAL_MAX_DEGREE], zi[POLYNOMIAL_MAX_DEGREE];
   double next_zr[POLYNOMIAL_MAX_DEGREE], next_zi[POLYNOMIAL_MAX_DEGREE];
   double last_step[POLYNOMIAL_MAX_DEGREE]; /* |step|^2 in u */
+  double checked[POLYNOMIAL_MAX_DEGREE];   /* |step|^2 in u when it was last looked at whether the root is stuck */
   int noisy[POLYNOMIAL_MAX_DEGREE];        /* steps that were noise */
   int active[POLYNOMIAL_MAX_DEGREE];       /* the roots still moving */
   int active_count;

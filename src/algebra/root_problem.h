@@ -27,6 +27,7 @@ struct root_estimates {
   int iterations[POLYNOMIAL_MAX_DEGREE];
   bool converged[POLYNOMIAL_MAX_DEGREE]; /* the stopping rule was met, not the iteration limit */
   bool cluster[POLYNOMIAL_MAX_DEGREE];   /* of unknown multiplicity, or a pair that may not be real */
+  double reach[POLYNOMIAL_MAX_DEGREE];   /* the roots it stands for may be as far away, in u */
 };
 
 /* Between u and x. The point at infinity of either comes out as infinite or as NaN. */
@@ -83,12 +84,15 @@ static inline void root_estimates_add(struct root_estimates *out, double re, dou
     out->iterations[out->count] = iterations;
     out->converged[out->count] = converged;
     out->cluster[out->count] = cluster;
+    out->reach[out->count] = 0.0;
     out->count++;
   }
 }
 
-/* Sets radius, status and im of every root of `roots`, from the polynomial with its coefficient errors, and drops the
- * roots that cannot be told from infinity. On entry status is as the solver found it. */
-void validation_judge(const struct evaluation *p, struct root_set *roots);
+/* Sets radius, status and im of the roots from number `exact` on, the values for the roots of p, from the polynomial with
+ * its coefficient errors, and drops those that cannot be told from infinity. On entry status is as the solver found it,
+ * and radius the reach of the estimate.
+ * `all_sought`: there should be a value for every root. */
+void validation_judge(const struct evaluation *p, bool all_sought, int exact, struct root_set *roots);
 
 #endif

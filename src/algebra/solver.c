@@ -77,14 +77,9 @@ const struct root_kernel *root_kernel_best(void)
   return &root_kernel_baseline;
 }
 
-/* The polynomial scaled by a power of two so that its largest coefficient lies in [1/2, 1), which changes no root. */
-struct scaled {
-  double c[POLYNOMIAL_MAX_DEGREE + 1];
-  double error[POLYNOMIAL_MAX_DEGREE + 1];
-};
-
-/* False where there is nothing to solve; then out says why. */
-static bool scale_polynomial(const struct polynomial *p, struct scaled *scaled, struct root_set *out)
+/* The polynomial scaled by a power of two so that its largest coefficient lies in [1/2, 1), which changes no root. False
+ * where there is nothing to solve; then out says why. */
+static bool scale_polynomial(const struct polynomial *p, struct root_problem *scaled, struct root_set *out)
 {
   double largest = 0.0;
   bool finite = true, zero = true;
@@ -100,6 +95,8 @@ static bool scale_polynomial(const struct polynomial *p, struct scaled *scaled, 
   if (!finite || zero) {
     return false;
   }
+  scaled->degree = p->degree;
+  scaled->basis = p->basis;
   int exponent;
   (void)frexp(largest, &exponent);
   /* Two factors, because 2^-exponent itself may overflow. */
@@ -118,33 +115,59 @@ static bool scale_polynomial(const struct polynomial *p, struct scaled *scaled, 
 static void add_root(struct root_set *out, double re, double im, int iterations, enum root_status status)
 {
   if (out->count < POLYNOMIAL_MAX_DEGREE) {
-    out->root[out->count++] = (struct root){re, im, INFINITY, iterations, status};
+    out->root[out->count++] = (struct root){re, im, 0.0, iterations, status};
   }
 }
 
-/* Takes out the roots at the ends of the coefficients: u = 0, and u = 1 (Bernstein) or infinity (power, not listed). */
-static void strip_ends(const struct polynomial *p, const struct scaled *scaled, struct root_problem *problem,
-                       struct root_set *out)
+/* The same polynomial without its first `low` coefficients and those behind `high`. */
+static void cut_problem(struct root_problem *problem, int low, int high)
 {
-  int low = 0, high = p->degree;
-  while (low < high && scaled->c[low] == 0.0) {
-    low++;
-  }
-  while (high > low && scaled->c[high] == 0.0) {
-    high--;
-  }
-  for (int k = 0; k < low; k++) {
-    add_root(out, 0.0, 0.0, 0, low > 1 ? ROOT_CLUSTER : ROOT_CONVERGED);
-  }
-  if (p->basis == BASIS_BERNSTEIN) {
-    for (int k = high; k < p->degree; k++) {
-      add_root(out, 1.0, 0.0, 0, p->degree - high > 1 ? ROOT_CLUSTER : ROOT_CONVERGED);
-    }
-  }
   problem->degree = high - low;
-  problem->basis = p->basis;
-  memcpy(problem->c, scaled->c + low, sizeof problem->c[0] * (size_t)(high - low + 1));
-  memcpy(problem->error, scaled->error + low, sizeof problem->error[0] * (size_t)(high - low + 1));
+  memmove(problem->c, problem->c + low, sizeof problem->c[0] * (size_t)(high - low + 1));
+  memmove(problem->error, problem->error + low, sizeof problem->error[0] * (size_t)(high - low + 1));
+}
+
+/* Takes out the exact roots at the ends of the coefficients: u = 0, and u = 1 (Bernstein) or infinity (power, not
+ * listed). Returns how many are at infinity. */
+static int strip_ends(struct root_problem *problem, struct root_set *out)
+{
+  int low = 0, high = problem->degree;
+  while (low < high && problem->c[low] == 0.0 && problem->error[low] == 0.0) low++;
+  while (high > low && problem->c[high] == 0.0 && problem->error[high] == 0.0) high--;
+  const int above = problem->degree - high;
+  for (int k = 0; k < low; k++) add_root(out, 0.0, 0.0, 0, low > 1 ? ROOT_CLUSTER : ROOT_CONVERGED);
+  for (int k = 0; k < above && problem->basis == BASIS_BERNSTEIN; k++)
+    add_root(out, 1.0, 0.0, 0, above > 1 ? ROOT_CLUSTER : ROOT_CONVERGED);
+  cut_problem(problem, low, high);
+  return problem->basis == BASIS_BERNSTEIN ? 0 : above;
+}
+
+/* Values whose modulus is beyond 2^EXTREME, either way, are not for the iterations, whose squares would over- or
+ * underflow. */
+#define EXTREME 500.0
+
+/* Whether the coefficients stand for a root of such a modulus at the end `from` (Newton's polygon): |c[from]| is less
+ * than that of another one k steps inwards by more than 2^(k EXTREME). */
+static bool end_is_extreme(const double c[], int from, int inwards, int count)
+{
+  for (int k = 1; k <= count; k++)
+    if (log2(fabs(c[from + inwards * k])) - log2(fabs(c[from])) > k * EXTREME) return true;
+  return false;
+}
+
+/* Takes out coefficients at the ends that vanish within their errors or against the others, with first guesses of their
+ * roots: near 0, and near 1 or infinity. */
+static void strip_extremes(struct root_problem *problem, struct root_set *out)
+{
+  const double *c = problem->c;
+  int low = 0, high = problem->degree;
+  for (; low < high && end_is_extreme(c, low, 1, high - low); low++)
+    add_root(out, c[low + 1] == 0.0 ? 0.0 : -c[low] / c[low + 1], 0.0, 0, ROOT_CONVERGED);
+  for (; high > low && end_is_extreme(c, high, -1, high - low); high--) {
+    const double u = problem->basis == BASIS_BERNSTEIN ? 1.0 : -c[high - 1] / c[high];
+    if (isfinite(u)) add_root(out, u, 0.0, 0, ROOT_CONVERGED);
+  }
+  cut_problem(problem, low, high);
 }
 
 static void remember(const struct root_estimates *estimates, struct solver_warm *warm)
@@ -159,16 +182,19 @@ static void remember(const struct root_estimates *estimates, struct solver_warm 
   }
 }
 
-/* The roots with infinite radii. False where there is nothing to solve. */
+/* The roots, each with the radius of what it stands for, the first *out_exact of them exact, and the polynomial that has
+ * the others. False where there is nothing to solve. */
 static bool find_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
-                       struct scaled *scaled_out, struct root_set *out)
+                       struct root_problem *out_rest, int *out_exact, struct root_set *out)
 {
-  out->count = 0;
-  if (!scale_polynomial(p, scaled_out, out)) {
+  out->count = out->missing = 0;
+  if (!scale_polynomial(p, out_rest, out)) {
     return false;
   }
-  struct root_problem problem;
-  strip_ends(p, scaled_out, &problem, out);
+  const int infinite = strip_ends(out_rest, out);
+  *out_exact = out->count;
+  struct root_problem problem = *out_rest;
+  strip_extremes(&problem, out);
   if (problem.degree > 0) {
     struct root_estimates estimates;
     estimates.count = 0;
@@ -180,30 +206,36 @@ static bool find_roots(const struct polynomial *p, const struct solver_options *
                                         : estimates.cluster[i]  ? ROOT_CLUSTER
                                                                 : ROOT_CONVERGED;
         add_root(out, estimates.re[i], estimates.im[i], estimates.iterations[i], status);
+        out->root[out->count - 1].radius = estimates.reach[i];
       }
     }
     if (previous) {
       remember(&estimates, warm);
     }
   }
+  if (!options->solver->real_only) out->missing = p->degree - infinite - out->count;
   return true;
 }
 
 void solver_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out)
 {
-  struct scaled scaled;
-  (void)find_roots(p, options, warm, &scaled, out);
+  struct root_problem rest;
+  int exact;
+  (void)find_roots(p, options, warm, &rest, &exact, out);
 }
 
 void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out)
 {
-  struct scaled scaled;
-  if (!find_roots(p, options, warm, &scaled, out)) {
+  struct root_problem rest;
+  int exact;
+  if (!find_roots(p, options, warm, &rest, &exact, out)) {
     return;
   }
+  const int sought = out->count + out->missing;
   struct evaluation evaluation;
-  evaluation_prepare(p->degree, p->basis, scaled.c, scaled.error, &evaluation);
-  validation_judge(&evaluation, out);
+  evaluation_prepare(rest.degree, rest.basis, rest.c, rest.error, &evaluation);
+  validation_judge(&evaluation, !options->solver->real_only, exact, out);
+  if (!options->solver->real_only) out->missing = sought - out->count;
 }

@@ -30,6 +30,7 @@ struct root {
  * Bernstein form at 1) with radius 0, one entry for each multiplicity. */
 struct root_set {
   int count;
+  int missing; /* roots that are neither listed nor known to be at infinity; 0 of a solver of real roots that is sure */
   bool identically_zero;
   bool not_finite;
   struct root root[POLYNOMIAL_MAX_DEGREE];
@@ -102,7 +103,7 @@ bool solver_options_paper(const struct solver_options *options);
 void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out);
 
-/* The same without the judge: for a caller who makes of the roots what he can prove by himself. Radii are infinite,
+/* The same without the judge: for a caller who makes of the roots what he can prove by himself. Radii mean nothing,
  * a root may be off the real axis by rounding, and a root of a vanishing leading coefficient may be far away instead
  * of absent. */
 void solver_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,

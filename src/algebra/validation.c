@@ -9,10 +9,20 @@
  * The bound is taken in the chart variable z and carried to u, both ways of Moebius: if z = s/w, with w the chart's
  * denominator at u, the disc of radius r about z lies within r |w|^2 / (1 - r |w|) of u, or reaches infinity if r |w|
  * >= 1.
+ *
+ * That a disc holds a root does not say that no root is left over. For that, where there are n values x_i, all different
+ * (x as in root_problem.h): the discs of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) about them cover
+ * all roots, and a group of k of them that is apart from the rest holds exactly k (B. T. Smith, "Error bounds for zeros
+ * of a polynomial based upon Gerschgorin's theorems", 1970). So in every group, values are taken in the order of their
+ * own bounds: one whose disc is apart from those taken before has a root of its own; the roots left over are somewhere
+ * in the group, and the other values get radii that reach all of it. Then roots and values can be paired, each root
+ * within the radius of its value. Without n values only those with discs of their own are known.
  */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "algebra/complex_number.h"
 #include "algebra/root_kernel.h"
 
 /* The least bound over all orders j, at one chart point. */
@@ -50,47 +60,159 @@ static double radius_in_u(double bound, double width, double width_square)
   return room > 0.0 && radius >= 0.0 ? radius : INFINITY; /* NaN ends here too */
 }
 
-static void find_radii(const struct evaluation *p, int count, struct root root[])
+/* One value and what is known of it; lengths in the plane of x but where it says so. */
+struct judged {
+  struct complex_number x; /* the value, or where two are equal a point beside it */
+  double shift;            /* how far beside */
+  double own;    /* some root is within it */
+  double shared; /* Smith's disc; INFINITY where there is none */
+  double own_in_u;
+  double width, width_square; /* |w| and |w|^2 of x as a chart of u; 0 and 1 where x is u */
+  int group;                  /* the least index of its group */
+  bool taken;                 /* the root within `own` is nobody else's */
+};
+
+/* Smith's theorem wants centres that differ: of two equal ones the later goes aside by about its own uncertainty. */
+static void set_apart(struct judged *later, const struct judged *earlier)
+{
+  if (later->x.re != earlier->x.re || later->x.im != earlier->x.im || !(later->own < INFINITY)) return;
+  const double shift = fmax(2.0 * later->own, 4 * DBL_EPSILON * fabs(later->x.re) + DBL_MIN);
+  later->x.re += shift;
+  later->shift += shift * BOUND_ROOM;
+  later->own += shift * BOUND_ROOM;
+}
+
+static void find_own(const struct evaluation *p, int count, const struct root root[], struct judged all[])
 {
   double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
   struct inclusion found[POLYNOMIAL_MAX_DEGREE];
-  for (int i = 0; i < count; i++) {
-    re[i] = root[i].re;
-    im[i] = root[i].im;
-  }
+  for (int i = 0; i < count; i++) re[i] = root[i].re, im[i] = root[i].im;
   root_kernel_best()->include(p, count, re, im, found);
   for (int i = 0; i < count; i++) {
-    double bound = found[i].bound;
-    if (found[i].doubtful) {
-      const double rounding = found[i].width == 0.0 ? 0.0 : CHART_ROUNDING * hypot(found[i].zr, found[i].zi);
-      bound = fmin(bound, all_orders_bound(p, found[i].zr, found[i].zi, found[i].reversed) + rounding);
+    const struct inclusion *at = &found[i];
+    double bound = at->bound, x_width = 0.0;
+    if (at->doubtful) {
+      const double rounding = at->width == 0.0 ? 0.0 : CHART_ROUNDING * hypot(at->zr, at->zi);
+      bound = fmin(bound, all_orders_bound(p, at->zr, at->zi, at->reversed) + rounding);
     }
-    root[i].radius = radius_in_u(bound, found[i].width, found[i].width_square);
+    all[i] = (struct judged){.x = {re[i], im[i]}, .shared = INFINITY, .width_square = 1.0, .group = i};
+    root_problem_x_from_u(p->basis, &all[i].x.re, &all[i].x.im);
+    if (p->basis == BASIS_BERNSTEIN) {
+      all[i].width = hypot(1.0 - re[i], im[i]);
+      all[i].width_square = all[i].width * all[i].width;
+    }
+    if (at->reversed) x_width = complex_modulus(all[i].x);
+    all[i].own = radius_in_u(bound, x_width, at->reversed ? x_width * x_width : 1.0);
+    all[i].own_in_u = radius_in_u(bound, at->width, at->width_square);
+    for (int j = 0; j < i; j++) set_apart(&all[i], &all[j]);
   }
 }
 
-/* The bound n |p/p'| is n times what Newton's method would guess of the error of a simple root; a value whose imaginary
- * part is within this many such guesses is moved to the real axis and judged again. */
-#define SNAP_GUESSES 2.0
+/* Room for the rounding of a sum of 200 logarithms to base 2, each below 2^17. */
+#define LOG_ROOM 0x1p-20
 
-static void snap_to_axis(const struct evaluation *p, struct root_set *roots)
+/* log2 of a bound on |q(x)|. In the reversed chart z = 1/x is off by some roundings: see evaluate_bernstein in
+ * polynomial.c. */
+static double log_value(const struct evaluation *p, struct complex_number x)
 {
-  struct root moved[POLYNOMIAL_MAX_DEGREE];
-  int from[POLYNOMIAL_MAX_DEGREE], count = 0;
-  for (int i = 0; i < roots->count; i++) {
-    const struct root *root = &roots->root[i];
-    if (root->im != 0.0 && root->radius < INFINITY && p->degree * fabs(root->im) <= SNAP_GUESSES * root->radius) {
-      moved[count] = *root;
-      moved[count].im = 0.0;
-      from[count++] = i;
+  const double size = hypot(x.re, x.im);
+  const bool reversed = size > 1.0;
+  const struct complex_number z = reversed ? complex_divide((struct complex_number){1.0, 0.0}, x) : x;
+  const double *c = reversed ? p->reverse : p->forward, *weight = reversed ? p->reverse_bound : p->forward_bound;
+  const double modulus = hypot(z.re, z.im) * (1.0 + 4 * UNIT_ROUNDOFF);
+  struct complex_number value = {c[p->degree], 0.0};
+  double error = weight[p->degree];
+  for (int k = p->degree - 1; k >= 0; k--) {
+    value = complex_multiply(value, z);
+    value.re += c[k];
+    error = error * modulus + weight[k];
+  }
+  return log2(hypot(value.re, value.im) + 3.0 * (error + UNDERFLOW_ERROR)) + (reversed ? p->degree * log2(size) : 0.0);
+}
+
+/* Half the distance, which does not overflow. */
+static double half_distance(const struct judged *a, const struct judged *b)
+{
+  return hypot(0.5 * a->x.re - 0.5 * b->x.re, 0.5 * a->x.im - 0.5 * b->x.im);
+}
+
+static bool discs_meet(const struct judged *a, double a_radius, const struct judged *b, double b_radius)
+{
+  return !(2.0 * half_distance(a, b) > (a_radius + b_radius) * BOUND_ROOM);
+}
+
+/* Smith's discs, and the groups they form. */
+static void find_groups(const struct evaluation *p, int count, struct judged all[])
+{
+  const double leading = fabs(p->forward[p->degree]) * (2.0 - BOUND_ROOM) - p->forward_bound[p->degree];
+  bool able = count == p->degree && leading > 0.0;
+  for (int i = 0; i < count; i++) able = able && isfinite(all[i].x.re) && isfinite(all[i].x.im);
+  for (int i = 0; able && i < count; i++) {
+    double size = log2(count) + log_value(p, all[i].x) - log2(leading) + LOG_ROOM;
+    for (int j = 0; j < count; j++) size -= j == i ? 0.0 : log2(half_distance(&all[i], &all[j])) + 1.0;
+    all[i].shared = isnan(size) ? INFINITY : exp2(size) + DBL_MIN;
+  }
+  for (int i = 0; i < count; i++) {
+    for (int j = 0; j < i; j++) {
+      const int from = all[i].group, to = all[j].group;
+      if (from == to || !discs_meet(&all[i], all[i].shared, &all[j], all[j].shared)) continue;
+      for (int k = 0; k < count; k++) all[k].group = all[k].group == from || all[k].group == to ? (from < to ? from : to)
+                                                                                               : all[k].group;
     }
   }
-  find_radii(p, count, moved);
-  for (int m = 0; m < count; m++) {
-    struct root *root = &roots->root[from[m]];
-    const double carried = (root->radius + fabs(root->im)) * BOUND_ROOM;
-    root->radius = fmin(moved[m].radius, carried);
-    root->im = 0.0;
+}
+
+/* Gives roots to the values whose discs are apart from those taken before, the smallest first. */
+static void take_own(int count, struct judged all[])
+{
+  bool seen[POLYNOMIAL_MAX_DEGREE] = {false};
+  for (int round = 0; round < count; round++) {
+    int best = -1;
+    for (int i = 0; i < count; i++)
+      if (!seen[i] && (best < 0 || all[i].own < all[best].own)) best = i;
+    struct judged *here = &all[best];
+    seen[best] = true;
+    here->taken = here->own < INFINITY && here->own <= here->shared;
+    for (int j = 0; j < count && here->taken; j++) {
+      const bool rival = j != best && all[j].taken && all[j].group == here->group;
+      here->taken = !rival || !discs_meet(here, here->own, &all[j], all[j].own);
+    }
+  }
+}
+
+/* The radius of a value, in u. */
+static double final_radius(int i, int count, const struct judged all[])
+{
+  const struct judged *here = &all[i];
+  if (here->taken) return here->own_in_u;
+  double reach = 0.0;
+  for (int j = 0; j < count; j++) {
+    const double far = 2.0 * half_distance(here, &all[j]) + all[j].shared;
+    if (all[j].group == here->group && !(far <= reach)) reach = isnan(far) ? INFINITY : far;
+  }
+  const double rounding = here->width == 0.0 ? 0.0 : CHART_ROUNDING * hypot(here->x.re, here->x.im);
+  return radius_in_u((reach + here->shift) * BOUND_ROOM + rounding, here->width, here->width_square);
+}
+
+/* The bound n |p/p'| is n times what Newton's method would guess of the error of a simple root; a value whose imaginary
+ * part is within this many such guesses is moved to the real axis. */
+#define SNAP_GUESSES 2.0
+
+static void set_radii(const struct evaluation *p, bool all_sought, int count, struct root root[])
+{
+  struct judged all[POLYNOMIAL_MAX_DEGREE];
+  find_own(p, count, root, all);
+  if (all_sought) {
+    find_groups(p, count, all);
+    take_own(count, all);
+  }
+  for (int i = 0; i < count; i++) {
+    const double own = all[i].own_in_u;
+    root[i].radius = fmax(root[i].radius, all_sought ? final_radius(i, count, all) : own);
+    if (own < INFINITY && p->degree * fabs(root[i].im) <= SNAP_GUESSES * own) {
+      root[i].radius = (root[i].radius + fabs(root[i].im)) * BOUND_ROOM;
+      root[i].im = 0.0;
+    }
   }
 }
 
@@ -119,17 +241,17 @@ static bool may_reach_infinity(const struct evaluation *p)
   return fabs(at.value) <= at.error;
 }
 
-void validation_judge(const struct evaluation *p, struct root_set *roots)
+void validation_judge(const struct evaluation *p, bool all_sought, int exact, struct root_set *roots)
 {
-  find_radii(p, roots->count, roots->root);
+  set_radii(p, all_sought, roots->count - exact, roots->root + exact);
   bool infinite = false, asked = false;
-  int kept = 0;
-  for (int i = 0; i < roots->count; i++) {
+  int kept = exact;
+  for (int i = exact; i < roots->count; i++) {
     struct root *root = &roots->root[i];
-    if (!(root->radius < INFINITY) && root->status != ROOT_LIMIT) {
+    if (!(root->radius < INFINITY)) {
       infinite = asked ? infinite : may_reach_infinity(p);
       asked = true;
-      if (infinite && hypot(root->re - 0.5, root->im) > 1.0) {
+      if (infinite && hypot(root->re - 0.5, root->im) > 1.0 && root->status != ROOT_LIMIT) {
         continue; /* a candidate for [0,1] is kept in any case */
       }
       root->status = ROOT_LIMIT;
@@ -137,6 +259,5 @@ void validation_judge(const struct evaluation *p, struct root_set *roots)
     roots->root[kept++] = *root;
   }
   roots->count = kept;
-  snap_to_axis(p, roots);
   mark_clusters(roots);
 }

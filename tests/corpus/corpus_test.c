@@ -61,7 +61,8 @@ static int check_answer(const char *solver, const struct corpus_entry *entry, en
     const struct root *root = &roots->root[i];
     const double distance = exact_roots_nearest_below(exact, root->re, root->im);
     const int bad = !isfinite(root->re) || !isfinite(root->im) || !(root->radius >= 0.0) || distance > root->radius ||
-                    (root->im != 0.0 && root->radius < INFINITY && entry->degree * fabs(root->im) <= root->radius) ||
+                    (root->im != 0.0 && root->status == ROOT_CONVERGED &&
+                     entry->degree * fabs(root->im) <= root->radius) ||
                     root->iterations > options->max_iterations ||
                     (root->status == ROOT_CONVERGED && !(root->radius < INFINITY)) ||
                     (options->solver->real_only && (root->im != 0.0 || root->re < 0.0 || root->re > 1.0));
