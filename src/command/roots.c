@@ -1,4 +1,5 @@
 /* pscn roots: polynomials on stdin, roots on stdout. */
+#include <float.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
@@ -16,11 +17,12 @@
 #include "language/language.h"
 #include "scene/method.h"
 
-enum { OPTION_STATS = 1, OPTION_QUIET };
+enum { OPTION_STATS = 1, OPTION_QUIET, OPTION_FORMAT };
 
 enum {
   MAX_COEFFICIENTS = POLYNOMIAL_MAX_DEGREE + 1,
-  OUTPUT_BUFFER = 1 << 16
+  OUTPUT_BUFFER = 1 << 16,
+  MOST_TOLD = 20 /* lines with roots that are not known; the others are only counted */
 };
 
 /* All roots are asked for, so the default is not the scene's, which finds those in [0,1] only. */
@@ -30,16 +32,33 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("solver", 0, OPTION_SOLVER, "what may follow 'solver' in a scene; default aberth", "TEXT"),
   COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of the solver's tolerance", "E"),
+  COMMAND_OPTION("format", 0, OPTION_FORMAT, "plain: pairs re im (default); table, json: with radius, status, eq 11",
+                 "FORMAT"),
   COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output, after the roots", "FILE"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "no summary on a terminal"),
   POPT_TABLEEND
 };
 
+enum format { FORMAT_PLAIN, FORMAT_TABLE, FORMAT_JSON };
+
 struct request {
   struct scene_request solver; /* its solver and tolerance alone */
+  enum format format;
   const char *stats;
   bool quiet;
 };
+
+static enum status take_format(const struct command *command, const char *argument, enum format *out)
+{
+  static const char *const names[] = { "plain", "table", "json" };
+  for (int k = 0; k < 3; k++) {
+    if (strcmp(argument, names[k]) == 0) {
+      *out = (enum format)k;
+      return STATUS_OK;
+    }
+  }
+  return (enum status)command_usage(command, "'%s' is no format, only plain, table or json", argument);
+}
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
@@ -48,6 +67,8 @@ static enum status take_option(const struct command *command, void *context, int
   case OPTION_SOLVER:
   case OPTION_TOLERANCE:
     return scene_request_take(command, &request->solver, val, argument);
+  case OPTION_FORMAT:
+    return take_format(command, argument, &request->format);
   case OPTION_STATS:
     request->stats = argument;
     break;
@@ -59,9 +80,11 @@ static enum status take_option(const struct command *command, void *context, int
 }
 
 struct session {
+  enum format format;
   struct method method;
   struct solver_warm warm;
-  size_t polynomials, roots, iterations, accurate;
+  size_t polynomials, roots, iterations, accurate, missing;
+  size_t doubtful; /* lines printed in plain with roots that are not known */
   size_t statuses[ROOT_CLUSTER + 1];
   double solve; /* seconds */
 };
@@ -101,7 +124,34 @@ static int by_place(const void *a, const void *b)
   return (x->im > y->im) - (x->im < y->im);
 }
 
-static void write_roots(const struct root_set *roots)
+/* ---- the formats ---- */
+
+/* One polynomial's answer. */
+struct answer {
+  size_t line;
+  int degree;
+  const double *c; /* powers */
+  struct root_set roots;
+};
+
+static bool is_known(const struct root *root)
+{
+  return root->radius < INFINITY;
+}
+
+static const char *status_word(const struct root *root)
+{
+  static const char *const words[] = { "converged", "limit", "cluster" };
+  return is_known(root) ? words[root->status] : "unknown";
+}
+
+static double eq11_of(const struct answer *answer, const struct root *root)
+{
+  const struct polynomial power = { answer->degree, BASIS_POWER, answer->c, NULL };
+  return polynomial_eq11(&power, root->re, root->im);
+}
+
+static void write_plain(const struct root_set *roots)
 {
   for (int k = 0; k < roots->count; k++) {
     char pair[2 * NUMBER_TEXT_SIZE + 2];
@@ -116,31 +166,121 @@ static void write_roots(const struct root_set *roots)
   putc('\n', stdout);
 }
 
+/* A row a root, and one for those that are missing. */
+static void write_table(const struct answer *answer)
+{
+  if (answer->line == 1)
+    printf("%6s %24s %24s %10s %-9s %10s %10s\n", "line", "re", "im", "radius", "status", "iterations", "eq11");
+  for (int k = 0; k < answer->roots.count; k++) {
+    const struct root *root = &answer->roots.root[k];
+    char re[NUMBER_TEXT_SIZE], im[NUMBER_TEXT_SIZE];
+    number_write_17(root->re, re);
+    number_write_17(root->im, im);
+    printf("%6zu %24s %24s %10.3g %-9s %10d %10.3g\n", answer->line, re, im, root->radius, status_word(root),
+           root->iterations, eq11_of(answer, root));
+  }
+  if (answer->roots.missing > 0)
+    printf("%6zu %24s %24s %10s %-9s %10s %10s\n", answer->line, "-", "-", "-", "missing", "-", "-");
+}
+
+/* JSON knows no infinity. */
+static json_t *finite_or_null(double value)
+{
+  return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* One object a line. Null where memory is short. */
+static void write_json(const struct answer *answer)
+{
+  json_t *roots = json_array();
+  for (int k = 0; k < answer->roots.count; k++) {
+    const struct root *root = &answer->roots.root[k];
+    json_array_append_new(roots, json_pack("{s:f, s:f, s:o, s:s, s:i, s:o}", "re", root->re, "im", root->im, "radius",
+                                           finite_or_null(root->radius), "status", status_word(root), "iterations",
+                                           root->iterations, "eq11", finite_or_null(eq11_of(answer, root))));
+  }
+  json_t *whole = json_pack("{s:I, s:i, s:o, s:i}", "line", (json_int_t)answer->line, "degree", answer->degree, "roots",
+                            roots, "missing", answer->roots.missing);
+  char *text = json_dumps(whole, JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
+  puts(text == NULL ? "null" : text);
+  free(text);
+  json_decref(whole);
+}
+
+/* The plain format has no place for what is not known of a line's roots. */
+static void tell_unknown(struct session *session, const struct answer *answer)
+{
+  int unknown = 0;
+  for (int k = 0; k < answer->roots.count; k++)
+    unknown += !is_known(&answer->roots.root[k]);
+  if (unknown == 0 && answer->roots.missing == 0 && !answer->roots.not_finite)
+    return;
+  session->doubtful++;
+  if (session->doubtful > MOST_TOLD)
+    return;
+  fflush(stdout);
+  if (answer->roots.not_finite)
+    fprintf(stderr, "<stdin>:%zu: error: the coefficients overflow\n", answer->line);
+  if (unknown > 0)
+    fprintf(stderr, "<stdin>:%zu: error: of %d of the values printed it is not known how near they are to a root\n",
+            answer->line, unknown);
+  if (answer->roots.missing > 0)
+    fprintf(stderr, "<stdin>:%zu: error: %d of the roots missing: not found, or not told from infinity\n",
+            answer->line, answer->roots.missing);
+}
+
+/* ---- a polynomial ---- */
+
+/* Coefficients that would overflow when the basis is changed are made smaller by a power of two, the same for all; what
+ * that takes from the least of them goes into their bounds. */
+#define LARGE 0x1p900
+#define SMALLER 0x1p-200
+
+static void to_bernstein(int degree, const double c[], double out_c[], double out_error[])
+{
+  double scaled[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS], largest = 0;
+  for (int k = 0; k <= degree; k++)
+    largest = fmax(largest, fabs(c[k]));
+  for (int k = 0; k <= degree; k++) {
+    scaled[k] = largest > LARGE ? c[k] * SMALLER : c[k];
+    error[k] = scaled[k] / SMALLER == c[k] || scaled[k] == c[k] ? 0 : DBL_TRUE_MIN;
+  }
+  const struct polynomial power = { degree, BASIS_POWER, scaled, error };
+  polynomial_to_bernstein(&power, out_c, out_error);
+}
+
 /* `basis bernstein` solves the same polynomial in scaled Bernstein form, the rounding of the change of basis known to
  * the solver. */
 static void answer(struct session *session, int degree, const double c[])
 {
-  const struct polynomial power = { degree, BASIS_POWER, c, NULL };
-  struct polynomial p = power;
+  struct polynomial p = { degree, BASIS_POWER, c, NULL };
   double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
-  struct root_set roots;
+  struct answer answer = { .line = ++session->polynomials, .degree = degree, .c = c };
+  struct root_set *roots = &answer.roots;
   const double start = clock_seconds(CLOCK_MONOTONIC);
   if (session->method.basis == BASIS_BERNSTEIN) {
-    polynomial_to_bernstein(&power, bernstein, error);
+    to_bernstein(degree, c, bernstein, error);
     p = (struct polynomial){ degree, BASIS_BERNSTEIN, bernstein, error };
   }
-  solver_solve(&p, &session->method.roots, &session->warm, &roots);
+  solver_solve(&p, &session->method.roots, &session->warm, roots);
   session->solve += clock_seconds(CLOCK_MONOTONIC) - start;
-  session->polynomials++;
-  session->roots += (size_t)roots.count;
-  for (int k = 0; k < roots.count; k++) {
-    const struct root *root = &roots.root[k];
+  session->roots += (size_t)roots->count;
+  for (int k = 0; k < roots->count; k++) {
+    const struct root *root = &roots->root[k];
     session->iterations += (size_t)root->iterations;
-    session->accurate += polynomial_eq11(&power, root->re, root->im) < 1;
+    session->accurate += eq11_of(&answer, root) < 1;
     session->statuses[root->status]++;
   }
-  qsort(roots.root, (size_t)roots.count, sizeof roots.root[0], by_place);
-  write_roots(&roots);
+  session->missing += (size_t)roots->missing;
+  qsort(roots->root, (size_t)roots->count, sizeof roots->root[0], by_place);
+  if (session->format == FORMAT_PLAIN) {
+    write_plain(roots);
+    tell_unknown(session, &answer);
+  } else if (session->format == FORMAT_TABLE) {
+    write_table(&answer);
+  } else {
+    write_json(&answer);
+  }
 }
 
 static struct stream_fault take(void *context, const struct stream_line *line)
@@ -167,8 +307,9 @@ static json_t *statistics(const struct session *session)
 {
   char solver[METHOD_TEXT_SIZE];
   method_text(&session->method, solver, sizeof solver);
-  return json_pack("{s:o, s:o, s:o, s:f, s:{s:o, s:o, s:o}, s:s, s:f, s:{s:f}}", "polynomials",
-                   count(session->polynomials), "roots", count(session->roots), "iterations",
+  return json_pack("{s:o, s:o, s:o, s:o, s:f, s:{s:o, s:o, s:o}, s:s, s:f, s:{s:f}}", "polynomials",
+                   count(session->polynomials), "roots", count(session->roots), "missing", count(session->missing),
+                   "iterations",
                    count(session->iterations), "accurate", share(session->accurate, session->roots), "status",
                    "converged", count(session->statuses[ROOT_CONVERGED]), "cluster",
                    count(session->statuses[ROOT_CLUSTER]), "limit", count(session->statuses[ROOT_LIMIT]), "solver",
@@ -216,7 +357,7 @@ static enum status choose_solver(const struct request *request, struct method *o
 
 static enum status roots(const struct command *command, const struct request *request)
 {
-  struct session session = { 0 };
+  struct session session = { .format = request->format };
   const struct stream_reader reader = { .take = take, .context = &session };
   enum status status = output_spare(command, request->stats, "/dev/stdin");
   if (status == STATUS_OK)
@@ -229,7 +370,9 @@ static enum status roots(const struct command *command, const struct request *re
     status = report_write_json(command, statistics(&session), request->stats);
   if (status == STATUS_OK && !request->quiet && isatty(STDERR_FILENO) == 1)
     print_summary(&session);
-  return status;
+  if (session.doubtful > MOST_TOLD)
+    command_error(command, "and %zu more lines with roots that are not known", session.doubtful - MOST_TOLD);
+  return status == STATUS_OK && session.doubtful > 0 ? STATUS_DIFFERENT : status;
 }
 
 static int run(const struct command *command, int argc, const char **argv)
@@ -254,6 +397,7 @@ const struct command command_roots = {
     "Standard input has one polynomial a line: its coefficients from the highest power to the constant, of degree 1\n"
     "to 64. Standard output has one line for each, in order: 're im' pairs, sorted by real part. Multiple roots are\n"
     "there as often as they count. A bad line ends the run with its number, after the answers to the lines before it.\n"
+    "Where a value is not known to be near a root, or a root is missing, standard error says so, and the exit code is 1.\n"
     "\n"
     "The solver works on the coefficients as they are (basis power), unless --solver says 'basis bernstein': then the\n"
     "same polynomial is brought into scaled Bernstein form on [0,1] first. 'bernstein' finds the real roots in [0,1].\n"

@@ -18,3 +18,7 @@ try pscn roots scene </dev/null
 try pscn roots --solver nothing </dev/null
 try pscn roots --tolerance 0 </dev/null
 try pscn roots --stats nowhere/stats.json </dev/null
+try pscn roots --format csv </dev/null
+# A root beyond what a double holds; 25 such lines.
+printf '%s\n' '2 -1' '1e-320 1 -1' | try pscn roots
+(for k in $(seq 25); do echo '1e-320 1 -1'; done) | pscn roots | wc -l

@@ -16,3 +16,7 @@ coproc pscn roots
 echo '2 -1' >&"${COPROC[1]}"
 read -r -t 60 answer <&"${COPROC[0]}"
 echo "$answer"
+# What is known of each root, and of those that are missing.
+for format in table json; do
+  printf '%s\n' '4 -1' '1 0 0 0' '1e-320 1 -1' | try pscn roots --format "$format"
+done
