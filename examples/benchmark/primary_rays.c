@@ -15,7 +15,7 @@
 #include "base/sort.h"
 #include "chart/rays.h"
 #include "language/language.h"
-#include "peer/embree_mesh.h"
+#include "chart/embree_mesh.h"
 
 enum { WIDTH = 800, HEIGHT = 600, MAX_CONTESTANTS = 16, MAX_RUNS = 1000, FIRST_PSCN = 2 };
 
@@ -43,7 +43,8 @@ static void fail(const char *what)
 static void contestant_load(struct contestant *c, const char *path, const char *solver)
 {
   struct diagnostics diagnostics = { .tell = tell };
-  const struct language_settings settings = { WIDTH, HEIGHT, solver, NAN };
+  const struct language_settings settings = { .image_width = WIDTH, .image_height = HEIGHT, .solver_text = solver,
+                                              .tolerance = NAN };
   c->name = solver == NULL ? "pscn" : solver;
   if (language_load(path, &settings, &diagnostics, &c->scene) != STATUS_OK) exit(EXIT_FAILURE);
   if (intersector_create(c->scene, &c->intersector) != STATUS_OK) fail("out of memory");

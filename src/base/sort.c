@@ -1,6 +1,7 @@
 /* Numbers in order. */
 #include "base/sort.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static int compare(const void *a, const void *b)
@@ -16,7 +17,6 @@ void sort_numbers(double *values, size_t count)
 
 double sorted_quantile(const double *sorted, size_t count, double part)
 {
-  const double place = part * (double)(count - 1);
-  const size_t below = (size_t)place, above = below + 1 < count ? below + 1 : below;
-  return sorted[below] + (place - (double)below) * (sorted[above] - sorted[below]);
+  const size_t rank = (size_t)ceil(part * (double)count);
+  return sorted[rank == 0 ? 0 : rank - 1];
 }

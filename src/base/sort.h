@@ -7,8 +7,8 @@
 /* values[0 .. count-1] from the least to the greatest, in place; NANs, if any, leave the order open. */
 void sort_numbers(double *values, size_t count);
 
-/* The value below which `part` (0 to 1) of sorted[0 .. count-1] lie, count > 0; between two of them in proportion, so
- * that a part of 1/2 is the median. */
+/* The least of sorted[0 .. count-1], count > 0, that `part` (0 to 1) of them do not pass: a part of 1/2 is the median,
+ * the lower one of two. */
 double sorted_quantile(const double *sorted, size_t count, double part);
 
 #endif

@@ -52,14 +52,6 @@ enum status judge_truths(const struct scene *scene, const struct ray_list *rays,
 }
 #endif
 
-/* The value that `part` of the sorted ones do not pass. */
-static double quantile(double *values, size_t count, double part)
-{
-  if (count == 0) return NAN;
-  const size_t at = (size_t)ceil(part * (double)count);
-  return values[at == 0 ? 0 : at - 1];
-}
-
 void judge_answers(size_t count, const struct truth *truths, const struct answer *answers, double *errors,
                    struct judgement *out)
 {
@@ -94,10 +86,10 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
   }
   sort_numbers(errors, both);
   sort_numbers(all, asked);
-  out->median = quantile(errors, both, 0.5);
-  out->most = quantile(errors, both, 0.99);
-  out->max = quantile(errors, both, 1);
-  out->most_of_all = quantile(all, asked, 0.99);
+  out->median = both == 0 ? NAN : sorted_quantile(errors, both, 0.5);
+  out->most = both == 0 ? NAN : sorted_quantile(errors, both, 0.99);
+  out->max = both == 0 ? NAN : errors[both - 1];
+  out->most_of_all = out->hits == 0 ? NAN : sorted_quantile(all, asked, 0.99);
 }
 
 void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const bool *occluded,

@@ -42,7 +42,8 @@ struct judgement {
   size_t wrong;                 /* a hit answered by one farther off than JUDGE_WRONG */
   size_t other_patch;           /* the right place, but said to be of a patch it is not of */
   double median, most, max;     /* relative error of T of the rays both hit; `most`: 99 %; NAN where there are none */
-  double most_of_all;           /* 99 %, every answer that is lost, invented or wrong counting as an error of 1 */
+  double most_of_all;           /* 99 %, every answer that is lost, invented or wrong counting as an error of 1; NAN
+                                 * where nothing is there to be hit */
 };
 
 bool judge_available(void);

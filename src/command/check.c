@@ -1,22 +1,18 @@
-/* pscn check SCENE: the same scene by POV-Ray, side by side.
- *
- * The first row is the scene's own text, so that both programs read the same file. The rows with u_steps are
- * POV-Ray's pictures of the canonical text (scene/dump.h) with the steps of every patch set: in the text of the scene
- * a patch may say nothing of its steps, or take them from a name that means other things as well.
- */
-#include "command/check.h"
+/* pscn check SCENE: the same scene by POV-Ray, side by side. */
+#include "check/check.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
+#include "check/povray.h"
+#include "command/command.h"
 #include "command/interrupt.h"
 #include "command/output.h"
-#include "command/report.h"
+#include "command/scene_file.h"
 #include "command/values.h"
 #include "image/image_file.h"
-#include "language/plain_copy.h"
 
 enum {
   OPTION_OUTPUT = 1,
@@ -24,6 +20,8 @@ enum {
   OPTION_GRID,
   OPTION_POVRAY,
   OPTION_POVRAY_OPTION,
+  OPTION_OWN_TEXT,
+  OPTION_TIMEOUT,
   OPTION_FAIL,
   OPTION_FAIL_PERCENT,
   OPTION_FAIL_PIXELS,
@@ -44,6 +42,8 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_OPTION("grid", 0, OPTION_GRID, "compare hits of every Nth pixel and row; 0: none; default 8", "N"),
   COMMAND_OPTION("povray", 0, OPTION_POVRAY, "the program; default povray", "FILE"),
   COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to it; may be repeated", "OPT"),
+  COMMAND_FLAG("own-text", 0, OPTION_OWN_TEXT, "in the first row it reads the scene's own text"),
+  COMMAND_OPTION("timeout", 0, OPTION_TIMEOUT, "seconds that each run of it may take; default 300", "S"),
   COMMAND_OPTION("fail", 0, OPTION_FAIL, "a pixel fails beyond this difference; default 4/255", "E"),
   COMMAND_OPTION("failpercent", 0, OPTION_FAIL_PERCENT, "so many percent of the pixels may; default 0.3", "P"),
   COMMAND_OPTION("allowfailures", 0, OPTION_FAIL_PIXELS, "or so many pixels may; default 0", "N"),
@@ -57,10 +57,10 @@ static const struct poptOption OPTIONS[] = {
 /* What the command line says. */
 struct line {
   struct check_request request;
-  size_t width, height;
+  struct scene_request scene;
   const char **options; /* owned, not the texts */
-  const char *output;
-  char *default_output; /* owned */
+  char *default_folder; /* owned */
+  bool quiet;
 };
 
 static enum status take_povray_option(const struct command *command, struct line *line, const char *text)
@@ -94,14 +94,15 @@ static enum status take_option(const struct command *command, void *context, int
   struct check_request *request = &line->request;
   switch (val) {
   case OPTION_OUTPUT:
-    line->output = argument;
+    request->folder = argument;
     break;
   case OPTION_SIZE:
-    if (!value_size(argument, MAX_SIDE, &line->width, &line->height) || line->height > MAX_PIXELS / line->width)
+    if (!value_size(argument, MAX_SIDE, &request->width, &request->height) ||
+        request->height > MAX_PIXELS / request->width)
       return (enum status)command_usage(command, "'%s' is no size WxH of at most %d pixels", argument, MAX_PIXELS);
     break;
   SCENE_OPTION_CASES:
-    return scene_request_take(command, &request->scene, val, argument);
+    return scene_request_take(command, &line->scene, val, argument);
   case OPTION_STEPS:
     if (!value_integer(argument, 0, CHECK_MAX_STEPS, &request->steps))
       return (enum status)command_usage(command, "'%s' is no number of steps from 0 to %d", argument, CHECK_MAX_STEPS);
@@ -115,8 +116,15 @@ static enum status take_option(const struct command *command, void *context, int
     break;
   case OPTION_POVRAY_OPTION:
     return take_povray_option(command, line, argument);
+  case OPTION_OWN_TEXT:
+    request->own_text = true;
+    break;
+  case OPTION_TIMEOUT:
+    if (!value_number(argument, &request->timeout) || request->timeout == 0)
+      return (enum status)command_usage(command, "'%s' is no number of seconds", argument);
+    break;
   case OPTION_QUIET:
-    request->quiet = true;
+    line->quiet = true;
     break;
   default:
     return take_limit(command, request, val, argument);
@@ -124,221 +132,87 @@ static enum status take_option(const struct command *command, void *context, int
   return STATUS_OK;
 }
 
-/* ---- the folder of the results ---- */
-
-static enum status write_bytes(const struct check *check, const char *folder, const char *name, const void *bytes,
-                               size_t size)
-{
-  char path[SCRATCH_PATH_SIZE];
-  int reason;
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  const enum status status = atomic_file_write(path, bytes, size, &interrupt_signal, &reason);
-  return command_written(check->command, path, status, reason);
-}
-
-static enum status write_image(const struct check *check, const char *folder, const char *name,
-                               const struct image *image)
-{
-  const struct image_encoding encoding = { .format = IMAGE_PNG, .bits = 8, .encoded = true };
-  unsigned char *bytes;
-  size_t size;
-  char message[IMAGE_MESSAGE_SIZE];
-  enum status status = image_encode(image, &encoding, &bytes, &size, message);
-  if (status != STATUS_OK) {
-    command_error(check->command, "cannot make '%s/%s': %s", folder, name, message);
-    return status;
-  }
-  status = write_bytes(check, folder, name, bytes, size);
-  free(bytes);
-  return status;
-}
-
-static enum status write_pictures(const struct check *check, const char *folder)
-{
-  enum status status = write_image(check, folder, "pscn.png", &check->ours.picture);
-  for (size_t k = 0; k < check->row_count && status == STATUS_OK; k++) {
-    struct image difference;
-    char name[64], difference_name[64];
-    snprintf(name, sizeof name, k == 0 ? "povray.png" : "povray-%zu.png", check->row[k].steps);
-    snprintf(difference_name, sizeof difference_name, k == 0 ? "difference.png" : "difference-%zu.png",
-             check->row[k].steps);
-    status = write_image(check, folder, name, &check->row[k].picture.image);
-    if (status == STATUS_OK)
-      status = check_difference(check, &check->row[k], 16, &difference);
-    if (status == STATUS_OK) {
-      status = write_image(check, folder, difference_name, &difference);
-      image_destroy(&difference);
-    }
-  }
-  return status;
-}
-
-static enum status write_results(const struct check *check, const char *folder, const char *verdict)
-{
-  struct page page;
-  char path[SCRATCH_PATH_SIZE];
-  enum status status = write_pictures(check, folder);
-  if (status != STATUS_OK)
-    return status;
-  snprintf(path, sizeof path, "%s/check.json", folder);
-  status = report_write_json(check->command, check_json(check), path);
-  if (status != STATUS_OK)
-    return status;
-  check_page(check, verdict, &page);
-  status = page_finish(&page);
-  if (status == STATUS_OK)
-    status = write_bytes(check, folder, "check.html", page.text, page.length);
-  else
-    command_error(check->command, "cannot make the page: %s", status == STATUS_LIMIT ? "out of memory" : page.message);
-  page_free(&page);
-  return status;
-}
-
 /* ---- the work ---- */
 
-static void tell(const struct check *check, const char *what)
-{
-  if (!check->request->quiet)
-    fprintf(stderr, "%s\n", what);
-}
-
-/* The scene's own text. */
-static enum status measure_as_written(struct check *check)
-{
-  static const char NAME[] = "scene.pov";
-  const char *reason;
-  const enum status status = plain_copy(check->request->scene.path, check->povray.folder.path, NAME, &reason);
-  if (status == STATUS_OK) {
-    tell(check, "POV-Ray: as written");
-    const enum status measured = check_measure_row(check, NAME, 0);
-    if (measured == STATUS_OK && check->warnings != NULL)
-      tell(check, check->warnings);
-    return measured;
-  }
-  if (status == STATUS_FILE)
-    command_error(check->command, "cannot copy the scene for POV-Ray: %s", reason);
-  else
-    command_error(check->command, "out of memory, or too many files");
-  return status;
-}
-
-static enum status measure_series(struct check *check)
-{
-  enum status status = STATUS_OK;
-  for (size_t steps = 1; steps <= check->request->steps && status == STATUS_OK; steps++) {
-    char text[64];
-    snprintf(text, sizeof text, "POV-Ray: u_steps %zu", steps);
-    tell(check, text);
-    for (size_t k = 0; k < check->scene->patch_count; k++) {
-      struct scene_patch *patch = &check->scene->patches[k];
-      patch->u_steps = patch->v_steps = (int)steps;
-      patch->flatness = 0;
-    }
-    status = check_measure_row(check, NULL, steps);
-  }
-  return status;
-}
-
-static enum status measure(struct check *check)
-{
-  enum status status = povray_open(&check->povray);
-  if (status == STATUS_OK) {
-    tell(check, "pscn");
-    status = check_measure_ours(check);
-  }
-  if (status == STATUS_OK)
-    status = measure_as_written(check);
-  if (status == STATUS_OK)
-    status = measure_series(check);
-  if (status == STATUS_OK)
-    status = check_find_worst(check);
-  return status;
-}
-
-static enum status judge(const struct check *check, const char *folder)
-{
-  char beyond[256], verdict[512];
-  const bool within = check_within_limits(check, beyond, sizeof beyond);
-  const struct check_row *last = &check->row[check->row_count - 1];
-  if (within)
-    snprintf(verdict, sizeof verdict,
-             "Within the limits: %.4g %% of the pixels differ by more than %.4g of 255, PSNR %.4g dB.",
-             100 * (double)last->over_limit / (double)last->result.pixels, 255 * check->request->fail.each,
-             last->result.psnr);
-  else
-    snprintf(verdict, sizeof verdict, "Beyond the limits: %s.", beyond);
-  enum status status = write_results(check, folder, verdict);
-  if (status != STATUS_OK)
-    return status;
-  if (!check->request->quiet) {
-    check_print(check);
-    printf("\n%s\n%s/check.html shows it\n", verdict, folder);
-  }
-  status = command_finish_output(check->command);
-  if (status == STATUS_OK && !within) {
-    command_error(check->command, "%s", beyond);
-    return STATUS_DIFFERENT;
-  }
-  return status;
-}
-
-static enum status check_scene(const struct command *command, struct line *line)
+/* What can be known to be wrong before the work. */
+static enum status prepare(const struct command *command, struct line *line)
 {
   struct check_request *request = &line->request;
-  if (line->output == NULL)
-    line->output = line->default_output = output_folder_name(request->scene.path, "-check");
-  if (line->output == NULL) {
-    command_error(command, "out of memory");
-    return STATUS_LIMIT;
-  }
+  struct stat info;
   char message[IMAGE_MESSAGE_SIZE];
+  if (request->own_text && stat(request->path, &info) == 0 && !S_ISREG(info.st_mode)) {
+    command_error(command, "--own-text reads the scene twice, and '%s' is no regular file", request->path);
+    return STATUS_FILE;
+  }
   if (image_file_ready(message) != STATUS_OK) {
     command_error(command, "cannot write pictures: %s", message);
     return STATUS_FILE;
   }
-  bool made;
-  if (output_folder_make(command, line->output, &made) != STATUS_OK)
-    return STATUS_FILE;
-  interrupt_defer();
-  request->scene.width = line->width;
-  request->scene.height = line->height;
-  struct check check = { .request = request, .command = command, .width = line->width, .height = line->height,
-                         .povray = { .command = command, .program = request->program, .options = request->options,
-                                     .option_count = request->option_count, .width = line->width,
-                                     .height = line->height, .scene_path = request->scene.path } };
-  enum status status = measure(&check);
+  if (request->folder == NULL)
+    request->folder = line->default_folder = output_folder_name(request->path, "-check");
+  if (request->folder == NULL || request->command_line == NULL) {
+    command_error(command, "out of memory");
+    return STATUS_LIMIT;
+  }
+  return STATUS_OK;
+}
+
+static enum status check(const struct command *command, struct line *line)
+{
+  struct check_request *request = &line->request;
+  struct command_ear ear = { command, line->quiet };
+  const struct listener listener = command_listener(&ear);
+  struct scene *scene = NULL;
+  struct page text = { 0 };
+  bool made = false;
+  enum status status = prepare(command, line);
   if (status == STATUS_OK)
-    status = judge(&check, line->output);
-  if (status != STATUS_OK && made)
-    (void)rmdir(line->output); /* fails where something is in it */
-  povray_close(&check.povray);
-  for (size_t k = 0; k < check.row_count; k++)
-    check_row_free(&check.row[k]);
-  check_ours_free(&check.ours);
-  scene_destroy(check.scene);
-  free(check.warnings);
+    status = output_folder_make(command, request->folder, &made);
+  interrupt_defer();
+  const struct seconds start = seconds_now();
+  line->scene.path = request->path;
+  line->scene.width = request->width;
+  line->scene.height = request->height;
+  if (status == STATUS_OK)
+    status = scene_file_load(&line->scene, &scene);
+  request->parse = seconds_since(start);
+  if (status == STATUS_OK)
+    status = check_scene(request, scene, &listener, &text);
+  if ((status == STATUS_OK || status == STATUS_DIFFERENT) && !line->quiet) {
+    printf("%s%s/check.html shows it\n", text.text, request->folder);
+    const enum status written = command_finish_output(command);
+    status = written == STATUS_OK ? status : written;
+  } else if (status != STATUS_OK && status != STATUS_DIFFERENT && made) {
+    (void)rmdir(request->folder);
+  }
+  page_free(&text);
+  scene_destroy(scene);
   return status;
 }
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct line line = { .request = { .scene.tolerance = NAN,
+  struct line line = { .request = { .width = DEFAULT_WIDTH,
+                                    .height = DEFAULT_HEIGHT,
                                     .program = "povray",
+                                    .timeout = POVRAY_TIMEOUT,
                                     .steps = 6,
                                     .grid = 8,
                                     .fail = { .each = 4.0 / 255, .percent = 0.3, .any = INFINITY },
                                     .fail_psnr = 40,
                                     .fail_mask = 0.3 },
-                       .width = DEFAULT_WIDTH,
-                       .height = DEFAULT_HEIGHT };
+                       .scene = { .tolerance = NAN } };
   struct command_line arguments;
+  char *command_line = command_line_text(argc, argv);
   enum status status = command_line_read(command, argc, argv, 1, take_option, &line, &arguments);
   if (status == STATUS_OK && !arguments.help) {
-    line.request.scene.path = arguments.positional[0];
-    status = check_scene(command, &line);
+    line.request.path = arguments.positional[0];
+    line.request.command_line = command_line;
+    status = check(command, &line);
   }
+  free(command_line);
   free(line.options);
-  free(line.default_output);
+  free(line.default_folder);
   command_line_free(&arguments);
   return status == STATUS_INTERRUPTED || atomic_load(&interrupt_signal) != 0 ? interrupt_exit_code() : (int)status;
 }
@@ -354,7 +228,9 @@ const struct command command_check = {
     "edge or a crease, which pixels only one of both hits, the time of both, and the differences of the distances\n"
     "that POV-Ray's trace() answers. DIR receives check.html, which needs nothing beside itself, check.json, and\n"
     "the pictures. The exit code is 1 where the last picture passes the limits.\n"
-    "POV-Ray runs without the user's settings, on one thread, without antialiasing.\n",
+    "POV-Ray runs without the user's settings, on one thread, without antialiasing, and reads what pscn understood of\n"
+    "the scene (pscn dump); with --own-text it first reads the scene's own text, which may do whatever POV-Ray lets\n"
+    "it do: it runs in a folder of its own, with a limit of time and memory.\n",
   .options = OPTIONS,
   .run = run,
 };

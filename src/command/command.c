@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command/interrupt.h"
+
 /* In the order of the help text. */
 static const struct command *const commands[] = {
   &command_render, &command_trace, &command_roots, &command_dump,
@@ -96,6 +98,36 @@ static bool take(struct command_line *line, char *argument)
   line->taken = taken;
   line->taken[line->taken_count++] = argument;
   return true;
+}
+
+static void hear(void *context, enum told what, const char *text)
+{
+  const struct command_ear *ear = context;
+  if (what == TOLD_ERROR)
+    command_error(ear->command, "%s", text);
+  else if (what == TOLD_WARNING)
+    fprintf(stderr, "pscn %s: warning: %s\n", ear->command->name, text);
+  else if (what == TOLD_DETAIL || !ear->quiet)
+    fprintf(stderr, "%s\n", text);
+}
+
+struct listener command_listener(struct command_ear *ear)
+{
+  return (struct listener){ .hear = hear, .context = ear, .stop = &interrupt_signal };
+}
+
+char *command_line_text(int argc, const char **argv)
+{
+  size_t size = sizeof "pscn";
+  for (int k = 0; k < argc; k++)
+    size += strlen(argv[k]) + 3; /* a blank and two quotes */
+  char *text = malloc(size), *end = text;
+  if (text == NULL)
+    return NULL;
+  end += sprintf(end, "pscn");
+  for (int k = 0; k < argc; k++)
+    end += sprintf(end, strpbrk(argv[k], " \t\n\"\\$*?;&|<>(){}`#~") == NULL ? " %s" : " '%s'", argv[k]);
+  return text;
 }
 
 static enum status read_options(const struct command *command, command_option_handler *handle, void *context,

@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "base/listener.h"
 #include "base/status.h"
 
 struct command {
@@ -36,6 +37,14 @@ void command_print_overview(FILE *file);
  * answers STATUS_USAGE. */
 void command_error(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 int command_usage(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* A listener that tells on stderr: progress unless it is to be quiet, warnings and errors as "pscn NAME: ...". Stopped by
+ * signals (interrupt.h). `ear` stays where it is. */
+struct command_ear {
+  const struct command *command;
+  bool quiet;
+};
+struct listener command_listener(struct command_ear *ear);
 
 /* Reads a command line: `handle` is told each option's val and its argument (NULL where it takes none; valid as long as
  * `options` lives) and answers STATUS_OK or a status after having told its error. --help is answered here. */
@@ -64,6 +73,9 @@ enum status command_finish_output(const struct command *command);
 /* Tells why a file was not written, where its status is STATUS_FILE or STATUS_LIMIT (atomic_file.h); answers that
  * status. */
 enum status command_written(const struct command *command, const char *path, enum status status, int reason);
+
+/* The command line as a shell takes it, or nearly; NULL where memory is short. To be freed. */
+char *command_line_text(int argc, const char **argv);
 
 /* A row of the table for an option that takes an argument, for one that takes none, and for the one that every command
  * has, which command_line_read answers. `letter` is the short name, or 0. */

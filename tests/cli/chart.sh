@@ -28,11 +28,16 @@ pscn=$(command -v pscn)
 (PATH=empty; try "$pscn" chart "$scene" $small --no-peers --quiet -o out3)
 ls out3
 
-# Nothing to hit: no figure, and no error.
+# Nothing to hit, in an empty scene and beside a patch, in which the paper's form may see hits: said, no front, no figure,
+# no peer called a failure, and no error.
 echo 'background { rgb 0 }' >nothing.pscn
-try pscn chart nothing.pscn $small --no-peers -o out4 2>&1 | grep -e warning -e '^exit' -e 'bernstein$' |
-  sed 's/^ *[0-9.]* *[0-9.]*//'
-ls out4
+sed "s/look_at <[^>]*>/look_at <0, 50, 0>/" "$scene" >aside.pscn
+for name in nothing aside; do
+  try pscn chart $name.pscn $small --povray nowhere/povray -o out4 >said 2>&1
+  grep -e warning -e '^No camera' -e '^exit' -e 'front)' -e fail -e 'Embree.*no patch' said
+  grep -c 'bernstein$' said
+  ls out4
+done
 
 # The command line.
 try pscn chart

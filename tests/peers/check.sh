@@ -1,6 +1,7 @@
 #!/bin/bash
-# `pscn check` against the installed POV-Ray: what it leaves behind, its exit codes, messages and limits, and that
-# POV-Ray comes nearer with every step.
+# `pscn check` against the installed POV-Ray: what it leaves behind, its exit codes, messages and limits, that POV-Ray
+# comes nearer with every step, and that no scene does harm by it. check.sh answers|limits|names|harm: a part of that,
+# for POV-Ray sleeps half a second each time it is run.
 set -euo pipefail
 
 command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
@@ -51,80 +52,136 @@ cat >"scenes and more/parts.inc" <<'END'
 END
 echo '#declare Nothing = 0;' >"scenes and more/only povray.inc"
 
-expect 0 "$PSCN" check "$scene" --size 120x90 --steps 5 --failpercent 1 --failpsnr 30 --failmask 1
-[ "$(ls | tr '\n' ' ')" = "err one-check out scenes and more tmp " ] || { fail "left here:"; ls; }
-[ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
-for name in check.html check.json pscn.png povray.png povray-5.png difference.png difference-5.png; do
-  [ -s "one-check/$name" ] || fail "there is no $name"
-done
-grep -q '^pscn: ' err && fail "errors were told"
-# Each step is nearer than the one before, in the pictures and in the hits; u_steps 2 is the scene as it is written.
-awk '$1 == "u_steps" && NF == 12 { if (steps++ && ($4 >= over || $7 <= psnr)) bad = 1; over = $4; psnr = $7 }
-     $1 == "u_steps" && NF == 9 { if (rays++ && $7 >= median) bad = 1; median = $7 }
-     END { exit bad || steps != 5 || rays != 5 }' out || { fail "POV-Ray does not come nearer:"; cat out; }
-cmp -s one-check/povray.png one-check/povray-2.png || fail "the scene and its canonical text give POV-Ray two pictures"
-"$PSCN" compare one-check/pscn.png one-check/povray-5.png --fail 1 --quiet || fail "the pictures cannot be compared"
-"$PSCN" render "$scene" -o own.png --size 120x90 --quiet
-"$PSCN" compare own.png one-check/pscn.png --fail 0 --quiet || fail "check's own picture is not render's"
+answers() {
+  expect 0 "$PSCN" check "$scene" --size 120x90 --steps 4 --failpercent 2 --failpsnr 25 --failmask 2
+  [ "$(ls | tr '\n' ' ')" = "err one-check out scenes and more tmp " ] || { fail "left here:"; ls; }
+  [ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
+  for name in check.html check.json pscn.png povray.png povray-4.png difference.png difference-4.png; do
+    [ -s "one-check/$name" ] || fail "there is no $name"
+  done
+  grep -q '^pscn: ' err && fail "errors were told"
+  # Each step is nearer than the one before, in the pictures and in the hits; u_steps 2 is the scene as it is written.
+  awk '$1 == "u_steps" && NF == 12 { if (steps++ && ($4 >= over || $7 <= psnr)) bad = 1; over = $4; psnr = $7 }
+       $1 == "u_steps" && NF == 9 { if (rays++ && $7 >= median) bad = 1; median = $7 }
+       END { exit bad || steps != 4 || rays != 4 }' out || { fail "POV-Ray does not come nearer:"; cat out; }
+  cmp -s one-check/povray.png one-check/povray-2.png || fail "the scene and the same steps give two pictures"
+  # The scene's own text gives that picture too: without solver statements, with the includes of the branch for POV-Ray.
+  expect 0 "$PSCN" check "$scene" --size 120x90 --steps 0 --grid 0 -o own \
+    --failpercent 100 --failpsnr 0 --failmask 100 --own-text
+  cmp -s own/povray.png one-check/povray.png || fail "the scene's own text gives another picture"
+  "$PSCN" compare one-check/pscn.png one-check/povray-4.png --fail 1 --quiet || fail "the pictures cannot be compared"
+  "$PSCN" render "$scene" -o own.png --size 120x90 --quiet
+  "$PSCN" compare own.png one-check/pscn.png --fail 0 --quiet || fail "check's own picture is not render's"
 
-# Every pixel over the limit lies on one kind of edge, or on none.
-tr -d ' {}[]' <one-check/check.json | tr ',' '\n' | sed 's/"over://' | awk -F: '
-  $1 == "\"over_limit_off_edges\"" || $1 == "\"crease\"" || $1 == "\"shadow\"" || $1 == "\"silhouette\"" { parts += $2 }
-  $1 == "\"limit\"" { all += $2; rows++ } END { exit !(rows == 6 && all > 0 && all == parts) }' ||
-  fail "the pixels over the limit are not those on edges and off them"
+  # Every pixel over the limit lies on one kind of edge, or on none.
+  tr -d ' {}[]' <one-check/check.json | tr ',' '\n' | sed 's/"over://' | awk -F: '
+    $1 ~ /^"(over_limit_off_edges|crease|shadow|silhouette)"$/ { parts += $2 }
+    $1 == "\"limit\"" { all += $2; rows++ } END { exit !(rows == 5 && all > 0 && all == parts) }' ||
+    fail "the pixels over the limit are not those on edges and off them"
+}
 
-# Limits, one at a time, on a coarse picture.
-coarse=(--size 60x45 --steps 0 --grid 0 -o limits --failpercent 100 --failpsnr 0 --failmask 100)
-expect 0 "$PSCN" check "$scene" "${coarse[@]}"
-for limit in '--failpercent 0.1' '--hardfail 0.1' '--failpsnr 60' '--failmask 0.01'; do
-  expect 1 "$PSCN" check "$scene" "${coarse[@]}" $limit --quiet
-  [ -s out ] && fail "--quiet says something"
-  [ "$(wc -l <err)" -eq 1 ] || { fail "not one line is told of $limit:"; cat err; }
-done
+limits() {
+  # Limits, one at a time, on a coarse picture.
+  coarse=(--size 60x45 --steps 0 --grid 0 -o limits --failpercent 100 --failpsnr 0 --failmask 100)
+  expect 0 "$PSCN" check "$scene" "${coarse[@]}"
+  for limit in '--failpercent 0.1' '--hardfail 0.1' '--failpsnr 60' '--failmask 0.01'; do
+    expect 1 "$PSCN" check "$scene" "${coarse[@]}" $limit --quiet
+    [ -s out ] && fail "--quiet says something"
+    [ "$(wc -l <err)" -eq 1 ] || { fail "not one line is told of $limit:"; cat err; }
+  done
 
-# POV-Ray's own word where it refuses, and options passed on.
-expect 3 "$PSCN" check "$scene" --size 8x6 -o refused --povray-option +Knonsense
-grep -q 'povray: .*command-line option' err || { fail "POV-Ray's message is not shown"; cat err; }
-sed 's/#declare Shade = Red;/#error "not with POV-Ray"/' "$scene" >"scenes and more/two.pscn"
-expect 3 "$PSCN" check "scenes and more/two.pscn" --size 8x6 -o refused
-grep -q 'povray: .*scene.pov.*line 12' err || { fail "the line of the scene is not told"; cat err; }
-[ ! -e refused ] || fail "a folder is left where nothing was found"
-expect 0 "$PSCN" check "$scene" --size 60x45 --steps 0 --grid 0 -o quality --failpercent 100 --failpsnr 0 \
-  --failmask 100 --povray-option +Q0 --quiet
-cmp -s quality/povray.png limits/povray.png && fail "--povray-option changes nothing"
+  # POV-Ray's own word where it refuses, and options passed on.
+  expect 3 "$PSCN" check "$scene" --size 8x6 -o refused --povray-option +Knonsense
+  grep -q 'povray: .*command-line option' err || { fail "POV-Ray's message is not shown"; cat err; }
+  sed 's/#declare Shade = Red;/#error "not with POV-Ray"/' "$scene" >"scenes and more/two.pscn"
+  expect 3 "$PSCN" check "scenes and more/two.pscn" --size 8x6 -o refused --own-text
+  grep -q 'povray: .*scene.pov.*line 12' err || { fail "the line of the scene is not told"; cat err; }
+  [ ! -e refused ] || fail "a folder is left where nothing was found"
+  expect 4 "$PSCN" check <(cat "$scene") --own-text
+  expect 0 "$PSCN" check "$scene" --size 60x45 --steps 0 --grid 0 -o quality --failpercent 100 --failpsnr 0 \
+    --failmask 100 --povray-option +Q0 --quiet
+  ! cmp -s quality/povray.png limits/povray.png || fail "--povray-option changes nothing"
+}
 
-# What is the same is told to be the same, and what nobody hits has no distance; a name that needs care in a shell, in
-# HTML and in a path of POV-Ray's; a scene that POV-Ray reads as one of an older version, with other colours, is told.
-name="a 'name' & \"<more>\" ä"
-mkdir "$name"
-echo '#include "plain.inc"' >"$name/$name.pscn"
-echo 'background { rgb <0.1, 0.5, 0.9> } bicubic_patch { type 1
-  <1, 1, -9>, <2, 1, -9>, <3, 1, -9>, <4, 1, -9>, <1, 2, -9>, <2, 2, -9>, <3, 2, -9>, <4, 2, -9>,
-  <1, 3, -9>, <2, 3, -9>, <3, 3, -9>, <4, 3, -9>, <1, 4, -9>, <2, 4, -9>, <3, 4, -9>, <4, 4, -9> }' >"$name/plain.inc"
-for size in 1x1 700x2; do
-  expect 0 "$PSCN" check "$name/$name.pscn" --size $size --steps 1
-  awk '$1 == "u_steps" && NF == 12 { same = $7 == "inf" && $6 == "0/255" }
-       $1 == "u_steps" && NF == 9 { none = $7 $8 $9 == "---" }
-       END { exit !(same && none) }' out || { fail "not the same, or distances of nothing, at $size:"; cat out; }
+names() {
+  # What is the same is told to be the same, and what nobody hits has no distance; a name that needs care in a shell, in
+  # HTML and in a path of POV-Ray's; a scene that POV-Ray reads as one of an older version, with other colours, is told.
+  name="a 'name' & \"<more>\" ä"
+  mkdir "$name"
+  echo '#include "plain.inc"' >"$name/$name.pscn"
+  echo 'background { rgb <0.1, 0.5, 0.9> } bicubic_patch { type 1
+    <1, 1, -9>, <2, 1, -9>, <3, 1, -9>, <4, 1, -9>, <1, 2, -9>, <2, 2, -9>, <3, 2, -9>, <4, 2, -9>,
+    <1, 3, -9>, <2, 3, -9>, <3, 3, -9>, <4, 3, -9>, <1, 4, -9>, <2, 4, -9>, <3, 4, -9>, <4, 4, -9> }' >"$name/plain.inc"
+  for size in 1x1 700x2; do
+    expect 0 "$PSCN" check "$name/$name.pscn" --size $size --steps 1
+    awk '$1 == "u_steps" && NF == 12 { same = $7 == "inf" && $6 == "0/255" }
+         $1 == "u_steps" && NF == 9 { none = $7 $8 $9 == "---" }
+         END { exit !(same && none) }' out || { fail "not the same, or distances of nothing, at $size:"; cat out; }
+    grep -q 'The pictures are the same' "$name-check/check.html" ||
+      fail "the page does not say that the pictures are the same"
+  done
+  [ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
+
+  expect 1 "$PSCN" check "$name/$name.pscn" --size 9x9 --steps 0 --own-text # in POV-Ray's older, other colours
   grep -q 'gamma_correction is turned off' err || { fail "POV-Ray's warning is not told"; cat err; }
-  grep -q 'The pictures are the same' "$name-check/check.html" ||
-    fail "the page does not say that the pictures are the same"
-done
-[ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
 
-# An interrupt ends POV-Ray too, and leaves nothing.
-for signal in INT:130 TERM:143; do
-  set -m # else the shell has the program ignore SIGINT
-  "$PSCN" check "$scene" --size 2000x1500 -o interrupted --quiet 2>err &
-  check=$!
-  set +m
-  for ((k = 0; k < 100; k++)); do ls "$TMPDIR"/pscn-*/scene.pov >/dev/null 2>&1 && break; sleep 0.1; done
-  sleep 0.3
-  kill -"${signal%:*}" "$check"
+  # A pipe is read once; a name that is no UTF-8 is shown as one; steps of an earlier check are gone.
+  expect 0 "$PSCN" check <(cat "$name/plain.inc") --size 9x9 --steps 1 --grid 0 -o again
+  odd=$(printf 'odd\xff\x1b[31m<b>')
+  cp "$name/plain.inc" "$odd.pscn"
+  expect 0 "$PSCN" check "$odd.pscn" --size 9x9 --steps 0 --grid 0 -o again
+  grep -q 'odd\\xff\\x1b\[31m&lt;b&gt;' again/check.html && grep -q 'odd\\xff\\x1b' out ||
+    fail "a name is not shown printable"
+  [ "$(ls again | tr '\n' ' ')" = "check.html check.json difference.png povray.png pscn.png " ] ||
+    { fail "an earlier check is left:"; ls again; }
+}
+
+harm() {
+  # What only POV-Ray would read does nothing at all, and on request no harm: no file anywhere else, no program run, no
+  # escapes for the terminal or HTML in the page, no endless time or memory.
+  sed -e '/#include "only/d; s/#include "colors.inc"/#include "evil.inc"/; s/Shade = Red/Shade = rgb <1, 0, 0>/' \
+    "$scene" >"scenes and more/evil.pscn"
+  evil() { printf '%s\n' "$@" >"scenes and more/evil.inc"; }
+  quick=(--size 8x6 --steps 0 --grid 0 -o evil --failpercent 100 --failpsnr 0 --failmask 100)
+  mkdir -p "$HOME"
+  evil "#fopen F \"$folder/written\" write" '#write (F, "x")' "#fopen G \"../home/written\" write" \
+    '#fopen I "povray.ini" write' "#write (I, \"Pre_Scene_Command=touch $folder/run\\n\")" \
+    '#warning "\\u001b]0;title<b>"'
+  expect 0 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}"
+  [ ! -s err ] || ! grep -q title err || fail "POV-Ray reads what was not for it"
   code=0
-  wait "$check" || code=$?
-  [ "$code" -eq "${signal#*:}" ] || fail "exit code $code after SIG${signal%:*}"
-  [ -z "$(ls -A "$TMPDIR")" ] || fail "an interrupt leaves files"
-  [ ! -e interrupted ] || fail "an interrupt leaves a folder"
-done
+  "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}" --own-text --steps 1 >out 2>err || code=$?
+  if [ "$code" -eq 0 ] || [ "$code" -eq 3 ]; then :; else fail "exit code $code of a hostile scene"; cat err; fi
+  if ls "$folder/written" "$HOME/written" "$folder/run" 2>/dev/null; then
+    grep -q 'cannot keep' err || fail "a scene has written files"
+  fi
+  LC_ALL=C grep -q "$(printf '[\x1b\x07]')" err out evil/check.* && fail "a scene sends escapes"
+  evil '#while (1)' '#end'
+  expect 5 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}" --own-text --timeout 1
+  grep -q 'more than 1 seconds' err || { fail "the time limit is not told"; cat err; }
+  [ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
+
+  # An interrupt ends POV-Ray too, and leaves nothing.
+  evil '#while (1)' '#end'
+  for signal in INT:130 TERM:143 KILL:137; do
+    set -m # else the shell has the program ignore SIGINT
+    "$PSCN" check "scenes and more/evil.pscn" --own-text --size 8x6 -o interrupted --quiet 2>err &
+    check=$!
+    set +m
+    for ((k = 0; k < 100; k++)); do ls "$TMPDIR"/pscn-*/run/scene.pov >/dev/null 2>&1 && break; sleep 0.1; done
+    sleep 0.2
+    kill -"${signal%:*}" "$check"
+    code=0
+    wait "$check" 2>/dev/null || code=$?
+    [ "$code" -eq "${signal#*:}" ] || fail "exit code $code after SIG${signal%:*}"
+    sleep 0.1
+    ! grep -lsa "$TMPDIR" /proc/[0-9]*/environ | sed 's/environ/comm/' | xargs -r cat 2>/dev/null | grep povray ||
+      fail "POV-Ray is still there after SIG${signal%:*}"
+    [ "$signal" = KILL:137 ] && continue
+    [ -z "$(ls -A "$TMPDIR")" ] || fail "an interrupt leaves files"
+    [ ! -e interrupted ] || fail "an interrupt leaves a folder"
+  done
+}
+
+"$1"
 exit "$failed"

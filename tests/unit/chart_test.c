@@ -143,6 +143,9 @@ static void test_judge(void **state)
   assert_true(j.median == 0x1p-55);
   assert_true(j.max == 0.5 && j.most == 0.5);
   assert_true(j.most_of_all == 1);
+  /* Where nothing is there to be hit, who invents a hit has no error, and no place on the front. */
+  judge_answers(2, truths + 5, answers + 5, errors, &j);
+  assert_true(j.hits == 0 && j.invented == 1 && isnan(j.most_of_all));
 }
 
 static void test_judge_occluded(void **state)

@@ -1,5 +1,5 @@
 /* A temporary folder. */
-#include "command/scratch.h"
+#include "check/scratch.h"
 
 #include <dirent.h>
 #include <errno.h>

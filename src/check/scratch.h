@@ -1,6 +1,6 @@
 /* A folder of our own for the time of a command, and the files in it. */
-#ifndef PSCN_COMMAND_SCRATCH_H
-#define PSCN_COMMAND_SCRATCH_H
+#ifndef PSCN_CHECK_SCRATCH_H
+#define PSCN_CHECK_SCRATCH_H
 
 #include <stddef.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "chart/exchange.h"
-#include "peer/embree_mesh.h"
+#include "chart/embree_mesh.h"
 
 static const unsigned WIDTHS[] = { 1, 8 };
 enum { WIDTH_COUNT = sizeof WIDTHS / sizeof WIDTHS[0] };

@@ -1,8 +1,9 @@
 /* Where POV-Ray's triangles can give another colour than the surface they stand for: beside silhouettes, the edges of
  * shadows and creases, half a pixel's difference of the shape is a difference of the whole colour. */
+#include "check/measure.h"
+
 #include <math.h>
 
-#include "command/check.h"
 #include "geometry/vector.h"
 
 const char *const CHECK_EDGE_NAME[CHECK_EDGES] = { "no edge", "crease", "shadow", "silhouette" };
@@ -10,7 +11,9 @@ const char *const CHECK_EDGE_NAME[CHECK_EDGES] = { "no edge", "crease", "shadow"
 const float CHECK_EDGE_COLOR[CHECK_EDGES][3] = {
   { 0, 0, 0 }, { 0.45f, 0.3f, 0.55f }, { 0.2f, 0.5f, 0.3f }, { 0.25f, 0.4f, 0.7f }
 };
-const float CHECK_SPOT_COLOR[2][3] = { { 1, 0.85f, 0.2f }, { 1, 0.15f, 0.15f } };
+const float CHECK_SPOT_COLOR[CHECK_EDGES][3] = {
+  { 1, 0.15f, 0.15f }, { 1, 0.5f, 1 }, { 0.4f, 1, 0.5f }, { 1, 0.85f, 0.2f }
+};
 
 static const float DARK = 0.22f; /* our picture below the map, times its value */
 
@@ -50,12 +53,12 @@ static enum check_edge edge_between(const struct check *check, const struct chec
 
 void check_find_edges(struct check *check)
 {
-  for (size_t y = 0; y < check->height; y++) {
-    for (size_t x = 0; x < check->width; x++) {
-      struct check_pixel *pixel = &check->ours.pixel[y * check->width + x];
-      for (size_t v = y == 0 ? 0 : y - 1; v <= y + 1 && v < check->height; v++) {
-        for (size_t u = x == 0 ? 0 : x - 1; u <= x + 1 && u < check->width; u++) {
-          const enum check_edge edge = edge_between(check, pixel, &check->ours.pixel[v * check->width + u]);
+  for (size_t y = 0; y < check->request->height; y++) {
+    for (size_t x = 0; x < check->request->width; x++) {
+      struct check_pixel *pixel = &check->ours.pixel[y * check->request->width + x];
+      for (size_t v = y == 0 ? 0 : y - 1; v <= y + 1 && v < check->request->height; v++) {
+        for (size_t u = x == 0 ? 0 : x - 1; u <= x + 1 && u < check->request->width; u++) {
+          const enum check_edge edge = edge_between(check, pixel, &check->ours.pixel[v * check->request->width + u]);
           pixel->edge = edge > pixel->edge ? edge : pixel->edge;
         }
       }
@@ -72,15 +75,15 @@ static void put_color(struct image *image, size_t x, size_t y, const float color
 /* The pixels over the limit, on an edge or off all; large enough to be seen where the picture is. */
 static void put_spots(const struct check *check, const struct check_row *row, bool off_edges, struct image *map)
 {
-  const size_t reach = check->width / 500 + (off_edges && check->width > 100);
-  for (size_t y = 0; y < check->height; y++) {
-    for (size_t x = 0; x < check->width; x++) {
-      const bool off = check->ours.pixel[y * check->width + x].edge == CHECK_EDGE_NONE;
+  const size_t reach = check->request->width / 500 + (off_edges && check->request->width > 100);
+  for (size_t y = 0; y < check->request->height; y++) {
+    for (size_t x = 0; x < check->request->width; x++) {
+      const bool off = check->ours.pixel[y * check->request->width + x].edge == CHECK_EDGE_NONE;
       if (off != off_edges || !(check_pixel_difference(check, row, x, y) > check_limit(check)))
         continue;
-      for (size_t v = y < reach ? 0 : y - reach; v <= y + reach && v < check->height; v++) {
-        for (size_t u = x < reach ? 0 : x - reach; u <= x + reach && u < check->width; u++)
-          put_color(map, u, v, CHECK_SPOT_COLOR[off]);
+      for (size_t v = y < reach ? 0 : y - reach; v <= y + reach && v < check->request->height; v++) {
+        for (size_t u = x < reach ? 0 : x - reach; u <= x + reach && u < check->request->width; u++)
+          put_color(map, u, v, CHECK_SPOT_COLOR[check->ours.pixel[y * check->request->width + x].edge]);
       }
     }
   }
@@ -88,14 +91,14 @@ static void put_spots(const struct check *check, const struct check_row *row, bo
 
 enum status check_map(const struct check *check, const struct check_row *row, struct image *out)
 {
-  const enum status status = image_create(check->width, check->height, 3, out);
+  const enum status status = image_create(check->request->width, check->request->height, 3, out);
   if (status != STATUS_OK)
     return status;
   for (int k = 0; k < 3; k++)
     out->channel[k] = check->ours.picture.channel[k];
-  for (size_t y = 0; y < check->height; y++) {
-    for (size_t x = 0; x < check->width; x++) {
-      const enum check_edge edge = check->ours.pixel[y * check->width + x].edge;
+  for (size_t y = 0; y < check->request->height; y++) {
+    for (size_t x = 0; x < check->request->width; x++) {
+      const enum check_edge edge = check->ours.pixel[y * check->request->width + x].edge;
       float color[3];
       for (int k = 0; k < 3; k++)
         color[k] = DARK * image_pixel(&check->ours.picture, x, y)[k];

@@ -1,38 +1,15 @@
-/* What `pscn check` measures, and who shows it.
- *
- * Internal to the files check*.c. Our picture is rendered once; each row is one picture by POV-Ray beside it: first
- * the scene as it is written, then with every patch cut into 2^n x 2^n pieces, n = 1, 2, ... (u_steps n v_steps n
- * flatness 0).
- */
-#ifndef PSCN_COMMAND_CHECK_H
-#define PSCN_COMMAND_CHECK_H
+/* What a check measures, and who shows it. Internal to this folder. */
+#ifndef PSCN_CHECK_MEASURE_H
+#define PSCN_CHECK_MEASURE_H
 
-#include <jansson.h>
 #include <stdint.h>
 
-#include "base/clock.h"
-#include "command/command.h"
-#include "command/page.h"
-#include "command/povray.h"
-#include "command/scene_file.h"
-#include "image/compare.h"
+#include "check/check.h"
+#include "check/povray.h"
 
 enum {
-  CHECK_MAX_STEPS = 8,   /* 65536 pieces a patch: more does not fit into memory for common scenes */
-  CHECK_CODES = 3,       /* the limits 1, 4 and 16 of 255 */
-  CHECK_WORST = 8        /* pixels shown magnified */
-};
-
-struct check_request {
-  struct scene_request scene;
-  const char *program;         /* of POV-Ray */
-  const char *const *options;  /* passed on to it */
-  size_t option_count;
-  size_t steps;                /* the last n; 0: only as written */
-  size_t grid;                 /* every grid-th pixel of every grid-th row is asked for its distance; 0: none */
-  struct compare_limit fail;
-  double fail_psnr, fail_mask; /* dB, percent of the pixels */
-  bool quiet;
+  CHECK_CODES = 3, /* the limits 1, 4 and 16 of 255 */
+  CHECK_WORST = 8  /* pixels shown magnified */
 };
 
 /* What a pixel, or one beside it, lies on; where it is several, the last of these. */
@@ -50,7 +27,7 @@ struct check_pixel {
 struct check_ours {
   struct image picture;        /* R G B, display codes of 8 bits as k/255 */
   struct check_pixel *pixel;   /* [height][width] */
-  struct seconds time; /* of reading, building, rendering and encoding, one thread */
+  struct seconds time;         /* of reading, building, rendering and encoding, one thread */
 };
 
 /* Differences of distances, relative to ours, over the rays that both say hit; NaN where there are none. */
@@ -79,26 +56,25 @@ struct check_worst {
 
 struct check {
   const struct check_request *request;
-  const struct command *command;
+  const struct listener *listener;
   struct povray povray;
   struct scene *scene; /* its steps are changed from row to row */
-  size_t width, height;
   struct check_ours ours;
   struct check_row row[CHECK_MAX_STEPS + 1];
   size_t row_count;
   struct check_worst worst[CHECK_WORST]; /* of the last row */
   size_t worst_count;
-  char *warnings; /* POV-Ray's, of the scene as written, or NULL */
+  struct page warnings; /* POV-Ray's, of the scene as written */
 };
 
-/* ---- check_measure.c ---- */
+/* ---- measure.c ---- */
 
 /* Renders, and looks at every pixel. Errors are told. */
 enum status check_measure_ours(struct check *check) STATUS_MUST_CHECK;
 void check_ours_free(struct check_ours *ours);
 
-/* Adds a row: `name` is a file of POV-Ray's folder, or NULL for the scene as it stands in check->scene. */
-enum status check_measure_row(struct check *check, const char *name, size_t steps) STATUS_MUST_CHECK;
+/* Adds a row, of the scene as it stands in check->scene; where steps is 0, and it is asked for, of its own text. */
+enum status check_measure_row(struct check *check, size_t steps) STATUS_MUST_CHECK;
 void check_row_free(struct check_row *row);
 
 /* Finds the worst pixels of the last row and asks for their distances. */
@@ -115,30 +91,27 @@ double check_limit(const struct check *check);
 /* Whether the last row is within the limits; if not, `out` says what is beyond them. */
 bool check_within_limits(const struct check *check, char *out, size_t size);
 
-/* ---- check_edges.c ---- */
+/* ---- edges.c ---- */
 
 /* Finds the edges among our pixels. */
 void check_find_edges(struct check *check);
 
 /* Our picture, dark, with its edges, and on it the pixels over the limit, as spots. The colours R G B, 0 to 1, of what
  * is on the map: the edges, and the spots by what they lie on. STATUS_LIMIT where memory is short. */
-extern const float CHECK_EDGE_COLOR[CHECK_EDGES][3], CHECK_SPOT_COLOR[2][3]; /* [1]: off edges */
+extern const float CHECK_EDGE_COLOR[CHECK_EDGES][3], CHECK_SPOT_COLOR[CHECK_EDGES][3];
 enum status check_map(const struct check *check, const struct check_row *row, struct image *out) STATUS_MUST_CHECK;
 
-/* ---- check_report.c ---- */
+/* ---- report.c ---- */
 
-/* The table on standard output. */
-void check_print(const struct check *check);
+/* The table. */
+void check_table(const struct check *check, struct page *out);
 
-/* All numbers; NULL where memory is short. */
+/* All numbers, for check.json; NULL where memory is short. */
 json_t *check_json(const struct check *check);
 
-/* ---- check_page.c, check_plot.c ---- */
+/* ---- results.c ---- */
 
-/* The page; `verdict` is one sentence. The caller finishes and frees it. */
-void check_page(const struct check *check, const char *verdict, struct page *out);
-
-/* The convergence, as an SVG figure. */
-void check_plot(const struct check *check, struct page *page);
+/* Writes all results; `verdict` is one sentence. Errors are told. */
+enum status check_write(const struct check *check, const char *verdict) STATUS_MUST_CHECK;
 
 #endif

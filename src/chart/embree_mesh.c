@@ -1,5 +1,5 @@
 /* The peer of triangles. Embree's documentation: doc/src/api.md of its sources. */
-#include "peer/embree_mesh.h"
+#include "chart/embree_mesh.h"
 
 #include <embree3/rtcore.h>
 #include <math.h>

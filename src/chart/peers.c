@@ -6,13 +6,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/number.h"
 #include "base/sort.h"
 #include "chart/exchange.h"
 #include "chart/plain_newton.h"
-#include "command/chart.h"
-#include "command/interrupt.h"
-#include "command/process.h"
+#include "chart/work.h"
+#include "check/povray.h"
+#include "check/process.h"
 #include "geometry/vector.h"
 
 /* ---- plain Newton ---- */
@@ -26,11 +25,11 @@ static enum status ask_plain_newton(struct chart *chart)
     free(shadows);
     return STATUS_LIMIT;
   }
-  chart_tell(chart, "plain Newton");
+  listener_tell(chart->listener, TOLD_PROGRESS, "plain Newton");
   const struct runner runners[] = { pscn_runner_face(&chart->yardstick), plain_newton_face(plain) };
   const size_t counts[RAY_KINDS] = { chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count };
   struct timing time[2][RAY_KINDS];
-  const enum status status = measure_rounds(runners, 2, counts, chart->rounds, &interrupt_signal, time);
+  const enum status status = measure_rounds(runners, 2, counts, chart->rounds, chart->listener->stop, time);
   if (status == STATUS_OK) {
     struct chart_point *point = chart_add(chart, FAMILY_PLAIN_NEWTON);
     snprintf(point->name, sizeof point->name, "2-D Newton from the middle of %dx%d parts", PLAIN_NEWTON_SPLIT,
@@ -78,8 +77,9 @@ static bool write_question(const struct chart *chart, const struct scratch *fold
   static const size_t SIDES[] = { 8, 16, 32, 64, 128, 256 }, QUICK_SIDES[] = { 8, 32, 128 };
   struct exchange_question question = { .patch_count = chart->scene->patch_count, .rounds = chart->rounds };
   memcpy(question.rays, chart->rays, sizeof question.rays);
-  question.side_count = chart->quick ? sizeof QUICK_SIDES / sizeof QUICK_SIDES[0] : sizeof SIDES / sizeof SIDES[0];
-  memcpy(question.sides, chart->quick ? QUICK_SIDES : SIDES, question.side_count * sizeof question.sides[0]);
+  const bool quick = chart->request->quick;
+  question.side_count = quick ? sizeof QUICK_SIDES / sizeof QUICK_SIDES[0] : sizeof SIDES / sizeof SIDES[0];
+  memcpy(question.sides, quick ? QUICK_SIDES : SIDES, question.side_count * sizeof question.sides[0]);
   while (question.side_count > 1 && triangles(chart, question.sides[question.side_count - 1]) > MAX_TRIANGLES)
     question.side_count--;
   question.nets = calloc(question.patch_count + 1, sizeof *question.nets);
@@ -114,12 +114,16 @@ static enum status ask_embree(struct chart *chart)
 {
   char program[SCRATCH_PATH_SIZE], question[SCRATCH_PATH_SIZE], answer[SCRATCH_PATH_SIZE], log[SCRATCH_PATH_SIZE];
   struct scratch folder;
+  if (chart->scene->patch_count == 0) {
+    chart_note(chart, "Embree is left out: the scene has no patch that could be cut into triangles.");
+    return STATUS_OK;
+  }
   if (!find_embree(program)) {
     chart_note(chart, "Embree is left out: pscn-embree does not stand beside pscn (it is built where libembree-dev is "
                       "found).");
     return STATUS_OK;
   }
-  chart_tell(chart, "Embree");
+  listener_tell(chart->listener, TOLD_PROGRESS, "Embree");
   if (scratch_create(&folder) != STATUS_OK) {
     chart_note(chart, "Embree is left out: no temporary folder could be made.");
     return STATUS_OK;
@@ -128,11 +132,11 @@ static enum status ask_embree(struct chart *chart)
   scratch_path(&folder, "answer", answer);
   scratch_path(&folder, "log", log);
   const char *const arguments[] = { program, question, answer, NULL };
-  const struct process_request request = { arguments, NULL, NULL, log };
+  const struct process_request request = { .arguments = arguments, .output = log };
   struct process_result result = { .exit_code = 1 };
   enum status status = STATUS_OK;
   if (write_question(chart, &folder))
-    status = process_run(&request, &interrupt_signal, &result);
+    status = process_run(&request, chart->listener->stop, &result);
   FILE *file = status == STATUS_OK && result.exit_code == 0 ? fopen(answer, "rb") : NULL;
   if (file != NULL) {
     read_embree(chart, file);
@@ -148,47 +152,29 @@ static enum status ask_embree(struct chart *chart)
 
 /* ---- POV-Ray ---- */
 
-/* "Trace Time: 0 hours 0 minutes 1 seconds (1.234 seconds)", and below it "using 1 thread(s) with 1.200 CPU-seconds
- * total". */
-static double trace_seconds(const struct povray *povray)
-{
-  size_t length, used;
-  char *log = scratch_read(&povray->folder, "povray.log", &length);
-  const char *at = log == NULL ? NULL : strstr(log, "Trace Time:");
-  double value = NAN;
-  if (at != NULL)
-    at = strstr(at, ") with ");
-  if (at != NULL && number_read(at + 7, strlen(at + 7), &value, &used) != NUMBER_FINITE)
-    value = NAN;
-  free(log);
-  return value;
-}
-
 /* The time of POV-Ray's pixels, without lights and textures, the yardstick after each. */
 static enum status time_povray(struct chart *chart, struct povray *povray, struct timing *out)
 {
-  const size_t pixels = povray->width * povray->height, rounds = chart->quick ? 1 : 3;
-  double seconds[3], ratio[3];
-  unsigned char *mask = malloc(pixels);
-  enum status status = mask == NULL ? STATUS_LIMIT : STATUS_OK;
-  for (size_t k = 0; k < rounds && status == STATUS_OK; k++) {
+  const double pixels = (double)povray->width * (double)povray->height;
+  const size_t rounds = chart->request->quick ? 1 : 3;
+  double time[3], ratio[3];
+  for (size_t k = 0; k < rounds; k++) {
     const struct runner runner = pscn_runner_face(&chart->yardstick);
     const size_t counts[RAY_KINDS] = { chart->rays[RAYS_CAMERA].count, 0 };
     struct timing yard[1][RAY_KINDS];
-    status = povray_mask(povray, chart->scene, mask);
-    seconds[k] = 1e9 * trace_seconds(povray) / (double)pixels;
+    enum status status = povray_time(povray, chart->scene, &time[k]);
     if (status == STATUS_OK)
-      status = measure_rounds(&runner, 1, counts, chart->rounds, &interrupt_signal, yard);
-    ratio[k] = seconds[k] / yard[0][RAYS_CAMERA].median;
+      status = measure_rounds(&runner, 1, counts, chart->rounds, chart->listener->stop, yard);
+    if (status != STATUS_OK)
+      return status;
+    time[k] *= 1e9 / pixels;
+    ratio[k] = time[k] / yard[0][RAYS_CAMERA].median;
   }
-  free(mask);
-  if (status != STATUS_OK)
-    return status;
-  sort_numbers(seconds, rounds);
+  sort_numbers(time, rounds);
   sort_numbers(ratio, rounds);
-  const double middle = seconds[rounds / 2];
-  *out = (struct timing){ seconds[0], (seconds[0] + middle) / 2, middle, (middle + seconds[rounds - 1]) / 2,
-                          seconds[rounds - 1], ratio[rounds / 2] };
+  const double middle = time[rounds / 2];
+  *out = (struct timing){ time[0], (time[0] + middle) / 2, middle, (middle + time[rounds - 1]) / 2, time[rounds - 1],
+                          ratio[rounds / 2] };
   return STATUS_OK;
 }
 
@@ -199,12 +185,12 @@ static enum status ask_povray_once(struct chart *chart, struct povray *povray, i
     struct scene_patch *patch = &chart->scene->patches[n];
     patch->type = type, patch->u_steps = patch->v_steps = steps, patch->flatness = 0;
   }
-  chart_tell(chart, "POV-Ray: type %d, u_steps %d", type, steps);
+  listener_tell(chart->listener, TOLD_PROGRESS, "POV-Ray: type %d, u_steps %d", type, steps);
   double *distance = malloc((camera->count + 1) * sizeof *distance);
   struct timing time;
   enum status status = distance == NULL ? STATUS_LIMIT : STATUS_OK;
   if (status == STATUS_OK)
-    status = povray_trace(povray, chart->scene, camera->count, camera->rays, distance);
+    status = povray_ask(povray, chart->scene, camera->count, camera->rays, distance, NULL);
   if (status == STATUS_OK)
     status = time_povray(chart, povray, &time);
   if (status == STATUS_OK) {
@@ -222,50 +208,32 @@ static enum status ask_povray_once(struct chart *chart, struct povray *povray, i
   return status;
 }
 
-/* Whether the program can be found; povray_open's caller would otherwise be told an error. */
-static bool can_run(const char *program)
-{
-  char path[SCRATCH_PATH_SIZE];
-  if (strchr(program, '/') != NULL)
-    return access(program, X_OK) == 0;
-  const char *from = getenv("PATH");
-  while (from != NULL && *from != '\0') {
-    const size_t length = strcspn(from, ":");
-    snprintf(path, sizeof path, "%.*s/%s", (int)length, from, program);
-    if (access(path, X_OK) == 0)
-      return true;
-    from += length + (from[length] == ':');
-  }
-  return false;
-}
-
 static enum status ask_povray(struct chart *chart)
 {
-  struct povray povray = { .command = chart->command, .program = chart->program, .width = chart->scene_request.width,
-                           .height = chart->scene_request.height, .scene_path = chart->scene_request.path };
-  if (!can_run(chart->program)) {
-    chart_note(chart, "POV-Ray is left out: there is no program '%s'.", chart->program);
-    return STATUS_OK;
-  }
+  struct povray povray = { .listener = chart->listener, .program = chart->request->program,
+                           .width = chart->request->width, .height = chart->request->height,
+                           .timeout = chart->request->timeout, .optional = true };
   enum status status = povray_open(&povray);
-  for (int type = chart->quick ? 1 : 0; type <= 1; type++) {
-    for (int steps = 1; steps <= 7 && status == STATUS_OK; steps += chart->quick ? 3 : 1)
+  if (povray.missing)
+    chart_note(chart, "POV-Ray is left out: there is no program '%s'.", chart->request->program);
+  for (int type = chart->request->quick ? 1 : 0; type <= 1; type++) {
+    for (int steps = 1; steps <= 7 && status == STATUS_OK; steps += chart->request->quick ? 3 : 1)
       status = ask_povray_once(chart, &povray, type, steps);
   }
   if (status == STATUS_OK)
     chart_note(chart, "POV-Ray %s: errors from its trace(); the time is the CPU time of its trace phase for all "
                       "%zux%zu pixels of the scene in white without lights, parsing apart.",
                povray.version, povray.width, povray.height);
-  else if (status != STATUS_INTERRUPTED && status != STATUS_LIMIT)
+  else if (status != STATUS_INTERRUPTED && !povray.missing)
     chart_note(chart, "POV-Ray failed, and what is missing of it is left out.");
   povray_close(&povray);
-  return status == STATUS_INTERRUPTED || status == STATUS_LIMIT ? status : STATUS_OK;
+  return status == STATUS_INTERRUPTED ? status : STATUS_OK;
 }
 
 enum status chart_peers(struct chart *chart)
 {
   enum status status = ask_plain_newton(chart);
-  if (!chart->peers) {
+  if (!chart->request->peers) {
     chart_note(chart, "Embree and POV-Ray were not asked (--no-peers).");
     return status;
   }

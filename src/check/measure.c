@@ -1,10 +1,10 @@
-/* The measurements of `pscn check`. */
+/* The measurements of a check. */
+#include "check/measure.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/sort.h"
-#include "command/check.h"
-#include "command/interrupt.h"
 #include "geometry/vector.h"
 #include "image/srgb.h"
 #include "render/camera.h"
@@ -18,19 +18,13 @@ static const double CODE_ROUNDING = 1e-6;
 
 static const size_t RGB[3] = { 0, 1, 2 };
 
-static enum status out_of_memory(const struct check *check)
-{
-  command_error(check->command, "out of memory");
-  return STATUS_LIMIT;
-}
-
 /* ---- ours ---- */
 
 static struct ray pixel_ray(const struct check *check, size_t x, size_t y)
 {
   struct ray ray;
-  camera_ray(&check->scene->camera, ((double)x + 0.5) / (double)check->width, ((double)y + 0.5) / (double)check->height,
-             &ray);
+  camera_ray(&check->scene->camera, ((double)x + 0.5) / (double)check->request->width,
+             ((double)y + 0.5) / (double)check->request->height, &ray);
   return ray;
 }
 
@@ -67,10 +61,10 @@ static void look_at_pixels(struct check *check, struct tracer *tracer)
 {
   enum { LIGHTS = 64 };
   const size_t lights = check->scene->light_count < LIGHTS ? check->scene->light_count : LIGHTS;
-  for (size_t y = 0; y < check->height && atomic_load(&interrupt_signal) == 0; y++) {
-    for (size_t x = 0; x < check->width; x += PACKET_SIZE) {
-      struct check_pixel *pixels = &check->ours.pixel[y * check->width + x];
-      const size_t left = check->width - x, count = left < PACKET_SIZE ? left : PACKET_SIZE;
+  for (size_t y = 0; y < check->request->height && !listener_stopped(check->listener); y++) {
+    for (size_t x = 0; x < check->request->width; x += PACKET_SIZE) {
+      struct check_pixel *pixels = &check->ours.pixel[y * check->request->width + x];
+      const size_t left = check->request->width - x, count = left < PACKET_SIZE ? left : PACKET_SIZE;
       struct ray rays[PACKET_SIZE];
       struct hit hits[PACKET_SIZE];
       for (size_t k = 0; k < count; k++)
@@ -91,37 +85,36 @@ enum status check_measure_ours(struct check *check)
   struct check_ours *ours = &check->ours;
   struct intersector *intersector = NULL;
   struct tracer *tracer = NULL;
-  const struct render_options options = { .width = check->width, .height = check->height, .samples = 1,
-                                          .crop = { .width = check->width, .height = check->height }, .threads = 1,
+  const size_t width = check->request->width, height = check->request->height;
+  const struct render_options options = { .width = width, .height = height, .samples = 1,
+                                          .crop = { .width = width, .height = height }, .threads = 1,
                                           .channels = { .count = 1, .width = 3, .kind = { CHANNEL_RGB } } };
-  const struct render_watch watch = { .stop = &interrupt_signal };
+  const struct render_watch watch = { .stop = check->listener->stop };
   struct render_stats stats;
   const struct seconds start = seconds_now();
-  enum status status = scene_file_load(&check->request->scene, &check->scene);
-  if (status != STATUS_OK) /* told */
-    return status;
-  status = image_create(check->width, check->height, 3, &ours->picture);
+  enum status status = image_create(width, height, 3, &ours->picture);
   if (status == STATUS_OK)
     status = intersector_create(check->scene, &intersector);
   if (status == STATUS_OK)
     status = render_scene(check->scene, intersector, &options, &watch, ours->picture.value, &stats);
   if (status == STATUS_OK) {
     encode(&ours->picture);
-    ours->time = seconds_since(start);
+    const struct seconds taken = seconds_since(start), *parse = &check->request->parse;
+    ours->time = (struct seconds){ taken.wall + parse->wall, taken.cpu + parse->cpu };
     for (int k = 0; k < 3; k++)
       snprintf(ours->picture.channel[k].name, IMAGE_NAME_SIZE, "%c", "RGB"[k]);
-    ours->pixel = calloc(check->width * check->height, sizeof *ours->pixel);
+    ours->pixel = calloc(width * height, sizeof *ours->pixel);
     status = ours->pixel == NULL ? STATUS_LIMIT : tracer_create(intersector, &tracer);
   }
   if (status == STATUS_OK) {
     look_at_pixels(check, tracer);
     check_find_edges(check);
-    if (atomic_load(&interrupt_signal) != 0)
+    if (listener_stopped(check->listener))
       status = STATUS_INTERRUPTED;
   }
   tracer_destroy(tracer);
   intersector_destroy(intersector);
-  return status == STATUS_LIMIT ? out_of_memory(check) : status;
+  return status == STATUS_LIMIT ? listener_out_of_memory(check->listener) : status;
 }
 
 void check_ours_free(struct check_ours *ours)
@@ -160,9 +153,9 @@ static void compare_row(const struct check *check, struct check_row *row)
   for (int k = 0; k < CHECK_CODES; k++)
     row->over[k] = compare_count_over(&pair, CODE[k] / 255.0 + CODE_ROUNDING);
   row->over_limit = compare_count_over(&pair, limit);
-  for (size_t y = 0; y < check->height; y++) {
-    for (size_t x = 0; x < check->width; x++) {
-      const size_t index = y * check->width + x;
+  for (size_t y = 0; y < check->request->height; y++) {
+    for (size_t x = 0; x < check->request->width; x++) {
+      const size_t index = y * check->request->width + x;
       const bool hit = check->ours.pixel[index].hit.patch != HIT_NONE;
       row->over_limit_on[check->ours.pixel[index].edge] += check_pixel_difference(check, row, x, y) > limit;
       row->mask_ours += hit && !row->mask[index];
@@ -188,33 +181,34 @@ static void compare_distances(size_t count, double ours[], const double theirs[]
   if (out->both == 0)
     return;
   sort_numbers(ours, out->both);
-  out->median = ours[out->both / 2];
-  out->most = ours[(size_t)(0.99 * (double)(out->both - 1))];
+  out->median = sorted_quantile(ours, out->both, 0.5);
+  out->most = sorted_quantile(ours, out->both, 0.99);
   out->max = ours[out->both - 1];
 }
 
-static enum status measure_distances(struct check *check, struct check_row *row)
+/* Which pixels POV-Ray hits, and the distances of those on the grid. */
+static enum status ask(struct check *check, struct check_row *row)
 {
-  const size_t step = check->request->grid;
-  if (step == 0)
-    return STATUS_OK;
-  const size_t first_x = step / 2 < check->width ? step / 2 : 0, first_y = step / 2 < check->height ? step / 2 : 0;
-  const size_t columns = (check->width - 1 - first_x) / step + 1, rows = (check->height - 1 - first_y) / step + 1;
-  struct ray *rays = calloc(columns * rows, sizeof *rays);
-  double *ours = calloc(columns * rows, sizeof *ours), *theirs = calloc(columns * rows, sizeof *theirs);
+  const struct check_request *request = check->request;
+  const size_t width = request->width, height = request->height, step = request->grid;
+  const size_t x0 = step / 2 < width ? step / 2 : 0, y0 = step / 2 < height ? step / 2 : 0;
+  const size_t columns = step == 0 ? 0 : (width - 1 - x0) / step + 1;
+  const size_t count = step == 0 ? 0 : columns * ((height - 1 - y0) / step + 1);
+  struct ray *rays = calloc(count + 1, sizeof *rays);
+  double *ours = calloc(count + 1, sizeof *ours), *theirs = calloc(count + 1, sizeof *theirs);
   enum status status = STATUS_LIMIT;
   if (rays == NULL || ours == NULL || theirs == NULL) {
-    (void)out_of_memory(check);
+    (void)listener_out_of_memory(check->listener);
     goto done;
   }
-  for (size_t k = 0; k < columns * rows; k++) {
-    const size_t x = first_x + k % columns * step, y = first_y + k / columns * step;
+  for (size_t k = 0; k < count; k++) {
+    const size_t x = x0 + k % columns * step, y = y0 + k / columns * step;
     rays[k] = pixel_ray(check, x, y);
-    ours[k] = check->ours.pixel[y * check->width + x].distance;
+    ours[k] = check->ours.pixel[y * width + x].distance;
   }
-  status = povray_trace(&check->povray, check->scene, columns * rows, rays, theirs);
+  status = povray_ask(&check->povray, check->scene, count, rays, theirs, row->mask);
   if (status == STATUS_OK)
-    compare_distances(columns * rows, ours, theirs, &row->distances);
+    compare_distances(count, ours, theirs, &row->distances);
 
 done:
   free(rays);
@@ -225,23 +219,19 @@ done:
 
 /* ---- rows ---- */
 
-enum status check_measure_row(struct check *check, const char *name, size_t steps)
+enum status check_measure_row(struct check *check, size_t steps)
 {
   struct check_row *row = &check->row[check->row_count];
   *row = (struct check_row){ .steps = steps };
-  enum status status = name != NULL ? povray_render(&check->povray, name, &row->picture)
-                                    : povray_render_scene(&check->povray, check->scene, &row->picture);
+  const bool own = steps == 0 && check->request->own_text;
+  enum status status = own ? povray_render_file(&check->povray, check->request->path, &row->picture)
+                           : povray_render(&check->povray, check->scene, &row->picture);
   if (status != STATUS_OK)
     return status;
-  check->row_count++;
-  if (check->row_count == 1)
-    check->warnings = povray_warnings(&check->povray);
-  row->mask = calloc(check->width * check->height, 1);
-  if (row->mask == NULL)
-    return out_of_memory(check);
-  status = povray_mask(&check->povray, check->scene, row->mask);
-  if (status == STATUS_OK)
-    status = measure_distances(check, row);
+  if (check->row_count++ == 0)
+    povray_warnings(&check->povray, &check->warnings);
+  row->mask = calloc(check->request->width * check->request->height, 1);
+  status = row->mask == NULL || check->warnings.failed ? listener_out_of_memory(check->listener) : ask(check, row);
   if (status == STATUS_OK)
     compare_row(check, row);
   return status;
@@ -262,7 +252,7 @@ static size_t gap(size_t a, size_t b)
 
 static bool near_one(const struct check *check, size_t x, size_t y)
 {
-  const size_t apart_by = check->width / 20 + 4;
+  const size_t apart_by = check->request->width / 20 + 4;
   for (size_t k = 0; k < check->worst_count; k++) {
     if (gap(check->worst[k].x, x) < apart_by && gap(check->worst[k].y, y) < apart_by)
       return true;
@@ -278,8 +268,8 @@ enum status check_find_worst(struct check *check)
   for (check->worst_count = 0; check->worst_count < CHECK_WORST; check->worst_count++) {
     struct check_worst *worst = &check->worst[check->worst_count];
     *worst = (struct check_worst){ 0 };
-    for (size_t y = 0; y < check->height; y++) {
-      for (size_t x = 0; x < check->width; x++) {
+    for (size_t y = 0; y < check->request->height; y++) {
+      for (size_t x = 0; x < check->request->width; x++) {
         const double difference = check_pixel_difference(check, row, x, y);
         if (difference > worst->difference && !near_one(check, x, y))
           *worst = (struct check_worst){ .x = x, .y = y, .difference = difference };
@@ -289,7 +279,7 @@ enum status check_find_worst(struct check *check)
       break;
     rays[check->worst_count] = pixel_ray(check, worst->x, worst->y);
   }
-  const enum status status = povray_trace(&check->povray, check->scene, check->worst_count, rays, distance);
+  const enum status status = povray_ask(&check->povray, check->scene, check->worst_count, rays, distance, NULL);
   for (size_t k = 0; status == STATUS_OK && k < check->worst_count; k++)
     check->worst[k].distance = distance[k];
   return status;
@@ -297,9 +287,9 @@ enum status check_find_worst(struct check *check)
 
 enum status check_difference(const struct check *check, const struct check_row *row, double scale, struct image *out)
 {
-  const enum status status = image_create(check->width, check->height, 3, out);
+  const enum status status = image_create(check->request->width, check->request->height, 3, out);
   if (status != STATUS_OK)
-    return out_of_memory(check);
+    return listener_out_of_memory(check->listener);
   const struct compare_pair pair = pair_of(check, row);
   struct compare_result ignored;
   compare_images(&pair, &ignored, out, scale);

@@ -2,8 +2,8 @@
  *
  * For measuring only; pscn itself never links it. Built where PSCN_EMBREE is on and Embree 3 is found.
  */
-#ifndef PSCN_PEER_EMBREE_MESH_H
-#define PSCN_PEER_EMBREE_MESH_H
+#ifndef PSCN_CHART_EMBREE_MESH_H
+#define PSCN_CHART_EMBREE_MESH_H
 
 #include <stdbool.h>
 #include <stddef.h>

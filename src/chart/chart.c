@@ -1,0 +1,219 @@
+/* The order of a chart's work. */
+#include "chart/chart.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/sort.h"
+#include "chart/work.h"
+#include "scene/method.h"
+
+enum {
+  RAYS = 2048, QUICK_RAYS = 1024, /* of the camera, about */
+  ROUNDS = 5, QUICK_ROUNDS = 3,
+  BATCH = 24                      /* points measured in turns; the default solver takes part in every batch */
+};
+
+void chart_note(struct chart *chart, const char *format, ...)
+{
+  if (chart->note_count == CHART_NOTES)
+    return;
+  char *note = chart->notes[chart->note_count++];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(note, sizeof chart->notes[0], format, arguments);
+  va_end(arguments);
+  listener_tell(chart->listener, TOLD_PROGRESS, "%s", note);
+}
+
+struct chart_point *chart_add(struct chart *chart, enum family family)
+{
+  const struct timing unknown = { NAN, NAN, NAN, NAN, NAN, NAN };
+  assert(chart->point_count < chart->point_room);
+  struct chart_point *point = &chart->points[chart->point_count++];
+  *point = (struct chart_point){ .family = family, .time = { unknown, unknown } };
+  return point;
+}
+
+void chart_judge(struct chart *chart, struct chart_point *point)
+{
+  const struct ray_list *camera = &chart->rays[RAYS_CAMERA], *shadow = &chart->rays[RAYS_SHADOW];
+  judge_answers(camera->count, chart->truths[RAYS_CAMERA], chart->answers, chart->errors, &point->camera);
+  if (point->has_shadow)
+    judge_occluded(shadow->count, shadow->rays, chart->truths[RAYS_SHADOW], chart->occluded, &point->shadow);
+}
+
+/* ---- the rays, and the truth about them ---- */
+
+static enum status prepare_rays(struct chart *chart, const struct method *options)
+{
+  enum status status = rays_of_camera(chart->scene, chart->request->width, chart->request->height,
+                                      chart->wanted, chart->arena, &chart->rays[RAYS_CAMERA]);
+  if (status == STATUS_OK)
+    status = pscn_runner_create(chart->scene, options, chart->rays, &chart->yardstick);
+  const size_t count = chart->rays[RAYS_CAMERA].count;
+  struct hit *hits = status == STATUS_OK ? arena_alloc(chart->arena, count + 1, sizeof *hits) : NULL;
+  if (hits == NULL)
+    return STATUS_LIMIT;
+  pscn_runner_hits(&chart->yardstick, hits);
+  return rays_of_shadows(chart->scene, &chart->rays[RAYS_CAMERA], hits, chart->arena, &chart->rays[RAYS_SHADOW]);
+}
+
+static enum status find_truths(struct chart *chart)
+{
+  const size_t camera = chart->rays[RAYS_CAMERA].count, shadow = chart->rays[RAYS_SHADOW].count;
+  listener_tell(chart->listener, TOLD_PROGRESS, "reference: %zu camera rays, %zu shadow rays", camera, shadow);
+  chart->answers = arena_alloc(chart->arena, camera + 1, sizeof *chart->answers);
+  chart->occluded = arena_alloc(chart->arena, shadow + 1, sizeof *chart->occluded);
+  chart->errors = arena_alloc(chart->arena, 2 * camera + 1, sizeof *chart->errors);
+  const bool room = chart->answers != NULL && chart->occluded != NULL && chart->errors != NULL;
+  enum status status = room ? STATUS_OK : STATUS_LIMIT;
+  for (int kind = 0; kind < RAY_KINDS && status == STATUS_OK; kind++) {
+    struct truth *truths = arena_alloc(chart->arena, chart->rays[kind].count + 1, sizeof *truths);
+    chart->truths[kind] = truths;
+    status = truths == NULL ? STATUS_LIMIT
+                            : judge_truths(chart->scene, &chart->rays[kind], chart->listener->stop, truths);
+  }
+  return status;
+}
+
+/* ---- the sweep over our own solvers ---- */
+
+static void judge_ours(struct chart *chart, struct pscn_runner *runner, struct chart_point *point)
+{
+  const size_t count = chart->rays[RAYS_CAMERA].count;
+  struct hit *hits = malloc((count + 1) * sizeof *hits);
+  if (hits == NULL)
+    return;
+  pscn_runner_hits(runner, hits);
+  for (size_t k = 0; k < count; k++)
+    chart->answers[k] = (struct answer){ hits[k].patch == HIT_NONE ? INFINITY : hits[k].t, hits[k].patch };
+  pscn_runner_occluded(runner, chart->occluded);
+  point->has_shadow = true;
+  chart_judge(chart, point);
+  free(hits);
+}
+
+/* Measures and judges sweep[0..count), count <= BATCH, with the yardstick in front. */
+static enum status run_batch(struct chart *chart, const struct sweep_point *sweep, size_t count)
+{
+  struct pscn_runner ours[BATCH];
+  struct runner runners[1 + BATCH] = { pscn_runner_face(&chart->yardstick) };
+  struct timing time[1 + BATCH][RAY_KINDS];
+  const size_t counts[RAY_KINDS] = { chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count };
+  memset(ours, 0, sizeof ours);
+  enum status status = STATUS_OK;
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
+    status = pscn_runner_create(chart->scene, &sweep[k].options, chart->rays, &ours[k]);
+    runners[1 + k] = pscn_runner_face(&ours[k]);
+  }
+  if (status == STATUS_OK)
+    status = measure_rounds(runners, 1 + count, counts, chart->rounds, chart->listener->stop, time);
+  if (status == STATUS_OK) {
+    for (int kind = 0; kind < RAY_KINDS; kind++)
+      chart->yard[kind][chart->yard_count] = time[0][kind].median;
+    chart->yard_count++;
+  }
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
+    struct chart_point *point = chart_add(chart, sweep[k].family);
+    point->ours = true;
+    point->options = sweep[k].options;
+    method_text(&point->options, point->name, sizeof point->name);
+    snprintf(point->label, sizeof point->label, "%s", chart->point_count == 1 ? "default" : "");
+    memcpy(point->time, time[1 + k], sizeof point->time);
+    judge_ours(chart, &ours[k], point);
+  }
+  for (size_t k = 0; k < count; k++)
+    pscn_runner_free(&ours[k]);
+  return status;
+}
+
+static enum status sweep_solvers(struct chart *chart, const struct sweep_point *sweep, size_t count)
+{
+  enum status status = STATUS_OK;
+  for (size_t k = 0; k < count && status == STATUS_OK; k += BATCH) {
+    listener_tell(chart->listener, TOLD_PROGRESS, "solvers: %zu of %zu", k, count);
+    status = run_batch(chart, sweep + k, count - k < BATCH ? count - k : BATCH);
+  }
+  return status;
+}
+
+/* ---- the work ---- */
+
+static enum status make_room(struct chart *chart)
+{
+  chart->arena = arena_create();
+  const size_t sweep = point_sweep(chart->request->quick, NULL);
+  chart->point_room = sweep + CHART_PEER_POINTS;
+  chart->points = chart->arena == NULL ? NULL : arena_alloc(chart->arena, chart->point_room, sizeof *chart->points);
+  return chart->points == NULL ? STATUS_LIMIT : STATUS_OK;
+}
+
+static void level_times(struct chart *chart)
+{
+  double yard[RAY_KINDS];
+  for (int kind = 0; kind < RAY_KINDS; kind++) {
+    sort_numbers(chart->yard[kind], chart->yard_count);
+    yard[kind] = chart->yard[kind][chart->yard_count / 2];
+  }
+  point_level(chart->points, chart->point_count, yard);
+}
+
+static enum status measure(struct chart *chart)
+{
+  const size_t count = point_sweep(chart->request->quick, NULL);
+  struct sweep_point *sweep = arena_alloc(chart->arena, count, sizeof *sweep);
+  if (sweep == NULL)
+    return STATUS_LIMIT;
+  for (int kind = 0; kind < RAY_KINDS; kind++) {
+    chart->yard[kind] = arena_alloc(chart->arena, count / BATCH + 1, sizeof *chart->yard[kind]);
+    if (chart->yard[kind] == NULL)
+      return STATUS_LIMIT;
+  }
+  (void)point_sweep(chart->request->quick, sweep);
+  scene_override_solver(chart->scene, &sweep[0].options);
+  enum status status = prepare_rays(chart, &sweep[0].options);
+  if (status == STATUS_OK)
+    status = find_truths(chart);
+  if (status == STATUS_OK)
+    status = sweep_solvers(chart, sweep, count);
+  if (status == STATUS_OK && chart->points[0].camera.hits == 0)
+    chart_note(chart, "No camera ray hits anything: there is no error of T, so there is neither a figure nor a front.");
+  if (status == STATUS_OK)
+    status = chart_peers(chart);
+  if (status == STATUS_OK) {
+    level_times(chart);
+    point_front(chart->points, chart->point_count);
+  }
+  return status;
+}
+
+enum status chart_scene(const struct chart_request *request, struct scene *scene, const struct listener *listener,
+                        struct page *out_text)
+{
+  *out_text = (struct page){ 0 };
+  if (!judge_available())
+    return listener_fail(listener, STATUS_LIMIT, "this build has no reference: its compiler has no quadruple "
+                                                 "precision, so nothing can be judged");
+  struct chart chart = { .request = request, .listener = listener, .scene = scene,
+                         .wanted = request->rays > 0 ? request->rays : request->quick ? QUICK_RAYS : RAYS,
+                         .rounds = request->rounds > 0 ? request->rounds : request->quick ? QUICK_ROUNDS : ROUNDS };
+  enum status status = make_room(&chart);
+  if (status == STATUS_OK)
+    status = measure(&chart);
+  if (status == STATUS_LIMIT)
+    (void)listener_out_of_memory(listener);
+  if (status == STATUS_OK)
+    status = chart_write(&chart);
+  if (status == STATUS_OK)
+    chart_table(&chart, out_text);
+  if (out_text->failed)
+    status = listener_out_of_memory(listener);
+  pscn_runner_free(&chart.yardstick);
+  arena_destroy(chart.arena);
+  return status;
+}

@@ -1,0 +1,29 @@
+/* Speed against accuracy: every solver and the peers on the camera and shadow rays of a scene. */
+#ifndef PSCN_CHART_CHART_H
+#define PSCN_CHART_CHART_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/listener.h"
+#include "check/page.h"
+#include "scene/scene.h"
+
+struct chart_request {
+  const char *path;         /* of the scene */
+  const char *folder;       /* receives the results; is there */
+  const char *command_line; /* told on the page */
+  const char *program;      /* POV-Ray */
+  size_t width, height;     /* of the picture that the rays are of, pixels */
+  size_t rays, rounds;      /* camera rays, about; how often each is measured. 0: as is usual for `quick` or not */
+  double timeout;           /* seconds that a run of POV-Ray may take */
+  bool quick, peers;        /* fewer points; with Embree and POV-Ray */
+};
+
+/* Measures, judges, and writes chart.csv, chart.svg and chart.html: all of them, or none where something fails or the
+ * listener stops it. `scene` gets the default solver; the steps of its patches are changed. *out_text, to be freed in
+ * any case, receives the front as a table. A peer that is missing or fails is told, no error. */
+enum status chart_scene(const struct chart_request *request, struct scene *scene, const struct listener *listener,
+                        struct page *out_text) STATUS_MUST_CHECK;
+
+#endif

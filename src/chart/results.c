@@ -1,0 +1,325 @@
+/* The files of a chart: the points as CSV, the figure, the page. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "chart/templates.h"
+#include "chart/work.h"
+#include "check/plot.h"
+#include "check/scratch.h"
+
+/* ---- CSV ---- */
+
+static void put_number(struct page *out, double value)
+{
+  page_format(out, ",");
+  if (isfinite(value))
+    page_number(out, value, 6);
+}
+
+static void put_count(struct page *out, size_t value)
+{
+  page_format(out, ",%zu", value);
+}
+
+static void put_solver(const struct chart_point *point, struct page *out)
+{
+  const struct method *method = &point->options;
+  if (!point->ours) {
+    page_format(out, ",,,,,,");
+    return;
+  }
+  page_format(out, ",%s,%s", method->roots.solver->name, method->basis == BASIS_POWER ? "power" : "bernstein");
+  put_number(out, method->roots.tolerance);
+  page_format(out, ",%s,%s,", method->polish ? "on" : "off",
+              method->roots.start == START_PREVIOUS ? "previous" : "cold");
+  if (method->split == 0)
+    page_format(out, "auto");
+  else
+    page_format(out, "%d", method->split);
+}
+
+static void put_time(const struct timing *time, struct page *out)
+{
+  const double values[] = { time->least, time->lower, time->median, time->upper, time->most, time->ratio };
+  for (size_t k = 0; k < sizeof values / sizeof values[0]; k++)
+    put_number(out, values[k]);
+}
+
+static void put_point(const struct chart_point *point, struct page *out)
+{
+  const struct judgement *camera = &point->camera, *shadow = &point->shadow;
+  const double errors[] = { camera->median, camera->most, camera->max, camera->most_of_all };
+  const size_t counts[] = { camera->rays,     camera->hits,  camera->undecided,   camera->lost,
+                            camera->invented, camera->wrong, camera->other_patch };
+  page_format(out, "%s,\"%s\"", family_name(point->family), point->name);
+  put_solver(point, out);
+  for (int kind = 0; kind < RAY_KINDS; kind++)
+    put_time(&point->time[kind], out);
+  for (size_t k = 0; k < sizeof errors / sizeof errors[0]; k++)
+    put_number(out, errors[k]);
+  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++)
+    put_count(out, counts[k]);
+  if (point->has_shadow) {
+    const size_t shadows[] = { shadow->rays, shadow->hits, shadow->undecided, shadow->lost, shadow->invented };
+    for (size_t k = 0; k < sizeof shadows / sizeof shadows[0]; k++)
+      put_count(out, shadows[k]);
+  } else {
+    page_format(out, ",,,,,");
+  }
+  page_format(out, ",%d\n", point->front);
+}
+
+static void put_csv(const struct chart *chart, struct page *out)
+{
+  page_format(out, "family,name,solver,basis,tolerance,polish,start,split,"
+                   "ns_least,ns_lower,ns_median,ns_upper,ns_most,ratio,"
+                   "shadow_ns_least,shadow_ns_lower,shadow_ns_median,shadow_ns_upper,shadow_ns_most,shadow_ratio,"
+                   "t_median,t_99,t_max,t_99_of_all,rays,hits,undecided,lost,invented,wrong,other_patch,"
+                   "shadow_rays,shadow_hits,shadow_undecided,shadow_lost,shadow_invented,front\n");
+  for (size_t k = 0; k < chart->point_count; k++)
+    put_point(&chart->points[k], out);
+}
+
+/* ---- the table ---- */
+
+/* With `digits` behind the point, or with two significant ones where digits is 0. */
+static void put_cell(struct page *out, double value, int width, int digits)
+{
+  if (!isfinite(value))
+    page_format(out, "%*s", width, "-");
+  else if (digits > 0)
+    page_format(out, "%*.*f", width, digits, value);
+  else
+    page_format(out, "%*.2g", width, value);
+}
+
+void chart_table(const struct chart *chart, struct page *out)
+{
+  page_format(out, "%9s %9s  %9s %9s %9s  %6s %6s %6s\n", "ns a ray", "ratio", "T median", "T 99 %", "T max", "lost",
+              "inv.", "wrong");
+  for (size_t k = 0; k < chart->point_count; k++) {
+    const struct chart_point *point = &chart->points[k];
+    if (!point->front && k > 0)
+      continue;
+    put_cell(out, point->time[RAYS_CAMERA].median, 9, 1);
+    put_cell(out, point->time[RAYS_CAMERA].ratio, 10, 3);
+    put_cell(out, point->camera.median, 11, 0);
+    put_cell(out, point->camera.most, 10, 0);
+    put_cell(out, point->camera.max, 10, 0);
+    page_format(out, "  %6zu %6zu %6zu  %s%s\n", point->camera.lost, point->camera.invented, point->camera.wrong,
+                point->name, point->front ? " (front)" : "");
+  }
+}
+
+/* ---- the figure ---- */
+
+/* What is drawn for an error below it: no error at all has no place on a logarithmic axis. */
+#define LEAST_ERROR 1e-17
+
+/* Labels nearer than this in powers of ten, across and up, would stand on each other; a digit is so wide. */
+#define LABEL_NEAR_X 0.5
+#define LABEL_NEAR_Y 0.06
+#define LABEL_WIDTH 0.3
+
+static const struct look {
+  const char *title, *color;
+  int symbol, hollow; /* gnuplot's point types: all answers right, some wrong */
+} LOOKS[FAMILIES] = {
+  [FAMILY_DEFAULT] = { "bernstein (default)", "#c02020", 7, 6 },
+  [FAMILY_NEWTON] = { "newton", "#2b6cb0", 9, 8 },
+  [FAMILY_LAGUERRE] = { "laguerre", "#2f855a", 11, 10 },
+  [FAMILY_ABERTH] = { "aberth", "#b7791f", 13, 12 },
+  [FAMILY_PAPER] = { "as in the paper", "#718096", 15, 14 },
+  [FAMILY_PLAIN_NEWTON] = { "plain 2-D Newton", "#000000", 7, 6 },
+  [FAMILY_EMBREE] = { "Embree (triangles a side)", "#6b46c1", 5, 4 },
+  [FAMILY_POVRAY] = { "POV-Ray (u\\\\_steps)", "#0891b2", 5, 4 },
+};
+
+static bool drawn(const struct chart_point *point)
+{
+  return isfinite(point->time[RAYS_CAMERA].median) && isfinite(point->camera.most_of_all);
+}
+
+static bool all_right(const struct chart_point *point)
+{
+  return point->camera.lost + point->camera.invented + point->camera.wrong == 0;
+}
+
+static double error_of(const struct chart_point *point)
+{
+  return fmax(point->camera.most_of_all, LEAST_ERROR);
+}
+
+/* Where a point's label stands: at the point, or right of those before it that are there already. */
+static double label_place(const struct chart *chart, size_t index)
+{
+  const struct chart_point *point = &chart->points[index];
+  double place = log10(error_of(point));
+  for (size_t k = 0; k < index; k++) {
+    const struct chart_point *other = &chart->points[k];
+    if (drawn(other) && other->label[0] != '\0' && fabs(log10(error_of(other) / error_of(point))) < LABEL_NEAR_X &&
+        fabs(log10(other->time[RAYS_CAMERA].median / point->time[RAYS_CAMERA].median)) < LABEL_NEAR_Y)
+      place += LABEL_WIDTH;
+  }
+  return pow(10, place);
+}
+
+/* A point, for figure and page; NULL where memory is short. */
+static json_t *point_value(const struct chart *chart, size_t index)
+{
+  const struct chart_point *point = &chart->points[index];
+  const struct timing *time = &point->time[RAYS_CAMERA];
+  const struct judgement *camera = &point->camera;
+  return json_pack(
+    "{s:s,s:s,s:b,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "name", point->name, "label",
+    point->label, "front", point->front, "ns", page_of_number(time->median), "lower", page_of_number(time->lower),
+    "upper", page_of_number(time->upper), "ratio", page_of_number(time->ratio), "shadow_ns",
+    page_of_number(point->time[RAYS_SHADOW].median), "t_median", page_of_number(camera->median), "t_99",
+    page_of_number(camera->most), "t_max", page_of_number(camera->max), "lost", page_of_count(camera->lost), "invented",
+    page_of_count(camera->invented), "wrong", page_of_count(camera->wrong), "other_patch",
+    page_of_count(camera->other_patch), "shadow_lost",
+    point->has_shadow ? page_of_count(point->shadow.lost) : json_null(), "shadow_invented",
+    point->has_shadow ? page_of_count(point->shadow.invented) : json_null(), "error", page_of_number(error_of(point)),
+    "label_at", page_of_number(label_place(chart, index)));
+}
+
+/* The points of a family that are all right, or are not, with their look; null where there are none. */
+static json_t *set_value(const struct chart *chart, const json_t *points, enum family family, bool right, bool titled)
+{
+  json_t *list = json_array();
+  for (size_t k = 0; k < chart->point_count; k++) {
+    const struct chart_point *point = &chart->points[k];
+    if (point->family == family && drawn(point) && all_right(point) == right)
+      json_array_append(list, json_array_get(points, k));
+  }
+  if (json_array_size(list) == 0) {
+    json_decref(list);
+    return json_null();
+  }
+  const struct look *look = &LOOKS[family];
+  return json_pack("{s:o,s:s,s:i,s:o,s:o}", "id", json_sprintf("family%d%d", (int)family, right), "color", look->color,
+                   "symbol", right ? look->symbol : look->hollow, "title",
+                   titled ? json_string(look->title) : json_null(), "points", list);
+}
+
+static bool add_sets(const struct chart *chart, json_t *root, const json_t *points)
+{
+  json_t *sets = json_array();
+  bool good = true;
+  for (int family = 0; family < FAMILIES; family++) {
+    bool titled = true;
+    for (int right = 1; right >= 0; right--) {
+      json_t *set = set_value(chart, points, (enum family)family, right != 0, titled);
+      titled = titled && json_is_null(set);
+      good = (json_is_null(set) || json_array_append(sets, set) == 0) && good;
+      json_decref(set);
+    }
+  }
+  return json_object_set_new(root, "sets", sets) == 0 && good;
+}
+
+static int by_error(const void *a, const void *b)
+{
+  const struct chart_point *const *p = a, *const *q = b;
+  const double x = (*p)->camera.most_of_all, y = (*q)->camera.most_of_all;
+  return (x > y) - (x < y);
+}
+
+/* The front from the most exact to the fastest, step by step: between points that are all right, and others. */
+static bool add_front(const struct chart *chart, json_t *root)
+{
+  const struct chart_point **front = calloc(chart->point_count + 1, sizeof *front);
+  json_t *lists[2] = { json_array(), json_array() };
+  size_t count = 0;
+  bool good = front != NULL;
+  for (size_t k = 0; good && k < chart->point_count; k++) {
+    if (chart->points[k].front)
+      front[count++] = &chart->points[k];
+  }
+  if (good)
+    qsort(front, count, sizeof *front, by_error);
+  for (size_t k = 0; k + 1 < count; k++) {
+    const bool right = all_right(front[k]) && all_right(front[k + 1]);
+    json_t *step = json_pack("{s:f,s:f,s:f,s:f}", "x1", error_of(front[k]), "y1", front[k]->time[RAYS_CAMERA].median,
+                             "x2", error_of(front[k + 1]), "y2", front[k + 1]->time[RAYS_CAMERA].median);
+    good = json_array_append_new(lists[right], step) == 0 && good;
+  }
+  free(front);
+  good = json_object_set_new(root, "pale_steps", lists[0]) == 0 && good;
+  return json_object_set_new(root, "steps", lists[1]) == 0 && good;
+}
+
+/* ---- the page ---- */
+
+/* All that figure and page show; NULL where memory is short. */
+static json_t *make_values(const struct chart *chart)
+{
+  const struct chart_request *request = chart->request;
+  const char *slash = strrchr(request->path, '/');
+  json_t *points = json_array(), *first = json_array(), *notes = json_array();
+  json_t *head = page_of_head(request->command_line);
+  bool good = true;
+  for (size_t k = 0; k < chart->point_count; k++) {
+    good = json_array_append_new(points, point_value(chart, k)) == 0 && good;
+    if (chart->points[k].front || k == 0)
+      good = json_array_append(first, json_array_get(points, k)) == 0 && good;
+  }
+  for (size_t k = 0; k < chart->note_count; k++)
+    good = json_array_append_new(notes, json_pack("{s:o}", "note", page_of_text(chart->notes[k]))) == 0 && good;
+  json_t *root = json_pack(
+    "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:[{s:b,s:o},{s:b,s:O}]}", "scene",
+    page_of_text(slash == NULL ? request->path : slash + 1), "width", page_of_count(request->width), "height",
+    page_of_count(request->height), "rays", page_of_count(chart->rays[RAYS_CAMERA].count), "shadows",
+    page_of_count(chart->rays[RAYS_SHADOW].count), "rounds", page_of_count(chart->rounds), "undecided",
+    page_of_count(chart->points[0].camera.undecided), "strip_width", (int)STRIP_WIDTH, "strip_height",
+    (int)STRIP_HEIGHT, "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]), "yard_most",
+    page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "tables", "all", 0, "points", first, "all", 1,
+    "points", points);
+  good = root != NULL && good && json_object_set_new(root, "notes", notes) == 0 &&
+         json_object_update(root, head) == 0 && add_sets(chart, root, points) && add_front(chart, root);
+  json_decref(points);
+  json_decref(head);
+  if (good)
+    return root;
+  json_decref(root);
+  return NULL;
+}
+
+enum { CSV, SVG, PAGE, FILES };
+
+/* A figure of an earlier chart goes where this one has none. */
+enum status chart_write(const struct chart *chart)
+{
+  static const char *const NAMES[FILES] = { "chart.csv", "chart.svg", "chart.html" };
+  struct page content[FILES] = { { 0 } };
+  char path[FILES][SCRATCH_PATH_SIZE];
+  struct atomic_file files[FILES];
+  json_t *values = make_values(chart);
+  enum status status = STATUS_OK;
+  if (values != NULL && chart->points[0].camera.hits > 0)
+    status = plot_draw(chart->listener, TEMPLATE_CHART_FIGURE, values, &content[SVG]);
+  if (values != NULL && content[SVG].length > 0)
+    (void)json_object_set_new(values, "figure", json_stringn(content[SVG].text, content[SVG].length));
+  put_csv(chart, &content[CSV]);
+  page_fill(&content[PAGE], TEMPLATE_CHART_PAGE, values);
+  for (int k = 0; k < FILES; k++) {
+    snprintf(path[k], sizeof path[k], "%s/%s", chart->request->folder, NAMES[k]);
+    files[k] = (struct atomic_file){ path[k], content[k].text, content[k].length };
+    if (status == STATUS_OK && content[k].failed)
+      status = listener_out_of_memory(chart->listener);
+  }
+  if (status == STATUS_OK) {
+    size_t which;
+    int reason;
+    status = atomic_files_write(files, FILES, chart->listener->stop, &which, &reason);
+    if (status == STATUS_FILE || status == STATUS_LIMIT)
+      (void)listener_fail(chart->listener, status, "cannot write '%s': %s", files[which].path, strerror(reason));
+  }
+  for (int k = 0; k < FILES; k++)
+    page_free(&content[k]);
+  json_decref(values);
+  return status;
+}

@@ -1,0 +1,58 @@
+/* What the parts of a chart share: chart.c runs it, peers.c asks others, results.c writes what came out. Internal to
+ * this folder. */
+#ifndef PSCN_CHART_WORK_H
+#define PSCN_CHART_WORK_H
+
+#include "base/arena.h"
+#include "chart/chart.h"
+#include "chart/judge.h"
+#include "chart/measure.h"
+#include "chart/point.h"
+
+enum { CHART_NOTES = 6, CHART_NOTE_SIZE = 320 };
+
+struct chart {
+  const struct chart_request *request;
+  const struct listener *listener;
+  size_t wanted, rounds;        /* camera rays, about; turns of each */
+  struct scene *scene;          /* every patch has solver 0 */
+  struct arena *arena;          /* of all below */
+  struct ray_list rays[RAY_KINDS];
+  struct truth *truths[RAY_KINDS];
+  struct answer *answers;       /* room for the camera rays' */
+  bool *occluded;               /* room for the shadow rays' */
+  double *errors;               /* room for judge_answers */
+  struct pscn_runner yardstick; /* the default solver */
+  double *yard[RAY_KINDS];      /* its medians in the batches, in ns a ray; sorted in the end */
+  size_t yard_count;
+  struct chart_point *points;
+  size_t point_count, point_room;
+  char notes[CHART_NOTES][CHART_NOTE_SIZE]; /* on peers: which version, or why they are missing */
+  size_t note_count;
+};
+
+/* A new point, all of whose numbers are unknown; there is always room. */
+struct chart_point *chart_add(struct chart *chart, enum family family);
+
+/* Judges chart->answers and, where point->has_shadow, chart->occluded. */
+void chart_judge(struct chart *chart, struct chart_point *point);
+
+/* Says what is going on, and keeps the sentence for the page. */
+void chart_note(struct chart *chart, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* ---- peers.c ---- */
+
+/* Adds the points of the peers that are there, with a note on each. How many there are at most is CHART_PEER_POINTS. A
+ * peer that is missing or fails is noted, no error; STATUS_INTERRUPTED and STATUS_LIMIT are. */
+enum { CHART_PEER_POINTS = 64 };
+enum status chart_peers(struct chart *chart) STATUS_MUST_CHECK;
+
+/* ---- results.c ---- */
+
+/* Writes the files. Errors are told. */
+enum status chart_write(const struct chart *chart) STATUS_MUST_CHECK;
+
+/* The front, and the default, as a table. */
+void chart_table(const struct chart *chart, struct page *out);
+
+#endif

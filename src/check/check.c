@@ -1,0 +1,94 @@
+/* The order of a check's work. */
+#include "check/check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "check/measure.h"
+#include "check/process.h"
+
+static enum status measure_series(struct check *check)
+{
+  enum status status = STATUS_OK;
+  for (size_t steps = 1; steps <= check->request->steps && status == STATUS_OK; steps++) {
+    listener_tell(check->listener, TOLD_PROGRESS, "POV-Ray: u_steps %zu", steps);
+    for (size_t k = 0; k < check->scene->patch_count; k++) {
+      struct scene_patch *patch = &check->scene->patches[k];
+      patch->u_steps = patch->v_steps = (int)steps;
+      patch->flatness = 0;
+    }
+    status = check_measure_row(check, steps);
+  }
+  return status;
+}
+
+static enum status measure_as_written(struct check *check)
+{
+  listener_tell(check->listener, TOLD_PROGRESS, "POV-Ray: as written");
+  if (check->request->own_text && !process_can_confine())
+    listener_tell(check->listener, TOLD_WARNING, "this system cannot keep the scene's own text from writing files: it "
+                                                 "runs with all your rights");
+  const enum status status = check_measure_row(check, 0);
+  if (status == STATUS_OK && check->warnings.length > 0)
+    listener_tell(check->listener, TOLD_PROGRESS, "%s", check->warnings.text);
+  return status;
+}
+
+static enum status measure(struct check *check)
+{
+  enum status status = povray_open(&check->povray);
+  if (status == STATUS_OK) {
+    listener_tell(check->listener, TOLD_PROGRESS, "pscn");
+    status = check_measure_ours(check);
+  }
+  if (status == STATUS_OK)
+    status = measure_as_written(check);
+  if (status == STATUS_OK)
+    status = measure_series(check);
+  return status == STATUS_OK ? check_find_worst(check) : status;
+}
+
+static enum status judge(const struct check *check, struct page *out_text)
+{
+  char beyond[256], verdict[512];
+  const bool within = check_within_limits(check, beyond, sizeof beyond);
+  const struct check_row *last = &check->row[check->row_count - 1];
+  if (within)
+    snprintf(verdict, sizeof verdict,
+             "Within the limits: %.4g %% of the pixels differ by more than %.4g of 255, PSNR %.4g dB.",
+             100 * (double)last->over_limit / (double)last->result.pixels, 255 * check->request->fail.each,
+             last->result.psnr);
+  else
+    snprintf(verdict, sizeof verdict, "Beyond the limits: %s.", beyond);
+  const enum status status = check_write(check, verdict);
+  if (status != STATUS_OK)
+    return status;
+  check_table(check, out_text);
+  page_format(out_text, "\n%s\n", verdict);
+  if (out_text->failed)
+    return listener_out_of_memory(check->listener);
+  return within ? STATUS_OK : listener_fail(check->listener, STATUS_DIFFERENT, "%s", beyond);
+}
+
+enum status check_scene(const struct check_request *request, struct scene *scene, const struct listener *listener,
+                        struct page *out_text)
+{
+  *out_text = (struct page){ 0 };
+  struct check *check = calloc(1, sizeof *check);
+  if (check == NULL)
+    return listener_out_of_memory(listener);
+  *check = (struct check){ .request = request, .listener = listener, .scene = scene,
+                           .povray = { .listener = listener, .program = request->program, .options = request->options,
+                                       .option_count = request->option_count, .width = request->width,
+                                       .height = request->height, .timeout = request->timeout } };
+  enum status status = measure(check);
+  if (status == STATUS_OK)
+    status = judge(check, out_text);
+  povray_close(&check->povray);
+  for (size_t k = 0; k < check->row_count; k++)
+    check_row_free(&check->row[k]);
+  check_ours_free(&check->ours);
+  page_free(&check->warnings);
+  free(check);
+  return status;
+}

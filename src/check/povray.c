@@ -1,0 +1,453 @@
+/* Running POV-Ray 3.7. */
+#include "check/povray.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/number.h"
+#include "check/process.h"
+#include "image/image_file.h"
+#include "language/plain_copy.h"
+#include "scene/dump.h"
+
+/* In our folder; POV-Ray runs in RUN, which is new for each run. */
+static const char LOG[] = "povray.log", HOME[] = "home", RUN[] = "run";
+
+/* In RUN. */
+static const char TEXT[] = "scene.pov", PICTURE[] = "picture.png", ANSWERS[] = "answers.txt";
+
+/* Only what it is installed with may be read, beside its folder, and no program be run; where it keeps to that. */
+static const char RESTRICTIONS[] = "[File I/O Security]\nrestricted\n[Shellout Security]\nforbidden\n"
+                                   "[Permitted Paths]\nread* = %INSTALLDIR%/include\nread+write = .\n";
+
+static enum status cannot_write(const struct povray *povray, const char *name)
+{
+  return listener_fail(povray->listener, STATUS_FILE, "cannot write '%s/%s': %s", povray->folder.path, name,
+                       strerror(errno));
+}
+
+static void run_path(const struct povray *povray, const char *name, char out[SCRATCH_PATH_SIZE])
+{
+  char inner[64];
+  snprintf(inner, sizeof inner, "%s/%s", RUN, name);
+  scratch_path(&povray->folder, inner, out);
+}
+
+/* ---- what it says ---- */
+
+/* All it said, printable. */
+static struct page read_log(const struct povray *povray)
+{
+  struct page log = { 0 };
+  size_t length;
+  char *text = scratch_read(&povray->folder, LOG, &length);
+  for (size_t k = 0; text != NULL && k < length; k++)
+    text[k] = text[k] == '\r' ? '\n' : text[k];
+  if (text != NULL)
+    page_printable(&log, text, length);
+  free(text);
+  return log;
+}
+
+static void note_version(struct povray *povray, const struct page *log)
+{
+  static const char BEFORE[] = "POV-Ray ";
+  const char *at = log->text == NULL ? NULL : strstr(log->text, BEFORE);
+  if (at == NULL || povray->version[0] != '\0')
+    return;
+  at += sizeof BEFORE - 1;
+  snprintf(povray->version, sizeof povray->version, "%.*s", (int)strcspn(at, " \n"), at);
+}
+
+/* Shows the end of what it said, which begins where it reads the scene if it got so far. */
+static void show_log(const struct povray *povray, const struct page *log)
+{
+  enum { SHOWN = 4000 };
+  if (log->text == NULL)
+    return;
+  const char *parsing = strstr(log->text, "==== [Parsing"), *line = parsing == NULL ? log->text : parsing;
+  if (strlen(line) > SHOWN)
+    line += strlen(line) - SHOWN;
+  for (; *line != '\0'; line += strcspn(line, "\n"), line += strspn(line, "\n")) {
+    if (*line != '\n')
+      listener_tell(povray->listener, TOLD_DETAIL, "  povray: %.*s", (int)strcspn(line, "\n"), line);
+  }
+}
+
+static bool holds(const char *line, size_t length, const char *words)
+{
+  const char *found = strstr(line, words);
+  return found != NULL && found < line + length;
+}
+
+/* It breaks its messages into lines, which begin with a blank but for the first. */
+void povray_warnings(const struct povray *povray, struct page *out)
+{
+  struct page log = read_log(povray);
+  bool within = false;
+  for (const char *line = log.text; line != NULL && *line != '\0';) {
+    const size_t part = strcspn(line, "\n");
+    const bool begins = holds(line, part, "Warning: ") || holds(line, part, "Possible Parse Error: ");
+    within = begins || (within && *line == ' ');
+    if (within && begins && out->length > 0)
+      page_bytes(out, "\n", 1);
+    if (within)
+      page_bytes(out, line, part);
+    line += part + strspn(line + part, "\n");
+  }
+  page_free(&log);
+}
+
+/* ---- running it ---- */
+
+/* Half of the machine's memory: the other half is for everybody else. */
+static size_t memory_limit(void)
+{
+#if defined(_SC_PHYS_PAGES)
+  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  return pages > 0 && size > 0 ? (size_t)pages / 2 * (size_t)size : 0;
+#else
+  return 0;
+#endif
+}
+
+/* Takes the folder of the last run away and makes a new one. */
+static enum status begin_run(const struct povray *povray)
+{
+  struct scratch run;
+  char path[SCRATCH_PATH_SIZE];
+  scratch_path(&povray->folder, RUN, path);
+  memcpy(run.path, path, sizeof path);
+  scratch_remove(&run);
+  return mkdir(path, 0700) == 0 ? STATUS_OK : cannot_write(povray, RUN);
+}
+
+static enum status run_program(struct povray *povray, const char *const *arguments, const char *what,
+                               struct process_result *out)
+{
+  char log_path[SCRATCH_PATH_SIZE], home[SCRATCH_PATH_SIZE], run[SCRATCH_PATH_SIZE];
+  scratch_path(&povray->folder, LOG, log_path);
+  scratch_path(&povray->folder, HOME, home);
+  scratch_path(&povray->folder, RUN, run);
+  const char *const environment[] = { "HOME", home, "POVINI", NULL, NULL };
+  const struct process_request request = { .arguments = arguments, .folder = run, .environment = environment,
+                                           .output = log_path, .timeout = povray->timeout, .memory = memory_limit(),
+                                           .confined = true };
+  const enum status status = process_run(&request, povray->listener->stop, out);
+  if (status == STATUS_LIMIT)
+    return listener_fail(povray->listener, status, "POV-Ray took more than %g seconds on %s (--timeout)",
+                         povray->timeout, what);
+  povray->missing = status == STATUS_FILE && out->missing;
+  if (povray->missing && povray->optional)
+    return status;
+  if (status == STATUS_FILE)
+    (void)listener_fail(povray->listener, status, "cannot run '%s': %s", povray->program, strerror(out->reason));
+  if (povray->missing)
+    listener_tell(povray->listener, TOLD_DETAIL,
+                  "POV-Ray 3.7 is what scenes are checked against; on Debian 'apt-get install povray' installs it.");
+  if (status != STATUS_OK)
+    return status;
+  struct page log = read_log(povray);
+  note_version(povray, &log);
+  if (out->exit_code != 0) {
+    listener_tell(povray->listener, TOLD_ERROR, "POV-Ray ended with exit code %d on %s; it says:", out->exit_code,
+                  what);
+    show_log(povray, &log);
+  }
+  page_free(&log);
+  return out->exit_code == 0 ? STATUS_OK : STATUS_INPUT;
+}
+
+/* Asks the program what it is: so that a missing one is told before the work starts. */
+static enum status ask_version(struct povray *povray)
+{
+  const char *const arguments[] = { povray->program, "--version", NULL };
+  struct process_result result;
+  enum status status = begin_run(povray);
+  if (status == STATUS_OK)
+    status = run_program(povray, arguments, "--version", &result);
+  if (status == STATUS_OK && povray->version[0] == '\0')
+    return listener_fail(povray->listener, STATUS_FILE, "'%s' does not call itself POV-Ray", povray->program);
+  return status;
+}
+
+/* The folder that is its home, with the restrictions where it looks for them. */
+static enum status make_home(const struct povray *povray)
+{
+  static const char *const FOLDERS[] = { "home", "home/.povray", "home/.povray/3.7" };
+  static const char FILE_NAME[] = "home/.povray/3.7/povray.conf";
+  char path[SCRATCH_PATH_SIZE];
+  for (size_t k = 0; k < sizeof FOLDERS / sizeof FOLDERS[0]; k++) {
+    scratch_path(&povray->folder, FOLDERS[k], path);
+    if (mkdir(path, 0700) != 0)
+      return cannot_write(povray, FOLDERS[k]);
+  }
+  FILE *file = scratch_open(&povray->folder, FILE_NAME);
+  if (file == NULL)
+    return cannot_write(povray, FILE_NAME);
+  (void)fputs(RESTRICTIONS, file);
+  return scratch_close(file) == STATUS_OK ? STATUS_OK : cannot_write(povray, FILE_NAME);
+}
+
+enum status povray_open(struct povray *povray)
+{
+  if (scratch_create(&povray->folder) != STATUS_OK)
+    return listener_fail(povray->listener, STATUS_FILE, "cannot make a temporary folder: %s", strerror(errno));
+  if (strchr(povray->program, '/') != NULL && povray->program[0] != '/') { /* it runs in another folder than ours */
+    char here[SCRATCH_PATH_SIZE];
+    const int length = getcwd(here, sizeof here) == NULL
+                         ? -1
+                         : snprintf(povray->program_path, SCRATCH_PATH_SIZE, "%s/%s", here, povray->program);
+    if (length < 0 || length >= SCRATCH_PATH_SIZE)
+      return listener_fail(povray->listener, STATUS_FILE, "cannot run '%s': %s", povray->program,
+                           strerror(length < 0 ? errno : ENAMETOOLONG));
+    povray->program = povray->program_path;
+  }
+  const enum status status = make_home(povray);
+  return status == STATUS_OK ? ask_version(povray) : status;
+}
+
+void povray_close(struct povray *povray)
+{
+  scratch_remove(&povray->folder);
+}
+
+/* Runs it on TEXT, which stands in RUN; the picture stands in PICTURE then. */
+static enum status run_on_text(struct povray *povray, const char *what, bool pictured, struct process_result *out)
+{
+  enum { OURS = 16 };
+  char size[2][32];
+  const char **arguments = calloc(OURS + povray->option_count, sizeof *arguments);
+  if (arguments == NULL)
+    return listener_out_of_memory(povray->listener);
+  snprintf(size[0], sizeof size[0], "+W%zu", pictured ? povray->width : 1);
+  snprintf(size[1], sizeof size[1], "+H%zu", pictured ? povray->height : 1);
+  const char *const ours[] = { povray->program, "+Iscene.pov", "+Opicture.png", size[0], size[1], "+FN8", "-A", "-D",
+                               "-P", "-UA", "+SU", "Dither=Off", "Work_Threads=1" };
+  const size_t count = sizeof ours / sizeof ours[0];
+  _Static_assert(sizeof ours / sizeof ours[0] < OURS, "and the NULL");
+  memcpy(arguments, ours, sizeof ours);
+  for (size_t k = 0; k < povray->option_count; k++)
+    arguments[count + k] = povray->options[k];
+  const enum status status = run_program(povray, arguments, what, out);
+  free(arguments);
+  return status;
+}
+
+/* ---- pictures ---- */
+
+static enum status read_picture(const struct povray *povray, struct image *out)
+{
+  char path[SCRATCH_PATH_SIZE], message[IMAGE_MESSAGE_SIZE];
+  run_path(povray, PICTURE, path);
+  const enum status status = image_read(path, out, message);
+  if (status != STATUS_OK)
+    return listener_fail(povray->listener, status, "cannot read POV-Ray's picture: %s", message);
+  if (out->width == povray->width && out->height == povray->height && out->channel_count >= 3) {
+    for (size_t k = 0; k < povray->width * povray->height * out->channel_count; k++)
+      out->value[k] = roundf(255 * out->value[k]) / 255; /* the reader multiplies by a rounded 1/255 */
+    return STATUS_OK;
+  }
+  const enum status wrong = listener_fail(povray->listener, STATUS_INPUT,
+                                          "POV-Ray's picture has %zux%zu pixels and %zu channels, not %zux%zu and 3",
+                                          out->width, out->height, out->channel_count, povray->width, povray->height);
+  image_destroy(out);
+  return wrong;
+}
+
+static enum status render_text(struct povray *povray, const char *what, struct povray_picture *out)
+{
+  struct process_result result;
+  const enum status status = run_on_text(povray, what, true, &result);
+  out->time = result.time;
+  return status == STATUS_OK ? read_picture(povray, &out->image) : status;
+}
+
+/* Writes TEXT: by `write`, which answers as scene_dump does. */
+struct question {
+  const struct scene *scene;
+  size_t count;
+  const struct ray *rays;
+};
+typedef enum status text_writer(const struct question *question, FILE *file);
+
+static enum status write_text(const struct povray *povray, text_writer *write, const struct question *question)
+{
+  char path[SCRATCH_PATH_SIZE];
+  enum status status = begin_run(povray);
+  if (status != STATUS_OK)
+    return status;
+  run_path(povray, TEXT, path);
+  FILE *file = fopen(path, "w");
+  if (file == NULL)
+    return cannot_write(povray, TEXT);
+  status = write(question, file);
+  if (scratch_close(file) != STATUS_OK || status == STATUS_FILE)
+    return cannot_write(povray, TEXT);
+  return status == STATUS_OK ? status : listener_out_of_memory(povray->listener);
+}
+
+static enum status write_scene(const struct question *question, FILE *file)
+{
+  return scene_dump(question->scene, file);
+}
+
+enum status povray_render(struct povray *povray, const struct scene *scene, struct povray_picture *out)
+{
+  *out = (struct povray_picture){ 0 };
+  const enum status status = write_text(povray, write_scene, &(struct question){ .scene = scene });
+  return status == STATUS_OK ? render_text(povray, "the scene", out) : status;
+}
+
+enum status povray_render_file(struct povray *povray, const char *path, struct povray_picture *out)
+{
+  char folder[SCRATCH_PATH_SIZE];
+  const char *reason;
+  *out = (struct povray_picture){ 0 };
+  scratch_path(&povray->folder, RUN, folder);
+  enum status status = begin_run(povray);
+  if (status != STATUS_OK)
+    return status;
+  status = plain_copy(path, folder, TEXT, &reason);
+  if (status == STATUS_FILE)
+    return listener_fail(povray->listener, status, "cannot copy the scene for POV-Ray: %s", reason);
+  if (status != STATUS_OK)
+    return listener_fail(povray->listener, status, "out of memory, or too many files");
+  return render_text(povray, "the scene's own text", out);
+}
+
+/* ---- what it hits ---- */
+
+/* The scene in white that no light changes, on black. Its textures are to be freed; NULL where memory is short. */
+static struct scene flatten(const struct scene *scene)
+{
+  const struct scene_texture white = { .pigment = { 1, 1, 1 },
+                                       .finish = { .ambient = { 1, 1, 1 }, .brilliance = 1, .phong_size = 40,
+                                                   .roughness = 0.05 } };
+  struct scene flat = *scene;
+  flat.textures = calloc(scene->texture_count + 1, sizeof *flat.textures);
+  for (size_t k = 0; flat.textures != NULL && k < scene->texture_count; k++)
+    flat.textures[k] = white;
+  flat.light_count = 0;
+  for (int k = 0; k < 3; k++) {
+    flat.background[k] = 0;
+    flat.ambient_light[k] = 1;
+  }
+  return flat;
+}
+
+static void put_vector(FILE *file, const double v[3])
+{
+  for (int k = 0; k < 3; k++) {
+    char number[NUMBER_TEXT_SIZE];
+    number_write_17(v[k], number);
+    fprintf(file, "%c%s", k == 0 ? '<' : ',', number);
+  }
+  fputc('>', file);
+}
+
+/* A scene of one object, and questions whose reading writes a line for each ray. */
+static enum status write_questions(const struct question *question, FILE *file)
+{
+  struct scene empty = *question->scene;
+  empty.patch_count = 0;
+  enum status status = scene_dump(&empty, file);
+  if (status == STATUS_OK)
+    status = scene_dump_union(question->scene, "Scene", file);
+  fputs("object { Scene }\n#fopen Answers \"answers.txt\" write\n"
+        "#macro Ask(From, Along)\n"
+        "  #local Normal = <0, 0, 0>;\n"
+        "  #local Point = trace(Scene, From, Along, Normal);\n"
+        "  #if (vlength(Normal) = 0)\n"
+        "    #write (Answers, \"-1\\n\")\n"
+        "  #else\n"
+        "    #write (Answers, str(vlength(Point - From), 0, 17), \"\\n\")\n"
+        "  #end\n"
+        "#end\n",
+        file);
+  for (size_t k = 0; k < question->count; k++) {
+    fputs("Ask(", file);
+    put_vector(file, question->rays[k].origin);
+    fputs(", ", file);
+    put_vector(file, question->rays[k].direction);
+    fputs(")\n", file);
+  }
+  fputs("#fclose Answers\n", file);
+  return status;
+}
+
+static enum status read_answers(const struct povray *povray, size_t count, double out_distance[])
+{
+  char name[64];
+  size_t length, at = 0, read = 0;
+  snprintf(name, sizeof name, "%s/%s", RUN, ANSWERS);
+  char *text = scratch_read(&povray->folder, name, &length);
+  while (text != NULL && read < count && at < length) {
+    double value;
+    size_t used;
+    if (number_read(text + at, length - at, &value, &used) == NUMBER_FINITE) {
+      out_distance[read++] = value < 0 ? INFINITY : value;
+      at += used;
+    } else {
+      at++;
+    }
+  }
+  free(text);
+  return read == count ? STATUS_OK
+                       : listener_fail(povray->listener, STATUS_INPUT, "POV-Ray's trace() left answers out");
+}
+
+enum status povray_ask(struct povray *povray, const struct scene *scene, size_t count, const struct ray rays[],
+                       double out_distance[], unsigned char *out_mask)
+{
+  const size_t pixels = povray->width * povray->height;
+  for (size_t k = 0; k < count; k++)
+    out_distance[k] = INFINITY;
+  if (scene->patch_count == 0 || (count == 0 && out_mask == NULL))
+    return STATUS_OK;
+  struct scene flat = flatten(scene);
+  if (flat.textures == NULL)
+    return listener_out_of_memory(povray->listener);
+  struct process_result result;
+  struct image picture = { 0 };
+  enum status status = write_text(povray, write_questions, &(struct question){ &flat, count, rays });
+  if (status == STATUS_OK)
+    status = run_on_text(povray, "the questions to trace()", out_mask != NULL, &result);
+  if (status == STATUS_OK)
+    status = read_answers(povray, count, out_distance);
+  if (status == STATUS_OK && out_mask != NULL)
+    status = read_picture(povray, &picture);
+  for (size_t k = 0; status == STATUS_OK && out_mask != NULL && k < pixels; k++)
+    out_mask[k] = picture.value[k * picture.channel_count] > 0.5f;
+  image_destroy(&picture);
+  free(flat.textures);
+  return status;
+}
+
+/* "Trace Time: 0 hours 0 minutes 1 seconds (1.234 seconds)", and below it "using 1 thread(s) with 1.200 CPU-seconds
+ * total". */
+enum status povray_time(struct povray *povray, const struct scene *scene, double *out)
+{
+  static const char BEFORE[] = ") with ";
+  struct process_result result;
+  struct scene flat = flatten(scene);
+  if (flat.textures == NULL)
+    return listener_out_of_memory(povray->listener);
+  enum status status = write_text(povray, write_scene, &(struct question){ .scene = &flat });
+  if (status == STATUS_OK)
+    status = run_on_text(povray, "the scene in white", true, &result);
+  free(flat.textures);
+  struct page log = read_log(povray);
+  const char *at = log.text == NULL ? NULL : strstr(log.text, "Trace Time:");
+  size_t used;
+  at = at == NULL ? NULL : strstr(at, BEFORE);
+  *out = NAN;
+  if (at != NULL && number_read(at + sizeof BEFORE - 1, strlen(at + sizeof BEFORE - 1), out, &used) != NUMBER_FINITE)
+    *out = NAN;
+  page_free(&log);
+  return status;
+}

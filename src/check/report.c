@@ -1,0 +1,146 @@
+/* The numbers of a check as a table and as JSON. */
+#include "check/measure.h"
+
+#include <string.h>
+
+#include "base/version.h"
+
+static void row_name(const struct check_row *row, char *out, size_t size)
+{
+  if (row->steps == 0)
+    snprintf(out, size, "as written");
+  else
+    snprintf(out, size, "u_steps %zu", row->steps);
+}
+
+static double percent(size_t count, size_t of)
+{
+  return 100 * (double)count / (double)of;
+}
+
+static void put_pictures(const struct check *check, struct page *out)
+{
+  page_format(out, "\npictures    %%>1/255  %%>4/255 %%>16/255      max     psnr  off edges  only here  only there  "
+                   "seconds    cpu\n");
+  for (size_t k = 0; k < check->row_count; k++) {
+    const struct check_row *row = &check->row[k];
+    char name[32];
+    row_name(row, name, sizeof name);
+    page_format(out, "%-10s", name);
+    for (int c = 0; c < CHECK_CODES; c++)
+      page_format(out, " %8.4f", percent(row->over[c], row->result.pixels));
+    page_format(out, " %4.0f/255 %8.2f %10zu %10zu %11zu %8.2f %6.2f\n", 255 * row->result.max, row->result.psnr,
+                row->over_limit_on[CHECK_EDGE_NONE], row->mask_ours, row->mask_theirs, row->picture.time.wall,
+                row->picture.time.cpu);
+  }
+  page_format(out, "%-84s %8.2f %6.2f\n", "pscn", check->ours.time.wall, check->ours.time.cpu);
+}
+
+static void put_distances(const struct check *check, struct page *out)
+{
+  page_format(out, "\ndistances       rays  hit by both  only here  only there     median         99%%         max\n");
+  for (size_t k = 0; k < check->row_count; k++) {
+    const struct check_distances *d = &check->row[k].distances;
+    char name[32];
+    row_name(&check->row[k], name, sizeof name);
+    page_format(out, "%-10s %9zu %12zu %10zu %11zu", name, d->rays, d->both, d->only_ours, d->only_theirs);
+    if (d->both == 0)
+      page_format(out, " %10s  %10s  %10s\n", "-", "-", "-");
+    else
+      page_format(out, " %10.2e  %10.2e  %10.2e\n", d->median, d->most, d->max);
+  }
+}
+
+void check_table(const struct check *check, struct page *out)
+{
+  page_format(out, "scene       ");
+  page_printable(out, check->request->path, strlen(check->request->path));
+  page_format(out, ", %zux%zu pixels\npovray      %s\n", check->request->width, check->request->height,
+              check->povray.version);
+  put_pictures(check, out);
+  if (check->request->grid > 0)
+    put_distances(check, out);
+}
+
+/* ---- JSON ---- */
+
+static json_t *distances_json(const struct check_distances *d)
+{
+  return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "rays", page_of_count(d->rays), "both", page_of_count(d->both),
+                   "only_here", page_of_count(d->only_ours), "only_there", page_of_count(d->only_theirs), "median",
+                   page_of_number(d->median), "percent_99", page_of_number(d->most), "max", page_of_number(d->max));
+}
+
+static json_t *row_json(const struct check *check, const struct check_row *row)
+{
+  const struct compare_result *r = &row->result;
+  const size_t *on = row->over_limit_on;
+  char name[32];
+  row_name(row, name, sizeof name);
+  json_t *root = json_pack(
+    "{s:o,s:s,s:{s:o,s:o,s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:[i,i],s:{s:o,s:o,s:o},s:{s:o,s:o},s:{s:f,s:f}}",
+    "u_steps", row->steps == 0 ? json_null() : page_of_count(row->steps),
+    "name", name,
+    "over", "1/255", page_of_count(row->over[0]), "4/255", page_of_count(row->over[1]), "16/255",
+    page_of_count(row->over[2]), "limit", page_of_count(row->over_limit),
+    "over_limit_off_edges", page_of_count(on[CHECK_EDGE_NONE]),
+    "mean", page_of_number(r->mean),
+    "rms", page_of_number(r->rms),
+    "psnr", page_of_number(r->psnr),
+    "max", page_of_number(r->max),
+    "worst", (int)r->worst_x, (int)r->worst_y,
+    "over_limit_on", CHECK_EDGE_NAME[CHECK_EDGE_CREASE], page_of_count(on[CHECK_EDGE_CREASE]),
+    CHECK_EDGE_NAME[CHECK_EDGE_SHADOW], page_of_count(on[CHECK_EDGE_SHADOW]), CHECK_EDGE_NAME[CHECK_EDGE_SILHOUETTE],
+    page_of_count(on[CHECK_EDGE_SILHOUETTE]),
+    "mask", "only_here", page_of_count(row->mask_ours), "only_there", page_of_count(row->mask_theirs),
+    "time", "wall", row->picture.time.wall, "cpu", row->picture.time.cpu);
+  if (root == NULL || check->request->grid == 0)
+    return root;
+  if (json_object_set_new(root, "distances", distances_json(&row->distances)) == 0)
+    return root;
+  json_decref(root);
+  return NULL;
+}
+
+static json_t *worst_json(const struct check *check, const struct check_worst *worst)
+{
+  const struct check_pixel *pixel = &check->ours.pixel[worst->y * check->request->width + worst->x];
+  const bool hit = pixel->hit.patch != HIT_NONE;
+  json_t *here = !hit ? json_null()
+                      : json_pack("{s:o,s:o,s:f,s:f,s:b}", "distance", page_of_number(pixel->distance), "patch",
+                                  page_of_count(pixel->hit.patch), "u", pixel->hit.u, "v", pixel->hit.v, "certain",
+                                  pixel->hit.certainty == CERTAINTY_CERTAIN);
+  json_t *edge = pixel->edge == CHECK_EDGE_NONE ? json_null() : json_string(CHECK_EDGE_NAME[pixel->edge]);
+  return json_pack("{s:[i,i],s:f,s:o,s:o,s:o}", "pixel", (int)worst->x, (int)worst->y, "difference", worst->difference,
+                   "edge", edge, "here", here, "there_distance", page_of_number(worst->distance));
+}
+
+json_t *check_json(const struct check *check)
+{
+  const struct check_request *request = check->request;
+  json_t *rows = json_array(), *worst = json_array();
+  char message[256];
+  bool good = true;
+  for (size_t k = 0; k < check->row_count; k++)
+    good = json_array_append_new(rows, row_json(check, &check->row[k])) == 0 && good;
+  for (size_t k = 0; k < check->worst_count; k++)
+    good = json_array_append_new(worst, worst_json(check, &check->worst[k])) == 0 && good;
+  json_t *root = json_pack(
+    "{s:s,s:s,s:o,s:b,s:[i,i],s:{s:o,s:o,s:o,s:o,s:o,s:o},s:b,s:o,s:o,s:{s:f,s:f}}",
+    "version", PSCN_VERSION,
+    "povray", check->povray.version,
+    "scene", page_of_text(request->path),
+    "own_text", request->own_text,
+    "size", (int)request->width, (int)request->height,
+    "limits", "fail", page_of_number(request->fail.each), "failpercent", page_of_number(request->fail.percent),
+    "allowfailures", page_of_number(request->fail.allowed_pixels), "hardfail", page_of_number(request->fail.any),
+    "failpsnr", page_of_number(request->fail_psnr), "failmask", page_of_number(request->fail_mask),
+    "within_limits", check_within_limits(check, message, sizeof message),
+    "rows", rows,
+    "worst", worst,
+    "time", "wall", check->ours.time.wall, "cpu", check->ours.time.cpu);
+  if (good)
+    return root;
+  json_decref(root);
+  return NULL;
+}
