@@ -16,10 +16,14 @@
 %param {struct language *language}
 
 %code requires {
-#include "language/build.h"
+#include "language/camera.h"
+#include "language/objects.h"
+#include "language/settings.h"
+#include "language/solver_statement.h"
 }
 
 %code {
+#include "language/syntax_errors.h"
 #include "language/tokens.h"
 
 #define YYLLOC_DEFAULT(current, rhs, n) ((current) = language_span(&YYRHSLOC(rhs, (n) ? 1 : 0), &YYRHSLOC(rhs, n)))
@@ -35,7 +39,9 @@
 
 static int pscn_lex(PSCN_STYPE *value, PSCN_LTYPE *place, struct language *language)
 {
-  return tokens_next(language, &value->token, place);
+  const int token = tokens_next(language, &value->token);
+  *place = value->token.place;
+  return token;
 }
 
 /* Told by the parser only when its stack is full. */
@@ -52,6 +58,8 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
   struct texture *texture;
   struct node *node;
   struct symbol *symbol;
+  struct matrix *matrix;
+  const struct transform *transform;
 }
 
 %token END 0 "the end of the text"
@@ -77,6 +85,8 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 %type <texture> texture_block pigment_block finish_block surface
 %type <node> object patch union copy
 %type <symbol> declare
+%type <matrix> matrix_numbers
+%type <transform> transform
 
 /* A declaration that an error ends: its name is not unknown as well. */
 %destructor { declare_broken($$); } <symbol>
@@ -94,7 +104,7 @@ input: START_SCENE statements | START_SOLVER solver;
 
 statements: %empty | statements statement;
 statement:
-    VERSION expression ';'                     { language_version(language, @2, &$2); }
+    VERSION expression ';'                     { language_version(language, &$2); }
   | declaration
   | GLOBAL_SETTINGS '{' global_items '}'
   | CAMERA '{' { camera_begin(language, @1); } camera_items '}' { camera_end(language); }
@@ -117,25 +127,25 @@ semicolon: %empty | ';';
 /* ---- values ---- */
 
 expression:
-    NUMBER                                     { $$ = value_of_number($1.number[0]); }
-  | POINT                                      { $$ = value_of_vector($1.number); }
-  | WORD                                       { $$ = value_named(language, @1, &$1); }
-  | X                                          { $$ = value_axis(0); }
-  | Y                                          { $$ = value_axis(1); }
-  | Z                                          { $$ = value_axis(2); }
-  | PI                                         { $$ = value_pi(); }
-  | IMAGE_WIDTH                                { $$ = value_of_number(language->width); }
-  | IMAGE_HEIGHT                               { $$ = value_of_number(language->height); }
-  | '(' expression ')'                         { $$ = $2; }
+    NUMBER                                     { $$ = value_of_number($1.number[0], @1); }
+  | POINT                                      { $$ = value_of_vector($1.number, @1); }
+  | WORD                                       { $$ = value_named(language, &$1); }
+  | X                                          { $$ = value_axis(0, @1); }
+  | Y                                          { $$ = value_axis(1, @1); }
+  | Z                                          { $$ = value_axis(2, @1); }
+  | PI                                         { $$ = value_of_number(3.14159265358979323846, @1); }
+  | IMAGE_WIDTH                                { $$ = value_of_number(language->width, @1); }
+  | IMAGE_HEIGHT                               { $$ = value_of_number(language->height, @1); }
+  | '(' expression ')'                         { $$ = value_placed($2, @$); }
   | '<' expression comma expression comma expression '>'
-                        { $$ = value_of_parts(language, &$2, &$4, &$6, (const struct place[]){ @2, @4, @6 }); }
-  | expression '+' expression                  { $$ = value_binary(language, '+', &$1, @1, &$3, @3); }
-  | expression '-' expression                  { $$ = value_binary(language, '-', &$1, @1, &$3, @3); }
-  | expression '*' expression                  { $$ = value_binary(language, '*', &$1, @1, &$3, @3); }
-  | expression '/' expression                  { $$ = value_binary(language, '/', &$1, @1, &$3, @3); }
-  | '-' expression %prec SIGN                  { $$ = value_negative(language, @2, &$2); }
-  | '+' expression %prec SIGN                  { $$ = $2; }
-  | expression '.' component                   { $$ = value_component(language, @1, &$1, $3.index); }
+                                               { $$ = value_of_parts(language, &$2, &$4, &$6, @$); }
+  | expression '+' expression                  { $$ = value_binary(language, '+', &$1, &$3); }
+  | expression '-' expression                  { $$ = value_binary(language, '-', &$1, &$3); }
+  | expression '*' expression                  { $$ = value_binary(language, '*', &$1, &$3); }
+  | expression '/' expression                  { $$ = value_binary(language, '/', &$1, &$3); }
+  | '-' expression %prec SIGN                  { $$ = value_negative(language, &$2, @$); }
+  | '+' expression %prec SIGN                  { $$ = value_placed($2, @$); }
+  | expression '.' component                   { $$ = value_component(language, &$1, $3.index, @$); }
   ;
 
 component: X { $$.index = 0; } | Y { $$.index = 1; } | Z { $$.index = 2; }
@@ -146,18 +156,18 @@ comma: %empty %prec ITEM | ',';
 /* A plain vector or number is a colour wherever POV-Ray takes it for one. */
 colour:
     expression %prec ITEM
-  | RGB expression %prec ITEM                  { $$ = value_rgb(language, @2, &$2); }
-  | COLOR expression %prec ITEM                { $$ = value_color(language, @2, &$2); }
-  | COLOR RGB expression %prec ITEM            { $$ = value_rgb(language, @3, &$3); }
+  | RGB expression %prec ITEM                  { $$ = value_rgb(language, &$2, @$); }
+  | COLOR expression %prec ITEM                { $$ = value_color(language, &$2, @$); }
+  | COLOR RGB expression %prec ITEM            { $$ = value_rgb(language, &$3, @$); }
   ;
 
 /* ---- settings, camera, lights ---- */
 
 global_items: %empty | global_items global_item;
 global_item:
-    ASSUMED_GAMMA expression                   { global_gamma(language, @2, &$2); }
-  | MAX_TRACE_LEVEL expression                 { global_trace_level(language, @2, &$2); }
-  | AMBIENT_LIGHT colour                       { value_to_colour(language, @2, &$2, language->ambient_light); }
+    ASSUMED_GAMMA expression                   { global_gamma(language, &$2); }
+  | MAX_TRACE_LEVEL expression                 { global_trace_level(language, &$2); }
+  | AMBIENT_LIGHT colour                       { global_ambient(language, &$2); }
   | solver                                     { global_solver(language); }
   | declaration
   | error                                      { RECOVER(); }
@@ -166,13 +176,13 @@ global_item:
 camera_items: %empty | camera_items camera_item;
 camera_item:
     PERSPECTIVE                                { camera_perspective(language, @1); }
-  | LOCATION expression                        { camera_vector(language, CAMERA_LOCATION, @2, &$2); }
-  | DIRECTION expression                       { camera_vector(language, CAMERA_DIRECTION, @2, &$2); }
-  | RIGHT expression                           { camera_vector(language, CAMERA_RIGHT, @2, &$2); }
-  | UP expression                              { camera_vector(language, CAMERA_UP, @2, &$2); }
-  | SKY expression                             { camera_vector(language, CAMERA_SKY, @2, &$2); }
-  | LOOK_AT expression                         { camera_vector(language, CAMERA_LOOK_AT, @2, &$2); }
-  | ANGLE expression                           { camera_angle(language, @2, &$2); }
+  | LOCATION expression                        { camera_vector(language, CAMERA_LOCATION, &$2); }
+  | DIRECTION expression                       { camera_vector(language, CAMERA_DIRECTION, &$2); }
+  | RIGHT expression                           { camera_vector(language, CAMERA_RIGHT, &$2); }
+  | UP expression                              { camera_vector(language, CAMERA_UP, &$2); }
+  | SKY expression                             { camera_vector(language, CAMERA_SKY, &$2); }
+  | LOOK_AT expression                         { camera_vector(language, CAMERA_LOOK_AT, &$2); }
+  | ANGLE expression                           { camera_angle(language, &$2); }
   | transform                                  { camera_transform(language, @1); }
   | declaration
   | error                                      { RECOVER(); }
@@ -181,17 +191,17 @@ camera_item:
 /* The position, then the colour, then the rest. */
 light_items: %empty | light_items light_item;
 light_item:
-    colour %prec ITEM                          { light_value(language, @1, &$1); }
+    colour %prec ITEM                          { light_value(language, &$1); }
   | ','                                        { light_comma(language, @1); }
   | SHADOWLESS                                 { light_shadowless(language, @1); }
-  | transform                                  { light_transform(language, @1); }
+  | transform                                  { light_transform(language, $1, @1); }
   | declaration
   | error                                      { RECOVER(); }
   ;
 
 background_items: %empty | background_items background_item;
 background_item:
-    colour %prec ITEM                          { background_value(language, @1, &$1); }
+    colour %prec ITEM                          { background_value(language, &$1); }
   | declaration
   | error                                      { RECOVER(); }
   ;
@@ -205,11 +215,11 @@ patch: BICUBIC_PATCH '{' { patch_begin(language, @1); } patch_items '}'
     { patch_end(language); $$ = node_end(language); };
 patch_items: %empty | patch_items patch_item;
 patch_item:
-    TYPE expression %prec ITEM                 { patch_number(language, PATCH_TYPE, @1, @2, &$2); }
-  | FLATNESS expression %prec ITEM             { patch_number(language, PATCH_FLATNESS, @1, @2, &$2); }
-  | U_STEPS expression %prec ITEM              { patch_number(language, PATCH_U_STEPS, @1, @2, &$2); }
-  | V_STEPS expression %prec ITEM              { patch_number(language, PATCH_V_STEPS, @1, @2, &$2); }
-  | expression %prec ITEM                      { patch_point(language, @1, &$1); }
+    TYPE expression %prec ITEM                 { patch_number(language, PATCH_TYPE, @1, &$2); }
+  | FLATNESS expression %prec ITEM             { patch_number(language, PATCH_FLATNESS, @1, &$2); }
+  | U_STEPS expression %prec ITEM              { patch_number(language, PATCH_U_STEPS, @1, &$2); }
+  | V_STEPS expression %prec ITEM              { patch_number(language, PATCH_V_STEPS, @1, &$2); }
+  | expression %prec ITEM                      { patch_point(language, &$1); }
   | ','                                        { patch_comma(language, @1); }
   | modifier                                   { patch_modified(language); }
   | solver                                     { patch_solver(language); }
@@ -232,7 +242,7 @@ union_item:
 copy: OBJECT '{' { copy_begin(language, @1); } copy_items '}' { copy_end(language); $$ = node_end(language); };
 copy_items: %empty | copy_items copy_item;
 copy_item:
-    WORD                                       { copy_named(language, @1, &$1); }
+    WORD                                       { copy_named(language, &$1); }
   | object                                     { copy_object(language, @1, $1); }
   | modifier                                   { copy_modified(language, @1); }
   | solver                                     { solver_misplaced(language, @1); }
@@ -241,19 +251,21 @@ copy_item:
   ;
 
 modifier:
-    transform                                  { node_transform(language, @1); }
+    transform                                  { node_transform(language, $1, @1); }
   | surface                                    { node_texture(language, $1); }
   ;
 
 transform:
-    TRANSLATE expression %prec ITEM            { transform_translate(language, @2, &$2); }
-  | ROTATE expression %prec ITEM               { transform_rotate(language, @2, &$2); }
-  | SCALE expression %prec ITEM                { transform_scale(language, @2, &$2); }
-  | MATRIX '<' { matrix_begin(language); } matrix_numbers '>' { matrix_end(language, @$); }
-  | MATRIX POINT                               { matrix_short(language, @2); }
+    TRANSLATE expression %prec ITEM            { $$ = transform_translate(language, &$2); }
+  | ROTATE expression %prec ITEM               { $$ = transform_rotate(language, &$2); }
+  | SCALE expression %prec ITEM                { $$ = transform_scale(language, &$2); }
+  | MATRIX '<' matrix_numbers '>'              { $$ = transform_matrix(language, $3, @$); }
+  | MATRIX POINT                               { $$ = transform_matrix(language, NULL, @2); }
   ;
-matrix_numbers: matrix_number | matrix_numbers comma matrix_number;
-matrix_number: expression %prec ITEM           { matrix_add(language, @1, &$1); };
+matrix_numbers:
+    expression %prec ITEM                      { $$ = matrix_begin(language, &$1); }
+  | matrix_numbers comma expression %prec ITEM { matrix_add(language, $$ = $1, &$3); }
+  ;
 
 /* ---- textures ---- */
 
@@ -262,7 +274,7 @@ surface: texture_block | pigment_block | finish_block;
 texture_block: TEXTURE '{' { texture_begin(language, TEXTURE_ALL); } texture_items '}' { $$ = texture_end(language); };
 texture_items: %empty | texture_items texture_item;
 texture_item:
-    WORD                                       { texture_named(language, @1, &$1); }
+    WORD                                       { texture_named(language, &$1); }
   | pigment_block                              { texture_merge(language, $1); }
   | finish_block                               { texture_merge(language, $1); }
   | transform                                  { texture_moved(language); }
@@ -274,7 +286,7 @@ pigment_block: PIGMENT '{' { texture_begin(language, TEXTURE_PIGMENT); } pigment
     { $$ = texture_end(language); };
 pigment_items: %empty | pigment_items pigment_item;
 pigment_item:
-    colour %prec ITEM                          { pigment_value(language, @1, &$1); }
+    colour %prec ITEM                          { pigment_value(language, &$1); }
   | transform                                  { texture_moved(language); }
   | declaration
   | error                                      { RECOVER(); }
@@ -283,39 +295,39 @@ pigment_item:
 finish_block: FINISH '{' { texture_begin(language, TEXTURE_FINISH); } finish_items '}' { $$ = texture_end(language); };
 finish_items: %empty | finish_items finish_item;
 finish_item:
-    WORD                                       { texture_named(language, @1, &$1); }
-  | AMBIENT colour                             { finish_ambient(language, @2, &$2); }
-  | DIFFUSE expression                         { finish_number(language, FINISH_DIFFUSE, @2, &$2); }
-  | BRILLIANCE expression                      { finish_number(language, FINISH_BRILLIANCE, @2, &$2); }
-  | PHONG expression                           { finish_number(language, FINISH_PHONG, @2, &$2); }
-  | PHONG_SIZE expression                      { finish_number(language, FINISH_PHONG_SIZE, @2, &$2); }
-  | SPECULAR expression                        { finish_number(language, FINISH_SPECULAR, @2, &$2); }
-  | ROUGHNESS expression                       { finish_number(language, FINISH_ROUGHNESS, @2, &$2); }
+    WORD                                       { texture_named(language, &$1); }
+  | AMBIENT colour                             { finish_ambient(language, &$2); }
+  | DIFFUSE expression                         { finish_number(language, PART_DIFFUSE, &$2); }
+  | BRILLIANCE expression                      { finish_number(language, PART_BRILLIANCE, &$2); }
+  | PHONG expression                           { finish_number(language, PART_PHONG, &$2); }
+  | PHONG_SIZE expression                      { finish_number(language, PART_PHONG_SIZE, &$2); }
+  | SPECULAR expression                        { finish_number(language, PART_SPECULAR, &$2); }
+  | ROUGHNESS expression                       { finish_number(language, PART_ROUGHNESS, &$2); }
   | declaration
   | error                                      { RECOVER(); }
   ;
 
 /* ---- solvers: all words are plain here ---- */
 
-solver: SOLVER WORD                            { solver_begin(language, @2, &$2); } solver_block;
+solver: SOLVER WORD                            { solver_begin(language, &$2); } solver_block;
 solver_block: %empty | '{' solver_items '}';
 solver_items: %empty | solver_items solver_item;
 solver_item:
-    WORD quantity                              { solver_quantity(language, @1, &$1, @2, &$2); }
-  | WORD WORD                                  { solver_word(language, @1, &$1, @2, &$2); }
+    WORD quantity                              { solver_quantity(language, &$1, &$2); }
+  | WORD WORD                                  { solver_word(language, &$1, &$2); }
   | error                                      { RECOVER(); }
   ;
 
 /* A name may be a word of the item's; within an expression it stands in parentheses. */
 quantity:
-    NUMBER                                     { $$ = value_of_number($1.number[0]); }
-  | '(' expression ')'                         { $$ = $2; }
-  | quantity '+' quantity                      { $$ = value_binary(language, '+', &$1, @1, &$3, @3); }
-  | quantity '-' quantity                      { $$ = value_binary(language, '-', &$1, @1, &$3, @3); }
-  | quantity '*' quantity                      { $$ = value_binary(language, '*', &$1, @1, &$3, @3); }
-  | quantity '/' quantity                      { $$ = value_binary(language, '/', &$1, @1, &$3, @3); }
-  | '-' quantity %prec SIGN                    { $$ = value_negative(language, @2, &$2); }
-  | '+' quantity %prec SIGN                    { $$ = $2; }
+    NUMBER                                     { $$ = value_of_number($1.number[0], @1); }
+  | '(' expression ')'                         { $$ = value_placed($2, @$); }
+  | quantity '+' quantity                      { $$ = value_binary(language, '+', &$1, &$3); }
+  | quantity '-' quantity                      { $$ = value_binary(language, '-', &$1, &$3); }
+  | quantity '*' quantity                      { $$ = value_binary(language, '*', &$1, &$3); }
+  | quantity '/' quantity                      { $$ = value_binary(language, '/', &$1, &$3); }
+  | '-' quantity %prec SIGN                    { $$ = value_negative(language, &$2, @$); }
+  | '+' quantity %prec SIGN                    { $$ = value_placed($2, @$); }
   ;
 
 %%
@@ -327,7 +339,7 @@ static int yyreport_syntax_error(const yypcontext_t *context, struct language *l
   const char *names[MOST];
   const int count = yypcontext_expected_tokens(context, kinds, MOST);
   for (int k = 0; k < count; k++) names[k] = yysymbol_name(kinds[k]);
-  language_unexpected(language, *yypcontext_location(context), yypcontext_token(context) == YYSYMBOL_WORD, names,
-                      count > 0 ? count : 0);
+  syntax_error(language, *yypcontext_location(context), yypcontext_token(context) == YYSYMBOL_WORD, names,
+               count > 0 ? count : 0);
   return 0;
 }

@@ -1,11 +1,12 @@
 /* The camera's items, folded into location, direction, right and up as POV-Ray 3.7 does it, wherever they stand: the
  * angle sets the length of direction from that of right; look_at comes last and turns the frame, keeping lengths and
  * handedness. */
+#include "language/camera.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "geometry/vector.h"
-#include "language/build.h"
 
 #define RADIANS_A_DEGREE (3.14159265358979323846 / 180)
 
@@ -21,36 +22,36 @@ void camera_default(struct camera_items *out)
 
 void camera_begin(struct language *language, struct place place)
 {
-  if (language->has_camera) language_error(language, place, "the scene has a camera already");
-  language->has_camera = true;
-  camera_default(&language->camera);
-  language->camera.place = place;
-  language->camera.errors = language->diagnostics->error_count;
+  struct camera_items *camera = language->camera;
+  if (camera->said) language_error(language, place, "the scene has a camera already");
+  camera_default(camera);
+  camera->said = true;
+  camera->block = language_block(language, place);
 }
 
 void camera_perspective(struct language *language, struct place place)
 {
-  if (language->camera.begun) language_error(language, place, "perspective stands first in a camera");
-  language->camera.begun = true;
+  if (language->camera->begun) language_error(language, place, "perspective stands first in a camera");
+  language->camera->begun = true;
 }
 
-void camera_vector(struct language *language, int which, struct place place, const struct value *value)
+void camera_vector(struct language *language, int which, const struct value *value)
 {
-  struct camera_items *camera = &language->camera;
+  struct camera_items *camera = language->camera;
   camera->begun = true;
-  value_to_vector(language, place, value, camera->item[which]);
+  value_to_vector(language, value, camera->item[which]);
   if (which != CAMERA_LOOK_AT) return;
   camera->look_at = true;
-  camera->look_at_place = place;
+  camera->look_at_place = value->place;
 }
 
-void camera_angle(struct language *language, struct place place, const struct value *value)
+void camera_angle(struct language *language, const struct value *value)
 {
   double angle;
-  language->camera.begun = true;
-  if (!value_to_number(language, place, value, &angle)) return;
-  if (angle >= 0 && angle < 180) language->camera.angle = angle;
-  else language_error(language, place, "the angle must be at least 0 and less than 180 degrees");
+  language->camera->begun = true;
+  if (!value_to_number(language, value, &angle)) return;
+  if (angle >= 0 && angle < 180) language->camera->angle = angle;
+  else language_error(language, value->place, "the angle must be at least 0 and less than 180 degrees");
 }
 
 void camera_transform(struct language *language, struct place place)
@@ -62,7 +63,7 @@ void camera_transform(struct language *language, struct place place)
 void camera_end(struct language *language)
 {
   struct scene_camera unused;
-  if (language_sound(language, language->camera.errors)) camera_fold(language, &language->camera, &unused);
+  if (language_sound(language, &language->camera->block)) camera_fold(language, language->camera, &unused);
 }
 
 /* The length of v, and v of length 1; 0 for a zero vector, whose direction is not written. Nothing over- or
@@ -98,7 +99,7 @@ static bool turn_frame(struct language *language, const struct camera_items *ite
   vector_cross(frame->direction, frame->up, hand);
   const double sign = vector_dot(hand, frame->right) < 0 ? 1 : -1;
   if (!(unit(items->item[CAMERA_SKY], sky) > 0)) {
-    language_error(language, items->place, "the camera's sky must not be zero");
+    language_error(language, items->block.place, "the camera's sky must not be zero");
     return false;
   }
   vector_cross(sky, ahead, across);
@@ -121,7 +122,7 @@ static bool fold_frame(struct language *language, const struct camera_items *ite
   frame->right_length = unit(items->item[CAMERA_RIGHT], frame->right);
   frame->up_length = unit(items->item[CAMERA_UP], frame->up);
   if (!(frame->direction_length > 0 && frame->right_length > 0 && frame->up_length > 0)) {
-    language_error(language, items->place, "the camera's direction, right and up must not be zero");
+    language_error(language, items->block.place, "the camera's direction, right and up must not be zero");
     return false;
   }
   if (items->angle > 0)
@@ -130,7 +131,7 @@ static bool fold_frame(struct language *language, const struct camera_items *ite
   double cross[3];
   vector_cross(frame->right, frame->up, cross);
   if (fabs(vector_dot(cross, frame->direction)) > FLAT) return true;
-  language_error(language, items->place, "the camera's direction, right and up lie in one plane");
+  language_error(language, items->block.place, "the camera's direction, right and up lie in one plane");
   return false;
 }
 
@@ -150,6 +151,6 @@ bool camera_fold(struct language *language, const struct camera_items *items, st
   }
   bool finite = true;
   for (int k = 0; k < 3; k++) finite &= isfinite(out->direction[k]) && isfinite(out->right[k]) && isfinite(out->up[k]);
-  if (!finite) language_error(language, items->place, "the camera's vectors are too large for numbers");
+  if (!finite) language_error(language, items->block.place, "the camera's vectors are too large for numbers");
   return finite;
 }

@@ -1,17 +1,28 @@
-/* From the tree of objects to the list of patches: each with its transforms applied, its texture and its solver. And
- * to the list of copies: which runs of patches are one declared object, moved. */
+/* The list of patches. */
+#include "language/expand.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "language/build.h"
 
 /* Of objects within objects, the outermost that has no more patches than this is the one whose copies are told. */
 enum { COPIED_MOST = 1024 };
 
+/* A list of the scene's, which grows by doubling in its arena. */
+struct list {
+  void **items;
+  size_t *count, capacity, size; /* size: of an element */
+  struct table known;            /* its elements, where they are all different */
+};
+
+struct known {
+  struct table_entry entry;
+  uint32_t index;
+};
+
 struct expansion {
   struct language *language;
   struct scene *scene;
-  size_t texture_capacity, solver_capacity, object_capacity, copy_capacity;
+  struct list textures, methods, objects, copies;
   bool in_copy;
   bool told; /* that a point is too large */
 };
@@ -19,38 +30,37 @@ struct expansion {
 /* What a node passes down to those below it. */
 struct inherited {
   struct transform transform;
-  const struct texture *texture;       /* of the nearest node that has one, or NULL */
-  const struct method *solver; /* likewise */
+  const struct texture *texture; /* of the nearest node that has one, or NULL */
+  const struct method *method;   /* likewise */
 };
 
-/* A new element of a list that grows by doubling in the arena, or NULL where memory is short. */
-static void *append(struct arena *arena, void **list, size_t *count, size_t *capacity, size_t size)
+/* A new element, or NULL where memory is short. */
+static void *append(struct arena *arena, struct list *list)
 {
-  if (*count == *capacity) {
-    const size_t wanted = *capacity ? 2 * *capacity : 16;
-    void *grown = arena_alloc(arena, wanted, size);
+  if (*list->count == list->capacity) {
+    const size_t wanted = list->capacity ? 2 * list->capacity : 16;
+    void *grown = arena_alloc(arena, wanted, list->size);
     if (!grown) return NULL;
-    if (*count) memcpy(grown, *list, *count * size);
-    *list = grown;
-    *capacity = wanted;
+    if (*list->count) memcpy(grown, *list->items, *list->count * list->size);
+    *list->items = grown;
+    list->capacity = wanted;
   }
-  return (char *)*list + (*count)++ * size;
+  return (char *)*list->items + (*list->count)++ * list->size;
 }
 
-/* The index of an element equal to `item`, looked for among the last few, or of a new one. */
-static bool intern(struct arena *arena, void **list, size_t *count, size_t *capacity, const void *item, size_t size,
-                   uint32_t *out)
+/* The index of the element equal to `item`, which becomes one if there is none. */
+static bool intern(struct expansion *e, struct list *list, const void *item, uint32_t *out)
 {
-  enum { LOOK_BACK = 32 };
-  for (size_t k = *count; k > 0 && *count - k < LOOK_BACK; k--) {
-    if (memcmp((char *)*list + (k - 1) * size, item, size) != 0) continue;
-    *out = (uint32_t)(k - 1);
-    return true;
+  const uint64_t hash = table_hash(item, list->size);
+  for (struct table_entry *entry = table_find(&list->known, hash); entry; entry = table_next(entry)) {
+    *out = ((const struct known *)entry)->index;
+    if (memcmp((char *)*list->items + *out * list->size, item, list->size) == 0) return true;
   }
-  void *added = append(arena, list, count, capacity, size);
-  if (!added) return false;
-  memcpy(added, item, size);
-  *out = (uint32_t)(*count - 1);
+  struct known *known = arena_alloc(e->language->arena, 1, sizeof *known);
+  void *added = append(e->scene->arena, list);
+  if (!known || !added || !table_add(&list->known, e->language->arena, &known->entry, hash)) return false;
+  memcpy(added, item, list->size);
+  *out = known->index = (uint32_t)(*list->count - 1);
   return true;
 }
 
@@ -58,35 +68,28 @@ static void expand_points(struct expansion *e, const struct node *node, const st
                           struct scene_patch *patch)
 {
   bool finite = true;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      transform_point(transform, node->P[i][j], patch->P[i][j]);
-      for (int k = 0; k < 3; k++) finite &= isfinite(patch->P[i][j][k]) != 0;
-    }
+  for (int n = 0; n < 16; n++) {
+    double *p = patch->P[n / 4][n % 4];
+    transform_point(transform, node->P[n / 4][n % 4], p);
+    finite &= isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
   }
   if (finite || e->told) return;
   e->told = true;
-  language_error(e->language, node->place, "with its transforms applied, a control point is too large for numbers");
+  language_error(e->language, node->block.place,
+                 "with its transforms applied, a control point is too large for numbers");
 }
 
 static bool expand_patch(struct expansion *e, const struct node *node, const struct inherited *with)
 {
-  struct scene *scene = e->scene;
-  struct scene_patch *patch = &scene->patches[scene->patch_count++];
+  struct scene_patch *patch = &e->scene->patches[e->scene->patch_count++];
   expand_points(e, node, &with->transform, patch);
-  patch->type = node->type;
-  patch->flatness = node->flatness;
-  patch->u_steps = node->u_steps;
-  patch->v_steps = node->v_steps;
+  patch->type = (int)node->setting[PATCH_TYPE];
+  patch->flatness = node->setting[PATCH_FLATNESS];
+  patch->u_steps = (int)node->setting[PATCH_U_STEPS];
+  patch->v_steps = (int)node->setting[PATCH_V_STEPS];
   const struct texture none = texture_default();
-  const struct scene_texture *texture = with->texture ? &with->texture->is : &none.is;
-  if (!intern(scene->arena, (void **)&scene->textures, &scene->texture_count, &e->texture_capacity, texture,
-              sizeof *texture, &patch->texture)) {
-    return false;
-  }
-  if (!with->solver) return true; /* 0: the scene's */
-  return intern(scene->arena, (void **)&scene->solvers, &scene->solver_count, &e->solver_capacity, with->solver,
-                sizeof *with->solver, &patch->solver);
+  return intern(e, &e->textures, with->texture ? &with->texture->is : &none.is, &patch->texture) &&
+         intern(e, &e->methods, with->method, &patch->solver);
 }
 
 /* The control nets below a node, from out[0] on; returns their end. */
@@ -110,8 +113,7 @@ static bool begin_copy(struct expansion *e, const struct node *node, const struc
   struct scene *scene = e->scene;
   if (node->sharing->object == 0) {
     const struct transform identity = transform_identity();
-    struct scene_object *object =
-        append(scene->arena, (void **)&scene->objects, &scene->object_count, &e->object_capacity, sizeof *object);
+    struct scene_object *object = append(scene->arena, &e->objects);
     if (!object) return false;
     object->patch_count = node->patch_count;
     object->P = arena_alloc(scene->arena, node->patch_count, sizeof *object->P);
@@ -119,8 +121,7 @@ static bool begin_copy(struct expansion *e, const struct node *node, const struc
     collect_nets(node, &identity, object->P);
     node->sharing->object = (uint32_t)scene->object_count;
   }
-  struct scene_copy *copy = append(scene->arena, (void **)&scene->copies, &scene->copy_count, &e->copy_capacity,
-                                   sizeof *copy);
+  struct scene_copy *copy = append(scene->arena, &e->copies);
   if (!copy) return false;
   copy->object = node->sharing->object - 1;
   copy->first_patch = scene->patch_count;
@@ -138,7 +139,7 @@ static bool expand(struct expansion *e, const struct node *node, const struct in
   struct inherited with = *above;
   if (node->transform) with.transform = transform_then(node->transform, &above->transform);
   if (node->texture) with.texture = node->texture;
-  if (node->solver) with.solver = node->solver;
+  if (node->method) with.method = node->method;
   const bool is_copy = !e->in_copy && node->sharing && node->sharing->uses > 1 && node->patch_count <= COPIED_MOST;
   if (is_copy && !begin_copy(e, node, &with.transform)) return false;
   e->in_copy |= is_copy;
@@ -149,15 +150,19 @@ static bool expand(struct expansion *e, const struct node *node, const struct in
   return whole;
 }
 
-enum status objects_expand(struct language *language, struct scene *scene)
+enum status objects_expand(struct language *language, const struct method *method, struct scene *scene)
 {
-  struct expansion e = {.language = language, .scene = scene, .solver_capacity = 1};
-  scene->solvers = arena_alloc(scene->arena, 1, sizeof *scene->solvers);
-  scene->patches = arena_alloc(scene->arena, language->scene.patch_count, sizeof *scene->patches);
-  if (!scene->solvers || !scene->patches) return STATUS_LIMIT;
-  scene->solvers[0] = language->global_solver;
-  scene->solver_count = 1;
-  const struct inherited nothing = {transform_identity(), NULL, NULL};
-  if (!expand(&e, &language->scene, &nothing)) return STATUS_LIMIT;
+  struct expansion e = {
+      .language = language,
+      .scene = scene,
+      .textures = {(void **)&scene->textures, &scene->texture_count, 0, sizeof *scene->textures, {0}},
+      .methods = {(void **)&scene->solvers, &scene->solver_count, 0, sizeof *scene->solvers, {0}},
+      .objects = {(void **)&scene->objects, &scene->object_count, 0, sizeof *scene->objects, {0}},
+      .copies = {(void **)&scene->copies, &scene->copy_count, 0, sizeof *scene->copies, {0}}};
+  const struct node *all = &language->objects->scene;
+  const struct inherited nothing = {transform_identity(), NULL, method};
+  uint32_t first;
+  scene->patches = arena_alloc(scene->arena, all->patch_count, sizeof *scene->patches);
+  if (!scene->patches || !intern(&e, &e.methods, method, &first) || !expand(&e, all, &nothing)) return STATUS_LIMIT;
   return e.told ? STATUS_INPUT : STATUS_OK;
 }

@@ -1,93 +1,73 @@
 /* Reading: from a file or text through the grammar to a scene. */
 #include "language/language.h"
 
-#include <assert.h>
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
+#include "language/camera.h"
+#include "language/expand.h"
+#include "language/settings.h"
 #include "language/tokens.h"
 
-void language_error(struct language *language, struct place place, const char *format, ...)
+static const struct place NOWHERE = {NULL, 0, 0};
+
+/* One reading: what stands behind the pointers of its state. */
+struct reading {
+  struct language language;
+  struct symbols symbols;
+  struct sources sources;
+  struct tokens tokens;
+  struct objects objects;
+  struct camera_items camera;
+  struct settings settings;
+};
+
+static enum status reading_create(struct reading *r, const struct language_settings *settings,
+                                  struct diagnostics *diagnostics)
 {
-  char message[400];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(message, sizeof message, format, arguments);
-  va_end(arguments);
-  diagnostics_error(language->diagnostics, place, "%s", message);
+  static const char name[] = "pscn";
+  struct language *language = &r->language;
+  memset(r, 0, sizeof *r);
+  *language = (struct language){.diagnostics = diagnostics, .arena = arena_create(),
+                                .width = settings->image_width, .height = settings->image_height,
+                                .max_memory = settings->max_memory ? settings->max_memory : SIZE_MAX,
+                                .symbols = &r->symbols, .sources = &r->sources, .tokens = &r->tokens,
+                                .objects = &r->objects, .camera = &r->camera, .settings = &r->settings};
+  camera_default(&r->camera);
+  settings_default(&r->settings);
+  if (!language->arena) return STATUS_LIMIT;
+  declare_number(language, name, sizeof name - 1, 1);
+  return language->ended_early ? STATUS_LIMIT : STATUS_OK;
 }
 
-bool language_sound(const struct language *language, size_t errors)
+static void reading_destroy(struct reading *r)
 {
-  return language->diagnostics->error_count == errors;
+  sources_close(&r->language);
+  arena_destroy(r->language.arena);
 }
 
-void language_limit(struct language *language, struct place place, const char *text)
+/* Runs the grammar over a source, which is taken over; NULL where there was no memory for one. */
+static enum status parse(struct reading *r, struct source *source)
 {
-  if (!language->ended_early) language_error(language, place, "%s", text);
-  language->ended_early = true;
+  const size_t before = r->language.diagnostics->error_count;
+  if (!source || !sources_open(&r->language, source)) return STATUS_LIMIT;
+  const int result = pscn_parse(&r->language);
+  if (r->language.ended_early || result == 2) return STATUS_LIMIT;
+  return result != 0 || r->language.diagnostics->error_count > before ? STATUS_INPUT : STATUS_OK;
 }
 
-bool language_afford(struct language *language, size_t bytes)
+static enum status add_lights(const struct settings *settings, struct scene *scene)
 {
-  language->unaffordable |= bytes > language->max_memory - language->memory_bytes;
-  if (!language->unaffordable) language->memory_bytes += bytes;
-  return !language->unaffordable;
-}
-
-/* Where memory is short a spare block stands in, and reading ends at the next token; the few blocks wanted until
- * then do not overlap. */
-void *language_alloc(struct language *language, size_t size)
-{
-  void *memory = language_afford(language, size) ? arena_alloc(language->arena, 1, size) : NULL;
-  if (memory) return memory;
-  language->ended_early = true;
-  const size_t alignment = _Alignof(max_align_t), room = (size + alignment - 1) / alignment * alignment;
-  assert(room <= sizeof language->spare);
-  if (room > sizeof language->spare - language->spare_used) language->spare_used = 0;
-  memory = language->spare + language->spare_used;
-  language->spare_used += room;
-  return memset(memory, 0, size);
-}
-
-/* ---- the face ---- */
-
-static enum status language_create(struct language *language, const struct language_settings *settings,
-                                   struct diagnostics *diagnostics)
-{
-  *language = (struct language){.diagnostics = diagnostics,
-                                .width = settings->image_width, .height = settings->image_height};
-  language->lights_end = &language->lights;
-  for (int k = 0; k < 3; k++) language->ambient_light[k] = 1;
-  camera_default(&language->camera);
-  method_default(solver_at(0), &language->global_solver);
-  language->arena = arena_create();
-  language->max_memory = settings->max_memory ? settings->max_memory : SIZE_MAX;
-  return language->arena && symbols_create(language) ? STATUS_OK : STATUS_LIMIT;
-}
-
-static void language_destroy(struct language *language)
-{
-  sources_close(language);
-  arena_destroy(language->arena);
-}
-
-static enum status add_lights(struct language *language, struct scene *scene)
-{
-  size_t count = 0;
-  for (const struct light_node *light = language->lights; light; light = light->next) count++;
-  scene->lights = arena_alloc(scene->arena, count, sizeof *scene->lights);
+  scene->lights = arena_alloc(scene->arena, settings->light_count, sizeof *scene->lights);
   if (!scene->lights) return STATUS_LIMIT;
-  for (const struct light_node *light = language->lights; light; light = light->next) {
+  for (const struct light_node *light = settings->lights; light; light = light->next)
     scene->lights[scene->light_count++] = light->light;
-  }
   return STATUS_OK;
 }
 
-static enum status make_scene(struct language *language, struct scene **out_scene)
+static enum status make_scene(struct reading *r, struct scene **out_scene)
 {
+  const struct settings *settings = &r->settings;
   struct arena *arena = arena_create();
   struct scene *scene = arena ? arena_alloc(arena, 1, sizeof *scene) : NULL;
   if (!scene) {
@@ -95,12 +75,12 @@ static enum status make_scene(struct language *language, struct scene **out_scen
     return STATUS_LIMIT;
   }
   scene->arena = arena;
-  memcpy(scene->background, language->background, sizeof scene->background);
-  memcpy(scene->ambient_light, language->ambient_light, sizeof scene->ambient_light);
-  enum status status = camera_fold(language, &language->camera, &scene->camera) ? add_lights(language, scene)
-                                                                                : STATUS_INPUT;
-  if (status == STATUS_OK) status = objects_expand(language, scene);
-  if (status == STATUS_OK && !sources_list(language, scene)) status = STATUS_LIMIT;
+  memcpy(scene->background, settings->background, sizeof scene->background);
+  memcpy(scene->ambient_light, settings->ambient_light, sizeof scene->ambient_light);
+  enum status status = camera_fold(&r->language, &r->camera, &scene->camera) ? add_lights(settings, scene)
+                                                                             : STATUS_INPUT;
+  if (status == STATUS_OK) status = objects_expand(&r->language, &settings->method, scene);
+  if (status == STATUS_OK && !sources_list(&r->language, scene)) status = STATUS_LIMIT;
   if (status == STATUS_OK) *out_scene = scene;
   else scene_destroy(scene);
   return status;
@@ -119,7 +99,7 @@ static enum status override(struct scene *scene, const struct language_settings 
   if (isnan(settings->tolerance)) return STATUS_OK;
   const struct method_item *item = method_item_find("tolerance");
   if (!(settings->tolerance >= item->minimum && settings->tolerance <= item->maximum)) {
-    diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "the tolerance is a number from %g to %g",
+    diagnostics_error(diagnostics, NOWHERE, "the tolerance is a number from %g to %g",
                       item->minimum, item->maximum);
     return STATUS_USAGE;
   }
@@ -127,35 +107,28 @@ static enum status override(struct scene *scene, const struct language_settings 
   return STATUS_OK;
 }
 
-/* Runs the grammar over the open source. */
-static enum status parse(struct language *language)
+/* Ends a reading. One that ended for want of memory has not said so itself. */
+static void finish(struct reading *r, enum status status, size_t errors_before)
 {
-  const size_t before = language->diagnostics->error_count;
-  const int result = pscn_parse(language);
-  if (language->ended_early || result == 2) return STATUS_LIMIT;
-  return result != 0 || language->diagnostics->error_count > before ? STATUS_INPUT : STATUS_OK;
-}
-
-/* A reading that ended for want of memory has not said so itself. */
-static void tell_limit(const struct language *language, enum status status, size_t errors_before)
-{
-  if (status != STATUS_LIMIT || language->diagnostics->error_count > errors_before) return;
-  diagnostics_error(language->diagnostics, (struct place){NULL, 0, 0}, "%s",
-                    language->unaffordable ? "reading takes more memory than is allowed; --max-memory allows more"
-                                           : "memory is short");
+  struct diagnostics *diagnostics = r->language.diagnostics;
+  if (status == STATUS_LIMIT && diagnostics->error_count == errors_before) {
+    diagnostics_error(diagnostics, NOWHERE, "%s",
+                      r->language.unaffordable ? "reading takes more memory than is allowed; --max-memory allows more"
+                                               : "memory is short");
+  }
+  reading_destroy(r);
 }
 
 static enum status load(struct source *source, const struct language_settings *settings,
                         struct diagnostics *diagnostics, struct scene **out_scene)
 {
-  struct language language;
+  struct reading r;
   const size_t before = diagnostics->error_count;
-  enum status status = language_create(&language, settings, diagnostics);
+  enum status status = reading_create(&r, settings, diagnostics);
   if (status != STATUS_OK) source_destroy(source);
-  else status = sources_open(&language, source) ? parse(&language) : STATUS_LIMIT;
-  if (status == STATUS_OK) status = make_scene(&language, out_scene);
-  tell_limit(&language, status, before);
-  language_destroy(&language);
+  else status = parse(&r, source);
+  if (status == STATUS_OK) status = make_scene(&r, out_scene);
+  finish(&r, status, before);
   if (status == STATUS_OK) status = override(*out_scene, settings, diagnostics);
   if (status == STATUS_OK) return STATUS_OK;
   scene_destroy(*out_scene);
@@ -171,7 +144,7 @@ enum status language_load(const char *path, const struct language_settings *sett
   const char *reason;
   const enum status status = source_read(path, INPUT_FILE_OR_PIPE, &source, &reason);
   if (status == STATUS_OK) return load(source, settings, diagnostics, out_scene);
-  diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "%s: %s", path, reason);
+  diagnostics_error(diagnostics, NOWHERE, "%s: %s", path, reason);
   return status;
 }
 
@@ -180,26 +153,19 @@ enum status language_load_text(const char *name, const char *text, size_t length
                                struct scene **out_scene)
 {
   *out_scene = NULL;
-  struct source *source = source_from_text(name, text, length);
-  if (source) return load(source, settings, diagnostics, out_scene);
-  diagnostics_error(diagnostics, (struct place){NULL, 0, 0}, "memory is short");
-  return STATUS_LIMIT;
+  return load(source_from_text(name, text, length), settings, diagnostics, out_scene);
 }
 
 enum status language_parse_solver(const char *text, struct diagnostics *diagnostics, struct method *out_method)
 {
   const struct language_settings settings = {.image_width = 1, .image_height = 1, .tolerance = NAN};
-  struct language language;
+  struct reading r;
   const size_t before = diagnostics->error_count;
-  enum status status = language_create(&language, &settings, diagnostics);
-  if (status == STATUS_OK) {
-    language.solver_only = true;
-    struct source *source = source_from_text("<--solver>", text, strlen(text));
-    status = source && sources_open(&language, source) ? parse(&language) : STATUS_LIMIT;
-  }
-  if (status == STATUS_OK) *out_method = language.solver;
+  enum status status = reading_create(&r, &settings, diagnostics);
+  r.tokens.solver_only = true;
+  if (status == STATUS_OK) status = parse(&r, source_from_text("<--solver>", text, strlen(text)));
+  if (status == STATUS_OK) *out_method = *r.language.method;
   if (status == STATUS_INPUT) status = STATUS_USAGE;
-  tell_limit(&language, status, before);
-  language_destroy(&language);
+  finish(&r, status, before);
   return status;
 }

@@ -1,8 +1,8 @@
 /* Patches, unions and copies of declared objects. */
+#include "language/objects.h"
+
 #include <math.h>
 #include <stdio.h>
-
-#include "language/build.h"
 
 /* Patches of one scene: what fits in the memory of a large machine. */
 #define MAX_PATCHES ((size_t)50 * 1000 * 1000)
@@ -18,17 +18,15 @@ enum {
 static struct node *open_node(struct language *language, struct place place)
 {
   struct node *node = language_alloc(language, sizeof *node);
-  node->place = place;
-  node->errors = language->diagnostics->error_count;
-  node->outer = language->open;
-  language->open = node;
-  return node;
+  node->block = language_block(language, place);
+  node->outer = language->objects->open;
+  return language->objects->open = node;
 }
 
 struct node *node_end(struct language *language)
 {
-  struct node *node = language->open;
-  language->open = node->outer;
+  struct node *node = language->objects->open;
+  language->objects->open = node->outer;
   node->outer = NULL;
   return node;
 }
@@ -42,46 +40,41 @@ void patch_begin(struct language *language, struct place place)
   node->patch_count = 1;
 }
 
-void patch_number(struct language *language, int which, struct place item, struct place place,
-                  const struct value *value)
+void patch_number(struct language *language, int which, struct place item, const struct value *value)
 {
-  struct node *node = language->open;
-  double x = 0;
+  static const struct {
+    const char *name;
+    double high;
+    bool whole;
+  } settings[PATCH_SETTINGS] = {
+      {"type", 1, true}, {"flatness", INFINITY, false}, {"u_steps", MAX_STEPS, true}, {"v_steps", MAX_STEPS, true}};
+  struct node *node = language->objects->open;
   if (node->stage != STAGE_SETTINGS) {
     language_error(language, item, "the settings of a bicubic_patch stand before its control points");
     return;
   }
-  switch (which) {
-  case PATCH_TYPE:
-    node->has_type = true;
-    if (value_in_range(language, place, value, "type", 0, 1, true, &x)) node->type = (int)x;
-    break;
-  case PATCH_FLATNESS: value_in_range(language, place, value, "flatness", 0, INFINITY, false, &node->flatness); break;
-  case PATCH_U_STEPS:
-    if (value_in_range(language, place, value, "u_steps", 0, MAX_STEPS, true, &x)) node->u_steps = (int)x;
-    break;
-  default:
-    if (value_in_range(language, place, value, "v_steps", 0, MAX_STEPS, true, &x)) node->v_steps = (int)x;
-    break;
-  }
+  node->has_type |= which == PATCH_TYPE;
+  value_in_range(language, value, settings[which].name, 0, settings[which].high, settings[which].whole,
+                 &node->setting[which]);
 }
 
-void patch_point(struct language *language, struct place place, const struct value *value)
+void patch_point(struct language *language, const struct value *value)
 {
-  struct node *node = language->open;
+  struct node *node = language->objects->open;
   if (node->stage == STAGE_MODIFIERS) {
-    language_error(language, place, "the control points of a bicubic_patch stand before its texture and transforms");
+    language_error(language, value->place,
+                   "the control points of a bicubic_patch stand before its texture and transforms");
     return;
   }
   node->stage = STAGE_BODY;
   node->after_comma = false;
-  if (node->points < PATCH_POINTS) value_to_vector(language, place, value, node->P[node->points / 4][node->points % 4]);
+  if (node->points < PATCH_POINTS) value_to_vector(language, value, node->P[node->points / 4][node->points % 4]);
   node->points++;
 }
 
 void patch_comma(struct language *language, struct place place)
 {
-  struct node *node = language->open;
+  struct node *node = language->objects->open;
   if (node->stage != STAGE_BODY || node->after_comma)
     language_error(language, place, "a comma stands between control points only");
   node->after_comma = true;
@@ -89,15 +82,16 @@ void patch_comma(struct language *language, struct place place)
 
 static void points_end(struct language *language)
 {
-  struct node *node = language->open;
+  struct node *node = language->objects->open;
   if (node->stage == STAGE_MODIFIERS) return;
   node->stage = STAGE_MODIFIERS;
-  if (!language_sound(language, node->errors)) return;
+  if (!language_sound(language, &node->block)) return;
   if (node->points != PATCH_POINTS) {
-    language_error(language, node->place, "bicubic_patch needs %d control points, found %d", PATCH_POINTS,
+    language_error(language, node->block.place, "bicubic_patch needs %d control points, found %d", PATCH_POINTS,
                    node->points);
   } else if (node->after_comma) {
-    language_error(language, node->place, "a comma stands behind the last control point of this bicubic_patch");
+    language_error(language, node->block.place,
+                   "a comma stands behind the last control point of this bicubic_patch");
   }
 }
 
@@ -106,17 +100,15 @@ void patch_modified(struct language *language) { points_end(language); }
 void patch_solver(struct language *language)
 {
   points_end(language);
-  struct method *solver = language_alloc(language, sizeof *solver);
-  *solver = language->solver;
-  language->open->solver = solver;
+  language->objects->open->method = language->method;
 }
 
 void patch_end(struct language *language)
 {
-  const struct node *node = language->open;
+  const struct node *node = language->objects->open;
   points_end(language);
-  if (!node->has_type && language_sound(language, node->errors))
-    language_error(language, node->place, "bicubic_patch needs its type, 0 or 1");
+  if (!node->has_type)
+    language_error_in(language, &node->block, node->block.place, "bicubic_patch needs its type, 0 or 1");
 }
 
 /* ---- unions ---- */
@@ -149,17 +141,19 @@ void union_begin(struct language *language, struct place place) { open_node(lang
 
 void union_add(struct language *language, struct place place, struct node *object)
 {
-  if (language->open->stage == STAGE_MODIFIERS && language_sound(language, language->open->errors)) {
-    language_error(language, place, "the objects of a union stand before its texture and transforms");
+  struct node *node = language->objects->open;
+  if (node->stage == STAGE_MODIFIERS) {
+    language_error_in(language, &node->block, place,
+                      "the objects of a union stand before its texture and transforms");
   }
-  add_child(language, language->open, object, place);
+  add_child(language, node, object, place);
 }
 
-void union_modified(struct language *language) { language->open->stage = STAGE_MODIFIERS; }
+void union_modified(struct language *language) { language->objects->open->stage = STAGE_MODIFIERS; }
 
 void scene_add(struct language *language, struct place place, struct node *object)
 {
-  add_child(language, &language->scene, object, place);
+  add_child(language, &language->objects->scene, object, place);
 }
 
 /* ---- copies ---- */
@@ -168,68 +162,72 @@ void copy_begin(struct language *language, struct place place) { open_node(langu
 
 void copy_object(struct language *language, struct place place, const struct node *object)
 {
-  struct node *node = language->open;
+  struct node *node = language->objects->open;
   if (node->has_object || node->stage == STAGE_MODIFIERS) {
     language_error(language, place, "object has one object, which stands first; union has several");
     return;
   }
   struct node *outer = node->outer;
-  const struct place begin = node->place;
-  const size_t errors = node->errors;
+  const struct block block = node->block;
   *node = *object;
   node->next = NULL;
   node->outer = outer;
-  node->place = begin;
+  node->block = block;
   node->stage = STAGE_BODY;
   node->has_object = true;
-  node->errors = errors;
 }
 
-void copy_named(struct language *language, struct place place, const struct token *name)
+void copy_named(struct language *language, const struct token *name)
 {
-  const struct symbol *symbol = symbol_find(language, name->text, name->length);
-  if (symbol && symbol->kind == SYMBOL_OBJECT) {
+  const struct symbol *symbol = symbol_wanted(language, name, SYMBOL_OBJECT, "an object");
+  if (symbol) {
     symbol->object->sharing->uses++;
-    copy_object(language, place, symbol->object);
-    return;
+    copy_object(language, name->place, symbol->object);
   }
-  language->open->has_object = true; /* it was meant to be */
-  if (!symbol) symbol_unknown(language, place, name, "an object");
-  else if (symbol->kind != SYMBOL_BROKEN) symbol_mistaken(language, place, symbol, "an object");
+  language->objects->open->has_object = true; /* it was meant to be */
 }
 
 void copy_modified(struct language *language, struct place place)
 {
-  struct node *node = language->open;
-  if (!node->has_object && language_sound(language, node->errors)) {
-    language_error(language, place, "object wants its object first");
-  }
+  struct node *node = language->objects->open;
+  if (!node->has_object) language_error_in(language, &node->block, place, "object wants its object first");
   node->stage = STAGE_MODIFIERS;
 }
 
 void copy_end(struct language *language)
 {
-  const struct node *node = language->open;
-  if (!node->has_object && language_sound(language, node->errors))
-    language_error(language, node->place, "this object has no object in it");
+  const struct node *node = language->objects->open;
+  if (!node->has_object)
+    language_error_in(language, &node->block, node->block.place, "this object has no object in it");
+}
+
+void declare_object(struct language *language, struct symbol *symbol, struct node *object)
+{
+  if (!object->sharing) object->sharing = language_alloc(language, sizeof *object->sharing);
+  symbol->kind = SYMBOL_OBJECT;
+  symbol->object = object;
 }
 
 /* ---- modifiers ---- */
 
-void node_transform(struct language *language, struct place place)
+/* Copies share transforms and textures, so a changed one is a new one. */
+void node_transform(struct language *language, const struct transform *transform, struct place place)
 {
-  struct node *node = language->open;
-  if (language->transform.identity) return;
-  struct transform *all = language_alloc(language, sizeof *all);
-  *all = node->transform ? transform_then(node->transform, &language->transform) : language->transform;
+  struct node *node = language->objects->open;
+  if (transform->identity) return;
+  const struct transform *all = transform;
+  if (node->transform) {
+    struct transform *both = language_alloc(language, sizeof *both);
+    *both = transform_then(node->transform, transform);
+    all = both;
+  }
   if (transform_finite(all)) node->transform = all;
   else language_error(language, place, "the transforms up to here are too large for numbers");
 }
 
-/* Copies share textures, so a changed one is a new one. */
 void node_texture(struct language *language, const struct texture *texture)
 {
-  struct node *node = language->open;
+  struct node *node = language->objects->open;
   struct texture *all = language_alloc(language, sizeof *all);
   *all = node->texture ? *node->texture : texture_default();
   texture_apply(all, texture);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/source.h"
-#include "language/tokens.h"
+#include "language/scan.h"
 
 enum { MAX_FILES = 10000, MAX_NAME = 4096 };
 

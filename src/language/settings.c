@@ -1,7 +1,7 @@
 /* global_settings, background and light sources. */
-#include <math.h>
+#include "language/settings.h"
 
-#include "language/build.h"
+#include <math.h>
 
 /* The versions of POV-Ray's language that a scene may ask for. */
 #define VERSION_LOW 3.7
@@ -10,50 +10,60 @@
 /* POV-Ray's largest; here there is nothing to trace on. */
 enum { MAX_TRACE_LEVEL = 256 };
 
-void language_version(struct language *language, struct place place, const struct value *value)
+void settings_default(struct settings *out)
 {
-  double unused;
-  value_in_range(language, place, value, "the version", VERSION_LOW, VERSION_HIGH, false, &unused);
+  *out = (struct settings){.ambient_light = {1, 1, 1}};
+  method_default(solver_at(0), &out->method);
+  out->lights_end = &out->lights;
 }
 
-void global_gamma(struct language *language, struct place place, const struct value *value)
+void language_version(struct language *language, const struct value *value)
+{
+  double unused;
+  value_in_range(language, value, "the version", VERSION_LOW, VERSION_HIGH, false, &unused);
+}
+
+void global_gamma(struct language *language, const struct value *value)
 {
   double gamma;
-  if (value_to_number(language, place, value, &gamma) && gamma != 1) {
-    language_error(language, place, "assumed_gamma must be 1: colours are linear");
-  }
+  if (value_to_number(language, value, &gamma) && gamma != 1)
+    language_error(language, value->place, "assumed_gamma must be 1: colours are linear");
 }
 
-void global_trace_level(struct language *language, struct place place, const struct value *value)
+void global_trace_level(struct language *language, const struct value *value)
 {
   double unused;
-  value_in_range(language, place, value, "max_trace_level", 1, MAX_TRACE_LEVEL, true, &unused);
+  value_in_range(language, value, "max_trace_level", 1, MAX_TRACE_LEVEL, true, &unused);
 }
 
-void global_solver(struct language *language) { language->global_solver = language->solver; }
+void global_ambient(struct language *language, const struct value *value)
+{
+  value_to_colour(language, value, language->settings->ambient_light);
+}
+
+void global_solver(struct language *language) { language->settings->method = *language->method; }
 
 /* ---- background ---- */
 
 void background_begin(struct language *language, struct place place)
 {
-  language->background_place = place;
-  language->background_values = 0;
-  language->background_errors = language->diagnostics->error_count;
+  language->settings->block = language_block(language, place);
+  language->settings->background_values = 0;
 }
 
-void background_value(struct language *language, struct place place, const struct value *value)
+void background_value(struct language *language, const struct value *value)
 {
-  if (language->background_values++ == 1 && language_sound(language, language->background_errors)) {
-    language_error(language, place, "background has one colour");
-  }
-  value_to_opaque(language, place, value, language->background);
+  struct settings *settings = language->settings;
+  if (settings->background_values++ == 1)
+    language_error_in(language, &settings->block, value->place, "background has one colour");
+  value_to_opaque(language, value, settings->background);
 }
 
 void background_end(struct language *language)
 {
-  if (language->background_values == 0 && language_sound(language, language->background_errors)) {
-    language_error(language, language->background_place, "background needs its colour");
-  }
+  const struct settings *settings = language->settings;
+  if (settings->background_values == 0)
+    language_error_in(language, &settings->block, settings->block.place, "background needs its colour");
 }
 
 /* ---- light sources ---- */
@@ -61,72 +71,69 @@ void background_end(struct language *language)
 /* A light whose colour is not said is black, as in POV-Ray. */
 void light_begin(struct language *language, struct place place)
 {
+  struct settings *settings = language->settings;
   struct light_node *light = language_alloc(language, sizeof *light);
-  light->place = place;
-  light->errors = language->diagnostics->error_count;
+  light->block = language_block(language, place);
   light->transform = transform_identity();
-  *language->lights_end = light;
-  language->lights_end = &light->next;
-  language->light = light;
+  *settings->lights_end = settings->light = light;
+  settings->lights_end = &light->next;
+  settings->light_count++;
 }
 
-void light_value(struct language *language, struct place place, const struct value *value)
+void light_value(struct language *language, const struct value *value)
 {
-  struct light_node *light = language->light;
+  struct light_node *light = language->settings->light;
   light->after_comma = false;
-  if (light->modified && language_sound(language, light->errors)) {
-    language_error(language, place, "the position and the colour of a light_source stand before what else there is");
+  if (light->modified) {
+    language_error_in(language, &light->block, value->place,
+                      "the position and the colour of a light_source stand before what else there is");
   }
   switch (light->values++) {
-  case 0: value_to_vector(language, place, value, light->light.position); break;
-  case 1: value_to_colour(language, place, value, light->light.color); break;
+  case 0: value_to_vector(language, value, light->light.position); break;
+  case 1: value_to_colour(language, value, light->light.color); break;
   default:
-    if (language_sound(language, light->errors))
-      language_error(language, place, "light_source has one position and one colour");
+    language_error_in(language, &light->block, value->place, "light_source has one position and one colour");
     break;
   }
 }
 
 void light_comma(struct language *language, struct place place)
 {
-  struct light_node *light = language->light;
-  if (light->values != 1 || light->after_comma) {
+  struct light_node *light = language->settings->light;
+  if (light->values != 1 || light->after_comma)
     language_error(language, place, "a comma stands between a light's position and its colour only");
-  }
   light->after_comma = true;
 }
 
-static void light_modified(struct language *language, struct place place)
+static struct light_node *modified_light(struct language *language, struct place place)
 {
-  struct light_node *light = language->light;
-  if (light->values == 0 && !light->modified && language_sound(language, light->errors)) {
-    language_error(language, place, "light_source begins with its position");
-  }
+  struct light_node *light = language->settings->light;
+  if (light->values == 0 && !light->modified)
+    language_error_in(language, &light->block, place, "light_source begins with its position");
   light->modified = true;
+  return light;
 }
 
 void light_shadowless(struct language *language, struct place place)
 {
-  light_modified(language, place);
-  language->light->light.shadowless = true;
+  modified_light(language, place)->light.shadowless = true;
 }
 
-void light_transform(struct language *language, struct place place)
+void light_transform(struct language *language, const struct transform *transform, struct place place)
 {
-  struct light_node *light = language->light;
-  light_modified(language, place);
-  light->transform = transform_then(&light->transform, &language->transform);
+  struct light_node *light = modified_light(language, place);
+  light->transform = transform_then(&light->transform, transform);
 }
 
 void light_end(struct language *language)
 {
-  struct light_node *light = language->light;
-  if (light->values == 0 && language_sound(language, light->errors))
-    language_error(language, light->place, "light_source needs its position");
+  struct light_node *light = language->settings->light;
+  if (light->values == 0)
+    language_error_in(language, &light->block, light->block.place, "light_source needs its position");
   double *position = light->light.position;
   transform_point(&light->transform, position, position);
   if (!(isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]))) {
-    language_error(language, light->place,
+    language_error(language, light->block.place,
                    "with its transforms applied, the light's position is too large for numbers");
   }
 }

@@ -1,9 +1,9 @@
-/* The stack of sources being read: the scene and what it includes. */
+/* The stack of sources. */
+#include "language/sources.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "language/tokens.h"
 
 enum {
   MAX_INCLUDE_DEPTH = 32,
@@ -25,34 +25,44 @@ static uint64_t hash_of_file(uint64_t device, uint64_t inode)
   return table_hash((const uint64_t[]){device, inode}, 2 * sizeof(uint64_t));
 }
 
+/* So that it is found when it is included again, and destroyed at the end. */
+static bool remember(struct language *language, struct source *source)
+{
+  struct sources *sources = language->sources;
+  struct source_list *entry = language_alloc(language, sizeof *entry);
+  if (language->ended_early || !language_afford(language, source->shared ? 0 : source->length)) return false;
+  if (!source->shared && source->inode != 0 &&
+      !table_add(&sources->files, language->arena, &entry->entry, hash_of_file(source->device, source->inode)))
+    return false;
+  entry->next = sources->all;
+  entry->source = source;
+  sources->all = entry;
+  sources->count++;
+  sources->bytes += source->length;
+  return true;
+}
+
 bool sources_open(struct language *language, struct source *source)
 {
-  struct source_list *entry = calloc(1, sizeof *entry);
-  struct frame *frame = calloc(1, sizeof *frame);
-  const size_t taken = source->shared ? 0 : source->length;
-  if (!entry || !frame || !language_afford(language, taken) || !pscn_scan_open(&frame->scan, source->text, source->length)) {
-    free(entry);
-    free(frame);
+  if (!remember(language, source)) {
     source_destroy(source);
     return false;
   }
-  *entry = (struct source_list){.next = language->all_sources, .source = source};
-  language->all_sources = entry;
-  if (!source->shared && source->inode != 0 &&
-      !table_add(&language->files, language->arena, &entry->entry, hash_of_file(source->device, source->inode)))
-    language->ended_early = true;
-  language->text_bytes += source->length;
+  struct frame *frame = calloc(1, sizeof *frame);
+  if (!frame || !pscn_scan_open(&frame->scan, source->text, source->length)) {
+    free(frame);
+    return false;
+  }
   frame->source = source;
-  frame->outer = language->frame;
-  language->frame = frame;
-  language->source_count++;
+  frame->outer = language->sources->frame;
+  language->sources->frame = frame;
   return true;
 }
 
 bool sources_list(const struct language *language, struct scene *scene)
 {
-  scene->files = arena_alloc(scene->arena, (size_t)language->source_count, sizeof *scene->files);
-  for (const struct source_list *entry = language->all_sources; scene->files && entry; entry = entry->next) {
+  scene->files = arena_alloc(scene->arena, (size_t)language->sources->count, sizeof *scene->files);
+  for (const struct source_list *entry = language->sources->all; scene->files && entry; entry = entry->next) {
     const struct source *source = entry->source;
     if (source->shared || source->inode == 0) continue;
     char *name = arena_alloc(scene->arena, strlen(source->name) + 1, 1);
@@ -65,34 +75,30 @@ bool sources_list(const struct language *language, struct scene *scene)
 
 void sources_leave(struct language *language)
 {
-  struct frame *frame = language->frame;
-  symbols_leave(language, language->include_depth);
-  if (frame->outer) language->include_depth--;
-  language->frame = frame->outer;
+  struct frame *frame = language->sources->frame;
+  if (frame->outer) symbols_leave(language->symbols);
+  language->sources->frame = frame->outer;
   pscn_scan_close(&frame->scan);
   free(frame);
 }
 
 void sources_close(struct language *language)
 {
-  while (language->frame) sources_leave(language);
-  for (struct source_list *entry = language->all_sources, *next; entry; entry = next) {
-    next = entry->next;
+  while (language->sources->frame) sources_leave(language);
+  for (const struct source_list *entry = language->sources->all; entry; entry = entry->next)
     source_destroy(entry->source);
-    free(entry);
-  }
 }
 
 struct place sources_here(const struct language *language)
 {
-  const struct frame *frame = language->frame;
+  const struct frame *frame = language->sources->frame;
   return (struct place){frame->source, frame->scan.begin, frame->scan.end};
 }
 
 /* The path of an included file: relative to the folder of the file that includes it. */
 static char *include_path(struct language *language, const char *name, size_t length)
 {
-  const char *includer = language->frame->source->name, *slash = strrchr(includer, '/');
+  const char *includer = language->sources->frame->source->name, *slash = strrchr(includer, '/');
   const size_t folder = name[0] == '/' || !slash ? 0 : (size_t)(slash - includer) + 1;
   char *path = arena_alloc(language->arena, folder + length + 1, 1);
   if (!path) return NULL;
@@ -111,7 +117,7 @@ static void tell_cycle(struct language *language, struct place place, const stru
 {
   const struct frame *chain[MAX_INCLUDE_DEPTH + 1];
   int count = 0;
-  for (const struct frame *f = language->frame; f && count <= MAX_INCLUDE_DEPTH; f = f->outer) {
+  for (const struct frame *f = language->sources->frame; f && count <= MAX_INCLUDE_DEPTH; f = f->outer) {
     chain[count++] = f;
     if (same_file(f->source, again)) break;
   }
@@ -129,7 +135,7 @@ static const struct source *known_file(const struct language *language, const ch
 {
   uint64_t device, inode;
   if (!source_identify(path, &device, &inode)) return NULL;
-  const struct table_entry *entry = table_find(&language->files, hash_of_file(device, inode));
+  const struct table_entry *entry = table_find(&language->sources->files, hash_of_file(device, inode));
   for (; entry; entry = table_next(entry)) {
     const struct source *source = ((const struct source_list *)entry)->source;
     if (source->device == device && source->inode == inode) return source;
@@ -139,7 +145,7 @@ static const struct source *known_file(const struct language *language, const ch
 
 static bool is_open(const struct language *language, const struct source *source)
 {
-  const struct frame *f = language->frame;
+  const struct frame *f = language->sources->frame;
   while (f && !same_file(f->source, source)) f = f->outer;
   return f != NULL;
 }
@@ -181,21 +187,21 @@ static struct source *read_included(struct language *language, struct place plac
 
 void sources_include(struct language *language)
 {
-  const int token = pscn_scan_next(&language->frame->scan);
+  const int token = pscn_scan_next(&language->sources->frame->scan);
   const struct place place = sources_here(language);
   if (token != PSCN_TOKEN_STRING) {
     language_error(language, place, "#include wants a file name in quotes");
     return;
   }
-  if (language->include_depth == MAX_INCLUDE_DEPTH) {
+  if (language->symbols->depth == MAX_INCLUDE_DEPTH) {
     language_error(language, place, "files are included more than %d deep", MAX_INCLUDE_DEPTH);
     return;
   }
-  if (language->source_count == MAX_SOURCES) {
+  if (language->sources->count == MAX_SOURCES) {
     language_limit(language, place, "more than 10000 files are included");
     return;
   }
-  if (language->text_bytes > MAX_TEXT_BYTES) {
+  if (language->sources->bytes > MAX_TEXT_BYTES) {
     language_limit(language, place, "more than 4 GiB of text are included");
     return;
   }
@@ -205,5 +211,5 @@ void sources_include(struct language *language)
   source->include_begin = place.begin;
   source->include_end = place.end;
   if (!sources_open(language, source)) language->ended_early = true;
-  else language->include_depth++;
+  else symbols_enter(language->symbols);
 }

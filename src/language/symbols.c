@@ -1,15 +1,13 @@
 /* Declared names. */
+#include "language/symbols.h"
+
 #include <string.h>
 
-#include "language/build.h"
-#include "language/tokens.h"
-#include "language/words.h"
-
 /* The innermost of that name; with `depth` at least 0, only that of that depth. */
-static struct symbol *find(const struct language *language, const char *name, size_t length, int depth)
+static struct symbol *find(const struct symbols *symbols, const char *name, size_t length, int depth)
 {
   struct symbol *best = NULL;
-  struct table_entry *entry = table_find(&language->symbols, table_hash(name, length));
+  struct table_entry *entry = table_find(&symbols->table, table_hash(name, length));
   for (; entry; entry = table_next(entry)) {
     struct symbol *s = (struct symbol *)entry;
     if (s->length != length || memcmp(s->name, name, length) != 0) continue;
@@ -21,83 +19,82 @@ static struct symbol *find(const struct language *language, const char *name, si
 
 static struct symbol *add(struct language *language, const char *name, size_t length, int depth)
 {
+  struct symbols *symbols = language->symbols;
   struct symbol *symbol = language_alloc(language, sizeof *symbol);
-  *symbol = (struct symbol){.name = name, .length = length, .depth = depth};
+  *symbol = (struct symbol){.name = name, .length = length, .depth = depth, .older = symbols->locals};
   if (language->ended_early) return symbol;
-  if (!table_add(&language->symbols, language->arena, &symbol->entry, table_hash(name, length))) {
+  if (!table_add(&symbols->table, language->arena, &symbol->entry, table_hash(name, length)))
     language->ended_early = true;
-  } else if (depth > 0) {
-    symbol->older = language->locals;
-    language->locals = symbol;
-  }
+  else if (depth > 0) symbols->locals = symbol;
   return symbol;
 }
 
-bool symbols_create(struct language *language)
+void symbols_enter(struct symbols *symbols) { symbols->depth++; }
+
+void symbols_leave(struct symbols *symbols)
 {
-  static const char name[] = "pscn";
-  struct symbol *symbol = add(language, name, sizeof name - 1, 0);
-  symbol->kind = SYMBOL_VALUE;
-  symbol->value = value_of_number(1);
-  return !language->ended_early;
+  for (; symbols->locals && symbols->locals->depth >= symbols->depth; symbols->locals = symbols->locals->older)
+    table_remove(&symbols->table, &symbols->locals->entry);
+  symbols->depth--;
 }
 
 const struct symbol *symbol_find(const struct language *language, const char *name, size_t length)
 {
-  const struct symbol *symbol = find(language, name, length, -1);
+  const struct symbol *symbol = find(language->symbols, name, length, -1);
   return symbol && symbol->kind != SYMBOL_BEGUN ? symbol : NULL;
 }
 
 bool symbol_known(const struct language *language, const char *name, size_t length)
 {
-  return find(language, name, length, -1) != NULL;
-}
-
-void symbols_leave(struct language *language, int depth)
-{
-  for (; language->locals && language->locals->depth >= depth; language->locals = language->locals->older)
-    table_remove(&language->symbols, &language->locals->entry);
+  return find(language->symbols, name, length, -1) != NULL;
 }
 
 /* ---- what is told of names ---- */
 
-void symbols_consider(const struct language *language, const char *word, size_t length, const char **best,
-                      size_t *best_length, size_t *distance)
+void guess_symbols(struct guess *guess, const struct language *language)
 {
-  for (size_t k = 0; k < language->symbols.size; k++) {
-    for (const struct table_entry *entry = language->symbols.heads[k]; entry; entry = entry->next) {
+  const struct table *table = &language->symbols->table;
+  for (size_t k = 0; k < table->size; k++) {
+    for (const struct table_entry *entry = table->heads[k]; entry; entry = entry->next) {
       const struct symbol *s = (const struct symbol *)entry;
-      if (s->kind != SYMBOL_BEGUN) words_consider(word, length, s->name, s->length, best, best_length, distance);
+      if (s->kind != SYMBOL_BEGUN) guess_consider(guess, s->name, s->length);
     }
   }
 }
 
-void symbol_unknown(struct language *language, struct place place, const struct token *name, const char *wanted)
+static void tell_unknown(struct language *language, const struct token *name, const char *wanted)
 {
-  const char *best = NULL;
-  size_t best_length = 0, distance = words_reach(name->length);
-  language->unknown = place;
-  if (diagnostics_full(language->diagnostics)) distance = 0; /* nobody would read the guess */
-  symbols_consider(language, name->text, name->length, &best, &best_length, &distance);
-  keywords_consider(name->text, name->length, &best, &best_length, &distance);
-  if (best) {
-    language_error(language, place, "unknown word '%.*s'; did you mean '%.*s'?", (int)name->length, name->text,
-                   (int)best_length, best);
+  struct guess guess = guess_begin(name->text, name->length);
+  language->unknown = name->place;
+  if (!diagnostics_full(language->diagnostics)) { /* else nobody would read the guess */
+    guess_symbols(&guess, language);
+    guess_keywords(&guess);
+  }
+  if (guess.best) {
+    language_error(language, name->place, "unknown word '%.*s'; did you mean '%.*s'?", (int)name->length, name->text,
+                   (int)guess.best_length, guess.best);
   } else {
-    language_error(language, place, "'%.*s' is not declared; %s is wanted here", (int)name->length, name->text, wanted);
+    language_error(language, name->place, "'%.*s' is not declared; %s is wanted here", (int)name->length, name->text,
+                   wanted);
   }
 }
 
 void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted)
 {
-  const char *is = "a value";
-  if (symbol->kind == SYMBOL_OBJECT) is = "an object";
-  if (symbol->kind == SYMBOL_TEXTURE) {
-    is = symbol->texture->block == TEXTURE_ALL       ? "a texture"
-         : symbol->texture->block == TEXTURE_PIGMENT ? "a pigment"
-                                                     : "a finish";
-  }
+  const char *is = symbol->kind == SYMBOL_OBJECT    ? "an object"
+                   : symbol->kind == SYMBOL_TEXTURE ? symbol->texture_kind
+                                                    : "a value";
   language_error(language, place, "'%.*s' is %s; %s is wanted here", (int)symbol->length, symbol->name, is, wanted);
+}
+
+const struct symbol *symbol_wanted(struct language *language, const struct token *name, enum symbol_kind kind,
+                                   const char *wanted)
+{
+  const struct symbol *symbol = symbol_find(language, name->text, name->length);
+  if (!symbol) tell_unknown(language, name, wanted);
+  else if (symbol->kind == kind) return symbol;
+  else if (symbol->kind != SYMBOL_BROKEN) symbol_mistaken(language, name->place, symbol, wanted);
+  return NULL;
 }
 
 /* ---- declarations ---- */
@@ -107,8 +104,8 @@ void symbol_mistaken(struct language *language, struct place place, const struct
  * that, within a later one the outer one is the last to write. */
 struct symbol *declare_begin(struct language *language, const struct token *name, bool local)
 {
-  const int depth = local ? language->include_depth : -1;
-  struct symbol *symbol = find(language, name->text, name->length, depth);
+  const int depth = local ? language->symbols->depth : -1;
+  struct symbol *symbol = find(language->symbols, name->text, name->length, depth);
   if (symbol && symbol->kind != SYMBOL_BEGUN) return symbol;
   return add(language, name->text, name->length, local ? depth : 0);
 }
@@ -120,27 +117,17 @@ void declare_value(struct symbol *symbol, const struct value *value)
     symbol->kind = value->symbol->kind;
     symbol->object = value->symbol->object;
     symbol->texture = value->symbol->texture;
+    symbol->texture_kind = value->symbol->texture_kind;
     return;
   }
   symbol->kind = value->kind == VALUE_UNKNOWN ? SYMBOL_BROKEN : SYMBOL_VALUE;
   symbol->value = *value;
 }
 
-void declare_object(struct language *language, struct symbol *symbol, struct node *object)
-{
-  if (!object->sharing) object->sharing = language_alloc(language, sizeof *object->sharing);
-  symbol->kind = SYMBOL_OBJECT;
-  symbol->object = object;
-}
-
-/* A declared block is whole: what it leaves open has the default. */
-void declare_texture(struct language *language, struct symbol *symbol, const struct texture *texture)
-{
-  struct texture *whole = language_alloc(language, sizeof *whole);
-  *whole = *texture;
-  whole->set = texture->block;
-  symbol->kind = SYMBOL_TEXTURE;
-  symbol->texture = whole;
-}
-
 void declare_broken(struct symbol *symbol) { symbol->kind = SYMBOL_BROKEN; }
+
+void declare_number(struct language *language, const char *name, size_t length, double number)
+{
+  const struct token token = {.text = name, .length = length};
+  declare_value(declare_begin(language, &token, false), &(struct value){.x = {number, number, number}});
+}

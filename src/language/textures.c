@@ -1,5 +1,9 @@
-/* Pigments, finishes and textures; the defaults are POV-Ray's. */
-#include "language/build.h"
+/* Pigments, finishes and textures. */
+#include "language/textures.h"
+
+#include <assert.h>
+
+static_assert(sizeof(struct scene_texture) == PARTS * sizeof(double), "a texture is PARTS doubles");
 
 struct texture texture_default(void)
 {
@@ -11,22 +15,12 @@ struct texture texture_default(void)
 
 void texture_apply(struct texture *to, const struct texture *from)
 {
-  struct scene_texture *t = &to->is;
-  const struct scene_texture *f = &from->is;
-  for (int k = 0; k < 3; k++) {
-    if (from->set & TEXTURE_PIGMENT) t->pigment[k] = f->pigment[k];
-    if (from->set & TEXTURE_AMBIENT) t->finish.ambient[k] = f->finish.ambient[k];
-  }
-  if (from->set & TEXTURE_DIFFUSE) t->finish.diffuse = f->finish.diffuse;
-  if (from->set & TEXTURE_BRILLIANCE) t->finish.brilliance = f->finish.brilliance;
-  if (from->set & TEXTURE_PHONG) t->finish.phong = f->finish.phong;
-  if (from->set & TEXTURE_PHONG_SIZE) t->finish.phong_size = f->finish.phong_size;
-  if (from->set & TEXTURE_SPECULAR) t->finish.specular = f->finish.specular;
-  if (from->set & TEXTURE_ROUGHNESS) t->finish.roughness = f->finish.roughness;
+  for (int k = 0; k < PARTS; k++)
+    if (from->set >> k & 1) to->part[k] = from->part[k];
   to->set |= from->set;
 }
 
-void texture_begin(struct language *language, unsigned block)
+void texture_begin(struct language *language, enum texture_block block)
 {
   struct texture *texture = language_alloc(language, sizeof *texture);
   *texture = texture_default();
@@ -51,82 +45,84 @@ void texture_merge(struct language *language, const struct texture *texture)
 
 void texture_moved(struct language *language) { language->texture->stage = STAGE_MODIFIERS; }
 
-static const char *block_name(unsigned block)
+static const char *block_name(enum texture_block block)
 {
   return block == TEXTURE_ALL ? "a texture" : block == TEXTURE_FINISH ? "a finish" : "a pigment";
 }
 
-static void tell_not_first(struct language *language, struct place place, const struct texture *texture)
+static void apply_named(struct language *language, struct place place, const struct symbol *symbol, bool first)
 {
-  language_error(language, place, "a declared name stands first in %s", block_name(texture->block));
+  struct texture *texture = language->texture;
+  if (!first) language_error(language, place, "a declared name stands first in %s", block_name(texture->block));
+  texture_apply(texture, symbol->texture);
 }
 
 /* A texture may begin with a declared texture, pigment or finish; a pigment and a finish with one of their own. */
-void texture_named(struct language *language, struct place place, const struct token *name)
+void texture_named(struct language *language, const struct token *name)
 {
   struct texture *texture = language->texture;
-  const struct symbol *symbol = symbol_find(language, name->text, name->length);
   const bool first = texture->stage == STAGE_SETTINGS;
   texture->stage = STAGE_BODY;
-  if (!symbol) {
-    symbol_unknown(language, place, name, block_name(texture->block));
-  } else if (symbol->kind == SYMBOL_TEXTURE && (symbol->texture->block & ~texture->block) == 0) {
-    if (!first) tell_not_first(language, place, texture);
-    texture_apply(texture, symbol->texture);
-  } else if (symbol->kind != SYMBOL_BROKEN) {
-    symbol_mistaken(language, place, symbol, block_name(texture->block));
-  }
+  const char *wanted = block_name(texture->block);
+  const struct symbol *symbol = symbol_wanted(language, name, SYMBOL_TEXTURE, wanted);
+  if (!symbol) return;
+  if ((symbol->texture->block & ~texture->block) == 0) apply_named(language, name->place, symbol, first);
+  else symbol_mistaken(language, name->place, symbol, wanted);
 }
 
-void pigment_value(struct language *language, struct place place, const struct value *value)
+void pigment_value(struct language *language, const struct value *value)
 {
   struct texture *texture = language->texture;
   const struct symbol *symbol = value->symbol;
   const enum stage stage = texture->stage;
   texture->stage = STAGE_BODY;
   if (value->kind == VALUE_NAMED && symbol->kind == SYMBOL_TEXTURE && symbol->texture->block == TEXTURE_PIGMENT) {
-    if (stage != STAGE_SETTINGS) tell_not_first(language, place, texture);
-    texture_apply(texture, symbol->texture);
+    apply_named(language, value->place, symbol, stage == STAGE_SETTINGS);
     return;
   }
   if (value->kind == VALUE_UNKNOWN) texture->doubtful = true;
   if (texture->doubtful) return;
   if (value->kind == VALUE_NUMBER || value->kind == VALUE_VECTOR) {
-    language_error(language, place, "a pigment wants a colour: write rgb before this");
+    language_error(language, value->place, "a pigment wants a colour: write rgb before this");
     return;
   }
-  if (texture->coloured) language_error(language, place, "a pigment has one colour");
+  if (texture->coloured) language_error(language, value->place, "a pigment has one colour");
   else if (stage == STAGE_MODIFIERS)
-    language_error(language, place, "the colour of a pigment stands before its transforms");
+    language_error(language, value->place, "the colour of a pigment stands before its transforms");
   texture->coloured = true;
-  value_to_opaque(language, place, value, texture->is.pigment);
+  value_to_opaque(language, value, texture->is.pigment);
   texture->set |= TEXTURE_PIGMENT;
 }
 
-void finish_ambient(struct language *language, struct place place, const struct value *value)
+void finish_ambient(struct language *language, const struct value *value)
 {
   struct texture *texture = language->texture;
   texture->stage = STAGE_BODY;
-  value_to_colour(language, place, value, texture->is.finish.ambient);
-  texture->set |= TEXTURE_AMBIENT;
+  value_to_colour(language, value, texture->is.finish.ambient);
+  texture->set |= 7u << PART_AMBIENT;
 }
 
-void finish_number(struct language *language, int which, struct place place, const struct value *value)
+void finish_number(struct language *language, int part, const struct value *value)
 {
   struct texture *texture = language->texture;
-  struct scene_finish *finish = &texture->is.finish;
   double x;
   texture->stage = STAGE_BODY;
-  if (!value_to_number(language, place, value, &x)) return;
-  switch (which) {
-  case FINISH_DIFFUSE: finish->diffuse = x, texture->set |= TEXTURE_DIFFUSE; break;
-  case FINISH_BRILLIANCE: finish->brilliance = x, texture->set |= TEXTURE_BRILLIANCE; break;
-  case FINISH_PHONG: finish->phong = x, texture->set |= TEXTURE_PHONG; break;
-  case FINISH_PHONG_SIZE: finish->phong_size = x, texture->set |= TEXTURE_PHONG_SIZE; break;
-  case FINISH_SPECULAR: finish->specular = x, texture->set |= TEXTURE_SPECULAR; break;
-  default:
-    if (x > 0) finish->roughness = x, texture->set |= TEXTURE_ROUGHNESS;
-    else language_error(language, place, "roughness must be above 0");
-    break;
+  if (!value_to_number(language, value, &x)) return;
+  if (part == PART_ROUGHNESS && !(x > 0)) {
+    language_error(language, value->place, "roughness must be above 0");
+    return;
   }
+  texture->part[part] = x;
+  texture->set |= 1u << part;
+}
+
+/* A declared block is whole: what it leaves open has the default. */
+void declare_texture(struct language *language, struct symbol *symbol, const struct texture *texture)
+{
+  struct texture *whole = language_alloc(language, sizeof *whole);
+  *whole = *texture;
+  whole->set = texture->block;
+  symbol->kind = SYMBOL_TEXTURE;
+  symbol->texture_kind = block_name(texture->block);
+  symbol->texture = whole;
 }

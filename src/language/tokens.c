@@ -1,9 +1,7 @@
-/* The stream of tokens: what conditions leave over of the sources, with braces counted for recovery. */
+/* The stream of tokens, with braces counted for recovery. */
 #include "language/tokens.h"
 
 #include <string.h>
-
-#include "language/words.h"
 
 static const char *text_at(struct place place) { return place.source->text + place.begin; }
 
@@ -19,7 +17,7 @@ static bool is_word(int token)
 
 static void tell_open_comment(struct language *language)
 {
-  const struct frame *frame = language->frame;
+  const struct frame *frame = language->sources->frame;
   const size_t begin = frame->scan.comment_begin;
   language_error(language, (struct place){frame->source, begin, begin + 2}, "this comment is not closed");
 }
@@ -31,7 +29,7 @@ static void tell_open_comment(struct language *language)
 static int skip_branch(struct language *language, bool to_else)
 {
   for (int depth = 0;;) {
-    const int token = pscn_scan_next(&language->frame->scan);
+    const int token = pscn_scan_next(&language->sources->frame->scan);
     switch (token) {
     case 0:
     case TOKEN_NO_MEMORY: return token;
@@ -53,7 +51,7 @@ static int skip_branch(struct language *language, bool to_else)
 /* "(NAME)": whether the name is declared. The words of the language never are, as in POV-Ray. */
 static bool condition_holds(struct language *language, const char *directive)
 {
-  struct scan *scan = &language->frame->scan;
+  struct scan *scan = &language->sources->frame->scan;
   int token = pscn_scan_next(scan);
   const bool opened = token == '(';
   bool declared = true;
@@ -73,7 +71,7 @@ static bool condition_holds(struct language *language, const char *directive)
 
 static void begin_condition(struct language *language, bool wanted)
 {
-  struct frame *frame = language->frame;
+  struct frame *frame = language->sources->frame;
   const struct place place = sources_here(language);
   const bool holds = condition_holds(language, wanted ? "#ifdef" : "#ifndef") == wanted;
   if (frame->conditions == MAX_CONDITIONS) {
@@ -90,7 +88,7 @@ static void begin_condition(struct language *language, bool wanted)
 /* At an #else, whose branch is skipped for the one before it has been read, or at an #end. */
 static void end_condition(struct language *language, int token)
 {
-  struct frame *frame = language->frame;
+  struct frame *frame = language->sources->frame;
   if (frame->conditions == 0) {
     language_error(language, sources_here(language), "%s without #ifdef", token == TOKEN_ELSE ? "#else" : "#end");
     return;
@@ -109,30 +107,32 @@ static void end_condition(struct language *language, int token)
 static void tell_directive(struct language *language, int token)
 {
   const struct place place = sources_here(language);
-  const char *name = text_at(place) + 1, *best = NULL;
-  size_t length = length_of(place) - 1, best_length = 0;
-  while (strchr(" \t\r\n\f\v", *name)) name++, length--;
+  size_t length = length_of(place);
+  const char *name = words_directive(text_at(place), &length);
   if (token != TOKEN_UNKNOWN_DIRECTIVE) {
     language_error(language, place, "#%.*s is POV-Ray, but pscn has no #%.*s", (int)length, name, (int)length, name);
     return;
   }
-  size_t distance = words_reach(length);
-  keywords_consider_directives(name, length, &best, &best_length, &distance);
-  if (best) language_error(language, place, "unknown directive '#%.*s'; did you mean '#%s'?", (int)length, name, best);
-  else language_error(language, place, "unknown directive '#%.*s'", (int)length, name);
+  struct guess guess = guess_begin(name, length);
+  guess_directives(&guess);
+  if (guess.best) {
+    language_error(language, place, "unknown directive '#%.*s'; did you mean '#%s'?", (int)length, name, guess.best);
+  } else {
+    language_error(language, place, "unknown directive '#%.*s'", (int)length, name);
+  }
 }
 
 /* Words in a solver statement are plain, whatever they mean elsewhere. */
 static int raw_word(struct language *language, int token)
 {
-  switch (language->raw_words) {
+  switch (language->tokens->raw_words) {
   case 0:
-    if (token == PSCN_TOKEN_SOLVER) language->raw_words = 1;
+    if (token == PSCN_TOKEN_SOLVER) language->tokens->raw_words = 1;
     return token;
-  case 1: language->raw_words = 2; break;
-  case 2: language->raw_words = token == '{' ? 3 : token == PSCN_TOKEN_SOLVER ? 1 : 0; return token;
+  case 1: language->tokens->raw_words = 2; break;
+  case 2: language->tokens->raw_words = token == '{' ? 3 : token == PSCN_TOKEN_SOLVER ? 1 : 0; return token;
   default:
-    if (token == '}' || token == 0) language->raw_words = 0;
+    if (token == '}' || token == 0) language->tokens->raw_words = 0;
     break;
   }
   return is_word(token) ? PSCN_TOKEN_WORD : token;
@@ -141,7 +141,7 @@ static int raw_word(struct language *language, int token)
 /* The end of a source: false where it was the last. */
 static bool end_of_source(struct language *language)
 {
-  struct frame *frame = language->frame;
+  struct frame *frame = language->sources->frame;
   while (frame->conditions > 0) {
     const struct place place = frame->condition[--frame->conditions].place;
     language_error(language, place, "%.*s without #end", (int)length_of(place), text_at(place));
@@ -155,7 +155,7 @@ static bool end_of_source(struct language *language)
 static bool refused_directive(struct language *language, int token)
 {
   const bool directive = token >= TOKEN_INCLUDE && token <= TOKEN_UNKNOWN_DIRECTIVE;
-  if (!language->solver_only || !(directive || (token >= PSCN_TOKEN_VERSION && token <= PSCN_TOKEN_LOCAL))) return false;
+  if (!language->tokens->solver_only || !(directive || (token >= PSCN_TOKEN_VERSION && token <= PSCN_TOKEN_LOCAL))) return false;
   language_error(language, sources_here(language), "the text of a solver has no directives");
   return true;
 }
@@ -185,126 +185,88 @@ static bool aside(struct language *language, int token)
 
 static void tell_too_large(struct language *language)
 {
-  struct scan *scan = &language->frame->scan;
-  language_error(language, (struct place){language->frame->source, scan->too_large_begin, scan->too_large_end},
+  struct scan *scan = &language->sources->frame->scan;
+  language_error(language, (struct place){language->sources->frame->source, scan->too_large_begin, scan->too_large_end},
                  "this number is too large");
   for (int k = 0; k < 3; k++) scan->number[k] = 1;
 }
 
 /* ---- the stream ---- */
 
-/* The next token of the grammar, into language->last. */
+/* The next token of the grammar, into tokens->last. */
 static int advance(struct language *language)
 {
-  struct delivered *last = &language->last;
+  struct tokens *tokens = language->tokens;
+  struct delivered *last = &tokens->last;
   if (last->again) {
     last->again = false;
     return last->token;
   }
-  language->previous = last->place;
+  tokens->previous = last->value.place;
   int token;
   do {
     if (language->ended_early || diagnostics_full(language->diagnostics)) {
       token = 0;
       break;
     }
-    token = pscn_scan_next(&language->frame->scan);
+    token = pscn_scan_next(&language->sources->frame->scan);
   } while (aside(language, token));
 
   struct place place = sources_here(language);
   if (token == 0) place.begin = place.end = place.source->length;
   if (token == TOKEN_FOREIGN_DIRECTIVE || token == TOKEN_UNKNOWN_DIRECTIVE) {
     tell_directive(language, token);
-    language->told = place;
+    tokens->told = place;
     token = PSCN_TOKEN_FOREIGN;
   }
-  const struct scan *scan = &language->frame->scan;
+  const struct scan *scan = &language->sources->frame->scan;
   const bool is_number = token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT;
   if (is_number && scan->too_large) tell_too_large(language);
-  *last = (struct delivered){.token = raw_word(language, token), .place = place, .depth = language->depth,
-                             .value = {.text = text_at(place), .length = length_of(place)}};
+  *last = (struct delivered){.token = raw_word(language, token), .depth = tokens->depth,
+                             .value = {.text = text_at(place), .length = length_of(place), .place = place}};
   if (is_number) memcpy(last->value.number, scan->number, sizeof last->value.number);
-  if (token == '{' && language->depth < MAX_NESTING) language->braces[language->depth] = place;
-  if (token == '{' && ++language->depth > MAX_NESTING)
+  if (token == '{' && tokens->depth < MAX_NESTING) tokens->braces[tokens->depth] = place;
+  if (token == '{' && ++tokens->depth > MAX_NESTING)
     language_limit(language, place, "blocks are nested more than 200 deep");
-  if (token == '}' && language->depth > 0) language->depth--;
+  if (token == '}' && tokens->depth > 0) tokens->depth--;
   return last->token;
 }
 
-int tokens_next(struct language *language, struct token *out_token, struct place *out_place)
+int tokens_next(struct language *language, struct token *out_token)
 {
-  if (language->made_up < (language->solver_only ? 2 : 1)) {
-    *out_place = (struct place){language->frame->source, 0, 0};
-    if (!language->solver_only) return language->made_up++, PSCN_TOKEN_START_SCENE;
-    language->raw_words = language->made_up;
-    return language->made_up++ == 0 ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_SOLVER;
+  struct tokens *tokens = language->tokens;
+  if (tokens->made_up < (tokens->solver_only ? 2 : 1)) {
+    *out_token = (struct token){.place = {language->sources->frame->source, 0, 0}};
+    if (!tokens->solver_only) return tokens->made_up++, PSCN_TOKEN_START_SCENE;
+    tokens->raw_words = tokens->made_up;
+    return tokens->made_up++ == 0 ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_SOLVER;
   }
   const int token = advance(language);
-  *out_token = language->last.value;
-  *out_place = language->last.place;
+  *out_token = tokens->last.value;
   return token;
 }
 
 /* ---- recovery ---- */
 
-static bool begins_statement(int token)
-{
-  switch (token) {
-  case PSCN_TOKEN_VERSION:
-  case PSCN_TOKEN_DECLARE:
-  case PSCN_TOKEN_LOCAL:
-  case PSCN_TOKEN_GLOBAL_SETTINGS:
-  case PSCN_TOKEN_CAMERA:
-  case PSCN_TOKEN_LIGHT_SOURCE:
-  case PSCN_TOKEN_BACKGROUND:
-  case PSCN_TOKEN_BICUBIC_PATCH:
-  case PSCN_TOKEN_UNION:
-  case PSCN_TOKEN_OBJECT: return true;
-  default: return false;
-  }
-}
-
-/* Words that stand in values, and so begin no item of a block. */
-static bool begins_item(int token)
-{
-  switch (token) {
-  case PSCN_TOKEN_WORD:
-  case PSCN_TOKEN_NUMBER:
-  case PSCN_TOKEN_POINT:
-  case PSCN_TOKEN_STRING:
-  case PSCN_TOKEN_COLOR:
-  case PSCN_TOKEN_RGB:
-  case PSCN_TOKEN_RED:
-  case PSCN_TOKEN_GREEN:
-  case PSCN_TOKEN_BLUE:
-  case PSCN_TOKEN_X:
-  case PSCN_TOKEN_Y:
-  case PSCN_TOKEN_Z:
-  case PSCN_TOKEN_PI:
-  case PSCN_TOKEN_IMAGE_WIDTH:
-  case PSCN_TOKEN_IMAGE_HEIGHT:
-  case PSCN_TOKEN_FOREIGN: return false;
-  default: return token > 255;
-  }
-}
-
 bool tokens_recover(struct language *language)
 {
-  const struct delivered *last = &language->last;
+  struct tokens *tokens = language->tokens;
+  const struct delivered *last = &tokens->last;
   const int block = last->depth;
-  const bool twice = last->place.source == language->recovered.source && last->place.begin == language->recovered.begin;
-  language->recovered = last->place;
-  language->last.again = false;
+  const bool twice = last->value.place.source == tokens->recovered.source &&
+                     last->value.place.begin == tokens->recovered.begin;
+  tokens->recovered = last->value.place;
+  tokens->last.again = false;
 
   for (bool first = true;; first = false, advance(language)) {
     const int token = last->token;
     if (token == 0) return false;
     /* What was refused where it stands may begin the next item; refused there too, it is dropped. */
     if (!(first && twice)) {
-      const bool begins = block == 0 ? begins_statement(token) : begins_item(token);
+      const bool begins = block == 0 ? words_begin_statement(token) : words_begin_item(token);
       const bool foreign = token == PSCN_TOKEN_FOREIGN && !first;
       if (last->depth == block && (begins || foreign || (token == '}' && block > 0))) {
-        language->last.again = true;
+        tokens->last.again = true;
         return true;
       }
     }

@@ -1,9 +1,7 @@
-/* Affine transforms as POV-Ray has them: row vectors, angles in degrees, rotation about x, then y, then z. They are
- * composed in double-double, and a point is rounded once at the end: what comes out is the nearest double of what
- * the scene says, the same on every machine. */
-#include <math.h>
+/* Affine transforms in double-double. */
+#include "language/transforms.h"
 
-#include "language/build.h"
+#include <math.h>
 
 static struct double_double dd(double x) { return (struct double_double){x, 0}; }
 
@@ -51,16 +49,23 @@ void transform_point(const struct transform *transform, const double p[3], doubl
   }
 }
 
-void transform_translate(struct language *language, struct place place, const struct value *value)
+static struct transform *new_identity(struct language *language)
+{
+  struct transform *t = language_alloc(language, sizeof *t);
+  *t = transform_identity();
+  return t;
+}
+
+const struct transform *transform_translate(struct language *language, const struct value *value)
 {
   double by[3] = {0, 0, 0};
-  value_to_vector(language, place, value, by);
-  struct transform *t = &language->transform;
-  *t = transform_identity();
+  value_to_vector(language, value, by);
+  struct transform *t = new_identity(language);
   for (int k = 0; k < 3; k++) {
     t->b[k] = dd(by[k]);
     t->identity &= by[k] == 0;
   }
+  return t;
 }
 
 /* a / b to about 104 bits. */
@@ -100,11 +105,11 @@ static void turn(double degrees, struct double_double *out_sin, struct double_do
   }
 }
 
-void transform_rotate(struct language *language, struct place place, const struct value *value)
+const struct transform *transform_rotate(struct language *language, const struct value *value)
 {
   double by[3] = {0, 0, 0};
-  value_to_vector(language, place, value, by);
-  language->transform = transform_identity();
+  value_to_vector(language, value, by);
+  struct transform *all = new_identity(language);
   for (int axis = 0; axis < 3; axis++) {
     if (by[axis] == 0) continue;
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
@@ -113,36 +118,43 @@ void transform_rotate(struct language *language, struct place place, const struc
     turn(by[axis], &t.A[i][j], &t.A[i][i]);
     t.A[j][i] = dd_negate(t.A[i][j]);
     t.A[j][j] = t.A[i][i];
-    language->transform = transform_then(&language->transform, &t);
+    *all = transform_then(all, &t);
   }
+  return all;
 }
 
-void transform_scale(struct language *language, struct place place, const struct value *value)
+const struct transform *transform_scale(struct language *language, const struct value *value)
 {
+  static const char *const axes[8] = {"", "x", "y", "x and y", "z", "x and z", "y and z", "x, y and z"};
   double by[3] = {1, 1, 1};
-  value_to_vector(language, place, value, by);
-  struct transform *t = &language->transform;
-  *t = transform_identity();
+  unsigned zeros = 0;
+  value_to_vector(language, value, by);
+  struct transform *t = new_identity(language);
   for (int k = 0; k < 3; k++) {
-    if (by[k] == 0) {
-      language_error(language, place, "scaling %c by 0 leaves nothing; POV-Ray would take 1 instead", "xyz"[k]);
-      by[k] = 1;
-    }
-    t->A[k][k] = dd(by[k]);
+    if (by[k] == 0) zeros |= 1u << k;
+    else t->A[k][k] = dd(by[k]);
     t->identity &= by[k] == 1;
   }
+  if (zeros)
+    language_error(language, value->place, "scaling %s by 0 leaves nothing; POV-Ray would take 1 instead", axes[zeros]);
+  return t;
 }
 
 enum { MATRIX_NUMBERS = 12 };
 
-void matrix_begin(struct language *language) { language->matrix_count = 0; }
+struct matrix *matrix_begin(struct language *language, const struct value *first)
+{
+  struct matrix *matrix = language_alloc(language, sizeof *matrix);
+  matrix_add(language, matrix, first);
+  return matrix;
+}
 
-void matrix_add(struct language *language, struct place place, const struct value *value)
+void matrix_add(struct language *language, struct matrix *matrix, const struct value *value)
 {
   double x = 1;
-  value_to_number(language, place, value, &x);
-  if (language->matrix_count < MATRIX_NUMBERS) language->matrix[language->matrix_count] = x;
-  language->matrix_count++;
+  value_to_number(language, value, &x);
+  if (matrix->count < MATRIX_NUMBERS) matrix->number[matrix->count] = x;
+  matrix->count++;
 }
 
 static struct double_double minor(const double m[12], int i, int j)
@@ -173,27 +185,18 @@ static bool is_singular(const double matrix[12])
   return fabs(determinant.hi) <= 0x1p-100 * size;
 }
 
-void matrix_end(struct language *language, struct place place)
+const struct transform *transform_matrix(struct language *language, const struct matrix *matrix, struct place place)
 {
-  struct transform *t = &language->transform;
-  *t = transform_identity();
-  if (language->matrix_count != MATRIX_NUMBERS) {
-    language_error(language, place, "matrix needs %d numbers, found %d", MATRIX_NUMBERS, language->matrix_count);
-    return;
-  }
-  if (is_singular(language->matrix)) {
+  struct transform *t = new_identity(language);
+  const int count = matrix ? matrix->count : 3;
+  if (count != MATRIX_NUMBERS) {
+    language_error(language, place, "matrix needs %d numbers, found %d", MATRIX_NUMBERS, count);
+  } else if (is_singular(matrix->number)) {
     language_error(language, place, "this matrix cannot be inverted: it makes everything flat");
-    return;
+  } else {
+    t->identity = false;
+    for (int i = 0; i < 9; i++) t->A[i / 3][i % 3] = dd(matrix->number[i]);
+    for (int j = 0; j < 3; j++) t->b[j] = dd(matrix->number[9 + j]);
   }
-  t->identity = false;
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) t->A[i][j] = dd(language->matrix[3 * i + j]);
-    t->b[i] = dd(language->matrix[9 + i]);
-  }
-}
-
-void matrix_short(struct language *language, struct place place)
-{
-  language->matrix_count = 3;
-  matrix_end(language, place);
+  return t;
 }

@@ -1,10 +1,52 @@
-/* POV-Ray's words that pscn does not have, and the distance between words (Damerau-Levenshtein, neighbours swapped
- * once). */
+/* The words of the language, POV-Ray's other words, and the distance between words (Damerau-Levenshtein, neighbours
+ * swapped once). */
 #include "language/words.h"
 
+#include <stdio.h>
 #include <string.h>
 
+#include "language/scan.h"
+
+struct keyword {
+  const char *name;
+  int token;
+};
+
 /* Sorted. */
+static const struct keyword KEYWORDS[] = {
+    {"ambient", PSCN_TOKEN_AMBIENT}, {"ambient_light", PSCN_TOKEN_AMBIENT_LIGHT}, {"angle", PSCN_TOKEN_ANGLE},
+    {"assumed_gamma", PSCN_TOKEN_ASSUMED_GAMMA}, {"background", PSCN_TOKEN_BACKGROUND},
+    {"bicubic_patch", PSCN_TOKEN_BICUBIC_PATCH}, {"blue", PSCN_TOKEN_BLUE}, {"brilliance", PSCN_TOKEN_BRILLIANCE},
+    {"camera", PSCN_TOKEN_CAMERA}, {"color", PSCN_TOKEN_COLOR}, {"colour", PSCN_TOKEN_COLOR},
+    {"diffuse", PSCN_TOKEN_DIFFUSE}, {"direction", PSCN_TOKEN_DIRECTION}, {"finish", PSCN_TOKEN_FINISH},
+    {"flatness", PSCN_TOKEN_FLATNESS}, {"global_settings", PSCN_TOKEN_GLOBAL_SETTINGS}, {"green", PSCN_TOKEN_GREEN},
+    {"image_height", PSCN_TOKEN_IMAGE_HEIGHT}, {"image_width", PSCN_TOKEN_IMAGE_WIDTH},
+    {"light_source", PSCN_TOKEN_LIGHT_SOURCE}, {"location", PSCN_TOKEN_LOCATION}, {"look_at", PSCN_TOKEN_LOOK_AT},
+    {"matrix", PSCN_TOKEN_MATRIX}, {"max_trace_level", PSCN_TOKEN_MAX_TRACE_LEVEL}, {"object", PSCN_TOKEN_OBJECT},
+    {"perspective", PSCN_TOKEN_PERSPECTIVE}, {"phong", PSCN_TOKEN_PHONG}, {"phong_size", PSCN_TOKEN_PHONG_SIZE},
+    {"pi", PSCN_TOKEN_PI}, {"pigment", PSCN_TOKEN_PIGMENT}, {"red", PSCN_TOKEN_RED}, {"rgb", PSCN_TOKEN_RGB},
+    {"right", PSCN_TOKEN_RIGHT}, {"rotate", PSCN_TOKEN_ROTATE}, {"roughness", PSCN_TOKEN_ROUGHNESS},
+    {"scale", PSCN_TOKEN_SCALE}, {"shadowless", PSCN_TOKEN_SHADOWLESS}, {"sky", PSCN_TOKEN_SKY},
+    {"solver", PSCN_TOKEN_SOLVER}, {"specular", PSCN_TOKEN_SPECULAR}, {"texture", PSCN_TOKEN_TEXTURE},
+    {"translate", PSCN_TOKEN_TRANSLATE}, {"type", PSCN_TOKEN_TYPE}, {"u_steps", PSCN_TOKEN_U_STEPS},
+    {"union", PSCN_TOKEN_UNION}, {"up", PSCN_TOKEN_UP}, {"v_steps", PSCN_TOKEN_V_STEPS}, {"x", PSCN_TOKEN_X},
+    {"y", PSCN_TOKEN_Y}, {"z", PSCN_TOKEN_Z}};
+
+static const struct keyword DIRECTIVES[] = {
+    {"declare", PSCN_TOKEN_DECLARE}, {"else", TOKEN_ELSE}, {"end", TOKEN_ENDIF}, {"ifdef", TOKEN_IFDEF},
+    {"ifndef", TOKEN_IFNDEF}, {"include", TOKEN_INCLUDE}, {"local", PSCN_TOKEN_LOCAL}, {"version", PSCN_TOKEN_VERSION}};
+
+/* POV-Ray 3.7's other directives. */
+static const struct keyword FOREIGN_DIRECTIVES[] = {
+    {"break", TOKEN_FOREIGN_DIRECTIVE}, {"case", TOKEN_FOREIGN_DIRECTIVE}, {"debug", TOKEN_FOREIGN_DIRECTIVE},
+    {"default", TOKEN_FOREIGN_DIRECTIVE}, {"elseif", TOKEN_FOREIGN_DIRECTIVE}, {"error", TOKEN_FOREIGN_DIRECTIVE},
+    {"fclose", TOKEN_FOREIGN_DIRECTIVE}, {"fopen", TOKEN_FOREIGN_DIRECTIVE}, {"for", TOKEN_FOREIGN_OPENER},
+    {"if", TOKEN_FOREIGN_OPENER}, {"macro", TOKEN_FOREIGN_OPENER}, {"range", TOKEN_FOREIGN_DIRECTIVE},
+    {"read", TOKEN_FOREIGN_DIRECTIVE}, {"render", TOKEN_FOREIGN_DIRECTIVE}, {"statistics", TOKEN_FOREIGN_DIRECTIVE},
+    {"switch", TOKEN_FOREIGN_OPENER}, {"undef", TOKEN_FOREIGN_DIRECTIVE}, {"warning", TOKEN_FOREIGN_DIRECTIVE},
+    {"while", TOKEN_FOREIGN_OPENER}, {"write", TOKEN_FOREIGN_DIRECTIVE}};
+
+/* Sorted: what else POV-Ray 3.7 reserves, and which of that are shapes. */
 static const char *const FOREIGN[] = {
     "aa_level", "aa_threshold", "abs", "absorption", "accuracy", "acos", "acosh", "adaptive", "adc_bailout", "agate",
     "agate_turb", "albedo", "all", "all_intersections", "alpha", "altitude", "always_sample", "anisotropy", "aoi",
@@ -58,36 +100,92 @@ static const char *const SHAPES[] = {
     "polynomial", "prism", "quadric", "quartic", "smooth_triangle", "sor", "sphere", "sphere_sweep", "superellipsoid",
     "text", "torus", "triangle"};
 
+#define COUNT(table) (sizeof(table) / sizeof *(table))
+
 int words_compare(const char *word, size_t length, const char *name)
 {
   const int order = strncmp(word, name, length);
   return order ? order : name[length] ? -1 : 0;
 }
 
-static bool listed(const char *word, size_t length, const char *const *list, size_t count)
+/* The row of a sorted table, whose rows of `size` bytes begin with a name, or NULL. */
+static const void *find(const char *word, size_t length, const void *table, size_t count, size_t size)
 {
   size_t low = 0, high = count;
   while (low < high) {
     const size_t middle = (low + high) / 2;
-    const int order = words_compare(word, length, list[middle]);
-    if (order == 0) return true;
+    const char *const *row = (const void *)((const char *)table + middle * size);
+    const int order = words_compare(word, length, *row);
+    if (order == 0) return row;
     if (order < 0) high = middle;
     else low = middle + 1;
   }
+  return NULL;
+}
+
+#define FIND(word, length, table) find(word, length, table, COUNT(table), sizeof *(table))
+
+int words_token(const char *word, size_t length)
+{
+  const struct keyword *found = FIND(word, length, KEYWORDS);
+  if (found) return found->token;
+  return FIND(word, length, FOREIGN) ? PSCN_TOKEN_FOREIGN : PSCN_TOKEN_WORD;
+}
+
+bool words_foreign_shape(const char *word, size_t length) { return FIND(word, length, SHAPES) != NULL; }
+
+const char *words_directive(const char *text, size_t *length)
+{
+  do text++, --*length;
+  while (strchr(" \t\r\n\f\v", *text));
+  return text;
+}
+
+int words_directive_token(const char *text, size_t length)
+{
+  const char *name = words_directive(text, &length);
+  const struct keyword *found = FIND(name, length, DIRECTIVES);
+  if (!found) found = FIND(name, length, FOREIGN_DIRECTIVES);
+  return found ? found->token : TOKEN_UNKNOWN_DIRECTIVE;
+}
+
+static bool is_one_of(int token, const int tokens[], size_t count)
+{
+  for (size_t k = 0; k < count; k++)
+    if (tokens[k] == token) return true;
   return false;
 }
 
-bool words_foreign(const char *word, size_t length)
+bool words_begin_statement(int token)
 {
-  return listed(word, length, FOREIGN, sizeof FOREIGN / sizeof *FOREIGN);
+  static const int statements[] = {
+      PSCN_TOKEN_VERSION, PSCN_TOKEN_DECLARE,      PSCN_TOKEN_LOCAL,      PSCN_TOKEN_GLOBAL_SETTINGS,
+      PSCN_TOKEN_CAMERA,  PSCN_TOKEN_LIGHT_SOURCE, PSCN_TOKEN_BACKGROUND, PSCN_TOKEN_BICUBIC_PATCH,
+      PSCN_TOKEN_UNION,   PSCN_TOKEN_OBJECT};
+  return is_one_of(token, statements, COUNT(statements));
 }
 
-bool words_foreign_shape(const char *word, size_t length)
+bool words_begin_item(int token)
 {
-  return listed(word, length, SHAPES, sizeof SHAPES / sizeof *SHAPES);
+  static const int in_values[] = {
+      PSCN_TOKEN_WORD,  PSCN_TOKEN_NUMBER, PSCN_TOKEN_POINT,       PSCN_TOKEN_STRING,      PSCN_TOKEN_COLOR,
+      PSCN_TOKEN_RGB,   PSCN_TOKEN_RED,    PSCN_TOKEN_GREEN,       PSCN_TOKEN_BLUE,        PSCN_TOKEN_X,
+      PSCN_TOKEN_Y,     PSCN_TOKEN_Z,      PSCN_TOKEN_PI,          PSCN_TOKEN_IMAGE_WIDTH, PSCN_TOKEN_IMAGE_HEIGHT,
+      PSCN_TOKEN_FOREIGN};
+  return token > 255 && !is_one_of(token, in_values, COUNT(in_values));
 }
 
-size_t words_reach(size_t length) { return length < 6 ? 1 : length / 3; }
+/* ---- lists and guesses ---- */
+
+void words_list(const char *const words[], size_t count, char *out, size_t size)
+{
+  size_t used = 0;
+  out[0] = '\0';
+  for (size_t k = 0; k < count && used < size; k++) {
+    const char *before = k == 0 ? "" : k + 1 == count ? " or " : ", ";
+    used += (size_t)snprintf(out + used, size - used, "%s%s", before, words[k]);
+  }
+}
 
 enum { LONGEST_COMPARED = 40 };
 
@@ -114,15 +212,30 @@ static size_t distance_between(const char *a, size_t m, const char *b, size_t n)
   return row[m][n];
 }
 
-void words_consider(const char *word, size_t length, const char *candidate, size_t candidate_length, const char **best,
-                    size_t *best_length, size_t *distance)
+struct guess guess_begin(const char *word, size_t length)
 {
-  if (length > LONGEST_COMPARED || candidate_length > LONGEST_COMPARED) return;
-  if (length > candidate_length + *distance || candidate_length > length + *distance) return;
-  const size_t d = distance_between(word, length, candidate, candidate_length);
+  return (struct guess){.word = word, .length = length, .distance = length < 6 ? 1 : length / 3};
+}
+
+void guess_consider(struct guess *guess, const char *candidate, size_t length)
+{
+  if (guess->length > LONGEST_COMPARED || length > LONGEST_COMPARED) return;
+  if (guess->length > length + guess->distance || length > guess->length + guess->distance) return;
+  const size_t d = distance_between(guess->word, guess->length, candidate, length);
   /* A word all of whose letters are wrong is no misspelling. */
-  if (d >= length || d > *distance || (*best && d == *distance)) return;
-  *best = candidate;
-  *best_length = candidate_length;
-  *distance = d;
+  if (d >= guess->length || d > guess->distance || (guess->best && d == guess->distance)) return;
+  guess->best = candidate;
+  guess->best_length = length;
+  guess->distance = d;
+}
+
+void guess_keywords(struct guess *guess)
+{
+  for (size_t k = 0; k < COUNT(KEYWORDS); k++) guess_consider(guess, KEYWORDS[k].name, strlen(KEYWORDS[k].name));
+}
+
+void guess_directives(struct guess *guess)
+{
+  for (size_t k = 0; k < COUNT(DIRECTIVES); k++)
+    guess_consider(guess, DIRECTIVES[k].name, strlen(DIRECTIVES[k].name));
 }

@@ -1,26 +1,42 @@
-/* Words: which are POV-Ray's and not ours, and which word a misspelt one was meant to be. */
+/* Words: which token each is, which are POV-Ray's and not ours, and which word a misspelt one was meant to be. */
 #ifndef PSCN_LANGUAGE_WORDS_H
 #define PSCN_LANGUAGE_WORDS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether POV-Ray 3.7 reserves the word and the language has no use for it. */
-bool words_foreign(const char *word, size_t length);
+/* What token a word, or a directive with its #, is. */
+int words_token(const char *word, size_t length);
+int words_directive_token(const char *text, size_t length);
 
-/* Whether it names one of POV-Ray's shapes. */
+/* The name of a directive, behind its # and blanks; *length, which was the directive's, becomes its own. */
+const char *words_directive(const char *text, size_t *length);
+
+/* Whether a word of POV-Ray's names a shape. */
 bool words_foreign_shape(const char *word, size_t length);
+
+/* Whether a token begins a statement, or an item of a block and not a value. */
+bool words_begin_statement(int token);
+bool words_begin_item(int token);
 
 /* Below, at or above 0 as word[0 .. length-1] stands before, is, or stands behind `name` in the order of bytes. */
 int words_compare(const char *word, size_t length, const char *name);
 
-/* Offers a candidate to a search for the nearest word. `best` starts as NULL with *distance = words_reach(length); a
- * candidate within it and nearer than the best one becomes the best. */
-void words_consider(const char *word, size_t length, const char *candidate, size_t candidate_length, const char **best,
-                    size_t *best_length, size_t *distance);
+/* "a, b or c", cut off at `size` bytes. */
+void words_list(const char *const words[], size_t count, char *out, size_t size);
 
-/* How many letters may be wrong in a word of that length for it to be taken for another: a third, at least one. The
- * distance counted is that of insertions, deletions, replacements and swaps of neighbours. */
-size_t words_reach(size_t length);
+/* A search for the word that is meant by another: as many letters may be wrong as a third of its length, at least one;
+ * counted are insertions, deletions, replacements and swaps of neighbours. Of equal candidates the first is taken. */
+struct guess {
+  const char *word;
+  size_t length;
+  const char *best; /* NULL where none is near enough */
+  size_t best_length, distance;
+};
+
+struct guess guess_begin(const char *word, size_t length);
+void guess_consider(struct guess *guess, const char *candidate, size_t length);
+void guess_keywords(struct guess *guess);   /* considers all words of the language */
+void guess_directives(struct guess *guess); /* and all its directives */
 
 #endif

@@ -1,16 +1,10 @@
 /* The words of syntax errors. */
+#include "language/syntax_errors.h"
+
 #include <stdio.h>
 #include <string.h>
 
-#include "language/build.h"
 #include "language/tokens.h"
-#include "language/words.h"
-
-struct place language_span(const struct place *first, const struct place *last)
-{
-  if (first->source != last->source || last->end < first->begin) return *first;
-  return (struct place){first->source, first->begin, last->end};
-}
 
 static bool is_one_of(const char *name, const char *const list[])
 {
@@ -47,27 +41,24 @@ static void list_expected(const char *const expected[], int count, char *out, si
     if (listed == MOST_LISTED) return;
     list[listed++] = expected[k];
   }
-  size_t used = 0;
-  for (int k = 0; k < listed && used < size; k++) {
-    const char *before = k == 0 ? ", expected " : k + 1 == listed ? " or " : ", ";
-    used += (size_t)snprintf(out + used, size - used, "%s%s", before, list[k]);
-  }
+  if (listed == 0) return;
+  const int used = snprintf(out, size, ", expected ");
+  words_list(list, (size_t)listed, out + used, size - (size_t)used);
 }
 
 /* The nearest of what the grammar could have gone on with, or else of all words and names. */
-static const char *guess(const struct language *language, const char *word, size_t length, const char *const expected[],
-                         int count, size_t *out_length)
+static struct guess guess_meant(const struct language *language, const char *word, size_t length,
+                                const char *const expected[], int count)
 {
-  const char *best = NULL;
-  size_t distance = words_reach(length);
+  struct guess guess = guess_begin(word, length);
   for (int k = 0; k < count; k++) {
     if (expected[k][0] == '\'' || strncmp(expected[k], "a ", 2) == 0) continue;
-    words_consider(word, length, expected[k], strlen(expected[k]), &best, out_length, &distance);
+    guess_consider(&guess, expected[k], strlen(expected[k]));
   }
-  if (best) return best;
-  keywords_consider(word, length, &best, out_length, &distance);
-  symbols_consider(language, word, length, &best, out_length, &distance);
-  return best;
+  if (guess.best) return guess;
+  guess_keywords(&guess);
+  guess_symbols(&guess, language);
+  return guess;
 }
 
 static void tell_foreign(struct language *language, struct place place, const char *word, int length)
@@ -79,40 +70,45 @@ static void tell_foreign(struct language *language, struct place place, const ch
   }
 }
 
-void language_unexpected(struct language *language, struct place place, bool is_word, const char *const expected[],
-                         int count)
+static bool same_place(struct place a, struct place b)
+{
+  return a.source && a.source == b.source && a.begin == b.begin;
+}
+
+void syntax_error(struct language *language, struct place place, bool is_word, const char *const expected[],
+                  int count)
 {
   enum { LONGEST_SHOWN = 40 };
-  const bool told = place.source == language->told.source && place.begin == language->told.begin;
+  struct tokens *tokens = language->tokens;
   /* What follows a word just told to be unknown fits the word that was meant. */
-  const bool follows = language->unknown.source && language->previous.source == language->unknown.source &&
-                       language->previous.begin == language->unknown.begin;
-  if (told || follows || language->ended_early) return;
-  language->told = place;
+  const bool follows = same_place(tokens->previous, language->unknown);
+  if (same_place(place, tokens->told) || follows || language->ended_early) return;
+  tokens->told = place;
   const size_t length = place.end - place.begin;
   const int shown = length < LONGEST_SHOWN ? (int)length : LONGEST_SHOWN;
   const char *text = place.source->text + place.begin;
-  if (length == 0 && language->depth > 0) {
-    language_error(language, language->braces[language->depth - 1], "this brace is not closed");
+  if (length == 0 && tokens->depth > 0) {
+    language_error(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
     return;
   }
-  if (language->last.token == PSCN_TOKEN_FOREIGN) {
+  if (tokens->last.token == PSCN_TOKEN_FOREIGN) {
     tell_foreign(language, place, text, shown);
     return;
   }
   char list[300] = "";
   list_expected(expected, count, list, sizeof list);
-  if (is_word) {
-    size_t best_length = 0;
-    const bool declared = symbol_find(language, text, length) != NULL;
-    const char *best = declared ? NULL : guess(language, text, length, expected, count, &best_length);
-    if (best) {
-      language_error(language, place, "unknown word '%.*s'; did you mean '%.*s'?", shown, text, (int)best_length, best);
-    } else {
-      language_error(language, place, "%s '%.*s'%s", declared ? "unexpected name" : "unknown word", shown, text, list);
-    }
+  if (!is_word) {
+    if (length == 0) language_error(language, place, "the text ends here%s", list);
+    else language_error(language, place, "unexpected '%.*s'%s", shown, text, list);
     return;
   }
-  if (length == 0) language_error(language, place, "the text ends here%s", list);
-  else language_error(language, place, "unexpected '%.*s'%s", shown, text, list);
+  struct guess guess = {0};
+  const bool declared = symbol_find(language, text, length) != NULL;
+  if (!declared) guess = guess_meant(language, text, length, expected, count);
+  if (guess.best) {
+    language_error(language, place, "unknown word '%.*s'; did you mean '%.*s'?", shown, text, (int)guess.best_length,
+                   guess.best);
+  } else {
+    language_error(language, place, "%s '%.*s'%s", declared ? "unexpected name" : "unknown word", shown, text, list);
+  }
 }

@@ -1,0 +1,31 @@
+/* The camera's items, and how they fold into location, direction, right and up. */
+#ifndef PSCN_LANGUAGE_CAMERA_H
+#define PSCN_LANGUAGE_CAMERA_H
+
+#include "language/values.h"
+#include "scene/scene.h"
+
+enum { CAMERA_LOCATION, CAMERA_DIRECTION, CAMERA_RIGHT, CAMERA_UP, CAMERA_SKY, CAMERA_LOOK_AT };
+
+struct camera_items {
+  double item[6][3];
+  bool said;  /* there is a camera statement */
+  bool begun; /* an item has come */
+  bool look_at;
+  double angle; /* degrees, 0 where not given */
+  struct block block;
+  struct place look_at_place;
+};
+
+void camera_default(struct camera_items *out);
+void camera_begin(struct language *language, struct place place);
+void camera_perspective(struct language *language, struct place place);
+void camera_vector(struct language *language, int which, const struct value *value);
+void camera_angle(struct language *language, const struct value *value);
+void camera_transform(struct language *language, struct place place);
+void camera_end(struct language *language);
+
+/* Folds the items into `out`; false, and an error told, where they make no picture. */
+bool camera_fold(struct language *language, const struct camera_items *items, struct scene_camera *out);
+
+#endif

@@ -1,0 +1,68 @@
+/* Patches, unions and copies of declared objects: a tree. */
+#ifndef PSCN_LANGUAGE_OBJECTS_H
+#define PSCN_LANGUAGE_OBJECTS_H
+
+#include <stdint.h>
+
+#include "language/textures.h"
+#include "language/transforms.h"
+#include "scene/method.h"
+
+/* The settings of a patch, by number. */
+enum { PATCH_TYPE, PATCH_FLATNESS, PATCH_U_STEPS, PATCH_V_STEPS, PATCH_SETTINGS };
+
+/* What the copies of a declared object know of each other. */
+struct sharing {
+  size_t uses;     /* how often it is named */
+  uint32_t object; /* one more than its index in scene.objects, once it is there */
+};
+
+/* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same
+ * points or children. */
+struct node {
+  struct node *next, *first, *last; /* the list it stands in; its own children */
+  struct node *outer;               /* while its block is open */
+  struct block block;
+  double (*P)[4][3]; /* NULL: a union */
+  double setting[PATCH_SETTINGS];
+  const struct transform *transform; /* NULL: none */
+  const struct texture *texture;     /* NULL: none of its own */
+  const struct method *method;       /* NULL: none of its own */
+  struct sharing *sharing;           /* of the declared object that it is or copies; NULL: neither */
+  size_t patch_count;                /* in it and below */
+  int height;                        /* unions below it within each other */
+
+  /* While it is open. */
+  enum stage stage;
+  int points;
+  bool has_type, has_object, after_comma;
+};
+
+/* Zeroed: no objects. */
+struct objects {
+  struct node *open; /* the innermost */
+  struct node scene; /* the union of all objects */
+};
+
+void patch_begin(struct language *language, struct place place);
+void patch_number(struct language *language, int which, struct place item, const struct value *value);
+void patch_point(struct language *language, const struct value *value);
+void patch_comma(struct language *language, struct place place);
+void patch_modified(struct language *language);
+void patch_solver(struct language *language);
+void patch_end(struct language *language);
+void union_begin(struct language *language, struct place place);
+void union_add(struct language *language, struct place place, struct node *object);
+void union_modified(struct language *language);
+void copy_begin(struct language *language, struct place place);
+void copy_named(struct language *language, const struct token *name);
+void copy_object(struct language *language, struct place place, const struct node *object);
+void copy_modified(struct language *language, struct place place);
+void copy_end(struct language *language);
+struct node *node_end(struct language *language);
+void node_transform(struct language *language, const struct transform *transform, struct place place);
+void node_texture(struct language *language, const struct texture *texture);
+void declare_object(struct language *language, struct symbol *symbol, struct node *object);
+void scene_add(struct language *language, struct place place, struct node *object);
+
+#endif

@@ -1,0 +1,50 @@
+/* The scanner, grammar/pscn.l: from text to tokens. */
+#ifndef PSCN_LANGUAGE_SCAN_H
+#define PSCN_LANGUAGE_SCAN_H
+
+#include <setjmp.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "pscn.tab.h"
+
+/* What the scanner finds besides the grammar's tokens; tokens_next never hands these on. */
+enum {
+  TOKEN_FIRST_PRIVATE = 1000,
+  TOKEN_OPEN_COMMENT,
+  TOKEN_OPEN_STRING,
+  TOKEN_BAD_CHARACTER,
+  TOKEN_NO_MEMORY,
+  TOKEN_INCLUDE,
+  TOKEN_IFDEF,
+  TOKEN_IFNDEF,
+  TOKEN_ELSE,
+  TOKEN_ENDIF,
+  TOKEN_FOREIGN_OPENER,    /* a directive of POV-Ray's that is not in the language and has an #end: #if, #macro ... */
+  TOKEN_FOREIGN_DIRECTIVE, /* one that has none */
+  TOKEN_UNKNOWN_DIRECTIVE
+};
+
+/* One scanner over one text. */
+struct scan {
+  void *scanner;
+  size_t begin, end; /* bytes of the last token */
+  size_t comment_begin;
+  int comment_depth;
+  double number[3]; /* of PSCN_TOKEN_NUMBER ([0]) and PSCN_TOKEN_POINT */
+  bool too_large;   /* one of them is too large for a double: which bytes */
+  size_t too_large_begin, too_large_end;
+  jmp_buf broken;
+  _Alignas(max_align_t) char pool[512]; /* the scanner's memory */
+  size_t pool_used;
+};
+
+/* Scans text[0 .. length-1], behind which stand two NULs. The text must outlive the scanner; it is written to during
+ * pscn_scan_next, and is what it was afterwards. False where it cannot be scanned. */
+bool pscn_scan_open(struct scan *scan, char *text, size_t length);
+
+/* The next token: a grammar token, 0 at the end, or one of the above. */
+int pscn_scan_next(struct scan *scan);
+void pscn_scan_close(struct scan *scan);
+
+#endif

@@ -1,0 +1,44 @@
+/* global_settings, background and light sources. */
+#ifndef PSCN_LANGUAGE_SETTINGS_H
+#define PSCN_LANGUAGE_SETTINGS_H
+
+#include "language/transforms.h"
+#include "scene/method.h"
+#include "scene/scene.h"
+
+struct light_node {
+  struct light_node *next;
+  struct scene_light light;
+  struct transform transform;
+  struct block block;
+  int values; /* position, colour: how many have come */
+  bool after_comma, modified;
+};
+
+/* What the statements have said so far. */
+struct settings {
+  double background[3], ambient_light[3];
+  struct method method;       /* of all patches that have none of their own */
+  struct block block;         /* of the open background */
+  int background_values;      /* colours in it */
+  struct light_node *lights, **lights_end, *light; /* the last one is open */
+  size_t light_count;
+};
+
+void settings_default(struct settings *out);
+void language_version(struct language *language, const struct value *value);
+void global_gamma(struct language *language, const struct value *value);
+void global_trace_level(struct language *language, const struct value *value);
+void global_ambient(struct language *language, const struct value *value);
+void global_solver(struct language *language);
+void background_begin(struct language *language, struct place place);
+void background_value(struct language *language, const struct value *value);
+void background_end(struct language *language);
+void light_begin(struct language *language, struct place place);
+void light_value(struct language *language, const struct value *value);
+void light_comma(struct language *language, struct place place);
+void light_shadowless(struct language *language, struct place place);
+void light_transform(struct language *language, const struct transform *transform, struct place place);
+void light_end(struct language *language);
+
+#endif

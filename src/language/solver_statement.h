@@ -1,0 +1,15 @@
+/* `solver NAME { item value ... }`: names, items and ranges come from the tables in algebra/solver.h and scene/method.h.
+ * What the statement says becomes language->method. */
+#ifndef PSCN_LANGUAGE_SOLVER_STATEMENT_H
+#define PSCN_LANGUAGE_SOLVER_STATEMENT_H
+
+#include "language/values.h"
+#include "scene/method.h"
+
+void solver_begin(struct language *language, const struct token *name);
+void solver_misplaced(struct language *language, struct place place);
+void solver_quantity(struct language *language, const struct token *item, const struct value *value);
+/* A word of the item's, or else the name of a number. */
+void solver_word(struct language *language, const struct token *item, const struct token *value);
+
+#endif

@@ -1,0 +1,50 @@
+/* The stack of sources being read: the scene and what it includes. */
+#ifndef PSCN_LANGUAGE_SOURCES_H
+#define PSCN_LANGUAGE_SOURCES_H
+
+#include "language/scan.h"
+#include "language/symbols.h"
+#include "scene/scene.h"
+
+struct condition {
+  struct place place; /* of the #ifdef */
+  bool seen_else;
+};
+
+enum { MAX_CONDITIONS = 200 }; /* open in one source */
+
+/* A source being read. */
+struct frame {
+  struct frame *outer;
+  const struct source *source;
+  struct scan scan;
+  struct condition condition[MAX_CONDITIONS];
+  int conditions;
+};
+
+/* Zeroed: none. */
+struct sources {
+  struct frame *frame;      /* the one being read */
+  struct source_list *all;  /* that have been read */
+  struct table files;       /* the first source of each file */
+  int count;
+  size_t bytes; /* of all sources together */
+};
+
+/* Begins to read a source, which is taken over even on failure: false where memory is short. */
+bool sources_open(struct language *language, struct source *source);
+
+/* Tells the scene which files were read; false where memory is short. */
+bool sources_list(const struct language *language, struct scene *scene);
+
+/* Reads the file name behind #include and begins to read that file, or tells an error. */
+void sources_include(struct language *language);
+
+/* Goes back to the includer. */
+void sources_leave(struct language *language);
+void sources_close(struct language *language);
+
+/* The bytes of the last token of the source being read. */
+struct place sources_here(const struct language *language);
+
+#endif

@@ -1,0 +1,82 @@
+/* The bottom of this room: places, tokens, and the state of one reading with its errors and its memory.
+ *
+ * What happens where an error is found: it is told, and reading goes on with a harmless value, so that one run finds
+ * many errors; a scene comes out only where none was found. What each part of the room keeps while reading stands in
+ * its own header.
+ */
+#ifndef PSCN_LANGUAGE_STATE_H
+#define PSCN_LANGUAGE_STATE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "base/diagnostics.h"
+#include "base/source.h"
+
+/* Blocks open within each other, and declared objects within declared objects. */
+enum { MAX_NESTING = 200 };
+
+/* What a token is beside its kind. The text is not terminated and lives as long as its source. */
+struct token {
+  const char *text;
+  size_t length;
+  struct place place;
+  union {
+    double number[3];
+    int index;
+  };
+};
+
+/* A block in braces, or what else is read piece by piece. */
+struct block {
+  struct place place; /* of the word it begins with */
+  size_t errors;      /* told before it began */
+};
+
+/* How far a block has come: what may follow. */
+enum stage { STAGE_SETTINGS, STAGE_BODY, STAGE_MODIFIERS };
+
+struct language {
+  struct diagnostics *diagnostics;
+  struct arena *arena; /* of what is needed while reading only */
+  int width, height;
+  size_t memory_bytes, max_memory; /* held while reading; allowed */
+  bool unaffordable;               /* more was wanted */
+  bool ended_early;                /* memory, or a stated limit: STATUS_LIMIT */
+  struct place unknown;            /* the last word told to be unknown */
+  _Alignas(max_align_t) char spare[4096]; /* stands in for memory that there is not */
+  size_t spare_used;
+
+  struct symbols *symbols;
+  struct sources *sources;
+  struct tokens *tokens;
+  struct texture *texture; /* the innermost that is open */
+  struct method *method;   /* of the last solver statement */
+  struct objects *objects;
+  struct camera_items *camera;
+  struct settings *settings;
+};
+
+/* From the beginning of one to the end of the other, if both stand in one source. */
+struct place language_span(const struct place *first, const struct place *last);
+
+void language_error(struct language *language, struct place place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+struct block language_block(const struct language *language, struct place place);
+/* Whether no error has been told since the block began: what is missing in it may be the consequence of one. */
+bool language_sound(const struct language *language, const struct block *block);
+/* An error about a block, told only where it is sound. */
+void language_error_in(struct language *language, const struct block *block, struct place place, const char *text);
+
+/* A stated limit: reading ends at the next token, with STATUS_LIMIT. */
+void language_limit(struct language *language, struct place place, const char *text);
+
+/* Whether so many more bytes are within what settings.max_memory allows; if so they are counted. */
+bool language_afford(struct language *language, size_t bytes);
+
+/* zeroed, never NULL: reading ends at the next token instead */
+void *language_alloc(struct language *language, size_t size);
+
+#endif

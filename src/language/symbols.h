@@ -1,0 +1,76 @@
+/* Values, and the names declared for them. */
+#ifndef PSCN_LANGUAGE_SYMBOLS_H
+#define PSCN_LANGUAGE_SYMBOLS_H
+
+#include "language/state.h"
+#include "language/table.h"
+#include "language/words.h"
+
+struct symbol;
+
+enum value_kind {
+  VALUE_NUMBER, /* stands in all of x, so that it is a vector where one is wanted */
+  VALUE_VECTOR,
+  VALUE_COLOUR, /* red, green, blue */
+  VALUE_NAMED,  /* no value, but the object or texture `symbol` */
+  VALUE_UNKNOWN /* an error has been told; whatever is made of it is right */
+};
+
+struct value {
+  enum value_kind kind;
+  double x[3];
+  const struct symbol *symbol;
+  /* a colour that POV-Ray gives transparency: a number after `color` stands in all five parts there */
+  bool transparent;
+  struct place place;
+};
+
+enum symbol_kind { SYMBOL_BEGUN, SYMBOL_VALUE, SYMBOL_TEXTURE, SYMBOL_OBJECT, SYMBOL_BROKEN };
+
+struct symbol {
+  struct table_entry entry;
+  struct symbol *older; /* local before it */
+  const char *name;
+  size_t length;
+  int depth; /* 0: belongs to all; otherwise the include depth of its #local */
+  enum symbol_kind kind;
+  struct value value;
+  const struct texture *texture;
+  const char *texture_kind; /* "a texture", "a pigment", "a finish" */
+  const struct node *object;
+};
+
+/* Zeroed: no names. */
+struct symbols {
+  struct table table;
+  struct symbol *locals; /* of the files being read, the newest first */
+  int depth;             /* files that include the one being read */
+};
+
+/* The beginning and end of an included file, at which its locals are forgotten. */
+void symbols_enter(struct symbols *symbols);
+void symbols_leave(struct symbols *symbols);
+
+/* What a name stands for, or NULL: where it is not declared, or its declaration has only begun. */
+const struct symbol *symbol_find(const struct language *language, const char *name, size_t length);
+/* Whether #ifdef takes it for declared: from the = of its declaration on, as in POV-Ray. */
+bool symbol_known(const struct language *language, const char *name, size_t length);
+
+/* Considers all declared names. */
+void guess_symbols(struct guess *guess, const struct language *language);
+
+/* What a name that should stand for `wanted` does, if that is `kind`; else NULL, and that has been told. */
+const struct symbol *symbol_wanted(struct language *language, const struct token *name, enum symbol_kind kind,
+                                   const char *wanted);
+/* Tells that a name is something else than what is wanted. */
+void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted);
+
+/* The symbol that a declaration writes to; declarations may stand within each other. */
+struct symbol *declare_begin(struct language *language, const struct token *name, bool local);
+void declare_value(struct symbol *symbol, const struct value *value);
+void declare_broken(struct symbol *symbol); /* its declaration has an error */
+
+/* Declares a number, such as the one that tells this program from POV-Ray. The name is kept. */
+void declare_number(struct language *language, const char *name, size_t length, double number);
+
+#endif

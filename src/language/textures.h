@@ -1,0 +1,48 @@
+/* Pigments, finishes and textures; the defaults are POV-Ray's. */
+#ifndef PSCN_LANGUAGE_TEXTURES_H
+#define PSCN_LANGUAGE_TEXTURES_H
+
+#include "language/values.h"
+#include "scene/scene.h"
+
+/* The doubles of a scene_texture, by number, and which of them a block can set, by bits. */
+enum {
+  PART_PIGMENT = 0,
+  PART_AMBIENT = 3,
+  PART_DIFFUSE = 6,
+  PART_BRILLIANCE,
+  PART_PHONG,
+  PART_PHONG_SIZE,
+  PART_SPECULAR,
+  PART_ROUGHNESS,
+  PARTS
+};
+enum texture_block { TEXTURE_PIGMENT = 0x007, TEXTURE_FINISH = 0xff8, TEXTURE_ALL = 0xfff };
+
+struct texture {
+  struct texture *outer;    /* while its block is open */
+  enum texture_block block; /* the statement it comes from */
+  unsigned set;
+  enum stage stage;        /* of the open block: its declared name or colour, then the rest */
+  bool coloured, doubtful; /* a colour stands in the open pigment; or what may have been meant as one */
+  union {
+    struct scene_texture is;
+    double part[PARTS];
+  };
+};
+
+struct texture texture_default(void);
+/* What is set in `from` replaces what is in `to`. */
+void texture_apply(struct texture *to, const struct texture *from);
+
+void texture_begin(struct language *language, enum texture_block block);
+struct texture *texture_end(struct language *language);
+void texture_named(struct language *language, const struct token *name);
+void texture_merge(struct language *language, const struct texture *texture);
+void texture_moved(struct language *language); /* a transform, which changes nothing of one colour */
+void pigment_value(struct language *language, const struct value *value);
+void finish_ambient(struct language *language, const struct value *value);
+void finish_number(struct language *language, int part, const struct value *value);
+void declare_texture(struct language *language, struct symbol *symbol, const struct texture *texture);
+
+#endif

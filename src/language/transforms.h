@@ -1,0 +1,38 @@
+/* Affine transforms as POV-Ray has them: row vectors, angles in degrees, rotation about x, then y, then z.
+ *
+ * They are composed in double-double, and a point is rounded once at the end: what comes out is the nearest double of
+ * what the scene says, the same on every machine.
+ */
+#ifndef PSCN_LANGUAGE_TRANSFORMS_H
+#define PSCN_LANGUAGE_TRANSFORMS_H
+
+#include "base/double_double.h"
+#include "language/values.h"
+
+/* p' = p A + b. `identity` where nothing has been applied, so that points stay as they are to the bit. */
+struct transform {
+  bool identity;
+  struct double_double A[3][3], b[3];
+};
+
+struct transform transform_identity(void);
+/* first, then second. */
+struct transform transform_then(const struct transform *first, const struct transform *second);
+bool transform_finite(const struct transform *transform);
+void transform_point(const struct transform *transform, const double p[3], double out[3]); /* out may be p */
+
+/* The statements, in the reading's memory; the identity where an error has been told. */
+const struct transform *transform_translate(struct language *language, const struct value *by);
+const struct transform *transform_rotate(struct language *language, const struct value *by);
+const struct transform *transform_scale(struct language *language, const struct value *by);
+
+/* The numbers of a matrix statement; NULL and a place: it has but three, as one vector. */
+struct matrix {
+  double number[12];
+  int count;
+};
+struct matrix *matrix_begin(struct language *language, const struct value *first);
+void matrix_add(struct language *language, struct matrix *matrix, const struct value *value);
+const struct transform *transform_matrix(struct language *language, const struct matrix *matrix, struct place place);
+
+#endif
