@@ -6,7 +6,7 @@
 # Asks the network only when something is missing. Fails with the command to run where root would be needed.
 
 # What building and running pscn takes.
-BUILD_PACKAGES=(cmake ninja-build gcc g++ libc6-dev pkg-config flex bison libopenimageio-dev libpopt-dev libjansson-dev)
+BUILD_PACKAGES=(cmake ninja-build gcc g++ libc6-dev pkg-config flex bison libopenimageio-dev libjansson-dev)
 
 install_packages() {
   if ! command -v dpkg-query >/dev/null; then

@@ -26,7 +26,7 @@ enum {
 
 enum { MAX_RAYS = 1 << 22 };
 
-static const struct poptOption OPTIONS[] = {
+static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "folder of the results; default: SCENE's name and -chart", "DIR"),
   SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
@@ -37,7 +37,7 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_OPTION("povray", 0, OPTION_POVRAY, "the program; default povray", "FILE"),
   COMMAND_OPTION("timeout", 0, OPTION_TIMEOUT, "seconds that each run of it may take; default 300", "S"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless something is wrong"),
-  POPT_TABLEEND
+  COMMAND_OPTIONS_END
 };
 
 /* What the command line says. */
@@ -102,7 +102,7 @@ static enum status chart(const struct command *command, struct line *line)
     return STATUS_LIMIT;
   }
   line->scene.path = request->path;
-  enum status status = scene_file_load(&line->scene, &scene);
+  enum status status = scene_file_load(command, &line->scene, &scene);
   interrupt_defer();
   if (status == STATUS_OK)
     status = output_folder_make(command, request->folder, &made);
@@ -135,7 +135,6 @@ static int run(const struct command *command, int argc, const char **argv)
   }
   free(command_line);
   free(line.default_folder);
-  command_line_free(&arguments);
   return status == STATUS_INTERRUPTED || atomic_load(&interrupt_signal) != 0 ? interrupt_exit_code() : (int)status;
 }
 

@@ -33,7 +33,7 @@ enum {
 
 enum { MAX_PIXELS = 1 << 26, MAX_GRID = 100000 };
 
-static const struct poptOption OPTIONS[] = {
+static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "folder of the results; default: SCENE's name and -check", "DIR"),
   SCENE_SIZE_OPTION("of the pictures in pixels; default 800x600"),
@@ -51,7 +51,7 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_OPTION("failpsnr", 0, OPTION_FAIL_PSNR, "the least PSNR; default 40", "DB"),
   COMMAND_OPTION("failmask", 0, OPTION_FAIL_MASK, "percent of the pixels that only one may hit; default 0.3", "P"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless something is wrong"),
-  POPT_TABLEEND
+  COMMAND_OPTIONS_END
 };
 
 /* What the command line says. */
@@ -174,7 +174,7 @@ static enum status check(const struct command *command, struct line *line)
   line->scene.width = request->width;
   line->scene.height = request->height;
   if (status == STATUS_OK)
-    status = scene_file_load(&line->scene, &scene);
+    status = scene_file_load(command, &line->scene, &scene);
   request->parse = seconds_since(start);
   if (status == STATUS_OK)
     status = check_scene(request, scene, &listener, &text);
@@ -213,7 +213,6 @@ static int run(const struct command *command, int argc, const char **argv)
   free(command_line);
   free(line.options);
   free(line.default_folder);
-  command_line_free(&arguments);
   return status == STATUS_INTERRUPTED || atomic_load(&interrupt_signal) != 0 ? interrupt_exit_code() : (int)status;
 }
 

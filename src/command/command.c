@@ -1,12 +1,14 @@
 /* What subcommands share: help texts, error lines, command lines. */
 #include "command/command.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "command/interrupt.h"
+#include "language/words.h"
 
 /* In the order of the help text. */
 static const struct command *const commands[] = {
@@ -23,24 +25,33 @@ const struct command *command_find(const char *name)
   return NULL;
 }
 
-static void print_option(const struct poptOption *option, FILE *file)
+const char *command_guess(const char *name)
+{
+  const char *best = NULL;
+  size_t best_length, distance = words_reach(strlen(name));
+  for (const struct command *const *command = commands; *command != NULL; command++)
+    words_consider(name, strlen(name), (*command)->name, strlen((*command)->name), &best, &best_length, &distance);
+  return best;
+}
+
+static void print_option(const struct command_option *option, FILE *file)
 {
   enum { LABEL_SIZE = 80, LABEL_WIDTH = 22 };
   char label[LABEL_SIZE], letter[] = "    ";
-  if (option->shortName != '\0')
-    snprintf(letter, sizeof letter, "-%c, ", option->shortName);
-  snprintf(label, sizeof label, "%s--%s %s", letter, option->longName,
-           option->argDescrip == NULL ? "" : option->argDescrip);
-  fprintf(file, "  %-*s  %s\n", LABEL_WIDTH, label, option->descrip);
+  if (option->letter != '\0')
+    snprintf(letter, sizeof letter, "-%c, ", option->letter);
+  snprintf(label, sizeof label, "%s--%s %s", letter, option->name,
+           option->argument == NULL ? "" : option->argument);
+  fprintf(file, "  %-*s  %s\n", LABEL_WIDTH, label, option->text);
 }
 
 void command_print_help(const struct command *command, FILE *file)
 {
   fprintf(file, "usage: pscn %s%s%s%s\n%s.\n\n", command->name, command->arguments[0] == '\0' ? "" : " ",
-          command->arguments, command->options[1].longName == NULL ? "" : " [OPTION...]", command->summary);
+          command->arguments, command->options[1].name == NULL ? "" : " [OPTION...]", command->summary);
   fputs(command->description, file);
   fputs("\nOptions:\n", file);
-  for (const struct poptOption *option = command->options; option->longName != NULL; option++)
+  for (const struct command_option *option = command->options; option->name != NULL; option++)
     print_option(option, file);
 }
 
@@ -52,7 +63,7 @@ void command_print_overview(FILE *file)
         file);
   for (const struct command *const *command = commands; *command != NULL; command++)
     fprintf(file, "  %-8s %-12s %s\n", (*command)->name, (*command)->arguments, (*command)->summary);
-  fputs("\n'pscn help COMMAND' tells more of each, 'pscn --version' the version.\n"
+  fputs("\n'pscn SCENE' renders it. 'pscn help COMMAND' tells more of each, 'pscn --version' the version.\n"
         "Exit codes: 0 done, 1 a comparison failed, 2 usage, 3 scene or input error, 4 file error,\n"
         "5 memory or a limit, 130 and 143 interrupted.\n",
         file);
@@ -89,17 +100,6 @@ int command_usage(const struct command *command, const char *format, ...)
   return STATUS_USAGE;
 }
 
-/* Keeps an option's argument until command_line_free. */
-static bool take(struct command_line *line, char *argument)
-{
-  char **taken = realloc(line->taken, (line->taken_count + 1) * sizeof *taken);
-  if (taken == NULL)
-    return false;
-  line->taken = taken;
-  line->taken[line->taken_count++] = argument;
-  return true;
-}
-
 static void hear(void *context, enum told what, const char *text)
 {
   const struct command_ear *ear = context;
@@ -130,62 +130,116 @@ char *command_line_text(int argc, const char **argv)
   return text;
 }
 
-static enum status read_options(const struct command *command, command_option_handler *handle, void *context,
-                                struct command_line *line)
+/* A command line while it is read. */
+struct reading {
+  const struct command *command;
+  command_option_handler *handle;
+  void *context;
+  const char **next; /* the words that follow, to NULL */
+  struct command_line *line;
+};
+
+/* The option of that long name, or where it is NULL of that letter; NULL where there is none. */
+static const struct command_option *find_option(const struct command *command, const char *name, size_t length,
+                                                char letter)
 {
-  int val;
-  while ((val = poptGetNextOpt(line->context)) >= 0) {
-    if (val == OPTION_HELP) {
-      command_print_help(command, stdout);
-      line->help = true;
-      return command_finish_output(command);
-    }
-    char *argument = poptGetOptArg(line->context);
-    if (argument != NULL && !take(line, argument)) {
-      free(argument);
-      command_error(command, "out of memory");
-      return STATUS_LIMIT;
-    }
-    const enum status status = handle(command, context, val, argument);
-    if (status != STATUS_OK)
-      return status;
+  for (const struct command_option *option = command->options; option->name != NULL; option++) {
+    if (name != NULL ? strlen(option->name) == length && memcmp(option->name, name, length) == 0
+                     : option->letter == letter)
+      return option;
   }
-  if (val < -1)
-    return (enum status)command_usage(command, "option '%s': %s", poptBadOption(line->context, POPT_BADOPTION_NOALIAS),
-                                      poptStrerror(val));
-  return STATUS_OK;
+  return NULL;
+}
+
+static enum status unknown_option(const struct command *command, const char *word)
+{
+  const char *best = NULL;
+  const size_t length = strcspn(word, "=");
+  size_t best_length, distance = words_reach(length);
+  for (const struct command_option *option = command->options; length > 2 && option->name != NULL; option++)
+    words_consider(word + 2, length - 2, option->name, strlen(option->name), &best, &best_length, &distance);
+  return (enum status)(best == NULL
+                         ? command_usage(command, "option '%s': unknown option", word)
+                         : command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length,
+                                         word, best));
+}
+
+/* Hands an option over, with its argument: `joined`, where that is a part of the same word, else the next word. `said` is
+ * how it stands on the command line. */
+static enum status take_option(struct reading *reading, const struct command_option *option, const char *said,
+                               const char *joined)
+{
+  const char *argument = joined;
+  if (option->val == OPTION_HELP) {
+    command_print_help(reading->command, stdout);
+    reading->line->help = true;
+    return command_finish_output(reading->command);
+  }
+  if (option->argument == NULL && joined != NULL)
+    return (enum status)command_usage(reading->command, "option '%s': option does not take an argument", said);
+  if (option->argument != NULL && joined == NULL) {
+    argument = *reading->next;
+    if (argument == NULL)
+      return (enum status)command_usage(reading->command, "option '%s': missing argument", said);
+    if (argument[0] == '-' && (argument[1] == '-' || isalpha((unsigned char)argument[1])))
+      return (enum status)command_usage(reading->command, "option '%s': '%s' stands where its argument %s should be",
+                                        said, argument, option->argument);
+    reading->next++;
+  }
+  return reading->handle(reading->command, reading->context, option->val, argument);
+}
+
+/* "--name", "--name=argument". */
+static enum status read_long(struct reading *reading, const char *word)
+{
+  const size_t length = strcspn(word + 2, "=");
+  const struct command_option *option = find_option(reading->command, word + 2, length, 0);
+  if (option == NULL)
+    return unknown_option(reading->command, word);
+  return take_option(reading, option, word, word[2 + length] == '=' ? word + 2 + length + 1 : NULL);
+}
+
+/* "-a", "-abc" of several options, of which the last one may have its argument behind it. */
+static enum status read_letters(struct reading *reading, const char *word)
+{
+  enum status status = STATUS_OK;
+  for (const char *letter = word + 1; *letter != '\0' && status == STATUS_OK && !reading->line->help; letter++) {
+    const struct command_option *option = find_option(reading->command, NULL, 0, *letter);
+    if (option == NULL)
+      return unknown_option(reading->command, word);
+    const bool joined = option->argument != NULL && letter[1] != '\0';
+    status = take_option(reading, option, word, joined ? letter + 1 + (letter[1] == '=') : NULL);
+    if (joined)
+      break;
+  }
+  return status;
 }
 
 enum status command_line_read(const struct command *command, int argc, const char **argv, size_t count,
                               command_option_handler *handle, void *context, struct command_line *out)
 {
-  *out = (struct command_line){ 0 };
-  out->context = poptGetContext(NULL, argc, argv, command->options, 0);
-  if (out->context == NULL) {
-    command_error(command, "out of memory");
-    return STATUS_LIMIT;
+  *out = (struct command_line){ .positional = argv };
+  struct reading reading = { command, handle, context, argv + (argc > 0), out };
+  enum status status = STATUS_OK;
+  bool options = true; /* until "--" */
+  while (status == STATUS_OK && !out->help && *reading.next != NULL) {
+    const char *word = *reading.next++;
+    if (!options || word[0] != '-' || word[1] == '\0')
+      argv[out->positional_count++] = word; /* behind what has been read already */
+    else if (word[1] != '-')
+      status = read_letters(&reading, word);
+    else if (word[2] != '\0')
+      status = read_long(&reading, word);
+    else
+      options = false;
   }
-  const enum status status = read_options(command, handle, context, out);
   if (status != STATUS_OK || out->help)
     return status;
-  out->positional = poptGetArgs(out->context);
-  while (out->positional != NULL && out->positional[out->positional_count] != NULL)
-    out->positional_count++;
   if (out->positional_count < count)
     return (enum status)command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);
   if (out->positional_count > count)
     return (enum status)command_usage(command, "one argument too many: '%s'", out->positional[count]);
   return STATUS_OK;
-}
-
-void command_line_free(struct command_line *line)
-{
-  for (size_t k = 0; k < line->taken_count; k++)
-    free(line->taken[k]);
-  free(line->taken);
-  if (line->context != NULL)
-    poptFreeContext(line->context);
-  *line = (struct command_line){ 0 };
 }
 
 enum status command_finish_output(const struct command *command)

@@ -6,7 +6,6 @@
 #ifndef PSCN_COMMAND_COMMAND_H
 #define PSCN_COMMAND_COMMAND_H
 
-#include <popt.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -14,26 +13,37 @@
 #include "base/listener.h"
 #include "base/status.h"
 
+/* A row of the table of a command's options. */
+struct command_option {
+  const char *name;     /* "output"; NULL ends the table */
+  char letter;          /* 'o', or 0 */
+  int val;              /* what the command is told of it */
+  const char *text;     /* of the help */
+  const char *argument; /* likewise, "FILE"; NULL: it takes none */
+};
+
 struct command {
   const char *name;
   const char *arguments;            /* as in the usage line, "SCENE" */
   const char *summary;              /* one line */
   const char *description;          /* paragraphs for `pscn help NAME`, ending with a newline */
-  const struct poptOption *options; /* ended by POPT_TABLEEND; descrip and argDescrip are the help text */
+  const struct command_option *options; /* ended by COMMAND_OPTIONS_END */
   int (*run)(const struct command *command, int argc, const char **argv); /* argv[0] is the command's name */
 };
 
 extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_check,
   command_chart, command_help;
 
-/* The command of that name, or NULL. */
+/* The command of that name, or NULL; and the name of the one that may have been meant, or NULL. */
 const struct command *command_find(const char *name);
+const char *command_guess(const char *name);
 
 /* The help text of one command, and of all. */
 void command_print_help(const struct command *command, FILE *file);
 void command_print_overview(FILE *file);
 
-/* "pscn NAME: error: text" to stderr (without NAME where command is NULL). command_usage adds where help is, and
+/* "pscn NAME: error: text" to stderr (without NAME where command is NULL), the form of all errors that no line of
+ * an input has. command_usage adds where help is, and
  * answers STATUS_USAGE. */
 void command_error(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 int command_usage(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -46,25 +56,21 @@ struct command_ear {
 };
 struct listener command_listener(struct command_ear *ear);
 
-/* Reads a command line: `handle` is told each option's val and its argument (NULL where it takes none; valid as long as
- * `options` lives) and answers STATUS_OK or a status after having told its error. --help is answered here. */
+/* Reads a command line: `handle` is told each option's val and its argument (NULL where it takes none) and answers
+ * STATUS_OK or a status after having told its error. --help is answered here. Options stand anywhere before "--". */
 struct command_line {
-  poptContext context;
-  const char **positional; /* positional_count of them, then NULL */
+  const char **positional; /* positional_count of them, at the beginning of argv, which is used up */
   size_t positional_count;
-  char **taken;            /* the options' arguments */
-  size_t taken_count;
   bool help;               /* --help was given and answered: the command is done */
 };
 
 typedef enum status command_option_handler(const struct command *command, void *context, int val, const char *argument);
 
-/* STATUS_USAGE after telling the error where options are wrong or the number of other arguments is not `count`. The
- * caller ends with command_line_free in any case. */
+/* STATUS_USAGE after telling the error where options are wrong or the number of other arguments is not `count`. argv
+ * ends with NULL. */
 enum status command_line_read(const struct command *command, int argc, const char **argv, size_t count,
                               command_option_handler *handle, void *context,
                               struct command_line *out) STATUS_MUST_CHECK;
-void command_line_free(struct command_line *line);
 
 /* Flushes stdout; STATUS_FILE after telling the error where something was not written. Need not be checked where the
  * command fails anyway. */
@@ -80,8 +86,9 @@ char *command_line_text(int argc, const char **argv);
 /* A row of the table for an option that takes an argument, for one that takes none, and for the one that every command
  * has, which command_line_read answers. `letter` is the short name, or 0. */
 enum { OPTION_HELP = 1000 };
-#define COMMAND_OPTION(name, letter, val, text, argument) { name, letter, POPT_ARG_STRING, NULL, val, text, argument }
-#define COMMAND_FLAG(name, letter, val, text) { name, letter, POPT_ARG_NONE, NULL, val, text, NULL }
+#define COMMAND_OPTION(name, letter, val, text, argument) { name, letter, val, text, argument }
+#define COMMAND_FLAG(name, letter, val, text) { name, letter, val, text, NULL }
+#define COMMAND_OPTIONS_END { NULL, 0, 0, NULL, NULL }
 #define COMMAND_HELP_OPTION COMMAND_FLAG("help", 'h', OPTION_HELP, "show this text")
 
 #endif

@@ -27,7 +27,7 @@ enum {
 /* Differences up to this are no difference unless the options say otherwise; idiff's default as well. */
 static const double DEFAULT_LIMIT = 1e-6;
 
-static const struct poptOption OPTIONS[] = {
+static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "picture of the absolute differences, .png or .exr", "DIFF"),
   COMMAND_OPTION("scale", 0, OPTION_SCALE, "factor of the differences in that picture; default 1", "S"),
@@ -40,7 +40,7 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_OPTION("warnpercent", 0, OPTION_WARN_PERCENT, "so many percent of the pixels may; default 0", "P"),
   COMMAND_OPTION("hardwarn", 0, OPTION_WARN_ANY, "a warning if any pixel is beyond this; default none", "E"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless the comparison fails"),
-  POPT_TABLEEND
+  COMMAND_OPTIONS_END
 };
 
 struct request {
@@ -256,8 +256,8 @@ static enum status judge(const struct command *command, const struct request *re
 static enum status compare(const struct command *command, const struct request *request)
 {
   enum image_format format = IMAGE_PNG;
-  if (request->output != NULL && !image_format_of(request->output, &format))
-    return (enum status)command_usage(command, "'%s' ends neither in .png nor in .exr", request->output);
+  if (request->output != NULL && output_format(command, request->output, &format) != STATUS_OK)
+    return STATUS_USAGE;
   enum status status = output_spare(command, request->output, request->first);
   if (status == STATUS_OK)
     status = output_spare(command, request->output, request->second);
@@ -318,7 +318,6 @@ static int run(const struct command *command, int argc, const char **argv)
     request.second = line.positional[1];
     status = compare(command, &request);
   }
-  command_line_free(&line);
   return (int)status;
 }
 

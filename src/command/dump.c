@@ -5,11 +5,11 @@
 #include "command/scene_file.h"
 #include "scene/dump.h"
 
-static const struct poptOption OPTIONS[] = {
+static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   SCENE_SIZE_OPTION("what image_width and image_height mean; default 800x600"),
   SCENE_OPTIONS,
-  POPT_TABLEEND
+  COMMAND_OPTIONS_END
 };
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
@@ -25,7 +25,7 @@ static int run(const struct command *command, int argc, const char **argv)
   enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) {
     request.path = line.positional[0];
-    status = scene_file_load(&request, &scene);
+    status = scene_file_load(command, &request, &scene);
     if (status == STATUS_OK) {
       status = scene_dump(scene, stdout);
       if (status == STATUS_LIMIT)
@@ -35,7 +35,6 @@ static int run(const struct command *command, int argc, const char **argv)
     }
   }
   scene_destroy(scene);
-  command_line_free(&line);
   return (int)status;
 }
 

@@ -3,7 +3,7 @@
 
 #include "command/command.h"
 
-static const struct poptOption OPTIONS[] = { COMMAND_HELP_OPTION, POPT_TABLEEND };
+static const struct command_option OPTIONS[] = { COMMAND_HELP_OPTION, COMMAND_OPTIONS_END };
 
 static int run(const struct command *command, int argc, const char **argv)
 {

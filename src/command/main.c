@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/version.h"
 #include "command/command.h"
@@ -17,6 +18,13 @@ static void hold_streams(void)
   }
 }
 
+/* "pscn scene.pscn" means that it is to be rendered. */
+static bool is_scene(const char *name)
+{
+  const char *suffix = strrchr(name, '.');
+  return (suffix != NULL && strcmp(suffix, ".pscn") == 0) || access(name, F_OK) == 0;
+}
+
 int main(int argc, char **argv)
 {
   hold_streams();
@@ -26,15 +34,23 @@ int main(int argc, char **argv)
     return STATUS_USAGE;
   }
   const char *name = argv[1];
-  if (strcmp(name, "--version") == 0 && argc == 2) {
+  if ((strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0 || strcmp(name, "-v") == 0) && argc == 2) {
     printf("pscn %s\n", PSCN_VERSION);
     return (int)command_finish_output(NULL);
   }
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
     name = command_help.name;
   const struct command *command = command_find(name);
-  if (command == NULL)
-    return command_usage(NULL, "unknown command '%s'", name);
-  const int code = command->run(command, argc - 1, (const char **)argv + 1);
+  int words = 1; /* that stand before the command's own */
+  if (command == NULL && is_scene(name)) {
+    command = &command_render;
+    words = 0;
+  }
+  if (command == NULL) {
+    const char *guess = command_guess(name);
+    return guess == NULL ? command_usage(NULL, "unknown command '%s'", name)
+                         : command_usage(NULL, "unknown command '%s'; did you mean '%s'?", name, guess);
+  }
+  const int code = command->run(command, argc - words, (const char **)argv + words);
   return code == STATUS_INTERRUPTED ? interrupt_exit_code() : code;
 }

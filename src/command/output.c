@@ -10,6 +10,13 @@
 #include "base/input.h"
 #include "command/interrupt.h"
 
+/* What follows the last slash. */
+static const char *base_of(const char *path)
+{
+  const char *slash = strrchr(path, '/');
+  return slash == NULL ? path : slash + 1;
+}
+
 bool output_is_standard(const char *path) { return strcmp(path, "-") == 0; }
 
 enum status output_probe(const struct command *command, const char *path)
@@ -35,18 +42,22 @@ enum status output_write(const struct command *command, const char *path, const 
   return command_written(command, path, status, reason);
 }
 
+enum status output_format(const struct command *command, const char *path, enum image_format *out)
+{
+  if (image_format_of(path, out))
+    return STATUS_OK;
+  const char *base = base_of(path);
+  char named[16];
+  if (snprintf(named, sizeof named, "a%s", base) < (int)sizeof named && image_format_of(named, out))
+    return (enum status)command_usage(command, "'%s' is a suffix without a name before it", path);
+  return (enum status)command_usage(command, "'%s' ends neither in .png nor in .exr", path);
+}
+
 enum status output_spare(const struct command *command, const char *path, const char *other)
 {
   if (path == NULL || other == NULL || !(strcmp(path, other) == 0 || input_same(path, other)))
     return STATUS_OK;
   return (enum status)command_usage(command, "'%s' and '%s' are one file and must be two", path, other);
-}
-
-/* What follows the last slash. */
-static const char *base_of(const char *path)
-{
-  const char *slash = strrchr(path, '/');
-  return slash == NULL ? path : slash + 1;
 }
 
 char *output_name(const char *scene, const char *suffix)

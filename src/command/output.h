@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "command/command.h"
+#include "image/image_file.h"
 
 /* The name that means standard output, or as a scene's standard input. */
 bool output_is_standard(const char *path);
@@ -14,6 +15,9 @@ bool output_is_standard(const char *path);
 enum status output_probe(const struct command *command, const char *path) STATUS_MUST_CHECK;
 enum status output_write(const struct command *command, const char *path, const void *bytes,
                          size_t size) STATUS_MUST_CHECK;
+
+/* The format of a picture, by its suffix; STATUS_USAGE, told, where it has none that is known. */
+enum status output_format(const struct command *command, const char *path, enum image_format *out) STATUS_MUST_CHECK;
 
 /* STATUS_USAGE, told, where `path` would overwrite `other`, an input or another output: the same file, by whatever name.
  * NULLs and devices overwrite nothing. */

@@ -3,13 +3,14 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 /* Seconds between two tellings. */
 static const double TERMINAL_PERIOD = 0.2;
 static const double LINE_PERIOD = 5;
 
-enum { BAR_WIDTH = 30 };
+enum { BAR_WIDTH = 30, LEAST_BAR = 4, LINE_SIZE = 128 };
 
 struct progress progress_start(void)
 {
@@ -38,6 +39,26 @@ static void write_rate(double rate, char *out, size_t size)
     snprintf(out, size, "%.1f k rays/s", rate / 1e3);
 }
 
+/* A line that is written over by the next one, so it must not be longer than the terminal is wide: there the bar gives
+ * way first. */
+static void tell_terminal(const char *line, size_t length, double done)
+{
+  struct winsize window;
+  const size_t columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0 ? window.ws_col : 80;
+  const size_t around = strlen("[]  "); /* the bar's brackets, a blank, and the last column, which may break the line */
+  char bar[BAR_WIDTH + 4] = "";
+  if (columns >= length + around + LEAST_BAR) {
+    const size_t room = columns - length - around, width = room < BAR_WIDTH ? room : BAR_WIDTH;
+    const size_t full = (size_t)(done * (double)width);
+    bar[0] = '[';
+    memset(bar + 1, '.', width);
+    memset(bar + 1, '#', full < width ? full : width);
+    memcpy(bar + 1 + width, "] ", 3);
+  }
+  fprintf(stderr, "\r%s%.*s\033[K", bar, (int)(columns - 1), line);
+  fflush(stderr);
+}
+
 void progress_tell(void *context, const struct render_progress *progress)
 {
   struct progress *state = context;
@@ -49,17 +70,12 @@ void progress_tell(void *context, const struct render_progress *progress)
   if (done > 0)
     write_duration(progress->seconds * (1 - done) / done, left, sizeof left);
   write_rate((double)progress->rays / progress->seconds, rate, sizeof rate);
-  if (state->terminal) {
-    char bar[BAR_WIDTH + 1];
-    const size_t full = (size_t)(done * BAR_WIDTH);
-    memset(bar, '.', BAR_WIDTH);
-    memset(bar, '#', full < BAR_WIDTH ? full : BAR_WIDTH);
-    bar[BAR_WIDTH] = '\0';
-    fprintf(stderr, "\r[%s] %3.0f %%, %s, %s left\033[K", bar, 100 * done, rate, left);
-    fflush(stderr);
-  } else {
-    fprintf(stderr, "%.0f %%, %s, %s left\n", 100 * done, rate, left);
-  }
+  char line[LINE_SIZE];
+  const int length = snprintf(line, sizeof line, "%.0f %%, %s, %s left", 100 * done, rate, left);
+  if (state->terminal)
+    tell_terminal(line, (size_t)length, done);
+  else
+    fprintf(stderr, "%s\n", line);
 }
 
 void progress_end(const struct progress *progress)

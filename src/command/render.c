@@ -32,7 +32,7 @@ enum {
   MAX_PIXELS = 1 << 28      /* of the part that is kept, 3 GiB of colours; larger ones are typing errors */
 };
 
-static const struct poptOption OPTIONS[] = {
+static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "the picture, .png or .exr; default: SCENE with .png", "FILE"),
   SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
@@ -44,7 +44,7 @@ static const struct poptOption OPTIONS[] = {
   COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
   COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output", "FILE"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless something is wrong"),
-  POPT_TABLEEND
+  COMMAND_OPTIONS_END
 };
 
 /* What the command line asks for. */
@@ -64,7 +64,15 @@ static enum status take_channels(const struct command *command, struct request *
   size_t length;
   if (channel_list_parse(text, &request->options.channels, &bad, &length))
     return STATUS_OK;
-  return (enum status)command_usage(command, "channel '%.*s' is unknown or named twice", (int)length, bad);
+  char known[256] = "";
+  for (int k = 0; k < CHANNEL_KINDS; k++) {
+    const char *name = channel_traits((enum channel_kind)k)->name;
+    if (strlen(name) == length && memcmp(name, bad, length) == 0)
+      return (enum status)command_usage(command, "channel '%s' is named twice", name);
+    const size_t used = strlen(known);
+    snprintf(known + used, sizeof known - used, "%s%s", k == 0 ? "" : ", ", name);
+  }
+  return (enum status)command_usage(command, "there is no channel '%.*s', only %s", (int)length, bad, known);
 }
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
@@ -112,8 +120,8 @@ static enum status check_format(const struct command *command, struct request *r
   const bool plain = channels->count == 1 && channels->kind[0] == CHANNEL_RGB;
   if (output_is_standard(request->output))
     request->format = plain && request->bits != 32 ? IMAGE_PNG : IMAGE_EXR;
-  else if (!image_format_of(request->output, &request->format))
-    return (enum status)command_usage(command, "'%s' ends neither in .png nor in .exr", request->output);
+  else if (output_format(command, request->output, &request->format) != STATUS_OK)
+    return STATUS_USAGE;
   if (request->bits == 0)
     request->bits = (size_t)image_format_default_bits(request->format);
   if (!image_format_has_bits(request->format, (int)request->bits))
@@ -258,7 +266,7 @@ static enum status render(const struct command *command, struct request *request
   struct scene *scene = NULL;
   struct image image = { 0 };
   const struct seconds start = seconds_now();
-  status = scene_file_load(&request->scene, &scene);
+  status = scene_file_load(command, &request->scene, &scene);
   struct report report = { .scene_path = request->scene.path,
                            .picture_path = request->output,
                            .scene = scene,
@@ -300,7 +308,6 @@ static int run(const struct command *command, int argc, const char **argv)
     status = render(command, &request);
   }
   free(request.default_output);
-  command_line_free(&line);
   return (int)status;
 }
 

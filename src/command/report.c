@@ -21,8 +21,8 @@ void report_print(const struct report *report)
   if (report->picture_path != NULL)
     fprintf(stderr, "%s: %zu x %zu pixels, %zu x %zu samples each\n", report->picture_path, report->crop.width,
             report->crop.height, report->samples, report->samples);
-  fprintf(stderr, "solver   %s, %zu patches, %zu thread%s\n", solver, report->scene->patch_count, report->threads,
-          report->threads == 1 ? "" : "s");
+  fprintf(stderr, "solver   %s, %zu patch%s, %zu thread%s\n", solver, report->scene->patch_count,
+          report->scene->patch_count == 1 ? "" : "es", report->threads, report->threads == 1 ? "" : "s");
   fprintf(stderr, "rays     %" PRIu64 " primary, %" PRIu64 " shadow\n", counts->rays[0], counts->rays[1]);
   fprintf(stderr, "answers  %" PRIu64 " certain, %" PRIu64 " grazing\n", counts->certain, counts->grazing);
   fprintf(stderr, "patches  %" PRIu64 " tried, %" PRIu64 " of them by subdivision\n", counts->patches_tested,

@@ -28,7 +28,7 @@ enum {
 /* All roots are asked for, so the default is not the scene's, which finds those in [0,1] only. */
 static const char DEFAULT_SOLVER[] = "aberth";
 
-static const struct poptOption OPTIONS[] = {
+static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_OPTION("solver", 0, OPTION_SOLVER, "what may follow 'solver' in a scene; default aberth", "TEXT"),
   COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of the solver's tolerance", "E"),
@@ -36,7 +36,7 @@ static const struct poptOption OPTIONS[] = {
                  "FORMAT"),
   COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output, after the roots", "FILE"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "no summary on a terminal"),
-  POPT_TABLEEND
+  COMMAND_OPTIONS_END
 };
 
 enum format { FORMAT_PLAIN, FORMAT_TABLE, FORMAT_JSON };
@@ -341,10 +341,10 @@ static bool mentions(const char *text, const char *word)
   return false;
 }
 
-static enum status choose_solver(const struct request *request, struct method *out)
+static enum status choose_solver(const struct command *command, const struct request *request, struct method *out)
 {
   const char *text = request->solver.solver_text == NULL ? DEFAULT_SOLVER : request->solver.solver_text;
-  struct diagnostics diagnostics = stderr_diagnostics();
+  struct diagnostics diagnostics = stderr_diagnostics(command);
   const enum status status = language_parse_solver(text, &diagnostics, out);
   if (status != STATUS_OK)
     return status;
@@ -363,7 +363,7 @@ static enum status roots(const struct command *command, const struct request *re
   if (status == STATUS_OK)
     status = output_probe(command, request->stats);
   if (status == STATUS_OK)
-    status = choose_solver(request, &session.method);
+    status = choose_solver(command, request, &session.method);
   if (status == STATUS_OK)
     status = stream_read(command, &reader);
   if (status == STATUS_OK && request->stats != NULL)
@@ -385,7 +385,6 @@ static int run(const struct command *command, int argc, const char **argv)
     (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     status = roots(command, &request);
   }
-  command_line_free(&line);
   return (int)status;
 }
 

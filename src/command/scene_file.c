@@ -9,15 +9,18 @@
 #include "command/values.h"
 #include "language/language.h"
 
+/* What has no place is told in the form of command_error. */
 static void tell(void *context, const char *text, size_t length)
 {
-  (void)context;
+  const char *const *name = context;
+  if (strncmp(text, "error: ", 7) == 0)
+    fprintf(stderr, "pscn %s: ", *name);
   (void)fwrite(text, 1, length, stderr);
 }
 
-struct diagnostics stderr_diagnostics(void)
+struct diagnostics stderr_diagnostics(const struct command *command)
 {
-  return (struct diagnostics){ .tell = tell };
+  return (struct diagnostics){ .tell = tell, .context = (void *)&command->name };
 }
 
 enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
@@ -53,7 +56,8 @@ static size_t default_memory(void)
   return (size_t)pages * (size_t)page / share;
 }
 
-enum status scene_file_load(const struct scene_request *request, struct scene **out)
+enum status scene_file_load(const struct command *command, const struct scene_request *request,
+                            struct scene **out)
 {
   const struct language_settings settings = { .image_width = (int)request->width,
                                               .image_height = (int)request->height,
@@ -61,7 +65,7 @@ enum status scene_file_load(const struct scene_request *request, struct scene **
                                               .tolerance = request->tolerance,
                                               .max_memory =
                                                 request->max_memory != 0 ? request->max_memory : default_memory() };
-  struct diagnostics diagnostics = stderr_diagnostics();
+  struct diagnostics diagnostics = stderr_diagnostics(command);
   if (!output_is_standard(request->path))
     return language_load(request->path, &settings, &diagnostics, out);
   struct source *text;

@@ -39,7 +39,8 @@ enum status scene_request_take(const struct command *command, struct scene_reque
 
 /* Reads the scene, from standard input where its path is "-"; the caller destroys it. On failure the errors have been
  * told and *out is NULL. */
-enum status scene_file_load(const struct scene_request *request, struct scene **out) STATUS_MUST_CHECK;
+enum status scene_file_load(const struct command *command, const struct scene_request *request,
+                            struct scene **out) STATUS_MUST_CHECK;
 
 /* STATUS_USAGE, told, where `output` (NULL: nowhere) would overwrite what the scene is read from. To be asked before it is
  * read, with NULL for the scene, and again when what it includes is known. */
@@ -47,6 +48,6 @@ enum status scene_file_spare(const struct command *command, const struct scene_r
                              const struct scene *scene, const char *output) STATUS_MUST_CHECK;
 
 /* Diagnostics that are told on stderr. */
-struct diagnostics stderr_diagnostics(void);
+struct diagnostics stderr_diagnostics(const struct command *command);
 
 #endif

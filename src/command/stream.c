@@ -101,10 +101,10 @@ int stream_number(const struct stream_line *line, size_t *at, double *out_value,
 }
 
 /* Tells the fault of the line at the beginning of what is left. */
-static enum status explain(const struct stream *stream, const struct stream_line *line, size_t record,
-                           struct stream_fault fault)
+static enum status explain(const struct command *command, const struct stream *stream,
+                           const struct stream_line *line, size_t record, struct stream_fault fault)
 {
-  struct diagnostics diagnostics = stderr_diagnostics();
+  struct diagnostics diagnostics = stderr_diagnostics(command);
   if (record != 0) {
     diagnostics_error(&diagnostics, (struct place){ NULL, 0, 0 }, "%s, record %zu: %s", NAME, stream->count + 1,
                       fault.text);
@@ -157,7 +157,7 @@ enum status stream_read(const struct command *command, const struct stream_reade
   if (status == STATUS_OK)
     status = write_answers(command, reader);
   if (status == STATUS_OK && fault.text != NULL)
-    status = explain(&stream, &line, reader->record, fault);
+    status = explain(command, &stream, &line, reader->record, fault);
   if (status == STATUS_LIMIT)
     command_error(command, "out of memory");
   free(stream.buffer);

@@ -23,14 +23,14 @@ enum {
   OUTPUT_BUFFER = 1 << 16
 };
 
-static const struct poptOption OPTIONS[] = {
+static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   SCENE_OPTIONS,
   COMMAND_FLAG("binary", 0, OPTION_BINARY, "little-endian doubles instead of text"),
   COMMAND_FLAG("certainty", 0, OPTION_CERTAINTY, "whether each answer is 'certain' or 'grazing'"),
   COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output, after the hits", "FILE"),
   COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "no summary on a terminal"),
-  POPT_TABLEEND
+  COMMAND_OPTIONS_END
 };
 
 struct request {
@@ -214,7 +214,7 @@ static enum status trace(const struct command *command, struct request *request)
     status = output_probe(command, request->stats);
   if (status != STATUS_OK)
     return status;
-  status = scene_file_load(&request->scene, &scene);
+  status = scene_file_load(command, &request->scene, &scene);
   if (status == STATUS_OK)
     status = scene_file_spare(command, &request->scene, scene, request->stats);
   struct report report = { .scene_path = request->scene.path, .scene = scene, .threads = 1 };
@@ -260,7 +260,6 @@ static int run(const struct command *command, int argc, const char **argv)
     request.scene.path = line.positional[0];
     status = trace(command, &request);
   }
-  command_line_free(&line);
   return (int)status;
 }
 

@@ -81,8 +81,9 @@ bool value_bytes(const char *text, size_t *out)
 bool value_size(const char *text, size_t maximum, size_t *out_width, size_t *out_height)
 {
   size_t width, height;
-  if (!read_integer(&text, maximum, &width) || !read_sign(&text, 'x') || !read_integer(&text, maximum, &height) ||
-      *text != '\0' || width == 0 || height == 0)
+  const bool more = read_integer(&text, maximum, &width) && (*text == 'x' || *text == 'X');
+  text += more;
+  if (!more || !read_integer(&text, maximum, &height) || *text != '\0' || width == 0 || height == 0)
     return false;
   *out_width = width;
   *out_height = height;

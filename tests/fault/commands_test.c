@@ -3,7 +3,7 @@
  * without; a file that it writes is whole or not there; nothing leaks (the sanitizers look).
  *
  * The linker hands every call of malloc, calloc, realloc, strdup and pthread_create in commands and library to the
- * functions below. What popt, jansson and OpenImageIO allocate is theirs.
+ * functions below. What jansson and OpenImageIO allocate is theirs.
  */
 #include <errno.h>
 #include <fcntl.h>

@@ -1,0 +1,42 @@
+# What hands type out of habit is understood, or answered with what was meant.
+cp "$SCENES/flat.pscn" .
+small="--size 8X6"
+try pscn flat.pscn $small -q
+ls
+try pscn flat.pscn -qo short.png $small
+try pscn flat.pscn -q -oshort.png $small
+try pscn flat.pscn -q -o=short.png --size=8x6
+try pscn render -q $small -- flat.pscn
+try pscn nothing.pscn
+try pscn -V
+try pscn -v
+try pscn -h | head -n 1
+try pscn rendr flat.pscn
+try pscn compair a b
+try pscn frobnicate
+try pscn help rendr
+try pscn render flat.pscn --chanels rgb
+try pscn render flat.pscn -qz
+try pscn render flat.pscn --stats -q
+try pscn render flat.pscn -o --quiet
+try pscn render flat.pscn --stats
+try pscn render flat.pscn -o
+try pscn render flat.pscn -o a.exr --channels rgb,foo
+try pscn render flat.pscn -o a.exr --channels rgb,rgb
+try pscn render flat.pscn -o .png
+try pscn render flat.pscn -o folder/.EXR
+try pscn render flat.pscn -o .png.foo
+try pscn compare a.png b.png -o .exr
+echo "camera { }" >empty.pscn
+try pscn render missing.pscn -o a.png
+# One patch is one patch.
+pscn render flat.pscn $small 2>&1 | grep -c ' 1 patch,'
+# The line of progress is no longer than the terminal is wide.
+if command -v script >/dev/null; then
+  for columns in 10 40 62; do
+    script -qec "stty cols $columns; pscn render $SCENES/bent.pscn --size 900x900 --samples 2 -o progress.png" /dev/null |
+      tr '\r' '\n' | sed 's/\x1b\[K//g' | grep 'rays/s\|%' |
+      awk -v columns=$columns 'length($0) >= columns && !/answers|patches|rays  |x/ { long++ } END { print columns, long + 0 }'
+  done
+fi
+ls
