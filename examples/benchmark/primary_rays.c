@@ -109,8 +109,8 @@ int main(int argc, char **argv)
     fail("out of memory");
   for (size_t n = 0; n < scene->patch_count; n++)
     for (int k = 0; k < 48; k++) P[n][k / 12][k / 3 % 4][k % 3] = scene->patches[n].P[k / 12][k / 3 % 4][k % 3];
-  struct embree_mesh *mesh = embree_mesh_create((const double(*)[4][4][3])P, scene->patch_count, side);
-  struct embree_rays *embree = embree_rays_create(rays.rays, rays.count);
+  struct embree_mesh *mesh = pscn_embree_peer.mesh_create((const double(*)[4][4][3])P, scene->patch_count, side);
+  struct embree_rays *embree = pscn_embree_peer.rays_create(rays.rays, rays.count);
   if (mesh == NULL || embree == NULL) fail("Embree failed");
 
   double sum = 0;
@@ -118,15 +118,15 @@ int main(int argc, char **argv)
     for (size_t c = 0; c < count; c++) {
       const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
       if (list[c].embree_width == 0) trace(list[c].tracer, &rays);
-      else sum += embree_trace(mesh, embree, list[c].embree_width, false);
+      else sum += pscn_embree_peer.trace(mesh, embree, list[c].embree_width, false);
       list[c].seconds[r] = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
     }
   }
   fprintf(stderr, "%s, %zu camera rays, %zu triangles, %zu runs (Embree's distances add up to %.6g)\n", argv[1],
           rays.count, scene->patch_count * side * side * 2, runs, sum);
   report(list, count, runs, rays.count);
-  embree_rays_destroy(embree);
-  embree_mesh_destroy(mesh);
+  pscn_embree_peer.rays_destroy(embree);
+  pscn_embree_peer.mesh_destroy(mesh);
   arena_destroy(arena);
   for (size_t c = FIRST_PSCN; c < count; c++) {
     tracer_destroy(list[c].tracer);

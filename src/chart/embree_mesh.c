@@ -57,27 +57,7 @@ static bool mesh_fill(struct embree_mesh *mesh, const double (*P)[4][4][3], size
   return true;
 }
 
-struct embree_mesh *embree_mesh_create(const double (*P)[4][4][3], size_t patch_count, unsigned side)
-{
-  struct embree_mesh *mesh = calloc(1, sizeof *mesh);
-  if (mesh == NULL) return NULL;
-  mesh->side = side;
-  mesh->device = rtcNewDevice("threads=1,set_affinity=0");
-  if (mesh->device != NULL) mesh->scene = rtcNewScene(mesh->device);
-  if (mesh->scene == NULL || !mesh_fill(mesh, P, patch_count)) {
-    embree_mesh_destroy(mesh);
-    return NULL;
-  }
-  rtcSetSceneBuildQuality(mesh->scene, RTC_BUILD_QUALITY_HIGH);
-  rtcCommitScene(mesh->scene);
-  if (rtcGetDeviceError(mesh->device) != RTC_ERROR_NONE) {
-    embree_mesh_destroy(mesh);
-    return NULL;
-  }
-  return mesh;
-}
-
-void embree_mesh_destroy(struct embree_mesh *mesh)
+static void mesh_destroy(struct embree_mesh *mesh)
 {
   if (mesh == NULL) return;
   if (mesh->scene != NULL) rtcReleaseScene(mesh->scene);
@@ -85,7 +65,27 @@ void embree_mesh_destroy(struct embree_mesh *mesh)
   free(mesh);
 }
 
-struct embree_rays *embree_rays_create(const struct ray *rays, size_t count)
+static struct embree_mesh *mesh_create(const double (*P)[4][4][3], size_t patch_count, unsigned side)
+{
+  struct embree_mesh *mesh = calloc(1, sizeof *mesh);
+  if (mesh == NULL) return NULL;
+  mesh->side = side;
+  mesh->device = rtcNewDevice("threads=1,set_affinity=0");
+  if (mesh->device != NULL) mesh->scene = rtcNewScene(mesh->device);
+  if (mesh->scene == NULL || !mesh_fill(mesh, P, patch_count)) {
+    mesh_destroy(mesh);
+    return NULL;
+  }
+  rtcSetSceneBuildQuality(mesh->scene, RTC_BUILD_QUALITY_HIGH);
+  rtcCommitScene(mesh->scene);
+  if (rtcGetDeviceError(mesh->device) != RTC_ERROR_NONE) {
+    mesh_destroy(mesh);
+    return NULL;
+  }
+  return mesh;
+}
+
+static struct embree_rays *rays_create(const struct ray *rays, size_t count)
 {
   struct embree_rays *out = calloc(1, sizeof *out);
   const size_t padded = (count + 7) / 8 * 8;
@@ -106,7 +106,7 @@ struct embree_rays *embree_rays_create(const struct ray *rays, size_t count)
   return out;
 }
 
-void embree_rays_destroy(struct embree_rays *rays)
+static void rays_destroy(struct embree_rays *rays)
 {
   if (rays == NULL) return;
   free(rays->ray);
@@ -175,12 +175,12 @@ static double trace_eights(const struct embree_mesh *mesh, const struct embree_r
   return sum;
 }
 
-double embree_trace(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool any)
+static double trace(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool any)
 {
   return width == 8 ? trace_eights(mesh, rays, any) : trace_singles(mesh, rays, any);
 }
 
-void embree_answer(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index, double *out_t,
+static void answer(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index, double *out_t,
                    uint32_t *out_patch)
 {
   struct RTCIntersectContext context;
@@ -192,7 +192,7 @@ void embree_answer(const struct embree_mesh *mesh, const struct embree_rays *ray
   *out_patch = missed ? HIT_NONE : hit.hit.primID / (2 * mesh->side * mesh->side);
 }
 
-bool embree_answer_any(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index)
+static bool answer_any(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index)
 {
   struct RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -200,3 +200,8 @@ bool embree_answer_any(const struct embree_mesh *mesh, const struct embree_rays 
   rtcOccluded1(mesh->scene, &context, &ray);
   return ray.tfar < 0;
 }
+
+__attribute__((visibility("default"))) const struct embree_peer pscn_embree_peer = {
+  .mesh_create = mesh_create, .mesh_destroy = mesh_destroy, .rays_create = rays_create, .rays_destroy = rays_destroy,
+  .trace = trace, .answer = answer, .answer_any = answer_any
+};

@@ -1,17 +1,16 @@
-/* The peers of a chart: plain Newton, which is ours but guards nothing; Embree, by pscn-embree where it stands beside
- * pscn; and POV-Ray, where it is installed. */
+/* The peers of a chart: plain Newton, which is ours but guards nothing; Embree, by a module where that is built; and
+ * POV-Ray, where it is installed. */
+#include <dlfcn.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/sort.h"
-#include "chart/exchange.h"
+#include "chart/embree_mesh.h"
 #include "chart/plain_newton.h"
 #include "chart/work.h"
 #include "check/povray.h"
-#include "check/process.h"
 #include "geometry/vector.h"
 
 /* ---- plain Newton ---- */
@@ -49,19 +48,67 @@ static enum status ask_plain_newton(struct chart *chart)
 
 /* ---- Embree ---- */
 
-/* The program beside ours, or nothing. */
-static bool find_embree(char out[SCRATCH_PATH_SIZE])
+static const unsigned WIDTHS[] = { 1, 8 }; /* rays at once */
+enum { WIDTH_COUNT = sizeof WIDTHS / sizeof WIDTHS[0] };
+
+struct embree {
+  const struct embree_peer *peer;
+  struct embree_rays *rays[RAY_KINDS]; /* NULL where there are none of the kind */
+};
+
+struct embree_runner {
+  const struct embree *embree;
+  const struct embree_mesh *mesh;
+  unsigned width;
+  volatile double sink;
+};
+
+static void run_embree(void *context, enum ray_kind kind)
 {
-  static const char NAME[] = "pscn-embree";
-  const ssize_t length = readlink("/proc/self/exe", out, SCRATCH_PATH_SIZE - sizeof NAME - 1);
-  if (length <= 0)
-    return false;
-  out[length] = '\0';
-  char *slash = strrchr(out, '/');
-  if (slash == NULL)
-    return false;
-  memcpy(slash + 1, NAME, sizeof NAME);
-  return access(out, X_OK) == 0;
+  struct embree_runner *runner = context;
+  const struct embree *embree = runner->embree;
+  runner->sink = embree->peer->trace(runner->mesh, embree->rays[kind], runner->width, kind == RAYS_SHADOW);
+}
+
+static void add_embree(struct chart *chart, const struct embree_runner *runner, size_t side,
+                       const struct timing time[RAY_KINDS])
+{
+  const struct embree *embree = runner->embree;
+  struct chart_point *point = chart_add(chart, FAMILY_EMBREE);
+  snprintf(point->name, sizeof point->name, "Embree, %zux%zux2 triangles a patch, %s", side, side,
+           runner->width == 1 ? "one by one" : "8 coherent");
+  if (runner->width > 1)
+    snprintf(point->label, sizeof point->label, "%zu", side);
+  memcpy(point->time, time, sizeof point->time);
+  for (size_t k = 0; k < chart->rays[RAYS_CAMERA].count; k++)
+    embree->peer->answer(runner->mesh, embree->rays[RAYS_CAMERA], k, &chart->answers[k].t, &chart->answers[k].patch);
+  for (size_t k = 0; k < chart->rays[RAYS_SHADOW].count; k++)
+    chart->occluded[k] = embree->peer->answer_any(runner->mesh, embree->rays[RAYS_SHADOW], k);
+  point->has_shadow = true;
+  chart_judge(chart, point);
+}
+
+/* Each mesh in turn with the yardstick. STATUS_FILE where Embree makes no mesh. */
+static enum status measure_side(struct chart *chart, const struct embree *embree, const double (*nets)[4][4][3],
+                                size_t side)
+{
+  struct embree_mesh *mesh = embree->peer->mesh_create(nets, chart->scene->patch_count, (unsigned)side);
+  if (mesh == NULL)
+    return STATUS_FILE;
+  struct embree_runner own[WIDTH_COUNT];
+  struct runner runners[1 + WIDTH_COUNT] = { pscn_runner_face(&chart->yardstick) };
+  struct timing time[1 + WIDTH_COUNT][RAY_KINDS];
+  const size_t counts[RAY_KINDS] = { chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count };
+  for (size_t w = 0; w < WIDTH_COUNT; w++) {
+    own[w] = (struct embree_runner){ .embree = embree, .mesh = mesh, .width = WIDTHS[w] };
+    runners[1 + w] = (struct runner){ run_embree, &own[w], { counts[0] > 0, counts[1] > 0 } };
+  }
+  const enum status status = measure_rounds(runners, 1 + WIDTH_COUNT, counts, chart->rounds, chart->listener->stop,
+                                            time);
+  for (size_t w = 0; status == STATUS_OK && w < WIDTH_COUNT; w++)
+    add_embree(chart, &own[w], side, time[1 + w]);
+  embree->peer->mesh_destroy(mesh);
+  return status;
 }
 
 /* A mesh of more triangles is left out: it would take more than a gigabyte. */
@@ -72,82 +119,52 @@ static double triangles(const struct chart *chart, size_t side)
   return 2.0 * (double)(side * side) * (double)chart->scene->patch_count;
 }
 
-static bool write_question(const struct chart *chart, const struct scratch *folder)
+static enum status measure_embree(struct chart *chart, const struct embree_peer *peer)
 {
-  static const size_t SIDES[] = { 8, 16, 32, 64, 128, 256 }, QUICK_SIDES[] = { 8, 32, 128 };
-  struct exchange_question question = { .patch_count = chart->scene->patch_count, .rounds = chart->rounds };
-  memcpy(question.rays, chart->rays, sizeof question.rays);
-  const bool quick = chart->request->quick;
-  question.side_count = quick ? sizeof QUICK_SIDES / sizeof QUICK_SIDES[0] : sizeof SIDES / sizeof SIDES[0];
-  memcpy(question.sides, quick ? QUICK_SIDES : SIDES, question.side_count * sizeof question.sides[0]);
-  while (question.side_count > 1 && triangles(chart, question.sides[question.side_count - 1]) > MAX_TRIANGLES)
-    question.side_count--;
-  question.nets = calloc(question.patch_count + 1, sizeof *question.nets);
-  FILE *file = question.nets == NULL ? NULL : scratch_open(folder, "question");
-  bool good = file != NULL;
-  for (size_t n = 0; good && n < question.patch_count; n++)
-    memcpy(question.nets[n], chart->scene->patches[n].P, sizeof question.nets[n]);
-  good = good && exchange_write_question(file, &question);
-  if (file != NULL)
-    good = scratch_close(file) == STATUS_OK && good;
-  free(question.nets);
-  return good;
-}
-
-static void read_embree(struct chart *chart, FILE *file)
-{
-  struct exchange_answer answer;
-  while (exchange_read_answer(file, &answer, chart->rays[RAYS_CAMERA].count, chart->answers,
-                              chart->rays[RAYS_SHADOW].count, chart->occluded)) {
-    struct chart_point *point = chart_add(chart, FAMILY_EMBREE);
-    snprintf(point->name, sizeof point->name, "Embree, %zux%zux2 triangles a patch, %s", answer.side, answer.side,
-             answer.width == 1 ? "one by one" : "8 coherent");
-    if (answer.width > 1)
-      snprintf(point->label, sizeof point->label, "%zu", answer.side);
-    memcpy(point->time, answer.time, sizeof point->time);
-    point->has_shadow = true;
-    chart_judge(chart, point);
+  static const size_t SIDES[] = { 8, 16, 32, 64, 128, 256 };
+  enum { SIDE_COUNT = sizeof SIDES / sizeof SIDES[0] };
+  struct embree embree = { .peer = peer };
+  double(*nets)[4][4][3] = calloc(chart->scene->patch_count, sizeof *nets);
+  enum status status = nets == NULL ? STATUS_LIMIT : STATUS_OK;
+  for (size_t n = 0; status == STATUS_OK && n < chart->scene->patch_count; n++)
+    memcpy(nets[n], chart->scene->patches[n].P, sizeof nets[n]);
+  for (int kind = 0; status == STATUS_OK && kind < RAY_KINDS; kind++) {
+    const struct ray_list *list = &chart->rays[kind];
+    embree.rays[kind] = list->count == 0 ? NULL : peer->rays_create(list->rays, list->count);
+    status = list->count > 0 && embree.rays[kind] == NULL ? STATUS_LIMIT : STATUS_OK;
   }
+  for (size_t k = 0; status == STATUS_OK && k < SIDE_COUNT; k += chart->request->quick ? 2 : 1) {
+    if (k == 0 || triangles(chart, SIDES[k]) <= MAX_TRIANGLES)
+      status = measure_side(chart, &embree, (const double(*)[4][4][3])nets, SIDES[k]);
+  }
+  for (int kind = 0; kind < RAY_KINDS; kind++)
+    peer->rays_destroy(embree.rays[kind]);
+  free(nets);
+  return status;
 }
 
 static enum status ask_embree(struct chart *chart)
 {
-  char program[SCRATCH_PATH_SIZE], question[SCRATCH_PATH_SIZE], answer[SCRATCH_PATH_SIZE], log[SCRATCH_PATH_SIZE];
-  struct scratch folder;
   if (chart->scene->patch_count == 0) {
     chart_note(chart, "Embree is left out: the scene has no patch that could be cut into triangles.");
     return STATUS_OK;
   }
-  if (!find_embree(program)) {
-    chart_note(chart, "Embree is left out: pscn-embree does not stand beside pscn (it is built where libembree-dev is "
-                      "found).");
+  /* It stays loaded: Embree keeps threads of its own. */
+  void *handle = dlopen(EMBREE_MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  const struct embree_peer *peer = handle == NULL ? NULL : dlsym(handle, EMBREE_MODULE_SYMBOL);
+  if (peer == NULL) {
+    chart_note(chart, "Embree is left out: there is no %s, which is built where libembree-dev is found.",
+               EMBREE_MODULE_FILE);
     return STATUS_OK;
   }
   listener_tell(chart->listener, TOLD_PROGRESS, "Embree");
-  if (scratch_create(&folder) != STATUS_OK) {
-    chart_note(chart, "Embree is left out: no temporary folder could be made.");
-    return STATUS_OK;
-  }
-  scratch_path(&folder, "question", question);
-  scratch_path(&folder, "answer", answer);
-  scratch_path(&folder, "log", log);
-  const char *const arguments[] = { program, question, answer, NULL };
-  const struct process_request request = { .arguments = arguments, .output = log };
-  struct process_result result = { .exit_code = 1 };
-  enum status status = STATUS_OK;
-  if (write_question(chart, &folder))
-    status = process_run(&request, chart->listener->stop, &result);
-  FILE *file = status == STATUS_OK && result.exit_code == 0 ? fopen(answer, "rb") : NULL;
-  if (file != NULL) {
-    read_embree(chart, file);
-    (void)fclose(file);
-    chart_note(chart, "Embree runs in a program of its own, each mesh in turn with pscn's default solver, one thread; "
-                      "its answers are those of rtcIntersect1 and rtcOccluded1.");
-  } else if (status != STATUS_INTERRUPTED) {
-    chart_note(chart, "Embree is left out: pscn-embree failed.");
-  }
-  scratch_remove(&folder);
-  return status == STATUS_INTERRUPTED ? status : STATUS_OK;
+  const enum status status = measure_embree(chart, peer);
+  if (status == STATUS_OK)
+    chart_note(chart, "Embree: each mesh in turn with pscn's default solver, one thread; its answers are those of "
+                      "rtcIntersect1 and rtcOccluded1.");
+  else if (status == STATUS_FILE)
+    chart_note(chart, "Embree failed, and what is missing of it is left out.");
+  return status == STATUS_FILE ? STATUS_OK : status;
 }
 
 /* ---- POV-Ray ---- */
