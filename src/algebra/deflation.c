@@ -87,10 +87,10 @@ enum look_for { LOOK_VALUE = 0, LOOK_SLOPE = 1, LOOK_CURVATURE = 2, LOOK_ERROR =
 
 /* Chart as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g) and
  * (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
-static inline __attribute__((always_inline)) struct local_values look_inlined(int n, const double c[],
-                                                                              struct complex_number x, int wanted)
+static inline __attribute__((always_inline)) struct local_values
+look_inlined(int n, const double c[], struct complex_number x, double reversed_above, int wanted)
 {
-  const bool reversed = complex_norm(x) > 1.0;
+  const bool reversed = complex_norm(x) > reversed_above;
   const struct complex_number one = {1.0, 0.0};
   const struct complex_number z = reversed ? complex_divide(one, x) : x;
   const double modulus = (wanted & LOOK_ERROR) != 0 ? complex_modulus(z) : 0.0;
@@ -128,21 +128,23 @@ static inline __attribute__((always_inline)) struct local_values look_inlined(in
 
 /* What a method's step needs, and the error bound. */
 static struct local_values look_with_error(const struct deflation_method *method, int n, const double c[],
-                                           struct complex_number x)
+                                           struct complex_number x, double reversed_above)
 {
-  return method->curved ? look_inlined(n, c, x, LOOK_SLOPE | LOOK_CURVATURE | LOOK_ERROR)
-                        : look_inlined(n, c, x, LOOK_SLOPE | LOOK_ERROR);
+  return method->curved ? look_inlined(n, c, x, reversed_above, LOOK_SLOPE | LOOK_CURVATURE | LOOK_ERROR)
+                        : look_inlined(n, c, x, reversed_above, LOOK_SLOPE | LOOK_ERROR);
 }
 
 /* What a method's step needs. */
-static struct local_values look(const struct deflation_method *method, int n, const double c[], struct complex_number x)
+static struct local_values look(const struct deflation_method *method, int n, const double c[],
+                                struct complex_number x, double reversed_above)
 {
-  return method->curved ? look_inlined(n, c, x, LOOK_SLOPE | LOOK_CURVATURE) : look_inlined(n, c, x, LOOK_SLOPE);
+  return method->curved ? look_inlined(n, c, x, reversed_above, LOOK_SLOPE | LOOK_CURVATURE)
+                        : look_inlined(n, c, x, reversed_above, LOOK_SLOPE);
 }
 
 static struct local_values look_at_value(int n, const double c[], struct complex_number x)
 {
-  return look_inlined(n, c, x, LOOK_VALUE | LOOK_ERROR);
+  return look_inlined(n, c, x, 1.0, LOOK_VALUE | LOOK_ERROR);
 }
 
 /* |step|^2 in u: |dx|^2 in the power basis, |dx|^2 / (|1 + x|^2 |1 + x + dx|^2) in Bernstein form. */
@@ -176,13 +178,13 @@ static struct sought seek(const struct root_problem *problem, const struct solve
   const int n = problem->degree;
   const double *c = problem->c, mean_modulus = start_mean_modulus(problem);
   struct sought out = {start, 0, false};
-  const double tolerance = options->tolerance * options->tolerance;
+  const double tolerance = options->tolerance * options->tolerance, above = root_problem_reversed_above(options, n);
   const bool relative = options->stop == STOP_ROUNDING; /* the paper's tolerance is absolute */
   double last = INFINITY, checked = INFINITY, longest = LONGEST_STEP;
   while (!out.converged && out.iterations < options->max_iterations) {
     out.iterations++;
     const struct local_values here =
-      options->stop == STOP_ROUNDING ? look_with_error(method, n, c, out.x) : look(method, n, c, out.x);
+      options->stop == STOP_ROUNDING ? look_with_error(method, n, c, out.x, above) : look(method, n, c, out.x, above);
     if (here.size == 0.0) {
       out.converged = true;
       break;
@@ -235,13 +237,13 @@ static struct complex_number refined(const struct root_problem *problem, const s
                                      struct complex_number x)
 {
   const int n = problem->degree;
-  struct local_values here = look(method, n, problem->c, x);
+  struct local_values here = look(method, n, problem->c, x, 1.0);
   for (int i = 0; i < REFINE_STEPS && here.size > 0.0; i++) {
     const struct complex_number next = complex_add(x, method->step(&here.view));
     if (!isfinite(next.re) || !isfinite(next.im)) {
       break;
     }
-    const struct local_values there = look(method, n, problem->c, next);
+    const struct local_values there = look(method, n, problem->c, next, 1.0);
     const double ratio = fmax(1.0, complex_norm(next)) / fmax(1.0, complex_norm(x));
     if (!(there.size * pow(ratio, 0.5 * n) < here.size)) {
       break;

@@ -8,8 +8,8 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "algebra/complex_number.h"
 #include "algebra/evaluation.h"
+#include "base/wide.h"
 
 double polynomial_binomial(int n, int k)
 {
@@ -140,28 +140,35 @@ struct polynomial_value polynomial_evaluate(const struct polynomial *p, double u
 /* "unit" of eq 11: beta^-(s-1). */
 #define PAPER_UNIT 0x1p-52
 
+/* |P| and the largest term in double cannot be told from their own rounding where it matters, near 1: so in `wide`. */
 double polynomial_eq11(const struct polynomial *p, double re, double im)
 {
   /* As in evaluation.h: the variable of the terms is z = top/low, or low/top where that is smaller; the common factor
    * of all terms cancels. */
-  const struct complex_number one = {1.0, 0.0}, at = {re, im};
-  const struct complex_number other = p->basis == BASIS_POWER ? one : complex_subtract(one, at);
-  const bool reversed = hypot(at.re, at.im) > hypot(other.re, other.im);
-  const struct complex_number z = reversed ? complex_divide(other, at) : complex_divide(at, other);
-  const double modulus = hypot(z.re, z.im);
-  struct complex_number value = {0.0, 0.0};
-  double largest = 0.0, power = 1.0;
-  for (int k = p->degree; k >= 0; k--) {
-    value = complex_multiply(value, z);
-    value.re += p->c[reversed ? p->degree - k : k];
+  const int n = p->degree;
+  const bool power = p->basis == BASIS_POWER;
+  const bool reversed = hypot(re, im) > (power ? 1.0 : hypot(1.0 - re, im));
+  const double size = exp2(-ilogb(fmax(1.0, fmax(fabs(re), fabs(im))))); /* keeps the squares in range */
+  const wide top_r = (wide)re * size, top_i = (wide)im * size;
+  const wide low_r = (power ? (wide)1 : 1 - (wide)re) * size, low_i = power ? (wide)0 : -top_i;
+  const wide a = reversed ? low_r : top_r, b = reversed ? low_i : top_i;
+  const wide c = reversed ? top_r : low_r, d = reversed ? top_i : low_i;
+  const wide square = c * c + d * d;
+  const wide zr = (a * c + b * d) / square, zi = (b * c - a * d) / square;
+  wide value_r = 0, value_i = 0;
+  for (int k = n; k >= 0; k--) {
+    const wide next = value_r * zr - value_i * zi + p->c[reversed ? n - k : k];
+    value_i = value_r * zi + value_i * zr;
+    value_r = next;
   }
-  for (int k = 0; k <= p->degree; k++, power *= modulus) {
-    largest = fmax(largest, fabs(p->c[reversed ? p->degree - k : k]) * power);
+  const double modulus = hypot((double)zr, (double)zi);
+  wide largest = 0, term = 1;
+  for (int k = 0; k <= n; k++, term *= modulus) {
+    const wide size_k = term * fabs(p->c[reversed ? n - k : k]);
+    largest = size_k > largest ? size_k : largest;
   }
-  if (value.re == 0.0 && value.im == 0.0) {
-    return 0.0; /* even where all terms vanish */
-  }
-  const double ratio = hypot(value.re, value.im) / (p->degree * PAPER_UNIT * largest);
+  if (value_r == 0 && value_i == 0) return 0.0; /* even where all terms vanish */
+  const double ratio = hypot((double)(value_r / largest), (double)(value_i / largest)) / (n * PAPER_UNIT);
   return isnan(ratio) ? INFINITY : ratio;
 }
 

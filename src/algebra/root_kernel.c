@@ -97,7 +97,7 @@ LANES_INLINE void step_lanes(const struct aberth *a, lanes xr, lanes xi, bool bo
 {
   const int n = a->p.degree;
   const lanes square = xr * xr + xi * xi;
-  const lane_mask reversed = square > 1.0;
+  const lane_mask reversed = square > lanes_all(a->reversed_above);
   const lanes inverse = 1.0 / square;
   const lanes zr = lanes_select(reversed, xr * inverse, xr), zi = lanes_select(reversed, -xi * inverse, xi);
   struct evaluation_lanes q;

@@ -19,6 +19,7 @@
 /* All values of one solve by Aberth's method, in x. */
 struct aberth {
   struct evaluation p;
+  double reversed_above; /* |x|^2 */
   double zr[POLYNOMIAL_MAX_DEGREE], zi[POLYNOMIAL_MAX_DEGREE];
   double next_zr[POLYNOMIAL_MAX_DEGREE], next_zi[POLYNOMIAL_MAX_DEGREE];
   double last_step[POLYNOMIAL_MAX_DEGREE]; /* |step|^2 in u */

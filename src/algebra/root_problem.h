@@ -30,6 +30,12 @@ struct root_estimates {
   double reach[POLYNOMIAL_MAX_DEGREE];   /* the roots it stands for may be as far away, in u */
 };
 
+/* |x|^2 above which values are computed in powers of 1/x: 1, or with plain Horner as far as |x|^n does not overflow. */
+static inline double root_problem_reversed_above(const struct solver_options *options, int degree)
+{
+  return options->horner == HORNER_CHARTS ? 1.0 : exp2(fmin(1600.0 / degree, 900.0));
+}
+
 /* Between u and x. The point at infinity of either comes out as infinite or as NaN. */
 static inline void root_problem_u_from_x(enum basis basis, double *re, double *im)
 {

@@ -48,6 +48,7 @@ void solver_options_form(struct solver_options *options, bool improved)
 {
   options->radii = improved ? RADII_POLYGON : RADII_CIRCLE;
   options->stop = improved ? STOP_ROUNDING : STOP_STEP;
+  options->horner = improved ? HORNER_CHARTS : HORNER_PLAIN;
   options->update = improved ? UPDATE_GAUSS_SEIDEL : UPDATE_JACOBI;
   options->rest = improved;
   options->deflation = improved ? DEFLATION_COMPOSITE : DEFLATION_FORWARD;
@@ -56,8 +57,9 @@ void solver_options_form(struct solver_options *options, bool improved)
 
 bool solver_options_paper(const struct solver_options *options)
 {
-  return options->radii == RADII_CIRCLE && options->stop == STOP_STEP && options->update == UPDATE_JACOBI &&
-         !options->rest && options->deflation == DEFLATION_FORWARD && !options->refine;
+  return options->radii == RADII_CIRCLE && options->stop == STOP_STEP && options->horner == HORNER_PLAIN &&
+         options->update == UPDATE_JACOBI && !options->rest && options->deflation == DEFLATION_FORWARD &&
+         !options->refine;
 }
 
 void solver_options_default(const struct solver *solver, struct solver_options *out)

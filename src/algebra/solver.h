@@ -42,6 +42,7 @@ enum start { START_COLD, START_PREVIOUS };
 enum radii { RADII_CIRCLE, RADII_POLYGON }; /* start values on Aberth's circle, or by Newton's polygon (Bini) */
 enum stop { STOP_STEP, STOP_ROUNDING };     /* eq 10 alone, or also where |p| is below its own rounding bound */
 enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL };  /* aberth: the values of the last sweep, or the newest there are */
+enum horner { HORNER_PLAIN, HORNER_CHARTS }; /* values in powers of z, or of 1/z where |z| > 1 */
 enum deflation { DEFLATION_FORWARD, DEFLATION_COMPOSITE };
 
 struct solver;
@@ -56,6 +57,7 @@ struct solver_options {
   enum start start;
   enum radii radii;
   enum stop stop;
+  enum horner horner;
   enum update update;
   bool rest;     /* aberth: a root that has converged is left alone while others still move */
   enum deflation deflation;
@@ -92,7 +94,7 @@ const struct solver *solver_find(const char *name, size_t length); /* NULL where
 /* What a solver does by default: the improved form. */
 void solver_options_default(const struct solver *solver, struct solver_options *out);
 
-/* Sets radii, stop, update, rest, deflation and refine: to what docs/paper.md found best, or to the paper's iterations
+/* Sets radii, stop, horner, update, rest, deflation and refine: to what docs/paper.md found best, or to the paper's iterations
  * as printed; and whether they are the paper's. */
 void solver_options_form(struct solver_options *options, bool improved);
 bool solver_options_paper(const struct solver_options *options);

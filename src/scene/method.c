@@ -35,6 +35,7 @@ ITEM_ACCESSORS(back_substitution, back_substitution, enum back_substitution, fol
 ITEM_ACCESSORS(polish, polish, bool, follow_form(method))
 ITEM_ACCESSORS(radii, roots.radii, enum radii, method->form_said = true)
 ITEM_ACCESSORS(stop, roots.stop, enum stop, method->form_said = true)
+ITEM_ACCESSORS(horner, roots.horner, enum horner, method->form_said = true)
 ITEM_ACCESSORS(update, roots.update, enum update, method->form_said = true)
 ITEM_ACCESSORS(rest, roots.rest, bool, method->form_said = true)
 ITEM_ACCESSORS(deflation, roots.deflation, enum deflation, method->form_said = true)
@@ -51,6 +52,7 @@ static double get_form(const struct method *method) { return solver_options_pape
 static const char *const form_words[] = {"paper", "improved", NULL};
 static const char *const radii_words[] = {"circle", "polygon", NULL};
 static const char *const stop_words[] = {"step", "rounding", NULL};
+static const char *const horner_words[] = {"plain", "charts", NULL};
 static const char *const update_words[] = {"jacobi", "gauss_seidel", NULL};
 static const char *const deflation_words[] = {"forward", "composite", NULL};
 static const char *const start_words[] = {"cold", "previous", NULL};
@@ -88,6 +90,8 @@ static const struct method_item items[] = {
    0, 1, set_radii, get_radii},
   {"stop", "by eq 10 alone, or also where the value is below its own rounding bound", METHOD_ITEM_KEYWORD, stop_words,
    0, 1, set_stop, get_stop},
+  {"horner", "values by Horner's scheme in z as printed, or in 1/z where that is smaller", METHOD_ITEM_KEYWORD,
+   horner_words, 0, 1, set_horner, get_horner},
   {"update", "aberth: from the values before the sweep, or from the newest", METHOD_ITEM_KEYWORD, update_words, 0, 1,
    set_update, get_update},
   {"rest", "aberth: a root that is done is left alone while others move", METHOD_ITEM_KEYWORD, off_on, 0, 1, set_rest,
