@@ -27,11 +27,10 @@ const struct command *command_find(const char *name)
 
 const char *command_guess(const char *name)
 {
-  const char *best = NULL;
-  size_t best_length, distance = words_reach(strlen(name));
+  struct guess guess = guess_begin(name, strlen(name));
   for (const struct command *const *command = commands; *command != NULL; command++)
-    words_consider(name, strlen(name), (*command)->name, strlen((*command)->name), &best, &best_length, &distance);
-  return best;
+    guess_consider(&guess, (*command)->name, strlen((*command)->name));
+  return guess.best;
 }
 
 static void print_option(const struct command_option *option, FILE *file)
@@ -153,15 +152,15 @@ static const struct command_option *find_option(const struct command *command, c
 
 static enum status unknown_option(const struct command *command, const char *word)
 {
-  const char *best = NULL;
   const size_t length = strcspn(word, "=");
-  size_t best_length, distance = words_reach(length);
-  for (const struct command_option *option = command->options; length > 2 && option->name != NULL; option++)
-    words_consider(word + 2, length - 2, option->name, strlen(option->name), &best, &best_length, &distance);
-  return (enum status)(best == NULL
+  const bool whole = word[1] == '-'; /* a word rather than letters */
+  struct guess guess = guess_begin(word + 1 + whole, length - 1 - whole);
+  for (const struct command_option *option = command->options; whole && option->name != NULL; option++)
+    guess_consider(&guess, option->name, strlen(option->name));
+  return (enum status)(guess.best == NULL
                          ? command_usage(command, "option '%s': unknown option", word)
                          : command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length,
-                                         word, best));
+                                         word, guess.best));
 }
 
 /* Hands an option over, with its argument: `joined`, where that is a part of the same word, else the next word. `said` is
