@@ -17,7 +17,7 @@ struct reference {
   struct patch *patches;
 };
 
-enum { MAX_CANDIDATES = 128 };
+enum { MAX_CANDIDATES = 128, FOOT_STEPS = 6 };
 
 /* A zero found on a patch. */
 struct candidate {
@@ -291,4 +291,27 @@ double reference_residual(const struct reference *reference, uint32_t patch, con
     square += difference * difference;
   }
   return (double)quad_sqrt(square);
+}
+
+static quad clamp(quad x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
+
+double reference_distance(const struct reference *reference, uint32_t patch, const double point[3], double u, double v)
+{
+  struct quad_net net[3];
+  for (int k = 0; k < 48; k++) net[k % 3].c[k / 12][k / 3 % 4] = reference->patches[patch].P[k / 12][k / 3 % 4][k % 3];
+  quad x = u, y = v, least = -1;
+  for (int step = 0; step < FOOT_STEPS; step++) {
+    quad square = 0, uu = 0, uv = 0, vv = 0, ru = 0, rv = 0;
+    for (int axis = 0; axis < 3; axis++) {
+      const struct quad_jet jet = quad_net_jet(&net[axis], x, y);
+      const quad off = jet.value - point[axis];
+      square += off * off, ru += off * jet.du, rv += off * jet.dv;
+      uu += jet.du * jet.du, uv += jet.du * jet.dv, vv += jet.dv * jet.dv;
+    }
+    if (least < 0 || square < least) least = square;
+    const quad determinant = uu * vv - uv * uv;
+    if (!(determinant > 0)) break;
+    x = clamp(x - (vv * ru - uv * rv) / determinant), y = clamp(y - (uu * rv - uv * ru) / determinant);
+  }
+  return (double)quad_sqrt(least);
 }

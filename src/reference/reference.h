@@ -89,4 +89,8 @@ double reference_floor_at(const struct reference *reference, uint32_t patch, con
 double reference_residual(const struct reference *reference, uint32_t patch, const double origin[3],
                           const double direction[3], double t, double u, double v);
 
+/* How far `point` is from the patch, at the foot that Gauss' and Newton's method finds next to (u,v), clamped to the
+ * square: no less than the distance. */
+double reference_distance(const struct reference *reference, uint32_t patch, const double point[3], double u, double v);
+
 #endif

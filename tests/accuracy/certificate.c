@@ -15,10 +15,13 @@
 /* A grazing answer may overlook a root this near to the ray's origin, relative to the same. */
 #define AT_ORIGIN 0x1p-46
 
+/* The square of a normal's length is 1 but for some roundings. */
+#define UNIT_NORMAL 0x1p-48
+
 /* However ill-conditioned a certain hit is, T is right to this share. */
 #define MOST_ALLOWED 0x1p-10
 
-const char *const finding_names[FINDINGS] = {"proven", "undecided", "lost", "later", "invented"};
+const char *const finding_names[FINDINGS] = {"proven", "undecided", "lost", "later", "invented", "bad surface"};
 
 void certifier_create(struct certifier *certifier, const struct scene *scene, struct reference *reference)
 {
@@ -188,10 +191,22 @@ static void judge_miss(struct judging *j)
   j->out->finding = doubt && !grazing ? FINDING_UNDECIDED : FINDING_PROVEN;
 }
 
+/* What a hit says of the surface, but for its place on the ray. */
+static bool surface_good(const struct judging *j)
+{
+  const struct hit *hit = j->hit;
+  const double *n = hit->normal;
+  if (!(hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1)) return false;
+  if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max)) return false;
+  if (!(reference_distance(j->certifier->reference, hit->patch, hit->point, hit->u, hit->v) <= hit->point_error)) return false;
+  return hit->certainty == CERTAINTY_GRAZING || fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < UNIT_NORMAL;
+}
+
 void certify(const struct certifier *certifier, const struct ray *ray, const struct hit *hit, struct certificate *out)
 {
   *out = (struct certificate){.finding = FINDING_PROVEN, .t = INFINITY, .patch = REFERENCE_NONE};
   struct judging j = {.certifier = certifier, .ray = ray, .hit = hit, .out = out};
   j.at_patch = j.before_patch = REFERENCE_NONE;
   (hit->patch == HIT_NONE ? judge_miss : judge_hit)(&j);
+  if (hit->patch != HIT_NONE && out->finding <= FINDING_UNDECIDED && !surface_good(&j)) out->finding = FINDING_SURFACE;
 }

@@ -25,6 +25,7 @@ enum finding {
   FINDING_LOST,     /* a proven root, answered by a miss */
   FINDING_LATER,    /* a proven root before T */
   FINDING_INVENTED, /* no root at T */
+  FINDING_SURFACE,  /* a hit whose U, V or T are out of range, whose point is not within its error, or with no normal */
   FINDINGS
 };
 

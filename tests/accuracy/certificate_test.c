@@ -20,7 +20,7 @@
 
 /* The default solver gets all rays, the others this share. */
 #define OTHERS_SHARE 0.1
-enum { FULL_RAYS = 1000000, LEAST_RAYS = 16, MOST_CLASSES = 64, MOST_SHOWN = 6 };
+enum { FULL_RAYS = 100000, LEAST_RAYS = 16, MOST_CLASSES = 64, MOST_SHOWN = 6 };
 
 struct form {
   const char *solver;
@@ -123,10 +123,11 @@ static void print_count(const char *name, const struct form *form, uint64_t seed
   const size_t *certain = c->answers[0], *grazing = c->answers[1];
   const size_t grazes = grazing[FINDING_PROVEN] + grazing[FINDING_UNDECIDED] + refuted(grazing);
   printf("%-36s %-9s %2d %7zu rays: certain %6zu, %zu undecided, %zu refuted; grazing %zu, %zu provable, %zu refuted; "
-         "lost %zu later %zu invented %zu; %zu slow, slowest %.2f ms; seed %llu\n",
+         "lost %zu later %zu invented %zu surface %zu; %zu slow, slowest %.2f ms; seed %llu\n",
          name, form->solver, form->split, c->rays, certain[FINDING_PROVEN], certain[FINDING_UNDECIDED],
          refuted(certain), grazes, c->grazing_sure, refuted(grazing), certain[FINDING_LOST] + grazing[FINDING_LOST],
          certain[FINDING_LATER] + grazing[FINDING_LATER], certain[FINDING_INVENTED] + grazing[FINDING_INVENTED],
+         certain[FINDING_SURFACE] + grazing[FINDING_SURFACE],
          c->slow, 1e3 * c->slowest, (unsigned long long)seed);
   fflush(stdout);
 }
@@ -154,14 +155,81 @@ static void test_class(void **state)
   assert_int_equal(bad, 0);
 }
 
+/* What the reference says, as an answer. */
+static struct hit hit_of(const struct reference_answer *truth)
+{
+  struct hit hit = {.patch = HIT_NONE, .certainty = CERTAINTY_CERTAIN};
+  if (truth->verdict == REFERENCE_MISS) return hit;
+  hit.patch = truth->patch, hit.t = (double)truth->t;
+  hit.u = fmin(fmax((double)truth->u, 0), 1), hit.v = fmin(fmax((double)truth->v, 0), 1);
+  hit.point_error = INFINITY, hit.normal[0] = 1;
+  return hit;
+}
+
+/* The two judges agree on what either decides, and the exact one refutes what is wrong. */
+static void test_judges(void **state)
+{
+  (void)state;
+  size_t found[4][FINDINGS] = {{0}};
+  for (size_t n = 0; n < every_class_count(); n++) {
+    const struct situation_class *class = every_class_at(n);
+    struct random random = {.state = effort_seed(class->seed)};
+    for (size_t index = 0; index < effort_count(1000, 3); index++) {
+      struct situation s;
+      struct trial trial;
+      struct certifier certifier;
+      class->generate(&random, index, &s);
+      trial_create(&trial, (const double(*)[4][4][3])s.P, s.count, NULL);
+      certifier_create(&certifier, &trial.scene, trial.reference);
+      for (int r = 0; r < SITUATION_RAYS; r++) {
+        struct reference_answer truth;
+        reference_closest(trial.reference, s.rays[r].origin, s.rays[r].direction, &truth);
+        if (truth.verdict == REFERENCE_GRAZING) continue;
+        struct hit hit = hit_of(&truth);
+        struct certificate c;
+        certify(&certifier, &s.rays[r], &hit, &c);
+        found[0][c.finding]++;
+        if (c.finding > FINDING_PROVEN)
+          show_refuted(class->name, &(struct form){"reference", 0}, &s, &s.rays[r], &hit, &c);
+        if (hit.patch == HIT_NONE || c.finding != FINDING_PROVEN) continue;
+        const double t = hit.t, floor = trial_floor(trial.reference, &s.rays[r], hit.patch, t, hit.u, hit.v);
+        if (!(floor < 1e-6 * t)) continue;
+        hit.t = t - 64 * floor;
+        certify(&certifier, &s.rays[r], &hit, &c);
+        found[1][c.finding]++;
+        hit.t = t + 64 * floor;
+        certify(&certifier, &s.rays[r], &hit, &c);
+        found[2][c.finding]++;
+        hit.patch = HIT_NONE;
+        certify(&certifier, &s.rays[r], &hit, &c);
+        found[3][c.finding]++;
+      }
+      certifier_destroy(&certifier);
+      trial_destroy(&trial);
+    }
+  }
+  exact_cleanup();
+  static const char *const names[4] = {"the reference's", "nearer", "farther", "denied"};
+  for (int n = 0; n < 4; n++) {
+    printf("%s:", names[n]);
+    for (int k = 0; k < FINDINGS; k++) printf(" %s %zu", finding_names[k], found[n][k]);
+    printf("\n");
+  }
+  for (int k = FINDING_UNDECIDED + 1; k < FINDINGS; k++) assert_int_equal(found[0][k], 0);
+  assert_int_equal(found[1][FINDING_PROVEN] + found[3][FINDING_PROVEN], 0);
+  /* of coincident patches the other one may be there */
+  assert_true(found[2][FINDING_PROVEN] * 50 <= found[2][FINDING_LATER]);
+}
+
 int main(void)
 {
-  struct CMUnitTest tests[MOST_CLASSES];
+  struct CMUnitTest tests[MOST_CLASSES + 1];
   const size_t count = every_class_count();
   assert_true(count <= MOST_CLASSES);
   for (size_t n = 0; n < count; n++) {
     void *class = (void *)(uintptr_t)every_class_at(n); /* cmocka's state is not const */
     tests[n] = (struct CMUnitTest){.name = every_class_at(n)->name, .test_func = test_class, .initial_state = class};
   }
-  return _cmocka_run_group_tests("certificates", tests, count, NULL, NULL);
+  tests[count] = (struct CMUnitTest)cmocka_unit_test(test_judges);
+  return _cmocka_run_group_tests("certificates", tests, count + 1, NULL, NULL);
 }

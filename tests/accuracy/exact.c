@@ -20,6 +20,7 @@ struct search {
   arb_t unit; /* t - t_about = unit x (value of net T) */
   struct box stack[STACK];
   int depth;
+  slong bits[NETS]; /* of the largest coefficient over the whole patch */
 };
 
 static void nets_init(fmpz *c, int count)
@@ -165,22 +166,28 @@ static int one_sign(const fmpz *c)
   return sign;
 }
 
-/* Mean derivatives of both nets over the box, times 4: J[f][0] by u, J[f][1] by v. Cut off to PRECONDITIONER_BITS. */
+/* Mean derivatives of both nets over the box, times one factor: J[f][0] by u, J[f][1] by v. Each row is cut off to
+ * PRECONDITIONER_BITS. */
 static void mean_jacobian(const struct box *box, fmpz J[2][2])
 {
+  slong excess[2];
   for (int f = A; f <= B; f++) {
     fmpz_zero(&J[f][0]), fmpz_zero(&J[f][1]);
     for (int k = 0; k < 4; k++) {
       fmpz_add(&J[f][0], &J[f][0], &box->c[f][12 + k]), fmpz_sub(&J[f][0], &J[f][0], &box->c[f][k]);
       fmpz_add(&J[f][1], &J[f][1], &box->c[f][4 * k + 3]), fmpz_sub(&J[f][1], &J[f][1], &box->c[f][4 * k]);
     }
+    const slong bits[2] = {(slong)fmpz_bits(&J[f][0]), (slong)fmpz_bits(&J[f][1])};
+    excess[f] = (bits[0] > bits[1] ? bits[0] : bits[1]) - PRECONDITIONER_BITS;
+    if (excess[f] < 0) excess[f] = 0;
   }
-  slong excess = -PRECONDITIONER_BITS;
-  for (int k = 0; k < 4; k++) {
-    const slong more = (slong)fmpz_bits(&J[k / 2][k % 2]) - PRECONDITIONER_BITS;
-    if (more > excess) excess = more;
+  const slong common = excess[A] < excess[B] ? excess[A] : excess[B];
+  for (int f = A; f <= B; f++) {
+    for (int k = 0; k < 2; k++) {
+      fmpz_tdiv_q_2exp(&J[f][k], &J[f][k], (ulong)excess[f]);
+      fmpz_mul_2exp(&J[f][k], &J[f][k], (ulong)(excess[f] - common));
+    }
   }
-  for (int k = 0; k < 4 && excess > 0; k++) fmpz_tdiv_q_2exp(&J[k / 2][k % 2], &J[k / 2][k % 2], (ulong)excess);
 }
 
 /* out = x A - y B. */
@@ -437,22 +444,27 @@ static void strip_edges(struct search *s)
   }
 }
 
-/* Whether to halve across v: where the largest change from one coefficient to the next is, of both nets. */
-static int split_across_v(const struct box *box)
+/* Whether to halve across v: where the largest change from one coefficient to the next is, of both nets, each in units
+ * of its largest coefficient over the whole patch. */
+static int split_across_v(const struct search *s, const struct box *box)
 {
-  fmpz_t most[2], change;
-  fmpz_init(most[0]), fmpz_init(most[1]), fmpz_init(change);
+  double most[2] = {0, 0};
+  fmpz_t change;
+  fmpz_init(change);
   for (int f = A; f <= B; f++) {
+    const slong unit = s->bits[f] + 3 * (box->halved[0] + box->halved[1]);
     for (int n = 0; n < 12; n++) {
       const int at[2] = {n, 4 * (n / 3) + n % 3}, step[2] = {4, 1};
       for (int k = 0; k < 2; k++) {
+        slong exponent = 0;
         fmpz_sub(change, &box->c[f][at[k] + step[k]], &box->c[f][at[k]]);
-        if (fmpz_cmpabs(change, most[k]) > 0) fmpz_set(most[k], change);
+        const double size = fabs(fmpz_get_d_2exp(&exponent, change));
+        most[k] = fmax(most[k], ldexp(size, (int)(exponent - unit)));
       }
     }
   }
-  const int across_v = fmpz_cmpabs(most[1], most[0]) > 0;
-  fmpz_clear(most[0]), fmpz_clear(most[1]), fmpz_clear(change);
+  fmpz_clear(change);
+  const int across_v = most[1] > most[0];
   return box->halved[across_v] < MOST_HALVINGS ? across_v : !across_v;
 }
 
@@ -465,6 +477,9 @@ void exact_patch_roots(const double P[4][4][3], const double origin[3], const do
   const double ends[3] = {t_min, t_max, t_about};
   start(&s, P, origin, direction, ends);
   strip_edges(&s);
+  for (int f = A; f <= B; f++)
+    for (int n = 0; n < 16; n++)
+      if ((slong)fmpz_bits(&s.stack[0].c[f][n]) > s.bits[f]) s.bits[f] = (slong)fmpz_bits(&s.stack[0].c[f][n]);
   while (s.depth > 0) {
     struct box box = s.stack[--s.depth];
     if (!settle(&s, &box)) {
@@ -473,7 +488,7 @@ void exact_patch_roots(const double P[4][4][3], const double origin[3], const do
       } else {
         struct box *low = &s.stack[s.depth], *high = low + 1;
         box_init(low), box_init(high);
-        box_split(&box, split_across_v(&box), low, high);
+        box_split(&box, split_across_v(&s, &box), low, high);
         s.depth += 2;
       }
     }

@@ -127,8 +127,9 @@ double trial_size(const struct ray *ray, double t)
 double trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t, double u,
                    double v)
 {
-  double floor;
-  reference_floor_at(reference, patch, ray->origin, ray->direction, t, u, v, &floor);
+  double larger;
+  const double data = reference_floor_at(reference, patch, ray->origin, ray->direction, t, u, v, &larger);
+  const double floor = fmax(data, fmin(larger, TRIAL_EXTENT * t));
   return floor > 0 ? fmax(floor, TRIAL_LEAST * trial_size(ray, t)) : INFINITY; /* not a number: singular */
 }
 

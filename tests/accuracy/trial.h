@@ -68,8 +68,9 @@ struct tally {
 double trial_size(const struct ray *ray, double t);
 
 /* How far off T of a certain hit may be, but for a small factor: what one rounding of each input moves it, or one of
- * the patch's extent, or TRIAL_LEAST of the largest coordinate, which is well below a rounding: where a patch is thin,
- * its floor is smaller still. */
+ * the patch's extent, up to TRIAL_EXTENT of T; or TRIAL_LEAST of the largest coordinate, which is well below a
+ * rounding: where a patch is thin, its floor is smaller still. */
+#define TRIAL_EXTENT 0x1p-22
 #define TRIAL_LEAST 0x1p-62
 double trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t, double u,
                    double v);

@@ -1,0 +1,95 @@
+/* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver and
+ * the ray; judged by the exact judge. Every file is a scene that pscn and POV-Ray read. */
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accuracy/certificate.h"
+#include "accuracy/exact.h"
+#include "accuracy/trial.h"
+#include "base/diagnostics.h"
+#include "cmocka_test.h"
+#include "language/language.h"
+
+#define FOLDER PSCN_SOURCE_DIR "/tests/accuracy/cases/"
+
+enum { LINE_SIZE = 512 };
+
+static void tell(void *context, const char *text, size_t length)
+{
+  (void)context;
+  fwrite(text, 1, length, stderr);
+}
+
+/* The line that starts with `// KEY: `; its rest, or "". */
+static void header(const char *path, const char *key, char out[LINE_SIZE])
+{
+  char line[LINE_SIZE], start[32];
+  const int length = snprintf(start, sizeof start, "// %s: ", key);
+  FILE *file = fopen(path, "r");
+  assert_non_null(file);
+  out[0] = 0;
+  while (!out[0] && fgets(line, sizeof line, file))
+    if (!strncmp(line, start, (size_t)length)) strcpy(out, line + length);
+  fclose(file);
+  out[strcspn(out, "\n")] = 0;
+}
+
+static bool judged_good(const char *path)
+{
+  char solver[LINE_SIZE], text[LINE_SIZE];
+  header(path, "solver", solver), header(path, "ray", text);
+  struct ray ray = {.t_min = 0, .t_max = INFINITY};
+  double *o = ray.origin, *d = ray.direction;
+  assert_int_equal(sscanf(text, "%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]), 6);
+  struct diagnostics diagnostics = {.tell = tell};
+  struct language_settings settings = {.image_width = 800, .image_height = 600, .tolerance = NAN};
+  if (solver[0]) settings.solver_text = solver;
+  struct scene *scene = NULL;
+  assert_int_equal(language_load(path, &settings, &diagnostics, &scene), STATUS_OK);
+  struct trial trial;
+  struct certifier certifier;
+  struct hit hit;
+  struct certificate certificate;
+  trial_of_scene(&trial, scene);
+  certifier_create(&certifier, scene, trial.reference);
+  tracer_closest(trial.tracer, 1, &ray, &hit);
+  certify(&certifier, &ray, &hit, &certificate);
+  const bool good = certificate.finding <= FINDING_UNDECIDED;
+  if (!good)
+    printf("%s: %s, %s\n", strrchr(path, '/') + 1, hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing",
+           finding_names[certificate.finding]);
+  certifier_destroy(&certifier);
+  trial_destroy(&trial);
+  scene_destroy(scene);
+  return good;
+}
+
+static void test_cases(void **state)
+{
+  (void)state;
+  struct dirent **entries;
+  const int count = scandir(FOLDER, &entries, NULL, alphasort);
+  assert_true(count > 0);
+  int bad = 0, cases = 0;
+  for (int n = 0; n < count; n++) {
+    if (strstr(entries[n]->d_name, ".pscn")) {
+      char path[LINE_SIZE];
+      snprintf(path, sizeof path, "%s%s", FOLDER, entries[n]->d_name);
+      bad += !judged_good(path), cases++;
+    }
+    free(entries[n]);
+  }
+  free(entries);
+  exact_cleanup();
+  printf("%d cases, %d answered wrongly\n", cases, bad);
+  assert_int_equal(bad, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_cases)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
