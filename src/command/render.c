@@ -181,11 +181,10 @@ static enum status check(const struct command *command, struct request *request)
   if (status != STATUS_OK)
     return status;
   char message[IMAGE_MESSAGE_SIZE];
-  if (image_file_ready(message) != STATUS_OK) {
+  status = image_file_ready(message);
+  if (status != STATUS_OK)
     command_error(command, "cannot write pictures: %s", message);
-    return STATUS_FILE;
-  }
-  return STATUS_OK;
+  return status;
 }
 
 static void name_channels(const struct channel_list *channels, struct image *image)

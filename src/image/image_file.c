@@ -1,9 +1,11 @@
 /* Pictures to and from files: what the formats can hold, and the loading of the module that does the work. */
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS, MAP_NORESERVE */
 #include "image/image_file.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include "base/input.h"
@@ -60,22 +62,44 @@ int image_format_default_bits(enum image_format format)
   return FORMATS[format].bits[0];
 }
 
-/* The module stays loaded; asking again is cheap, so nothing needs to be remembered. NULL after writing the message. */
-static const struct image_module *load_module(char *message)
+/* Where address space runs out while they start, OpenImageIO and the libraries it brings along end the process instead of
+ * saying so. So room is asked for first, that what they need is there: the libraries, and a stack and a heap for each of
+ * OpenImageIO's threads, of which there are as many as processors. */
+static bool room_for_module(void)
 {
-  void *handle = dlopen(IMAGE_MODULE_FILE, RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
-  const struct image_module *module = handle == NULL ? NULL : dlsym(handle, IMAGE_MODULE_SYMBOL);
-  if (module == NULL)
+  const size_t libraries = (size_t)512 << 20, thread = (size_t)80 << 20;
+  const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  const size_t size = libraries + (processors > 0 ? (size_t)processors : 1) * thread;
+  void *room = mmap(NULL, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room != MAP_FAILED)
+    (void)munmap(room, size);
+  return room != MAP_FAILED;
+}
+
+/* The module stays loaded; asking again is cheap, so nothing needs to be remembered. Writes the message on failure. */
+static enum status load_module(const struct image_module **out, char *message)
+{
+  const int flags = RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE;
+  message[0] = '\0';
+  void *handle = dlopen(IMAGE_MODULE_FILE, flags | RTLD_NOLOAD);
+  if (handle == NULL && !room_for_module()) {
+    snprintf(message, IMAGE_MESSAGE_SIZE, "there is too little memory to load OpenImageIO");
+    return STATUS_LIMIT;
+  }
+  if (handle == NULL)
+    handle = dlopen(IMAGE_MODULE_FILE, flags);
+  *out = handle == NULL ? NULL : dlsym(handle, IMAGE_MODULE_SYMBOL);
+  if (*out == NULL)
     snprintf(message, IMAGE_MESSAGE_SIZE, "%s", dlerror());
   if (handle != NULL)
     dlclose(handle);
-  return module;
+  return *out == NULL ? STATUS_FILE : STATUS_OK;
 }
 
 enum status image_file_ready(char *message)
 {
-  message[0] = '\0';
-  return load_module(message) == NULL ? STATUS_FILE : STATUS_OK;
+  const struct image_module *module;
+  return load_module(&module, message);
 }
 
 enum status image_encode(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
@@ -83,19 +107,18 @@ enum status image_encode(const struct image *image, const struct image_encoding 
 {
   *out_bytes = NULL;
   *out_size = 0;
-  message[0] = '\0';
   if (image->channel_count == 0 || image->channel_count > FORMATS[encoding->format].max_channels) {
     snprintf(message, IMAGE_MESSAGE_SIZE, "the format can not hold these channels");
     return STATUS_FILE;
   }
-  const struct image_module *module = load_module(message);
-  return module == NULL ? STATUS_FILE : module->encode(image, encoding, out_bytes, out_size, message);
+  const struct image_module *module;
+  const enum status status = load_module(&module, message);
+  return status == STATUS_OK ? module->encode(image, encoding, out_bytes, out_size, message) : status;
 }
 
 enum status image_read(const char *path, struct image *out, char *message)
 {
   *out = (struct image){ 0 };
-  message[0] = '\0';
   const char *reason;
   const int file = input_open(path, INPUT_FILE, &reason);
   if (file < 0) {
@@ -103,6 +126,7 @@ enum status image_read(const char *path, struct image *out, char *message)
     return STATUS_FILE;
   }
   (void)close(file); /* OpenImageIO opens files itself, each format anew, and says nothing of why it cannot */
-  const struct image_module *module = load_module(message);
-  return module == NULL ? STATUS_FILE : module->read(path, out, message);
+  const struct image_module *module;
+  const enum status status = load_module(&module, message);
+  return status == STATUS_OK ? module->read(path, out, message) : status;
 }

@@ -1,0 +1,113 @@
+#!/bin/bash
+# What becomes of files when the disk is full or read-only, the name is strange, two write at once, memory is short, or the
+# process is killed at any moment: the file is whole or what it was, no other one is left, the exit code is right.
+# PSCN_SEED=N chooses other moments.
+set -uo pipefail
+self=$(realpath "$0")
+said=$(mktemp)
+scene=$PSCN_SOURCE_DIR/scenes/dome.pscn
+small="--size 40x30 --quiet"
+failed=0
+RANDOM=${PSCN_SEED:-1}
+
+wrong() { echo "wrong: $*"; failed=1; }
+# expect CODE COMMAND...: the exit code, which is the command's answer
+expect() {
+  local wanted=$1 code=0
+  shift
+  "$@" 2>"$said" || code=$?
+  [ "$code" = "$wanted" ] || { wrong "exit $code instead of $wanted: $*"; cat "$said"; }
+}
+# only NAME...: nothing else is in the folder
+only() { [ "$(ls -A)" = "$(printf '%s\n' "$@" | LC_ALL=C sort)" ] || wrong "here are: $(ls -A | tr '\n' ' ')"; }
+export LC_ALL=C
+
+# On a small file system of its own, full and then read-only.
+if [ "${1:-}" = inside ]; then
+  cd "$2" && mount -t tmpfs -o size=200k pscn . && cd . && cd "$2" || exit 77
+  echo old >old.exr
+  echo '1 0 -1' >polynomials
+  expect 0 "$PSCN" render "$scene" $small -o a.png
+  expect 4 "$PSCN" render "$scene" --size 300x300 --quiet --bits 32 --channels rgb,depth,normal,u,v -o old.exr
+  expect 4 "$PSCN" render "$scene" --size 300x300 --quiet --bits 32 --channels rgb,depth,normal,u,v -o new.exr
+  only a.png old.exr polynomials
+  head -c 1M /dev/zero >full 2>/dev/null
+  expect 4 "$PSCN" render "$scene" $small -o b.png
+  expect 4 "$PSCN" compare a.png a.png --quiet -o b.png
+  expect 4 "$PSCN" trace "$scene" --stats s.json </dev/null
+  expect 4 "$PSCN" roots --stats s.json <polynomials >/dev/null
+  expect 4 "$PSCN" roots --stats old.exr <polynomials >/dev/null
+  [ "$(cat old.exr)" = old ] || wrong "the old file has changed"
+  only a.png full old.exr polynomials
+  mount -o remount,ro "$2"
+  for out in new.png old.exr a.png; do
+    expect 4 "$PSCN" render "$scene" $small -o $out
+  done
+  rm -f "$said"
+  exit "$failed"
+fi
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder" "$said"' EXIT
+cd "$folder"
+mkdir disk
+if unshare -m true 2>/dev/null; then
+  unshare -m "$self" inside "$folder/disk" || { [ $? = 77 ] && echo "no file system can be mounted: a full disk is left out" || failed=1; }
+else
+  echo "no file system can be mounted: a full disk is left out"
+fi
+
+mkdir work && cd work
+# A folder; a pipe; a symbolic link, followed and kept; permissions, of the old file and of the mask.
+mkdir folder.png
+expect 4 "$PSCN" render "$scene" $small -o folder.png
+rmdir folder.png
+mkfifo pipe.png
+cat pipe.png >copy.png &
+expect 0 "$PSCN" render "$scene" $small -o pipe.png
+wait
+[ -p pipe.png ] || wrong "the pipe is gone"
+rm pipe.png
+(umask 027 && expect 0 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || failed=1
+[ "$(stat -c %a a.png)" = 640 ] || wrong "the mask was not heeded"
+expect 0 "$PSCN" compare a.png copy.png --quiet
+chmod 604 a.png
+ln -s a.png link.png
+expect 0 "$PSCN" render "$scene" $small -o link.png
+[ -L link.png ] || wrong "the link is gone"
+[ "$(stat -c %a a.png)" = 604 ] || wrong "the permissions have changed"
+only a.png copy.png link.png
+rm link.png
+
+# Many to one name.
+for k in 1 2 3 4; do "$PSCN" render "$scene" $small -o copy.png & done
+wait
+expect 0 "$PSCN" compare a.png copy.png --quiet
+only a.png copy.png
+
+# Little address space, in which OpenImageIO would not come up (a sanitizer needs more for itself).
+if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
+  for kilobytes in 50000 200000 300000 395000 410000 425000 440000; do
+    (ulimit -v $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || failed=1
+  done
+fi
+
+# Stopped at any moment.
+"$PSCN" render "$scene" $small -o new.png
+for signal in KILL INT TERM HUP; do
+  for k in $(seq 12); do
+    [ $((k % 2)) = 0 ] && rm -f new.png
+    "$PSCN" render "$scene" $small -o new.png --stats new.json &
+    sleep "0.$(printf %03d $((RANDOM % 200)))"
+    kill -$signal $! 2>/dev/null
+    wait $! 2>/dev/null
+    code=$?
+    case $code in 0 | 137 | 130 | 143 | 129) ;; *) wrong "exit $code after SIG$signal" ;; esac
+    [ $code != 0 ] || [ -e new.json ] || wrong "done without the statistics"
+    if [ -e new.png ]; then expect 0 "$PSCN" compare a.png new.png --quiet; fi
+    if [ -e new.json ]; then [ "$(tail -n 1 new.json)" = "}" ] || wrong "half a file of statistics"; fi
+    rm -f new.json
+    only a.png copy.png $([ -e new.png ] && echo new.png)
+  done
+done
+exit "$failed"
