@@ -208,11 +208,7 @@ enum status chart_scene(const struct chart_request *request, struct scene *scene
   if (status == STATUS_LIMIT)
     (void)listener_out_of_memory(listener);
   if (status == STATUS_OK)
-    status = chart_write(&chart);
-  if (status == STATUS_OK)
-    chart_table(&chart, out_text);
-  if (out_text->failed)
-    status = listener_out_of_memory(listener);
+    status = chart_write(&chart, out_text);
   pscn_runner_free(&chart.yardstick);
   arena_destroy(chart.arena);
   return status;

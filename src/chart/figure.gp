@@ -11,7 +11,7 @@ set mxtics 2
 set key outside top center horizontal Left reverse samplen 1.5 width 1
 set xrange [5e-18:4]
 {{#sets}}${{id}} << EOD
-{{#points}}{{error:.6g}} {{ns:.6g}} {{lower:.6g}} {{upper:.6g}} {{label_at:.6g}} "{{&label}}" "{{&name}}: {{ns:.4g}} ns, error {{error:.2g}}"
+{{#points}}{{error:.6g}} {{#time}}{{median:.6g}} {{lower:.6g}} {{upper:.6g}}{{/time}} {{label_at:.6g}} "{{&label}}" "{{&name}}: {{#time}}{{median:.4g}}{{/time}} ns, error {{error:.2g}}"
 {{/points}}EOD
 {{/sets}}{{#steps}}set arrow from {{x1:.6g}},{{y1:.6g}} to {{x2:.6g}},{{y1:.6g}} nohead lw 2 lc rgb '#c02020' dt 2 back
 set arrow from {{x2:.6g}},{{y1:.6g}} to {{x2:.6g}},{{y2:.6g}} nohead lw 2 lc rgb '#c02020' dt 2 back

@@ -1,118 +1,12 @@
-/* The files of a chart: the points as CSV, the figure, the page. */
+/* The files of a chart: what the templates beside this are filled with. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "chart/templates.h"
 #include "chart/work.h"
 #include "check/plot.h"
-#include "check/scratch.h"
-
-/* ---- CSV ---- */
-
-static void put_number(struct page *out, double value)
-{
-  page_format(out, ",");
-  if (isfinite(value))
-    page_number(out, value, 6);
-}
-
-static void put_count(struct page *out, size_t value)
-{
-  page_format(out, ",%zu", value);
-}
-
-static void put_solver(const struct chart_point *point, struct page *out)
-{
-  const struct method *method = &point->options;
-  if (!point->ours) {
-    page_format(out, ",,,,,,");
-    return;
-  }
-  page_format(out, ",%s,%s", method->roots.solver->name, method->basis == BASIS_POWER ? "power" : "bernstein");
-  put_number(out, method->roots.tolerance);
-  page_format(out, ",%s,%s,", method->polish ? "on" : "off",
-              method->roots.start == START_PREVIOUS ? "previous" : "cold");
-  if (method->split == 0)
-    page_format(out, "auto");
-  else
-    page_format(out, "%d", method->split);
-}
-
-static void put_time(const struct timing *time, struct page *out)
-{
-  const double values[] = { time->least, time->lower, time->median, time->upper, time->most, time->ratio };
-  for (size_t k = 0; k < sizeof values / sizeof values[0]; k++)
-    put_number(out, values[k]);
-}
-
-static void put_point(const struct chart_point *point, struct page *out)
-{
-  const struct judgement *camera = &point->camera, *shadow = &point->shadow;
-  const double errors[] = { camera->median, camera->most, camera->max, camera->most_of_all };
-  const size_t counts[] = { camera->rays,     camera->hits,  camera->undecided,   camera->lost,
-                            camera->invented, camera->wrong, camera->other_patch };
-  page_format(out, "%s,\"%s\"", family_name(point->family), point->name);
-  put_solver(point, out);
-  for (int kind = 0; kind < RAY_KINDS; kind++)
-    put_time(&point->time[kind], out);
-  for (size_t k = 0; k < sizeof errors / sizeof errors[0]; k++)
-    put_number(out, errors[k]);
-  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++)
-    put_count(out, counts[k]);
-  if (point->has_shadow) {
-    const size_t shadows[] = { shadow->rays, shadow->hits, shadow->undecided, shadow->lost, shadow->invented };
-    for (size_t k = 0; k < sizeof shadows / sizeof shadows[0]; k++)
-      put_count(out, shadows[k]);
-  } else {
-    page_format(out, ",,,,,");
-  }
-  page_format(out, ",%d\n", point->front);
-}
-
-static void put_csv(const struct chart *chart, struct page *out)
-{
-  page_format(out, "family,name,solver,basis,tolerance,polish,start,split,"
-                   "ns_least,ns_lower,ns_median,ns_upper,ns_most,ratio,"
-                   "shadow_ns_least,shadow_ns_lower,shadow_ns_median,shadow_ns_upper,shadow_ns_most,shadow_ratio,"
-                   "t_median,t_99,t_max,t_99_of_all,rays,hits,undecided,lost,invented,wrong,other_patch,"
-                   "shadow_rays,shadow_hits,shadow_undecided,shadow_lost,shadow_invented,front\n");
-  for (size_t k = 0; k < chart->point_count; k++)
-    put_point(&chart->points[k], out);
-}
-
-/* ---- the table ---- */
-
-/* With `digits` behind the point, or with two significant ones where digits is 0. */
-static void put_cell(struct page *out, double value, int width, int digits)
-{
-  if (!isfinite(value))
-    page_format(out, "%*s", width, "-");
-  else if (digits > 0)
-    page_format(out, "%*.*f", width, digits, value);
-  else
-    page_format(out, "%*.2g", width, value);
-}
-
-void chart_table(const struct chart *chart, struct page *out)
-{
-  page_format(out, "%9s %9s  %9s %9s %9s  %6s %6s %6s\n", "ns a ray", "ratio", "T median", "T 99 %", "T max", "lost",
-              "inv.", "wrong");
-  for (size_t k = 0; k < chart->point_count; k++) {
-    const struct chart_point *point = &chart->points[k];
-    if (!point->front && k > 0)
-      continue;
-    put_cell(out, point->time[RAYS_CAMERA].median, 9, 1);
-    put_cell(out, point->time[RAYS_CAMERA].ratio, 10, 3);
-    put_cell(out, point->camera.median, 11, 0);
-    put_cell(out, point->camera.most, 10, 0);
-    put_cell(out, point->camera.max, 10, 0);
-    page_format(out, "  %6zu %6zu %6zu  %s%s\n", point->camera.lost, point->camera.invented, point->camera.wrong,
-                point->name, point->front ? " (front)" : "");
-  }
-}
 
 /* ---- the figure ---- */
 
@@ -167,23 +61,48 @@ static double label_place(const struct chart *chart, size_t index)
   return pow(10, place);
 }
 
-/* A point, for figure and page; NULL where memory is short. */
+static json_t *time_value(const struct timing *time)
+{
+  return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o}", "least", page_of_number(time->least), "lower",
+                   page_of_number(time->lower), "median", page_of_number(time->median), "upper",
+                   page_of_number(time->upper), "most", page_of_number(time->most), "ratio", page_of_number(time->ratio));
+}
+
+static json_t *shadow_value(const struct judgement *shadow)
+{
+  return json_pack("{s:o,s:o,s:o,s:o,s:o}", "rays", page_of_count(shadow->rays), "hits", page_of_count(shadow->hits),
+                   "undecided", page_of_count(shadow->undecided), "lost", page_of_count(shadow->lost), "invented",
+                   page_of_count(shadow->invented));
+}
+
+static json_t *method_value(const struct method *method)
+{
+  return json_pack("{s:s,s:s,s:f,s:s,s:s,s:o}", "solver", method->roots.solver->name, "basis",
+                   method->basis == BASIS_POWER ? "power" : "bernstein", "tolerance", method->roots.tolerance, "polish",
+                   method->polish ? "on" : "off", "start",
+                   method->roots.start == START_PREVIOUS ? "previous" : "cold", "split",
+                   method->split == 0 ? json_string("auto") : json_sprintf("%d", method->split));
+}
+
+/* A point, for all files; NULL where memory is short. */
 static json_t *point_value(const struct chart *chart, size_t index)
 {
   const struct chart_point *point = &chart->points[index];
-  const struct timing *time = &point->time[RAYS_CAMERA];
   const struct judgement *camera = &point->camera;
+  json_t *time = time_value(&point->time[RAYS_CAMERA]), *shadow_time = time_value(&point->time[RAYS_SHADOW]);
   return json_pack(
-    "{s:s,s:s,s:b,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "name", point->name, "label",
-    point->label, "front", point->front, "ns", page_of_number(time->median), "lower", page_of_number(time->lower),
-    "upper", page_of_number(time->upper), "ratio", page_of_number(time->ratio), "shadow_ns",
-    page_of_number(point->time[RAYS_SHADOW].median), "t_median", page_of_number(camera->median), "t_99",
-    page_of_number(camera->most), "t_max", page_of_number(camera->max), "lost", page_of_count(camera->lost), "invented",
-    page_of_count(camera->invented), "wrong", page_of_count(camera->wrong), "other_patch",
-    page_of_count(camera->other_patch), "shadow_lost",
-    point->has_shadow ? page_of_count(point->shadow.lost) : json_null(), "shadow_invented",
-    point->has_shadow ? page_of_count(point->shadow.invented) : json_null(), "error", page_of_number(error_of(point)),
-    "label_at", page_of_number(label_place(chart, index)));
+    "{s:s,s:s,s:s,s:b,s:o,s:[O,o],s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}",
+    "family", family_name(point->family), "name", point->name, "label", point->label, "front", point->front,
+    "time", time, "times", time, shadow_time,
+    "shadow_ns", page_of_number(point->time[RAYS_SHADOW].median),
+    "t_median", page_of_number(camera->median), "t_99", page_of_number(camera->most), "t_max",
+    page_of_number(camera->max), "t_99_of_all", page_of_number(camera->most_of_all),
+    "rays", page_of_count(camera->rays), "hits", page_of_count(camera->hits), "undecided",
+    page_of_count(camera->undecided), "lost", page_of_count(camera->lost), "invented", page_of_count(camera->invented),
+    "wrong", page_of_count(camera->wrong), "other_patch", page_of_count(camera->other_patch),
+    "shadow", point->has_shadow ? shadow_value(&point->shadow) : json_null(),
+    "method", point->ours ? method_value(&point->options) : json_null(),
+    "error", page_of_number(error_of(point)), "label_at", page_of_number(label_place(chart, index)));
 }
 
 /* The points of a family that are all right, or are not, with their look; null where there are none. */
@@ -270,17 +189,15 @@ static json_t *make_values(const struct chart *chart)
   for (size_t k = 0; k < chart->note_count; k++)
     good = json_array_append_new(notes, json_pack("{s:o}", "note", page_of_text(chart->notes[k]))) == 0 && good;
   json_t *root = json_pack(
-    "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:[{s:b,s:o},{s:b,s:O}]}", "scene",
+    "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:o,s:O,s:O,s:[{s:b,s:o},{s:b,s:o}]}", "scene",
     page_of_text(slash == NULL ? request->path : slash + 1), "width", page_of_count(request->width), "height",
     page_of_count(request->height), "rays", page_of_count(chart->rays[RAYS_CAMERA].count), "shadows",
     page_of_count(chart->rays[RAYS_SHADOW].count), "rounds", page_of_count(chart->rounds), "undecided",
     page_of_count(chart->points[0].camera.undecided), "strip_width", (int)STRIP_WIDTH, "strip_height",
     (int)STRIP_HEIGHT, "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]), "yard_most",
-    page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "tables", "all", 0, "points", first, "all", 1,
-    "points", points);
-  good = root != NULL && good && json_object_set_new(root, "notes", notes) == 0 &&
-         json_object_update(root, head) == 0 && add_sets(chart, root, points) && add_front(chart, root);
-  json_decref(points);
+    page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes, "first", first, "points", points,
+    "tables", "all", 0, "points", first, "all", 1, "points", points);
+  good = root != NULL && good && json_object_update(root, head) == 0 && add_sets(chart, root, points) && add_front(chart, root);
   json_decref(head);
   if (good)
     return root;
@@ -291,33 +208,25 @@ static json_t *make_values(const struct chart *chart)
 enum { CSV, SVG, PAGE, FILES };
 
 /* A figure of an earlier chart goes where this one has none. */
-enum status chart_write(const struct chart *chart)
+enum status chart_write(const struct chart *chart, struct page *out_text)
 {
   static const char *const NAMES[FILES] = { "chart.csv", "chart.svg", "chart.html" };
   struct page content[FILES] = { { 0 } };
-  char path[FILES][SCRATCH_PATH_SIZE];
-  struct atomic_file files[FILES];
+  char path[FILES][PAGE_PATH_SIZE];
   json_t *values = make_values(chart);
   enum status status = STATUS_OK;
   if (values != NULL && chart->points[0].camera.hits > 0)
     status = plot_draw(chart->listener, TEMPLATE_CHART_FIGURE, values, &content[SVG]);
   if (values != NULL && content[SVG].length > 0)
     (void)json_object_set_new(values, "figure", json_stringn(content[SVG].text, content[SVG].length));
-  put_csv(chart, &content[CSV]);
+  page_fill(&content[CSV], TEMPLATE_CHART_CSV, values);
   page_fill(&content[PAGE], TEMPLATE_CHART_PAGE, values);
-  for (int k = 0; k < FILES; k++) {
+  page_fill(out_text, TEMPLATE_CHART_TABLE, values);
+  for (int k = 0; k < FILES; k++)
     snprintf(path[k], sizeof path[k], "%s/%s", chart->request->folder, NAMES[k]);
-    files[k] = (struct atomic_file){ path[k], content[k].text, content[k].length };
-    if (status == STATUS_OK && content[k].failed)
-      status = listener_out_of_memory(chart->listener);
-  }
-  if (status == STATUS_OK) {
-    size_t which;
-    int reason;
-    status = atomic_files_write(files, FILES, chart->listener->stop, &which, &reason);
-    if (status == STATUS_FILE || status == STATUS_LIMIT)
-      (void)listener_fail(chart->listener, status, "cannot write '%s': %s", files[which].path, strerror(reason));
-  }
+  content[PAGE].failed = content[PAGE].failed || out_text->failed;
+  if (status == STATUS_OK)
+    status = page_write(chart->listener, FILES, path, content);
   for (int k = 0; k < FILES; k++)
     page_free(&content[k]);
   json_decref(values);

@@ -49,10 +49,7 @@ enum status chart_peers(struct chart *chart) STATUS_MUST_CHECK;
 
 /* ---- results.c ---- */
 
-/* Writes the files. Errors are told. */
-enum status chart_write(const struct chart *chart) STATUS_MUST_CHECK;
-
-/* The front, and the default, as a table. */
-void chart_table(const struct chart *chart, struct page *out);
+/* Writes the files. *out_text receives the front, and the default, as a table. Errors are told. */
+enum status chart_write(const struct chart *chart, struct page *out_text) STATUS_MUST_CHECK;
 
 #endif

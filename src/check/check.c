@@ -60,14 +60,8 @@ static enum status judge(const struct check *check, struct page *out_text)
              last->result.psnr);
   else
     snprintf(verdict, sizeof verdict, "Beyond the limits: %s.", beyond);
-  const enum status status = check_write(check, verdict);
-  if (status != STATUS_OK)
-    return status;
-  check_table(check, out_text);
-  page_format(out_text, "\n%s\n", verdict);
-  if (out_text->failed)
-    return listener_out_of_memory(check->listener);
-  return within ? STATUS_OK : listener_fail(check->listener, STATUS_DIFFERENT, "%s", beyond);
+  const enum status status = check_write(check, verdict, out_text);
+  return status != STATUS_OK || within ? status : listener_fail(check->listener, STATUS_DIFFERENT, "%s", beyond);
 }
 
 enum status check_scene(const struct check_request *request, struct scene *scene, const struct listener *listener,

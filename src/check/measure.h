@@ -103,15 +103,12 @@ enum status check_map(const struct check *check, const struct check_row *row, st
 
 /* ---- report.c ---- */
 
-/* The table. */
-void check_table(const struct check *check, struct page *out);
-
 /* All numbers, for check.json; NULL where memory is short. */
 json_t *check_json(const struct check *check);
 
 /* ---- results.c ---- */
 
-/* Writes all results; `verdict` is one sentence. Errors are told. */
-enum status check_write(const struct check *check, const char *verdict) STATUS_MUST_CHECK;
+/* Writes all results; `verdict` is one sentence. *out_text receives the numbers as a table. Errors are told. */
+enum status check_write(const struct check *check, const char *verdict, struct page *out_text) STATUS_MUST_CHECK;
 
 #endif

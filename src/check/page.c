@@ -10,6 +10,7 @@
 #include <sys/utsname.h>
 #include <time.h>
 
+#include "base/atomic_file.h"
 #include "base/number.h"
 #include "base/source.h"
 #include "base/version.h"
@@ -59,36 +60,6 @@ void page_free(struct page *page)
 {
   free(page->text);
   *page = (struct page){ 0 };
-}
-
-/* With the point for the locale's comma. */
-static void put_decimal(struct page *page, char letter, int digits, double value)
-{
-  char text[512]; /* %f of the largest double has 309 digits before the point */
-  if (letter == 'f')
-    snprintf(text, sizeof text, "%.*f", digits, value);
-  else if (letter == 'e')
-    snprintf(text, sizeof text, "%.*e", digits, value);
-  else
-    snprintf(text, sizeof text, "%.*g", digits, value);
-  char *comma = strchr(text, ',');
-  if (comma != NULL)
-    *comma = '.';
-  page_bytes(page, text, strlen(text));
-}
-
-void page_number(struct page *page, double value, int digits)
-{
-  struct page rounded = { 0 };
-  char text[NUMBER_TEXT_SIZE];
-  size_t used;
-  put_decimal(&rounded, 'g', digits, value);
-  if (!rounded.failed && number_read(rounded.text, rounded.length, &value, &used) == NUMBER_FINITE) {
-    number_write(value, text);
-    page_bytes(page, text, strlen(text));
-  }
-  page->failed = page->failed || rounded.failed;
-  page_free(&rounded);
 }
 
 void page_printable(struct page *page, const char *text, size_t length)
@@ -144,18 +115,54 @@ static bool is_nothing(const json_t *value)
          (json_is_array(value) && json_array_size(value) == 0);
 }
 
+/* As printf does, with the point for the locale's comma. */
+static void put_decimal(struct page *page, double value, int width, int digits, char letter)
+{
+  char text[512]; /* %f of the largest double has 309 digits before the point */
+  if (letter == 'f')
+    snprintf(text, sizeof text, "%*.*f", width, digits, value);
+  else if (letter == 'e')
+    snprintf(text, sizeof text, "%*.*e", width, digits, value);
+  else
+    snprintf(text, sizeof text, "%*.*g", width, digits, value);
+  char *comma = strchr(text, ',');
+  if (comma != NULL)
+    *comma = '.';
+  page_bytes(page, text, strlen(text));
+}
+
+/* The shortest text of the number rounded to so many digits. */
+static void put_shortest(struct page *page, double value, int digits)
+{
+  struct page rounded = { 0 };
+  char text[NUMBER_TEXT_SIZE];
+  size_t used;
+  put_decimal(&rounded, value, 0, digits, 'g');
+  if (!rounded.failed && number_read(rounded.text, rounded.length, &value, &used) == NUMBER_FINITE) {
+    number_write(value, text);
+    page_bytes(page, text, strlen(text));
+  }
+  page->failed = page->failed || rounded.failed;
+  page_free(&rounded);
+}
+
+/* format: WIDTH.DIGITS and a letter, or DIGITS alone, or "". */
 static void put_value(struct page *page, const json_t *value, const char *format, bool plain)
 {
-  if (json_is_string(value) && plain)
+  char *point;
+  const long width = strtol(format, &point, 10), digits = *point == '.' ? strtol(point + 1, &point, 10) : 0;
+  if (json_is_string(value) && *point == 's')
+    page_format(page, "%*s", (int)width, json_string_value(value));
+  else if (json_is_string(value) && plain)
     page_bytes(page, json_string_value(value), json_string_length(value));
   else if (json_is_string(value))
     put_escaped(page, json_string_value(value));
-  else if (format != NULL && json_is_number(value))
-    put_decimal(page, *(strpbrk(format, "feg")), atoi(format + 1), json_number_value(value));
+  else if (json_is_number(value) && strchr("feg", *point) != NULL && *point != '\0')
+    put_decimal(page, json_number_value(value), (int)width, (int)digits, *point);
   else if (json_is_integer(value))
-    page_format(page, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+    page_format(page, "%*" JSON_INTEGER_FORMAT, (int)width, json_integer_value(value));
   else if (json_is_real(value))
-    page_number(page, json_real_value(value), 17);
+    put_shortest(page, json_real_value(value), width > 0 ? (int)width : 17);
 }
 
 static void fill(struct page *page, const char *text, size_t length, struct scope *scope);
@@ -212,7 +219,7 @@ static void fill(struct page *page, const char *text, size_t length, struct scop
       fill_section(page, text, (size_t)(rest - text), value, tag[2] == '^', scope);
       text = rest + 5 + name_length;
     } else {
-      put_value(page, value, format == NULL ? NULL : format + 1, plain);
+      put_value(page, value, format == NULL ? "" : format + 1, plain);
     }
   }
 }
@@ -223,6 +230,27 @@ void page_fill(struct page *page, const char *template, const json_t *values)
   page->failed = page->failed || values == NULL;
   if (!page->failed)
     fill(page, template, strlen(template), &scope);
+}
+
+/* ---- files ---- */
+
+enum status page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
+                       const struct page pages[])
+{
+  struct atomic_file *files = calloc(count, sizeof *files);
+  bool failed = files == NULL;
+  size_t which;
+  int reason;
+  for (size_t k = 0; k < count && !failed; k++) {
+    files[k] = (struct atomic_file){ paths[k], pages[k].text, pages[k].length };
+    failed = pages[k].failed;
+  }
+  enum status status = failed ? listener_out_of_memory(listener)
+                              : atomic_files_write(files, count, listener->stop, &which, &reason);
+  if (!failed && (status == STATUS_FILE || status == STATUS_LIMIT))
+    status = listener_fail(listener, status, "cannot write '%s': %s", files[which].path, strerror(reason));
+  free(files);
+  return status;
 }
 
 /* ---- values ---- */

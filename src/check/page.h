@@ -3,7 +3,8 @@
  * A template is a file of text (HTML, a script of gnuplot) that is built into the program. In it stand
  *
  *     {{name}}          the value of that name: text with what HTML reserves escaped, a whole number, a number
- *     {{name:.3f}}      a number as printf writes it, with %f, %e or %g
+ *     {{name:9.3f}}     a number as printf writes it, with %f, %e or %g; {{name:9d}} and {{name:-9s}} in that width;
+ *                       {{name:6}} with so many significant digits at most
  *     {{&name}}         text as it is
  *     {{#name}}...{{/name}}   once for each value of a list, the names of its objects going before those outside;
  *                       once for an object, a text, a number, true; not at all for null, false, what there is not
@@ -19,7 +20,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/status.h"
+#include "base/listener.h"
 #include "image/image.h"
 
 struct page {
@@ -35,14 +36,17 @@ void page_free(struct page *page);
 void page_bytes(struct page *page, const void *bytes, size_t length);
 void page_format(struct page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A number with that many significant digits. */
-void page_number(struct page *page, double value, int digits);
-
 /* Foreign text that no terminal obeys: control characters but for the newline, and what is no UTF-8, as \xNN. */
 void page_printable(struct page *page, const char *text, size_t length);
 
 /* Fills a template in. `values` may be NULL, for which memory was short. */
 void page_fill(struct page *page, const char *template, const json_t *values);
+
+/* Writes pages under their names, all of them or none (base/atomic_file.h); of an empty one there is to be no file.
+ * Errors are told. */
+enum { PAGE_PATH_SIZE = 4096 };
+enum status page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
+                       const struct page pages[]) STATUS_MUST_CHECK;
 
 /* Values, NULL where memory is short: a number, or null for NAN and infinities; a count; foreign text, printable. */
 json_t *page_of_number(double value);

@@ -1,4 +1,4 @@
-/* The numbers of a check as a table and as JSON. */
+/* The numbers of a check as JSON. */
 #include "check/measure.h"
 
 #include <string.h>
@@ -12,57 +12,6 @@ static void row_name(const struct check_row *row, char *out, size_t size)
   else
     snprintf(out, size, "u_steps %zu", row->steps);
 }
-
-static double percent(size_t count, size_t of)
-{
-  return 100 * (double)count / (double)of;
-}
-
-static void put_pictures(const struct check *check, struct page *out)
-{
-  page_format(out, "\npictures    %%>1/255  %%>4/255 %%>16/255      max     psnr  off edges  only here  only there  "
-                   "seconds    cpu\n");
-  for (size_t k = 0; k < check->row_count; k++) {
-    const struct check_row *row = &check->row[k];
-    char name[32];
-    row_name(row, name, sizeof name);
-    page_format(out, "%-10s", name);
-    for (int c = 0; c < CHECK_CODES; c++)
-      page_format(out, " %8.4f", percent(row->over[c], row->result.pixels));
-    page_format(out, " %4.0f/255 %8.2f %10zu %10zu %11zu %8.2f %6.2f\n", 255 * row->result.max, row->result.psnr,
-                row->over_limit_on[CHECK_EDGE_NONE], row->mask_ours, row->mask_theirs, row->picture.time.wall,
-                row->picture.time.cpu);
-  }
-  page_format(out, "%-84s %8.2f %6.2f\n", "pscn", check->ours.time.wall, check->ours.time.cpu);
-}
-
-static void put_distances(const struct check *check, struct page *out)
-{
-  page_format(out, "\ndistances       rays  hit by both  only here  only there     median         99%%         max\n");
-  for (size_t k = 0; k < check->row_count; k++) {
-    const struct check_distances *d = &check->row[k].distances;
-    char name[32];
-    row_name(&check->row[k], name, sizeof name);
-    page_format(out, "%-10s %9zu %12zu %10zu %11zu", name, d->rays, d->both, d->only_ours, d->only_theirs);
-    if (d->both == 0)
-      page_format(out, " %10s  %10s  %10s\n", "-", "-", "-");
-    else
-      page_format(out, " %10.2e  %10.2e  %10.2e\n", d->median, d->most, d->max);
-  }
-}
-
-void check_table(const struct check *check, struct page *out)
-{
-  page_format(out, "scene       ");
-  page_printable(out, check->request->path, strlen(check->request->path));
-  page_format(out, ", %zux%zu pixels\npovray      %s\n", check->request->width, check->request->height,
-              check->povray.version);
-  put_pictures(check, out);
-  if (check->request->grid > 0)
-    put_distances(check, out);
-}
-
-/* ---- JSON ---- */
 
 static json_t *distances_json(const struct check_distances *d)
 {

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "check/measure.h"
 #include "check/plot.h"
 #include "check/templates.h"
@@ -21,7 +20,7 @@ enum { ROWS = CHECK_MAX_STEPS + 1, FILE_JSON = 1 + 2 * ROWS, FILE_PAGE, FILES };
 struct results {
   const struct check *check;
   struct page content[FILES]; /* what there is not is not to be there */
-  char path[FILES][SCRATCH_PATH_SIZE];
+  char path[FILES][PAGE_PATH_SIZE];
   bool failed;                /* memory was short */
 };
 
@@ -55,15 +54,15 @@ static void make_pictures(struct results *results)
 static void name_files(struct results *results)
 {
   const char *folder = results->check->request->folder;
-  snprintf(results->path[0], SCRATCH_PATH_SIZE, "%s/pscn.png", folder);
-  snprintf(results->path[FILE_JSON], SCRATCH_PATH_SIZE, "%s/check.json", folder);
-  snprintf(results->path[FILE_PAGE], SCRATCH_PATH_SIZE, "%s/check.html", folder);
+  snprintf(results->path[0], PAGE_PATH_SIZE, "%s/pscn.png", folder);
+  snprintf(results->path[FILE_JSON], PAGE_PATH_SIZE, "%s/check.json", folder);
+  snprintf(results->path[FILE_PAGE], PAGE_PATH_SIZE, "%s/check.html", folder);
   for (size_t k = 0; k < ROWS; k++) {
     char number[32] = "";
     if (k > 0)
       snprintf(number, sizeof number, "-%zu", k);
-    snprintf(results->path[1 + 2 * k], SCRATCH_PATH_SIZE, "%s/povray%s.png", folder, number);
-    snprintf(results->path[2 + 2 * k], SCRATCH_PATH_SIZE, "%s/difference%s.png", folder, number);
+    snprintf(results->path[1 + 2 * k], PAGE_PATH_SIZE, "%s/povray%s.png", folder, number);
+    snprintf(results->path[2 + 2 * k], PAGE_PATH_SIZE, "%s/difference%s.png", folder, number);
   }
 }
 
@@ -190,7 +189,7 @@ static enum status add_figure(struct results *results, json_t *root)
   return status;
 }
 
-static enum status make_page(struct results *results, const char *verdict)
+static enum status make_page(struct results *results, const char *verdict, struct page *out_text)
 {
   const struct check *check = results->check;
   const struct check_request *request = check->request;
@@ -213,6 +212,7 @@ static enum status make_page(struct results *results, const char *verdict)
   add_places(results, root);
   add_worst(results, json_object_get(root, "worst"));
   const enum status status = add_figure(results, root);
+  page_fill(out_text, TEMPLATE_CHECK_TABLE, root);
   page_fill(&results->content[FILE_PAGE], TEMPLATE_CHECK_PAGE, root);
   json_decref(root);
   return status;
@@ -228,7 +228,7 @@ static void make_json(struct results *results)
   free(text);
 }
 
-enum status check_write(const struct check *check, const char *verdict)
+enum status check_write(const struct check *check, const char *verdict, struct page *out_text)
 {
   struct results *results = calloc(1, sizeof *results);
   if (results == NULL)
@@ -237,21 +237,10 @@ enum status check_write(const struct check *check, const char *verdict)
   name_files(results);
   make_pictures(results);
   make_json(results);
-  enum status status = results->failed ? STATUS_OK : make_page(results, verdict);
-  struct atomic_file files[FILES];
-  for (size_t k = 0; k < FILES; k++) {
-    files[k] = (struct atomic_file){ results->path[k], results->content[k].text, results->content[k].length };
-    results->failed = results->failed || results->content[k].failed;
-  }
-  if (status == STATUS_OK && results->failed) {
-    status = listener_out_of_memory(check->listener);
-  } else if (status == STATUS_OK) {
-    size_t which;
-    int reason;
-    status = atomic_files_write(files, FILES, check->listener->stop, &which, &reason);
-    if (status == STATUS_FILE || status == STATUS_LIMIT)
-      (void)listener_fail(check->listener, status, "cannot write '%s': %s", files[which].path, strerror(reason));
-  }
+  enum status status = results->failed ? STATUS_OK : make_page(results, verdict, out_text);
+  results->content[FILE_PAGE].failed = results->content[FILE_PAGE].failed || results->failed || out_text->failed;
+  if (status == STATUS_OK)
+    status = page_write(check->listener, FILES, results->path, results->content);
   for (size_t k = 0; k < FILES; k++)
     page_free(&results->content[k]);
   free(results);

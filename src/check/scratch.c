@@ -1,8 +1,9 @@
 /* A temporary folder. */
+#define _XOPEN_SOURCE 700 /* for nftw */
 #include "check/scratch.h"
 
-#include <dirent.h>
 #include <errno.h>
+#include <ftw.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,8 @@
 #include <unistd.h>
 
 #include "base/source.h"
+
+enum { OPEN_FOLDERS = 16 };
 
 enum status scratch_create(struct scratch *out)
 {
@@ -27,31 +30,17 @@ enum status scratch_create(struct scratch *out)
   return STATUS_FILE;
 }
 
-static void remove_all(const char *path, int depth)
+static int remove_one(const char *path, const struct stat *state, int kind, struct FTW *place)
 {
-  enum { MAX_DEPTH = 16 };
-  struct stat state;
-  DIR *folder = lstat(path, &state) == 0 && S_ISDIR(state.st_mode) ? opendir(path) : NULL;
-  if (folder == NULL) {
-    (void)unlink(path);
-    return;
-  }
-  for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
-    char inner[SCRATCH_PATH_SIZE];
-    if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0)
-      continue;
-    const int length = snprintf(inner, sizeof inner, "%s/%s", path, entry->d_name);
-    if (length > 0 && (size_t)length < sizeof inner && depth < MAX_DEPTH)
-      remove_all(inner, depth + 1);
-  }
-  (void)closedir(folder);
-  (void)rmdir(path);
+  (void)state, (void)kind, (void)place;
+  (void)remove(path);
+  return 0;
 }
 
 void scratch_remove(struct scratch *scratch)
 {
   if (scratch->path[0] != '\0')
-    remove_all(scratch->path, 0);
+    (void)nftw(scratch->path, remove_one, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS);
   scratch->path[0] = '\0';
 }
 
