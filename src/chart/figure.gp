@@ -17,9 +17,9 @@ set xrange [5e-18:4]
 set arrow from {{x2:.6g}},{{y1:.6g}} to {{x2:.6g}},{{y2:.6g}} nohead lw 2 lc rgb '#c02020' dt 2 back
 {{/steps}}{{#pale_steps}}set arrow from {{x1:.6g}},{{y1:.6g}} to {{x2:.6g}},{{y1:.6g}} nohead lw 1.5 lc rgb '#eab0b0' dt 2 back
 set arrow from {{x2:.6g}},{{y1:.6g}} to {{x2:.6g}},{{y2:.6g}} nohead lw 1.5 lc rgb '#eab0b0' dt 2 back
-{{/pale_steps}}plot NaN with lines lw 2 lc rgb '#c02020' dt 2 title 'Pareto front'{{#sets}}, \
+{{/pale_steps}}plot keyentry with lines lw 2 lc rgb '#c02020' dt 2 title 'Pareto front'{{#sets}}, \
   ${{id}} using 1:3:(0):($4-$3) with vectors nohead lc rgb '{{&color}}' notitle, \
   '' using 1:2:7 with labels hypertext point pt {{symbol}} ps 0.75 lw 1.3 lc rgb '{{&color}}' notitle, \
-  NaN with points pt {{symbol}} ps 0.75 lw 1.3 lc rgb '{{&color}}' {{#title}}title "{{&title}}"{{/title}}{{^title}}notitle{{/title}}, \
+  keyentry with points pt {{symbol}} ps 0.75 lw 1.3 lc rgb '{{&color}}' {{#title}}title "{{&title}}"{{/title}}{{^title}}notitle{{/title}}, \
   ${{id}} using 5:2:6 with labels font ',10' tc rgb '{{&color}}' offset 0.3,-0.7 left notitle{{/sets}}, \
-  NaN with points pt 6 lc rgb '#444444' title 'hollow: some are wrong'
+  keyentry with points pt 6 lc rgb '#444444' title 'hollow: some are wrong'

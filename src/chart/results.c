@@ -65,7 +65,8 @@ static json_t *time_value(const struct timing *time)
 {
   return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o}", "least", page_of_number(time->least), "lower",
                    page_of_number(time->lower), "median", page_of_number(time->median), "upper",
-                   page_of_number(time->upper), "most", page_of_number(time->most), "ratio", page_of_number(time->ratio));
+                   page_of_number(time->upper), "most", page_of_number(time->most), "ratio",
+                   page_of_number(time->ratio));
 }
 
 static json_t *shadow_value(const struct judgement *shadow)
@@ -91,7 +92,7 @@ static json_t *point_value(const struct chart *chart, size_t index)
   const struct judgement *camera = &point->camera;
   json_t *time = time_value(&point->time[RAYS_CAMERA]), *shadow_time = time_value(&point->time[RAYS_SHADOW]);
   return json_pack(
-    "{s:s,s:s,s:s,s:b,s:o,s:[O,o],s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}",
+    "{s:s,s:s,s:s,s:b,s:o,s:[O,o],s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}",
     "family", family_name(point->family), "name", point->name, "label", point->label, "front", point->front,
     "time", time, "times", time, shadow_time,
     "shadow_ns", page_of_number(point->time[RAYS_SHADOW].median),
@@ -197,7 +198,8 @@ static json_t *make_values(const struct chart *chart)
     (int)STRIP_HEIGHT, "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]), "yard_most",
     page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes, "first", first, "points", points,
     "tables", "all", 0, "points", first, "all", 1, "points", points);
-  good = root != NULL && good && json_object_update(root, head) == 0 && add_sets(chart, root, points) && add_front(chart, root);
+  good = root != NULL && good && json_object_update(root, head) == 0 && add_sets(chart, root, points) &&
+         add_front(chart, root);
   json_decref(head);
   if (good)
     return root;

@@ -28,6 +28,13 @@ pscn=$(command -v pscn)
 (PATH=empty; try "$pscn" chart "$scene" $small --no-peers --quiet -o out3)
 ls out3
 
+# A disk that fills: the page is larger than the rest, so it fails last; the old results stay, and nothing else.
+full=$((($(stat -c %s out3/chart.csv) + $(stat -c %s out3/chart.html)) / 2048))
+sum=$(cat out3/chart.* | cksum)
+(ulimit -f $full && PATH=empty && try "$pscn" chart "$scene" $small --no-peers --quiet -o out3) 2>&1 | grep -v gnuplot
+[ "$sum" = "$(cat out3/chart.* | cksum)" ] || echo "old results are lost"
+ls -A out3
+
 # Nothing to hit, in an empty scene and beside a patch, in which the paper's form may see hits: said, no front, no figure,
 # no peer called a failure, and no error.
 echo 'background { rgb 0 }' >nothing.pscn

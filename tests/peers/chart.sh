@@ -16,6 +16,13 @@ grep -q 'Embree is left out: there is no' "$folder/said" || peers+=(embree)
 [ ${#peers[@]} -gt 0 ] || { echo "skipped: neither Embree's module nor povray is there" >&2; exit 77; }
 
 failed=0
+# The figure, where gnuplot drew one: the default is labelled, symbols are named to a pointer over them, plain Newton's is
+# hollow where it is wrong.
+if [ -e "$folder/chart/chart.svg" ]; then
+  for text in '>default<' '<title>bernstein: [0-9.]* ns, error [0-9.e-]*</title>' '>7</tspan>' '</svg>'; do
+    grep -q "$text" "$folder/chart/chart.svg" || { echo "the figure has no $text"; failed=1; }
+  done
+fi
 for peer in "${peers[@]}"; do
   # Of Embree the points one by one: the coherent ones have the same answers.
   awk -v peer="$peer" -v gain="$LEAST_GAIN" '

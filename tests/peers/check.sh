@@ -90,6 +90,13 @@ limits() {
     [ "$(wc -l <err)" -eq 1 ] || { fail "not one line is told of $limit:"; cat err; }
   done
 
+  # Where one file cannot be written, what an earlier check left stays, all of it, and nothing else.
+  local sum
+  rm limits/check.html && mkdir limits/check.html
+  sum=$(cksum limits/*.png)
+  expect 4 "$PSCN" check "$scene" "${coarse[@]}" --own-text
+  [ "$sum" = "$(cksum limits/*.png)" ] && [ "$(ls -A limits | wc -l)" -eq 5 ] || fail "an earlier check is lost"
+
   # POV-Ray's own word where it refuses, and options passed on.
   expect 3 "$PSCN" check "$scene" --size 8x6 -o refused --povray-option +Knonsense
   grep -q 'povray: .*command-line option' err || { fail "POV-Ray's message is not shown"; cat err; }
