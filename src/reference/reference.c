@@ -270,14 +270,14 @@ void reference_closest(const struct reference *reference, const double origin[3]
   if (answer >= 0) describe(reference, &all.list[answer], origin, direction, out);
 }
 
-double reference_floor_at(const struct reference *reference, uint32_t patch, const double origin[3],
-                          const double direction[3], double t, double u, double v, double *out_larger)
+void reference_floors_at(const struct reference *reference, uint32_t patch, const double origin[3],
+                         const double direction[3], double t, double u, double v, struct reference_floor *out_data,
+                         struct reference_floor *out_whole)
 {
   const struct candidate at = {.root = {.u = u, .v = v, .t = t}, .patch = patch};
   struct reference_answer answer;
   describe(reference, &at, origin, direction, &answer);
-  *out_larger = fmax(answer.data.t, answer.whole.t);
-  return answer.data.t;
+  *out_data = answer.data, *out_whole = answer.whole;
 }
 
 double reference_residual(const struct reference *reference, uint32_t patch, const double origin[3],

@@ -80,9 +80,10 @@ void reference_destroy(struct reference *reference);
 void reference_closest(const struct reference *reference, const double origin[3], const double direction[3],
                        struct reference_answer *out);
 
-/* The floors of T of a hit that lies there, or next to it: the data's; and the larger of that and the whole patch's. */
-double reference_floor_at(const struct reference *reference, uint32_t patch, const double origin[3],
-                          const double direction[3], double t, double u, double v, double *out_larger);
+/* The floors of a hit that lies there, or next to it. */
+void reference_floors_at(const struct reference *reference, uint32_t patch, const double origin[3],
+                         const double direction[3], double t, double u, double v, struct reference_floor *out_data,
+                         struct reference_floor *out_whole);
 
 /* |S(u,v) - (origin + t direction)|, each difference in quadruple precision: how far an answer of any program is from
  * being a common point of ray and patch. */

@@ -18,6 +18,9 @@
 /* The square of a normal's length is 1 but for some roundings. */
 #define UNIT_NORMAL 0x1p-48
 
+/* How far U and V of a certain hit may be off, in floors. */
+#define PLACE_FLOORS 16
+
 /* However ill-conditioned a certain hit is, T is right to this share. */
 #define MOST_ALLOWED 0x1p-10
 
@@ -76,7 +79,7 @@ struct judging {
 
 static double floor_at(const struct judging *j, uint32_t patch, double t, double u, double v)
 {
-  return trial_floor(j->certifier->reference, j->ray, patch, t, u, v);
+  return trial_floor(j->certifier->reference, j->ray, patch, t, u, v).t;
 }
 
 /* All roots of a patch that matter to a hit. */
@@ -191,13 +194,25 @@ static void judge_miss(struct judging *j)
   j->out->finding = doubt && !grazing ? FINDING_UNDECIDED : FINDING_PROVEN;
 }
 
+/* Whether U and V of a certain hit are those of the root at T, where that is of the same patch; near, for a border that
+ * two edges of one patch share has two places for it, and the floors are of the first order. */
+static bool place_good(const struct judging *j)
+{
+  const struct hit *hit = j->hit;
+  if (hit->certainty == CERTAINTY_GRAZING || j->at_patch != hit->patch) return true;
+  const struct reference_floor floor =
+      trial_floor(j->certifier->reference, j->ray, hit->patch, hit->t, j->at.u, j->at.v);
+  return !(fabs(hit->u - j->at.u) > PLACE_FLOORS * (floor.u + DOUBLE_UNIT)) &&
+         !(fabs(hit->v - j->at.v) > PLACE_FLOORS * (floor.v + DOUBLE_UNIT));
+}
+
 /* What a hit says of the surface, but for its place on the ray. */
 static bool surface_good(const struct judging *j)
 {
   const struct hit *hit = j->hit;
   const double *n = hit->normal;
   if (!(hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1)) return false;
-  if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max)) return false;
+  if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max) || !place_good(j)) return false;
   if (!(reference_distance(j->certifier->reference, hit->patch, hit->point, hit->u, hit->v) <= hit->point_error)) return false;
   return hit->certainty == CERTAINTY_GRAZING || fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < UNIT_NORMAL;
 }

@@ -192,7 +192,7 @@ static void test_judges(void **state)
         if (c.finding > FINDING_PROVEN)
           show_refuted(class->name, &(struct form){"reference", 0}, &s, &s.rays[r], &hit, &c);
         if (hit.patch == HIT_NONE || c.finding != FINDING_PROVEN) continue;
-        const double t = hit.t, floor = trial_floor(trial.reference, &s.rays[r], hit.patch, t, hit.u, hit.v);
+        const double t = hit.t, floor = trial_floor(trial.reference, &s.rays[r], hit.patch, t, hit.u, hit.v).t;
         if (!(floor < 1e-6 * t)) continue;
         hit.t = t - 64 * floor;
         certify(&certifier, &s.rays[r], &hit, &c);

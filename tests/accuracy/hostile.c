@@ -355,7 +355,7 @@ static void surface_starts(struct random *random, size_t index, struct situation
 /* A patch long along one axis and short along another; small next to what is far away; a far origin. */
 static void uneven_sizes(struct random *random, size_t index, struct situation *s)
 {
-  static const double factors[] = {1e-160, 1e-30, 1e-12, 1e-6, 1, 1e6, 1e12};
+  static const double factors[] = {1e-160, 1e-12, 1e-9, 1e-6, 1, 1, 1e6};
   s->count = 1;
   gentle(random, 1, s->P[0]);
   double factor[3], shift[3];

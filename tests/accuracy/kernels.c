@@ -57,7 +57,7 @@ static void compare(const char *class, const char *kernel, const struct referenc
   else if (plain->certainty != other->certainty) which = &count->certainty;
   else if (plain->patch != other->patch) which = &count->patch;
   else if (plain->certainty == CERTAINTY_CERTAIN) {
-    const double floor = trial_floor(reference, ray, plain->patch, plain->t, plain->u, plain->v);
+    const double floor = trial_floor(reference, ray, plain->patch, plain->t, plain->u, plain->v).t;
     const double off = plain->t == other->t ? 0 : fabs(plain->t - other->t) / floor;
     count->worst = fmax(count->worst, off);
     if (off > DIFFERENT) which = &count->place;

@@ -124,13 +124,15 @@ double trial_size(const struct ray *ray, double t)
   return size / direction_length(ray);
 }
 
-double trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t, double u,
-                   double v)
+struct reference_floor trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t,
+                                   double u, double v)
 {
-  double larger;
-  const double data = reference_floor_at(reference, patch, ray->origin, ray->direction, t, u, v, &larger);
-  const double floor = fmax(data, fmin(larger, TRIAL_EXTENT * t));
-  return floor > 0 ? fmax(floor, TRIAL_LEAST * trial_size(ray, t)) : INFINITY; /* not a number: singular */
+  struct reference_floor data, whole;
+  reference_floors_at(reference, patch, ray->origin, ray->direction, t, u, v, &data, &whole);
+  const double floor = fmax(data.t, fmin(whole.t, TRIAL_EXTENT * t));
+  return (struct reference_floor){
+      .t = floor > 0 ? fmax(floor, TRIAL_LEAST * trial_size(ray, t)) : INFINITY, /* not a number: singular */
+      .u = fmax(data.u, whole.u), .v = fmax(data.v, whole.v)};
 }
 
 /* How far in t the answer may be from the reference's, whose floor is given, and be the same hit still. */
@@ -294,10 +296,10 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
     tally->holes += hit->patch == HIT_NONE;
     show("lost behind a grazing one", ray, hit, truth, tally);
   } else if (hit->patch != HIT_NONE && hit->t < truth->t_first) {
-    double larger;
-    const double floor = reference_floor_at(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u,
-                                            hit->v, &larger);
-    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, floor) || excused(trial, ray, hit))
+    struct reference_floor data, whole;
+    reference_floors_at(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u, hit->v, &data,
+                        &whole);
+    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, data.t) || excused(trial, ray, hit))
       return;
     tally->invented++;
     show("invented before a grazing one", ray, hit, truth, tally);

@@ -67,13 +67,13 @@ struct tally {
 /* The largest coordinate of the origin and of the point at t, in units of t. */
 double trial_size(const struct ray *ray, double t);
 
-/* How far off T of a certain hit may be, but for a small factor: what one rounding of each input moves it, or one of
+/* How far off T of a certain hit (and U, V) may be, but for a small factor: what one rounding of each input moves it, or one of
  * the patch's extent, up to TRIAL_EXTENT of T; or TRIAL_LEAST of the largest coordinate, which is well below a
  * rounding: where a patch is thin, its floor is smaller still. */
 #define TRIAL_EXTENT 0x1p-22
 #define TRIAL_LEAST 0x1p-62
-double trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t, double u,
-                   double v);
+struct reference_floor trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t,
+                                   double u, double v);
 
 /* Makes intersector, tracer and reference of `count` nets. solver may be NULL (the default). Aborts the running
  * cmocka test where that fails. */
