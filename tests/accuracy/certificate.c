@@ -72,8 +72,9 @@ struct judging {
   const struct hit *hit;
   struct certificate *out;
   double allowed;                /* what T may be off by, at the answer's own place */
-  struct exact_root at, before;  /* the root at T; the first before it */
+  struct exact_root at, before;  /* the root at T, of several the one next to U and V; the first before it */
   uint32_t at_patch, before_patch; /* or REFERENCE_NONE */
+  double aside;                    /* how far U and V are from those of the root at T, on the same patch */
   bool doubt_at, doubt_before;
 };
 
@@ -100,8 +101,9 @@ static void judge_patch(struct judging *j, uint32_t patch)
       continue;
     }
     const double off = fabs(root->t_off) / floor_at(j, patch, T + root->t_off, root->u, root->v);
-    if (off <= CERTIFICATE_FLOORS && (j->at_patch == REFERENCE_NONE || off < j->out->off))
-      j->at = *root, j->at_patch = patch, j->out->off = off;
+    const double aside = patch != j->hit->patch ? INFINITY : fmax(fabs(root->u - j->hit->u), fabs(root->v - j->hit->v));
+    if (off <= CERTIFICATE_FLOORS && (j->at_patch == REFERENCE_NONE || aside < j->aside))
+      j->at = *root, j->at_patch = patch, j->aside = aside;
     const bool before = root->t_off < 0 && off > CERTIFICATE_FLOORS &&
                         (certain || (-root->t_off > j->allowed && T + root->t_off > at_origin));
     if (before && (j->before_patch == REFERENCE_NONE || root->t_off < j->before.t_off))
