@@ -2,7 +2,6 @@
 #ifndef PSCN_ALGEBRA_DEFLATION_H
 #define PSCN_ALGEBRA_DEFLATION_H
 
-#include "algebra/complex_number.h"
 #include "algebra/root_problem.h"
 
 /* What an iteration is told of a polynomial of degree n at the point x. */

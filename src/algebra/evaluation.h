@@ -15,6 +15,7 @@
 
 #include <math.h>
 
+#include "algebra/complex_number.h"
 #include "algebra/polynomial.h"
 
 /* Unit roundoff of double, and the room left for rounding in sums of positive bounds (over 200 operations). */
@@ -56,6 +57,34 @@ static inline struct evaluation_real evaluation_at_real(const struct evaluation 
   }
   out.error += UNDERFLOW_ERROR;
   out.slope_error += UNDERFLOW_ERROR;
+  return out;
+}
+
+/* q of the chart polynomial at the chart point z of x, 1/x where |x|^2 > reversed_above, and a bound on its error, that
+ * of 1/x included: 8 U relative, which is (8 k) U in the term of z^k, twice its weight in the bound at most. */
+struct evaluation_complex {
+  struct complex_number z, value;
+  double error;
+  bool reversed;
+};
+
+static inline struct evaluation_complex evaluation_at_complex(const struct evaluation *p, struct complex_number x,
+                                                              double reversed_above)
+{
+  const struct complex_number one = {1.0, 0.0};
+  struct evaluation_complex out = {.reversed = !(complex_norm(x) <= reversed_above)};
+  out.z = out.reversed ? complex_divide(one, x) : x;
+  const double *c = out.reversed ? p->reverse : p->forward;
+  const double *weight = out.reversed ? p->reverse_bound : p->forward_bound;
+  const double modulus = hypot(out.z.re, out.z.im) * (1.0 + 4 * UNIT_ROUNDOFF);
+  out.value = (struct complex_number){c[p->degree], 0.0};
+  out.error = weight[p->degree];
+  for (int k = p->degree - 1; k >= 0; k--) {
+    out.value = complex_multiply(out.value, out.z);
+    out.value.re += c[k];
+    out.error = out.error * modulus + weight[k];
+  }
+  out.error = 3.0 * (out.error + UNDERFLOW_ERROR);
   return out;
 }
 

@@ -1,12 +1,8 @@
-/* Polynomials in two bases: values with bounds, change of basis, Descartes' count of sign changes.
- *
- * The scaled Bernstein form and its charts x = u/(1-u), 1/x = (1-u)/u: see evaluation.h.
- */
+/* Polynomials in two bases: change of basis, eq 11, Descartes' count of sign changes. */
 #include "algebra/polynomial.h"
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 #include "algebra/evaluation.h"
 #include "base/wide.h"
@@ -25,18 +21,19 @@ double polynomial_binomial(int n, int k)
   return (double)value;
 }
 
-/* Both changes of basis are sums over i <= k of c[i] C(n-i, k-i), to the power basis with alternating signs: the first
- * from 1 = u + (1-u), the second from (1-u)^m multiplied out. */
-static void change_basis(const struct polynomial *p, bool alternate, double out_c[], double out_error[])
+/* From 1 = u + (1-u): sums over i <= k of c[i] C(n-i, k-i). */
+void polynomial_to_bernstein(const struct polynomial *p, double out_c[], double out_error[])
 {
   const int n = p->degree;
   for (int k = 0; k <= n; k++) {
+    out_c[k] = p->c[k];
+    out_error[k] = p->error == NULL ? 0.0 : p->error[k];
+    if (p->basis == BASIS_BERNSTEIN) continue;
     double sum = 0.0, size = 0.0, given = 0.0;
     for (int i = 0; i <= k; i++) {
       const double weight = polynomial_binomial(n - i, k - i);
-      const double term = p->c[i] * weight;
-      sum += alternate && (k - i) % 2 != 0 ? -term : term;
-      size += fabs(term);
+      sum += p->c[i] * weight;
+      size += fabs(p->c[i] * weight);
       given += p->error == NULL ? 0.0 : p->error[i] * weight;
     }
     /* One rounding in the binomial, one in the product, k in the sum, and room for the bound's own. A single exact term
@@ -45,96 +42,6 @@ static void change_basis(const struct polynomial *p, bool alternate, double out_
     out_error[k] =
       (k == 0 ? 0.0 : size * (k + 3) * UNIT_ROUNDOFF) + given * (1.0 + 4 * POLYNOMIAL_MAX_DEGREE * UNIT_ROUNDOFF);
   }
-}
-
-static void copy_polynomial(const struct polynomial *p, double out_c[], double out_error[])
-{
-  const size_t count = (size_t)p->degree + 1;
-  memcpy(out_c, p->c, count * sizeof out_c[0]);
-  if (p->error != NULL) {
-    memcpy(out_error, p->error, count * sizeof out_error[0]);
-  } else {
-    memset(out_error, 0, count * sizeof out_error[0]);
-  }
-}
-
-void polynomial_to_bernstein(const struct polynomial *p, double out_c[], double out_error[])
-{
-  if (p->basis == BASIS_BERNSTEIN) {
-    copy_polynomial(p, out_c, out_error);
-  } else {
-    change_basis(p, false, out_c, out_error);
-  }
-}
-
-void polynomial_to_power(const struct polynomial *p, double out_c[], double out_error[])
-{
-  if (p->basis == BASIS_POWER) {
-    copy_polynomial(p, out_c, out_error);
-  } else {
-    change_basis(p, true, out_c, out_error);
-  }
-}
-
-/* base^exponent by squaring: at most 2 exponent roundings. */
-static double integer_power(double base, int exponent)
-{
-  double result = 1.0;
-  for (; exponent > 0; exponent /= 2) {
-    if (exponent % 2 != 0) {
-      result *= base;
-    }
-    base *= base;
-  }
-  return result;
-}
-
-/* The value in the power basis needs no chart: plain Horner in u, which may overflow to an infinite bound. */
-static struct polynomial_value evaluate_power(const struct evaluation *e, double u)
-{
-  const struct evaluation_real q = evaluation_at_real(e, u, false);
-  return (struct polynomial_value){q.value, q.error, q.slope, q.slope_error};
-}
-
-/* p(u) = w^n q(z), and p'(u) = w^(n-2) (+- q'(z) +- n w q(z)), where (w,z) = (1-u, u/w) or (u, (1-u)/w), |z| <= 1. */
-static struct polynomial_value evaluate_bernstein(const struct evaluation *e, double u)
-{
-  const int n = e->degree;
-  const double v = 1.0 - u;
-  const bool reversed = fabs(u) > fabs(v);
-  const double w = reversed ? u : v;
-  const double z = (reversed ? v : u) / w;
-  const struct evaluation_real q = evaluation_at_real(e, z, reversed);
-  const double scale = integer_power(w, n);
-  const double slope_scale = scale / (w * w);
-  const double slope = reversed ? n * w * q.value - q.slope : q.slope - n * w * q.value;
-
-  /* z is off by 2 roundings and w^n by 3 n. The bound polynomial has 2 U |c| |z|^k (2 k + 1), so that 3 of it cover z's
-   * share (2 k U |c| |z|^k, and as much for the derivative), its own included; w's is relative. */
-  const double relative = (3 * n + 8) * UNIT_ROUNDOFF;
-  const double value_error = 3.0 * q.error;
-  const double slope_error = 3.0 * (q.slope_error + n * fabs(w) * q.error) +
-                             4 * UNIT_ROUNDOFF * (fabs(q.slope) + n * fabs(w * q.value));
-  return (struct polynomial_value){
-    .value = scale * q.value,
-    .value_error = fabs(scale) * (value_error + relative * fabs(q.value)) * BOUND_ROOM,
-    .slope = slope_scale * slope,
-    .slope_error = fabs(slope_scale) * (slope_error + relative * fabs(slope)) * BOUND_ROOM,
-  };
-}
-
-struct polynomial_value polynomial_evaluate(const struct polynomial *p, double u)
-{
-  struct evaluation e;
-  evaluation_prepare(p->degree, p->basis, p->c, p->error, &e);
-  struct polynomial_value out = p->basis == BASIS_POWER ? evaluate_power(&e, u) : evaluate_bernstein(&e, u);
-  if (!isfinite(out.value) || !isfinite(out.value_error)) {
-    out.value_error = INFINITY;
-  }
-  if (!isfinite(out.slope) || !isfinite(out.slope_error)) {
-    out.slope_error = INFINITY;
-  }
-  return out;
 }
 
 /* "unit" of eq 11: beta^-(s-1). */

@@ -1,8 +1,5 @@
-/* A real polynomial in one of two bases, and what can be said of its value with proof.
- *
- * Every value comes with a bound on its distance from the value of the true polynomial: rounding of the evaluation plus
- * the caller's own bounds on the coefficients. Nothing here allocates, fails or keeps state.
- */
+/* A real polynomial in one of two bases, its coefficients perhaps known within bounds only. Nothing here allocates, fails
+ * or keeps state. */
 #ifndef PSCN_ALGEBRA_POLYNOMIAL_H
 #define PSCN_ALGEBRA_POLYNOMIAL_H
 
@@ -23,23 +20,13 @@ struct polynomial {
   const double *error; /* n + 1 absolute bounds on how far each c[k] is from the true one, or NULL where c is exact */
 };
 
-/* Value and first derivative at a finite real u, each with a bound on its distance from the true one. The bounds are
- * INFINITY where the arithmetic overflows. */
-struct polynomial_value {
-  double value, value_error;
-  double slope, slope_error;
-};
-
-struct polynomial_value polynomial_evaluate(const struct polynomial *p, double u);
-
 /* |P(z)| / delta(z) of the paper's eq 11 at a finite z = re + i im, where delta = n 2^-52 max |a_k z^k|: below 1 the
  * paper calls z accurate. In scaled Bernstein form P and the terms are those of the plain polynomial in z/(1-z). */
 double polynomial_eq11(const struct polynomial *p, double re, double im);
 
-/* The same polynomial in the other basis. Writes degree + 1 coefficients and bounds (the old bounds carried over plus
- * all rounding); the arrays must not overlap p's. A polynomial already in the wanted basis is copied. */
+/* The same polynomial in scaled Bernstein form. Writes degree + 1 coefficients and bounds (the old bounds carried over
+ * plus all rounding); the arrays must not overlap p's. A polynomial already in that form is copied. */
 void polynomial_to_bernstein(const struct polynomial *p, double out_c[], double out_error[]);
-void polynomial_to_power(const struct polynomial *p, double out_c[], double out_error[]);
 
 /* Sign changes in a sequence of n + 1 coefficients whose signs are known only where |c[k]| > error[k] (error may be
  * NULL): the fewest and the most there can be. By Descartes' rule on scaled Bernstein (or Bernstein) coefficients, most

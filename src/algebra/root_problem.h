@@ -68,17 +68,20 @@ static inline void root_problem_x_from_u(enum basis basis, double *re, double *i
   *re = x;
 }
 
-/* The rows of the table. */
-void bernstein_find(const struct root_problem *problem, const struct solver_options *options,
-                    const struct solver_warm *warm, struct root_estimates *out);
-void aberth_find(const struct root_problem *problem, const struct solver_options *options,
-                 const struct solver_warm *warm, struct root_estimates *out);
+/* The table of solvers, one row each: name (NAME_find is the method), summary, real roots in [0,1] only, form on lanes,
+ * steps a root may take. The first is the default. */
+#define SOLVERS(ROW)                                                                                                   \
+  ROW(bernstein, "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, SIGNS, 64)     \
+  ROW(newton, "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, NONE, 200)      \
+  ROW(laguerre, "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false, NONE, 100) \
+  ROW(aberth, "all roots at once by Aberth's method (eq 9 of the paper)", false, ABERTH, 100)                          \
+  ROW(durand_kerner, "all roots at once by Weierstrass's method: Aberth's without a derivative", false, NONE, 200)
 
-/* Newton's and Laguerre's methods and their like: one root at a time, and deflation. */
-void newton_find(const struct root_problem *problem, const struct solver_options *options,
-                 const struct solver_warm *warm, struct root_estimates *out);
-void laguerre_find(const struct root_problem *problem, const struct solver_options *options,
+#define SOLVER_FIND(name, summary, real_only, lanes, steps)                                              \
+  void name##_find(const struct root_problem *problem, const struct solver_options *options,             \
                    const struct solver_warm *warm, struct root_estimates *out);
+SOLVERS(SOLVER_FIND)
+#undef SOLVER_FIND
 
 /* Adds an estimate; one too many is dropped. */
 static inline void root_estimates_add(struct root_estimates *out, double re, double im, int iterations, bool converged,

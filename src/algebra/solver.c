@@ -12,17 +12,10 @@
  * certificates are made afterwards. */
 #define STOP_TOLERANCE 1e-12
 
-/* One row a solver: name, summary, real roots only, form on lanes, tolerance, steps a root may take. */
-static const struct solver solvers[] = {
-  {"bernstein", "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true,
-   SOLVER_LANES_SIGNS, STOP_TOLERANCE, 64, bernstein_find},
-  {"newton", "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false,
-   SOLVER_LANES_NONE, STOP_TOLERANCE, 200, newton_find},
-  {"laguerre", "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false,
-   SOLVER_LANES_NONE, STOP_TOLERANCE, 100, laguerre_find},
-  {"aberth", "all roots at once by Aberth's method (eq 9 of the paper)", false, SOLVER_LANES_ABERTH, STOP_TOLERANCE,
-   100, aberth_find},
-};
+#define SOLVER_ROW(name, summary, real_only, lanes, steps) \
+  {#name, summary, real_only, SOLVER_LANES_##lanes, STOP_TOLERANCE, steps, name##_find},
+static const struct solver solvers[] = {SOLVERS(SOLVER_ROW)};
+#undef SOLVER_ROW
 
 size_t solver_count(void)
 {

@@ -22,7 +22,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "algebra/complex_number.h"
 #include "algebra/root_kernel.h"
 
 /* The least bound over all orders j, at one chart point. */
@@ -111,23 +110,11 @@ static void find_own(const struct evaluation *p, int count, const struct root ro
 /* Room for the rounding of a sum of 200 logarithms to base 2, each below 2^17. */
 #define LOG_ROOM 0x1p-20
 
-/* log2 of a bound on |q(x)|. In the reversed chart z = 1/x is off by some roundings: see evaluate_bernstein in
- * polynomial.c. */
+/* log2 of a bound on |q(x)|. */
 static double log_value(const struct evaluation *p, struct complex_number x)
 {
-  const double size = hypot(x.re, x.im);
-  const bool reversed = size > 1.0;
-  const struct complex_number z = reversed ? complex_divide((struct complex_number){1.0, 0.0}, x) : x;
-  const double *c = reversed ? p->reverse : p->forward, *weight = reversed ? p->reverse_bound : p->forward_bound;
-  const double modulus = hypot(z.re, z.im) * (1.0 + 4 * UNIT_ROUNDOFF);
-  struct complex_number value = {c[p->degree], 0.0};
-  double error = weight[p->degree];
-  for (int k = p->degree - 1; k >= 0; k--) {
-    value = complex_multiply(value, z);
-    value.re += c[k];
-    error = error * modulus + weight[k];
-  }
-  return log2(hypot(value.re, value.im) + 3.0 * (error + UNDERFLOW_ERROR)) + (reversed ? p->degree * log2(size) : 0.0);
+  const struct evaluation_complex q = evaluation_at_complex(p, x, 1.0);
+  return log2(hypot(q.value.re, q.value.im) + q.error) + (q.reversed ? p->degree * log2(hypot(x.re, x.im)) : 0.0);
 }
 
 /* Half the distance, which does not overflow. */

@@ -1,8 +1,9 @@
-/* Values, changes of basis and sign counts, against quadruple precision and against enumeration. */
+/* Values, the change of basis, eq 11 and sign counts, against quadruple precision and against enumeration. */
 #include "algebra/polynomial.h"
 
 #include <math.h>
 
+#include "algebra/evaluation.h"
 #include "cmocka_test.h"
 #include "random.h"
 
@@ -53,6 +54,24 @@ static void random_polynomial(struct random *random, struct polynomial *p, doubl
   p->error = error;
 }
 
+/* Where a chart is used, |z| <= 1: powers of z, or of 1/x, that is the coefficients in reverse. */
+static void check_value(struct random *random, const struct polynomial *p, const double moved[])
+{
+  struct evaluation e;
+  double c[POLYNOMIAL_MAX_DEGREE + 1];
+  const bool reversed = random_bits(random) % 2 == 0;
+  const double z = random_between(random, -1.0, 1.0);
+  evaluation_prepare(p->degree, p->basis, p->c, p->error, &e);
+  const struct evaluation_real found = evaluation_at_real(&e, z, reversed);
+  for (int k = 0; k <= p->degree; k++) c[k] = moved[reversed ? p->degree - k : k];
+  const struct polynomial powers = {p->degree, BASIS_POWER, c, NULL};
+  quad value, slope, size;
+  quad_values(&powers, z, &value, &slope, &size);
+  assert_true(quad_abs(found.value - value) <= found.error);
+  assert_true(quad_abs(found.slope - slope) <= found.slope_error);
+  if (moved == p->c) assert_true(found.error <= BOUND_LOOSENESS * p->degree * 0x1p-53 * (double)size + 0x1p-1000);
+}
+
 static void values_lie_within_bounds(void **state)
 {
   (void)state;
@@ -61,13 +80,7 @@ static void values_lie_within_bounds(void **state)
     struct polynomial p;
     double c[POLYNOMIAL_MAX_DEGREE + 1], error[POLYNOMIAL_MAX_DEGREE + 1];
     random_polynomial(&random, &p, c, error);
-    const double u = trial % 3 == 0 ? random_between(&random, -4.0, 4.0) : random_unit(&random);
-    const struct polynomial_value found = polynomial_evaluate(&p, u);
-    quad value, slope, size;
-    quad_values(&p, u, &value, &slope, &size);
-    assert_true(quad_abs(found.value - value) <= found.value_error);
-    assert_true(quad_abs(found.slope - slope) <= found.slope_error);
-    assert_true(found.value_error <= BOUND_LOOSENESS * p.degree * 0x1p-53 * (double)size);
+    check_value(&random, &p, c);
   }
 }
 
@@ -84,18 +97,11 @@ static void coefficient_errors_count(void **state)
       error[k] = 1e-9 * fabs(c[k]);
       moved[k] = c[k] + (k % 2 == 0 ? 1.0 : -1.0) * (1.0 - 1e-6) * error[k];
     }
-    const double u = random_between(&random, -2.0, 0.0); /* the signs of its powers alternate: the worst case */
-    const struct polynomial_value found = polynomial_evaluate(&p, u);
-    struct polynomial other = p;
-    other.c = moved;
-    quad value, slope, size;
-    quad_values(&other, u, &value, &slope, &size);
-    assert_true(quad_abs(found.value - value) <= found.value_error);
-    assert_true(quad_abs(found.slope - slope) <= found.slope_error);
+    check_value(&random, &p, moved);
   }
 }
 
-static void bases_change_within_bounds(void **state)
+static void bernstein_form_within_bounds(void **state)
 {
   (void)state;
   struct random random = {13};
@@ -104,10 +110,9 @@ static void bases_change_within_bounds(void **state)
     double c[POLYNOMIAL_MAX_DEGREE + 1], error[POLYNOMIAL_MAX_DEGREE + 1];
     double other_c[POLYNOMIAL_MAX_DEGREE + 1], other_error[POLYNOMIAL_MAX_DEGREE + 1];
     random_polynomial(&random, &p, c, error);
-    const bool to_power = p.basis == BASIS_BERNSTEIN;
-    (to_power ? polynomial_to_power : polynomial_to_bernstein)(&p, other_c, other_error);
+    polynomial_to_bernstein(&p, other_c, other_error);
     /* The two agree at a point up to what the bounds of the coefficients allow there. */
-    const struct polynomial other = {p.degree, to_power ? BASIS_POWER : BASIS_BERNSTEIN, other_c, NULL};
+    const struct polynomial other = {p.degree, BASIS_BERNSTEIN, other_c, NULL};
     const double u = random_unit(&random);
     quad value, other_value, slope, size, allowed = 0;
     quad_values(&p, u, &value, &slope, &size);
@@ -117,6 +122,22 @@ static void bases_change_within_bounds(void **state)
     quad_values(&bounds, u, &allowed, &slope, &size);
     assert_true(quad_abs(value - other_value) <= allowed);
   }
+}
+
+/* Eq 11 at a point next to a root, where double has no digit of |P| right: (x - 1)^3 (x - 2^40), and in x = u/(1-u). */
+static void eq11_is_measured_in_higher_precision(void **state)
+{
+  (void)state;
+  const double large = 0x1p40, c[] = {large, -1 - 3 * large, 3 + 3 * large, -3 - large, 1};
+  const struct polynomial p = {4, BASIS_POWER, c, NULL};
+  const double x = 1 + 0x1p-14, d = 0x1p-14;
+  const double expected = d * d * d * (large - x) / (4 * 0x1p-52 * ((3 + 3 * large) * x * x));
+  assert_true(fabs(polynomial_eq11(&p, x, 0) / expected - 1) < 1e-14);
+  assert_true(polynomial_eq11(&p, 1, 0) == 0 && polynomial_eq11(&p, large, 0) == 0);
+  const double far = nextafter(large, INFINITY); /* one place off: |x - 1|^3 times that place */
+  const double place = far - large, terms = (3 + large) * far * far * far;
+  assert_true(fabs(polynomial_eq11(&p, far, 0) / ((far - 1) * (far - 1) * (far - 1) * place / (4 * 0x1p-52 * terms)) - 1) <
+              1e-14);
 }
 
 /* All ways of giving the unknown signs a value: no change is counted at a zero. */
@@ -187,7 +208,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(values_lie_within_bounds),
     cmocka_unit_test(coefficient_errors_count),
-    cmocka_unit_test(bases_change_within_bounds),
+    cmocka_unit_test(bernstein_form_within_bounds),
+    cmocka_unit_test(eq11_is_measured_in_higher_precision),
     cmocka_unit_test(sign_counts_are_sharp),
     cmocka_unit_test(binomials),
   };

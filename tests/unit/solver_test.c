@@ -42,6 +42,7 @@ static void table(void **state)
   assert_non_null(solver_find("newton", 6));
   assert_non_null(solver_find("laguerre", 8));
   assert_non_null(solver_find("aberth", 6));
+  assert_non_null(solver_find("durand_kerner", 13));
 }
 
 static void hopeless_input(void **state)

@@ -1,0 +1,110 @@
+/* Durand-Kerner, Weierstrass's method: all roots at once, the simplest iteration that does it (K. Weierstrass 1891; E.
+ * Durand 1960; I. Kerner 1966). The baseline that Aberth's method is measured against.
+ *
+ * z_i <- z_i - P(z_i) / (c_n product over j != i of (z_i - z_j)): Newton's method with P' replaced by what it would be if
+ * the others were the roots. It needs no derivative and converges quadratically (Aberth's method: cubically) to simple
+ * roots, linearly to multiple ones. In the reversed chart P = x^n q(1/x), and each factor of the product takes one x.
+ */
+#include "algebra/root_problem.h"
+#include "algebra/start.h"
+
+/* A step no shorter than this much of the one so many sweeps before is turned: see root_kernel.c. */
+enum { TURN_PERIOD = 5 };
+#define STUCK 0.9
+
+struct sweep {
+  const struct solver_options *options;
+  struct evaluation p;
+  double reversed_above;
+  int number; /* from 1 */
+  struct complex_number x[POLYNOMIAL_MAX_DEGREE], next[POLYNOMIAL_MAX_DEGREE];
+  double last[POLYNOMIAL_MAX_DEGREE], checked[POLYNOMIAL_MAX_DEGREE]; /* |step|^2 in u: the last, and the last checked */
+};
+
+/* -P / (c_n product); `resting` where |P| is below its own rounding bound. */
+static struct complex_number step_of(const struct sweep *sweep, int i, bool *resting)
+{
+  const int n = sweep->p.degree;
+  const struct complex_number x = sweep->x[i];
+  const struct evaluation_complex q = evaluation_at_complex(&sweep->p, x, sweep->reversed_above);
+  struct complex_number step = complex_scale(-1.0 / sweep->p.forward[n], q.value);
+  if (q.reversed) step = complex_multiply(step, x);
+  for (int j = 0; j < n; j++) {
+    if (j == i) continue;
+    step = complex_divide(step, complex_subtract(x, sweep->x[j]));
+    if (q.reversed) step = complex_multiply(step, x);
+  }
+  *resting = complex_modulus(q.value) <= q.error;
+  return step;
+}
+
+/* |step|^2 and |x|^2 in u: du = dx / ((1 + x) (1 + x + dx)) in Bernstein form. */
+static double step_in_u(enum basis basis, struct complex_number x, struct complex_number step, double *square)
+{
+  *square = complex_norm(x);
+  if (basis == BASIS_POWER) return complex_norm(step);
+  x.re += 1.0;
+  *square /= complex_norm(x);
+  return complex_norm(step) / (complex_norm(x) * complex_norm(complex_add(x, step)));
+}
+
+/* Moves root i. True when it is done. */
+static bool move(struct sweep *sweep, int i)
+{
+  const struct solver_options *options = sweep->options;
+  const struct complex_number x = sweep->x[i];
+  const bool rounding = options->stop == STOP_ROUNDING;
+  bool resting;
+  double square;
+  struct complex_number step = step_of(sweep, i, &resting);
+  const double length = step_in_u(sweep->p.basis, x, step, &square);
+  if (!isfinite(step.re) || !isfinite(step.im) || isnan(length)) { /* two values are equal: part them */
+    sweep->next[i] = (struct complex_number){x.re + 0.25 * x.re - 0.125 * x.im, x.im + 0.25 * x.im + 0.125 * x.re};
+    sweep->last[i] = INFINITY;
+    return false;
+  }
+  const double scale = rounding && square < 1.0 ? square : 1.0; /* the paper's tolerance is absolute */
+  bool done = length < options->tolerance * options->tolerance * scale;
+  if (rounding && resting && length >= sweep->last[i]) done = true, step = (struct complex_number){0.0, 0.0};
+  if (sweep->number % TURN_PERIOD == 0) {
+    const double angle = 0.3 + 0.37 * i;
+    if (!done && length >= STUCK * STUCK * sweep->checked[i])
+      step = complex_multiply(step, (struct complex_number){cos(angle), sin(angle)});
+    sweep->checked[i] = length;
+  }
+  sweep->last[i] = length;
+  sweep->next[i] = complex_add(x, step);
+  return done;
+}
+
+void durand_kerner_find(const struct root_problem *problem, const struct solver_options *options,
+                        const struct solver_warm *warm, struct root_estimates *out)
+{
+  const int n = problem->degree;
+  struct sweep sweep = {.options = options, .reversed_above = root_problem_reversed_above(options, n)};
+  double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
+  evaluation_prepare(n, problem->basis, problem->c, NULL, &sweep.p);
+  start_values(problem, options->radii, warm, re, im);
+  out->count = 0;
+  for (int i = 0; i < n; i++) {
+    sweep.x[i] = sweep.next[i] = (struct complex_number){re[i], im[i]};
+    sweep.last[i] = sweep.checked[i] = INFINITY;
+    root_estimates_add(out, 0.0, 0.0, 0, false, false);
+  }
+  bool moving = true;
+  for (sweep.number = 1; sweep.number <= options->max_iterations && moving; sweep.number++) {
+    moving = false;
+    for (int i = 0; i < n; i++) {
+      if (options->rest && out->converged[i]) continue;
+      out->converged[i] = move(&sweep, i);
+      out->iterations[i]++;
+      moving |= !out->converged[i];
+      if (options->update == UPDATE_GAUSS_SEIDEL) sweep.x[i] = sweep.next[i];
+    }
+    for (int i = 0; i < n; i++) sweep.x[i] = sweep.next[i];
+  }
+  for (int i = 0; i < n; i++) {
+    out->re[i] = sweep.x[i].re, out->im[i] = sweep.x[i].im;
+    root_problem_u_from_x(problem->basis, &out->re[i], &out->im[i]);
+  }
+}
