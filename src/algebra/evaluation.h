@@ -17,9 +17,9 @@
 
 #include "algebra/complex_number.h"
 #include "algebra/polynomial.h"
+#include "base/real.h"
 
-/* Unit roundoff of double, and the room left for rounding in sums of positive bounds (over 200 operations). */
-#define UNIT_ROUNDOFF 0x1p-53
+/* The room left for rounding in sums of positive bounds (over 200 operations). */
 #define BOUND_ROOM (1.0 + 0x1p-44)
 
 /* All underflow in one evaluation of coefficients scaled to at most 1: under 65 * 65 * 16 operations of 2^-1074

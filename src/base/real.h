@@ -4,6 +4,9 @@
 
 #include <math.h>
 
+/* The unit roundoff of double: one operation is off by at most so much of its result. */
+#define UNIT_ROUNDOFF 0x1p-53
+
 /* The smaller and the larger of two doubles, as one instruction each. Unlike fmin and fmax: b where either is NaN. */
 static inline double real_min(double a, double b) { return a < b ? a : b; }
 static inline double real_max(double a, double b) { return a > b ? a : b; }

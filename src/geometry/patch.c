@@ -37,30 +37,6 @@ void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, 
   }
 }
 
-static void cubic_halves(const double c[4], double low[4], double high[4])
-{
-  const double q0 = 0.5 * (c[0] + c[1]), q1 = 0.5 * (c[1] + c[2]), q2 = 0.5 * (c[2] + c[3]);
-  const double r0 = 0.5 * (q0 + q1), r1 = 0.5 * (q1 + q2);
-  low[0] = c[0], low[1] = q0, low[2] = r0;
-  low[3] = high[0] = 0.5 * (r0 + r1);
-  high[1] = r1, high[2] = q2, high[3] = c[3];
-}
-
-void patch_split_u(double net[4][4], double out_low[4][4], double out_high[4][4])
-{
-  for (int j = 0; j < 4; j++) {
-    const double column[4] = {net[0][j], net[1][j], net[2][j], net[3][j]};
-    double low[4], high[4];
-    cubic_halves(column, low, high);
-    for (int i = 0; i < 4; i++) out_low[i][j] = low[i], out_high[i][j] = high[i];
-  }
-}
-
-void patch_split_v(double net[4][4], double out_low[4][4], double out_high[4][4])
-{
-  for (int i = 0; i < 4; i++) cubic_halves(net[i], out_low[i], out_high[i]);
-}
-
 void patch_second_derivative_bounds(double x[3][4][4], double out[3])
 {
   double uu = 0, uv = 0, vv = 0;

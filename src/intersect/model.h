@@ -15,12 +15,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/real.h"
 #include "geometry/bvh.h"
 #include "geometry/edges.h"
 #include "scene/scene.h"
-
-/* 2^-53, the unit roundoff of double. */
-#define UNIT_ROUNDOFF 0x1p-53
 
 /* How far outside [0,1] a leaf's polynomials are still used (its second-derivative bounds hold up to there). */
 #define LEAF_MARGIN 0.125

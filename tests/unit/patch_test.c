@@ -113,7 +113,7 @@ static void the_whole_is_copied_and_cuts_agree(void **state)
   (void)state;
   struct random random = {SEED + 3};
   for (int n = 0; n < CASES; n++) {
-    double net[4][4], low[4][4], high[4][4], a[4][4], b[4][4];
+    double net[4][4], a[4][4], b[4][4];
     random_net(&random, net);
     if (n % 2)
       for (int k = 0; k < 16; k++) net[k / 4][k % 4] = ldexp(net[k / 4][k % 4], (int)(random_bits(&random) % 60) - 30);
@@ -126,12 +126,6 @@ static void the_whole_is_copied_and_cuts_agree(void **state)
     patch_subnet(net, 0, 1, 0, t, a);
     patch_subnet(net, 0, 1, t, 1, b);
     for (int i = 0; i < 4; i++) assert_true(a[i][0] == net[i][0] && a[i][3] == b[i][0] && b[i][3] == net[i][3]);
-    patch_split_u(net, low, high);
-    for (int j = 0; j < 4; j++)
-      assert_true(low[0][j] == net[0][j] && low[3][j] == high[0][j] && high[3][j] == net[3][j]);
-    patch_split_v(net, low, high);
-    for (int i = 0; i < 4; i++)
-      assert_true(low[i][0] == net[i][0] && low[i][3] == high[i][0] && high[i][3] == net[i][3]);
   }
   /* A border that is one point stays that point, whatever part of it is taken. */
   double net[4][4], cut[4][4];
@@ -139,30 +133,6 @@ static void the_whole_is_copied_and_cuts_agree(void **state)
   for (int j = 0; j < 4; j++) net[0][j] = 0.1;
   patch_subnet(net, 0, 0.7, 0.1, 0.3, cut);
   for (int j = 0; j < 4; j++) assert_true(cut[0][j] == 0.1);
-}
-
-static void halves_are_right_to_their_roundings(void **state)
-{
-  (void)state;
-  struct random random = {SEED + 4};
-  double worst = 0;
-  for (int n = 0; n < CASES; n++) {
-    double net[4][4], half[2][4][4];
-    random_net(&random, net);
-    struct quad_net exact, part;
-    to_quad(net, &exact);
-    for (int way = 0; way < 2; way++) {
-      if (way == 0) patch_split_u(net, half[0], half[1]);
-      else patch_split_v(net, half[0], half[1]);
-      for (int h = 0; h < 2; h++) {
-        quad_net_restrict(&exact, way ? 0 : 0.5 * h, way ? 1 : 0.5, way ? 0.5 * h : 0, way ? 0.5 : 1, &part);
-        for (int k = 0; k < 16; k++)
-          worst = fmax(worst, (double)quad_abs(part.c[k / 4][k % 4] - half[h][k / 4][k % 4]) / (UNIT * largest(net)));
-      }
-    }
-  }
-  print_message("halves off by %.3g roundings\n", worst);
-  assert_true(worst <= 3); /* one rounded sum a level */
 }
 
 /* Outside [0,1] the polynomial goes on: the margin of a leaf relies on it. */
@@ -329,7 +299,6 @@ int main(void)
     cmocka_unit_test(corners_are_exact),
     cmocka_unit_test(subnets_are_right_to_their_roundings),
     cmocka_unit_test(the_whole_is_copied_and_cuts_agree),
-    cmocka_unit_test(halves_are_right_to_their_roundings),
     cmocka_unit_test(parameters_beyond_the_range_extrapolate),
     cmocka_unit_test(second_derivative_bounds_hold_and_are_near),
     cmocka_unit_test(true_bidegrees_are_found),
