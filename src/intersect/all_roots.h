@@ -104,7 +104,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct trial *t, 
     }
     const lanes place = v_kept ? r->v : r->u, radius = v_kept ? r->radius_v : r->radius_u;
     found += lanes_select(*proven, lanes_all(1), lanes_all(0));
-    within += lanes_select(*proven & (place > radius) & (place < 1 - radius), lanes_all(1), lanes_all(0));
+    within += lanes_select(*proven & (place > radius) & (1 - place > radius), lanes_all(1), lanes_all(0));
     /* whatever else was found is this root again */
     const lane_mask only = open & r->alone;
     for (int j = 0; j < k; j++) all->proven[j] &= ~only;
@@ -122,7 +122,7 @@ static lane_mask all_roots_cover(const struct trial *t, const struct all_roots *
   for (int k = 0; k < all->count; k++) {
     const struct refined *r = &all->root[k].at;
     const lane_mask proven = all->proven[k] & open;
-    if (lanes_any(proven)) known[count++] = (struct known_root){r->u, r->v, r->size, r->bend, proven};
+    if (lanes_any(proven)) known[count++] = (struct known_root){r->u, r->v, r->size, r->bend, r->off, proven};
   }
   return cover_proves(t, count, known, COVER_HALVINGS, open);
 }

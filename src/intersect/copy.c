@@ -10,7 +10,7 @@
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner)
 {
   inner->tracer = outer->tracer, inner->model = copy->object->model, inner->rays = NULL, inner->count = LANES;
-  inner->any = outer->any, inner->outer = outer, inner->copy = copy;
+  inner->any = outer->any, inner->outer = outer, inner->copy = copy, inner->postponed = outer->postponed;
   inner->live = active & outer->live;
   lanes ahead = lanes_all(0), square = lanes_all(0);
   for (int k = 0; k < 3; k++) {
@@ -43,17 +43,23 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
                    8 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_min));
 }
 
-void packet_leave(const struct packet *inner)
+void packet_leave(struct packet *inner)
 {
   struct packet *outer = inner->outer;
   const struct best *found = &inner->best;
   const lanes t = inner->shift + found->t;
-  const lane_mask taken = (found->patch != NO_PATCH) & best_after(&outer->best, t, found->patch, found->leaf);
+  const lanes far = (inner->shift + inner->t_far) +
+                    4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));
+  const lane_mask hits = found->patch != NO_PATCH;
+  const lane_mask rival = hits & (lanes_abs(t - outer->best.t) <= (far - t) + (outer->t_far - outer->best.t));
+  for (unsigned bits = lanes_bits(rival); bits; bits &= bits - 1) {
+    const unsigned lane = (unsigned)__builtin_ctz(bits);
+    packet_postpone(inner, &inner->model->leaves[found->leaf[lane]], lanes_mask(1u << lane));
+  }
+  const lane_mask taken = hits & ~rival & best_after(&outer->best, t, found->patch, found->leaf);
   if (!lanes_any(taken)) return;
   const lanes place[2] = {found->u, found->v}, radius[2] = {found->radius_u, found->radius_v};
   best_take(&outer->best, taken, place, radius, t, found->patch, found->leaf);
-  const lanes far = (inner->shift + inner->t_far) +
-                    4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));
   outer->t_far = lanes_select(taken, lanes_min(far, outer->t_far), outer->t_far);
   if (outer->any) outer->live &= ~taken;
   outer->moved = true;

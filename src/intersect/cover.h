@@ -17,7 +17,7 @@ enum { COVER_HALVINGS = 16, COVER_SPLITS = 160 };
 
 /* A proven root of every lane, in the order they were found. */
 struct known_root {
-  lanes u, v, size, bend; /* refine.h */
+  lanes u, v, size, bend, off; /* refine.h */
   lane_mask proven;
 };
 
@@ -38,7 +38,7 @@ LANES_INLINE lane_mask cover_unknown(const struct leaf *leaf, const struct cover
   const lanes reach_v = lanes_max(root->v - box->v, (box->v + box->size_v) - root->v);
   const lanes q = root->size * ((leaf->second[0] + leaf->second[1]) * reach_u +
                                 (leaf->second[1] + leaf->second[2]) * reach_v);
-  return open & ~(root->proven & (q + 6 * root->bend < ALONE_BOUND));
+  return open & ~(root->proven & certificate_alone(q + 6 * root->bend, root->off));
 }
 
 /* The cubic at c[0], c[stride] ... into its halves. */

@@ -12,13 +12,14 @@
  * each in either direction on values below one). Used for the boxes. */
 #define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
 
-static void first_derivative_bounds(double x[3][4][4], double out[2])
+void leaf_first_bounds(double x[3][16], double out[2])
 {
   out[0] = out[1] = 0;
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 3; j++) {
       double du[3], dv[3];
-      for (int k = 0; k < 3; k++) dv[k] = 3 * (x[k][i][j + 1] - x[k][i][j]), du[k] = 3 * (x[k][j + 1][i] - x[k][j][i]);
+      for (int k = 0; k < 3; k++)
+        dv[k] = 3 * (x[k][4 * i + j + 1] - x[k][4 * i + j]), du[k] = 3 * (x[k][4 * j + 4 + i] - x[k][4 * j + i]);
       out[0] = real_max(out[0], vector_length(du)), out[1] = real_max(out[1], vector_length(dv));
     }
   }
@@ -167,6 +168,14 @@ static void cut_net(struct model_patch *patch, int column_u, int column_v, doubl
   }
 }
 
+void leaf_net(struct model_patch *patch, int column_u, int column_v, double out[3][16])
+{
+  double hi[3][4][4], lo[3][4][4];
+  cut_net(patch, column_u, column_v, hi, lo);
+  for (int k = 0; k < 3; k++)
+    for (int n = 0; n < 16; n++) out[k][n] = hi[k][n / 4][n % 4] + lo[k][n / 4][n % 4];
+}
+
 /* Taylor coefficients about the middle, of a cubic in Bernstein form. */
 static void taylor(double b0, double b1, double b2, double b3, double out[4])
 {
@@ -239,7 +248,9 @@ void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf
     patch_subnet(x, -LEAF_MARGIN, 1 + LEAF_MARGIN, -LEAF_MARGIN, 1 + LEAF_MARGIN, wide[k]);
   }
   patch_second_derivative_bounds(wide, leaf->second);
-  first_derivative_bounds(wide, leaf->first);
+  double wide_net[3][16];
+  memcpy(wide_net, wide, sizeof wide_net);
+  leaf_first_bounds(wide_net, leaf->first);
   /* From the widened net's parameters back to the leaf's. */
   const double shrink = 1 / (1 + 2 * LEAF_MARGIN);
   for (int k = 0; k < 3; k++) leaf->second[k] *= shrink * shrink;

@@ -7,6 +7,12 @@
 
 #include "intersect/model.h"
 
+/* The local net of the leaf at the columns of the patch. */
+void leaf_net(struct model_patch *patch, int column_u, int column_v, double out[3][16]);
+
+/* Bounds on |Su|, |Sv| of a net over its own domain. */
+void leaf_first_bounds(double x[3][16], double out[2]);
+
 /* The leaf at the columns of the patch, all of it but `patch` and the form. Its parts, where it has them, are written
  * to *room, which stays the caller's; no parts where that is NULL. */
 void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf, struct leaf_parts *room);

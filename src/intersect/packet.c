@@ -16,12 +16,11 @@
 #include <assert.h>
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "intersect/all_roots.h"
-#include "intersect/leaf.h"
 #include "intersect/packet.h"
 #include "intersect/refine.h"
-#include "intersect/subdivide.h"
 #include "intersect/surface.h"
 #include "intersect/trial.h"
 
@@ -30,8 +29,12 @@ enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
 static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(double) &&
                 offsetof(struct ray, t_min) == 6 * sizeof(double), "read as two fours");
 
-void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any)
+void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
+                  struct postponed *postponed)
 {
+  p->postponed = postponed;
+  postponed->cut_off = 0;
+  memset(postponed->count, 0, sizeof postponed->count);
   p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
   p->outer = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);
@@ -64,99 +67,105 @@ void packet_orient(struct packet *p)
   }
   p->best.u = p->best.v = p->best.radius_u = p->best.radius_v = lanes_all(0), p->best.t = lanes_all(INFINITY);
   p->best.patch = p->best.leaf = NO_PATCH + (lane_mask){0};
-  p->best.certain = p->best.sharp = p->best.final = p->best.doubt = (lane_mask){0};
+  p->best.certain = p->best.far_enough = p->best.final = p->best.doubt = (lane_mask){0};
 }
 
 /* ---- keeping the nearest ---- */
 
-/* The root at x_k = w on a lane, whose place on the ray it sets. */
-static struct leaf_hit packet_root(const struct packet *p, unsigned lane, const struct trial *at,
-                                   const struct refined *r, unsigned n, double w)
+void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
 {
-  const int axis = at->axis;
-  const double t = ((w + p->local[axis].start[1][lane]) + p->local[axis].start[0][lane]) * p->local[axis].to_t[lane];
-  struct leaf_hit root = {r->u[n], r->v[n], r->radius_u[n], r->radius_v[n], w, t, 0, true, false};
-  root.t_error = leaf_hit_t_error(at->leaf, &root, p->local[axis].to_t[lane]);
-  return root;
+  struct postponed *to = p->postponed;
+  const struct exact_region region = {p->outer ? NULL : leaf, leaf->patch + (p->outer ? p->copy->first_patch : 0),
+                                      leaf->column_u, leaf->column_v};
+  for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
+    const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
+    if (count == EXACT_REGIONS_MAX) to->cut_off |= 1u << lane;
+    else if (count == 0 || memcmp(&to->region[lane][count - 1], &region, sizeof region) != 0)
+      to->region[lane][to->count[lane]++] = region;
+  }
+  p->tracer->counts.escalated += (unsigned)__builtin_popcount(lanes_bits(open));
 }
-
-/* Makes a root the answer so far where it comes before the best, as best_after() has it. */
-static void packet_offer(struct packet *p, unsigned lane, const struct trial *t, struct leaf_hit *root)
-{
-  struct best *best = &p->best;
-  const int split = t->patch->split;
-  const int64_t leaf = t->number, patch = t->leaf->patch;
-  const enum leaf_hit_side side = leaf_hit_side(p->model, t->leaf, &p->rays[lane], root);
-  if (side == SIDE_UNKNOWN) best->doubt[lane] = -1;
-  if (side != SIDE_BEHIND || !(root->t < p->t_max[lane])) return;
-  const lane_mask none = {0}, before = best_after(best, lanes_all(root->t), patch + none, leaf + none);
-  if (!before[lane]) return;
-  best->u[lane] = leaf_to_patch(split, t->leaf->column_u, root->u), best->radius_u[lane] = root->radius_u / split;
-  best->v[lane] = leaf_to_patch(split, t->leaf->column_v, root->v), best->radius_v[lane] = root->radius_v / split;
-  best->t[lane] = root->t, best->patch[lane] = patch, best->leaf[lane] = leaf,
-  best->certain[lane] = root->certain ? -1 : 0;
-  best->sharp[lane] = root->sharp ? -1 : 0, best->final[lane] = 0;
-  p->t_far[lane] = root->t + root->t_error;
-  if (p->any) p->live[lane] = 0;
-  p->moved = true;
-  p->tracer->counts.roots_accepted++;
-}
-
-static void lane_subdivide_outside(struct packet *p, const struct trial *t, unsigned lane);
 
 /* Lanes whose root may lie on a border of the patch. */
 static lane_mask on_border(const struct trial *t, const struct refined *r)
 {
   const int last = t->patch->split - 1;
   lane_mask border = {0};
-  if (t->leaf->column_u == 0) border |= r->u < r->radius_u;
-  if (t->leaf->column_u == last) border |= r->u > 1 - r->radius_u;
-  if (t->leaf->column_v == 0) border |= r->v < r->radius_v;
-  if (t->leaf->column_v == last) border |= r->v > 1 - r->radius_v;
+  if (t->leaf->column_u == 0) border |= r->u <= r->radius_u;
+  if (t->leaf->column_u == last) border |= 1 - r->u <= r->radius_u;
+  if (t->leaf->column_v == 0) border |= r->v <= r->radius_v;
+  if (t->leaf->column_v == last) border |= 1 - r->v <= r->radius_v;
   return border;
 }
 
-/* The same for the roots of several lanes at once, at x_k = w and on the ray at `at`; those next to t_min go the
- * other way. Returns the lanes that took theirs. */
-static lane_mask packet_offer_lanes(struct packet *p, const struct trial *t, const struct refined *r, lanes w, lanes at,
-                                    lane_mask hits)
+/* The place on the ray of x_k = w. */
+LANES_INLINE lanes place_on_ray(const struct packet *p, int axis, lanes w)
+{
+  const lanes *start = p->local[axis].start;
+  return ((w + start[1]) + start[0]) * p->local[axis].to_t;
+}
+
+/* The bound on the error of a proven root's place: how far its radii let x_k move, and the roundings of x_k and t. */
+LANES_INLINE lanes place_error(const struct packet *p, const struct trial *t, const struct refined *r, lanes w, lanes at)
+{
+  const lanes size = lanes_abs(p->local[t->axis].to_t);
+  return size * (t->leaf->first[0] * r->radius_u + t->leaf->first[1] * r->radius_v + p->local[t->axis].error) +
+         8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
+}
+
+LANES_INLINE void packet_take(struct packet *p, const struct trial *t, const struct refined *r, lanes at, lanes error,
+                              lane_mask taken)
 {
   const int64_t leaf = t->number, patch = t->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const double part = 1.0 / t->patch->split;
-  const lanes size = lanes_abs(p->local[t->axis].to_t),
-              error = size * (t->leaf->first[0] * r->radius_u + t->leaf->first[1] * r->radius_v) +
-                      8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
-  const lane_mask behind = at > p->t_min + error, unknown = hits & ~behind & ~(at < p->t_min - error);
-  if (p->outer) {
-    const lane_mask outside = hits & (unknown | on_border(t, r));
-    for (unsigned bits = lanes_bits(outside); bits; bits &= bits - 1)
-      lane_subdivide_outside(p, t, (unsigned)__builtin_ctz(bits));
-    hits &= ~outside;
-  } else {
-    for (unsigned bits = lanes_bits(unknown); bits; bits &= bits - 1) {
-      const unsigned lane = (unsigned)__builtin_ctz(bits);
-      struct leaf_hit root = packet_root(p, lane, t, r, lane, w[lane]);
-      packet_offer(p, lane, t, &root);
-    }
-  }
-  const lane_mask none = {0}, patches = patch + none, leaves = leaf + none;
-  const lane_mask taken = hits & behind & (at < p->t_max) & best_after(&p->best, at, patches, leaves);
-  if (!lanes_any(taken)) return taken;
   const lanes place[2] = {(t->leaf->column_u + r->u) * part, (t->leaf->column_v + r->v) * part};
-  const lanes radius[2] = {r->radius_u * part, r->radius_v * part};
-  best_take(&p->best, taken, place, radius, at, patches, leaves);
+  const lanes radius[2] = {r->radius_u * part + UNIT_ROUNDOFF, r->radius_v * part + UNIT_ROUNDOFF};
+  const lane_mask none = {0};
+  best_take(&p->best, taken, place, radius, at, patch + none, leaf + none);
   p->t_far = lanes_select(taken, at + error, p->t_far);
   if (p->any) p->live &= ~taken;
   p->moved = true;
   p->tracer->counts.roots_accepted += (unsigned)__builtin_popcount(lanes_bits(taken));
+}
+
+/* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it. One
+ * that may lie on a border of the patch, at an end of the ray or where another patch's is, is left to the last resort.
+ * Returns the lanes that took theirs. */
+static lane_mask packet_offer(struct packet *p, const struct trial *t, const struct refined *r, lanes w, lanes at,
+                              lane_mask hits)
+{
+  const int64_t leaf = t->number, patch = t->leaf->patch + (p->outer ? p->copy->first_patch : 0);
+  const lanes error = place_error(p, t, r, w, at);
+  hits &= ~((at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far)));
+  if (!lanes_any(hits)) return hits;
+  const lane_mask rival = (p->best.patch != patch) & (lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t));
+  const lane_mask sure = ~on_border(t, r) & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
+  if (lanes_any(hits & ~sure)) packet_postpone(p, t->leaf, hits & ~sure);
+  const lane_mask none = {0};
+  const lane_mask taken = hits & sure & best_after(&p->best, at, patch + none, leaf + none);
+  if (lanes_any(taken)) packet_take(p, t, r, at, error, taken);
   return taken;
 }
 
 static void packet_offer_refined(struct packet *p, const struct trial *t, const struct refined *r, lane_mask hits)
 {
   if (!lanes_any(hits)) return;
-  const lanes w = trial_place(t, r->u, r->v), *start = p->local[t->axis].start;
-  packet_offer_lanes(p, t, r, w, ((w + start[1]) + start[0]) * p->local[t->axis].to_t, hits);
+  const lanes w = trial_place(t, r->u, r->v);
+  packet_offer(p, t, r, w, place_on_ray(p, t->axis, w), hits);
+}
+
+/* The same for points in the leaf that nobody has proven anything of. */
+static void packet_offer_unproven(struct packet *p, const struct trial *t, lanes u, lanes v, lane_mask hits)
+{
+  const struct refined r = {.u = u, .v = v};
+  const lanes w = trial_place(t, u, v), at = place_on_ray(p, t->axis, w), error = place_error(p, t, &r, w, at);
+  const lane_mask behind = at > p->t_min + error, none = {0};
+  p->best.doubt |= hits & ~behind & ~(at < p->t_min - error);
+  const lane_mask taken = hits & behind & (at < p->t_max) &
+                          best_after(&p->best, at, t->leaf->patch + none, t->number + none);
+  if (!lanes_any(taken)) return;
+  packet_take(p, t, &r, at, error, taken);
+  p->best.certain &= ~taken;
 }
 
 /* Keeps what a leaf's root says of the surface. */
@@ -173,6 +182,7 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
     best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
   }
   best->tangent = lanes_select(taken, tangent, best->tangent);
+  best->far_enough = (best->far_enough & ~taken) | (taken & (lanes_abs(root->t) * p->longest >= NEAR_START * patch->scale));
   best->point.error = lanes_select(taken, point.error, best->point.error);
   best->point.clearance = lanes_select(taken, point.clearance, best->point.clearance);
   best->final |= taken;
@@ -181,14 +191,14 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
 static void packet_offer_root(struct packet *p, const struct trial *t, const struct leaf_root *root, lane_mask hits)
 {
   if (!lanes_any(hits)) return;
-  const lane_mask taken = packet_offer_lanes(p, t, &root->at, root->w, root->t, hits);
+  const lane_mask taken = packet_offer(p, t, &root->at, root->w, root->t, hits);
   if (t->leaf->parts->exact && !p->any && !p->outer && lanes_any(taken)) packet_keep(p, t->patch, root, taken);
 }
 
 LANES_INLINE lane_mask inside(const struct refined *r)
 {
-  return r->exists & (r->u >= -r->radius_u) & (r->u <= 1 + r->radius_u) & (r->v >= -r->radius_v) &
-         (r->v <= 1 + r->radius_v);
+  return r->exists & (r->u >= -r->radius_u) & (r->u - 1 <= r->radius_u) & (r->v >= -r->radius_v) &
+         (r->v - 1 <= r->radius_v);
 }
 
 /* ---- lane by lane: the scene's solver, then subdivision ---- */
@@ -196,23 +206,18 @@ LANES_INLINE lane_mask inside(const struct refined *r)
 /* The proven roots of one candidate. */
 struct proven {
   int count, within; /* within: how many lie strictly inside the kept parameter's range */
-  struct leaf_hit root[CANDIDATE_MAX_ROOTS];
-  bool inside[CANDIDATE_MAX_ROOTS];
+  double u[CANDIDATE_MAX_ROOTS], v[CANDIDATE_MAX_ROOTS], radius_u[CANDIDATE_MAX_ROOTS], radius_v[CANDIDATE_MAX_ROOTS];
 };
 
-static void proven_add(struct proven *all, const struct trial *t, const struct leaf_hit *added, bool in_leaf)
+static void proven_add(struct proven *all, const struct trial *t, const struct refined *r, int n)
 {
-  const struct leaf_hit root = *added;
-  for (int k = 0; k < all->count; k++) {
-    const struct leaf_hit *old = &all->root[k];
-    if (fabs(old->u - root.u) <= old->radius_u + root.radius_u &&
-        fabs(old->v - root.v) <= old->radius_v + root.radius_v)
-      return;
-  }
-  const double kept = t->leaf->v_kept ? root.v : root.u, radius = t->leaf->v_kept ? root.radius_v : root.radius_u;
-  all->within += kept > radius && kept < 1 - radius;
-  all->inside[all->count] = in_leaf;
-  all->root[all->count++] = root;
+  const double u = r->u[n], v = r->v[n], radius_u = r->radius_u[n], radius_v = r->radius_v[n];
+  for (int k = 0; k < all->count; k++)
+    if (fabs(all->u[k] - u) <= all->radius_u[k] + radius_u && fabs(all->v[k] - v) <= all->radius_v[k] + radius_v) return;
+  const double kept = t->leaf->v_kept ? v : u, radius = t->leaf->v_kept ? radius_v : radius_u;
+  all->within += kept > radius && 1 - kept > radius;
+  const int k = all->count++;
+  all->u[k] = u, all->v[k] = v, all->radius_u[k] = radius_u, all->radius_v[k] = radius_v;
 }
 
 /* Roots found by the solver, made exact by Newton, several at once: whether they are proven to be all that the leaf
@@ -231,62 +236,18 @@ static bool lane_prove(struct packet *p, const struct trial *t, unsigned lane, c
     for (int n = 0; n < LANES && first + n < roots->count; n++)
       u[n] = roots->u[first + n], v[n] = roots->v[first + n], active[n] = -1;
     const struct refined r = refine(&one, t->leaf, u, v, active);
-    const lanes w = trial_place(t, r.u, r.v);
-    const unsigned in_leaf = lanes_bits(inside(&r)), exists = lanes_bits(r.exists), only = lanes_bits(r.alone);
+    const unsigned exists = lanes_bits(r.exists), only = lanes_bits(r.alone);
     if (only) all.count = 0, alone = true; /* whatever else was found is this root again */
-    for (unsigned bits = alone ? only & -only : exists; bits; bits &= bits - 1) {
-      const unsigned n = (unsigned)__builtin_ctz(bits);
-      const struct leaf_hit root = packet_root(p, lane, t, &r, n, w[n]);
-      proven_add(&all, t, &root, in_leaf >> n & 1);
-    }
+    for (unsigned bits = alone ? only & -only : exists; bits; bits &= bits - 1)
+      proven_add(&all, t, &r, __builtin_ctz(bits));
   }
   if (!alone && !(all.count > 0 && all.within == t->variations[lane])) return false;
-  for (int k = 0; k < all.count; k++)
-    if (all.inside[k]) packet_offer(p, lane, t, &all.root[k]);
+  for (int k = 0; k < all.count; k++) {
+    const struct refined r = {.u = lanes_all(all.u[k]), .v = lanes_all(all.v[k]), .radius_u = lanes_all(all.radius_u[k]),
+                              .radius_v = lanes_all(all.radius_v[k]), .exists = lanes_mask(1u << lane)};
+    packet_offer_refined(p, t, &r, inside(&r));
+  }
   return true;
-}
-
-static void lane_local_ray(const struct packet *p, const struct trial *t, unsigned lane, struct local_ray *out)
-{
-  const int k = t->axis;
-  *out = (struct local_ray){k,
-                            {p->slope[k][0][lane], p->slope[k][1][lane]},
-                            {p->local[k].moment[0][lane], p->local[k].moment[1][lane]},
-                            {p->local[k].start[0][lane], p->local[k].start[1][lane]},
-                            p->local[k].to_t[lane],
-                            p->local[k].error[lane]};
-}
-
-static void lane_subdivide(struct packet *p, const struct trial *t, unsigned lane)
-{
-  p->tracer->counts.escalated++;
-  struct local_ray ray;
-  struct leaf_hit root;
-  bool doubt = false;
-  lane_local_ray(p, t, lane, &ray);
-  /* Up to the ray's own end, not the nearest hit so far: what the search can not decide must not depend on the order
-   * of leaves. */
-  const struct subdivide_task task = {p->model, t->leaf, t->patch, p->model->scene->patches[t->leaf->patch].P,
-                                      &p->rays[lane], &ray, p->rays[lane].t_min, p->rays[lane].t_max};
-  if (subdivide_closest(&task, &root, &doubt)) packet_offer(p, lane, t, &root);
-  if (doubt) p->best.doubt[lane] = -1;
-}
-
-/* What cannot be decided in an object's coordinates is decided in the scene's, on a leaf cut for it. */
-static void lane_subdivide_outside(struct packet *p, const struct trial *t, unsigned lane)
-{
-  struct packet *outer = p->outer;
-  struct leaf leaf;
-  struct trial there;
-  const uint32_t patch = p->copy->first_patch + t->leaf->patch;
-  struct model_patch *model_patch = &outer->model->patches[patch];
-  there.patch = model_patch, there.leaf = &leaf, there.number = t->number;
-  leaf_cut(model_patch, t->leaf->column_u, t->leaf->column_v, &leaf, NULL);
-  leaf.patch = patch;
-  if (outer->patch != patch) packet_set_patch(outer, patch);
-  there.axis = packet_axis(outer, lane);
-  lane_subdivide(outer, &there, lane);
-  if (!outer->live[lane]) p->live[lane] = 0, p->moved = true;
 }
 
 static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
@@ -298,17 +259,13 @@ static void lane_alone(struct packet *p, const struct trial *t, unsigned lane)
       a[4 * i + j] = t->fa[4 * i + j][lane], b[4 * i + j] = t->fb[4 * i + j][lane];
   struct candidate_roots roots;
   candidate_solve(tracer, t->leaf, a, b, t->form_error[lane], &roots);
-  if (!t->patch->solver->polish) {
-    for (int n = 0; n < roots.count; n++) {
-      const struct refined r = {lanes_all(roots.u[n]), lanes_all(roots.v[n]), {0}, {0}, {0}, {0}, {0}, {0}};
-      if (!(roots.u[n] >= 0 && roots.u[n] <= 1 && roots.v[n] >= 0 && roots.v[n] <= 1)) continue;
-      struct leaf_hit root = packet_root(p, lane, t, &r, 0, trial_place(t, r.u, r.v)[0]);
-      root.certain = false;
-      packet_offer(p, lane, t, &root);
-    }
+  if (t->patch->solver->polish) {
+    if (!lane_prove(p, t, lane, &roots)) packet_postpone(p, t->leaf, lanes_mask(1u << lane));
     return;
   }
-  if (!lane_prove(p, t, lane, &roots)) lane_subdivide(p, t, lane);
+  for (int n = 0; n < roots.count; n++)
+    if (roots.u[n] >= 0 && roots.u[n] <= 1 && roots.v[n] >= 0 && roots.v[n] <= 1)
+      packet_offer_unproven(p, t, lanes_all(roots.u[n]), lanes_all(roots.v[n]), lanes_mask(1u << lane));
 }
 
 /* Stages 3 and 4. Lanes that are left undecided. Where r has several sign variations, the start is one of its roots,
@@ -322,7 +279,7 @@ static lane_mask trial_first_root(struct packet *p, const struct trial *t, lane_
   const struct refined r = refine(&t->nets, t->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, active);
   const lanes k = v_kept ? r.v : r.u, radius = v_kept ? r.radius_v : r.radius_u;
   /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
-  const lane_mask single = (t->variations == 1) & r.exists & (k > radius) & (k < 1 - radius);
+  const lane_mask single = (t->variations == 1) & r.exists & (k > radius) & (1 - k > radius);
   const lane_mask decided = active & (r.alone | single);
   packet_offer_refined(p, t, &r, decided & inside(&r));
   return active & ~decided;
@@ -373,14 +330,11 @@ static void packet_try(struct packet *p, struct trial *t, lane_mask active)
   t->variations = lanes_all(-1);
   if (t->patch->solver->polish) left = trial_resultant(t, active);
   if (t->patch->lanes) left = t->patch->all_roots ? trial_all_roots(p, t, left) : trial_first_root(p, t, left);
-  for (unsigned bits = lanes_bits(left); bits; bits &= bits - 1) {
-    const unsigned lane = (unsigned)__builtin_ctz(bits);
-    /* The only root of r has been tried already; and where the root of a nearly bilinear leaf was not proven to be
-     * alone the ray mostly passes the fold by, which subdivision sees at once. */
-    if (p->outer) lane_subdivide_outside(p, t, lane);
-    else if (t->patch->lanes) lane_subdivide(p, t, lane);
-    else lane_alone(p, t, lane);
+  if (t->patch->lanes) {
+    if (lanes_any(left)) packet_postpone(p, t->leaf, left);
+    return;
   }
+  for (unsigned bits = lanes_bits(left); bits; bits &= bits - 1) lane_alone(p, t, (unsigned)__builtin_ctz(bits));
 }
 
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active)

@@ -6,23 +6,35 @@
 #define PSCN_INTERSECT_PACKET_H
 
 #include "base/double_lanes.h"
+#include "intersect/exact/exact.h"
 #include "intersect/refine.h"
 #include "intersect/surface.h"
 #include "intersect/tracer.h"
 
 #define NO_PATCH INT64_MAX
 
+/* A root nearer to the ray's start than this part of the patch's frame: the last step leaves 2^-72 of the frame. */
+#define NEAR_START 0x1p-16
+
 /* The best root of every lane. */
 struct best {
-  lanes u, v, radius_u, radius_v; /* as of struct leaf_hit, but in parameters of the whole patch */
+  lanes u, v, radius_u, radius_v; /* parameters of the whole patch; the exact root is within the radii */
   lanes t;                        /* infinite where there is none */
   lane_mask patch, leaf;          /* where it is; NO_PATCH where there is none. They order roots of equal t */
-  lane_mask certain, sharp;
+  lane_mask certain;             /* proven */
   lane_mask final; /* right to the last places, and what follows is set; the others' comes from last_step.h */
   struct surface_point point;
   lanes normal[3];                  /* of any length and sense */
   lanes tangent;                    /* bound on the derivatives' coordinates that the normal is the product of */
-  lane_mask doubt; /* some root could not be told from t_min, and was left out */
+  lane_mask far_enough;             /* t is not next to the ray's start: all its digits are right */
+  lane_mask doubt; /* some unproven root could not be told from t_min, and was left out */
+};
+
+/* What the lanes leave open, a list a lane. */
+struct postponed {
+  unsigned cut_off; /* bit k: lane k had more than there is room for */
+  unsigned count[LANES];
+  struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
 
 /* Lanes where a root at t comes before the best: nearer, or as near to the last bit and of a lower patch or leaf. That
@@ -42,7 +54,7 @@ LANES_INLINE void best_take(struct best *best, lane_mask taken, const lanes at[2
   best->radius_v = lanes_select(taken, radius[1], best->radius_v);
   best->t = lanes_select(taken, t, best->t);
   best->patch = (taken & patch) | (~taken & best->patch), best->leaf = (taken & leaf) | (~taken & best->leaf);
-  best->certain |= taken, best->sharp &= ~taken, best->final &= ~taken;
+  best->certain |= taken, best->final &= ~taken;
 }
 
 struct packet {
@@ -67,6 +79,7 @@ struct packet {
   double net_error;
   lanes t_error;                    /* what that, and the shift, makes of t */
   struct best best;
+  struct postponed *postponed;
   /* The frame of the patch tried last. */
   uint32_t patch;
   struct {
@@ -113,8 +126,10 @@ LANES_INLINE void packet_set_patch(struct packet *p, uint32_t index)
   p->patch = index;
 }
 
-/* packet.c: no hit yet on the rays, of which there are LANES; those from `count` on repeat the first. */
-void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any);
+/* packet.c: no hit yet on the rays, of which there are LANES; those from `count` on repeat the first. *postponed, which
+ * the packet borrows, is emptied. */
+void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
+                  struct postponed *postponed);
 
 /* packet.c: where the rays look, from their directions; no hit yet. `live` and the ends are set. */
 void packet_orient(struct packet *p);
@@ -122,11 +137,14 @@ void packet_orient(struct packet *p);
 /* packet.c: tries the leaf on the lanes of `active`, and keeps what is nearer than the best. */
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active);
 
+/* packet.c: leaves what is open of the leaf, or of the same leaf of a copy, to the last resort (exact.h). */
+void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open);
+
 /* copy.c: the rays of `outer` on the lanes of `active`, in the coordinates of the copy's object. */
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner);
 
 /* copy.c: what was found there becomes the outer packet's best where it is nearer. */
-void packet_leave(const struct packet *inner);
+void packet_leave(struct packet *inner);
 
 /* What is known of a root on a nearly bilinear leaf. Points and derivatives are in the frame of its patch. */
 struct leaf_root {
@@ -141,9 +159,12 @@ struct leaf_root {
 void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
                      struct leaf_root *out);
 
-/* finish.c: the answers of the packet's rays from its best roots: parameters of the whole patch, improved by a
- * Newton step on the patch itself where they are not right to the last places yet, and all else that a hit has. t is
- * in units of the scaled direction. Returns how many are not certain. */
-unsigned finish_hits(const struct packet *p, struct hit out[]);
+/* finish.c: the answers of the packet's rays: from their best roots, improved by a Newton step on the patch itself where
+ * they are not right to the last places yet; or by the last resort. t is in units of the scaled direction. Returns how
+ * many are not certain. */
+unsigned finish_hits(struct packet *p, struct hit out[]);
+
+/* finish.c: whether the lane's ray, on which the lanes have found nothing, hits what they have left open. */
+bool finish_occluded(const struct packet *p, unsigned lane);
 
 #endif

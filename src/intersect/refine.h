@@ -7,6 +7,7 @@
 #define PSCN_INTERSECT_REFINE_H
 
 #include "base/lanes.h"
+#include "intersect/certificate.h"
 #include "intersect/model.h"
 
 /* The two plane polynomials of every lane over a leaf. */
@@ -23,7 +24,8 @@ struct refined {
   lane_mask exists;         /* exactly one root of the exact polynomials within the radii */
   lane_mask alone;          /* and no other in the leaf */
   lanes size;               /* |M|, see refine() */
-  lanes bend;               /* K (|step| + e), half of how far M J is at most from 1 at the root */
+  lanes bend;               /* bend (step + off), half of how far M J is at most from 1 at the root */
+  lanes off;                /* |M| error */
 };
 
 /* The process stops where its next step would be no longer than this, in leaf parameters: it converges
@@ -33,11 +35,6 @@ struct refined {
 /* What stands for s at the first step, as if the start were that near: it has to be a hit by itself to be the last. */
 #define NEWTON_START 0x1p-18
 enum { NEWTON_MAX_STEPS = 10 };
-
-/* Where q (below) is less than this, half of it is less than M can take. 1.9 instead of 2: room for the rounding of q
- * and for the Jacobian being taken next to the root. That is off by the last step, at most NEWTON_LAST_STEP of the
- * leaf, which NEWTON_NEXT_STEP makes of a step of 1, and K <= 2 q, so M J is within 2^-14 of what it is at the root. */
-#define ALONE_BOUND 1.9
 
 LANES_INLINE void refine_weights(lanes t, lanes w[4], lanes dw[4])
 {
@@ -78,38 +75,31 @@ struct refine_inverse {
   lanes ua, ub, va, vb;
 };
 
-/* The Newton-Kantorovich test: sets all but u and v of *r, which hold where the process went on the lanes that
- * `settled`.
- *
- * With M the inverse Jacobian at the last point but one, |step| the last step, e = |M| error what rounding adds to
- * it, and K = |M| (|Suu| + 2 |Suv| + |Svv|) a Lipschitz bound of M J: where K (|step| + e) <= 1/8 there is exactly
- * one root within twice that, and it lies within 2 K |step|^2 + 2 e of where the step went (Ortega and Rheinboldt
- * 12.6). And where the Jacobian, averaged on the way from the root to any point of the leaf, differs from that at
- * the root by less than M can take (half of q below), the leaf has no second root. */
+/* The certificate (certificate.h): sets all but u and v of *r, which hold where the process went on the lanes that
+ * `settled`. bend is |M| (|Suu| + 2 |Suv| + |Svv|). */
 LANES_INLINE void refine_prove(const struct leaf *leaf, const struct refine_inverse *m, const lanes slope[2],
                                lanes error, lanes step, lane_mask settled, struct refined *r)
 {
   const lanes size_u = refine_row_length(m->ua, m->ub, slope), size_v = refine_row_length(m->va, m->vb, slope);
   const lanes size = lanes_max(size_u, size_v);
-  const lanes lipschitz = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
-  const lanes beta = step + size * error;
+  const lanes bend = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
+  const lanes off = size * error;
   const lane_mask near = (lanes_abs(r->u - 0.5) < 0.5 + LEAF_MARGIN) & (lanes_abs(r->v - 0.5) < 0.5 + LEAF_MARGIN);
-  r->exists = settled & near & (lipschitz * beta <= 0.125);
-  const lanes square = 2 * lipschitz * step * step;
-  r->radius_u = square + 2 * size_u * error;
-  r->radius_v = square + 2 * size_v * error;
+  r->exists = settled & near & certificate_holds(bend, step, off);
+  r->radius_u = certificate_radius(bend, step, size_u * error);
+  r->radius_v = certificate_radius(bend, step, size_v * error);
   const lanes reach_u = 0.5 + lanes_abs(r->u - 0.5), reach_v = 0.5 + lanes_abs(r->v - 0.5);
   const lanes q = size *
                   ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
-  r->alone = r->exists & (q < ALONE_BOUND);
-  r->size = size, r->bend = lipschitz * beta;
+  r->alone = r->exists & certificate_alone(q, off);
+  r->size = size, r->bend = bend * (step + off), r->off = off;
 }
 
 /* Newton's process from (u,v) on the lanes of `active`, and the test. */
 LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v,
                                    lane_mask active)
 {
-  struct refined r = {u, v, {0}, {0}, {0}, {0}, {0}, {0}};
+  struct refined r = {.u = u, .v = v};
   struct refine_inverse m = {{0}, {0}, {0}, {0}};
   lanes step = lanes_all(NEWTON_START);
   lane_mask moving = active, settled = {0};

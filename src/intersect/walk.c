@@ -204,8 +204,9 @@ static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
   return r;
 }
 
-/* Copies of a packet's rays where some need scaling, or there are too few. */
+/* What a packet borrows: copies of its rays where some need scaling, or there are too few; what it leaves open. */
 struct ready {
+  struct postponed postponed;
   bool copied;
   struct ray copy[LANES];
   int exponent[LANES];
@@ -214,14 +215,15 @@ struct ready {
 static void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count,
                          const struct ray rays[], bool any)
 {
+  struct postponed *postponed = &ready->postponed;
   ready->copied = count < LANES;
   if (!ready->copied) {
-    packet_start(p, tracer, rays, count, any);
+    packet_start(p, tracer, rays, count, any, postponed);
     ready->copied = lanes_any(~((p->longest >= DIRECTION_MIN) & (p->longest <= DIRECTION_MAX)));
     if (!ready->copied) return;
   }
   for (size_t l = 0; l < LANES; l++) ready->copy[l] = ray_scaled(&rays[l < count ? l : 0], &ready->exponent[l]);
-  packet_start(p, tracer, ready->copy, count, any);
+  packet_start(p, tracer, ready->copy, count, any, postponed);
 }
 
 static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count,
@@ -242,7 +244,7 @@ static void kernel_closest(struct tracer *tracer, size_t count, const struct ray
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, false);
     bundle_walk(&bundle);
     for (size_t h = 0; h < 2; h++) {
-      const struct packet *packet = &bundle.packet[h];
+      struct packet *packet = &bundle.packet[h];
       struct hit *hits = out_hits + first + h * LANES;
       if (packet->count == 0) continue;
       const unsigned grazing = finish_hits(packet, hits);
@@ -264,7 +266,7 @@ static void kernel_occluded(struct tracer *tracer, size_t count, const struct ra
     for (size_t h = 0; h < 2; h++) {
       const struct packet *packet = &bundle.packet[h];
       for (size_t l = 0; l < packet->count; l++)
-        out_occluded[first + h * LANES + l] = packet->best.patch[l] != NO_PATCH;
+        out_occluded[first + h * LANES + l] = packet->best.patch[l] != NO_PATCH || finish_occluded(packet, (unsigned)l);
       tracer->counts.rays[1] += packet->count;
     }
   }

@@ -109,11 +109,11 @@ static void check_planes(struct subject *s, struct random *random)
     for (int n = 0; n < 16; n++)
       worst_net = fmax(worst_net, (double)quad_abs((quad)net[n] - s->truth.net[p].c[n / 4][n % 4]) / s->local.error);
     /* And a value by the kernel's own arithmetic. */
-    lanes wide[16], wu[4], du[4], wv[4], dv[4];
-    for (int n = 0; n < 16; n++) wide[n] = lanes_all(net[n]);
+    lanes spread[16], wu[4], du[4], wv[4], dv[4];
+    for (int n = 0; n < 16; n++) spread[n] = lanes_all(net[n]);
     refine_weights(lanes_all((double)u), wu, du);
     refine_weights(lanes_all((double)v), wv, dv);
-    const quad value = refine_evaluate(wide, wu, du, wv, dv).value[0];
+    const quad value = refine_evaluate(spread, wu, du, wv, dv).value[0];
     worst_value = fmax(worst_value,
                        (double)quad_abs(value - quad_net_jet(&s->truth.net[p], u, v).value) / s->local.error);
   }
@@ -226,6 +226,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
 {
   struct ray rays[LANES];
   struct packet p;
+  struct postponed postponed;
   struct leaf_root root;
   if (!s->leaf->parts) return;
   static const double slants[] = {0.5, 0.2, 0.1, 0.05};
@@ -233,7 +234,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
   local_ray_make(&s->model->patches[s->leaf->patch], &s->ray, &s->local);
   truth_make(s->model, s->leaf, &s->ray, s->local.axis, &s->truth);
   for (int l = 0; l < LANES; l++) rays[l] = s->ray;
-  packet_start(&p, s->world.tracer, rays, LANES, false);
+  packet_start(&p, s->world.tracer, rays, LANES, false, &postponed);
   packet_set_patch(&p, s->leaf->patch);
   const int k = s->local.axis;
   assert_int_equal(packet_axis(&p, 0), k);
@@ -241,7 +242,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
   quad u, v;
   if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts->exact) return;
   const double second = s->leaf->second[0] + 2 * s->leaf->second[1] + s->leaf->second[2];
-  if ((lanes_bits(root.at.alone) & 1) && root.at.size[0] * second > 2 * ALONE_BOUND) closer_look++;
+  if ((lanes_bits(root.at.alone) & 1) && root.at.size[0] * second > 2 * CERTIFICATE_ALONE) closer_look++;
   /* Off the ray by: one rounding of a coordinate of the patch, of size 1, of the surface's way under the rounding of
    * u and v, and the bend's. */
   const quad at_u = root.at.u[0], at_v = root.at.v[0];

@@ -1,40 +1,41 @@
-/* The plane polynomials of a ray over a small box of a patch, as in more than twice the precision.
+/* A ray through a patch in more than twice the precision: over small boxes of it, and at its roots.
  *
- * Internal to src/intersect. Pure; safe on any thread.
+ * Internal to src/intersect/exact. Pure; safe on any thread.
  *
  * Where a ray is nearly tangent, some combination of the two plane polynomials is so small all over a box that
  * double precision can not tell it from zero. Its coefficients over just that box, formed in wide arithmetic from
  * the untouched control points and only then rounded to double, are right to their own last places: what was below
  * all rounding is a polynomial like any other.
  */
-#ifndef PSCN_INTERSECT_ZOOM_H
-#define PSCN_INTERSECT_ZOOM_H
+#ifndef PSCN_INTERSECT_EXACT_ZOOM_H
+#define PSCN_INTERSECT_EXACT_ZOOM_H
 
-#include "base/wide.h"
-#include "intersect/model.h"
-#include "intersect/intersect.h"
+#include "intersect/exact/exact.h"
 
 /* A ray through a whole patch: a, b and x_k as powers of 2u - 1 and 2v - 1. */
 struct zoom {
   wide power[3][4][4];
   wide place; /* (origin_k - center_k)/scale */
+  wide to_t;  /* t = (x_k - place) to_t */
   wide error; /* bound on the rounding of a or b anywhere on the patch, or of their coefficients over a box inside it */
 };
 
 /* The same over a box, in the box's own parameters. */
 struct zoomed {
-  double net[3][4][4]; /* two combinations of a and b with the same common roots, at most 1 in size; x_k less `place` */
+  double net[3][4][4]; /* two combinations of a and b with the same common roots, at most 1 in size; x_k less the middle's */
   double error[2];     /* bounds on the errors of coefficients of the first two */
-  double place;        /* x_k in the middle of the box, rounded */
   double start[2];     /* t = ((w + start[1]) + start[0]) scale/d_k for w of net[2] */
 };
 
 /* P: the patch's control points in the scene. k: the axis along which the ray is longest. */
 void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out);
 
-/* The box with its low corner at (u,v) of the leaf, in leaf parameters. False where a combination is zero as far as
- * wide arithmetic can tell: then *out means nothing. */
-bool zoom_box(const struct zoom *zoom, const struct leaf *leaf, int split, const double low[2], const double size[2],
-              struct zoomed *out);
+/* The box of the patch with its low corner at low[0], low[1]. False where a combination is zero as far as wide
+ * arithmetic can tell: then *out means nothing. */
+bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out);
+
+/* Makes a proven root of this ray and patch as good as wide arithmetic can. False, and *root as it was, where the
+ * certificate does not hold there or what is found is not the same root. */
+bool zoom_sharpen(struct zoom *zoom, struct exact_root *root);
 
 #endif

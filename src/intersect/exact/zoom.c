@@ -1,9 +1,9 @@
-/* A box of a patch under the glass. See zoom.h. */
-#include "intersect/zoom.h"
+/* A ray through a patch under the glass. See zoom.h. */
+#include "intersect/exact/zoom.h"
 
 #include <math.h>
 
-#include "intersect/tracer.h"
+#include "intersect/certificate.h"
 
 /* A value of a or b passes at most this many roundings on the way from the control points to a combination's
  * coefficient over a box: local net 2, moment and plane 6, to powers 2 x 5, to the box 2 x 9, combination 3; each on
@@ -46,7 +46,7 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
     for (int n = 0; n < 4; n++) to_powers(&out->power[s][0][n], 4);
     if (s < 2) size = wide_max(size, 2 + wide_abs(q[i]) + wide_abs(q[k]));
   }
-  out->place = q[k];
+  out->place = q[k], out->to_t = (wide)patch->scale / d[k];
   out->error = WIDE_ROUNDOFF * ZOOM_ROUNDINGS * POWER_GROWTH * size;
 }
 
@@ -83,15 +83,10 @@ static wide combine(wide a[4][4], wide b[4][4], double p, double q, wide out[4][
   return sum;
 }
 
-bool zoom_box(const struct zoom *zoom, const struct leaf *leaf, int split, const double low[2], const double size[2],
-              struct zoomed *out)
+bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out)
 {
-  const int column[2] = {leaf->column_u, leaf->column_v};
   wide middle[2], half[2], c[3][4][4];
-  for (int s = 0; s < 2; s++) {
-    half[s] = (wide)size[s] / split;
-    middle[s] = 2 * (((wide)column[s] + low[s]) / split) + half[s] - 1;
-  }
+  for (int s = 0; s < 2; s++) half[s] = size[s], middle[s] = 2 * low[s] + size[s] - 1;
   for (int s = 0; s < 3; s++) {
     for (int n = 0; n < 16; n++) c[s][n / 4][n % 4] = zoom->power[s][n / 4][n % 4];
     for (int n = 0; n < 4; n++) move(&c[s][0][n], 4, middle[0], half[0]);
@@ -112,12 +107,11 @@ bool zoom_box(const struct zoom *zoom, const struct leaf *leaf, int split, const
     const wide sum = combine(c[0], c[1], rows[s][0], rows[s][1], combination), error = 2 * zoom->error;
     if (!(sum > error)) return false;
     net_of(combination, 1 / sum, out->net[s]);
-    out->error[s] = (double)(error / sum) + ZOOMED_ROUNDINGS * 0x1p-53;
+    out->error[s] = (double)(error / sum) + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
   }
   const wide place = c[2][0][0], start = place - zoom->place;
   c[2][0][0] = 0;
   net_of(c[2], 1, out->net[2]);
-  out->place = (double)place;
   out->start[0] = (double)start, out->start[1] = (double)(start - out->start[0]);
   return true;
 }
@@ -133,42 +127,78 @@ static void evaluate(wide c[4][4], wide x, wide y, wide *value, wide *dx, wide *
   }
 }
 
-/* The first step starts within the root's radius, some 1e-13, so the second one ends at the rounding of wide
- * arithmetic. */
-enum { SHARPEN_STEPS = 2 };
-
-void leaf_hit_sharpen(const struct model *model, const struct leaf *leaf, const struct ray *ray, struct leaf_hit *root)
+/* Bounds on the second derivatives of the polynomial with these powers, as `s` of struct bend, where x and y reach
+ * LEAF_MARGIN beyond the patch. */
+static double second_bound(wide c[4][4])
 {
-  const struct model_patch *patch = &model->patches[leaf->patch];
-  const double *d = ray->direction;
-  const int k = fabs(d[0]) >= fabs(d[1]) && fabs(d[0]) >= fabs(d[2]) ? 0 : fabs(d[1]) >= fabs(d[2]) ? 1 : 2;
-  struct zoom zoom;
-  zoom_start(patch, model->scene->patches[leaf->patch].P, ray, k, &zoom);
-  root->sharp = true;
-  wide x = 2 * ((wide)leaf->column_u + root->u) / patch->split - 1,
-       y = 2 * ((wide)leaf->column_v + root->v) / patch->split - 1;
-  double size = INFINITY, norm = 0;
+  const double r = 1 + 2 * LEAF_MARGIN, power[4] = {1, r, r * r, r * r * r};
+  double sum = 0;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double size = fabs((double)c[i][j]);
+      if (i > 1) sum += i * (i - 1) * power[i - 2] * power[j] * size;
+      if (i > 0 && j > 0) sum += 2 * i * j * power[i - 1] * power[j - 1] * size;
+      if (j > 1) sum += j * (j - 1) * power[i] * power[j - 2] * size;
+    }
+  }
+  return sum;
+}
+
+/* Newton's process ends when a step is no shorter than half the one before, that is in rounding. It starts within the
+ * root's radius, where it converges quadratically but for the first few steps next to a pole. */
+enum { SHARPEN_STEPS = 24 };
+
+/* The process from (x,y): where it ends, its last step, and the rows of the inverse Jacobian there. */
+static bool newton(struct zoom *zoom, wide *x, wide *y, double *out_step, double m[2][2])
+{
+  double before = INFINITY;
   for (int n = 0; n < SHARPEN_STEPS; n++) {
     wide a, ax, ay, b, bx, by;
-    evaluate(zoom.power[0], x, y, &a, &ax, &ay);
-    evaluate(zoom.power[1], x, y, &b, &bx, &by);
+    evaluate(zoom->power[0], *x, *y, &a, &ax, &ay);
+    evaluate(zoom->power[1], *x, *y, &b, &bx, &by);
     const wide determinant = ax * by - ay * bx;
-    if (determinant == 0) return;
+    if (determinant == 0) return false;
     const wide step_x = (by * a - ay * b) / determinant, step_y = (ax * b - bx * a) / determinant;
-    x -= step_x, y -= step_y;
-    size = (double)wide_max(wide_abs(step_x), wide_abs(step_y));
-    norm = (double)(wide_max(wide_abs(by) + wide_abs(ay), wide_abs(ax) + wide_abs(bx)) / wide_abs(determinant));
+    *x -= step_x, *y -= step_y;
+    if (!(wide_abs(*x) <= 1 + 2 * LEAF_MARGIN && wide_abs(*y) <= 1 + 2 * LEAF_MARGIN)) return false;
+    *out_step = (double)wide_max(wide_abs(step_x), wide_abs(step_y));
+    m[0][0] = (double)(by / determinant), m[0][1] = (double)(-ay / determinant);
+    m[1][0] = (double)(-bx / determinant), m[1][1] = (double)(ax / determinant);
+    if (*out_step == 0 || (n > 4 && *out_step > before / 2)) return true;
+    before = *out_step;
   }
-  /* As in refine.h: the root is within 2 K |step|^2 + 2 |M| error where K (|step| + |M| error) <= 1/8. Second
-   * derivatives by x and y, half a patch, of a plane polynomial whose slopes are at most 1, are twice the surface's
-   * there. */
-  const double half = patch->split / 2.0, error = (double)zoom.error;
-  const double bend = 2 * norm * half * half * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
-  if (!(bend * (size + norm * error) <= 0.125)) return;
-  const double off = 2 * bend * size * size + 2 * norm * error;
-  wide place, unused[2];
-  evaluate(zoom.power[2], x, y, &place, &unused[0], &unused[1]);
-  const double to_t = patch->scale / d[k];
-  root->t = (double)((place - zoom.place) * patch->scale / d[k]);
-  root->t_error = fabs(to_t) * (half * (leaf->first[0] + leaf->first[1]) * off + error) + 4 * 0x1p-53 * fabs(root->t);
+  return true;
+}
+
+bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
+{
+  wide x = 2 * root->u - 1, y = 2 * root->v - 1;
+  double step, m[2][2], radius[2];
+  if (!newton(zoom, &x, &y, &step, m)) return false;
+  const double second[2] = {second_bound(zoom->power[0]), second_bound(zoom->power[1])};
+  const double error = (double)zoom->error;
+  double size = 0, bend = 0;
+  for (int k = 0; k < 2; k++) {
+    size = fmax(size, fabs(m[k][0]) + fabs(m[k][1]));
+    bend = fmax(bend, fabs(m[k][0]) * second[0] + fabs(m[k][1]) * second[1]);
+  }
+  if (!certificate_holds(bend, step, size * error)) return false;
+  for (int k = 0; k < 2; k++)
+    radius[k] = certificate_radius(fabs(m[k][0]) * second[0] + fabs(m[k][1]) * second[1], step,
+                                   (fabs(m[k][0]) + fabs(m[k][1])) * error) / 2;
+  const wide u = (1 + x) / 2, v = (1 + y) / 2;
+  /* Both enclosures hold one root each: it is the same where one holds the other. */
+  if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
+        (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))
+    return false;
+  wide place, dx, dy;
+  evaluate(zoom->power[2], x, y, &place, &dx, &dy);
+  const double rx = 2 * radius[0], ry = 2 * radius[1], reach = rx + ry;
+  const double off = fabs((double)dx) * rx + fabs((double)dy) * ry + error +
+                     second_bound(zoom->power[2]) * reach * reach;
+  root->u = u, root->v = v, root->t = (place - zoom->place) * zoom->to_t;
+  root->radius_u = radius[0], root->radius_v = radius[1];
+  root->t_error = fabs((double)zoom->to_t) * off + 8 * (double)(WIDE_ROUNDOFF * wide_abs(root->t));
+  root->sharp = true;
+  return true;
 }

@@ -1,0 +1,73 @@
+/* The hit at a point of a patch: the point, its error bound, the normal, the clearance. */
+#include <math.h>
+
+#include "base/real.h"
+#include "geometry/patch.h"
+#include "geometry/vector.h"
+#include "intersect/exact/zoom.h"
+#include "intersect/point.h"
+
+static void set_surface(struct model_patch *patch, const double direction[3], struct hit *out)
+{
+  double tangent = 0, magnitude = 0, su[3], sv[3];
+  for (int c = 0; c < 3; c++) {
+    const struct patch_jet jet = patch_evaluate(patch->x[c], out->u, out->v);
+    out->point[c] = patch->center[c] + patch->scale * jet.value;
+    su[c] = jet.du, sv[c] = jet.dv;
+    tangent = real_max(tangent, fabs(jet.du) + fabs(jet.dv));
+    magnitude = real_max(magnitude, fabs(out->point[c]));
+  }
+  out->point_error = POINT_ERROR(patch->scale, tangent, magnitude);
+  vector_cross(su, sv, out->normal);
+  const double length = vector_length(out->normal);
+  if (length > SURFACE_PLAIN * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
+  else patch_normal(patch->x, out->u, out->v, out->normal);
+  if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);
+}
+
+/* On a border by the size of the neighbour as well. */
+static double clearance(const struct model *model, uint32_t patch, unsigned borders, const struct hit *hit)
+{
+  double scale = model->patches[patch].scale, loose = model->patches[patch].loose, magnitude = 0;
+  for (int border = 0; border < 4; border++) {
+    const uint32_t other = model->neighbours[4 * (size_t)patch + (size_t)border].patch;
+    if (!(borders >> border & 1) || other == EDGE_NONE) continue;
+    scale = real_max(scale, model->patches[other].scale), loose = real_max(loose, model->patches[other].loose);
+  }
+  for (int k = 0; k < 3; k++) magnitude = real_max(magnitude, fabs(hit->point[k]));
+  return hit->point_error + CLEARANCE(scale, loose, magnitude);
+}
+
+/* The hit at (u,v) of a patch and t of the ray. `borders`: those of the patch that the point lies on. */
+static void answer(const struct model *model, const struct ray *ray, uint32_t patch, unsigned borders, double t,
+                   struct hit *out)
+{
+  out->patch = patch;
+  out->u = real_min(real_max(out->u, 0), 1), out->v = real_min(real_max(out->v, 0), 1);
+  /* Rounding may have taken the last bits of t to the end of the interval. */
+  out->t = !(t > ray->t_min) ? nextafter(ray->t_min, INFINITY) : !(t < ray->t_max) ? nextafter(ray->t_max, -INFINITY) : t;
+  set_surface(&model->patches[patch], ray->direction, out);
+  out->clearance = clearance(model, patch, borders, out);
+}
+
+void exact_root_hit(const struct model *model, const struct ray *ray, struct exact_root *root, bool sure,
+                    struct hit *out)
+{
+  if (!root->sharp) {
+    struct zoom zoom;
+    zoom_start(&model->patches[root->patch], model->scene->patches[root->patch].P, ray, dominant_axis(ray->direction),
+               &zoom);
+    (void)zoom_sharpen(&zoom, root); /* or it stays what it is */
+  }
+  const double u = (double)root->u, v = (double)root->v;
+  const unsigned borders = (u <= root->radius_u) | (1 - u <= root->radius_u) << 1 | (v <= root->radius_v) << 2 |
+                           (1 - v <= root->radius_v) << 3;
+  *out = (struct hit){.certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING, .u = u, .v = v};
+  answer(model, ray, root->patch, borders, (double)root->t, out);
+}
+
+void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe, struct hit *out)
+{
+  *out = (struct hit){.certainty = CERTAINTY_GRAZING, .u = maybe->u, .v = maybe->v};
+  answer(model, ray, maybe->patch, maybe->borders, maybe->t, out);
+}

@@ -1,0 +1,83 @@
+/* The last resort: what one ray meets, decided for it alone, slowly and to the end.
+ *
+ * Internal to src/intersect. Compiled once, scalar, without contraction: its answers are the same bits on every
+ * processor. Pure; safe on any thread; uses some 100 KB of stack.
+ *
+ * The lanes take a root only where double precision leaves no question: it is proven, strictly inside its patch,
+ * strictly within the ray's range, not next to another patch's. Whatever they leave open comes here as a list of regions
+ * (leaves, or parts of a patch cut for a copy), which are searched in the order in which the ray meets them, so that
+ * the answer depends neither on neighbours nor on the order in which the lanes came by. Roots are looked at in wide
+ * arithmetic wherever double cannot tell on which side of something they lie.
+ */
+#ifndef PSCN_INTERSECT_EXACT_EXACT_H
+#define PSCN_INTERSECT_EXACT_EXACT_H
+
+#include <stdbool.h>
+
+#include "base/wide.h"
+#include "intersect/intersect.h"
+#include "intersect/model.h"
+
+/* A part of a patch: the columns of a leaf, of patch->split a side. */
+struct exact_region {
+  const struct leaf *leaf; /* its leaf; NULL where a copy has none of its own */
+  uint32_t patch;          /* index into the scene's patches */
+  uint16_t column_u, column_v;
+};
+
+/* A proven root, in parameters of the whole patch: exactly one root of the exact ray lies within the radii. */
+struct exact_root {
+  uint32_t patch;
+  bool sharp;                     /* as good as wide arithmetic makes it */
+  wide u, v, t;                   /* t in units of the scaled direction */
+  double radius_u, radius_v;      /* absolute */
+  double t_error;                 /* absolute */
+};
+
+/* A place that may be a hit or none: a point of a patch, and how far along the ray it may be off. */
+struct exact_maybe {
+  uint32_t patch;
+  unsigned borders; /* of the patch that the point lies on, bits as of geometry/edges.h */
+  double u, v, t, t_error;
+};
+
+/* Of one ray; one with more is decided as far as they go. */
+enum { EXACT_REGIONS_MAX = 128 };
+
+/* What is asked. */
+struct exact_case {
+  const struct model *model;
+  const struct ray *ray;          /* direction scaled to about 1 */
+  const struct exact_root *known;  /* the nearest that the lanes took; NULL where there is none */
+  const struct exact_maybe *maybe; /* the same where it is not proven; NULL */
+  const struct exact_region *regions;
+  size_t region_count;
+  bool cut_off;                   /* there were more: the answer is not certain */
+};
+
+enum exact_verdict {
+  EXACT_MISS,
+  EXACT_ROOT, /* the nearest hit is this root */
+  EXACT_MAYBE /* the nearest hit may be this point */
+};
+
+struct exact_decision {
+  enum exact_verdict verdict;
+  bool sure;                /* proven; a maybe never is */
+  struct exact_root root;   /* where it is one */
+  struct exact_maybe maybe; /* where it is one */
+};
+
+/* The nearest hit of the ray. */
+void exact_closest(const struct exact_case *asked, struct exact_decision *out);
+
+/* Whether anything is hit, or may be. */
+bool exact_occluded(const struct exact_case *asked);
+
+/* answer.c: the hit at a proven root, as good as wide arithmetic makes it, or at a point that may be one. t is in units of
+ * the scaled direction. */
+void exact_root_hit(const struct model *model, const struct ray *ray, struct exact_root *root, bool sure,
+                    struct hit *out);
+void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe, struct hit *out);
+
+#endif

@@ -1,0 +1,284 @@
+/* What is found on one ray becomes its answer: the order of roots, the ray's start and end, borders of patches.
+ *
+ * A root counts where it lies in its patch and within the ray's range. Where double precision cannot tell, it is made as
+ * good as wide arithmetic can. A root that even then lies on a border is a hit where the border is shared, the
+ * neighbour's polynomials have a root there too, and the two patches lie on either side of the border as the ray sees
+ * it: then the ray, wherever it passes, meets one of them.
+ */
+#include "intersect/exact/judge.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/real.h"
+#include "geometry/patch.h"
+#include "geometry/vector.h"
+
+/* Boxes that may be looked at for one ray, all told: isolated roots need some hundreds, tangencies some thousand; only
+ * surfaces that lie along the ray over an area come there. About a millisecond. */
+enum { JUDGE_WORK = 2500 };
+
+void judge_turn(struct judge *j, uint32_t patch)
+{
+  if (j->patch == patch) return;
+  j->patch = patch, j->zoomed = false;
+  local_ray_make(&j->asked->model->patches[patch], j->asked->ray, &j->local);
+}
+
+struct zoom *judge_zoom(struct judge *j)
+{
+  const struct model *model = j->asked->model;
+  if (!j->zoomed)
+    zoom_start(&model->patches[j->patch], model->scene->patches[j->patch].P, j->asked->ray, j->local.axis, &j->zoom);
+  j->zoomed = true;
+  return &j->zoom;
+}
+
+/* ---- where a root lies ---- */
+
+enum place { PLACE_OUTSIDE, PLACE_INSIDE, PLACE_UNKNOWN };
+
+/* Of x within error against a border at 0, inside above. */
+static enum place place_above(wide x, double error)
+{
+  return x > error ? PLACE_INSIDE : x < -error ? PLACE_OUTSIDE : PLACE_UNKNOWN;
+}
+
+/* Of the root in its patch; *borders: those that it cannot be told from. */
+static enum place root_in_patch(const struct exact_root *root, unsigned *borders)
+{
+  const wide distance[4] = {root->u, 1 - root->u, root->v, 1 - root->v};
+  *borders = 0;
+  for (unsigned k = 0; k < 4; k++) {
+    const enum place place = place_above(distance[k], k < 2 ? root->radius_u : root->radius_v);
+    if (place == PLACE_OUTSIDE) return PLACE_OUTSIDE;
+    if (place == PLACE_UNKNOWN) *borders |= 1u << k;
+  }
+  return *borders ? PLACE_UNKNOWN : PLACE_INSIDE;
+}
+
+/* Of the root between the ray's start and its end, which it may be next to only from outside. */
+static enum place root_in_range(const struct judge *j, const struct exact_root *root)
+{
+  const enum place start = place_above(root->t - j->asked->ray->t_min, root->t_error);
+  const enum place end = place_above(j->asked->ray->t_max - root->t, root->t_error);
+  return start == PLACE_OUTSIDE || end == PLACE_OUTSIDE ? PLACE_OUTSIDE
+         : start == PLACE_INSIDE && end == PLACE_INSIDE ? PLACE_INSIDE
+                                                        : PLACE_UNKNOWN;
+}
+
+static bool root_sharpen(struct judge *j, struct exact_root *root)
+{
+  if (root->sharp) return true;
+  judge_turn(j, root->patch);
+  return zoom_sharpen(judge_zoom(j), root);
+}
+
+/* Whether the two cannot be told apart by t. */
+static bool roots_tie(const struct exact_root *a, const struct exact_root *b)
+{
+  const wide apart = a->t < b->t ? b->t - a->t : a->t - b->t;
+  return apart <= a->t_error + b->t_error;
+}
+
+/* ---- what is found ---- */
+
+/* Nothing beyond the nearest hit matters, nor where a nearer one would be as doubtful as what is there. */
+static void set_limit(struct judge *j)
+{
+  double limit = j->asked->ray->t_max;
+  if (j->found) limit = real_min(limit, (double)j->nearest.t + 2 * j->nearest.t_error);
+  if (j->doubtful) limit = real_min(limit, j->maybe.t - j->maybe.t_error);
+  j->limit = limit + 4 * UNIT_ROUNDOFF * fabs(limit);
+}
+
+/* A root inside: the nearest, or of those that cannot be told apart that of the first patch. */
+static void keep_nearest(struct judge *j, struct exact_root *root)
+{
+  if (j->found && roots_tie(root, &j->nearest) && root->patch != j->nearest.patch) {
+    struct exact_root other = j->nearest;
+    const bool sharp = root_sharpen(j, root) && root_sharpen(j, &other);
+    if (sharp) j->nearest = other;
+    if (roots_tie(root, &other) ? root->patch > other.patch : root->t > other.t) return;
+  } else if (j->found && !(root->t < j->nearest.t)) {
+    return;
+  }
+  j->nearest = *root, j->found = true;
+  set_limit(j);
+}
+
+static void keep_maybe(struct judge *j, const struct exact_maybe *maybe)
+{
+  const struct ray *ray = j->asked->ray;
+  if (maybe->t < ray->t_min - maybe->t_error || maybe->t > ray->t_max + maybe->t_error) return;
+  if (!(maybe->t > ray->t_min + maybe->t_error && maybe->t < ray->t_max)) {
+    j->doubt = true;
+    return;
+  }
+  if (j->doubtful && !(maybe->t < j->maybe.t || (maybe->t == j->maybe.t && maybe->patch < j->maybe.patch))) return;
+  j->maybe = *maybe, j->doubtful = true;
+  set_limit(j);
+}
+
+/* The point of the patch next to (u,v), and its place on the ray. */
+static void tell_maybe(struct judge *j, unsigned borders, double u, double v, double t_error)
+{
+  struct model_patch *patch = &j->asked->model->patches[j->patch];
+  u = real_min(real_max(u, 0), 1), v = real_min(real_max(v, 0), 1);
+  const double w = patch_evaluate(patch->x[j->local.axis], u, v).value;
+  const double t = ((w + j->local.start[1]) + j->local.start[0]) * j->local.to_t;
+  const struct exact_maybe maybe = {j->patch, borders, u, v, t, t_error + 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.to_t))};
+  keep_maybe(j, &maybe);
+}
+
+void judge_maybe(struct judge *j, double u, double v, double t, double t_error)
+{
+  const struct exact_maybe maybe = {j->patch, 0, u, v, t, t_error};
+  keep_maybe(j, &maybe);
+}
+
+void judge_root(struct judge *j, struct exact_root *root)
+{
+  unsigned borders;
+  root->patch = j->patch;
+  enum place in_patch = root_in_patch(root, &borders), in_range = root_in_range(j, root);
+  if ((double)root->t - root->t_error > j->limit || in_patch == PLACE_OUTSIDE || in_range == PLACE_OUTSIDE) return;
+  if (in_patch == PLACE_UNKNOWN || in_range == PLACE_UNKNOWN) {
+    if (!root_sharpen(j, root)) {
+      tell_maybe(j, borders, (double)root->u, (double)root->v, root->t_error);
+      return;
+    }
+    in_patch = root_in_patch(root, &borders), in_range = root_in_range(j, root);
+    if (in_patch == PLACE_OUTSIDE || in_range == PLACE_OUTSIDE) return;
+  }
+  if (in_range == PLACE_UNKNOWN) {
+    /* Nobody can tell whether a ray that starts on the surface meets it. */
+    j->doubt = true;
+  } else if (in_patch == PLACE_INSIDE) {
+    keep_nearest(j, root);
+  } else if (j->border_count < JUDGE_BORDERS_MAX) {
+    j->border[j->border_count] = *root, j->border_of[j->border_count++] = borders;
+  } else {
+    tell_maybe(j, borders, (double)root->u, (double)root->v, root->t_error);
+  }
+}
+
+/* ---- borders ---- */
+
+/* The side of the border's curve, as seen along d, on which the patch lies at `along`: the sign of det(d, tangent,
+ * inward), 0 where it is too small a part of what it could be to be sure of. The tangent runs along the border's
+ * parameter. */
+static int inner_side(struct model_patch *patch, unsigned border, double along, const double d[3])
+{
+  /* Derivatives are right to some units in the last place of the patch's size 1; the side is sure well above that. */
+  static const double sure = 0x1p-40;
+  const double u = border == 0 ? 0 : border == 1 ? 1 : along, v = border == 2 ? 0 : border == 3 ? 1 : along;
+  const double inward = border == 0 || border == 2 ? 1 : -1;
+  double tangent[3], in[3], normal[3];
+  for (int c = 0; c < 3; c++) {
+    const struct patch_jet jet = patch_evaluate(patch->x[c], u, v);
+    tangent[c] = border < 2 ? jet.dv : jet.du;
+    in[c] = inward * (border < 2 ? jet.du : jet.dv);
+  }
+  vector_cross(tangent, in, normal);
+  const double side = vector_dot(normal, d), least = sure * fabs(d[dominant_axis(d)]);
+  return side > least ? 1 : side < -least ? -1 : 0;
+}
+
+static double along_border(const struct exact_root *root, unsigned border)
+{
+  return (double)(border < 2 ? root->v : root->u);
+}
+
+/* Whether the two roots, each on one border of its patch, are on the same border from either side. */
+static bool roots_across(const struct judge *j, int a, int b)
+{
+  const struct model *model = j->asked->model;
+  const struct exact_root *one = &j->border[a], *two = &j->border[b];
+  if (j->border_of[a] & (j->border_of[a] - 1) || j->border_of[b] & (j->border_of[b] - 1)) return false; /* a corner */
+  const unsigned here = (unsigned)__builtin_ctz(j->border_of[a]), there = (unsigned)__builtin_ctz(j->border_of[b]);
+  const struct edge_neighbour *other = &model->neighbours[4 * (size_t)one->patch + here];
+  if (other->patch != two->patch || other->border != there || !roots_tie(one, two)) return false;
+  const double along = along_border(one, here), along_two = along_border(two, there);
+  const int inner = inner_side(&model->patches[one->patch], here, along, j->asked->ray->direction);
+  const int inner_two = inner_side(&model->patches[two->patch], there, along_two, j->asked->ray->direction);
+  return inner * inner_two * (other->reversed ? -1 : 1) == -1;
+}
+
+static wide within(wide t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
+
+/* Roots on borders that something certain is next to are hits; the others may be. */
+static void settle_borders(struct judge *j)
+{
+  for (int a = 0; a < j->border_count; a++) {
+    struct exact_root *root = &j->border[a];
+    bool certain = j->found && roots_tie(root, &j->nearest);
+    for (int b = 0; b < j->border_count && !certain; b++) {
+      if (a == b || !roots_across(j, a, b)) continue;
+      certain = true;
+      if (root->patch > j->border[b].patch) continue; /* the patch that stands first in the scene has it */
+      root->u = within(root->u), root->v = within(root->v);
+      keep_nearest(j, root);
+    }
+    if (certain) continue;
+    judge_turn(j, root->patch);
+    tell_maybe(j, j->border_of[a], (double)root->u, (double)root->v, root->t_error);
+  }
+}
+
+/* ---- the case ---- */
+
+struct ordered {
+  double near;
+  const struct exact_region *region;
+};
+
+static int by_place(const void *a, const void *b)
+{
+  const struct ordered *x = a, *y = b;
+  if (x->near != y->near) return x->near < y->near ? -1 : 1;
+  if (x->region->patch != y->region->patch) return x->region->patch < y->region->patch ? -1 : 1;
+  if (x->region->column_u != y->region->column_u) return x->region->column_u < y->region->column_u ? -1 : 1;
+  return x->region->column_v < y->region->column_v ? -1 : x->region->column_v > y->region->column_v;
+}
+
+static void judge_run(struct judge *j, const struct exact_case *asked)
+{
+  struct ordered order[EXACT_REGIONS_MAX];
+  *j = (struct judge){.asked = asked, .work = JUDGE_WORK, .patch = UINT32_MAX, .doubt = asked->cut_off};
+  if (asked->known) j->nearest = *asked->known, j->found = true;
+  set_limit(j);
+  if (asked->maybe) keep_maybe(j, asked->maybe);
+  for (size_t k = 0; k < asked->region_count; k++) {
+    order[k] = (struct ordered){-INFINITY, &asked->regions[k]};
+    if (asked->region_count == 1) break;
+    judge_turn(j, asked->regions[k].patch);
+    order[k].near = search_near(j, &asked->regions[k]);
+  }
+  qsort(order, asked->region_count, sizeof *order, by_place);
+  for (size_t k = 0; k < asked->region_count && order[k].near <= j->limit; k++) {
+    judge_turn(j, order[k].region->patch);
+    search_region(j, order[k].region);
+  }
+  settle_borders(j);
+}
+
+void exact_closest(const struct exact_case *asked, struct exact_decision *out)
+{
+  struct judge j;
+  judge_run(&j, asked);
+  *out = (struct exact_decision){.verdict = EXACT_MISS, .sure = !j.doubt};
+  if (j.doubtful && !(j.found && j.nearest.t <= j.maybe.t)) {
+    *out = (struct exact_decision){.verdict = EXACT_MAYBE, .maybe = j.maybe};
+  } else if (j.found) {
+    out->verdict = EXACT_ROOT, out->root = j.nearest;
+    if (j.doubtful) out->sure &= j.maybe.t - j.maybe.t_error > j.nearest.t + j.nearest.t_error;
+  }
+}
+
+bool exact_occluded(const struct exact_case *asked)
+{
+  struct judge j;
+  judge_run(&j, asked);
+  return j.found || j.doubtful;
+}

@@ -1,0 +1,383 @@
+/* All that a ray may meet in a region of a patch, by recursive halving.
+ *
+ * A box of parameters is dropped where some linear combination of the two plane polynomials keeps one sign on it
+ * (the convex hull property), solved where the certificate finds a root that is alone in it, and halved otherwise.
+ * Boxes are taken nearest first and dropped behind the nearest hit so far, so curves of roots (a ray in the plane of a
+ * flat patch) cost no more than points. Where a combination is indistinguishable from zero on a box, the surface is
+ * seen edge-on there, nearer to tangency than about 1e-7: then the box is searched by itself, with polynomials made
+ * for it in wide arithmetic (zoom.h), which scales what is too small to tell. What even that leaves (a double root, a
+ * ray in the surface), and poles met exactly, are told to the judge as undecided.
+ */
+#include "intersect/exact/judge.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/real.h"
+#include "geometry/patch.h"
+#include "intersect/certificate.h"
+#include "intersect/leaf.h"
+#include "intersect/point.h"
+
+/* How far outside a box, in its own parameters, its root may lie and still be told from having none (then the
+ * neighbour has it); and the growth of second-derivative bounds, quartic in the extent, when they are used that far
+ * outside: (1 + 2/16)^4 = 1.602. */
+#define BOX_MARGIN 0.0625
+#define BOX_MARGIN_GROWTH 1.61
+
+/* Newton's last step in box parameters: its square, all that the next one would be, is below the rounding of the
+ * values. Not a tolerance of the answer, whose radius is computed. */
+#define LAST_STEP 0x1p-28
+
+/* A combination whose computed values are within this many of its error bounds all over a box says nothing about it. */
+#define FLAT_ERRORS (UNDECIDED_ERRORS - 1)
+
+/* The fraction of the patch's extent below which an undecidable box is not halved further: UNDECIDED_ERRORS of some
+ * hundred roundings each, the distance from the ray at which the planes tell nothing any more. */
+#define SEARCH_RESOLUTION 0x1p-44
+
+/* How often a box may halve in all: 2^-50 of the region either way, and some across. */
+enum { SEARCH_HALVINGS = 120 };
+
+/* What looking at a box under the glass costs, in boxes. */
+enum { ZOOM_WORK = 40 };
+
+enum verdict {
+  VERDICT_EMPTY, /* no root in the box */
+  VERDICT_FLAT,  /* some combination, but not all, is indistinguishable from zero on it */
+  VERDICT_POINT, /* all are: the box is a point on the ray as far as can be told */
+  VERDICT_OPEN
+};
+
+struct box {
+  double net[3][4][4];   /* a, b, w */
+  wide u, v;             /* low corner, of the search's whole box */
+  double size_u, size_v; /* as parts of it */
+  double near, far;      /* hull of t */
+  int halvings;
+};
+
+struct search {
+  struct judge *judge;
+  bool zoomed;             /* the whole box is under the glass already */
+  wide low[2], size[2];    /* of the whole box, in parameters of the patch */
+  double start[2], to_t;   /* t = ((w + start[1]) + start[0]) to_t */
+  double error[2];         /* bounds on the errors of coefficients of the first two nets before any halving */
+  double place_error;      /* of w */
+  double extent[2];        /* bounds on the derivatives by the whole box's parameters */
+  double resolution;       /* of t */
+  bool pole[4];            /* borders of the whole box (geometry/edges.h) that are one point */
+};
+
+static double place_to_t(const struct search *s, double w)
+{
+  return ((w + s->start[1]) + s->start[0]) * s->to_t;
+}
+
+/* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the
+ * whole box's size. */
+static void box_error(const struct search *s, const struct box *box, double out[2])
+{
+  for (int k = 0; k < 2; k++) out[k] = s->error[k] + box->halvings * 4 * UNIT_ROUNDOFF;
+}
+
+static void box_place(const struct search *s, struct box *box)
+{
+  double lo = box->net[2][0][0], hi = lo;
+  for (int n = 1; n < 16; n++)
+    lo = real_min(lo, box->net[2][n / 4][n % 4]), hi = real_max(hi, box->net[2][n / 4][n % 4]);
+  const double p = place_to_t(s, lo), q = place_to_t(s, hi);
+  const double slack = fabs(s->to_t) * s->place_error + 8 * UNIT_ROUNDOFF * real_max(fabs(p), fabs(q));
+  box->near = real_min(p, q) - slack, box->far = real_max(p, q) + slack;
+}
+
+/* Where p a + q b stands on the box: its hull in units of its error bound. */
+static void combination(struct box *box, double p, double q, const double error[2], double out[2])
+{
+  const double unit = 1 / (fabs(p) * (error[0] + UNIT_ROUNDOFF * 4) + fabs(q) * (error[1] + UNIT_ROUNDOFF * 4));
+  for (int n = 0; n < 16; n++) {
+    const double value = (p * box->net[0][n / 4][n % 4] + q * box->net[1][n / 4][n % 4]) * unit;
+    out[0] = n ? real_min(out[0], value) : value, out[1] = n ? real_max(out[1], value) : value;
+  }
+}
+
+/* Tries the combinations a, b and the two rows of the adjugate Jacobian in the middle, which aim along the
+ * parameters, or, where the Jacobian is singular, at the one direction in which the surface is seen edge-on. */
+static enum verdict box_test(struct box *box, const double error[2])
+{
+  const struct patch_jet a = patch_evaluate(box->net[0], 0.5, 0.5);
+  const struct patch_jet b = patch_evaluate(box->net[1], 0.5, 0.5);
+  const double rows[4][2] = {{1, 0}, {0, 1}, {b.dv, -a.dv}, {-b.du, a.du}};
+  bool flat = false, steep = false;
+  for (int k = 0; k < 4; k++) {
+    if (rows[k][0] == 0 && rows[k][1] == 0) continue;
+    double range[2] = {0, 0};
+    combination(box, rows[k][0], rows[k][1], error, range);
+    if (range[0] > 1 || range[1] < -1) return VERDICT_EMPTY;
+    if (range[0] > -FLAT_ERRORS && range[1] < FLAT_ERRORS) flat = true;
+    else steep = true;
+  }
+  return !flat ? VERDICT_OPEN : steep ? VERDICT_FLAT : VERDICT_POINT;
+}
+
+/* The largest second derivatives of each kind, of a net on its box. */
+static void second_bounds(double n[4][4], double out[3])
+{
+  out[0] = out[1] = out[2] = 0;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      if (i < 2) out[0] = real_max(out[0], 6 * fabs(n[i + 2][j] - 2 * n[i + 1][j] + n[i][j]));
+      if (i < 3 && j < 3) out[1] = real_max(out[1], 9 * fabs(n[i + 1][j + 1] - n[i + 1][j] - n[i][j + 1] + n[i][j]));
+      if (j < 2) out[2] = real_max(out[2], 6 * fabs(n[i][j + 2] - 2 * n[i][j + 1] + n[i][j]));
+    }
+  }
+}
+
+/* The certificate in the box's own parameters, with the second derivatives of M's rows of the plane polynomials
+ * themselves, for a last step that went to `root`. Sets the radii. */
+static bool box_prove(struct box *box, double m[2][2], const double error[2], double step, const double root[2],
+                      double radius[2])
+{
+  const double out_u = real_max(-root[0], root[0] - 1), out_v = real_max(-root[1], root[1] - 1);
+  if (!(out_u < BOX_MARGIN && out_v < BOX_MARGIN)) return false;
+  const double growth = out_u > 0 || out_v > 0 ? BOX_MARGIN_GROWTH : 1;
+  const double reach_u = 0.5 + fabs(root[0] - 0.5), reach_v = 0.5 + fabs(root[1] - 0.5);
+  double bend = 0, q = 0, size = 0;
+  for (int k = 0; k < 2; k++) {
+    double n[4][4], s[3];
+    for (int c = 0; c < 16; c++)
+      n[c / 4][c % 4] = m[k][0] * box->net[0][c / 4][c % 4] + m[k][1] * box->net[1][c / 4][c % 4];
+    second_bounds(n, s);
+    const double row_bend = growth * (s[0] + 2 * s[1] + s[2]);
+    const double row_size = fabs(m[k][0]) * error[0] + fabs(m[k][1]) * error[1];
+    bend = real_max(bend, row_bend), size = real_max(size, row_size);
+    q = real_max(q, growth * ((s[0] + s[1]) * reach_u + (s[1] + s[2]) * reach_v));
+    radius[k] = certificate_radius(row_bend, step, row_size);
+  }
+  return certificate_holds(bend, step, size) && certificate_alone(q, size);
+}
+
+/* Newton from the middle, then the certificate. Writes the root in box parameters with its radii; returns whether it is
+ * proven and alone. */
+static bool box_solve(struct box *box, const double error[2], double root[2], double radius[2])
+{
+  double u = 0.5, v = 0.5, step = 2, m[2][2] = {{0}};
+  for (int n = 0; n < 12 && step > LAST_STEP; n++) {
+    const struct patch_jet a = patch_evaluate(box->net[0], u, v), b = patch_evaluate(box->net[1], u, v);
+    const double determinant = a.du * b.dv - a.dv * b.du;
+    if (determinant == 0) return false;
+    const double inverse = 1 / determinant;
+    m[0][0] = b.dv * inverse, m[0][1] = -a.dv * inverse, m[1][0] = -b.du * inverse, m[1][1] = a.du * inverse;
+    const double su = m[0][0] * a.value + m[0][1] * b.value, sv = m[1][0] * a.value + m[1][1] * b.value;
+    step = real_max(fabs(su), fabs(sv));
+    u -= su, v -= sv;
+    if (!(fabs(u - 0.5) < 1 && fabs(v - 0.5) < 1)) return false;
+  }
+  if (!(step <= LAST_STEP)) return false;
+  root[0] = u, root[1] = v;
+  return box_prove(box, m, error, step, root, radius);
+}
+
+/* Tells of the box's root, wherever it lies: one just outside the box is the neighbour's as well, and the same. */
+static void box_tell_root(struct search *s, struct box *box, const double at[2], const double radius[2])
+{
+  const struct patch_jet w = patch_evaluate(box->net[2], at[0], at[1]);
+  double bend[3];
+  second_bounds(box->net[2], bend);
+  const double t = place_to_t(s, w.value), sum = radius[0] + radius[1], to_t = fabs(s->to_t);
+  const double off = fabs(w.du) * radius[0] + fabs(w.dv) * radius[1] +
+                     BOX_MARGIN_GROWTH * (bend[0] + 2 * bend[1] + bend[2]) * sum * sum;
+  struct exact_root root = {.u = s->low[0] + s->size[0] * (box->u + box->size_u * (wide)at[0]),
+                            .v = s->low[1] + s->size[1] * (box->v + box->size_v * (wide)at[1]),
+                            .t = t,
+                            .t_error = to_t * (off + s->place_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + to_t * fabs(w.value))};
+  root.radius_u = radius[0] * box->size_u * (double)s->size[0] * (1 + 4 * UNIT_ROUNDOFF);
+  root.radius_v = radius[1] * box->size_v * (double)s->size[1] * (1 + 4 * UNIT_ROUNDOFF);
+  judge_root(s->judge, &root);
+}
+
+/* Tells of the middle of a box that cannot be decided. */
+static void box_tell_maybe(struct search *s, struct box *box)
+{
+  const double t = place_to_t(s, patch_evaluate(box->net[2], 0.5, 0.5).value);
+  judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u / 2)),
+              (double)(s->low[1] + s->size[1] * (box->v + box->size_v / 2)), t, box->far - box->near);
+}
+
+static void cubic_halves(const double *c, int stride, double *low, double *high)
+{
+  const double half = 0.5, c1 = c[stride], c2 = c[2 * stride];
+  const double q0 = half * (c[0] + c1), q1 = half * (c1 + c2), q2 = half * (c2 + c[3 * stride]);
+  const double r0 = half * (q0 + q1), r1 = half * (q1 + q2);
+  low[0] = c[0], low[stride] = q0, low[2 * stride] = r0;
+  low[3 * stride] = high[0] = half * (r0 + r1);
+  high[stride] = r1, high[2 * stride] = q2, high[3 * stride] = c[3 * stride];
+}
+
+/* The largest change of the nets first..last from one coefficient to the next, along u and along v. */
+static void variation(const struct box *box, int first, int last, double *along_u, double *along_v)
+{
+  *along_u = *along_v = 0;
+  for (int k = first; k <= last; k++) {
+    for (int i = 0; i < 4; i++) {
+      for (int j = 0; j < 3; j++) {
+        *along_v = real_max(*along_v, fabs(box->net[k][i][j + 1] - box->net[k][i][j]));
+        *along_u = real_max(*along_u, fabs(box->net[k][j + 1][i] - box->net[k][j][i]));
+      }
+    }
+  }
+}
+
+/* Halves across the parameter along which the box is longer as seen along the ray, for that is what hull tests and
+ * Newton's process need: at a tangency boxes get long along the ray and narrow across it. Where it is seen as a
+ * point, across the one along which it is longer on the ray. */
+static void box_halve(const struct search *s, struct box *box, struct box out[2])
+{
+  double along_u, along_v, error[2];
+  variation(box, 0, 1, &along_u, &along_v);
+  box_error(s, box, error);
+  if (real_max(along_u, along_v) <= FLAT_ERRORS * real_max(error[0], error[1]))
+    variation(box, 2, 2, &along_u, &along_v);
+  const bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
+  for (int h = 0; h < 2; h++) {
+    out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
+    if (across_u) out[h].size_u /= 2, out[h].u += h * out[h].size_u;
+    else out[h].size_v /= 2, out[h].v += h * out[h].size_v;
+    out[h].halvings = box->halvings + 1;
+  }
+  for (int k = 0; k < 3; k++)
+    for (int n = 0; n < 4; n++)
+      if (across_u) cubic_halves(&box->net[k][0][n], 4, &out[0].net[k][0][n], &out[1].net[k][0][n]);
+      else cubic_halves(box->net[k][n], 1, out[0].net[k][n], out[1].net[k][n]);
+  for (int h = 0; h < 2; h++) box_place(s, &out[h]);
+}
+
+/* Whether the box lies at a border that is one point. */
+static bool box_has_pole(const struct search *s, const struct box *box)
+{
+  return (s->pole[0] && box->u == 0) || (s->pole[1] && box->u + box->size_u == 1) || (s->pole[2] && box->v == 0) ||
+         (s->pole[3] && box->v + box->size_v == 1);
+}
+
+static void search_run(struct search *s, const struct box *whole);
+
+/* Searches the box by itself under the glass. Returns whether that could be done. */
+static bool box_zoom(struct search *s, const struct box *box)
+{
+  struct search closer = {.judge = s->judge, .zoomed = true, .to_t = s->to_t, .resolution = s->resolution};
+  closer.size[0] = s->size[0] * box->size_u, closer.size[1] = s->size[1] * box->size_v;
+  closer.low[0] = s->low[0] + s->size[0] * box->u, closer.low[1] = s->low[1] + s->size[1] * box->v;
+  closer.extent[0] = s->extent[0] * box->size_u, closer.extent[1] = s->extent[1] * box->size_v;
+  struct zoomed zoomed;
+  s->judge->work -= ZOOM_WORK;
+  if (!zoom_box(judge_zoom(s->judge), closer.low, closer.size, &zoomed)) return false;
+  double size = 0;
+  for (int n = 0; n < 16; n++) size = real_max(size, fabs(zoomed.net[2][n / 4][n % 4]));
+  for (int k = 0; k < 2; k++) closer.start[k] = zoomed.start[k], closer.error[k] = zoomed.error[k];
+  closer.place_error = 32 * UNIT_ROUNDOFF * size + (double)judge_zoom(s->judge)->error;
+  struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
+  memcpy(whole.net, zoomed.net, sizeof whole.net);
+  search_run(&closer, &whole);
+  return true;
+}
+
+/* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as
+ * seen. */
+static bool box_small(const struct search *s, const struct box *box, enum verdict verdict)
+{
+  return box->far - box->near <= s->resolution &&
+         (verdict == VERDICT_POINT || s->extent[0] * box->size_u + s->extent[1] * box->size_v <= SEARCH_RESOLUTION);
+}
+
+/* Decides the box: true where nothing is left to do with it. */
+static bool box_decide(struct search *s, struct box *box)
+{
+  if (box->near > s->judge->limit || box->far < s->judge->asked->ray->t_min) return true;
+  double error[2];
+  box_error(s, box, error);
+  const enum verdict verdict = box_test(box, error);
+  if (verdict == VERDICT_EMPTY) return true;
+  double root[2], radius[2];
+  if (verdict == VERDICT_OPEN && box_solve(box, error, root, radius)) {
+    box_tell_root(s, box, root, radius);
+    return true;
+  }
+  const bool small = verdict != VERDICT_OPEN && box_small(s, box, verdict);
+  /* At a pole the edge is as degenerate under the glass: only where nothing else is left. */
+  if (verdict != VERDICT_OPEN && !s->zoomed && (small || !box_has_pole(s, box)) && box_zoom(s, box)) return true;
+  if (!small && box->halvings < SEARCH_HALVINGS) return false;
+  box_tell_maybe(s, box);
+  return true;
+}
+
+/* Searches the box `whole`, whose nets, and all that the search starts with, are set. */
+static void search_run(struct search *s, const struct box *whole)
+{
+  struct box stack[SEARCH_HALVINGS + 2];
+  stack[0] = *whole;
+  box_place(s, &stack[0]);
+  for (int top = 1; top > 0;) {
+    struct box box = stack[--top];
+    s->judge->work--;
+    const bool decided = box_decide(s, &box);
+    if (decided) continue;
+    if (s->judge->work <= 0) {
+      box_tell_maybe(s, &box);
+      return;
+    }
+    struct box half[2];
+    box_halve(s, &box, half);
+    const int nearer = half[1].near < half[0].near;
+    stack[top++] = half[!nearer];
+    stack[top++] = half[nearer];
+  }
+}
+
+/* The search of a region, and its whole box. */
+static void search_begin(struct judge *j, const struct exact_region *region, struct search *s, struct box *whole)
+{
+  struct model_patch *patch = &j->asked->model->patches[region->patch];
+  const struct local_ray *ray = &j->local;
+  const int column[2] = {region->column_u, region->column_v};
+  double x[3][16];
+  if (region->leaf) memcpy(x, region->leaf->x, sizeof x);
+  else leaf_net(patch, region->column_u, region->column_v, x);
+  *s = (struct search){.judge = j,
+                       .start = {ray->start[0], ray->start[1]},
+                       .to_t = ray->to_t,
+                       .error = {ray->error, ray->error},
+                       .place_error = ray->error,
+                       .pole = {true, true, true, true}};
+  for (int k = 0; k < 2; k++) s->low[k] = (wide)column[k] / patch->split, s->size[k] = (wide)1 / patch->split;
+  for (int c = 0; c < 3; c++) {
+    for (int n = 0; n < 4; n++) {
+      s->pole[0] &= x[c][n] == x[c][0], s->pole[1] &= x[c][12 + n] == x[c][12];
+      s->pole[2] &= x[c][4 * n] == x[c][0], s->pole[3] &= x[c][4 * n + 3] == x[c][3];
+    }
+  }
+  if (region->leaf) memcpy(s->extent, region->leaf->first, sizeof s->extent);
+  else leaf_first_bounds(x, s->extent);
+  double nets[3][16];
+  local_ray_nets(ray, x, nets[0], nets[1], nets[2]);
+  *whole = (struct box){.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
+  memcpy(whole->net, nets, sizeof nets);
+  box_place(s, whole);
+  const double slack = fabs(s->to_t) * s->place_error + 8 * UNIT_ROUNDOFF * real_max(fabs(whole->near), fabs(whole->far));
+  s->resolution = real_max((whole->far - whole->near) * SEARCH_RESOLUTION, 4 * slack);
+}
+
+double search_near(struct judge *j, const struct exact_region *region)
+{
+  struct search search;
+  struct box whole;
+  search_begin(j, region, &search, &whole);
+  return whole.near;
+}
+
+void search_region(struct judge *j, const struct exact_region *region)
+{
+  struct search search;
+  struct box whole;
+  search_begin(j, region, &search, &whole);
+  search_run(&search, &whole);
+}

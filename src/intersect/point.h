@@ -1,0 +1,30 @@
+/* Error bounds of points on a patch, as the answers state them.
+ *
+ * Internal to src/intersect.
+ */
+#ifndef PSCN_INTERSECT_POINT_H
+#define PSCN_INTERSECT_POINT_H
+
+#include "intersect/local_ray.h"
+#include "intersect/model.h"
+
+/* Subdivision gives up on a box where a plane polynomial stays within this many error bounds of zero, its own
+ * included. */
+#define UNDECIDED_ERRORS 5
+
+/* |Su x Sv| relative to the squared derivatives down to which it is the normal without further thought. */
+#define SURFACE_PLAIN 0x1p-20
+
+/* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the
+ * sum; in each coordinate, so up to sqrt(3) of it in distance. `tangent` bounds the derivatives' coordinates. */
+#define POINT_ERROR(scale, tangent, magnitude) \
+  (2 * ((12 + 2 * (tangent)) * UNIT_ROUNDOFF * (scale) + UNIT_ROUNDOFF * (magnitude)))
+
+/* A ray that starts nearer to the surface than this and the point's own error cannot be told from one that starts on
+ * it: the rounding of the new origin, and the distance within which subdivision cannot exclude a root:
+ * UNDECIDED_ERRORS error bounds of either plane, with moments of at most 2 as for all rays that start in the patch's
+ * box, and what a copy is loose by; doubled for the planes' being oblique. */
+#define CLEARANCE(scale, loose, magnitude) \
+  (4 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * (PLANE_ERROR(2, 2) * (scale) + 2 * (loose)))
+
+#endif
