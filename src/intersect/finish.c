@@ -7,7 +7,7 @@
 
 /* A root as far from where it is as this, in patch parameters, is seen so nearly edge-on that what the last step leaves,
  * 2^-27 of it, shows in the last places of t. */
-#define BLURRED_RADIUS 0x1p-26
+#define BLURRED_RADIUS 0x1p-28
 
 /* The answers of a packet's lanes. */
 struct answers {
@@ -140,7 +140,7 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
   const struct best *best = &p->best;
   struct answers a;
   a.u = surface_clamp(best->u), a.v = surface_clamp(best->v), a.t = best->t;
-  a.plain = surface_normal(best->normal, best->tangent, a.normal) & best->far_enough;
+  a.plain = surface_normal(best->normal, best->tangent, a.normal);
   a.point = best->point;
   return write_hits(p, group, &a, out);
 }

@@ -52,11 +52,12 @@ struct last_step_net {
 
 LANES_INLINE void last_step_split_net(const struct model_patch *patch, struct last_step_net *out)
 {
+  const double *rest = &patch->rest[0][0][0];
   out->x = &patch->x[0][0][0];
   for (int n = 0; n < 48; n += LANES) {
-    lanes x;
-    memcpy(&x, out->x + n, sizeof x);
-    const lanes head = split_lanes_head(x), tail = x - head;
+    lanes x, less;
+    memcpy(&x, out->x + n, sizeof x), memcpy(&less, rest + n, sizeof less);
+    const lanes head = split_lanes_head(x), tail = (x - head) + less;
     memcpy(out->head + n, &head, sizeof head), memcpy(out->tail + n, &tail, sizeof tail);
   }
 }

@@ -151,27 +151,29 @@ static void leaf_set_slabs(struct leaf *leaf)
 enum { EXACT_SPLIT = 16, HEAD_BITS = 20 };
 
 /* The leaf's net as hi + lo. hi is cut from the coordinates' first HEAD_BITS bits: exactly where the split is a power
- * of two up to EXACT_SPLIT. lo, which is smaller by as many bits, is rounded. */
-static void cut_net(struct model_patch *patch, int column_u, int column_v, double hi[3][4][4], double lo[3][4][4])
+ * of two up to EXACT_SPLIT. lo, which is smaller by as many bits and has what x is rounded by, is rounded. */
+static void cut_net(struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], double hi[3][4][4],
+                    double lo[3][4][4])
 {
   const double parts = patch->split; /* quotients, so that the last one is 1 whatever the split */
-  const double u0 = column_u / parts, u1 = (column_u + 1) / parts, v0 = column_v / parts, v1 = (column_v + 1) / parts;
+  const double u0 = column[0] / parts, u1 = (column[0] + span[0]) / parts;
+  const double v0 = column[1] / parts, v1 = (column[1] + span[1]) / parts;
   const double round = 0x1.8p52 / (1 << HEAD_BITS);
   for (int k = 0; k < 3; k++) {
     double head[4][4], tail[4][4];
     for (int n = 0; n < 16; n++) {
       const double x = patch->x[k][n / 4][n % 4];
-      head[n / 4][n % 4] = (x + round) - round, tail[n / 4][n % 4] = x - head[n / 4][n % 4];
+      head[n / 4][n % 4] = (x + round) - round, tail[n / 4][n % 4] = (x - head[n / 4][n % 4]) + patch->rest[k][n / 4][n % 4];
     }
     patch_subnet(head, u0, u1, v0, v1, hi[k]);
     patch_subnet(tail, u0, u1, v0, v1, lo[k]);
   }
 }
 
-void leaf_net(struct model_patch *patch, int column_u, int column_v, double out[3][16])
+void leaf_net(struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], double out[3][16])
 {
   double hi[3][4][4], lo[3][4][4];
-  cut_net(patch, column_u, column_v, hi, lo);
+  cut_net(patch, column, span, hi, lo);
   for (int k = 0; k < 3; k++)
     for (int n = 0; n < 16; n++) out[k][n] = hi[k][n / 4][n % 4] + lo[k][n / 4][n % 4];
 }
@@ -240,7 +242,7 @@ static void set_parts(const struct model_patch *patch, const struct leaf *leaf, 
 void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf, struct leaf_parts *room)
 {
   double hi[3][4][4], lo[3][4][4], wide[3][4][4];
-  cut_net(patch, column_u, column_v, hi, lo);
+  cut_net(patch, (uint16_t[2]){(uint16_t)column_u, (uint16_t)column_v}, (uint16_t[2]){1, 1}, hi, lo);
   for (int k = 0; k < 3; k++) {
     double x[4][4];
     for (int n = 0; n < 16; n++) leaf->x[k][n] = hi[k][n / 4][n % 4] + lo[k][n / 4][n % 4];

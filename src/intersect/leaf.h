@@ -7,8 +7,8 @@
 
 #include "intersect/model.h"
 
-/* The local net of the leaf at the columns of the patch. */
-void leaf_net(struct model_patch *patch, int column_u, int column_v, double out[3][16]);
+/* The local net of the part of the patch that has `span` columns of leaves from `column` on, along u and v. */
+void leaf_net(struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], double out[3][16]);
 
 /* Bounds on |Su|, |Sv| of a net over its own domain. */
 void leaf_first_bounds(double x[3][16], double out[2]);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/double_double.h"
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
@@ -50,8 +51,10 @@ static void patch_frame(double P[4][4][3], double scene_size, struct model_patch
   for (int k = 0; k < 3; k++) {
     const double middle = lo[k] / 2 + hi[k] / 2, grain = out->scale / 4;
     out->center[k] = fabs(middle) < grain * 0x1p50 ? real_coarse(middle, grain) : middle;
-    for (int i = 0; i < 4; i++)
-      for (int j = 0; j < 4; j++) out->x[k][i][j] = (P[i][j][k] - out->center[k]) / out->scale;
+    for (int n = 0; n < 16; n++) {
+      const struct double_double x = dd_two_sum(P[n / 4][n % 4][k], -out->center[k]);
+      out->x[k][n / 4][n % 4] = x.hi / out->scale, out->rest[k][n / 4][n % 4] = x.lo / out->scale;
+    }
   }
 }
 

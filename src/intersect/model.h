@@ -28,7 +28,8 @@
 
 struct model_patch {
   double center[3], scale;
-  double x[3][4][4]; /* local control net, x[coordinate][i][j], |x| <= 1 */
+  double x[3][4][4];    /* local control net, x[coordinate][i][j], |x| <= 1 */
+  double rest[3][4][4]; /* what its rounding has taken away: x + rest is exact */
   int m, n;          /* true bidegree in u, v */
   int split;         /* cut into split x split leaves */
   bool lanes;        /* default method, or all_roots: tried on a lane of rays at once */

@@ -67,7 +67,7 @@ void packet_orient(struct packet *p)
   }
   p->best.u = p->best.v = p->best.radius_u = p->best.radius_v = lanes_all(0), p->best.t = lanes_all(INFINITY);
   p->best.patch = p->best.leaf = NO_PATCH + (lane_mask){0};
-  p->best.certain = p->best.far_enough = p->best.final = p->best.doubt = (lane_mask){0};
+  p->best.certain = p->best.final = p->best.doubt = (lane_mask){0};
 }
 
 /* ---- keeping the nearest ---- */
@@ -76,7 +76,7 @@ void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
 {
   struct postponed *to = p->postponed;
   const struct exact_region region = {p->outer ? NULL : leaf, leaf->patch + (p->outer ? p->copy->first_patch : 0),
-                                      leaf->column_u, leaf->column_v};
+                                      {leaf->column_u, leaf->column_v}, {1, 1}};
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
     if (count == EXACT_REGIONS_MAX) to->cut_off |= 1u << lane;
@@ -182,10 +182,9 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
     best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
   }
   best->tangent = lanes_select(taken, tangent, best->tangent);
-  best->far_enough = (best->far_enough & ~taken) | (taken & (lanes_abs(root->t) * p->longest >= NEAR_START * patch->scale));
   best->point.error = lanes_select(taken, point.error, best->point.error);
   best->point.clearance = lanes_select(taken, point.clearance, best->point.clearance);
-  best->final |= taken;
+  best->final |= taken & (lanes_abs(root->t) * p->longest >= NEAR_START_FINAL * patch->scale);
 }
 
 static void packet_offer_root(struct packet *p, const struct trial *t, const struct leaf_root *root, lane_mask hits)

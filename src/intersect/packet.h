@@ -13,8 +13,10 @@
 
 #define NO_PATCH INT64_MAX
 
-/* A root nearer to the ray's start than this part of the patch's frame: the last step leaves 2^-72 of the frame. */
+/* Roots nearer to the ray's start than these parts of their patch's frame want more digits: the last step leaves 2^-72
+ * of the frame, a root that is final without it the rounding of its leaf's bend. */
 #define NEAR_START 0x1p-16
+#define NEAR_START_FINAL 0x1p-6
 
 /* The best root of every lane. */
 struct best {
@@ -26,7 +28,6 @@ struct best {
   struct surface_point point;
   lanes normal[3];                  /* of any length and sense */
   lanes tangent;                    /* bound on the derivatives' coordinates that the normal is the product of */
-  lane_mask far_enough;             /* t is not next to the ray's start: all its digits are right */
   lane_mask doubt; /* some unproven root could not be told from t_min, and was left out */
 };
 

@@ -22,7 +22,8 @@
 struct exact_region {
   const struct leaf *leaf; /* its leaf; NULL where a copy has none of its own */
   uint32_t patch;          /* index into the scene's patches */
-  uint16_t column_u, column_v;
+  uint16_t column[2];      /* along u, v: the first, and how many */
+  uint16_t span[2];
 };
 
 /* A proven root, in parameters of the whole patch: exactly one root of the exact ray lies within the radii. */

@@ -9,7 +9,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/double_double.h"
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
@@ -120,14 +122,19 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe)
   set_limit(j);
 }
 
-/* The point of the patch next to (u,v), and its place on the ray. */
-static void tell_maybe(struct judge *j, unsigned borders, double u, double v, double t_error)
+/* What may be a hit at a root that is not known to be in its patch: the point next to it, and its place on the ray. */
+static void tell_maybe(struct judge *j, unsigned borders, const struct exact_root *root)
 {
+  double u = (double)root->u, v = (double)root->v, t_error = root->t_error;
   struct model_patch *patch = &j->asked->model->patches[j->patch];
   u = real_min(real_max(u, 0), 1), v = real_min(real_max(v, 0), 1);
   const double w = patch_evaluate(patch->x[j->local.axis], u, v).value;
-  const double t = ((w + j->local.start[1]) + j->local.start[0]) * j->local.to_t;
-  const struct exact_maybe maybe = {j->patch, borders, u, v, t, t_error + 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.to_t))};
+  double t = (double)root->t;
+  if (!root->sharp) {
+    t = ((w + j->local.start[1]) + j->local.start[0]) * j->local.to_t;
+    t_error += 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.to_t));
+  }
+  const struct exact_maybe maybe = {j->patch, borders, u, v, t, t_error};
   keep_maybe(j, &maybe);
 }
 
@@ -135,6 +142,75 @@ void judge_maybe(struct judge *j, double u, double v, double t, double t_error)
 {
   const struct exact_maybe maybe = {j->patch, 0, u, v, t, t_error};
   keep_maybe(j, &maybe);
+}
+
+/* Adds x to the sum of the terms e[0..count-1], exactly; returns their new number (Shewchuk, Adaptive precision
+ * floating-point arithmetic, 1997). */
+static int expansion_add(double e[], int count, double x)
+{
+  int kept = 0;
+  for (int k = 0; k < count; k++) {
+    const struct double_double s = dd_two_sum(e[k], x);
+    x = s.hi;
+    if (s.lo != 0) e[kept++] = s.lo;
+  }
+  if (x != 0) e[kept++] = x;
+  return kept;
+}
+
+/* Products smaller than this, but for 0, may have lost digits. */
+#define LEAST_PRODUCT 0x1p-900
+
+/* Whether the ray passes exactly through the point: all minors of (point - origin, direction) vanish. */
+static bool passes_exactly(const struct ray *ray, const double point[3])
+{
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3;
+    double sum[16];
+    int count = 0;
+    for (int s = 0; s < 2; s++) {
+      const int at = s ? j : i, by = s ? i : j;
+      const struct double_double way = dd_two_sum(point[at], -ray->origin[at]);
+      const double d = s ? -ray->direction[by] : ray->direction[by], parts[2] = {way.lo, way.hi};
+      for (int n = 0; n < 2; n++) {
+        const struct double_double p = dd_two_product(parts[n], d);
+        if (parts[n] != 0 && d != 0 && !(fabs(p.hi) >= LEAST_PRODUCT && fabs(p.hi) <= 1 / LEAST_PRODUCT)) return false;
+        count = expansion_add(sum, expansion_add(sum, count, p.lo), p.hi);
+      }
+    }
+    if (count != 0) return false;
+  }
+  return true;
+}
+
+/* A control point that is a point of the patch: whether it is hit, which is told. */
+static bool tell_point(struct judge *j, int row, int column, double u, double v)
+{
+  const struct ray *ray = j->asked->ray;
+  const double *point = j->asked->model->scene->patches[j->patch].P[row][column];
+  if (!passes_exactly(ray, point)) return false;
+  const int k = j->local.axis;
+  struct exact_root root = {.patch = j->patch, .sharp = true, .u = u, .v = v,
+                            .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
+  root.t_error = 4 * (double)(WIDE_ROUNDOFF * (root.t < 0 ? -root.t : root.t));
+  const enum place in_range = root_in_range(j, &root);
+  if (in_range == PLACE_INSIDE) keep_nearest(j, &root);
+  if (in_range == PLACE_UNKNOWN) j->doubt = true;
+  return true;
+}
+
+bool judge_pole(struct judge *j, int border)
+{
+  const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
+  const double u = border == 0 ? 0 : border == 1 ? 1 : 0.5, v = border == 2 ? 0 : border == 3 ? 1 : 0.5;
+  if (tell_point(j, row, column, u, v)) return true;
+  const struct model_patch *patch = &j->asked->model->patches[j->patch];
+  const double w = patch->x[j->local.axis][row][column];
+  const wide t = (w - judge_zoom(j)->place) * judge_zoom(j)->to_t;
+  const struct exact_maybe maybe = {j->patch, 1u << border, u, v, (double)t,
+                                    16 * UNIT_ROUNDOFF * fabs((double)t) + 0x1p-60 * fabs(j->local.to_t)};
+  keep_maybe(j, &maybe);
+  return false;
 }
 
 void judge_root(struct judge *j, struct exact_root *root)
@@ -145,7 +221,7 @@ void judge_root(struct judge *j, struct exact_root *root)
   if ((double)root->t - root->t_error > j->limit || in_patch == PLACE_OUTSIDE || in_range == PLACE_OUTSIDE) return;
   if (in_patch == PLACE_UNKNOWN || in_range == PLACE_UNKNOWN) {
     if (!root_sharpen(j, root)) {
-      tell_maybe(j, borders, (double)root->u, (double)root->v, root->t_error);
+      tell_maybe(j, borders, root);
       return;
     }
     in_patch = root_in_patch(root, &borders), in_range = root_in_range(j, root);
@@ -159,7 +235,7 @@ void judge_root(struct judge *j, struct exact_root *root)
   } else if (j->border_count < JUDGE_BORDERS_MAX) {
     j->border[j->border_count] = *root, j->border_of[j->border_count++] = borders;
   } else {
-    tell_maybe(j, borders, (double)root->u, (double)root->v, root->t_error);
+    tell_maybe(j, borders, root);
   }
 }
 
@@ -222,7 +298,10 @@ static void settle_borders(struct judge *j)
     }
     if (certain) continue;
     judge_turn(j, root->patch);
-    tell_maybe(j, j->border_of[a], (double)root->u, (double)root->v, root->t_error);
+    const double u = root->u < 0.5 ? 0 : 1, v = root->v < 0.5 ? 0 : 1;
+    const bool corner = j->border_of[a] & 3 && j->border_of[a] & 12;
+    if (corner && tell_point(j, u > 0 ? 3 : 0, v > 0 ? 3 : 0, u, v)) continue;
+    tell_maybe(j, j->border_of[a], root);
   }
 }
 
@@ -238,25 +317,59 @@ static int by_place(const void *a, const void *b)
   const struct ordered *x = a, *y = b;
   if (x->near != y->near) return x->near < y->near ? -1 : 1;
   if (x->region->patch != y->region->patch) return x->region->patch < y->region->patch ? -1 : 1;
-  if (x->region->column_u != y->region->column_u) return x->region->column_u < y->region->column_u ? -1 : 1;
-  return x->region->column_v < y->region->column_v ? -1 : x->region->column_v > y->region->column_v;
+  const uint16_t *a_column = x->region->column, *b_column = y->region->column;
+  if (a_column[0] != b_column[0]) return a_column[0] < b_column[0] ? -1 : 1;
+  return a_column[1] < b_column[1] ? -1 : a_column[1] > b_column[1];
+}
+
+/* Whether the border of the net is one point. */
+static bool border_is_point(double x[3][4][4], int border)
+{
+  const int first = border == 1 ? 12 : border == 3 ? 3 : 0, stride = border < 2 ? 1 : 4;
+  for (int c = 0; c < 3; c++)
+    for (int n = 1; n < 4; n++)
+      if ((&x[c][0][0])[first + n * stride] != (&x[c][0][0])[first]) return false;
+  return true;
+}
+
+/* Takes the region into the list, where it is not there: at a border that is one point all of the strip along it, for
+ * what a ray that passes it closely meets may be anywhere there. */
+static size_t region_add(const struct exact_case *asked, const struct exact_region *region, struct exact_region all[],
+                         size_t count)
+{
+  struct model_patch *patch = &asked->model->patches[region->patch];
+  struct exact_region r = *region;
+  for (int border = 0; border < 4; border++) {
+    const int side = border / 2, across = 1 - side, at = border & 1 ? patch->split - 1 : 0;
+    if (patch->split == 1 || region->column[side] != at || !border_is_point(patch->x, border)) continue;
+    r.column[across] = 0, r.span[across] = (uint16_t)patch->split, r.leaf = NULL;
+  }
+  for (size_t k = 0; k < count; k++)
+    if (memcmp(&all[k], &r, sizeof r) == 0) return count;
+  all[count] = r;
+  return count + 1;
 }
 
 static void judge_run(struct judge *j, const struct exact_case *asked)
 {
   struct ordered order[EXACT_REGIONS_MAX];
+  struct exact_region regions[EXACT_REGIONS_MAX];
+  size_t count = 0;
   *j = (struct judge){.asked = asked, .work = JUDGE_WORK, .patch = UINT32_MAX, .doubt = asked->cut_off};
   if (asked->known) j->nearest = *asked->known, j->found = true;
   set_limit(j);
   if (asked->maybe) keep_maybe(j, asked->maybe);
-  for (size_t k = 0; k < asked->region_count; k++) {
-    order[k] = (struct ordered){-INFINITY, &asked->regions[k]};
-    if (asked->region_count == 1) break;
-    judge_turn(j, asked->regions[k].patch);
-    order[k].near = search_near(j, &asked->regions[k]);
+  for (size_t k = 0; k < asked->region_count; k++) count = region_add(asked, &asked->regions[k], regions, count);
+  for (size_t k = 0; k < count; k++) {
+    order[k] = (struct ordered){-INFINITY, &regions[k]};
+    if (count == 1) break;
+    judge_turn(j, regions[k].patch);
+    order[k].near = search_near(j, &regions[k]);
   }
-  qsort(order, asked->region_count, sizeof *order, by_place);
-  for (size_t k = 0; k < asked->region_count && order[k].near <= j->limit; k++) {
+  qsort(order, count, sizeof *order, by_place);
+  for (size_t k = 0; k < count && order[k].near <= j->limit; k++) {
+    j->doubt |= j->work <= 0;
+    if (j->work <= 0) break;
     judge_turn(j, order[k].region->patch);
     search_region(j, order[k].region);
   }

@@ -39,8 +39,12 @@
 /* How often a box may halve in all: 2^-50 of the region either way, and some across. */
 enum { SEARCH_HALVINGS = 120 };
 
-/* What looking at a box under the glass costs, in boxes. */
-enum { ZOOM_WORK = 40 };
+/* What looking at a box under the glass costs, in boxes; how often that may be done, one in the other. */
+enum { ZOOM_WORK = 40, ZOOM_DEPTH = 12 };
+
+/* A box at a border that is one point is put under the glass again where it is so small a part, away from the border, of
+ * what was: see ZOOM_POLE_NEAREST. */
+#define ZOOM_AGAIN_POLE 0x1p-10
 
 enum verdict {
   VERDICT_EMPTY, /* no root in the box */
@@ -57,10 +61,14 @@ struct box {
   int halvings;
 };
 
+enum { NO_BORDER = -1, TWO_BORDERS = -2 };
+
 struct search {
   struct judge *judge;
-  bool zoomed;             /* the whole box is under the glass already */
+  int depth;               /* how often the whole box has been put under the glass */
+  int divided;             /* the border by the distance to which the first net is divided (zoom_pole_box), or NO_BORDER */
   wide low[2], size[2];    /* of the whole box, in parameters of the patch */
+  bool met;                /* the pole there may be met: nothing is said of what is next to it */
   double start[2], to_t;   /* t = ((w + start[1]) + start[0]) to_t */
   double error[2];         /* bounds on the errors of coefficients of the first two nets before any halving */
   double place_error;      /* of w */
@@ -191,17 +199,44 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
                             .v = s->low[1] + s->size[1] * (box->v + box->size_v * (wide)at[1]),
                             .t = t,
                             .t_error = to_t * (off + s->place_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + to_t * fabs(w.value))};
+  if (s->depth > 0) {
+    root.t = zoom_place(judge_zoom(s->judge), root.u, root.v);
+    root.t_error = to_t * (off + (double)judge_zoom(s->judge)->error);
+  }
   root.radius_u = radius[0] * box->size_u * (double)s->size[0] * (1 + 4 * UNIT_ROUNDOFF);
   root.radius_v = radius[1] * box->size_v * (double)s->size[1] * (1 + 4 * UNIT_ROUNDOFF);
   judge_root(s->judge, &root);
 }
 
-/* Tells of the middle of a box that cannot be decided. */
+/* How many steps take a point of a box onto the ray, where they can; how far off it may be then, in error bounds. */
+enum { ONTO_STEPS = 8, ONTO_ERRORS = 16 };
+
+/* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray, by Gauss and Newton's
+ * shortest steps, for the two polynomials may be nearly dependent. Where there is none all that is known is a doubt. */
 static void box_tell_maybe(struct search *s, struct box *box)
 {
-  const double t = place_to_t(s, patch_evaluate(box->net[2], 0.5, 0.5).value);
-  judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u / 2)),
-              (double)(s->low[1] + s->size[1] * (box->v + box->size_v / 2)), t, box->far - box->near);
+  double u = 0.5, v = 0.5, error[2];
+  bool on = false;
+  box_error(s, box, error);
+  for (int n = 0; n < ONTO_STEPS && !on; n++) {
+    const struct patch_jet a = patch_evaluate(box->net[0], u, v), b = patch_evaluate(box->net[1], u, v);
+    on = fabs(a.value) <= ONTO_ERRORS * error[0] && fabs(b.value) <= ONTO_ERRORS * error[1];
+    if (on) break;
+    double aa = a.du * a.du + a.dv * a.dv, bb = b.du * b.du + b.dv * b.dv;
+    const double ab = a.du * b.du + a.dv * b.dv, least = 0x1p-40 * real_max(aa, bb);
+    aa += least, bb += least;
+    const double determinant = aa * bb - ab * ab;
+    if (!(determinant > 0)) break;
+    const double p = (bb * a.value - ab * b.value) / determinant, q = (aa * b.value - ab * a.value) / determinant;
+    u = real_min(real_max(u - (p * a.du + q * b.du), 0), 1), v = real_min(real_max(v - (p * a.dv + q * b.dv), 0), 1);
+  }
+  if (!on) {
+    s->judge->doubt = true;
+    return;
+  }
+  const double t = place_to_t(s, patch_evaluate(box->net[2], u, v).value);
+  judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u * (wide)u)),
+              (double)(s->low[1] + s->size[1] * (box->v + box->size_v * (wide)v)), t, box->far - box->near);
 }
 
 static void cubic_halves(const double *c, int stride, double *low, double *high)
@@ -228,6 +263,27 @@ static void variation(const struct box *box, int first, int last, double *along_
   }
 }
 
+/* The border that is one point and that the box lies at. */
+static int box_pole(const struct search *s, const struct box *box)
+{
+  const bool at[4] = {box->u == 0, box->u + box->size_u == 1, box->v == 0, box->v + box->size_v == 1};
+  int pole = NO_BORDER;
+  for (int k = 0; k < 4; k++)
+    if (s->pole[k] && at[k]) pole = pole == NO_BORDER ? k : TWO_BORDERS;
+  return pole;
+}
+
+/* A box at a pole no wider than this along the border, of the patch, is made smaller towards the
+ * pole only: the place along the border is known no better than the direction in which the ray passes the pole. A
+ * choice of speed. */
+#define NARROW_AT_POLE 0x1p-5
+
+static bool narrow_at_pole(const struct search *s, const struct box *box)
+{
+  if (s->divided == NO_BORDER || box_pole(s, box) != s->divided) return false;
+  return (double)(s->divided < 2 ? s->size[1] * box->size_v : s->size[0] * box->size_u) <= NARROW_AT_POLE;
+}
+
 /* Halves across the parameter along which the box is longer as seen along the ray, for that is what hull tests and
  * Newton's process need: at a tangency boxes get long along the ray and narrow across it. Where it is seen as a
  * point, across the one along which it is longer on the ray. */
@@ -238,7 +294,8 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
   box_error(s, box, error);
   if (real_max(along_u, along_v) <= FLAT_ERRORS * real_max(error[0], error[1]))
     variation(box, 2, 2, &along_u, &along_v);
-  const bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
+  bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
+  if (narrow_at_pole(s, box)) across_u = s->divided < 2;
   for (int h = 0; h < 2; h++) {
     out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
     if (across_u) out[h].size_u /= 2, out[h].u += h * out[h].size_u;
@@ -252,33 +309,72 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
   for (int h = 0; h < 2; h++) box_place(s, &out[h]);
 }
 
-/* Whether the box lies at a border that is one point. */
-static bool box_has_pole(const struct search *s, const struct box *box)
+static void search_run(struct search *s, const struct box *whole);
+
+/* The search of the box alone. */
+static struct search closer_search(const struct search *s, const struct box *box)
 {
-  return (s->pole[0] && box->u == 0) || (s->pole[1] && box->u + box->size_u == 1) || (s->pole[2] && box->v == 0) ||
-         (s->pole[3] && box->v + box->size_v == 1);
+  struct search closer = {.judge = s->judge, .depth = s->depth + 1, .divided = NO_BORDER, .to_t = s->to_t,
+                          .resolution = s->resolution};
+  closer.size[0] = s->size[0] * box->size_u, closer.size[1] = s->size[1] * box->size_v;
+  closer.low[0] = s->low[0] + s->size[0] * box->u, closer.low[1] = s->low[1] + s->size[1] * box->v;
+  closer.extent[0] = s->extent[0] * box->size_u, closer.extent[1] = s->extent[1] * box->size_v;
+  closer.pole[0] = s->pole[0] && box->u == 0, closer.pole[1] = s->pole[1] && box->u + box->size_u == 1;
+  closer.pole[2] = s->pole[2] && box->v == 0, closer.pole[3] = s->pole[3] && box->v + box->size_v == 1;
+  return closer;
 }
 
-static void search_run(struct search *s, const struct box *whole);
+static void closer_run(struct search *closer, const struct zoomed *zoomed)
+{
+  double size = 0;
+  for (int n = 0; n < 16; n++) size = real_max(size, fabs(zoomed->net[2][n / 4][n % 4]));
+  for (int k = 0; k < 2; k++) closer->start[k] = zoomed->start[k], closer->error[k] = zoomed->error[k];
+  closer->place_error = 32 * UNIT_ROUNDOFF * size + (double)judge_zoom(closer->judge)->error;
+  struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
+  memcpy(whole.net, zoomed->net, sizeof whole.net);
+  search_run(closer, &whole);
+}
 
 /* Searches the box by itself under the glass. Returns whether that could be done. */
 static bool box_zoom(struct search *s, const struct box *box)
 {
-  struct search closer = {.judge = s->judge, .zoomed = true, .to_t = s->to_t, .resolution = s->resolution};
-  closer.size[0] = s->size[0] * box->size_u, closer.size[1] = s->size[1] * box->size_v;
-  closer.low[0] = s->low[0] + s->size[0] * box->u, closer.low[1] = s->low[1] + s->size[1] * box->v;
-  closer.extent[0] = s->extent[0] * box->size_u, closer.extent[1] = s->extent[1] * box->size_v;
+  struct search closer = closer_search(s, box);
   struct zoomed zoomed;
   s->judge->work -= ZOOM_WORK;
   if (!zoom_box(judge_zoom(s->judge), closer.low, closer.size, &zoomed)) return false;
-  double size = 0;
-  for (int n = 0; n < 16; n++) size = real_max(size, fabs(zoomed.net[2][n / 4][n % 4]));
-  for (int k = 0; k < 2; k++) closer.start[k] = zoomed.start[k], closer.error[k] = zoomed.error[k];
-  closer.place_error = 32 * UNIT_ROUNDOFF * size + (double)judge_zoom(s->judge)->error;
-  struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
-  memcpy(whole.net, zoomed.net, sizeof whole.net);
-  search_run(&closer, &whole);
+  closer_run(&closer, &zoomed);
   return true;
+}
+
+/* The same at a border that is one point. */
+static bool box_zoom_pole(struct search *s, const struct box *box, int border)
+{
+  struct search closer = closer_search(s, box);
+  struct zoomed zoomed;
+  enum zoom_pole pole;
+  s->judge->work -= ZOOM_WORK;
+  const bool done = zoom_pole_box(judge_zoom(s->judge), closer.low, closer.size, border, &zoomed, &pole);
+  closer.met = pole == POLE_MET && !judge_pole(s->judge, border);
+  if (!done) return false;
+  closer.divided = border;
+  for (int k = 0; k < 2 && closer.met; k++) zoomed.error[k] += zoomed.met[k];
+  closer_run(&closer, &zoomed);
+  return true;
+}
+
+/* Whether the box is to be put under the glass for the pole it lies at: at once, and whenever it has become small. */
+static bool box_asks_pole(const struct search *s, const struct box *box, int border)
+{
+  if (border < 0 || s->met || s->depth >= ZOOM_DEPTH) return false;
+  return s->divided != border || (border < 2 ? box->size_u : box->size_v) <= ZOOM_AGAIN_POLE;
+}
+
+/* Whether the root, in the box's parameters, is far enough from the border that the first net is divided by. */
+static bool far_from_pole(const struct search *s, const struct box *box, const double root[2])
+{
+  const double u = (double)box->u + box->size_u * root[0], v = (double)box->v + box->size_v * root[1];
+  const double distance[4] = {u, 1 - u, v, 1 - v};
+  return s->divided < 0 || distance[s->divided] >= ZOOM_POLE_NEAREST;
 }
 
 /* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as
@@ -293,18 +389,20 @@ static bool box_small(const struct search *s, const struct box *box, enum verdic
 static bool box_decide(struct search *s, struct box *box)
 {
   if (box->near > s->judge->limit || box->far < s->judge->asked->ray->t_min) return true;
+  const int border = box_pole(s, box);
+  if (s->met && border == s->divided && (border < 2 ? box->size_u : box->size_v) <= ZOOM_POLE_MET) return true;
+  if (box_asks_pole(s, box, border) && box_zoom_pole(s, box, border)) return true;
   double error[2];
   box_error(s, box, error);
   const enum verdict verdict = box_test(box, error);
   if (verdict == VERDICT_EMPTY) return true;
   double root[2], radius[2];
-  if (verdict == VERDICT_OPEN && box_solve(box, error, root, radius)) {
+  if (verdict == VERDICT_OPEN && box_solve(box, error, root, radius) && far_from_pole(s, box, root)) {
     box_tell_root(s, box, root, radius);
     return true;
   }
   const bool small = verdict != VERDICT_OPEN && box_small(s, box, verdict);
-  /* At a pole the edge is as degenerate under the glass: only where nothing else is left. */
-  if (verdict != VERDICT_OPEN && !s->zoomed && (small || !box_has_pole(s, box)) && box_zoom(s, box)) return true;
+  if (verdict != VERDICT_OPEN && s->depth == 0 && border == NO_BORDER && box_zoom(s, box)) return true;
   if (!small && box->halvings < SEARCH_HALVINGS) return false;
   box_tell_maybe(s, box);
   return true;
@@ -322,7 +420,9 @@ static void search_run(struct search *s, const struct box *whole)
     const bool decided = box_decide(s, &box);
     if (decided) continue;
     if (s->judge->work <= 0) {
+      /* The nearest box may tell of a point; all others are a doubt. */
       box_tell_maybe(s, &box);
+      s->judge->doubt = true;
       return;
     }
     struct box half[2];
@@ -338,17 +438,17 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
 {
   struct model_patch *patch = &j->asked->model->patches[region->patch];
   const struct local_ray *ray = &j->local;
-  const int column[2] = {region->column_u, region->column_v};
   double x[3][16];
   if (region->leaf) memcpy(x, region->leaf->x, sizeof x);
-  else leaf_net(patch, region->column_u, region->column_v, x);
+  else leaf_net(patch, region->column, region->span, x);
   *s = (struct search){.judge = j,
                        .start = {ray->start[0], ray->start[1]},
                        .to_t = ray->to_t,
                        .error = {ray->error, ray->error},
                        .place_error = ray->error,
+                       .divided = NO_BORDER,
                        .pole = {true, true, true, true}};
-  for (int k = 0; k < 2; k++) s->low[k] = (wide)column[k] / patch->split, s->size[k] = (wide)1 / patch->split;
+  for (int k = 0; k < 2; k++) s->low[k] = (wide)region->column[k] / patch->split, s->size[k] = (wide)region->span[k] / patch->split;
   for (int c = 0; c < 3; c++) {
     for (int n = 0; n < 4; n++) {
       s->pole[0] &= x[c][n] == x[c][0], s->pole[1] &= x[c][12 + n] == x[c][12];

@@ -2,6 +2,7 @@
 #include "intersect/exact/zoom.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "intersect/certificate.h"
 
@@ -83,15 +84,29 @@ static wide combine(wide a[4][4], wide b[4][4], double p, double q, wide out[4][
   return sum;
 }
 
+/* The ray's polynomials over the box, as powers of its own parameters in [-1,1]. */
+static void box_powers(const struct zoom *zoom, const wide low[2], const wide size[2], wide c[3][4][4])
+{
+  memcpy(c, zoom->power, sizeof zoom->power);
+  for (int s = 0; s < 3; s++) {
+    for (int n = 0; n < 4; n++) move(&c[s][0][n], 4, 2 * low[0] + size[0] - 1, size[0]);
+    for (int n = 0; n < 4; n++) move(c[s][n], 1, 2 * low[1] + size[1] - 1, size[1]);
+  }
+}
+
+/* The net of x_k, less the middle's. */
+static void set_place(const struct zoom *zoom, wide power[4][4], struct zoomed *out)
+{
+  const wide start = power[0][0] - zoom->place;
+  power[0][0] = 0;
+  net_of(power, 1, out->net[2]);
+  out->start[0] = (double)start, out->start[1] = (double)(start - out->start[0]);
+}
+
 bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out)
 {
-  wide middle[2], half[2], c[3][4][4];
-  for (int s = 0; s < 2; s++) half[s] = size[s], middle[s] = 2 * low[s] + size[s] - 1;
-  for (int s = 0; s < 3; s++) {
-    for (int n = 0; n < 16; n++) c[s][n / 4][n % 4] = zoom->power[s][n / 4][n % 4];
-    for (int n = 0; n < 4; n++) move(&c[s][0][n], 4, middle[0], half[0]);
-    for (int n = 0; n < 4; n++) move(c[s][n], 1, middle[1], half[1]);
-  }
+  wide c[3][4][4];
+  box_powers(zoom, low, size, c);
   /* The combination whose first derivatives vanish, as nearly as they can, in the middle: the row of the adjugate
    * Jacobian that is the larger; and the one across it. Rounded rows are as good: both combinations are formed with
    * what they are. */
@@ -109,10 +124,78 @@ bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], st
     net_of(combination, 1 / sum, out->net[s]);
     out->error[s] = (double)(error / sum) + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
   }
-  const wide place = c[2][0][0], start = place - zoom->place;
-  c[2][0][0] = 0;
-  net_of(c[2], 1, out->net[2]);
-  out->start[0] = (double)start, out->start[1] = (double)(start - out->start[0]);
+  set_place(zoom, c[2], out);
+  return true;
+}
+
+/* Powers of r in [-1,1] to Bernstein coefficients there, all of a net. */
+static void wide_net(wide c[4][4])
+{
+  for (int n = 0; n < 8; n++) {
+    wide *b = n < 4 ? c[n] : &c[0][n - 4];
+    const int stride = n < 4 ? 1 : 4;
+    const wide c0 = b[0], c1 = b[stride], c2 = b[2 * stride], c3 = b[3 * stride];
+    b[0] = (c0 + c2) - (c1 + c3), b[3 * stride] = (c0 + c2) + (c1 + c3);
+    b[stride] = (c0 - c2 / 3) - (c1 / 3 - c3), b[2 * stride] = (c0 - c2 / 3) + (c1 / 3 - c3);
+  }
+}
+
+/* The net, which is 0 along the border, divided by the distance to it, as a net of its own degree again: with b_k for
+ * the coefficients away from the border, those of the quotient are 3 b_k/k, k = 1..3. */
+static void divide_by_distance(wide net[4][4], int border)
+{
+  for (int n = 0; n < 4; n++) {
+    wide *b = border < 2 ? &net[0][n] : net[n], q[3];
+    const int stride = border < 2 ? 4 : 1;
+    for (int k = 1; k < 4; k++) q[k - 1] = 3 * b[(border & 1 ? 3 - k : k) * stride] / k;
+    for (int k = 0; k < 4; k++)
+      b[(border & 1 ? 3 - k : k) * stride] = ((k > 0 ? k * q[k - 1] : 0) + (k < 3 ? (3 - k) * q[k] : 0)) / 3;
+  }
+}
+
+/* A pole is passed where the ray's distance from it is this many times what rounding leaves unknown of it: then the
+ * quotient below is right to 2^-22 of its size, and its slope to 2^-8, at roots no nearer to the border than
+ * ZOOM_POLE_NEAREST. */
+#define POLE_PRECISION 0x1p24
+
+/* Scales the net to a largest coefficient of 1; false where its error is larger. */
+static bool scaled_net(wide net[4][4], wide error, wide met, int k, struct zoomed *out)
+{
+  wide size = 0;
+  for (int n = 0; n < 16; n++) size = wide_max(size, wide_abs(net[n / 4][n % 4]));
+  if (!(size > error)) return false;
+  for (int n = 0; n < 16; n++) out->net[k][n / 4][n % 4] = (double)(net[n / 4][n % 4] / size);
+  out->error[k] = (double)(error / size) + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
+  out->met[k] = (double)(met / size) / ZOOM_POLE_MET;
+  return true;
+}
+
+bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2], int border, struct zoomed *out,
+                   enum zoom_pole *out_pole)
+{
+  wide c[3][4][4], net[2][4][4];
+  box_powers(zoom, low, size, c);
+  wide_net(c[0]), wide_net(c[1]);
+  const int at = border == 1 ? 12 : border == 3 ? 3 : 0;
+  const wide a0 = c[0][at / 4][at % 4], b0 = c[1][at / 4][at % 4], distance = wide_max(wide_abs(a0), wide_abs(b0));
+  const wide error = 4 * zoom->error;
+  *out_pole = distance > POLE_PRECISION * error ? POLE_PASSED : POLE_MET;
+  const wide p = *out_pole == POLE_PASSED ? a0 / distance : 1, q = *out_pole == POLE_PASSED ? b0 / distance : 0;
+  for (int n = 0; n < 16; n++) {
+    const wide a = c[0][n / 4][n % 4], b = c[1][n / 4][n % 4];
+    net[0][n / 4][n % 4] = q * a - p * b, net[1][n / 4][n % 4] = p * a + q * b;
+  }
+  divide_by_distance(net[0], border);
+  if (*out_pole == POLE_MET) divide_by_distance(net[1], border);
+  /* The quotient's coefficients are off by three times as much; and by what the combination is not 0 along the border,
+   * over the least distance at which a root can be, where the other combination is not 0 yet: that is by the same part
+   * of its size. */
+  wide slope = 0;
+  for (int n = 0; n < 16; n++) slope = wide_max(slope, wide_abs(net[1][n / 4][n % 4] - (p * a0 + q * b0)));
+  const wide away = *out_pole == POLE_PASSED ? error * 4 * slope / distance : 0;
+  if (!scaled_net(net[0], 6 * error + away, distance, 0, out) || !scaled_net(net[1], 6 * error, distance, 1, out))
+    return false;
+  set_place(zoom, c[2], out);
   return true;
 }
 
@@ -125,6 +208,13 @@ static void evaluate(wide c[4][4], wide x, wide y, wide *value, wide *dx, wide *
     for (int j = 3; j >= 0; j--) row_dy = row_dy * y + row, row = row * y + c[i][j];
     *dx = *dx * x + *value, *value = *value * x + row, *dy = *dy * x + row_dy;
   }
+}
+
+wide zoom_place(struct zoom *zoom, wide u, wide v)
+{
+  wide place, unused[2];
+  evaluate(zoom->power[2], 2 * u - 1, 2 * v - 1, &place, &unused[0], &unused[1]);
+  return (place - zoom->place) * zoom->to_t;
 }
 
 /* Bounds on the second derivatives of the polynomial with these powers, as `s` of struct bend, where x and y reach

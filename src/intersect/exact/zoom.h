@@ -24,6 +24,7 @@ struct zoom {
 struct zoomed {
   double net[3][4][4]; /* two combinations of a and b with the same common roots, at most 1 in size; x_k less the middle's */
   double error[2];     /* bounds on the errors of coefficients of the first two */
+  double met[2];       /* of zoom_pole_box: what they are off by besides where the pole is met, but not exactly, ... */
   double start[2];     /* t = ((w + start[1]) + start[0]) scale/d_k for w of net[2] */
 };
 
@@ -33,6 +34,24 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
 /* The box of the patch with its low corner at low[0], low[1]. False where a combination is zero as far as wide
  * arithmetic can tell: then *out means nothing. */
 bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out);
+
+/* Where a ray passes a border of the patch that is one point. */
+enum zoom_pole {
+  POLE_PASSED, /* by */
+  POLE_MET     /* as far as wide arithmetic can tell */
+};
+
+#define ZOOM_POLE_MET 0x1p-20 /* ... no nearer to the border than this, of the box */
+
+/* The same for a box at a border that is one point (geometry/edges.h), where both polynomials are constant: in place of
+ * the combination that is zero there, that one divided by the distance d to the border, so that away from it the roots
+ * are the same, and simple ones however near the ray passes. Where the pole is met both are divided. */
+#define ZOOM_POLE_NEAREST 0x1p-14 /* of the box: a nearer root asks for a smaller box */
+bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2], int border, struct zoomed *out,
+                   enum zoom_pole *out_pole);
+
+/* t of the point (u,v). */
+wide zoom_place(struct zoom *zoom, wide u, wide v);
 
 /* Makes a proven root of this ray and patch as good as wide arithmetic can. False, and *root as it was, where the
  * certificate does not hold there or what is found is not the same root. */
