@@ -164,6 +164,10 @@ static int expansion_add(double e[], int count, double x)
 /* Whether the ray passes exactly through the point: all minors of (point - origin, direction) vanish. */
 static bool passes_exactly(const struct ray *ray, const double point[3])
 {
+  double largest = 0;
+  int exponent;
+  for (int k = 0; k < 3; k++) largest = real_max(largest, fabs(point[k] - ray->origin[k]));
+  frexp(largest, &exponent);
   for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3;
     double sum[16];
@@ -171,7 +175,8 @@ static bool passes_exactly(const struct ray *ray, const double point[3])
     for (int s = 0; s < 2; s++) {
       const int at = s ? j : i, by = s ? i : j;
       const struct double_double way = dd_two_sum(point[at], -ray->origin[at]);
-      const double d = s ? -ray->direction[by] : ray->direction[by], parts[2] = {way.lo, way.hi};
+      const double d = s ? -ray->direction[by] : ray->direction[by], parts[2] = {ldexp(way.lo, -exponent), ldexp(way.hi, -exponent)};
+      if (ldexp(parts[0], exponent) != way.lo || ldexp(parts[1], exponent) != way.hi) return false;
       for (int n = 0; n < 2; n++) {
         const struct double_double p = dd_two_product(parts[n], d);
         if (parts[n] != 0 && d != 0 && !(fabs(p.hi) >= LEAST_PRODUCT && fabs(p.hi) <= 1 / LEAST_PRODUCT)) return false;

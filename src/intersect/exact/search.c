@@ -40,7 +40,14 @@
 enum { SEARCH_HALVINGS = 120 };
 
 /* What looking at a box under the glass costs, in boxes; how often that may be done, one in the other. */
-enum { ZOOM_WORK = 40, ZOOM_DEPTH = 12 };
+enum { ZOOM_WORK = 40, ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
+
+/* A box is put under the glass again where it is so small a part of what was. */
+#define ZOOM_AGAIN 0x1p-16
+
+/* A box at a border that is one point is put under the glass where it reaches no farther from it, of the patch. A choice
+ * of speed. */
+#define ZOOM_POLE 0x1p-3
 
 /* A box at a border that is one point is put under the glass again where it is so small a part, away from the border, of
  * what was: see ZOOM_POLE_NEAREST. */
@@ -68,6 +75,7 @@ struct search {
   int depth;               /* how often the whole box has been put under the glass */
   int divided;             /* the border by the distance to which the first net is divided (zoom_pole_box), or NO_BORDER */
   wide low[2], size[2];    /* of the whole box, in parameters of the patch */
+  bool dependent;          /* some combination is zero, which it then is everywhere: there is nothing to see of it */
   bool met;                /* the pole there may be met: nothing is said of what is next to it */
   double start[2], to_t;   /* t = ((w + start[1]) + start[0]) to_t */
   double error[2];         /* bounds on the errors of coefficients of the first two nets before any halving */
@@ -212,8 +220,9 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
 enum { ONTO_STEPS = 8, ONTO_ERRORS = 16 };
 
 /* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray, by Gauss and Newton's
- * shortest steps, for the two polynomials may be nearly dependent. Where there is none all that is known is a doubt. */
-static void box_tell_maybe(struct search *s, struct box *box)
+ * shortest steps, for the two polynomials may be nearly dependent. Where a box that is not small has none all that is
+ * known is a doubt. */
+static void box_tell_maybe(struct search *s, struct box *box, bool small)
 {
   double u = 0.5, v = 0.5, error[2];
   bool on = false;
@@ -230,7 +239,7 @@ static void box_tell_maybe(struct search *s, struct box *box)
     const double p = (bb * a.value - ab * b.value) / determinant, q = (aa * b.value - ab * a.value) / determinant;
     u = real_min(real_max(u - (p * a.du + q * b.du), 0), 1), v = real_min(real_max(v - (p * a.dv + q * b.dv), 0), 1);
   }
-  if (!on) {
+  if (!on && !small) {
     s->judge->doubt = true;
     return;
   }
@@ -286,7 +295,7 @@ static bool narrow_at_pole(const struct search *s, const struct box *box)
 
 /* Halves across the parameter along which the box is longer as seen along the ray, for that is what hull tests and
  * Newton's process need: at a tangency boxes get long along the ray and narrow across it. Where it is seen as a
- * point, across the one along which it is longer on the ray. */
+ * point, across the one along which it is longer on the ray; and where the polynomials are dependent, in space. */
 static void box_halve(const struct search *s, struct box *box, struct box out[2])
 {
   double along_u, along_v, error[2];
@@ -296,6 +305,7 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
     variation(box, 2, 2, &along_u, &along_v);
   bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
   if (narrow_at_pole(s, box)) across_u = s->divided < 2;
+  if (s->dependent) across_u = s->extent[0] * box->size_u >= s->extent[1] * box->size_v;
   for (int h = 0; h < 2; h++) {
     out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
     if (across_u) out[h].size_u /= 2, out[h].u += h * out[h].size_u;
@@ -341,7 +351,10 @@ static bool box_zoom(struct search *s, const struct box *box)
   struct search closer = closer_search(s, box);
   struct zoomed zoomed;
   s->judge->work -= ZOOM_WORK;
-  if (!zoom_box(judge_zoom(s->judge), closer.low, closer.size, &zoomed)) return false;
+  if (!zoom_box(judge_zoom(s->judge), closer.low, closer.size, &zoomed)) {
+    s->dependent = true;
+    return false;
+  }
   closer_run(&closer, &zoomed);
   return true;
 }
@@ -362,11 +375,23 @@ static bool box_zoom_pole(struct search *s, const struct box *box, int border)
   return true;
 }
 
-/* Whether the box is to be put under the glass for the pole it lies at: at once, and whenever it has become small. */
+/* Whether a box that double precision cannot decide is to be put under the glass: once, and again where it is a small
+ * part of what was, for the roots next to a tangency are as far apart as the square root of what separates it from one. */
+static bool box_asks_zoom(const struct search *s, const struct box *box)
+{
+  if (s->dependent) return false;
+  if (s->divided != NO_BORDER) return s->depth == 1;
+  return s->depth == 0 || (s->depth < TANGENT_DEPTH && box->size_u * box->size_v <= ZOOM_AGAIN);
+}
+
+/* Whether the box is to be put under the glass for the pole it lies at: as soon as it is not most of the patch, and
+ * whenever it has become small. */
 static bool box_asks_pole(const struct search *s, const struct box *box, int border)
 {
   if (border < 0 || s->met || s->depth >= ZOOM_DEPTH) return false;
-  return s->divided != border || (border < 2 ? box->size_u : box->size_v) <= ZOOM_AGAIN_POLE;
+  const double size = border < 2 ? box->size_u : box->size_v;
+  if (s->divided != border) return size * (double)s->size[border / 2] <= ZOOM_POLE;
+  return size <= ZOOM_AGAIN_POLE;
 }
 
 /* Whether the root, in the box's parameters, is far enough from the border that the first net is divided by. */
@@ -402,9 +427,9 @@ static bool box_decide(struct search *s, struct box *box)
     return true;
   }
   const bool small = verdict != VERDICT_OPEN && box_small(s, box, verdict);
-  if (verdict != VERDICT_OPEN && s->depth == 0 && border == NO_BORDER && box_zoom(s, box)) return true;
+  if (verdict != VERDICT_OPEN && box_asks_zoom(s, box) && border == NO_BORDER && box_zoom(s, box)) return true;
   if (!small && box->halvings < SEARCH_HALVINGS) return false;
-  box_tell_maybe(s, box);
+  box_tell_maybe(s, box, small);
   return true;
 }
 
@@ -421,7 +446,7 @@ static void search_run(struct search *s, const struct box *whole)
     if (decided) continue;
     if (s->judge->work <= 0) {
       /* The nearest box may tell of a point; all others are a doubt. */
-      box_tell_maybe(s, &box);
+      box_tell_maybe(s, &box, false);
       s->judge->doubt = true;
       return;
     }

@@ -272,11 +272,15 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
     size = fmax(size, fabs(m[k][0]) + fabs(m[k][1]));
     bend = fmax(bend, fabs(m[k][0]) * second[0] + fabs(m[k][1]) * second[1]);
   }
-  if (!certificate_holds(bend, step, size * error)) return false;
+  const wide u = (1 + x) / 2, v = (1 + y) / 2;
+  if (!certificate_holds(bend, step, size * error)) {
+    if (wide_abs(u - root->u) <= root->radius_u && wide_abs(v - root->v) <= root->radius_v)
+      root->u = u, root->v = v, root->t = zoom_place(zoom, u, v);
+    return false;
+  }
   for (int k = 0; k < 2; k++)
     radius[k] = certificate_radius(fabs(m[k][0]) * second[0] + fabs(m[k][1]) * second[1], step,
                                    (fabs(m[k][0]) + fabs(m[k][1])) * error) / 2;
-  const wide u = (1 + x) / 2, v = (1 + y) / 2;
   /* Both enclosures hold one root each: it is the same where one holds the other. */
   if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
         (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))

@@ -53,8 +53,8 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
 /* t of the point (u,v). */
 wide zoom_place(struct zoom *zoom, wide u, wide v);
 
-/* Makes a proven root of this ray and patch as good as wide arithmetic can. False, and *root as it was, where the
- * certificate does not hold there or what is found is not the same root. */
+/* Makes a proven root of this ray and patch as good as wide arithmetic can. False where the certificate does not hold
+ * there or what is found is not the same root: then its place may be better for it, and its bounds are what they were. */
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root);
 
 #endif
