@@ -80,7 +80,7 @@ void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
     if (count == EXACT_REGIONS_MAX) to->cut_off |= 1u << lane;
-    else if (count == 0 || memcmp(&to->region[lane][count - 1], &region, sizeof region) != 0)
+    else if (count == 0 || !exact_region_equal(&to->region[lane][count - 1], &region))
       to->region[lane][to->count[lane]++] = region;
   }
   p->tracer->counts.escalated += (unsigned)__builtin_popcount(lanes_bits(open));

@@ -35,6 +35,12 @@ struct exact_root {
   double t_error;                 /* absolute */
 };
 
+static inline bool exact_region_equal(const struct exact_region *a, const struct exact_region *b)
+{
+  return a->patch == b->patch && a->column[0] == b->column[0] && a->column[1] == b->column[1] &&
+         a->span[0] == b->span[0] && a->span[1] == b->span[1];
+}
+
 /* A place that may be a hit or none: a point of a patch, and how far along the ray it may be off. */
 struct exact_maybe {
   uint32_t patch;

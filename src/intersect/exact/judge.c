@@ -9,7 +9,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/double_double.h"
 #include "base/real.h"
@@ -350,7 +349,7 @@ static size_t region_add(const struct exact_case *asked, const struct exact_regi
     r.column[across] = 0, r.span[across] = (uint16_t)patch->split, r.leaf = NULL;
   }
   for (size_t k = 0; k < count; k++)
-    if (memcmp(&all[k], &r, sizeof r) == 0) return count;
+    if (exact_region_equal(&all[k], &r)) return count;
   all[count] = r;
   return count + 1;
 }
