@@ -189,8 +189,8 @@ static void bundle_walk(struct bundle *b)
 
 /* Directions whose longest component is outside these are scaled by a power of two, so that no product over- or
  * underflows. */
-#define DIRECTION_MIN 0x1p-200
-#define DIRECTION_MAX 0x1p200
+#define DIRECTION_MIN 0x1p-16
+#define DIRECTION_MAX 0x1p16
 
 static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
 {
