@@ -3,12 +3,10 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "chart/measure.h"
 #include "check/povray.h"
 #include "command/command.h"
-#include "command/interrupt.h"
 #include "command/output.h"
 #include "command/scene_file.h"
 #include "command/values.h"
@@ -44,8 +42,8 @@ static const struct command_option OPTIONS[] = {
 struct line {
   struct chart_request request;
   struct scene_request scene;
-  char *default_folder; /* owned */
-  bool quiet;
+  struct output_folder folder;
+  struct command_ear ear;
 };
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
@@ -54,7 +52,7 @@ static enum status take_option(const struct command *command, void *context, int
   struct chart_request *request = &line->request;
   switch (val) {
   case OPTION_OUTPUT:
-    request->folder = argument;
+    line->folder.path = argument;
     break;
   case OPTION_SIZE:
     return scene_request_take(command, &line->scene, val, argument);
@@ -81,42 +79,24 @@ static enum status take_option(const struct command *command, void *context, int
       return (enum status)command_usage(command, "'%s' is no number of seconds", argument);
     break;
   default:
-    line->quiet = true;
+    line->ear.quiet = true;
     break;
   }
   return STATUS_OK;
 }
 
-static enum status chart(const struct command *command, struct line *line)
+static enum status work(void *context, const char *folder, struct page *out_text)
 {
+  struct line *line = context;
   struct chart_request *request = &line->request;
-  struct command_ear ear = { command, line->quiet };
-  const struct listener listener = command_listener(&ear);
+  const struct listener listener = command_listener(&line->ear);
   struct scene *scene = NULL;
-  struct page text = { 0 };
-  bool made = false;
-  if (request->folder == NULL)
-    request->folder = line->default_folder = output_folder_name(request->path, "-chart");
-  if (request->folder == NULL || request->command_line == NULL) {
-    command_error(command, "out of memory");
-    return STATUS_LIMIT;
-  }
-  line->scene.path = request->path;
-  enum status status = scene_file_load(command, &line->scene, &scene);
-  interrupt_defer();
-  if (status == STATUS_OK)
-    status = output_folder_make(command, request->folder, &made);
+  request->folder = folder;
   request->width = line->scene.width;
   request->height = line->scene.height;
+  enum status status = scene_file_load(line->ear.command, &line->scene, &scene);
   if (status == STATUS_OK)
-    status = chart_scene(request, scene, &listener, &text);
-  if (status != STATUS_OK && made)
-    (void)rmdir(request->folder);
-  if (status == STATUS_OK && !line->quiet) {
-    printf("%s\n%s/chart.html shows it\n", text.text, request->folder);
-    status = command_finish_output(command);
-  }
-  page_free(&text);
+    status = chart_scene(request, scene, &listener, out_text);
   scene_destroy(scene);
   return status;
 }
@@ -124,18 +104,20 @@ static enum status chart(const struct command *command, struct line *line)
 static int run(const struct command *command, int argc, const char **argv)
 {
   struct line line = { .request = { .program = "povray", .timeout = POVRAY_TIMEOUT, .peers = true },
-                       .scene = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN } };
+                       .scene = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN },
+                       .folder = { .suffix = "-chart", .page = "chart.html" },
+                       .ear = { .command = command } };
   struct command_line arguments;
   char *command_line = command_line_text(argc, argv);
   enum status status = command_line_read(command, argc, argv, 1, take_option, &line, &arguments);
   if (status == STATUS_OK && !arguments.help) {
-    line.request.path = arguments.positional[0];
-    line.request.command_line = command_line;
-    status = chart(command, &line);
+    line.request.path = line.scene.path = line.folder.scene = arguments.positional[0];
+    line.request.command_line = command_line == NULL ? "" : command_line;
+    line.folder.quiet = line.ear.quiet;
+    status = output_folder_fill(command, &line.folder, work, &line);
   }
   free(command_line);
-  free(line.default_folder);
-  return status == STATUS_INTERRUPTED || atomic_load(&interrupt_signal) != 0 ? interrupt_exit_code() : (int)status;
+  return (int)status;
 }
 
 const struct command command_chart = {

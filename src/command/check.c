@@ -4,11 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "check/povray.h"
 #include "command/command.h"
-#include "command/interrupt.h"
 #include "command/output.h"
 #include "command/scene_file.h"
 #include "command/values.h"
@@ -58,9 +56,9 @@ static const struct command_option OPTIONS[] = {
 struct line {
   struct check_request request;
   struct scene_request scene;
+  struct output_folder folder;
+  struct command_ear ear;
   const char **options; /* owned, not the texts */
-  char *default_folder; /* owned */
-  bool quiet;
 };
 
 static enum status take_povray_option(const struct command *command, struct line *line, const char *text)
@@ -94,7 +92,7 @@ static enum status take_option(const struct command *command, void *context, int
   struct check_request *request = &line->request;
   switch (val) {
   case OPTION_OUTPUT:
-    request->folder = argument;
+    line->folder.path = argument;
     break;
   case OPTION_SIZE:
     if (!value_size(argument, MAX_SIDE, &request->width, &request->height) ||
@@ -124,7 +122,7 @@ static enum status take_option(const struct command *command, void *context, int
       return (enum status)command_usage(command, "'%s' is no number of seconds", argument);
     break;
   case OPTION_QUIET:
-    line->quiet = true;
+    line->ear.quiet = true;
     break;
   default:
     return take_limit(command, request, val, argument);
@@ -135,57 +133,35 @@ static enum status take_option(const struct command *command, void *context, int
 /* ---- the work ---- */
 
 /* What can be known to be wrong before the work. */
-static enum status prepare(const struct command *command, struct line *line)
+static enum status prepare(const struct command *command, const struct check_request *request)
 {
-  struct check_request *request = &line->request;
   struct stat info;
   char message[IMAGE_MESSAGE_SIZE];
   if (request->own_text && stat(request->path, &info) == 0 && !S_ISREG(info.st_mode)) {
     command_error(command, "--own-text reads the scene twice, and '%s' is no regular file", request->path);
     return STATUS_FILE;
   }
-  if (image_file_ready(message) != STATUS_OK) {
+  const enum status status = image_file_ready(message);
+  if (status != STATUS_OK)
     command_error(command, "cannot write pictures: %s", message);
-    return STATUS_FILE;
-  }
-  if (request->folder == NULL)
-    request->folder = line->default_folder = output_folder_name(request->path, "-check");
-  if (request->folder == NULL || request->command_line == NULL) {
-    command_error(command, "out of memory");
-    return STATUS_LIMIT;
-  }
-  return STATUS_OK;
+  return status;
 }
 
-static enum status check(const struct command *command, struct line *line)
+static enum status work(void *context, const char *folder, struct page *out_text)
 {
+  struct line *line = context;
   struct check_request *request = &line->request;
-  struct command_ear ear = { command, line->quiet };
-  const struct listener listener = command_listener(&ear);
-  struct scene *scene = NULL;
-  struct page text = { 0 };
-  bool made = false;
-  enum status status = prepare(command, line);
-  if (status == STATUS_OK)
-    status = output_folder_make(command, request->folder, &made);
-  interrupt_defer();
+  const struct listener listener = command_listener(&line->ear);
   const struct seconds start = seconds_now();
+  struct scene *scene = NULL;
+  request->folder = folder;
   line->scene.path = request->path;
   line->scene.width = request->width;
   line->scene.height = request->height;
-  if (status == STATUS_OK)
-    status = scene_file_load(command, &line->scene, &scene);
+  enum status status = scene_file_load(line->ear.command, &line->scene, &scene);
   request->parse = seconds_since(start);
   if (status == STATUS_OK)
-    status = check_scene(request, scene, &listener, &text);
-  if ((status == STATUS_OK || status == STATUS_DIFFERENT) && !line->quiet) {
-    printf("%s%s/check.html shows it\n", text.text, request->folder);
-    const enum status written = command_finish_output(command);
-    status = written == STATUS_OK ? status : written;
-  } else if (status != STATUS_OK && status != STATUS_DIFFERENT && made) {
-    (void)rmdir(request->folder);
-  }
-  page_free(&text);
+    status = check_scene(request, scene, &listener, out_text);
   scene_destroy(scene);
   return status;
 }
@@ -201,19 +177,24 @@ static int run(const struct command *command, int argc, const char **argv)
                                     .fail = { .each = 4.0 / 255, .percent = 0.3, .any = INFINITY },
                                     .fail_psnr = 40,
                                     .fail_mask = 0.3 },
-                       .scene = { .tolerance = NAN } };
+                       .scene = { .tolerance = NAN },
+                       .folder = { .suffix = "-check", .page = "check.html" },
+                       .ear = { .command = command } };
   struct command_line arguments;
   char *command_line = command_line_text(argc, argv);
   enum status status = command_line_read(command, argc, argv, 1, take_option, &line, &arguments);
   if (status == STATUS_OK && !arguments.help) {
     line.request.path = arguments.positional[0];
-    line.request.command_line = command_line;
-    status = check(command, &line);
+    line.request.command_line = command_line == NULL ? "" : command_line;
+    line.folder.scene = line.request.path;
+    line.folder.quiet = line.ear.quiet;
+    status = prepare(command, &line.request);
+    if (status == STATUS_OK)
+      status = output_folder_fill(command, &line.folder, work, &line);
   }
   free(command_line);
   free(line.options);
-  free(line.default_folder);
-  return status == STATUS_INTERRUPTED || atomic_load(&interrupt_signal) != 0 ? interrupt_exit_code() : (int)status;
+  return (int)status;
 }
 
 const struct command command_check = {

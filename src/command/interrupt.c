@@ -30,14 +30,27 @@ void interrupt_install(void)
     (void)sigaction(SIGHUP, &action, NULL);
 }
 
+/* What SIGPIPE does, unless we were started so that it does nothing. */
+static void on_broken_pipe(void (*action)(int))
+{
+  struct sigaction now;
+  if (sigaction(SIGPIPE, NULL, &now) != 0 || now.sa_handler == SIG_IGN)
+    return;
+  now = (struct sigaction){ .sa_handler = action };
+  sigemptyset(&now.sa_mask);
+  (void)sigaction(SIGPIPE, &now, NULL);
+}
+
 void interrupt_defer(void)
 {
   atomic_store(&deferred, true);
+  on_broken_pipe(handle);
 }
 
 void interrupt_resume(void)
 {
   atomic_store(&deferred, false);
+  on_broken_pipe(SIG_DFL);
 }
 
 int interrupt_exit_code(void)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "base/input.h"
@@ -75,14 +76,49 @@ char *output_name(const char *scene, const char *suffix)
   return name;
 }
 
-char *output_folder_name(const char *scene, const char *suffix) { return output_name(base_of(scene), suffix); }
-
-enum status output_folder_make(const struct command *command, const char *folder, bool *out_made)
+/* The folder, of whose name *owned is what is to be freed. */
+static enum status make_folder(const struct command *command, const struct output_folder *folder, char **owned,
+                               const char **out_path, bool *out_made)
 {
   struct stat state;
-  *out_made = mkdir(folder, 0777) == 0;
-  if (*out_made || (errno == EEXIST && stat(folder, &state) == 0 && S_ISDIR(state.st_mode)))
+  const char *scene = output_is_standard(folder->scene) ? "stdin" : base_of(folder->scene);
+  *owned = folder->path == NULL ? output_name(scene, folder->suffix) : NULL;
+  *out_path = folder->path == NULL ? *owned : folder->path;
+  if (*out_path == NULL) {
+    command_error(command, "out of memory");
+    return STATUS_LIMIT;
+  }
+  *out_made = mkdir(*out_path, 0777) == 0;
+  if (*out_made || (errno == EEXIST && stat(*out_path, &state) == 0 && S_ISDIR(state.st_mode)))
     return STATUS_OK;
-  command_error(command, "cannot make the folder '%s': %s", folder, strerror(errno));
+  command_error(command, "cannot make the folder '%s': %s", *out_path, strerror(errno));
   return STATUS_FILE;
+}
+
+enum status output_folder_fill(const struct command *command, const struct output_folder *folder,
+                               output_folder_work *work, void *context)
+{
+  char *owned;
+  const char *path;
+  bool made;
+  struct page text = { 0 };
+  enum status status = make_folder(command, folder, &owned, &path, &made);
+  if (status == STATUS_OK) {
+    interrupt_defer();
+    status = work(context, path, &text);
+    if (atomic_load(&interrupt_signal) != 0)
+      status = STATUS_INTERRUPTED;
+    const bool done = status == STATUS_OK || status == STATUS_DIFFERENT;
+    if (!done && made)
+      (void)rmdir(path); /* stays where something is in it after all */
+    interrupt_resume();
+    if (done && !folder->quiet) {
+      printf("%s\n%s/%s shows it\n", text.text, path, folder->page);
+      const enum status written = command_finish_output(command);
+      status = written == STATUS_OK ? status : written;
+    }
+  }
+  page_free(&text);
+  free(owned);
+  return status;
 }

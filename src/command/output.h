@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "check/page.h"
 #include "command/command.h"
 #include "image/image_file.h"
 
@@ -24,12 +25,21 @@ enum status output_format(const struct command *command, const char *path, enum 
 enum status output_spare(const struct command *command, const char *path, const char *other) STATUS_MUST_CHECK;
 
 /* The scene's name with `suffix` instead of its own: "scenes/teapot.pscn" gives "scenes/teapot.png", beside the scene,
- * and "-" stays what it is; of a folder "teapot-check", here, for the scene's folder need not be ours. To be freed; NULL where memory is
- * short. */
+ * and "-" stays what it is. To be freed; NULL where memory is short. */
 char *output_name(const char *scene, const char *suffix);
-char *output_folder_name(const char *scene, const char *suffix);
 
-/* Makes the folder where there is none, which *out_made tells. STATUS_FILE after telling the error. */
-enum status output_folder_make(const struct command *command, const char *folder, bool *out_made) STATUS_MUST_CHECK;
+/* A folder of results. Without a path it is named as the scene with `suffix`, and stands here, for the scene's folder
+ * need not be ours. */
+struct output_folder {
+  const char *path, *scene, *suffix;
+  const char *page; /* the file in it that shows the rest */
+  bool quiet;
+};
+
+/* Makes the folder where there is none, has `work` fill it, signals being deferred, and tells its text on standard
+ * output; takes a folder it has made away where the work fails. Answers the status of the work. */
+typedef enum status output_folder_work(void *context, const char *folder, struct page *out_text);
+enum status output_folder_fill(const struct command *command, const struct output_folder *folder,
+                               output_folder_work *work, void *context) STATUS_MUST_CHECK;
 
 #endif

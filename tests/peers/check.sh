@@ -168,6 +168,11 @@ harm() {
   grep -q 'more than 1 seconds' err || { fail "the time limit is not told"; cat err; }
   [ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
 
+  # A reader of our messages that goes away ends us, and leaves nothing either.
+  { "$PSCN" check "$scene" --size 8x6 --steps 0 -o evil 2>&1 || echo "$?" >code; } | sed q >/dev/null
+  [ "$(cat code)" = 141 ] || fail "exit code $(cat code) where nobody reads"
+  [ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
+
   # An interrupt ends POV-Ray too, and leaves nothing.
   evil '#while (1)' '#end'
   for signal in INT:130 TERM:143 KILL:137; do
