@@ -20,6 +20,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/real.h" // whose functions are not what is counted
 #include "operations/counted.hpp"
 
 #undef isfinite
