@@ -16,8 +16,7 @@ grep -q 'Embree is left out: there is no' "$folder/said" || peers+=(embree)
 [ ${#peers[@]} -gt 0 ] || { echo "skipped: neither Embree's module nor povray is there" >&2; exit 77; }
 
 failed=0
-# The figure, where gnuplot drew one: the default is labelled, symbols are named to a pointer over them, plain Newton's is
-# hollow where it is wrong.
+# The figure, where gnuplot drew one: the default is labelled, and symbols are named to a pointer over them.
 if [ -e "$folder/chart/chart.svg" ]; then
   for text in '>default<' '<title>bernstein: [0-9.]* ns, error [0-9.e-]*</title>' '>7</tspan>' '</svg>'; do
     grep -q "$text" "$folder/chart/chart.svg" || { echo "the figure has no $text"; failed=1; }
