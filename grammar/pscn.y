@@ -65,7 +65,7 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 %token END 0 "the end of the text"
 %token <token> NUMBER "a number" POINT "a vector" WORD "a name" STRING "a string"
 %token FOREIGN "a word of POV-Ray's" START_SCENE START_SOLVER
-%token VERSION "#version" DECLARE "#declare" LOCAL "#local"
+%token VERSION "#version" DECLARE "#declare" LOCAL "#local" DEFAULT "#default"
 %token GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma" MAX_TRACE_LEVEL "max_trace_level"
 %token AMBIENT_LIGHT "ambient_light"
 %token CAMERA "camera" PERSPECTIVE "perspective" LOCATION "location" DIRECTION "direction" RIGHT "right" UP "up"
@@ -77,11 +77,12 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 %token AMBIENT "ambient" DIFFUSE "diffuse" BRILLIANCE "brilliance" PHONG "phong" PHONG_SIZE "phong_size"
 %token SPECULAR "specular" ROUGHNESS "roughness"
 %token COLOR "color" RGB "rgb" X "x" Y "y" Z "z" RED "red" GREEN "green" BLUE "blue" PI "pi"
-%token IMAGE_WIDTH "image_width" IMAGE_HEIGHT "image_height"
+%token IMAGE_WIDTH "image_width" IMAGE_HEIGHT "image_height" VERSION_WORD "version"
+%token RGBF "rgbf" RGBFT "rgbft" FILTER "filter"
 %token SOLVER "solver"
 
-%type <value> expression colour quantity
-%type <token> component
+%type <value> expression colour quantity four five
+%type <token> component part
 %type <texture> texture_block pigment_block finish_block surface
 %type <node> object patch union copy
 %type <symbol> declare
@@ -105,6 +106,7 @@ input: START_SCENE statements | START_SOLVER solver;
 statements: %empty | statements statement;
 statement:
     VERSION expression ';'                     { language_version(language, &$2); }
+  | DEFAULT '{' default_items '}'
   | declaration
   | GLOBAL_SETTINGS '{' global_items '}'
   | CAMERA '{' { camera_begin(language, @1); } camera_items '}' { camera_end(language); }
@@ -112,6 +114,13 @@ statement:
   | BACKGROUND '{' { background_begin(language, @1); } background_items '}' { background_end(language); }
   | object                                     { scene_add(language, @1, $1); }
   | solver                                     { solver_misplaced(language, @1); }
+  | error                                      { RECOVER(); }
+  ;
+
+default_items: %empty | default_items default_item;
+default_item:
+    surface                                    { texture_set_default(language, $1); }
+  | declaration
   | error                                      { RECOVER(); }
   ;
 
@@ -136,6 +145,7 @@ expression:
   | PI                                         { $$ = value_of_number(3.14159265358979323846, @1); }
   | IMAGE_WIDTH                                { $$ = value_of_number(language->width, @1); }
   | IMAGE_HEIGHT                               { $$ = value_of_number(language->height, @1); }
+  | VERSION_WORD                               { $$ = value_of_number(language->settings->version, @1); }
   | '(' expression ')'                         { $$ = value_placed($2, @$); }
   | '<' expression comma expression comma expression '>'
                                                { $$ = value_of_parts(language, &$2, &$4, &$6, @$); }
@@ -157,9 +167,24 @@ comma: %empty %prec ITEM | ',';
 colour:
     expression %prec ITEM
   | RGB expression %prec ITEM                  { $$ = value_rgb(language, &$2, @$); }
+  | RGBF expression %prec ITEM                 { $$ = value_rgbft(language, &$2, 4, @$); }
+  | RGBFT expression %prec ITEM                { $$ = value_rgbft(language, &$2, 5, @$); }
+  | RGBF four                                  { $$ = value_placed($2, @$); }
+  | RGBFT five                                 { $$ = value_placed($2, @$); }
   | COLOR expression %prec ITEM                { $$ = value_color(language, &$2, @$); }
   | COLOR RGB expression %prec ITEM            { $$ = value_rgb(language, &$3, @$); }
+  | COLOR RGBF expression %prec ITEM           { $$ = value_rgbft(language, &$3, 4, @$); }
+  | COLOR RGBFT expression %prec ITEM          { $$ = value_rgbft(language, &$3, 5, @$); }
+  | COLOR RGBF four                            { $$ = value_placed($3, @$); }
+  | COLOR RGBFT five                           { $$ = value_placed($3, @$); }
+  | COLOR part expression %prec ITEM           { $$ = value_part(language, NULL, $2.index, &$3, @$); }
+  | colour part expression %prec ITEM          { $$ = value_part(language, &$1, $2.index, &$3, @$); }
   ;
+part: RED { $$.index = 0; } | GREEN { $$.index = 1; } | BLUE { $$.index = 2; } | FILTER { $$.index = 3; };
+four: '<' expression comma expression comma expression comma expression '>'
+                                               { $$ = value_wide(language, &$2, &$4, &$6, &$8, NULL, @$); };
+five: '<' expression comma expression comma expression comma expression comma expression '>'
+                                               { $$ = value_wide(language, &$2, &$4, &$6, &$8, &$10, @$); };
 
 /* ---- settings, camera, lights ---- */
 

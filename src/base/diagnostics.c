@@ -115,20 +115,12 @@ static void tell_closing_line(struct diagnostics *diagnostics)
   diagnostics->tell(diagnostics->context, text, (size_t)length);
 }
 
-void diagnostics_error(struct diagnostics *diagnostics, struct place place, const char *format, ...)
+/* Tells a block of lines; `kind` is "error: " or "warning: ". */
+static void tell(struct diagnostics *diagnostics, struct place place, const char *kind, const char *format,
+                 va_list arguments)
 {
-  size_t before = diagnostics->error_count++;
-  if (!diagnostics->tell || before > DIAGNOSTICS_MAX_ERRORS) return;
-  if (before == DIAGNOSTICS_MAX_ERRORS) {
-    tell_closing_line(diagnostics);
-    return;
-  }
   char message[MESSAGE_BYTES];
-  va_list arguments;
-  va_start(arguments, format);
   if (vsnprintf(message, sizeof message, format, arguments) < 0) message[0] = '\0';
-  va_end(arguments);
-
   struct block block = { 0 };
   struct source_position at = { 0 };
   if (place.source) {
@@ -137,7 +129,7 @@ void diagnostics_error(struct diagnostics *diagnostics, struct place place, cons
     block_add_position(&block, place.source, at);
     block_add_text(&block, " ");
   }
-  block_add_text(&block, "error: ");
+  block_add_text(&block, kind);
   block_add_clean(&block, message, strlen(message));
   block_add_text(&block, "\n");
   if (place.source) block_add_line(&block, place, at);
@@ -145,4 +137,27 @@ void diagnostics_error(struct diagnostics *diagnostics, struct place place, cons
     diagnostics->tell(diagnostics->context, block.text, block.length);
   }
   free(block.text);
+}
+
+void diagnostics_error(struct diagnostics *diagnostics, struct place place, const char *format, ...)
+{
+  size_t before = diagnostics->error_count++;
+  if (!diagnostics->tell || before > DIAGNOSTICS_MAX_ERRORS) return;
+  if (before == DIAGNOSTICS_MAX_ERRORS) {
+    tell_closing_line(diagnostics);
+    return;
+  }
+  va_list arguments;
+  va_start(arguments, format);
+  tell(diagnostics, place, "error: ", format, arguments);
+  va_end(arguments);
+}
+
+void diagnostics_warning(struct diagnostics *diagnostics, struct place place, const char *format, ...)
+{
+  va_list arguments;
+  if (!diagnostics->tell || diagnostics->quiet) return;
+  va_start(arguments, format);
+  tell(diagnostics, place, "warning: ", format, arguments);
+  va_end(arguments);
 }

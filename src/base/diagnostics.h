@@ -24,10 +24,15 @@ struct diagnostics {
   void (*tell)(void *context, const char *text, size_t length); /* text ends with a newline; NULL: only counted */
   void *context;
   size_t error_count;
+  bool quiet; /* warnings are not told */
 };
 
 /* An error at a place. A place without source gives a bare "error: text" line. */
 void diagnostics_error(struct diagnostics *diagnostics, struct place place, const char *format, ...)
+  __attribute__((format(printf, 3, 4)));
+
+/* Likewise a warning, "warning: text"; it is no error and is not counted. */
+void diagnostics_warning(struct diagnostics *diagnostics, struct place place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
 /* Whether further errors would only be counted. */

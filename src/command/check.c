@@ -122,7 +122,7 @@ static enum status take_option(const struct command *command, void *context, int
       return (enum status)command_usage(command, "'%s' is no number of seconds", argument);
     break;
   case OPTION_QUIET:
-    line->ear.quiet = true;
+    line->ear.quiet = line->scene.quiet = true;
     break;
   default:
     return take_limit(command, request, val, argument);

@@ -108,7 +108,7 @@ static enum status take_option(const struct command *command, void *context, int
     request->stats = argument;
     break;
   default:
-    request->quiet = true;
+    request->quiet = request->scene.quiet = true;
     break;
   }
   return STATUS_OK;
@@ -266,6 +266,8 @@ static enum status render(const struct command *command, struct request *request
   struct image image = { 0 };
   const struct seconds start = seconds_now();
   status = scene_file_load(command, &request->scene, &scene);
+  if (status == STATUS_OK && !request->quiet)
+    scene_file_warn(command, scene);
   struct report report = { .scene_path = request->scene.path,
                            .picture_path = request->output,
                            .scene = scene,

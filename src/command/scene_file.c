@@ -2,12 +2,13 @@
 #include "command/scene_file.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/number.h"
 #include "command/output.h"
 #include "command/values.h"
-#include "language/language.h"
 
 /* What has no place is told in the form of command_error. */
 static void tell(void *context, const char *text, size_t length)
@@ -23,6 +24,24 @@ struct diagnostics stderr_diagnostics(const struct command *command)
   return (struct diagnostics){ .tell = tell, .context = (void *)&command->name };
 }
 
+/* "NAME=VALUE" */
+static enum status take_number(const struct command *command, struct scene_request *request, const char *argument)
+{
+  const size_t length = strcspn(argument, "=");
+  const char *value = argument + length + 1;
+  struct language_number number = { .name = argument, .name_length = length };
+  size_t used = 0;
+  if (argument[length] == '\0' || number_read(value, strlen(value), &number.value, &used) != NUMBER_FINITE ||
+      value[used] != '\0')
+    return (enum status)command_usage(command, "'%s' is no NAME=NUMBER", argument);
+  if (!language_is_name(argument, length))
+    return (enum status)command_usage(command, "'%.*s' is no name that can be declared", (int)length, argument);
+  if (request->number_count == SCENE_MOST_NUMBERS)
+    return (enum status)command_usage(command, "more than %d numbers are declared", SCENE_MOST_NUMBERS);
+  request->numbers[request->number_count++] = number;
+  return STATUS_OK;
+}
+
 enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
                                const char *argument)
 {
@@ -33,6 +52,13 @@ enum status scene_request_take(const struct command *command, struct scene_reque
     break;
   case OPTION_SOLVER:
     request->solver_text = argument;
+    break;
+  case OPTION_DECLARE:
+    return take_number(command, request, argument);
+  case OPTION_INCLUDE:
+    if (request->folder_count == SCENE_MOST_FOLDERS)
+      return (enum status)command_usage(command, "more than %d folders are named", SCENE_MOST_FOLDERS);
+    request->folders[request->folder_count++] = argument;
     break;
   case OPTION_MAX_MEMORY:
     if (!value_bytes(argument, &request->max_memory))
@@ -56,16 +82,38 @@ static size_t default_memory(void)
   return (size_t)pages * (size_t)page / share;
 }
 
+/* Where included files are looked for: the folders of -I, those of PSCN_INCLUDE (written over), POV-Ray's own. */
+static void list_folders(const struct scene_request *request, char *environment, const char *out[])
+{
+  size_t count = 0;
+  for (; count < request->folder_count; count++)
+    out[count] = request->folders[count];
+  for (char *folder = strtok(environment, ":"); folder != NULL && count < 2 * SCENE_MOST_FOLDERS;
+       folder = strtok(NULL, ":"))
+    out[count++] = folder;
+  out[count++] = "/usr/share/povray-3.7/include";
+  out[count++] = "/usr/local/share/povray-3.7/include";
+  out[count] = NULL;
+}
+
 enum status scene_file_load(const struct command *command, const struct scene_request *request,
                             struct scene **out)
 {
+  const char *folders[2 * SCENE_MOST_FOLDERS + 3], *variable = getenv("PSCN_INCLUDE");
+  char environment[4096];
+  snprintf(environment, sizeof environment, "%s", variable != NULL ? variable : "");
+  list_folders(request, environment, folders);
   const struct language_settings settings = { .image_width = (int)request->width,
                                               .image_height = (int)request->height,
                                               .solver_text = request->solver_text,
                                               .tolerance = request->tolerance,
+                                              .folders = folders,
+                                              .numbers = request->numbers,
+                                              .number_count = request->number_count,
                                               .max_memory =
                                                 request->max_memory != 0 ? request->max_memory : default_memory() };
   struct diagnostics diagnostics = stderr_diagnostics(command);
+  diagnostics.quiet = request->quiet;
   if (!output_is_standard(request->path))
     return language_load(request->path, &settings, &diagnostics, out);
   struct source *text;
@@ -79,6 +127,16 @@ enum status scene_file_load(const struct command *command, const struct scene_re
   status = language_load_text(text->name, text->text, text->length, &settings, &diagnostics, out);
   source_destroy(text);
   return status;
+}
+
+void scene_file_warn(const struct command *command, const struct scene *scene)
+{
+  const bool missing[] = { scene->patch_count == 0, scene->light_count == 0, !scene->has_camera };
+  static const char *const what[] = { "no patches", "no light_source", "no camera" };
+  for (size_t k = 0; k < sizeof missing / sizeof *missing; k++) {
+    if (missing[k])
+      fprintf(stderr, "pscn %s: warning: the scene has %s\n", command->name, what[k]);
+  }
 }
 
 enum status scene_file_spare(const struct command *command, const struct scene_request *request,

@@ -7,15 +7,23 @@
 #include "base/diagnostics.h"
 #include "base/status.h"
 #include "command/command.h"
+#include "language/language.h"
 #include "scene/scene.h"
 
 /* What a command line says of a scene. */
+enum { SCENE_MOST_FOLDERS = 32, SCENE_MOST_NUMBERS = 64 };
+
 struct scene_request {
   const char *path;
   size_t width, height;    /* of the picture: image_width and image_height */
   const char *solver_text; /* or NULL */
   double tolerance;        /* or NAN */
   size_t max_memory;       /* bytes, or 0: the default */
+  const char *folders[SCENE_MOST_FOLDERS]; /* of -I */
+  size_t folder_count;
+  struct language_number numbers[SCENE_MOST_NUMBERS]; /* of --declare */
+  size_t number_count;
+  bool quiet; /* no warnings */
 };
 
 /* The size of a picture unless --size says another, and the largest. */
@@ -23,17 +31,21 @@ enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600, MAX_SIDE = 1000000 };
 
 /* The options of a scene_request, whose vals are the same in all commands: rows of the table for reading a scene, the
  * cases of a switch over vals, and the taking of any of them. `text` is what the size is of. */
-enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE, OPTION_MAX_MEMORY };
+enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE, OPTION_MAX_MEMORY, OPTION_INCLUDE, OPTION_DECLARE };
 #define SCENE_OPTION_CASES \
   case OPTION_SOLVER: \
   case OPTION_TOLERANCE: \
-  case OPTION_MAX_MEMORY
+  case OPTION_MAX_MEMORY: \
+  case OPTION_INCLUDE: \
+  case OPTION_DECLARE
 #define SCENE_SIZE_OPTION(text) COMMAND_OPTION("size", 0, OPTION_SIZE, text, "WxH")
 #define SCENE_OPTIONS \
   COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"), \
     COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"), \
     COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY, "that the scene may take; default a quarter of all, at most 8G", \
-                   "SIZE")
+                   "SIZE"), \
+    COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "where files that the scene includes are looked for", "DIR"), \
+    COMMAND_OPTION("declare", 0, OPTION_DECLARE, "a number that the scene finds declared", "NAME=X")
 enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
                                const char *argument) STATUS_MUST_CHECK;
 
@@ -41,6 +53,9 @@ enum status scene_request_take(const struct command *command, struct scene_reque
  * told and *out is NULL. */
 enum status scene_file_load(const struct command *command, const struct scene_request *request,
                             struct scene **out) STATUS_MUST_CHECK;
+
+/* Warns of a scene of which nothing will be seen: without patches, lights or a camera. */
+void scene_file_warn(const struct command *command, const struct scene *scene);
 
 /* STATUS_USAGE, told, where `output` (NULL: nowhere) would overwrite what the scene is read from. To be asked before it is
  * read, with NULL for the scene, and again when what it includes is known. */

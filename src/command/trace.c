@@ -55,7 +55,7 @@ static enum status take_option(const struct command *command, void *context, int
     request->stats = argument;
     break;
   default:
-    request->quiet = true;
+    request->quiet = request->scene.quiet = true;
     break;
   }
   return STATUS_OK;

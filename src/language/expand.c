@@ -87,7 +87,7 @@ static bool expand_patch(struct expansion *e, const struct node *node, const str
   patch->flatness = node->setting[PATCH_FLATNESS];
   patch->u_steps = (int)node->setting[PATCH_U_STEPS];
   patch->v_steps = (int)node->setting[PATCH_V_STEPS];
-  const struct texture none = texture_default();
+  const struct texture none = texture_default(e->language);
   return intern(e, &e->textures, with->texture ? &with->texture->is : &none.is, &patch->texture) &&
          intern(e, &e->methods, with->method, &patch->solver);
 }

@@ -35,8 +35,13 @@ static enum status reading_create(struct reading *r, const struct language_setti
                                 .objects = &r->objects, .camera = &r->camera, .settings = &r->settings};
   camera_default(&r->camera);
   settings_default(&r->settings);
+  r->sources.folders = settings->folders;
   if (!language->arena) return STATUS_LIMIT;
   declare_number(language, name, sizeof name - 1, 1);
+  for (size_t k = 0; k < settings->number_count; k++) {
+    const struct language_number *number = &settings->numbers[k];
+    declare_number(language, number->name, number->name_length, number->value);
+  }
   return language->ended_early ? STATUS_LIMIT : STATUS_OK;
 }
 
@@ -52,6 +57,7 @@ static enum status parse(struct reading *r, struct source *source)
   const size_t before = r->language.diagnostics->error_count;
   if (!source || !sources_open(&r->language, source)) return STATUS_LIMIT;
   const int result = pscn_parse(&r->language);
+  symbols_tell_missed(&r->language);
   if (r->language.ended_early || result == 2) return STATUS_LIMIT;
   return result != 0 || r->language.diagnostics->error_count > before ? STATUS_INPUT : STATUS_OK;
 }
@@ -75,6 +81,7 @@ static enum status make_scene(struct reading *r, struct scene **out_scene)
     return STATUS_LIMIT;
   }
   scene->arena = arena;
+  scene->has_camera = r->camera.said;
   memcpy(scene->background, settings->background, sizeof scene->background);
   memcpy(scene->ambient_light, settings->ambient_light, sizeof scene->ambient_light);
   enum status status = camera_fold(&r->language, &r->camera, &scene->camera) ? add_lights(settings, scene)
@@ -134,6 +141,13 @@ static enum status load(struct source *source, const struct language_settings *s
   scene_destroy(*out_scene);
   *out_scene = NULL;
   return status;
+}
+
+bool language_is_name(const char *name, size_t length)
+{
+  static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789";
+  return length > 0 && strspn(name, letters) >= length && !(name[0] >= '0' && name[0] <= '9') &&
+         words_token(name, length) == PSCN_TOKEN_WORD;
 }
 
 enum status language_load(const char *path, const struct language_settings *settings, struct diagnostics *diagnostics,

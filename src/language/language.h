@@ -6,18 +6,32 @@
 #ifndef PSCN_LANGUAGE_LANGUAGE_H
 #define PSCN_LANGUAGE_LANGUAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/diagnostics.h"
 #include "base/status.h"
 #include "scene/scene.h"
 
+/* A name that is declared before a scene is read. */
+struct language_number {
+  const char *name; /* name_length letters that language_is_name */
+  size_t name_length;
+  double value;
+};
+
 struct language_settings {
   int image_width, image_height; /* pixels, >= 1: what image_width and image_height mean in the scene */
   const char *solver_text;       /* --solver TEXT: overrides every solver statement of the scene; or NULL */
   double tolerance;              /* --tolerance E: overrides that item everywhere, after solver_text; or NAN */
+  const char *const *folders;    /* where included files are looked for besides the includer's, ended by NULL; or NULL */
+  const struct language_number *numbers; /* number_count names declared beforehand */
+  size_t number_count;
   size_t max_memory;             /* --max-memory SIZE: bytes that the text and the patches may take; or 0: no limit */
 };
+
+/* Whether a scene can declare that name: a word that neither the language nor POV-Ray reserves. */
+bool language_is_name(const char *name, size_t length);
 
 /* Reads the scene file at `path`. The caller destroys *out_scene; on failure it is NULL and diagnostics have been
  * told why:

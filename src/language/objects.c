@@ -53,6 +53,8 @@ void patch_number(struct language *language, int which, struct place item, const
     language_error(language, item, "the settings of a bicubic_patch stand before its control points");
     return;
   }
+  if (node->after_comma) language_error(language, item, "a comma stands between control points only");
+  node->after_comma = false;
   node->has_type |= which == PATCH_TYPE;
   value_in_range(language, value, settings[which].name, 0, settings[which].high, settings[which].whole,
                  &node->setting[which]);
@@ -75,7 +77,7 @@ void patch_point(struct language *language, const struct value *value)
 void patch_comma(struct language *language, struct place place)
 {
   struct node *node = language->objects->open;
-  if (node->stage != STAGE_BODY || node->after_comma)
+  if (node->stage == STAGE_MODIFIERS || node->after_comma)
     language_error(language, place, "a comma stands between control points only");
   node->after_comma = true;
 }
@@ -153,6 +155,7 @@ void union_modified(struct language *language) { language->objects->open->stage 
 
 void scene_add(struct language *language, struct place place, struct node *object)
 {
+  if (!object->texture) object->texture = language->texture_default;
   add_child(language, &language->objects->scene, object, place);
 }
 
@@ -229,7 +232,7 @@ void node_texture(struct language *language, const struct texture *texture)
 {
   struct node *node = language->objects->open;
   struct texture *all = language_alloc(language, sizeof *all);
-  *all = node->texture ? *node->texture : texture_default();
+  *all = node->texture ? *node->texture : texture_default(language);
   texture_apply(all, texture);
   node->texture = all;
 }

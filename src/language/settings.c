@@ -3,8 +3,9 @@
 
 #include <math.h>
 
-/* The versions of POV-Ray's language that a scene may ask for. */
-#define VERSION_LOW 3.7
+/* The versions of POV-Ray's language that a scene may ask for; it is read as the one whose gamma is ours. */
+#define VERSION_LOW 1.0
+#define VERSION_READ 3.7
 #define VERSION_HIGH 3.8
 
 /* POV-Ray's largest; here there is nothing to trace on. */
@@ -12,15 +13,19 @@ enum { MAX_TRACE_LEVEL = 256 };
 
 void settings_default(struct settings *out)
 {
-  *out = (struct settings){.ambient_light = {1, 1, 1}};
+  *out = (struct settings){.ambient_light = {1, 1, 1}, .version = VERSION_READ};
   method_default(solver_at(0), &out->method);
   out->lights_end = &out->lights;
 }
 
 void language_version(struct language *language, const struct value *value)
 {
-  double unused;
-  value_in_range(language, value, "the version", VERSION_LOW, VERSION_HIGH, false, &unused);
+  double *version = &language->settings->version;
+  const bool said = value_in_range(language, value, "the version", VERSION_LOW, VERSION_HIGH, false, version);
+  if (said && *version < VERSION_READ && language->symbols->depth == 0) {
+    diagnostics_warning(language->diagnostics, value->place,
+                        "this is read as version 3.7: colours are linear, whatever gamma the older one had");
+  }
 }
 
 void global_gamma(struct language *language, const struct value *value)

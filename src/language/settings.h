@@ -18,6 +18,7 @@ struct light_node {
 /* What the statements have said so far. */
 struct settings {
   double background[3], ambient_light[3];
+  double version; /* the last #version */
   struct method method;       /* of all patches that have none of their own */
   struct block block;         /* of the open background */
   int background_values;      /* colours in it */

@@ -95,16 +95,31 @@ struct place sources_here(const struct language *language)
   return (struct place){frame->source, frame->scan.begin, frame->scan.end};
 }
 
-/* The path of an included file: relative to the folder of the file that includes it. */
+/* `name` in a folder, which is folder[0 .. length-1] with the slash behind it; a name that begins with / is whole. */
+static char *path_in(struct language *language, const char *folder, size_t folder_length, const char *name,
+                     size_t length)
+{
+  const size_t before = name[0] == '/' ? 0 : folder_length;
+  const bool slash = before > 0 && folder[before - 1] != '/';
+  char *path = arena_alloc(language->arena, before + slash + length + 1, 1);
+  if (!path) return NULL;
+  memcpy(path, folder, before);
+  if (slash) path[before] = '/';
+  memcpy(path + before + slash, name, length);
+  return path;
+}
+
+/* The path of an included file: relative to the folder of the file that includes it, or else to the first of the given
+ * folders that has it; the former where it is nowhere. */
 static char *include_path(struct language *language, const char *name, size_t length)
 {
+  uint64_t device, inode;
   const char *includer = language->sources->frame->source->name, *slash = strrchr(includer, '/');
-  const size_t folder = name[0] == '/' || !slash ? 0 : (size_t)(slash - includer) + 1;
-  char *path = arena_alloc(language->arena, folder + length + 1, 1);
-  if (!path) return NULL;
-  memcpy(path, includer, folder);
-  memcpy(path + folder, name, length);
-  return path;
+  char *path = path_in(language, includer, slash ? (size_t)(slash - includer) + 1 : 0, name, length), *other = path;
+  const char *const *folder = language->sources->folders;
+  for (; other && !source_identify(other, &device, &inode) && folder && *folder; folder++)
+    other = path_in(language, *folder, strlen(*folder), name, length);
+  return other && source_identify(other, &device, &inode) ? other : path;
 }
 
 static bool same_file(const struct source *a, const struct source *b)

@@ -29,6 +29,7 @@ struct sources {
   struct table files;       /* the first source of each file */
   int count;
   size_t bytes; /* of all sources together */
+  const char *const *folders; /* where to look besides the includer's, or NULL */
 };
 
 /* Begins to read a source, which is taken over even on failure: false where memory is short. */

@@ -52,6 +52,7 @@ struct language {
   struct sources *sources;
   struct tokens *tokens;
   struct texture *texture; /* the innermost that is open */
+  const struct texture *texture_default; /* NULL: POV-Ray's */
   struct method *method;   /* of the last solver statement */
   struct objects *objects;
   struct camera_items *camera;

@@ -41,12 +41,13 @@ void symbols_leave(struct symbols *symbols)
 const struct symbol *symbol_find(const struct language *language, const char *name, size_t length)
 {
   const struct symbol *symbol = find(language->symbols, name, length, -1);
-  return symbol && symbol->kind != SYMBOL_BEGUN ? symbol : NULL;
+  return symbol && symbol->kind != SYMBOL_BEGUN && symbol->kind != SYMBOL_UNKNOWN ? symbol : NULL;
 }
 
 bool symbol_known(const struct language *language, const char *name, size_t length)
 {
-  return find(language->symbols, name, length, -1) != NULL;
+  const struct symbol *symbol = find(language->symbols, name, length, -1);
+  return symbol && symbol->kind != SYMBOL_UNKNOWN;
 }
 
 /* ---- what is told of names ---- */
@@ -57,13 +58,26 @@ void guess_symbols(struct guess *guess, const struct language *language)
   for (size_t k = 0; k < table->size; k++) {
     for (const struct table_entry *entry = table->heads[k]; entry; entry = entry->next) {
       const struct symbol *s = (const struct symbol *)entry;
-      if (s->kind != SYMBOL_BEGUN) guess_consider(guess, s->name, s->length);
+      if (s->kind != SYMBOL_BEGUN && s->kind != SYMBOL_UNKNOWN) guess_consider(guess, s->name, s->length);
     }
   }
 }
 
+/* A name that is missing in many places is told once; how often is told at the end. */
 static void tell_unknown(struct language *language, const struct token *name, const char *wanted)
 {
+  struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
+  if (!symbol) {
+    symbol = add(language, name->text, name->length, 0);
+    symbol->kind = SYMBOL_UNKNOWN;
+    symbol->missed_next = language->symbols->missed;
+    language->symbols->missed = symbol;
+  }
+  symbol->missed_last = name->place;
+  if (symbol->missed++ > 0) {
+    language->unknown = name->place;
+    return;
+  }
   struct guess guess = guess_begin(name->text, name->length);
   language->unknown = name->place;
   if (!diagnostics_full(language->diagnostics)) { /* else nobody would read the guess */
@@ -79,10 +93,20 @@ static void tell_unknown(struct language *language, const struct token *name, co
   }
 }
 
+void symbols_tell_missed(struct language *language)
+{
+  for (const struct symbol *s = language->symbols->missed; s; s = s->missed_next) {
+    if (s->missed > 1)
+      language_error(language, s->missed_last, "'%.*s' is missing here as well, in %zu places in all", (int)s->length,
+                     s->name, s->missed);
+  }
+}
+
 void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted)
 {
   const char *is = symbol->kind == SYMBOL_OBJECT    ? "an object"
                    : symbol->kind == SYMBOL_TEXTURE ? symbol->texture_kind
+                   : symbol->kind == SYMBOL_MACRO   ? "a macro, which pscn does not call"
                                                     : "a value";
   language_error(language, place, "'%.*s' is %s; %s is wanted here", (int)symbol->length, symbol->name, is, wanted);
 }
@@ -106,6 +130,7 @@ struct symbol *declare_begin(struct language *language, const struct token *name
 {
   const int depth = local ? language->symbols->depth : -1;
   struct symbol *symbol = find(language->symbols, name->text, name->length, depth);
+  if (symbol && symbol->kind == SYMBOL_UNKNOWN) return symbol->kind = SYMBOL_BEGUN, symbol;
   if (symbol && symbol->kind != SYMBOL_BEGUN) return symbol;
   return add(language, name->text, name->length, local ? depth : 0);
 }
@@ -125,6 +150,11 @@ void declare_value(struct symbol *symbol, const struct value *value)
 }
 
 void declare_broken(struct symbol *symbol) { symbol->kind = SYMBOL_BROKEN; }
+
+void declare_macro(struct language *language, const struct token *name)
+{
+  declare_begin(language, name, false)->kind = SYMBOL_MACRO;
+}
 
 void declare_number(struct language *language, const char *name, size_t length, double number)
 {

@@ -16,16 +16,26 @@ enum value_kind {
   VALUE_UNKNOWN /* an error has been told; whatever is made of it is right */
 };
 
+/* A number after `color` stands in all five parts of a colour; filter and transmit are two of them. */
+enum { TRANSPARENT_NUMBER = 1, TRANSPARENT_SAID = 2 };
+
 struct value {
   enum value_kind kind;
   double x[3];
   const struct symbol *symbol;
-  /* a colour that POV-Ray gives transparency: a number after `color` stands in all five parts there */
-  bool transparent;
+  unsigned transparent; /* a colour that POV-Ray gives transparency: why, or 0 */
   struct place place;
 };
 
-enum symbol_kind { SYMBOL_BEGUN, SYMBOL_VALUE, SYMBOL_TEXTURE, SYMBOL_OBJECT, SYMBOL_BROKEN };
+enum symbol_kind {
+  SYMBOL_BEGUN,
+  SYMBOL_UNKNOWN, /* no declaration, but told to be missing */
+  SYMBOL_VALUE,
+  SYMBOL_TEXTURE,
+  SYMBOL_OBJECT,
+  SYMBOL_MACRO,
+  SYMBOL_BROKEN
+};
 
 struct symbol {
   struct table_entry entry;
@@ -38,12 +48,16 @@ struct symbol {
   const struct texture *texture;
   const char *texture_kind; /* "a texture", "a pigment", "a finish" */
   const struct node *object;
+  size_t missed;            /* times that it was unknown, */
+  struct place missed_last; /* the last time; */
+  struct symbol *missed_next; /* the one that was unknown before it */
 };
 
 /* Zeroed: no names. */
 struct symbols {
   struct table table;
   struct symbol *locals; /* of the files being read, the newest first */
+  struct symbol *missed; /* names that were unknown */
   int depth;             /* files that include the one being read */
 };
 
@@ -62,6 +76,8 @@ void guess_symbols(struct guess *guess, const struct language *language);
 /* What a name that should stand for `wanted` does, if that is `kind`; else NULL, and that has been told. */
 const struct symbol *symbol_wanted(struct language *language, const struct token *name, enum symbol_kind kind,
                                    const char *wanted);
+/* Tells at the end of the names that have been unknown more than once. */
+void symbols_tell_missed(struct language *language);
 /* Tells that a name is something else than what is wanted. */
 void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted);
 
@@ -69,6 +85,7 @@ void symbol_mistaken(struct language *language, struct place place, const struct
 struct symbol *declare_begin(struct language *language, const struct token *name, bool local);
 void declare_value(struct symbol *symbol, const struct value *value);
 void declare_broken(struct symbol *symbol); /* its declaration has an error */
+void declare_macro(struct language *language, const struct token *name); /* it can be declared, but not called */
 
 /* Declares a number, such as the one that tells this program from POV-Ray. The name is kept. */
 void declare_number(struct language *language, const char *name, size_t length, double number);

@@ -27,16 +27,19 @@ static void list_expected(const char *const expected[], int count, char *out, si
   enum { MOST_LISTED = 10 };
   static const char *const in_values[] = {"a number",    "a vector",     "x",   "y",   "z",   "pi",
                                           "image_width", "image_height", "'('", "'<'", "'+'", "'-'",
-                                          "rgb",         "color",        NULL};
-  static const char *const anywhere[] = {"'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version",
+                                          "rgb",         "color",        "rgbf", "rgbft", "version", NULL};
+  static const char *const parts[] = {"red", "green", "blue", "filter", NULL}; /* which may follow any colour */
+  static const char *const anywhere[] = {"'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version", "#default",
                                          "the end of the text", NULL};
   const char *list[MOST_LISTED];
   int listed = 0;
   const bool value = contains(expected, count, "image_width"), objects = contains(expected, count, "object");
+  const bool part = contains(expected, count, "filter");
   if (value) list[listed++] = "a value";
   for (int k = 0; k < count; k++) {
     if (value && (is_one_of(expected[k], in_values) || strcmp(expected[k], "a name") == 0)) continue;
     if (count > 1 && is_one_of(expected[k], anywhere)) continue;
+    if (part && is_one_of(expected[k], parts)) continue;
     if (objects && strcmp(expected[k], "solver") == 0) continue; /* understood there, but never right */
     if (listed == MOST_LISTED) return;
     list[listed++] = expected[k];

@@ -5,8 +5,9 @@
 
 static_assert(sizeof(struct scene_texture) == PARTS * sizeof(double), "a texture is PARTS doubles");
 
-struct texture texture_default(void)
+struct texture texture_default(const struct language *language)
 {
+  if (language->texture_default) return *language->texture_default;
   return (struct texture){.block = TEXTURE_ALL, .set = TEXTURE_ALL,
                           .is = {.pigment = {0, 0, 0},
                                  .finish = {.ambient = {0.1, 0.1, 0.1}, .diffuse = 0.6, .brilliance = 1, .phong = 0,
@@ -23,7 +24,8 @@ void texture_apply(struct texture *to, const struct texture *from)
 void texture_begin(struct language *language, enum texture_block block)
 {
   struct texture *texture = language_alloc(language, sizeof *texture);
-  *texture = texture_default();
+  *texture = texture_default(language);
+  texture->stage = STAGE_SETTINGS;
   texture->block = block;
   if (block != TEXTURE_ALL) texture->set = 0;
   texture->outer = language->texture;
@@ -125,4 +127,12 @@ void declare_texture(struct language *language, struct symbol *symbol, const str
   symbol->kind = SYMBOL_TEXTURE;
   symbol->texture_kind = block_name(texture->block);
   symbol->texture = whole;
+}
+
+void texture_set_default(struct language *language, const struct texture *texture)
+{
+  struct texture *whole = language_alloc(language, sizeof *whole);
+  *whole = texture_default(language);
+  texture_apply(whole, texture);
+  language->texture_default = whole;
 }

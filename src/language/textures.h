@@ -31,7 +31,9 @@ struct texture {
   };
 };
 
-struct texture texture_default(void);
+/* What #default has said last, or else POV-Ray's. */
+struct texture texture_default(const struct language *language);
+void texture_set_default(struct language *language, const struct texture *texture);
 /* What is set in `from` replaces what is in `to`. */
 void texture_apply(struct texture *to, const struct texture *from);
 

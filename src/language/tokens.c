@@ -12,7 +12,7 @@ static bool is_word(int token)
 {
   return token > 255 && token < TOKEN_FIRST_PRIVATE && token != PSCN_TOKEN_NUMBER && token != PSCN_TOKEN_POINT &&
          token != PSCN_TOKEN_STRING && token != PSCN_TOKEN_VERSION && token != PSCN_TOKEN_DECLARE &&
-         token != PSCN_TOKEN_LOCAL;
+         token != PSCN_TOKEN_LOCAL && token != PSCN_TOKEN_DEFAULT;
 }
 
 static void tell_open_comment(struct language *language)
@@ -36,6 +36,7 @@ static int skip_branch(struct language *language, bool to_else)
     case TOKEN_OPEN_COMMENT: tell_open_comment(language); break;
     case TOKEN_IFDEF:
     case TOKEN_IFNDEF:
+    case TOKEN_MACRO:
     case TOKEN_FOREIGN_OPENER: depth++; break;
     case TOKEN_ELSE:
       if (depth == 0 && to_else) return token;
@@ -104,6 +105,20 @@ static void end_condition(struct language *language, int token)
 
 /* ---- what is not the grammar's ---- */
 
+/* A macro may be defined; what is in it nobody reads. */
+static void skip_macro(struct language *language)
+{
+  const struct place place = sources_here(language);
+  const int token = pscn_scan_next(&language->sources->frame->scan);
+  const struct place name = sources_here(language);
+  if (is_word(token)) {
+    declare_macro(language, &(struct token){.text = text_at(name), .length = length_of(name), .place = name});
+  } else {
+    language_error(language, name, "#macro wants a name");
+  }
+  if (skip_branch(language, false) != TOKEN_ENDIF) language_error(language, place, "#macro without #end");
+}
+
 static void tell_directive(struct language *language, int token)
 {
   const struct place place = sources_here(language);
@@ -155,7 +170,7 @@ static bool end_of_source(struct language *language)
 static bool refused_directive(struct language *language, int token)
 {
   const bool directive = token >= TOKEN_INCLUDE && token <= TOKEN_UNKNOWN_DIRECTIVE;
-  if (!language->tokens->solver_only || !(directive || (token >= PSCN_TOKEN_VERSION && token <= PSCN_TOKEN_LOCAL))) return false;
+  if (!language->tokens->solver_only || !(directive || (token >= PSCN_TOKEN_VERSION && token <= PSCN_TOKEN_DEFAULT))) return false;
   language_error(language, sources_here(language), "the text of a solver has no directives");
   return true;
 }
@@ -178,6 +193,7 @@ static bool aside(struct language *language, int token)
     tell_directive(language, token);
     skip_branch(language, false);
     return true;
+  case TOKEN_MACRO: skip_macro(language); return true;
   case TOKEN_NO_MEMORY: language->ended_early = true; return true;
   default: return false;
   }

@@ -81,10 +81,11 @@ static bool stays_opaque(struct language *language, char op, const struct value 
 }
 
 /* Vectors and other colours have no transparency, and a product with none has none. */
-static bool result_transparent(char op, const struct value *a, const struct value *b)
+static unsigned result_transparent(char op, const struct value *a, const struct value *b)
 {
-  if (op == '*' && a->kind != VALUE_NUMBER && b->kind != VALUE_NUMBER) return a->transparent && b->transparent;
-  return a->transparent || b->transparent;
+  const bool product = op == '*' && a->kind != VALUE_NUMBER && b->kind != VALUE_NUMBER;
+  if (product && !(a->transparent && b->transparent)) return 0;
+  return a->transparent | b->transparent;
 }
 
 struct value value_binary(struct language *language, char op, const struct value *a, const struct value *b)
@@ -135,8 +136,38 @@ struct value value_rgb(struct language *language, const struct value *a, struct 
 struct value value_color(struct language *language, const struct value *a, struct place place)
 {
   struct value colour = value_rgb(language, a, place);
-  colour.transparent |= a->kind == VALUE_NUMBER && a->x[0] != 0;
+  if (a->kind == VALUE_NUMBER && a->x[0] != 0) colour.transparent |= TRANSPARENT_NUMBER;
   return colour;
+}
+
+struct value value_rgbft(struct language *language, const struct value *a, int parts, struct place place)
+{
+  struct value colour = value_rgb(language, a, place);
+  if (a->kind == VALUE_NUMBER && parts > 3 && a->x[0] != 0) colour.transparent |= TRANSPARENT_SAID;
+  if (a->kind == VALUE_VECTOR && parts > 3)
+    language_error(language, a->place, "a colour of %d parts is wanted here, this has 3", parts);
+  return colour;
+}
+
+struct value value_part(struct language *language, const struct value *colour, int part, const struct value *value,
+                        struct place place)
+{
+  const struct value black = {.kind = VALUE_COLOUR};
+  double x;
+  struct value r = value_rgb(language, colour ? colour : &black, place);
+  if (!value_to_number(language, value, &x)) return unknown(place);
+  if (part < 3) r.x[part] = x;
+  else if (x != 0) r.transparent |= TRANSPARENT_SAID;
+  return r;
+}
+
+struct value value_wide(struct language *language, const struct value *red, const struct value *green,
+                        const struct value *blue, const struct value *filter, const struct value *transmit,
+                        struct place place)
+{
+  struct value r = value_of_parts(language, red, green, blue, place);
+  r = value_part(language, &r, 3, filter, place);
+  return transmit ? value_part(language, &r, 3, transmit, place) : r;
 }
 
 struct value value_of_parts(struct language *language, const struct value *x, const struct value *y,
@@ -167,6 +198,10 @@ void value_to_colour(struct language *language, const struct value *a, double ou
 
 void value_to_opaque(struct language *language, const struct value *a, double out[3])
 {
+  if (a->transparent & TRANSPARENT_SAID) {
+    language_error(language, a->place, "this colour is transparent, and what pscn renders is not");
+    return;
+  }
   if (a->transparent || (a->kind == VALUE_NUMBER && a->x[0] != 0)) {
     language_error(language, a->place,
                    "a number alone or after color is a transparent colour in POV-Ray; write rgb before it");

@@ -17,6 +17,14 @@ struct value value_negative(struct language *language, const struct value *a, st
 struct value value_component(struct language *language, const struct value *a, int index, struct place place);
 struct value value_rgb(struct language *language, const struct value *a, struct place place);
 struct value value_color(struct language *language, const struct value *a, struct place place);
+/* After rgbf, rgbt (4 parts) and rgbft (5): a number or a colour; or each part, transmit NULL where there are 4. */
+struct value value_rgbft(struct language *language, const struct value *a, int parts, struct place place);
+struct value value_wide(struct language *language, const struct value *red, const struct value *green,
+                        const struct value *blue, const struct value *filter, const struct value *transmit,
+                        struct place place);
+/* A colour, black where NULL, with one part said by name: 0 red, 1 green, 2 blue, 3 filter or transmit. */
+struct value value_part(struct language *language, const struct value *colour, int part, const struct value *value,
+                        struct place place);
 
 /* What is wanted, or an error. Nothing is written to `out` then; value_to_number answers false. */
 void value_to_vector(struct language *language, const struct value *a, double out[3]);

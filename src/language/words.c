@@ -18,33 +18,35 @@ static const struct keyword KEYWORDS[] = {
     {"assumed_gamma", PSCN_TOKEN_ASSUMED_GAMMA}, {"background", PSCN_TOKEN_BACKGROUND},
     {"bicubic_patch", PSCN_TOKEN_BICUBIC_PATCH}, {"blue", PSCN_TOKEN_BLUE}, {"brilliance", PSCN_TOKEN_BRILLIANCE},
     {"camera", PSCN_TOKEN_CAMERA}, {"color", PSCN_TOKEN_COLOR}, {"colour", PSCN_TOKEN_COLOR},
-    {"diffuse", PSCN_TOKEN_DIFFUSE}, {"direction", PSCN_TOKEN_DIRECTION}, {"finish", PSCN_TOKEN_FINISH},
-    {"flatness", PSCN_TOKEN_FLATNESS}, {"global_settings", PSCN_TOKEN_GLOBAL_SETTINGS}, {"green", PSCN_TOKEN_GREEN},
-    {"image_height", PSCN_TOKEN_IMAGE_HEIGHT}, {"image_width", PSCN_TOKEN_IMAGE_WIDTH},
+    {"diffuse", PSCN_TOKEN_DIFFUSE}, {"direction", PSCN_TOKEN_DIRECTION}, {"filter", PSCN_TOKEN_FILTER},
+    {"finish", PSCN_TOKEN_FINISH}, {"flatness", PSCN_TOKEN_FLATNESS}, {"global_settings", PSCN_TOKEN_GLOBAL_SETTINGS},
+    {"green", PSCN_TOKEN_GREEN}, {"image_height", PSCN_TOKEN_IMAGE_HEIGHT}, {"image_width", PSCN_TOKEN_IMAGE_WIDTH},
     {"light_source", PSCN_TOKEN_LIGHT_SOURCE}, {"location", PSCN_TOKEN_LOCATION}, {"look_at", PSCN_TOKEN_LOOK_AT},
     {"matrix", PSCN_TOKEN_MATRIX}, {"max_trace_level", PSCN_TOKEN_MAX_TRACE_LEVEL}, {"object", PSCN_TOKEN_OBJECT},
     {"perspective", PSCN_TOKEN_PERSPECTIVE}, {"phong", PSCN_TOKEN_PHONG}, {"phong_size", PSCN_TOKEN_PHONG_SIZE},
     {"pi", PSCN_TOKEN_PI}, {"pigment", PSCN_TOKEN_PIGMENT}, {"red", PSCN_TOKEN_RED}, {"rgb", PSCN_TOKEN_RGB},
-    {"right", PSCN_TOKEN_RIGHT}, {"rotate", PSCN_TOKEN_ROTATE}, {"roughness", PSCN_TOKEN_ROUGHNESS},
-    {"scale", PSCN_TOKEN_SCALE}, {"shadowless", PSCN_TOKEN_SHADOWLESS}, {"sky", PSCN_TOKEN_SKY},
-    {"solver", PSCN_TOKEN_SOLVER}, {"specular", PSCN_TOKEN_SPECULAR}, {"texture", PSCN_TOKEN_TEXTURE},
-    {"translate", PSCN_TOKEN_TRANSLATE}, {"type", PSCN_TOKEN_TYPE}, {"u_steps", PSCN_TOKEN_U_STEPS},
-    {"union", PSCN_TOKEN_UNION}, {"up", PSCN_TOKEN_UP}, {"v_steps", PSCN_TOKEN_V_STEPS}, {"x", PSCN_TOKEN_X},
-    {"y", PSCN_TOKEN_Y}, {"z", PSCN_TOKEN_Z}};
+    {"rgbf", PSCN_TOKEN_RGBF}, {"rgbft", PSCN_TOKEN_RGBFT}, {"rgbt", PSCN_TOKEN_RGBF}, {"right", PSCN_TOKEN_RIGHT},
+    {"rotate", PSCN_TOKEN_ROTATE}, {"roughness", PSCN_TOKEN_ROUGHNESS}, {"scale", PSCN_TOKEN_SCALE},
+    {"shadowless", PSCN_TOKEN_SHADOWLESS}, {"sky", PSCN_TOKEN_SKY}, {"solver", PSCN_TOKEN_SOLVER},
+    {"specular", PSCN_TOKEN_SPECULAR}, {"texture", PSCN_TOKEN_TEXTURE}, {"translate", PSCN_TOKEN_TRANSLATE},
+    {"transmit", PSCN_TOKEN_FILTER}, {"type", PSCN_TOKEN_TYPE}, {"u_steps", PSCN_TOKEN_U_STEPS},
+    {"union", PSCN_TOKEN_UNION}, {"up", PSCN_TOKEN_UP}, {"v_steps", PSCN_TOKEN_V_STEPS},
+    {"version", PSCN_TOKEN_VERSION_WORD}, {"x", PSCN_TOKEN_X}, {"y", PSCN_TOKEN_Y}, {"z", PSCN_TOKEN_Z}};
 
 static const struct keyword DIRECTIVES[] = {
-    {"declare", PSCN_TOKEN_DECLARE}, {"else", TOKEN_ELSE}, {"end", TOKEN_ENDIF}, {"ifdef", TOKEN_IFDEF},
-    {"ifndef", TOKEN_IFNDEF}, {"include", TOKEN_INCLUDE}, {"local", PSCN_TOKEN_LOCAL}, {"version", PSCN_TOKEN_VERSION}};
+    {"declare", PSCN_TOKEN_DECLARE}, {"default", PSCN_TOKEN_DEFAULT}, {"else", TOKEN_ELSE}, {"end", TOKEN_ENDIF},
+    {"ifdef", TOKEN_IFDEF}, {"ifndef", TOKEN_IFNDEF}, {"include", TOKEN_INCLUDE}, {"local", PSCN_TOKEN_LOCAL},
+    {"version", PSCN_TOKEN_VERSION}};
 
 /* POV-Ray 3.7's other directives. */
 static const struct keyword FOREIGN_DIRECTIVES[] = {
     {"break", TOKEN_FOREIGN_DIRECTIVE}, {"case", TOKEN_FOREIGN_DIRECTIVE}, {"debug", TOKEN_FOREIGN_DIRECTIVE},
-    {"default", TOKEN_FOREIGN_DIRECTIVE}, {"elseif", TOKEN_FOREIGN_DIRECTIVE}, {"error", TOKEN_FOREIGN_DIRECTIVE},
-    {"fclose", TOKEN_FOREIGN_DIRECTIVE}, {"fopen", TOKEN_FOREIGN_DIRECTIVE}, {"for", TOKEN_FOREIGN_OPENER},
-    {"if", TOKEN_FOREIGN_OPENER}, {"macro", TOKEN_FOREIGN_OPENER}, {"range", TOKEN_FOREIGN_DIRECTIVE},
-    {"read", TOKEN_FOREIGN_DIRECTIVE}, {"render", TOKEN_FOREIGN_DIRECTIVE}, {"statistics", TOKEN_FOREIGN_DIRECTIVE},
-    {"switch", TOKEN_FOREIGN_OPENER}, {"undef", TOKEN_FOREIGN_DIRECTIVE}, {"warning", TOKEN_FOREIGN_DIRECTIVE},
-    {"while", TOKEN_FOREIGN_OPENER}, {"write", TOKEN_FOREIGN_DIRECTIVE}};
+    {"elseif", TOKEN_FOREIGN_DIRECTIVE}, {"error", TOKEN_FOREIGN_DIRECTIVE}, {"fclose", TOKEN_FOREIGN_DIRECTIVE},
+    {"fopen", TOKEN_FOREIGN_DIRECTIVE}, {"for", TOKEN_FOREIGN_OPENER}, {"if", TOKEN_FOREIGN_OPENER},
+    {"macro", TOKEN_MACRO}, {"range", TOKEN_FOREIGN_DIRECTIVE}, {"read", TOKEN_FOREIGN_DIRECTIVE},
+    {"render", TOKEN_FOREIGN_DIRECTIVE}, {"statistics", TOKEN_FOREIGN_DIRECTIVE}, {"switch", TOKEN_FOREIGN_OPENER},
+    {"undef", TOKEN_FOREIGN_DIRECTIVE}, {"warning", TOKEN_FOREIGN_DIRECTIVE}, {"while", TOKEN_FOREIGN_OPENER},
+    {"write", TOKEN_FOREIGN_DIRECTIVE}};
 
 /* Sorted: what else POV-Ray 3.7 reserves, and which of that are shapes. */
 static const char *const FOREIGN[] = {
@@ -62,7 +64,7 @@ static const char *const FOREIGN[] = {
     "dispersion_samples", "dist_exp", "distance", "div", "double_illuminate", "dtag", "eccentricity", "emission",
     "error_bound", "evaluate", "exp", "expand_thresholds", "exponent", "exr", "exterior", "extinction",
     "face_indices", "facets", "fade_color", "fade_colour", "fade_distance", "fade_power", "falloff", "falloff_angle",
-    "false", "file_exists", "filter", "fisheye", "flip", "floor", "focal_point", "fog", "fog_alt", "fog_offset",
+    "false", "file_exists", "fisheye", "flip", "floor", "focal_point", "fog", "fog_alt", "fog_offset",
     "fog_type", "form", "frequency", "fresnel", "function", "gather", "gif", "global_lights", "gradient", "granite",
     "gray", "gray_threshold", "hdr", "height_field", "hexagon", "hf_gray_16", "hierarchy", "hollow", "hypercomplex",
     "iff", "image_map", "image_pattern", "importance", "inside", "inside_vector", "int", "interior",
@@ -81,14 +83,14 @@ static const char *const FOREIGN[] = {
     "precision", "precompute", "premultiplied", "pretrace_end", "pretrace_start", "prism", "prod",
     "projected_through", "pwr", "quadratic_spline", "quadric", "quartic", "quaternion", "quick_color", "quick_colour",
     "quilted", "radial", "radians", "radiosity", "radius", "rainbow", "ramp_wave", "rand", "ratio", "reciprocal",
-    "recursion_limit", "reflection", "reflection_exponent", "refraction", "rgbf", "rgbft", "rgbt", "ripples",
+    "recursion_limit", "reflection", "reflection_exponent", "refraction", "ripples",
     "save_file", "scallop_wave", "scattering", "seed", "select", "sin", "sine_wave", "sinh", "size", "sky_sphere",
     "slice", "slope", "slope_map", "smooth", "smooth_triangle", "solid", "sor", "spacing", "sphere", "sphere_sweep",
     "spherical", "spiral1", "spiral2", "spline", "split_union", "spotlight", "spotted", "sqr", "sqrt", "square",
     "srgb", "srgbf", "srgbft", "srgbt", "statistics", "str", "strcmp", "strength", "strlen", "strlwr", "strupr",
     "sturm", "substr", "subsurface", "sum", "superellipsoid", "sys", "t", "tan", "tanh", "target", "text",
     "texture_list", "texture_map", "tga", "thickness", "threshold", "tiff", "tightness", "tile2", "tiles", "tiling",
-    "tolerance", "toroidal", "torus", "trace", "transform", "translucency", "transmit", "triangle", "triangle_wave",
+    "tolerance", "toroidal", "torus", "trace", "transform", "translucency", "triangle", "triangle_wave",
     "triangular", "true", "ttf", "turb_depth", "turbulence", "u", "ultra_wide_angle", "use_alpha", "use_color",
     "use_colour", "use_index", "utf8", "uv_indices", "uv_mapping", "uv_vectors", "v", "val", "variance",
     "vaxis_rotate", "vcross", "vdot", "vertex_vectors", "vlength", "vnormalize", "vrotate", "vstr", "vturbulence",
@@ -160,6 +162,7 @@ bool words_begin_statement(int token)
 {
   static const int statements[] = {
       PSCN_TOKEN_VERSION, PSCN_TOKEN_DECLARE,      PSCN_TOKEN_LOCAL,      PSCN_TOKEN_GLOBAL_SETTINGS,
+      PSCN_TOKEN_DEFAULT,
       PSCN_TOKEN_CAMERA,  PSCN_TOKEN_LIGHT_SOURCE, PSCN_TOKEN_BACKGROUND, PSCN_TOKEN_BICUBIC_PATCH,
       PSCN_TOKEN_UNION,   PSCN_TOKEN_OBJECT};
   return is_one_of(token, statements, COUNT(statements));
@@ -171,7 +174,7 @@ bool words_begin_item(int token)
       PSCN_TOKEN_WORD,  PSCN_TOKEN_NUMBER, PSCN_TOKEN_POINT,       PSCN_TOKEN_STRING,      PSCN_TOKEN_COLOR,
       PSCN_TOKEN_RGB,   PSCN_TOKEN_RED,    PSCN_TOKEN_GREEN,       PSCN_TOKEN_BLUE,        PSCN_TOKEN_X,
       PSCN_TOKEN_Y,     PSCN_TOKEN_Z,      PSCN_TOKEN_PI,          PSCN_TOKEN_IMAGE_WIDTH, PSCN_TOKEN_IMAGE_HEIGHT,
-      PSCN_TOKEN_FOREIGN};
+      PSCN_TOKEN_RGBF,  PSCN_TOKEN_RGBFT,  PSCN_TOKEN_FILTER,      PSCN_TOKEN_VERSION_WORD, PSCN_TOKEN_FOREIGN};
   return token > 255 && !is_one_of(token, in_values, COUNT(in_values));
 }
 

@@ -1,10 +1,6 @@
 /* A scene as canonical text. One order, one layout, numbers by number_write: equal scenes give equal text. Textures
- * are told apart by what they are and numbered in the order in which patches first use them, so that reading the
- * text back and writing it again changes nothing, however the reader keeps its textures. */
+ * have the numbers that the scene gives them, which are in the order in which patches first use them. */
 #include "scene/dump.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/number.h"
 
@@ -12,12 +8,7 @@ struct dump {
   const struct scene *scene;
   FILE *file;
   bool failed;
-  uint32_t *names;       /* scene.texture_count: the number each texture is written under, or UNNAMED */
-  uint32_t *named;       /* the textures written, by number */
-  uint32_t named_count;
 };
-
-#define UNNAMED UINT32_MAX
 
 static void put(struct dump *dump, const char *text)
 {
@@ -55,54 +46,6 @@ static void put_solver(struct dump *dump, const struct method *method)
 
 /* ---- textures ---- */
 
-/* FNV-1a over the bytes of a texture, which is all doubles. */
-static size_t texture_hash(const struct scene_texture *texture)
-{
-  uint64_t hash = UINT64_C(0xcbf29ce484222325);
-  unsigned char bytes[sizeof *texture];
-  memcpy(bytes, texture, sizeof bytes);
-  for (size_t i = 0; i < sizeof bytes; i++) hash = (hash ^ bytes[i]) * UINT64_C(0x100000001b3);
-  return (size_t)(hash ^ (hash >> 32));
-}
-
-/* Gives the texture its number: that of an equal one met before, or the next. `table` holds named textures by hash;
- * its size is a power of two, at least twice the number of textures. */
-static void name_texture(struct dump *dump, uint32_t *table, size_t size, uint32_t texture)
-{
-  const struct scene_texture *all = dump->scene->textures;
-  size_t slot = texture_hash(&all[texture]) & (size - 1);
-  while (table[slot] != UNNAMED && memcmp(&all[dump->named[table[slot]]], &all[texture], sizeof *all) != 0) {
-    slot = (slot + 1) & (size - 1);
-  }
-  if (table[slot] == UNNAMED) {
-    table[slot] = dump->named_count;
-    dump->named[dump->named_count++] = texture;
-  }
-  dump->names[texture] = table[slot];
-}
-
-static enum status name_textures(struct dump *dump)
-{
-  const struct scene *scene = dump->scene;
-  const size_t count = scene->texture_count;
-  size_t size = 2;
-  while (size / 2 < count) size *= 2;
-  uint32_t *table = calloc(size, sizeof *table);
-  dump->names = calloc(count + 1, sizeof *dump->names);
-  dump->named = calloc(count + 1, sizeof *dump->named);
-  enum status status = table && dump->names && dump->named ? STATUS_OK : STATUS_LIMIT;
-  if (status == STATUS_OK) {
-    for (size_t i = 0; i < size; i++) table[i] = UNNAMED;
-    for (size_t i = 0; i < count; i++) dump->names[i] = UNNAMED;
-    for (size_t i = 0; i < scene->patch_count; i++) {
-      const uint32_t texture = scene->patches[i].texture;
-      if (dump->names[texture] == UNNAMED) name_texture(dump, table, size, texture);
-    }
-  }
-  free(table);
-  return status;
-}
-
 static void put_texture_name(struct dump *dump, uint32_t number)
 {
   char text[32];
@@ -112,7 +55,7 @@ static void put_texture_name(struct dump *dump, uint32_t number)
 
 static void put_texture(struct dump *dump, uint32_t number)
 {
-  const struct scene_texture *texture = &dump->scene->textures[dump->named[number]];
+  const struct scene_texture *texture = &dump->scene->textures[number];
   const struct scene_finish *finish = &texture->finish;
   put(dump, "#declare ");
   put_texture_name(dump, number);
@@ -162,7 +105,7 @@ static void put_patch(struct dump *dump, const struct scene_patch *patch)
     if (i < 3) put(dump, ",");
   }
   put(dump, "\n  texture { ");
-  put_texture_name(dump, dump->names[patch->texture]);
+  put_texture_name(dump, patch->texture);
   put(dump, " }\n");
   const struct method *solvers = dump->scene->solvers;
   if (!method_equal(&solvers[patch->solver], &solvers[0])) put_solver(dump, &solvers[patch->solver]);
@@ -171,7 +114,7 @@ static void put_patch(struct dump *dump, const struct scene_patch *patch)
 
 static void put_textures(struct dump *dump)
 {
-  for (uint32_t i = 0; i < dump->named_count; i++) put_texture(dump, i);
+  for (uint32_t i = 0; i < dump->scene->texture_count; i++) put_texture(dump, i);
 }
 
 static void put_patches(struct dump *dump)
@@ -179,37 +122,24 @@ static void put_patches(struct dump *dump)
   for (size_t i = 0; i < dump->scene->patch_count && !dump->failed; i++) put_patch(dump, &dump->scene->patches[i]);
 }
 
-static enum status dump_end(struct dump *dump, enum status status)
-{
-  free(dump->names);
-  free(dump->named);
-  return status == STATUS_OK && dump->failed ? STATUS_FILE : status;
-}
-
 enum status scene_dump(const struct scene *scene, FILE *file)
 {
   struct dump dump = { .scene = scene, .file = file };
-  const enum status status = name_textures(&dump);
-  if (status == STATUS_OK) {
-    put_settings(&dump);
-    for (size_t i = 0; i < scene->light_count; i++) put_light(&dump, &scene->lights[i]);
-    put_textures(&dump);
-    put_patches(&dump);
-  }
-  return dump_end(&dump, status);
+  put_settings(&dump);
+  for (size_t i = 0; i < scene->light_count; i++) put_light(&dump, &scene->lights[i]);
+  put_textures(&dump);
+  put_patches(&dump);
+  return dump.failed ? STATUS_FILE : STATUS_OK;
 }
 
 enum status scene_dump_union(const struct scene *scene, const char *name, FILE *file)
 {
   struct dump dump = { .scene = scene, .file = file };
-  const enum status status = name_textures(&dump);
-  if (status == STATUS_OK) {
-    put_textures(&dump);
-    put(&dump, "#declare ");
-    put(&dump, name);
-    put(&dump, " = union {\n");
-    put_patches(&dump);
-    put(&dump, "}\n");
-  }
-  return dump_end(&dump, status);
+  put_textures(&dump);
+  put(&dump, "#declare ");
+  put(&dump, name);
+  put(&dump, " = union {\n");
+  put_patches(&dump);
+  put(&dump, "}\n");
+  return dump.failed ? STATUS_FILE : STATUS_OK;
 }

@@ -14,8 +14,7 @@
 #include "base/status.h"
 #include "scene/scene.h"
 
-/* STATUS_FILE where writing fails (errno says why), STATUS_LIMIT where memory is short. Does not flush or close
- * `file`. */
+/* STATUS_FILE where writing fails (errno says why). Does not flush or close `file`. */
 STATUS_MUST_CHECK enum status scene_dump(const struct scene *scene, FILE *file);
 
 /* Only the patches, as `#declare NAME = union { ... }`, with the textures they use before it. */

@@ -64,6 +64,7 @@ struct scene_camera {
 struct scene {
   struct arena *arena;
   struct scene_camera camera;
+  bool has_camera; /* it was said; else it is POV-Ray's default */
   double background[3], ambient_light[3];
   struct scene_light *lights;
   size_t light_count;
@@ -73,7 +74,7 @@ struct scene {
   size_t object_count;
   struct scene_copy *copies; /* by first_patch; none overlaps another, and what is copied once is none */
   size_t copy_count;
-  struct scene_texture *textures;
+  struct scene_texture *textures; /* from a text: all different, in the order in which patches first use them */
   size_t texture_count;
   struct method *solvers; /* [0] is global_settings', the default of every patch */
   size_t solver_count;

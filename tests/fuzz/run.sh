@@ -16,7 +16,7 @@ build=$top/build-fuzz
 
 cd "$top"
 cmake --preset fuzz >/dev/null
-nice cmake --build --preset fuzz >/dev/null
+nice cmake --build --preset fuzz --parallel >/dev/null
 mkdir -p "$build/artifacts" "$build/work"
 
 # Words of the language: the names of the grammar's tokens and of the methods, and what else stands between words.

@@ -67,7 +67,7 @@ static void test_scenes(void **state)
 {
   (void)state;
   static const char *const files[] = { "ok/includes.pscn", "ok/nesting.pscn", "ok/textures.pscn", "ok/solvers.pscn",
-                                       "ok/conditions.pscn" };
+                                       "ok/conditions.pscn", "ok/povray_files.pscn" };
   for (size_t k = 0; k < sizeof files / sizeof *files; k++) assert_true(run(files[k], STATUS_OK) > LEAST);
 }
 

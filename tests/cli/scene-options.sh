@@ -1,0 +1,25 @@
+# Folders of included files, names declared on the command line, warnings of a scene that shows nothing.
+mkdir first second
+echo '#declare Where = 1;' >first/where.inc
+echo '#declare Where = 2;' >second/where.inc
+echo '#declare Where = 3;' >second/here.inc
+echo '#include "where.inc" background { rgb Where }' >scene.pscn
+try pscn dump scene.pscn
+pscn dump scene.pscn -I first | grep background
+pscn dump scene.pscn -I nowhere -I second/ -I first | grep background
+PSCN_INCLUDE=nowhere:second:first pscn dump scene.pscn | grep background
+PSCN_INCLUDE=second pscn dump scene.pscn --include=first | grep background
+cp second/here.inc where.inc
+pscn dump scene.pscn -I first | grep background
+
+echo 'background { rgb Level } #ifdef (Other) camera { location Other } #end' >scene.pscn
+for level in 0.5 -1e-3 Level; do try pscn dump scene.pscn --declare Level=$level | grep 'background\|exit'; done
+pscn dump scene.pscn --declare Level=1 --declare Other=2 --declare Level=3 | grep 'background\|location'
+for text in Level Level= =1 1a=2 x=1 sphere=1 'a b=1' Level=1x Level=1e999; do try pscn dump scene.pscn --declare "$text"; done
+
+cat >scene.pscn <<'END'
+#version 3.6;
+background { rgb 1 }
+END
+try pscn render scene.pscn -o a.png --size 4x3 2>&1 | grep 'warning\|exit'
+try pscn render scene.pscn -o a.png --size 4x3 --quiet
