@@ -83,6 +83,18 @@ static bool at_open_border(const struct model *model, size_t patch, double u, do
   return (open[0] && u == 0) || (open[1] && u == 1) || (open[2] && v == 0) || (open[3] && v == 1);
 }
 
+/* Half of the rays start nearer to their target: by up to this power of ten. From within 1 % of a pole the side of a
+ * start is hard to tell. */
+enum { NEAREST_START = 9 };
+
+static void pull(struct random *random, const double target[3], double origin[3])
+{
+  const uint64_t bits = random_bits(random);
+  if (bits % 2) return;
+  const double way = pow(10, -(double)(bits / 2 % (NEAREST_START + 1)));
+  for (int axis = 0; axis < 3; axis++) origin[axis] = target[axis] + way * (origin[axis] - target[axis]);
+}
+
 static void random_ray(const struct model *model, const struct placement *placement, const struct model *placed,
                        int kind, struct random *random, struct ray *ray)
 {
@@ -101,6 +113,7 @@ static void random_ray(const struct model *model, const struct placement *placem
     net_point(placed->P[patch], u, v, target);
     placement_apply(placement, origin, origin);
   }
+  pull(random, target, origin);
   *ray = (struct ray){.t_min = 0, .t_max = INFINITY};
   for (int axis = 0; axis < 3; axis++) {
     ray->origin[axis] = origin[axis];
@@ -108,12 +121,13 @@ static void random_ray(const struct model *model, const struct placement *placem
   }
 }
 
-/* Whether a hit beyond the target is the first all the same: rounding moves a target far along a ray that is nearly
- * tangent. */
-static bool first_after_all(const struct trial *trial, const struct ray *ray, const struct hit *hit)
+/* Whether an answer beyond the target is right all the same: rounding moves a target far along a ray that is nearly
+ * tangent, and a start that is as near as that out of the model. */
+static bool right_after_all(const struct trial *trial, const struct ray *ray, const struct hit *hit)
 {
   struct reference_answer truth;
   reference_closest(trial->reference, ray->origin, ray->direction, &truth);
+  if (hit->patch == HIT_NONE) return truth.verdict == REFERENCE_MISS;
   if (truth.patch == REFERENCE_NONE) return truth.verdict == REFERENCE_GRAZING && hit->t >= truth.t_first;
   return hit->t <= (double)truth.t + TRIAL_SAME_FLOORS * truth.data.t;
 }
@@ -128,8 +142,10 @@ static size_t count_leaks(struct trial *trial, const char *name, const char *sol
   tracer_closest(trial->tracer, count, rays, hits);
   tracer_occluded(trial->tracer, count, rays, occluded);
   for (size_t n = 0; n < count; n++) {
-    bool struck = hits[n].patch != HIT_NONE && occluded[n];
-    if (struck && (hits[n].t <= 1 + AT_TARGET || first_after_all(trial, &rays[n], &hits[n]))) continue;
+    const bool struck = hits[n].patch != HIT_NONE;
+    if (struck == occluded[n] &&
+        ((struck && hits[n].t <= 1 + AT_TARGET) || right_after_all(trial, &rays[n], &hits[n])))
+      continue;
     leaks++;
     if (shown++ >= MOST_SHOWN) continue;
     const struct ray *r = &rays[n];
@@ -238,7 +254,7 @@ static void test_leave(void **state)
       random_ray(&model, &placement, &placed, (int)(n % AIMS), &random, &ray);
       random_ray(&model, &placement, &placed, (int)(n / AIMS % AIMS), &random, &goal);
       tracer_closest(trial.tracer, 1, &ray, &hit);
-      assert_int_not_equal(hit.patch, HIT_NONE);
+      if (hit.patch == HIT_NONE) continue; /* whether that is a leak, the others tell */
       double cosine = 0, length = 0;
       for (int axis = 0; axis < 3; axis++) {
         next.direction[axis] = goal.origin[axis] + goal.direction[axis] - hit.point[axis];
