@@ -3,7 +3,9 @@
 
 void scene_override_solver(struct scene *scene, const struct method *method)
 {
-  for (size_t i = 0; i < scene->solver_count; i++) scene->solvers[i] = *method;
+  scene->solvers[0] = *method;
+  scene->solver_count = 1;
+  for (size_t i = 0; i < scene->patch_count; i++) scene->patches[i].solver = 0;
 }
 
 void scene_destroy(struct scene *scene)

@@ -46,6 +46,15 @@ for name in nothing aside; do
   ls out4
 done
 
+# A patch with a solver of its own, which means nothing here.
+{
+  cat "$scene"
+  echo 'bicubic_patch { type 0'
+  for y in -2 -1 1 2; do echo "<-2, $y, -1> <-1, $y, -1> <1, $y, -1.5> <2, $y, -1>"; done
+  echo 'solver aberth { tolerance 1e-9 } }'
+} >two.pscn
+try pscn chart two.pscn $small --no-peers --quiet -o out6
+
 # The command line.
 try pscn chart
 try pscn chart "$scene" --rays 0
