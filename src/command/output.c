@@ -113,7 +113,9 @@ enum status output_folder_fill(const struct command *command, const struct outpu
       (void)rmdir(path); /* stays where something is in it after all */
     interrupt_resume();
     if (done && !folder->quiet) {
-      printf("%s\n%s/%s shows it\n", text.text, path, folder->page);
+      page_bytes(&text, "\n", 1);
+      page_printable(&text, path, strlen(path));
+      printf("%s/%s shows it\n", text.text, folder->page);
       const enum status written = command_finish_output(command);
       status = written == STATUS_OK ? status : written;
     }

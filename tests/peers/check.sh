@@ -137,6 +137,7 @@ names() {
   odd=$(printf 'odd\xff\x1b[31m<b>')
   cp "$name/plain.inc" "$odd.pscn"
   expect 0 "$PSCN" check "$odd.pscn" --size 9x9 --steps 0 --grid 0 -o again
+  grep -q "$(printf '[\x1b]')" out && fail "a name sends escapes"
   grep -q 'odd\\xff\\x1b\[31m&lt;b&gt;' again/check.html && grep -q 'odd\\xff\\x1b' out ||
     fail "a name is not shown printable"
   [ "$(ls again | tr '\n' ' ')" = "check.html check.json difference.png povray.png pscn.png " ] ||
