@@ -41,14 +41,13 @@ static void ray_past(struct random *random, const double at[3], double off, doub
   double aside[3], back = choose(random, 2) ? random_between(random, 0.5, 8) : random_decade(random, 0, 18);
   if (choose(random, 8) == 0) back = -off;
   random_vector(random, off, aside);
-  *ray = (struct ray){.t_min = 0, .t_max = INFINITY};
+  ray->t_min = 0, ray->t_max = INFINITY;
   for (int axis = 0; axis < 3; axis++) {
     ray->origin[axis] = at[axis] + aside[axis] - back * size * d[axis];
     ray->direction[axis] = d[axis];
   }
 }
 
-/* The same, all around. */
 static void ray_round(struct random *random, const double at[3], double off, double size, struct ray *ray)
 {
   double d[3];
@@ -63,10 +62,9 @@ static double ring(struct random *random, double size)
 
 /* A closed model, as it is, or turned, or with the point at (u,v) of its patch 0 moved to the middle, where rays next
  * to it have all their digits. */
-static void place(struct random *random, void (*make)(struct model *), double u, double v, struct situation *s)
+static void place_model(struct random *random, struct model *made, double u, double v, struct situation *s)
 {
-  struct model model;
-  make(&model);
+  struct model model = *made;
   struct placement placement;
   const double scale = choose(random, 3) ? 1 : random_decade(random, -6, 6);
   placement_random(random, scale, choose(random, 2) ? scale * random_decade(random, -3, 3) : 0, &placement);
@@ -81,6 +79,13 @@ static void place(struct random *random, void (*make)(struct model *), double u,
   }
   s->count = model.count;
   memcpy(s->P, model.P, sizeof s->P);
+}
+
+static void place(struct random *random, void (*make)(struct model *), double u, double v, struct situation *s)
+{
+  struct model model;
+  make(&model);
+  place_model(random, &model, u, v, s);
 }
 
 /* How large patch 0 is. */
@@ -102,12 +107,36 @@ static void rays_round(struct random *random, double u, double v, struct situati
 }
 
 static void (*const bodies[])(struct model *) = {model_ball, model_torus, model_dome};
+static void (*const bodies_with_poles[])(struct model *) = {model_ball, model_dome, model_teapot};
+
+/* Patch 0 becomes one whose row u = 0 is one point: of the teapot the lid's and the bottom's. */
+static void pole_first(struct random *random, struct model *model)
+{
+  for (;;) {
+    const size_t n = choose(random, model->count);
+    double(*row)[3] = model->P[n][0], P[4][4][3];
+    bool pole = true;
+    for (int j = 1; j < 4; j++) pole = pole && memcmp(row[j], row[0], sizeof row[0]) == 0;
+    if (!pole) continue;
+    memcpy(P, model->P[0], sizeof P);
+    memcpy(model->P[0], model->P[n], sizeof P), memcpy(model->P[n], P, sizeof P);
+    return;
+  }
+}
+
+static void place_pole(struct random *random, size_t index, struct situation *s)
+{
+  struct model model;
+  bodies_with_poles[index % 3](&model);
+  pole_first(random, &model);
+  place_model(random, &model, 0, 0, s);
+}
 
 /* ---- rings ---- */
 
 static void pole_rings(struct random *random, size_t index, struct situation *s)
 {
-  place(random, index % 2 ? model_ball : model_dome, 0, 0, s);
+  place_pole(random, index, s);
   rays_round(random, 0, random_unit(random), s);
 }
 
@@ -319,7 +348,7 @@ static void thin(struct random *random, size_t index, struct situation *s)
 /* From within 1 % of a pole, on the surface or beside it, anywhere. */
 static void pole_starts(struct random *random, size_t index, struct situation *s)
 {
-  place(random, index % 2 ? model_ball : model_dome, 0, 0, s);
+  place_pole(random, index, s);
   const double size = size_of(s);
   for (int n = 0; n < RAYS; n++) {
     double d[3], at[3];
