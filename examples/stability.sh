@@ -32,7 +32,7 @@ mkdir -p "$pictures"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-PAPER='basis power resultant sylvester back_substitution euclid polish off split 1'
+PAPER='form paper'
 FRAME=320x240
 INSIDE=401x401
 

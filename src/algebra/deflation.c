@@ -1,10 +1,10 @@
 /* One root at a time: the loop that Newton's and Laguerre's methods share (sections 3.1 and 3.2 of the paper).
  *
  * A root is sought in what is left of the polynomial after the roots before it were divided out, from its first start
- * value (or from the i-th root of the polynomial before, with `start previous`). Forward division (from the highest power, the paper's) is stable for roots found in order of increasing
- * modulus, backward division for the opposite; the composite takes each where it is stable and joins them at the
- * largest terms |c[k] a^k| (Peters and Wilkinson, "Practical problems arising in the solution of polynomial equations",
- * 1971).
+ * value (or from the i-th root of the polynomial before, with `start previous`). Forward division (from the highest
+ * power, the paper's) is stable for roots found in order of increasing modulus, backward division for the opposite; the
+ * composite takes each where it is stable and joins them at the largest terms |c[k] a^k| (Peters and Wilkinson,
+ * "Practical problems arising in the solution of polynomial equations", 1971).
  *
  * A value is taken for a real root where dropping its imaginary part does not raise |p| above what it was or above its
  * rounding bound; the paper does not say how it decides.
@@ -22,9 +22,9 @@
 
 /* A step that is no shorter than this much of the one so many steps before is turned by one radian, and from there on
  * steps are at most half as long as before, the first time 1/2 of |x| + the mean modulus: a real start on a polynomial
- * without real roots would never leave the axis, and Laguerre's method jumps to and fro between the middle of roots on a
- * circle and far outside. On its way from afar Newton's method shortens its steps by 1/n each: at degree 64 the seventh
- * is still 0.9 of the first. */
+ * without real roots would never leave the axis, and Laguerre's method jumps to and fro between the middle of roots on
+ * a circle and far outside. On its way from afar Newton's method shortens its steps by 1/n each: at degree 64 the
+ * seventh is still 0.9 of the first. */
 enum { TURN_PERIOD = 7 };
 #define STUCK 0.9
 
@@ -34,8 +34,8 @@ enum { TURN_PERIOD = 7 };
 /* Steps of `refine` on the whole polynomial. */
 enum { REFINE_STEPS = 2 };
 
-/* Where the halves of a quotient meet: in the middle of the terms |c[k]| modulus^k that are nearly the largest. On either
- * side of such a term a half is still exact to rounding, and beyond the last one it is not. */
+/* Where the halves of a quotient meet: in the middle of the terms |c[k]| modulus^k that are nearly the largest. On
+ * either side of such a term a half is still exact to rounding, and beyond the last one it is not. */
 static int joint(int n, const double c[], double modulus)
 {
   double term[POLYNOMIAL_MAX_DEGREE + 1], largest = 0.0, power = 1.0;

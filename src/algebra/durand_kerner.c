@@ -1,9 +1,10 @@
 /* Durand-Kerner, Weierstrass's method: all roots at once, the simplest iteration that does it (K. Weierstrass 1891; E.
  * Durand 1960; I. Kerner 1966). The baseline that Aberth's method is measured against.
  *
- * z_i <- z_i - P(z_i) / (c_n product over j != i of (z_i - z_j)): Newton's method with P' replaced by what it would be if
- * the others were the roots. It needs no derivative and converges quadratically (Aberth's method: cubically) to simple
- * roots, linearly to multiple ones. In the reversed chart P = x^n q(1/x), and each factor of the product takes one x.
+ * z_i <- z_i - P(z_i) / (c_n product over j != i of (z_i - z_j)): Newton's method with P' replaced by what it would be
+ * if the others were the roots. It needs no derivative and converges quadratically (Aberth's method: cubically) to
+ * simple roots, linearly to multiple ones. In the reversed chart P = x^n q(1/x), and each factor of the product takes
+ * one x.
  */
 #include "algebra/root_problem.h"
 #include "algebra/start.h"
@@ -18,7 +19,8 @@ struct sweep {
   double reversed_above;
   int number; /* from 1 */
   struct complex_number x[POLYNOMIAL_MAX_DEGREE], next[POLYNOMIAL_MAX_DEGREE];
-  double last[POLYNOMIAL_MAX_DEGREE], checked[POLYNOMIAL_MAX_DEGREE]; /* |step|^2 in u: the last, and the last checked */
+  double last[POLYNOMIAL_MAX_DEGREE];    /* |step|^2 in u */
+  double checked[POLYNOMIAL_MAX_DEGREE]; /* the same when it was last looked at whether the root is stuck */
 };
 
 /* -P / (c_n product); `resting` where |P| is below its own rounding bound. */

@@ -1,5 +1,5 @@
-/* A real polynomial in one of two bases, its coefficients perhaps known within bounds only. Nothing here allocates, fails
- * or keeps state. */
+/* A real polynomial in one of two bases, its coefficients perhaps known within bounds only. Nothing here allocates,
+ * fails or keeps state. */
 #ifndef PSCN_ALGEBRA_POLYNOMIAL_H
 #define PSCN_ALGEBRA_POLYNOMIAL_H
 

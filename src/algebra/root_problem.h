@@ -98,10 +98,9 @@ static inline void root_estimates_add(struct root_estimates *out, double re, dou
   }
 }
 
-/* Sets radius, status and im of the roots from number `exact` on, the values for the roots of p, from the polynomial with
- * its coefficient errors, and drops those that cannot be told from infinity. On entry status is as the solver found it,
- * and radius the reach of the estimate.
- * `all_sought`: there should be a value for every root. */
+/* Sets radius, status and im of the roots from number `exact` on, the values for the roots of p, from the polynomial
+ * with its coefficient errors, and drops those that cannot be told from infinity. On entry status is as the solver
+ * found it, and radius the reach of the estimate. `all_sought`: there should be a value for every root. */
 void validation_judge(const struct evaluation *p, bool all_sought, int exact, struct root_set *roots);
 
 #endif

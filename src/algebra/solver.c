@@ -72,8 +72,8 @@ const struct root_kernel *root_kernel_best(void)
   return &root_kernel_baseline;
 }
 
-/* The polynomial scaled by a power of two so that its largest coefficient lies in [1/2, 1), which changes no root. False
- * where there is nothing to solve; then out says why. */
+/* The polynomial scaled by a power of two so that its largest coefficient lies in [1/2, 1), which changes no root.
+ * False where there is nothing to solve; then out says why. */
 static bool scale_polynomial(const struct polynomial *p, struct root_problem *scaled, struct root_set *out)
 {
   double largest = 0.0;
@@ -177,8 +177,8 @@ static void remember(const struct root_estimates *estimates, struct solver_warm 
   }
 }
 
-/* The roots, each with the radius of what it stands for, the first *out_exact of them exact, and the polynomial that has
- * the others. False where there is nothing to solve. */
+/* The roots, each with the radius of what it stands for, the first *out_exact of them exact, and the polynomial that
+ * has the others. False where there is nothing to solve. */
 static bool find_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                        struct root_problem *out_rest, int *out_exact, struct root_set *out)
 {

@@ -94,8 +94,8 @@ const struct solver *solver_find(const char *name, size_t length); /* NULL where
 /* What a solver does by default: the improved form. */
 void solver_options_default(const struct solver *solver, struct solver_options *out);
 
-/* Sets radii, stop, horner, update, rest, deflation and refine: to what docs/paper.md found best, or to the paper's iterations
- * as printed; and whether they are the paper's. */
+/* Sets radii, stop, horner, update, rest, deflation and refine: to what docs/paper.md found best, or to the paper's
+ * iterations as printed; and whether they are the paper's. */
 void solver_options_form(struct solver_options *options, bool improved);
 bool solver_options_paper(const struct solver_options *options);
 

@@ -10,13 +10,13 @@
  * denominator at u, the disc of radius r about z lies within r |w|^2 / (1 - r |w|) of u, or reaches infinity if r |w|
  * >= 1.
  *
- * That a disc holds a root does not say that no root is left over. For that, where there are n values x_i, all different
- * (x as in root_problem.h): the discs of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) about them cover
- * all roots, and a group of k of them that is apart from the rest holds exactly k (B. T. Smith, "Error bounds for zeros
- * of a polynomial based upon Gerschgorin's theorems", 1970). So in every group, values are taken in the order of their
- * own bounds: one whose disc is apart from those taken before has a root of its own; the roots left over are somewhere
- * in the group, and the other values get radii that reach all of it. Then roots and values can be paired, each root
- * within the radius of its value. Without n values only those with discs of their own are known.
+ * That a disc holds a root does not say that no root is left over. For that, where there are n values x_i, all
+ * different (x as in root_problem.h): the discs of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) about
+ * them cover all roots, and a group of k of them that is apart from the rest holds exactly k (B. T. Smith, "Error
+ * bounds for zeros of a polynomial based upon Gerschgorin's theorems", 1970). So in every group, values are taken in
+ * the order of their own bounds: one whose disc is apart from those taken before has a root of its own; the roots left
+ * over are somewhere in the group, and the other values get radii that reach all of it. Then roots and values can be
+ * paired, each root within the radius of its value. Without n values only those with discs of their own are known.
  */
 #include <float.h>
 #include <math.h>
@@ -143,8 +143,8 @@ static void find_groups(const struct evaluation *p, int count, struct judged all
     for (int j = 0; j < i; j++) {
       const int from = all[i].group, to = all[j].group;
       if (from == to || !discs_meet(&all[i], all[i].shared, &all[j], all[j].shared)) continue;
-      for (int k = 0; k < count; k++) all[k].group = all[k].group == from || all[k].group == to ? (from < to ? from : to)
-                                                                                               : all[k].group;
+      for (int k = 0; k < count; k++)
+        if (all[k].group == from || all[k].group == to) all[k].group = from < to ? from : to;
     }
   }
 }

@@ -11,18 +11,6 @@ const char *family_name(enum family family)
   return NAMES[family];
 }
 
-/* Everything the paper does, in the words of a solver block. */
-static void set_paper(struct method *options)
-{
-  options->basis = BASIS_POWER;
-  options->resultant = RESULTANT_SYLVESTER;
-  options->back_substitution = BACK_SUBSTITUTION_EUCLID;
-  options->polish = false;
-  options->split = 1;
-  solver_options_form(&options->roots, false);
-  options->form_said = true;
-}
-
 static double tolerance_at(int power) { return pow(10, -power); }
 
 /* Every combination of one solver. `bernstein` works in its own basis from its own start values. */
@@ -52,7 +40,7 @@ static size_t sweep_solver(const struct solver *solver, enum family family, bool
       method_default(solver, &out[count].options);
       out[count].options.roots.tolerance = tolerance_at(power);
       out[count].options.roots.start = start == 0 ? START_PREVIOUS : START_COLD;
-      set_paper(&out[count].options);
+      method_item_find("form")->set(&out[count].options, 0);
     }
   }
   for (int start = 0; start < starts; start++, count++) { /* whole patches, otherwise as by default */

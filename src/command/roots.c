@@ -396,7 +396,7 @@ const struct command command_roots = {
     "Standard input has one polynomial a line: its coefficients from the highest power to the constant, of degree 1\n"
     "to 64. Standard output has one line for each, in order: 're im' pairs, sorted by real part. Multiple roots are\n"
     "there as often as they count. A bad line ends the run with its number, after the answers to the lines before it.\n"
-    "Where a value is not known to be near a root, or a root is missing, standard error says so, and the exit code is 1.\n"
+    "Where a value is not known to be near a root, or a root is missing, standard error says so; exit code 1.\n"
     "\n"
     "The solver works on the coefficients as they are (basis power), unless --solver says 'basis bernstein': then the\n"
     "same polynomial is brought into scaled Bernstein form on [0,1] first. 'bernstein' finds the real roots in [0,1].\n"

@@ -6,13 +6,18 @@
 
 #include "base/number.h"
 
+/* Whether a ray becomes a polynomial, and a root an answer, as in the paper. */
+static bool papers_way(const struct method *method)
+{
+  return method->basis == BASIS_POWER && method->resultant == RESULTANT_SYLVESTER &&
+         method->back_substitution == BACK_SUBSTITUTION_EUCLID && !method->polish;
+}
+
 /* Where the form of the iteration is not named, the paper's goes with the paper's method, whichever of its items is
  * said first. */
 static void follow_form(struct method *method)
 {
-  const bool paper = method->basis == BASIS_POWER && method->resultant == RESULTANT_SYLVESTER &&
-                     method->back_substitution == BACK_SUBSTITUTION_EUCLID && !method->polish;
-  if (!method->form_said) solver_options_form(&method->roots, !paper);
+  if (!method->form_said) solver_options_form(&method->roots, !papers_way(method));
 }
 
 /* The items of a solver block. One macro writes the two accessors of an item, whose C types differ; `after` is done
@@ -33,6 +38,7 @@ ITEM_ACCESSORS(basis, basis, enum basis, follow_form(method))
 ITEM_ACCESSORS(resultant, resultant, enum resultant, follow_form(method))
 ITEM_ACCESSORS(back_substitution, back_substitution, enum back_substitution, follow_form(method))
 ITEM_ACCESSORS(polish, polish, bool, follow_form(method))
+ITEM_ACCESSORS(residual, residual, double, (void)0)
 ITEM_ACCESSORS(radii, roots.radii, enum radii, method->form_said = true)
 ITEM_ACCESSORS(stop, roots.stop, enum stop, method->form_said = true)
 ITEM_ACCESSORS(horner, roots.horner, enum horner, method->form_said = true)
@@ -41,13 +47,25 @@ ITEM_ACCESSORS(rest, roots.rest, bool, method->form_said = true)
 ITEM_ACCESSORS(deflation, roots.deflation, enum deflation, method->form_said = true)
 ITEM_ACCESSORS(refine, roots.refine, bool, method->form_said = true)
 
+/* The paper's form is all that the paper does; the improved one is of the iteration alone. */
 static void set_form(struct method *method, double value)
 {
-  solver_options_form(&method->roots, value != 0.0);
+  const bool paper = value == 0.0;
+  if (paper) {
+    method->basis = BASIS_POWER;
+    method->resultant = RESULTANT_SYLVESTER;
+    method->back_substitution = BACK_SUBSTITUTION_EUCLID;
+    method->polish = false;
+    method->split = 1;
+  }
+  solver_options_form(&method->roots, !paper);
   method->form_said = true;
 }
 
-static double get_form(const struct method *method) { return solver_options_paper(&method->roots) ? 0.0 : 1.0; }
+static double get_form(const struct method *method)
+{
+  return papers_way(method) && method->split == 1 && solver_options_paper(&method->roots) ? 0.0 : 1.0;
+}
 
 static const char *const form_words[] = {"paper", "improved", NULL};
 static const char *const radii_words[] = {"circle", "polygon", NULL};
@@ -60,12 +78,14 @@ static const char *const basis_words[] = {"bernstein", "power", NULL};
 static const char *const resultant_words[] = {"bezout", "sylvester", NULL};
 static const char *const back_substitution_words[] = {"null_vector", "euclid", NULL};
 static const char *const off_on[] = {"off", "on", NULL};
+static const char *const residual_words[] = {"auto", NULL};
 static const char *const split_words[] = {"auto", NULL};
 
 /* Limits: a tolerance of 1 in a parameter of [0,1] asks for nothing; iterations are bounded so that no solve can
  * hang. */
 #define MAX_TOLERANCE 1.0
 #define MAX_ITERATIONS 10000
+#define MAX_RESIDUAL 1.0 /* of the largest coefficient, which no value in [0,1]^2 is above */
 #define MAX_SPLIT 64
 
 static const struct method_item items[] = {
@@ -75,17 +95,19 @@ static const struct method_item items[] = {
    get_max_iterations},
   {"start", "from Aberth's circle, or from the roots of the previous ray on the same patch", METHOD_ITEM_KEYWORD,
    start_words, 0, 1, set_start, get_start},
+  /* form stands before the items it sets, so that a block written in this order reads back the same. */
+  {"form", "paper: the paper's way, all of the following; improved: the iterations with all improvements",
+   METHOD_ITEM_KEYWORD, form_words, 0, 1, set_form, get_form},
   {"basis", "in which the resultant is written", METHOD_ITEM_KEYWORD, basis_words, 0, 1, set_basis, get_basis},
   {"resultant", "how v is eliminated", METHOD_ITEM_KEYWORD, resultant_words, 0, 1, set_resultant, get_resultant},
   {"back_substitution", "how v is found from u", METHOD_ITEM_KEYWORD, back_substitution_words, 0, 1,
    set_back_substitution, get_back_substitution},
   {"polish", "on: Newton on the patch itself, and every answer certified; off: the solver's roots are the answer",
    METHOD_ITEM_KEYWORD, off_on, 0, 1, set_polish, get_polish},
+  {"residual", "polish off: both plane polynomials are below this at an answer, relative; 1 = whatever they are",
+   METHOD_ITEM_NUMBER, residual_words, DBL_MIN, MAX_RESIDUAL, set_residual, get_residual},
   {"split", "each patch is cut into N x N leaves; 1 = whole patches", METHOD_ITEM_INTEGER, split_words, 1, MAX_SPLIT,
    set_split, get_split},
-  /* form stands before the items it sets, so that a block written in this order reads back the same. */
-  {"form", "all of the following at once: the paper's iterations as printed, or improved", METHOD_ITEM_KEYWORD,
-   form_words, 0, 1, set_form, get_form},
   {"radii", "cold start values on Aberth's circle, or on circles by Newton's polygon", METHOD_ITEM_KEYWORD, radii_words,
    0, 1, set_radii, get_radii},
   {"stop", "by eq 10 alone, or also where the value is below its own rounding bound", METHOD_ITEM_KEYWORD, stop_words,

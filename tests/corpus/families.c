@@ -102,7 +102,8 @@ static int draw_mignotte(struct random *random, double c[])
 static int draw_wilkinson(struct random *random, double c[])
 {
   const int most = 2 + pick(random, 19);
-  const double step = pow(10, random_between(random, -2, 2)), from = pick(random, 2) ? 0 : random_between(random, -9, 9);
+  const double step = pow(10, random_between(random, -2, 2));
+  const double from = pick(random, 2) ? 0 : random_between(random, -9, 9);
   int n = 0;
   c[0] = 1;
   while (n < most) n = times_linear(n, c, step * (from + n + 1));

@@ -21,8 +21,8 @@ enum family {
 
 const char *family_name(enum family family);
 
-/* Writes the coefficients of a polynomial of the family, c[k] of x^k, finite and not all zero. Returns its degree, which
- * is at least 1; c[degree] may be 0. */
+/* Writes the coefficients of a polynomial of the family, c[k] of x^k, finite and not all zero. Returns its degree,
+ * which is at least 1; c[degree] may be 0. */
 int family_draw(enum family family, struct random *random, double c[POLYNOMIAL_MAX_DEGREE + 1]);
 
 #endif

@@ -1,10 +1,10 @@
 /* No root is lost in silence: ten families of hard polynomials, every solver in both forms, both bases, against
  * guaranteed roots.
  *
- * Of a solver of all roots: the true roots, each as often as it counts, can be paired with the answers so that each lies
- * within its answer's radius, or its answer is said to be unknown, or the answer says that as many more are missing. Of
- * a solver of real roots in [0,1]: every such root lies within the radius of an answer. And no disc is without a root.
- * The Bernstein form is rounded, with bounds; the truth is the power form.
+ * Of a solver of all roots: the true roots, each as often as it counts, can be paired with the answers so that each
+ * lies within its answer's radius, or its answer is said to be unknown, or the answer says that as many more are
+ * missing. Of a solver of real roots in [0,1]: every such root lies within the radius of an answer. And no disc is
+ * without a root. The Bernstein form is rounded, with bounds; the truth is the power form.
  *
  * PSCN_EFFORT scales the number of polynomials; full is 1,000 a family.
  */

@@ -25,8 +25,8 @@ struct form {
 };
 
 /* The paper's own method as a scene says it; with polish its plain iteration must be asked for. */
-#define PAPER "{ basis power resultant sylvester back_substitution euclid polish off split 1 }"
-#define PAPER_POLISHED "{ form paper basis power resultant sylvester back_substitution euclid split 1 }"
+#define PAPER "{ form paper }"
+#define PAPER_POLISHED "{ form paper polish on }"
 
 static const struct form forms[] = {
     {"bernstein", "bernstein", true},

@@ -53,9 +53,15 @@ static void form_follows_the_paper(void **state)
       item->set(&options, choices[(first + k) % 4].value);
       item->set(&said, choices[(first + k) % 4].value);
     }
-    assert_true(form->get(&options) == 0.0 && form->get(&said) == 1.0);
+    assert_true(solver_options_paper(&options.roots) && !solver_options_paper(&said.roots));
+    assert_true(form->get(&options) == 1.0); /* all but the split */
+    options.split = 1;
+    assert_true(form->get(&options) == 0.0);
+    method_default(solver_find("aberth", 6), &said);
+    form->set(&said, 0.0);
+    assert_true(method_equal(&options, &said));
     method_item_find("polish")->set(&options, 1.0);
-    assert_true(form->get(&options) == 1.0);
+    assert_true(!solver_options_paper(&options.roots));
   }
 }
 
