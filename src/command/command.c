@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "command/interrupt.h"
+#include "command/values.h"
 #include "language/words.h"
 
 /* In the order of the help text. */
@@ -185,7 +186,21 @@ static enum status take_option(struct reading *reading, const struct command_opt
                                         said, argument, option->argument);
     reading->next++;
   }
-  return reading->handle(reading->command, reading->context, option->val, argument);
+  char *field = (char *)reading->context + option->offset;
+  switch (option->store) {
+  case STORE_TEXT:
+    *(const char **)(void *)field = argument;
+    return STATUS_OK;
+  case STORE_TRUE:
+    *(bool *)field = true;
+    return STATUS_OK;
+  case STORE_NUMBER:
+    if (value_number(argument, (double *)(void *)field))
+      return STATUS_OK;
+    return (enum status)command_usage(reading->command, "'%s' is no number from 0 up, such as 0.01 or 4/255", argument);
+  default:
+    return reading->handle(reading->command, reading->context, option->val, argument);
+  }
 }
 
 /* "--name", "--name=argument". */

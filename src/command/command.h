@@ -13,13 +13,18 @@
 #include "base/listener.h"
 #include "base/status.h"
 
+/* Where an option goes: to the command's handler, or at once into its request, as a text, as a truth, as a number >= 0. */
+enum command_store { STORE_NOT, STORE_TEXT, STORE_TRUE, STORE_NUMBER };
+
 /* A row of the table of a command's options. */
 struct command_option {
   const char *name;     /* "output"; NULL ends the table */
   char letter;          /* 'o', or 0 */
-  int val;              /* what the command is told of it */
+  int val;              /* what the handler is told of it */
   const char *text;     /* of the help */
   const char *argument; /* likewise, "FILE"; NULL: it takes none */
+  enum command_store store;
+  size_t offset;        /* in the request */
 };
 
 struct command {
@@ -56,8 +61,8 @@ struct command_ear {
 };
 struct listener command_listener(struct command_ear *ear);
 
-/* Reads a command line: `handle` is told each option's val and its argument (NULL where it takes none) and answers
- * STATUS_OK or a status after having told its error. --help is answered here. Options stand anywhere before "--". */
+/* Reads a command line into the request at `context`: `handle` is told the val and the argument (NULL where it takes none)
+ * of each option that is not stored at once, and answers STATUS_OK or a status after having told its error. --help is answered here. Options stand anywhere before "--". */
 struct command_line {
   const char **positional; /* positional_count of them, at the beginning of argv, which is used up */
   size_t positional_count;
@@ -86,9 +91,17 @@ char *command_line_text(int argc, const char **argv);
 /* A row of the table for an option that takes an argument, for one that takes none, and for the one that every command
  * has, which command_line_read answers. `letter` is the short name, or 0. */
 enum { OPTION_HELP = 1000 };
-#define COMMAND_OPTION(name, letter, val, text, argument) { name, letter, val, text, argument }
-#define COMMAND_FLAG(name, letter, val, text) { name, letter, val, text, NULL }
-#define COMMAND_OPTIONS_END { NULL, 0, 0, NULL, NULL }
+#define COMMAND_OPTION(name, letter, val, text, argument) { name, letter, val, text, argument, STORE_NOT, 0 }
+#define COMMAND_FLAG(name, letter, val, text) { name, letter, val, text, NULL, STORE_NOT, 0 }
+#define COMMAND_OPTIONS_END { NULL, 0, 0, NULL, NULL, STORE_NOT, 0 }
+
+/* The same for what is stored in a field of the file's own struct request: const char *, bool, double. */
+#define COMMAND_TEXT(name, letter, field, text, argument) \
+  { name, letter, 0, text, argument, STORE_TEXT, offsetof(struct request, field) }
+#define COMMAND_TRUE(name, letter, field, text) \
+  { name, letter, 0, text, NULL, STORE_TRUE, offsetof(struct request, field) }
+#define COMMAND_NUMBER(name, field, text, argument) \
+  { name, 0, 0, text, argument, STORE_NUMBER, offsetof(struct request, field) }
 #define COMMAND_HELP_OPTION COMMAND_FLAG("help", 'h', OPTION_HELP, "show this text")
 
 #endif

@@ -7,41 +7,10 @@
 
 #include "command/command.h"
 #include "command/output.h"
-#include "command/values.h"
 #include "image/image_file.h"
-
-enum {
-  OPTION_OUTPUT = 1,
-  OPTION_SCALE,
-  OPTION_CHANNELS,
-  OPTION_FAIL,
-  OPTION_FAIL_PERCENT,
-  OPTION_FAIL_PIXELS,
-  OPTION_FAIL_ANY,
-  OPTION_WARN,
-  OPTION_WARN_PERCENT,
-  OPTION_WARN_ANY,
-  OPTION_QUIET
-};
 
 /* Differences up to this are no difference unless the options say otherwise; idiff's default as well. */
 static const double DEFAULT_LIMIT = 1e-6;
-
-static const struct command_option OPTIONS[] = {
-  COMMAND_HELP_OPTION,
-  COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "picture of the absolute differences, .png or .exr", "DIFF"),
-  COMMAND_OPTION("scale", 0, OPTION_SCALE, "factor of the differences in that picture; default 1", "S"),
-  COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "only these, by name, with commas: R,G,B,depth", "LIST"),
-  COMMAND_OPTION("fail", 0, OPTION_FAIL, "a pixel fails beyond this difference; default 1e-6", "E"),
-  COMMAND_OPTION("failpercent", 0, OPTION_FAIL_PERCENT, "so many percent of the pixels may; default 0", "P"),
-  COMMAND_OPTION("allowfailures", 0, OPTION_FAIL_PIXELS, "or so many pixels may; default 0", "N"),
-  COMMAND_OPTION("hardfail", 0, OPTION_FAIL_ANY, "but none beyond this difference; default none", "E"),
-  COMMAND_OPTION("warn", 0, OPTION_WARN, "a warning, which is no failure, beyond this; default none", "E"),
-  COMMAND_OPTION("warnpercent", 0, OPTION_WARN_PERCENT, "so many percent of the pixels may; default 0", "P"),
-  COMMAND_OPTION("hardwarn", 0, OPTION_WARN_ANY, "a warning if any pixel is beyond this; default none", "E"),
-  COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless the comparison fails"),
-  COMMAND_OPTIONS_END
-};
 
 struct request {
   const char *first, *second, *output, *channels;
@@ -50,49 +19,21 @@ struct request {
   bool quiet;
 };
 
-static enum status take_option(const struct command *command, void *context, int val, const char *argument)
-{
-  struct request *request = context;
-  double *number = NULL;
-  switch (val) {
-  case OPTION_OUTPUT:
-    request->output = argument;
-    break;
-  case OPTION_CHANNELS:
-    request->channels = argument;
-    break;
-  case OPTION_QUIET:
-    request->quiet = true;
-    break;
-  case OPTION_SCALE:
-    number = &request->scale;
-    break;
-  case OPTION_FAIL:
-    number = &request->fail.each;
-    break;
-  case OPTION_FAIL_PERCENT:
-    number = &request->fail.percent;
-    break;
-  case OPTION_FAIL_PIXELS:
-    number = &request->fail.allowed_pixels;
-    break;
-  case OPTION_FAIL_ANY:
-    number = &request->fail.any;
-    break;
-  case OPTION_WARN:
-    number = &request->warn.each;
-    break;
-  case OPTION_WARN_PERCENT:
-    number = &request->warn.percent;
-    break;
-  default:
-    number = &request->warn.any;
-    break;
-  }
-  if (number != NULL && !value_number(argument, number))
-    return (enum status)command_usage(command, "'%s' is no number from 0 up, such as 0.01 or 4/255", argument);
-  return STATUS_OK;
-}
+static const struct command_option OPTIONS[] = {
+  COMMAND_HELP_OPTION,
+  COMMAND_TEXT("output", 'o', output, "picture of the absolute differences, .png or .exr", "DIFF"),
+  COMMAND_NUMBER("scale", scale, "factor of the differences in that picture; default 1", "S"),
+  COMMAND_TEXT("channels", 0, channels, "only these, by name, with commas: R,G,B,depth", "LIST"),
+  COMMAND_NUMBER("fail", fail.each, "a pixel fails beyond this difference; default 1e-6", "E"),
+  COMMAND_NUMBER("failpercent", fail.percent, "so many percent of the pixels may; default 0", "P"),
+  COMMAND_NUMBER("allowfailures", fail.allowed_pixels, "or so many pixels may; default 0", "N"),
+  COMMAND_NUMBER("hardfail", fail.any, "but none beyond this difference; default none", "E"),
+  COMMAND_NUMBER("warn", warn.each, "a warning, which is no failure, beyond this; default none", "E"),
+  COMMAND_NUMBER("warnpercent", warn.percent, "so many percent of the pixels may; default 0", "P"),
+  COMMAND_NUMBER("hardwarn", warn.any, "a warning if any pixel is beyond this; default none", "E"),
+  COMMAND_TRUE("quiet", 'q', quiet, "say nothing unless the comparison fails"),
+  COMMAND_OPTIONS_END
+};
 
 /* What is compared: two pictures and the channels they share. */
 struct subject {
@@ -312,7 +253,7 @@ static int run(const struct command *command, int argc, const char **argv)
                              .fail = { .each = DEFAULT_LIMIT, .any = INFINITY },
                              .warn = { .each = INFINITY, .any = INFINITY } };
   struct command_line line;
-  enum status status = command_line_read(command, argc, argv, 2, take_option, &request, &line);
+  enum status status = command_line_read(command, argc, argv, 2, NULL, &request, &line);
   if (status == STATUS_OK && !line.help) {
     request.first = line.positional[0];
     request.second = line.positional[1];

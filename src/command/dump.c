@@ -12,17 +12,12 @@ static const struct command_option OPTIONS[] = {
   COMMAND_OPTIONS_END
 };
 
-static enum status take_option(const struct command *command, void *context, int val, const char *argument)
-{
-  return scene_request_take(command, context, val, argument);
-}
-
 static int run(const struct command *command, int argc, const char **argv)
 {
   struct command_line line;
   struct scene_request request = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN };
   struct scene *scene = NULL;
-  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
+  enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
   if (status == STATUS_OK && !line.help) {
     request.path = line.positional[0];
     status = scene_file_load(command, &request, &scene);

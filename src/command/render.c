@@ -14,37 +14,14 @@
 #include "command/scene_file.h"
 #include "command/values.h"
 #include "image/image_file.h"
+#include "language/words.h"
 
-enum {
-  OPTION_OUTPUT = 1,
-  OPTION_SAMPLES,
-  OPTION_CROP,
-  OPTION_THREADS,
-  OPTION_CHANNELS,
-  OPTION_BITS,
-  OPTION_STATS,
-  OPTION_QUIET
-};
+enum { OPTION_SAMPLES = 1, OPTION_CROP, OPTION_THREADS, OPTION_CHANNELS, OPTION_BITS };
 
 enum {
   MAX_SAMPLES = 256,        /* a side: 65536 rays a pixel */
   MAX_THREADS = 1024,
   MAX_PIXELS = 1 << 28      /* of the part that is kept, 3 GiB of colours; larger ones are typing errors */
-};
-
-static const struct command_option OPTIONS[] = {
-  COMMAND_HELP_OPTION,
-  COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "the picture, .png or .exr; default: SCENE with .png", "FILE"),
-  SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
-  SCENE_OPTIONS,
-  COMMAND_OPTION("samples", 0, OPTION_SAMPLES, "N x N rays a pixel on a regular grid; default 1", "N"),
-  COMMAND_OPTION("crop", 0, OPTION_CROP, "only this part, in pixels from the left and top", "X,Y,W,H"),
-  COMMAND_OPTION("threads", 0, OPTION_THREADS, "default: one for each processor", "N"),
-  COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "what is kept of each pixel, with commas; default rgb", "LIST"),
-  COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
-  COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output", "FILE"),
-  COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless something is wrong"),
-  COMMAND_OPTIONS_END
 };
 
 /* What the command line asks for. */
@@ -55,7 +32,21 @@ struct request {
   size_t bits; /* 0: not given */
   const char *output, *stats;
   char *default_output; /* owned */
-  bool quiet;
+};
+
+static const struct command_option OPTIONS[] = {
+  COMMAND_HELP_OPTION,
+  COMMAND_TEXT("output", 'o', output, "the picture, .png or .exr; default: SCENE with .png", "FILE"),
+  SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
+  SCENE_OPTIONS,
+  COMMAND_OPTION("samples", 0, OPTION_SAMPLES, "N x N rays a pixel on a regular grid; default 1", "N"),
+  COMMAND_OPTION("crop", 0, OPTION_CROP, "only this part, in pixels from the left and top", "X,Y,W,H"),
+  COMMAND_OPTION("threads", 0, OPTION_THREADS, "default: one for each processor", "N"),
+  COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "what is kept of each pixel, with commas; default rgb", "LIST"),
+  COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
+  COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output", "FILE"),
+  COMMAND_TRUE("quiet", 'q', scene.quiet, "say nothing unless something is wrong"),
+  COMMAND_OPTIONS_END
 };
 
 static enum status take_channels(const struct command *command, struct request *request, const char *text)
@@ -64,14 +55,14 @@ static enum status take_channels(const struct command *command, struct request *
   size_t length;
   if (channel_list_parse(text, &request->options.channels, &bad, &length))
     return STATUS_OK;
-  char known[256] = "";
+  const char *names[CHANNEL_KINDS];
+  char known[256];
   for (int k = 0; k < CHANNEL_KINDS; k++) {
-    const char *name = channel_traits((enum channel_kind)k)->name;
-    if (strlen(name) == length && memcmp(name, bad, length) == 0)
-      return (enum status)command_usage(command, "channel '%s' is named twice", name);
-    const size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", k == 0 ? "" : ", ", name);
+    names[k] = channel_traits((enum channel_kind)k)->name;
+    if (strlen(names[k]) == length && memcmp(names[k], bad, length) == 0)
+      return (enum status)command_usage(command, "channel '%s' is named twice", names[k]);
   }
+  words_list(names, CHANNEL_KINDS, known, sizeof known);
   return (enum status)command_usage(command, "there is no channel '%.*s', only %s", (int)length, bad, known);
 }
 
@@ -80,12 +71,6 @@ static enum status take_option(const struct command *command, void *context, int
   struct request *request = context;
   struct render_options *options = &request->options;
   switch (val) {
-  case OPTION_OUTPUT:
-    request->output = argument;
-    break;
-  case OPTION_SIZE:
-  SCENE_OPTION_CASES:
-    return scene_request_take(command, &request->scene, val, argument);
   case OPTION_SAMPLES:
     if (!value_integer(argument, 1, MAX_SAMPLES, &options->samples))
       return (enum status)command_usage(command, "'%s' is no number of samples from 1 to %d", argument, MAX_SAMPLES);
@@ -104,12 +89,8 @@ static enum status take_option(const struct command *command, void *context, int
     if (!value_integer(argument, 8, 32, &request->bits))
       return (enum status)command_usage(command, "'%s' bits are 8, 16 or 32", argument);
     break;
-  case OPTION_STATS:
-    request->stats = argument;
-    break;
   default:
-    request->quiet = request->scene.quiet = true;
-    break;
+    return scene_request_take(command, &request->scene, val, argument);
   }
   return STATUS_OK;
 }
@@ -206,7 +187,7 @@ static enum status make_picture(const struct command *command, const struct requ
   const struct rectangle *crop = &request->options.crop;
   struct intersector *intersector = NULL;
   struct progress progress = progress_start();
-  const struct render_watch watch = { .progress = request->quiet ? NULL : progress_tell,
+  const struct render_watch watch = { .progress = request->scene.quiet ? NULL : progress_tell,
                                       .context = &progress,
                                       .stop = &interrupt_signal };
   struct render_stats stats = { 0 };
@@ -266,7 +247,7 @@ static enum status render(const struct command *command, struct request *request
   struct image image = { 0 };
   const struct seconds start = seconds_now();
   status = scene_file_load(command, &request->scene, &scene);
-  if (status == STATUS_OK && !request->quiet)
+  if (status == STATUS_OK && !request->scene.quiet)
     scene_file_warn(command, scene);
   struct report report = { .scene_path = request->scene.path,
                            .picture_path = request->output,
@@ -287,7 +268,7 @@ static enum status render(const struct command *command, struct request *request
   }
   if (status == STATUS_OK)
     status = report_write(command, &report, request->stats);
-  if (status == STATUS_OK && !request->quiet)
+  if (status == STATUS_OK && !request->scene.quiet)
     report_print(&report);
   image_destroy(&image);
   scene_destroy(scene);

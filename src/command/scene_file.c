@@ -42,9 +42,9 @@ static enum status take_number(const struct command *command, struct scene_reque
   return STATUS_OK;
 }
 
-enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
-                               const char *argument)
+enum status scene_request_take(const struct command *command, void *scene_request, int val, const char *argument)
 {
+  struct scene_request *request = scene_request;
   switch (val) {
   case OPTION_SIZE:
     if (!value_size(argument, MAX_SIDE, &request->width, &request->height))

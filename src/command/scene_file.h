@@ -46,7 +46,7 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE, OPTION_MA
                    "SIZE"), \
     COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "where files that the scene includes are looked for", "DIR"), \
     COMMAND_OPTION("declare", 0, OPTION_DECLARE, "a number that the scene finds declared", "NAME=X")
-enum status scene_request_take(const struct command *command, struct scene_request *request, int val,
+enum status scene_request_take(const struct command *command, void *scene_request, int val,
                                const char *argument) STATUS_MUST_CHECK;
 
 /* Reads the scene, from standard input where its path is "-"; the caller destroys it. On failure the errors have been

@@ -14,8 +14,6 @@
 #include "geometry/vector.h"
 #include "intersect/intersect.h"
 
-enum { OPTION_BINARY = 1, OPTION_CERTAINTY, OPTION_STATS, OPTION_QUIET };
-
 enum {
   RAY_VALUES = 6,    /* ox oy oz dx dy dz */
   ANSWER_VALUES = 8, /* T U V PATCH NX NY NZ, and with --certainty 1 or 0 */
@@ -23,43 +21,21 @@ enum {
   OUTPUT_BUFFER = 1 << 16
 };
 
+struct request {
+  struct scene_request scene; /* first: scene_request_take is told of it */
+  const char *stats;
+  bool binary, certainty;
+};
+
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   SCENE_OPTIONS,
-  COMMAND_FLAG("binary", 0, OPTION_BINARY, "little-endian doubles instead of text"),
-  COMMAND_FLAG("certainty", 0, OPTION_CERTAINTY, "whether each answer is 'certain' or 'grazing'"),
-  COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output, after the hits", "FILE"),
-  COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "no summary on a terminal"),
+  COMMAND_TRUE("binary", 0, binary, "little-endian doubles instead of text"),
+  COMMAND_TRUE("certainty", 0, certainty, "whether each answer is 'certain' or 'grazing'"),
+  COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the hits", "FILE"),
+  COMMAND_TRUE("quiet", 'q', scene.quiet, "no summary on a terminal"),
   COMMAND_OPTIONS_END
 };
-
-struct request {
-  struct scene_request scene;
-  const char *stats;
-  bool binary, certainty, quiet;
-};
-
-static enum status take_option(const struct command *command, void *context, int val, const char *argument)
-{
-  struct request *request = context;
-  switch (val) {
-  SCENE_OPTION_CASES:
-    return scene_request_take(command, &request->scene, val, argument);
-  case OPTION_BINARY:
-    request->binary = true;
-    break;
-  case OPTION_CERTAINTY:
-    request->certainty = true;
-    break;
-  case OPTION_STATS:
-    request->stats = argument;
-    break;
-  default:
-    request->quiet = request->scene.quiet = true;
-    break;
-  }
-  return STATUS_OK;
-}
 
 /* Rays that wait for an answer, and who answers them. */
 struct session {
@@ -238,7 +214,7 @@ static enum status trace(const struct command *command, struct request *request)
   }
   if (status == STATUS_OK)
     status = report_write(command, &report, request->stats);
-  if (status == STATUS_OK && !request->quiet && isatty(STDERR_FILENO) == 1)
+  if (status == STATUS_OK && !request->scene.quiet && isatty(STDERR_FILENO) == 1)
     report_print(&report);
 done:
   if (session.tracer != NULL)
@@ -253,7 +229,7 @@ static int run(const struct command *command, int argc, const char **argv)
 {
   struct request request = { .scene = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN } };
   struct command_line line;
-  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
+  enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
   if (status == STATUS_OK && !line.help) {
     static char buffer[OUTPUT_BUFFER];
     (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
