@@ -42,7 +42,7 @@ static void run(int argc, const char **argv)
 
 static void trace(const uint8_t *data, size_t size)
 {
-  static const char *const scenes[] = { "inside", "bent", "degrees", "wild", "paper" };
+  static const char *const scenes[] = { "inside", "bent", "degrees", "paper", "paper_magnified" };
   static const char *const solvers[] = { "bernstein", "aberth", "newton", "laguerre", "aberth { polish off split 1 }" };
   char path[1000];
   (void)snprintf(path, sizeof path, PSCN_SOURCE_DIR "/scenes/%s.pscn", TURN(scenes, data[0]));
