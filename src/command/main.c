@@ -22,7 +22,7 @@ static void hold_streams(void)
 static bool is_scene(const char *name)
 {
   const char *suffix = strrchr(name, '.');
-  return (suffix != NULL && strcmp(suffix, ".pscn") == 0) || access(name, F_OK) == 0;
+  return (suffix != NULL && strcmp(suffix, ".pscn") == 0) || strcmp(name, "-") == 0 || access(name, F_OK) == 0;
 }
 
 int main(int argc, char **argv)

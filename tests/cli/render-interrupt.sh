@@ -10,3 +10,16 @@ for signal in INT TERM; do
 done
 cat a.png
 ls -A
+# Whoever waits for input ends at once.
+mkfifo pipe
+for command in "trace $scene" roots; do
+  pscn $command --stats stats.json <pipe &
+  exec 3>pipe
+  sleep 0.2
+  kill -INT $!
+  wait $!
+  echo "exit $?"
+  exec 3>&-
+done
+rm pipe
+ls -A
