@@ -83,14 +83,21 @@ static bool confine(void)
 }
 #endif
 
-static bool limit(int resource, size_t most)
+/* A limit that is no higher than it was. */
+static const struct rlimit *lower(struct rlimit *limit, size_t most)
+{
+  if (limit->rlim_cur > most)
+    limit->rlim_cur = limit->rlim_max = most;
+  return limit;
+}
+
+static bool limit_resources(size_t memory)
 {
   struct rlimit now;
-  if (getrlimit(resource, &now) != 0)
-    return false;
-  if (now.rlim_cur > most)
-    now.rlim_cur = now.rlim_max = most;
-  return setrlimit(resource, &now) == 0;
+  return getrlimit(RLIMIT_CORE, &now) == 0 && setrlimit(RLIMIT_CORE, lower(&now, 0)) == 0 &&
+         (memory == 0 ||
+          (getrlimit(RLIMIT_AS, &now) == 0 && setrlimit(RLIMIT_AS, lower(&now, memory)) == 0 &&
+           getrlimit(RLIMIT_FSIZE, &now) == 0 && setrlimit(RLIMIT_FSIZE, lower(&now, memory)) == 0));
 }
 
 static bool restrict_program(const struct process_request *request, pid_t parent)
@@ -101,9 +108,7 @@ static bool restrict_program(const struct process_request *request, pid_t parent
 #else
   (void)parent;
 #endif
-  return limit(RLIMIT_CORE, 0) &&
-         (request->memory == 0 || (limit(RLIMIT_AS, request->memory) && limit(RLIMIT_FSIZE, request->memory))) &&
-         (!request->confined || !process_can_confine() || confine());
+  return limit_resources(request->memory) && (!request->confined || !process_can_confine() || confine());
 }
 
 /* In the child: becomes the program, or tells why not through the pipe, which a started program closes. */
