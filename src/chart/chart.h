@@ -17,6 +17,7 @@ struct chart_request {
   size_t width, height;     /* of the picture that the rays are of, pixels */
   size_t rays, rounds;      /* camera rays, about; how often each is measured. 0: as is usual for `quick` or not */
   double timeout;           /* seconds that a run of POV-Ray may take */
+  size_t memory;            /* bytes that it may take */
   bool quick, peers;        /* fewer points; with Embree and POV-Ray */
 };
 

@@ -229,7 +229,7 @@ static enum status ask_povray(struct chart *chart)
 {
   struct povray povray = { .listener = chart->listener, .program = chart->request->program,
                            .width = chart->request->width, .height = chart->request->height,
-                           .timeout = chart->request->timeout, .optional = true };
+                           .timeout = chart->request->timeout, .memory = chart->request->memory, .optional = true };
   enum status status = povray_open(&povray);
   if (povray.missing)
     chart_note(chart, "POV-Ray is left out: there is no program '%s'.", chart->request->program);

@@ -74,7 +74,8 @@ enum status check_scene(const struct check_request *request, struct scene *scene
   *check = (struct check){ .request = request, .listener = listener, .scene = scene,
                            .povray = { .listener = listener, .program = request->program, .options = request->options,
                                        .option_count = request->option_count, .width = request->width,
-                                       .height = request->height, .timeout = request->timeout } };
+                                       .height = request->height, .timeout = request->timeout,
+                                       .memory = request->memory } };
   enum status status = measure(check);
   if (status == STATUS_OK)
     status = judge(check, out_text);

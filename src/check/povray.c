@@ -104,17 +104,6 @@ void povray_warnings(const struct povray *povray, struct page *out)
 
 /* ---- running it ---- */
 
-/* Half of the machine's memory: the other half is for everybody else. */
-static size_t memory_limit(void)
-{
-#if defined(_SC_PHYS_PAGES)
-  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-  return pages > 0 && size > 0 ? (size_t)pages / 2 * (size_t)size : 0;
-#else
-  return 0;
-#endif
-}
-
 /* Takes the folder of the last run away and makes a new one. */
 static enum status begin_run(const struct povray *povray)
 {
@@ -135,7 +124,7 @@ static enum status run_program(struct povray *povray, const char *const *argumen
   scratch_path(&povray->folder, RUN, run);
   const char *const environment[] = { "HOME", home, "POVINI", NULL, NULL };
   const struct process_request request = { .arguments = arguments, .folder = run, .environment = environment,
-                                           .output = log_path, .timeout = povray->timeout, .memory = memory_limit(),
+                                           .output = log_path, .timeout = povray->timeout, .memory = povray->memory,
                                            .confined = true };
   const enum status status = process_run(&request, povray->listener->stop, out);
   if (status == STATUS_LIMIT)

@@ -29,6 +29,7 @@ struct povray {
   size_t option_count;
   size_t width, height;       /* of pictures, pixels */
   double timeout;             /* seconds that a run may take */
+  size_t memory;              /* bytes that it may take; 0: any */
   bool optional;              /* that it is missing is not told */
   bool missing;               /* there is no such program */
   struct scratch folder;

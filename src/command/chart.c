@@ -92,6 +92,7 @@ static enum status work(void *context, const char *folder, struct page *out_text
   const struct listener listener = command_listener(&line->ear);
   struct scene *scene = NULL;
   request->folder = folder;
+  request->memory = scene_request_memory(&line->scene);
   request->width = line->scene.width;
   request->height = line->scene.height;
   enum status status = scene_file_load(line->ear.command, &line->scene, &scene);

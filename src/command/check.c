@@ -155,6 +155,7 @@ static enum status work(void *context, const char *folder, struct page *out_text
   const struct seconds start = seconds_now();
   struct scene *scene = NULL;
   request->folder = folder;
+  request->memory = scene_request_memory(&line->scene);
   line->scene.path = request->path;
   line->scene.width = request->width;
   line->scene.height = request->height;

@@ -73,10 +73,12 @@ enum status scene_request_take(const struct command *command, void *scene_reques
 }
 
 /* A text of a few lines can ask for any number of patches: more than a share of the memory is asked for knowingly. */
-static size_t default_memory(void)
+size_t scene_request_memory(const struct scene_request *request)
 {
   const size_t most = (size_t)8 << 30, share = 4;
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  if (request->max_memory != 0)
+    return request->max_memory;
   if (pages <= 0 || page <= 0 || (size_t)pages > most * share / (size_t)page)
     return most;
   return (size_t)pages * (size_t)page / share;
@@ -110,8 +112,7 @@ enum status scene_file_load(const struct command *command, const struct scene_re
                                               .folders = folders,
                                               .numbers = request->numbers,
                                               .number_count = request->number_count,
-                                              .max_memory =
-                                                request->max_memory != 0 ? request->max_memory : default_memory() };
+                                              .max_memory = scene_request_memory(request) };
   struct diagnostics diagnostics = stderr_diagnostics(command);
   diagnostics.quiet = request->quiet;
   if (!output_is_standard(request->path))

@@ -49,6 +49,9 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE, OPTION_MA
 enum status scene_request_take(const struct command *command, void *scene_request, int val,
                                const char *argument) STATUS_MUST_CHECK;
 
+/* Bytes that the scene may take: what the command line says, or a share of what there is. */
+size_t scene_request_memory(const struct scene_request *request);
+
 /* Reads the scene, from standard input where its path is "-"; the caller destroys it. On failure the errors have been
  * told and *out is NULL. */
 enum status scene_file_load(const struct command *command, const struct scene_request *request,

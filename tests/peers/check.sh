@@ -167,6 +167,9 @@ harm() {
   evil '#while (1)' '#end'
   expect 5 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}" --own-text --timeout 1
   grep -q 'more than 1 seconds' err || { fail "the time limit is not told"; cat err; }
+  evil '#declare A = array[1000000];' '#declare K = 0;' '#declare S = "x"' '#while (K < 1000000)' \
+    '#declare S = concat(S, "0123456789abcdef")' '#declare A[K] = S;' '#declare K = K + 1;' '#end'
+  expect 3 "$PSCN" check "scenes and more/evil.pscn" "${quick[@]}" --own-text --timeout 20 --max-memory 300M
   [ -z "$(ls -A "$TMPDIR")" ] || { fail "left in the temporary folder:"; ls "$TMPDIR"; }
 
   # A reader of our messages that goes away ends us, and leaves nothing either.
