@@ -67,7 +67,7 @@ int image_format_default_bits(enum image_format format)
  * OpenImageIO's threads, of which there are as many as processors. */
 static bool room_for_module(void)
 {
-  const size_t libraries = (size_t)512 << 20, thread = (size_t)80 << 20;
+  const size_t libraries = (size_t)384 << 20, thread = (size_t)80 << 20;
   const long processors = sysconf(_SC_NPROCESSORS_ONLN);
   const size_t size = libraries + (processors > 0 ? (size_t)processors : 1) * thread;
   void *room = mmap(NULL, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
