@@ -17,7 +17,7 @@
 #include "language/language.h"
 #include "scene/method.h"
 
-enum { OPTION_STATS = 1, OPTION_QUIET, OPTION_FORMAT };
+enum { OPTION_FORMAT = 1 };
 
 enum {
   MAX_COEFFICIENTS = POLYNOMIAL_MAX_DEGREE + 1,
@@ -28,17 +28,6 @@ enum {
 /* All roots are asked for, so the default is not the scene's, which finds those in [0,1] only. */
 static const char DEFAULT_SOLVER[] = "aberth";
 
-static const struct command_option OPTIONS[] = {
-  COMMAND_HELP_OPTION,
-  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "what may follow 'solver' in a scene; default aberth", "TEXT"),
-  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of the solver's tolerance", "E"),
-  COMMAND_OPTION("format", 0, OPTION_FORMAT, "plain: pairs re im (default); table, json: with radius, status, eq 11",
-                 "FORMAT"),
-  COMMAND_OPTION("stats", 0, OPTION_STATS, "statistics as JSON; - is standard output, after the roots", "FILE"),
-  COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "no summary on a terminal"),
-  COMMAND_OPTIONS_END
-};
-
 enum format { FORMAT_PLAIN, FORMAT_TABLE, FORMAT_JSON };
 
 struct request {
@@ -46,6 +35,17 @@ struct request {
   enum format format;
   const char *stats;
   bool quiet;
+};
+
+static const struct command_option OPTIONS[] = {
+  COMMAND_HELP_OPTION,
+  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "what may follow 'solver' in a scene; default aberth", "TEXT"),
+  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of the solver's tolerance", "E"),
+  COMMAND_OPTION("format", 0, OPTION_FORMAT, "plain: pairs re im (default); table, json: with radius, status, eq 11",
+                 "FORMAT"),
+  COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the roots", "FILE"),
+  COMMAND_TRUE("quiet", 'q', quiet, "no summary on a terminal"),
+  COMMAND_OPTIONS_END
 };
 
 static enum status take_format(const struct command *command, const char *argument, enum format *out)
@@ -63,20 +63,8 @@ static enum status take_format(const struct command *command, const char *argume
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
   struct request *request = context;
-  switch (val) {
-  case OPTION_SOLVER:
-  case OPTION_TOLERANCE:
-    return scene_request_take(command, &request->solver, val, argument);
-  case OPTION_FORMAT:
-    return take_format(command, argument, &request->format);
-  case OPTION_STATS:
-    request->stats = argument;
-    break;
-  default:
-    request->quiet = true;
-    break;
-  }
-  return STATUS_OK;
+  return val == OPTION_FORMAT ? take_format(command, argument, &request->format)
+                              : scene_request_take(command, &request->solver, val, argument);
 }
 
 struct session {
