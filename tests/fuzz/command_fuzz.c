@@ -67,7 +67,7 @@ static void roots(const uint8_t *data, size_t size)
 }
 
 /* No names of files with a folder: what is written stays in the current one. Pictures and charts take too long: what
- * would be made of a scene ends where it is not there. */
+ * would be made of a scene ends where it is not there, and none is read from standard input. */
 static void options(const uint8_t *data, size_t size)
 {
   enum { MOST = 20 };
@@ -79,7 +79,10 @@ static void options(const uint8_t *data, size_t size)
   memcpy(text, data + 1, size - 1);
   text[size - 1] = '\0';
   argv[0] = TURN(commands, data[0]);
-  for (char *word = strtok(text, "\n"); word && argc < MOST; word = strtok(NULL, "\n")) argv[argc++] = word;
+  for (char *word = strtok(text, "\n"); word && argc < MOST; word = strtok(NULL, "\n")) {
+    if (strcmp(word, "-") == 0) return;
+    argv[argc++] = word;
+  }
   if (data[0] >= 128) argv[argc++] = "there-is-none.pscn";
   argv[argc] = NULL;
   feed(NULL, 0);

@@ -181,12 +181,41 @@ rgb <2, 1.2, -0.5>
 color V
 color 0
 color rgb Half*V + Paint.red
+color red 0.2 green 0.7 blue 0.1
+color Paint green 0.3 red Half
+rgbf <0.2, 0.7, 0.1, 0>
+colour rgbt <0.2, 0.7, 0.1, 0>
+rgbft <0.2, 0.7, 0.1, 0, 0>
+rgb V transmit 0 filter 0
 END
+
+object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> texture { pigment { rgb x } } }
+#default { texture { pigment { rgb <0.1, 0.6, 0.9> } finish { phong 0.8 ambient 0.3 } } }
+#declare Plain = bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2,
+  <-0.4, 0, 0>, <-0.1, 0, 0>, <0.1, 0, 0>, <0.4, 0, 0>, <-0.4, 0.1, 0>, <-0.1, 0.1, 0>, <0.1, 0.1, 0>, <0.4, 0.1, 0>
+  <-0.4, 0.3, 0>, <-0.1, 0.3, 0>, <0.1, 0.3, 0>, <0.4, 0.3, 0>, <-0.4, 0.4, 0>, <-0.1, 0.4, 0>, <0.1, 0.4, 0>, <0.4, 0.4, 0> }
+#default { finish { phong 0 } }
+object { Plain translate <-1.2, 0.2, -1> } object { Plain translate <1, 0.2, -1> pigment { rgb y } }
+#default { pigment { rgb <0.9, 0.6, 0.1> } }
+object { Plain translate <0, 0.2, -1> }
+union { object { Plain } object { Plain translate y/2 } translate <1, 0.2, 0.5> finish { ambient 0.5 } }'
+scene 'default textures'
+
+before='#declare Paint = pigment { rgb x }
+#declare Paint = pigment { #declare Level = 0.8; rgb <0, 0, Level> }
+#macro Never(A) #local B = A; #if (B) sphere { 0, 1 } #end #end
+#declare Old = version; #version 3.5; #version Old;'
+object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> pigment { Paint #declare Paint = pigment { rgb y } }
+  #declare Up = 0.2; translate Up*y }
+#declare First = union { #ifdef (First) #declare Known = 1; #else #declare Known = 0; #end
+  object { Square scale 0.3 translate <-1, 0.5, -1> } object { Square scale 0.2 translate <1, 0.5, -1> pigment { Paint } } }
+object { First translate y*Known/3 }'
+scene 'declarations within each other'
 
 # judge FILE: what is wrong with a scene.
 cat >judge.sh <<'END'
 file=${1%.pscn}
-"$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --fail 1/255 --failpercent 0 \
+"$PSCN" check "$1" --size "$(cat "$file.size")" --steps 0 --grid 0 --own-text --fail 1/255 --failpercent 0 \
   --allowfailures $MOST --failpsnr 0 -o "$file" --quiet >"$file.log" 2>&1 || {
   echo "$file: exit code $?"
   cat "$file.log"
