@@ -31,7 +31,14 @@ enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600, MAX_SIDE = 1000000 };
 
 /* The options of a scene_request, whose vals are the same in all commands: rows of the table for reading a scene, the
  * cases of a switch over vals, and the taking of any of them. `text` is what the size is of. */
-enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE, OPTION_MAX_MEMORY, OPTION_INCLUDE, OPTION_DECLARE };
+enum {
+  OPTION_SIZE = OPTION_HELP + 1,
+  OPTION_SOLVER,
+  OPTION_TOLERANCE,
+  OPTION_MAX_MEMORY,
+  OPTION_INCLUDE,
+  OPTION_DECLARE
+};
 #define SCENE_OPTION_CASES \
   case OPTION_SOLVER: \
   case OPTION_TOLERANCE: \
@@ -42,8 +49,8 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_SOLVER, OPTION_TOLERANCE, OPTION_MA
 #define SCENE_OPTIONS \
   COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"), \
     COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"), \
-    COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY, "that the scene may take; default a quarter of all, at most 8G", \
-                   "SIZE"), \
+    COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY, \
+                   "that the scene may take; default a quarter of all, at most 8G", "SIZE"), \
     COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "where files that the scene includes are looked for", "DIR"), \
     COMMAND_OPTION("declare", 0, OPTION_DECLARE, "a number that the scene finds declared", "NAME=X")
 enum status scene_request_take(const struct command *command, void *scene_request, int val,

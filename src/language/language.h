@@ -24,7 +24,7 @@ struct language_settings {
   int image_width, image_height; /* pixels, >= 1: what image_width and image_height mean in the scene */
   const char *solver_text;       /* --solver TEXT: overrides every solver statement of the scene; or NULL */
   double tolerance;              /* --tolerance E: overrides that item everywhere, after solver_text; or NAN */
-  const char *const *folders;    /* where included files are looked for besides the includer's, ended by NULL; or NULL */
+  const char *const *folders;    /* where includes are looked for besides the includer's, ended by NULL; or NULL */
   const struct language_number *numbers; /* number_count names declared beforehand */
   size_t number_count;
   size_t max_memory;             /* --max-memory SIZE: bytes that the text and the patches may take; or 0: no limit */

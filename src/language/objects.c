@@ -7,7 +7,7 @@
 /* Patches of one scene: what fits in the memory of a large machine. */
 #define MAX_PATCHES ((size_t)50 * 1000 * 1000)
 
-/* What rendering holds of a patch at least: its net, its boxes, its places in lists. Measured on copies of one patch. */
+/* What rendering holds of a patch at least: its net, its boxes, its places in lists. Measured on copies. */
 #define PATCH_BYTES ((size_t)1400)
 
 enum {

@@ -1,5 +1,5 @@
-/* `solver NAME { item value ... }`: names, items and ranges come from the tables in algebra/solver.h and scene/method.h.
- * What the statement says becomes language->method. */
+/* `solver NAME { item value ... }`: names, items and ranges come from the tables in algebra/solver.h and
+ * scene/method.h. What the statement says becomes language->method. */
 #ifndef PSCN_LANGUAGE_SOLVER_STATEMENT_H
 #define PSCN_LANGUAGE_SOLVER_STATEMENT_H
 

@@ -29,8 +29,8 @@ static void list_expected(const char *const expected[], int count, char *out, si
                                           "image_width", "image_height", "'('", "'<'", "'+'", "'-'",
                                           "rgb",         "color",        "rgbf", "rgbft", "version", NULL};
   static const char *const parts[] = {"red", "green", "blue", "filter", NULL}; /* which may follow any colour */
-  static const char *const anywhere[] = {"'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version", "#default",
-                                         "the end of the text", NULL};
+  static const char *const anywhere[] = {"'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version",
+                                         "#default", "the end of the text", NULL};
   const char *list[MOST_LISTED];
   int listed = 0;
   const bool value = contains(expected, count, "image_width"), objects = contains(expected, count, "object");

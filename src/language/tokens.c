@@ -169,8 +169,9 @@ static bool end_of_source(struct language *language)
 /* Text from a command line names no files and asks nothing. */
 static bool refused_directive(struct language *language, int token)
 {
-  const bool directive = token >= TOKEN_INCLUDE && token <= TOKEN_UNKNOWN_DIRECTIVE;
-  if (!language->tokens->solver_only || !(directive || (token >= PSCN_TOKEN_VERSION && token <= PSCN_TOKEN_DEFAULT))) return false;
+  const bool directive = (token >= TOKEN_INCLUDE && token <= TOKEN_UNKNOWN_DIRECTIVE) ||
+                         (token >= PSCN_TOKEN_VERSION && token <= PSCN_TOKEN_DEFAULT);
+  if (!directive || !language->tokens->solver_only) return false;
   language_error(language, sources_here(language), "the text of a solver has no directives");
   return true;
 }

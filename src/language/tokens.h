@@ -1,4 +1,4 @@
-/* The stream of tokens the grammar reads: what conditions leave over of the sources; and recovery from syntax errors. */
+/* The stream of tokens the grammar reads: what conditions leave over of the sources; recovery from syntax errors. */
 #ifndef PSCN_LANGUAGE_TOKENS_H
 #define PSCN_LANGUAGE_TOKENS_H
 

@@ -214,7 +214,8 @@ bool value_to_number(struct language *language, const struct value *a, double *o
 {
   if (!usable(language, a, "a number")) return false;
   if (a->kind != VALUE_NUMBER) {
-    language_error(language, a->place, "a number is wanted here, not a %s", a->kind == VALUE_COLOUR ? "colour" : "vector");
+    const char *is = a->kind == VALUE_COLOUR ? "colour" : "vector";
+    language_error(language, a->place, "a number is wanted here, not a %s", is);
     return false;
   }
   *out = a->x[0];

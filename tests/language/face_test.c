@@ -146,7 +146,8 @@ static void test_override(void **state)
 
   settings.tolerance = 0;
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
-  settings = (struct language_settings){ .image_width = 1, .image_height = 1, .solver_text = "nothing", .tolerance = NAN };
+  settings = (struct language_settings){
+    .image_width = 1, .image_height = 1, .solver_text = "nothing", .tolerance = NAN };
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
   assert_null(scene);
 }
@@ -330,7 +331,8 @@ int main(void)
     cmocka_unit_test(test_files),         cmocka_unit_test(test_unreadable_file),    cmocka_unit_test(test_size),
     cmocka_unit_test(test_solver_text),   cmocka_unit_test(test_wrong_solver_texts), cmocka_unit_test(test_override),
     cmocka_unit_test(test_long_texts),    cmocka_unit_test(test_many_empty_copies),  cmocka_unit_test(test_many_names),
-    cmocka_unit_test(test_max_memory),    cmocka_unit_test(test_included_often),     cmocka_unit_test(test_included_kinds),
+    cmocka_unit_test(test_max_memory),    cmocka_unit_test(test_included_often),
+    cmocka_unit_test(test_included_kinds),
     cmocka_unit_test(test_copies),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
