@@ -209,6 +209,9 @@ LANES_INLINE lane_mask lanes_mask(unsigned bits)
   return ((int64_t)bits & weight) == weight;
 }
 
+/* How many lanes of the mask are set. */
+LANES_INLINE unsigned lanes_count(lane_mask mask) { return (unsigned)__builtin_popcount(lanes_bits(mask)); }
+
 /* Whether any lane of the mask is set. */
 LANES_INLINE int lanes_any(lane_mask mask) { return lanes_bits(mask) != 0; }
 

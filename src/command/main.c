@@ -1,12 +1,14 @@
 /* pscn: a table of subcommands. */
 #include <fcntl.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/version.h"
 #include "command/command.h"
 #include "command/interrupt.h"
+#include "intersect/intersect.h"
 
 /* A standard stream that was closed gets a descriptor that refuses its use, so that no file of ours is opened in its
  * place and takes what is meant for it. */
@@ -51,6 +53,8 @@ int main(int argc, char **argv)
     return guess == NULL ? command_usage(NULL, "unknown command '%s'", name)
                          : command_usage(NULL, "unknown command '%s'; did you mean '%s'?", name, guess);
   }
+  if (!intersector_kernel_here())
+    return command_usage(NULL, "PSCN_KERNEL='%s' is no instruction set of this processor", getenv("PSCN_KERNEL"));
   const int code = command->run(command, argc - words, (const char **)argv + words);
   return code == STATUS_INTERRUPTED ? interrupt_exit_code() : code;
 }

@@ -25,8 +25,8 @@ void report_print(const struct report *report)
           report->scene->patch_count == 1 ? "" : "es", report->threads, report->threads == 1 ? "" : "s");
   fprintf(stderr, "rays     %" PRIu64 " primary, %" PRIu64 " shadow\n", counts->rays[0], counts->rays[1]);
   fprintf(stderr, "answers  %" PRIu64 " certain, %" PRIu64 " grazing\n", counts->certain, counts->grazing);
-  fprintf(stderr, "patches  %" PRIu64 " tried, %" PRIu64 " of them by subdivision\n", counts->patches_tested,
-          counts->escalated);
+  fprintf(stderr, "patches  %" PRIu64 " tried, %" PRIu64 " of them by a resultant of full degree, %" PRIu64
+                  " by subdivision\n", counts->patches_tested, counts->stages[STAGE_RESULTANT], counts->escalated);
   fprintf(stderr, "roots    %" PRIu64 " found, %" PRIu64 " accepted\n", counts->roots_found, counts->roots_accepted);
   fprintf(stderr, "time     %.3f s parse, %.3f s build, %.3f s render, %.3f s write\n", report->parse.wall,
           report->build.wall, report->render.wall, report->write.wall);
@@ -58,7 +58,7 @@ static json_t *statistics(const struct report *report)
   char solver[METHOD_TEXT_SIZE];
   method_text(&report->scene->solvers[0], solver, sizeof solver);
   json_t *root = json_pack(
-    "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:o, s:{s:o, s:o}, s:{s:o, s:o}, "
+    "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:{s:o, s:o, s:o, s:o}, s:o, s:{s:o, s:o}, s:{s:o, s:o}, "
     "s:{s:f, s:f, s:f, s:f}, s:{s:f, s:f, s:f, s:f}}",
     "version", PSCN_VERSION,
     "scene", path_text(report->scene_path),
@@ -69,6 +69,8 @@ static json_t *statistics(const struct report *report)
     "lights", count(report->scene->light_count),
     "rays", "primary", count(counts->rays[0]), "shadow", count(counts->rays[1]),
     "patches_tested", count(counts->patches_tested),
+    "stages", "bilinear", count(counts->stages[STAGE_BILINEAR]), "planes", count(counts->stages[STAGE_PLANES]),
+    "resultant", count(counts->stages[STAGE_RESULTANT]), "roots", count(counts->stages[STAGE_ROOTS]),
     "subdivided", count(counts->escalated),
     "roots", "found", count(counts->roots_found), "accepted", count(counts->roots_accepted),
     "answers", "certain", count(counts->certain), "grazing", count(counts->grazing),

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "geometry/vector.h"
 #include "intersect/tracer.h"
@@ -30,9 +31,24 @@ size_t kernels_here(const struct kernel *out[KERNELS_MAX])
   return count;
 }
 
+/* The best one, or the one that the environment asks for; NULL where that is not here. */
+static const struct kernel *kernel_chosen(void)
+{
+  const struct kernel *kernels[KERNELS_MAX];
+  const size_t count = kernels_here(kernels);
+  const char *forced = getenv("PSCN_KERNEL");
+  for (size_t k = 0; k < count; k++)
+    if (!forced || !*forced || strcmp(forced, kernels[k]->name) == 0) return kernels[k];
+  return NULL;
+}
+
+bool intersector_kernel_here(void) { return kernel_chosen() != NULL; }
+
 enum status intersector_create(const struct scene *scene, struct intersector **out)
 {
   *out = NULL;
+  const struct kernel *kernel = kernel_chosen();
+  if (!kernel) return STATUS_USAGE;
   struct intersector *intersector = calloc(1, sizeof *intersector);
   if (!intersector) return STATUS_LIMIT;
   const enum status status = model_create(scene, &intersector->model);
@@ -40,9 +56,7 @@ enum status intersector_create(const struct scene *scene, struct intersector **o
     free(intersector);
     return status;
   }
-  const struct kernel *kernels[KERNELS_MAX];
-  kernels_here(kernels);
-  intersector->kernel = kernels[0];
+  intersector->kernel = kernel;
   for (size_t k = 0; k < scene->solver_count; k++) intersector->warm |= scene->solvers[k].roots.start == START_PREVIOUS;
   *out = intersector;
   return STATUS_OK;

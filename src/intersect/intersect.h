@@ -43,19 +43,33 @@ struct hit {
   double normal[3];         /* unit, facing the ray's origin */
 };
 
+/* The stages of a ray and a leaf whose box it passes (lanes/candidate.h). */
+enum stage {
+  STAGE_BILINEAR,  /* the resultant of degree 2 of a nearly bilinear leaf */
+  STAGE_PLANES,    /* hulls of the plane polynomials */
+  STAGE_RESULTANT, /* the resultant of full degree is formed */
+  STAGE_ROOTS,     /* its roots are sought */
+  STAGE_COUNT
+};
+
 struct intersect_counts {
   uint64_t rays[2];         /* closest-hit rays, any-hit rays */
   uint64_t patches_tested;  /* ray-leaf pairs that reached the algebra */
   uint64_t roots_found, roots_accepted;
-  uint64_t escalated;       /* ray-leaf pairs decided by subdivision */
+  uint64_t stages[STAGE_COUNT]; /* ray-leaf pairs that came to each */
+  uint64_t escalated;       /* ray-leaf pairs left to the last resort (exact/exact.h) */
   uint64_t certain, grazing; /* answers by certainty, closest-hit rays only */
 };
 
 struct intersector;
 struct tracer;
 
+/* Whether the instruction set that the environment variable PSCN_KERNEL asks for (baseline, avx2 or avx512; none: the best
+ * there is) is one that this processor has and the program was built with. */
+bool intersector_kernel_here(void);
+
 /* Prepares the scene: degrees, leaves, bounding hierarchy. Borrows the scene, which must outlive it.
- * STATUS_LIMIT where memory is short; then *out is NULL. */
+ * STATUS_LIMIT where memory is short, STATUS_USAGE where PSCN_KERNEL asks for what is not here; then *out is NULL. */
 enum status intersector_create(const struct scene *scene, struct intersector **out) STATUS_MUST_CHECK;
 void intersector_destroy(struct intersector *intersector);
 

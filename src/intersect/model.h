@@ -36,7 +36,7 @@ struct model_patch {
   bool all_roots;    /* aberth, improved and polished: all roots of r are tried */
   bool copied;       /* its leaves are those of the object it is copied from; then m and n mean nothing */
   double loose;      /* how far off its surface a ray may be met by those, in the scene; 0 where not copied */
-  const struct method *solver;
+  const struct method *method;
 };
 
 /* The polynomials a resultant is formed of: the leaf's net at its true degree, the parameter that is kept first. */

@@ -157,6 +157,7 @@ static void add_counts(struct intersect_counts *sum, const struct intersect_coun
   sum->patches_tested += counts->patches_tested;
   sum->roots_found += counts->roots_found;
   sum->roots_accepted += counts->roots_accepted;
+  for (int k = 0; k < STAGE_COUNT; k++) sum->stages[k] += counts->stages[k];
   sum->escalated += counts->escalated;
   sum->certain += counts->certain;
   sum->grazing += counts->grazing;

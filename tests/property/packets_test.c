@@ -8,7 +8,7 @@
 enum { SEED = 20240510, SCENES = 1, RAYS = 96 };
 
 /* A scene of each kind, several times; `body` gets its world, its nets, its rays and the answers one by one. */
-struct stage {
+struct set_up {
   int kind;
   struct random *random;
   struct world *world;
@@ -18,9 +18,9 @@ struct stage {
   struct hit alone[RAYS];
 };
 
-static void on_all_stages(uint64_t seed, void (*body)(struct stage *stage))
+static void on_all_stages(uint64_t seed, void (*body)(struct set_up *stage))
 {
-  static struct stage stage;
+  static struct set_up stage;
   static world_net nets[WORLD_MAX];
   struct random random = {seed};
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
@@ -40,7 +40,7 @@ static void on_all_stages(uint64_t seed, void (*body)(struct stage *stage))
 }
 
 /* In packets of every size, in the order they come and shuffled, with companions of other kinds. */
-static void companions(struct stage *s)
+static void companions(struct set_up *s)
 {
   size_t order[RAYS];
   for (size_t n = 0; n < RAYS; n++) order[n] = n;
@@ -73,7 +73,7 @@ static void answers_do_not_depend_on_companions(void **state)
 }
 
 /* Any hit is found exactly where a closest one is, alone and in company. */
-static void occlusion(struct stage *s)
+static void occlusion(struct set_up *s)
 {
   int wrong = 0;
   for (size_t first = 0; first < RAYS; first += PACKET_SIZE) {
@@ -111,7 +111,7 @@ static bool kernels_same(const struct ray *ray, const struct hit *a, const struc
 }
 
 /* Every kernel that the processor can run, against the plainest, which is the last of them. */
-static void kernels(struct stage *s)
+static void kernels(struct set_up *s)
 {
   static struct hit answers[KERNELS_MAX][RAYS];
   const struct kernel *before = s->world->tracer->kernel, *here[KERNELS_MAX];
@@ -140,7 +140,7 @@ static void kernels_agree(void **state)
 }
 
 /* Another order of the patches: the same t, and, where hits are not tied, the same patch. */
-static void shuffled(struct stage *s)
+static void shuffled(struct set_up *s)
 {
   static world_net nets[WORLD_MAX];
   size_t place[WORLD_MAX];

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "cmocka_test.h"
-#include "intersect/packet.h"
+#include "intersect/lanes/bilinear.h"
 #include "property/world.h"
 #include "reference/quad.h"
 
@@ -111,9 +111,9 @@ static void check_planes(struct subject *s, struct random *random)
     /* And a value by the kernel's own arithmetic. */
     lanes spread[16], wu[4], du[4], wv[4], dv[4];
     for (int n = 0; n < 16; n++) spread[n] = lanes_all(net[n]);
-    refine_weights(lanes_all((double)u), wu, du);
-    refine_weights(lanes_all((double)v), wv, dv);
-    const quad value = refine_evaluate(spread, wu, du, wv, dv).value[0];
+    newton_weights(lanes_all((double)u), wu, du);
+    newton_weights(lanes_all((double)v), wv, dv);
+    const quad value = newton_evaluate(spread, wu, du, wv, dv).value[0];
     worst_value = fmax(worst_value,
                        (double)quad_abs(value - quad_net_jet(&s->truth.net[p], u, v).value) / s->local.error);
   }
@@ -145,7 +145,7 @@ struct tally {
 };
 
 /* Checks the claims of lane 0, and sets (u,v) to the exact root. Returns whether there is one. */
-static bool check_root(const struct truth *truth, const struct refined *r, struct random *random, struct tally *tally,
+static bool check_root(const struct truth *truth, const struct newton_root *r, struct random *random, struct tally *tally,
                        quad *u, quad *v)
 {
   if (!(lanes_bits(r->exists) & 1)) return false;
@@ -179,7 +179,7 @@ static void check_refine(struct subject *s, struct random *random)
   nets.error = lanes_all(s->local.error);
   for (int start = 0; start < 4; start++) {
     const double u0 = random_between(random, -0.1, 1.1), v0 = random_between(random, -0.1, 1.1);
-    const struct refined r = refine(&nets, s->leaf, lanes_all(u0), lanes_all(v0), lanes_all(0) == lanes_all(0));
+    const struct newton_root r = newton_refine(&nets, s->leaf, lanes_all(u0), lanes_all(v0), lanes_all(0) == lanes_all(0));
     quad u, v;
     check_root(&s->truth, &r, random, &refined, &u, &v);
   }
@@ -219,7 +219,7 @@ static void aim(struct subject *s, struct random *random, double slant)
 }
 
 static struct tally leaf_roots;
-static int closer_look; /* alone, though refine_prove would not say so */
+static int closer_look; /* alone, though newton_prove would not say so */
 static double worst_residual, worst_place, worst_point, worst_tangent;
 
 static void check_leaf_root(struct subject *s, struct random *random)
@@ -227,7 +227,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
   struct ray rays[LANES];
   struct packet p;
   struct postponed postponed;
-  struct leaf_root root;
+  struct bilinear_root root;
   if (!s->leaf->parts) return;
   static const double slants[] = {0.5, 0.2, 0.1, 0.05};
   aim(s, random, slants[random_bits(random) % 4]);
@@ -238,7 +238,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
   packet_set_patch(&p, s->leaf->patch);
   const int k = s->local.axis;
   assert_int_equal(packet_axis(&p, 0), k);
-  leaf_root_solve(&p, s->leaf, k, NULL, lanes_all(0) == lanes_all(0), &root);
+  bilinear_root_solve(&p, s->leaf, k, NULL, lanes_all(0) == lanes_all(0), &root);
   quad u, v;
   if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts->exact) return;
   const double second = s->leaf->second[0] + 2 * s->leaf->second[1] + s->leaf->second[2];

@@ -11,7 +11,7 @@
 #include "cmocka_test.h"
 #include "effort.h"
 #include "intersect/intersect.h"
-#include "intersect/tracer.h"
+#include "intersect/method.h"
 #include "random.h"
 #include "reference/search.h"
 
@@ -98,7 +98,7 @@ static void target_destroy(struct target *target)
 }
 
 /* What the patch's own method finds on the whole patch. */
-static void find_roots(struct target *target, const struct ray *ray, struct candidate_roots *out)
+static void find_roots(struct target *target, const struct ray *ray, struct method_roots *out)
 {
   const struct model *model = target->tracer->model;
   const struct leaf *leaf = &model->leaves[0];
@@ -106,10 +106,10 @@ static void find_roots(struct target *target, const struct ray *ray, struct cand
   double a[16], b[16], w[16];
   local_ray_make(&model->patches[0], ray, &local);
   local_ray_nets(&local, leaf->form != NULL ? leaf->form->x : leaf->x, a, b, w);
-  candidate_solve(target->tracer, leaf, a, b, local.error, out);
+  method_solve(target->tracer, leaf, a, b, local.error, out);
 }
 
-static bool among(const struct candidate_roots *found, const struct search_root *root)
+static bool among(const struct method_roots *found, const struct search_root *root)
 {
   for (int k = 0; k < found->count; k++) {
     if (fabs(found->u[k] - (double)root->u) <= FOUND_WITHIN && fabs(found->v[k] - (double)root->v) <= FOUND_WITHIN) {
@@ -159,7 +159,7 @@ static void roots_of_the_teapot(void **state)
         undecided++;
         continue;
       }
-      struct candidate_roots candidates, paper_candidates;
+      struct method_roots candidates, paper_candidates;
       find_roots(&plain, &ray, &candidates);
       find_roots(&paper, &ray, &paper_candidates);
       double nearest = INFINITY;

@@ -5,7 +5,7 @@
 
 #include "algebra/sylvester.h"
 #include "base/lanes.h"
-#include "intersect/tracer.h"
+#include "intersect/resultant_error.h"
 
 #include "cmocka_test.h"
 #include "random.h"
@@ -176,7 +176,7 @@ static void strained_nets(struct random *random, int kind, int m, int n, double 
 }
 enum { KINDS = 8 };
 
-/* tracer.h: a Bernstein coefficient of r is at most RESULTANT_WEIGHT (alpha beta)^n, and is off by at most that
+/* resultant_error.h: a Bernstein coefficient of r is at most RESULTANT_WEIGHT (alpha beta)^n, and is off by at most that
  * times the roundings and the nets' own error. Both must hold. How far from the truth they are is printed: a bound a
  * million times too large would be true and useless. */
 static void the_bound_of_r_holds(void **state)

@@ -16,7 +16,7 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "intersect/certificate.h"
-#include "intersect/leaf.h"
+#include "intersect/prepare/leaf.h"
 #include "intersect/point.h"
 
 /* How far outside a box, in its own parameters, its root may lie and still be told from having none (then the

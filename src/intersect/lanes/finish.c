@@ -2,8 +2,8 @@
 #include <math.h>
 
 #include "intersect/exact/exact.h"
-#include "intersect/last_step.h"
-#include "intersect/packet.h"
+#include "intersect/lanes/last_step.h"
+#include "intersect/lanes/packet.h"
 
 /* A root as far from where it is as this, in patch parameters, is seen so nearly edge-on that what the last step leaves,
  * 2^-27 of it, shows in the last places of t. */
@@ -154,7 +154,7 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, u
   step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;
   step.improves = lanes_mask(group) & best->certain;
   step.u = surface_clamp(best->u), step.v = surface_clamp(best->v), step.t = best->t;
-  last_step(&step);
+  last_step_take(&step);
   struct answers a = {.u = step.u, .v = step.v, .t = step.t, .plain = step.plain};
   a.plain &= (lanes_abs(step.u - best->u) <= best->radius_u) & (lanes_abs(step.v - best->v) <= best->radius_v) &
              far_enough(p, patch, best->t);

@@ -1,14 +1,15 @@
 /* One ray a lane against one leaf: plane polynomials, two-dimensional Newton, and the test that proves what it found.
  *
- * Internal to src/intersect; included by the sources that are compiled once per instruction set.
+ * Internal to src/intersect/lanes.
  * Parameters (u,v) are the leaf's own, [0,1] x [0,1] over the leaf. Norms of parameter vectors are maximum norms.
  */
-#ifndef PSCN_INTERSECT_REFINE_H
-#define PSCN_INTERSECT_REFINE_H
+#ifndef PSCN_INTERSECT_LANES_NEWTON_H
+#define PSCN_INTERSECT_LANES_NEWTON_H
 
 #include "base/lanes.h"
 #include "intersect/certificate.h"
 #include "intersect/model.h"
+#include "intersect/lanes/names.h"
 
 /* The two plane polynomials of every lane over a leaf. */
 struct plane_nets {
@@ -18,7 +19,7 @@ struct plane_nets {
 };
 
 /* What is known after Newton's process. The fields mean something only where `exists`. */
-struct refined {
+struct newton_root {
   lanes u, v;
   lanes radius_u, radius_v; /* the exact root is within */
   lane_mask exists;         /* exactly one root of the exact polynomials within the radii */
@@ -36,21 +37,26 @@ struct refined {
 #define NEWTON_START 0x1p-18
 enum { NEWTON_MAX_STEPS = 10 };
 
-LANES_INLINE void refine_weights(lanes t, lanes w[4], lanes dw[4])
+/* The inverse Jacobian M: steps are M (a, b). */
+struct newton_inverse {
+  lanes ua, ub, va, vb;
+};
+
+LANES_INLINE void newton_weights(lanes t, lanes w[4], lanes dw[4])
 {
   const lanes s = 1 - t, ss = s * s, tt = t * t, st = s * t;
   w[0] = ss * s, w[1] = 3 * (ss * t), w[2] = 3 * (st * t), w[3] = tt * t;
   dw[0] = -3 * ss, dw[1] = 3 * (ss - 2 * st), dw[2] = 3 * (2 * st - tt), dw[3] = 3 * tt;
 }
 
-struct refine_jet {
+struct newton_jet {
   lanes value, du, dv;
 };
 
-LANES_INLINE struct refine_jet refine_evaluate(const lanes net[16], const lanes wu[4], const lanes du[4],
+LANES_INLINE struct newton_jet newton_evaluate(const lanes net[16], const lanes wu[4], const lanes du[4],
                                                const lanes wv[4], const lanes dv[4])
 {
-  struct refine_jet jet = {{0}, {0}, {0}};
+  struct newton_jet jet = {{0}, {0}, {0}};
   for (int i = 0; i < 4; i++) {
     const lanes *n = net + 4 * i;
     const lanes row = n[0] * wv[0] + n[1] * wv[1] + n[2] * wv[2] + n[3] * wv[3];
@@ -64,23 +70,18 @@ LANES_INLINE struct refine_jet refine_evaluate(const lanes net[16], const lanes 
 
 /* A row of the inverse Jacobian as a covector of space: its length bounds how fast that parameter moves with the
  * surface. */
-LANES_INLINE lanes refine_row_length(lanes p, lanes q, const lanes slope[2])
+LANES_INLINE lanes newton_row_length(lanes p, lanes q, const lanes slope[2])
 {
   const lanes r = p * slope[0] + q * slope[1];
   return lanes_sqrt(p * p + q * q + r * r);
 }
 
-/* The inverse Jacobian M: steps are M (a, b). */
-struct refine_inverse {
-  lanes ua, ub, va, vb;
-};
-
 /* The certificate (certificate.h): sets all but u and v of *r, which hold where the process went on the lanes that
  * `settled`. bend is |M| (|Suu| + 2 |Suv| + |Svv|). */
-LANES_INLINE void refine_prove(const struct leaf *leaf, const struct refine_inverse *m, const lanes slope[2],
-                               lanes error, lanes step, lane_mask settled, struct refined *r)
+LANES_INLINE void newton_prove(const struct leaf *leaf, const struct newton_inverse *m, const lanes slope[2],
+                               lanes error, lanes step, lane_mask settled, struct newton_root *r)
 {
-  const lanes size_u = refine_row_length(m->ua, m->ub, slope), size_v = refine_row_length(m->va, m->vb, slope);
+  const lanes size_u = newton_row_length(m->ua, m->ub, slope), size_v = newton_row_length(m->va, m->vb, slope);
   const lanes size = lanes_max(size_u, size_v);
   const lanes bend = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
   const lanes off = size * error;
@@ -95,33 +96,8 @@ LANES_INLINE void refine_prove(const struct leaf *leaf, const struct refine_inve
   r->size = size, r->bend = bend * (step + off), r->off = off;
 }
 
-/* Newton's process from (u,v) on the lanes of `active`, and the test. */
-LANES_INLINE struct refined refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v,
-                                   lane_mask active)
-{
-  struct refined r = {.u = u, .v = v};
-  struct refine_inverse m = {{0}, {0}, {0}, {0}};
-  lanes step = lanes_all(NEWTON_START);
-  lane_mask moving = active, settled = {0};
-  for (int n = 0; n < NEWTON_MAX_STEPS && lanes_any(moving); n++) {
-    lanes wu[4], du[4], wv[4], dv[4];
-    refine_weights(r.u, wu, du);
-    refine_weights(r.v, wv, dv);
-    const struct refine_jet a = refine_evaluate(nets->a, wu, du, wv, dv), b = refine_evaluate(nets->b, wu, du, wv, dv);
-    const lanes inverse = 1 / (a.du * b.dv - a.dv * b.du);
-    m.ua = lanes_select(moving, b.dv * inverse, m.ua), m.ub = lanes_select(moving, -a.dv * inverse, m.ub);
-    m.va = lanes_select(moving, -b.du * inverse, m.va), m.vb = lanes_select(moving, a.du * inverse, m.vb);
-    const lanes step_u = m.ua * a.value + m.ub * b.value, step_v = m.va * a.value + m.vb * b.value;
-    r.u = lanes_select(moving, r.u - step_u, r.u);
-    r.v = lanes_select(moving, r.v - step_v, r.v);
-    const lanes here = lanes_max(lanes_abs(step_u), lanes_abs(step_v)), before = step * step;
-    step = lanes_select(moving, here, step);
-    settled |= moving & (here * here * here <= NEWTON_NEXT_STEP * before);
-    /* A root far outside the leaf, or no progress (NaN compares false), is no concern of this process. */
-    moving &= ~settled & (lanes_abs(r.u - 0.5) < 2) & (lanes_abs(r.v - 0.5) < 2);
-  }
-  refine_prove(leaf, &m, nets->slope, nets->error, step, settled, &r);
-  return r;
-}
+/* newton.c: Newton's process from (u,v) on the lanes of `active`, and the test. */
+struct newton_root newton_refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v,
+                                   lane_mask active);
 
 #endif

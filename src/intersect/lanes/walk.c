@@ -1,6 +1,6 @@
 /* Rays through the hierarchy: two packets at a time, their rays side by side as floats.
  *
- * Compiled once per instruction set; PSCN_KERNEL names the table that this compilation defines.
+ * Compiled once per instruction set; the table of this compilation is KERNEL(kernel), see names.h.
  *
  * The boxes lie in the frame (world - origin)/frame, all within about [-1,1]. A ray is looked at there by its place:
  * the distance along its dominant axis, counted from where it enters the frame, so that few bits are enough wherever
@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "base/float_lanes.h"
-#include "intersect/packet.h"
+#include "intersect/lanes/packet.h"
 
 #define FLOAT_ROUNDOFF 0x1p-24f
 
@@ -236,7 +236,7 @@ static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer 
   bundle_start(b, tracer->model);
 }
 
-static void kernel_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
+static void closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
   for (size_t first = 0; first < count; first += FLOAT_LANES) {
     struct ready ready[2];
@@ -256,7 +256,7 @@ static void kernel_closest(struct tracer *tracer, size_t count, const struct ray
   }
 }
 
-static void kernel_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
+static void occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
   for (size_t first = 0; first < count; first += FLOAT_LANES) {
     struct ready ready[2];
@@ -272,4 +272,4 @@ static void kernel_occluded(struct tracer *tracer, size_t count, const struct ra
   }
 }
 
-const struct kernel PSCN_KERNEL = {PSCN_KERNEL_NAME, kernel_closest, kernel_occluded};
+const struct kernel KERNEL(kernel) = {KERNEL_NAME, closest, occluded};

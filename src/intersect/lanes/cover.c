@@ -1,25 +1,13 @@
-/* Whether known roots are all that a leaf has: on all lanes at once, by boxes that cover it.
+/* Boxes that cover a leaf. See cover.h.
  *
- * Internal to src/intersect; included by packet.c. A box of parameters is cleared where a plane polynomial or one of
- * the combinations that aim along u and v keeps one sign on its net (as trial_planes and trial_aligned do with the
- * leaf's), or where a proven root is alone on the box and itself together, by the test of refine.h. Other boxes are
- * halved. What subdivide.c does for one ray in the last resort; this ends most cases before.
+ * Compiled once per instruction set.
  */
-#ifndef PSCN_INTERSECT_COVER_H
-#define PSCN_INTERSECT_COVER_H
-
 #include <string.h>
 
-#include "intersect/trial.h"
+#include "intersect/lanes/cover.h"
 
-/* Choices of speed: a lane that needs more is better off by itself, for few others do. */
-enum { COVER_HALVINGS = 16, COVER_SPLITS = 160 };
-
-/* A proven root of every lane, in the order they were found. */
-struct known_root {
-  lanes u, v, size, bend, off; /* refine.h */
-  lane_mask proven;
-};
+/* A choice of speed, as COVER_HALVINGS. */
+enum { COVER_SPLITS = 160 };
 
 struct cover_box {
   lanes a[16], b[16];
@@ -88,16 +76,15 @@ LANES_INLINE lane_mask cover_full(const struct cover_box *box, lanes size, lanes
   return open;
 }
 
-/* The lanes of `open` on which all of the leaf's roots are among `roots`. */
-static lane_mask cover_proves(const struct trial *t, int count, const struct known_root roots[], int halvings,
+lane_mask cover_proves(const struct candidate *it, int count, const struct known_root roots[], int halvings,
                               lane_mask open)
 {
   struct cover_box stack[COVER_HALVINGS + 2];
   struct cover_box *whole = &stack[0];
-  memcpy(whole->a, t->nets.a, sizeof whole->a), memcpy(whole->b, t->nets.b, sizeof whole->b);
+  memcpy(whole->a, it->nets.a, sizeof whole->a), memcpy(whole->b, it->nets.b, sizeof whole->b);
   whole->u = whole->v = 0, whole->size_u = whole->size_v = 1, whole->halvings = 0, whole->open = open;
   lanes size = {0};
-  for (int n = 0; n < 16; n++) size = lanes_max(lanes_max(lanes_abs(t->nets.a[n]), lanes_abs(t->nets.b[n])), size);
+  for (int n = 0; n < 16; n++) size = lanes_max(lanes_max(lanes_abs(it->nets.a[n]), lanes_abs(it->nets.b[n])), size);
   int top = 1;
   lanes splits = lanes_all(COVER_SPLITS);
   while (top > 0) {
@@ -109,13 +96,13 @@ static lane_mask cover_proves(const struct trial *t, int count, const struct kno
     if (box.halvings == halvings) open &= ~box.open;
     box.open &= open;
     if (!lanes_any(box.open)) continue;
-    cover_split(t->leaf, &box, &stack[top]);
+    cover_split(it->leaf, &box, &stack[top]);
     /* each halving adds three roundings, of values of the leaf's size */
-    const lanes error = t->nets.error + (box.halvings + 1) * 4 * UNIT_ROUNDOFF * size;
+    const lanes error = it->nets.error + (box.halvings + 1) * 4 * UNIT_ROUNDOFF * size;
     const int first = top;
     for (int h = 0; h < 2; h++) {
       struct cover_box *half = &stack[first + h];
-      for (int k = 0; k < count; k++) half->open = cover_unknown(t->leaf, half, &roots[k], half->open);
+      for (int k = 0; k < count; k++) half->open = cover_unknown(it->leaf, half, &roots[k], half->open);
       if (lanes_any(half->open)) half->open = cover_full(half, size, error, half->open);
       if (!lanes_any(half->open)) continue;
       if (top != first + h) stack[top] = *half;
@@ -124,5 +111,3 @@ static lane_mask cover_proves(const struct trial *t, int count, const struct kno
   }
   return open;
 }
-
-#endif

@@ -1,14 +1,13 @@
 /* All roots of r by Aberth's method on all lanes of a packet at once, and what can be proven of them.
  *
- * Internal to src/intersect; included by packet.c. This is candidate.c's task, and lane_prove's, for the method that
- * `solver aberth` means where its roots are only to start from: see all_roots_method in model.c.
+ * Compiled once per instruction set. This is method.c's task for the method that `solver aberth` means where its roots are
+ * only to start from (prepare/model.c).
  */
-#ifndef PSCN_INTERSECT_ALL_ROOTS_H
-#define PSCN_INTERSECT_ALL_ROOTS_H
-
-#include "intersect/cover.h"
+#include <math.h>
 
 #include "algebra/aberth_lanes.h"
+#include "intersect/lanes/cover.h"
+#include "intersect/lanes/nearest.h"
 
 /* How many roots near [0,1] a lane may try: of 18, more are real in [0,1] next to never. How often the leaf is halved
  * to see that the ray passes it by before any root is sought. Choices of speed. */
@@ -17,18 +16,9 @@ enum { TRIED_ROOTS = 8, MISS_HALVINGS = 3 };
 /* The roots tried, k-th of every lane. */
 struct all_roots {
   int count;
-  struct leaf_root root[TRIED_ROOTS]; /* where the leaf has no parts, only `at` */
+  struct bilinear_root root[TRIED_ROOTS]; /* where the leaf has no parts, only `at` */
   lane_mask proven[TRIED_ROOTS]; /* a root that none before it is */
 };
-
-static struct solver_warm *all_roots_warm(const struct packet *p, const struct trial *t)
-{
-  struct tracer *tracer = p->tracer;
-  if (t->patch->solver->roots.start != START_PREVIOUS || !tracer->warm || p->model != tracer->model) return NULL;
-  struct warm_leaf *warm = &tracer->warm[t->number];
-  if (warm->epoch != tracer->epoch) warm->warm.count = 0, warm->epoch = tracer->epoch;
-  return &warm->warm;
-}
 
 /* Start values on the lanes of `active`: the roots kept, taken off the real axis, or cold. */
 static void all_roots_start(struct aberth_lanes *a, const struct solver_warm *warm, lane_mask active)
@@ -77,27 +67,27 @@ static int all_roots_near(const struct aberth_lanes *a, lane_mask done, lanes ke
 
 /* Makes the roots exact and proven. Returns the lanes that are decided: one root is alone in the leaf, or there are
  * as many as r has sign variations. */
-static lane_mask all_roots_prove(const struct packet *p, const struct trial *t, int count, const lanes kept[],
+static lane_mask all_roots_prove(const struct packet *p, const struct candidate *it, int count, const lanes kept[],
                                  const lane_mask has[], struct all_roots *all)
 {
-  const bool v_kept = t->leaf->v_kept;
+  const bool v_kept = it->leaf->v_kept;
   lane_mask alone = {0};
   lanes found = {0}, within = {0};
   all->count = count;
   for (int k = 0; k < count; k++) {
-    struct refined *r = &all->root[k].at;
+    struct newton_root *r = &all->root[k].at;
     lane_mask *proven = &all->proven[k];
     *proven = (lane_mask){0};
     const lane_mask open = has[k] & ~alone;
-    *r = (struct refined){.exists = {0}};
+    *r = (struct newton_root){.exists = {0}};
     if (!lanes_any(open)) continue;
-    const lanes at = start_within(kept[k]), other = start_within(trial_eliminated(t, at));
+    const lanes at = start_within(kept[k]), other = start_within(resultant_eliminated(it, at));
     const lanes start[2] = {v_kept ? other : at, v_kept ? at : other};
-    if (t->leaf->parts) leaf_root_solve(p, t->leaf, t->axis, start, open, &all->root[k]);
-    else *r = refine(&t->nets, t->leaf, start[0], start[1], open);
+    if (it->leaf->parts) bilinear_root_solve(p, it->leaf, it->axis, start, open, &all->root[k]);
+    else *r = newton_refine(&it->nets, it->leaf, start[0], start[1], open);
     *proven = open & r->exists;
     for (int j = 0; j < k; j++) {
-      const struct refined *old = &all->root[j].at;
+      const struct newton_root *old = &all->root[j].at;
       const lane_mask same = all->proven[j] & (lanes_abs(old->u - r->u) <= old->radius_u + r->radius_u) &
                              (lanes_abs(old->v - r->v) <= old->radius_v + r->radius_v);
       *proven &= ~same;
@@ -111,31 +101,31 @@ static lane_mask all_roots_prove(const struct packet *p, const struct trial *t, 
     *proven |= only;
     alone |= only;
   }
-  return alone | ((found > 0) & (within == t->variations));
+  return alone | ((found > 0) & (within == it->variations));
 }
 
 /* The same for lanes that this leaves open, by boxes. */
-static lane_mask all_roots_cover(const struct trial *t, const struct all_roots *all, lane_mask open)
+static lane_mask all_roots_cover(const struct candidate *it, const struct all_roots *all, lane_mask open)
 {
   struct known_root known[TRIED_ROOTS];
   int count = 0;
   for (int k = 0; k < all->count; k++) {
-    const struct refined *r = &all->root[k].at;
+    const struct newton_root *r = &all->root[k].at;
     const lane_mask proven = all->proven[k] & open;
     if (lanes_any(proven)) known[count++] = (struct known_root){r->u, r->v, r->size, r->bend, r->off, proven};
   }
-  return cover_proves(t, count, known, COVER_HALVINGS, open);
+  return cover_proves(it, count, known, COVER_HALVINGS, open);
 }
 
 /* The roots of r near [0,1] on the lanes of `active`, as starts: see all_roots_near. */
-static int all_roots_solve(struct packet *p, const struct trial *t, lane_mask active, lanes kept[TRIED_ROOTS],
+static int all_roots_solve(struct packet *p, const struct candidate *it, lane_mask active, lanes kept[TRIED_ROOTS],
                            lane_mask has[TRIED_ROOTS])
 {
-  const struct solver_options *options = &t->patch->solver->roots;
+  const struct solver_options *options = &it->patch->method->roots;
   struct aberth_lanes a;
-  active &= aberth_lanes_set(&a, t->degree, t->c);
+  active &= aberth_lanes_set(&a, it->degree, it->c);
   if (!lanes_any(active)) return 0;
-  struct solver_warm *warm = all_roots_warm(p, t);
+  struct solver_warm *warm = p->model == p->tracer->model ? tracer_warm(p->tracer, it->patch->method, it->number) : NULL;
   all_roots_start(&a, warm, active);
   const double settled = options->tolerance > ABERTH_SETTLED ? options->tolerance : ABERTH_SETTLED;
   const lane_mask done = aberth_lanes_run(&a, active, settled, options->max_iterations);
@@ -145,21 +135,31 @@ static int all_roots_solve(struct packet *p, const struct trial *t, lane_mask ac
 }
 
 /* The lanes of `active` that are decided, and their roots. */
-static lane_mask all_roots_find(struct packet *p, const struct trial *t, lane_mask active, struct all_roots *all)
+static lane_mask all_roots_find(struct packet *p, const struct candidate *it, lane_mask active, struct all_roots *all)
 {
   lanes kept[TRIED_ROOTS];
   lane_mask has[TRIED_ROOTS];
   all->count = 0;
-  if (t->degree < 1) return (lane_mask){0};
+  if (it->degree < 1) return (lane_mask){0};
   /* One sign variation is a root, which mostly is a hit. */
-  const lane_mask doubtful = active & (t->variations != 1);
+  const lane_mask doubtful = active & (it->variations != 1);
   lane_mask decided = {0};
-  if (lanes_any(doubtful)) decided = cover_proves(t, 0, NULL, MISS_HALVINGS, doubtful);
+  if (lanes_any(doubtful)) decided = cover_proves(it, 0, NULL, MISS_HALVINGS, doubtful);
   if (!lanes_any(active & ~decided)) return decided;
-  const int count = all_roots_solve(p, t, active & ~decided, kept, has);
-  decided |= all_roots_prove(p, t, count, kept, has, all);
-  if (lanes_any(active & ~decided)) decided |= all_roots_cover(t, all, active & ~decided);
+  const int count = all_roots_solve(p, it, active & ~decided, kept, has);
+  decided |= all_roots_prove(p, it, count, kept, has, all);
+  if (lanes_any(active & ~decided)) decided |= all_roots_cover(it, all, active & ~decided);
   return decided;
 }
 
-#endif
+lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask active)
+{
+  struct all_roots all;
+  const lane_mask decided = all_roots_find(p, it, active, &all);
+  for (int k = 0; k < all.count; k++) {
+    const lane_mask hits = decided & all.proven[k] & inside(&all.root[k].at);
+    if (it->leaf->parts) offer_bend_root(p, it, &all.root[k], hits);
+    else offer_root(p, it, &all.root[k].at, hits);
+  }
+  return active & ~decided;
+}

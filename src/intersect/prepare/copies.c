@@ -1,5 +1,5 @@
 /* Objects that share their leaves with all their copies: maps and their error bounds. */
-#include "intersect/copies.h"
+#include "intersect/prepare/copies.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -97,7 +97,7 @@ static void candidate_map(struct candidate *c, const struct model *model, const 
       }
     }
     c->good &= model->patches[c->copy->first_patch + p].lanes &&
-               model->patches[c->copy->first_patch + p].solver->split == 0;
+               model->patches[c->copy->first_patch + p].method->split == 0;
   }
   const double passes = 2 * c->widest * m->reach * back; /* the ray's nearest point, from the middle; sqrt(3) < 2 */
   c->error = off + 16 * UNIT_ROUNDOFF * stretch * (m->reach + passes);

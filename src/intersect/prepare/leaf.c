@@ -1,5 +1,5 @@
 /* Preparing leaves: nets, bounds, which parameter to keep, boxes. */
-#include "intersect/leaf.h"
+#include "intersect/prepare/leaf.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,14 +1,14 @@
 /* The root of a ray on a nearly bilinear leaf, from the resultant to the last places of the answer.
  *
  * Compiled once per instruction set, without contraction. The start is a root of the bilinear part alone, or given;
- * Newton's process on the planes' polynomials follows, as in refine.h. But the surface is evaluated as the sum of the
+ * Newton's process on the planes' polynomials follows, as in newton.h. But the surface is evaluated as the sum of the
  * leaf's parts (model.h), and the planes' residuals keep what their leading terms round away, so the root that it ends
  * at needs no other look: it is right to the rounding of the bend of its leaf. Point and normal come from the last
  * evaluation. Parameters are s = u - 1/2 and t = v - 1/2.
  */
 #include "base/double_lanes.h"
-#include "intersect/packet.h"
-#include "intersect/surface.h"
+#include "intersect/lanes/nearest.h"
+#include "intersect/lanes/surface.h"
 
 /* ---- the surface ---- */
 
@@ -180,7 +180,7 @@ LANES_INLINE struct row row_bounds(const struct packet *p, int axis, const struc
  * the net, and some twenty operations. */
 #define DERIVATIVE_ROUNDINGS 64
 
-/* Lanes whose proven root, near (s,t), is alone in the leaf, by a closer look than refine_prove's.
+/* Lanes whose proven root, near (s,t), is alone in the leaf, by a closer look than newton_prove's.
  *
  * On the way from the root to a point of the leaf the Jacobian is on average what it is halfway, but for |T|/24 of
  * third derivatives times the way squared, which is at most 1 + LEAF_MARGIN long. Halfways are within 1/4 of the one to
@@ -188,7 +188,7 @@ LANES_INLINE struct row row_bounds(const struct packet *p, int axis, const struc
  * because M times it has a positive diagonal whose product is larger than that of the other elements, no other point
  * of the leaf has the root's values. */
 LANES_INLINE lane_mask alone_at(const struct packet *p, int axis, const struct leaf *leaf,
-                                const struct refine_inverse *m, const struct refined *r, lanes step, lanes s, lanes t)
+                                const struct newton_inverse *m, const struct newton_root *r, lanes step, lanes s, lanes t)
 {
   struct halfway at;
   surface_at(leaf->parts, 0.5 * s, 0.5 * t, at.x);
@@ -201,13 +201,13 @@ LANES_INLINE lane_mask alone_at(const struct packet *p, int axis, const struct l
   return (u.least > 0) & (v.least > 0) & (u.least * v.least > (1 + 8 * UNIT_ROUNDOFF) * (u.cross * v.cross));
 }
 
-void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
-                     struct leaf_root *out)
+void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
+                     struct bilinear_root *out)
 {
   const struct leaf_parts *parts = leaf->parts;
   const int k = axis;
   struct coordinate x[3];
-  struct refine_inverse m;
+  struct newton_inverse m;
   lanes s, t, step_s, step_t, step;
   lane_mask settled, moving = active;
   if (start) s = start[0] - 0.5, t = start[1] - 0.5;
@@ -216,7 +216,7 @@ void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, 
     surface_at(parts, s, t, x);
     const struct plane a = plane_at(p, k, 0, &x[(k + 1) % 3], &x[k]), b = plane_at(p, k, 1, &x[(k + 2) % 3], &x[k]);
     const lanes inverse = 1 / (a.ds * b.dt - a.dt * b.ds);
-    m = (struct refine_inverse){b.dt * inverse, -a.dt * inverse, -b.ds * inverse, a.ds * inverse};
+    m = (struct newton_inverse){b.dt * inverse, -a.dt * inverse, -b.ds * inverse, a.ds * inverse};
     step_s = m.ua * a.value + m.ub * b.value, step_t = m.va * a.value + m.vb * b.value;
     step = lanes_max(lanes_abs(step_s), lanes_abs(step_t));
     settled = active & (step <= parts->last_step);
@@ -227,7 +227,7 @@ void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, 
     s = lanes_select(moving, s - step_s, s), t = lanes_select(moving, t - step_t, t);
   }
   out->at.u = (s - step_s) + 0.5, out->at.v = (t - step_t) + 0.5;
-  refine_prove(leaf, &m, p->slope[k], p->local[k].error, step, settled, &out->at);
+  newton_prove(leaf, &m, p->slope[k], p->local[k].error, step, settled, &out->at);
   const lane_mask open = out->at.exists & ~out->at.alone;
   if (lanes_any(open)) out->at.alone |= open & alone_at(p, k, leaf, &m, &out->at, step, s, t);
   const struct double_lanes way = double_lanes_sum(x[k].hi, p->local[k].start[0]);
@@ -242,4 +242,13 @@ void leaf_root_solve(const struct packet *p, const struct leaf *leaf, int axis, 
   const lane_mask turned = settled & (step > parts->plain_step);
   if (lanes_any(turned)) surface_turn(parts, s, t, to_s, to_t, turned, x);
   for (int c = 0; c < 3; c++) out->su[c] = x[c].ds, out->sv[c] = x[c].dt;
+}
+
+lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask active)
+{
+  struct bilinear_root root;
+  bilinear_root_solve(p, it->leaf, it->axis, NULL, active, &root);
+  p->tracer->counts.roots_found += lanes_count(root.at.alone);
+  offer_bend_root(p, it, &root, root.at.alone & inside(&root.at));
+  return active & ~root.at.alone;
 }

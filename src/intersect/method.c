@@ -1,14 +1,10 @@
-/* The scene's own method on one candidate: resultant, roots, back-substitution (paper 2.1 and 2.2).
- *
- * Everything a `solver` statement can choose happens here: the basis, the determinant, the solver, its start, and
- * how v follows from u. What comes out are starting points; with `polish on` the caller proves them. `solver aberth`
- * without items that change its numbers has a way of its own on all lanes at once, all_roots.h.
- */
+/* The scene's own method. See method.h. */
 #include <math.h>
 
 #include "algebra/sylvester.h"
 #include "base/real.h"
-#include "intersect/tracer.h"
+#include "intersect/method.h"
+#include "intersect/resultant_error.h"
 
 #define BEZOUT_REAL double
 #define BEZOUT_NAME(name) bezout_##name
@@ -173,26 +169,19 @@ static double largest(const double net[16], int m, int n)
   return size;
 }
 
-static double resultant_error(int n, double alpha, double beta, double error)
+/* The bound on the coefficients of r, for nets of size alpha and beta. */
+static double coefficient_error(int n, double alpha, double beta, double error)
 {
   double power = 1;
   for (int k = 0; k < n; k++) power *= alpha * beta;
-  return RESULTANT_WEIGHT[n] * power *
-         (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + n * error * (1 / alpha + 1 / beta));
+  return RESULTANT_ERROR(n, power, alpha, beta, error);
 }
 
-static struct solver_warm *warm_of(struct tracer *tracer, const struct leaf *leaf, const struct method *method)
+void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16],
+                     double error, struct method_roots *out)
 {
-  if (method->roots.start != START_PREVIOUS || !tracer->warm) return NULL;
-  struct warm_leaf *warm = &tracer->warm[leaf - tracer->model->leaves];
-  if (warm->epoch != tracer->epoch) warm->warm.count = 0, warm->epoch = tracer->epoch;
-  return &warm->warm;
-}
-
-void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16],
-                     double error, struct candidate_roots *out)
-{
-  const struct method *method = tracer->model->patches[leaf->patch].solver;
+  const struct method *method = tracer->model->patches[leaf->patch].method;
+  struct solver_warm *warm = tracer_warm(tracer, method, leaf - tracer->model->leaves);
   struct form form = {leaf->kept_degree, leaf->eliminated_degree, {0}, {0}};
   form_net(form.m, form.n, method->basis, a, form.A);
   form_net(form.m, form.n, method->basis, b, form.B);
@@ -202,7 +191,7 @@ void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const doubl
   else bezout_determinant(form.m, form.n, form.A, form.B, c);
   struct polynomial r = {2 * form.m * form.n, method->basis, c, NULL};
   if (method->basis == BASIS_BERNSTEIN) {
-    double choose = resultant_error(form.n, size[0], size[1], error);
+    double choose = coefficient_error(form.n, size[0], size[1], error);
     for (int k = 0; k <= r.degree; k++) bound[k] = choose, choose = choose * (r.degree - k) / (k + 1);
     r.c = c + leaf->zeros[0], r.error = bound + leaf->zeros[0];
     r.degree -= leaf->zeros[0] + leaf->zeros[1];
@@ -210,7 +199,7 @@ void candidate_solve(struct tracer *tracer, const struct leaf *leaf, const doubl
   out->count = 0;
   if (r.degree < 1) return;
   struct root_set roots;
-  solver_roots(&r, &method->roots, warm_of(tracer, leaf, method), &roots);
+  solver_roots(&r, &method->roots, warm, &roots);
   tracer->counts.roots_found += (unsigned)roots.count;
   for (int k = 0; k < roots.count; k++) {
     const struct root *root = &roots.root[k];

@@ -5,7 +5,7 @@
  * object, however far away it starts. copies.c bounds what rounding is left, model_object.error.
  */
 #include "base/double_lanes.h"
-#include "intersect/packet.h"
+#include "intersect/lanes/nearest.h"
 
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner)
 {

@@ -2,8 +2,8 @@
  *
  * Internal to src/intersect; included by the sources that are compiled once per instruction set.
  */
-#ifndef PSCN_INTERSECT_SURFACE_H
-#define PSCN_INTERSECT_SURFACE_H
+#ifndef PSCN_INTERSECT_LANES_SURFACE_H
+#define PSCN_INTERSECT_LANES_SURFACE_H
 
 #include "base/lanes.h"
 #include "intersect/point.h"

@@ -9,8 +9,8 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
-#include "intersect/copies.h"
-#include "intersect/leaf.h"
+#include "intersect/prepare/copies.h"
+#include "intersect/prepare/leaf.h"
 
 /* A declared control point carries half a unit in the last place of its decimal form and a few of its transforms: a
  * patch whose excess over a lower degree is no more than this, relative to its largest coordinate, was meant to be
@@ -124,10 +124,10 @@ static void prepare_patches(struct model *model)
     struct scene_patch *source = &scene->patches[p];
     struct model_patch *patch = &model->patches[p];
     patch_frame(source->P, size, patch);
-    patch->solver = &scene->solvers[source->solver];
-    patch->all_roots = lanes_of(patch->solver) == SOLVER_LANES_ABERTH;
-    patch->lanes = lanes_of(patch->solver) != SOLVER_LANES_NONE;
-    model->unproven |= !patch->solver->polish;
+    patch->method = &scene->solvers[source->solver];
+    patch->all_roots = lanes_of(patch->method) == SOLVER_LANES_ABERTH;
+    patch->lanes = lanes_of(patch->method) != SOLVER_LANES_NONE;
+    model->unproven |= !patch->method->polish;
   }
 }
 
@@ -139,7 +139,7 @@ static void split_patches(struct model *model, int most)
     if (patch->copied) continue;
     const double size = largest_coordinate(model->scene->patches[p].P);
     patch_bidegree(patch->x, DEGREE_SLACK * real_max(1, size / patch->scale), &patch->m, &patch->n);
-    patch->split = patch->solver->split > 0 ? patch->solver->split : auto_split(patch, most);
+    patch->split = patch->method->split > 0 ? patch->method->split : auto_split(patch, most);
     model->leaf_count += (size_t)patch->split * (size_t)patch->split;
   }
 }

@@ -1,39 +1,23 @@
-/* The last Newton step of several hits of one patch: the last places of U, V and T, the point, the normal.
+/* The last Newton step. Compiled once per instruction set and without contraction.
  *
- * Internal to src/intersect; included by finish.c, which is compiled once per instruction set and without
- * contraction. A root comes from a leaf's net, cut from the patch and rounded: where the ray is steep it is right to
+ * A root comes from a leaf's net, cut from the patch and rounded: where the ray is steep it is right to
  * a few last places, where it grazes rounding is magnified. A Newton step on the patch itself, its residuals a(u,v),
  * b(u,v) as if computed in half as much precision again, makes all of them right to the last places. The sums are
  * exact in their leading parts because those have few bits on a common grid (as in Rump, Ogita and Oishi, Accurate
  * Floating-Point Summation, 2008, and Ozaki and others, Error-free transformations of matrix multiplication, 2012):
  * one multiply-add a product, where sums that keep track of their error take ten.
  */
-#ifndef PSCN_INTERSECT_LAST_STEP_H
-#define PSCN_INTERSECT_LAST_STEP_H
+#include "intersect/lanes/last_step.h"
 
 #include <string.h>
 
 #include "base/double_lanes.h"
-#include "intersect/model.h"
-#include "intersect/surface.h"
 
 enum { LAST_STEPS_MAX = 3 };
 
 /* A step longer than this, in patch parameters, is followed by another: the derivatives that the point and the
  * normal are taken from are off by about as much, relative to the second derivatives. */
 #define LAST_STEP_LONGEST 0x1p-44
-
-/* Hits of rays with one dominant axis on one patch. */
-struct last_step {
-  const struct model_patch *patch;
-  int axis;
-  const lanes *origin, *direction; /* [3] */
-  lane_mask improves;        /* the others keep u, v and t as they come */
-  lanes u, v, t;             /* in and out */
-  lanes point[3], normal[3]; /* out: in the patch's frame; unit, of either sense */
-  lanes tangent;             /* out: bound on the derivatives' coordinates */
-  lane_mask plain;           /* out: point and normal are sure */
-};
 
 /* Splits a number of size at most 1: so the product of two heads, and a sum of such products of size at most 2, is a
  * multiple of 2^-52 and exact; what the tails add to it is 2^-26 of it, and so is its rounding. */
@@ -120,7 +104,7 @@ LANES_INLINE void last_step_normal(struct last_step *l, const struct last_step_j
 
 /* Improves the lanes that ask for it, and takes point and normal of all lanes. A lane whose steps do not end within
  * the patch's size keeps what it came with. */
-LANES_INLINE void last_step(struct last_step *l)
+void last_step_take(struct last_step *l)
 {
   const struct model_patch *patch = l->patch;
   const int k = l->axis, i = (k + 1) % 3, j = (k + 2) % 3;
@@ -170,5 +154,3 @@ LANES_INLINE void last_step(struct last_step *l)
   last_step_normal(l, &jet);
   l->plain &= ~lost; /* the jet is elsewhere */
 }
-
-#endif

@@ -1,0 +1,44 @@
+/* The way of a candidate: the order of its stages.
+ *
+ * Compiled once per instruction set. This is the page to open first: what a stage does stands in candidate.h.
+ */
+#include "intersect/lanes/candidate.h"
+
+/* A scene with `polish off` asks for the roots as its solver finds them: nothing is closed before that. */
+static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
+{
+  const struct model_patch *patch = it->patch;
+  uint64_t *entered = p->tracer->counts.stages;
+  open = stage_box(p, it, open);
+  if (!lanes_any(open)) return;
+  p->tracer->counts.patches_tested += lanes_count(open);
+  if (it->leaf->parts && !patch->all_roots) {
+    entered[STAGE_BILINEAR] += lanes_count(open);
+    open = stage_bilinear(p, it, open);
+    if (!lanes_any(open)) return;
+  }
+  entered[STAGE_PLANES] += lanes_count(open);
+  open = stage_planes(p, it, open);
+  if (!lanes_any(open)) return;
+  entered[STAGE_RESULTANT] += lanes_count(open);
+  open = stage_resultant(p, it, open);
+  if (!lanes_any(open)) return;
+  entered[STAGE_ROOTS] += lanes_count(open);
+  if (patch->all_roots) open = stage_all_roots(p, it, open);
+  else if (patch->lanes) open = stage_first_root(p, it, open);
+  else open = stage_method(p, it, open);
+  if (lanes_any(open)) packet_postpone(p, it->leaf, open);
+}
+
+void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
+{
+  struct candidate it;
+  it.leaf = &p->model->leaves[index], it.number = index;
+  it.patch = &p->model->patches[it.leaf->patch];
+  if (p->patch != it.leaf->patch) packet_set_patch(p, it.leaf->patch);
+  for (unsigned bits = p->axes; bits; bits &= bits - 1) {
+    it.axis = __builtin_ctz(bits);
+    const lane_mask here = active & p->on_axis[it.axis];
+    if (lanes_any(here)) candidate_pass(p, &it, here);
+  }
+}

@@ -1,0 +1,75 @@
+/* One candidate: a leaf and the rays of a packet whose boxes it passes, on the lanes that share a dominant axis.
+ *
+ * Internal to src/intersect/lanes. A candidate passes a line of stages, which candidate.c shows. All stages have one shape:
+ * they take the lanes that are still open, may offer roots (nearest.h), and return the lanes that are open after them.
+ * A lane is closed where the leaf is proven to be missed, or all of its roots have been offered. What is open in the end
+ * goes to the last resort (exact.h).
+ */
+#ifndef PSCN_INTERSECT_LANES_CANDIDATE_H
+#define PSCN_INTERSECT_LANES_CANDIDATE_H
+
+#include "intersect/lanes/newton.h"
+#include "intersect/lanes/packet.h"
+
+enum { RESULTANT_MAX_DEGREE = 18 };
+
+/* What the stages tell each other. */
+struct candidate {
+  const struct leaf *leaf;
+  const struct model_patch *patch; /* the leaf's */
+  int64_t number;                  /* the leaf's, in its model */
+  int axis;
+  struct plane_nets nets;
+  lanes alpha, beta;                 /* largest |a|, |b| of the nets, then of the form */
+  lanes form_error;                  /* of a coefficient of the form */
+  lanes form_a[16], form_b[16];      /* where the form is not the leaf's own net */
+  const lanes *fa, *fb;
+  int degree;                        /* of r, exact roots at the ends taken off */
+  lanes c_store[RESULTANT_MAX_DEGREE + 1];
+  const lanes *c;                    /* c[0..degree] */
+  lanes variations;                  /* sign variations of c; -1 where not known: a sign is within its error */
+};
+
+/* planes.c: the box along the leaf. */
+lane_mask stage_box(struct packet *p, struct candidate *it, lane_mask open);
+
+/* bilinear.c: of a nearly bilinear leaf the root of its bilinear part, of degree 2, made good by Newton's process on the
+ * leaf. Open stays where the ray is so slanted that the leaf's bend matters. */
+lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
+
+/* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net. */
+lane_mask stage_planes(struct packet *p, struct candidate *it, lane_mask open);
+
+/* resultant.c: Bezout's resultant r of a and b in Bernstein form: closed where it has no sign variation. */
+lane_mask stage_resultant(struct packet *p, struct candidate *it, lane_mask open);
+
+/* resultant.c: one root of r, from its control polygon. Closed where it is proven to be the only one. */
+lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask open);
+
+/* all_roots.c: all roots of r by Aberth's method on all lanes at once; closed where they are proven to be all. */
+lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open);
+
+/* method.c: the method that the scene asks for, lane by lane. */
+lane_mask stage_method(struct packet *p, struct candidate *it, lane_mask open);
+
+LANES_INLINE void plane_values(const struct packet *p, int axis, const double x[3][16], int at, lanes *a, lanes *b)
+{
+  const double k = x[axis][at], i = x[(axis + 1) % 3][at], j = x[(axis + 2) % 3][at];
+  *a = (i - p->local[axis].moment[0]) - p->slope[axis][0] * k;
+  *b = (j - p->local[axis].moment[1]) - p->slope[axis][1] * k;
+}
+
+/* planes.c: x_k of the points (u,v). */
+lanes plane_place(const struct candidate *it, lanes u, lanes v);
+
+/* resultant.c: the eliminated parameter at a root of r. */
+lanes resultant_eliminated(const struct candidate *it, lanes kept);
+
+/* t within [0,1], or the middle where it is not a number. */
+LANES_INLINE lanes start_within(lanes t)
+{
+  t = lanes_select(t == t, t, lanes_all(0.5));
+  return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1));
+}
+
+#endif

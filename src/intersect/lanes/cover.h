@@ -1,0 +1,26 @@
+/* Whether known roots are all that a leaf has: on all lanes at once, by boxes that cover it.
+ *
+ * Internal to src/intersect/lanes. A box of parameters is cleared where a plane polynomial or one of the combinations that
+ * aim along u and v keeps one sign on its net (as planes.c does with the leaf's), or where a proven root is alone on the
+ * box and itself together, by the certificate. Other boxes are halved. What exact/search.c does for one ray in the last
+ * resort; this ends most cases before.
+ */
+#ifndef PSCN_INTERSECT_LANES_COVER_H
+#define PSCN_INTERSECT_LANES_COVER_H
+
+#include "intersect/lanes/candidate.h"
+
+/* A choice of speed: a lane that needs more is better off by itself, for few others do. */
+enum { COVER_HALVINGS = 16 };
+
+/* A proven root of every lane, in the order they were found. */
+struct known_root {
+  lanes u, v, size, bend, off; /* newton.h */
+  lane_mask proven;
+};
+
+/* The lanes of `open` on which all of the leaf's roots are among `roots`. */
+lane_mask cover_proves(const struct candidate *it, int count, const struct known_root roots[], int halvings,
+                              lane_mask open);
+
+#endif

@@ -1,0 +1,44 @@
+/* Names of one compilation.
+ *
+ * What runs for every ray is compiled once per instruction set, all of src/intersect/lanes, and linked into one program:
+ * PSCN_KERNEL, which the build sets, is the name of the set, and what one file of the room calls in another is called
+ * by that name too.
+ */
+#ifndef PSCN_INTERSECT_LANES_NAMES_H
+#define PSCN_INTERSECT_LANES_NAMES_H
+
+#define KERNEL_JOIN(name, kernel) name##_##kernel
+#define KERNEL_EXPANDED(name, kernel) KERNEL_JOIN(name, kernel)
+#define KERNEL(name) KERNEL_EXPANDED(name, PSCN_KERNEL)
+
+#define KERNEL_TEXT(kernel) #kernel
+#define KERNEL_TEXT_EXPANDED(kernel) KERNEL_TEXT(kernel)
+#define KERNEL_NAME KERNEL_TEXT_EXPANDED(PSCN_KERNEL)
+
+#define packet_start KERNEL(packet_start)
+#define packet_orient KERNEL(packet_orient)
+#define packet_set_patch KERNEL(packet_set_patch)
+#define packet_postpone KERNEL(packet_postpone)
+#define packet_enter KERNEL(packet_enter)
+#define packet_leave KERNEL(packet_leave)
+#define packet_leaf KERNEL(packet_leaf)
+#define offer_root KERNEL(offer_root)
+#define offer_bend_root KERNEL(offer_bend_root)
+#define offer_unproven KERNEL(offer_unproven)
+#define stage_box KERNEL(stage_box)
+#define stage_bilinear KERNEL(stage_bilinear)
+#define stage_planes KERNEL(stage_planes)
+#define stage_resultant KERNEL(stage_resultant)
+#define stage_first_root KERNEL(stage_first_root)
+#define stage_all_roots KERNEL(stage_all_roots)
+#define stage_method KERNEL(stage_method)
+#define plane_place KERNEL(plane_place)
+#define resultant_eliminated KERNEL(resultant_eliminated)
+#define newton_refine KERNEL(newton_refine)
+#define bilinear_root_solve KERNEL(bilinear_root_solve)
+#define cover_proves KERNEL(cover_proves)
+#define last_step_take KERNEL(last_step_take)
+#define finish_hits KERNEL(finish_hits)
+#define finish_occluded KERNEL(finish_occluded)
+
+#endif

@@ -1,0 +1,126 @@
+/* Roots offered, taken, refused and left open. See nearest.h.
+ *
+ * Compiled once per instruction set.
+ */
+#include "intersect/lanes/nearest.h"
+
+void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
+{
+  struct postponed *to = p->postponed;
+  const struct exact_region region = {p->outer ? NULL : leaf, leaf->patch + (p->outer ? p->copy->first_patch : 0),
+                                      {leaf->column_u, leaf->column_v}, {1, 1}};
+  for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
+    const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
+    if (count == EXACT_REGIONS_MAX) to->cut_off |= 1u << lane;
+    else if (count == 0 || !exact_region_equal(&to->region[lane][count - 1], &region))
+      to->region[lane][to->count[lane]++] = region;
+  }
+  p->tracer->counts.escalated += lanes_count(open);
+}
+
+/* Lanes whose root may lie on a border of the patch. */
+static lane_mask on_border(const struct candidate *it, const struct newton_root *r)
+{
+  const int last = it->patch->split - 1;
+  lane_mask border = {0};
+  if (it->leaf->column_u == 0) border |= r->u <= r->radius_u;
+  if (it->leaf->column_u == last) border |= 1 - r->u <= r->radius_u;
+  if (it->leaf->column_v == 0) border |= r->v <= r->radius_v;
+  if (it->leaf->column_v == last) border |= 1 - r->v <= r->radius_v;
+  return border;
+}
+
+/* The place on the ray of x_k = w. */
+LANES_INLINE lanes place_on_ray(const struct packet *p, int axis, lanes w)
+{
+  const lanes *start = p->local[axis].start;
+  return ((w + start[1]) + start[0]) * p->local[axis].to_t;
+}
+
+/* The bound on the error of a proven root's place: how far its radii let x_k move, and the roundings of x_k and it. */
+LANES_INLINE lanes place_error(const struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w, lanes at)
+{
+  const lanes size = lanes_abs(p->local[it->axis].to_t);
+  return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + p->local[it->axis].error) +
+         8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
+}
+
+LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes at, lanes error,
+                              lane_mask taken)
+{
+  const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
+  const double part = 1.0 / it->patch->split;
+  const lanes place[2] = {(it->leaf->column_u + r->u) * part, (it->leaf->column_v + r->v) * part};
+  const lanes radius[2] = {r->radius_u * part + UNIT_ROUNDOFF, r->radius_v * part + UNIT_ROUNDOFF};
+  const lane_mask none = {0};
+  best_take(&p->best, taken, place, radius, at, patch + none, leaf + none);
+  p->t_far = lanes_select(taken, at + error, p->t_far);
+  if (p->any) p->live &= ~taken;
+  p->moved = true;
+  p->tracer->counts.roots_accepted += lanes_count(taken);
+}
+
+/* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it. One
+ * that may lie on a border of the patch, at an end of the ray or where another patch's is, is left to the last resort.
+ * Returns the lanes that took theirs. */
+static lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w, lanes at,
+                              lane_mask hits)
+{
+  const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
+  const lanes error = place_error(p, it, r, w, at);
+  hits &= ~((at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far)));
+  if (!lanes_any(hits)) return hits;
+  const lane_mask rival = (p->best.patch != patch) & (lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t));
+  const lane_mask sure = ~on_border(it, r) & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
+  if (lanes_any(hits & ~sure)) packet_postpone(p, it->leaf, hits & ~sure);
+  const lane_mask none = {0};
+  const lane_mask taken = hits & sure & best_after(&p->best, at, patch + none, leaf + none);
+  if (lanes_any(taken)) packet_take(p, it, r, at, error, taken);
+  return taken;
+}
+
+void offer_root(struct packet *p, const struct candidate *it, const struct newton_root *r, lane_mask hits)
+{
+  if (!lanes_any(hits)) return;
+  const lanes w = plane_place(it, r->u, r->v);
+  offer(p, it, r, w, place_on_ray(p, it->axis, w), hits);
+}
+
+void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits)
+{
+  const struct newton_root r = {.u = u, .v = v};
+  const lanes w = plane_place(it, u, v), at = place_on_ray(p, it->axis, w), error = place_error(p, it, &r, w, at);
+  const lane_mask behind = at > p->t_min + error, none = {0};
+  p->best.doubt |= hits & ~behind & ~(at < p->t_min - error);
+  const lane_mask taken = hits & behind & (at < p->t_max) &
+                          best_after(&p->best, at, it->leaf->patch + none, it->number + none);
+  if (!lanes_any(taken)) return;
+  packet_take(p, it, &r, at, error, taken);
+  p->best.certain &= ~taken;
+}
+
+/* Keeps what a leaf's root says of the surface. */
+static void packet_keep(struct packet *p, const struct model_patch *patch, const struct bilinear_root *root,
+                        lane_mask taken)
+{
+  struct best *best = &p->best;
+  lanes normal[3];
+  surface_cross(root->su, root->sv, normal);
+  const lanes tangent = surface_tangent(root->su, root->sv);
+  const struct surface_point point = surface_point(patch, root->point, patch->split * tangent);
+  for (int c = 0; c < 3; c++) {
+    best->point.at[c] = lanes_select(taken, point.at[c], best->point.at[c]);
+    best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
+  }
+  best->tangent = lanes_select(taken, tangent, best->tangent);
+  best->point.error = lanes_select(taken, point.error, best->point.error);
+  best->point.clearance = lanes_select(taken, point.clearance, best->point.clearance);
+  best->final |= taken & (lanes_abs(root->t) * p->longest >= NEAR_START_FINAL * patch->scale);
+}
+
+void offer_bend_root(struct packet *p, const struct candidate *it, const struct bilinear_root *root, lane_mask hits)
+{
+  if (!lanes_any(hits)) return;
+  const lane_mask taken = offer(p, it, &root->at, root->w, root->t, hits);
+  if (it->leaf->parts->exact && !p->any && !p->outer && lanes_any(taken)) packet_keep(p, it->patch, root, taken);
+}

@@ -1,0 +1,48 @@
+/* The nearest root of every lane: the one place where roots are taken or refused.
+ *
+ * Internal to src/intersect/lanes. A root is taken where double precision leaves no question; where one may lie on a border
+ * of its patch, at an end of the ray or where another patch's is, the leaf is left to the last resort.
+ */
+#ifndef PSCN_INTERSECT_LANES_NEAREST_H
+#define PSCN_INTERSECT_LANES_NEAREST_H
+
+#include "intersect/lanes/bilinear.h"
+#include "intersect/lanes/candidate.h"
+
+/* Lanes where a root at t comes before the best: nearer, or as near to the last bit and of a lower patch or leaf. That
+ * orders all roots, so the answer is the same in whatever order they come. */
+LANES_INLINE lane_mask best_after(const struct best *best, lanes t, lane_mask patch, lane_mask leaf)
+{
+  const lane_mask first = (patch < best->patch) | ((patch == best->patch) & (leaf < best->leaf));
+  return (t < best->t) | ((t == best->t) & first);
+}
+
+/* Takes over a certain root on the lanes of `taken`. */
+LANES_INLINE void best_take(struct best *best, lane_mask taken, const lanes at[2], const lanes radius[2], lanes t,
+                            lane_mask patch, lane_mask leaf)
+{
+  best->u = lanes_select(taken, at[0], best->u), best->v = lanes_select(taken, at[1], best->v);
+  best->radius_u = lanes_select(taken, radius[0], best->radius_u);
+  best->radius_v = lanes_select(taken, radius[1], best->radius_v);
+  best->t = lanes_select(taken, t, best->t);
+  best->patch = (taken & patch) | (~taken & best->patch), best->leaf = (taken & leaf) | (~taken & best->leaf);
+  best->certain |= taken, best->final &= ~taken;
+}
+
+/* Lanes whose proven root is in the leaf, or may be. */
+LANES_INLINE lane_mask inside(const struct newton_root *r)
+{
+  return r->exists & (r->u >= -r->radius_u) & (r->u - 1 <= r->radius_u) & (r->v >= -r->radius_v) &
+         (r->v - 1 <= r->radius_v);
+}
+
+/* Proven roots of several lanes. */
+void offer_root(struct packet *p, const struct candidate *it, const struct newton_root *r, lane_mask hits);
+
+/* The same of a nearly bilinear leaf, with what is known of the surface there. */
+void offer_bend_root(struct packet *p, const struct candidate *it, const struct bilinear_root *root, lane_mask hits);
+
+/* Points in the leaf that nobody has proven anything of. */
+void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits);
+
+#endif

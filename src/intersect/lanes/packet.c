@@ -1,0 +1,87 @@
+/* The rays of a packet: loaded, turned to where they look, taken to the frame of a patch.
+ *
+ * Compiled once per instruction set.
+ */
+#include <assert.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "intersect/lanes/packet.h"
+
+/* A ray is eight doubles in a row. */
+enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
+static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(double) &&
+                offsetof(struct ray, t_min) == 6 * sizeof(double), "read as two fours");
+
+void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
+                  struct postponed *postponed)
+{
+  p->postponed = postponed;
+  postponed->cut_off = 0;
+  memset(postponed->count, 0, sizeof postponed->count);
+  p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
+  p->outer = NULL, p->net_error = 0, p->t_error = lanes_all(0);
+  p->live = lanes_mask((1u << count) - 1);
+  lanes *o = p->origin, *d = p->direction;
+  lanes_load4(rays->origin, RAY_STRIDE, &o[0], &o[1], &o[2], &d[0]);
+  lanes_load4(&rays->direction[1], RAY_STRIDE, &d[1], &d[2], &p->t_min, &p->t_max);
+  p->t_far = p->t_max;
+  packet_orient(p);
+}
+
+void packet_orient(struct packet *p)
+{
+  lanes size[3];
+  for (int k = 0; k < 3; k++) size[k] = lanes_abs(p->direction[k]);
+  p->moved = false, p->patch = UINT32_MAX;
+  p->longest = lanes_max(lanes_max(size[0], size[1]), size[2]);
+  /* As dominant_axis has it. */
+  const lane_mask first = (size[0] >= size[1]) & (size[0] >= size[2]), second = ~first & (size[1] >= size[2]);
+  p->on_axis[0] = p->live & first, p->on_axis[1] = p->live & second, p->on_axis[2] = p->live & ~first & ~second;
+  p->axes = 0;
+  for (int k = 0; k < 3; k++) {
+    if (!lanes_any(p->on_axis[k])) continue;
+    p->axes |= 1u << k;
+    p->reciprocal[k] = 1 / p->direction[k];
+    for (int s = 0; s < 2; s++) {
+      const lanes d = p->direction[(k + 1 + s) % 3], slope = d * p->reciprocal[k];
+      p->slope[k][s] = lanes_select(p->on_axis[k], slope, lanes_all(0));
+      p->slope_rest[k][s] = -lanes_product_error(slope, p->direction[k], d) * p->reciprocal[k];
+    }
+  }
+  p->best.u = p->best.v = p->best.radius_u = p->best.radius_v = lanes_all(0), p->best.t = lanes_all(INFINITY);
+  p->best.patch = p->best.leaf = NO_PATCH + (lane_mask){0};
+  p->best.certain = p->best.final = p->best.doubt = (lane_mask){0};
+}
+
+void packet_set_patch(struct packet *p, uint32_t index)
+{
+  const struct model_patch *patch = &p->model->patches[index];
+  lanes hi[3], lo[3];
+  const double inverse = 1 / patch->scale;
+  for (int k = 0; k < 3; k++) {
+    const struct double_lanes from = double_lanes_sum(p->origin[k], lanes_all(-patch->center[k]));
+    hi[k] = from.hi * inverse, lo[k] = from.lo * inverse;
+  }
+  for (int k = 0; k < 3; k++) {
+    if (!(p->axes & 1u << k)) continue;
+    for (int s = 0; s < 2; s++) {
+      const int i = (k + 1 + s) % 3;
+      const lanes plus = hi[i] * p->direction[k], minus = hi[k] * p->direction[i];
+      const lanes plus_error = lanes_product_error(hi[i], p->direction[k], plus);
+      const lanes minus_error = lanes_product_error(hi[k], p->direction[i], minus);
+      struct double_lanes sum = double_lanes_sum(plus, -minus);
+      sum.lo += (plus_error - minus_error) + (lo[i] * p->direction[k] - lo[k] * p->direction[i]);
+      const lanes moment = (sum.hi + sum.lo) * p->reciprocal[k];
+      p->local[k].moment[s] = moment;
+      p->local[k].moment_rest[s] =
+          (sum.lo - lanes_product_error(moment, p->direction[k], sum.hi)) * p->reciprocal[k];
+    }
+    p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
+    p->local[k].to_t = patch->scale * p->reciprocal[k];
+    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1])) +
+                        2 * p->net_error * inverse;
+  }
+  p->patch = index;
+}

@@ -1,0 +1,89 @@
+/* The first stages: the box along a leaf, and its plane polynomials (paper eq 2 and 3).
+ *
+ * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
+ */
+#include "intersect/lanes/candidate.h"
+
+/* Stage 1. Lanes whose ray may pass the box along the leaf. On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the
+ * slabs' forms are A + B w; two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With
+ * e the bound on a plane's error (local_ray.h), A is off by 2 |g| e and B by 4u |g|, where |A| u <= |g| e/4 and |B|
+ * <= |g|: the products by 8 |g_q| |g_r| e in all, and the right side by less than that. */
+lane_mask stage_box(struct packet *p, struct candidate *it, lane_mask active)
+{
+  const struct leaf_slabs *slabs = &it->leaf->slabs;
+  const int k = it->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+  lanes a[3], b[3], size[3];
+  for (int q = 0; q < 3; q++) {
+    const double *g = slabs->g[q];
+    a[q] = g[i] * p->local[k].moment[0] + (g[j] * p->local[k].moment[1] - slabs->offset[q]);
+    b[q] = g[i] * p->slope[k][0] + (g[j] * p->slope[k][1] + g[k]);
+    size[q] = lanes_abs(b[q]);
+  }
+  const lanes error = slabs->slack * p->local[k].error;
+  for (int q = 0; q < 3; q++) {
+    const int r = (q + 1) % 3;
+    active &= ~(lanes_abs(a[q] * b[r] - a[r] * b[q]) > slabs->half[q] * size[r] + (slabs->half[r] * size[q] + error));
+  }
+  return active;
+}
+
+static void set_nets(const struct packet *p, struct candidate *it)
+{
+  for (int n = 0; n < 16; n++) plane_values(p, it->axis, it->leaf->x, n, &it->nets.a[n], &it->nets.b[n]);
+  it->nets.slope[0] = p->slope[it->axis][0], it->nets.slope[1] = p->slope[it->axis][1];
+  it->nets.error = p->local[it->axis].error;
+}
+
+/* Stage 1 again, by the whole net. */
+static lane_mask planes_hull(struct candidate *it, lane_mask active)
+{
+  lanes a_low, a_high, b_low, b_high;
+  for (int n = 0; n < 16; n++) {
+    const lanes a = it->nets.a[n], b = it->nets.b[n];
+    a_low = n ? lanes_min(a, a_low) : a, a_high = n ? lanes_max(a, a_high) : a;
+    b_low = n ? lanes_min(b, b_low) : b, b_high = n ? lanes_max(b, b_high) : b;
+  }
+  const lanes e = it->nets.error;
+  it->alpha = lanes_max(-a_low, a_high), it->beta = lanes_max(-b_low, b_high);
+  return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
+}
+
+/* Stage 1 again, with the two combinations of a and b that aim along the leaf's parameters: near the middle they are
+ * like u - u0 and v - v0 for the point (u0,v0) where the ray meets the tangent plane, so they tell a ray that passes
+ * the leaf by. */
+static lane_mask planes_aligned(const struct candidate *it, lane_mask active)
+{
+  const lanes *a = it->nets.a, *b = it->nets.b;
+  const lanes au = (a[13] + a[14]) - (a[1] + a[2]), av = (a[7] + a[11]) - (a[4] + a[8]);
+  const lanes bu = (b[13] + b[14]) - (b[1] + b[2]), bv = (b[7] + b[11]) - (b[4] + b[8]);
+  lanes u_low = bv * a[0] - av * b[0], v_low = au * b[0] - bu * a[0], u_high = u_low, v_high = v_low;
+  for (int n = 1; n < 16; n++) {
+    const lanes u = bv * a[n] - av * b[n], v = au * b[n] - bu * a[n];
+    u_low = lanes_min(u, u_low), u_high = lanes_max(u, u_high);
+    v_low = lanes_min(v, v_low), v_high = lanes_max(v, v_high);
+  }
+  /* The combination's own three roundings, on top of the coefficients' error. */
+  const lanes e = it->nets.error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta);
+  const lanes u_error = e * (lanes_abs(bv) + lanes_abs(av)), v_error = e * (lanes_abs(au) + lanes_abs(bu));
+  return active & (u_low <= u_error) & (u_high >= -u_error) & (v_low <= v_error) & (v_high >= -v_error);
+}
+
+lane_mask stage_planes(struct packet *p, struct candidate *it, lane_mask open)
+{
+  set_nets(p, it);
+  lane_mask near = planes_hull(it, open);
+  if (lanes_any(near)) near = planes_aligned(it, near);
+  return it->patch->method->polish ? near : open;
+}
+
+/* x_k of the points (u,v). */
+lanes plane_place(const struct candidate *it, lanes u, lanes v)
+{
+  lanes wu[4], wv[4], unused[4], w = {0};
+  newton_weights(u, wu, unused);
+  newton_weights(v, wv, unused);
+  const double *x = it->leaf->x[it->axis];
+  for (int i = 0; i < 4; i++)
+    w += wu[i] * (x[4 * i] * wv[0] + x[4 * i + 1] * wv[1] + x[4 * i + 2] * wv[2] + x[4 * i + 3] * wv[3]);
+  return w;
+}

@@ -1,0 +1,130 @@
+/* The resultant of a candidate's plane polynomials (paper eq 4 to 6, in Bernstein form), and one of its roots.
+ *
+ * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
+ */
+#include "intersect/lanes/nearest.h"
+#include "intersect/resultant_error.h"
+
+#define BEZOUT_REAL lanes
+#define BEZOUT_NAME(name) bezout_lanes_##name
+#include "algebra/bezout.h"
+
+enum { RESULTANT_NEWTON_STEPS = 3 };
+
+static void set_form(const struct packet *p, struct candidate *it)
+{
+  const struct leaf_form *form = it->leaf->form;
+  it->fa = it->nets.a, it->fb = it->nets.b, it->form_error = it->nets.error;
+  if (!form) return;
+  it->alpha = it->beta = lanes_all(0);
+  for (int i = 0; i <= it->leaf->kept_degree; i++) {
+    for (int j = 0; j <= it->leaf->eliminated_degree; j++) {
+      lanes a, b;
+      plane_values(p, it->axis, form->x, 4 * i + j, &a, &b);
+      it->form_a[4 * i + j] = a, it->form_b[4 * i + j] = b;
+      it->alpha = lanes_max(it->alpha, lanes_abs(a)), it->beta = lanes_max(it->beta, lanes_abs(b));
+    }
+  }
+  it->fa = it->form_a, it->fb = it->form_b;
+  /* Where the ray meets the leaf the form's polynomials are off by their excess, twice for a plane of slope 1. Both
+   * moved by a constant, which moves every coefficient by it, have their common root there: so it counts as an error
+   * of coefficients. */
+  it->form_error = it->nets.error * form->size + 2 * form->excess;
+}
+
+/* Stage 2: r and the sign variations of its coefficients. Lanes that may meet the leaf. */
+static lane_mask resultant_varies(struct candidate *it, lane_mask active)
+{
+  const int m = it->leaf->kept_degree, n = it->leaf->eliminated_degree;
+  if (m == 3 && n == 3) bezout_lanes_resultant(3, 3, it->fa, it->fb, it->c_store);
+  else bezout_lanes_resultant(m, n, it->fa, it->fb, it->c_store);
+  it->c = it->c_store + it->leaf->zeros[0];
+  it->degree = 2 * m * n - it->leaf->zeros[0] - it->leaf->zeros[1];
+  const lanes product = it->alpha * it->beta, power = n == 1   ? product
+                                                    : n == 2 ? product * product
+                                                             : product * product * product;
+  const lanes bound = RESULTANT_ERROR(n, power, it->alpha, it->beta, it->form_error);
+  lanes last = {0}, variations = {0};
+  lane_mask doubt = {0};
+  const int full = 2 * m * n;
+  double choose = 1;
+  for (int k = 0; k < it->leaf->zeros[0]; k++) choose = choose * (full - k) / (k + 1);
+  for (int k = 0; k <= it->degree; k++) {
+    const lanes c = it->c[k];
+    doubt |= ~(lanes_abs(c) > choose * bound);
+    variations += lanes_select(c * last < 0, lanes_all(1), lanes_all(0));
+    last = lanes_select(c > 0, lanes_all(1), lanes_all(-1));
+    const int at = k + it->leaf->zeros[0];
+    choose = choose * (full - at) / (at + 1);
+  }
+  it->variations = lanes_select(doubt, lanes_all(-1), variations);
+  return active & (it->variations != 0);
+}
+
+lane_mask stage_resultant(struct packet *p, struct candidate *it, lane_mask open)
+{
+  set_form(p, it);
+  it->variations = lanes_all(-1);
+  return it->patch->method->polish ? resultant_varies(it, open) : open;
+}
+
+/* The value of the kept parameter where the control polygon of r crosses zero, improved by Newton on r. */
+static lanes resultant_root(const struct candidate *it)
+{
+  const int d = it->degree;
+  lanes at = lanes_all(0.5), before = it->c[0];
+  double choose = 1;
+  for (int k = 1; k <= d; k++) {
+    choose = choose * (d - k + 1) / k;
+    const lanes here = it->c[k] * (1 / choose);
+    at = lanes_select(before * here < 0, (k - 1 + before / (before - here)) / d, at);
+    before = here;
+  }
+  /* r(u) = (1-u)^d sum c_k x^k with x = u/(1-u); the half of the range near 1 reads the coefficients backwards. */
+  const lane_mask back = at > 0.5;
+  const lanes near = lanes_select(back, 1 - at, at);
+  lanes x = near / (1 - near);
+  for (int step = 0; step < RESULTANT_NEWTON_STEPS; step++) {
+    lanes value = {0}, slope = {0};
+    for (int k = d; k >= 0; k--) {
+      slope = slope * x + value;
+      value = value * x + lanes_select(back, it->c[d - k], it->c[k]);
+    }
+    x -= value / slope;
+  }
+  const lanes found = x / (1 + x);
+  return lanes_select(back, 1 - found, found);
+}
+
+/* The eliminated parameter at a root of r. */
+lanes resultant_eliminated(const struct candidate *it, lanes kept)
+{
+  const int m = it->leaf->kept_degree, n = it->leaf->eliminated_degree;
+  const lanes s = 1 - kept;
+  lanes w[4], p[4] = {{0}}, q[4] = {{0}};
+  if (m == 1) w[0] = s, w[1] = kept;
+  else if (m == 2) w[0] = s * s, w[1] = 2 * (s * kept), w[2] = kept * kept;
+  else w[0] = s * s * s, w[1] = 3 * (s * s * kept), w[2] = 3 * (s * kept * kept), w[3] = kept * kept * kept;
+  for (int i = 0; i <= m; i++)
+    for (int j = 0; j <= n; j++) p[j] += w[i] * it->fa[4 * i + j], q[j] += w[i] * it->fb[4 * i + j];
+  lanes num[2], den[2], better;
+  bezout_lanes_null_vector(n, p, q, num, den, &better);
+  const lane_mask first = better > 0;
+  return lanes_select(first, num[0], num[1]) / lanes_select(first, den[0], den[1]);
+}
+
+/* Where r has several sign variations, the start is one of its roots,
+ * or none; what is found from it still decides the leaf where it is proven to be alone. */
+lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask active)
+{
+  p->tracer->counts.roots_found += lanes_count(active);
+  const lanes kept = start_within(resultant_root(it)), eliminated = start_within(resultant_eliminated(it, kept));
+  const bool v_kept = it->leaf->v_kept;
+  const struct newton_root r = newton_refine(&it->nets, it->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, active);
+  const lanes k = v_kept ? r.v : r.u, radius = v_kept ? r.radius_v : r.radius_u;
+  /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
+  const lane_mask single = (it->variations == 1) & r.exists & (k > radius) & (1 - k > radius);
+  const lane_mask decided = active & (r.alone | single);
+  offer_root(p, it, &r, decided & inside(&r));
+  return active & ~decided;
+}

@@ -1,0 +1,25 @@
+/* The scene's own method on one ray and leaf: resultant, roots, back-substitution (paper 2.1 and 2.2).
+ *
+ * Internal to src/intersect. Everything a `solver` statement can choose happens here: the basis, the determinant, the
+ * solver, its start, and how v follows from u. What comes out are starting points; with `polish on` the caller proves
+ * them. `solver aberth` without items that change its numbers has a way of its own on all lanes at once
+ * (lanes/all_roots.c).
+ */
+#ifndef PSCN_INTERSECT_METHOD_H
+#define PSCN_INTERSECT_METHOD_H
+
+#include "intersect/tracer.h"
+
+enum { METHOD_MAX_ROOTS = POLYNOMIAL_MAX_DEGREE };
+
+struct method_roots {
+  int count;
+  double u[METHOD_MAX_ROOTS], v[METHOD_MAX_ROOTS]; /* leaf parameters, near or in [0,1] */
+};
+
+/* Forms r from the nets a, b of the leaf's form with the patch's method, finds its roots with the patch's solver and
+ * substitutes back. Counts the roots. Starting points only: nothing here is proven. */
+void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16],
+                     double error, struct method_roots *out);
+
+#endif
