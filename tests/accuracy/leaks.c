@@ -83,15 +83,23 @@ static bool at_open_border(const struct model *model, size_t patch, double u, do
   return (open[0] && u == 0) || (open[1] && u == 1) || (open[2] && v == 0) || (open[3] && v == 1);
 }
 
-/* Half of the rays start nearer to their target: by up to this power of ten. From within 1 % of a pole the side of a
- * start is hard to tell. */
+/* Half of the rays start nearer to their target: by up to this power of ten, but not so near, relative to the
+ * coordinates, that rounding may take them out of the model. From within 1 % of a pole the side of a start is hard to
+ * tell. */
 enum { NEAREST_START = 9 };
+#define INSIDE_STILL 1e-12
 
 static void pull(struct random *random, const double target[3], double origin[3])
 {
   const uint64_t bits = random_bits(random);
   if (bits % 2) return;
   const double way = pow(10, -(double)(bits / 2 % (NEAREST_START + 1)));
+  double size = 0, length = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    size = fmax(size, fabs(target[axis]));
+    length = fmax(length, fabs(origin[axis] - target[axis]));
+  }
+  if (way * length < INSIDE_STILL * size) return;
   for (int axis = 0; axis < 3; axis++) origin[axis] = target[axis] + way * (origin[axis] - target[axis]);
 }
 
