@@ -100,6 +100,7 @@ coordinates of every size. PSCN_EFFORT=$PROOF_EFFORT of 100,000 rays a class wit
 each of newton, laguerre, aberth, split 1 and split 8.
 
 - **refuted**: a proven root is lost or passed by, or there is none at T; U, V, the point or the normal are wrong.
+  Every kind met so far is a scene of [tests/accuracy/cases](../tests/accuracy/cases).
 - **undecided**: certain answers that the exact judge itself could not decide.
 - **grazing**: the share of answers that say so, of the default and of the others; **provable**: of the default's, those
   that the judge proves all the same, so that they could be certain. What is left was met where no proof can be had:
