@@ -26,7 +26,10 @@ rule before the iteration limit nor a finite error bound; "without value": true 
 Errors of multiple and clustered roots are what double precision allows: a root of multiplicity m moves by the m-th root
 of a rounding. What the table cannot show is tested (tests/corpus/corpus_test.c): in both bases, at every tolerance, no
 value is farther from a true root than its own error radius says, and no real root in [0,1] is outside all discs of
-`bernstein`.
+`bernstein`. And on ten families of 1,000 polynomials (tests/corpus/families_test.c: random coefficients over 0 to 60 decades, clusters,
+multiple roots, Chebyshev, Mignotte, Wilkinson, sparse) every solver in both forms and both bases leaves no root out in silence: true roots and
+values can be paired, each root within its value's radius, or what is not known is said. Of 100 of each
+family in the power basis, where the coefficients are exact, the improved forms of the four solvers of all roots leave none unknown.
 
 TEXT
   build-corpus/tests/corpus/corpus_table

@@ -4,7 +4,7 @@ set datafile missing NaN
 set terminal svg size 640,420 font 'sans,13' background rgb 'white'
 set grid
 set key outside below
-methods = 'newton laguerre aberth'
+methods = 'newton laguerre aberth durand_kerner'
 
 # Against the degree, eps = 1e-6.
 set xlabel 'degree n'

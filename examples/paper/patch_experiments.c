@@ -4,8 +4,8 @@
  *
  * Every pixel's ray against the first patch of the scene, in the order of the picture's lines: Sylvester's determinant
  * in the power basis (and beyond the paper, in scaled Bernstein form), degree 18, all roots. Against eps: iterations a
- * root, CPU time of the solver a pixel, and the share of pixels all of whose roots meet eq 11; from Aberth's start
- * values (cold), and from the roots of the ray before (previous).
+ * root, CPU time of the solver a pixel, and the shares of roots, and of pixels all of whose roots, that meet eq 11;
+ * from Aberth's start values (cold), and from the roots of the ray before (previous).
  */
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@
 
 enum { BIDEGREE = 3, DEGREE = 18 };
 
-static const char *const methods[] = {"newton", "laguerre", "aberth"};
+static const char *const methods[] = {"newton", "laguerre", "aberth", "durand_kerner"};
 
 /* Bernstein coefficients b[0], b[stride], ... of a cubic to power coefficients. */
 static void cubic_to_power(double *b, int stride)
@@ -74,7 +74,7 @@ static void pixel_polynomial(const struct scene *scene, double s, double t, enum
 }
 
 struct totals {
-  double iterations, roots, seconds, accurate_pixels, pixels;
+  double iterations, roots, seconds, accurate_roots, accurate_pixels, pixels;
 };
 
 static void solve_pixel(enum basis basis, const double c[], const struct solver_options *options,
@@ -100,6 +100,7 @@ static void solve_pixel(enum basis basis, const double c[], const struct solver_
       warm->im[warm->count++] = roots.im[i];
     }
   }
+  totals->accurate_roots += accurate;
   totals->accurate_pixels += accurate == DEGREE;
   totals->pixels += 1.0;
 }
@@ -122,10 +123,10 @@ static void experiment(enum basis basis, const double *c, size_t pixels)
           }
           solve_pixel(basis, c + p * (DEGREE + 1), &options, &warm, &totals);
         }
-        printf("1e-%d,%s,%s,%s,%.3f,%.3f,%.4f\n", digits, methods[m], previous != 0 ? "previous" : "cold",
+        printf("1e-%d,%s,%s,%s,%.3f,%.3f,%.4f,%.4f\n", digits, methods[m], previous != 0 ? "previous" : "cold",
                basis == BASIS_POWER ? "power" : "bernstein",
                totals.iterations / totals.roots, totals.seconds / totals.pixels * 1e6,
-               totals.accurate_pixels / totals.pixels);
+               totals.accurate_pixels / totals.pixels, totals.accurate_roots / totals.pixels / DEGREE);
       }
     }
   }
@@ -155,7 +156,7 @@ int main(int argc, char **argv)
   if (c == NULL) {
     return 5;
   }
-  printf("eps,method,start,basis,iterations,us_pixel,accurate_pixels\n");
+  printf("eps,method,start,basis,iterations,us_pixel,accurate_pixels,accurate_roots\n");
   for (int basis = BASIS_POWER; basis >= BASIS_BERNSTEIN; basis--) {
     for (size_t p = 0; p < pixels; p++) {
       const double s = ((double)(p % (size_t)width) + 0.5) / width, t = ((double)(p / (size_t)width) + 0.5) / height;

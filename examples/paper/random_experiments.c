@@ -6,9 +6,9 @@
  *     random_experiments order        Fig 11-12: accuracy against the order in which the roots were found, degree 18
  *     random_experiments improvements what each improvement does to iterations, time and accuracy, degree 18
  *
- * As in the paper: 100 polynomials with random coefficients (here uniform in [-1,1], seeded) a point, power basis,
- * Aberth's start values, eq 10 as the stop, eq 11 as the measure of accuracy. The solvers' own values are judged,
- * before the library's validation. Times are CPU time of the solver alone.
+ * As in the paper, with Durand-Kerner's method beside: 100 polynomials with random coefficients (here uniform in
+ * [-1,1], seeded) a point, power basis, Aberth's start values, eq 10 as the stop, eq 11 as the measure of accuracy. The
+ * solvers' own values are judged, before the library's validation. Times are CPU time of the solver alone.
  */
 #include <math.h>
 #include <stdio.h>
@@ -28,8 +28,14 @@ enum {
   REPEATS = 20 /* of every timed solve: one alone is too short for the clock */
 };
 
-static const char *const methods[] = {"newton", "laguerre", "aberth"};
+static const char *const methods[] = {"newton", "laguerre", "aberth", "durand_kerner"};
 enum { METHODS = sizeof methods / sizeof methods[0] };
+
+/* Whether the method moves all roots together, so that there is no first one. */
+static bool at_once(const struct solver_options *options)
+{
+  return strcmp(options->solver->name, "aberth") == 0 || strcmp(options->solver->name, "durand_kerner") == 0;
+}
 
 static struct solver_options paper_options(const char *method, double tolerance)
 {
@@ -49,11 +55,11 @@ static void random_problem(uint64_t *state, int degree, struct root_problem *out
   }
 }
 
-/* All roots, or the first one alone; Aberth's method always finds all. */
+/* All roots, or the first one alone; a method that moves all at once always finds all. */
 static void find(const struct root_problem *problem, const struct solver_options *options, bool first_only,
                  struct root_estimates *out)
 {
-  if (!first_only || strcmp(options->solver->name, "aberth") == 0) {
+  if (!first_only || at_once(options)) {
     options->solver->find(problem, options, NULL, out);
   } else {
     deflation_find(problem, options, NULL,
@@ -82,7 +88,7 @@ static struct summary measure(int degree, const struct solver_options *options, 
       find(&problem, options, first_only, &roots);
     }
     out.seconds += (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start) / REPEATS / POLYNOMIALS;
-    const int count = first_only && strcmp(options->solver->name, "aberth") != 0 ? 1 : roots.count;
+    const int count = first_only && !at_once(options) ? 1 : roots.count;
     for (int r = 0; r < count; r++) {
       const double ratio = measure_eq11(&problem, roots.re[r], roots.im[r]);
       out.accurate += ratio < 1.0;
@@ -108,7 +114,7 @@ static void degrees(void)
       const struct solver_options options = paper_options(methods[m], 1e-6);
       const struct summary one = measure(degree, &options, true, (uint64_t)degree);
       const struct summary all = measure(degree, &options, false, (uint64_t)degree);
-      const double one_root = m == METHODS - 1 ? one.seconds / degree : one.seconds;
+      const double one_root = at_once(&options) ? one.seconds / degree : one.seconds;
       printf("%d,%s,%.3f,%.4f,%.4f,%.4f\n", degree, methods[m], one.iterations, one_root / one.iterations * 1e6,
              one_root * 1e6, all.seconds * 1e6);
     }
@@ -124,7 +130,7 @@ static void tolerances(void)
       const struct summary one = measure(PAPER_DEGREE, &options, true, 99);
       const struct summary all = measure(PAPER_DEGREE, &options, false, 99);
       printf("1e-%d,%s,%.3f,%.4f,%.4f,%.4f,%.4f,%.4f\n", digits, methods[m], one.iterations,
-             (m == METHODS - 1 ? one.seconds / PAPER_DEGREE : one.seconds) * 1e6, one.accurate, all.seconds * 1e6,
+             (at_once(&options) ? one.seconds / PAPER_DEGREE : one.seconds) * 1e6, one.accurate, all.seconds * 1e6,
              all.accurate, all.unconverged);
     }
   }
@@ -167,22 +173,27 @@ struct variant {
 static const struct variant variants[] = {
   {"newton", "paper", {NULL}, {0}},
   {"newton", "radii polygon", {"radii"}, {1}},
+  {"newton", "horner charts", {"horner"}, {1}},
   {"newton", "stop rounding", {"stop"}, {1}},
   {"newton", "deflation composite", {"deflation"}, {1}},
   {"newton", "refine on", {"refine"}, {1}},
   {"newton", "all (form improved)", {"form"}, {1}},
   {"laguerre", "paper", {NULL}, {0}},
   {"laguerre", "radii polygon", {"radii"}, {1}},
+  {"laguerre", "horner charts", {"horner"}, {1}},
   {"laguerre", "stop rounding", {"stop"}, {1}},
   {"laguerre", "deflation composite", {"deflation"}, {1}},
   {"laguerre", "refine on", {"refine"}, {1}},
   {"laguerre", "all (form improved)", {"form"}, {1}},
   {"aberth", "paper", {NULL}, {0}},
   {"aberth", "radii polygon", {"radii"}, {1}},
+  {"aberth", "horner charts", {"horner"}, {1}},
   {"aberth", "stop rounding", {"stop"}, {1}},
   {"aberth", "rest on", {"rest"}, {1}},
   {"aberth", "update gauss_seidel", {"update"}, {1}},
   {"aberth", "all (form improved)", {"form"}, {1}},
+  {"durand_kerner", "paper", {NULL}, {0}},
+  {"durand_kerner", "all (form improved)", {"form"}, {1}},
 };
 
 static void improvements(void)

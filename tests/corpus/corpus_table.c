@@ -24,7 +24,7 @@ struct column {
 static const struct column columns[] = {
   {"newton", false, "newton, form paper"},     {"newton", true, "newton"}, {"laguerre", false, "laguerre, form paper"},
   {"laguerre", true, "laguerre"},              {"aberth", false, "aberth, form paper"}, {"aberth", true, "aberth"},
-  {"bernstein", true, "bernstein"},
+  {"durand_kerner", true, "durand_kerner"}, {"bernstein", true, "bernstein"},
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
