@@ -47,7 +47,7 @@ bool judge_pole(struct judge *j, int border);
 void judge_maybe(struct judge *j, double u, double v, double t, double t_error);
 
 /* search.c: tells the judge of every root in the region that is nearer than `limit`, and of every place that cannot be
- * decided. */
+ * decided. Where no work is left, only of a place that may be one, and of a doubt. */
 void search_region(struct judge *j, const struct exact_region *region);
 
 /* search.c: where along the ray the region begins, or less. */

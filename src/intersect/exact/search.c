@@ -368,6 +368,7 @@ static bool box_zoom_pole(struct search *s, const struct box *box, int border)
   s->judge->work -= ZOOM_WORK;
   const bool done = zoom_pole_box(judge_zoom(s->judge), closer.low, closer.size, border, &zoomed, &pole);
   closer.met = pole == POLE_MET && !judge_pole(s->judge, border);
+  s->dependent |= !done;
   if (!done) return false;
   closer.divided = border;
   for (int k = 0; k < 2 && closer.met; k++) zoomed.error[k] += zoomed.met[k];
@@ -388,7 +389,7 @@ static bool box_asks_zoom(const struct search *s, const struct box *box)
  * whenever it has become small. */
 static bool box_asks_pole(const struct search *s, const struct box *box, int border)
 {
-  if (border < 0 || s->met || s->depth >= ZOOM_DEPTH) return false;
+  if (border < 0 || s->met || s->dependent || s->depth >= ZOOM_DEPTH) return false;
   const double size = border < 2 ? box->size_u : box->size_v;
   if (s->divided != border) return size * (double)s->size[border / 2] <= ZOOM_POLE;
   return size <= ZOOM_AGAIN_POLE;
@@ -445,8 +446,9 @@ static void search_run(struct search *s, const struct box *whole)
     const bool decided = box_decide(s, &box);
     if (decided) continue;
     if (s->judge->work <= 0) {
-      /* The nearest box may tell of a point; all others are a doubt. */
+      /* What is left may tell of points, and is a doubt. */
       box_tell_maybe(s, &box, false);
+      while (top > 0) box_tell_maybe(s, &stack[--top], false);
       s->judge->doubt = true;
       return;
     }
@@ -504,5 +506,10 @@ void search_region(struct judge *j, const struct exact_region *region)
   struct search search;
   struct box whole;
   search_begin(j, region, &search, &whole);
-  search_run(&search, &whole);
+  if (j->work > 0) {
+    search_run(&search, &whole);
+    return;
+  }
+  j->doubt = true;
+  box_tell_maybe(&search, &whole, false);
 }
