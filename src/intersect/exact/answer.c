@@ -7,8 +7,15 @@
 #include "intersect/exact/zoom.h"
 #include "intersect/point.h"
 
-static void set_surface(struct model_patch *patch, const double direction[3], struct hit *out)
+/* The parameters of a certain hit are right to this. */
+#define LARGEST_RADIUS 0x1p-20
+
+/* A certain hit of a patch that is nearly a curve has a normal in wide arithmetic; where there is none at all the surface
+ * is seen from the front. */
+static void set_surface(const struct model *model, const struct ray *ray, struct hit *out)
 {
+  struct model_patch *patch = &model->patches[out->patch];
+  const double *direction = ray->direction;
   double tangent = 0, magnitude = 0, su[3], sv[3];
   for (int c = 0; c < 3; c++) {
     const struct patch_jet jet = patch_evaluate(patch->x[c], out->u, out->v);
@@ -21,7 +28,9 @@ static void set_surface(struct model_patch *patch, const double direction[3], st
   vector_cross(su, sv, out->normal);
   const double length = vector_length(out->normal);
   if (length > SURFACE_PLAIN * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
-  else patch_normal(patch->x, out->u, out->v, out->normal);
+  else if (!patch_normal(patch->x, out->u, out->v, out->normal) &&
+           !wide_normal(model->scene->patches[out->patch].P, out->u, out->v, out->normal))
+    vector_scale(-1 / vector_length(direction), direction, out->normal);
   if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);
 }
 
@@ -46,7 +55,7 @@ static void answer(const struct model *model, const struct ray *ray, uint32_t pa
   out->u = real_min(real_max(out->u, 0), 1), out->v = real_min(real_max(out->v, 0), 1);
   /* Rounding may have taken the last bits of t to the end of the interval. */
   out->t = !(t > ray->t_min) ? nextafter(ray->t_min, INFINITY) : !(t < ray->t_max) ? nextafter(ray->t_max, -INFINITY) : t;
-  set_surface(&model->patches[patch], ray->direction, out);
+  set_surface(model, ray, out);
   out->clearance = clearance(model, patch, borders, out);
 }
 
@@ -62,6 +71,8 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
   const double u = (double)root->u, v = (double)root->v;
   const unsigned borders = (u <= root->radius_u) | (1 - u <= root->radius_u) << 1 | (v <= root->radius_v) << 2 |
                            (1 - v <= root->radius_v) << 3;
+  /* What is certain has a place. */
+  sure = sure && root->radius_u <= LARGEST_RADIUS && root->radius_v <= LARGEST_RADIUS;
   *out = (struct hit){.certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING, .u = u, .v = v};
   answer(model, ray, root->patch, borders, (double)root->t, out);
 }

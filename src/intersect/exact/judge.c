@@ -212,7 +212,8 @@ bool judge_pole(struct judge *j, int border)
   const double w = patch->x[j->local.axis][row][column];
   const wide t = (w - judge_zoom(j)->place) * judge_zoom(j)->to_t;
   const struct exact_maybe maybe = {j->patch, 1u << border, u, v, (double)t,
-                                    16 * UNIT_ROUNDOFF * fabs((double)t) + 0x1p-60 * fabs(j->local.to_t)};
+                                    16 * UNIT_ROUNDOFF * fabs((double)t) +
+                                      (double)(ZOOM_POLE_REACH * judge_zoom(j)->error) * fabs(j->local.to_t)};
   keep_maybe(j, &maybe);
   return false;
 }

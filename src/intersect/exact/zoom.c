@@ -156,7 +156,7 @@ static void divide_by_distance(wide net[4][4], int border)
 /* A pole is passed where the ray's distance from it is this many times what rounding leaves unknown of it: then the
  * quotient below is right to 2^-22 of its size, and its slope to 2^-8, at roots no nearer to the border than
  * ZOOM_POLE_NEAREST. */
-#define POLE_PRECISION 0x1p24
+#define POLE_PRECISION (ZOOM_POLE_REACH / 4)
 
 /* Scales the net to a largest coefficient of 1; false where its error is larger. */
 static bool scaled_net(wide net[4][4], wide error, wide met, int k, struct zoomed *out)
@@ -208,6 +208,38 @@ static void evaluate(wide c[4][4], wide x, wide y, wide *value, wide *dx, wide *
     for (int j = 3; j >= 0; j--) row_dy = row_dy * y + row, row = row * y + c[i][j];
     *dx = *dx * x + *value, *value = *value * x + row, *dy = *dy * x + row_dy;
   }
+}
+
+/* The weights of a cubic's control values, and of their differences in the derivative. */
+static void wide_weights(wide t, wide w[4], wide dw[3])
+{
+  const wide s = 1 - t;
+  w[0] = s * s * s, w[1] = 3 * s * s * t, w[2] = 3 * s * t * t, w[3] = t * t * t;
+  dw[0] = 3 * s * s, dw[1] = 6 * s * t, dw[2] = 3 * t * t;
+}
+
+bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3])
+{
+  wide wu[4], du[3], wv[4], dv[3], su[3] = {0}, sv[3] = {0}, n[3], size = 0;
+  wide_weights(u, wu, du);
+  wide_weights(v, wv, dv);
+  for (int c = 0; c < 3; c++) {
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 4; j++) {
+        su[c] += du[i] * wv[j] * ((wide)P[i + 1][j][c] - P[i][j][c]);
+        sv[c] += wu[j] * dv[i] * ((wide)P[j][i + 1][c] - P[j][i][c]);
+      }
+    }
+  }
+  for (int c = 0; c < 3; c++) {
+    n[c] = su[(c + 1) % 3] * sv[(c + 2) % 3] - su[(c + 2) % 3] * sv[(c + 1) % 3];
+    size = wide_max(size, wide_abs(n[c]));
+  }
+  if (!(size > 0)) return false;
+  for (int c = 0; c < 3; c++) out[c] = (double)(n[c] / size);
+  const double length = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
+  for (int c = 0; c < 3; c++) out[c] /= length;
+  return true;
 }
 
 wide zoom_place(struct zoom *zoom, wide u, wide v)

@@ -41,6 +41,9 @@ enum zoom_pole {
   POLE_MET     /* as far as wide arithmetic can tell */
 };
 
+/* A pole that is met is no farther from the ray than this many of zoom's errors. */
+#define ZOOM_POLE_REACH 0x1p26
+
 #define ZOOM_POLE_MET 0x1p-20 /* ... no nearer to the border than this, of the box */
 
 /* The same for a box at a border that is one point (geometry/edges.h), where both polynomials are constant: in place of
@@ -49,6 +52,9 @@ enum zoom_pole {
 #define ZOOM_POLE_NEAREST 0x1p-14 /* of the box: a nearer root asks for a smaller box */
 bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2], int border, struct zoomed *out,
                    enum zoom_pole *out_pole);
+
+/* Su x Sv of the patch with the control points P at (u,v), of unit length; false where it vanishes. */
+bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3]);
 
 /* t of the point (u,v). */
 wide zoom_place(struct zoom *zoom, wide u, wide v);
