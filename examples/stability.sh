@@ -96,7 +96,7 @@ nets of exact integers and proves them in ball arithmetic; it shares nothing wit
 takes every answer, hit or miss, certain or grazing, of the classes above and of those that an adversary would aim
 ([tests/accuracy/hostile.c](../tests/accuracy/hostile.c)): rings of every radius from 1e-18 to 1 round poles, edges, corners,
 borders of leaves, cusps, rulings and tangencies; starts next to surfaces; nets degenerate but for some roundings;
-coordinates of every size. PSCN_EFFORT=$PROOF_EFFORT of 100,000 rays a class with the default solver, a tenth of that with
+coordinates of every size. PSCN_EFFORT=$PROOF_EFFORT of 40,000 rays a class with the default solver, a tenth of that with
 each of newton, laguerre, aberth, split 1 and split 8.
 
 - **refuted**: a proven root is lost or passed by, or there is none at T; U, V, the point or the normal are wrong.

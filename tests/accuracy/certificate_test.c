@@ -20,7 +20,7 @@
 
 /* The default solver gets all rays, the others this share. */
 #define OTHERS_SHARE 0.1
-enum { FULL_RAYS = 100000, LEAST_RAYS = 16, MOST_CLASSES = 64, MOST_SHOWN = 6 };
+enum { FULL_RAYS = 40000, LEAST_RAYS = 16, MOST_CLASSES = 64, MOST_SHOWN = 6 };
 
 struct form {
   const char *solver;
@@ -174,7 +174,7 @@ static void test_judges(void **state)
   for (size_t n = 0; n < every_class_count(); n++) {
     const struct situation_class *class = every_class_at(n);
     struct random random = {.state = effort_seed(class->seed)};
-    for (size_t index = 0; index < effort_count(1000, 3); index++) {
+    for (size_t index = 0; index < effort_count(500, 1); index++) {
       struct situation s;
       struct trial trial;
       struct certifier certifier;
