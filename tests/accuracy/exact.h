@@ -17,7 +17,7 @@
 #include <stddef.h>
 
 /* The whole budget of a patch, in boxes looked at. */
-enum { EXACT_MOST_ROOTS = 64, EXACT_BOXES = 4000 };
+enum { EXACT_MOST_ROOTS = 64, EXACT_BOXES = 2000 };
 
 struct exact_root {
   double u, v;   /* nearest doubles */
