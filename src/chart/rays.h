@@ -14,7 +14,7 @@
 #include "intersect/intersect.h"
 #include "scene/scene.h"
 
-enum { STRIP_WIDTH = 32, STRIP_HEIGHT = 2 };
+enum { STRIP_WIDTH = 32, STRIP_HEIGHT = 4 };
 
 /* A packet: rays[first .. first + count - 1]. new_run: nothing is remembered from the packet before it. */
 struct ray_packet {

@@ -19,7 +19,7 @@
 #include "base/status.h"
 #include "scene/scene.h"
 
-enum { PACKET_SIZE = 8 };
+enum { PACKET_SIZE = 16 };
 
 struct ray {
   double origin[3];
