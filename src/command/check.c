@@ -12,122 +12,65 @@
 #include "command/values.h"
 #include "image/image_file.h"
 
-enum {
-  OPTION_OUTPUT = 1,
-  OPTION_STEPS,
-  OPTION_GRID,
-  OPTION_POVRAY,
-  OPTION_POVRAY_OPTION,
-  OPTION_OWN_TEXT,
-  OPTION_TIMEOUT,
-  OPTION_FAIL,
-  OPTION_FAIL_PERCENT,
-  OPTION_FAIL_PIXELS,
-  OPTION_FAIL_ANY,
-  OPTION_FAIL_PSNR,
-  OPTION_FAIL_MASK,
-  OPTION_QUIET
-};
-
+enum { OPTION_POVRAY_OPTION = 1 };
 enum { MAX_PIXELS = 1 << 26, MAX_GRID = 100000 };
 
-static const struct command_option OPTIONS[] = {
-  COMMAND_HELP_OPTION,
-  COMMAND_OPTION("output", 'o', OPTION_OUTPUT, "folder of the results; default: SCENE's name and -check", "DIR"),
-  SCENE_SIZE_OPTION("of the pictures in pixels; default 800x600"),
-  SCENE_OPTIONS,
-  COMMAND_OPTION("steps", 0, OPTION_STEPS, "POV-Ray's u_steps and v_steps go from 1 to N; 0: none; default 6", "N"),
-  COMMAND_OPTION("grid", 0, OPTION_GRID, "compare hits of every Nth pixel and row; 0: none; default 8", "N"),
-  COMMAND_OPTION("povray", 0, OPTION_POVRAY, "the program; default povray", "FILE"),
-  COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to it; may be repeated", "OPT"),
-  COMMAND_FLAG("own-text", 0, OPTION_OWN_TEXT, "in the first row it reads the scene's own text"),
-  COMMAND_OPTION("timeout", 0, OPTION_TIMEOUT, "seconds that each run of it may take; default 300", "S"),
-  COMMAND_OPTION("fail", 0, OPTION_FAIL, "a pixel fails beyond this difference; default 4/255", "E"),
-  COMMAND_OPTION("failpercent", 0, OPTION_FAIL_PERCENT, "so many percent of the pixels may; default 0.3", "P"),
-  COMMAND_OPTION("allowfailures", 0, OPTION_FAIL_PIXELS, "or so many pixels may; default 0", "N"),
-  COMMAND_OPTION("hardfail", 0, OPTION_FAIL_ANY, "but none beyond this difference; default none", "E"),
-  COMMAND_OPTION("failpsnr", 0, OPTION_FAIL_PSNR, "the least PSNR; default 40", "DB"),
-  COMMAND_OPTION("failmask", 0, OPTION_FAIL_MASK, "percent of the pixels that only one may hit; default 0.3", "P"),
-  COMMAND_FLAG("quiet", 'q', OPTION_QUIET, "say nothing unless something is wrong"),
-  COMMAND_OPTIONS_END
-};
-
 /* What the command line says. */
-struct line {
-  struct check_request request;
+struct request {
   struct scene_request scene;
+  struct check_request check;
   struct output_folder folder;
   struct command_ear ear;
   const char **options; /* owned, not the texts */
 };
 
-static enum status take_povray_option(const struct command *command, struct line *line, const char *text)
+static const struct command_option OPTIONS[] = {
+  COMMAND_HELP_OPTION,
+  COMMAND_TEXT("output", 'o', folder.path, "folder of the results; default: SCENE's name and -check", "DIR"),
+  SCENE_SIZE_OPTION("of the pictures in pixels; default 800x600"),
+  SCENE_OPTIONS,
+  COMMAND_INTEGER("steps", check.steps, 0, CHECK_MAX_STEPS, "number of steps",
+                  "POV-Ray's u_steps and v_steps go from 1 to N; 0: none; default 6", "N"),
+  COMMAND_INTEGER("grid", check.grid, 0, MAX_GRID, "distance",
+                  "compare hits of every Nth pixel and row; 0: none; default 8", "N"),
+  COMMAND_TEXT("povray", 0, check.program, "the program; default povray", "FILE"),
+  COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to it; may be repeated", "OPT"),
+  COMMAND_TRUE("own-text", 0, check.own_text, "in the first row it reads the scene's own text"),
+  COMMAND_POSITIVE("timeout", check.timeout, "number of seconds",
+                   "seconds that each run of it may take; default 300", "S"),
+  COMMAND_NUMBER("fail", check.fail.each, "a pixel fails beyond this difference; default 4/255", "E"),
+  COMMAND_NUMBER("failpercent", check.fail.percent, "so many percent of the pixels may; default 0.3", "P"),
+  COMMAND_NUMBER("allowfailures", check.fail.allowed_pixels, "or so many pixels may; default 0", "N"),
+  COMMAND_NUMBER("hardfail", check.fail.any, "but none beyond this difference; default none", "E"),
+  COMMAND_NUMBER("failpsnr", check.fail_psnr, "the least PSNR; default 40", "DB"),
+  COMMAND_NUMBER("failmask", check.fail_mask, "percent of the pixels that only one may hit; default 0.3", "P"),
+  COMMAND_TRUE("quiet", 'q', ear.quiet, "say nothing unless something is wrong"),
+  COMMAND_OPTIONS_END
+};
+
+static enum status take_povray_option(const struct command *command, struct request *request, const char *text)
 {
-  const char **options = realloc(line->options, (line->request.option_count + 1) * sizeof *options);
+  const char **options = realloc(request->options, (request->check.option_count + 1) * sizeof *options);
   if (options == NULL) {
     command_error(command, "out of memory");
     return STATUS_LIMIT;
   }
-  options[line->request.option_count++] = text;
-  line->request.options = line->options = options;
+  options[request->check.option_count++] = text;
+  request->check.options = request->options = options;
   return STATUS_OK;
-}
-
-static enum status take_limit(const struct command *command, struct check_request *request, int val, const char *text)
-{
-  double *const number = val == OPTION_FAIL           ? &request->fail.each
-                         : val == OPTION_FAIL_PERCENT ? &request->fail.percent
-                         : val == OPTION_FAIL_PIXELS  ? &request->fail.allowed_pixels
-                         : val == OPTION_FAIL_ANY     ? &request->fail.any
-                         : val == OPTION_FAIL_PSNR    ? &request->fail_psnr
-                                                      : &request->fail_mask;
-  if (value_number(text, number))
-    return STATUS_OK;
-  return (enum status)command_usage(command, "'%s' is no number from 0 up, such as 0.01 or 4/255", text);
 }
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
-  struct line *line = context;
-  struct check_request *request = &line->request;
-  switch (val) {
-  case OPTION_OUTPUT:
-    line->folder.path = argument;
-    break;
-  case OPTION_SIZE:
-    if (!value_size(argument, MAX_SIDE, &request->width, &request->height) ||
-        request->height > MAX_PIXELS / request->width)
-      return (enum status)command_usage(command, "'%s' is no size WxH of at most %d pixels", argument, MAX_PIXELS);
-    break;
-  SCENE_OPTION_CASES:
-    return scene_request_take(command, &line->scene, val, argument);
-  case OPTION_STEPS:
-    if (!value_integer(argument, 0, CHECK_MAX_STEPS, &request->steps))
-      return (enum status)command_usage(command, "'%s' is no number of steps from 0 to %d", argument, CHECK_MAX_STEPS);
-    break;
-  case OPTION_GRID:
-    if (!value_integer(argument, 0, MAX_GRID, &request->grid))
-      return (enum status)command_usage(command, "'%s' is no distance from 0 to %d", argument, MAX_GRID);
-    break;
-  case OPTION_POVRAY:
-    request->program = argument;
-    break;
-  case OPTION_POVRAY_OPTION:
-    return take_povray_option(command, line, argument);
-  case OPTION_OWN_TEXT:
-    request->own_text = true;
-    break;
-  case OPTION_TIMEOUT:
-    if (!value_number(argument, &request->timeout) || request->timeout == 0)
-      return (enum status)command_usage(command, "'%s' is no number of seconds", argument);
-    break;
-  case OPTION_QUIET:
-    line->ear.quiet = line->scene.quiet = true;
-    break;
-  default:
-    return take_limit(command, request, val, argument);
-  }
-  return STATUS_OK;
+  struct request *request = context;
+  struct check_request *check = &request->check;
+  if (val == OPTION_POVRAY_OPTION)
+    return take_povray_option(command, request, argument);
+  if (val != OPTION_SIZE)
+    return scene_request_take(command, &request->scene, val, argument);
+  if (value_size(argument, MAX_SIDE, &check->width, &check->height) && check->height <= MAX_PIXELS / check->width)
+    return STATUS_OK;
+  return (enum status)command_usage(command, "'%s' is no size WxH of at most %d pixels", argument, MAX_PIXELS);
 }
 
 /* ---- the work ---- */
@@ -149,52 +92,52 @@ static enum status prepare(const struct command *command, const struct check_req
 
 static enum status work(void *context, const char *folder, struct page *out_text)
 {
-  struct line *line = context;
-  struct check_request *request = &line->request;
-  const struct listener listener = command_listener(&line->ear);
+  struct request *request = context;
+  struct check_request *check = &request->check;
+  const struct listener listener = command_listener(&request->ear);
   const struct seconds start = seconds_now();
   struct scene *scene = NULL;
-  request->folder = folder;
-  request->memory = scene_request_memory(&line->scene);
-  line->scene.path = request->path;
-  line->scene.width = request->width;
-  line->scene.height = request->height;
-  enum status status = scene_file_load(line->ear.command, &line->scene, &scene);
-  request->parse = seconds_since(start);
+  check->folder = folder;
+  check->memory = scene_request_memory(&request->scene);
+  request->scene.path = check->path;
+  request->scene.width = check->width;
+  request->scene.height = check->height;
+  enum status status = scene_file_load(request->ear.command, &request->scene, &scene);
+  check->parse = seconds_since(start);
   if (status == STATUS_OK)
-    status = check_scene(request, scene, &listener, out_text);
+    status = check_scene(check, scene, &listener, out_text);
   scene_destroy(scene);
   return status;
 }
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct line line = { .request = { .width = DEFAULT_WIDTH,
-                                    .height = DEFAULT_HEIGHT,
-                                    .program = "povray",
-                                    .timeout = POVRAY_TIMEOUT,
-                                    .steps = 6,
-                                    .grid = 8,
-                                    .fail = { .each = 4.0 / 255, .percent = 0.3, .any = INFINITY },
-                                    .fail_psnr = 40,
-                                    .fail_mask = 0.3 },
-                       .scene = { .tolerance = NAN },
-                       .folder = { .suffix = "-check", .page = "check.html" },
-                       .ear = { .command = command } };
-  struct command_line arguments;
+  struct request request = { .scene = { .tolerance = NAN },
+                             .check = { .width = DEFAULT_WIDTH,
+                                        .height = DEFAULT_HEIGHT,
+                                        .program = "povray",
+                                        .timeout = POVRAY_TIMEOUT,
+                                        .steps = 6,
+                                        .grid = 8,
+                                        .fail = { .each = 4.0 / 255, .percent = 0.3, .any = INFINITY },
+                                        .fail_psnr = 40,
+                                        .fail_mask = 0.3 },
+                             .folder = { .suffix = "-check", .page = "check.html" },
+                             .ear = { .command = command } };
+  struct command_line line;
   char *command_line = command_line_text(argc, argv);
-  enum status status = command_line_read(command, argc, argv, 1, take_option, &line, &arguments);
-  if (status == STATUS_OK && !arguments.help) {
-    line.request.path = arguments.positional[0];
-    line.request.command_line = command_line == NULL ? "" : command_line;
-    line.folder.scene = line.request.path;
-    line.folder.quiet = line.ear.quiet;
-    status = prepare(command, &line.request);
+  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
+  if (status == STATUS_OK && !line.help) {
+    request.check.path = line.positional[0];
+    request.check.command_line = command_line == NULL ? "" : command_line;
+    request.folder.scene = request.check.path;
+    request.folder.quiet = request.scene.quiet = request.ear.quiet;
+    status = prepare(command, &request.check);
     if (status == STATUS_OK)
-      status = output_folder_fill(command, &line.folder, work, &line);
+      status = output_folder_fill(command, &request.folder, work, &request);
   }
   free(command_line);
-  free(line.options);
+  free(request.options);
   return (int)status;
 }
 

@@ -1,8 +1,11 @@
 /* What subcommands share: help texts, error lines, command lines. */
 #include "command/command.h"
 
+#include <assert.h>
 #include <ctype.h>
 #include <errno.h>
+#include <getopt.h>
+#include <limits.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,125 +133,138 @@ char *command_line_text(int argc, const char **argv)
   return text;
 }
 
-/* A command line while it is read. */
-struct reading {
-  const struct command *command;
-  command_option_handler *handle;
-  void *context;
-  const char **next; /* the words that follow, to NULL */
-  struct command_line *line;
+/* ---- command lines ----
+ *
+ * libc's getopt_long reads them: nothing is to be installed for it, and it asks for no memory, where popt dropped
+ * options in silence when there was none. We are strict where it guesses: names are written out, so that a new option
+ * makes no old line ambiguous, and no option is another one's argument.
+ */
+
+/* Of a long option it answers FIRST_LONG and the row of the table, of a short one the letter. */
+enum { MOST_OPTIONS = 32, FIRST_LONG = UCHAR_MAX + 1, OPERAND = 1 };
+
+struct getopt_tables {
+  struct option names[MOST_OPTIONS + 1];
+  char letters[2 * MOST_OPTIONS + 3];
 };
 
-/* The option of that long name, or where it is NULL of that letter; NULL where there is none. */
-static const struct command_option *find_option(const struct command *command, const char *name, size_t length,
-                                                char letter)
+static void make_tables(const struct command *command, struct getopt_tables *out)
 {
-  for (const struct command_option *option = command->options; option->name != NULL; option++) {
-    if (name != NULL ? strlen(option->name) == length && memcmp(option->name, name, length) == 0
-                     : option->letter == letter)
-      return option;
+  char *letter = out->letters;
+  int row = 0;
+  *letter++ = '-'; /* operands are told where they stand, POSIXLY_CORRECT or not */
+  *letter++ = ':'; /* errors are ours to tell */
+  for (const struct command_option *option = command->options; option->name != NULL; option++, row++) {
+    const bool argument = option->argument != NULL;
+    assert(row < MOST_OPTIONS);
+    out->names[row] = (struct option){ .name = option->name, .has_arg = argument, .val = FIRST_LONG + row };
+    if (option->letter != '\0')
+      letter += sprintf(letter, argument ? "%c:" : "%c", option->letter);
   }
-  return NULL;
+  *letter = '\0';
+  out->names[row] = (struct option){ 0 };
 }
 
-static enum status unknown_option(const struct command *command, const char *word)
+static void unknown_option(const struct command *command, const char *word)
 {
   const size_t length = strcspn(word, "=");
   const bool whole = word[1] == '-'; /* a word rather than letters */
   struct guess guess = guess_begin(word + 1 + whole, length - 1 - whole);
   for (const struct command_option *option = command->options; whole && option->name != NULL; option++)
     guess_consider(&guess, option->name, strlen(option->name));
-  return (enum status)(guess.best == NULL
-                         ? command_usage(command, "option '%s': unknown option", word)
-                         : command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length,
-                                         word, guess.best));
+  if (guess.best == NULL)
+    command_usage(command, "option '%s': unknown option", word);
+  else
+    command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length, word, guess.best);
 }
 
-/* Hands an option over, with its argument: `joined`, where that is a part of the same word, else the next word. `said` is
- * how it stands on the command line. */
-static enum status take_option(struct reading *reading, const struct command_option *option, const char *said,
-                               const char *joined)
+/* The option that getopt_long found in `word`, its argument a word of its own where it stands `apart`. NULL, told,
+ * where it is none or its argument is not as it should be. */
+static const struct command_option *find_option(const struct command *command, int found, const char *word, bool apart)
 {
-  const char *argument = joined;
-  if (option->val == OPTION_HELP) {
-    command_print_help(reading->command, stdout);
-    reading->line->help = true;
-    return command_finish_output(reading->command);
+  const int code = found == '?' || found == ':' ? optopt : found;
+  const struct command_option *option = command->options;
+  for (int row = 0; option->name != NULL; option++, row++) {
+    if (code == FIRST_LONG + row ? strlen(option->name) == strcspn(word + 2, "=") /* not the beginning of it */
+                                 : option->letter != '\0' && code == option->letter)
+      break;
   }
-  if (option->argument == NULL && joined != NULL)
-    return (enum status)command_usage(reading->command, "option '%s': option does not take an argument", said);
-  if (option->argument != NULL && joined == NULL) {
-    argument = *reading->next;
-    if (argument == NULL)
-      return (enum status)command_usage(reading->command, "option '%s': missing argument", said);
-    if (argument[0] == '-' && (argument[1] == '-' || isalpha((unsigned char)argument[1])))
-      return (enum status)command_usage(reading->command, "option '%s': '%s' stands where its argument %s should be",
-                                        said, argument, option->argument);
-    reading->next++;
-  }
-  char *field = (char *)reading->context + option->offset;
+  if (option->name == NULL)
+    unknown_option(command, word);
+  else if (found == ':')
+    command_usage(command, "option '%s': missing argument", word);
+  else if (found == '?')
+    command_usage(command, "option '%s': option does not take an argument", word);
+  else if (apart && optarg[0] == '-' && (optarg[1] == '-' || isalpha((unsigned char)optarg[1])))
+    command_usage(command, "option '%s': '%s' stands where its argument %s should be", word, optarg, option->argument);
+  else
+    return option;
+  return NULL;
+}
+
+/* Puts what an option says where it goes. */
+static enum status store_option(const struct command *command, const struct command_option *option,
+                                const char *argument, command_option_handler *handle, void *context)
+{
+  void *const field = (char *)context + option->offset;
+  double number;
   switch (option->store) {
   case STORE_TEXT:
-    *(const char **)(void *)field = argument;
+    *(const char **)field = argument;
     return STATUS_OK;
   case STORE_TRUE:
     *(bool *)field = true;
     return STATUS_OK;
   case STORE_NUMBER:
-    if (value_number(argument, (double *)(void *)field))
+    if (value_number(argument, field))
       return STATUS_OK;
-    return (enum status)command_usage(reading->command, "'%s' is no number from 0 up, such as 0.01 or 4/255", argument);
+    return (enum status)command_usage(command, "'%s' is no number from 0 up, such as 0.01 or 4/255", argument);
+  case STORE_POSITIVE:
+    if (!value_number(argument, &number) || number == 0)
+      return (enum status)command_usage(command, "'%s' is no %s", argument, option->what);
+    *(double *)field = number;
+    return STATUS_OK;
+  case STORE_INTEGER:
+    if (value_integer(argument, option->least, option->most, field))
+      return STATUS_OK;
+    return (enum status)command_usage(command, "'%s' is no %s from %zu to %zu", argument, option->what, option->least,
+                                      option->most);
   default:
-    return reading->handle(reading->command, reading->context, option->val, argument);
+    return handle(command, context, option->val, argument);
   }
-}
-
-/* "--name", "--name=argument". */
-static enum status read_long(struct reading *reading, const char *word)
-{
-  const size_t length = strcspn(word + 2, "=");
-  const struct command_option *option = find_option(reading->command, word + 2, length, 0);
-  if (option == NULL)
-    return unknown_option(reading->command, word);
-  return take_option(reading, option, word, word[2 + length] == '=' ? word + 2 + length + 1 : NULL);
-}
-
-/* "-a", "-abc" of several options, of which the last one may have its argument behind it. */
-static enum status read_letters(struct reading *reading, const char *word)
-{
-  enum status status = STATUS_OK;
-  for (const char *letter = word + 1; *letter != '\0' && status == STATUS_OK && !reading->line->help; letter++) {
-    const struct command_option *option = find_option(reading->command, NULL, 0, *letter);
-    if (option == NULL)
-      return unknown_option(reading->command, word);
-    const bool joined = option->argument != NULL && letter[1] != '\0';
-    status = take_option(reading, option, word, joined ? letter + 1 + (letter[1] == '=') : NULL);
-    if (joined)
-      break;
-  }
-  return status;
 }
 
 enum status command_line_read(const struct command *command, int argc, const char **argv, size_t count,
                               command_option_handler *handle, void *context, struct command_line *out)
 {
+  struct getopt_tables tables;
+  make_tables(command, &tables);
   *out = (struct command_line){ .positional = argv };
-  struct reading reading = { command, handle, context, argv + (argc > 0), out };
-  enum status status = STATUS_OK;
-  bool options = true; /* until "--" */
-  while (status == STATUS_OK && !out->help && *reading.next != NULL) {
-    const char *word = *reading.next++;
-    if (!options || word[0] != '-' || word[1] == '\0')
-      argv[out->positional_count++] = word; /* behind what has been read already */
-    else if (word[1] != '-')
-      status = read_letters(&reading, word);
-    else if (word[2] != '\0')
-      status = read_long(&reading, word);
-    else
-      options = false;
+  optind = 0; /* getopt_long begins anew */
+  for (int at = 1, found;; at = optind) {
+    found = getopt_long(argc, (char *const *)argv, tables.letters, tables.names, NULL);
+    if (found == -1)
+      break;
+    if (found == OPERAND) {
+      argv[out->positional_count++] = optarg; /* behind what has been read already */
+      continue;
+    }
+    const bool apart = optind == at + 2;
+    const struct command_option *option = find_option(command, found, argv[at], apart);
+    if (option == NULL)
+      return STATUS_USAGE;
+    if (option->val == OPTION_HELP) {
+      command_print_help(command, stdout);
+      out->help = true;
+      return command_finish_output(command);
+    }
+    const bool equals = found < FIRST_LONG && !apart && optarg != NULL && optarg[0] == '='; /* -o=FILE */
+    const enum status status = store_option(command, option, equals ? optarg + 1 : optarg, handle, context);
+    if (status != STATUS_OK)
+      return status;
   }
-  if (status != STATUS_OK || out->help)
-    return status;
+  while (optind < argc) /* behind "--" */
+    argv[out->positional_count++] = argv[optind++];
   if (out->positional_count < count)
     return (enum status)command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);
   if (out->positional_count > count)

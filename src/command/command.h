@@ -13,10 +13,11 @@
 #include "base/listener.h"
 #include "base/status.h"
 
-/* Where an option goes: to the command's handler, or at once into its request, as a text, as a truth, as a number >= 0. */
-enum command_store { STORE_NOT, STORE_TEXT, STORE_TRUE, STORE_NUMBER };
+/* Where an option goes: to the command's handler, or at once into its request: a text, a truth, a number >= 0 or > 0,
+ * an integer from least to most. */
+enum command_store { STORE_NOT, STORE_TEXT, STORE_TRUE, STORE_NUMBER, STORE_POSITIVE, STORE_INTEGER };
 
-/* A row of the table of a command's options. */
+/* A row of the table of a command's options, from which they are read and guessed and the help is written. */
 struct command_option {
   const char *name;     /* "output"; NULL ends the table */
   char letter;          /* 'o', or 0 */
@@ -25,6 +26,8 @@ struct command_option {
   const char *argument; /* likewise, "FILE"; NULL: it takes none */
   enum command_store store;
   size_t offset;        /* in the request */
+  size_t least, most;   /* of an integer */
+  const char *what;     /* that a wrong number is not: "number of samples" */
 };
 
 struct command {
@@ -53,16 +56,17 @@ void command_print_overview(FILE *file);
 void command_error(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 int command_usage(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A listener that tells on stderr: progress unless it is to be quiet, warnings and errors as "pscn NAME: ...". Stopped by
- * signals (interrupt.h). `ear` stays where it is. */
+/* A listener that tells on stderr: progress unless it is to be quiet, warnings and errors as "pscn NAME: ...". Stopped
+ * by signals (interrupt.h). `ear` stays where it is. */
 struct command_ear {
   const struct command *command;
   bool quiet;
 };
 struct listener command_listener(struct command_ear *ear);
 
-/* Reads a command line into the request at `context`: `handle` is told the val and the argument (NULL where it takes none)
- * of each option that is not stored at once, and answers STATUS_OK or a status after having told its error. --help is answered here. Options stand anywhere before "--". */
+/* Reads a command line into the request at `context`: `handle` is told the val and the argument (NULL where it takes
+ * none) of each option that is not stored at once, and answers STATUS_OK or a status after having told its error.
+ * --help is answered here. Options stand anywhere before "--". Not for several threads at once. */
 struct command_line {
   const char **positional; /* positional_count of them, at the beginning of argv, which is used up */
   size_t positional_count;
@@ -88,20 +92,26 @@ enum status command_written(const struct command *command, const char *path, enu
 /* The command line as a shell takes it, or nearly; NULL where memory is short. To be freed. */
 char *command_line_text(int argc, const char **argv);
 
-/* A row of the table for an option that takes an argument, for one that takes none, and for the one that every command
- * has, which command_line_read answers. `letter` is the short name, or 0. */
+/* A row of the table for an option that the handler is told, and for the one that every command has, which
+ * command_line_read answers. `letter` is the short name, or 0. */
 enum { OPTION_HELP = 1000 };
-#define COMMAND_OPTION(name, letter, val, text, argument) { name, letter, val, text, argument, STORE_NOT, 0 }
-#define COMMAND_FLAG(name, letter, val, text) { name, letter, val, text, NULL, STORE_NOT, 0 }
-#define COMMAND_OPTIONS_END { NULL, 0, 0, NULL, NULL, STORE_NOT, 0 }
+#define COMMAND_OPTION(name, letter, val, text, argument) \
+  { name, letter, val, text, argument, STORE_NOT, 0, 0, 0, NULL }
+#define COMMAND_HELP_OPTION COMMAND_OPTION("help", 'h', OPTION_HELP, "show this text", NULL)
+#define COMMAND_OPTIONS_END COMMAND_OPTION(NULL, 0, 0, NULL, NULL)
 
-/* The same for what is stored in a field of the file's own struct request: const char *, bool, double. */
+/* The same for what is stored in a field of the file's own struct request: const char *, bool, double twice, size_t. */
+#define COMMAND_STORED(name, letter, store, field, text, argument, least, most, what) \
+  { name, letter, 0, text, argument, store, offsetof(struct request, field), least, most, what }
 #define COMMAND_TEXT(name, letter, field, text, argument) \
-  { name, letter, 0, text, argument, STORE_TEXT, offsetof(struct request, field) }
+  COMMAND_STORED(name, letter, STORE_TEXT, field, text, argument, 0, 0, NULL)
 #define COMMAND_TRUE(name, letter, field, text) \
-  { name, letter, 0, text, NULL, STORE_TRUE, offsetof(struct request, field) }
+  COMMAND_STORED(name, letter, STORE_TRUE, field, text, NULL, 0, 0, NULL)
 #define COMMAND_NUMBER(name, field, text, argument) \
-  { name, 0, 0, text, argument, STORE_NUMBER, offsetof(struct request, field) }
-#define COMMAND_HELP_OPTION COMMAND_FLAG("help", 'h', OPTION_HELP, "show this text")
+  COMMAND_STORED(name, 0, STORE_NUMBER, field, text, argument, 0, 0, NULL)
+#define COMMAND_POSITIVE(name, field, what, text, argument) \
+  COMMAND_STORED(name, 0, STORE_POSITIVE, field, text, argument, 0, 0, what)
+#define COMMAND_INTEGER(name, field, least, most, what, text, argument) \
+  COMMAND_STORED(name, 0, STORE_INTEGER, field, text, argument, least, most, what)
 
 #endif

@@ -5,6 +5,10 @@
 #include "command/scene_file.h"
 #include "scene/dump.h"
 
+struct request {
+  struct scene_request scene; /* first: scene_request_take is told of it */
+};
+
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   SCENE_SIZE_OPTION("what image_width and image_height mean; default 800x600"),
@@ -15,12 +19,12 @@ static const struct command_option OPTIONS[] = {
 static int run(const struct command *command, int argc, const char **argv)
 {
   struct command_line line;
-  struct scene_request request = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN };
+  struct request request = { .scene = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN } };
   struct scene *scene = NULL;
   enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
   if (status == STATUS_OK && !line.help) {
-    request.path = line.positional[0];
-    status = scene_file_load(command, &request, &scene);
+    request.scene.path = line.positional[0];
+    status = scene_file_load(command, &request.scene, &scene);
     if (status == STATUS_OK) {
       (void)!scene_dump(scene, stdout); /* what was not written is told with its reason */
       status = command_finish_output(command);

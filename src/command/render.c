@@ -16,7 +16,7 @@
 #include "image/image_file.h"
 #include "language/words.h"
 
-enum { OPTION_SAMPLES = 1, OPTION_CROP, OPTION_THREADS, OPTION_CHANNELS, OPTION_BITS };
+enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_BITS };
 
 enum {
   MAX_SAMPLES = 256,        /* a side: 65536 rays a pixel */
@@ -39,9 +39,11 @@ static const struct command_option OPTIONS[] = {
   COMMAND_TEXT("output", 'o', output, "the picture, .png or .exr; default: SCENE with .png", "FILE"),
   SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
   SCENE_OPTIONS,
-  COMMAND_OPTION("samples", 0, OPTION_SAMPLES, "N x N rays a pixel on a regular grid; default 1", "N"),
+  COMMAND_INTEGER("samples", options.samples, 1, MAX_SAMPLES, "number of samples",
+                  "N x N rays a pixel on a regular grid; default 1", "N"),
   COMMAND_OPTION("crop", 0, OPTION_CROP, "only this part, in pixels from the left and top", "X,Y,W,H"),
-  COMMAND_OPTION("threads", 0, OPTION_THREADS, "default: one for each processor", "N"),
+  COMMAND_INTEGER("threads", options.threads, 1, MAX_THREADS, "number of threads",
+                  "default: one for each processor", "N"),
   COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "what is kept of each pixel, with commas; default rgb", "LIST"),
   COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output", "FILE"),
@@ -69,19 +71,10 @@ static enum status take_channels(const struct command *command, struct request *
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
   struct request *request = context;
-  struct render_options *options = &request->options;
   switch (val) {
-  case OPTION_SAMPLES:
-    if (!value_integer(argument, 1, MAX_SAMPLES, &options->samples))
-      return (enum status)command_usage(command, "'%s' is no number of samples from 1 to %d", argument, MAX_SAMPLES);
-    break;
   case OPTION_CROP:
-    if (!value_rectangle(argument, &options->crop))
+    if (!value_rectangle(argument, &request->options.crop))
       return (enum status)command_usage(command, "'%s' is no crop X,Y,W,H in pixels", argument);
-    break;
-  case OPTION_THREADS:
-    if (!value_integer(argument, 1, MAX_THREADS, &options->threads))
-      return (enum status)command_usage(command, "'%s' is no number of threads from 1 to %d", argument, MAX_THREADS);
     break;
   case OPTION_CHANNELS:
     return take_channels(command, request, argument);

@@ -17,8 +17,6 @@
 #include "language/language.h"
 #include "scene/method.h"
 
-enum { OPTION_FORMAT = 1 };
-
 enum {
   MAX_COEFFICIENTS = POLYNOMIAL_MAX_DEGREE + 1,
   OUTPUT_BUFFER = 1 << 16,
@@ -31,7 +29,7 @@ static const char DEFAULT_SOLVER[] = "aberth";
 enum format { FORMAT_PLAIN, FORMAT_TABLE, FORMAT_JSON };
 
 struct request {
-  struct scene_request solver; /* its solver and tolerance alone */
+  struct scene_request scene; /* its solver and tolerance alone */
   enum format format;
   const char *stats;
   bool quiet;
@@ -39,32 +37,27 @@ struct request {
 
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
-  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "what may follow 'solver' in a scene; default aberth", "TEXT"),
-  COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of the solver's tolerance", "E"),
-  COMMAND_OPTION("format", 0, OPTION_FORMAT, "plain: pairs re im (default); table, json: with radius, status, eq 11",
+  SCENE_SOLVER_OPTION("what may follow 'solver' in a scene; default aberth"),
+  SCENE_TOLERANCE_OPTION("instead of the solver's tolerance"),
+  COMMAND_OPTION("format", 0, 0, "plain: pairs re im (default); table, json: with radius, status, eq 11",
                  "FORMAT"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the roots", "FILE"),
   COMMAND_TRUE("quiet", 'q', quiet, "no summary on a terminal"),
   COMMAND_OPTIONS_END
 };
 
-static enum status take_format(const struct command *command, const char *argument, enum format *out)
+/* The format, which alone is not stored at once. */
+static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
   static const char *const names[] = { "plain", "table", "json" };
+  (void)val;
   for (int k = 0; k < 3; k++) {
     if (strcmp(argument, names[k]) == 0) {
-      *out = (enum format)k;
+      ((struct request *)context)->format = (enum format)k;
       return STATUS_OK;
     }
   }
   return (enum status)command_usage(command, "'%s' is no format, only plain, table or json", argument);
-}
-
-static enum status take_option(const struct command *command, void *context, int val, const char *argument)
-{
-  struct request *request = context;
-  return val == OPTION_FORMAT ? take_format(command, argument, &request->format)
-                              : scene_request_take(command, &request->solver, val, argument);
 }
 
 struct session {
@@ -331,15 +324,15 @@ static bool mentions(const char *text, const char *word)
 
 static enum status choose_solver(const struct command *command, const struct request *request, struct method *out)
 {
-  const char *text = request->solver.solver_text == NULL ? DEFAULT_SOLVER : request->solver.solver_text;
+  const char *text = request->scene.solver_text == NULL ? DEFAULT_SOLVER : request->scene.solver_text;
   struct diagnostics diagnostics = stderr_diagnostics(command);
   const enum status status = language_parse_solver(text, &diagnostics, out);
   if (status != STATUS_OK)
     return status;
   if (!mentions(text, "basis"))
     out->basis = BASIS_POWER;
-  if (!isnan(request->solver.tolerance))
-    out->roots.tolerance = request->solver.tolerance;
+  if (!isnan(request->scene.tolerance))
+    out->roots.tolerance = request->scene.tolerance;
   return STATUS_OK;
 }
 
@@ -365,7 +358,7 @@ static enum status roots(const struct command *command, const struct request *re
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = { .solver.tolerance = NAN };
+  struct request request = { .scene.tolerance = NAN };
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 0, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) {

@@ -50,9 +50,6 @@ enum status scene_request_take(const struct command *command, void *scene_reques
     if (!value_size(argument, MAX_SIDE, &request->width, &request->height))
       return (enum status)command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
     break;
-  case OPTION_SOLVER:
-    request->solver_text = argument;
-    break;
   case OPTION_DECLARE:
     return take_number(command, request, argument);
   case OPTION_INCLUDE:
@@ -60,13 +57,9 @@ enum status scene_request_take(const struct command *command, void *scene_reques
       return (enum status)command_usage(command, "more than %d folders are named", SCENE_MOST_FOLDERS);
     request->folders[request->folder_count++] = argument;
     break;
-  case OPTION_MAX_MEMORY:
+  default:
     if (!value_bytes(argument, &request->max_memory))
       return (enum status)command_usage(command, "'%s' is no size of memory, such as 500M or 2G", argument);
-    break;
-  default:
-    if (!value_number(argument, &request->tolerance) || request->tolerance == 0)
-      return (enum status)command_usage(command, "'%s' is no tolerance", argument);
     break;
   }
   return STATUS_OK;

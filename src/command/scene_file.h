@@ -29,26 +29,16 @@ struct scene_request {
 /* The size of a picture unless --size says another, and the largest. */
 enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600, MAX_SIDE = 1000000 };
 
-/* The options of a scene_request, whose vals are the same in all commands: rows of the table for reading a scene, the
- * cases of a switch over vals, and the taking of any of them. `text` is what the size is of. */
-enum {
-  OPTION_SIZE = OPTION_HELP + 1,
-  OPTION_SOLVER,
-  OPTION_TOLERANCE,
-  OPTION_MAX_MEMORY,
-  OPTION_INCLUDE,
-  OPTION_DECLARE
-};
-#define SCENE_OPTION_CASES \
-  case OPTION_SOLVER: \
-  case OPTION_TOLERANCE: \
-  case OPTION_MAX_MEMORY: \
-  case OPTION_INCLUDE: \
-  case OPTION_DECLARE
+/* The options of a scene_request that is the member `scene` of the file's struct request: rows of the table for reading
+ * a scene, and the taking of those that are not stored at once, whose vals are the same in all commands. `text` is what
+ * the size is of, or what the solver and the tolerance are. */
+enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_MAX_MEMORY, OPTION_INCLUDE, OPTION_DECLARE };
 #define SCENE_SIZE_OPTION(text) COMMAND_OPTION("size", 0, OPTION_SIZE, text, "WxH")
+#define SCENE_SOLVER_OPTION(text) COMMAND_TEXT("solver", 0, scene.solver_text, text, "TEXT")
+#define SCENE_TOLERANCE_OPTION(text) COMMAND_POSITIVE("tolerance", scene.tolerance, "tolerance", text, "E")
 #define SCENE_OPTIONS \
-  COMMAND_OPTION("solver", 0, OPTION_SOLVER, "instead of every solver statement of the scene", "TEXT"), \
-    COMMAND_OPTION("tolerance", 0, OPTION_TOLERANCE, "instead of every solver's tolerance", "E"), \
+  SCENE_SOLVER_OPTION("instead of every solver statement of the scene"), \
+    SCENE_TOLERANCE_OPTION("instead of every solver's tolerance"), \
     COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY, \
                    "that the scene may take; default a quarter of all, at most 8G", "SIZE"), \
     COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "where files that the scene includes are looked for", "DIR"), \

@@ -7,6 +7,8 @@ try pscn flat.pscn -qo short.png $small
 try pscn flat.pscn -q -oshort.png $small
 try pscn flat.pscn -q -o=short.png --size=8x6
 try pscn render -q $small -- flat.pscn
+(export POSIXLY_CORRECT=1; try pscn render flat.pscn -qo posix.png $small)
+pscn render -qhz | head -n 1
 try pscn nothing.pscn
 try pscn -V
 try pscn -v
@@ -16,7 +18,15 @@ try pscn compair a b
 try pscn frobnicate
 try pscn help rendr
 try pscn render flat.pscn --chanels rgb
+try pscn render flat.pscn --chan rgb
+try pscn render flat.pscn --s
+try pscn render flat.pscn --quie=1
+try pscn render flat.pscn --stat
+try pscn compare a b --failp 1
+try pscn render flat.pscn --=1
 try pscn render flat.pscn -qz
+try pscn render flat.pscn -: -q
+try pscn render flat.pscn -- -q
 try pscn render flat.pscn --stats -q
 try pscn render flat.pscn -o --quiet
 try pscn render flat.pscn --stats
