@@ -1,7 +1,7 @@
 /* How much of a heavy test is done.
  *
  * The environment variable PSCN_EFFORT holds the fraction of the full work, a decimal number in (0,1], or `full` (1).
- * Without it a small fraction is done, so that the whole suite takes minutes.
+ * Without it a small fraction is done, so that the whole suite takes minutes; run.sh sets a smaller one still.
  */
 #ifndef TESTS_EFFORT_H
 #define TESTS_EFFORT_H

@@ -1,19 +1,33 @@
 #!/bin/bash
-# Installs what the tests need (Debian 12, as root), builds pscn and runs all its tests, twice:
-#   1. under the address and undefined-behaviour sanitizers, in a locale that writes numbers with a decimal comma, but
-#      for the longest comparisons with peers;
-#   2. as it is built for development.
-# Ends by ctest's summary of the second pass; the exit code is not 0 if either pass failed.
+# Installs what the tests need (Debian 12, as root), builds pscn and runs its tests:
 #
-# CC and CXX are the compilers, gcc and g++ unless they are set; the third build, which is not run, is clang's.
-# PSCN_EFFORT, the fraction of the heavy tests that is done (a number up to 1, or `full`: hours), is 0.002 unless it is
-# set; PSCN_SEED=N takes other rays for every N.
+#   tests/run.sh            minutes: the development build; every feature is tested, the heavy tests do a small part of
+#                           their work, and those labelled `slow`, which look again at what others test, are left out
+#   tests/run.sh --all      everything: the address and undefined-behaviour sanitizers, in a locale that writes numbers
+#                           with a decimal comma, then the development build with more of the heavy tests; clang's
+#                           build too where clang is installed. This is what .ci/run calls
+#   tests/run.sh NAME...    the tests of these names (as `ctest -N` lists them), with all they say
+#
+# Ends by ctest's summary; the exit code is not 0 if any test failed.
+#
+# CC and CXX are the compilers, gcc and g++ unless they are set; the build of --all that is not run is clang's.
+# PSCN_EFFORT, the fraction of the heavy tests that is done (a number up to 1, or `full`: hours), stands for all passes
+# where it is set; PSCN_SEED=N takes other rays for every N.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
 
+case ${1:-} in
+  --all | [!-]* | '') ;;
+  *)
+    echo "usage: tests/run.sh [--all | NAME...]" >&2
+    exit 2
+    ;;
+esac
+
 TEST_PACKAGES=(chromium libcmocka-dev libflint-arb-dev locales openimageio-tools povray povray-examples povray-includes)
-ASAN_EFFORT=0.0002 # sanitized code looks for faults of memory and arithmetic, which show on few rays
+# Of 1. Sanitized code looks for faults of memory and arithmetic, which show on few rays.
+QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.002
 # Hundreds of pictures and their comparison with a peer's: the code they run is looked at by other tests already.
 ASAN_WITHOUT='^peers-(parity|random|shading|compare-idiff)$'
 JOBS=$(nproc)
@@ -28,6 +42,13 @@ build() {
     return 1
   }
   cmake --build "build-$preset" -- -j "$JOBS"
+}
+
+# run PRESET EFFORT [OPTION...]: ctest, where EFFORT stands unless PSCN_EFFORT is set.
+run() {
+  local preset=$1 effort=${PSCN_EFFORT:-$2}
+  shift 2
+  PSCN_EFFORT=$effort ctest --test-dir "build-$preset" --output-on-failure --no-tests=error -j "$JOBS" "$@"
 }
 
 # A German locale of our own: nothing is changed outside the build folder.
@@ -48,15 +69,20 @@ if command -v ccache >/dev/null; then
 fi
 export CC=${CC:-gcc} CXX=${CXX:-g++}
 build dev "${launcher[@]}"
-build asan "${launcher[@]}"
-if command -v clang++ >/dev/null; then
-  build clang "${launcher[@]}"
-else
-  echo "clang is not installed: its build is not checked"
-fi
 
-status=0
-LOCPATH=$(comma_locale build-asan) LC_ALL=de_DE.UTF-8 PSCN_EFFORT=${PSCN_EFFORT:-$ASAN_EFFORT} \
-  ctest --test-dir build-asan -E "$ASAN_WITHOUT" --output-on-failure -j "$JOBS" || status=$?
-ctest --test-dir build-dev --output-on-failure -j "$JOBS" || status=$?
-exit "$status"
+case ${1:-} in
+  '') run dev "$QUICK_EFFORT" --label-exclude slow ;;
+  --all)
+    build asan "${launcher[@]}"
+    if command -v clang++ >/dev/null; then
+      build clang "${launcher[@]}"
+    else
+      echo "clang is not installed: its build is not checked"
+    fi
+    status=0
+    LOCPATH=$(comma_locale build-asan) LC_ALL=de_DE.UTF-8 run asan "$ASAN_EFFORT" -E "$ASAN_WITHOUT" || status=$?
+    run dev "$ALL_EFFORT" || status=$?
+    exit "$status"
+    ;;
+  *) run dev "$ALL_EFFORT" --verbose --tests-regex "^($(IFS='|' && echo "$*"))\$" ;;
+esac
