@@ -296,10 +296,3 @@ enum status atomic_files_write(const struct atomic_file *files, size_t count, co
   free(staged);
   return status == STATUS_FILE ? failure(*out_errno) : status;
 }
-
-enum status atomic_file_write(const char *path, const void *bytes, size_t size, const atomic_int *stop,
-                              int *out_errno)
-{
-  size_t failed;
-  return atomic_files_write(&(struct atomic_file){ path, size == 0 ? "" : bytes, size }, 1, stop, &failed, out_errno);
-}

@@ -19,12 +19,6 @@
 /* Whether a file of this name could be written now; leaves nothing behind. To be asked before long work starts. */
 enum status atomic_file_probe(const char *path, int *out_errno) STATUS_MUST_CHECK;
 
-/* Writes `size` bytes. Where `stop` is not NULL and turns nonzero while writing (a signal handler may set it), the
- * write is given up: STATUS_INTERRUPTED. A new file gets the permissions the process's mask gives, an old one keeps its
- * own. */
-enum status atomic_file_write(const char *path, const void *bytes, size_t size, const atomic_int *stop,
-                              int *out_errno) STATUS_MUST_CHECK;
-
 /* One of several files. Without bytes (NULL) there is to be none of that name afterwards. */
 struct atomic_file {
   const char *path;
@@ -32,8 +26,10 @@ struct atomic_file {
   size_t size;
 };
 
-/* The same for all files of a result: none gets its name before each is complete on the disk, and where one cannot get
- * it, those before it become again what they were (where the file system has hard links). *out_failed: which it was. */
+/* Writes all files of a result: none gets its name before each is complete on the disk, and where one cannot get it,
+ * those before it become again what they were (where the file system has hard links). *out_failed: which it was. Where
+ * `stop` is not NULL and turns nonzero meanwhile (a signal handler may set it), all is given up: STATUS_INTERRUPTED. A
+ * new file gets the permissions the process's mask gives, an old one keeps its own. */
 enum status atomic_files_write(const struct atomic_file *files, size_t count, const atomic_int *stop,
                                size_t *out_failed, int *out_errno) STATUS_MUST_CHECK;
 

@@ -279,10 +279,3 @@ enum status command_finish_output(const struct command *command)
   command_error(command, "cannot write standard output: %s", strerror(errno));
   return STATUS_FILE;
 }
-
-enum status command_written(const struct command *command, const char *path, enum status status, int reason)
-{
-  if (status == STATUS_FILE || status == STATUS_LIMIT)
-    command_error(command, "cannot write '%s': %s", path, strerror(reason));
-  return status;
-}

@@ -85,10 +85,6 @@ enum status command_line_read(const struct command *command, int argc, const cha
  * command fails anyway. */
 enum status command_finish_output(const struct command *command);
 
-/* Tells why a file was not written, where its status is STATUS_FILE or STATUS_LIMIT (atomic_file.h); answers that
- * status. */
-enum status command_written(const struct command *command, const char *path, enum status status, int reason);
-
 /* The command line as a shell takes it, or nearly; NULL where memory is short. To be freed. */
 char *command_line_text(int argc, const char **argv);
 

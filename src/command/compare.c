@@ -143,7 +143,7 @@ static enum status write_difference(const struct command *command, const struct 
     command_error(command, "cannot make '%s': %s", request->output, message);
     return status;
   }
-  status = output_write(command, request->output, bytes, size);
+  status = output_write(command, &(struct atomic_file){ request->output, bytes, size }, 1);
   free(bytes);
   return status;
 }

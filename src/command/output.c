@@ -1,13 +1,13 @@
 /* Where results go. */
 #include "command/output.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/input.h"
 #include "command/interrupt.h"
 
@@ -20,27 +20,43 @@ static const char *base_of(const char *path)
 
 bool output_is_standard(const char *path) { return strcmp(path, "-") == 0; }
 
+/* Tells why a file was not probed or written. */
+static enum status told(const struct command *command, const char *path, enum status status, int reason)
+{
+  if (status == STATUS_FILE || status == STATUS_LIMIT)
+    command_error(command, "cannot write '%s': %s", path, strerror(reason));
+  return status;
+}
+
 enum status output_probe(const struct command *command, const char *path)
 {
   if (path == NULL || output_is_standard(path))
     return STATUS_OK;
   int reason;
   const enum status status = atomic_file_probe(path, &reason);
-  return command_written(command, path, status, reason);
+  return told(command, path, status, reason);
 }
 
-enum status output_write(const struct command *command, const char *path, const void *bytes, size_t size)
+enum status output_write(const struct command *command, const struct atomic_file outputs[], size_t count)
 {
-  if (path == NULL)
-    return STATUS_OK;
-  if (output_is_standard(path)) {
-    (void)fwrite(bytes, 1, size, stdout);
-    return command_finish_output(command);
-  }
-  interrupt_defer();
+  struct atomic_file files[OUTPUT_MOST];
+  size_t named = 0, which;
+  enum status status = STATUS_OK;
   int reason;
-  const enum status status = atomic_file_write(path, bytes, size, &interrupt_signal, &reason);
-  return command_written(command, path, status, reason);
+  assert(count <= OUTPUT_MOST);
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
+    if (outputs[k].path != NULL && output_is_standard(outputs[k].path)) {
+      (void)fwrite(outputs[k].bytes, 1, outputs[k].size, stdout);
+      status = command_finish_output(command);
+    } else if (outputs[k].path != NULL) {
+      files[named++] = outputs[k];
+    }
+  }
+  if (status != STATUS_OK || named == 0)
+    return status;
+  interrupt_defer();
+  status = atomic_files_write(files, named, &interrupt_signal, &which, &reason);
+  return told(command, files[which].path, status, reason);
 }
 
 enum status output_format(const struct command *command, const char *path, enum image_format *out)

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "base/atomic_file.h"
 #include "check/page.h"
 #include "command/command.h"
 #include "image/image_file.h"
@@ -11,11 +12,13 @@
 /* The name that means standard output, or as a scene's standard input. */
 bool output_is_standard(const char *path);
 
-/* Asks before the work whether a file can be written, and writes it whole (atomic_file.h) after. NULL is nowhere, "-"
- * standard output. Errors are told. A signal that comes while it is written leaves what was there: STATUS_INTERRUPTED. */
+/* Asks before the work whether a file can be written, and after it writes the files of a result, OUTPUT_MOST of them at
+ * most: all together or none (atomic_file.h). A NULL path is nowhere, "-" standard output, which cannot be taken back
+ * and comes first. Errors are told. A signal that comes meanwhile leaves what was there: STATUS_INTERRUPTED. */
+enum { OUTPUT_MOST = 2 };
 enum status output_probe(const struct command *command, const char *path) STATUS_MUST_CHECK;
-enum status output_write(const struct command *command, const char *path, const void *bytes,
-                         size_t size) STATUS_MUST_CHECK;
+enum status output_write(const struct command *command, const struct atomic_file outputs[],
+                         size_t count) STATUS_MUST_CHECK;
 
 /* The format of a picture, by its suffix; STATUS_USAGE, told, where it has none that is known. */
 enum status output_format(const struct command *command, const char *path, enum image_format *out) STATUS_MUST_CHECK;

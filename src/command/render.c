@@ -209,9 +209,11 @@ static enum status make_picture(const struct command *command, const struct requ
   return status;
 }
 
-static enum status write_picture(const struct command *command, const struct request *request,
-                                 const struct report *report, const struct image *image)
+/* The picture, and the statistics where they are asked for. */
+static enum status write_results(const struct command *command, const struct request *request, struct report *report,
+                                 const struct image *image)
 {
+  const struct seconds start = seconds_now();
   struct report_metadata metadata;
   report_metadata_fill(report, &metadata);
   const struct image_encoding encoding = { .format = request->format,
@@ -219,6 +221,7 @@ static enum status write_picture(const struct command *command, const struct req
                                            .attributes = metadata.attribute,
                                            .attribute_count = metadata.count };
   unsigned char *bytes;
+  char *statistics = NULL;
   size_t size;
   char message[IMAGE_MESSAGE_SIZE];
   enum status status = image_encode(image, &encoding, &bytes, &size, message);
@@ -226,7 +229,14 @@ static enum status write_picture(const struct command *command, const struct req
     command_error(command, "cannot make '%s': %s", request->output, message);
     return status;
   }
-  status = output_write(command, request->output, bytes, size);
+  report->write = seconds_since(start);
+  if (request->stats != NULL)
+    status = report_text(command, report_statistics(report), &statistics);
+  const size_t length = statistics == NULL ? 0 : strlen(statistics);
+  const struct atomic_file files[] = { { request->output, bytes, size }, { request->stats, statistics, length } };
+  if (status == STATUS_OK)
+    status = output_write(command, files, 2);
+  free(statistics);
   free(bytes);
   return status;
 }
@@ -254,13 +264,8 @@ static enum status render(const struct command *command, struct request *request
     status = check_outputs(command, request, scene);
   if (status == STATUS_OK)
     status = make_picture(command, request, &report, &image);
-  if (status == STATUS_OK) {
-    const struct seconds write_start = seconds_now();
-    status = write_picture(command, request, &report, &image);
-    report.write = seconds_since(write_start);
-  }
   if (status == STATUS_OK)
-    status = report_write(command, &report, request->stats);
+    status = write_results(command, request, &report, &image);
   if (status == STATUS_OK && !request->scene.quiet)
     report_print(&report);
   image_destroy(&image);

@@ -51,8 +51,8 @@ static json_t *path_text(const char *path)
   return text;
 }
 
-/* NULL where memory is short; json_pack releases what it was given. */
-static json_t *statistics(const struct report *report)
+/* json_pack releases what it was given where memory is short. */
+json_t *report_statistics(const struct report *report)
 {
   const struct intersect_counts *counts = &report->counts;
   char solver[METHOD_TEXT_SIZE];
@@ -94,25 +94,28 @@ static json_t *statistics(const struct report *report)
   return NULL;
 }
 
-enum status report_write(const struct command *command, const struct report *report, const char *path)
+enum status report_text(const struct command *command, json_t *statistics, char **out_text)
 {
-  return path == NULL ? STATUS_OK : report_write_json(command, statistics(report), path);
+  char *text = statistics == NULL ? NULL : json_dumps(statistics, JSON_INDENT(2) | JSON_REAL_PRECISION(JSON_DIGITS));
+  json_decref(statistics);
+  char *line = text == NULL ? NULL : realloc(text, strlen(text) + 2);
+  *out_text = line;
+  if (line != NULL) {
+    strcat(line, "\n");
+    return STATUS_OK;
+  }
+  free(text);
+  command_error(command, "out of memory for the statistics");
+  return STATUS_LIMIT;
 }
 
-enum status report_write_json(const struct command *command, json_t *root, const char *path)
+enum status report_write(const struct command *command, json_t *statistics, const char *path)
 {
-  char *text = root == NULL ? NULL : json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(JSON_DIGITS));
-  json_decref(root);
-  char *line = text == NULL ? NULL : realloc(text, strlen(text) + 2);
-  if (line == NULL) {
-    free(text);
-    command_error(command, "out of memory for the statistics");
-    return STATUS_LIMIT;
-  }
-  const size_t length = strlen(line);
-  memcpy(line + length, "\n", 2);
-  const enum status status = output_write(command, path, line, length + 1);
-  free(line);
+  char *text;
+  enum status status = report_text(command, statistics, &text);
+  if (status == STATUS_OK)
+    status = output_write(command, &(struct atomic_file){ path, text, strlen(text) }, 1);
+  free(text);
   return status;
 }
 

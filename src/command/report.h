@@ -19,18 +19,19 @@ struct report {
   size_t width, height, samples, threads;
   struct rectangle crop; /* the part of width x height that the picture shows */
   struct intersect_counts counts;
-  struct seconds parse, build, render, write;
+  struct seconds parse, build, render, write; /* write: what the bytes of the picture took */
 };
 
 /* A few lines on stderr. */
 void report_print(const struct report *report);
 
-/* Writes the statistics (output.h). */
-enum status report_write(const struct command *command, const struct report *report,
-                         const char *path) STATUS_MUST_CHECK;
+/* The statistics, or NULL where memory is short. To be released by json_decref, or by what takes them over. */
+json_t *report_statistics(const struct report *report);
 
-/* Writes statistics made elsewhere the same way. Takes root over; NULL means that memory was short. */
-enum status report_write_json(const struct command *command, json_t *root, const char *path) STATUS_MUST_CHECK;
+/* Statistics, from here or elsewhere, as a text, to be freed, and written (output.h). Both take them over; NULL means
+ * that memory was short, which is told. */
+enum status report_text(const struct command *command, json_t *statistics, char **out_text) STATUS_MUST_CHECK;
+enum status report_write(const struct command *command, json_t *statistics, const char *path) STATUS_MUST_CHECK;
 
 /* The metadata of the picture, in `out`; texts live in *out. */
 struct report_metadata {

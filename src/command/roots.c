@@ -348,7 +348,7 @@ static enum status roots(const struct command *command, const struct request *re
   if (status == STATUS_OK)
     status = stream_read(command, &reader);
   if (status == STATUS_OK && request->stats != NULL)
-    status = report_write_json(command, statistics(&session), request->stats);
+    status = report_write(command, statistics(&session), request->stats);
   if (status == STATUS_OK && !request->quiet && isatty(STDERR_FILENO) == 1)
     print_summary(&session);
   if (session.doubtful > MOST_TOLD)

@@ -212,8 +212,8 @@ static enum status trace(const struct command *command, struct request *request)
     report.render = seconds_since(start);
     report.counts = *tracer_counts(session.tracer);
   }
-  if (status == STATUS_OK)
-    status = report_write(command, &report, request->stats);
+  if (status == STATUS_OK && request->stats != NULL)
+    status = report_write(command, report_statistics(&report), request->stats);
   if (status == STATUS_OK && !request->scene.quiet && isatty(STDERR_FILENO) == 1)
     report_print(&report);
 done:

@@ -1,6 +1,6 @@
 /* Pictures to and from files, through OpenImageIO.
  *
- * A picture is encoded to memory; the bytes are then written by atomic_file_write, so that a full disk is noticed and
+ * A picture is encoded to memory; the bytes are then written by base/atomic_file.h, so that a full disk is noticed and
  * nothing is left half written. Failures write one line of text, without a newline, to message[IMAGE_MESSAGE_SIZE].
  */
 #ifndef PSCN_IMAGE_IMAGE_FILE_H

@@ -118,7 +118,8 @@ static mode_t mode_of(const char *path)
 
 static enum status write_text(const char *path, const char *text, int *out_errno)
 {
-  return atomic_file_write(path, text, strlen(text), NULL, out_errno);
+  size_t failed;
+  return atomic_files_write(&(struct atomic_file){ path, text, strlen(text) }, 1, NULL, &failed, out_errno);
 }
 
 static void new_file_has_the_masks_permissions(void **state)
@@ -202,8 +203,10 @@ static void stopped_write_leaves_the_old_file(void **state)
   (void)state;
   int reason = 0;
   atomic_int stop = 1;
+  size_t failed;
+  const struct atomic_file file = { "a", "new", 3 };
   put("a", "old");
-  assert_int_equal(atomic_file_write("a", "new", 3, &stop, &reason), STATUS_INTERRUPTED);
+  assert_int_equal(atomic_files_write(&file, 1, &stop, &failed, &reason), STATUS_INTERRUPTED);
   expect_text("a", "old");
   assert_int_equal(count_entries(), 1);
 }
