@@ -101,6 +101,17 @@ struct model_copy {
   double W[3][3], b[3];
 };
 
+/* A hierarchy in a frame of its own: (world - origin)/frame, all within about [-1,1], frame a power of two. Its boxes are
+ * floats, which tell little of what is far smaller than the frame: small boxes that lie together among large ones have a
+ * tree of theirs, which is box MODEL_INNER of this one. */
+struct model_tree {
+  double origin[3], frame;
+  struct bvh bvh;
+  struct model_tree *inner; /* or NULL; in the arena */
+};
+
+enum { MODEL_INNER = INT32_MAX };
+
 struct model {
   const struct scene *scene;
   struct arena *arena;
@@ -112,10 +123,9 @@ struct model {
   size_t object_count;
   struct model_copy *copies; /* box leaf_count + k of the hierarchy is copy k */
   size_t copy_count;
-  /* of the hierarchy's boxes: (world - origin)/frame, within about [-1,1]; frame a power of two */
-  double origin[3], frame;
+  double origin[3], frame; /* of the whole hierarchy */
   double error; /* widens the boxes; an object's, or 0 */
-  struct bvh bvh;
+  struct model_tree tree;
   bool unproven; /* some patch has `polish off`: no answer is proven */
 };
 

@@ -32,21 +32,26 @@
  * that 0 times it is 0. */
 #define HUGE_INVERSE 0x1p80f
 
-struct bundle {
-  struct packet packet[2];
+/* The rays as one tree's frame sees them. */
+struct view {
   float_lanes low_origin[3], high_origin[3], inverse[3], far;
   lanes start[2], unit[2]; /* of each packet: place = t unit - start */
-  unsigned live;           /* bit k: ray k still looks for a hit */
+};
+
+struct bundle {
+  struct packet packet[2];
+  struct view view;
+  unsigned live; /* bit k: ray k still looks for a hit */
 };
 
 static void bundle_update(struct bundle *b)
 {
   lanes far[2];
   for (int h = 0; h < 2; h++) {
-    const lanes end = b->packet[h].t_far * b->unit[h];
-    far[h] = (end - b->start[h]) + 8 * UNIT_ROUNDOFF * (lanes_abs(end) + lanes_abs(b->start[h]));
+    const lanes end = b->packet[h].t_far * b->view.unit[h];
+    far[h] = (end - b->view.start[h]) + 8 * UNIT_ROUNDOFF * (lanes_abs(end) + lanes_abs(b->view.start[h]));
   }
-  b->far = float_lanes_join(far[0], far[1]) * PLACE_GROWTH;
+  b->view.far = float_lanes_join(far[0], far[1]) * PLACE_GROWTH;
   b->live = lanes_bits(b->packet[0].live) | lanes_bits(b->packet[1].live) << LANES;
 }
 
@@ -61,9 +66,9 @@ static lanes frame_entry(const lanes from[3], const lanes slack[3], const lanes 
   return enter;
 }
 
-static void bundle_start(struct bundle *b, const struct model *model)
+static void bundle_start(struct bundle *b, const struct model_tree *tree)
 {
-  const double to_frame = 1 / model->frame; /* a power of two */
+  const double to_frame = 1 / tree->frame; /* a power of two */
   lanes low[3][2], high[3][2], along[3][2];
   for (int h = 0; h < 2; h++) {
     const struct packet *p = &b->packet[h];
@@ -71,15 +76,15 @@ static void bundle_start(struct bundle *b, const struct model *model)
     lanes from[3], slack[3], direction[3], farthest = {0};
     for (int k = 0; k < 3; k++) {
       along[k][h] = direction[k] = p->direction[k] * shrink;
-      from[k] = (p->origin[k] - model->origin[k]) * to_frame;
-      slack[k] = 16 * UNIT_ROUNDOFF * (lanes_abs(p->origin[k]) + fabs(model->origin[k])) * to_frame;
+      from[k] = (p->origin[k] - tree->origin[k]) * to_frame;
+      slack[k] = 16 * UNIT_ROUNDOFF * (lanes_abs(p->origin[k]) + fabs(tree->origin[k])) * to_frame;
       farthest = lanes_max(lanes_abs(from[k]), farthest);
     }
-    b->unit[h] = p->longest * to_frame;
+    b->view.unit[h] = p->longest * to_frame;
     /* No ray is in the frame before this place: its dominant coordinate is outside. */
-    lanes start = lanes_max(p->t_min * b->unit[h], -(farthest + 2));
+    lanes start = lanes_max(p->t_min * b->view.unit[h], -(farthest + 2));
     if (lanes_any(farthest > FRAME_NEAR)) start = lanes_max(frame_entry(from, slack, direction), start);
-    b->start[h] = start;
+    b->view.start[h] = start;
     for (int k = 0; k < 3; k++) {
       from[k] += start * direction[k];
       slack[k] += ORIGIN_SLACK * (1 + lanes_abs(from[k])) + 8 * UNIT_ROUNDOFF * lanes_abs(start);
@@ -87,11 +92,11 @@ static void bundle_start(struct bundle *b, const struct model *model)
     }
   }
   for (int k = 0; k < 3; k++) {
-    b->low_origin[k] = float_lanes_join(low[k][0], low[k][1]),
-    b->high_origin[k] = float_lanes_join(high[k][0], high[k][1]);
+    b->view.low_origin[k] = float_lanes_join(low[k][0], low[k][1]),
+    b->view.high_origin[k] = float_lanes_join(high[k][0], high[k][1]);
     const float_lanes d = float_lanes_join(along[k][0], along[k][1]);
     const float_lanes huge = float_lanes_select(d < 0, float_lanes_all(-HUGE_INVERSE), float_lanes_all(HUGE_INVERSE));
-    b->inverse[k] = float_lanes_select(float_lanes_abs(d) > 1 / HUGE_INVERSE, 1 / d, huge);
+    b->view.inverse[k] = float_lanes_select(float_lanes_abs(d) > 1 / HUGE_INVERSE, 1 / d, huge);
   }
   bundle_update(b);
 }
@@ -99,10 +104,10 @@ static void bundle_start(struct bundle *b, const struct model *model)
 /* Rays that pass the node's child before their ends, as bits; *out_near is where they enter. */
 LANES_INLINE unsigned bundle_box(const struct bundle *b, const struct bvh_node *node, int side, float_lanes *out_near)
 {
-  float_lanes near = float_lanes_all(0), far = b->far;
+  float_lanes near = float_lanes_all(0), far = b->view.far;
   for (int k = 0; k < 3; k++) {
-    const float_lanes one = (node->lo[side][k] - b->low_origin[k]) * b->inverse[k];
-    const float_lanes other = (node->hi[side][k] - b->high_origin[k]) * b->inverse[k];
+    const float_lanes one = (node->lo[side][k] - b->view.low_origin[k]) * b->view.inverse[k];
+    const float_lanes other = (node->hi[side][k] - b->view.high_origin[k]) * b->view.inverse[k];
     near = float_lanes_max(float_lanes_min(one, other), near);
     far = float_lanes_min(float_lanes_max(one, other), far);
   }
@@ -110,23 +115,35 @@ LANES_INLINE unsigned bundle_box(const struct bundle *b, const struct bvh_node *
   return float_lanes_bits(near <= far * PLACE_GROWTH);
 }
 
-static void bundle_walk(struct bundle *b);
+static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
 
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
   struct bundle inner;
   for (int h = 0; h < 2; h++) packet_enter(&b->packet[h], copy, lanes_mask(active >> h * LANES), &inner.packet[h]);
-  bundle_start(&inner, copy->object->model);
-  bundle_walk(&inner);
+  bundle_start(&inner, &copy->object->model->tree);
+  bundle_walk(&inner, &copy->object->model->tree, inner.live);
   for (int h = 0; h < 2; h++) packet_leave(&inner.packet[h]);
 }
 
-/* Tries what box `index` of the hierarchy stands for. */
-static void bundle_leaf(struct bundle *b, uint32_t index, unsigned active)
+/* The same rays in the frame of a tree in a tree. */
+static void bundle_inner(struct bundle *b, const struct model_tree *inner, unsigned active)
+{
+  const struct view outer = b->view;
+  bundle_start(b, inner);
+  bundle_walk(b, inner, active & b->live);
+  b->view = outer;
+  bundle_update(b);
+}
+
+/* Tries what box `index` of the tree stands for. */
+static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_t index, unsigned active)
 {
   const struct model *model = b->packet[0].model;
   const unsigned all = (1u << LANES) - 1;
-  if (index >= model->leaf_count) {
+  if (index == MODEL_INNER) {
+    bundle_inner(b, tree->inner, active);
+  } else if (index >= model->leaf_count) {
     bundle_copy(b, &model->copies[index - model->leaf_count], active);
   } else {
     if (active & all) packet_leaf(&b->packet[0], index, lanes_mask(active & all));
@@ -145,9 +162,9 @@ static int nearer_side(const float_lanes near[2], const unsigned hit[2])
   return near[1][other] < near[0][one];
 }
 
-static void bundle_walk(struct bundle *b)
+static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
-  const struct bvh *bvh = &b->packet[0].model->bvh;
+  const struct bvh *bvh = &tree->bvh;
   struct {
     float_lanes near;
     unsigned rays; /* a leaf's test on one ray must not depend on its neighbours, so each ray goes its own way */
@@ -155,11 +172,10 @@ static void bundle_walk(struct bundle *b)
   } stack[BVH_MAX_DEPTH + 2];
   size_t top = 0;
   if (bvh->node_count == 0) return;
-  unsigned rays = b->live;
   uint32_t child = 0;
   for (;;) {
     if (child & (uint32_t)BVH_LEAF) {
-      bundle_leaf(b, child & ~(uint32_t)BVH_LEAF, rays);
+      bundle_leaf(b, tree, child & ~(uint32_t)BVH_LEAF, rays);
     } else {
       const struct bvh_node *node = &bvh->nodes[child];
       float_lanes near[2];
@@ -179,7 +195,7 @@ static void bundle_walk(struct bundle *b)
     do {
       if (top == 0) return;
       top--;
-      rays = stack[top].rays & b->live & float_lanes_bits(stack[top].near <= b->far);
+      rays = stack[top].rays & b->live & float_lanes_bits(stack[top].near <= b->view.far);
     } while (rays == 0);
     child = stack[top].child;
   }
@@ -233,7 +249,7 @@ static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer 
     const size_t left = count > first ? count - first : 0, n = left < LANES ? left : LANES;
     packet_begin(&b->packet[h], &ready[h], tracer, n, n > 0 ? rays + first : rays, any);
   }
-  bundle_start(b, tracer->model);
+  bundle_start(b, &tracer->model->tree);
 }
 
 static void closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
@@ -242,7 +258,7 @@ static void closest(struct tracer *tracer, size_t count, const struct ray rays[]
     struct ready ready[2];
     struct bundle bundle;
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, false);
-    bundle_walk(&bundle);
+    bundle_walk(&bundle, &tracer->model->tree, bundle.live);
     for (size_t h = 0; h < 2; h++) {
       struct packet *packet = &bundle.packet[h];
       struct hit *hits = out_hits + first + h * LANES;
@@ -262,7 +278,7 @@ static void occluded(struct tracer *tracer, size_t count, const struct ray rays[
     struct ready ready[2];
     struct bundle bundle;
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, true);
-    bundle_walk(&bundle);
+    bundle_walk(&bundle, &tracer->model->tree, bundle.live);
     for (size_t h = 0; h < 2; h++) {
       const struct packet *packet = &bundle.packet[h];
       for (size_t l = 0; l < packet->count; l++)

@@ -11,6 +11,7 @@
 #include "geometry/vector.h"
 #include "intersect/prepare/copies.h"
 #include "intersect/prepare/leaf.h"
+#include "intersect/prepare/tree.h"
 
 /* A declared control point carries half a unit in the last place of its decimal form and a few of its transforms: a
  * patch whose excess over a lower degree is no more than this, relative to its largest coordinate, was meant to be
@@ -175,7 +176,7 @@ static enum status prepare_hierarchy(struct model *model, int most)
   enum status status = boxes && model->leaves ? prepare_leaves(model, boxes) : STATUS_LIMIT;
   if (status == STATUS_OK) {
     for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &boxes[model->leaf_count + c]);
-    status = bvh_build(boxes, count, &model->bvh);
+    status = tree_build(model->arena, boxes, count, model->origin, model->frame, &model->tree);
   }
   free(boxes);
   return status;
@@ -249,7 +250,7 @@ void model_destroy(struct model *model)
 {
   if (!model) return;
   for (size_t k = 0; k < model->object_count; k++) model_destroy(model->objects[k].model);
-  bvh_free(&model->bvh);
+  tree_free(&model->tree);
   arena_destroy(model->arena);
   free(model);
 }
