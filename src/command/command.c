@@ -29,12 +29,13 @@ const struct command *command_find(const char *name)
   return NULL;
 }
 
-const char *command_guess(const char *name)
+int command_unknown(const char *name)
 {
   struct guess guess = guess_begin(name, strlen(name));
   for (const struct command *const *command = commands; *command != NULL; command++)
     guess_consider(&guess, (*command)->name, strlen((*command)->name));
-  return guess.best;
+  return guess.best == NULL ? command_usage(NULL, "unknown command '%s'", name)
+                            : command_usage(NULL, "unknown command '%s'; did you mean '%s'?", name, guess.best);
 }
 
 static void print_option(const struct command_option *option, FILE *file)
@@ -165,17 +166,19 @@ static void make_tables(const struct command *command, struct getopt_tables *out
   out->names[row] = (struct option){ 0 };
 }
 
-static void unknown_option(const struct command *command, const char *word)
+/* `begun`: the name of the only option that begins like the word, or NULL. */
+static void unknown_option(const struct command *command, const char *word, const char *begun)
 {
   const size_t length = strcspn(word, "=");
   const bool whole = word[1] == '-'; /* a word rather than letters */
   struct guess guess = guess_begin(word + 1 + whole, length - 1 - whole);
   for (const struct command_option *option = command->options; whole && option->name != NULL; option++)
     guess_consider(&guess, option->name, strlen(option->name));
-  if (guess.best == NULL)
+  if (begun == NULL && guess.best == NULL)
     command_usage(command, "option '%s': unknown option", word);
   else
-    command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length, word, guess.best);
+    command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length, word,
+                  begun == NULL ? guess.best : begun);
 }
 
 /* The option that getopt_long found in `word`, its argument a word of its own where it stands `apart`. NULL, told,
@@ -185,12 +188,11 @@ static const struct command_option *find_option(const struct command *command, i
   const int code = found == '?' || found == ':' ? optopt : found;
   const struct command_option *option = command->options;
   for (int row = 0; option->name != NULL; option++, row++) {
-    if (code == FIRST_LONG + row ? strlen(option->name) == strcspn(word + 2, "=") /* not the beginning of it */
-                                 : option->letter != '\0' && code == option->letter)
+    if (code == FIRST_LONG + row || (option->letter != '\0' && code == option->letter))
       break;
   }
-  if (option->name == NULL)
-    unknown_option(command, word);
+  if (option->name == NULL || (code >= FIRST_LONG && strlen(option->name) != strcspn(word + 2, "=")))
+    unknown_option(command, word, option->name);
   else if (found == ':')
     command_usage(command, "option '%s': missing argument", word);
   else if (found == '?')

@@ -42,9 +42,9 @@ struct command {
 extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_check,
   command_chart, command_help;
 
-/* The command of that name, or NULL; and the name of the one that may have been meant, or NULL. */
+/* The command of that name, or NULL; then command_unknown tells so, and which may have been meant: STATUS_USAGE. */
 const struct command *command_find(const char *name);
-const char *command_guess(const char *name);
+int command_unknown(const char *name);
 
 /* The help text of one command, and of all. */
 void command_print_help(const struct command *command, FILE *file);

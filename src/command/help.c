@@ -16,7 +16,7 @@ static int run(const struct command *command, int argc, const char **argv)
   const bool itself = strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0;
   const struct command *subject = itself ? command : command_find(argv[1]);
   if (subject == NULL)
-    return command_usage(NULL, "unknown command '%s'", argv[1]);
+    return command_unknown(argv[1]);
   command_print_help(subject, stdout);
   return (int)command_finish_output(command);
 }

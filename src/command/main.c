@@ -48,11 +48,8 @@ int main(int argc, char **argv)
     command = &command_render;
     words = 0;
   }
-  if (command == NULL) {
-    const char *guess = command_guess(name);
-    return guess == NULL ? command_usage(NULL, "unknown command '%s'", name)
-                         : command_usage(NULL, "unknown command '%s'; did you mean '%s'?", name, guess);
-  }
+  if (command == NULL)
+    return command_unknown(name);
   if (!intersector_kernel_here())
     return command_usage(NULL, "PSCN_KERNEL='%s' is no instruction set of this processor", getenv("PSCN_KERNEL"));
   const int code = command->run(command, argc - words, (const char **)argv + words);
