@@ -23,7 +23,7 @@ enum { POINT_NAME_SIZE = 160 };
 struct chart_point {
   enum family family;
   char name[POINT_NAME_SIZE];    /* what ran; of pscn the text behind `solver` */
-  char label[8];                 /* what stands beside the point in the figure, or "" */
+  char label[12];                /* what stands beside the point in the figure, or "" */
   bool ours;                     /* options is set */
   struct method options;
   struct timing time[RAY_KINDS];

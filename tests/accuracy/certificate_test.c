@@ -18,9 +18,9 @@
 /* No ray of any scene may take longer, in seconds. Timing decides no test; it is printed. */
 #define SLOW 2e-3
 
-/* The default solver gets all rays, the others this share. */
+/* The default solver gets all rays, the others this share; of a situation no more rays than are still wanted. */
 #define OTHERS_SHARE 0.1
-enum { FULL_RAYS = 40000, LEAST_RAYS = 16, MOST_CLASSES = 64, MOST_SHOWN = 6 };
+enum { FULL_RAYS = 40000, LEAST_RAYS = 16, OTHERS_LEAST = 4, MOST_CLASSES = 64, MOST_SHOWN = 6 };
 
 struct form {
   const char *solver;
@@ -84,8 +84,9 @@ static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
   return least;
 }
 
-static void run_situation(const char *name, const struct form *form, const struct situation *s,
-                          struct count *count)
+/* `most` rays from `first` on, round the situation. */
+static void run_situation(const char *name, const struct form *form, const struct situation *s, size_t first,
+                          size_t most, struct count *count)
 {
   struct method method;
   for (size_t n = 0; n < solver_count(); n++)
@@ -95,17 +96,18 @@ static void run_situation(const char *name, const struct form *form, const struc
   struct certifier certifier;
   trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &method);
   certifier_create(&certifier, &trial.scene, trial.reference);
-  for (int n = 0; n < SITUATION_RAYS; n++) {
+  for (size_t n = 0; n < SITUATION_RAYS && n < most; n++) {
+    const struct ray *ray = &s->rays[(first + n) % SITUATION_RAYS];
     struct hit hit;
     struct certificate certificate;
-    const double time = trace(&trial, &s->rays[n], &hit);
-    certify(&certifier, &s->rays[n], &hit, &certificate);
+    const double time = trace(&trial, ray, &hit);
+    certify(&certifier, ray, &hit, &certificate);
     const bool grazing = hit.certainty != CERTAINTY_CERTAIN;
     count->rays++, count->answers[grazing][certificate.finding]++;
     count->grazing_sure += grazing && certificate.finding == FINDING_PROVEN && certificate.sure;
     count->slowest = fmax(count->slowest, time), count->slow += time > SLOW;
-    if (time > SLOW && getenv("PSCN_SHOW")) show(name, form, s, &s->rays[n], &hit, "slow");
-    if (certificate.finding > FINDING_UNDECIDED) show_refuted(name, form, s, &s->rays[n], &hit, &certificate);
+    if (time > SLOW && getenv("PSCN_SHOW")) show(name, form, s, ray, &hit, "slow");
+    if (certificate.finding > FINDING_UNDECIDED) show_refuted(name, form, s, ray, &hit, &certificate);
   }
   certifier_destroy(&certifier);
   trial_destroy(&trial);
@@ -140,13 +142,14 @@ static void test_class(void **state)
   if (only && !strstr(class->name, only)) return;
   for (int m = 0; m < FORMS; m++) {
     struct count count = {0};
-    const size_t wanted = effort_count((size_t)(class->share * (m ? OTHERS_SHARE : 1) * FULL_RAYS), LEAST_RAYS);
+    const size_t wanted = effort_count((size_t)(class->share * (m ? OTHERS_SHARE : 1) * FULL_RAYS),
+                                       m ? OTHERS_LEAST : LEAST_RAYS);
     const uint64_t seed = effort_seed(class->seed);
     struct random random = {.state = seed + (uint64_t)m * 1000};
     for (size_t index = 0; count.rays < wanted; index++) {
       struct situation situation;
       class->generate(&random, index, &situation);
-      run_situation(class->name, &forms[m], &situation, &count);
+      run_situation(class->name, &forms[m], &situation, (size_t)m * OTHERS_LEAST, wanted - count.rays, &count);
     }
     print_count(class->name, &forms[m], seed, &count);
     bad += refuted(count.answers[0]) + refuted(count.answers[1]);
