@@ -381,23 +381,26 @@ static void surface_starts(struct random *random, size_t index, struct situation
   }
 }
 
-/* A patch long along one axis and short along another; small next to what is far away; a far origin. */
-static void uneven_sizes(struct random *random, size_t index, struct situation *s)
+/* A patch long along one axis and short along another, by a factor from `thinnest` on; small next to what is far away,
+ * some coordinates of its own up to 1e`farthest`; a far origin. */
+static void uneven(struct random *random, size_t index, size_t thinnest, int farthest, struct situation *s)
 {
   static const double factors[] = {1e-160, 1e-12, 1e-9, 1e-6, 1, 1, 1e6};
   s->count = 1;
   gentle(random, 1, s->P[0]);
   double factor[3], shift[3];
   for (int axis = 0; axis < 3; axis++) {
-    factor[axis] = factors[choose(random, 7)];
+    factor[axis] = factors[thinnest + choose(random, 7 - thinnest)];
     shift[axis] = choose(random, 3) ? 0 : factor[axis] * random_decade(random, -6, 6) * random_between(random, -1, 1);
   }
-  for (int k = 0; k < 16; k++)
-    for (int axis = 0; axis < 3; axis++)
-      s->P[0][k / 4][k % 4][axis] = s->P[0][k / 4][k % 4][axis] * factor[axis] + shift[axis];
-  if (index % 3 == 0) /* one point far away */
-    for (int axis = 0; axis < 3; axis++)
-      s->P[0][choose(random, 4)][choose(random, 4)][axis] = random_decade(random, -29, 0) * random_between(random, -1, 1);
+  for (int k = 0; k < 48; k++) {
+    double *at = &s->P[0][k / 12][k / 3 % 4][k % 3];
+    *at = *at * factor[k % 3] + shift[k % 3];
+  }
+  for (int axis = 0; axis < 3 && index % 3 == 0; axis++) {
+    double *at = &s->P[0][choose(random, 4)][choose(random, 4)][axis];
+    *at = random_decade(random, -farthest, 0) * random_between(random, -1, 1);
+  }
   for (int n = 0; n < RAYS; n++) {
     double at[3], d[3], away = choose(random, 3) ? 1 : random_decade(random, -9, 3);
     net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
@@ -409,6 +412,9 @@ static void uneven_sizes(struct random *random, size_t index, struct situation *
     }
   }
 }
+
+static void uneven_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 1, 12, s); }
+static void wild_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 0, 29, s); }
 
 /* From the ends of what a double holds. */
 static void far_origins(struct random *random, size_t index, struct situation *s)
@@ -485,7 +491,8 @@ static const struct situation_class classes[] = {
     {"thin patches", 711, 1, thin},
     {"starts next to poles", 712, 1, pole_starts},
     {"starts next to surfaces", 713, 1, surface_starts},
-    {"uneven sizes", 714, 0.5, uneven_sizes},
+    {"uneven sizes", 718, 0.5, uneven_sizes},
+    {"sizes beyond all digits", 714, 0.5, wild_sizes},
     {"far origins", 715, 1, far_origins},
     {"cubes from within their planes", 716, 0.1, cubes},
     {"coincident patches", 717, 0.5, coincident},
@@ -498,3 +505,5 @@ const struct situation_class *every_class_at(size_t index)
   const size_t first = situation_class_count();
   return index < first ? situation_class_at(index) : &classes[index - first];
 }
+
+bool class_told_only(const struct situation_class *class) { return class->generate == wild_sizes; }
