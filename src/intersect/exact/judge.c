@@ -45,11 +45,17 @@ static enum place place_above(wide x, double error)
   return x > error ? PLACE_INSIDE : x < -error ? PLACE_OUTSIDE : PLACE_UNKNOWN;
 }
 
+/* Farther from a border than this all doubles are. */
+#define CLEARLY 0x1p-40
+
 /* Of the root in its patch; *borders: those that it cannot be told from. */
 static enum place root_in_patch(const struct exact_root *root, unsigned *borders)
 {
-  const wide distance[4] = {root->u, 1 - root->u, root->v, 1 - root->v};
+  const double u = (double)root->u, v = (double)root->v;
+  const double from_u = root->radius_u + CLEARLY, from_v = root->radius_v + CLEARLY;
   *borders = 0;
+  if (u > from_u && 1 - u > from_u && v > from_v && 1 - v > from_v) return PLACE_INSIDE;
+  const wide distance[4] = {root->u, 1 - root->u, root->v, 1 - root->v};
   for (unsigned k = 0; k < 4; k++) {
     const enum place place = place_above(distance[k], k < 2 ? root->radius_u : root->radius_v);
     if (place == PLACE_OUTSIDE) return PLACE_OUTSIDE;
@@ -61,6 +67,8 @@ static enum place root_in_patch(const struct exact_root *root, unsigned *borders
 /* Of the root between the ray's start and its end, which it may be next to only from outside. */
 static enum place root_in_range(const struct judge *j, const struct exact_root *root)
 {
+  const double t = (double)root->t, clearly = root->t_error + 4 * UNIT_ROUNDOFF * fabs(t);
+  if (t - j->asked->ray->t_min > clearly && j->asked->ray->t_max - t > clearly) return PLACE_INSIDE;
   const enum place start = place_above(root->t - j->asked->ray->t_min, root->t_error);
   const enum place end = place_above(j->asked->ray->t_max - root->t, root->t_error);
   return start == PLACE_OUTSIDE || end == PLACE_OUTSIDE ? PLACE_OUTSIDE
@@ -337,16 +345,33 @@ static bool border_is_point(double x[3][4][4], int border)
   return true;
 }
 
+/* A ray this near to a pole, in the patch's frame, may meet the strip of leaves along it anywhere; one farther away meets
+ * them as it meets others. A choice of speed. */
+#define POLE_NEAR 0x1p-8
+
+static bool passes_near(struct judge *j, uint32_t patch, int border)
+{
+  judge_turn(j, patch);
+  const struct local_ray *ray = &j->local;
+  double (*x)[4][4] = j->asked->model->patches[patch].x;
+  const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
+  for (int s = 0; s < 2; s++) {
+    const double side = x[(ray->axis + 1 + s) % 3][row][column] - ray->moment[s];
+    if (!(fabs(side - ray->slope[s] * x[ray->axis][row][column]) <= POLE_NEAR)) return false;
+  }
+  return true;
+}
+
 /* Takes the region into the list, where it is not there: at a border that is one point all of the strip along it, for
  * what a ray that passes it closely meets may be anywhere there. */
-static size_t region_add(const struct exact_case *asked, const struct exact_region *region, struct exact_region all[],
-                         size_t count)
+static size_t region_add(struct judge *j, const struct exact_region *region, struct exact_region all[], size_t count)
 {
-  struct model_patch *patch = &asked->model->patches[region->patch];
+  struct model_patch *patch = &j->asked->model->patches[region->patch];
   struct exact_region r = *region;
   for (int border = 0; border < 4; border++) {
     const int side = border / 2, across = 1 - side, at = border & 1 ? patch->split - 1 : 0;
     if (patch->split == 1 || region->column[side] != at || !border_is_point(patch->x, border)) continue;
+    if (!passes_near(j, region->patch, border)) continue;
     r.column[across] = 0, r.span[across] = (uint16_t)patch->split, r.leaf = NULL;
   }
   for (size_t k = 0; k < count; k++)
@@ -364,7 +389,7 @@ static void judge_run(struct judge *j, const struct exact_case *asked)
   if (asked->known) j->nearest = *asked->known, j->found = true;
   set_limit(j);
   if (asked->maybe) keep_maybe(j, asked->maybe);
-  for (size_t k = 0; k < asked->region_count; k++) count = region_add(asked, &asked->regions[k], regions, count);
+  for (size_t k = 0; k < asked->region_count; k++) count = region_add(j, &asked->regions[k], regions, count);
   for (size_t k = 0; k < count; k++) {
     order[k] = (struct ordered){-INFINITY, &regions[k]};
     if (count == 1) break;

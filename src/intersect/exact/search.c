@@ -36,8 +36,9 @@
  * hundred roundings each, the distance from the ray at which the planes tell nothing any more. */
 #define SEARCH_RESOLUTION 0x1p-44
 
-/* How often a box may halve in all: 2^-50 of the region either way, and some across. */
-enum { SEARCH_HALVINGS = 120 };
+/* How often a box may halve in all: LEAST_SIZE of the whole box either way. */
+enum { SEARCH_HALVINGS = 104 };
+#define LEAST_SIZE 0x1p-52
 
 /* What looking at a box under the glass costs, in boxes; how often that may be done, one in the other. */
 enum { ZOOM_WORK = 40, ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
@@ -47,7 +48,7 @@ enum { ZOOM_WORK = 40, ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
 
 /* A box at a border that is one point is put under the glass where it reaches no farther from it, of the patch. A choice
  * of speed. */
-#define ZOOM_POLE 0x1p-3
+#define ZOOM_POLE 0x1p-10
 
 /* A box at a border that is one point is put under the glass again where it is so small a part, away from the border, of
  * what was: see ZOOM_POLE_NEAREST. */
@@ -62,8 +63,8 @@ enum verdict {
 
 struct box {
   double net[3][4][4];   /* a, b, w */
-  wide u, v;             /* low corner, of the search's whole box */
-  double size_u, size_v; /* as parts of it */
+  double u, v;           /* low corner, of the search's whole box */
+  double size_u, size_v; /* as parts of it, no smaller than LEAST_SIZE: so all four are exact */
   double near, far;      /* hull of t */
   int halvings;
 };
@@ -203,16 +204,20 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
   const double t = place_to_t(s, w.value), sum = radius[0] + radius[1], to_t = fabs(s->to_t);
   const double off = fabs(w.du) * radius[0] + fabs(w.dv) * radius[1] +
                      BOX_MARGIN_GROWTH * (bend[0] + 2 * bend[1] + bend[2]) * sum * sum;
-  struct exact_root root = {.u = s->low[0] + s->size[0] * (box->u + box->size_u * (wide)at[0]),
-                            .v = s->low[1] + s->size[1] * (box->v + box->size_v * (wide)at[1]),
-                            .t = t,
-                            .t_error = to_t * (off + s->place_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + to_t * fabs(w.value))};
+  struct exact_root root = {.t = t};
+  root.t_error = to_t * (off + s->place_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + to_t * fabs(w.value));
   if (s->depth > 0) {
+    root.u = s->low[0] + s->size[0] * ((wide)box->u + (wide)box->size_u * at[0]);
+    root.v = s->low[1] + s->size[1] * ((wide)box->v + (wide)box->size_v * at[1]);
     root.t = zoom_place(judge_zoom(s->judge), root.u, root.v);
     root.t_error = to_t * (off + (double)judge_zoom(s->judge)->error);
+  } else {
+    root.u = (double)s->low[0] + (double)s->size[0] * (box->u + box->size_u * at[0]);
+    root.v = (double)s->low[1] + (double)s->size[1] * (box->v + box->size_v * at[1]);
   }
-  root.radius_u = radius[0] * box->size_u * (double)s->size[0] * (1 + 4 * UNIT_ROUNDOFF);
-  root.radius_v = radius[1] * box->size_v * (double)s->size[1] * (1 + 4 * UNIT_ROUNDOFF);
+  const double rounding = s->depth > 0 ? 0 : 4 * UNIT_ROUNDOFF;
+  root.radius_u = radius[0] * box->size_u * (double)s->size[0] * (1 + 4 * UNIT_ROUNDOFF) + rounding;
+  root.radius_v = radius[1] * box->size_v * (double)s->size[1] * (1 + 4 * UNIT_ROUNDOFF) + rounding;
   judge_root(s->judge, &root);
 }
 
@@ -244,8 +249,8 @@ static void box_tell_maybe(struct search *s, struct box *box, bool small)
     return;
   }
   const double t = place_to_t(s, patch_evaluate(box->net[2], u, v).value);
-  judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u * (wide)u)),
-              (double)(s->low[1] + s->size[1] * (box->v + box->size_v * (wide)v)), t, box->far - box->near);
+  judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u * u)),
+              (double)(s->low[1] + s->size[1] * (box->v + box->size_v * v)), t, box->far - box->near);
 }
 
 static void cubic_halves(const double *c, int stride, double *low, double *high)
@@ -306,6 +311,7 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
   bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
   if (narrow_at_pole(s, box)) across_u = s->divided < 2;
   if (s->dependent) across_u = s->extent[0] * box->size_u >= s->extent[1] * box->size_v;
+  if (across_u ? box->size_u <= LEAST_SIZE : box->size_v <= LEAST_SIZE) across_u = !across_u;
   for (int h = 0; h < 2; h++) {
     out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
     if (across_u) out[h].size_u /= 2, out[h].u += h * out[h].size_u;
@@ -398,7 +404,7 @@ static bool box_asks_pole(const struct search *s, const struct box *box, int bor
 /* Whether the root, in the box's parameters, is far enough from the border that the first net is divided by. */
 static bool far_from_pole(const struct search *s, const struct box *box, const double root[2])
 {
-  const double u = (double)box->u + box->size_u * root[0], v = (double)box->v + box->size_v * root[1];
+  const double u = box->u + box->size_u * root[0], v = box->v + box->size_v * root[1];
   const double distance[4] = {u, 1 - u, v, 1 - v};
   return s->divided < 0 || distance[s->divided] >= ZOOM_POLE_NEAREST;
 }
@@ -460,6 +466,12 @@ static void search_run(struct search *s, const struct box *whole)
   }
 }
 
+/* The quotient; without the dear division where it is a double. */
+static wide part_of(int columns, int split)
+{
+  return (split & (split - 1)) == 0 ? (wide)((double)columns / split) : (wide)columns / split;
+}
+
 /* The search of a region, and its whole box. */
 static void search_begin(struct judge *j, const struct exact_region *region, struct search *s, struct box *whole)
 {
@@ -475,7 +487,8 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
                        .place_error = ray->error,
                        .divided = NO_BORDER,
                        .pole = {true, true, true, true}};
-  for (int k = 0; k < 2; k++) s->low[k] = (wide)region->column[k] / patch->split, s->size[k] = (wide)region->span[k] / patch->split;
+  for (int k = 0; k < 2; k++)
+    s->low[k] = part_of(region->column[k], patch->split), s->size[k] = part_of(region->span[k], patch->split);
   for (int c = 0; c < 3; c++) {
     for (int n = 0; n < 4; n++) {
       s->pole[0] &= x[c][n] == x[c][0], s->pole[1] &= x[c][12 + n] == x[c][12];

@@ -34,13 +34,14 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
 {
   const double *d = ray->direction, *o = ray->origin;
   wide q[3], size = 0;
-  for (int c = 0; c < 3; c++) q[c] = ((wide)o[c] - patch->center[c]) / patch->scale;
+  const wide to_local = 1 / (wide)patch->scale; /* a power of two */
+  for (int c = 0; c < 3; c++) q[c] = ((wide)o[c] - patch->center[c]) * to_local;
   for (int s = 0; s < 3; s++) {
     const int i = (k + 1 + s) % 3;
     const wide slope = (wide)d[i] / d[k], moment = q[i] - slope * q[k];
     for (int n = 0; n < 16; n++) {
       const double *p = P[n / 4][n % 4];
-      const wide x = ((wide)p[i] - patch->center[i]) / patch->scale, y = ((wide)p[k] - patch->center[k]) / patch->scale;
+      const wide x = ((wide)p[i] - patch->center[i]) * to_local, y = ((wide)p[k] - patch->center[k]) * to_local;
       out->power[s][n / 4][n % 4] = s == 2 ? y : x - slope * y - moment;
     }
     for (int n = 0; n < 4; n++) to_powers(out->power[s][n], 1);
