@@ -19,4 +19,4 @@ pscn render "$SCENES/bent.pscn" -o f.png $small
 (pscn render flat.pscn -o d.png $small --stats - >&-; echo "exit $?" >&2)
 (pscn render flat.pscn -o e.png --size 8x6 2>&-; echo "exit $?")
 pscn compare a.png e.png --quiet && echo same
-ls -A
+LC_ALL=C ls -A
