@@ -1,0 +1,156 @@
+/* Boxes. See box.h. */
+#include "intersect/exact/box.h"
+
+#include <math.h>
+
+#include "base/real.h"
+#include "geometry/patch.h"
+#include "intersect/certificate.h"
+
+/* Newton's last step in box parameters: its square, all that the next one would be, is below the rounding of the
+ * values. Not a tolerance of the answer, whose radius is computed. */
+#define LAST_STEP 0x1p-28
+
+/* Where p a + q b stands on the box: its hull in units of its error bound. */
+static void combination(struct box *box, double p, double q, const double error[2], double out[2])
+{
+  const double unit = 1 / (fabs(p) * (error[0] + UNIT_ROUNDOFF * 4) + fabs(q) * (error[1] + UNIT_ROUNDOFF * 4));
+  for (int n = 0; n < 16; n++) {
+    const double value = (p * box->net[0][n / 4][n % 4] + q * box->net[1][n / 4][n % 4]) * unit;
+    out[0] = n ? real_min(out[0], value) : value, out[1] = n ? real_max(out[1], value) : value;
+  }
+}
+
+/* Tries the combinations a, b and the two rows of the adjugate Jacobian in the middle, which aim along the
+ * parameters, or, where the Jacobian is singular, at the one direction in which the surface is seen edge-on. */
+enum verdict box_test(struct box *box, const double error[2])
+{
+  const struct patch_jet a = patch_evaluate(box->net[0], 0.5, 0.5);
+  const struct patch_jet b = patch_evaluate(box->net[1], 0.5, 0.5);
+  const double rows[4][2] = {{1, 0}, {0, 1}, {b.dv, -a.dv}, {-b.du, a.du}};
+  bool flat = false, steep = false;
+  for (int k = 0; k < 4; k++) {
+    if (rows[k][0] == 0 && rows[k][1] == 0) continue;
+    double range[2] = {0, 0};
+    combination(box, rows[k][0], rows[k][1], error, range);
+    if (range[0] > 1 || range[1] < -1) return VERDICT_EMPTY;
+    if (range[0] > -FLAT_ERRORS && range[1] < FLAT_ERRORS) flat = true;
+    else steep = true;
+  }
+  return !flat ? VERDICT_OPEN : steep ? VERDICT_FLAT : VERDICT_POINT;
+}
+
+void box_bends(double n[4][4], double out[3])
+{
+  out[0] = out[1] = out[2] = 0;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      if (i < 2) out[0] = real_max(out[0], 6 * fabs(n[i + 2][j] - 2 * n[i + 1][j] + n[i][j]));
+      if (i < 3 && j < 3) out[1] = real_max(out[1], 9 * fabs(n[i + 1][j + 1] - n[i + 1][j] - n[i][j + 1] + n[i][j]));
+      if (j < 2) out[2] = real_max(out[2], 6 * fabs(n[i][j + 2] - 2 * n[i][j + 1] + n[i][j]));
+    }
+  }
+}
+
+/* The certificate in the box's own parameters, with the second derivatives of M's rows of the plane polynomials
+ * themselves, for a last step that went to `root`. Sets the radii. */
+static bool box_prove(struct box *box, double m[2][2], const double error[2], double step, const double root[2],
+                      double radius[2])
+{
+  const double out_u = real_max(-root[0], root[0] - 1), out_v = real_max(-root[1], root[1] - 1);
+  if (!(out_u < BOX_MARGIN && out_v < BOX_MARGIN)) return false;
+  const double growth = out_u > 0 || out_v > 0 ? BOX_MARGIN_GROWTH : 1;
+  const double reach_u = 0.5 + fabs(root[0] - 0.5), reach_v = 0.5 + fabs(root[1] - 0.5);
+  double bend = 0, q = 0, size = 0;
+  for (int k = 0; k < 2; k++) {
+    double n[4][4], s[3];
+    for (int c = 0; c < 16; c++)
+      n[c / 4][c % 4] = m[k][0] * box->net[0][c / 4][c % 4] + m[k][1] * box->net[1][c / 4][c % 4];
+    box_bends(n, s);
+    const double row_bend = growth * (s[0] + 2 * s[1] + s[2]);
+    const double row_size = fabs(m[k][0]) * error[0] + fabs(m[k][1]) * error[1];
+    bend = real_max(bend, row_bend), size = real_max(size, row_size);
+    q = real_max(q, growth * ((s[0] + s[1]) * reach_u + (s[1] + s[2]) * reach_v));
+    radius[k] = certificate_radius(row_bend, step, row_size);
+  }
+  return certificate_holds(bend, step, size) && certificate_alone(q, size);
+}
+
+bool box_solve(struct box *box, const double error[2], double root[2], double radius[2])
+{
+  double u = 0.5, v = 0.5, step = 2, m[2][2] = {{0}};
+  for (int n = 0; n < 12 && step > LAST_STEP; n++) {
+    const struct patch_jet a = patch_evaluate(box->net[0], u, v), b = patch_evaluate(box->net[1], u, v);
+    const double determinant = a.du * b.dv - a.dv * b.du;
+    if (determinant == 0) return false;
+    const double inverse = 1 / determinant;
+    m[0][0] = b.dv * inverse, m[0][1] = -a.dv * inverse, m[1][0] = -b.du * inverse, m[1][1] = a.du * inverse;
+    const double su = m[0][0] * a.value + m[0][1] * b.value, sv = m[1][0] * a.value + m[1][1] * b.value;
+    step = real_max(fabs(su), fabs(sv));
+    u -= su, v -= sv;
+    if (!(fabs(u - 0.5) < 1 && fabs(v - 0.5) < 1)) return false;
+  }
+  if (!(step <= LAST_STEP)) return false;
+  root[0] = u, root[1] = v;
+  return box_prove(box, m, error, step, root, radius);
+}
+
+/* How many steps take a point of a box onto the ray, where they can; how far off it may be then, in error bounds. */
+enum { ONTO_STEPS = 8, ONTO_ERRORS = 16 };
+
+/* Keeps the shortest step finite where the polynomials are dependent: relative, a choice of how short it is then. */
+#define LEAST_DEPENDENT 0x1p-40
+
+bool box_onto_ray(struct box *box, const double error[2], double *u, double *v)
+{
+  for (int n = 0; n < ONTO_STEPS; n++) {
+    const struct patch_jet a = patch_evaluate(box->net[0], *u, *v), b = patch_evaluate(box->net[1], *u, *v);
+    if (fabs(a.value) <= ONTO_ERRORS * error[0] && fabs(b.value) <= ONTO_ERRORS * error[1]) return true;
+    double aa = a.du * a.du + a.dv * a.dv, bb = b.du * b.du + b.dv * b.dv;
+    const double ab = a.du * b.du + a.dv * b.dv, least = LEAST_DEPENDENT * real_max(aa, bb);
+    aa += least, bb += least;
+    const double determinant = aa * bb - ab * ab;
+    if (!(determinant > 0)) break;
+    const double p = (bb * a.value - ab * b.value) / determinant, q = (aa * b.value - ab * a.value) / determinant;
+    *u = real_min(real_max(*u - (p * a.du + q * b.du), 0), 1);
+    *v = real_min(real_max(*v - (p * a.dv + q * b.dv), 0), 1);
+  }
+  return false;
+}
+
+void box_variation(const struct box *box, int first, int last, double *along_u, double *along_v)
+{
+  *along_u = *along_v = 0;
+  for (int k = first; k <= last; k++) {
+    for (int i = 0; i < 4; i++) {
+      for (int j = 0; j < 3; j++) {
+        *along_v = real_max(*along_v, fabs(box->net[k][i][j + 1] - box->net[k][i][j]));
+        *along_u = real_max(*along_u, fabs(box->net[k][j + 1][i] - box->net[k][j][i]));
+      }
+    }
+  }
+}
+
+static void cubic_halves(const double *c, int stride, double *low, double *high)
+{
+  const double half = 0.5, c1 = c[stride], c2 = c[2 * stride];
+  const double q0 = half * (c[0] + c1), q1 = half * (c1 + c2), q2 = half * (c2 + c[3 * stride]);
+  const double r0 = half * (q0 + q1), r1 = half * (q1 + q2);
+  low[0] = c[0], low[stride] = q0, low[2 * stride] = r0;
+  low[3 * stride] = high[0] = half * (r0 + r1);
+  high[stride] = r1, high[2 * stride] = q2, high[3 * stride] = c[3 * stride];
+}
+
+void box_cut(struct box *box, bool across_u, struct box out[2])
+{
+  for (int h = 0; h < 2; h++) {
+    out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
+    if (across_u) out[h].size_u /= 2, out[h].u += h * out[h].size_u;
+    else out[h].size_v /= 2, out[h].v += h * out[h].size_v;
+    out[h].halvings = box->halvings + 1;
+  }
+  for (int k = 0; k < 3; k++)
+    for (int n = 0; n < 4; n++)
+      if (across_u) cubic_halves(&box->net[k][0][n], 4, &out[0].net[k][0][n], &out[1].net[k][0][n]);
+      else cubic_halves(box->net[k][n], 1, out[0].net[k][n], out[1].net[k][n]);
+}
