@@ -8,7 +8,7 @@ LEAST_GAIN=5
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$PSCN" chart "$PSCN_SOURCE_DIR/scenes/bent.pscn" --quick --size 160x120 --rays 256 --rounds 1 -o "$folder/chart" \
+"$PSCN" chart "$PSCN_SOURCE_DIR/scenes/bent.pscn" --quick --size 160x120 --rays 512 --rounds 1 -o "$folder/chart" \
   >/dev/null 2>"$folder/said"
 peers=()
 grep -q 'Embree is left out: there is no' "$folder/said" || peers+=(embree)
