@@ -69,8 +69,9 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
     (void)zoom_sharpen(&zoom, root); /* or it stays what it is */
   }
   const double u = (double)root->u, v = (double)root->v;
-  const unsigned borders = (u <= root->radius_u) | (1 - u <= root->radius_u) << 1 | (v <= root->radius_v) << 2 |
-                           (1 - v <= root->radius_v) << 3;
+  const bool at[4] = {u <= root->radius_u, 1 - u <= root->radius_u, v <= root->radius_v, 1 - v <= root->radius_v};
+  unsigned borders = 0;
+  for (unsigned k = 0; k < 4; k++) borders |= (unsigned)at[k] << k;
   /* What is certain has a place. */
   sure = sure && root->radius_u <= LARGEST_RADIUS && root->radius_v <= LARGEST_RADIUS;
   *out = (struct hit){.certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING, .u = u, .v = v};
