@@ -90,12 +90,6 @@ static bool roots_tie(const struct exact_root *a, const struct exact_root *b)
   return apart <= a->t_error + b->t_error;
 }
 
-static bool same_root(const struct exact_root *a, const struct exact_root *b)
-{
-  return a->patch == b->patch && fabs((double)(a->u - b->u)) <= a->radius_u + b->radius_u &&
-         fabs((double)(a->v - b->v)) <= a->radius_v + b->radius_v;
-}
-
 /* ---- what is found ---- */
 
 /* Nothing beyond the nearest hit matters, nor where a nearer one would be as doubtful as what is there. */
@@ -110,11 +104,11 @@ static void set_limit(struct judge *j)
 /* A root inside: the nearest, or of those that cannot be told apart that of the first patch. */
 static void keep_nearest(struct judge *j, struct exact_root *root)
 {
-  if (j->found && roots_tie(root, &j->nearest) && !same_root(root, &j->nearest)) {
+  if (j->found && roots_tie(root, &j->nearest) && root->patch != j->nearest.patch) {
     struct exact_root other = j->nearest;
     const bool sharp = root_sharpen(j, root) && root_sharpen(j, &other);
     if (sharp) j->nearest = other;
-    if (roots_tie(root, &other) && root->patch != other.patch ? root->patch > other.patch : root->t > other.t) return;
+    if (roots_tie(root, &other) ? root->patch > other.patch : root->t > other.t) return;
   } else if (j->found && !(root->t < j->nearest.t)) {
     return;
   }

@@ -69,7 +69,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
     exact_root_hit(p->model, &p->rays[lane], root, !p->model->unproven && !best->doubt[lane], out);
     return true;
   }
-  if (asked.known && root->patch == known.patch && root->t == known.t) return false;
+  if (asked.known && root->patch == known.patch && root->u == known.u && root->v == known.v) return false;
   best->patch[lane] = root->patch, best->certain[lane] = -1, best->final[lane] = 0;
   best->u[lane] = (double)root->u, best->v[lane] = (double)root->v, best->t[lane] = (double)root->t;
   best->radius_u[lane] = root->radius_u + UNIT_ROUNDOFF, best->radius_v[lane] = root->radius_v + UNIT_ROUNDOFF;

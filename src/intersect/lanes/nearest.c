@@ -60,18 +60,8 @@ LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, cons
   p->tracer->counts.roots_accepted += lanes_count(taken);
 }
 
-/* Lanes where the root is the best one again, as another leaf has found it. */
-static lane_mask same_root(const struct packet *p, const struct candidate *it, const struct newton_root *r, int64_t patch)
-{
-  const struct best *best = &p->best;
-  const double part = 1.0 / it->patch->split;
-  const lanes u = (it->leaf->column_u + r->u) * part, v = (it->leaf->column_v + r->v) * part;
-  return (best->patch == patch) & (lanes_abs(u - best->u) <= r->radius_u * part + best->radius_u + UNIT_ROUNDOFF) &
-         (lanes_abs(v - best->v) <= r->radius_v * part + best->radius_v + UNIT_ROUNDOFF);
-}
-
 /* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it. One
- * that may lie on a border of the patch, at an end of the ray or where another root is, is left to the last resort.
+ * that may lie on a border of the patch, at an end of the ray or where another patch's is, is left to the last resort.
  * Returns the lanes that took theirs. */
 static lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w, lanes at,
                               lane_mask hits)
@@ -80,8 +70,7 @@ static lane_mask offer(struct packet *p, const struct candidate *it, const struc
   const lanes error = place_error(p, it, r, w, at);
   hits &= ~((at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far)));
   if (!lanes_any(hits)) return hits;
-  lane_mask rival = lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t);
-  if (lanes_any(hits & rival)) rival &= ~same_root(p, it, r, patch);
+  const lane_mask rival = (p->best.patch != patch) & (lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t));
   const lane_mask sure = ~on_border(it, r) & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
   if (lanes_any(hits & ~sure)) packet_postpone(p, it->leaf, hits & ~sure);
   const lane_mask none = {0};
