@@ -335,16 +335,6 @@ static int by_place(const void *a, const void *b)
   return a_column[1] < b_column[1] ? -1 : a_column[1] > b_column[1];
 }
 
-/* Whether the border of the net is one point. */
-static bool border_is_point(double x[3][4][4], int border)
-{
-  const int first = border == 1 ? 12 : border == 3 ? 3 : 0, stride = border < 2 ? 1 : 4;
-  for (int c = 0; c < 3; c++)
-    for (int n = 1; n < 4; n++)
-      if ((&x[c][0][0])[first + n * stride] != (&x[c][0][0])[first]) return false;
-  return true;
-}
-
 /* A ray this near to a pole, in the patch's frame, may meet the strip of leaves along it anywhere; one farther away meets
  * them as it meets others. A choice of speed. */
 #define POLE_NEAR 0x1p-8
@@ -370,7 +360,7 @@ static size_t region_add(struct judge *j, const struct exact_region *region, str
   struct exact_region r = *region;
   for (int border = 0; border < 4; border++) {
     const int side = border / 2, across = 1 - side, at = border & 1 ? patch->split - 1 : 0;
-    if (patch->split == 1 || region->column[side] != at || !border_is_point(patch->x, border)) continue;
+    if (patch->split == 1 || region->column[side] != at || !patch_border_is_point(patch->x, border)) continue;
     if (!passes_near(j, region->patch, border)) continue;
     r.column[across] = 0, r.span[across] = (uint16_t)patch->split, r.leaf = NULL;
   }

@@ -320,16 +320,10 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
                        .to_t = ray->to_t,
                        .error = {ray->error, ray->error},
                        .place_error = ray->error,
-                       .divided = NO_BORDER,
-                       .pole = {true, true, true, true}};
+                       .divided = NO_BORDER};
   for (int k = 0; k < 2; k++)
     s->low[k] = part_of(region->column[k], patch->split), s->size[k] = part_of(region->span[k], patch->split);
-  for (int c = 0; c < 3; c++) {
-    for (int n = 0; n < 4; n++) {
-      s->pole[0] &= x[c][n] == x[c][0], s->pole[1] &= x[c][12 + n] == x[c][12];
-      s->pole[2] &= x[c][4 * n] == x[c][0], s->pole[3] &= x[c][4 * n + 3] == x[c][3];
-    }
-  }
+  for (int k = 0; k < 4; k++) s->pole[k] = patch_border_is_point((double(*)[4][4])x, k);
   if (region->leaf) memcpy(s->extent, region->leaf->first, sizeof s->extent);
   else leaf_first_bounds(x, s->extent);
   double nets[3][16];

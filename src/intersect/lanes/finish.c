@@ -1,6 +1,4 @@
 /* From the winning roots to the answers: the last Newton step, the point, the normal; and what goes to the last resort. */
-#include <math.h>
-
 #include "intersect/exact/exact.h"
 #include "intersect/lanes/last_step.h"
 #include "intersect/lanes/packet.h"

@@ -25,29 +25,13 @@ void leaf_first_bounds(double x[3][16], double out[2])
   }
 }
 
-/* Whether row i (or column i) of the net is one point to the last bit. */
-static bool row_collapsed(double x[3][4][4], int i)
-{
-  for (int k = 0; k < 3; k++)
-    for (int j = 1; j < 4; j++)
-      if (x[k][i][j] != x[k][i][0]) return false;
-  return true;
-}
-
-static bool column_collapsed(double x[3][4][4], int j)
-{
-  for (int k = 0; k < 3; k++)
-    for (int i = 1; i < 4; i++)
-      if (x[k][i][j] != x[k][0][j]) return false;
-  return true;
-}
-
 /* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other
  * would leave r identically zero at the apex; otherwise the one of higher degree, for the determinant is the smaller
  * then. */
 static bool keep_v(const struct model_patch *patch, double x[3][4][4])
 {
-  const int rows = row_collapsed(x, 0) + row_collapsed(x, 3), columns = column_collapsed(x, 0) + column_collapsed(x, 3);
+  const int rows = patch_border_is_point(x, 0) + patch_border_is_point(x, 1);
+  const int columns = patch_border_is_point(x, 2) + patch_border_is_point(x, 3);
   if (rows != columns) return columns > rows;
   return patch->n > patch->m;
 }
@@ -80,8 +64,8 @@ enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, 
   leaf->v_kept = keep_v(patch, x);
   const int kept = leaf->v_kept ? patch->n : patch->m, eliminated = leaf->v_kept ? patch->m : patch->n;
   leaf->kept_degree = (uint8_t)kept, leaf->eliminated_degree = (uint8_t)eliminated;
-  const bool low = leaf->v_kept ? column_collapsed(x, 0) : row_collapsed(x, 0);
-  const bool high = leaf->v_kept ? column_collapsed(x, 3) : row_collapsed(x, 3);
+  const bool low = leaf->v_kept ? patch_border_is_point(x, 2) : patch_border_is_point(x, 0);
+  const bool high = leaf->v_kept ? patch_border_is_point(x, 3) : patch_border_is_point(x, 1);
   leaf->zeros[0] = (uint8_t)(low ? eliminated : 0), leaf->zeros[1] = (uint8_t)(high ? eliminated : 0);
   leaf->form = NULL;
   if (patch->m == 3 && patch->n == 3 && !leaf->v_kept) return STATUS_OK;
