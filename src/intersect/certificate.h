@@ -14,19 +14,21 @@
  * of where the step went, bend_k and size_k being those of the parameter's row of M alone.
  *
  * Proof. The map w -> w - M f(w) moves z by at most beta = step + size and has a derivative of at most
- * kappa + bend |w - z|, where kappa is what rounding leaves of M J(z) - 1: derivatives of Bernstein forms are differences
- * of coefficients times 3, so they and their sums are off by no more than 16 times the error of a value, and kappa <= 16
- * size <= 1/64. So it maps the ball of radius 2 beta into itself (beta (1 + 1/32 + 1/4) < 2 beta) and contracts there (1/64
- * + 1/4 < 1): one root, by Banach. That one, at distance r <= beta (1 + kappa r/beta + bend r^2/(2 beta)), is within 1.2
- * beta of z; and where the step went it is, in row k, off by size_k for the values, kappa_k r and bend_k r^2/2, that is
- * by less than the bound, with room for errors of the two values that add up as a square root of 2 where a row is measured
- * as a covector of space. Compare Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations, 12.6.
+ * kappa + bend |w - z|, where kappa is what rounding leaves of M J(z) - 1: derivatives of Bernstein forms are
+ * differences of coefficients times 3, so they and their sums are off by no more than 16 times the error of a value,
+ * and kappa <= 16 size <= 1/64. So it maps the ball of radius 2 beta into itself (beta (1 + 1/32 + 1/4) < 2 beta) and
+ * contracts there (1/64 + 1/4 < 1): one root, by Banach. That one, at distance r <= beta (1 + kappa r/beta + bend
+ * r^2/(2 beta)), is within 1.2 beta of z; and where the step went it is, in row k, off by size_k for the values,
+ * kappa_k r and bend_k r^2/2, that is by less than the bound, with room for errors of the two values that add up as a
+ * square root of 2 where a row is measured as a covector of space. Compare Ortega and Rheinboldt, Iterative Solution
+ * of Nonlinear Equations, 12.6.
  *
  * That no second root exists in a region is a matter of its own: M J, averaged on the way from the root to any point
  * of it, differs from 1 by less than 1. Where q bounds twice what second derivatives make of that difference, and is no
  * more than CERTIFICATE_ALONE with what rounding makes of it (second derivatives are differences of coefficients times
- * 24, 36 and 24, each off by the error of a value, twice over for the mixed one), half of that is 0.95, kappa is 1/64, and
- * M J is within 2^-14 of what it is at the root where the last step was no longer than NEWTON_LAST_STEP: less than 1.
+ * 24, 36 and 24, each off by the error of a value, twice over for the mixed one), half of that is 0.95, kappa is 1/64,
+ * and M J is within 2^-14 of what it is at the root where the last step was no longer than NEWTON_LAST_STEP: less than
+ * 1.
  *
  * Works on doubles and on lanes alike.
  */

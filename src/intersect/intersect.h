@@ -64,8 +64,8 @@ struct intersect_counts {
 struct intersector;
 struct tracer;
 
-/* Whether the instruction set that the environment variable PSCN_KERNEL asks for (baseline, avx2 or avx512; none: the best
- * there is) is one that this processor has and the program was built with. */
+/* Whether the instruction set that the environment variable PSCN_KERNEL asks for (baseline, avx2 or avx512; none: the
+ * best there is) is one that this processor has and the program was built with. */
 bool intersector_kernel_here(void);
 
 /* Prepares the scene: degrees, leaves, bounding hierarchy. Borrows the scene, which must outlive it.

@@ -101,9 +101,9 @@ struct model_copy {
   double W[3][3], b[3];
 };
 
-/* A hierarchy in a frame of its own: (world - origin)/frame, all within about [-1,1], frame a power of two. Its boxes are
- * floats, which tell little of what is far smaller than the frame: small boxes that lie together among large ones have a
- * tree of theirs, which is box MODEL_INNER of this one. */
+/* A hierarchy in a frame of its own: (world - origin)/frame, all within about [-1,1], frame a power of two. Its boxes
+ * are floats, which tell little of what is far smaller than the frame: small boxes that lie together among large ones
+ * have a tree of theirs, which is box MODEL_INNER of this one. */
 struct model_tree {
   double origin[3], frame;
   struct bvh bvh;

@@ -10,8 +10,8 @@
 /* The parameters of a certain hit are right to this. */
 #define LARGEST_RADIUS 0x1p-20
 
-/* A certain hit of a patch that is nearly a curve has a normal in wide arithmetic; where there is none at all the surface
- * is seen from the front. */
+/* A certain hit of a patch that is nearly a curve has a normal in wide arithmetic; where there is none at all the
+ * surface is seen from the front. */
 static void set_surface(const struct model *model, const struct ray *ray, struct hit *out)
 {
   struct model_patch *patch = &model->patches[out->patch];

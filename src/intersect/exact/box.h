@@ -37,8 +37,8 @@ struct box {
  * `error` bounds the errors of the coefficients of a and of b. */
 enum verdict box_test(struct box *box, const double error[2]);
 
-/* The root that Newton's process finds from the middle, in box parameters with its radii; returns whether it is proven and
- * alone. */
+/* The root that Newton's process finds from the middle, in box parameters with its radii; returns whether it is proven
+ * and alone. */
 bool box_solve(struct box *box, const double error[2], double root[2], double radius[2]);
 
 /* The largest second derivatives of each kind, of a net on its box. */

@@ -4,10 +4,10 @@
  * processor. Pure; safe on any thread; uses some hundred KB of stack.
  *
  * The lanes take a root only where double precision leaves no question: it is proven, strictly inside its patch,
- * strictly within the ray's range, not next to another patch's. Whatever they leave open comes here as a list of regions
- * (leaves, or parts of a patch cut for a copy), which are searched in the order in which the ray meets them, so that
- * the answer depends neither on neighbours nor on the order in which the lanes came by. Roots are looked at in wide
- * arithmetic wherever double cannot tell on which side of something they lie.
+ * strictly within the ray's range, not next to another patch's. Whatever they leave open comes here as a list of
+ * regions (leaves, or parts of a patch cut for a copy), which are searched in the order in which the ray meets them,
+ * so that the answer depends neither on neighbours nor on the order in which the lanes came by. Roots are looked at in
+ * wide arithmetic wherever double cannot tell on which side of something they lie.
  */
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H
 #define PSCN_INTERSECT_EXACT_EXACT_H
@@ -81,8 +81,8 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out);
 /* Whether anything is hit, or may be. */
 bool exact_occluded(const struct exact_case *asked);
 
-/* answer.c: the hit at a proven root, as good as wide arithmetic makes it, or at a point that may be one. t is in units of
- * the scaled direction. */
+/* answer.c: the hit at a proven root, as good as wide arithmetic makes it, or at a point that may be one. t is in
+ * units of the scaled direction. */
 void exact_root_hit(const struct model *model, const struct ray *ray, struct exact_root *root, bool sure,
                     struct hit *out);
 void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe, struct hit *out);

@@ -1,7 +1,7 @@
 /* What is found on one ray becomes its answer: the order of roots, the ray's start and end, borders of patches.
  *
- * A root counts where it lies in its patch and within the ray's range. Where double precision cannot tell, it is made as
- * good as wide arithmetic can. A root that even then lies on a border is a hit where the border is shared, the
+ * A root counts where it lies in its patch and within the ray's range. Where double precision cannot tell, it is made
+ * as good as wide arithmetic can. A root that even then lies on a border is a hit where the border is shared, the
  * neighbour's polynomials have a root there too, and the two patches lie on either side of the border as the ray sees
  * it: then the ray, wherever it passes, meets one of them.
  */
@@ -335,8 +335,8 @@ static int by_place(const void *a, const void *b)
   return a_column[1] < b_column[1] ? -1 : a_column[1] > b_column[1];
 }
 
-/* A ray this near to a pole, in the patch's frame, may meet the strip of leaves along it anywhere; one farther away meets
- * them as it meets others. A choice of speed. */
+/* A ray this near to a pole, in the patch's frame, may meet the strip of leaves along it anywhere; one farther away
+ * meets them as it meets others. A choice of speed. */
 #define POLE_NEAR 0x1p-8
 
 static bool passes_near(struct judge *j, uint32_t patch, int border)

@@ -33,12 +33,12 @@ enum { ZOOM_WORK = 40, ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
 /* A box is put under the glass again where it is so small a part of what was. */
 #define ZOOM_AGAIN 0x1p-16
 
-/* A box at a border that is one point is put under the glass where it reaches no farther from it, of the patch. A choice
- * of speed. */
+/* A box at a border that is one point is put under the glass where it reaches no farther from it, of the patch. A
+ * choice of speed. */
 #define ZOOM_POLE 0x1p-10
 
-/* A box at a border that is one point is put under the glass again where it is so small a part, away from the border, of
- * what was: see ZOOM_POLE_NEAREST. */
+/* A box at a border that is one point is put under the glass again where it is so small a part, away from the border,
+ * of what was: see ZOOM_POLE_NEAREST. */
 #define ZOOM_AGAIN_POLE 0x1p-10
 
 enum { NO_BORDER = -1, TWO_BORDERS = -2 };
@@ -106,8 +106,8 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
   judge_root(s->judge, &root);
 }
 
-/* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray. Where a box that is not
- * small has none all that is known is a doubt. */
+/* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray. Where a box that is
+ * not small has none all that is known is a doubt. */
 static void box_tell_maybe(struct search *s, struct box *box, bool small)
 {
   double u = 0.5, v = 0.5, error[2];
@@ -218,7 +218,8 @@ static bool box_zoom_pole(struct search *s, const struct box *box, int border)
 }
 
 /* Whether a box that double precision cannot decide is to be put under the glass: once, and again where it is a small
- * part of what was, for the roots next to a tangency are as far apart as the square root of what separates it from one. */
+ * part of what was, for the roots next to a tangency are as far apart as the square root of what separates it from
+ * one. */
 static bool box_asks_zoom(const struct search *s, const struct box *box)
 {
   if (s->dependent) return false;

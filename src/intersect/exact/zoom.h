@@ -60,7 +60,8 @@ bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3]);
 wide zoom_place(struct zoom *zoom, wide u, wide v);
 
 /* Makes a proven root of this ray and patch as good as wide arithmetic can. False where the certificate does not hold
- * there or what is found is not the same root: then its place may be better for it, and its bounds are what they were. */
+ * there or what is found is not the same root: then its place may be better for it, and its bounds are what they were.
+ * */
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root);
 
 #endif

@@ -1,7 +1,7 @@
 /* All roots of r by Aberth's method on all lanes of a packet at once, and what can be proven of them.
  *
- * Compiled once per instruction set. This is method.c's task for the method that `solver aberth` means where its roots are
- * only to start from (prepare/model.c).
+ * Compiled once per instruction set. This is method.c's task for the method that `solver aberth` means where its roots
+ * are only to start from (prepare/model.c).
  */
 #include <math.h>
 

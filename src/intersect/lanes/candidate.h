@@ -1,9 +1,9 @@
 /* One candidate: a leaf and the rays of a packet whose boxes it passes, on the lanes that share a dominant axis.
  *
- * Internal to src/intersect/lanes. A candidate passes a line of stages, which candidate.c shows. All stages have one shape:
- * they take the lanes that are still open, may offer roots (nearest.h), and return the lanes that are open after them.
- * A lane is closed where the leaf is proven to be missed, or all of its roots have been offered. What is open in the end
- * goes to the last resort (exact.h).
+ * Internal to src/intersect/lanes. A candidate passes a line of stages, which candidate.c shows. All stages have one
+ * shape: they take the lanes that are still open, may offer roots (nearest.h), and return the lanes that are open
+ * after them. A lane is closed where the leaf is proven to be missed, or all of its roots have been offered. What is
+ * open in the end goes to the last resort (exact.h).
  */
 #ifndef PSCN_INTERSECT_LANES_CANDIDATE_H
 #define PSCN_INTERSECT_LANES_CANDIDATE_H
@@ -33,8 +33,8 @@ struct candidate {
 /* planes.c: the box along the leaf. */
 lane_mask stage_box(struct packet *p, struct candidate *it, lane_mask open);
 
-/* bilinear.c: of a nearly bilinear leaf the root of its bilinear part, of degree 2, made good by Newton's process on the
- * leaf. Open stays where the ray is so slanted that the leaf's bend matters. */
+/* bilinear.c: of a nearly bilinear leaf the root of its bilinear part, of degree 2, made good by Newton's process on
+ * the leaf. Open stays where the ray is so slanted that the leaf's bend matters. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
 /* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net. */

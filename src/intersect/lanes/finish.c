@@ -1,10 +1,11 @@
-/* From the winning roots to the answers: the last Newton step, the point, the normal; and what goes to the last resort. */
+/* From the winning roots to the answers: the last Newton step, the point, the normal; and what goes to the last
+ * resort. */
 #include "intersect/exact/exact.h"
 #include "intersect/lanes/last_step.h"
 #include "intersect/lanes/packet.h"
 
-/* A root as far from where it is as this, in patch parameters, is seen so nearly edge-on that what the last step leaves,
- * 2^-27 of it, shows in the last places of t. */
+/* A root as far from where it is as this, in patch parameters, is seen so nearly edge-on that what the last step
+ * leaves, 2^-27 of it, shows in the last places of t. */
 #define BLURRED_RADIUS 0x1p-28
 
 /* The answers of a packet's lanes. */

@@ -1,8 +1,8 @@
 /* Names of one compilation.
  *
- * What runs for every ray is compiled once per instruction set, all of src/intersect/lanes, and linked into one program:
- * PSCN_KERNEL, which the build sets, is the name of the set, and what one file of the room calls in another is called
- * by that name too.
+ * What runs for every ray is compiled once per instruction set, all of src/intersect/lanes, and linked into one
+ * program: PSCN_KERNEL, which the build sets, is the name of the set, and what one file of the room calls in another
+ * is called by that name too.
  */
 #ifndef PSCN_INTERSECT_LANES_NAMES_H
 #define PSCN_INTERSECT_LANES_NAMES_H

@@ -97,9 +97,9 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
 /* copy.c: what was found there becomes the outer packet's best where it is nearer. */
 void packet_leave(struct packet *inner);
 
-/* finish.c: the answers of the packet's rays: from their best roots, improved by a Newton step on the patch itself where
- * they are not right to the last places yet; or by the last resort. t is in units of the scaled direction. Returns how
- * many are not certain. */
+/* finish.c: the answers of the packet's rays: from their best roots, improved by a Newton step on the patch itself
+ * where they are not right to the last places yet; or by the last resort. t is in units of the scaled direction.
+ * Returns how many are not certain. */
 unsigned finish_hits(struct packet *p, struct hit out[]);
 
 /* finish.c: whether the lane's ray, on which the lanes have found nothing, hits what they have left open. */

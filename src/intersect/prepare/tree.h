@@ -8,7 +8,8 @@
 #include "base/arena.h"
 #include "intersect/model.h"
 
-/* Builds over boxes[0..count), which are given in the frame (world - origin)/frame. STATUS_LIMIT where memory is short. */
+/* Builds over boxes[0..count), which are given in the frame (world - origin)/frame. STATUS_LIMIT where memory is
+ * short. */
 enum status tree_build(struct arena *arena, const struct bvh_box boxes[], size_t count, const double origin[3],
                        double frame, struct model_tree *out) STATUS_MUST_CHECK;
 
