@@ -42,9 +42,9 @@ static void fail(const char *what)
 
 static void contestant_load(struct contestant *c, const char *path, const char *solver)
 {
-  struct diagnostics diagnostics = { .tell = tell };
-  const struct language_settings settings = { .image_width = WIDTH, .image_height = HEIGHT, .solver_text = solver,
-                                              .tolerance = NAN };
+  struct diagnostics diagnostics = {.tell = tell};
+  const struct language_settings settings = {
+    .image_width = WIDTH, .image_height = HEIGHT, .solver_text = solver, .tolerance = NAN};
   c->name = solver == NULL ? "pscn" : solver;
   if (language_load(path, &settings, &diagnostics, &c->scene) != STATUS_OK) exit(EXIT_FAILURE);
   if (intersector_create(c->scene, &c->intersector) != STATUS_OK) fail("out of memory");
@@ -96,8 +96,8 @@ int main(int argc, char **argv)
   const size_t runs = argc > 2 ? strtoul(argv[2], NULL, 10) : 9;
   const unsigned side = argc > 3 ? (unsigned)strtoul(argv[3], NULL, 10) : 128;
   if (runs == 0 || runs > MAX_RUNS || side == 0) fail("bad numbers");
-  list[0] = (struct contestant){ .name = "Embree rtcIntersect1", .embree_width = 1 };
-  list[1] = (struct contestant){ .name = "Embree rtcIntersect8, coherent", .embree_width = 8 };
+  list[0] = (struct contestant){.name = "Embree rtcIntersect1", .embree_width = 1};
+  list[1] = (struct contestant){.name = "Embree rtcIntersect8, coherent", .embree_width = 8};
   contestant_load(&list[FIRST_PSCN], argv[1], NULL);
   for (int k = 4; k < argc && count < MAX_CONTESTANTS; k++) contestant_load(&list[count++], argv[1], argv[k]);
 

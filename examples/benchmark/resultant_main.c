@@ -18,10 +18,10 @@ struct contestant {
 int main(int argc, char **argv)
 {
   static struct contestant list[] = {
-    { .name = "baseline", .time = resultant_time_baseline, .present = 1 },
+    {.name = "baseline", .time = resultant_time_baseline, .present = 1},
 #ifdef RESULTANT_X86
-    { .name = "avx2", .time = resultant_time_avx2 },
-    { .name = "avx512", .time = resultant_time_avx512 },
+    {.name = "avx2", .time = resultant_time_avx2},
+    {.name = "avx512", .time = resultant_time_avx512},
 #endif
   };
   const size_t count = sizeof list / sizeof list[0], runs = argc > 1 ? strtoul(argv[1], NULL, 10) : 9;

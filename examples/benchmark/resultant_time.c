@@ -29,7 +29,7 @@ double RESULTANT_TIME(int repeats, int *out_lanes, double *out_sum)
       net[n][k / LANES][k % LANES] = (double)(state >> 11) * 0x1p-52 - 1;
     }
   }
-  lanes c[DEGREE + 1], sum = { 0 };
+  lanes c[DEGREE + 1], sum = {0};
   const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   for (int r = 0; r < repeats; r++) {
     for (int n = 0; n < NETS; n++) {

@@ -124,9 +124,9 @@ static void experiment(enum basis basis, const double *c, size_t pixels)
           solve_pixel(basis, c + p * (DEGREE + 1), &options, &warm, &totals);
         }
         printf("1e-%d,%s,%s,%s,%.3f,%.3f,%.4f,%.4f\n", digits, methods[m], previous != 0 ? "previous" : "cold",
-               basis == BASIS_POWER ? "power" : "bernstein",
-               totals.iterations / totals.roots, totals.seconds / totals.pixels * 1e6,
-               totals.accurate_pixels / totals.pixels, totals.accurate_roots / totals.pixels / DEGREE);
+               basis == BASIS_POWER ? "power" : "bernstein", totals.iterations / totals.roots,
+               totals.seconds / totals.pixels * 1e6, totals.accurate_pixels / totals.pixels,
+               totals.accurate_roots / totals.pixels / DEGREE);
       }
     }
   }

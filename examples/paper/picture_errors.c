@@ -18,7 +18,7 @@
 
 enum error { RIGHT, BACKGROUND, HOLE_BACKGROUND, HOLE_FARTHER, PHANTOM_BEFORE, PHANTOM_BACKGROUND, ERRORS };
 
-static const float colours[ERRORS][3] = {{0.8F, 0.8F, 0.8F}, {1, 1, 1},          {0, 0, 0.5F},
+static const float colours[ERRORS][3] = {{0.8F, 0.8F, 0.8F}, {1, 1, 1},       {0, 0, 0.5F},
                                          {0.3F, 0.5F, 1},    {1, 0.4F, 0.3F}, {0.6F, 0, 0}};
 
 static void tell(void *context, const char *text, size_t length)

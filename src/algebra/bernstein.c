@@ -29,7 +29,7 @@ struct search {
   struct evaluation p;
   int degree;
   struct root_estimates *out;
-  double joint;        /* where the interval to the left ended in a root not told from its end; -1 where it did not */
+  double joint; /* where the interval to the left ended in a root not told from its end; -1 where it did not */
   double cluster_low, cluster_high; /* pending undecided intervals, joined; none while low > high */
 };
 
@@ -69,8 +69,8 @@ static struct probe probe_at(const struct search *search, double u)
     out.newton = q.value / q.slope;
   } else { /* p = w^n q, p' = w^(n-2) (q' - n w q) with w = 1 - u, or w^(n-2) (n w q - q') with w = u */
     const double w = chart.reversed ? u : 1.0 - u;
-    const double slope =
-      chart.reversed ? search->degree * w * q.value - q.slope : q.slope - search->degree * w * q.value;
+    const double slope = chart.reversed ? search->degree * w * q.value - q.slope
+                                        : q.slope - search->degree * w * q.value;
     out.newton = w * w * q.value / slope;
   }
   out.sign = fabs(q.value) <= q.error ? 0 : q.value > 0.0 ? 1 : -1;
@@ -216,8 +216,7 @@ static bool examine(struct search *search, const struct interval *part)
   if (last <= first && n > 1) {
     return true;
   }
-  const struct sign_variations inner =
-    polynomial_sign_variations(last - first, part->b + first, part->error + first);
+  const struct sign_variations inner = polynomial_sign_variations(last - first, part->b + first, part->error + first);
   if (inner.most != 0 || fabs(part->b[first]) <= part->error[first] || fabs(part->b[last]) <= part->error[last]) {
     return true;
   }

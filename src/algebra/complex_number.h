@@ -38,15 +38,9 @@ static inline struct complex_number complex_divide(struct complex_number a, stru
   return (struct complex_number){(a.re * re + a.im * im) * inverse, (a.im * re - a.re * im) * inverse};
 }
 
-static inline double complex_norm(struct complex_number a) /* |a|^2 */
-{
-  return a.re * a.re + a.im * a.im;
-}
+static inline double complex_norm(struct complex_number a) /* |a|^2 */ { return a.re * a.re + a.im * a.im; }
 
-static inline double complex_modulus(struct complex_number a)
-{
-  return sqrt(complex_norm(a));
-}
+static inline double complex_modulus(struct complex_number a) { return sqrt(complex_norm(a)); }
 
 /* The root with real part >= 0. */
 static inline struct complex_number complex_sqrt(struct complex_number a)

@@ -87,8 +87,9 @@ enum look_for { LOOK_VALUE = 0, LOOK_SLOPE = 1, LOOK_CURVATURE = 2, LOOK_ERROR =
 
 /* Chart as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g) and
  * (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
-static inline __attribute__((always_inline)) struct local_values
-look_inlined(int n, const double c[], struct complex_number x, double reversed_above, int wanted)
+static inline __attribute__((always_inline)) struct local_values look_inlined(int n, const double c[],
+                                                                              struct complex_number x,
+                                                                              double reversed_above, int wanted)
 {
   const bool reversed = complex_norm(x) > reversed_above;
   const struct complex_number one = {1.0, 0.0};
@@ -135,8 +136,8 @@ static struct local_values look_with_error(const struct deflation_method *method
 }
 
 /* What a method's step needs. */
-static struct local_values look(const struct deflation_method *method, int n, const double c[],
-                                struct complex_number x, double reversed_above)
+static struct local_values look(const struct deflation_method *method, int n, const double c[], struct complex_number x,
+                                double reversed_above)
 {
   return method->curved ? look_inlined(n, c, x, reversed_above, LOOK_SLOPE | LOOK_CURVATURE)
                         : look_inlined(n, c, x, reversed_above, LOOK_SLOPE);
@@ -183,8 +184,8 @@ static struct sought seek(const struct root_problem *problem, const struct solve
   double last = INFINITY, checked = INFINITY, longest = LONGEST_STEP;
   while (!out.converged && out.iterations < options->max_iterations) {
     out.iterations++;
-    const struct local_values here =
-      options->stop == STOP_ROUNDING ? look_with_error(method, n, c, out.x, above) : look(method, n, c, out.x, above);
+    const struct local_values here = options->stop == STOP_ROUNDING ? look_with_error(method, n, c, out.x, above)
+                                                                    : look(method, n, c, out.x, above);
     if (here.size == 0.0) {
       out.converged = true;
       break;

@@ -39,8 +39,8 @@ void polynomial_to_bernstein(const struct polynomial *p, double out_c[], double 
     /* One rounding in the binomial, one in the product, k in the sum, and room for the bound's own. A single exact term
      * has none. */
     out_c[k] = sum;
-    out_error[k] =
-      (k == 0 ? 0.0 : size * (k + 3) * UNIT_ROUNDOFF) + given * (1.0 + 4 * POLYNOMIAL_MAX_DEGREE * UNIT_ROUNDOFF);
+    out_error[k] = (k == 0 ? 0.0 : size * (k + 3) * UNIT_ROUNDOFF) +
+                   given * (1.0 + 4 * POLYNOMIAL_MAX_DEGREE * UNIT_ROUNDOFF);
   }
 }
 

@@ -196,8 +196,8 @@ static void aberth_sweep(struct aberth *a, const struct solver_options *options,
     for (int l = 0; l < used; l++) {
       const int i = active[first + l];
       const double limit = relative && step.square[l] < 1.0 ? tolerance * step.square[l] : tolerance;
-      const bool done =
-        take_step(a, options, turning, i, step.re[l], step.im[l], step.step_square[l], limit, step.resting[l] != 0);
+      const bool done = take_step(a, options, turning, i, step.re[l], step.im[l], step.step_square[l], limit,
+                                  step.resting[l] != 0);
       out->iterations[i]++;
       out->converged[i] = done;
       moving += !done;

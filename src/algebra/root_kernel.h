@@ -35,7 +35,7 @@ struct inclusion {
   double bound;               /* of the distance from z to the nearest root; may be infinite or NaN */
   double width, width_square; /* |w| and |w|^2 of the chart at u; width is 0 where z = u */
   bool reversed;
-  bool doubtful;              /* the slope is hardly told from zero: higher orders may bound better */
+  bool doubtful; /* the slope is hardly told from zero: higher orders may bound better */
 };
 
 struct root_kernel {

@@ -77,8 +77,8 @@ static inline void root_problem_x_from_u(enum basis basis, double *re, double *i
   ROW(aberth, "all roots at once by Aberth's method (eq 9 of the paper)", false, ABERTH, 100)                          \
   ROW(durand_kerner, "all roots at once by Weierstrass's method: Aberth's without a derivative", false, NONE, 200)
 
-#define SOLVER_FIND(name, summary, real_only, lanes, steps)                                              \
-  void name##_find(const struct root_problem *problem, const struct solver_options *options,             \
+#define SOLVER_FIND(name, summary, real_only, lanes, steps)                                  \
+  void name##_find(const struct root_problem *problem, const struct solver_options *options, \
                    const struct solver_warm *warm, struct root_estimates *out);
 SOLVERS(SOLVER_FIND)
 #undef SOLVER_FIND

@@ -17,15 +17,9 @@
 static const struct solver solvers[] = {SOLVERS(SOLVER_ROW)};
 #undef SOLVER_ROW
 
-size_t solver_count(void)
-{
-  return sizeof solvers / sizeof solvers[0];
-}
+size_t solver_count(void) { return sizeof solvers / sizeof solvers[0]; }
 
-const struct solver *solver_at(size_t index)
-{
-  return index < solver_count() ? &solvers[index] : NULL;
-}
+const struct solver *solver_at(size_t index) { return index < solver_count() ? &solvers[index] : NULL; }
 
 const struct solver *solver_find(const char *name, size_t length)
 {

@@ -39,10 +39,10 @@ struct root_set {
 enum start { START_COLD, START_PREVIOUS };
 
 /* Ways of the complex solvers that go beyond the paper. Each can be had alone; solver_options_form sets them all. */
-enum radii { RADII_CIRCLE, RADII_POLYGON }; /* start values on Aberth's circle, or by Newton's polygon (Bini) */
-enum stop { STOP_STEP, STOP_ROUNDING };     /* eq 10 alone, or also where |p| is below its own rounding bound */
-enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL };  /* aberth: the values of the last sweep, or the newest there are */
-enum horner { HORNER_PLAIN, HORNER_CHARTS }; /* values in powers of z, or of 1/z where |z| > 1 */
+enum radii { RADII_CIRCLE, RADII_POLYGON };         /* start values on Aberth's circle, or by Newton's polygon (Bini) */
+enum stop { STOP_STEP, STOP_ROUNDING };             /* eq 10 alone, or also where |p| is below its own rounding bound */
+enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL }; /* aberth: the values of the last sweep, or the newest there are */
+enum horner { HORNER_PLAIN, HORNER_CHARTS };        /* values in powers of z, or of 1/z where |z| > 1 */
 enum deflation { DEFLATION_FORWARD, DEFLATION_COMPOSITE };
 
 struct solver;
@@ -59,9 +59,9 @@ struct solver_options {
   enum stop stop;
   enum horner horner;
   enum update update;
-  bool rest;     /* aberth: a root that has converged is left alone while others still move */
+  bool rest; /* aberth: a root that has converged is left alone while others still move */
   enum deflation deflation;
-  bool refine;   /* newton, laguerre: last steps on the polynomial before deflation */
+  bool refine; /* newton, laguerre: last steps on the polynomial before deflation */
 };
 
 /* Roots of the previous polynomial of a family, kept for `start previous`. Zero-initialised means "none yet". */
@@ -79,7 +79,7 @@ struct solver {
   const char *summary; /* one line for `pscn help` */
   bool real_only;      /* finds only real roots in [0,1] */
   enum solver_lanes lanes;
-  double tolerance;    /* what a bare `solver NAME` means */
+  double tolerance; /* what a bare `solver NAME` means */
   int max_iterations;
   /* The method itself; solver_solve calls it. Contract in root_problem.h. */
   void (*find)(const struct root_problem *problem, const struct solver_options *options, const struct solver_warm *warm,

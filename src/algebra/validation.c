@@ -63,8 +63,8 @@ static double radius_in_u(double bound, double width, double width_square)
 struct judged {
   struct complex_number x; /* the value, or where two are equal a point beside it */
   double shift;            /* how far beside */
-  double own;    /* some root is within it */
-  double shared; /* Smith's disc; INFINITY where there is none */
+  double own;              /* some root is within it */
+  double shared;           /* Smith's disc; INFINITY where there is none */
   double own_in_u;
   double width, width_square; /* |w| and |w|^2 of x as a chart of u; 0 and 1 where x is u */
   int group;                  /* the least index of its group */

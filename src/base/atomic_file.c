@@ -23,7 +23,7 @@ enum {
 
 /* What the final name is before we write. */
 struct target {
-  char *path;     /* with symbolic links resolved; owned */
+  char *path; /* with symbolic links resolved; owned */
   bool exists;
   bool replaceable; /* absent, or a regular file */
   mode_t mode;
@@ -47,19 +47,15 @@ static char *directory_of(const char *path)
 static int target_find(const char *path, struct target *out)
 {
   struct stat info;
-  *out = (struct target){ .replaceable = true };
+  *out = (struct target){.replaceable = true};
   if (stat(path, &info) != 0) {
-    if (errno != ENOENT || path[0] == '\0')
-      return errno;
-    if (lstat(path, &info) == 0)
-      return ENOENT; /* a link to nothing: its target is not ours to invent */
+    if (errno != ENOENT || path[0] == '\0') return errno;
+    if (lstat(path, &info) == 0) return ENOENT; /* a link to nothing: its target is not ours to invent */
     out->path = strdup(path);
     return out->path == NULL ? ENOMEM : 0;
   }
-  if (S_ISDIR(info.st_mode))
-    return EISDIR;
-  if (access(path, W_OK) != 0)
-    return errno;
+  if (S_ISDIR(info.st_mode)) return EISDIR;
+  if (access(path, W_OK) != 0) return errno;
   out->exists = true;
   out->replaceable = S_ISREG(info.st_mode);
   out->mode = info.st_mode & 07777;
@@ -77,10 +73,8 @@ static int unnamed_open(const struct target *target)
   char *directory = directory_of(target->path);
   int descriptor = -1;
   errno = ENOMEM;
-  if (directory != NULL && access("/proc/self/fd", X_OK) != 0)
-    errno = EOPNOTSUPP;
-  else if (directory != NULL)
-    descriptor = open(directory, O_TMPFILE | O_WRONLY | O_CLOEXEC, first_mode(target));
+  if (directory != NULL && access("/proc/self/fd", X_OK) != 0) errno = EOPNOTSUPP;
+  else if (directory != NULL) descriptor = open(directory, O_TMPFILE | O_WRONLY | O_CLOEXEC, first_mode(target));
   const int reason = errno == EISDIR || errno == EINVAL ? EOPNOTSUPP : errno;
   free(directory);
   errno = reason;
@@ -101,14 +95,12 @@ static char *temporary_name(const struct target *target, const char *same, int *
     }
     char *end = name + (attempt == 0 ? strlen(name) : (size_t)(strrchr(name, '/') - name));
     snprintf(end, NAME_SPACE, "/.pscn-%016" PRIx64 ".tmp", number);
-    const int made =
-      same != NULL ? linkat(AT_FDCWD, same, AT_FDCWD, name, AT_SYMLINK_FOLLOW)
-                   : (*out_descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, first_mode(target)));
-    if (made >= 0)
-      return name;
+    const int made = same != NULL
+                       ? linkat(AT_FDCWD, same, AT_FDCWD, name, AT_SYMLINK_FOLLOW)
+                       : (*out_descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, first_mode(target)));
+    if (made >= 0) return name;
     reason = errno;
-    if (reason != EEXIST)
-      break;
+    if (reason != EEXIST) break;
   }
   free(name);
   errno = reason;
@@ -119,8 +111,7 @@ static enum status write_all(int descriptor, const unsigned char *bytes, size_t 
                              int *out_errno)
 {
   for (size_t done = 0; done < size;) {
-    if (stop != NULL && atomic_load(stop) != 0)
-      return STATUS_INTERRUPTED;
+    if (stop != NULL && atomic_load(stop) != 0) return STATUS_INTERRUPTED;
     const size_t left = size - done;
     const ssize_t written = write(descriptor, bytes + done, left < CHUNK ? left : CHUNK);
     if (written > 0) {
@@ -138,8 +129,7 @@ static enum status write_all(int descriptor, const unsigned char *bytes, size_t 
 static void sync_directory(const char *path)
 {
   char *directory = directory_of(path);
-  if (directory == NULL)
-    return;
+  if (directory == NULL) return;
   const int descriptor = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor >= 0) {
     (void)fsync(descriptor);
@@ -179,8 +169,7 @@ static enum status stage_bytes(const struct atomic_file *file, const atomic_int 
 {
   const struct target *target = &out->target;
   out->descriptor = unnamed_open(target);
-  if (out->descriptor < 0 && errno == EOPNOTSUPP)
-    out->fresh = temporary_name(target, NULL, &out->descriptor);
+  if (out->descriptor < 0 && errno == EOPNOTSUPP) out->fresh = temporary_name(target, NULL, &out->descriptor);
   if (out->descriptor < 0) {
     *out_errno = errno;
     return STATUS_FILE;
@@ -196,8 +185,7 @@ static enum status stage_bytes(const struct atomic_file *file, const atomic_int 
 static enum status stage(const struct atomic_file *file, const atomic_int *stop, struct staged *out, int *out_errno)
 {
   *out_errno = target_find(file->path, &out->target);
-  if (*out_errno != 0)
-    return STATUS_FILE;
+  if (*out_errno != 0) return STATUS_FILE;
   return file->bytes != NULL && out->target.replaceable ? stage_bytes(file, stop, out, out_errno) : STATUS_OK;
 }
 
@@ -208,8 +196,7 @@ static bool replace(struct staged *staged)
   if (staged->fresh == NULL) {
     char self[NAME_SPACE];
     snprintf(self, sizeof self, "/proc/self/fd/%d", staged->descriptor);
-    if (!target->exists && linkat(AT_FDCWD, self, AT_FDCWD, target->path, AT_SYMLINK_FOLLOW) == 0)
-      return true;
+    if (!target->exists && linkat(AT_FDCWD, self, AT_FDCWD, target->path, AT_SYMLINK_FOLLOW) == 0) return true;
     staged->fresh = temporary_name(target, self, NULL);
   }
   return staged->fresh != NULL && rename(staged->fresh, target->path) == 0;
@@ -225,8 +212,7 @@ static enum status place(const struct atomic_file *file, bool alone, const atomi
   if (target->exists && !alone)
     staged->old = temporary_name(target, target->path, NULL); /* a file system without links keeps none */
   staged->placed = file->bytes != NULL ? replace(staged) : !target->exists || unlink(target->path) == 0;
-  if (staged->placed)
-    return STATUS_OK;
+  if (staged->placed) return STATUS_OK;
   *out_errno = errno;
   return STATUS_FILE;
 }
@@ -235,14 +221,10 @@ static enum status place(const struct atomic_file *file, bool alone, const atomi
 static void settle(struct staged *staged, bool well)
 {
   const bool undo = !well && staged->placed;
-  if (staged->old != NULL)
-    (void)(undo ? rename(staged->old, staged->target.path) : unlink(staged->old));
-  else if (undo && !staged->target.exists)
-    (void)unlink(staged->target.path);
-  if (!staged->placed && staged->fresh != NULL)
-    (void)unlink(staged->fresh);
-  if (staged->descriptor >= 0)
-    (void)close(staged->descriptor);
+  if (staged->old != NULL) (void)(undo ? rename(staged->old, staged->target.path) : unlink(staged->old));
+  else if (undo && !staged->target.exists) (void)unlink(staged->target.path);
+  if (!staged->placed && staged->fresh != NULL) (void)unlink(staged->fresh);
+  if (staged->descriptor >= 0) (void)close(staged->descriptor);
   free(staged->target.path);
   free(staged->fresh);
   free(staged->old);
@@ -254,15 +236,12 @@ enum status atomic_file_probe(const char *path, int *out_errno)
 {
   struct target target;
   *out_errno = target_find(path, &target);
-  if (*out_errno != 0)
-    return failure(*out_errno);
+  if (*out_errno != 0) return failure(*out_errno);
   if (target.replaceable) {
     const int descriptor = unnamed_open(&target);
     char *directory = descriptor < 0 && errno == EOPNOTSUPP ? directory_of(target.path) : NULL;
-    if (descriptor < 0 && (directory == NULL || access(directory, W_OK | X_OK) != 0))
-      *out_errno = errno;
-    if (descriptor >= 0)
-      (void)close(descriptor);
+    if (descriptor < 0 && (directory == NULL || access(directory, W_OK | X_OK) != 0)) *out_errno = errno;
+    if (descriptor >= 0) (void)close(descriptor);
     free(directory);
   }
   free(target.path);
@@ -276,21 +255,18 @@ enum status atomic_files_write(const struct atomic_file *files, size_t count, co
   enum status status = staged == NULL ? STATUS_LIMIT : STATUS_OK;
   *out_failed = 0;
   *out_errno = staged == NULL ? ENOMEM : 0;
-  for (size_t k = 0; staged != NULL && k < count; k++)
-    staged[k].descriptor = -1;
+  for (size_t k = 0; staged != NULL && k < count; k++) staged[k].descriptor = -1;
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     *out_failed = k;
     status = stage(&files[k], stop, &staged[k], out_errno);
   }
-  if (status == STATUS_OK && stop != NULL && atomic_load(stop) != 0)
-    status = STATUS_INTERRUPTED;
+  if (status == STATUS_OK && stop != NULL && atomic_load(stop) != 0) status = STATUS_INTERRUPTED;
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     *out_failed = k;
     status = place(&files[k], count == 1, stop, &staged[k], out_errno);
   }
   for (size_t k = 0; staged != NULL && k < count; k++) {
-    if (status == STATUS_OK && staged[k].placed)
-      sync_directory(staged[k].target.path);
+    if (status == STATUS_OK && staged[k].placed) sync_directory(staged[k].target.path);
     settle(&staged[k], status == STATUS_OK);
   }
   free(staged);

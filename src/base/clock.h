@@ -21,13 +21,13 @@ struct seconds {
 /* A moment, and what has passed since one. */
 static inline struct seconds seconds_now(void)
 {
-  return (struct seconds){ clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID) };
+  return (struct seconds){clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 static inline struct seconds seconds_since(struct seconds start)
 {
   const struct seconds now = seconds_now();
-  return (struct seconds){ now.wall - start.wall, now.cpu - start.cpu };
+  return (struct seconds){now.wall - start.wall, now.cpu - start.cpu};
 }
 
 #endif

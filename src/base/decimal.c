@@ -45,10 +45,7 @@ static const uint64_t POWERS_OF_FIVE[STORED_POWERS] = {
 };
 
 /* 10^n for n <= 19. */
-static uint64_t power_of_ten(int n)
-{
-  return POWERS_OF_FIVE[n] << n;
-}
+static uint64_t power_of_ten(int n) { return POWERS_OF_FIVE[n] << n; }
 
 /* 5^n for n <= MAX_POWER, exact. */
 static wide power_of_five(int n)
@@ -90,8 +87,7 @@ static uint64_t scale(uint64_t mantissa, int power, int shift)
 
 bool decimal_from_double(double value, int count, uint64_t *out_digits, int *out_exponent)
 {
-  if (count < 1 || count > MAX_DIGITS || !(value >= DBL_MIN && value <= 1e16))
-    return false;
+  if (count < 1 || count > MAX_DIGITS || !(value >= DBL_MIN && value <= 1e16)) return false;
   int binary;
   const uint64_t mantissa = (uint64_t)ldexp(frexp(value, &binary), DBL_MANT_DIG);
   binary -= DBL_MANT_DIG; /* value = mantissa x 2^binary */
@@ -100,14 +96,12 @@ bool decimal_from_double(double value, int count, uint64_t *out_digits, int *out
   for (;; first++) {
     const int power = count - 1 - first; /* digits = value x 10^power */
     const int shift = -(binary + power);
-    if (power < 0 || power > MAX_POWER || shift < 1)
-      return false;
+    if (power < 0 || power > MAX_POWER || shift < 1) return false;
     assert(shift < 192); /* else the value were less than one digit */
     /* Before rounding, the digits must be fewer than 10^count; with one too small an exponent they are at most ten
      * times as many, which still fits. */
     uint64_t digits = scale(mantissa, power, shift);
-    if (digits > power_of_ten(count))
-      continue;
+    if (digits > power_of_ten(count)) continue;
     if (digits == power_of_ten(count)) { /* rounded up to the next power, or exactly that power */
       digits /= 10;
       first++;
@@ -133,8 +127,7 @@ static double round_wide(wide value, bool sticky, int binary)
 
 bool decimal_to_double(uint64_t digits, int exponent, double *out_value)
 {
-  if (digits == 0 || exponent <= -STORED_POWERS || exponent >= STORED_POWERS)
-    return false;
+  if (digits == 0 || exponent <= -STORED_POWERS || exponent >= STORED_POWERS) return false;
   const int zeros = __builtin_clzll(digits);
   const uint64_t shifted = digits << zeros;
   if (exponent >= 0) {

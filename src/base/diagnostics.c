@@ -121,8 +121,8 @@ static void tell(struct diagnostics *diagnostics, struct place place, const char
 {
   char message[MESSAGE_BYTES];
   if (vsnprintf(message, sizeof message, format, arguments) < 0) message[0] = '\0';
-  struct block block = { 0 };
-  struct source_position at = { 0 };
+  struct block block = {0};
+  struct source_position at = {0};
   if (place.source) {
     at = source_locate(place.source, place.begin);
     block_add_include_chain(&block, place.source);

@@ -31,14 +31,10 @@ int input_open(const char *path, enum input_kind kind, const char **out_reason)
   *out_reason = NULL;
   if (stat(path, &info) != 0) /* before opening, which may wait, or do things to a device */
     *out_reason = input_reason(errno);
-  else if (S_ISDIR(info.st_mode))
-    *out_reason = input_reason(EISDIR);
-  else if (S_ISFIFO(info.st_mode) && kind == INPUT_FILE)
-    *out_reason = "it is a pipe";
-  else if (!S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode))
-    *out_reason = "it is a device";
-  else if ((file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY)) < 0)
-    *out_reason = input_reason(errno);
+  else if (S_ISDIR(info.st_mode)) *out_reason = input_reason(EISDIR);
+  else if (S_ISFIFO(info.st_mode) && kind == INPUT_FILE) *out_reason = "it is a pipe";
+  else if (!S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode)) *out_reason = "it is a device";
+  else if ((file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY)) < 0) *out_reason = input_reason(errno);
   return file;
 }
 
@@ -47,8 +43,7 @@ static bool folder_of(const char *path, struct stat *out_info, const char **out_
 {
   const char *slash = strrchr(path, '/');
   *out_name = slash == NULL ? path : slash + 1;
-  if (slash == NULL)
-    return stat(".", out_info) == 0;
+  if (slash == NULL) return stat(".", out_info) == 0;
   char *folder = strndup(path, (size_t)(*out_name - path));
   const bool found = folder != NULL && stat(folder, out_info) == 0;
   free(folder);
@@ -60,12 +55,10 @@ bool input_same(const char *first, const char *second)
   struct stat a, b;
   const char *names[2];
   const bool there = stat(first, &a) == 0;
-  if (there != (stat(second, &b) == 0))
-    return false;
-  if (there && !(S_ISREG(a.st_mode) && S_ISREG(b.st_mode)))
-    return false;
-  if (!there && !(folder_of(first, &a, &names[0]) && folder_of(second, &b, &names[1]) &&
-                  strcmp(names[0], names[1]) == 0))
+  if (there != (stat(second, &b) == 0)) return false;
+  if (there && !(S_ISREG(a.st_mode) && S_ISREG(b.st_mode))) return false;
+  if (!there &&
+      !(folder_of(first, &a, &names[0]) && folder_of(second, &b, &names[1]) && strcmp(names[0], names[1]) == 0))
     return false;
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }

@@ -14,7 +14,7 @@ enum told {
   TOLD_PROGRESS, /* what goes on; nothing is lost to whoever does not hear it */
   TOLD_WARNING,
   TOLD_ERROR,
-  TOLD_DETAIL    /* lines that belong to the error before them */
+  TOLD_DETAIL /* lines that belong to the error before them */
 };
 
 struct listener {

@@ -14,15 +14,15 @@
 #include "base/decimal.h"
 
 enum {
-  EXACT_DIGITS = 19,       /* an integer of so many decimal digits fits in 64 bits */
-  EXACT_POWER = 22,        /* 10^22 is the largest power of ten that is a double */
-  DECISIVE_DIGITS = 770,   /* no double lies nearer to a tie than 768 digits can say; what follows only breaks ties */
-  EXPONENT_LIMIT = 100000  /* beyond it only the sign of the exponent matters, whatever the digits */
+  EXACT_DIGITS = 19,      /* an integer of so many decimal digits fits in 64 bits */
+  EXACT_POWER = 22,       /* 10^22 is the largest power of ten that is a double */
+  DECISIVE_DIGITS = 770,  /* no double lies nearer to a tie than 768 digits can say; what follows only breaks ties */
+  EXPONENT_LIMIT = 100000 /* beyond it only the sign of the exponent matters, whatever the digits */
 };
 
-static const double POWERS_OF_TEN[EXACT_POWER + 1] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                                       1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                                       1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
+static const double POWERS_OF_TEN[EXACT_POWER + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                      1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                      1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -100,7 +100,7 @@ enum number_kind number_read(const char *text, size_t length, double *out_value,
   size_t i = 0;
   bool negative = false;
   if (i < length && (text[i] == '+' || text[i] == '-')) negative = text[i++] == '-';
-  struct decimal decimal = { .digits_begin = i };
+  struct decimal decimal = {.digits_begin = i};
   i = read_digits(text, length, &decimal);
   if (i == 0) return NUMBER_NONE;
   i = read_exponent(text, length, i, &decimal);

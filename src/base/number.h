@@ -11,8 +11,8 @@
 enum { NUMBER_TEXT_SIZE = 32 };
 
 enum number_kind {
-  NUMBER_NONE,   /* no number stands at the beginning */
-  NUMBER_FINITE, /* the nearest double, ties to even; what is too small for a double is 0 or subnormal */
+  NUMBER_NONE,    /* no number stands at the beginning */
+  NUMBER_FINITE,  /* the nearest double, ties to even; what is too small for a double is 0 or subnormal */
   NUMBER_OVERFLOW /* a number too large for a double */
 };
 

@@ -10,10 +10,7 @@ static int compare(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-void sort_numbers(double *values, size_t count)
-{
-  qsort(values, count, sizeof *values, compare);
-}
+void sort_numbers(double *values, size_t count) { qsort(values, count, sizeof *values, compare); }
 
 double sorted_quantile(const double *sorted, size_t count, double part)
 {

@@ -73,8 +73,7 @@ enum status source_read_open(const char *name, int file, struct source **out_sou
   struct source *source = source_create(name);
   enum status status = source == NULL ? STATUS_LIMIT : STATUS_FILE;
   struct stat info;
-  if (source == NULL)
-    goto done;
+  if (source == NULL) goto done;
   if (fstat(file, &info) != 0) {
     *out_reason = input_reason(errno);
     goto done;
@@ -146,7 +145,7 @@ struct source_position source_locate(const struct source *source, size_t offset)
 {
   const char *text = source->text;
   if (offset > source->length) offset = source->length;
-  struct source_position at = { .line = 1, .column = 1 };
+  struct source_position at = {.line = 1, .column = 1};
   for (const char *newline; (newline = memchr(text + at.line_begin, '\n', offset - at.line_begin)) != NULL;) {
     at.line++;
     at.line_begin = (size_t)(newline - text) + 1;

@@ -14,12 +14,12 @@
 #include "base/status.h"
 
 struct source {
-  char *name;       /* as shown in diagnostics: the path, or a word in <> for text that has none */
-  char *text;       /* length bytes, then two NULs */
-  bool shared;      /* the text belongs to another source of the same file */
+  char *name;  /* as shown in diagnostics: the path, or a word in <> for text that has none */
+  char *text;  /* length bytes, then two NULs */
+  bool shared; /* the text belongs to another source of the same file */
   size_t length;
-  uint64_t device, inode; /* what file it is; 0,0 for text */
-  const struct source *includer; /* the source whose #include opened this one, or NULL */
+  uint64_t device, inode;            /* what file it is; 0,0 for text */
+  const struct source *includer;     /* the source whose #include opened this one, or NULL */
   size_t include_begin, include_end; /* the bytes of the file name in the includer's text */
 };
 

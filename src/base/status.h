@@ -8,11 +8,11 @@
 
 enum status {
   STATUS_OK = 0,
-  STATUS_DIFFERENT = 1,   /* a comparison failed its limits */
-  STATUS_USAGE = 2,       /* the command line is wrong */
-  STATUS_INPUT = 3,       /* a scene or an input line is wrong; diagnostics say where */
-  STATUS_FILE = 4,        /* a file cannot be opened, read, written or renamed */
-  STATUS_LIMIT = 5,       /* out of memory, or a stated limit was passed */
+  STATUS_DIFFERENT = 1,    /* a comparison failed its limits */
+  STATUS_USAGE = 2,        /* the command line is wrong */
+  STATUS_INPUT = 3,        /* a scene or an input line is wrong; diagnostics say where */
+  STATUS_FILE = 4,         /* a file cannot be opened, read, written or renamed */
+  STATUS_LIMIT = 5,        /* out of memory, or a stated limit was passed */
   STATUS_INTERRUPTED = 130 /* SIGINT; 143 for SIGTERM is made by the command */
 };
 

@@ -13,15 +13,16 @@
 #include "scene/method.h"
 
 enum {
-  RAYS = 2048, QUICK_RAYS = 1024, /* of the camera, about */
-  ROUNDS = 5, QUICK_ROUNDS = 3,
-  BATCH = 24                      /* points measured in turns; the default solver takes part in every batch */
+  RAYS = 2048,
+  QUICK_RAYS = 1024, /* of the camera, about */
+  ROUNDS = 5,
+  QUICK_ROUNDS = 3,
+  BATCH = 24 /* points measured in turns; the default solver takes part in every batch */
 };
 
 void chart_note(struct chart *chart, const char *format, ...)
 {
-  if (chart->note_count == CHART_NOTES)
-    return;
+  if (chart->note_count == CHART_NOTES) return;
   char *note = chart->notes[chart->note_count++];
   va_list arguments;
   va_start(arguments, format);
@@ -32,10 +33,10 @@ void chart_note(struct chart *chart, const char *format, ...)
 
 struct chart_point *chart_add(struct chart *chart, enum family family)
 {
-  const struct timing unknown = { NAN, NAN, NAN, NAN, NAN, NAN };
+  const struct timing unknown = {NAN, NAN, NAN, NAN, NAN, NAN};
   assert(chart->point_count < chart->point_room);
   struct chart_point *point = &chart->points[chart->point_count++];
-  *point = (struct chart_point){ .family = family, .time = { unknown, unknown } };
+  *point = (struct chart_point){.family = family, .time = {unknown, unknown}};
   return point;
 }
 
@@ -51,14 +52,12 @@ void chart_judge(struct chart *chart, struct chart_point *point)
 
 static enum status prepare_rays(struct chart *chart, const struct method *options)
 {
-  enum status status = rays_of_camera(chart->scene, chart->request->width, chart->request->height,
-                                      chart->wanted, chart->arena, &chart->rays[RAYS_CAMERA]);
-  if (status == STATUS_OK)
-    status = pscn_runner_create(chart->scene, options, chart->rays, &chart->yardstick);
+  enum status status = rays_of_camera(chart->scene, chart->request->width, chart->request->height, chart->wanted,
+                                      chart->arena, &chart->rays[RAYS_CAMERA]);
+  if (status == STATUS_OK) status = pscn_runner_create(chart->scene, options, chart->rays, &chart->yardstick);
   const size_t count = chart->rays[RAYS_CAMERA].count;
   struct hit *hits = status == STATUS_OK ? arena_alloc(chart->arena, count + 1, sizeof *hits) : NULL;
-  if (hits == NULL)
-    return STATUS_LIMIT;
+  if (hits == NULL) return STATUS_LIMIT;
   pscn_runner_hits(&chart->yardstick, hits);
   return rays_of_shadows(chart->scene, &chart->rays[RAYS_CAMERA], hits, chart->arena, &chart->rays[RAYS_SHADOW]);
 }
@@ -87,11 +86,10 @@ static void judge_ours(struct chart *chart, struct pscn_runner *runner, struct c
 {
   const size_t count = chart->rays[RAYS_CAMERA].count;
   struct hit *hits = malloc((count + 1) * sizeof *hits);
-  if (hits == NULL)
-    return;
+  if (hits == NULL) return;
   pscn_runner_hits(runner, hits);
   for (size_t k = 0; k < count; k++)
-    chart->answers[k] = (struct answer){ hits[k].patch == HIT_NONE ? INFINITY : hits[k].t, hits[k].patch };
+    chart->answers[k] = (struct answer){hits[k].patch == HIT_NONE ? INFINITY : hits[k].t, hits[k].patch};
   pscn_runner_occluded(runner, chart->occluded);
   point->has_shadow = true;
   chart_judge(chart, point);
@@ -102,9 +100,9 @@ static void judge_ours(struct chart *chart, struct pscn_runner *runner, struct c
 static enum status run_batch(struct chart *chart, const struct sweep_point *sweep, size_t count)
 {
   struct pscn_runner ours[BATCH];
-  struct runner runners[1 + BATCH] = { pscn_runner_face(&chart->yardstick) };
+  struct runner runners[1 + BATCH] = {pscn_runner_face(&chart->yardstick)};
   struct timing time[1 + BATCH][RAY_KINDS];
-  const size_t counts[RAY_KINDS] = { chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count };
+  const size_t counts[RAY_KINDS] = {chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count};
   memset(ours, 0, sizeof ours);
   enum status status = STATUS_OK;
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
@@ -114,8 +112,7 @@ static enum status run_batch(struct chart *chart, const struct sweep_point *swee
   if (status == STATUS_OK)
     status = measure_rounds(runners, 1 + count, counts, chart->rounds, chart->listener->stop, time);
   if (status == STATUS_OK) {
-    for (int kind = 0; kind < RAY_KINDS; kind++)
-      chart->yard[kind][chart->yard_count] = time[0][kind].median;
+    for (int kind = 0; kind < RAY_KINDS; kind++) chart->yard[kind][chart->yard_count] = time[0][kind].median;
     chart->yard_count++;
   }
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
@@ -127,8 +124,7 @@ static enum status run_batch(struct chart *chart, const struct sweep_point *swee
     memcpy(point->time, time[1 + k], sizeof point->time);
     judge_ours(chart, &ours[k], point);
   }
-  for (size_t k = 0; k < count; k++)
-    pscn_runner_free(&ours[k]);
+  for (size_t k = 0; k < count; k++) pscn_runner_free(&ours[k]);
   return status;
 }
 
@@ -167,24 +163,19 @@ static enum status measure(struct chart *chart)
 {
   const size_t count = point_sweep(chart->request->quick, NULL);
   struct sweep_point *sweep = arena_alloc(chart->arena, count, sizeof *sweep);
-  if (sweep == NULL)
-    return STATUS_LIMIT;
+  if (sweep == NULL) return STATUS_LIMIT;
   for (int kind = 0; kind < RAY_KINDS; kind++) {
     chart->yard[kind] = arena_alloc(chart->arena, count / BATCH + 1, sizeof *chart->yard[kind]);
-    if (chart->yard[kind] == NULL)
-      return STATUS_LIMIT;
+    if (chart->yard[kind] == NULL) return STATUS_LIMIT;
   }
   (void)point_sweep(chart->request->quick, sweep);
   scene_override_solver(chart->scene, &sweep[0].options);
   enum status status = prepare_rays(chart, &sweep[0].options);
-  if (status == STATUS_OK)
-    status = find_truths(chart);
-  if (status == STATUS_OK)
-    status = sweep_solvers(chart, sweep, count);
+  if (status == STATUS_OK) status = find_truths(chart);
+  if (status == STATUS_OK) status = sweep_solvers(chart, sweep, count);
   if (status == STATUS_OK && chart->points[0].camera.hits == 0)
     chart_note(chart, "No camera ray hits anything: there is no error of T, so there is neither a figure nor a front.");
-  if (status == STATUS_OK)
-    status = chart_peers(chart);
+  if (status == STATUS_OK) status = chart_peers(chart);
   if (status == STATUS_OK) {
     level_times(chart);
     point_front(chart->points, chart->point_count);
@@ -195,20 +186,24 @@ static enum status measure(struct chart *chart)
 enum status chart_scene(const struct chart_request *request, struct scene *scene, const struct listener *listener,
                         struct page *out_text)
 {
-  *out_text = (struct page){ 0 };
+  *out_text = (struct page){0};
   if (!judge_available())
-    return listener_fail(listener, STATUS_LIMIT, "this build has no reference: its compiler has no quadruple "
-                                                 "precision, so nothing can be judged");
-  struct chart chart = { .request = request, .listener = listener, .scene = scene,
-                         .wanted = request->rays > 0 ? request->rays : request->quick ? QUICK_RAYS : RAYS,
-                         .rounds = request->rounds > 0 ? request->rounds : request->quick ? QUICK_ROUNDS : ROUNDS };
+    return listener_fail(listener, STATUS_LIMIT,
+                         "this build has no reference: its compiler has no quadruple "
+                         "precision, so nothing can be judged");
+  struct chart chart = {.request = request,
+                        .listener = listener,
+                        .scene = scene,
+                        .wanted = request->rays > 0 ? request->rays
+                                  : request->quick  ? QUICK_RAYS
+                                                    : RAYS,
+                        .rounds = request->rounds > 0 ? request->rounds
+                                  : request->quick    ? QUICK_ROUNDS
+                                                      : ROUNDS};
   enum status status = make_room(&chart);
-  if (status == STATUS_OK)
-    status = measure(&chart);
-  if (status == STATUS_LIMIT)
-    (void)listener_out_of_memory(listener);
-  if (status == STATUS_OK)
-    status = chart_write(&chart, out_text);
+  if (status == STATUS_OK) status = measure(&chart);
+  if (status == STATUS_LIMIT) (void)listener_out_of_memory(listener);
+  if (status == STATUS_OK) status = chart_write(&chart, out_text);
   pscn_runner_free(&chart.yardstick);
   arena_destroy(chart.arena);
   return status;

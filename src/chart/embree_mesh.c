@@ -99,9 +99,15 @@ static struct embree_rays *rays_create(const struct ray *rays, size_t count)
   for (size_t k = 0; k < padded; k++) {
     const struct ray *from = &rays[k < count ? k : count - 1];
     const double *o = from->origin, *d = from->direction;
-    out->ray[k] = (struct RTCRay){ .org_x = (float)o[0], .org_y = (float)o[1], .org_z = (float)o[2],
-                                   .dir_x = (float)d[0], .dir_y = (float)d[1], .dir_z = (float)d[2],
-                                   .tnear = (float)from->t_min, .tfar = (float)from->t_max, .mask = UINT32_MAX };
+    out->ray[k] = (struct RTCRay){.org_x = (float)o[0],
+                                  .org_y = (float)o[1],
+                                  .org_z = (float)o[2],
+                                  .dir_x = (float)d[0],
+                                  .dir_y = (float)d[1],
+                                  .dir_z = (float)d[2],
+                                  .tnear = (float)from->t_min,
+                                  .tfar = (float)from->t_max,
+                                  .mask = UINT32_MAX};
   }
   return out;
 }
@@ -115,7 +121,7 @@ static void rays_destroy(struct embree_rays *rays)
 
 static struct RTCRayHit single(const struct RTCRay *ray)
 {
-  struct RTCRayHit hit = { .ray = *ray };
+  struct RTCRayHit hit = {.ray = *ray};
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   return hit;
@@ -201,7 +207,10 @@ static bool answer_any(const struct embree_mesh *mesh, const struct embree_rays 
   return ray.tfar < 0;
 }
 
-__attribute__((visibility("default"))) const struct embree_peer pscn_embree_peer = {
-  .mesh_create = mesh_create, .mesh_destroy = mesh_destroy, .rays_create = rays_create, .rays_destroy = rays_destroy,
-  .trace = trace, .answer = answer, .answer_any = answer_any
-};
+__attribute__((visibility("default"))) const struct embree_peer pscn_embree_peer = {.mesh_create = mesh_create,
+                                                                                    .mesh_destroy = mesh_destroy,
+                                                                                    .rays_create = rays_create,
+                                                                                    .rays_destroy = rays_destroy,
+                                                                                    .trace = trace,
+                                                                                    .answer = answer,
+                                                                                    .answer_any = answer_any};

@@ -17,9 +17,9 @@ static struct truth truth_of(const struct reference_answer *answer)
   const enum truth_kind kind = answer->verdict == REFERENCE_HIT    ? TRUTH_HIT
                                : answer->verdict == REFERENCE_MISS ? TRUTH_MISS
                                                                    : TRUTH_UNDECIDED;
-  if (kind != TRUTH_HIT) return (struct truth){ .kind = kind, .t = INFINITY, .patch = HIT_NONE };
+  if (kind != TRUTH_HIT) return (struct truth){.kind = kind, .t = INFINITY, .patch = HIT_NONE};
   const double t = (double)answer->t;
-  return (struct truth){ kind, t, (double)(answer->t - t), answer->patch, answer->shared };
+  return (struct truth){kind, t, (double)(answer->t - t), answer->patch, answer->shared};
 }
 
 enum status judge_truths(const struct scene *scene, const struct ray_list *rays, const atomic_int *stop,
@@ -57,7 +57,7 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
 {
   double *all = errors + count;
   size_t both = 0, asked = 0;
-  *out = (struct judgement){ .rays = count };
+  *out = (struct judgement){.rays = count};
   for (size_t k = 0; k < count; k++) {
     const struct truth *truth = &truths[k];
     const bool hit = isfinite(answers[k].t);
@@ -95,7 +95,7 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
 void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const bool *occluded,
                     struct judgement *out)
 {
-  *out = (struct judgement){ .rays = count, .median = NAN, .most = NAN, .max = NAN, .most_of_all = NAN };
+  *out = (struct judgement){.rays = count, .median = NAN, .most = NAN, .max = NAN, .most_of_all = NAN};
   for (size_t k = 0; k < count; k++) {
     if (truths[k].kind == TRUTH_UNDECIDED) {
       out->undecided++;

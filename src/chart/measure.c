@@ -16,12 +16,12 @@ static struct timing summarise(const double *values, const double *yard, size_t 
   for (size_t k = 0; k < rounds; k++) sorted[k] = 1e9 * values[k] / (double)rays, ratio[k] = values[k] / yard[k];
   sort_numbers(sorted, rounds);
   sort_numbers(ratio, rounds);
-  return (struct timing){ .least = sorted[0],
-                          .lower = sorted_quantile(sorted, rounds, 0.25),
-                          .median = sorted_quantile(sorted, rounds, 0.5),
-                          .upper = sorted_quantile(sorted, rounds, 0.75),
-                          .most = sorted[rounds - 1],
-                          .ratio = sorted_quantile(ratio, rounds, 0.5) };
+  return (struct timing){.least = sorted[0],
+                         .lower = sorted_quantile(sorted, rounds, 0.25),
+                         .median = sorted_quantile(sorted, rounds, 0.5),
+                         .upper = sorted_quantile(sorted, rounds, 0.75),
+                         .most = sorted[rounds - 1],
+                         .ratio = sorted_quantile(ratio, rounds, 0.5)};
 }
 
 /* A turn lasts at least so long, in seconds: fast runners repeat, and go once unmeasured before, for what ran before
@@ -70,7 +70,7 @@ enum status measure_rounds(const struct runner *runners, size_t count, const siz
     for (int kind = 0; kind < RAY_KINDS; kind++) {
       const bool known = runners[k].kinds[kind] && counts[kind] > 0 && rounds > 0;
       out[k][kind] = known ? summarise(seconds[k][kind], seconds[0][kind], rounds, counts[kind])
-                           : (struct timing){ NAN, NAN, NAN, NAN, NAN, NAN };
+                           : (struct timing){NAN, NAN, NAN, NAN, NAN, NAN};
     }
   }
   free(seconds);
@@ -80,10 +80,10 @@ enum status measure_rounds(const struct runner *runners, size_t count, const siz
 
 /* ---- pscn itself ---- */
 
-enum status pscn_runner_create(const struct scene *scene, const struct method *options,
-                               const struct ray_list *rays, struct pscn_runner *out)
+enum status pscn_runner_create(const struct scene *scene, const struct method *options, const struct ray_list *rays,
+                               struct pscn_runner *out)
 {
-  *out = (struct pscn_runner){ .scene = *scene, .options = *options, .rays = rays };
+  *out = (struct pscn_runner){.scene = *scene, .options = *options, .rays = rays};
   out->scene.solvers = &out->options;
   out->scene.solver_count = 1;
   const enum status status = intersector_create(&out->scene, &out->intersector);
@@ -94,7 +94,7 @@ void pscn_runner_free(struct pscn_runner *runner)
 {
   tracer_destroy(runner->tracer);
   intersector_destroy(runner->intersector);
-  *runner = (struct pscn_runner){ .tracer = NULL };
+  *runner = (struct pscn_runner){.tracer = NULL};
 }
 
 /* Writes the answers where they are asked for. */
@@ -117,7 +117,7 @@ static void trace(struct pscn_runner *runner, enum ray_kind kind, struct hit *hi
 
 static void run(void *context, enum ray_kind kind) { trace(context, kind, NULL, NULL); }
 
-struct runner pscn_runner_face(struct pscn_runner *runner) { return (struct runner){ run, runner, { true, true } }; }
+struct runner pscn_runner_face(struct pscn_runner *runner) { return (struct runner){run, runner, {true, true}}; }
 
 void pscn_runner_hits(struct pscn_runner *runner, struct hit *hits) { trace(runner, RAYS_CAMERA, hits, NULL); }
 

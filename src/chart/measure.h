@@ -48,8 +48,8 @@ struct pscn_runner {
 };
 
 /* Borrows the scene and rays[RAY_KINDS]; *out must not move. pscn_runner_free in any case. */
-enum status pscn_runner_create(const struct scene *scene, const struct method *options,
-                               const struct ray_list *rays, struct pscn_runner *out) STATUS_MUST_CHECK;
+enum status pscn_runner_create(const struct scene *scene, const struct method *options, const struct ray_list *rays,
+                               struct pscn_runner *out) STATUS_MUST_CHECK;
 void pscn_runner_free(struct pscn_runner *runner);
 struct runner pscn_runner_face(struct pscn_runner *runner);
 

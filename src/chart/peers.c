@@ -25,8 +25,8 @@ static enum status ask_plain_newton(struct chart *chart)
     return STATUS_LIMIT;
   }
   listener_tell(chart->listener, TOLD_PROGRESS, "plain Newton");
-  const struct runner runners[] = { pscn_runner_face(&chart->yardstick), plain_newton_face(plain) };
-  const size_t counts[RAY_KINDS] = { chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count };
+  const struct runner runners[] = {pscn_runner_face(&chart->yardstick), plain_newton_face(plain)};
+  const size_t counts[RAY_KINDS] = {chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count};
   struct timing time[2][RAY_KINDS];
   const enum status status = measure_rounds(runners, 2, counts, chart->rounds, chart->listener->stop, time);
   if (status == STATUS_OK) {
@@ -35,8 +35,7 @@ static enum status ask_plain_newton(struct chart *chart)
              PLAIN_NEWTON_SPLIT);
     memcpy(point->time, time[1], sizeof point->time);
     plain_newton_answers(plain, RAYS_SHADOW, shadows);
-    for (size_t k = 0; k < counts[RAYS_SHADOW]; k++)
-      chart->occluded[k] = isfinite(shadows[k].t);
+    for (size_t k = 0; k < counts[RAYS_SHADOW]; k++) chart->occluded[k] = isfinite(shadows[k].t);
     plain_newton_answers(plain, RAYS_CAMERA, chart->answers);
     point->has_shadow = true;
     chart_judge(chart, point);
@@ -48,7 +47,7 @@ static enum status ask_plain_newton(struct chart *chart)
 
 /* ---- Embree ---- */
 
-static const unsigned WIDTHS[] = { 1, 8 }; /* rays at once */
+static const unsigned WIDTHS[] = {1, 8}; /* rays at once */
 enum { WIDTH_COUNT = sizeof WIDTHS / sizeof WIDTHS[0] };
 
 struct embree {
@@ -77,8 +76,7 @@ static void add_embree(struct chart *chart, const struct embree_runner *runner, 
   struct chart_point *point = chart_add(chart, FAMILY_EMBREE);
   snprintf(point->name, sizeof point->name, "Embree, %zux%zux2 triangles a patch, %s", side, side,
            runner->width == 1 ? "one by one" : "8 coherent");
-  if (runner->width > 1)
-    snprintf(point->label, sizeof point->label, "%zu", side);
+  if (runner->width > 1) snprintf(point->label, sizeof point->label, "%zu", side);
   memcpy(point->time, time, sizeof point->time);
   for (size_t k = 0; k < chart->rays[RAYS_CAMERA].count; k++)
     embree->peer->answer(runner->mesh, embree->rays[RAYS_CAMERA], k, &chart->answers[k].t, &chart->answers[k].patch);
@@ -93,20 +91,18 @@ static enum status measure_side(struct chart *chart, const struct embree *embree
                                 size_t side)
 {
   struct embree_mesh *mesh = embree->peer->mesh_create(nets, chart->scene->patch_count, (unsigned)side);
-  if (mesh == NULL)
-    return STATUS_FILE;
+  if (mesh == NULL) return STATUS_FILE;
   struct embree_runner own[WIDTH_COUNT];
-  struct runner runners[1 + WIDTH_COUNT] = { pscn_runner_face(&chart->yardstick) };
+  struct runner runners[1 + WIDTH_COUNT] = {pscn_runner_face(&chart->yardstick)};
   struct timing time[1 + WIDTH_COUNT][RAY_KINDS];
-  const size_t counts[RAY_KINDS] = { chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count };
+  const size_t counts[RAY_KINDS] = {chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count};
   for (size_t w = 0; w < WIDTH_COUNT; w++) {
-    own[w] = (struct embree_runner){ .embree = embree, .mesh = mesh, .width = WIDTHS[w] };
-    runners[1 + w] = (struct runner){ run_embree, &own[w], { counts[0] > 0, counts[1] > 0 } };
+    own[w] = (struct embree_runner){.embree = embree, .mesh = mesh, .width = WIDTHS[w]};
+    runners[1 + w] = (struct runner){run_embree, &own[w], {counts[0] > 0, counts[1] > 0}};
   }
   const enum status status = measure_rounds(runners, 1 + WIDTH_COUNT, counts, chart->rounds, chart->listener->stop,
                                             time);
-  for (size_t w = 0; status == STATUS_OK && w < WIDTH_COUNT; w++)
-    add_embree(chart, &own[w], side, time[1 + w]);
+  for (size_t w = 0; status == STATUS_OK && w < WIDTH_COUNT; w++) add_embree(chart, &own[w], side, time[1 + w]);
   embree->peer->mesh_destroy(mesh);
   return status;
 }
@@ -121,9 +117,9 @@ static double triangles(const struct chart *chart, size_t side)
 
 static enum status measure_embree(struct chart *chart, const struct embree_peer *peer)
 {
-  static const size_t SIDES[] = { 8, 16, 32, 64, 128, 256 };
+  static const size_t SIDES[] = {8, 16, 32, 64, 128, 256};
   enum { SIDE_COUNT = sizeof SIDES / sizeof SIDES[0] };
-  struct embree embree = { .peer = peer };
+  struct embree embree = {.peer = peer};
   double(*nets)[4][4][3] = calloc(chart->scene->patch_count, sizeof *nets);
   enum status status = nets == NULL ? STATUS_LIMIT : STATUS_OK;
   for (size_t n = 0; status == STATUS_OK && n < chart->scene->patch_count; n++)
@@ -137,8 +133,7 @@ static enum status measure_embree(struct chart *chart, const struct embree_peer 
     if (k == 0 || triangles(chart, SIDES[k]) <= MAX_TRIANGLES)
       status = measure_side(chart, &embree, (const double(*)[4][4][3])nets, SIDES[k]);
   }
-  for (int kind = 0; kind < RAY_KINDS; kind++)
-    peer->rays_destroy(embree.rays[kind]);
+  for (int kind = 0; kind < RAY_KINDS; kind++) peer->rays_destroy(embree.rays[kind]);
   free(nets);
   return status;
 }
@@ -162,8 +157,7 @@ static enum status ask_embree(struct chart *chart)
   if (status == STATUS_OK)
     chart_note(chart, "Embree: each mesh in turn with pscn's default solver, one thread; its answers are those of "
                       "rtcIntersect1 and rtcOccluded1.");
-  else if (status == STATUS_FILE)
-    chart_note(chart, "Embree failed, and what is missing of it is left out.");
+  else if (status == STATUS_FILE) chart_note(chart, "Embree failed, and what is missing of it is left out.");
   return status == STATUS_FILE ? STATUS_OK : status;
 }
 
@@ -177,21 +171,19 @@ static enum status time_povray(struct chart *chart, struct povray *povray, struc
   double time[3], ratio[3];
   for (size_t k = 0; k < rounds; k++) {
     const struct runner runner = pscn_runner_face(&chart->yardstick);
-    const size_t counts[RAY_KINDS] = { chart->rays[RAYS_CAMERA].count, 0 };
+    const size_t counts[RAY_KINDS] = {chart->rays[RAYS_CAMERA].count, 0};
     struct timing yard[1][RAY_KINDS];
     enum status status = povray_time(povray, chart->scene, &time[k]);
-    if (status == STATUS_OK)
-      status = measure_rounds(&runner, 1, counts, chart->rounds, chart->listener->stop, yard);
-    if (status != STATUS_OK)
-      return status;
+    if (status == STATUS_OK) status = measure_rounds(&runner, 1, counts, chart->rounds, chart->listener->stop, yard);
+    if (status != STATUS_OK) return status;
     time[k] *= 1e9 / pixels;
     ratio[k] = time[k] / yard[0][RAYS_CAMERA].median;
   }
   sort_numbers(time, rounds);
   sort_numbers(ratio, rounds);
   const double middle = time[rounds / 2];
-  *out = (struct timing){ time[0], (time[0] + middle) / 2, middle, (middle + time[rounds - 1]) / 2, time[rounds - 1],
-                          ratio[rounds / 2] };
+  *out = (struct timing){time[0],          (time[0] + middle) / 2, middle, (middle + time[rounds - 1]) / 2,
+                         time[rounds - 1], ratio[rounds / 2]};
   return STATUS_OK;
 }
 
@@ -206,19 +198,15 @@ static enum status ask_povray_once(struct chart *chart, struct povray *povray, i
   double *distance = malloc((camera->count + 1) * sizeof *distance);
   struct timing time;
   enum status status = distance == NULL ? STATUS_LIMIT : STATUS_OK;
-  if (status == STATUS_OK)
-    status = povray_ask(povray, chart->scene, camera->count, camera->rays, distance, NULL);
-  if (status == STATUS_OK)
-    status = time_povray(chart, povray, &time);
+  if (status == STATUS_OK) status = povray_ask(povray, chart->scene, camera->count, camera->rays, distance, NULL);
+  if (status == STATUS_OK) status = time_povray(chart, povray, &time);
   if (status == STATUS_OK) {
     struct chart_point *point = chart_add(chart, FAMILY_POVRAY);
     snprintf(point->name, sizeof point->name, "POV-Ray, type %d, u_steps %d, flatness 0", type, steps);
-    if (type == 1)
-      snprintf(point->label, sizeof point->label, "%d", steps);
+    if (type == 1) snprintf(point->label, sizeof point->label, "%d", steps);
     point->time[RAYS_CAMERA] = time;
     for (size_t k = 0; k < camera->count; k++)
-      chart->answers[k] = (struct answer){ distance[k] / vector_length(camera->rays[k].direction),
-                                           ANSWER_PATCH_UNKNOWN };
+      chart->answers[k] = (struct answer){distance[k] / vector_length(camera->rays[k].direction), ANSWER_PATCH_UNKNOWN};
     chart_judge(chart, point);
   }
   free(distance);
@@ -227,19 +215,23 @@ static enum status ask_povray_once(struct chart *chart, struct povray *povray, i
 
 static enum status ask_povray(struct chart *chart)
 {
-  struct povray povray = { .listener = chart->listener, .program = chart->request->program,
-                           .width = chart->request->width, .height = chart->request->height,
-                           .timeout = chart->request->timeout, .memory = chart->request->memory, .optional = true };
+  struct povray povray = {.listener = chart->listener,
+                          .program = chart->request->program,
+                          .width = chart->request->width,
+                          .height = chart->request->height,
+                          .timeout = chart->request->timeout,
+                          .memory = chart->request->memory,
+                          .optional = true};
   enum status status = povray_open(&povray);
-  if (povray.missing)
-    chart_note(chart, "POV-Ray is left out: there is no program '%s'.", chart->request->program);
+  if (povray.missing) chart_note(chart, "POV-Ray is left out: there is no program '%s'.", chart->request->program);
   for (int type = chart->request->quick ? 1 : 0; type <= 1; type++) {
     for (int steps = 1; steps <= 7 && status == STATUS_OK; steps += chart->request->quick ? 3 : 1)
       status = ask_povray_once(chart, &povray, type, steps);
   }
   if (status == STATUS_OK)
-    chart_note(chart, "POV-Ray %s: errors from its trace(); the time is the CPU time of its trace phase for all "
-                      "%zux%zu pixels of the scene in white without lights, parsing apart.",
+    chart_note(chart,
+               "POV-Ray %s: errors from its trace(); the time is the CPU time of its trace phase for all "
+               "%zux%zu pixels of the scene in white without lights, parsing apart.",
                povray.version, povray.width, povray.height);
   else if (status != STATUS_INTERRUPTED && !povray.missing)
     chart_note(chart, "POV-Ray failed, and what is missing of it is left out.");
@@ -254,9 +246,7 @@ enum status chart_peers(struct chart *chart)
     chart_note(chart, "Embree and POV-Ray were not asked (--no-peers).");
     return status;
   }
-  if (status == STATUS_OK)
-    status = ask_embree(chart);
-  if (status == STATUS_OK)
-    status = ask_povray(chart);
+  if (status == STATUS_OK) status = ask_embree(chart);
+  if (status == STATUS_OK) status = ask_povray(chart);
   return status;
 }

@@ -34,7 +34,7 @@ static bool build(struct plain_model *plain, const struct scene *scene)
   for (size_t n = 0; built && n < count; n++) {
     const size_t patch = n / (side * side), i = n / side % side, j = n % side;
     const double step = 1.0 / PLAIN_NEWTON_SPLIT, u = (double)i * step, v = (double)j * step;
-    plain->parts[n] = (struct plain_part){ (uint32_t)patch, u + step / 2, v + step / 2 };
+    plain->parts[n] = (struct plain_part){(uint32_t)patch, u + step / 2, v + step / 2};
     for (int axis = 0; axis < 3; axis++) {
       double net[4][4];
       patch_subnet(plain->x[patch][axis], u, u + step, v, v + step, net);
@@ -91,7 +91,7 @@ static void run(void *context, enum ray_kind kind)
   plain->sink = sum;
 }
 
-struct runner plain_newton_face(struct plain_newton *plain) { return (struct runner){ run, plain, { true, true } }; }
+struct runner plain_newton_face(struct plain_newton *plain) { return (struct runner){run, plain, {true, true}}; }
 
 void plain_newton_answers(const struct plain_newton *plain, enum ray_kind kind, struct answer *answers)
 {

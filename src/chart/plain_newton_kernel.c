@@ -56,8 +56,8 @@ LANES_INLINE void evaluate(const lanes net[16], const lanes wu[4], const lanes d
 LANES_INLINE void form_nets(const struct ray_lanes *ray, double (*x)[4][4], lanes a[16], lanes b[16])
 {
   for (int k = 0; k < 16; k++) {
-    const lanes p[3] = { x[0][k / 4][k % 4] - ray->origin[0], x[1][k / 4][k % 4] - ray->origin[1],
-                         x[2][k / 4][k % 4] - ray->origin[2] };
+    const lanes p[3] = {x[0][k / 4][k % 4] - ray->origin[0], x[1][k / 4][k % 4] - ray->origin[1],
+                        x[2][k / 4][k % 4] - ray->origin[2]};
     a[k] = p[0] * ray->normal[0][0] + p[1] * ray->normal[0][1] + p[2] * ray->normal[0][2];
     b[k] = p[0] * ray->normal[1][0] + p[1] * ray->normal[1][1] + p[2] * ray->normal[1][2];
   }
@@ -133,7 +133,10 @@ LANES_INLINE double least(lanes x)
 
 static void walk(const struct plain_model *model, const struct ray_lanes *ray, bool any, struct best *best)
 {
-  struct { uint32_t at; double enter; } stack[2 * BVH_MAX_DEPTH];
+  struct {
+    uint32_t at;
+    double enter;
+  } stack[2 * BVH_MAX_DEPTH];
   const lanes t_max = best->t;
   size_t top = 0;
   if (model->bvh.node_count > 0) stack[top].at = 0, stack[top++].enter = 0;
@@ -146,7 +149,7 @@ static void walk(const struct plain_model *model, const struct ray_lanes *ray, b
       continue;
     }
     const struct bvh_node *node = &model->bvh.nodes[at];
-    const double enter[2] = { least(enter_box(node, 0, ray, best->t)), least(enter_box(node, 1, ray, best->t)) };
+    const double enter[2] = {least(enter_box(node, 0, ray, best->t)), least(enter_box(node, 1, ray, best->t))};
     const int nearer = enter[1] < enter[0];
     if (isfinite(enter[!nearer])) stack[top].at = node->child[!nearer], stack[top++].enter = enter[!nearer];
     if (isfinite(enter[nearer])) stack[top].at = node->child[nearer], stack[top++].enter = enter[nearer];
@@ -181,7 +184,7 @@ void PLAIN_NEWTON_KERNEL(const struct plain_model *model, size_t count, const st
 {
   for (size_t first = 0; first < count; first += LANES) {
     const size_t some = count - first < LANES ? count - first : LANES;
-    struct ray_lanes ray = { .t_min = lanes_all(0) };
+    struct ray_lanes ray = {.t_min = lanes_all(0)};
     struct best best;
     lanes t_max = lanes_all(0);
     double length[LANES];
@@ -190,7 +193,7 @@ void PLAIN_NEWTON_KERNEL(const struct plain_model *model, size_t count, const st
     walk(model, &ray, any, &best);
     for (size_t k = 0; k < some; k++) {
       const bool hit = best.t[k] < t_max[k];
-      out[first + k] = (struct answer){ hit ? best.t[k] / length[k] : INFINITY, hit ? best.patch[k] : HIT_NONE };
+      out[first + k] = (struct answer){hit ? best.t[k] / length[k] : INFINITY, hit ? best.patch[k] : HIT_NONE};
     }
   }
 }

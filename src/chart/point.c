@@ -6,8 +6,8 @@
 
 const char *family_name(enum family family)
 {
-  static const char *const NAMES[FAMILIES] = { "bernstein", "newton", "laguerre", "aberth", "paper", "plain-newton",
-                                               "embree", "povray" };
+  static const char *const NAMES[FAMILIES] = {"bernstein", "newton",       "laguerre", "aberth",
+                                              "paper",     "plain-newton", "embree",   "povray"};
   return NAMES[family];
 }
 
@@ -58,8 +58,8 @@ size_t point_sweep(bool quick, struct sweep_point *out)
   static const struct {
     const char *name;
     enum family family;
-  } SOLVERS[] = { { "bernstein", FAMILY_DEFAULT }, { "newton", FAMILY_NEWTON }, { "laguerre", FAMILY_LAGUERRE },
-                  { "aberth", FAMILY_ABERTH } };
+  } SOLVERS[] = {
+    {"bernstein", FAMILY_DEFAULT}, {"newton", FAMILY_NEWTON}, {"laguerre", FAMILY_LAGUERRE}, {"aberth", FAMILY_ABERTH}};
   if (out != NULL) {
     out[0].family = FAMILY_DEFAULT;
     method_default(solver_at(0), &out[0].options);

@@ -22,13 +22,13 @@ enum { POINT_NAME_SIZE = 160 };
 
 struct chart_point {
   enum family family;
-  char name[POINT_NAME_SIZE];    /* what ran; of pscn the text behind `solver` */
-  char label[12];                /* what stands beside the point in the figure, or "" */
-  bool ours;                     /* options is set */
+  char name[POINT_NAME_SIZE]; /* what ran; of pscn the text behind `solver` */
+  char label[12];             /* what stands beside the point in the figure, or "" */
+  bool ours;                  /* options is set */
   struct method options;
   struct timing time[RAY_KINDS];
   struct judgement camera, shadow;
-  bool has_shadow;               /* shadow is set */
+  bool has_shadow; /* shadow is set */
   bool front;
 };
 

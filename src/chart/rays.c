@@ -33,22 +33,22 @@ static void add_strip(const struct scene *scene, const struct strips *strips, si
                  &out->rays[out->count++]);
     }
     if (out->count == first) continue;
-    out->packets[out->packet_count++] = (struct ray_packet){ first, out->count - first, new_run };
+    out->packets[out->packet_count++] = (struct ray_packet){first, out->count - first, new_run};
     new_run = false;
   }
 }
 
 static enum status list_create(struct arena *arena, size_t rays, size_t packets, struct ray_list *out)
 {
-  *out = (struct ray_list){ .rays = arena_alloc(arena, rays + 1, sizeof *out->rays),
-                            .packets = arena_alloc(arena, packets + 1, sizeof *out->packets) };
+  *out = (struct ray_list){.rays = arena_alloc(arena, rays + 1, sizeof *out->rays),
+                           .packets = arena_alloc(arena, packets + 1, sizeof *out->packets)};
   return out->rays == NULL || out->packets == NULL ? STATUS_LIMIT : STATUS_OK;
 }
 
 enum status rays_of_camera(const struct scene *scene, size_t width, size_t height, size_t wanted, struct arena *arena,
                            struct ray_list *out)
 {
-  const struct strips strips = { width, height, ceiling(width, STRIP_WIDTH), TILE_SIZE / STRIP_HEIGHT };
+  const struct strips strips = {width, height, ceiling(width, STRIP_WIDTH), TILE_SIZE / STRIP_HEIGHT};
   const size_t total = strips.columns * ceiling(height, TILE_SIZE) * strips.per_tile;
   size_t chosen = ceiling(wanted, STRIP_WIDTH * STRIP_HEIGHT);
   if (wanted >= width * height || chosen > total) chosen = total;
@@ -79,7 +79,7 @@ enum status rays_of_shadows(const struct scene *scene, const struct ray_list *ca
         out->count += hit && shade_shadow_ray(&scene->lights[l], &hits[k], &out->rays[out->count]);
       }
       if (out->count == first) continue;
-      out->packets[out->packet_count++] = (struct ray_packet){ first, out->count - first, new_run };
+      out->packets[out->packet_count++] = (struct ray_packet){first, out->count - first, new_run};
       new_run = false;
     }
   }

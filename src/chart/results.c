@@ -22,14 +22,14 @@ static const struct look {
   const char *title, *color;
   int symbol, hollow; /* gnuplot's point types: all answers right, some wrong */
 } LOOKS[FAMILIES] = {
-  [FAMILY_DEFAULT] = { "bernstein (default)", "#c02020", 7, 6 },
-  [FAMILY_NEWTON] = { "newton", "#2b6cb0", 9, 8 },
-  [FAMILY_LAGUERRE] = { "laguerre", "#2f855a", 11, 10 },
-  [FAMILY_ABERTH] = { "aberth", "#b7791f", 13, 12 },
-  [FAMILY_PAPER] = { "as in the paper", "#718096", 15, 14 },
-  [FAMILY_PLAIN_NEWTON] = { "plain 2-D Newton", "#000000", 7, 6 },
-  [FAMILY_EMBREE] = { "Embree (triangles a side)", "#6b46c1", 5, 4 },
-  [FAMILY_POVRAY] = { "POV-Ray (u\\\\_steps)", "#0891b2", 5, 4 },
+  [FAMILY_DEFAULT] = {"bernstein (default)", "#c02020", 7, 6},
+  [FAMILY_NEWTON] = {"newton", "#2b6cb0", 9, 8},
+  [FAMILY_LAGUERRE] = {"laguerre", "#2f855a", 11, 10},
+  [FAMILY_ABERTH] = {"aberth", "#b7791f", 13, 12},
+  [FAMILY_PAPER] = {"as in the paper", "#718096", 15, 14},
+  [FAMILY_PLAIN_NEWTON] = {"plain 2-D Newton", "#000000", 7, 6},
+  [FAMILY_EMBREE] = {"Embree (triangles a side)", "#6b46c1", 5, 4},
+  [FAMILY_POVRAY] = {"POV-Ray (u\\\\_steps)", "#0891b2", 5, 4},
 };
 
 static bool drawn(const struct chart_point *point)
@@ -42,10 +42,7 @@ static bool all_right(const struct chart_point *point)
   return point->camera.lost + point->camera.invented + point->camera.wrong == 0;
 }
 
-static double error_of(const struct chart_point *point)
-{
-  return fmax(point->camera.most_of_all, LEAST_ERROR);
-}
+static double error_of(const struct chart_point *point) { return fmax(point->camera.most_of_all, LEAST_ERROR); }
 
 /* Where a point's label stands: at the point, or right of those before it that are there already. */
 static double label_place(const struct chart *chart, size_t index)
@@ -80,9 +77,8 @@ static json_t *method_value(const struct method *method)
 {
   return json_pack("{s:s,s:s,s:f,s:s,s:s,s:o}", "solver", method->roots.solver->name, "basis",
                    method->basis == BASIS_POWER ? "power" : "bernstein", "tolerance", method->roots.tolerance, "polish",
-                   method->polish ? "on" : "off", "start",
-                   method->roots.start == START_PREVIOUS ? "previous" : "cold", "split",
-                   method->split == 0 ? json_string("auto") : json_sprintf("%d", method->split));
+                   method->polish ? "on" : "off", "start", method->roots.start == START_PREVIOUS ? "previous" : "cold",
+                   "split", method->split == 0 ? json_string("auto") : json_sprintf("%d", method->split));
 }
 
 /* A point, for all files; NULL where memory is short. */
@@ -92,18 +88,16 @@ static json_t *point_value(const struct chart *chart, size_t index)
   const struct judgement *camera = &point->camera;
   json_t *time = time_value(&point->time[RAYS_CAMERA]), *shadow_time = time_value(&point->time[RAYS_SHADOW]);
   return json_pack(
-    "{s:s,s:s,s:s,s:b,s:o,s:[O,o],s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}",
-    "family", family_name(point->family), "name", point->name, "label", point->label, "front", point->front,
-    "time", time, "times", time, shadow_time,
-    "shadow_ns", page_of_number(point->time[RAYS_SHADOW].median),
-    "t_median", page_of_number(camera->median), "t_99", page_of_number(camera->most), "t_max",
-    page_of_number(camera->max), "t_99_of_all", page_of_number(camera->most_of_all),
-    "rays", page_of_count(camera->rays), "hits", page_of_count(camera->hits), "undecided",
-    page_of_count(camera->undecided), "lost", page_of_count(camera->lost), "invented", page_of_count(camera->invented),
-    "wrong", page_of_count(camera->wrong), "other_patch", page_of_count(camera->other_patch),
-    "shadow", point->has_shadow ? shadow_value(&point->shadow) : json_null(),
-    "method", point->ours ? method_value(&point->options) : json_null(),
-    "error", page_of_number(error_of(point)), "label_at", page_of_number(label_place(chart, index)));
+    "{s:s,s:s,s:s,s:b,s:o,s:[O,o],s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "family",
+    family_name(point->family), "name", point->name, "label", point->label, "front", point->front, "time", time,
+    "times", time, shadow_time, "shadow_ns", page_of_number(point->time[RAYS_SHADOW].median), "t_median",
+    page_of_number(camera->median), "t_99", page_of_number(camera->most), "t_max", page_of_number(camera->max),
+    "t_99_of_all", page_of_number(camera->most_of_all), "rays", page_of_count(camera->rays), "hits",
+    page_of_count(camera->hits), "undecided", page_of_count(camera->undecided), "lost", page_of_count(camera->lost),
+    "invented", page_of_count(camera->invented), "wrong", page_of_count(camera->wrong), "other_patch",
+    page_of_count(camera->other_patch), "shadow", point->has_shadow ? shadow_value(&point->shadow) : json_null(),
+    "method", point->ours ? method_value(&point->options) : json_null(), "error", page_of_number(error_of(point)),
+    "label_at", page_of_number(label_place(chart, index)));
 }
 
 /* The points of a family that are all right, or are not, with their look; null where there are none. */
@@ -152,15 +146,13 @@ static int by_error(const void *a, const void *b)
 static bool add_front(const struct chart *chart, json_t *root)
 {
   const struct chart_point **front = calloc(chart->point_count + 1, sizeof *front);
-  json_t *lists[2] = { json_array(), json_array() };
+  json_t *lists[2] = {json_array(), json_array()};
   size_t count = 0;
   bool good = front != NULL;
   for (size_t k = 0; good && k < chart->point_count; k++) {
-    if (chart->points[k].front)
-      front[count++] = &chart->points[k];
+    if (chart->points[k].front) front[count++] = &chart->points[k];
   }
-  if (good)
-    qsort(front, count, sizeof *front, by_error);
+  if (good) qsort(front, count, sizeof *front, by_error);
   for (size_t k = 0; k + 1 < count; k++) {
     const bool right = all_right(front[k]) && all_right(front[k + 1]);
     json_t *step = json_pack("{s:f,s:f,s:f,s:f}", "x1", error_of(front[k]), "y1", front[k]->time[RAYS_CAMERA].median,
@@ -184,8 +176,7 @@ static json_t *make_values(const struct chart *chart)
   bool good = true;
   for (size_t k = 0; k < chart->point_count; k++) {
     good = json_array_append_new(points, point_value(chart, k)) == 0 && good;
-    if (chart->points[k].front || k == 0)
-      good = json_array_append(first, json_array_get(points, k)) == 0 && good;
+    if (chart->points[k].front || k == 0) good = json_array_append(first, json_array_get(points, k)) == 0 && good;
   }
   for (size_t k = 0; k < chart->note_count; k++)
     good = json_array_append_new(notes, json_pack("{s:o}", "note", page_of_text(chart->notes[k]))) == 0 && good;
@@ -201,8 +192,7 @@ static json_t *make_values(const struct chart *chart)
   good = root != NULL && good && json_object_update(root, head) == 0 && add_sets(chart, root, points) &&
          add_front(chart, root);
   json_decref(head);
-  if (good)
-    return root;
+  if (good) return root;
   json_decref(root);
   return NULL;
 }
@@ -212,8 +202,8 @@ enum { CSV, SVG, PAGE, FILES };
 /* A figure of an earlier chart goes where this one has none. */
 enum status chart_write(const struct chart *chart, struct page *out_text)
 {
-  static const char *const NAMES[FILES] = { "chart.csv", "chart.svg", "chart.html" };
-  struct page content[FILES] = { { 0 } };
+  static const char *const NAMES[FILES] = {"chart.csv", "chart.svg", "chart.html"};
+  struct page content[FILES] = {{0}};
   char path[FILES][PAGE_PATH_SIZE];
   json_t *values = make_values(chart);
   enum status status = STATUS_OK;
@@ -224,13 +214,10 @@ enum status chart_write(const struct chart *chart, struct page *out_text)
   page_fill(&content[CSV], TEMPLATE_CHART_CSV, values);
   page_fill(&content[PAGE], TEMPLATE_CHART_PAGE, values);
   page_fill(out_text, TEMPLATE_CHART_TABLE, values);
-  for (int k = 0; k < FILES; k++)
-    snprintf(path[k], sizeof path[k], "%s/%s", chart->request->folder, NAMES[k]);
+  for (int k = 0; k < FILES; k++) snprintf(path[k], sizeof path[k], "%s/%s", chart->request->folder, NAMES[k]);
   content[PAGE].failed = content[PAGE].failed || out_text->failed;
-  if (status == STATUS_OK)
-    status = page_write(chart->listener, FILES, path, content);
-  for (int k = 0; k < FILES; k++)
-    page_free(&content[k]);
+  if (status == STATUS_OK) status = page_write(chart->listener, FILES, path, content);
+  for (int k = 0; k < FILES; k++) page_free(&content[k]);
   json_decref(values);
   return status;
 }

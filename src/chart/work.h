@@ -14,9 +14,9 @@ enum { CHART_NOTES = 6, CHART_NOTE_SIZE = 320 };
 struct chart {
   const struct chart_request *request;
   const struct listener *listener;
-  size_t wanted, rounds;        /* camera rays, about; turns of each */
-  struct scene *scene;          /* every patch has solver 0 */
-  struct arena *arena;          /* of all below */
+  size_t wanted, rounds; /* camera rays, about; turns of each */
+  struct scene *scene;   /* every patch has solver 0 */
+  struct arena *arena;   /* of all below */
   struct ray_list rays[RAY_KINDS];
   struct truth *truths[RAY_KINDS];
   struct answer *answers;       /* room for the camera rays' */

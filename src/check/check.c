@@ -26,8 +26,9 @@ static enum status measure_as_written(struct check *check)
 {
   listener_tell(check->listener, TOLD_PROGRESS, "POV-Ray: as written");
   if (check->request->own_text && !process_can_confine())
-    listener_tell(check->listener, TOLD_WARNING, "this system cannot keep the scene's own text from writing files: it "
-                                                 "runs with all your rights");
+    listener_tell(check->listener, TOLD_WARNING,
+                  "this system cannot keep the scene's own text from writing files: it "
+                  "runs with all your rights");
   const enum status status = check_measure_row(check, 0);
   if (status == STATUS_OK && check->warnings.length > 0)
     listener_tell(check->listener, TOLD_PROGRESS, "%s", check->warnings.text);
@@ -41,10 +42,8 @@ static enum status measure(struct check *check)
     listener_tell(check->listener, TOLD_PROGRESS, "pscn");
     status = check_measure_ours(check);
   }
-  if (status == STATUS_OK)
-    status = measure_as_written(check);
-  if (status == STATUS_OK)
-    status = measure_series(check);
+  if (status == STATUS_OK) status = measure_as_written(check);
+  if (status == STATUS_OK) status = measure_series(check);
   return status == STATUS_OK ? check_find_worst(check) : status;
 }
 
@@ -58,8 +57,7 @@ static enum status judge(const struct check *check, struct page *out_text)
              "Within the limits: %.4g %% of the pixels differ by more than %.4g of 255, PSNR %.4g dB.",
              100 * (double)last->over_limit / (double)last->result.pixels, 255 * check->request->fail.each,
              last->result.psnr);
-  else
-    snprintf(verdict, sizeof verdict, "Beyond the limits: %s.", beyond);
+  else snprintf(verdict, sizeof verdict, "Beyond the limits: %s.", beyond);
   const enum status status = check_write(check, verdict, out_text);
   return status != STATUS_OK || within ? status : listener_fail(check->listener, STATUS_DIFFERENT, "%s", beyond);
 }
@@ -67,21 +65,24 @@ static enum status judge(const struct check *check, struct page *out_text)
 enum status check_scene(const struct check_request *request, struct scene *scene, const struct listener *listener,
                         struct page *out_text)
 {
-  *out_text = (struct page){ 0 };
+  *out_text = (struct page){0};
   struct check *check = calloc(1, sizeof *check);
-  if (check == NULL)
-    return listener_out_of_memory(listener);
-  *check = (struct check){ .request = request, .listener = listener, .scene = scene,
-                           .povray = { .listener = listener, .program = request->program, .options = request->options,
-                                       .option_count = request->option_count, .width = request->width,
-                                       .height = request->height, .timeout = request->timeout,
-                                       .memory = request->memory } };
+  if (check == NULL) return listener_out_of_memory(listener);
+  *check = (struct check){.request = request,
+                          .listener = listener,
+                          .scene = scene,
+                          .povray = {.listener = listener,
+                                     .program = request->program,
+                                     .options = request->options,
+                                     .option_count = request->option_count,
+                                     .width = request->width,
+                                     .height = request->height,
+                                     .timeout = request->timeout,
+                                     .memory = request->memory}};
   enum status status = measure(check);
-  if (status == STATUS_OK)
-    status = judge(check, out_text);
+  if (status == STATUS_OK) status = judge(check, out_text);
   povray_close(&check->povray);
-  for (size_t k = 0; k < check->row_count; k++)
-    check_row_free(&check->row[k]);
+  for (size_t k = 0; k < check->row_count; k++) check_row_free(&check->row[k]);
   check_ours_free(&check->ours);
   page_free(&check->warnings);
   free(check);

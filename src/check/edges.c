@@ -6,14 +6,11 @@
 
 #include "geometry/vector.h"
 
-const char *const CHECK_EDGE_NAME[CHECK_EDGES] = { "no edge", "crease", "shadow", "silhouette" };
+const char *const CHECK_EDGE_NAME[CHECK_EDGES] = {"no edge", "crease", "shadow", "silhouette"};
 
 const float CHECK_EDGE_COLOR[CHECK_EDGES][3] = {
-  { 0, 0, 0 }, { 0.45f, 0.3f, 0.55f }, { 0.2f, 0.5f, 0.3f }, { 0.25f, 0.4f, 0.7f }
-};
-const float CHECK_SPOT_COLOR[CHECK_EDGES][3] = {
-  { 1, 0.15f, 0.15f }, { 1, 0.5f, 1 }, { 0.4f, 1, 0.5f }, { 1, 0.85f, 0.2f }
-};
+  {0, 0, 0}, {0.45f, 0.3f, 0.55f}, {0.2f, 0.5f, 0.3f}, {0.25f, 0.4f, 0.7f}};
+const float CHECK_SPOT_COLOR[CHECK_EDGES][3] = {{1, 0.15f, 0.15f}, {1, 0.5f, 1}, {0.4f, 1, 0.5f}, {1, 0.85f, 0.2f}};
 
 static const float DARK = 0.22f; /* our picture below the map, times its value */
 
@@ -38,16 +35,14 @@ static enum check_edge edge_between(const struct check *check, const struct chec
   static const double TURN = 0.9;  /* cosine of 26 degrees */
   static const double RISE = 0.34; /* sine of 20 degrees: out of a tangent plane */
   const bool a_missed = a->hit.patch == HIT_NONE, b_missed = b->hit.patch == HIT_NONE;
-  if (a_missed || b_missed)
-    return a_missed == b_missed ? CHECK_EDGE_NONE : CHECK_EDGE_SILHOUETTE;
+  if (a_missed || b_missed) return a_missed == b_missed ? CHECK_EDGE_NONE : CHECK_EDGE_SILHOUETTE;
   double step[3];
   vector_subtract(b->hit.point, a->hit.point, step);
   const double far = RISE * vector_length(step);
   if (fabs(vector_dot(step, a->hit.normal)) > far || fabs(vector_dot(step, b->hit.normal)) > far ||
       jumps(check->scene->camera.location, a, b))
     return CHECK_EDGE_SILHOUETTE;
-  if (a->lights != b->lights)
-    return CHECK_EDGE_SHADOW;
+  if (a->lights != b->lights) return CHECK_EDGE_SHADOW;
   return vector_dot(a->hit.normal, b->hit.normal) < TURN ? CHECK_EDGE_CREASE : CHECK_EDGE_NONE;
 }
 
@@ -68,8 +63,7 @@ void check_find_edges(struct check *check)
 
 static void put_color(struct image *image, size_t x, size_t y, const float color[3])
 {
-  for (int k = 0; k < 3; k++)
-    image_pixel(image, x, y)[k] = color[k];
+  for (int k = 0; k < 3; k++) image_pixel(image, x, y)[k] = color[k];
 }
 
 /* The pixels over the limit, on an edge or off all; large enough to be seen where the picture is. */
@@ -79,8 +73,7 @@ static void put_spots(const struct check *check, const struct check_row *row, bo
   for (size_t y = 0; y < check->request->height; y++) {
     for (size_t x = 0; x < check->request->width; x++) {
       const bool off = check->ours.pixel[y * check->request->width + x].edge == CHECK_EDGE_NONE;
-      if (off != off_edges || !(check_pixel_difference(check, row, x, y) > check_limit(check)))
-        continue;
+      if (off != off_edges || !(check_pixel_difference(check, row, x, y) > check_limit(check))) continue;
       for (size_t v = y < reach ? 0 : y - reach; v <= y + reach && v < check->request->height; v++) {
         for (size_t u = x < reach ? 0 : x - reach; u <= x + reach && u < check->request->width; u++)
           put_color(map, u, v, CHECK_SPOT_COLOR[check->ours.pixel[y * check->request->width + x].edge]);
@@ -92,16 +85,13 @@ static void put_spots(const struct check *check, const struct check_row *row, bo
 enum status check_map(const struct check *check, const struct check_row *row, struct image *out)
 {
   const enum status status = image_create(check->request->width, check->request->height, 3, out);
-  if (status != STATUS_OK)
-    return status;
-  for (int k = 0; k < 3; k++)
-    out->channel[k] = check->ours.picture.channel[k];
+  if (status != STATUS_OK) return status;
+  for (int k = 0; k < 3; k++) out->channel[k] = check->ours.picture.channel[k];
   for (size_t y = 0; y < check->request->height; y++) {
     for (size_t x = 0; x < check->request->width; x++) {
       const enum check_edge edge = check->ours.pixel[y * check->request->width + x].edge;
       float color[3];
-      for (int k = 0; k < 3; k++)
-        color[k] = DARK * image_pixel(&check->ours.picture, x, y)[k];
+      for (int k = 0; k < 3; k++) color[k] = DARK * image_pixel(&check->ours.picture, x, y)[k];
       put_color(out, x, y, edge == CHECK_EDGE_NONE ? color : CHECK_EDGE_COLOR[edge]);
     }
   }

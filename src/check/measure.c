@@ -11,12 +11,12 @@
 #include "render/render.h"
 #include "render/shade.h"
 
-static const int CODE[CHECK_CODES] = { 1, 4, 16 };
+static const int CODE[CHECK_CODES] = {1, 4, 16};
 
 /* Values are multiples of 1/255 rounded to float: a limit of k/255 is passed by those beyond k only. */
 static const double CODE_ROUNDING = 1e-6;
 
-static const size_t RGB[3] = { 0, 1, 2 };
+static const size_t RGB[3] = {0, 1, 2};
 
 /* ---- ours ---- */
 
@@ -34,8 +34,7 @@ static void encode(struct image *image)
   struct srgb_table table;
   srgb_table_fill(&table);
   const size_t count = image->width * image->height * image->channel_count;
-  for (size_t k = 0; k < count; k++)
-    image->value[k] = (float)srgb_encode8(&table, image->value[k]) / 255;
+  for (size_t k = 0; k < count; k++) image->value[k] = (float)srgb_encode8(&table, image->value[k]) / 255;
 }
 
 /* Marks the light where it reaches the hits of a packet. */
@@ -45,16 +44,14 @@ static void look_at_light(const struct check *check, struct tracer *tracer, size
   const struct scene_light *light = &check->scene->lights[light_index];
   struct ray shadow[PACKET_SIZE];
   struct check_pixel *asked[PACKET_SIZE];
-  bool hidden[PACKET_SIZE] = { false };
+  bool hidden[PACKET_SIZE] = {false};
   size_t rays = 0;
   for (size_t k = 0; k < count; k++) {
     if (pixels[k].hit.patch != HIT_NONE && shade_shadow_ray(light, &pixels[k].hit, &shadow[rays]))
       asked[rays++] = &pixels[k];
   }
-  if (rays > 0 && !light->shadowless)
-    tracer_occluded(tracer, rays, shadow, hidden);
-  for (size_t k = 0; k < rays; k++)
-    asked[k]->lights |= (uint64_t)!hidden[k] << light_index;
+  if (rays > 0 && !light->shadowless) tracer_occluded(tracer, rays, shadow, hidden);
+  for (size_t k = 0; k < rays; k++) asked[k]->lights |= (uint64_t)!hidden[k] << light_index;
 }
 
 static void look_at_pixels(struct check *check, struct tracer *tracer)
@@ -67,15 +64,13 @@ static void look_at_pixels(struct check *check, struct tracer *tracer)
       const size_t left = check->request->width - x, count = left < PACKET_SIZE ? left : PACKET_SIZE;
       struct ray rays[PACKET_SIZE];
       struct hit hits[PACKET_SIZE];
-      for (size_t k = 0; k < count; k++)
-        rays[k] = pixel_ray(check, x + k, y);
+      for (size_t k = 0; k < count; k++) rays[k] = pixel_ray(check, x + k, y);
       tracer_closest(tracer, count, rays, hits);
       for (size_t k = 0; k < count; k++) {
         pixels[k].hit = hits[k];
         pixels[k].distance = hits[k].patch == HIT_NONE ? INFINITY : hits[k].t * vector_length(rays[k].direction);
       }
-      for (size_t light = 0; light < lights; light++)
-        look_at_light(check, tracer, light, count, pixels);
+      for (size_t light = 0; light < lights; light++) look_at_light(check, tracer, light, count, pixels);
     }
   }
 }
@@ -86,31 +81,31 @@ enum status check_measure_ours(struct check *check)
   struct intersector *intersector = NULL;
   struct tracer *tracer = NULL;
   const size_t width = check->request->width, height = check->request->height;
-  const struct render_options options = { .width = width, .height = height, .samples = 1,
-                                          .crop = { .width = width, .height = height }, .threads = 1,
-                                          .channels = { .count = 1, .width = 3, .kind = { CHANNEL_RGB } } };
-  const struct render_watch watch = { .stop = check->listener->stop };
+  const struct render_options options = {.width = width,
+                                         .height = height,
+                                         .samples = 1,
+                                         .crop = {.width = width, .height = height},
+                                         .threads = 1,
+                                         .channels = {.count = 1, .width = 3, .kind = {CHANNEL_RGB}}};
+  const struct render_watch watch = {.stop = check->listener->stop};
   struct render_stats stats;
   const struct seconds start = seconds_now();
   enum status status = image_create(width, height, 3, &ours->picture);
-  if (status == STATUS_OK)
-    status = intersector_create(check->scene, &intersector);
+  if (status == STATUS_OK) status = intersector_create(check->scene, &intersector);
   if (status == STATUS_OK)
     status = render_scene(check->scene, intersector, &options, &watch, ours->picture.value, &stats);
   if (status == STATUS_OK) {
     encode(&ours->picture);
     const struct seconds taken = seconds_since(start), *parse = &check->request->parse;
-    ours->time = (struct seconds){ taken.wall + parse->wall, taken.cpu + parse->cpu };
-    for (int k = 0; k < 3; k++)
-      snprintf(ours->picture.channel[k].name, IMAGE_NAME_SIZE, "%c", "RGB"[k]);
+    ours->time = (struct seconds){taken.wall + parse->wall, taken.cpu + parse->cpu};
+    for (int k = 0; k < 3; k++) snprintf(ours->picture.channel[k].name, IMAGE_NAME_SIZE, "%c", "RGB"[k]);
     ours->pixel = calloc(width * height, sizeof *ours->pixel);
     status = ours->pixel == NULL ? STATUS_LIMIT : tracer_create(intersector, &tracer);
   }
   if (status == STATUS_OK) {
     look_at_pixels(check, tracer);
     check_find_edges(check);
-    if (listener_stopped(check->listener))
-      status = STATUS_INTERRUPTED;
+    if (listener_stopped(check->listener)) status = STATUS_INTERRUPTED;
   }
   tracer_destroy(tracer);
   intersector_destroy(intersector);
@@ -127,19 +122,18 @@ void check_ours_free(struct check_ours *ours)
 
 static struct compare_pair pair_of(const struct check *check, const struct check_row *row)
 {
-  return (struct compare_pair){ .first = &check->ours.picture,
-                                .second = &row->picture.image,
-                                .channel_count = 3,
-                                .first_channel = RGB,
-                                .second_channel = RGB };
+  return (struct compare_pair){.first = &check->ours.picture,
+                               .second = &row->picture.image,
+                               .channel_count = 3,
+                               .first_channel = RGB,
+                               .second_channel = RGB};
 }
 
 double check_pixel_difference(const struct check *check, const struct check_row *row, size_t x, size_t y)
 {
   const float *a = image_pixel(&check->ours.picture, x, y), *b = image_pixel(&row->picture.image, x, y);
   double most = 0;
-  for (int k = 0; k < 3; k++)
-    most = fmax(most, fabs((double)a[k] - (double)b[k]));
+  for (int k = 0; k < 3; k++) most = fmax(most, fabs((double)a[k] - (double)b[k]));
   return most;
 }
 
@@ -150,8 +144,7 @@ static void compare_row(const struct check *check, struct check_row *row)
   const struct compare_pair pair = pair_of(check, row);
   const double limit = check_limit(check);
   compare_images(&pair, &row->result, NULL, 1);
-  for (int k = 0; k < CHECK_CODES; k++)
-    row->over[k] = compare_count_over(&pair, CODE[k] / 255.0 + CODE_ROUNDING);
+  for (int k = 0; k < CHECK_CODES; k++) row->over[k] = compare_count_over(&pair, CODE[k] / 255.0 + CODE_ROUNDING);
   row->over_limit = compare_count_over(&pair, limit);
   for (size_t y = 0; y < check->request->height; y++) {
     for (size_t x = 0; x < check->request->width; x++) {
@@ -169,17 +162,15 @@ static void compare_row(const struct check *check, struct check_row *row)
 /* From the distances of both on the same rays; `ours` is overwritten. */
 static void compare_distances(size_t count, double ours[], const double theirs[], struct check_distances *out)
 {
-  *out = (struct check_distances){ .rays = count };
+  *out = (struct check_distances){.rays = count};
   for (size_t k = 0; k < count; k++) {
     const bool hit = isfinite(ours[k]), theirs_hit = isfinite(theirs[k]);
     out->only_ours += hit && !theirs_hit;
     out->only_theirs += !hit && theirs_hit;
-    if (hit && theirs_hit)
-      ours[out->both++] = fabs(theirs[k] - ours[k]) / ours[k];
+    if (hit && theirs_hit) ours[out->both++] = fabs(theirs[k] - ours[k]) / ours[k];
   }
   out->median = out->most = out->max = NAN;
-  if (out->both == 0)
-    return;
+  if (out->both == 0) return;
   sort_numbers(ours, out->both);
   out->median = sorted_quantile(ours, out->both, 0.5);
   out->most = sorted_quantile(ours, out->both, 0.99);
@@ -207,8 +198,7 @@ static enum status ask(struct check *check, struct check_row *row)
     ours[k] = check->ours.pixel[y * width + x].distance;
   }
   status = povray_ask(&check->povray, check->scene, count, rays, theirs, row->mask);
-  if (status == STATUS_OK)
-    compare_distances(count, ours, theirs, &row->distances);
+  if (status == STATUS_OK) compare_distances(count, ours, theirs, &row->distances);
 
 done:
   free(rays);
@@ -222,18 +212,15 @@ done:
 enum status check_measure_row(struct check *check, size_t steps)
 {
   struct check_row *row = &check->row[check->row_count];
-  *row = (struct check_row){ .steps = steps };
+  *row = (struct check_row){.steps = steps};
   const bool own = steps == 0 && check->request->own_text;
   enum status status = own ? povray_render_file(&check->povray, check->request->path, &row->picture)
                            : povray_render(&check->povray, check->scene, &row->picture);
-  if (status != STATUS_OK)
-    return status;
-  if (check->row_count++ == 0)
-    povray_warnings(&check->povray, &check->warnings);
+  if (status != STATUS_OK) return status;
+  if (check->row_count++ == 0) povray_warnings(&check->povray, &check->warnings);
   row->mask = calloc(check->request->width * check->request->height, 1);
   status = row->mask == NULL || check->warnings.failed ? listener_out_of_memory(check->listener) : ask(check, row);
-  if (status == STATUS_OK)
-    compare_row(check, row);
+  if (status == STATUS_OK) compare_row(check, row);
   return status;
 }
 
@@ -245,17 +232,13 @@ void check_row_free(struct check_row *row)
 
 /* ---- the worst pixels ---- */
 
-static size_t gap(size_t a, size_t b)
-{
-  return a > b ? a - b : b - a;
-}
+static size_t gap(size_t a, size_t b) { return a > b ? a - b : b - a; }
 
 static bool near_one(const struct check *check, size_t x, size_t y)
 {
   const size_t apart_by = check->request->width / 20 + 4;
   for (size_t k = 0; k < check->worst_count; k++) {
-    if (gap(check->worst[k].x, x) < apart_by && gap(check->worst[k].y, y) < apart_by)
-      return true;
+    if (gap(check->worst[k].x, x) < apart_by && gap(check->worst[k].y, y) < apart_by) return true;
   }
   return false;
 }
@@ -267,34 +250,30 @@ enum status check_find_worst(struct check *check)
   double distance[CHECK_WORST];
   for (check->worst_count = 0; check->worst_count < CHECK_WORST; check->worst_count++) {
     struct check_worst *worst = &check->worst[check->worst_count];
-    *worst = (struct check_worst){ 0 };
+    *worst = (struct check_worst){0};
     for (size_t y = 0; y < check->request->height; y++) {
       for (size_t x = 0; x < check->request->width; x++) {
         const double difference = check_pixel_difference(check, row, x, y);
         if (difference > worst->difference && !near_one(check, x, y))
-          *worst = (struct check_worst){ .x = x, .y = y, .difference = difference };
+          *worst = (struct check_worst){.x = x, .y = y, .difference = difference};
       }
     }
-    if (worst->difference == 0)
-      break;
+    if (worst->difference == 0) break;
     rays[check->worst_count] = pixel_ray(check, worst->x, worst->y);
   }
   const enum status status = povray_ask(&check->povray, check->scene, check->worst_count, rays, distance, NULL);
-  for (size_t k = 0; status == STATUS_OK && k < check->worst_count; k++)
-    check->worst[k].distance = distance[k];
+  for (size_t k = 0; status == STATUS_OK && k < check->worst_count; k++) check->worst[k].distance = distance[k];
   return status;
 }
 
 enum status check_difference(const struct check *check, const struct check_row *row, double scale, struct image *out)
 {
   const enum status status = image_create(check->request->width, check->request->height, 3, out);
-  if (status != STATUS_OK)
-    return listener_out_of_memory(check->listener);
+  if (status != STATUS_OK) return listener_out_of_memory(check->listener);
   const struct compare_pair pair = pair_of(check, row);
   struct compare_result ignored;
   compare_images(&pair, &ignored, out, scale);
-  for (int k = 0; k < 3; k++)
-    out->channel[k] = check->ours.picture.channel[k];
+  for (int k = 0; k < 3; k++) out->channel[k] = check->ours.picture.channel[k];
   return STATUS_OK;
 }
 
@@ -314,7 +293,6 @@ bool check_within_limits(const struct check *check, char *out, size_t size)
   else if (mask > request->fail_mask)
     snprintf(out, size, "%.4g %% of the pixels are hit by one of both only, more than %.4g %%", mask,
              request->fail_mask);
-  else
-    return true;
+  else return true;
   return false;
 }

@@ -19,15 +19,15 @@ extern const char *const CHECK_EDGE_NAME[CHECK_EDGES];
 /* What we know of a pixel's centre. */
 struct check_pixel {
   struct hit hit;
-  double distance;  /* scene units; INFINITY on a miss */
-  uint64_t lights;  /* bit k: light k (of the first 64) reaches the point */
+  double distance; /* scene units; INFINITY on a miss */
+  uint64_t lights; /* bit k: light k (of the first 64) reaches the point */
   enum check_edge edge;
 };
 
 struct check_ours {
-  struct image picture;        /* R G B, display codes of 8 bits as k/255 */
-  struct check_pixel *pixel;   /* [height][width] */
-  struct seconds time;         /* of reading, building, rendering and encoding, one thread */
+  struct image picture;      /* R G B, display codes of 8 bits as k/255 */
+  struct check_pixel *pixel; /* [height][width] */
+  struct seconds time;       /* of reading, building, rendering and encoding, one thread */
 };
 
 /* Differences of distances, relative to ours, over the rays that both say hit; NaN where there are none. */
@@ -43,7 +43,7 @@ struct check_row {
   struct compare_result result;
   size_t over[CHECK_CODES], over_limit;
   size_t over_limit_on[CHECK_EDGES]; /* the pixels over the limit by what they lie on */
-  size_t mask_ours, mask_theirs; /* pixels only one of us hits */
+  size_t mask_ours, mask_theirs;     /* pixels only one of us hits */
   struct check_distances distances;
 };
 

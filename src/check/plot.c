@@ -18,8 +18,7 @@ static void copy_with_titles(const char *svg, struct page *out)
   static const char BEGIN[] = " onmousemove=\"gnuplot_svg.showHypertext(evt,'", END[] = "</title>";
   for (const char *at; (at = strstr(svg, BEGIN)) != NULL;) {
     const char *text = at + sizeof BEGIN - 1, *close = strstr(text, "')\""), *end = strstr(text, END);
-    if (close == NULL || end == NULL)
-      break;
+    if (close == NULL || end == NULL) break;
     page_bytes(out, svg, (size_t)(at - svg));
     page_format(out, "><title>%.*s", (int)(close - text), text);
     svg = end;
@@ -33,8 +32,7 @@ static void read_figure(const struct scratch *folder, struct page *out)
   static const char LAST[] = "</svg>";
   size_t length;
   char *svg = scratch_read(folder, FIGURE, &length);
-  while (svg != NULL && length > 0 && strchr(" \n", svg[length - 1]) != NULL)
-    svg[--length] = '\0';
+  while (svg != NULL && length > 0 && strchr(" \n", svg[length - 1]) != NULL) svg[--length] = '\0';
   const char *begin = svg == NULL ? NULL : strstr(svg, "<svg");
   if (begin != NULL && length > sizeof LAST && strcmp(svg + length - (sizeof LAST - 1), LAST) == 0)
     copy_with_titles(begin, out);
@@ -45,22 +43,21 @@ static enum status run_gnuplot(const struct listener *listener, const struct scr
 {
   char log[SCRATCH_PATH_SIZE];
   scratch_path(folder, LOG, log);
-  const char *const arguments[] = { "gnuplot", SCRIPT, NULL };
-  const char *const environment[] = { "LC_ALL", "C", NULL };
-  const struct process_request request = { .arguments = arguments, .folder = folder->path, .environment = environment,
-                                           .output = log, .timeout = TIMEOUT };
+  const char *const arguments[] = {"gnuplot", SCRIPT, NULL};
+  const char *const environment[] = {"LC_ALL", "C", NULL};
+  const struct process_request request = {
+    .arguments = arguments, .folder = folder->path, .environment = environment, .output = log, .timeout = TIMEOUT};
   struct process_result result;
   const enum status status = process_run(&request, listener->stop, &result);
-  if (status == STATUS_INTERRUPTED)
-    return status;
-  if (status == STATUS_OK && result.exit_code == 0)
-    read_figure(folder, out);
+  if (status == STATUS_INTERRUPTED) return status;
+  if (status == STATUS_OK && result.exit_code == 0) read_figure(folder, out);
   if (out->length == 0 && result.missing) {
-    listener_tell(listener, TOLD_WARNING, "gnuplot is not installed, so there is no figure; the numbers are written "
-                                          "all the same. On Debian 'apt-get install gnuplot-nox' installs it.");
+    listener_tell(listener, TOLD_WARNING,
+                  "gnuplot is not installed, so there is no figure; the numbers are written "
+                  "all the same. On Debian 'apt-get install gnuplot-nox' installs it.");
   } else if (out->length == 0) {
     size_t length = 0;
-    struct page said = { 0 };
+    struct page said = {0};
     char *text = scratch_read(folder, LOG, &length);
     page_printable(&said, text == NULL ? "" : text, length < 400 ? length : 400);
     listener_tell(listener, TOLD_WARNING, "gnuplot made no figure: %s", said.text == NULL ? "" : said.text);
@@ -73,8 +70,8 @@ static enum status run_gnuplot(const struct listener *listener, const struct scr
 enum status plot_draw(const struct listener *listener, const char *template, const json_t *values, struct page *out)
 {
   struct scratch folder;
-  struct page script = { 0 };
-  *out = (struct page){ 0 };
+  struct page script = {0};
+  *out = (struct page){0};
   page_fill(&script, template, values);
   if (script.failed) {
     page_free(&script);
@@ -88,8 +85,7 @@ enum status plot_draw(const struct listener *listener, const char *template, con
   }
   if (status != STATUS_OK || file == NULL)
     status = listener_fail(listener, STATUS_FILE, "cannot write a temporary file: %s", strerror(errno));
-  else
-    status = run_gnuplot(listener, &folder, out);
+  else status = run_gnuplot(listener, &folder, out);
   scratch_remove(&folder);
   page_free(&script);
   return status;

@@ -42,13 +42,11 @@ static void run_path(const struct povray *povray, const char *name, char out[SCR
 /* All it said, printable. */
 static struct page read_log(const struct povray *povray)
 {
-  struct page log = { 0 };
+  struct page log = {0};
   size_t length;
   char *text = scratch_read(&povray->folder, LOG, &length);
-  for (size_t k = 0; text != NULL && k < length; k++)
-    text[k] = text[k] == '\r' ? '\n' : text[k];
-  if (text != NULL)
-    page_printable(&log, text, length);
+  for (size_t k = 0; text != NULL && k < length; k++) text[k] = text[k] == '\r' ? '\n' : text[k];
+  if (text != NULL) page_printable(&log, text, length);
   free(text);
   return log;
 }
@@ -57,8 +55,7 @@ static void note_version(struct povray *povray, const struct page *log)
 {
   static const char BEFORE[] = "POV-Ray ";
   const char *at = log->text == NULL ? NULL : strstr(log->text, BEFORE);
-  if (at == NULL || povray->version[0] != '\0')
-    return;
+  if (at == NULL || povray->version[0] != '\0') return;
   at += sizeof BEFORE - 1;
   snprintf(povray->version, sizeof povray->version, "%.*s", (int)strcspn(at, " \n"), at);
 }
@@ -67,14 +64,11 @@ static void note_version(struct povray *povray, const struct page *log)
 static void show_log(const struct povray *povray, const struct page *log)
 {
   enum { SHOWN = 4000 };
-  if (log->text == NULL)
-    return;
+  if (log->text == NULL) return;
   const char *parsing = strstr(log->text, "==== [Parsing"), *line = parsing == NULL ? log->text : parsing;
-  if (strlen(line) > SHOWN)
-    line += strlen(line) - SHOWN;
+  if (strlen(line) > SHOWN) line += strlen(line) - SHOWN;
   for (; *line != '\0'; line += strcspn(line, "\n"), line += strspn(line, "\n")) {
-    if (*line != '\n')
-      listener_tell(povray->listener, TOLD_DETAIL, "  povray: %.*s", (int)strcspn(line, "\n"), line);
+    if (*line != '\n') listener_tell(povray->listener, TOLD_DETAIL, "  povray: %.*s", (int)strcspn(line, "\n"), line);
   }
 }
 
@@ -93,10 +87,8 @@ void povray_warnings(const struct povray *povray, struct page *out)
     const size_t part = strcspn(line, "\n");
     const bool begins = holds(line, part, "Warning: ") || holds(line, part, "Possible Parse Error: ");
     within = begins || (within && *line == ' ');
-    if (within && begins && out->length > 0)
-      page_bytes(out, "\n", 1);
-    if (within)
-      page_bytes(out, line, part);
+    if (within && begins && out->length > 0) page_bytes(out, "\n", 1);
+    if (within) page_bytes(out, line, part);
     line += part + strspn(line + part, "\n");
   }
   page_free(&log);
@@ -122,24 +114,26 @@ static enum status run_program(struct povray *povray, const char *const *argumen
   scratch_path(&povray->folder, LOG, log_path);
   scratch_path(&povray->folder, HOME, home);
   scratch_path(&povray->folder, RUN, run);
-  const char *const environment[] = { "HOME", home, "POVINI", NULL, NULL };
-  const struct process_request request = { .arguments = arguments, .folder = run, .environment = environment,
-                                           .output = log_path, .timeout = povray->timeout, .memory = povray->memory,
-                                           .confined = true };
+  const char *const environment[] = {"HOME", home, "POVINI", NULL, NULL};
+  const struct process_request request = {.arguments = arguments,
+                                          .folder = run,
+                                          .environment = environment,
+                                          .output = log_path,
+                                          .timeout = povray->timeout,
+                                          .memory = povray->memory,
+                                          .confined = true};
   const enum status status = process_run(&request, povray->listener->stop, out);
   if (status == STATUS_LIMIT)
     return listener_fail(povray->listener, status, "POV-Ray took more than %g seconds on %s (--timeout)",
                          povray->timeout, what);
   povray->missing = status == STATUS_FILE && out->missing;
-  if (povray->missing && povray->optional)
-    return status;
+  if (povray->missing && povray->optional) return status;
   if (status == STATUS_FILE)
     (void)listener_fail(povray->listener, status, "cannot run '%s': %s", povray->program, strerror(out->reason));
   if (povray->missing)
     listener_tell(povray->listener, TOLD_DETAIL,
                   "POV-Ray 3.7 is what scenes are checked against; on Debian 'apt-get install povray' installs it.");
-  if (status != STATUS_OK)
-    return status;
+  if (status != STATUS_OK) return status;
   struct page log = read_log(povray);
   note_version(povray, &log);
   if (out->exit_code != 0) {
@@ -154,11 +148,10 @@ static enum status run_program(struct povray *povray, const char *const *argumen
 /* Asks the program what it is: so that a missing one is told before the work starts. */
 static enum status ask_version(struct povray *povray)
 {
-  const char *const arguments[] = { povray->program, "--version", NULL };
+  const char *const arguments[] = {povray->program, "--version", NULL};
   struct process_result result;
   enum status status = begin_run(povray);
-  if (status == STATUS_OK)
-    status = run_program(povray, arguments, "--version", &result);
+  if (status == STATUS_OK) status = run_program(povray, arguments, "--version", &result);
   if (status == STATUS_OK && povray->version[0] == '\0')
     return listener_fail(povray->listener, STATUS_FILE, "'%s' does not call itself POV-Ray", povray->program);
   return status;
@@ -167,17 +160,15 @@ static enum status ask_version(struct povray *povray)
 /* The folder that is its home, with the restrictions where it looks for them. */
 static enum status make_home(const struct povray *povray)
 {
-  static const char *const FOLDERS[] = { "home", "home/.povray", "home/.povray/3.7" };
+  static const char *const FOLDERS[] = {"home", "home/.povray", "home/.povray/3.7"};
   static const char FILE_NAME[] = "home/.povray/3.7/povray.conf";
   char path[SCRATCH_PATH_SIZE];
   for (size_t k = 0; k < sizeof FOLDERS / sizeof FOLDERS[0]; k++) {
     scratch_path(&povray->folder, FOLDERS[k], path);
-    if (mkdir(path, 0700) != 0)
-      return cannot_write(povray, FOLDERS[k]);
+    if (mkdir(path, 0700) != 0) return cannot_write(povray, FOLDERS[k]);
   }
   FILE *file = scratch_open(&povray->folder, FILE_NAME);
-  if (file == NULL)
-    return cannot_write(povray, FILE_NAME);
+  if (file == NULL) return cannot_write(povray, FILE_NAME);
   (void)fputs(RESTRICTIONS, file);
   return scratch_close(file) == STATUS_OK ? STATUS_OK : cannot_write(povray, FILE_NAME);
 }
@@ -200,10 +191,7 @@ enum status povray_open(struct povray *povray)
   return status == STATUS_OK ? ask_version(povray) : status;
 }
 
-void povray_close(struct povray *povray)
-{
-  scratch_remove(&povray->folder);
-}
+void povray_close(struct povray *povray) { scratch_remove(&povray->folder); }
 
 /* Runs it on TEXT, which stands in RUN; the picture stands in PICTURE then. */
 static enum status run_on_text(struct povray *povray, const char *what, bool pictured, struct process_result *out)
@@ -211,17 +199,16 @@ static enum status run_on_text(struct povray *povray, const char *what, bool pic
   enum { OURS = 16 };
   char size[2][32];
   const char **arguments = calloc(OURS + povray->option_count, sizeof *arguments);
-  if (arguments == NULL)
-    return listener_out_of_memory(povray->listener);
+  if (arguments == NULL) return listener_out_of_memory(povray->listener);
   snprintf(size[0], sizeof size[0], "+W%zu", pictured ? povray->width : 1);
   snprintf(size[1], sizeof size[1], "+H%zu", pictured ? povray->height : 1);
-  const char *const ours[] = { povray->program, "+Iscene.pov", "+Opicture.png", size[0], size[1], "+FN8", "-A", "-D",
-                               "-P", "-UA", "+SU", "Dither=Off", "Work_Threads=1" };
+  const char *const ours[] = {
+    povray->program, "+Iscene.pov", "+Opicture.png", size[0],         size[1], "+FN8", "-A", "-D", "-P",
+    "-UA",           "+SU",         "Dither=Off",    "Work_Threads=1"};
   const size_t count = sizeof ours / sizeof ours[0];
   _Static_assert(sizeof ours / sizeof ours[0] < OURS, "and the NULL");
   memcpy(arguments, ours, sizeof ours);
-  for (size_t k = 0; k < povray->option_count; k++)
-    arguments[count + k] = povray->options[k];
+  for (size_t k = 0; k < povray->option_count; k++) arguments[count + k] = povray->options[k];
   const enum status status = run_program(povray, arguments, what, out);
   free(arguments);
   return status;
@@ -234,8 +221,7 @@ static enum status read_picture(const struct povray *povray, struct image *out)
   char path[SCRATCH_PATH_SIZE], message[IMAGE_MESSAGE_SIZE];
   run_path(povray, PICTURE, path);
   const enum status status = image_read(path, out, message);
-  if (status != STATUS_OK)
-    return listener_fail(povray->listener, status, "cannot read POV-Ray's picture: %s", message);
+  if (status != STATUS_OK) return listener_fail(povray->listener, status, "cannot read POV-Ray's picture: %s", message);
   if (out->width == povray->width && out->height == povray->height && out->channel_count >= 3) {
     for (size_t k = 0; k < povray->width * povray->height * out->channel_count; k++)
       out->value[k] = roundf(255 * out->value[k]) / 255; /* the reader multiplies by a rounded 1/255 */
@@ -268,15 +254,12 @@ static enum status write_text(const struct povray *povray, text_writer *write, c
 {
   char path[SCRATCH_PATH_SIZE];
   enum status status = begin_run(povray);
-  if (status != STATUS_OK)
-    return status;
+  if (status != STATUS_OK) return status;
   run_path(povray, TEXT, path);
   FILE *file = fopen(path, "w");
-  if (file == NULL)
-    return cannot_write(povray, TEXT);
+  if (file == NULL) return cannot_write(povray, TEXT);
   status = write(question, file);
-  if (scratch_close(file) != STATUS_OK || status == STATUS_FILE)
-    return cannot_write(povray, TEXT);
+  if (scratch_close(file) != STATUS_OK || status == STATUS_FILE) return cannot_write(povray, TEXT);
   return status == STATUS_OK ? status : listener_out_of_memory(povray->listener);
 }
 
@@ -287,8 +270,8 @@ static enum status write_scene(const struct question *question, FILE *file)
 
 enum status povray_render(struct povray *povray, const struct scene *scene, struct povray_picture *out)
 {
-  *out = (struct povray_picture){ 0 };
-  const enum status status = write_text(povray, write_scene, &(struct question){ .scene = scene });
+  *out = (struct povray_picture){0};
+  const enum status status = write_text(povray, write_scene, &(struct question){.scene = scene});
   return status == STATUS_OK ? render_text(povray, "the scene", out) : status;
 }
 
@@ -296,16 +279,14 @@ enum status povray_render_file(struct povray *povray, const char *path, struct p
 {
   char folder[SCRATCH_PATH_SIZE];
   const char *reason;
-  *out = (struct povray_picture){ 0 };
+  *out = (struct povray_picture){0};
   scratch_path(&povray->folder, RUN, folder);
   enum status status = begin_run(povray);
-  if (status != STATUS_OK)
-    return status;
+  if (status != STATUS_OK) return status;
   status = plain_copy(path, folder, TEXT, &reason);
   if (status == STATUS_FILE)
     return listener_fail(povray->listener, status, "cannot copy the scene for POV-Ray: %s", reason);
-  if (status != STATUS_OK)
-    return listener_fail(povray->listener, status, "out of memory, or too many files");
+  if (status != STATUS_OK) return listener_fail(povray->listener, status, "out of memory, or too many files");
   return render_text(povray, "the scene's own text", out);
 }
 
@@ -314,13 +295,11 @@ enum status povray_render_file(struct povray *povray, const char *path, struct p
 /* The scene in white that no light changes, on black. Its textures are to be freed; NULL where memory is short. */
 static struct scene flatten(const struct scene *scene)
 {
-  const struct scene_texture white = { .pigment = { 1, 1, 1 },
-                                       .finish = { .ambient = { 1, 1, 1 }, .brilliance = 1, .phong_size = 40,
-                                                   .roughness = 0.05 } };
+  const struct scene_texture white = {
+    .pigment = {1, 1, 1}, .finish = {.ambient = {1, 1, 1}, .brilliance = 1, .phong_size = 40, .roughness = 0.05}};
   struct scene flat = *scene;
   flat.textures = calloc(scene->texture_count + 1, sizeof *flat.textures);
-  for (size_t k = 0; flat.textures != NULL && k < scene->texture_count; k++)
-    flat.textures[k] = white;
+  for (size_t k = 0; flat.textures != NULL && k < scene->texture_count; k++) flat.textures[k] = white;
   flat.light_count = 0;
   for (int k = 0; k < 3; k++) {
     flat.background[k] = 0;
@@ -345,8 +324,7 @@ static enum status write_questions(const struct question *question, FILE *file)
   struct scene empty = *question->scene;
   empty.patch_count = 0;
   enum status status = scene_dump(&empty, file);
-  if (status == STATUS_OK)
-    status = scene_dump_union(question->scene, "Scene", file);
+  if (status == STATUS_OK) status = scene_dump_union(question->scene, "Scene", file);
   fputs("object { Scene }\n#fopen Answers \"answers.txt\" write\n"
         "#macro Ask(From, Along)\n"
         "  #local Normal = <0, 0, 0>;\n"
@@ -394,22 +372,16 @@ enum status povray_ask(struct povray *povray, const struct scene *scene, size_t 
                        double out_distance[], unsigned char *out_mask)
 {
   const size_t pixels = povray->width * povray->height;
-  for (size_t k = 0; k < count; k++)
-    out_distance[k] = INFINITY;
-  if (scene->patch_count == 0 || (count == 0 && out_mask == NULL))
-    return STATUS_OK;
+  for (size_t k = 0; k < count; k++) out_distance[k] = INFINITY;
+  if (scene->patch_count == 0 || (count == 0 && out_mask == NULL)) return STATUS_OK;
   struct scene flat = flatten(scene);
-  if (flat.textures == NULL)
-    return listener_out_of_memory(povray->listener);
+  if (flat.textures == NULL) return listener_out_of_memory(povray->listener);
   struct process_result result;
-  struct image picture = { 0 };
-  enum status status = write_text(povray, write_questions, &(struct question){ &flat, count, rays });
-  if (status == STATUS_OK)
-    status = run_on_text(povray, "the questions to trace()", out_mask != NULL, &result);
-  if (status == STATUS_OK)
-    status = read_answers(povray, count, out_distance);
-  if (status == STATUS_OK && out_mask != NULL)
-    status = read_picture(povray, &picture);
+  struct image picture = {0};
+  enum status status = write_text(povray, write_questions, &(struct question){&flat, count, rays});
+  if (status == STATUS_OK) status = run_on_text(povray, "the questions to trace()", out_mask != NULL, &result);
+  if (status == STATUS_OK) status = read_answers(povray, count, out_distance);
+  if (status == STATUS_OK && out_mask != NULL) status = read_picture(povray, &picture);
   for (size_t k = 0; status == STATUS_OK && out_mask != NULL && k < pixels; k++)
     out_mask[k] = picture.value[k * picture.channel_count] > 0.5f;
   image_destroy(&picture);
@@ -424,11 +396,9 @@ enum status povray_time(struct povray *povray, const struct scene *scene, double
   static const char BEFORE[] = ") with ";
   struct process_result result;
   struct scene flat = flatten(scene);
-  if (flat.textures == NULL)
-    return listener_out_of_memory(povray->listener);
-  enum status status = write_text(povray, write_scene, &(struct question){ .scene = &flat });
-  if (status == STATUS_OK)
-    status = run_on_text(povray, "the scene in white", true, &result);
+  if (flat.textures == NULL) return listener_out_of_memory(povray->listener);
+  enum status status = write_text(povray, write_scene, &(struct question){.scene = &flat});
+  if (status == STATUS_OK) status = run_on_text(povray, "the scene in white", true, &result);
   free(flat.textures);
   struct page log = read_log(povray);
   const char *at = log.text == NULL ? NULL : strstr(log.text, "Trace Time:");

@@ -27,14 +27,14 @@ struct povray {
   const char *program;        /* looked for along PATH where it has no slash */
   const char *const *options; /* passed on behind our own */
   size_t option_count;
-  size_t width, height;       /* of pictures, pixels */
-  double timeout;             /* seconds that a run may take */
-  size_t memory;              /* bytes that it may take; 0: any */
-  bool optional;              /* that it is missing is not told */
-  bool missing;               /* there is no such program */
+  size_t width, height; /* of pictures, pixels */
+  double timeout;       /* seconds that a run may take */
+  size_t memory;        /* bytes that it may take; 0: any */
+  bool optional;        /* that it is missing is not told */
+  bool missing;         /* there is no such program */
   struct scratch folder;
   char program_path[SCRATCH_PATH_SIZE];
-  char version[64];           /* as it calls itself, once it is open; or "" */
+  char version[64]; /* as it calls itself, once it is open; or "" */
 };
 
 /* Sets up the folder and asks the program for its version. STATUS_FILE where there is no such program, or it is

@@ -33,8 +33,7 @@ enum {
 static double children_seconds(void)
 {
   struct rusage usage;
-  if (getrusage(RUSAGE_CHILDREN, &usage) != 0)
-    return 0;
+  if (getrusage(RUSAGE_CHILDREN, &usage) != 0) return 0;
   return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
          1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
@@ -59,35 +58,28 @@ bool process_can_confine(void)
 /* Lets us, and whoever we become, write in the folder we are in only. */
 static bool confine(void)
 {
-  static const uint64_t WRITING =
-    LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR | LANDLOCK_ACCESS_FS_REMOVE_FILE |
-    LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG |
-    LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK |
-    LANDLOCK_ACCESS_FS_MAKE_SYM;
-  const struct landlock_ruleset_attr rules = { .handled_access_fs = WRITING };
-  const struct landlock_path_beneath_attr here = { .allowed_access = WRITING, .parent_fd = open(".", O_RDONLY) };
+  static const uint64_t WRITING = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
+                                  LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_CHAR |
+                                  LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG |
+                                  LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO |
+                                  LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
+  const struct landlock_ruleset_attr rules = {.handled_access_fs = WRITING};
+  const struct landlock_path_beneath_attr here = {.allowed_access = WRITING, .parent_fd = open(".", O_RDONLY)};
   const int set = (int)syscall(SYS_landlock_create_ruleset, &rules, sizeof rules, 0);
   return set >= 0 && here.parent_fd >= 0 &&
          syscall(SYS_landlock_add_rule, set, LANDLOCK_RULE_PATH_BENEATH, &here, 0) == 0 &&
          prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && syscall(SYS_landlock_restrict_self, set, 0) == 0;
 }
 #else
-bool process_can_confine(void)
-{
-  return false;
-}
+bool process_can_confine(void) { return false; }
 
-static bool confine(void)
-{
-  return true;
-}
+static bool confine(void) { return true; }
 #endif
 
 /* A limit that is no higher than it was. */
 static const struct rlimit *lower(struct rlimit *limit, size_t most)
 {
-  if (limit->rlim_cur > most)
-    limit->rlim_cur = limit->rlim_max = most;
+  if (limit->rlim_cur > most) limit->rlim_cur = limit->rlim_max = most;
   return limit;
 }
 
@@ -95,9 +87,8 @@ static bool limit_resources(size_t memory)
 {
   struct rlimit now;
   return getrlimit(RLIMIT_CORE, &now) == 0 && setrlimit(RLIMIT_CORE, lower(&now, 0)) == 0 &&
-         (memory == 0 ||
-          (getrlimit(RLIMIT_AS, &now) == 0 && setrlimit(RLIMIT_AS, lower(&now, memory)) == 0 &&
-           getrlimit(RLIMIT_FSIZE, &now) == 0 && setrlimit(RLIMIT_FSIZE, lower(&now, memory)) == 0));
+         (memory == 0 || (getrlimit(RLIMIT_AS, &now) == 0 && setrlimit(RLIMIT_AS, lower(&now, memory)) == 0 &&
+                          getrlimit(RLIMIT_FSIZE, &now) == 0 && setrlimit(RLIMIT_FSIZE, lower(&now, memory)) == 0));
 }
 
 static bool restrict_program(const struct process_request *request, pid_t parent)
@@ -114,15 +105,13 @@ static bool restrict_program(const struct process_request *request, pid_t parent
 /* In the child: becomes the program, or tells why not through the pipe, which a started program closes. */
 static void become(const struct process_request *request, int report, pid_t parent)
 {
-  static const int OURS[] = { SIGINT, SIGTERM, SIGHUP, SIGXFSZ };
+  static const int OURS[] = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ};
   (void)setpgid(0, 0);
-  for (size_t k = 0; k < sizeof OURS / sizeof OURS[0]; k++)
-    (void)signal(OURS[k], SIG_DFL);
+  for (size_t k = 0; k < sizeof OURS / sizeof OURS[0]; k++) (void)signal(OURS[k], SIG_DFL);
   bool ready = redirect(request->output) && (request->folder == NULL || chdir(request->folder) == 0);
   for (const char *const *pair = request->environment; ready && pair != NULL && *pair != NULL; pair += 2)
     ready = (pair[1] == NULL ? unsetenv(pair[0]) : setenv(pair[0], pair[1], 1)) == 0;
-  if (ready && restrict_program(request, parent))
-    execvp(request->arguments[0], (char *const *)request->arguments);
+  if (ready && restrict_program(request, parent)) execvp(request->arguments[0], (char *const *)request->arguments);
   const int reason = errno;
   (void)!write(report, &reason, sizeof reason);
   _exit(EXIT_SIGNAL - 1);
@@ -131,15 +120,12 @@ static void become(const struct process_request *request, int report, pid_t pare
 /* Waits for the end of the child; STATUS_INTERRUPTED where `stop`, STATUS_LIMIT where the clock's `end` came first. */
 static enum status wait_child(pid_t child, const atomic_int *stop, double end, int *out_state)
 {
-  const struct timespec pause = { .tv_nsec = POLL_NANOSECONDS };
+  const struct timespec pause = {.tv_nsec = POLL_NANOSECONDS};
   for (;;) {
     const pid_t ended = waitpid(child, out_state, WNOHANG);
-    if (ended == child || (ended < 0 && errno != EINTR))
-      return STATUS_OK;
-    if (stop != NULL && atomic_load(stop) != 0)
-      return STATUS_INTERRUPTED;
-    if (clock_seconds(CLOCK_MONOTONIC) > end)
-      return STATUS_LIMIT;
+    if (ended == child || (ended < 0 && errno != EINTR)) return STATUS_OK;
+    if (stop != NULL && atomic_load(stop) != 0) return STATUS_INTERRUPTED;
+    if (clock_seconds(CLOCK_MONOTONIC) > end) return STATUS_LIMIT;
     (void)nanosleep(&pause, NULL);
   }
 }
@@ -150,13 +136,12 @@ static void end_child(pid_t child)
   (void)kill(-child, SIGTERM);
   const enum status ended = wait_child(child, NULL, clock_seconds(CLOCK_MONOTONIC) + GRACE, &state);
   (void)kill(-child, SIGKILL); /* and whoever else is left of its group */
-  if (ended != STATUS_OK)
-    (void)wait_child(child, NULL, INFINITY, &state);
+  if (ended != STATUS_OK) (void)wait_child(child, NULL, INFINITY, &state);
 }
 
 enum status process_run(const struct process_request *request, const atomic_int *stop, struct process_result *out)
 {
-  *out = (struct process_result){ 0 };
+  *out = (struct process_result){0};
   int report[2];
   if (pipe(report) != 0) {
     out->reason = errno;
@@ -166,8 +151,7 @@ enum status process_run(const struct process_request *request, const atomic_int 
   (void)fcntl(report[1], F_SETFD, FD_CLOEXEC);
   const double start = clock_seconds(CLOCK_MONOTONIC), cpu_start = children_seconds();
   const pid_t us = getpid(), child = fork();
-  if (child == 0)
-    become(request, report[1], us);
+  if (child == 0) become(request, report[1], us);
   const int fork_reason = errno;
   (void)close(report[1]);
   if (child < 0) {
@@ -177,8 +161,7 @@ enum status process_run(const struct process_request *request, const atomic_int 
   }
   (void)setpgid(child, child); /* both sides do it: whichever comes first */
   ssize_t told;
-  do
-    told = read(report[0], &out->reason, sizeof out->reason);
+  do told = read(report[0], &out->reason, sizeof out->reason);
   while (told < 0 && errno == EINTR);
   (void)close(report[0]);
   int state = 0;
@@ -193,7 +176,7 @@ enum status process_run(const struct process_request *request, const atomic_int 
     return STATUS_FILE;
   }
   out->reason = 0;
-  out->time = (struct seconds){ clock_seconds(CLOCK_MONOTONIC) - start, children_seconds() - cpu_start };
+  out->time = (struct seconds){clock_seconds(CLOCK_MONOTONIC) - start, children_seconds() - cpu_start};
   out->exit_code = WIFSIGNALED(state) ? EXIT_SIGNAL + WTERMSIG(state) : WEXITSTATUS(state);
   return STATUS_OK;
 }

@@ -15,19 +15,19 @@
 #include "base/status.h"
 
 struct process_request {
-  const char *const *arguments;   /* ended by NULL; [0] is the program, looked for along PATH where it has no slash */
-  const char *folder;             /* where it runs, or NULL: here */
+  const char *const *arguments; /* ended by NULL; [0] is the program, looked for along PATH where it has no slash */
+  const char *folder;           /* where it runs, or NULL: here */
   /* pairs NAME, VALUE, ended by NULL, that change ours (a VALUE of NULL unsets); or NULL */
   const char *const *environment;
-  const char *output;             /* file that receives what it says on both outputs, seen from our folder */
-  double timeout;                 /* seconds by the clock that it may take; 0: any */
-  size_t memory;                  /* bytes that it may address, and that a file of its may have; 0: any */
-  bool confined;                  /* it may write in `folder` only, where the system can see to that */
+  const char *output; /* file that receives what it says on both outputs, seen from our folder */
+  double timeout;     /* seconds by the clock that it may take; 0: any */
+  size_t memory;      /* bytes that it may address, and that a file of its may have; 0: any */
+  bool confined;      /* it may write in `folder` only, where the system can see to that */
 };
 
 struct process_result {
-  bool missing;     /* there is no such program, or it may not be run; `reason` says why, the rest is unset */
-  int reason;       /* errno of a program that could not be started, or 0 */
+  bool missing;        /* there is no such program, or it may not be run; `reason` says why, the rest is unset */
+  int reason;          /* errno of a program that could not be started, or 0 */
   int exit_code;       /* 128 + the signal's number where a signal ended it */
   struct seconds time; /* of the processor: by the program and those it waited for */
 };

@@ -7,10 +7,8 @@
 
 static void row_name(const struct check_row *row, char *out, size_t size)
 {
-  if (row->steps == 0)
-    snprintf(out, size, "as written");
-  else
-    snprintf(out, size, "u_steps %zu", row->steps);
+  if (row->steps == 0) snprintf(out, size, "as written");
+  else snprintf(out, size, "u_steps %zu", row->steps);
 }
 
 static json_t *distances_json(const struct check_distances *d)
@@ -27,26 +25,18 @@ static json_t *row_json(const struct check *check, const struct check_row *row)
   char name[32];
   row_name(row, name, sizeof name);
   json_t *root = json_pack(
-    "{s:o,s:s,s:{s:o,s:o,s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:[i,i],s:{s:o,s:o,s:o},s:{s:o,s:o},s:{s:f,s:f}}",
-    "u_steps", row->steps == 0 ? json_null() : page_of_count(row->steps),
-    "name", name,
-    "over", "1/255", page_of_count(row->over[0]), "4/255", page_of_count(row->over[1]), "16/255",
-    page_of_count(row->over[2]), "limit", page_of_count(row->over_limit),
-    "over_limit_off_edges", page_of_count(on[CHECK_EDGE_NONE]),
-    "mean", page_of_number(r->mean),
-    "rms", page_of_number(r->rms),
-    "psnr", page_of_number(r->psnr),
-    "max", page_of_number(r->max),
-    "worst", (int)r->worst_x, (int)r->worst_y,
-    "over_limit_on", CHECK_EDGE_NAME[CHECK_EDGE_CREASE], page_of_count(on[CHECK_EDGE_CREASE]),
-    CHECK_EDGE_NAME[CHECK_EDGE_SHADOW], page_of_count(on[CHECK_EDGE_SHADOW]), CHECK_EDGE_NAME[CHECK_EDGE_SILHOUETTE],
-    page_of_count(on[CHECK_EDGE_SILHOUETTE]),
-    "mask", "only_here", page_of_count(row->mask_ours), "only_there", page_of_count(row->mask_theirs),
-    "time", "wall", row->picture.time.wall, "cpu", row->picture.time.cpu);
-  if (root == NULL || check->request->grid == 0)
-    return root;
-  if (json_object_set_new(root, "distances", distances_json(&row->distances)) == 0)
-    return root;
+    "{s:o,s:s,s:{s:o,s:o,s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:[i,i],s:{s:o,s:o,s:o},s:{s:o,s:o},s:{s:f,s:f}}", "u_steps",
+    row->steps == 0 ? json_null() : page_of_count(row->steps), "name", name, "over", "1/255",
+    page_of_count(row->over[0]), "4/255", page_of_count(row->over[1]), "16/255", page_of_count(row->over[2]), "limit",
+    page_of_count(row->over_limit), "over_limit_off_edges", page_of_count(on[CHECK_EDGE_NONE]), "mean",
+    page_of_number(r->mean), "rms", page_of_number(r->rms), "psnr", page_of_number(r->psnr), "max",
+    page_of_number(r->max), "worst", (int)r->worst_x, (int)r->worst_y, "over_limit_on",
+    CHECK_EDGE_NAME[CHECK_EDGE_CREASE], page_of_count(on[CHECK_EDGE_CREASE]), CHECK_EDGE_NAME[CHECK_EDGE_SHADOW],
+    page_of_count(on[CHECK_EDGE_SHADOW]), CHECK_EDGE_NAME[CHECK_EDGE_SILHOUETTE],
+    page_of_count(on[CHECK_EDGE_SILHOUETTE]), "mask", "only_here", page_of_count(row->mask_ours), "only_there",
+    page_of_count(row->mask_theirs), "time", "wall", row->picture.time.wall, "cpu", row->picture.time.cpu);
+  if (root == NULL || check->request->grid == 0) return root;
+  if (json_object_set_new(root, "distances", distances_json(&row->distances)) == 0) return root;
   json_decref(root);
   return NULL;
 }
@@ -75,21 +65,14 @@ json_t *check_json(const struct check *check)
   for (size_t k = 0; k < check->worst_count; k++)
     good = json_array_append_new(worst, worst_json(check, &check->worst[k])) == 0 && good;
   json_t *root = json_pack(
-    "{s:s,s:s,s:o,s:b,s:[i,i],s:{s:o,s:o,s:o,s:o,s:o,s:o},s:b,s:o,s:o,s:{s:f,s:f}}",
-    "version", PSCN_VERSION,
-    "povray", check->povray.version,
-    "scene", page_of_text(request->path),
-    "own_text", request->own_text,
-    "size", (int)request->width, (int)request->height,
-    "limits", "fail", page_of_number(request->fail.each), "failpercent", page_of_number(request->fail.percent),
-    "allowfailures", page_of_number(request->fail.allowed_pixels), "hardfail", page_of_number(request->fail.any),
-    "failpsnr", page_of_number(request->fail_psnr), "failmask", page_of_number(request->fail_mask),
-    "within_limits", check_within_limits(check, message, sizeof message),
-    "rows", rows,
-    "worst", worst,
-    "time", "wall", check->ours.time.wall, "cpu", check->ours.time.cpu);
-  if (good)
-    return root;
+    "{s:s,s:s,s:o,s:b,s:[i,i],s:{s:o,s:o,s:o,s:o,s:o,s:o},s:b,s:o,s:o,s:{s:f,s:f}}", "version", PSCN_VERSION, "povray",
+    check->povray.version, "scene", page_of_text(request->path), "own_text", request->own_text, "size",
+    (int)request->width, (int)request->height, "limits", "fail", page_of_number(request->fail.each), "failpercent",
+    page_of_number(request->fail.percent), "allowfailures", page_of_number(request->fail.allowed_pixels), "hardfail",
+    page_of_number(request->fail.any), "failpsnr", page_of_number(request->fail_psnr), "failmask",
+    page_of_number(request->fail_mask), "within_limits", check_within_limits(check, message, sizeof message), "rows",
+    rows, "worst", worst, "time", "wall", check->ours.time.wall, "cpu", check->ours.time.cpu);
+  if (good) return root;
   json_decref(root);
   return NULL;
 }

@@ -21,7 +21,7 @@ struct results {
   const struct check *check;
   struct page content[FILES]; /* what there is not is not to be there */
   char path[FILES][PAGE_PATH_SIZE];
-  bool failed;                /* memory was short */
+  bool failed; /* memory was short */
 };
 
 static void set(struct results *results, json_t *object, const char *key, json_t *value)
@@ -44,8 +44,7 @@ static void make_pictures(struct results *results)
     struct image difference;
     page_png(&check->row[k].picture.image, &results->content[1 + 2 * k]);
     results->failed = check_difference(check, &check->row[k], MAGNIFIED, &difference) != STATUS_OK;
-    if (results->failed)
-      return;
+    if (results->failed) return;
     page_png(&difference, &results->content[2 + 2 * k]);
     image_destroy(&difference);
   }
@@ -59,8 +58,7 @@ static void name_files(struct results *results)
   snprintf(results->path[FILE_PAGE], PAGE_PATH_SIZE, "%s/check.html", folder);
   for (size_t k = 0; k < ROWS; k++) {
     char number[32] = "";
-    if (k > 0)
-      snprintf(number, sizeof number, "-%zu", k);
+    if (k > 0) snprintf(number, sizeof number, "-%zu", k);
     snprintf(results->path[1 + 2 * k], PAGE_PATH_SIZE, "%s/povray%s.png", folder, number);
     snprintf(results->path[2 + 2 * k], PAGE_PATH_SIZE, "%s/difference%s.png", folder, number);
   }
@@ -81,16 +79,14 @@ static json_t *take_picture(struct image *image)
 static json_t *crop_of(const struct image *image, size_t x, size_t y)
 {
   struct image crop;
-  if (image_create(CROP, CROP, 3, &crop) != STATUS_OK)
-    return NULL;
+  if (image_create(CROP, CROP, 3, &crop) != STATUS_OK) return NULL;
   for (size_t k = 0; k < CROP * CROP; k++) {
     const size_t u = k % CROP, v = k / CROP;
     const size_t from_x = x + u - CROP / 2, from_y = y + v - CROP / 2; /* wraps to something large */
     for (size_t c = 0; c < 3 && from_x < image->width && from_y < image->height; c++)
       image_pixel(&crop, u, v)[c] = image_pixel(image, from_x, from_y)[c];
   }
-  for (int c = 0; c < 3; c++)
-    snprintf(crop.channel[c].name, IMAGE_NAME_SIZE, "%c", "RGB"[c]);
+  for (int c = 0; c < 3; c++) snprintf(crop.channel[c].name, IMAGE_NAME_SIZE, "%c", "RGB"[c]);
   return take_picture(&crop);
 }
 
@@ -128,8 +124,8 @@ static void add_rows(struct results *results, json_t *rows)
 /* The pixels over the limit in the last row, and what they lie on. */
 static void add_places(struct results *results, json_t *root)
 {
-  static const char *const NAME[CHECK_EDGES] = { "not on an edge", "on creases", "on edges of shadows",
-                                                 "on silhouettes" };
+  static const char *const NAME[CHECK_EDGES] = {"not on an edge", "on creases", "on edges of shadows",
+                                                "on silhouettes"};
   const struct check_row *last = &results->check->row[results->check->row_count - 1];
   struct image map;
   json_t *spots = json_array(), *edges = json_array();
@@ -150,13 +146,15 @@ static void add_worst(struct results *results, json_t *list)
   results->failed = results->failed || check_difference(check, last, MAGNIFIED, &difference) != STATUS_OK;
   for (size_t k = 0; k < check->worst_count && !results->failed; k++) {
     const struct check_worst *worst = &check->worst[k];
-    const struct { const char *name; const struct image *image; } pictures[] = {
-      { "pscn", &check->ours.picture }, { "POV-Ray", &last->picture.image }, { "difference", &difference }
-    };
+    const struct {
+      const char *name;
+      const struct image *image;
+    } pictures[] = {{"pscn", &check->ours.picture}, {"POV-Ray", &last->picture.image}, {"difference", &difference}};
     json_t *value = json_array_get(list, k), *crops = json_array();
     for (size_t p = 0; p < sizeof pictures / sizeof pictures[0]; p++)
-      append(results, crops, json_pack("{s:s,s:o}", "name", pictures[p].name, "picture",
-                                       crop_of(pictures[p].image, worst->x, worst->y)));
+      append(
+        results, crops,
+        json_pack("{s:s,s:o}", "name", pictures[p].name, "picture", crop_of(pictures[p].image, worst->x, worst->y)));
     set(results, value, "crops", crops);
     set(results, value, "x", page_of_count(worst->x));
     set(results, value, "y", page_of_count(worst->y));
@@ -164,8 +162,7 @@ static void add_worst(struct results *results, json_t *list)
     set(results, value, "our_color", codes_of(&check->ours.picture, worst->x, worst->y));
     set(results, value, "their_color", codes_of(&last->picture.image, worst->x, worst->y));
   }
-  if (!results->failed)
-    image_destroy(&difference);
+  if (!results->failed) image_destroy(&difference);
 }
 
 /* How POV-Ray's answer nears ours, where there is anything to draw. */
@@ -180,11 +177,9 @@ static enum status add_figure(struct results *results, json_t *root)
   }
   set(results, root, "pixels", json_boolean(pixels));
   set(results, root, "converging", json_boolean(distances));
-  if (results->failed || !(pixels || distances))
-    return STATUS_OK;
+  if (results->failed || !(pixels || distances)) return STATUS_OK;
   const enum status status = plot_draw(check->listener, TEMPLATE_CHECK_FIGURE, root, &figure);
-  if (figure.length > 0)
-    set(results, root, "figure", json_stringn(figure.text, figure.length));
+  if (figure.length > 0) set(results, root, "figure", json_stringn(figure.text, figure.length));
   page_free(&figure);
   return status;
 }
@@ -205,8 +200,8 @@ static enum status make_page(struct results *results, const char *verdict, struc
   set(results, root, "magnified", json_real(MAGNIFIED));
   set(results, root, "ours", page_of_png(&results->content[0]));
   set(results, root, "theirs", page_of_png(theirs));
-  set(results, root, "last_name", json_copy(json_object_get(json_array_get(json_object_get(root, "rows"),
-                                                                           check->row_count - 1), "name")));
+  set(results, root, "last_name",
+      json_copy(json_object_get(json_array_get(json_object_get(root, "rows"), check->row_count - 1), "name")));
   set(results, root, "warnings", check->warnings.length == 0 ? json_null() : json_string(check->warnings.text));
   add_rows(results, json_object_get(root, "rows"));
   add_places(results, root);
@@ -231,18 +226,15 @@ static void make_json(struct results *results)
 enum status check_write(const struct check *check, const char *verdict, struct page *out_text)
 {
   struct results *results = calloc(1, sizeof *results);
-  if (results == NULL)
-    return listener_out_of_memory(check->listener);
+  if (results == NULL) return listener_out_of_memory(check->listener);
   results->check = check;
   name_files(results);
   make_pictures(results);
   make_json(results);
   enum status status = results->failed ? STATUS_OK : make_page(results, verdict, out_text);
   results->content[FILE_PAGE].failed = results->content[FILE_PAGE].failed || results->failed || out_text->failed;
-  if (status == STATUS_OK)
-    status = page_write(check->listener, FILES, results->path, results->content);
-  for (size_t k = 0; k < FILES; k++)
-    page_free(&results->content[k]);
+  if (status == STATUS_OK) status = page_write(check->listener, FILES, results->path, results->content);
+  for (size_t k = 0; k < FILES; k++) page_free(&results->content[k]);
   free(results);
   return status;
 }

@@ -24,8 +24,7 @@ enum status scratch_create(struct scratch *out)
     errno = ENAMETOOLONG;
     return STATUS_FILE;
   }
-  if (mkdtemp(out->path) != NULL)
-    return STATUS_OK;
+  if (mkdtemp(out->path) != NULL) return STATUS_OK;
   out->path[0] = '\0';
   return STATUS_FILE;
 }
@@ -39,8 +38,7 @@ static int remove_one(const char *path, const struct stat *state, int kind, stru
 
 void scratch_remove(struct scratch *scratch)
 {
-  if (scratch->path[0] != '\0')
-    (void)nftw(scratch->path, remove_one, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS);
+  if (scratch->path[0] != '\0') (void)nftw(scratch->path, remove_one, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS);
   scratch->path[0] = '\0';
 }
 
@@ -70,8 +68,7 @@ char *scratch_read(const struct scratch *scratch, const char *name, size_t *out_
   const char *reason;
   struct source *source = NULL;
   scratch_path(scratch, name, path);
-  if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK)
-    return NULL;
+  if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK) return NULL;
   char *text = source->text;
   *out_length = source->length;
   source->text = NULL;

@@ -32,10 +32,10 @@ static const struct command_option OPTIONS[] = {
   COMMAND_TRUE("quick", 0, chart.quick, "fewer tolerances, rays and peers: under a minute"),
   COMMAND_TRUE("no-peers", 0, no_peers, "ask neither Embree nor POV-Ray"),
   COMMAND_TEXT("povray", 0, chart.program, "the program; default povray", "FILE"),
-  COMMAND_POSITIVE("timeout", chart.timeout, "number of seconds",
-                   "seconds that each run of it may take; default 300", "S"),
+  COMMAND_POSITIVE("timeout", chart.timeout, "number of seconds", "seconds that each run of it may take; default 300",
+                   "S"),
   COMMAND_TRUE("quiet", 'q', ear.quiet, "say nothing unless something is wrong"),
-  COMMAND_OPTIONS_END
+  COMMAND_OPTIONS_END,
 };
 
 static enum status work(void *context, const char *folder, struct page *out_text)
@@ -48,18 +48,17 @@ static enum status work(void *context, const char *folder, struct page *out_text
   request->chart.width = request->scene.width;
   request->chart.height = request->scene.height;
   enum status status = scene_file_load(request->ear.command, &request->scene, &scene);
-  if (status == STATUS_OK)
-    status = chart_scene(&request->chart, scene, &listener, out_text);
+  if (status == STATUS_OK) status = chart_scene(&request->chart, scene, &listener, out_text);
   scene_destroy(scene);
   return status;
 }
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = { .scene = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN },
-                             .chart = { .program = "povray", .timeout = POVRAY_TIMEOUT },
-                             .folder = { .suffix = "-chart", .page = "chart.html" },
-                             .ear = { .command = command } };
+  struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN},
+                            .chart = {.program = "povray", .timeout = POVRAY_TIMEOUT},
+                            .folder = {.suffix = "-chart", .page = "chart.html"},
+                            .ear = {.command = command}};
   struct command_line line;
   char *command_line = command_line_text(argc, argv);
   enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);

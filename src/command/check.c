@@ -36,8 +36,8 @@ static const struct command_option OPTIONS[] = {
   COMMAND_TEXT("povray", 0, check.program, "the program; default povray", "FILE"),
   COMMAND_OPTION("povray-option", 0, OPTION_POVRAY_OPTION, "passed on to it; may be repeated", "OPT"),
   COMMAND_TRUE("own-text", 0, check.own_text, "in the first row it reads the scene's own text"),
-  COMMAND_POSITIVE("timeout", check.timeout, "number of seconds",
-                   "seconds that each run of it may take; default 300", "S"),
+  COMMAND_POSITIVE("timeout", check.timeout, "number of seconds", "seconds that each run of it may take; default 300",
+                   "S"),
   COMMAND_NUMBER("fail", check.fail.each, "a pixel fails beyond this difference; default 4/255", "E"),
   COMMAND_NUMBER("failpercent", check.fail.percent, "so many percent of the pixels may; default 0.3", "P"),
   COMMAND_NUMBER("allowfailures", check.fail.allowed_pixels, "or so many pixels may; default 0", "N"),
@@ -45,7 +45,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_NUMBER("failpsnr", check.fail_psnr, "the least PSNR; default 40", "DB"),
   COMMAND_NUMBER("failmask", check.fail_mask, "percent of the pixels that only one may hit; default 0.3", "P"),
   COMMAND_TRUE("quiet", 'q', ear.quiet, "say nothing unless something is wrong"),
-  COMMAND_OPTIONS_END
+  COMMAND_OPTIONS_END,
 };
 
 static enum status take_povray_option(const struct command *command, struct request *request, const char *text)
@@ -64,10 +64,8 @@ static enum status take_option(const struct command *command, void *context, int
 {
   struct request *request = context;
   struct check_request *check = &request->check;
-  if (val == OPTION_POVRAY_OPTION)
-    return take_povray_option(command, request, argument);
-  if (val != OPTION_SIZE)
-    return scene_request_take(command, &request->scene, val, argument);
+  if (val == OPTION_POVRAY_OPTION) return take_povray_option(command, request, argument);
+  if (val != OPTION_SIZE) return scene_request_take(command, &request->scene, val, argument);
   if (value_size(argument, MAX_SIDE, &check->width, &check->height) && check->height <= MAX_PIXELS / check->width)
     return STATUS_OK;
   return (enum status)command_usage(command, "'%s' is no size WxH of at most %d pixels", argument, MAX_PIXELS);
@@ -85,8 +83,7 @@ static enum status prepare(const struct command *command, const struct check_req
     return STATUS_FILE;
   }
   const enum status status = image_file_ready(message);
-  if (status != STATUS_OK)
-    command_error(command, "cannot write pictures: %s", message);
+  if (status != STATUS_OK) command_error(command, "cannot write pictures: %s", message);
   return status;
 }
 
@@ -104,26 +101,25 @@ static enum status work(void *context, const char *folder, struct page *out_text
   request->scene.height = check->height;
   enum status status = scene_file_load(request->ear.command, &request->scene, &scene);
   check->parse = seconds_since(start);
-  if (status == STATUS_OK)
-    status = check_scene(check, scene, &listener, out_text);
+  if (status == STATUS_OK) status = check_scene(check, scene, &listener, out_text);
   scene_destroy(scene);
   return status;
 }
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = { .scene = { .tolerance = NAN },
-                             .check = { .width = DEFAULT_WIDTH,
-                                        .height = DEFAULT_HEIGHT,
-                                        .program = "povray",
-                                        .timeout = POVRAY_TIMEOUT,
-                                        .steps = 6,
-                                        .grid = 8,
-                                        .fail = { .each = 4.0 / 255, .percent = 0.3, .any = INFINITY },
-                                        .fail_psnr = 40,
-                                        .fail_mask = 0.3 },
-                             .folder = { .suffix = "-check", .page = "check.html" },
-                             .ear = { .command = command } };
+  struct request request = {.scene = {.tolerance = NAN},
+                            .check = {.width = DEFAULT_WIDTH,
+                                      .height = DEFAULT_HEIGHT,
+                                      .program = "povray",
+                                      .timeout = POVRAY_TIMEOUT,
+                                      .steps = 6,
+                                      .grid = 8,
+                                      .fail = {.each = 4.0 / 255, .percent = 0.3, .any = INFINITY},
+                                      .fail_psnr = 40,
+                                      .fail_mask = 0.3},
+                            .folder = {.suffix = "-check", .page = "check.html"},
+                            .ear = {.command = command}};
   struct command_line line;
   char *command_line = command_line_text(argc, argv);
   enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
@@ -133,8 +129,7 @@ static int run(const struct command *command, int argc, const char **argv)
     request.folder.scene = request.check.path;
     request.folder.quiet = request.scene.quiet = request.ear.quiet;
     status = prepare(command, &request.check);
-    if (status == STATUS_OK)
-      status = output_folder_fill(command, &request.folder, work, &request);
+    if (status == STATUS_OK) status = output_folder_fill(command, &request.folder, work, &request);
   }
   free(command_line);
   free(request.options);

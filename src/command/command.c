@@ -15,16 +15,14 @@
 #include "language/words.h"
 
 /* In the order of the help text. */
-static const struct command *const commands[] = {
-  &command_render, &command_trace, &command_roots, &command_dump,
-  &command_compare, &command_check, &command_chart, &command_help, NULL
-};
+static const struct command *const commands[] = {&command_render, &command_trace,   &command_roots,
+                                                 &command_dump,   &command_compare, &command_check,
+                                                 &command_chart,  &command_help,    NULL};
 
 const struct command *command_find(const char *name)
 {
   for (const struct command *const *command = commands; *command != NULL; command++) {
-    if (strcmp((*command)->name, name) == 0)
-      return *command;
+    if (strcmp((*command)->name, name) == 0) return *command;
   }
   return NULL;
 }
@@ -42,10 +40,8 @@ static void print_option(const struct command_option *option, FILE *file)
 {
   enum { LABEL_SIZE = 80, LABEL_WIDTH = 22 };
   char label[LABEL_SIZE], letter[] = "    ";
-  if (option->letter != '\0')
-    snprintf(letter, sizeof letter, "-%c, ", option->letter);
-  snprintf(label, sizeof label, "%s--%s %s", letter, option->name,
-           option->argument == NULL ? "" : option->argument);
+  if (option->letter != '\0') snprintf(letter, sizeof letter, "-%c, ", option->letter);
+  snprintf(label, sizeof label, "%s--%s %s", letter, option->name, option->argument == NULL ? "" : option->argument);
   fprintf(file, "  %-*s  %s\n", LABEL_WIDTH, label, option->text);
 }
 
@@ -75,10 +71,8 @@ void command_print_overview(FILE *file)
 
 static void print_error(const struct command *command, const char *format, va_list arguments)
 {
-  if (command == NULL)
-    fputs("pscn: error: ", stderr);
-  else
-    fprintf(stderr, "pscn %s: error: ", command->name);
+  if (command == NULL) fputs("pscn: error: ", stderr);
+  else fprintf(stderr, "pscn %s: error: ", command->name);
   vfprintf(stderr, format, arguments);
   fputc('\n', stderr);
 }
@@ -97,37 +91,30 @@ int command_usage(const struct command *command, const char *format, ...)
   va_start(arguments, format);
   print_error(command, format, arguments);
   va_end(arguments);
-  if (command == NULL)
-    fputs("Try 'pscn help'.\n", stderr);
-  else
-    fprintf(stderr, "Try 'pscn help %s'.\n", command->name);
+  if (command == NULL) fputs("Try 'pscn help'.\n", stderr);
+  else fprintf(stderr, "Try 'pscn help %s'.\n", command->name);
   return STATUS_USAGE;
 }
 
 static void hear(void *context, enum told what, const char *text)
 {
   const struct command_ear *ear = context;
-  if (what == TOLD_ERROR)
-    command_error(ear->command, "%s", text);
-  else if (what == TOLD_WARNING)
-    fprintf(stderr, "pscn %s: warning: %s\n", ear->command->name, text);
-  else if (what == TOLD_DETAIL || !ear->quiet)
-    fprintf(stderr, "%s\n", text);
+  if (what == TOLD_ERROR) command_error(ear->command, "%s", text);
+  else if (what == TOLD_WARNING) fprintf(stderr, "pscn %s: warning: %s\n", ear->command->name, text);
+  else if (what == TOLD_DETAIL || !ear->quiet) fprintf(stderr, "%s\n", text);
 }
 
 struct listener command_listener(struct command_ear *ear)
 {
-  return (struct listener){ .hear = hear, .context = ear, .stop = &interrupt_signal };
+  return (struct listener){.hear = hear, .context = ear, .stop = &interrupt_signal};
 }
 
 char *command_line_text(int argc, const char **argv)
 {
   size_t size = sizeof "pscn";
-  for (int k = 0; k < argc; k++)
-    size += strlen(argv[k]) + 3; /* a blank and two quotes */
+  for (int k = 0; k < argc; k++) size += strlen(argv[k]) + 3; /* a blank and two quotes */
   char *text = malloc(size), *end = text;
-  if (text == NULL)
-    return NULL;
+  if (text == NULL) return NULL;
   end += sprintf(end, "pscn");
   for (int k = 0; k < argc; k++)
     end += sprintf(end, strpbrk(argv[k], " \t\n\"\\$*?;&|<>(){}`#~") == NULL ? " %s" : " '%s'", argv[k]);
@@ -158,12 +145,11 @@ static void make_tables(const struct command *command, struct getopt_tables *out
   for (const struct command_option *option = command->options; option->name != NULL; option++, row++) {
     const bool argument = option->argument != NULL;
     assert(row < MOST_OPTIONS);
-    out->names[row] = (struct option){ .name = option->name, .has_arg = argument, .val = FIRST_LONG + row };
-    if (option->letter != '\0')
-      letter += sprintf(letter, argument ? "%c:" : "%c", option->letter);
+    out->names[row] = (struct option){.name = option->name, .has_arg = argument, .val = FIRST_LONG + row};
+    if (option->letter != '\0') letter += sprintf(letter, argument ? "%c:" : "%c", option->letter);
   }
   *letter = '\0';
-  out->names[row] = (struct option){ 0 };
+  out->names[row] = (struct option){0};
 }
 
 /* `begun`: the name of the only option that begins like the word, or NULL. */
@@ -174,8 +160,7 @@ static void unknown_option(const struct command *command, const char *word, cons
   struct guess guess = guess_begin(word + 1 + whole, length - 1 - whole);
   for (const struct command_option *option = command->options; whole && option->name != NULL; option++)
     guess_consider(&guess, option->name, strlen(option->name));
-  if (begun == NULL && guess.best == NULL)
-    command_usage(command, "option '%s': unknown option", word);
+  if (begun == NULL && guess.best == NULL) command_usage(command, "option '%s': unknown option", word);
   else
     command_usage(command, "option '%.*s': unknown option; did you mean '--%s'?", (int)length, word,
                   begun == NULL ? guess.best : begun);
@@ -188,19 +173,15 @@ static const struct command_option *find_option(const struct command *command, i
   const int code = found == '?' || found == ':' ? optopt : found;
   const struct command_option *option = command->options;
   for (int row = 0; option->name != NULL; option++, row++) {
-    if (code == FIRST_LONG + row || (option->letter != '\0' && code == option->letter))
-      break;
+    if (code == FIRST_LONG + row || (option->letter != '\0' && code == option->letter)) break;
   }
   if (option->name == NULL || (code >= FIRST_LONG && strlen(option->name) != strcspn(word + 2, "=")))
     unknown_option(command, word, option->name);
-  else if (found == ':')
-    command_usage(command, "option '%s': missing argument", word);
-  else if (found == '?')
-    command_usage(command, "option '%s': option does not take an argument", word);
+  else if (found == ':') command_usage(command, "option '%s': missing argument", word);
+  else if (found == '?') command_usage(command, "option '%s': option does not take an argument", word);
   else if (apart && optarg[0] == '-' && (optarg[1] == '-' || isalpha((unsigned char)optarg[1])))
     command_usage(command, "option '%s': '%s' stands where its argument %s should be", word, optarg, option->argument);
-  else
-    return option;
+  else return option;
   return NULL;
 }
 
@@ -211,15 +192,10 @@ static enum status store_option(const struct command *command, const struct comm
   void *const field = (char *)context + option->offset;
   double number;
   switch (option->store) {
-  case STORE_TEXT:
-    *(const char **)field = argument;
-    return STATUS_OK;
-  case STORE_TRUE:
-    *(bool *)field = true;
-    return STATUS_OK;
+  case STORE_TEXT: *(const char **)field = argument; return STATUS_OK;
+  case STORE_TRUE: *(bool *)field = true; return STATUS_OK;
   case STORE_NUMBER:
-    if (value_number(argument, field))
-      return STATUS_OK;
+    if (value_number(argument, field)) return STATUS_OK;
     return (enum status)command_usage(command, "'%s' is no number from 0 up, such as 0.01 or 4/255", argument);
   case STORE_POSITIVE:
     if (!value_number(argument, &number) || number == 0)
@@ -227,12 +203,10 @@ static enum status store_option(const struct command *command, const struct comm
     *(double *)field = number;
     return STATUS_OK;
   case STORE_INTEGER:
-    if (value_integer(argument, option->least, option->most, field))
-      return STATUS_OK;
+    if (value_integer(argument, option->least, option->most, field)) return STATUS_OK;
     return (enum status)command_usage(command, "'%s' is no %s from %zu to %zu", argument, option->what, option->least,
                                       option->most);
-  default:
-    return handle(command, context, option->val, argument);
+  default: return handle(command, context, option->val, argument);
   }
 }
 
@@ -241,20 +215,18 @@ enum status command_line_read(const struct command *command, int argc, const cha
 {
   struct getopt_tables tables;
   make_tables(command, &tables);
-  *out = (struct command_line){ .positional = argv };
+  *out = (struct command_line){.positional = argv};
   optind = 0; /* getopt_long begins anew */
   for (int at = 1, found;; at = optind) {
     found = getopt_long(argc, (char *const *)argv, tables.letters, tables.names, NULL);
-    if (found == -1)
-      break;
+    if (found == -1) break;
     if (found == OPERAND) {
       argv[out->positional_count++] = optarg; /* behind what has been read already */
       continue;
     }
     const bool apart = optind == at + 2;
     const struct command_option *option = find_option(command, found, argv[at], apart);
-    if (option == NULL)
-      return STATUS_USAGE;
+    if (option == NULL) return STATUS_USAGE;
     if (option->val == OPTION_HELP) {
       command_print_help(command, stdout);
       out->help = true;
@@ -262,8 +234,7 @@ enum status command_line_read(const struct command *command, int argc, const cha
     }
     const bool equals = found < FIRST_LONG && !apart && optarg != NULL && optarg[0] == '='; /* -o=FILE */
     const enum status status = store_option(command, option, equals ? optarg + 1 : optarg, handle, context);
-    if (status != STATUS_OK)
-      return status;
+    if (status != STATUS_OK) return status;
   }
   while (optind < argc) /* behind "--" */
     argv[out->positional_count++] = argv[optind++];
@@ -276,8 +247,7 @@ enum status command_line_read(const struct command *command, int argc, const cha
 
 enum status command_finish_output(const struct command *command)
 {
-  if (fflush(stdout) == 0 && !ferror(stdout))
-    return STATUS_OK;
+  if (fflush(stdout) == 0 && !ferror(stdout)) return STATUS_OK;
   command_error(command, "cannot write standard output: %s", strerror(errno));
   return STATUS_FILE;
 }

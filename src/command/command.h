@@ -25,16 +25,16 @@ struct command_option {
   const char *text;     /* of the help */
   const char *argument; /* likewise, "FILE"; NULL: it takes none */
   enum command_store store;
-  size_t offset;        /* in the request */
-  size_t least, most;   /* of an integer */
-  const char *what;     /* that a wrong number is not: "number of samples" */
+  size_t offset;      /* in the request */
+  size_t least, most; /* of an integer */
+  const char *what;   /* that a wrong number is not: "number of samples" */
 };
 
 struct command {
   const char *name;
-  const char *arguments;            /* as in the usage line, "SCENE" */
-  const char *summary;              /* one line */
-  const char *description;          /* paragraphs for `pscn help NAME`, ending with a newline */
+  const char *arguments;                /* as in the usage line, "SCENE" */
+  const char *summary;                  /* one line */
+  const char *description;              /* paragraphs for `pscn help NAME`, ending with a newline */
   const struct command_option *options; /* ended by COMMAND_OPTIONS_END */
   int (*run)(const struct command *command, int argc, const char **argv); /* argv[0] is the command's name */
 };
@@ -70,7 +70,7 @@ struct listener command_listener(struct command_ear *ear);
 struct command_line {
   const char **positional; /* positional_count of them, at the beginning of argv, which is used up */
   size_t positional_count;
-  bool help;               /* --help was given and answered: the command is done */
+  bool help; /* --help was given and answered: the command is done */
 };
 
 typedef enum status command_option_handler(const struct command *command, void *context, int val, const char *argument);
@@ -91,18 +91,21 @@ char *command_line_text(int argc, const char **argv);
 /* A row of the table for an option that the handler is told, and for the one that every command has, which
  * command_line_read answers. `letter` is the short name, or 0. */
 enum { OPTION_HELP = 1000 };
-#define COMMAND_OPTION(name, letter, val, text, argument) \
-  { name, letter, val, text, argument, STORE_NOT, 0, 0, 0, NULL }
+#define COMMAND_OPTION(name, letter, val, text, argument)       \
+  {                                                             \
+    name, letter, val, text, argument, STORE_NOT, 0, 0, 0, NULL \
+  }
 #define COMMAND_HELP_OPTION COMMAND_OPTION("help", 'h', OPTION_HELP, "show this text", NULL)
 #define COMMAND_OPTIONS_END COMMAND_OPTION(NULL, 0, 0, NULL, NULL)
 
 /* The same for what is stored in a field of the file's own struct request: const char *, bool, double twice, size_t. */
-#define COMMAND_STORED(name, letter, store, field, text, argument, least, most, what) \
-  { name, letter, 0, text, argument, store, offsetof(struct request, field), least, most, what }
+#define COMMAND_STORED(name, letter, store, field, text, argument, least, most, what)          \
+  {                                                                                            \
+    name, letter, 0, text, argument, store, offsetof(struct request, field), least, most, what \
+  }
 #define COMMAND_TEXT(name, letter, field, text, argument) \
   COMMAND_STORED(name, letter, STORE_TEXT, field, text, argument, 0, 0, NULL)
-#define COMMAND_TRUE(name, letter, field, text) \
-  COMMAND_STORED(name, letter, STORE_TRUE, field, text, NULL, 0, 0, NULL)
+#define COMMAND_TRUE(name, letter, field, text) COMMAND_STORED(name, letter, STORE_TRUE, field, text, NULL, 0, 0, NULL)
 #define COMMAND_NUMBER(name, field, text, argument) \
   COMMAND_STORED(name, 0, STORE_NUMBER, field, text, argument, 0, 0, NULL)
 #define COMMAND_POSITIVE(name, field, what, text, argument) \

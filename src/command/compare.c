@@ -32,7 +32,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_NUMBER("warnpercent", warn.percent, "so many percent of the pixels may; default 0", "P"),
   COMMAND_NUMBER("hardwarn", warn.any, "a warning if any pixel is beyond this; default none", "E"),
   COMMAND_TRUE("quiet", 'q', quiet, "say nothing unless the comparison fails"),
-  COMMAND_OPTIONS_END
+  COMMAND_OPTIONS_END,
 };
 
 /* What is compared: two pictures and the channels they share. */
@@ -54,7 +54,7 @@ static void subject_free(struct subject *subject)
 static enum status add_channel(const struct command *command, const struct request *request, struct subject *subject,
                                const char *name)
 {
-  const char *const path[2] = { request->first, request->second };
+  const char *const path[2] = {request->first, request->second};
   if (subject->channel_count == IMAGE_MAX_CHANNELS)
     return (enum status)command_usage(command, "more than %d channels", IMAGE_MAX_CHANNELS);
   for (int k = 0; k < 2; k++) {
@@ -78,8 +78,7 @@ static enum status add_listed(const struct command *command, const struct reques
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), from);
     status = add_channel(command, request, subject, name);
     from += length;
-    if (*from == '\0')
-      break;
+    if (*from == '\0') break;
   }
   return status;
 }
@@ -94,8 +93,7 @@ static enum status pair_channels(const struct command *command, const struct req
       return STATUS_LIMIT;
     }
   }
-  if (request->channels != NULL)
-    return add_listed(command, request, subject);
+  if (request->channels != NULL) return add_listed(command, request, subject);
   const struct image *first = &subject->image[0], *second = &subject->image[1];
   enum status status = STATUS_OK;
   for (size_t k = 0; k < first->channel_count && status == STATUS_OK; k++)
@@ -111,7 +109,7 @@ static enum status pair_channels(const struct command *command, const struct req
 
 static enum status read_subject(const struct command *command, const struct request *request, struct subject *out)
 {
-  const char *const path[2] = { request->first, request->second };
+  const char *const path[2] = {request->first, request->second};
   for (int k = 0; k < 2; k++) {
     char message[IMAGE_MESSAGE_SIZE];
     const enum status status = image_read(path[k], &out->image[k], message);
@@ -122,8 +120,8 @@ static enum status read_subject(const struct command *command, const struct requ
   }
   const struct image *a = &out->image[0], *b = &out->image[1];
   if (a->width != b->width || a->height != b->height) {
-    command_error(command, "'%s' has %zux%zu pixels, '%s' has %zux%zu", path[0], a->width, a->height, path[1],
-                  b->width, b->height);
+    command_error(command, "'%s' has %zux%zu pixels, '%s' has %zux%zu", path[0], a->width, a->height, path[1], b->width,
+                  b->height);
     return STATUS_DIFFERENT;
   }
   return pair_channels(command, request, out);
@@ -132,9 +130,7 @@ static enum status read_subject(const struct command *command, const struct requ
 static enum status write_difference(const struct command *command, const struct request *request,
                                     enum image_format format, const struct image *difference)
 {
-  const struct image_encoding encoding = { .format = format,
-                                           .bits = format == IMAGE_PNG ? 8 : 32,
-                                           .encoded = true };
+  const struct image_encoding encoding = {.format = format, .bits = format == IMAGE_PNG ? 8 : 32, .encoded = true};
   unsigned char *bytes;
   size_t size;
   char message[IMAGE_MESSAGE_SIZE];
@@ -143,7 +139,7 @@ static enum status write_difference(const struct command *command, const struct 
     command_error(command, "cannot make '%s': %s", request->output, message);
     return status;
   }
-  status = output_write(command, &(struct atomic_file){ request->output, bytes, size }, 1);
+  status = output_write(command, &(struct atomic_file){request->output, bytes, size}, 1);
   free(bytes);
   return status;
 }
@@ -151,13 +147,12 @@ static enum status write_difference(const struct command *command, const struct 
 /* The table on stdout. */
 static void print_result(const struct compare_pair *pair, const struct compare_result *result)
 {
-  static const int CODES[] = { 1, 4, 16 };
+  static const int CODES[] = {1, 4, 16};
   const struct image *first = pair->first;
   printf("compared  %zu x %zu pixels, channels", first->width, first->height);
-  for (size_t k = 0; k < pair->channel_count; k++)
-    printf(" %s", first->channel[pair->first_channel[k]].name);
-  printf("\nmean      %.9g\nrms       %.9g\npsnr      %.6g dB\nmax       %.9g", result->mean, result->rms,
-         result->psnr, result->max);
+  for (size_t k = 0; k < pair->channel_count; k++) printf(" %s", first->channel[pair->first_channel[k]].name);
+  printf("\nmean      %.9g\nrms       %.9g\npsnr      %.6g dB\nmax       %.9g", result->mean, result->rms, result->psnr,
+         result->max);
   if (result->max > 0)
     printf(" at pixel %zu,%zu channel %s: %.9g and %.9g", result->worst_x, result->worst_y,
            first->channel[pair->first_channel[result->worst_channel]].name, (double)result->worst_first,
@@ -182,8 +177,7 @@ static enum status judge(const struct command *command, const struct request *re
            100 * (double)failing / (double)result->pixels);
   if (compare_limit_passed(&request->fail, result, failing)) {
     const enum status status = command_finish_output(command);
-    if (status != STATUS_OK)
-      return status;
+    if (status != STATUS_OK) return status;
     command_error(command, "'%s' and '%s' differ: %zu pixels by more than %.9g, the most by %.9g", request->first,
                   request->second, failing, request->fail.each, result->max);
     return STATUS_DIFFERENT;
@@ -197,25 +191,20 @@ static enum status judge(const struct command *command, const struct request *re
 static enum status compare(const struct command *command, const struct request *request)
 {
   enum image_format format = IMAGE_PNG;
-  if (request->output != NULL && output_format(command, request->output, &format) != STATUS_OK)
-    return STATUS_USAGE;
+  if (request->output != NULL && output_format(command, request->output, &format) != STATUS_OK) return STATUS_USAGE;
   enum status status = output_spare(command, request->output, request->first);
-  if (status == STATUS_OK)
-    status = output_spare(command, request->output, request->second);
-  if (status == STATUS_OK)
-    status = output_probe(command, request->output);
-  if (status != STATUS_OK)
-    return status;
-  struct subject subject = { 0 };
-  struct image difference = { 0 };
+  if (status == STATUS_OK) status = output_spare(command, request->output, request->second);
+  if (status == STATUS_OK) status = output_probe(command, request->output);
+  if (status != STATUS_OK) return status;
+  struct subject subject = {0};
+  struct image difference = {0};
   status = read_subject(command, request, &subject);
-  if (status != STATUS_OK)
-    goto done;
-  const struct compare_pair pair = { .first = &subject.image[0],
-                                     .second = &subject.image[1],
-                                     .channel_count = subject.channel_count,
-                                     .first_channel = subject.channel[0],
-                                     .second_channel = subject.channel[1] };
+  if (status != STATUS_OK) goto done;
+  const struct compare_pair pair = {.first = &subject.image[0],
+                                    .second = &subject.image[1],
+                                    .channel_count = subject.channel_count,
+                                    .first_channel = subject.channel[0],
+                                    .second_channel = subject.channel[1]};
   if (request->output != NULL) {
     if (format == IMAGE_PNG && pair.channel_count > 4) {
       status = (enum status)command_usage(command, "a PNG holds at most 4 channels; choose some, or an .exr");
@@ -226,20 +215,15 @@ static enum status compare(const struct command *command, const struct request *
       command_error(command, "out of memory");
       goto done;
     }
-    for (size_t k = 0; k < pair.channel_count; k++)
-      difference.channel[k] = pair.first->channel[pair.first_channel[k]];
+    for (size_t k = 0; k < pair.channel_count; k++) difference.channel[k] = pair.first->channel[pair.first_channel[k]];
   }
   struct compare_result result;
   compare_images(&pair, &result, request->output == NULL ? NULL : &difference, request->scale);
-  if (request->output != NULL)
-    status = write_difference(command, request, format, &difference);
-  if (status != STATUS_OK)
-    goto done;
-  if (!request->quiet)
-    print_result(&pair, &result);
+  if (request->output != NULL) status = write_difference(command, request, format, &difference);
+  if (status != STATUS_OK) goto done;
+  if (!request->quiet) print_result(&pair, &result);
   status = judge(command, request, &pair, &result);
-  if (status == STATUS_OK)
-    status = command_finish_output(command);
+  if (status == STATUS_OK) status = command_finish_output(command);
 
 done:
   image_destroy(&difference);
@@ -249,9 +233,8 @@ done:
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = { .scale = 1,
-                             .fail = { .each = DEFAULT_LIMIT, .any = INFINITY },
-                             .warn = { .each = INFINITY, .any = INFINITY } };
+  struct request request = {
+    .scale = 1, .fail = {.each = DEFAULT_LIMIT, .any = INFINITY}, .warn = {.each = INFINITY, .any = INFINITY}};
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 2, NULL, &request, &line);
   if (status == STATUS_OK && !line.help) {

@@ -13,13 +13,13 @@ static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   SCENE_SIZE_OPTION("what image_width and image_height mean; default 800x600"),
   SCENE_OPTIONS,
-  COMMAND_OPTIONS_END
+  COMMAND_OPTIONS_END,
 };
 
 static int run(const struct command *command, int argc, const char **argv)
 {
   struct command_line line;
-  struct request request = { .scene = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN } };
+  struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN}};
   struct scene *scene = NULL;
   enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
   if (status == STATUS_OK && !line.help) {

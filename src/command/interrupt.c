@@ -13,14 +13,13 @@ static atomic_bool deferred;
 
 static void handle(int number)
 {
-  if (!atomic_load(&deferred))
-    _exit(EXIT_SIGNAL + number);
+  if (!atomic_load(&deferred)) _exit(EXIT_SIGNAL + number);
   atomic_store(&interrupt_signal, number);
 }
 
 void interrupt_install(void)
 {
-  struct sigaction action = { .sa_handler = handle };
+  struct sigaction action = {.sa_handler = handle};
   sigemptyset(&action.sa_mask);
   (void)sigaction(SIGINT, &action, NULL);
   (void)sigaction(SIGTERM, &action, NULL);
@@ -34,9 +33,8 @@ void interrupt_install(void)
 static void on_broken_pipe(void (*action)(int))
 {
   struct sigaction now;
-  if (sigaction(SIGPIPE, NULL, &now) != 0 || now.sa_handler == SIG_IGN)
-    return;
-  now = (struct sigaction){ .sa_handler = action };
+  if (sigaction(SIGPIPE, NULL, &now) != 0 || now.sa_handler == SIG_IGN) return;
+  now = (struct sigaction){.sa_handler = action};
   sigemptyset(&now.sa_mask);
   (void)sigaction(SIGPIPE, &now, NULL);
 }
@@ -53,7 +51,4 @@ void interrupt_resume(void)
   on_broken_pipe(SIG_DFL);
 }
 
-int interrupt_exit_code(void)
-{
-  return EXIT_SIGNAL + atomic_load(&interrupt_signal);
-}
+int interrupt_exit_code(void) { return EXIT_SIGNAL + atomic_load(&interrupt_signal); }

@@ -15,8 +15,7 @@
 static void hold_streams(void)
 {
   for (int stream = 0; stream <= 2; stream++) {
-    if (fcntl(stream, F_GETFD) == -1)
-      (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+    if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
   }
 }
 
@@ -40,16 +39,14 @@ int main(int argc, char **argv)
     printf("pscn %s\n", PSCN_VERSION);
     return (int)command_finish_output(NULL);
   }
-  if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
-    name = command_help.name;
+  if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) name = command_help.name;
   const struct command *command = command_find(name);
   int words = 1; /* that stand before the command's own */
   if (command == NULL && is_scene(name)) {
     command = &command_render;
     words = 0;
   }
-  if (command == NULL)
-    return command_unknown(name);
+  if (command == NULL) return command_unknown(name);
   if (!intersector_kernel_here())
     return command_usage(NULL, "PSCN_KERNEL='%s' is no instruction set of this processor", getenv("PSCN_KERNEL"));
   const int code = command->run(command, argc - words, (const char **)argv + words);

@@ -30,8 +30,7 @@ static enum status told(const struct command *command, const char *path, enum st
 
 enum status output_probe(const struct command *command, const char *path)
 {
-  if (path == NULL || output_is_standard(path))
-    return STATUS_OK;
+  if (path == NULL || output_is_standard(path)) return STATUS_OK;
   int reason;
   const enum status status = atomic_file_probe(path, &reason);
   return told(command, path, status, reason);
@@ -52,8 +51,7 @@ enum status output_write(const struct command *command, const struct atomic_file
       files[named++] = outputs[k];
     }
   }
-  if (status != STATUS_OK || named == 0)
-    return status;
+  if (status != STATUS_OK || named == 0) return status;
   interrupt_defer();
   status = atomic_files_write(files, named, &interrupt_signal, &which, &reason);
   return told(command, files[which].path, status, reason);
@@ -61,8 +59,7 @@ enum status output_write(const struct command *command, const struct atomic_file
 
 enum status output_format(const struct command *command, const char *path, enum image_format *out)
 {
-  if (image_format_of(path, out))
-    return STATUS_OK;
+  if (image_format_of(path, out)) return STATUS_OK;
   const char *base = base_of(path);
   char named[16];
   if (snprintf(named, sizeof named, "a%s", base) < (int)sizeof named && image_format_of(named, out))
@@ -72,16 +69,14 @@ enum status output_format(const struct command *command, const char *path, enum 
 
 enum status output_spare(const struct command *command, const char *path, const char *other)
 {
-  if (path == NULL || other == NULL || !(strcmp(path, other) == 0 || input_same(path, other)))
-    return STATUS_OK;
+  if (path == NULL || other == NULL || !(strcmp(path, other) == 0 || input_same(path, other))) return STATUS_OK;
   return (enum status)command_usage(command, "'%s' and '%s' are one file and must be two", path, other);
 }
 
 char *output_name(const char *scene, const char *suffix)
 {
   const char *base = base_of(scene), *dot = strrchr(base, '.');
-  if (output_is_standard(scene))
-    suffix = "";
+  if (output_is_standard(scene)) suffix = "";
   const size_t length = dot == NULL || dot == base ? strlen(scene) : (size_t)(dot - scene);
   const size_t suffix_size = strlen(suffix) + 1;
   char *name = malloc(length + suffix_size);
@@ -105,8 +100,7 @@ static enum status make_folder(const struct command *command, const struct outpu
     return STATUS_LIMIT;
   }
   *out_made = mkdir(*out_path, 0777) == 0;
-  if (*out_made || (errno == EEXIST && stat(*out_path, &state) == 0 && S_ISDIR(state.st_mode)))
-    return STATUS_OK;
+  if (*out_made || (errno == EEXIST && stat(*out_path, &state) == 0 && S_ISDIR(state.st_mode))) return STATUS_OK;
   command_error(command, "cannot make the folder '%s': %s", *out_path, strerror(errno));
   return STATUS_FILE;
 }
@@ -117,16 +111,14 @@ enum status output_folder_fill(const struct command *command, const struct outpu
   char *owned;
   const char *path;
   bool made;
-  struct page text = { 0 };
+  struct page text = {0};
   enum status status = make_folder(command, folder, &owned, &path, &made);
   if (status == STATUS_OK) {
     interrupt_defer();
     status = work(context, path, &text);
-    if (atomic_load(&interrupt_signal) != 0)
-      status = STATUS_INTERRUPTED;
+    if (atomic_load(&interrupt_signal) != 0) status = STATUS_INTERRUPTED;
     const bool done = status == STATUS_OK || status == STATUS_DIFFERENT;
-    if (!done && made)
-      (void)rmdir(path); /* stays where something is in it after all */
+    if (!done && made) (void)rmdir(path); /* stays where something is in it after all */
     interrupt_resume();
     if (done && !folder->quiet) {
       page_bytes(&text, "\n", 1);

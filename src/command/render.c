@@ -19,9 +19,9 @@
 enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_BITS };
 
 enum {
-  MAX_SAMPLES = 256,        /* a side: 65536 rays a pixel */
+  MAX_SAMPLES = 256, /* a side: 65536 rays a pixel */
   MAX_THREADS = 1024,
-  MAX_PIXELS = 1 << 28      /* of the part that is kept, 3 GiB of colours; larger ones are typing errors */
+  MAX_PIXELS = 1 << 28 /* of the part that is kept, 3 GiB of colours; larger ones are typing errors */
 };
 
 /* What the command line asks for. */
@@ -42,21 +42,20 @@ static const struct command_option OPTIONS[] = {
   COMMAND_INTEGER("samples", options.samples, 1, MAX_SAMPLES, "number of samples",
                   "N x N rays a pixel on a regular grid; default 1", "N"),
   COMMAND_OPTION("crop", 0, OPTION_CROP, "only this part, in pixels from the left and top", "X,Y,W,H"),
-  COMMAND_INTEGER("threads", options.threads, 1, MAX_THREADS, "number of threads",
-                  "default: one for each processor", "N"),
+  COMMAND_INTEGER("threads", options.threads, 1, MAX_THREADS, "number of threads", "default: one for each processor",
+                  "N"),
   COMMAND_OPTION("channels", 0, OPTION_CHANNELS, "what is kept of each pixel, with commas; default rgb", "LIST"),
   COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output", "FILE"),
   COMMAND_TRUE("quiet", 'q', scene.quiet, "say nothing unless something is wrong"),
-  COMMAND_OPTIONS_END
+  COMMAND_OPTIONS_END,
 };
 
 static enum status take_channels(const struct command *command, struct request *request, const char *text)
 {
   const char *bad;
   size_t length;
-  if (channel_list_parse(text, &request->options.channels, &bad, &length))
-    return STATUS_OK;
+  if (channel_list_parse(text, &request->options.channels, &bad, &length)) return STATUS_OK;
   const char *names[CHANNEL_KINDS];
   char known[256];
   for (int k = 0; k < CHANNEL_KINDS; k++) {
@@ -76,14 +75,12 @@ static enum status take_option(const struct command *command, void *context, int
     if (!value_rectangle(argument, &request->options.crop))
       return (enum status)command_usage(command, "'%s' is no crop X,Y,W,H in pixels", argument);
     break;
-  case OPTION_CHANNELS:
-    return take_channels(command, request, argument);
+  case OPTION_CHANNELS: return take_channels(command, request, argument);
   case OPTION_BITS:
     if (!value_integer(argument, 8, 32, &request->bits))
       return (enum status)command_usage(command, "'%s' bits are 8, 16 or 32", argument);
     break;
-  default:
-    return scene_request_take(command, &request->scene, val, argument);
+  default: return scene_request_take(command, &request->scene, val, argument);
   }
   return STATUS_OK;
 }
@@ -92,12 +89,9 @@ static enum status check_format(const struct command *command, struct request *r
 {
   const struct channel_list *channels = &request->options.channels;
   const bool plain = channels->count == 1 && channels->kind[0] == CHANNEL_RGB;
-  if (output_is_standard(request->output))
-    request->format = plain && request->bits != 32 ? IMAGE_PNG : IMAGE_EXR;
-  else if (output_format(command, request->output, &request->format) != STATUS_OK)
-    return STATUS_USAGE;
-  if (request->bits == 0)
-    request->bits = (size_t)image_format_default_bits(request->format);
+  if (output_is_standard(request->output)) request->format = plain && request->bits != 32 ? IMAGE_PNG : IMAGE_EXR;
+  else if (output_format(command, request->output, &request->format) != STATUS_OK) return STATUS_USAGE;
+  if (request->bits == 0) request->bits = (size_t)image_format_default_bits(request->format);
   if (!image_format_has_bits(request->format, (int)request->bits))
     return (enum status)command_usage(command, "'%s' cannot have %zu bits a value: %s", request->output, request->bits,
                                       request->format == IMAGE_PNG ? "a PNG has 8 or 16" : "an EXR has 16 or 32");
@@ -110,8 +104,7 @@ static enum status check_format(const struct command *command, struct request *r
 static enum status check_crop(const struct command *command, struct render_options *options)
 {
   struct rectangle *crop = &options->crop;
-  if (crop->width == 0)
-    *crop = (struct rectangle){ .width = options->width, .height = options->height };
+  if (crop->width == 0) *crop = (struct rectangle){.width = options->width, .height = options->height};
   if (crop->x + crop->width > options->width || crop->y + crop->height > options->height)
     return (enum status)command_usage(command, "the crop %zu,%zu,%zu,%zu is not inside the picture of %zux%zu pixels",
                                       crop->x, crop->y, crop->width, crop->height, options->width, options->height);
@@ -126,16 +119,14 @@ static enum status check_outputs(const struct command *command, const struct req
                                  const struct scene *scene)
 {
   enum status status = output_spare(command, request->stats, request->output);
-  if (status == STATUS_OK)
-    status = scene_file_spare(command, &request->scene, scene, request->output);
+  if (status == STATUS_OK) status = scene_file_spare(command, &request->scene, scene, request->output);
   return status == STATUS_OK ? scene_file_spare(command, &request->scene, scene, request->stats) : status;
 }
 
 /* Whatever can be known to be wrong before the work starts. */
 static enum status check(const struct command *command, struct request *request)
 {
-  if (request->output == NULL)
-    request->output = request->default_output = output_name(request->scene.path, ".png");
+  if (request->output == NULL) request->output = request->default_output = output_name(request->scene.path, ".png");
   if (request->output == NULL) {
     command_error(command, "out of memory");
     return STATUS_LIMIT;
@@ -143,21 +134,15 @@ static enum status check(const struct command *command, struct request *request)
   if (output_is_standard(request->output) && isatty(STDOUT_FILENO) == 1)
     return (enum status)command_usage(command, "a picture is not written to a terminal; -o FILE says where to");
   enum status status = check_format(command, request);
-  if (status == STATUS_OK)
-    status = check_crop(command, &request->options);
-  if (status != STATUS_OK)
-    return status;
+  if (status == STATUS_OK) status = check_crop(command, &request->options);
+  if (status != STATUS_OK) return status;
   status = check_outputs(command, request, NULL);
-  if (status == STATUS_OK)
-    status = output_probe(command, request->output);
-  if (status == STATUS_OK)
-    status = output_probe(command, request->stats);
-  if (status != STATUS_OK)
-    return status;
+  if (status == STATUS_OK) status = output_probe(command, request->output);
+  if (status == STATUS_OK) status = output_probe(command, request->stats);
+  if (status != STATUS_OK) return status;
   char message[IMAGE_MESSAGE_SIZE];
   status = image_file_ready(message);
-  if (status != STATUS_OK)
-    command_error(command, "cannot write pictures: %s", message);
+  if (status != STATUS_OK) command_error(command, "cannot write pictures: %s", message);
   return status;
 }
 
@@ -180,10 +165,9 @@ static enum status make_picture(const struct command *command, const struct requ
   const struct rectangle *crop = &request->options.crop;
   struct intersector *intersector = NULL;
   struct progress progress = progress_start();
-  const struct render_watch watch = { .progress = request->scene.quiet ? NULL : progress_tell,
-                                      .context = &progress,
-                                      .stop = &interrupt_signal };
-  struct render_stats stats = { 0 };
+  const struct render_watch watch = {
+    .progress = request->scene.quiet ? NULL : progress_tell, .context = &progress, .stop = &interrupt_signal};
+  struct render_stats stats = {0};
   enum status status = image_create(crop->width, crop->height, request->options.channels.width, out);
   if (status == STATUS_OK) {
     name_channels(&request->options.channels, out);
@@ -197,14 +181,12 @@ static enum status make_picture(const struct command *command, const struct requ
     status = render_scene(report->scene, intersector, &request->options, &watch, out->value, &stats);
     progress_end(&progress);
     interrupt_resume();
-    if (atomic_load(&interrupt_signal) != 0)
-      status = STATUS_INTERRUPTED;
+    if (atomic_load(&interrupt_signal) != 0) status = STATUS_INTERRUPTED;
     report->counts = stats.counts;
     report->threads = stats.threads;
     report->render = seconds_since(start);
   }
-  if (status == STATUS_LIMIT)
-    command_error(command, "out of memory or threads");
+  if (status == STATUS_LIMIT) command_error(command, "out of memory or threads");
   intersector_destroy(intersector);
   return status;
 }
@@ -216,10 +198,10 @@ static enum status write_results(const struct command *command, const struct req
   const struct seconds start = seconds_now();
   struct report_metadata metadata;
   report_metadata_fill(report, &metadata);
-  const struct image_encoding encoding = { .format = request->format,
-                                           .bits = (int)request->bits,
-                                           .attributes = metadata.attribute,
-                                           .attribute_count = metadata.count };
+  const struct image_encoding encoding = {.format = request->format,
+                                          .bits = (int)request->bits,
+                                          .attributes = metadata.attribute,
+                                          .attribute_count = metadata.count};
   unsigned char *bytes;
   char *statistics = NULL;
   size_t size;
@@ -230,12 +212,10 @@ static enum status write_results(const struct command *command, const struct req
     return status;
   }
   report->write = seconds_since(start);
-  if (request->stats != NULL)
-    status = report_text(command, report_statistics(report), &statistics);
+  if (request->stats != NULL) status = report_text(command, report_statistics(report), &statistics);
   const size_t length = statistics == NULL ? 0 : strlen(statistics);
-  const struct atomic_file files[] = { { request->output, bytes, size }, { request->stats, statistics, length } };
-  if (status == STATUS_OK)
-    status = output_write(command, files, 2);
+  const struct atomic_file files[] = {{request->output, bytes, size}, {request->stats, statistics, length}};
+  if (status == STATUS_OK) status = output_write(command, files, 2);
   free(statistics);
   free(bytes);
   return status;
@@ -244,30 +224,24 @@ static enum status write_results(const struct command *command, const struct req
 static enum status render(const struct command *command, struct request *request)
 {
   enum status status = check(command, request);
-  if (status != STATUS_OK)
-    return status;
+  if (status != STATUS_OK) return status;
   struct scene *scene = NULL;
-  struct image image = { 0 };
+  struct image image = {0};
   const struct seconds start = seconds_now();
   status = scene_file_load(command, &request->scene, &scene);
-  if (status == STATUS_OK && !request->scene.quiet)
-    scene_file_warn(command, scene);
-  struct report report = { .scene_path = request->scene.path,
-                           .picture_path = request->output,
-                           .scene = scene,
-                           .width = request->options.width,
-                           .height = request->options.height,
-                           .crop = request->options.crop,
-                           .samples = request->options.samples,
-                           .parse = seconds_since(start) };
-  if (status == STATUS_OK)
-    status = check_outputs(command, request, scene);
-  if (status == STATUS_OK)
-    status = make_picture(command, request, &report, &image);
-  if (status == STATUS_OK)
-    status = write_results(command, request, &report, &image);
-  if (status == STATUS_OK && !request->scene.quiet)
-    report_print(&report);
+  if (status == STATUS_OK && !request->scene.quiet) scene_file_warn(command, scene);
+  struct report report = {.scene_path = request->scene.path,
+                          .picture_path = request->output,
+                          .scene = scene,
+                          .width = request->options.width,
+                          .height = request->options.height,
+                          .crop = request->options.crop,
+                          .samples = request->options.samples,
+                          .parse = seconds_since(start)};
+  if (status == STATUS_OK) status = check_outputs(command, request, scene);
+  if (status == STATUS_OK) status = make_picture(command, request, &report, &image);
+  if (status == STATUS_OK) status = write_results(command, request, &report, &image);
+  if (status == STATUS_OK && !request->scene.quiet) report_print(&report);
   image_destroy(&image);
   scene_destroy(scene);
   return status;
@@ -275,10 +249,10 @@ static enum status render(const struct command *command, struct request *request
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = { .scene = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN },
-                             .options = { .samples = 1,
-                                          .threads = render_processors(),
-                                          .channels = { .count = 1, .width = 3, .kind = { CHANNEL_RGB } } } };
+  struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN},
+                            .options = {.samples = 1,
+                                        .threads = render_processors(),
+                                        .channels = {.count = 1, .width = 3, .kind = {CHANNEL_RGB}}}};
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) {

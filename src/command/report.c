@@ -25,27 +25,23 @@ void report_print(const struct report *report)
           report->scene->patch_count == 1 ? "" : "es", report->threads, report->threads == 1 ? "" : "s");
   fprintf(stderr, "rays     %" PRIu64 " primary, %" PRIu64 " shadow\n", counts->rays[0], counts->rays[1]);
   fprintf(stderr, "answers  %" PRIu64 " certain, %" PRIu64 " grazing\n", counts->certain, counts->grazing);
-  fprintf(stderr, "patches  %" PRIu64 " tried, %" PRIu64 " of them by a resultant of full degree, %" PRIu64
-                  " by subdivision\n", counts->patches_tested, counts->stages[STAGE_RESULTANT], counts->escalated);
+  fprintf(stderr,
+          "patches  %" PRIu64 " tried, %" PRIu64 " of them by a resultant of full degree, %" PRIu64 " by subdivision\n",
+          counts->patches_tested, counts->stages[STAGE_RESULTANT], counts->escalated);
   fprintf(stderr, "roots    %" PRIu64 " found, %" PRIu64 " accepted\n", counts->roots_found, counts->roots_accepted);
   fprintf(stderr, "time     %.3f s parse, %.3f s build, %.3f s render, %.3f s write\n", report->parse.wall,
           report->build.wall, report->render.wall, report->write.wall);
 }
 
-static json_t *count(uint64_t value)
-{
-  return json_integer((json_int_t)value);
-}
+static json_t *count(uint64_t value) { return json_integer((json_int_t)value); }
 
 /* A path as JSON, which is UTF-8: other bytes of a name become '?'. */
 static json_t *path_text(const char *path)
 {
   json_t *text = json_string(path);
   char *ascii = text == NULL ? strdup(path) : NULL;
-  if (ascii == NULL)
-    return text;
-  for (char *c = ascii; *c != '\0'; c++)
-    *c = (unsigned char)*c < 0x80 ? *c : '?';
+  if (ascii == NULL) return text;
+  for (char *c = ascii; *c != '\0'; c++) *c = (unsigned char)*c < 0x80 ? *c : '?';
   text = json_string(ascii);
   free(ascii);
   return text;
@@ -60,36 +56,25 @@ json_t *report_statistics(const struct report *report)
   json_t *root = json_pack(
     "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:{s:o, s:o, s:o, s:o}, s:o, s:{s:o, s:o}, s:{s:o, s:o}, "
     "s:{s:f, s:f, s:f, s:f}, s:{s:f, s:f, s:f, s:f}}",
-    "version", PSCN_VERSION,
-    "scene", path_text(report->scene_path),
-    "solver", solver,
-    "tolerance", report->scene->solvers[0].roots.tolerance,
-    "threads", count(report->threads),
-    "patches", count(report->scene->patch_count),
-    "lights", count(report->scene->light_count),
-    "rays", "primary", count(counts->rays[0]), "shadow", count(counts->rays[1]),
-    "patches_tested", count(counts->patches_tested),
-    "stages", "bilinear", count(counts->stages[STAGE_BILINEAR]), "planes", count(counts->stages[STAGE_PLANES]),
-    "resultant", count(counts->stages[STAGE_RESULTANT]), "roots", count(counts->stages[STAGE_ROOTS]),
-    "subdivided", count(counts->escalated),
-    "roots", "found", count(counts->roots_found), "accepted", count(counts->roots_accepted),
-    "answers", "certain", count(counts->certain), "grazing", count(counts->grazing),
-    "time", "parse", report->parse.wall, "build", report->build.wall, "render", report->render.wall,
-    "write", report->write.wall,
-    "cpu", "parse", report->parse.cpu, "build", report->build.cpu, "render", report->render.cpu,
-    "write", report->write.cpu);
-  if (root == NULL || report->picture_path == NULL)
-    return root;
+    "version", PSCN_VERSION, "scene", path_text(report->scene_path), "solver", solver, "tolerance",
+    report->scene->solvers[0].roots.tolerance, "threads", count(report->threads), "patches",
+    count(report->scene->patch_count), "lights", count(report->scene->light_count), "rays", "primary",
+    count(counts->rays[0]), "shadow", count(counts->rays[1]), "patches_tested", count(counts->patches_tested), "stages",
+    "bilinear", count(counts->stages[STAGE_BILINEAR]), "planes", count(counts->stages[STAGE_PLANES]), "resultant",
+    count(counts->stages[STAGE_RESULTANT]), "roots", count(counts->stages[STAGE_ROOTS]), "subdivided",
+    count(counts->escalated), "roots", "found", count(counts->roots_found), "accepted", count(counts->roots_accepted),
+    "answers", "certain", count(counts->certain), "grazing", count(counts->grazing), "time", "parse",
+    report->parse.wall, "build", report->build.wall, "render", report->render.wall, "write", report->write.wall, "cpu",
+    "parse", report->parse.cpu, "build", report->build.cpu, "render", report->render.cpu, "write", report->write.cpu);
+  if (root == NULL || report->picture_path == NULL) return root;
   const struct rectangle *crop = &report->crop;
-  json_t *picture = json_pack("{s:o, s:[o, o], s:[o, o, o, o], s:o}",
-                              "picture", path_text(report->picture_path),
-                              "size", count(report->width), count(report->height),
-                              "crop", count(crop->x), count(crop->y), count(crop->width), count(crop->height),
-                              "samples", count(report->samples));
+  json_t *picture = json_pack("{s:o, s:[o, o], s:[o, o, o, o], s:o}", "picture", path_text(report->picture_path),
+                              "size", count(report->width), count(report->height), "crop", count(crop->x),
+                              count(crop->y), count(crop->width), count(crop->height), "samples",
+                              count(report->samples));
   const bool complete = picture != NULL && json_object_update(root, picture) == 0;
   json_decref(picture);
-  if (complete)
-    return root;
+  if (complete) return root;
   json_decref(root);
   return NULL;
 }
@@ -113,15 +98,14 @@ enum status report_write(const struct command *command, json_t *statistics, cons
 {
   char *text;
   enum status status = report_text(command, statistics, &text);
-  if (status == STATUS_OK)
-    status = output_write(command, &(struct atomic_file){ path, text, strlen(text) }, 1);
+  if (status == STATUS_OK) status = output_write(command, &(struct atomic_file){path, text, strlen(text)}, 1);
   free(text);
   return status;
 }
 
 static void add(struct report_metadata *metadata, const char *name, const char *text)
 {
-  metadata->attribute[metadata->count++] = (struct image_attribute){ name, text };
+  metadata->attribute[metadata->count++] = (struct image_attribute){name, text};
 }
 
 void report_metadata_fill(const struct report *report, struct report_metadata *out)
@@ -137,8 +121,7 @@ void report_metadata_fill(const struct report *report, struct report_metadata *o
   method_text(solver, out->solver, sizeof out->solver);
   const time_t now = time(NULL);
   struct tm calendar;
-  if (gmtime_r(&now, &calendar) == NULL ||
-      strftime(out->date, sizeof out->date, "%Y:%m:%d %H:%M:%S", &calendar) == 0)
+  if (gmtime_r(&now, &calendar) == NULL || strftime(out->date, sizeof out->date, "%Y:%m:%d %H:%M:%S", &calendar) == 0)
     out->date[0] = '\0';
   add(out, "Software", "pscn " PSCN_VERSION);
   add(out, "DateTime", out->date);

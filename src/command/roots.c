@@ -39,17 +39,16 @@ static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   SCENE_SOLVER_OPTION("what may follow 'solver' in a scene; default aberth"),
   SCENE_TOLERANCE_OPTION("instead of the solver's tolerance"),
-  COMMAND_OPTION("format", 0, 0, "plain: pairs re im (default); table, json: with radius, status, eq 11",
-                 "FORMAT"),
+  COMMAND_OPTION("format", 0, 0, "plain: pairs re im (default); table, json: with radius, status, eq 11", "FORMAT"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the roots", "FILE"),
   COMMAND_TRUE("quiet", 'q', quiet, "no summary on a terminal"),
-  COMMAND_OPTIONS_END
+  COMMAND_OPTIONS_END,
 };
 
 /* The format, which alone is not stored at once. */
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
-  static const char *const names[] = { "plain", "table", "json" };
+  static const char *const names[] = {"plain", "table", "json"};
   (void)val;
   for (int k = 0; k < 3; k++) {
     if (strcmp(argument, names[k]) == 0) {
@@ -81,27 +80,25 @@ static struct stream_fault parse_line(const struct stream_line *line, double out
     at = end;
     count++;
   }
-  if (found < 0)
-    return fault;
+  if (found < 0) return fault;
   if (found > 0)
     return (struct stream_fault){"a polynomial has at most 65 coefficients, and here is more", fault.begin, fault.end};
   if (count < 2)
-    return (struct stream_fault){ "a polynomial is at least two coefficients, from the highest power to the constant",
-                                  fault.begin, fault.end };
+    return (struct stream_fault){"a polynomial is at least two coefficients, from the highest power to the constant",
+                                 fault.begin, fault.end};
   bool zero = true;
   for (int k = 0; k < count; k++) {
     out_c[k] = high_first[count - 1 - k];
     zero = zero && out_c[k] == 0;
   }
   *out_degree = count - 1;
-  return (struct stream_fault){ zero ? "all coefficients are zero: every number is a root" : NULL, 0, line->length };
+  return (struct stream_fault){zero ? "all coefficients are zero: every number is a root" : NULL, 0, line->length};
 }
 
 static int by_place(const void *a, const void *b)
 {
   const struct root *x = a, *y = b;
-  if (x->re != y->re)
-    return x->re < y->re ? -1 : 1;
+  if (x->re != y->re) return x->re < y->re ? -1 : 1;
   return (x->im > y->im) - (x->im < y->im);
 }
 
@@ -115,20 +112,17 @@ struct answer {
   struct root_set roots;
 };
 
-static bool is_known(const struct root *root)
-{
-  return root->radius < INFINITY;
-}
+static bool is_known(const struct root *root) { return root->radius < INFINITY; }
 
 static const char *status_word(const struct root *root)
 {
-  static const char *const words[] = { "converged", "limit", "cluster" };
+  static const char *const words[] = {"converged", "limit", "cluster"};
   return is_known(root) ? words[root->status] : "unknown";
 }
 
 static double eq11_of(const struct answer *answer, const struct root *root)
 {
-  const struct polynomial power = { answer->degree, BASIS_POWER, answer->c, NULL };
+  const struct polynomial power = {answer->degree, BASIS_POWER, answer->c, NULL};
   return polynomial_eq11(&power, root->re, root->im);
 }
 
@@ -137,8 +131,7 @@ static void write_plain(const struct root_set *roots)
   for (int k = 0; k < roots->count; k++) {
     char pair[2 * NUMBER_TEXT_SIZE + 2];
     size_t length = 0;
-    if (k > 0)
-      pair[length++] = ' ';
+    if (k > 0) pair[length++] = ' ';
     length += number_write_17(roots->root[k].re, pair + length);
     pair[length++] = ' ';
     length += number_write_17(roots->root[k].im, pair + length);
@@ -165,10 +158,7 @@ static void write_table(const struct answer *answer)
 }
 
 /* JSON knows no infinity. */
-static json_t *finite_or_null(double value)
-{
-  return isfinite(value) ? json_real(value) : json_null();
-}
+static json_t *finite_or_null(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
 /* One object a line. Null where memory is short. */
 static void write_json(const struct answer *answer)
@@ -192,22 +182,18 @@ static void write_json(const struct answer *answer)
 static void tell_unknown(struct session *session, const struct answer *answer)
 {
   int unknown = 0;
-  for (int k = 0; k < answer->roots.count; k++)
-    unknown += !is_known(&answer->roots.root[k]);
-  if (unknown == 0 && answer->roots.missing == 0 && !answer->roots.not_finite)
-    return;
+  for (int k = 0; k < answer->roots.count; k++) unknown += !is_known(&answer->roots.root[k]);
+  if (unknown == 0 && answer->roots.missing == 0 && !answer->roots.not_finite) return;
   session->doubtful++;
-  if (session->doubtful > MOST_TOLD)
-    return;
+  if (session->doubtful > MOST_TOLD) return;
   fflush(stdout);
-  if (answer->roots.not_finite)
-    fprintf(stderr, "<stdin>:%zu: error: the coefficients overflow\n", answer->line);
+  if (answer->roots.not_finite) fprintf(stderr, "<stdin>:%zu: error: the coefficients overflow\n", answer->line);
   if (unknown > 0)
     fprintf(stderr, "<stdin>:%zu: error: of %d of the values printed it is not known how near they are to a root\n",
             answer->line, unknown);
   if (answer->roots.missing > 0)
-    fprintf(stderr, "<stdin>:%zu: error: %d of the roots missing: not found, or not told from infinity\n",
-            answer->line, answer->roots.missing);
+    fprintf(stderr, "<stdin>:%zu: error: %d of the roots missing: not found, or not told from infinity\n", answer->line,
+            answer->roots.missing);
 }
 
 /* ---- a polynomial ---- */
@@ -220,13 +206,12 @@ static void tell_unknown(struct session *session, const struct answer *answer)
 static void to_bernstein(int degree, const double c[], double out_c[], double out_error[])
 {
   double scaled[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS], largest = 0;
-  for (int k = 0; k <= degree; k++)
-    largest = fmax(largest, fabs(c[k]));
+  for (int k = 0; k <= degree; k++) largest = fmax(largest, fabs(c[k]));
   for (int k = 0; k <= degree; k++) {
     scaled[k] = largest > LARGE ? c[k] * SMALLER : c[k];
     error[k] = scaled[k] / SMALLER == c[k] || scaled[k] == c[k] ? 0 : DBL_TRUE_MIN;
   }
-  const struct polynomial power = { degree, BASIS_POWER, scaled, error };
+  const struct polynomial power = {degree, BASIS_POWER, scaled, error};
   polynomial_to_bernstein(&power, out_c, out_error);
 }
 
@@ -234,14 +219,14 @@ static void to_bernstein(int degree, const double c[], double out_c[], double ou
  * the solver. */
 static void answer(struct session *session, int degree, const double c[])
 {
-  struct polynomial p = { degree, BASIS_POWER, c, NULL };
+  struct polynomial p = {degree, BASIS_POWER, c, NULL};
   double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
-  struct answer answer = { .line = ++session->polynomials, .degree = degree, .c = c };
+  struct answer answer = {.line = ++session->polynomials, .degree = degree, .c = c};
   struct root_set *roots = &answer.roots;
   const double start = clock_seconds(CLOCK_MONOTONIC);
   if (session->method.basis == BASIS_BERNSTEIN) {
     to_bernstein(degree, c, bernstein, error);
-    p = (struct polynomial){ degree, BASIS_BERNSTEIN, bernstein, error };
+    p = (struct polynomial){degree, BASIS_BERNSTEIN, bernstein, error};
   }
   solver_solve(&p, &session->method.roots, &session->warm, roots);
   session->solve += clock_seconds(CLOCK_MONOTONIC) - start;
@@ -269,20 +254,13 @@ static struct stream_fault take(void *context, const struct stream_line *line)
   double c[MAX_COEFFICIENTS];
   int degree = 0;
   const struct stream_fault fault = parse_line(line, c, &degree);
-  if (fault.text == NULL)
-    answer(context, degree, c);
+  if (fault.text == NULL) answer(context, degree, c);
   return fault;
 }
 
-static double share(size_t part, size_t whole)
-{
-  return whole == 0 ? 0 : (double)part / (double)whole;
-}
+static double share(size_t part, size_t whole) { return whole == 0 ? 0 : (double)part / (double)whole; }
 
-static json_t *count(size_t value)
-{
-  return json_integer((json_int_t)value);
-}
+static json_t *count(size_t value) { return json_integer((json_int_t)value); }
 
 static json_t *statistics(const struct session *session)
 {
@@ -290,9 +268,8 @@ static json_t *statistics(const struct session *session)
   method_text(&session->method, solver, sizeof solver);
   return json_pack("{s:o, s:o, s:o, s:o, s:f, s:{s:o, s:o, s:o}, s:s, s:f, s:{s:f}}", "polynomials",
                    count(session->polynomials), "roots", count(session->roots), "missing", count(session->missing),
-                   "iterations",
-                   count(session->iterations), "accurate", share(session->accurate, session->roots), "status",
-                   "converged", count(session->statuses[ROOT_CONVERGED]), "cluster",
+                   "iterations", count(session->iterations), "accurate", share(session->accurate, session->roots),
+                   "status", "converged", count(session->statuses[ROOT_CONVERGED]), "cluster",
                    count(session->statuses[ROOT_CLUSTER]), "limit", count(session->statuses[ROOT_LIMIT]), "solver",
                    solver, "tolerance", session->method.roots.tolerance, "time", "solve", session->solve);
 }
@@ -315,8 +292,7 @@ static bool mentions(const char *text, const char *word)
   const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
   while (*(text += strcspn(text, letters)) != '\0') {
     const size_t length = strspn(text, letters);
-    if (length == strlen(word) && memcmp(text, word, length) == 0)
-      return true;
+    if (length == strlen(word) && memcmp(text, word, length) == 0) return true;
     text += length;
   }
   return false;
@@ -327,30 +303,23 @@ static enum status choose_solver(const struct command *command, const struct req
   const char *text = request->scene.solver_text == NULL ? DEFAULT_SOLVER : request->scene.solver_text;
   struct diagnostics diagnostics = stderr_diagnostics(command);
   const enum status status = language_parse_solver(text, &diagnostics, out);
-  if (status != STATUS_OK)
-    return status;
-  if (!mentions(text, "basis"))
-    out->basis = BASIS_POWER;
-  if (!isnan(request->scene.tolerance))
-    out->roots.tolerance = request->scene.tolerance;
+  if (status != STATUS_OK) return status;
+  if (!mentions(text, "basis")) out->basis = BASIS_POWER;
+  if (!isnan(request->scene.tolerance)) out->roots.tolerance = request->scene.tolerance;
   return STATUS_OK;
 }
 
 static enum status roots(const struct command *command, const struct request *request)
 {
-  struct session session = { .format = request->format };
-  const struct stream_reader reader = { .take = take, .context = &session };
+  struct session session = {.format = request->format};
+  const struct stream_reader reader = {.take = take, .context = &session};
   enum status status = output_spare(command, request->stats, "/dev/stdin");
-  if (status == STATUS_OK)
-    status = output_probe(command, request->stats);
-  if (status == STATUS_OK)
-    status = choose_solver(command, request, &session.method);
-  if (status == STATUS_OK)
-    status = stream_read(command, &reader);
+  if (status == STATUS_OK) status = output_probe(command, request->stats);
+  if (status == STATUS_OK) status = choose_solver(command, request, &session.method);
+  if (status == STATUS_OK) status = stream_read(command, &reader);
   if (status == STATUS_OK && request->stats != NULL)
     status = report_write(command, statistics(&session), request->stats);
-  if (status == STATUS_OK && !request->quiet && isatty(STDERR_FILENO) == 1)
-    print_summary(&session);
+  if (status == STATUS_OK && !request->quiet && isatty(STDERR_FILENO) == 1) print_summary(&session);
   if (session.doubtful > MOST_TOLD)
     command_error(command, "and %zu more lines with roots that are not known", session.doubtful - MOST_TOLD);
   return status == STATUS_OK && session.doubtful > 0 ? STATUS_DIFFERENT : status;
@@ -358,7 +327,7 @@ static enum status roots(const struct command *command, const struct request *re
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = { .scene.tolerance = NAN };
+  struct request request = {.scene.tolerance = NAN};
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 0, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) {

@@ -14,14 +14,13 @@
 static void tell(void *context, const char *text, size_t length)
 {
   const char *const *name = context;
-  if (strncmp(text, "error: ", 7) == 0)
-    fprintf(stderr, "pscn %s: ", *name);
+  if (strncmp(text, "error: ", 7) == 0) fprintf(stderr, "pscn %s: ", *name);
   (void)fwrite(text, 1, length, stderr);
 }
 
 struct diagnostics stderr_diagnostics(const struct command *command)
 {
-  return (struct diagnostics){ .tell = tell, .context = (void *)&command->name };
+  return (struct diagnostics){.tell = tell, .context = (void *)&command->name};
 }
 
 /* "NAME=VALUE" */
@@ -29,7 +28,7 @@ static enum status take_number(const struct command *command, struct scene_reque
 {
   const size_t length = strcspn(argument, "=");
   const char *value = argument + length + 1;
-  struct language_number number = { .name = argument, .name_length = length };
+  struct language_number number = {.name = argument, .name_length = length};
   size_t used = 0;
   if (argument[length] == '\0' || number_read(value, strlen(value), &number.value, &used) != NUMBER_FINITE ||
       value[used] != '\0')
@@ -50,8 +49,7 @@ enum status scene_request_take(const struct command *command, void *scene_reques
     if (!value_size(argument, MAX_SIDE, &request->width, &request->height))
       return (enum status)command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
     break;
-  case OPTION_DECLARE:
-    return take_number(command, request, argument);
+  case OPTION_DECLARE: return take_number(command, request, argument);
   case OPTION_INCLUDE:
     if (request->folder_count == SCENE_MOST_FOLDERS)
       return (enum status)command_usage(command, "more than %d folders are named", SCENE_MOST_FOLDERS);
@@ -70,10 +68,8 @@ size_t scene_request_memory(const struct scene_request *request)
 {
   const size_t most = (size_t)8 << 30, share = 4;
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-  if (request->max_memory != 0)
-    return request->max_memory;
-  if (pages <= 0 || page <= 0 || (size_t)pages > most * share / (size_t)page)
-    return most;
+  if (request->max_memory != 0) return request->max_memory;
+  if (pages <= 0 || page <= 0 || (size_t)pages > most * share / (size_t)page) return most;
   return (size_t)pages * (size_t)page / share;
 }
 
@@ -81,8 +77,7 @@ size_t scene_request_memory(const struct scene_request *request)
 static void list_folders(const struct scene_request *request, char *environment, const char *out[])
 {
   size_t count = 0;
-  for (; count < request->folder_count; count++)
-    out[count] = request->folders[count];
+  for (; count < request->folder_count; count++) out[count] = request->folders[count];
   for (char *folder = strtok(environment, ":"); folder != NULL && count < 2 * SCENE_MOST_FOLDERS;
        folder = strtok(NULL, ":"))
     out[count++] = folder;
@@ -91,31 +86,29 @@ static void list_folders(const struct scene_request *request, char *environment,
   out[count] = NULL;
 }
 
-enum status scene_file_load(const struct command *command, const struct scene_request *request,
-                            struct scene **out)
+enum status scene_file_load(const struct command *command, const struct scene_request *request, struct scene **out)
 {
   const char *folders[2 * SCENE_MOST_FOLDERS + 3], *variable = getenv("PSCN_INCLUDE");
   char environment[4096];
   snprintf(environment, sizeof environment, "%s", variable != NULL ? variable : "");
   list_folders(request, environment, folders);
-  const struct language_settings settings = { .image_width = (int)request->width,
-                                              .image_height = (int)request->height,
-                                              .solver_text = request->solver_text,
-                                              .tolerance = request->tolerance,
-                                              .folders = folders,
-                                              .numbers = request->numbers,
-                                              .number_count = request->number_count,
-                                              .max_memory = scene_request_memory(request) };
+  const struct language_settings settings = {.image_width = (int)request->width,
+                                             .image_height = (int)request->height,
+                                             .solver_text = request->solver_text,
+                                             .tolerance = request->tolerance,
+                                             .folders = folders,
+                                             .numbers = request->numbers,
+                                             .number_count = request->number_count,
+                                             .max_memory = scene_request_memory(request)};
   struct diagnostics diagnostics = stderr_diagnostics(command);
   diagnostics.quiet = request->quiet;
-  if (!output_is_standard(request->path))
-    return language_load(request->path, &settings, &diagnostics, out);
+  if (!output_is_standard(request->path)) return language_load(request->path, &settings, &diagnostics, out);
   struct source *text;
   const char *reason;
   *out = NULL;
   enum status status = source_read_open("stdin", dup(STDIN_FILENO), &text, &reason);
   if (status != STATUS_OK) {
-    diagnostics_error(&diagnostics, (struct place){ NULL, 0, 0 }, "stdin: %s", reason);
+    diagnostics_error(&diagnostics, (struct place){NULL, 0, 0}, "stdin: %s", reason);
     return status;
   }
   status = language_load_text(text->name, text->text, text->length, &settings, &diagnostics, out);
@@ -125,19 +118,17 @@ enum status scene_file_load(const struct command *command, const struct scene_re
 
 void scene_file_warn(const struct command *command, const struct scene *scene)
 {
-  const bool missing[] = { scene->patch_count == 0, scene->light_count == 0, !scene->has_camera };
-  static const char *const what[] = { "no patches", "no light_source", "no camera" };
+  const bool missing[] = {scene->patch_count == 0, scene->light_count == 0, !scene->has_camera};
+  static const char *const what[] = {"no patches", "no light_source", "no camera"};
   for (size_t k = 0; k < sizeof missing / sizeof *missing; k++) {
-    if (missing[k])
-      fprintf(stderr, "pscn %s: warning: the scene has %s\n", command->name, what[k]);
+    if (missing[k]) fprintf(stderr, "pscn %s: warning: the scene has %s\n", command->name, what[k]);
   }
 }
 
 enum status scene_file_spare(const struct command *command, const struct scene_request *request,
                              const struct scene *scene, const char *output)
 {
-  enum status status =
-    output_spare(command, output, output_is_standard(request->path) ? "/dev/stdin" : request->path);
+  enum status status = output_spare(command, output, output_is_standard(request->path) ? "/dev/stdin" : request->path);
   for (size_t k = 0; scene != NULL && k < scene->file_count && status == STATUS_OK; k++)
     status = output_spare(command, output, scene->files[k]);
   return status;

@@ -34,14 +34,12 @@ static enum status refill(const struct command *command, struct stream *stream)
   stream->begin = 0;
   if (stream->end == stream->size) {
     char *larger = realloc(stream->buffer, 2 * stream->size);
-    if (larger == NULL)
-      return STATUS_LIMIT;
+    if (larger == NULL) return STATUS_LIMIT;
     stream->buffer = larger;
     stream->size *= 2;
   }
   ssize_t length;
-  do
-    length = read(STDIN_FILENO, stream->buffer + stream->end, stream->size - stream->end);
+  do length = read(STDIN_FILENO, stream->buffer + stream->end, stream->size - stream->end);
   while (length < 0 && errno == EINTR);
   if (length < 0) {
     command_error(command, "cannot read standard input: %s", strerror(errno));
@@ -64,8 +62,7 @@ static bool find_line(const struct stream *stream, size_t record, struct stream_
     return left >= record || stream->ended;
   }
   const char *newline = memchr(line, '\n', left);
-  if (newline == NULL && !stream->ended && left <= MAX_LINE)
-    return false;
+  if (newline == NULL && !stream->ended && left <= MAX_LINE) return false;
   const size_t length = newline == NULL ? left : (size_t)(newline - line);
   out->text = line;
   out->bytes = newline == NULL ? left : length + 1;
@@ -73,55 +70,44 @@ static bool find_line(const struct stream *stream, size_t record, struct stream_
   return true;
 }
 
-static bool is_blank(char c)
-{
-  return c == ' ' || c == '\t';
-}
+static bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 int stream_number(const struct stream_line *line, size_t *at, double *out_value, size_t *out_end,
                   struct stream_fault *out_fault)
 {
-  while (*at < line->length && is_blank(line->text[*at]))
-    ++*at;
+  while (*at < line->length && is_blank(line->text[*at])) ++*at;
   size_t end = *at, used;
-  while (end < line->length && !is_blank(line->text[end]))
-    end++;
+  while (end < line->length && !is_blank(line->text[end])) end++;
   *out_end = end > *at ? end : end + 1;
-  *out_fault = (struct stream_fault){ NULL, *at, *out_end };
-  if (*at == line->length)
-    return 0;
+  *out_fault = (struct stream_fault){NULL, *at, *out_end};
+  if (*at == line->length) return 0;
   const enum number_kind kind = number_read(line->text + *at, end - *at, out_value, &used);
-  if (kind == NUMBER_NONE || (kind == NUMBER_FINITE && *at + used != end))
-    out_fault->text = "this is no number";
-  else if (kind == NUMBER_OVERFLOW)
-    out_fault->text = "the number is too large";
-  else
-    return 1;
+  if (kind == NUMBER_NONE || (kind == NUMBER_FINITE && *at + used != end)) out_fault->text = "this is no number";
+  else if (kind == NUMBER_OVERFLOW) out_fault->text = "the number is too large";
+  else return 1;
   return -1;
 }
 
 /* Tells the fault of the line at the beginning of what is left. */
-static enum status explain(const struct command *command, const struct stream *stream,
-                           const struct stream_line *line, size_t record, struct stream_fault fault)
+static enum status explain(const struct command *command, const struct stream *stream, const struct stream_line *line,
+                           size_t record, struct stream_fault fault)
 {
   struct diagnostics diagnostics = stderr_diagnostics(command);
   if (record != 0) {
-    diagnostics_error(&diagnostics, (struct place){ NULL, 0, 0 }, "%s, record %zu: %s", NAME, stream->count + 1,
+    diagnostics_error(&diagnostics, (struct place){NULL, 0, 0}, "%s, record %zu: %s", NAME, stream->count + 1,
                       fault.text);
     return STATUS_INPUT;
   }
   /* The line alone, standing where it stood in the stream: after as many line ends. */
   const size_t length = line->length > MAX_LINE ? 1 : line->length;
   char *text = length > SIZE_MAX - stream->count ? NULL : malloc(stream->count + length + 1);
-  if (text == NULL)
-    return STATUS_LIMIT;
+  if (text == NULL) return STATUS_LIMIT;
   memset(text, '\n', stream->count);
   memcpy(text + stream->count, line->text, length);
   struct source *source = source_from_text(NAME, text, stream->count + length);
   free(text);
-  if (source == NULL)
-    return STATUS_LIMIT;
-  const struct place place = { source, stream->count + fault.begin, stream->count + fault.end };
+  if (source == NULL) return STATUS_LIMIT;
+  const struct place place = {source, stream->count + fault.begin, stream->count + fault.end};
   diagnostics_error(&diagnostics, place, "%s", fault.text);
   source_destroy(source);
   return STATUS_INPUT;
@@ -129,37 +115,31 @@ static enum status explain(const struct command *command, const struct stream *s
 
 static enum status write_answers(const struct command *command, const struct stream_reader *reader)
 {
-  if (reader->answer != NULL)
-    reader->answer(reader->context);
+  if (reader->answer != NULL) reader->answer(reader->context);
   return command_finish_output(command);
 }
 
 enum status stream_read(const struct command *command, const struct stream_reader *reader)
 {
-  struct stream stream = { .size = BUFFER_SIZE, .buffer = malloc(BUFFER_SIZE) };
-  struct stream_line line = { 0 };
-  struct stream_fault fault = { 0 };
+  struct stream stream = {.size = BUFFER_SIZE, .buffer = malloc(BUFFER_SIZE)};
+  struct stream_line line = {0};
+  struct stream_fault fault = {0};
   enum status status = stream.buffer == NULL ? STATUS_LIMIT : STATUS_OK;
   while (status == STATUS_OK && !(stream.ended && stream.begin == stream.end) && !ferror(stdout)) {
     if (!find_line(&stream, reader->record, &line)) {
       status = write_answers(command, reader); /* of what has come: who asks may wait for them before asking again */
-      if (status == STATUS_OK)
-        status = refill(command, &stream);
+      if (status == STATUS_OK) status = refill(command, &stream);
       continue;
     }
-    fault = line.length > MAX_LINE ? (struct stream_fault){ "the line is too long", 0, 1 }
+    fault = line.length > MAX_LINE ? (struct stream_fault){"the line is too long", 0, 1}
                                    : reader->take(reader->context, &line);
-    if (fault.text != NULL)
-      break;
+    if (fault.text != NULL) break;
     stream.begin += line.bytes;
     stream.count++;
   }
-  if (status == STATUS_OK)
-    status = write_answers(command, reader);
-  if (status == STATUS_OK && fault.text != NULL)
-    status = explain(command, &stream, &line, reader->record, fault);
-  if (status == STATUS_LIMIT)
-    command_error(command, "out of memory");
+  if (status == STATUS_OK) status = write_answers(command, reader);
+  if (status == STATUS_OK && fault.text != NULL) status = explain(command, &stream, &line, reader->record, fault);
+  if (status == STATUS_LIMIT) command_error(command, "out of memory");
   free(stream.buffer);
   return status;
 }

@@ -15,8 +15,8 @@
 #include "intersect/intersect.h"
 
 enum {
-  RAY_VALUES = 6,    /* ox oy oz dx dy dz */
-  ANSWER_VALUES = 8, /* T U V PATCH NX NY NZ, and with --certainty 1 or 0 */
+  RAY_VALUES = 6,                                      /* ox oy oz dx dy dz */
+  ANSWER_VALUES = 8,                                   /* T U V PATCH NX NY NZ, and with --certainty 1 or 0 */
   ANSWER_SIZE = ANSWER_VALUES * NUMBER_TEXT_SIZE + 16, /* bytes of an answer as text, at most */
   OUTPUT_BUFFER = 1 << 16
 };
@@ -34,7 +34,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_TRUE("certainty", 0, certainty, "whether each answer is 'certain' or 'grazing'"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the hits", "FILE"),
   COMMAND_TRUE("quiet", 'q', scene.quiet, "no summary on a terminal"),
-  COMMAND_OPTIONS_END
+  COMMAND_OPTIONS_END,
 };
 
 /* Rays that wait for an answer, and who answers them. */
@@ -56,8 +56,7 @@ static void answer_values(const struct ray *ray, const struct hit *hit, double o
   if (!missed) {
     out[1] = hit->u;
     out[2] = hit->v;
-    for (int k = 0; k < 3; k++)
-      out[4 + k] = hit->normal[k] + 0.0; /* -0 becomes 0 */
+    for (int k = 0; k < 3; k++) out[4 + k] = hit->normal[k] + 0.0; /* -0 becomes 0 */
   }
 }
 
@@ -92,8 +91,7 @@ static void write_binary(const struct request *request, const struct ray *ray, c
   for (size_t k = 0; k < count; k++) {
     uint64_t bits;
     memcpy(&bits, &value[k], sizeof bits);
-    for (size_t b = 0; b < 8; b++)
-      bytes[8 * k + b] = (unsigned char)(bits >> (8 * b) & 0xff);
+    for (size_t b = 0; b < 8; b++) bytes[8 * k + b] = (unsigned char)(bits >> (8 * b) & 0xff);
   }
   fwrite(bytes, 8, count, stdout);
 }
@@ -102,8 +100,7 @@ static void answer(void *context)
 {
   struct session *session = context;
   struct hit hits[PACKET_SIZE];
-  if (session->count > 0)
-    tracer_closest(session->tracer, session->count, session->rays, hits);
+  if (session->count > 0) tracer_closest(session->tracer, session->count, session->rays, hits);
   for (size_t k = 0; k < session->count; k++)
     (session->request->binary ? write_binary : write_text)(session->request, &session->rays[k], &hits[k]);
   session->count = 0;
@@ -115,8 +112,7 @@ static bool make_ray(const double value[RAY_VALUES], struct ray *out)
 {
   const double largest = fmax(fmax(fabs(value[3]), fabs(value[4])), fabs(value[5]));
   int exponent;
-  if (largest == 0)
-    return false;
+  if (largest == 0) return false;
   (void)frexp(largest, &exponent);
   for (int k = 0; k < 3; k++) {
     out->origin[k] = value[k];
@@ -135,17 +131,15 @@ static struct stream_fault parse_line(const struct stream_line *line, struct ray
   struct stream_fault fault;
   for (int k = 0; k < RAY_VALUES; k++) {
     const int found = stream_number(line, &at, &value[k], &end, &fault);
-    if (found < 0)
-      return fault;
-    if (found == 0)
-      return (struct stream_fault){ "a ray is six numbers: ox oy oz dx dy dz", fault.begin, fault.end };
+    if (found < 0) return fault;
+    if (found == 0) return (struct stream_fault){"a ray is six numbers: ox oy oz dx dy dz", fault.begin, fault.end};
     direction = k == 3 ? at : direction;
     at = end;
   }
   const size_t last = end;
   if (stream_number(line, &at, &value[RAY_VALUES], &end, &fault) != 0)
-    return (struct stream_fault){ "a ray is six numbers, and here is more", fault.begin, fault.end };
-  return (struct stream_fault){ make_ray(value, out) ? NULL : "the direction is zero", direction, last };
+    return (struct stream_fault){"a ray is six numbers, and here is more", fault.begin, fault.end};
+  return (struct stream_fault){make_ray(value, out) ? NULL : "the direction is zero", direction, last};
 }
 
 /* The same of six little-endian doubles. */
@@ -153,25 +147,22 @@ static struct stream_fault parse_record(const struct stream_line *record, struct
 {
   double value[RAY_VALUES];
   if (record->length < sizeof value)
-    return (struct stream_fault){ .text = "the stream ends inside a record of 48 bytes" };
+    return (struct stream_fault){.text = "the stream ends inside a record of 48 bytes"};
   for (int k = 0; k < RAY_VALUES; k++) {
     uint64_t bits = 0;
-    for (int b = 7; b >= 0; b--)
-      bits = bits << 8 | (unsigned char)record->text[8 * k + b];
+    for (int b = 7; b >= 0; b--) bits = bits << 8 | (unsigned char)record->text[8 * k + b];
     memcpy(&value[k], &bits, sizeof bits);
-    if (!isfinite(value[k]))
-      return (struct stream_fault){ .text = "a number is not finite" };
+    if (!isfinite(value[k])) return (struct stream_fault){.text = "a number is not finite"};
   }
-  return (struct stream_fault){ .text = make_ray(value, out) ? NULL : "the direction is zero" };
+  return (struct stream_fault){.text = make_ray(value, out) ? NULL : "the direction is zero"};
 }
 
 static struct stream_fault take(void *context, const struct stream_line *line)
 {
   struct session *session = context;
-  const struct stream_fault fault =
-    (session->request->binary ? parse_record : parse_line)(line, &session->rays[session->count]);
-  if (fault.text == NULL && ++session->count == PACKET_SIZE)
-    answer(session);
+  const struct stream_fault fault = (session->request->binary ? parse_record
+                                                              : parse_line)(line, &session->rays[session->count]);
+  if (fault.text == NULL && ++session->count == PACKET_SIZE) answer(session);
   return fault;
 }
 
@@ -179,55 +170,45 @@ static enum status trace(const struct command *command, struct request *request)
 {
   struct scene *scene = NULL;
   struct intersector *intersector = NULL;
-  struct session session = { .request = request };
+  struct session session = {.request = request};
   struct seconds start = seconds_now();
   if (output_is_standard(request->scene.path))
     return (enum status)command_usage(command, "the rays come from standard input, the scene from a file");
   enum status status = scene_file_spare(command, &request->scene, NULL, request->stats);
-  if (status == STATUS_OK)
-    status = output_spare(command, request->stats, "/dev/stdin");
-  if (status == STATUS_OK)
-    status = output_probe(command, request->stats);
-  if (status != STATUS_OK)
-    return status;
+  if (status == STATUS_OK) status = output_spare(command, request->stats, "/dev/stdin");
+  if (status == STATUS_OK) status = output_probe(command, request->stats);
+  if (status != STATUS_OK) return status;
   status = scene_file_load(command, &request->scene, &scene);
-  if (status == STATUS_OK)
-    status = scene_file_spare(command, &request->scene, scene, request->stats);
-  struct report report = { .scene_path = request->scene.path, .scene = scene, .threads = 1 };
+  if (status == STATUS_OK) status = scene_file_spare(command, &request->scene, scene, request->stats);
+  struct report report = {.scene_path = request->scene.path, .scene = scene, .threads = 1};
   report.parse = seconds_since(start);
-  if (status != STATUS_OK)
-    goto done;
+  if (status != STATUS_OK) goto done;
 
   start = seconds_now();
   status = intersector_create(scene, &intersector);
-  if (status == STATUS_OK)
-    status = tracer_create(intersector, &session.tracer);
-  if (status == STATUS_LIMIT)
-    command_error(command, "out of memory");
+  if (status == STATUS_OK) status = tracer_create(intersector, &session.tracer);
+  if (status == STATUS_LIMIT) command_error(command, "out of memory");
   report.build = seconds_since(start);
   if (status == STATUS_OK) {
     start = seconds_now();
-    const struct stream_reader reader = { take, answer, &session, request->binary ? RAY_VALUES * sizeof(double) : 0 };
+    const struct stream_reader reader = {take, answer, &session, request->binary ? RAY_VALUES * sizeof(double) : 0};
     status = stream_read(command, &reader);
     report.render = seconds_since(start);
     report.counts = *tracer_counts(session.tracer);
   }
   if (status == STATUS_OK && request->stats != NULL)
     status = report_write(command, report_statistics(&report), request->stats);
-  if (status == STATUS_OK && !request->scene.quiet && isatty(STDERR_FILENO) == 1)
-    report_print(&report);
+  if (status == STATUS_OK && !request->scene.quiet && isatty(STDERR_FILENO) == 1) report_print(&report);
 done:
-  if (session.tracer != NULL)
-    tracer_destroy(session.tracer);
-  if (intersector != NULL)
-    intersector_destroy(intersector);
+  if (session.tracer != NULL) tracer_destroy(session.tracer);
+  if (intersector != NULL) intersector_destroy(intersector);
   scene_destroy(scene);
   return status;
 }
 
 static int run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = { .scene = { .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN } };
+  struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN}};
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
   if (status == STATUS_OK && !line.help) {

@@ -14,28 +14,22 @@ static bool read_integer(const char **text, size_t maximum, size_t *out)
   const char *from = *text;
   for (; *from >= '0' && *from <= '9'; from++) {
     const size_t digit = (size_t)(*from - '0');
-    if (digit > maximum || value > (maximum - digit) / 10)
-      return false;
+    if (digit > maximum || value > (maximum - digit) / 10) return false;
     value = 10 * value + digit;
   }
-  if (from == *text)
-    return false;
+  if (from == *text) return false;
   *text = from;
   *out = value;
   return true;
 }
 
 /* Steps over one character. */
-static bool read_sign(const char **text, char sign)
-{
-  return *(*text)++ == sign;
-}
+static bool read_sign(const char **text, char sign) { return *(*text)++ == sign; }
 
 bool value_integer(const char *text, size_t minimum, size_t maximum, size_t *out)
 {
   size_t value;
-  if (!read_integer(&text, maximum, &value) || *text != '\0' || value < minimum)
-    return false;
+  if (!read_integer(&text, maximum, &value) || *text != '\0' || value < minimum) return false;
   *out = value;
   return true;
 }
@@ -50,16 +44,13 @@ bool value_number(const char *text, double *out)
 {
   double value, divisor = 1;
   size_t used;
-  if (!read_number(text, &value, &used))
-    return false;
+  if (!read_number(text, &value, &used)) return false;
   text += used;
   if (*text == '/') {
-    if (!read_number(++text, &divisor, &used))
-      return false;
+    if (!read_number(++text, &divisor, &used)) return false;
     text += used;
   }
-  if (*text != '\0' || divisor == 0 || !isfinite(value / divisor))
-    return false;
+  if (*text != '\0' || divisor == 0 || !isfinite(value / divisor)) return false;
   *out = value / divisor;
   return true;
 }
@@ -68,12 +59,10 @@ bool value_bytes(const char *text, size_t *out)
 {
   static const char units[] = "KMGT";
   size_t value;
-  if (!read_integer(&text, SIZE_MAX, &value) || value == 0)
-    return false;
+  if (!read_integer(&text, SIZE_MAX, &value) || value == 0) return false;
   const char *unit = *text != '\0' ? strchr(units, *text) : NULL;
   const int shift = unit != NULL ? 10 * (int)(unit - units + 1) : 0;
-  if (*(text + (unit != NULL)) != '\0' || value > SIZE_MAX >> shift)
-    return false;
+  if (*(text + (unit != NULL)) != '\0' || value > SIZE_MAX >> shift) return false;
   *out = value << shift;
   return true;
 }
@@ -83,8 +72,7 @@ bool value_size(const char *text, size_t maximum, size_t *out_width, size_t *out
   size_t width, height;
   const bool more = read_integer(&text, maximum, &width) && (*text == 'x' || *text == 'X');
   text += more;
-  if (!more || !read_integer(&text, maximum, &height) || *text != '\0' || width == 0 || height == 0)
-    return false;
+  if (!more || !read_integer(&text, maximum, &height) || *text != '\0' || width == 0 || height == 0) return false;
   *out_width = width;
   *out_height = height;
   return true;
@@ -93,14 +81,12 @@ bool value_size(const char *text, size_t maximum, size_t *out_width, size_t *out
 bool value_rectangle(const char *text, struct rectangle *out)
 {
   struct rectangle r;
-  size_t *const part[4] = { &r.x, &r.y, &r.width, &r.height };
+  size_t *const part[4] = {&r.x, &r.y, &r.width, &r.height};
   const size_t maximum = (size_t)-1 / 2; /* a sum of two of them does not overflow */
   for (int k = 0; k < 4; k++) {
-    if ((k > 0 && !read_sign(&text, ',')) || !read_integer(&text, maximum, part[k]))
-      return false;
+    if ((k > 0 && !read_sign(&text, ',')) || !read_integer(&text, maximum, part[k])) return false;
   }
-  if (*text != '\0' || r.width == 0 || r.height == 0)
-    return false;
+  if (*text != '\0' || r.width == 0 || r.height == 0) return false;
   *out = r;
   return true;
 }

@@ -72,7 +72,7 @@ enum status edges_match(const void *nets, size_t stride, size_t count, struct ed
       const struct border *here = &all[k], *other = &all[first + (k == first)];
       struct edge_neighbour none = {EDGE_NONE, 0, false};
       out[4 * (size_t)here->patch + here->border] =
-          pair ? (struct edge_neighbour){other->patch, other->border, here->reversed != other->reversed} : none;
+        pair ? (struct edge_neighbour){other->patch, other->border, here->reversed != other->reversed} : none;
     }
   }
   free(all);

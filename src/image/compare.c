@@ -5,8 +5,7 @@
 
 static double difference(float first, float second)
 {
-  if (isfinite(first) && isfinite(second))
-    return fabs((double)first - (double)second);
+  if (isfinite(first) && isfinite(second)) return fabs((double)first - (double)second);
   return first == second || (isnan(first) && isnan(second)) ? 0 : INFINITY;
 }
 
@@ -14,7 +13,7 @@ void compare_images(const struct compare_pair *pair, struct compare_result *out,
                     double scale)
 {
   const struct image *first = pair->first, *second = pair->second;
-  *out = (struct compare_result){ .pixels = first->width * first->height };
+  *out = (struct compare_result){.pixels = first->width * first->height};
   double sum = 0, square_sum = 0, peak = 1;
   for (size_t y = 0; y < first->height; y++) {
     double row_sum = 0, row_square_sum = 0; /* a sum a row keeps the rounding small on large pictures */
@@ -35,8 +34,7 @@ void compare_images(const struct compare_pair *pair, struct compare_result *out,
           out->worst_first = p;
           out->worst_second = q;
         }
-        if (out_difference != NULL)
-          image_pixel(out_difference, x, y)[k] = (float)(error * scale);
+        if (out_difference != NULL) image_pixel(out_difference, x, y)[k] = (float)(error * scale);
       }
     }
     sum += row_sum;

@@ -7,14 +7,12 @@
 
 enum status image_create(size_t width, size_t height, size_t channel_count, struct image *out)
 {
-  *out = (struct image){ 0 };
-  if (width != 0 && height > SIZE_MAX / width)
-    return STATUS_LIMIT;
+  *out = (struct image){0};
+  if (width != 0 && height > SIZE_MAX / width) return STATUS_LIMIT;
   const size_t pixels = width * height;
-  if (channel_count != 0 && pixels > SIZE_MAX / sizeof(float) / channel_count)
-    return STATUS_LIMIT;
+  if (channel_count != 0 && pixels > SIZE_MAX / sizeof(float) / channel_count) return STATUS_LIMIT;
   const size_t values = pixels * channel_count;
-  struct image image = { .width = width, .height = height, .channel_count = channel_count };
+  struct image image = {.width = width, .height = height, .channel_count = channel_count};
   image.channel = calloc(channel_count == 0 ? 1 : channel_count, sizeof *image.channel);
   image.value = calloc(values == 0 ? 1 : values, sizeof *image.value);
   if (image.channel == NULL || image.value == NULL) {
@@ -29,13 +27,12 @@ void image_destroy(struct image *image)
 {
   free(image->channel);
   free(image->value);
-  *image = (struct image){ 0 };
+  *image = (struct image){0};
 }
 
 size_t image_find_channel(const struct image *image, const char *name)
 {
   size_t index = 0;
-  while (index < image->channel_count && strcmp(image->channel[index].name, name) != 0)
-    index++;
+  while (index < image->channel_count && strcmp(image->channel[index].name, name) != 0) index++;
   return index;
 }

@@ -18,26 +18,21 @@ struct format_traits {
 };
 
 static const struct format_traits FORMATS[] = {
-  [IMAGE_PNG] = { ".png", { 8, 16 }, 4 },
-  [IMAGE_EXR] = { ".exr", { 16, 32 }, IMAGE_MAX_CHANNELS },
+  [IMAGE_PNG] = {".png", {8, 16}, 4},
+  [IMAGE_EXR] = {".exr", {16, 32}, IMAGE_MAX_CHANNELS},
 };
 
 enum { FORMAT_COUNT = sizeof FORMATS / sizeof FORMATS[0] };
 
 /* Of ASCII letters only, in any locale. */
-static char lower(char c)
-{
-  return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
-}
+static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
 static bool has_suffix(const char *path, const char *suffix)
 {
   const size_t length = strlen(path), size = strlen(suffix);
-  if (length <= size || path[length - size - 1] == '/')
-    return false;
+  if (length <= size || path[length - size - 1] == '/') return false;
   size_t k = 0;
-  while (k < size && lower(path[length - size + k]) == suffix[k])
-    k++;
+  while (k < size && lower(path[length - size + k]) == suffix[k]) k++;
   return k == size;
 }
 
@@ -57,10 +52,7 @@ bool image_format_has_bits(enum image_format format, int bits)
   return bits == FORMATS[format].bits[0] || bits == FORMATS[format].bits[1];
 }
 
-int image_format_default_bits(enum image_format format)
-{
-  return FORMATS[format].bits[0];
-}
+int image_format_default_bits(enum image_format format) { return FORMATS[format].bits[0]; }
 
 /* Where address space runs out while they start, OpenImageIO and the libraries it brings along end the process instead of
  * saying so. So room is asked for first, that what they need is there: the libraries, and a stack and a heap for each of
@@ -71,8 +63,7 @@ static bool room_for_module(void)
   const long processors = sysconf(_SC_NPROCESSORS_ONLN);
   const size_t size = libraries + (processors > 0 ? (size_t)processors : 1) * thread;
   void *room = mmap(NULL, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (room != MAP_FAILED)
-    (void)munmap(room, size);
+  if (room != MAP_FAILED) (void)munmap(room, size);
   return room != MAP_FAILED;
 }
 
@@ -86,13 +77,10 @@ static enum status load_module(const struct image_module **out, char *message)
     snprintf(message, IMAGE_MESSAGE_SIZE, "there is too little memory to load OpenImageIO");
     return STATUS_LIMIT;
   }
-  if (handle == NULL)
-    handle = dlopen(IMAGE_MODULE_FILE, flags);
+  if (handle == NULL) handle = dlopen(IMAGE_MODULE_FILE, flags);
   *out = handle == NULL ? NULL : dlsym(handle, IMAGE_MODULE_SYMBOL);
-  if (*out == NULL)
-    snprintf(message, IMAGE_MESSAGE_SIZE, "%s", dlerror());
-  if (handle != NULL)
-    dlclose(handle);
+  if (*out == NULL) snprintf(message, IMAGE_MESSAGE_SIZE, "%s", dlerror());
+  if (handle != NULL) dlclose(handle);
   return *out == NULL ? STATUS_FILE : STATUS_OK;
 }
 
@@ -118,7 +106,7 @@ enum status image_encode(const struct image *image, const struct image_encoding 
 
 enum status image_read(const char *path, struct image *out, char *message)
 {
-  *out = (struct image){ 0 };
+  *out = (struct image){0};
   const char *reason;
   const int file = input_open(path, INPUT_FILE, &reason);
   if (file < 0) {

@@ -15,12 +15,13 @@ extern "C" {
 #include <string>
 #include <vector>
 
-namespace {
+namespace
+{
 
 using Bytes = std::vector<unsigned char>;
 
 /* In the order of enum image_format. */
-const char *const SUFFIXES[] = { ".png", ".exr" };
+const char *const SUFFIXES[] = {".png", ".exr"};
 
 void say(char *message, const std::string &text)
 {
@@ -30,8 +31,7 @@ void say(char *message, const std::string &text)
 
 OIIO::TypeDesc channel_type(const image_encoding &encoding, const image_channel &channel)
 {
-  if (encoding.format == IMAGE_PNG)
-    return encoding.bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+  if (encoding.format == IMAGE_PNG) return encoding.bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
   return encoding.bits == 16 && !channel.data ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
 }
 
@@ -45,8 +45,7 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
     spec.channelformats.push_back(channel_type(encoding, picture.channel[c]));
     mixed = mixed || spec.channelformats[c] != spec.format;
   }
-  if (!mixed)
-    spec.channelformats.clear();
+  if (!mixed) spec.channelformats.clear();
   spec.attribute("oiio:ColorSpace", encoding.format == IMAGE_PNG ? "sRGB" : "Linear");
   for (std::size_t k = 0; k < encoding.attribute_count; k++)
     spec.attribute(encoding.attributes[k].name, encoding.attributes[k].text);
@@ -69,25 +68,19 @@ Bytes native_pixels(const image &picture, const image_encoding &encoding)
   srgb_table table;
   srgb_table_fill(&table);
   std::vector<OIIO::TypeDesc> types;
-  for (std::size_t c = 0; c < picture.channel_count; c++)
-    types.push_back(channel_type(encoding, picture.channel[c]));
+  for (std::size_t c = 0; c < picture.channel_count; c++) types.push_back(channel_type(encoding, picture.channel[c]));
   for (std::size_t k = 0; k < values; k++) {
     const float value = picture.value[k];
     switch (types[k % picture.channel_count].basetype) {
-    case OIIO::TypeDesc::UINT8:
-      append(bytes, encoding.encoded ? code8(value) : srgb_encode8(&table, value));
-      break;
-    case OIIO::TypeDesc::UINT16:
-      append(bytes, encoding.encoded ? code16(value) : srgb_encode16(value));
-      break;
+    case OIIO::TypeDesc::UINT8: append(bytes, encoding.encoded ? code8(value) : srgb_encode8(&table, value)); break;
+    case OIIO::TypeDesc::UINT16: append(bytes, encoding.encoded ? code16(value) : srgb_encode16(value)); break;
     case OIIO::TypeDesc::HALF: {
       unsigned short half = 0;
       OIIO::convert_types(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &half, 1);
       append(bytes, half);
       break;
     }
-    default:
-      append(bytes, value);
+    default: append(bytes, value);
     }
   }
   return bytes;
@@ -99,20 +92,16 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
   OIIO::ImageSpec spec = make_spec(picture, encoding);
   const Bytes pixels = native_pixels(picture, encoding);
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(SUFFIXES[encoding.format] + 1);
-  if (!output)
-    return "OpenImageIO: " + OIIO::geterror();
-  if (!output->supports("ioproxy"))
-    return "this OpenImageIO can not write the format to memory";
+  if (!output) return "OpenImageIO: " + OIIO::geterror();
+  if (!output->supports("ioproxy")) return "this OpenImageIO can not write the format to memory";
   OIIO::Filesystem::IOVecOutput proxy(file);
-  if (!output->set_ioproxy(&proxy))
-    return "OpenImageIO: " + output->geterror();
+  if (!output->set_ioproxy(&proxy)) return "OpenImageIO: " + output->geterror();
   /* The name decides nothing but the format: the proxy takes the bytes. */
   if (!output->open(std::string("memory") + SUFFIXES[encoding.format], spec) ||
       !output->write_image(spec.channelformats.empty() ? spec.format : OIIO::TypeDesc(), pixels.data()) ||
       !output->close())
     return "OpenImageIO: " + output->geterror();
-  if (file.empty())
-    return "OpenImageIO wrote nothing";
+  if (file.empty()) return "OpenImageIO wrote nothing";
   return "";
 }
 
@@ -129,13 +118,11 @@ std::string read(const char *path, image &out, status &result)
     return "not a flat picture of at most " + std::to_string(IMAGE_MAX_CHANNELS) + " channels";
   result = image_create(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
                         static_cast<std::size_t>(spec.nchannels), &out);
-  if (result != STATUS_OK)
-    return "out of memory";
+  if (result != STATUS_OK) return "out of memory";
   result = STATUS_FILE;
   for (std::size_t c = 0; c < out.channel_count; c++)
     std::snprintf(out.channel[c].name, IMAGE_NAME_SIZE, "%s", spec.channelnames[c].c_str());
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value))
-    return input->geterror();
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value)) return input->geterror();
   result = STATUS_OK;
   return "";
 }
@@ -165,8 +152,7 @@ status module_encode(const image *picture, const image_encoding *encoding, unsig
       return STATUS_FILE;
     }
     *out_bytes = static_cast<unsigned char *>(std::malloc(file.size()));
-    if (*out_bytes == nullptr)
-      throw std::bad_alloc();
+    if (*out_bytes == nullptr) throw std::bad_alloc();
     std::memcpy(*out_bytes, file.data(), file.size());
     *out_size = file.size();
     return STATUS_OK;
@@ -178,15 +164,13 @@ status module_read(const char *path, image *out, char *message)
   const status result = guarded(message, [&] {
     status reading = STATUS_FILE;
     const std::string problem = read(path, *out, reading);
-    if (!problem.empty())
-      say(message, problem);
+    if (!problem.empty()) say(message, problem);
     return reading;
   });
-  if (result != STATUS_OK)
-    image_destroy(out);
+  if (result != STATUS_OK) image_destroy(out);
   return result;
 }
 
 } // namespace
 
-extern "C" const struct image_module image_module = { module_encode, module_read };
+extern "C" const struct image_module image_module = {module_encode, module_read};

@@ -32,15 +32,15 @@ enum certainty { CERTAINTY_CERTAIN, CERTAINTY_GRAZING };
 enum { HIT_NONE = UINT32_MAX };
 
 struct hit {
-  uint32_t patch;           /* index into scene.patches, or HIT_NONE: a miss, and then only certainty is written too */
+  uint32_t patch; /* index into scene.patches, or HIT_NONE: a miss, and then only certainty is written too */
   enum certainty certainty;
-  double t;                 /* in units of |direction| */
-  double u, v;              /* parameters of the whole patch, in [0,1] */
-  double point[3];          /* S(u,v) */
-  double point_error;       /* absolute bound on the distance from `point` to the exact patch */
+  double t;           /* in units of |direction| */
+  double u, v;        /* parameters of the whole patch, in [0,1] */
+  double point[3];    /* S(u,v) */
+  double point_error; /* absolute bound on the distance from `point` to the exact patch */
   /* how far from `point` off the surface a ray must start to be told from one that starts on it */
   double clearance;
-  double normal[3];         /* unit, facing the ray's origin */
+  double normal[3]; /* unit, facing the ray's origin */
 };
 
 /* The stages of a ray and a leaf whose box it passes (lanes/candidate.h). */
@@ -53,12 +53,12 @@ enum stage {
 };
 
 struct intersect_counts {
-  uint64_t rays[2];         /* closest-hit rays, any-hit rays */
-  uint64_t patches_tested;  /* ray-leaf pairs that reached the algebra */
+  uint64_t rays[2];        /* closest-hit rays, any-hit rays */
+  uint64_t patches_tested; /* ray-leaf pairs that reached the algebra */
   uint64_t roots_found, roots_accepted;
   uint64_t stages[STAGE_COUNT]; /* ray-leaf pairs that came to each */
-  uint64_t escalated;       /* ray-leaf pairs left to the last resort (exact/exact.h) */
-  uint64_t certain, grazing; /* answers by certainty, closest-hit rays only */
+  uint64_t escalated;           /* ray-leaf pairs left to the last resort (exact/exact.h) */
+  uint64_t certain, grazing;    /* answers by certainty, closest-hit rays only */
 };
 
 struct intersector;

@@ -14,12 +14,12 @@
 #include "intersect/model.h"
 
 struct local_ray {
-  int axis;           /* k; i = k + 1, j = k + 2 modulo 3 */
-  double slope[2];    /* d_i/d_k, d_j/d_k, rounded; at most 1 in size */
-  double moment[2];   /* m */
-  double start[2];    /* (center_k - origin_k)/scale as a double-double */
-  double to_t;        /* scale/d_k: t = (x_k + start) to_t */
-  double error;       /* bound on the error of a coefficient or a value (inside [0,1]^2) of either plane's polynomial */
+  int axis;         /* k; i = k + 1, j = k + 2 modulo 3 */
+  double slope[2];  /* d_i/d_k, d_j/d_k, rounded; at most 1 in size */
+  double moment[2]; /* m */
+  double start[2];  /* (center_k - origin_k)/scale as a double-double */
+  double to_t;      /* scale/d_k: t = (x_k + start) to_t */
+  double error;     /* bound on the error of a coefficient or a value (inside [0,1]^2) of either plane's polynomial */
 };
 
 /* Rounding errors, in units of UNIT_ROUNDOFF, of a = (x_i - m) - slope x_k and of its value in Bernstein form, for

@@ -155,7 +155,8 @@ static bool solves_planes(const struct form *form, const struct method *method, 
     double p[4], value = 0, slope;
     at_kept(form, method->basis, u, k == 0 ? form->A : form->B, p);
     if (method->basis == BASIS_BERNSTEIN) value_and_slope(form->n, p, v, &value, &slope);
-    else for (int j = form->n; j >= 0; j--) value = value * v + p[j];
+    else
+      for (int j = form->n; j >= 0; j--) value = value * v + p[j];
     if (!(fabs(value) <= limit * size[k])) return false;
   }
   return true;
@@ -177,8 +178,8 @@ static double coefficient_error(int n, double alpha, double beta, double error)
   return RESULTANT_ERROR(n, power, alpha, beta, error);
 }
 
-void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16],
-                     double error, struct method_roots *out)
+void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
+                  struct method_roots *out)
 {
   const struct method *method = tracer->model->patches[leaf->patch].method;
   struct solver_warm *warm = tracer_warm(tracer, method, leaf - tracer->model->leaves);

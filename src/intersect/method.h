@@ -19,7 +19,7 @@ struct method_roots {
 
 /* Forms r from the nets a, b of the leaf's form with the patch's method, finds its roots with the patch's solver and
  * substitutes back. Counts the roots. Starting points only: nothing here is proven. */
-void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16],
-                     double error, struct method_roots *out);
+void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
+                  struct method_roots *out);
 
 #endif

@@ -30,12 +30,12 @@ struct model_patch {
   double center[3], scale;
   double x[3][4][4];    /* local control net, x[coordinate][i][j], |x| <= 1 */
   double rest[3][4][4]; /* what its rounding has taken away: x + rest is exact */
-  int m, n;          /* true bidegree in u, v */
-  int split;         /* cut into split x split leaves */
-  bool lanes;        /* default method, or all_roots: tried on a lane of rays at once */
-  bool all_roots;    /* aberth, improved and polished: all roots of r are tried */
-  bool copied;       /* its leaves are those of the object it is copied from; then m and n mean nothing */
-  double loose;      /* how far off its surface a ray may be met by those, in the scene; 0 where not copied */
+  int m, n;             /* true bidegree in u, v */
+  int split;            /* cut into split x split leaves */
+  bool lanes;           /* default method, or all_roots: tried on a lane of rays at once */
+  bool all_roots;       /* aberth, improved and polished: all roots of r are tried */
+  bool copied;          /* its leaves are those of the object it is copied from; then m and n mean nothing */
+  double loose;         /* how far off its surface a ray may be met by those, in the scene; 0 where not copied */
   const struct method *method;
 };
 
@@ -72,18 +72,18 @@ struct leaf_slabs {
 
 struct leaf {
   struct leaf_slabs slabs;
-  double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
+  double x[3][16];              /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
   /* not NULL where it is nearly bilinear, and tried on lanes */
   const struct leaf_parts *parts;
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
-  double first[2];              /* bounds on |Su|, |Sv| there */
+  double first[2]; /* bounds on |Su|, |Sv| there */
   uint32_t patch;
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split in u, and so on */
   uint8_t kept_degree, eliminated_degree;
-  bool v_kept;            /* the form keeps v and eliminates u */
-  uint8_t zeros[2];       /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
+  bool v_kept;      /* the form keeps v and eliminates u */
+  uint8_t zeros[2]; /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
 };
 
 /* A declared object whose leaves serve all its copies. */
@@ -124,7 +124,7 @@ struct model {
   struct model_copy *copies; /* box leaf_count + k of the hierarchy is copy k */
   size_t copy_count;
   double origin[3], frame; /* of the whole hierarchy */
-  double error; /* widens the boxes; an object's, or 0 */
+  double error;            /* widens the boxes; an object's, or 0 */
   struct model_tree tree;
   bool unproven; /* some patch has `polish off`: no answer is proven */
 };

@@ -18,7 +18,6 @@ static const double RESULTANT_WEIGHT[4] = {0, 2, 20, 1376};
 
 /* That bound, for power = (alpha beta)^n. Works on doubles and on lanes alike. */
 #define RESULTANT_ERROR(n, power, alpha, beta, error) \
-  (RESULTANT_WEIGHT[n] * (power) * \
-   (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + (n) * (error) * (1 / (alpha) + 1 / (beta))))
+  (RESULTANT_WEIGHT[n] * (power) * (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + (n) * (error) * (1 / (alpha) + 1 / (beta))))
 
 #endif

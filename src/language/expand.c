@@ -152,13 +152,12 @@ static bool expand(struct expansion *e, const struct node *node, const struct in
 
 enum status objects_expand(struct language *language, const struct method *method, struct scene *scene)
 {
-  struct expansion e = {
-      .language = language,
-      .scene = scene,
-      .textures = {(void **)&scene->textures, &scene->texture_count, 0, sizeof *scene->textures, {0}},
-      .methods = {(void **)&scene->solvers, &scene->solver_count, 0, sizeof *scene->solvers, {0}},
-      .objects = {(void **)&scene->objects, &scene->object_count, 0, sizeof *scene->objects, {0}},
-      .copies = {(void **)&scene->copies, &scene->copy_count, 0, sizeof *scene->copies, {0}}};
+  struct expansion e = {.language = language,
+                        .scene = scene,
+                        .textures = {(void **)&scene->textures, &scene->texture_count, 0, sizeof *scene->textures, {0}},
+                        .methods = {(void **)&scene->solvers, &scene->solver_count, 0, sizeof *scene->solvers, {0}},
+                        .objects = {(void **)&scene->objects, &scene->object_count, 0, sizeof *scene->objects, {0}},
+                        .copies = {(void **)&scene->copies, &scene->copy_count, 0, sizeof *scene->copies, {0}}};
   const struct node *all = &language->objects->scene;
   const struct inherited nothing = {transform_identity(), NULL, method};
   uint32_t first;

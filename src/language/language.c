@@ -28,11 +28,17 @@ static enum status reading_create(struct reading *r, const struct language_setti
   static const char name[] = "pscn";
   struct language *language = &r->language;
   memset(r, 0, sizeof *r);
-  *language = (struct language){.diagnostics = diagnostics, .arena = arena_create(),
-                                .width = settings->image_width, .height = settings->image_height,
+  *language = (struct language){.diagnostics = diagnostics,
+                                .arena = arena_create(),
+                                .width = settings->image_width,
+                                .height = settings->image_height,
                                 .max_memory = settings->max_memory ? settings->max_memory : SIZE_MAX,
-                                .symbols = &r->symbols, .sources = &r->sources, .tokens = &r->tokens,
-                                .objects = &r->objects, .camera = &r->camera, .settings = &r->settings};
+                                .symbols = &r->symbols,
+                                .sources = &r->sources,
+                                .tokens = &r->tokens,
+                                .objects = &r->objects,
+                                .camera = &r->camera,
+                                .settings = &r->settings};
   camera_default(&r->camera);
   settings_default(&r->settings);
   r->sources.folders = settings->folders;
@@ -106,8 +112,7 @@ static enum status override(struct scene *scene, const struct language_settings 
   if (isnan(settings->tolerance)) return STATUS_OK;
   const struct method_item *item = method_item_find("tolerance");
   if (!(settings->tolerance >= item->minimum && settings->tolerance <= item->maximum)) {
-    diagnostics_error(diagnostics, NOWHERE, "the tolerance is a number from %g to %g",
-                      item->minimum, item->maximum);
+    diagnostics_error(diagnostics, NOWHERE, "the tolerance is a number from %g to %g", item->minimum, item->maximum);
     return STATUS_USAGE;
   }
   for (size_t s = 0; s < scene->solver_count; s++) item->set(&scene->solvers[s], settings->tolerance);

@@ -27,7 +27,7 @@ struct language_settings {
   const char *const *folders;    /* where includes are looked for besides the includer's, ended by NULL; or NULL */
   const struct language_number *numbers; /* number_count names declared beforehand */
   size_t number_count;
-  size_t max_memory;             /* --max-memory SIZE: bytes that the text and the patches may take; or 0: no limit */
+  size_t max_memory; /* --max-memory SIZE: bytes that the text and the patches may take; or 0: no limit */
 };
 
 /* Whether a scene can declare that name: a word that neither the language nor POV-Ray reserves. */

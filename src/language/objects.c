@@ -47,7 +47,7 @@ void patch_number(struct language *language, int which, struct place item, const
     double high;
     bool whole;
   } settings[PATCH_SETTINGS] = {
-      {"type", 1, true}, {"flatness", INFINITY, false}, {"u_steps", MAX_STEPS, true}, {"v_steps", MAX_STEPS, true}};
+    {"type", 1, true}, {"flatness", INFINITY, false}, {"u_steps", MAX_STEPS, true}, {"v_steps", MAX_STEPS, true}};
   struct node *node = language->objects->open;
   if (node->stage != STAGE_SETTINGS) {
     language_error(language, item, "the settings of a bicubic_patch stand before its control points");
@@ -92,8 +92,7 @@ static void points_end(struct language *language)
     language_error(language, node->block.place, "bicubic_patch needs %d control points, found %d", PATCH_POINTS,
                    node->points);
   } else if (node->after_comma) {
-    language_error(language, node->block.place,
-                   "a comma stands behind the last control point of this bicubic_patch");
+    language_error(language, node->block.place, "a comma stands behind the last control point of this bicubic_patch");
   }
 }
 
@@ -145,8 +144,7 @@ void union_add(struct language *language, struct place place, struct node *objec
 {
   struct node *node = language->objects->open;
   if (node->stage == STAGE_MODIFIERS) {
-    language_error_in(language, &node->block, place,
-                      "the objects of a union stand before its texture and transforms");
+    language_error_in(language, &node->block, place, "the objects of a union stand before its texture and transforms");
   }
   add_child(language, node, object, place);
 }

@@ -81,8 +81,7 @@ static void put_until(struct copy *copy, size_t end)
 /* Writes blanks for what stands before byte `end`, lines kept. */
 static void blank_until(struct copy *copy, size_t end)
 {
-  for (; copy->done < end; copy->done++)
-    put(copy, copy->source->text[copy->done] == '\n' ? "\n" : " ", 1);
+  for (; copy->done < end; copy->done++) put(copy, copy->source->text[copy->done] == '\n' ? "\n" : " ", 1);
 }
 
 /* A file name behind #include: relative to the folder of the file it stands in, as the language has it. */
@@ -95,13 +94,11 @@ static void copy_include(struct copy *copy)
   const size_t folder = length > 0 && name[0] == '/' ? 0 : slash == NULL ? 0 : (size_t)(slash - includer) + 1;
   char path[MAX_NAME], new_name[MAX_NAME];
   struct source *source;
-  if (folder + length >= sizeof path || memchr(name, '\0', length) != NULL)
-    return;
+  if (folder + length >= sizeof path || memchr(name, '\0', length) != NULL) return;
   memcpy(path, includer, folder);
   memcpy(path + folder, name, length);
   path[folder + length] = '\0';
-  if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK)
-    return;
+  if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK) return;
   const size_t index = add_source(copy->all, source);
   if (index == MAX_FILES) {
     copy->status = STATUS_LIMIT;
@@ -124,8 +121,7 @@ static int drop_solver(struct copy *copy)
   size_t end = copy->scan.end;
   token = pscn_scan_next(&copy->scan);
   if (token == '{') {
-    while (token != '}' && token != 0 && token != TOKEN_NO_MEMORY)
-      token = pscn_scan_next(&copy->scan);
+    while (token != '}' && token != 0 && token != TOKEN_NO_MEMORY) token = pscn_scan_next(&copy->scan);
     end = copy->scan.end;
     token = pscn_scan_next(&copy->scan);
   }
@@ -144,8 +140,7 @@ static void copy_text(struct copy *copy)
       token = drop_solver(copy);
     } else if (token == TOKEN_INCLUDE) {
       token = pscn_scan_next(&copy->scan);
-      if (token == PSCN_TOKEN_STRING)
-        copy_include(copy);
+      if (token == PSCN_TOKEN_STRING) copy_include(copy);
     } else {
       token = pscn_scan_next(&copy->scan);
     }
@@ -156,11 +151,10 @@ static void copy_text(struct copy *copy)
 static enum status copy_file(struct copies *copies, size_t index)
 {
   char name[MAX_NAME], path[2 * MAX_NAME];
-  struct copy copy = { .all = copies, .source = copies->source[index], .status = STATUS_OK };
+  struct copy copy = {.all = copies, .source = copies->source[index], .status = STATUS_OK};
   copy_name(copies, index, name);
   snprintf(path, sizeof path, "%s/%s", copies->folder, name);
-  if (!pscn_scan_open(&copy.scan, copies->source[index]->text, copy.source->length))
-    return STATUS_LIMIT;
+  if (!pscn_scan_open(&copy.scan, copies->source[index]->text, copy.source->length)) return STATUS_LIMIT;
   copy.file = fopen(path, "wb");
   if (copy.file == NULL) {
     copies->reason = strerror(errno);
@@ -178,15 +172,13 @@ static enum status copy_file(struct copies *copies, size_t index)
 
 enum status plain_copy(const char *path, const char *folder, const char *name, const char **out_reason)
 {
-  struct copies copies = { .folder = folder, .name = name };
+  struct copies copies = {.folder = folder, .name = name};
   struct source *scene = NULL;
   enum status status = source_read(path, INPUT_FILE_OR_PIPE, &scene, &copies.reason);
-  if (status == STATUS_OK && add_source(&copies, scene) == MAX_FILES)
-    status = STATUS_LIMIT;
+  if (status == STATUS_OK && add_source(&copies, scene) == MAX_FILES) status = STATUS_LIMIT;
   for (size_t k = 0; k < copies.count && status == STATUS_OK; k++) /* copying adds what is included */
     status = copy_file(&copies, k);
-  for (size_t k = 0; k < copies.count; k++)
-    source_destroy(copies.source[k]);
+  for (size_t k = 0; k < copies.count; k++) source_destroy(copies.source[k]);
   free(copies.source);
   *out_reason = copies.reason;
   return status;

@@ -18,10 +18,10 @@ struct light_node {
 /* What the statements have said so far. */
 struct settings {
   double background[3], ambient_light[3];
-  double version; /* the last #version */
-  struct method method;       /* of all patches that have none of their own */
-  struct block block;         /* of the open background */
-  int background_values;      /* colours in it */
+  double version;                                  /* the last #version */
+  struct method method;                            /* of all patches that have none of their own */
+  struct block block;                              /* of the open background */
+  int background_values;                           /* colours in it */
   struct light_node *lights, **lights_end, *light; /* the last one is open */
   size_t light_count;
 };

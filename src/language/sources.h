@@ -24,11 +24,11 @@ struct frame {
 
 /* Zeroed: none. */
 struct sources {
-  struct frame *frame;      /* the one being read */
-  struct source_list *all;  /* that have been read */
-  struct table files;       /* the first source of each file */
+  struct frame *frame;     /* the one being read */
+  struct source_list *all; /* that have been read */
+  struct table files;      /* the first source of each file */
   int count;
-  size_t bytes; /* of all sources together */
+  size_t bytes;               /* of all sources together */
   const char *const *folders; /* where to look besides the includer's, or NULL */
 };
 

@@ -41,19 +41,19 @@ struct language {
   struct diagnostics *diagnostics;
   struct arena *arena; /* of what is needed while reading only */
   int width, height;
-  size_t memory_bytes, max_memory; /* held while reading; allowed */
-  bool unaffordable;               /* more was wanted */
-  bool ended_early;                /* memory, or a stated limit: STATUS_LIMIT */
-  struct place unknown;            /* the last word told to be unknown */
+  size_t memory_bytes, max_memory;        /* held while reading; allowed */
+  bool unaffordable;                      /* more was wanted */
+  bool ended_early;                       /* memory, or a stated limit: STATUS_LIMIT */
+  struct place unknown;                   /* the last word told to be unknown */
   _Alignas(max_align_t) char spare[4096]; /* stands in for memory that there is not */
   size_t spare_used;
 
   struct symbols *symbols;
   struct sources *sources;
   struct tokens *tokens;
-  struct texture *texture; /* the innermost that is open */
+  struct texture *texture;               /* the innermost that is open */
   const struct texture *texture_default; /* NULL: POV-Ray's */
-  struct method *method;   /* of the last solver statement */
+  struct method *method;                 /* of the last solver statement */
   struct objects *objects;
   struct camera_items *camera;
   struct settings *settings;
@@ -63,7 +63,7 @@ struct language {
 struct place language_span(const struct place *first, const struct place *last);
 
 void language_error(struct language *language, struct place place, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+  __attribute__((format(printf, 3, 4)));
 
 struct block language_block(const struct language *language, struct place place);
 /* Whether no error has been told since the block began: what is missing in it may be the consequence of one. */

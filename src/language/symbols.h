@@ -48,8 +48,8 @@ struct symbol {
   const struct texture *texture;
   const char *texture_kind; /* "a texture", "a pigment", "a finish" */
   const struct node *object;
-  size_t missed;            /* times that it was unknown, */
-  struct place missed_last; /* the last time; */
+  size_t missed;              /* times that it was unknown, */
+  struct place missed_last;   /* the last time; */
   struct symbol *missed_next; /* the one that was unknown before it */
 };
 
@@ -84,7 +84,7 @@ void symbol_mistaken(struct language *language, struct place place, const struct
 /* The symbol that a declaration writes to; declarations may stand within each other. */
 struct symbol *declare_begin(struct language *language, const struct token *name, bool local);
 void declare_value(struct symbol *symbol, const struct value *value);
-void declare_broken(struct symbol *symbol); /* its declaration has an error */
+void declare_broken(struct symbol *symbol);                              /* its declaration has an error */
 void declare_macro(struct language *language, const struct token *name); /* it can be declared, but not called */
 
 /* Declares a number, such as the one that tells this program from POV-Ray. The name is kept. */

@@ -25,12 +25,13 @@ static bool contains(const char *const names[], int count, const char *wanted)
 static void list_expected(const char *const expected[], int count, char *out, size_t size)
 {
   enum { MOST_LISTED = 10 };
-  static const char *const in_values[] = {"a number",    "a vector",     "x",   "y",   "z",   "pi",
-                                          "image_width", "image_height", "'('", "'<'", "'+'", "'-'",
+  static const char *const in_values[] = {"a number",    "a vector",     "x",    "y",     "z",       "pi",
+                                          "image_width", "image_height", "'('",  "'<'",   "'+'",     "'-'",
                                           "rgb",         "color",        "rgbf", "rgbft", "version", NULL};
   static const char *const parts[] = {"red", "green", "blue", "filter", NULL}; /* which may follow any colour */
-  static const char *const anywhere[] = {"'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version",
-                                         "#default", "the end of the text", NULL};
+  static const char *const anywhere[] = {
+    "'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version", "#default", "the end of the text",
+    NULL};
   const char *list[MOST_LISTED];
   int listed = 0;
   const bool value = contains(expected, count, "image_width"), objects = contains(expected, count, "object");
@@ -78,8 +79,7 @@ static bool same_place(struct place a, struct place b)
   return a.source && a.source == b.source && a.begin == b.begin;
 }
 
-void syntax_error(struct language *language, struct place place, bool is_word, const char *const expected[],
-                  int count)
+void syntax_error(struct language *language, struct place place, bool is_word, const char *const expected[], int count)
 {
   enum { LONGEST_SHOWN = 40 };
   struct tokens *tokens = language->tokens;

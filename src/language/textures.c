@@ -8,10 +8,16 @@ static_assert(sizeof(struct scene_texture) == PARTS * sizeof(double), "a texture
 struct texture texture_default(const struct language *language)
 {
   if (language->texture_default) return *language->texture_default;
-  return (struct texture){.block = TEXTURE_ALL, .set = TEXTURE_ALL,
+  return (struct texture){.block = TEXTURE_ALL,
+                          .set = TEXTURE_ALL,
                           .is = {.pigment = {0, 0, 0},
-                                 .finish = {.ambient = {0.1, 0.1, 0.1}, .diffuse = 0.6, .brilliance = 1, .phong = 0,
-                                            .phong_size = 40, .specular = 0, .roughness = 0.05}}};
+                                 .finish = {.ambient = {0.1, 0.1, 0.1},
+                                            .diffuse = 0.6,
+                                            .brilliance = 1,
+                                            .phong = 0,
+                                            .phong_size = 40,
+                                            .specular = 0,
+                                            .roughness = 0.05}}};
 }
 
 void texture_apply(struct texture *to, const struct texture *from)

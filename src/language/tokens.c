@@ -239,7 +239,8 @@ static int advance(struct language *language)
   const struct scan *scan = &language->sources->frame->scan;
   const bool is_number = token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT;
   if (is_number && scan->too_large) tell_too_large(language);
-  *last = (struct delivered){.token = raw_word(language, token), .depth = tokens->depth,
+  *last = (struct delivered){.token = raw_word(language, token),
+                             .depth = tokens->depth,
                              .value = {.text = text_at(place), .length = length_of(place), .place = place}};
   if (is_number) memcpy(last->value.number, scan->number, sizeof last->value.number);
   if (token == '{' && tokens->depth < MAX_NESTING) tokens->braces[tokens->depth] = place;

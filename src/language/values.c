@@ -94,8 +94,8 @@ struct value value_binary(struct language *language, char op, const struct value
   const bool a_usable = usable(language, a, "a value");
   if (!usable(language, b, "a value") || !a_usable) return unknown(place);
   if (!stays_opaque(language, op, a, b)) return unknown(place);
-  struct value r = {.kind = a->kind > b->kind ? a->kind : b->kind, .transparent = result_transparent(op, a, b),
-                    .place = place};
+  struct value r = {
+    .kind = a->kind > b->kind ? a->kind : b->kind, .transparent = result_transparent(op, a, b), .place = place};
   for (int k = 0; k < 3; k++) {
     if (op == '/' && b->x[k] == 0) {
       language_error(language, b->place, "division by zero");

@@ -58,13 +58,13 @@ struct reference_answer {
   /* The nearest proven hit: with REFERENCE_HIT the answer, with REFERENCE_GRAZING an upper bound of it. patch is
    * REFERENCE_NONE where there is none, and then the rest is not written. */
   uint32_t patch;
-  quad t, u, v;         /* t in units of |direction|; u, v in [0,1] but for the radius */
-  double radius;        /* bound on the error of u and v */
-  double t_radius;      /* bound on the error of t */
-  bool shared;          /* at an edge that another patch has too: patch, u, v may be the neighbour's */
-  bool has_normal;      /* false where S_u x S_v vanishes (a collapsed pole) */
-  double normal[3];     /* unit, facing the origin */
-  double incidence;     /* |normal . direction| / |direction|: 0 is tangent */
+  quad t, u, v;     /* t in units of |direction|; u, v in [0,1] but for the radius */
+  double radius;    /* bound on the error of u and v */
+  double t_radius;  /* bound on the error of t */
+  bool shared;      /* at an edge that another patch has too: patch, u, v may be the neighbour's */
+  bool has_normal;  /* false where S_u x S_v vanishes (a collapsed pole) */
+  double normal[3]; /* unit, facing the origin */
+  double incidence; /* |normal . direction| / |direction|: 0 is tangent */
   struct reference_floor data, local, whole;
 };
 

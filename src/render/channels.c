@@ -4,21 +4,18 @@
 #include <string.h>
 
 static const struct channel_traits TRAITS[CHANNEL_KINDS] = {
-  [CHANNEL_RGB] = { "rgb", "linear colour, mean of the samples", 3, { "R", "G", "B" }, false },
-  [CHANNEL_COVERAGE] = { "coverage", "share of the samples that hit a patch", 1, { "coverage" }, true },
-  [CHANNEL_DEPTH] = { "depth", "distance from the camera; a miss: infinity", 1, { "depth" }, true },
-  [CHANNEL_U] = { "u", "parameter u of the whole patch; a miss: 0", 1, { "u" }, true },
-  [CHANNEL_V] = { "v", "parameter v of the whole patch; a miss: 0", 1, { "v" }, true },
-  [CHANNEL_PATCH] = { "patch", "number of the patch, from 0; a miss: -1", 1, { "patch" }, true },
-  [CHANNEL_NORMAL] = { "normal", "unit normal facing the camera; a miss: 0", 3,
-                       { "normal.x", "normal.y", "normal.z" }, true },
-  [CHANNEL_STATUS] = { "status", "0 miss, 1 hit, both certain; 2 miss, 3 hit, both grazing", 1, { "status" }, true },
+  [CHANNEL_RGB] = {"rgb", "linear colour, mean of the samples", 3, {"R", "G", "B"}, false},
+  [CHANNEL_COVERAGE] = {"coverage", "share of the samples that hit a patch", 1, {"coverage"}, true},
+  [CHANNEL_DEPTH] = {"depth", "distance from the camera; a miss: infinity", 1, {"depth"}, true},
+  [CHANNEL_U] = {"u", "parameter u of the whole patch; a miss: 0", 1, {"u"}, true},
+  [CHANNEL_V] = {"v", "parameter v of the whole patch; a miss: 0", 1, {"v"}, true},
+  [CHANNEL_PATCH] = {"patch", "number of the patch, from 0; a miss: -1", 1, {"patch"}, true},
+  [CHANNEL_NORMAL] =
+    {"normal", "unit normal facing the camera; a miss: 0", 3, {"normal.x", "normal.y", "normal.z"}, true},
+  [CHANNEL_STATUS] = {"status", "0 miss, 1 hit, both certain; 2 miss, 3 hit, both grazing", 1, {"status"}, true},
 };
 
-const struct channel_traits *channel_traits(enum channel_kind kind)
-{
-  return &TRAITS[kind];
-}
+const struct channel_traits *channel_traits(enum channel_kind kind) { return &TRAITS[kind]; }
 
 /* CHANNEL_KINDS where there is none of that name. */
 static enum channel_kind find(const char *name, size_t length)
@@ -31,8 +28,8 @@ static enum channel_kind find(const char *name, size_t length)
 
 bool channel_list_parse(const char *text, struct channel_list *out, const char **out_bad, size_t *out_bad_length)
 {
-  struct channel_list list = { 0 };
-  bool seen[CHANNEL_KINDS + 1] = { [CHANNEL_KINDS] = true };
+  struct channel_list list = {0};
+  bool seen[CHANNEL_KINDS + 1] = {[CHANNEL_KINDS] = true};
   for (const char *name = text;; name++) {
     const size_t length = strcspn(name, ",");
     const enum channel_kind kind = find(name, length);
@@ -45,8 +42,7 @@ bool channel_list_parse(const char *text, struct channel_list *out, const char *
     list.kind[list.count++] = kind;
     list.width += TRAITS[kind].width;
     name += length;
-    if (*name == '\0')
-      break;
+    if (*name == '\0') break;
   }
   *out = list;
   return true;

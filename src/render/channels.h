@@ -9,8 +9,8 @@ enum channel_kind {
   CHANNEL_RGB,      /* linear colour, the mean of the pixel's samples */
   CHANNEL_COVERAGE, /* share of the pixel's samples that hit a patch, 0 to 1 */
   /* From here on the numbers of one sample: the middle one, (N/2, N/2) of N x N, the pixel's centre where N is odd. */
-  CHANNEL_DEPTH,  /* distance from the camera in scene units; infinite on a miss */
-  CHANNEL_U,      /* parameters of the whole patch; 0 on a miss */
+  CHANNEL_DEPTH, /* distance from the camera in scene units; infinite on a miss */
+  CHANNEL_U,     /* parameters of the whole patch; 0 on a miss */
   CHANNEL_V,
   CHANNEL_PATCH,  /* the patch's number, from 0; -1 on a miss */
   CHANNEL_NORMAL, /* unit normal facing the camera; 0 on a miss */

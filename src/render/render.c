@@ -50,8 +50,7 @@ static void *work(void *argument)
   const size_t total = crew->tiles.width * crew->tiles.height;
   while (!stopped(crew)) {
     const size_t tile = atomic_fetch_add(&crew->next, 1);
-    if (tile >= total)
-      break;
+    if (tile >= total) break;
     const uint64_t before = count_rays(worker->tracer);
     const size_t pixels = tile_render(crew->job, worker->tracer, crew->tiles.x + tile % crew->tiles.width,
                                       crew->tiles.y + tile / crew->tiles.width);
@@ -59,8 +58,7 @@ static void *work(void *argument)
     atomic_fetch_add(&crew->rays, count_rays(worker->tracer) - before);
   }
   pthread_mutex_lock(&crew->mutex);
-  if (--crew->running == 0)
-    pthread_cond_signal(&crew->ended);
+  if (--crew->running == 0) pthread_cond_signal(&crew->ended);
   pthread_mutex_unlock(&crew->mutex);
   return NULL;
 }
@@ -76,10 +74,10 @@ static void watch_crew(struct crew *crew, const struct render_watch *watch, doub
     until.tv_sec += until.tv_nsec / NANOSECONDS;
     until.tv_nsec %= NANOSECONDS;
     if (pthread_cond_timedwait(&crew->ended, &crew->mutex, &until) == ETIMEDOUT && watch->progress != NULL) {
-      const struct render_progress progress = { .pixels = atomic_load(&crew->pixels),
-                                                .pixels_total = crew->job->crop.width * crew->job->crop.height,
-                                                .rays = atomic_load(&crew->rays),
-                                                .seconds = clock_seconds(CLOCK_MONOTONIC) - start };
+      const struct render_progress progress = {.pixels = atomic_load(&crew->pixels),
+                                               .pixels_total = crew->job->crop.width * crew->job->crop.height,
+                                               .rays = atomic_load(&crew->rays),
+                                               .seconds = clock_seconds(CLOCK_MONOTONIC) - start};
       pthread_mutex_unlock(&crew->mutex);
       watch->progress(watch->context, &progress);
       pthread_mutex_lock(&crew->mutex);
@@ -107,25 +105,20 @@ static enum status run_crew(struct crew *crew, size_t count, struct worker worke
     started++;
   }
   watch_crew(crew, watch, start);
-  for (size_t k = 0; k < started; k++)
-    pthread_join(workers[k].thread, NULL);
-  if (started < count)
-    return STATUS_LIMIT;
+  for (size_t k = 0; k < started; k++) pthread_join(workers[k].thread, NULL);
+  if (started < count) return STATUS_LIMIT;
   return stopped(crew) ? STATUS_INTERRUPTED : STATUS_OK;
 }
 
 static enum status crew_synchronise(struct crew *crew)
 {
   pthread_condattr_t attributes;
-  if (pthread_condattr_init(&attributes) != 0)
-    return STATUS_LIMIT;
+  if (pthread_condattr_init(&attributes) != 0) return STATUS_LIMIT;
   enum status status = STATUS_LIMIT;
   if (pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC) == 0 &&
       pthread_cond_init(&crew->ended, &attributes) == 0) {
-    if (pthread_mutex_init(&crew->mutex, NULL) == 0)
-      status = STATUS_OK;
-    else
-      pthread_cond_destroy(&crew->ended);
+    if (pthread_mutex_init(&crew->mutex, NULL) == 0) status = STATUS_OK;
+    else pthread_cond_destroy(&crew->ended);
   }
   pthread_condattr_destroy(&attributes);
   return status;
@@ -135,17 +128,16 @@ static enum status crew_synchronise(struct crew *crew)
 static struct rectangle tiles_of(const struct rectangle *crop)
 {
   const size_t x = crop->x / TILE_SIZE, y = crop->y / TILE_SIZE;
-  return (struct rectangle){ .x = x,
-                             .y = y,
-                             .width = (crop->x + crop->width - 1) / TILE_SIZE - x + 1,
-                             .height = (crop->y + crop->height - 1) / TILE_SIZE - y + 1 };
+  return (struct rectangle){.x = x,
+                            .y = y,
+                            .width = (crop->x + crop->width - 1) / TILE_SIZE - x + 1,
+                            .height = (crop->y + crop->height - 1) / TILE_SIZE - y + 1};
 }
 
 static bool warm_starts(const struct scene *scene)
 {
   for (size_t k = 0; k < scene->solver_count; k++) {
-    if (scene->solvers[k].roots.start == START_PREVIOUS)
-      return true;
+    if (scene->solvers[k].roots.start == START_PREVIOUS) return true;
   }
   return false;
 }
@@ -168,16 +160,16 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
                          struct render_stats *out_stats)
 {
   const double start = clock_seconds(CLOCK_MONOTONIC);
-  *out_stats = (struct render_stats){ 0 };
-  const struct tile_job job = { .scene = scene,
-                                .width = options->width,
-                                .height = options->height,
-                                .samples = options->samples,
-                                .crop = options->crop,
-                                .every_pixel = warm_starts(scene),
-                                .channels = options->channels,
-                                .out = out };
-  struct crew crew = { .job = &job, .stop = watch->stop, .tiles = tiles_of(&options->crop) };
+  *out_stats = (struct render_stats){0};
+  const struct tile_job job = {.scene = scene,
+                               .width = options->width,
+                               .height = options->height,
+                               .samples = options->samples,
+                               .crop = options->crop,
+                               .every_pixel = warm_starts(scene),
+                               .channels = options->channels,
+                               .out = out};
+  struct crew crew = {.job = &job, .stop = watch->stop, .tiles = tiles_of(&options->crop)};
   const size_t tile_count = crew.tiles.width * crew.tiles.height;
   const size_t count = options->threads < tile_count ? options->threads : tile_count;
   struct worker *workers = calloc(count, sizeof *workers);
@@ -186,16 +178,14 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
     workers[k].crew = &crew;
     status = tracer_create(intersector, &workers[k].tracer);
   }
-  if (status == STATUS_OK)
-    status = crew_synchronise(&crew);
+  if (status == STATUS_OK) status = crew_synchronise(&crew);
   if (status == STATUS_OK) {
     status = run_crew(&crew, count, workers, watch, start);
     pthread_cond_destroy(&crew.ended);
     pthread_mutex_destroy(&crew.mutex);
   }
   for (size_t k = 0; k < count && workers != NULL; k++) {
-    if (workers[k].tracer == NULL)
-      continue;
+    if (workers[k].tracer == NULL) continue;
     add_counts(&out_stats->counts, tracer_counts(workers[k].tracer));
     tracer_destroy(workers[k].tracer);
   }

@@ -13,10 +13,10 @@
 #include "scene/scene.h"
 
 struct render_options {
-  size_t width, height; /* pixels, >= 1 */
-  size_t samples;       /* N >= 1: N x N rays a pixel */
+  size_t width, height;  /* pixels, >= 1 */
+  size_t samples;        /* N >= 1: N x N rays a pixel */
   struct rectangle crop; /* the pixels that are rendered; inside the picture, not empty */
-  size_t threads;       /* >= 1 */
+  size_t threads;        /* >= 1 */
   struct channel_list channels;
 };
 

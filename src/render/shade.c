@@ -44,8 +44,8 @@ static double specular(const struct view *view, const double to_light[3])
 }
 
 /* Adds what a visible light gives; to_light is the unit vector L, cosine = N.L > 0. */
-static void add_light(const struct view *view, const struct scene_light *light, const double to_light[3],
-                      double cosine, double rgb[3])
+static void add_light(const struct view *view, const struct scene_light *light, const double to_light[3], double cosine,
+                      double rgb[3])
 {
   const struct scene_finish *finish = &view->texture->finish;
   const double part = finish->brilliance == 1 ? cosine : pow(cosine, finish->brilliance);
@@ -55,16 +55,14 @@ static void add_light(const struct view *view, const struct scene_light *light, 
     highlight += finish->phong > 0 ? phong(view, to_light) : 0;
     highlight += finish->specular > 0 ? specular(view, to_light) : 0;
   }
-  for (int k = 0; k < 3; k++)
-    rgb[k] += light->color[k] * (diffuse * view->texture->pigment[k] + highlight);
+  for (int k = 0; k < 3; k++) rgb[k] += light->color[k] * (diffuse * view->texture->pigment[k] + highlight);
 }
 
 bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, struct ray *out)
 {
   double way[3];
   vector_subtract(light->position, hit->point, way);
-  if (!(vector_dot(way, hit->normal) > 0))
-    return false;
+  if (!(vector_dot(way, hit->normal) > 0)) return false;
   hit_leave(hit, way, out->origin);
   vector_subtract(light->position, out->origin, out->direction);
   if (vector_length(out->direction) == 0) /* a light at the very point we moved to */
@@ -82,8 +80,7 @@ static void light_packet(const struct scene_light *light, struct tracer *tracer,
   double to_light[PACKET_SIZE][3], cosine[PACKET_SIZE];
   struct ray shadow[PACKET_SIZE];
   for (size_t k = 0; k < count; k++) {
-    if (hits[k].patch == HIT_NONE || !shade_shadow_ray(light, &hits[k], &shadow[lit]))
-      continue;
+    if (hits[k].patch == HIT_NONE || !shade_shadow_ray(light, &hits[k], &shadow[lit])) continue;
     double way[3];
     vector_subtract(light->position, hits[k].point, way);
     const double length = vector_length(way);
@@ -91,12 +88,10 @@ static void light_packet(const struct scene_light *light, struct tracer *tracer,
     vector_scale(1 / length, way, to_light[lit]);
     cosine[lit++] = vector_dot(way, views[k].normal) / length;
   }
-  bool hidden[PACKET_SIZE] = { false };
-  if (lit > 0 && !light->shadowless)
-    tracer_occluded(tracer, lit, shadow, hidden);
+  bool hidden[PACKET_SIZE] = {false};
+  if (lit > 0 && !light->shadowless) tracer_occluded(tracer, lit, shadow, hidden);
   for (size_t k = 0; k < lit; k++) {
-    if (!hidden[k])
-      add_light(&views[lane[k]], light, to_light[k], cosine[k], out_rgb[lane[k]]);
+    if (!hidden[k]) add_light(&views[lane[k]], light, to_light[k], cosine[k], out_rgb[lane[k]]);
   }
 }
 
@@ -106,8 +101,7 @@ void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count
   struct view views[PACKET_SIZE];
   for (size_t k = 0; k < count; k++) {
     if (hits[k].patch == HIT_NONE) {
-      for (int c = 0; c < 3; c++)
-        out_rgb[k][c] = scene->background[c];
+      for (int c = 0; c < 3; c++) out_rgb[k][c] = scene->background[c];
       continue;
     }
     const struct scene_texture *texture = texture_of(scene, &hits[k]);
@@ -117,6 +111,5 @@ void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count
     for (int c = 0; c < 3; c++)
       out_rgb[k][c] = texture->finish.ambient[c] * scene->ambient_light[c] * texture->pigment[c];
   }
-  for (size_t k = 0; k < scene->light_count; k++)
-    light_packet(&scene->lights[k], tracer, count, views, hits, out_rgb);
+  for (size_t k = 0; k < scene->light_count; k++) light_packet(&scene->lights[k], tracer, count, views, hits, out_rgb);
 }

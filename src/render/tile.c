@@ -12,8 +12,8 @@ enum { PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
 /* A pixel while its samples are gathered. */
 struct pixel {
   size_t x, y;
-  double rgb[3]; /* sum over the samples */
-  size_t hits;   /* samples that hit */
+  double rgb[3];  /* sum over the samples */
+  size_t hits;    /* samples that hit */
   struct hit hit; /* of the middle sample, with its distance */
   double distance;
 };
@@ -30,7 +30,7 @@ static size_t gather(const struct tile_job *job, size_t x0, size_t y0, struct pi
   for (size_t k = 0; k < PACKET_SIZE; k++) {
     const size_t x = x0 + k % PACKET_WIDTH, y = y0 + k / PACKET_WIDTH;
     if (x < job->width && y < job->height && (job->every_pixel || inside(&job->crop, x, y)))
-      out[count++] = (struct pixel){ .x = x, .y = y, .hit.patch = HIT_NONE };
+      out[count++] = (struct pixel){.x = x, .y = y, .hit.patch = HIT_NONE};
   }
   return count;
 }
@@ -64,8 +64,7 @@ static void sample(const struct tile_job *job, struct tracer *tracer, size_t i, 
 static double status_value(const struct hit *hit)
 {
   const bool missed = hit->patch == HIT_NONE, certain = hit->certainty == CERTAINTY_CERTAIN;
-  if (missed)
-    return certain ? CHANNEL_MISS_CERTAIN : CHANNEL_MISS_GRAZING;
+  if (missed) return certain ? CHANNEL_MISS_CERTAIN : CHANNEL_MISS_GRAZING;
   return certain ? CHANNEL_HIT_CERTAIN : CHANNEL_HIT_GRAZING;
 }
 
@@ -75,33 +74,17 @@ static void channel_values(enum channel_kind kind, const struct pixel *pixel, do
   const struct hit *hit = &pixel->hit;
   const bool missed = hit->patch == HIT_NONE;
   switch (kind) {
-  case CHANNEL_RGB:
-    vector_scale(1 / samples, pixel->rgb, out);
-    break;
-  case CHANNEL_COVERAGE:
-    out[0] = (double)pixel->hits / samples;
-    break;
-  case CHANNEL_DEPTH:
-    out[0] = pixel->distance;
-    break;
-  case CHANNEL_U:
-    out[0] = missed ? 0 : hit->u;
-    break;
-  case CHANNEL_V:
-    out[0] = missed ? 0 : hit->v;
-    break;
-  case CHANNEL_PATCH:
-    out[0] = missed ? -1 : (double)hit->patch;
-    break;
+  case CHANNEL_RGB: vector_scale(1 / samples, pixel->rgb, out); break;
+  case CHANNEL_COVERAGE: out[0] = (double)pixel->hits / samples; break;
+  case CHANNEL_DEPTH: out[0] = pixel->distance; break;
+  case CHANNEL_U: out[0] = missed ? 0 : hit->u; break;
+  case CHANNEL_V: out[0] = missed ? 0 : hit->v; break;
+  case CHANNEL_PATCH: out[0] = missed ? -1 : (double)hit->patch; break;
   case CHANNEL_NORMAL:
-    for (int k = 0; k < 3; k++)
-      out[k] = missed ? 0 : hit->normal[k];
+    for (int k = 0; k < 3; k++) out[k] = missed ? 0 : hit->normal[k];
     break;
-  case CHANNEL_STATUS:
-    out[0] = status_value(hit);
-    break;
-  case CHANNEL_KINDS:
-    break;
+  case CHANNEL_STATUS: out[0] = status_value(hit); break;
+  case CHANNEL_KINDS: break;
   }
 }
 
@@ -112,10 +95,9 @@ static void keep(const struct tile_job *job, const struct pixel *pixel)
   float *out = job->out + index * job->channels.width;
   for (size_t c = 0; c < job->channels.count; c++) {
     const enum channel_kind kind = job->channels.kind[c];
-    double values[3] = { 0 };
+    double values[3] = {0};
     channel_values(kind, pixel, samples, values);
-    for (size_t k = 0; k < channel_traits(kind)->width; k++)
-      *out++ = (float)values[k];
+    for (size_t k = 0; k < channel_traits(kind)->width; k++) *out++ = (float)values[k];
   }
 }
 
@@ -128,11 +110,9 @@ size_t tile_render(const struct tile_job *job, struct tracer *tracer, size_t col
     for (size_t x = x0; x < x0 + TILE_SIZE; x += PACKET_WIDTH) {
       struct pixel pixels[PACKET_SIZE];
       const size_t count = gather(job, x, y, pixels);
-      if (count == 0)
-        continue;
+      if (count == 0) continue;
       for (size_t j = 0; j < job->samples; j++) {
-        for (size_t i = 0; i < job->samples; i++)
-          sample(job, tracer, i, j, count, pixels);
+        for (size_t i = 0; i < job->samples; i++) sample(job, tracer, i, j, count, pixels);
       }
       for (size_t k = 0; k < count; k++) {
         if (inside(&job->crop, pixels[k].x, pixels[k].y)) {

@@ -28,7 +28,7 @@ struct tile_job {
   struct rectangle crop; /* the pixels that are kept */
   bool every_pixel;      /* render whole tiles, because a ray may depend on the one before it (`start previous`) */
   struct channel_list channels;
-  float *out;            /* [crop.height][crop.width][channels.width] */
+  float *out; /* [crop.height][crop.width][channels.width] */
 };
 
 /* Renders tile (column, row) of the grid and stores its pixels that are kept. Returns how many those are. */

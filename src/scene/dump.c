@@ -10,10 +10,7 @@ struct dump {
   bool failed;
 };
 
-static void put(struct dump *dump, const char *text)
-{
-  dump->failed |= fputs(text, dump->file) == EOF;
-}
+static void put(struct dump *dump, const char *text) { dump->failed |= fputs(text, dump->file) == EOF; }
 
 static void put_number(struct dump *dump, double value)
 {
@@ -124,7 +121,7 @@ static void put_patches(struct dump *dump)
 
 enum status scene_dump(const struct scene *scene, FILE *file)
 {
-  struct dump dump = { .scene = scene, .file = file };
+  struct dump dump = {.scene = scene, .file = file};
   put_settings(&dump);
   for (size_t i = 0; i < scene->light_count; i++) put_light(&dump, &scene->lights[i]);
   put_textures(&dump);
@@ -134,7 +131,7 @@ enum status scene_dump(const struct scene *scene, FILE *file)
 
 enum status scene_dump_union(const struct scene *scene, const char *name, FILE *file)
 {
-  struct dump dump = { .scene = scene, .file = file };
+  struct dump dump = {.scene = scene, .file = file};
   put_textures(&dump);
   put(&dump, "#declare ");
   put(&dump, name);

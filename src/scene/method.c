@@ -22,12 +22,12 @@ static void follow_form(struct method *method)
 
 /* The items of a solver block. One macro writes the two accessors of an item, whose C types differ; `after` is done
  * when it was set. */
-#define ITEM_ACCESSORS(name, field, type, after)                \
-  static void set_##name(struct method *method, double value)   \
-  {                                                             \
-    method->field = (type)value;                                \
-    after;                                                      \
-  }                                                             \
+#define ITEM_ACCESSORS(name, field, type, after)              \
+  static void set_##name(struct method *method, double value) \
+  {                                                           \
+    method->field = (type)value;                              \
+    after;                                                    \
+  }                                                           \
   static double get_##name(const struct method *method) { return (double)method->field; }
 
 ITEM_ACCESSORS(tolerance, roots.tolerance, double, (void)0)

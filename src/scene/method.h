@@ -20,8 +20,8 @@ struct method {
   enum back_substitution back_substitution;
   bool polish; /* on: 2-D Newton on the patch, and every answer certified; off: the solver's own roots are the answer */
   double residual; /* polish off: how far an answer may be from solving eq 3, see candidate.c; 0 = auto */
-  int split;   /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
-  bool form_said; /* some choice of iteration was set by name: otherwise they follow from the rest, see method.c */
+  int split;       /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
+  bool form_said;  /* some choice of iteration was set by name: otherwise they follow from the rest, see method.c */
 };
 
 /* What a bare `solver NAME` means. */
@@ -40,7 +40,7 @@ struct method_item {
 };
 
 size_t method_item_count(void);
-const struct method_item *method_item_at(size_t index); /* NULL behind the last */
+const struct method_item *method_item_at(size_t index);       /* NULL behind the last */
 const struct method_item *method_item_find(const char *name); /* NULL where there is none */
 
 bool method_equal(const struct method *a, const struct method *b);

@@ -19,10 +19,10 @@ struct view {
 };
 
 static const struct view views[] = {
-    {PSCN_SOURCE_DIR "/scenes/teapot.pscn", 800, 600}, {PSCN_SOURCE_DIR "/scenes/dome.pscn", 320, 240},
-    {PSCN_SOURCE_DIR "/scenes/bent.pscn", 320, 240},   {PSCN_SOURCE_DIR "/scenes/waves.pscn", 320, 240},
-    {PSCN_SOURCE_DIR "/scenes/degrees.pscn", 320, 240}, {PSCN_SOURCE_DIR "/scenes/nested.pscn", 320, 240},
-    {PSCN_SOURCE_DIR "/tests/accuracy/copies.pscn", 320, 240},
+  {PSCN_SOURCE_DIR "/scenes/teapot.pscn", 800, 600},         {PSCN_SOURCE_DIR "/scenes/dome.pscn", 320, 240},
+  {PSCN_SOURCE_DIR "/scenes/bent.pscn", 320, 240},           {PSCN_SOURCE_DIR "/scenes/waves.pscn", 320, 240},
+  {PSCN_SOURCE_DIR "/scenes/degrees.pscn", 320, 240},        {PSCN_SOURCE_DIR "/scenes/nested.pscn", 320, 240},
+  {PSCN_SOURCE_DIR "/tests/accuracy/copies.pscn", 320, 240},
 };
 enum { VIEWS = sizeof views / sizeof views[0], COMMAND_RAYS = 2000 };
 

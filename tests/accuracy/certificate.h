@@ -33,11 +33,11 @@ extern const char *const finding_names[FINDINGS];
 
 struct certificate {
   enum finding finding;
-  bool sure;    /* the hit, or the miss, is proven to be the answer: a grazing one could be certain */
-  double t;     /* lost, later: the proven root's; else the nearest root's, or INFINITY */
-  double u, v;  /* its place */
+  bool sure;      /* the hit, or the miss, is proven to be the answer: a grazing one could be certain */
+  double t;       /* lost, later: the proven root's; else the nearest root's, or INFINITY */
+  double u, v;    /* its place */
   uint32_t patch; /* or REFERENCE_NONE */
-  double off;   /* |T - t| of the root at T, in floors */
+  double off;     /* |T - t| of the root at T, in floors */
   size_t boxes;
 };
 

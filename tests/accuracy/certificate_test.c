@@ -27,7 +27,7 @@ struct form {
   int split; /* 0: the solver's own */
 };
 static const struct form forms[] = {{"bernstein", 0}, {"newton", 0},    {"laguerre", 0},
-                                        {"aberth", 0},    {"bernstein", 1}, {"bernstein", 8}};
+                                    {"aberth", 0},    {"bernstein", 1}, {"bernstein", 8}};
 enum { FORMS = sizeof forms / sizeof forms[0] };
 
 struct count {
@@ -129,8 +129,7 @@ static void print_count(const char *name, const struct form *form, uint64_t seed
          name, form->solver, form->split, c->rays, certain[FINDING_PROVEN], certain[FINDING_UNDECIDED],
          refuted(certain), grazes, c->grazing_sure, refuted(grazing), certain[FINDING_LOST] + grazing[FINDING_LOST],
          certain[FINDING_LATER] + grazing[FINDING_LATER], certain[FINDING_INVENTED] + grazing[FINDING_INVENTED],
-         certain[FINDING_SURFACE] + grazing[FINDING_SURFACE],
-         c->slow, 1e3 * c->slowest, (unsigned long long)seed);
+         certain[FINDING_SURFACE] + grazing[FINDING_SURFACE], c->slow, 1e3 * c->slowest, (unsigned long long)seed);
   fflush(stdout);
 }
 

@@ -95,8 +95,8 @@ int main(void)
   assert_true(count < MOST_CLASSES);
   for (size_t n = 0; n < count; n++) {
     void *class = (void *)(uintptr_t)situation_class_at(n); /* cmocka's state is not const */
-    tests[n] =
-        (struct CMUnitTest){.name = situation_class_at(n)->name, .test_func = test_class, .initial_state = class};
+    tests[n] = (struct CMUnitTest){
+      .name = situation_class_at(n)->name, .test_func = test_class, .initial_state = class};
   }
   tests[count] = (struct CMUnitTest)cmocka_unit_test(test_poles);
   return _cmocka_run_group_tests("classes", tests, count + 1, NULL, NULL);

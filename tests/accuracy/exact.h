@@ -20,10 +20,10 @@
 enum { EXACT_MOST_ROOTS = 64, EXACT_BOXES = 2000 };
 
 struct exact_root {
-  double u, v;   /* nearest doubles */
-  double t_off;  /* t - t_about, relative error below 2^-50 */
-  bool proven;   /* false: not known whether it is within the patch and the interval; or any point of [t_off, t_end] */
-  double t_end;  /* = t_off where proven */
+  double u, v;  /* nearest doubles */
+  double t_off; /* t - t_about, relative error below 2^-50 */
+  bool proven;  /* false: not known whether it is within the patch and the interval; or any point of [t_off, t_end] */
+  double t_end; /* = t_off where proven */
 };
 
 struct exact_roots {

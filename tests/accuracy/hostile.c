@@ -93,8 +93,7 @@ static double size_of(const struct situation *s)
 {
   double size = 0;
   for (int k = 0; k < 16; k++)
-    for (int axis = 0; axis < 3; axis++)
-      size = fmax(size, fabs(s->P[0][k / 4][k % 4][axis] - s->P[0][0][0][axis]));
+    for (int axis = 0; axis < 3; axis++) size = fmax(size, fabs(s->P[0][k / 4][k % 4][axis] - s->P[0][0][0][axis]));
   return size;
 }
 
@@ -280,10 +279,12 @@ static void degenerate_net(struct random *random, size_t kind, double P[4][4][3]
       case 1: /* a line */
         for (int axis = 0; axis < 3; axis++) p[axis] = line[axis] * p[0];
         break;
-      case 2: p[2] = line[0] * p[0] + line[1] * p[1]; break;                                     /* flat */
-      case 3: for (int axis = 0; axis < 3; axis++) p[axis] *= pow(10, -3 * (6 - i - j)); break; /* graded */
-      case 4: p[1] *= 1e-12; break;                                                             /* narrow */
-      case 5: /* two rows are one */
+      case 2: p[2] = line[0] * p[0] + line[1] * p[1]; break; /* flat */
+      case 3:
+        for (int axis = 0; axis < 3; axis++) p[axis] *= pow(10, -3 * (6 - i - j));
+        break;                      /* graded */
+      case 4: p[1] *= 1e-12; break; /* narrow */
+      case 5:                       /* two rows are one */
         if (i == 2) memcpy(p, P[1][j], sizeof P[1][j]);
         break;
       case 6: /* some points are one */
@@ -291,9 +292,7 @@ static void degenerate_net(struct random *random, size_t kind, double P[4][4][3]
         break;
       case 7: memcpy(p, P[0][0], sizeof P[0][0]); break; /* a point */
       case 8: p[0] = i == 3 ? 1 : p[0] * 1e-9; break;    /* graded along one parameter */
-      default: /* all rows are one: a curve */
-        memcpy(p, P[0][j], sizeof P[0][j]);
-        break;
+      default: /* all rows are one: a curve */ memcpy(p, P[0][j], sizeof P[0][j]); break;
       }
     }
   }
@@ -478,24 +477,24 @@ static void coincident(struct random *random, size_t index, struct situation *s)
 }
 
 static const struct situation_class classes[] = {
-    {"rings round poles", 701, 1, pole_rings},
-    {"rings round shared edges", 702, 1, edge_rings},
-    {"rings round corners", 703, 1, corner_rings},
-    {"rings round borders of leaves", 704, 1, leaf_rings},
-    {"rings round cusps", 705, 0.3, cusp_rings},
-    {"rings round rulings", 706, 0.1, ruling_rings},
-    {"rings round tangencies", 707, 1, tangent_rings},
-    {"tangent at creases", 708, 1, creases},
-    {"open borders", 709, 1, open_borders},
-    {"nearly degenerate nets", 710, 0.3, degenerate},
-    {"thin patches", 711, 1, thin},
-    {"starts next to poles", 712, 1, pole_starts},
-    {"starts next to surfaces", 713, 1, surface_starts},
-    {"uneven sizes", 718, 0.5, uneven_sizes},
-    {"sizes beyond all digits", 714, 0.5, wild_sizes},
-    {"far origins", 715, 1, far_origins},
-    {"cubes from within their planes", 716, 0.1, cubes},
-    {"coincident patches", 717, 0.5, coincident},
+  {"rings round poles", 701, 1, pole_rings},
+  {"rings round shared edges", 702, 1, edge_rings},
+  {"rings round corners", 703, 1, corner_rings},
+  {"rings round borders of leaves", 704, 1, leaf_rings},
+  {"rings round cusps", 705, 0.3, cusp_rings},
+  {"rings round rulings", 706, 0.1, ruling_rings},
+  {"rings round tangencies", 707, 1, tangent_rings},
+  {"tangent at creases", 708, 1, creases},
+  {"open borders", 709, 1, open_borders},
+  {"nearly degenerate nets", 710, 0.3, degenerate},
+  {"thin patches", 711, 1, thin},
+  {"starts next to poles", 712, 1, pole_starts},
+  {"starts next to surfaces", 713, 1, surface_starts},
+  {"uneven sizes", 718, 0.5, uneven_sizes},
+  {"sizes beyond all digits", 714, 0.5, wild_sizes},
+  {"far origins", 715, 1, far_origins},
+  {"cubes from within their planes", 716, 0.1, cubes},
+  {"coincident patches", 717, 0.5, coincident},
 };
 
 size_t every_class_count(void) { return situation_class_count() + sizeof classes / sizeof classes[0]; }

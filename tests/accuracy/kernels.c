@@ -47,8 +47,8 @@ static void show(const char *class, const char *what, const struct ray *ray, con
   }
 }
 
-static void compare(const char *class, const char *kernel, const struct reference *reference, const struct ray *ray, const struct hit *plain,
-                    const struct hit *other, struct count *count)
+static void compare(const char *class, const char *kernel, const struct reference *reference, const struct ray *ray,
+                    const struct hit *plain, const struct hit *other, struct count *count)
 {
   if (same(plain, other)) return;
   size_t *which = &count->bits;
@@ -107,7 +107,8 @@ static void test_class(void **state)
     class->generate(&random, index, &situation);
     run_situation(class->name, &situation, &c);
   }
-  printf("%-36s %7zu rays: verdict %zu, certainty %zu, patch %zu, T %zu, last bits %zu differ; T by %.2g floors; company %zu, "
+  printf("%-36s %7zu rays: verdict %zu, certainty %zu, patch %zu, T %zu, last bits %zu differ; T by %.2g floors; "
+         "company %zu, "
          "occlusion %zu; seed %llu\n",
          class->name, c.rays, c.verdict, c.certainty, c.patch, c.place, c.bits, c.worst, c.company, c.occlusion,
          (unsigned long long)seed);

@@ -151,16 +151,15 @@ static size_t count_leaks(struct trial *trial, const char *name, const char *sol
   tracer_occluded(trial->tracer, count, rays, occluded);
   for (size_t n = 0; n < count; n++) {
     const bool struck = hits[n].patch != HIT_NONE;
-    if (struck == occluded[n] &&
-        ((struck && hits[n].t <= 1 + AT_TARGET) || right_after_all(trial, &rays[n], &hits[n])))
+    if (struck == occluded[n] && ((struck && hits[n].t <= 1 + AT_TARGET) || right_after_all(trial, &rays[n], &hits[n])))
       continue;
     leaks++;
     if (shown++ >= MOST_SHOWN) continue;
     const struct ray *r = &rays[n];
     struct reference_answer truth;
     reference_closest(trial->reference, r->origin, r->direction, &truth);
-    printf("leak: %s, %s, %s: ray %a %a %a  %a %a %a: t %.17g, occluded %d; truth %d %.17g\n", name, solver,
-           aims[kind], r->origin[0], r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2],
+    printf("leak: %s, %s, %s: ray %a %a %a  %a %a %a: t %.17g, occluded %d; truth %d %.17g\n", name, solver, aims[kind],
+           r->origin[0], r->origin[1], r->origin[2], r->direction[0], r->direction[1], r->direction[2],
            hits[n].patch == HIT_NONE ? INFINITY : hits[n].t, occluded[n], truth.verdict, truth.t_first);
   }
   return leaks;
@@ -198,8 +197,8 @@ static size_t leaks_of(const struct method *options, size_t rays_wanted, uint64_
       trial_destroy(&trial);
     }
   }
-  printf("seed %llu, solver %s, split %d: %zu rays, %zu leaks\n", (unsigned long long)seed,
-         options->roots.solver->name, options->split, rays, leaks);
+  printf("seed %llu, solver %s, split %d: %zu rays, %zu leaks\n", (unsigned long long)seed, options->roots.solver->name,
+         options->split, rays, leaks);
   return leaks;
 }
 
@@ -289,10 +288,10 @@ static void test_leave(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_default),
-      cmocka_unit_test(test_other_solvers),
-      cmocka_unit_test(test_splits),
-      cmocka_unit_test(test_leave),
+    cmocka_unit_test(test_default),
+    cmocka_unit_test(test_other_solvers),
+    cmocka_unit_test(test_splits),
+    cmocka_unit_test(test_leave),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,9 +80,9 @@ static void test_self_intersecting(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tame),
-      cmocka_unit_test(test_wild),
-      cmocka_unit_test(test_self_intersecting),
+    cmocka_unit_test(test_tame),
+    cmocka_unit_test(test_wild),
+    cmocka_unit_test(test_self_intersecting),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

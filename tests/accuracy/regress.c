@@ -46,7 +46,7 @@ static void test_start(void **state)
     }
   }
   struct trial trial;
-  trial_create(&trial, (const double(*)[4][4][3])&P, 1, NULL);
+  trial_create(&trial, (const double(*)[4][4][3]) & P, 1, NULL);
   const double direction[3] = {1, 0.25, 0x1p-7};
   for (int k = 40; k < 70; k++) {
     const double below[3] = {0.25, 0.125, -ldexp(1, -k)}, above[3] = {0.25, 0.125, ldexp(1, -k)};
@@ -72,7 +72,9 @@ static void test_small_parameter(void **state)
   trial_create(&trial, (const double(*)[4][4][3])model.P, model.count, NULL);
   struct tally tally = {.name = "next to an edge's plane"};
   const struct ray ray = {{-0x1.4a85fa15db5a8p+1, 0x1.86e95dab6e398p-3, -0x1.d71d17b166ep-9},
-                          {0x1.4a85fa15db5a8p+1, -0x1.86e95dab6e398p-3, 0x1.d71d17b166ep-9}, 0, INFINITY};
+                          {0x1.4a85fa15db5a8p+1, -0x1.86e95dab6e398p-3, 0x1.d71d17b166ep-9},
+                          0,
+                          INFINITY};
   trial_rays(&trial, &ray, 1, &tally);
   assert_int_equal(tally.hits, 1);
   tally_assert(&tally);
@@ -92,7 +94,7 @@ static void test_line(void **state)
     }
   }
   struct trial trial;
-  trial_create(&trial, (const double(*)[4][4][3])&P, 1, NULL);
+  trial_create(&trial, (const double(*)[4][4][3]) & P, 1, NULL);
   for (int n = -5; n < 6; n++) {
     const double origin[3] = {n / 4.0 - 0.5, 1.25, 4.25}, direction[3] = {0.5, -1, -4};
     const struct hit hit = closest(&trial, origin, direction);
@@ -108,17 +110,17 @@ static void test_line(void **state)
 static void test_corner_of_line(void **state)
 {
   (void)state;
-  static const double x[4][4] =
-      {{-0x1.60eb34df6a67dp+0, -0x1.7a04fdefbdbe1p+0, -0x1.a56b7eb02ebfcp+0, -0x1.91e293d3385c4p+0},
-       {-0x1.39434e7ae7adcp-2, -0x1.0e8c13ea7fad5p-1, -0x1.11fa41fdaedf9p-1, -0x1.5ceea8c55f3d4p-1},
-       {0x1.70f29210ee854p-2, 0x1.37b3ab59ddf7p-1, 0x1.85503f7a90802p-2, 0x1.ebae1309f59d9p-2},
-       {0x1.a863a77e6dcdap+0, 0x1.a3b71241f9d58p+0, 0x1.a5ffda26d458bp+0, 0x1.896924b3da50cp+0}};
+  static const double x[4][4] = {
+    {-0x1.60eb34df6a67dp+0, -0x1.7a04fdefbdbe1p+0, -0x1.a56b7eb02ebfcp+0, -0x1.91e293d3385c4p+0},
+    {-0x1.39434e7ae7adcp-2, -0x1.0e8c13ea7fad5p-1, -0x1.11fa41fdaedf9p-1, -0x1.5ceea8c55f3d4p-1},
+    {0x1.70f29210ee854p-2, 0x1.37b3ab59ddf7p-1, 0x1.85503f7a90802p-2, 0x1.ebae1309f59d9p-2},
+    {0x1.a863a77e6dcdap+0, 0x1.a3b71241f9d58p+0, 0x1.a5ffda26d458bp+0, 0x1.896924b3da50cp+0}};
   const double origin[3] = {-0x1.8840fa87a9dc9p+1, -0x1.5b577735d14d2p+0, 0x1.050276e605e4p+2};
   const double direction[3] = {0x1.2e3967237061bp+2, 0x1.9b577735d14d2p+0, -0x1.ea04edcc0bc8p+1};
   net P;
   for (int n = 0; n < 16; n++) P[n / 4][n % 4][0] = x[n / 4][n % 4], P[n / 4][n % 4][1] = P[n / 4][n % 4][2] = 0.25;
   struct trial trial;
-  trial_create(&trial, (const double(*)[4][4][3])&P, 1, NULL);
+  trial_create(&trial, (const double(*)[4][4][3]) & P, 1, NULL);
   const struct hit hit = closest(&trial, origin, direction);
   assert_int_equal(hit.patch, 0);
   assert_int_equal(hit.certainty, CERTAINTY_GRAZING);
@@ -133,7 +135,7 @@ static void test_tangent(void **state)
   net P;
   bowl(P);
   struct trial trial;
-  trial_create(&trial, (const double(*)[4][4][3])&P, 1, NULL);
+  trial_create(&trial, (const double(*)[4][4][3]) & P, 1, NULL);
   for (int n = 0; n < 32; n++) {
     const double direction[3] = {cos(n), sin(n), 0};
     double origin[3] = {-8 * direction[0], -8 * direction[1], 0};
@@ -160,11 +162,8 @@ static void test_tangent(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_start),
-      cmocka_unit_test(test_small_parameter),
-      cmocka_unit_test(test_line),
-      cmocka_unit_test(test_corner_of_line),
-      cmocka_unit_test(test_tangent),
+    cmocka_unit_test(test_start),          cmocka_unit_test(test_small_parameter), cmocka_unit_test(test_line),
+    cmocka_unit_test(test_corner_of_line), cmocka_unit_test(test_tangent),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,7 +29,7 @@ static void start_intersector(struct trial *trial)
 static void trial_start(struct trial *trial)
 {
   size_t count = trial->scene.patch_count;
-  double (*P)[4][4][3] = malloc((count ? count : 1) * sizeof *P);
+  double(*P)[4][4][3] = malloc((count ? count : 1) * sizeof *P);
   assert_non_null(P);
   for (size_t n = 0; n < count; n++) memcpy(P[n], trial->scene.patches[n].P, sizeof P[n]);
   trial->reference = reference_create((const double(*)[4][4][3])P, count);
@@ -59,7 +59,7 @@ void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count,
 void trial_create_beside(struct trial *trial, const struct trial *first, const struct method *solver)
 {
   *trial = (struct trial){
-      .scene = first->scene, .solver = *solver, .reference = first->reference, .reference_borrowed = true};
+    .scene = first->scene, .solver = *solver, .reference = first->reference, .reference_borrowed = true};
   trial->scene.solvers = &trial->solver;
   trial->scene.solver_count = 1;
   start_intersector(trial);
@@ -130,9 +130,10 @@ struct reference_floor trial_floor(const struct reference *reference, const stru
   struct reference_floor data, whole;
   reference_floors_at(reference, patch, ray->origin, ray->direction, t, u, v, &data, &whole);
   const double floor = fmax(data.t, fmin(whole.t, TRIAL_EXTENT * t));
-  return (struct reference_floor){
-      .t = floor > 0 ? fmax(floor, TRIAL_LEAST * trial_size(ray, t)) : INFINITY, /* not a number: singular */
-      .u = fmax(data.u, whole.u), .v = fmax(data.v, whole.v)};
+  return (struct reference_floor){.t = floor > 0 ? fmax(floor, TRIAL_LEAST * trial_size(ray, t))
+                                                 : INFINITY, /* not a number: singular */
+                                  .u = fmax(data.u, whole.u),
+                                  .v = fmax(data.v, whole.v)};
 }
 
 /* How far in t the answer may be from the reference's, whose floor is given, and be the same hit still. */
@@ -384,8 +385,7 @@ void tally_assert(struct tally *tally)
   assert_int_equal(tally->lost, 0);
   assert_int_equal(tally->invented, 0);
   assert_int_equal(tally->bad_normal, 0);
-  if (tally->worst_t_floor > TRIAL_FLOORS || tally->worst_u_floor > TRIAL_FLOORS ||
-      tally->worst_v_floor > TRIAL_FLOORS)
+  if (tally->worst_t_floor > TRIAL_FLOORS || tally->worst_u_floor > TRIAL_FLOORS || tally->worst_v_floor > TRIAL_FLOORS)
     fail_msg("%s: T, U, V off by %g, %g, %g floors, %d allowed", tally->name, tally->worst_t_floor,
              tally->worst_u_floor, tally->worst_v_floor, TRIAL_FLOORS);
 }

@@ -35,7 +35,7 @@ struct tally {
   size_t bad_normal;         /* N differs from the true normal by more than its floors allow, see trial.c */
   double worst_t_floor, worst_u_floor, worst_v_floor; /* errors in units of the data floor */
   double worst_t_local, worst_u_local, worst_v_local; /* of the local floor (T: plus one rounding of the origin) */
-  double worst_normal, worst_normal_floor; /* absolute; in units of its bound */
+  double worst_normal, worst_normal_floor;            /* absolute; in units of its bound */
   double worst_t_grazing; /* relative error of T of hits said to be grazing; all the other errors are of certain ones */
   double *t_errors;       /* relative errors of T of the hits both agree on */
   size_t t_count, t_capacity;

@@ -22,9 +22,10 @@ struct column {
 };
 
 static const struct column columns[] = {
-  {"newton", false, "newton, form paper"},     {"newton", true, "newton"}, {"laguerre", false, "laguerre, form paper"},
-  {"laguerre", true, "laguerre"},              {"aberth", false, "aberth, form paper"}, {"aberth", true, "aberth"},
-  {"durand_kerner", true, "durand_kerner"}, {"bernstein", true, "bernstein"},
+  {"newton", false, "newton, form paper"},     {"newton", true, "newton"},
+  {"laguerre", false, "laguerre, form paper"}, {"laguerre", true, "laguerre"},
+  {"aberth", false, "aberth, form paper"},     {"aberth", true, "aberth"},
+  {"durand_kerner", true, "durand_kerner"},    {"bernstein", true, "bernstein"},
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 

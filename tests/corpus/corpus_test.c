@@ -210,8 +210,8 @@ static void wild_coefficients(void **state)
           const struct polynomial p = {entry.degree, (enum basis)basis, entry.c, bounds != 0 ? error : NULL};
           struct root_set roots;
           solver_solve(&p, &options, NULL, &roots);
-          wrong +=
-            check_answer(solver_at(s)->name, &entry, (enum basis)basis, options.tolerance, exact, &options, &roots);
+          wrong += check_answer(solver_at(s)->name, &entry, (enum basis)basis, options.tolerance, exact, &options,
+                                &roots);
         }
       }
       exact_roots_destroy(exact);

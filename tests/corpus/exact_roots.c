@@ -114,10 +114,7 @@ void exact_roots_destroy(struct exact_roots *roots)
   }
 }
 
-int exact_roots_count(const struct exact_roots *roots)
-{
-  return roots->count;
-}
+int exact_roots_count(const struct exact_roots *roots) { return roots->count; }
 
 struct exact_root exact_roots_at(const struct exact_roots *roots, int index)
 {

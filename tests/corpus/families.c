@@ -36,8 +36,7 @@ static int times_linear(int n, double c[], double root)
 static int times_quadratic(int n, double c[], double sum, double product)
 {
   c[n + 1] = c[n + 2] = 0;
-  for (int k = n + 2; k >= 0; k--)
-    c[k] = product * c[k] - (k > 0 ? sum * c[k - 1] : 0) + (k > 1 ? c[k - 2] : 0);
+  for (int k = n + 2; k >= 0; k--) c[k] = product * c[k] - (k > 0 ? sum * c[k - 1] : 0) + (k > 1 ? c[k - 2] : 0);
   return n + 2;
 }
 
@@ -123,25 +122,15 @@ static int draw_sparse(struct random *random, double c[])
 int family_draw(enum family family, struct random *random, double c[POLYNOMIAL_MAX_DEGREE + 1])
 {
   switch (family) {
-  case FAMILY_DECADES_0:
-    return draw_decades(random, 0, c);
-  case FAMILY_DECADES_10:
-    return draw_decades(random, 10, c);
-  case FAMILY_DECADES_20:
-    return draw_decades(random, 20, c);
-  case FAMILY_DECADES_60:
-    return draw_decades(random, 60, c);
-  case FAMILY_CLUSTERS:
-    return draw_clusters(random, c);
-  case FAMILY_MULTIPLE:
-    return draw_multiple(random, c);
-  case FAMILY_CHEBYSHEV:
-    return draw_chebyshev(random, c);
-  case FAMILY_MIGNOTTE:
-    return draw_mignotte(random, c);
-  case FAMILY_WILKINSON:
-    return draw_wilkinson(random, c);
-  default:
-    return draw_sparse(random, c);
+  case FAMILY_DECADES_0: return draw_decades(random, 0, c);
+  case FAMILY_DECADES_10: return draw_decades(random, 10, c);
+  case FAMILY_DECADES_20: return draw_decades(random, 20, c);
+  case FAMILY_DECADES_60: return draw_decades(random, 60, c);
+  case FAMILY_CLUSTERS: return draw_clusters(random, c);
+  case FAMILY_MULTIPLE: return draw_multiple(random, c);
+  case FAMILY_CHEBYSHEV: return draw_chebyshev(random, c);
+  case FAMILY_MIGNOTTE: return draw_mignotte(random, c);
+  case FAMILY_WILKINSON: return draw_wilkinson(random, c);
+  default: return draw_sparse(random, c);
   }
 }

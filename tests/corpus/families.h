@@ -6,7 +6,7 @@
 #include "random.h"
 
 enum family {
-  FAMILY_DECADES_0, /* random coefficients of one size */
+  FAMILY_DECADES_0,  /* random coefficients of one size */
   FAMILY_DECADES_10, /* of sizes that differ by up to so many decades */
   FAMILY_DECADES_20,
   FAMILY_DECADES_60,

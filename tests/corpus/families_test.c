@@ -96,10 +96,9 @@ static int judge(struct trial *trial)
       trial->at[t] = root;
       for (int r = 0; r < trial->roots->count; r++) {
         const struct root *answer = &trial->roots->root[r];
-        trial->holds[t][r] =
-          copy > 0 ? trial->holds[t - 1][r]
-                   : unknown(answer) ||
-                       exact_roots_distance_below(trial->exact, k, answer->re, answer->im) <= answer->radius;
+        trial->holds[t][r] = copy > 0 ? trial->holds[t - 1][r]
+                                      : unknown(answer) || exact_roots_distance_below(trial->exact, k, answer->re,
+                                                                                      answer->im) <= answer->radius;
         sound[r] |= trial->holds[t][r];
       }
     }

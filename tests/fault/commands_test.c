@@ -30,10 +30,7 @@ static enum call failing;
 static long left = -1;
 static bool armed;
 
-static bool fails(enum call call)
-{
-  return armed && call == failing && left >= 0 && left-- == 0;
-}
+static bool fails(enum call call) { return armed && call == failing && left >= 0 && left-- == 0; }
 
 static int failure(int reason)
 {
@@ -187,8 +184,7 @@ static long fail_each(const char *const arguments[], enum call call, bool writes
       fail_msg("%s: exit code %d where call %ld of kind %d fails", arguments[0], code, n, call);
     if (code != STATUS_OK) assert_true(size_of(errors) > 0);
     /* Picture and statistics appear together. */
-    if (code != STATUS_OK || !writes)
-      assert_true(old ? size_of(output) == strlen(old) : access(output, F_OK) != 0);
+    if (code != STATUS_OK || !writes) assert_true(old ? size_of(output) == strlen(old) : access(output, F_OK) != 0);
     if (code != STATUS_OK) assert_true(access(stats, F_OK) != 0);
     expect_no_litter();
     if (!failed) {
@@ -217,9 +213,9 @@ static void test_render(void **state)
   (void)state;
   const char *const plain[] = {"render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "9x7", "--quiet", "-o", output,
                                NULL};
-  const char *const more[] =
-      {"render",   PSCN_SOURCE_DIR "/scenes/nested.pscn", "--size",  "9x7", "--threads", "2",    "--quiet",
-       "--solver", "aberth { start previous }",           "--stats", stats, "-o",        output, NULL};
+  const char *const more[] = {
+    "render",   PSCN_SOURCE_DIR "/scenes/nested.pscn", "--size",  "9x7", "--threads", "2",    "--quiet",
+    "--solver", "aberth { start previous }",           "--stats", stats, "-o",        output, NULL};
   assert_true(fail_each(plain, ALLOCATE, true, NULL) > LEAST);
   assert_true(fail_each(more, ALLOCATE, true, NULL) > LEAST);
   fail_files(more, true);
@@ -228,8 +224,9 @@ static void test_render(void **state)
 static void test_render_threads(void **state)
 {
   (void)state;
-  const char *const arguments[] = {"render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "200x150", "--threads", "3",
-                                   "--quiet", "-o", output, NULL};
+  const char *const arguments[] = {
+    "render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "200x150", "--threads", "3", "--quiet", "-o", output,
+    NULL};
   assert_true(fail_each(arguments, THREAD, true, NULL) > 0);
 }
 
@@ -255,10 +252,8 @@ static void test_compare(void **state)
   (void)state;
   char picture[64];
   snprintf(picture, sizeof picture, "%s/picture.png", folder);
-  const char *const render[] = {"render",  PSCN_SOURCE_DIR "/scenes/dome.pscn",
-                                "--size",  "9x7",
-                                "--quiet", "-o",
-                                picture,   NULL};
+  const char *const render[] = {
+    "render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "9x7", "--quiet", "-o", picture, NULL};
   const char *const compare[] = {"compare", picture, picture, "-o", output, NULL};
   assert_int_equal(run(render), STATUS_OK);
   assert_true(fail_each(compare, ALLOCATE, true, NULL) > LEAST);
@@ -272,8 +267,9 @@ static void test_check_processes(void **state)
   (void)state;
   char results[64];
   snprintf(results, sizeof results, "%s/check", folder);
-  const char *const arguments[] = {"check", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", "--povray", "/bin/true",
-                                   "--size", "8x6", "-o", results, NULL};
+  const char *const arguments[] = {
+    "check", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", "--povray", "/bin/true", "--size", "8x6", "-o", results,
+    NULL};
   for (enum call call = FORK; call <= PIPE; call++) {
     failing = call, left = 0;
     assert_int_equal(run(arguments), STATUS_FILE);
@@ -292,11 +288,8 @@ int main(void)
   snprintf(stats, sizeof stats, "%s/stats", folder);
   feed("");
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_render),
-      cmocka_unit_test(test_render_threads),
-      cmocka_unit_test(test_others),
-      cmocka_unit_test(test_compare),
-      cmocka_unit_test(test_check_processes),
+    cmocka_unit_test(test_render),  cmocka_unit_test(test_render_threads),  cmocka_unit_test(test_others),
+    cmocka_unit_test(test_compare), cmocka_unit_test(test_check_processes),
   };
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   remove(input), remove(output), remove(errors), remove(answers), remove(stats), rmdir(folder);

@@ -42,26 +42,26 @@ static void run(int argc, const char **argv)
 
 static void trace(const uint8_t *data, size_t size)
 {
-  static const char *const scenes[] = { "inside", "bent", "degrees", "paper", "paper_magnified" };
-  static const char *const solvers[] = { "bernstein", "aberth", "newton", "laguerre", "aberth { polish off split 1 }" };
+  static const char *const scenes[] = {"inside", "bent", "degrees", "paper", "paper_magnified"};
+  static const char *const solvers[] = {"bernstein", "aberth", "newton", "laguerre", "aberth { polish off split 1 }"};
   char path[1000];
   (void)snprintf(path, sizeof path, PSCN_SOURCE_DIR "/scenes/%s.pscn", TURN(scenes, data[0]));
-  const char *argv[] = { "trace", path, "-q", "--solver", TURN(solvers, data[0] / 5), "--binary", NULL };
+  const char *argv[] = {"trace", path, "-q", "--solver", TURN(solvers, data[0] / 5), "--binary", NULL};
   feed(data + 1, size - 1);
   run(data[0] >= 200 ? 6 : 5, argv);
 }
 
 static void roots(const uint8_t *data, size_t size)
 {
-  static const char *const solvers[] = { "bernstein",
-                                         "aberth",
-                                         "newton",
-                                         "laguerre",
-                                         "bernstein { basis power }",
-                                         "aberth { basis bernstein }",
-                                         "newton { basis bernstein }",
-                                         "aberth { form paper }" };
-  const char *argv[] = { "roots", "-q", "--solver", TURN(solvers, data[0]), NULL };
+  static const char *const solvers[] = {"bernstein",
+                                        "aberth",
+                                        "newton",
+                                        "laguerre",
+                                        "bernstein { basis power }",
+                                        "aberth { basis bernstein }",
+                                        "newton { basis bernstein }",
+                                        "aberth { form paper }"};
+  const char *argv[] = {"roots", "-q", "--solver", TURN(solvers, data[0]), NULL};
   feed(data + 1, size - 1);
   run(4, argv);
 }
@@ -71,7 +71,7 @@ static void roots(const uint8_t *data, size_t size)
 static void options(const uint8_t *data, size_t size)
 {
   enum { MOST = 20 };
-  static const char *const commands[] = { "render", "trace", "roots", "dump", "compare", "check", "chart", "help" };
+  static const char *const commands[] = {"render", "trace", "roots", "dump", "compare", "check", "chart", "help"};
   static char text[2000];
   const char *argv[MOST + 3];
   int argc = 1;

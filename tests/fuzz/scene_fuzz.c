@@ -28,9 +28,9 @@ static void tell(void *context, const char *text, size_t length)
 static struct scene *load(const char *text, size_t length)
 {
   const struct language_settings settings = {
-    .image_width = WIDTH, .image_height = HEIGHT, .tolerance = NAN, .max_memory = MAX_MEMORY };
+    .image_width = WIDTH, .image_height = HEIGHT, .tolerance = NAN, .max_memory = MAX_MEMORY};
   size_t told = 0;
-  struct diagnostics diagnostics = { .tell = tell, .context = &told };
+  struct diagnostics diagnostics = {.tell = tell, .context = &told};
   struct scene *scene = NULL;
   const enum status status = language_load_text("<fuzz>", text, length, &settings, &diagnostics, &scene);
   assert((status == STATUS_OK) == (scene != NULL) && (status == STATUS_OK) == (diagnostics.error_count == 0));
@@ -44,8 +44,8 @@ static void use(const struct scene *scene)
   static float out[HEIGHT][WIDTH][16];
   struct intersector *intersector = NULL;
   struct render_options options = {
-    .width = WIDTH, .height = HEIGHT, .samples = 1, .crop = { .width = WIDTH, .height = HEIGHT }, .threads = 1 };
-  const struct render_watch watch = { 0 };
+    .width = WIDTH, .height = HEIGHT, .samples = 1, .crop = {.width = WIDTH, .height = HEIGHT}, .threads = 1};
+  const struct render_watch watch = {0};
   struct render_stats stats;
   const char *bad;
   size_t bad_length;

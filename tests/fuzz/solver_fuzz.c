@@ -18,8 +18,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   memcpy(text, data, size);
   text[size] = '\0';
   size_t told = 0;
-  struct diagnostics diagnostics = { .tell = tell, .context = &told };
-  struct method method = { 0 };
+  struct diagnostics diagnostics = {.tell = tell, .context = &told};
+  struct method method = {0};
   const enum status status = language_parse_solver(text, &diagnostics, &method);
   assert((status == STATUS_OK) == (method.roots.solver != NULL) && (status == STATUS_OK) == (told == 0));
   assert(status == STATUS_OK || status == STATUS_USAGE || status == STATUS_LIMIT);

@@ -16,7 +16,7 @@
 #include "language/language.h"
 #include "scene/dump.h"
 
-static const struct language_settings SETTINGS = { .image_width = 800, .image_height = 600, .tolerance = NAN };
+static const struct language_settings SETTINGS = {.image_width = 800, .image_height = 600, .tolerance = NAN};
 
 static void tell(void *context, const char *text, size_t length)
 {
@@ -54,7 +54,7 @@ static bool bad_case(const char *path, const char *expected_path)
   size_t length = 0;
   FILE *memory = open_memstream(&text, &length);
   assert_non_null(memory);
-  struct diagnostics diagnostics = { .tell = tell, .context = memory };
+  struct diagnostics diagnostics = {.tell = tell, .context = memory};
   struct scene *scene = NULL;
   const enum status status = language_load(path, &SETTINGS, &diagnostics, &scene);
   assert_int_not_equal(status, STATUS_OK);
@@ -80,7 +80,7 @@ static char *dump(const struct scene *scene, size_t *length)
 
 static bool ok_case(const char *path, const char *expected_path)
 {
-  struct diagnostics diagnostics = { .tell = tell, .context = stderr };
+  struct diagnostics diagnostics = {.tell = tell, .context = stderr};
   struct scene *scene = NULL, *again = NULL;
   assert_int_equal(language_load(path, &SETTINGS, &diagnostics, &scene), STATUS_OK);
   assert_int_equal(diagnostics.error_count, 0);
@@ -138,6 +138,6 @@ int main(void)
 {
   /* Names in what is told are relative to this folder. */
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
-  const struct CMUnitTest tests[] = { cmocka_unit_test(test_bad), cmocka_unit_test(test_ok) };
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_bad), cmocka_unit_test(test_ok)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,10 +23,10 @@ static void tell(void *context, const char *text, size_t length)
 static struct diagnostics listener(void)
 {
   told[0] = '\0';
-  return (struct diagnostics){ .tell = tell };
+  return (struct diagnostics){.tell = tell};
 }
 
-static const struct language_settings PLAIN = { .image_width = 320, .image_height = 200, .tolerance = NAN };
+static const struct language_settings PLAIN = {.image_width = 320, .image_height = 200, .tolerance = NAN};
 
 static enum status load(const char *text, size_t length, const struct language_settings *settings, struct scene **out)
 {
@@ -78,11 +78,11 @@ static void test_size(void **state)
 static void test_solver_text(void **state)
 {
   (void)state;
-  struct method options = { 0 };
+  struct method options = {0};
   struct diagnostics diagnostics = listener();
-  assert_int_equal(language_parse_solver(" aberth { polish off /* a comment */ split 7\n tolerance 1e-7 }",
-                                         &diagnostics, &options),
-                   STATUS_OK);
+  assert_int_equal(
+    language_parse_solver(" aberth { polish off /* a comment */ split 7\n tolerance 1e-7 }", &diagnostics, &options),
+    STATUS_OK);
   assert_string_equal(options.roots.solver->name, "aberth");
   assert_true(!options.polish && options.split == 7 && options.roots.tolerance == 1e-7 && diagnostics.error_count == 0);
 }
@@ -93,21 +93,21 @@ static void test_wrong_solver_texts(void **state)
   static const struct {
     const char *text, *told;
   } cases[] = {
-      {"", "<--solver>:1:1: error: the text ends here, expected a name\n  \n  ^\n"},
-      {"abert", "<--solver>:1:1: error: there is no solver 'abert'; did you mean 'aberth'?\n  abert\n  ^~~~~\n"},
-      {"aberth { polish of }",
-       "<--solver>:1:17: error: polish is off or on\n  aberth { polish of }\n                  ^~\n"},
-      {"aberth { polish", "<--solver>:1:8: error: this brace is not closed\n  aberth { polish\n         ^\n"},
-      {"aberth } x", "<--solver>:1:8: error: unexpected '}', expected '{'\n  aberth } x\n         ^\n"},
-      {"aberth {} camera", "<--solver>:1:11: error: unexpected 'camera', expected the end of the text\n  aberth {} "
-                           "camera\n            ^~~~~~\n"},
-      {"#include \"ok/empty.pscn\"", "<--solver>:1:1: error: the text of a solver has no directives\n"},
-      {"aberth #ifdef (pscn)", "<--solver>:1:8: error: the text of a solver has no directives\n"},
-      {"aberth { #declare A = 1; }", "<--solver>:1:10: error: the text of a solver has no directives\n"},
-      {"solver aberth", "<--solver>:1:1: error: there is no solver 'solver', only "},
+    {"", "<--solver>:1:1: error: the text ends here, expected a name\n  \n  ^\n"},
+    {"abert", "<--solver>:1:1: error: there is no solver 'abert'; did you mean 'aberth'?\n  abert\n  ^~~~~\n"},
+    {"aberth { polish of }",
+     "<--solver>:1:17: error: polish is off or on\n  aberth { polish of }\n                  ^~\n"},
+    {"aberth { polish", "<--solver>:1:8: error: this brace is not closed\n  aberth { polish\n         ^\n"},
+    {"aberth } x", "<--solver>:1:8: error: unexpected '}', expected '{'\n  aberth } x\n         ^\n"},
+    {"aberth {} camera", "<--solver>:1:11: error: unexpected 'camera', expected the end of the text\n  aberth {} "
+                         "camera\n            ^~~~~~\n"},
+    {"#include \"ok/empty.pscn\"", "<--solver>:1:1: error: the text of a solver has no directives\n"},
+    {"aberth #ifdef (pscn)", "<--solver>:1:8: error: the text of a solver has no directives\n"},
+    {"aberth { #declare A = 1; }", "<--solver>:1:10: error: the text of a solver has no directives\n"},
+    {"solver aberth", "<--solver>:1:1: error: there is no solver 'solver', only "},
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-    struct method options = { .split = 99 };
+    struct method options = {.split = 99};
     struct diagnostics diagnostics = listener();
     assert_int_equal(language_parse_solver(cases[k].text, &diagnostics, &options), STATUS_USAGE);
     assert_int_equal(options.split, 99);
@@ -123,7 +123,7 @@ static void test_override(void **state)
   static const char text[] =
     "#declare P = bicubic_patch { type 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 solver newton { tolerance 1e-3 } }"
     "object { P } global_settings { solver aberth { tolerance 1e-4 } }";
-  struct language_settings settings = { .image_width = 1, .image_height = 1, .tolerance = 1e-8 };
+  struct language_settings settings = {.image_width = 1, .image_height = 1, .tolerance = 1e-8};
   struct scene *scene = NULL;
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_OK);
   assert_int_equal(scene->solver_count, 2);
@@ -147,7 +147,7 @@ static void test_override(void **state)
   settings.tolerance = 0;
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
   settings = (struct language_settings){
-    .image_width = 1, .image_height = 1, .solver_text = "nothing", .tolerance = NAN };
+    .image_width = 1, .image_height = 1, .solver_text = "nothing", .tolerance = NAN};
   assert_int_equal(load(text, sizeof text - 1, &settings, &scene), STATUS_USAGE);
   assert_null(scene);
 }
@@ -173,14 +173,25 @@ static void test_long_texts(void **state)
     const char *piece, *end;
     enum status status;
   } cases[] = {
-    { "(", "", STATUS_INPUT },       { "{", "", STATUS_LIMIT },     { "union {", "", STATUS_LIMIT },
-    { "#ifdef (pscn) ", "", STATUS_LIMIT },                         { "#ifdef (no) ", "", STATUS_INPUT },
-    { "/*", "", STATUS_INPUT },      { "/ ", "", STATUS_INPUT },    { "<1,2,", "", STATUS_INPUT },
-    { "\"", "", STATUS_INPUT },      { "a", ";", STATUS_INPUT },    { "9", "", STATUS_INPUT },
-    { " ", "", STATUS_OK },          { "//", "", STATUS_OK },       { "/**/", "", STATUS_OK },
-    { "\n", "", STATUS_OK },         { "background{rgb 1}", "", STATUS_OK },
-    { "union{}", "", STATUS_OK },    { "#declare A=1;", "", STATUS_OK },
-    { "#declare U = union { object { U } object { U } }\n", "", STATUS_LIMIT },
+    {"(", "", STATUS_INPUT},
+    {"{", "", STATUS_LIMIT},
+    {"union {", "", STATUS_LIMIT},
+    {"#ifdef (pscn) ", "", STATUS_LIMIT},
+    {"#ifdef (no) ", "", STATUS_INPUT},
+    {"/*", "", STATUS_INPUT},
+    {"/ ", "", STATUS_INPUT},
+    {"<1,2,", "", STATUS_INPUT},
+    {"\"", "", STATUS_INPUT},
+    {"a", ";", STATUS_INPUT},
+    {"9", "", STATUS_INPUT},
+    {" ", "", STATUS_OK},
+    {"//", "", STATUS_OK},
+    {"/**/", "", STATUS_OK},
+    {"\n", "", STATUS_OK},
+    {"background{rgb 1}", "", STATUS_OK},
+    {"union{}", "", STATUS_OK},
+    {"#declare A=1;", "", STATUS_OK},
+    {"#declare U = union { object { U } object { U } }\n", "", STATUS_LIMIT},
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     size_t length;
@@ -255,9 +266,9 @@ static void test_included_kinds(void **state)
   assert_non_null(mkdtemp(folder));
   (void)snprintf(path, sizeof path, "%s/pipe", folder);
   assert_int_equal(mkfifo(path, 0600), 0);
-  const char *const names[] = { path, "/dev/zero", "/dev/null", "ok" };
-  static const char *const reasons[] = { ": it is a pipe\n", ": it is a device\n", ": it is a device\n",
-                                         ": it is a directory\n" };
+  const char *const names[] = {path, "/dev/zero", "/dev/null", "ok"};
+  static const char *const reasons[] = {": it is a pipe\n", ": it is a device\n", ": it is a device\n",
+                                        ": it is a directory\n"};
   for (size_t k = 0; k < 4; k++) {
     struct scene *scene = NULL;
     (void)snprintf(text, sizeof text, "#include \"%s\"", names[k]);
@@ -290,13 +301,13 @@ static void test_copies(void **state)
 {
   (void)state;
   static const char text[] =
-      "#declare P = bicubic_patch { type 1 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> "
-      "<1,2,0> <2,2,1> <3,2,0>"
-      " <0,3,0> <1,3,0> <2,3,0> <3,3,0> translate <0.1, 0, 0> }\n"
-      "#declare Two = union { object { P rotate <10, 20, 30> } object { P scale <1, -2, 0.3> } translate z }\n"
-      "object { P }\n"
-      "union { object { Two } object { Two rotate 33 * y translate <5, 0, 0.7> } rotate 7 * x }\n"
-      "object { Two matrix <1, 0.5, 0, 0, 1, 0.25, 0.125, 0, 1, 3, 4, 5> scale 2 }\n";
+    "#declare P = bicubic_patch { type 1 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> "
+    "<1,2,0> <2,2,1> <3,2,0>"
+    " <0,3,0> <1,3,0> <2,3,0> <3,3,0> translate <0.1, 0, 0> }\n"
+    "#declare Two = union { object { P rotate <10, 20, 30> } object { P scale <1, -2, 0.3> } translate z }\n"
+    "object { P }\n"
+    "union { object { Two } object { Two rotate 33 * y translate <5, 0, 0.7> } rotate 7 * x }\n"
+    "object { Two matrix <1, 0.5, 0, 0, 1, 0.25, 0.125, 0, 1, 3, 4, 5> scale 2 }\n";
   struct scene *scene = NULL;
   assert_int_equal(load(text, sizeof text - 1, &PLAIN, &scene), STATUS_OK);
   assert_int_equal(scene->patch_count, 7);
@@ -328,10 +339,17 @@ int main(void)
 {
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_files),         cmocka_unit_test(test_unreadable_file),    cmocka_unit_test(test_size),
-    cmocka_unit_test(test_solver_text),   cmocka_unit_test(test_wrong_solver_texts), cmocka_unit_test(test_override),
-    cmocka_unit_test(test_long_texts),    cmocka_unit_test(test_many_empty_copies),  cmocka_unit_test(test_many_names),
-    cmocka_unit_test(test_max_memory),    cmocka_unit_test(test_included_often),
+    cmocka_unit_test(test_files),
+    cmocka_unit_test(test_unreadable_file),
+    cmocka_unit_test(test_size),
+    cmocka_unit_test(test_solver_text),
+    cmocka_unit_test(test_wrong_solver_texts),
+    cmocka_unit_test(test_override),
+    cmocka_unit_test(test_long_texts),
+    cmocka_unit_test(test_many_empty_copies),
+    cmocka_unit_test(test_many_names),
+    cmocka_unit_test(test_max_memory),
+    cmocka_unit_test(test_included_often),
     cmocka_unit_test(test_included_kinds),
     cmocka_unit_test(test_copies),
   };

@@ -41,11 +41,11 @@ static void count(void *context, const char *text, size_t length)
 static long run(const char *path, enum status expected)
 {
   const struct language_settings settings = {
-    .image_width = 800, .image_height = 600, .solver_text = "aberth { polish off }", .tolerance = 1e-9 };
+    .image_width = 800, .image_height = 600, .solver_text = "aberth { polish off }", .tolerance = 1e-9};
   long n = 0;
   for (;; n++) {
     size_t told = 0;
-    struct diagnostics diagnostics = { .tell = count, .context = &told };
+    struct diagnostics diagnostics = {.tell = count, .context = &told};
     struct scene *scene = NULL;
     left = n;
     const enum status status = language_load(path, &settings, &diagnostics, &scene);
@@ -66,22 +66,22 @@ static long run(const char *path, enum status expected)
 static void test_scenes(void **state)
 {
   (void)state;
-  static const char *const files[] = { "ok/includes.pscn", "ok/nesting.pscn", "ok/textures.pscn", "ok/solvers.pscn",
-                                       "ok/conditions.pscn", "ok/povray_files.pscn" };
+  static const char *const files[] = {"ok/includes.pscn", "ok/nesting.pscn",    "ok/textures.pscn",
+                                      "ok/solvers.pscn",  "ok/conditions.pscn", "ok/povray_files.pscn"};
   for (size_t k = 0; k < sizeof files / sizeof *files; k++) assert_true(run(files[k], STATUS_OK) > LEAST);
 }
 
 static void test_errors(void **state)
 {
   (void)state;
-  static const char *const files[] = { "bad/include_missing.pscn", "bad/misspelt_keyword.pscn", "bad/types.pscn",
-                                       "bad/missing_brace.pscn" };
+  static const char *const files[] = {"bad/include_missing.pscn", "bad/misspelt_keyword.pscn", "bad/types.pscn",
+                                      "bad/missing_brace.pscn"};
   for (size_t k = 0; k < sizeof files / sizeof *files; k++) assert_true(run(files[k], STATUS_INPUT) > LEAST);
 }
 
 int main(void)
 {
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
-  const struct CMUnitTest tests[] = { cmocka_unit_test(test_scenes), cmocka_unit_test(test_errors) };
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_scenes), cmocka_unit_test(test_errors)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,13 +17,13 @@
 
 enum {
   SEED = 20260601,
-  ROUNDS = 60,            /* of each file */
-  MAX_ACCIDENTS = 4,      /* in one text */
-  MAX_FILE_BYTES = 6000,  /* the long ones are about length, not about what stands in them */
+  ROUNDS = 60,           /* of each file */
+  MAX_ACCIDENTS = 4,     /* in one text */
+  MAX_FILE_BYTES = 6000, /* the long ones are about length, not about what stands in them */
   MAX_FILES = 200
 };
 
-static const struct language_settings SETTINGS = { .image_width = 800, .image_height = 600, .tolerance = NAN };
+static const struct language_settings SETTINGS = {.image_width = 800, .image_height = 600, .tolerance = NAN};
 
 static const char *const STREWN[] = {"{",
                                      "}",
@@ -94,10 +94,7 @@ static void replace(struct text *text, size_t at, size_t removed, const char *in
   text->length += length - removed;
 }
 
-static size_t below(struct random *random, size_t limit)
-{
-  return (size_t)(random_bits(random) % limit);
-}
+static size_t below(struct random *random, size_t limit) { return (size_t)(random_bits(random) % limit); }
 
 static void accident(struct text *text, struct random *random)
 {
@@ -133,8 +130,8 @@ static void tell(void *context, const char *text, size_t length)
 
 static enum status load(const struct text *text, const char *name, struct scene **out_scene)
 {
-  struct told told = { .whole_lines = true };
-  struct diagnostics diagnostics = { .tell = tell, .context = &told };
+  struct told told = {.whole_lines = true};
+  struct diagnostics diagnostics = {.tell = tell, .context = &told};
   const enum status status = language_load_text(name, text->bytes, text->length, &SETTINGS, &diagnostics, out_scene);
   assert_true(told.whole_lines);
   assert_int_equal(status == STATUS_OK, told.count == 0);
@@ -145,7 +142,7 @@ static enum status load(const struct text *text, const char *name, struct scene 
 
 static struct text dump(const struct scene *scene)
 {
-  struct text text = { 0 };
+  struct text text = {0};
   FILE *memory = open_memstream(&text.bytes, &text.length);
   assert_non_null(memory);
   assert_int_equal(scene_dump(scene, memory), STATUS_OK);
@@ -191,7 +188,7 @@ static void run_file(const char *path, struct random *random, struct tally *tall
   const size_t length = read_file(path, original);
   if (length > MAX_FILE_BYTES) return;
   for (int round = 0; round < ROUNDS; round++) {
-    struct text text = { bytes, length, sizeof bytes };
+    struct text text = {bytes, length, sizeof bytes};
     memcpy(bytes, original, length);
     for (size_t k = below(random, MAX_ACCIDENTS) + 1; k > 0; k--) accident(&text, random);
     struct scene *scene = NULL;
@@ -214,9 +211,9 @@ static int is_scene(const struct dirent *entry)
 static void test_accidents(void **state)
 {
   (void)state;
-  struct random random = { SEED };
-  struct tally tally = { 0 };
-  static const char *const folders[] = { "bad", "ok" };
+  struct random random = {SEED};
+  struct tally tally = {0};
+  static const char *const folders[] = {"bad", "ok"};
   for (int f = 0; f < 2; f++) {
     struct dirent **entries;
     const int count = scandir(folders[f], &entries, is_scene, alphasort);
@@ -236,10 +233,10 @@ static void test_accidents(void **state)
 static void test_noise(void **state)
 {
   (void)state;
-  struct random random = { SEED + 1 };
+  struct random random = {SEED + 1};
   char bytes[300];
   for (int round = 0; round < 1000; round++) {
-    struct text text = { bytes, below(&random, sizeof bytes), sizeof bytes };
+    struct text text = {bytes, below(&random, sizeof bytes), sizeof bytes};
     for (size_t k = 0; k < text.length; k++) bytes[k] = (char)below(&random, 256);
     struct scene *scene = NULL;
     (void)load(&text, "<noise>", &scene);
@@ -250,6 +247,6 @@ static void test_noise(void **state)
 int main(void)
 {
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
-  const struct CMUnitTest tests[] = { cmocka_unit_test(test_accidents), cmocka_unit_test(test_noise) };
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_accidents), cmocka_unit_test(test_noise)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,10 +41,7 @@
 #include "algebra/start.c"
 #undef double
 
-const struct root_kernel *root_kernel_best(void)
-{
-  return &root_kernel_baseline;
-}
+const struct root_kernel *root_kernel_best(void) { return &root_kernel_baseline; }
 
 static const struct solver newton_row = {"newton", "", false, SOLVER_LANES_NONE, 1e-300, 1, newton_find};
 static const struct solver laguerre_row = {"laguerre", "", false, SOLVER_LANES_NONE, 1e-300, 1, laguerre_find};

@@ -126,8 +126,7 @@ static void kernels(struct set_up *s)
   for (size_t k = 0; k + 1 < count; k++) {
     for (size_t n = 0; n < RAYS; n++) {
       const struct hit *a = &answers[k][n], *b = &answers[count - 1][n];
-      if (!kernels_same(&s->rays[n], a, b) && wrong++ < 3)
-        world_print_case(here[k]->name, s->kind, &s->rays[n], a, b);
+      if (!kernels_same(&s->rays[n], a, b) && wrong++ < 3) world_print_case(here[k]->name, s->kind, &s->rays[n], a, b);
     }
   }
   assert_int_equal(wrong, 0);

@@ -130,8 +130,8 @@ static void the_plane_polynomials_are_within_their_error(void **state)
   (void)state;
   on_all_leaves(SEED, check_planes);
   print_message(
-      "moments off by %.3g last places; coefficients %.3g, values %.3g of the bound; t of a place %.3g roundings\n",
-      worst_moment, worst_net, worst_value, worst_t);
+    "moments off by %.3g last places; coefficients %.3g, values %.3g of the bound; t of a place %.3g roundings\n",
+    worst_moment, worst_net, worst_value, worst_t);
   assert_true(worst_moment <= 4);
   assert_true(worst_net <= 1 && worst_value <= 1);
   assert_true(worst_net > 1e-3); /* not vacuous */
@@ -145,8 +145,8 @@ struct tally {
 };
 
 /* Checks the claims of lane 0, and sets (u,v) to the exact root. Returns whether there is one. */
-static bool check_root(const struct truth *truth, const struct newton_root *r, struct random *random, struct tally *tally,
-                       quad *u, quad *v)
+static bool check_root(const struct truth *truth, const struct newton_root *r, struct random *random,
+                       struct tally *tally, quad *u, quad *v)
 {
   if (!(lanes_bits(r->exists) & 1)) return false;
   tally->exist++;
@@ -179,7 +179,8 @@ static void check_refine(struct subject *s, struct random *random)
   nets.error = lanes_all(s->local.error);
   for (int start = 0; start < 4; start++) {
     const double u0 = random_between(random, -0.1, 1.1), v0 = random_between(random, -0.1, 1.1);
-    const struct newton_root r = newton_refine(&nets, s->leaf, lanes_all(u0), lanes_all(v0), lanes_all(0) == lanes_all(0));
+    const struct newton_root r = newton_refine(&nets, s->leaf, lanes_all(u0), lanes_all(v0),
+                                               lanes_all(0) == lanes_all(0));
     quad u, v;
     check_root(&s->truth, &r, random, &refined, &u, &v);
   }

@@ -96,17 +96,17 @@ static size_t fill_degenerate(struct random *random, world_net nets[])
   fill_wild(random, nets), fill_wild(random, nets + 4);
   for (int n = 0; n < 16; n++) {
     double(*net)[4][3] = nets[0];
-    set(net[n / 4][n % 4], 0.25, 0.5, -0.125);                                       /* a point */
-    memcpy(nets[1][n / 4][n % 4], nets[1][0][n % 4], sizeof nets[1][0][0]);           /* a curve */
-    set(nets[2][n / 4][n % 4], n / 4 / 3.0, n / 4 / 3.0, 0.5);                          /* a line */
-    nets[3][n / 4][n % 4][2] = 0.25;                                                   /* folded flat */
+    set(net[n / 4][n % 4], 0.25, 0.5, -0.125);                              /* a point */
+    memcpy(nets[1][n / 4][n % 4], nets[1][0][n % 4], sizeof nets[1][0][0]); /* a curve */
+    set(nets[2][n / 4][n % 4], n / 4 / 3.0, n / 4 / 3.0, 0.5);              /* a line */
+    nets[3][n / 4][n % 4][2] = 0.25;                                        /* folded flat */
     /* ruled, both halves still */
     memcpy(nets[4][n / 4][n % 4], nets[4][n / 4 > 1 ? 3 : 0][n % 4], sizeof nets[4][0][0]);
-    if (n / 4 == 0) memcpy(nets[5][0][n % 4], nets[5][0][0], sizeof nets[5][0][0]);   /* collapsed at u = 0 */
-    if (n % 4 == 3) memcpy(nets[5][n / 4][3], nets[5][0][3], sizeof nets[5][0][0]);   /* and at v = 1 */
+    if (n / 4 == 0) memcpy(nets[5][0][n % 4], nets[5][0][0], sizeof nets[5][0][0]); /* collapsed at u = 0 */
+    if (n % 4 == 3) memcpy(nets[5][n / 4][3], nets[5][0][3], sizeof nets[5][0][0]); /* and at v = 1 */
     /* two poles */
     if (n / 4 == 0 || n / 4 == 3) memcpy(nets[6][n / 4][n % 4], nets[6][n / 4][0], sizeof nets[6][0][0]);
-    memcpy(nets[7][n / 4][n % 4], nets[7][n % 4][n / 4], sizeof nets[7][0][0]);       /* folded on its diagonal */
+    memcpy(nets[7][n / 4][n % 4], nets[7][n % 4][n / 4], sizeof nets[7][0][0]); /* folded on its diagonal */
   }
   return 8;
 }
@@ -161,8 +161,8 @@ struct ray world_ray(struct random *random, world_net *nets, size_t count, int k
   const size_t p = random_bits(random) % count;
   double u = random_unit(random), v = random_unit(random), point[3], du[3], dv[3];
   const double eighths[2] = {(double)(random_bits(random) % 9) / 8, (double)(random_bits(random) % 9) / 8};
-  if (kind == 1) u = eighths[0];                  /* a line of constant u, where leaves meet, or a border */
-  if (kind == 2) u = eighths[0], v = eighths[1];  /* a corner of leaves */
+  if (kind == 1) u = eighths[0];                 /* a line of constant u, where leaves meet, or a border */
+  if (kind == 2) u = eighths[0], v = eighths[1]; /* a corner of leaves */
   if (kind == 3 && random_bits(random) % 2) v = eighths[1];
   surface(nets[p], u, v, point, du, dv);
   for (int k = 0; k < 3; k++) ray.origin[k] = random_between(random, -3, 3);

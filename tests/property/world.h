@@ -20,11 +20,11 @@ struct world {
 
 /* The kinds of scene. */
 enum world_kind {
-  WORLD_GRID,      /* 3 x 3 patches of a wavy height field that share their edges */
-  WORLD_WILD,      /* patches with random control points, folded and self-intersecting */
-  WORLD_DOME,      /* four patches round a pole where an edge collapses */
-  WORLD_FLAT,      /* coplanar patches, some exactly on top of each other */
-  WORLD_LOW,       /* patches of lower true degree: bilinear, biquadratic, ruled */
+  WORLD_GRID,       /* 3 x 3 patches of a wavy height field that share their edges */
+  WORLD_WILD,       /* patches with random control points, folded and self-intersecting */
+  WORLD_DOME,       /* four patches round a pole where an edge collapses */
+  WORLD_FLAT,       /* coplanar patches, some exactly on top of each other */
+  WORLD_LOW,        /* patches of lower true degree: bilinear, biquadratic, ruled */
   WORLD_DEGENERATE, /* patches that are a point, a line, a curve or folded flat */
   WORLD_KINDS
 };

@@ -141,8 +141,7 @@ static void random_net(struct random *random, double wildness, double P[4][4][3]
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 4; j++) {
       const double regular[3] = {i - 1.5, j - 1.5, 0};
-      for (int axis = 0; axis < 3; axis++)
-        P[i][j][axis] = regular[axis] + wildness * random_between(random, -1, 1);
+      for (int axis = 0; axis < 3; axis++) P[i][j][axis] = regular[axis] + wildness * random_between(random, -1, 1);
     }
   }
 }
@@ -269,8 +268,8 @@ static void test_floor(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_flat),       cmocka_unit_test(test_tangent),     cmocka_unit_test(test_border),
-      cmocka_unit_test(test_degenerate), cmocka_unit_test(test_brute_force), cmocka_unit_test(test_floor),
+    cmocka_unit_test(test_flat),       cmocka_unit_test(test_tangent),     cmocka_unit_test(test_border),
+    cmocka_unit_test(test_degenerate), cmocka_unit_test(test_brute_force), cmocka_unit_test(test_floor),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,20 +29,20 @@ struct form {
 #define PAPER_POLISHED "{ form paper polish on }"
 
 static const struct form forms[] = {
-    {"bernstein", "bernstein", true},
-    {"aberth", "aberth", true},
-    {"laguerre", "laguerre", true},
-    {"newton", "newton", true},
-    {"paper's aberth", "aberth " PAPER_POLISHED, true},
-    {"paper's laguerre", "laguerre " PAPER_POLISHED, true},
-    {"paper's newton", "newton " PAPER_POLISHED, true},
-    {"bernstein", "bernstein { polish off }", false},
-    {"aberth", "aberth { polish off }", false},
-    {"laguerre", "laguerre { polish off }", false},
-    {"newton", "newton { polish off }", false},
-    {"paper's aberth", "aberth " PAPER, false},
-    {"paper's laguerre", "laguerre " PAPER, false},
-    {"paper's newton", "newton " PAPER, false},
+  {"bernstein", "bernstein", true},
+  {"aberth", "aberth", true},
+  {"laguerre", "laguerre", true},
+  {"newton", "newton", true},
+  {"paper's aberth", "aberth " PAPER_POLISHED, true},
+  {"paper's laguerre", "laguerre " PAPER_POLISHED, true},
+  {"paper's newton", "newton " PAPER_POLISHED, true},
+  {"bernstein", "bernstein { polish off }", false},
+  {"aberth", "aberth { polish off }", false},
+  {"laguerre", "laguerre { polish off }", false},
+  {"newton", "newton { polish off }", false},
+  {"paper's aberth", "aberth " PAPER, false},
+  {"paper's laguerre", "laguerre " PAPER, false},
+  {"paper's newton", "newton " PAPER, false},
 };
 enum { FORMS = sizeof forms / sizeof forms[0] };
 
@@ -125,8 +125,8 @@ static void print_error(double error, bool measured)
 static void print_class(const struct situation_class *class, const struct tally row[FORMS])
 {
   printf(
-      "<details><summary>%s (seed %llu): %zu rays; the reference says %zu hits, %zu misses, %zu grazing</summary>\n\n",
-      class->name, (unsigned long long)class->seed, row[0].rays, row[0].hits, row[0].misses, row[0].undecided);
+    "<details><summary>%s (seed %llu): %zu rays; the reference says %zu hits, %zu misses, %zu grazing</summary>\n\n",
+    class->name, (unsigned long long)class->seed, row[0].rays, row[0].hits, row[0].misses, row[0].undecided);
   printf("| solver | lost | of these holes | invented | grazing | worst error of T, certain | grazing |\n"
          "|---|---|---|---|---|---|---|\n");
   for (int form = 0; form < FORMS; form++) {

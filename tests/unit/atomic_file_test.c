@@ -71,8 +71,7 @@ static int enter_folder(void **state)
 static int leave_folder(void **state)
 {
   DIR *folder = opendir(*state);
-  for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder))
-    unlink(entry->d_name);
+  for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) unlink(entry->d_name);
   closedir(folder);
   const int result = rmdir(*state);
   free(*state);
@@ -119,7 +118,7 @@ static mode_t mode_of(const char *path)
 static enum status write_text(const char *path, const char *text, int *out_errno)
 {
   size_t failed;
-  return atomic_files_write(&(struct atomic_file){ path, text, strlen(text) }, 1, NULL, &failed, out_errno);
+  return atomic_files_write(&(struct atomic_file){path, text, strlen(text)}, 1, NULL, &failed, out_errno);
 }
 
 static void new_file_has_the_masks_permissions(void **state)
@@ -171,8 +170,9 @@ static void impossible_names_have_their_reasons(void **state)
   const struct {
     const char *path;
     int reason;
-  } cases[] = { { "", ENOENT },       { ".", EISDIR },      { "no/such/folder", ENOENT },
-                { "/dev/null/x", ENOTDIR }, { long_name, ENAMETOOLONG }, { "dangling", ENOENT } };
+  } cases[] = {
+    {"", ENOENT},        {".", EISDIR}, {"no/such/folder", ENOENT}, {"/dev/null/x", ENOTDIR}, {long_name, ENAMETOOLONG},
+    {"dangling", ENOENT}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     int reason = 0;
     assert_int_equal(atomic_file_probe(cases[k].path, &reason), STATUS_FILE);
@@ -187,8 +187,7 @@ static void device_is_written_to_not_replaced(void **state)
 {
   (void)state;
   int reason = 0;
-  if (access("/dev/full", W_OK) != 0)
-    skip();
+  if (access("/dev/full", W_OK) != 0) skip();
   assert_int_equal(symlink("/dev/full", "full"), 0);
   assert_int_equal(atomic_file_probe("full", &reason), STATUS_OK);
   assert_int_equal(write_text("full", "text", &reason), STATUS_FILE);
@@ -204,7 +203,7 @@ static void stopped_write_leaves_the_old_file(void **state)
   int reason = 0;
   atomic_int stop = 1;
   size_t failed;
-  const struct atomic_file file = { "a", "new", 3 };
+  const struct atomic_file file = {"a", "new", 3};
   put("a", "old");
   assert_int_equal(atomic_files_write(&file, 1, &stop, &failed, &reason), STATUS_INTERRUPTED);
   expect_text("a", "old");
@@ -227,8 +226,7 @@ static void unfinished_files_are_private(void **state)
 static void several_files_appear_together(void **state)
 {
   (void)state;
-  struct atomic_file files[] = { { "first", "new", 3 }, { "second", "new", 3 }, { "gone", NULL, 0 },
-                                 { "last", "new", 3 } };
+  struct atomic_file files[] = {{"first", "new", 3}, {"second", "new", 3}, {"gone", NULL, 0}, {"last", "new", 3}};
   size_t failed;
   int reason;
   put("first", "old");
@@ -254,8 +252,8 @@ static void several_files_appear_together(void **state)
 static void a_failing_name_undoes_those_before(void **state)
 {
   (void)state;
-  const struct atomic_file files[] = { { "kept", "new", 3 }, { "made", "new", 3 }, { "removed", NULL, 0 },
-                                       { "there", "new", 3 } };
+  const struct atomic_file files[] = {
+    {"kept", "new", 3}, {"made", "new", 3}, {"removed", NULL, 0}, {"there", "new", 3}};
   size_t failed;
   int reason;
   put("kept", "old");
@@ -275,14 +273,10 @@ static void a_failing_name_undoes_those_before(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    IN_FOLDER(new_file_has_the_masks_permissions),
-    IN_FOLDER(old_file_is_replaced_and_keeps_its_permissions),
-    IN_FOLDER(symbolic_link_is_followed),
-    IN_FOLDER(impossible_names_have_their_reasons),
-    IN_FOLDER(device_is_written_to_not_replaced),
-    IN_FOLDER(stopped_write_leaves_the_old_file),
-    IN_FOLDER(unfinished_files_are_private),
-    IN_FOLDER(several_files_appear_together),
+    IN_FOLDER(new_file_has_the_masks_permissions), IN_FOLDER(old_file_is_replaced_and_keeps_its_permissions),
+    IN_FOLDER(symbolic_link_is_followed),          IN_FOLDER(impossible_names_have_their_reasons),
+    IN_FOLDER(device_is_written_to_not_replaced),  IN_FOLDER(stopped_write_leaves_the_old_file),
+    IN_FOLDER(unfinished_files_are_private),       IN_FOLDER(several_files_appear_together),
     IN_FOLDER(a_failing_name_undoes_those_before),
   };
   const int failed = cmocka_run_group_tests_name("files without a name", tests, NULL, NULL);

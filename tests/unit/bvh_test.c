@@ -116,11 +116,8 @@ static void rounding_goes_outwards(void **state)
   (void)state;
   static struct bvh_box boxes[MANY];
   struct random random = {SEED + 2};
-  static const double offsets[][3] = {{1e6, -1e6, 1e6},
-                                      {-1e6, 3e5, 0},
-                                      {1e300, -1e300, 1e-300},
-                                      {1e-42, -1e-44, 0},
-                                      {3e38, 3.5e38, -3.5e38}};
+  static const double offsets[][3] = {
+    {1e6, -1e6, 1e6}, {-1e6, 3e5, 0}, {1e300, -1e300, 1e-300}, {1e-42, -1e-44, 0}, {3e38, 3.5e38, -3.5e38}};
   for (size_t o = 0; o < sizeof offsets / sizeof *offsets; o++) {
     for (size_t k = 0; k < MANY; k++) boxes[k] = box_at(&random, 1e-3, 1e-6, offsets[o]);
     check(boxes, MANY);
@@ -199,8 +196,8 @@ int main(void)
 {
   print_message("seed %d\n", SEED);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(none_one_two), cmocka_unit_test(friendly_boxes),       cmocka_unit_test(rounding_goes_outwards),
-      cmocka_unit_test(all_equal),    cmocka_unit_test(exponentially_spaced), cmocka_unit_test(flat_and_long_boxes),
+    cmocka_unit_test(none_one_two), cmocka_unit_test(friendly_boxes),       cmocka_unit_test(rounding_goes_outwards),
+    cmocka_unit_test(all_equal),    cmocka_unit_test(exponentially_spaced), cmocka_unit_test(flat_and_long_boxes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

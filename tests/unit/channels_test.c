@@ -25,11 +25,11 @@ static void wrong_lists_are_refused(void **state)
   (void)state;
   static const struct {
     const char *text, *bad;
-  } cases[] = { { "", "" },          { "rgb,", "" },      { ",rgb", "" },         { "rgb,z,u", "z" },
-                { "u,rgb,u", "u" },  { "RGB", "RGB" },    { "rgb, u", " u" },     { "normal.x", "normal.x" },
-                { "dept", "dept" } };
+  } cases[] = {{"", ""},         {"rgb,", ""},   {",rgb", ""},     {"rgb,z,u", "z"},
+               {"u,rgb,u", "u"}, {"RGB", "RGB"}, {"rgb, u", " u"}, {"normal.x", "normal.x"},
+               {"dept", "dept"}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    struct channel_list list = { .count = 99 };
+    struct channel_list list = {.count = 99};
     const char *bad;
     size_t length;
     assert_false(channel_list_parse(cases[k].text, &list, &bad, &length));

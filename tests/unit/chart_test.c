@@ -9,7 +9,7 @@
 
 static struct chart_point point(double ns, double error)
 {
-  struct chart_point p = { .camera.most_of_all = error };
+  struct chart_point p = {.camera.most_of_all = error};
   p.time[RAYS_CAMERA].lower = p.time[RAYS_CAMERA].median = p.time[RAYS_CAMERA].upper = ns;
   return p;
 }
@@ -28,7 +28,7 @@ static void test_front(void **state)
     point(1, NAN),     /* no error */
     point(50, 1e-5),   /* equal to another of the front, which comes first */
   };
-  const bool expected[] = { true, false, false, true, false, true, false, false, false };
+  const bool expected[] = {true, false, false, true, false, true, false, false, false};
   const size_t count = sizeof points / sizeof points[0];
   point_front(points, count);
   for (size_t k = 0; k < count; k++) assert_int_equal(points[k].front, expected[k]);
@@ -39,10 +39,9 @@ static void test_front_noise(void **state)
 {
   (void)state;
   struct chart_point points[] = {
-    point(100, 1e-15), /* as fast as the next within the noise, and as exact */
-    point(98, 1e-15),
-    point(90, 1e-15),  /* faster than noise explains */
-    point(89, 1e-14),  /* hardly faster than the one before, less exact */
+    point(100, 1e-15),                  /* as fast as the next within the noise, and as exact */
+    point(98, 1e-15), point(90, 1e-15), /* faster than noise explains */
+    point(89, 1e-14),                   /* hardly faster than the one before, less exact */
   };
   points[0].time[RAYS_CAMERA].lower = 97;
   points[1].time[RAYS_CAMERA].upper = 99;
@@ -68,11 +67,11 @@ static void test_front_noise(void **state)
 static void test_level(void **state)
 {
   (void)state;
-  struct chart_point points[] = { point(300, 1e-15), point(NAN, 1e-15) };
+  struct chart_point points[] = {point(300, 1e-15), point(NAN, 1e-15)};
   points[0].time[RAYS_CAMERA].ratio = 1.5; /* the yardstick took 200 */
   points[1].time[RAYS_CAMERA].ratio = NAN;
   points[0].time[RAYS_SHADOW] = points[1].time[RAYS_CAMERA];
-  const double yard[RAY_KINDS] = { 100, 50 };
+  const double yard[RAY_KINDS] = {100, 50};
   point_level(points, 2, yard);
   assert_true(points[0].time[RAYS_CAMERA].median == 150 && points[0].time[RAYS_CAMERA].upper == 150);
   assert_true(isnan(points[0].time[RAYS_SHADOW].median) && isnan(points[1].time[RAYS_CAMERA].median));
@@ -87,9 +86,9 @@ static void count_up(void *context, enum ray_kind kind)
 static void test_measure(void **state)
 {
   (void)state;
-  size_t calls[2][RAY_KINDS] = { { 0 } };
-  const struct runner runners[2] = { { count_up, calls[0], { true, true } }, { count_up, calls[1], { true, false } } };
-  const size_t counts[RAY_KINDS] = { 10, 0 };
+  size_t calls[2][RAY_KINDS] = {{0}};
+  const struct runner runners[2] = {{count_up, calls[0], {true, true}}, {count_up, calls[1], {true, false}}};
+  const size_t counts[RAY_KINDS] = {10, 0};
   struct timing time[2][RAY_KINDS];
   assert_int_equal(measure_rounds(runners, 2, counts, 5, NULL, time), STATUS_OK);
   for (int k = 0; k < 2; k++) {
@@ -108,26 +107,26 @@ static void test_judge(void **state)
 {
   (void)state;
   const struct truth truths[] = {
-      {TRUTH_HIT, 2, 0, 4, false},
-      {TRUTH_HIT, 2, 0x1p-54, 4, false},
-      {TRUTH_HIT, 2, 0, 4, false},
-      {TRUTH_HIT, 2, 0, 4, true},
-      {TRUTH_HIT, 2, 0, 4, false},
-      {TRUTH_MISS, INFINITY, 0, HIT_NONE, false},
-      {TRUTH_MISS, INFINITY, 0, HIT_NONE, false},
-      {TRUTH_UNDECIDED, INFINITY, 0, HIT_NONE, false},
-      {TRUTH_HIT, 2, 0, 4, false},
+    {TRUTH_HIT, 2, 0, 4, false},
+    {TRUTH_HIT, 2, 0x1p-54, 4, false},
+    {TRUTH_HIT, 2, 0, 4, false},
+    {TRUTH_HIT, 2, 0, 4, true},
+    {TRUTH_HIT, 2, 0, 4, false},
+    {TRUTH_MISS, INFINITY, 0, HIT_NONE, false},
+    {TRUTH_MISS, INFINITY, 0, HIT_NONE, false},
+    {TRUTH_UNDECIDED, INFINITY, 0, HIT_NONE, false},
+    {TRUTH_HIT, 2, 0, 4, false},
   };
   const struct answer answers[] = {
-    { 2, 4 },               /* exact */
-    { 2, 4 },               /* off by 2^-54 of 2 */
-    { 2.001, 5 },           /* the right place, another patch */
-    { 2, 5 },               /* on a shared edge: either patch will do */
-    { 3, 4 },               /* wrong */
-    { INFINITY, HIT_NONE }, /* right */
-    { 1, 0 },               /* invented */
-    { 1, 0 },               /* undecided */
-    { INFINITY, HIT_NONE }, /* lost */
+    {2, 4},               /* exact */
+    {2, 4},               /* off by 2^-54 of 2 */
+    {2.001, 5},           /* the right place, another patch */
+    {2, 5},               /* on a shared edge: either patch will do */
+    {3, 4},               /* wrong */
+    {INFINITY, HIT_NONE}, /* right */
+    {1, 0},               /* invented */
+    {1, 0},               /* undecided */
+    {INFINITY, HIT_NONE}, /* lost */
   };
   enum { COUNT = sizeof truths / sizeof truths[0] };
   double errors[2 * COUNT];
@@ -151,10 +150,12 @@ static void test_judge(void **state)
 static void test_judge_occluded(void **state)
 {
   (void)state;
-  const struct ray rays[4] = { { .t_max = 1 }, { .t_max = 1 }, { .t_max = 1 }, { .t_max = 1 } };
-  const struct truth truths[4] = { { TRUTH_HIT, 0.5, 0, 0, false }, { TRUTH_HIT, 1.5, 0, 0, false },
-                                   { TRUTH_MISS, INFINITY, 0, HIT_NONE, false }, { TRUTH_UNDECIDED, 0, 0, 0, false } };
-  const bool none[4] = { false }, all[4] = { true, true, true, true };
+  const struct ray rays[4] = {{.t_max = 1}, {.t_max = 1}, {.t_max = 1}, {.t_max = 1}};
+  const struct truth truths[4] = {{TRUTH_HIT, 0.5, 0, 0, false},
+                                  {TRUTH_HIT, 1.5, 0, 0, false},
+                                  {TRUTH_MISS, INFINITY, 0, HIT_NONE, false},
+                                  {TRUTH_UNDECIDED, 0, 0, 0, false}};
+  const bool none[4] = {false}, all[4] = {true, true, true, true};
   struct judgement j;
   judge_occluded(4, rays, truths, none, &j);
   assert_true(j.hits == 1 && j.lost == 1 && j.invented == 0 && j.undecided == 1);
@@ -166,7 +167,7 @@ static void test_judge_occluded(void **state)
 static void test_rays(void **state)
 {
   (void)state;
-  const struct scene scene = { .camera = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 } } };
+  const struct scene scene = {.camera = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
   enum { WIDTH = 70, HEIGHT = 45 }; /* no multiple of a tile's side, nor of a packet's */
   struct arena *arena = arena_create();
   struct ray_list list;
@@ -221,9 +222,9 @@ static void test_sweep(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_front), cmocka_unit_test(test_front_noise),    cmocka_unit_test(test_level),
-    cmocka_unit_test(test_measure), cmocka_unit_test(test_judge),        cmocka_unit_test(test_judge_occluded),
-    cmocka_unit_test(test_rays),  cmocka_unit_test(test_sweep),
+    cmocka_unit_test(test_front),   cmocka_unit_test(test_front_noise), cmocka_unit_test(test_level),
+    cmocka_unit_test(test_measure), cmocka_unit_test(test_judge),       cmocka_unit_test(test_judge_occluded),
+    cmocka_unit_test(test_rays),    cmocka_unit_test(test_sweep),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

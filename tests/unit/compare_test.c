@@ -6,15 +6,14 @@
 #include "cmocka_test.h"
 
 /* Two pictures of 2 x 2 pixels and two channels; the second has its channels in the other order. */
-static const size_t FIRST[] = { 0, 1 }, SECOND[] = { 1, 0 };
+static const size_t FIRST[] = {0, 1}, SECOND[] = {1, 0};
 
 static int setup(void **state)
 {
   static struct image images[2];
   *state = images;
   for (int k = 0; k < 2; k++) {
-    if (image_create(2, 2, 2, &images[k]) != STATUS_OK)
-      return -1;
+    if (image_create(2, 2, 2, &images[k]) != STATUS_OK) return -1;
   }
   return 0;
 }
@@ -30,7 +29,7 @@ static int teardown(void **state)
 static struct compare_pair pair_of(void **state)
 {
   const struct image *images = *state;
-  return (struct compare_pair){ &images[0], &images[1], 2, FIRST, SECOND };
+  return (struct compare_pair){&images[0], &images[1], 2, FIRST, SECOND};
 }
 
 static void equal_pictures(void **state)
@@ -88,17 +87,17 @@ static void values_that_are_not_finite(void **state)
 static void limits(void **state)
 {
   (void)state;
-  const struct compare_result result = { .pixels = 200, .max = 0.3 };
-  const struct compare_limit none = { .any = INFINITY };
+  const struct compare_result result = {.pixels = 200, .max = 0.3};
+  const struct compare_limit none = {.any = INFINITY};
   assert_false(compare_limit_passed(&none, &result, 0));
   assert_true(compare_limit_passed(&none, &result, 1));
-  const struct compare_limit percent = { .percent = 1, .any = INFINITY };
+  const struct compare_limit percent = {.percent = 1, .any = INFINITY};
   assert_false(compare_limit_passed(&percent, &result, 2));
   assert_true(compare_limit_passed(&percent, &result, 3));
-  const struct compare_limit both = { .percent = 1, .allowed_pixels = 5, .any = INFINITY };
+  const struct compare_limit both = {.percent = 1, .allowed_pixels = 5, .any = INFINITY};
   assert_false(compare_limit_passed(&both, &result, 5));
   assert_true(compare_limit_passed(&both, &result, 6));
-  const struct compare_limit any = { .percent = 100, .any = 0.25 };
+  const struct compare_limit any = {.percent = 100, .any = 0.25};
   assert_true(compare_limit_passed(&any, &result, 0));
 }
 

@@ -36,8 +36,7 @@ static void expect_digits(double value, int count, uint64_t digits, int exponent
   char theirs[64];
   size_t length = 0;
   for (const char *c = text; *c != 'e'; c++) {
-    if (*c >= '0' && *c <= '9')
-      theirs[length++] = *c;
+    if (*c >= '0' && *c <= '9') theirs[length++] = *c;
   }
   theirs[length] = '\0';
   if (strcmp(ours, theirs) != 0 || atoi(strchr(text, 'e') + 1) != exponent + count - 1)
@@ -54,29 +53,48 @@ static void digits_are_printfs(void **state)
   for (int k = 0; k < RANDOM_NUMBERS; k++) {
     const double value = random_double(&random, (int)(next_random(&random) % 150) - 99); /* 1e-30 to 1e15 */
     const int count = 1 + k % 17;
-    if (decimal_from_double(value, count, &digits, &exponent))
-      expect_digits(value, count, digits, exponent);
-    else
-      assert_true(count < 17);
+    if (decimal_from_double(value, count, &digits, &exponent)) expect_digits(value, count, digits, exponent);
+    else assert_true(count < 17);
   }
 }
 
 static void ties_and_powers(void **state)
 {
   (void)state;
-  static const double values[] = { 0.5,     1,       1.5,    2.5,   0.125,  0.375,   9.5,     99.5,    0.95,
-                                   9.99999, 1e-5,    1e15,   1e14,  999999, 0x1p-60, 0x1p49,  1e-30,   0.1,
-                                   1.0 - DBL_EPSILON / 2, 1.0 + DBL_EPSILON, 123456789012345.5, 5e-1, 25, 35, 1e-22 };
+  static const double values[] = {0.5,
+                                  1,
+                                  1.5,
+                                  2.5,
+                                  0.125,
+                                  0.375,
+                                  9.5,
+                                  99.5,
+                                  0.95,
+                                  9.99999,
+                                  1e-5,
+                                  1e15,
+                                  1e14,
+                                  999999,
+                                  0x1p-60,
+                                  0x1p49,
+                                  1e-30,
+                                  0.1,
+                                  1.0 - DBL_EPSILON / 2,
+                                  1.0 + DBL_EPSILON,
+                                  123456789012345.5,
+                                  5e-1,
+                                  25,
+                                  35,
+                                  1e-22};
   uint64_t digits;
   int exponent;
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
     assert_true(decimal_from_double(values[k], 17, &digits, &exponent));
     for (int count = 1; count <= 17; count++) {
-      if (decimal_from_double(values[k], count, &digits, &exponent))
-        expect_digits(values[k], count, digits, exponent);
+      if (decimal_from_double(values[k], count, &digits, &exponent)) expect_digits(values[k], count, digits, exponent);
     }
   }
-  static const double outside[] = { 0, -1, INFINITY, NAN, 1e300, DBL_TRUE_MIN, DBL_MIN };
+  static const double outside[] = {0, -1, INFINITY, NAN, 1e300, DBL_TRUE_MIN, DBL_MIN};
   for (size_t k = 0; k < sizeof outside / sizeof outside[0]; k++)
     assert_false(decimal_from_double(outside[k], 17, &digits, &exponent));
 }
@@ -87,8 +105,7 @@ static void expect_double(uint64_t digits, int exponent)
   snprintf(text, sizeof text, "%" PRIu64 "e%d", digits, exponent);
   double value = 0;
   assert_true(decimal_to_double(digits, exponent, &value));
-  if (value != strtod(text, NULL))
-    print_error("%s: %a here, %a there\n", text, value, strtod(text, NULL));
+  if (value != strtod(text, NULL)) print_error("%s: %a here, %a there\n", text, value, strtod(text, NULL));
   assert_true(value == strtod(text, NULL));
 }
 
@@ -98,8 +115,7 @@ static void doubles_are_strtods(void **state)
   uint64_t random = 1982;
   for (int k = 0; k < RANDOM_NUMBERS; k++) {
     const uint64_t digits = next_random(&random) >> (next_random(&random) % 64);
-    if (digits != 0)
-      expect_double(digits, (int)(next_random(&random) % 55) - 27);
+    if (digits != 0) expect_double(digits, (int)(next_random(&random) % 55) - 27);
   }
 }
 
@@ -114,8 +130,7 @@ static void halfway_cases(void **state)
       for (int step = -1; step <= 1; step++) {
         const uint64_t digits = middle + (uint64_t)(int64_t)step;
         expect_double(digits, 0);
-        if (digits <= UINT64_MAX / 10)
-          expect_double(10 * digits, -1);
+        if (digits <= UINT64_MAX / 10) expect_double(10 * digits, -1);
       }
     }
   }

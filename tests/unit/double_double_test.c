@@ -1,7 +1,6 @@
 /* Double-double arithmetic against quadruple precision. */
 #include "base/double_double.h"
 
-
 #include "cmocka_test.h"
 #include "random.h"
 #include "reference/quad.h"

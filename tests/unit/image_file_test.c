@@ -35,8 +35,7 @@ static struct image picture(size_t channels, const char *const names[])
 {
   struct image image;
   assert_int_equal(image_create(WIDTH, HEIGHT, channels, &image), STATUS_OK);
-  for (size_t c = 0; c < channels; c++)
-    snprintf(image.channel[c].name, IMAGE_NAME_SIZE, "%s", names[c]);
+  for (size_t c = 0; c < channels; c++) snprintf(image.channel[c].name, IMAGE_NAME_SIZE, "%s", names[c]);
   for (size_t k = 0; k < WIDTH * HEIGHT * channels; k++)
     image.value[k] = (float)((double)k / (WIDTH * HEIGHT * (double)channels - 1));
   return image;
@@ -49,8 +48,7 @@ static struct image there_and_back(const struct image *image, const struct image
   size_t size;
   char message[IMAGE_MESSAGE_SIZE];
   const enum status encoded = image_encode(image, encoding, &bytes, &size, message);
-  if (encoded != STATUS_OK)
-    print_error("%s\n", message);
+  if (encoded != STATUS_OK) print_error("%s\n", message);
   assert_int_equal(encoded, STATUS_OK);
   FILE *file = fopen(path, "wb");
   assert_non_null(file);
@@ -59,8 +57,7 @@ static struct image there_and_back(const struct image *image, const struct image
   free(bytes);
   struct image back;
   const enum status status = image_read(path, &back, message);
-  if (status != STATUS_OK)
-    print_error("%s\n", message);
+  if (status != STATUS_OK) print_error("%s\n", message);
   assert_int_equal(status, STATUS_OK);
   assert_int_equal(back.width, image->width);
   assert_int_equal(back.height, image->height);
@@ -71,11 +68,11 @@ static struct image there_and_back(const struct image *image, const struct image
 static void png_holds_the_nearest_codes(void **state)
 {
   (void)state;
-  const char *const names[] = { "R", "G", "B" };
+  const char *const names[] = {"R", "G", "B"};
   struct image image = picture(3, names);
   image.value[0] = 7; /* clipped */
   for (int bits = 8; bits <= 16; bits += 8) {
-    const struct image_encoding encoding = { .format = IMAGE_PNG, .bits = bits };
+    const struct image_encoding encoding = {.format = IMAGE_PNG, .bits = bits};
     struct image back = there_and_back(&image, &encoding);
     const double codes = bits == 8 ? 255 : 65535;
     for (size_t k = 0; k < WIDTH * HEIGHT * 3; k++) {
@@ -90,9 +87,9 @@ static void png_holds_the_nearest_codes(void **state)
 static void encoded_values_take_no_curve(void **state)
 {
   (void)state;
-  const char *const names[] = { "Y" };
+  const char *const names[] = {"Y"};
   struct image image = picture(1, names);
-  const struct image_encoding encoding = { .format = IMAGE_PNG, .bits = 8, .encoded = true };
+  const struct image_encoding encoding = {.format = IMAGE_PNG, .bits = 8, .encoded = true};
   struct image back = there_and_back(&image, &encoding);
   for (size_t k = 0; k < WIDTH * HEIGHT; k++)
     assert_true(fabs((double)back.value[k] * 255 - floor((double)image.value[k] * 255 + 0.5)) < FLOAT_SLACK * 255);
@@ -104,14 +101,14 @@ static void encoded_values_take_no_curve(void **state)
 static void exr_keeps_values_and_names(void **state)
 {
   (void)state;
-  const char *const names[] = { "R", "G", "B", "depth", "normal.x" };
+  const char *const names[] = {"R", "G", "B", "depth", "normal.x"};
   struct image image = picture(5, names);
   image.channel[3].data = image.channel[4].data = true;
   image.value[0] = 7.0f + 1.0f / 4096; /* 7 in half */
   image.value[3] = INFINITY;
   image.value[4] = -1.0f - 1.0f / (1 << 20);
   for (int bits = 16; bits <= 32; bits += 16) {
-    const struct image_encoding encoding = { .format = IMAGE_EXR, .bits = bits };
+    const struct image_encoding encoding = {.format = IMAGE_EXR, .bits = bits};
     struct image back = there_and_back(&image, &encoding);
     for (size_t c = 0; c < 5; c++) {
       const size_t found = image_find_channel(&back, names[c]);
@@ -131,12 +128,12 @@ static void exr_keeps_values_and_names(void **state)
 static void png_refuses_five_channels(void **state)
 {
   (void)state;
-  const char *const names[] = { "a", "b", "c", "d", "e" };
+  const char *const names[] = {"a", "b", "c", "d", "e"};
   struct image image = picture(5, names);
   unsigned char *bytes;
   size_t size;
   char message[IMAGE_MESSAGE_SIZE];
-  const struct image_encoding encoding = { .format = IMAGE_PNG, .bits = 8 };
+  const struct image_encoding encoding = {.format = IMAGE_PNG, .bits = 8};
   assert_int_equal(image_encode(&image, &encoding, &bytes, &size, message), STATUS_FILE);
   assert_null(bytes);
   assert_true(message[0] != '\0');
@@ -146,7 +143,7 @@ static void png_refuses_five_channels(void **state)
 static void unreadable_files_are_told(void **state)
 {
   (void)state;
-  static const char *const texts[] = { "", "no picture at all\n", "\x89PNG\r\n\x1a\n", "\x76\x2f\x31\x01" };
+  static const char *const texts[] = {"", "no picture at all\n", "\x89PNG\r\n\x1a\n", "\x76\x2f\x31\x01"};
   char message[IMAGE_MESSAGE_SIZE];
   struct image image;
   unlink(path);
@@ -169,9 +166,8 @@ static void suffixes_choose_formats(void **state)
   enum image_format format;
   assert_true(image_format_of("a.png", &format) && format == IMAGE_PNG);
   assert_true(image_format_of("b/a.b.EXR", &format) && format == IMAGE_EXR);
-  static const char *const none[] = { "", "png", ".png", "a/.png", "a.png/b", "a.jpg", "a.png ", "a.pn" };
-  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++)
-    assert_false(image_format_of(none[k], &format));
+  static const char *const none[] = {"", "png", ".png", "a/.png", "a.png/b", "a.jpg", "a.png ", "a.pn"};
+  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) assert_false(image_format_of(none[k], &format));
 }
 
 static void absurd_sizes_are_refused(void **state)
@@ -188,9 +184,9 @@ static void absurd_sizes_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    WITH_FILE(png_holds_the_nearest_codes), WITH_FILE(encoded_values_take_no_curve),
-    WITH_FILE(exr_keeps_values_and_names),  cmocka_unit_test(png_refuses_five_channels),
-    WITH_FILE(unreadable_files_are_told),   cmocka_unit_test(suffixes_choose_formats),
+    WITH_FILE(png_holds_the_nearest_codes),     WITH_FILE(encoded_values_take_no_curve),
+    WITH_FILE(exr_keeps_values_and_names),      cmocka_unit_test(png_refuses_five_channels),
+    WITH_FILE(unreadable_files_are_told),       cmocka_unit_test(suffixes_choose_formats),
     cmocka_unit_test(absurd_sizes_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -37,8 +37,10 @@ static void form_follows_the_paper(void **state)
   static const struct {
     const char *name;
     double value;
-  } choices[] = {{"basis", BASIS_POWER}, {"resultant", RESULTANT_SYLVESTER},
-                 {"back_substitution", BACK_SUBSTITUTION_EUCLID}, {"polish", 0.0}};
+  } choices[] = {{"basis", BASIS_POWER},
+                 {"resultant", RESULTANT_SYLVESTER},
+                 {"back_substitution", BACK_SUBSTITUTION_EUCLID},
+                 {"polish", 0.0}};
   const struct method_item *form = method_item_find("form");
   assert_non_null(form);
   for (int first = 0; first < 4; first++) {

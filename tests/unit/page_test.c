@@ -9,7 +9,7 @@
 /* Fills a template with values told as JSON. */
 static void expect(const char *template, const char *json, const char *text)
 {
-  struct page page = { 0 };
+  struct page page = {0};
   json_t *values = json_loads(json, 0, NULL);
   assert_non_null(values);
   page_fill(&page, template, values);
@@ -37,10 +37,10 @@ static void test_sections(void **state)
   (void)state;
   expect("{{#rows}}<{{a}}{{b}}>{{/rows}}", "{\"b\":9,\"rows\":[{\"a\":1},{\"a\":2,\"b\":3}]}", "<19><23>");
   expect("{{#o}}{{#p}}{{x}}{{y}}{{/p}}{{/o}}", "{\"x\":0,\"o\":{\"x\":1,\"p\":{\"y\":2}}}", "12");
-  const char *const nothing[] = { "{}", "{\"s\":null}", "{\"s\":false}", "{\"s\":[]}" };
+  const char *const nothing[] = {"{}", "{\"s\":null}", "{\"s\":false}", "{\"s\":[]}"};
   for (size_t k = 0; k < sizeof nothing / sizeof nothing[0]; k++)
     expect("{{#s}}yes{{/s}}{{^s}}no{{/s}}", nothing[k], "no");
-  const char *const something[] = { "{\"s\":0}", "{\"s\":0.0}", "{\"s\":\"\"}", "{\"s\":true}", "{\"s\":{}}" };
+  const char *const something[] = {"{\"s\":0}", "{\"s\":0.0}", "{\"s\":\"\"}", "{\"s\":true}", "{\"s\":{}}"};
   for (size_t k = 0; k < sizeof something / sizeof something[0]; k++)
     expect("{{#s}}yes{{/s}}{{^s}}no{{/s}}", something[k], "yes");
   expect("{{#a}}{{#ab}}x{{/ab}}y{{/a}}z", "{\"a\":[1,2],\"ab\":true}", "xyxyz"); /* names that begin alike */
@@ -49,13 +49,17 @@ static void test_sections(void **state)
 static void test_printable(void **state)
 {
   (void)state;
-  const struct { const char *text, *shown; } cases[] = {
-    { "plain \xc3\xa4\n", "plain \xc3\xa4\n" }, { "\x1b]0;x\x07", "\\x1b]0;x\\x07" },
-    { "\xc2\x9b" "31m", "\\xc2\\x9b31m" },
-    { "\xff\xc3", "\\xff\\xc3" }, { "\r\t\x7f", "\\x0d\\x09\\x7f" }
-  };
+  const struct {
+    const char *text, *shown;
+  } cases[] = {{"plain \xc3\xa4\n", "plain \xc3\xa4\n"},
+               {"\x1b]0;x\x07", "\\x1b]0;x\\x07"},
+               {"\xc2\x9b"
+                "31m",
+                "\\xc2\\x9b31m"},
+               {"\xff\xc3", "\\xff\\xc3"},
+               {"\r\t\x7f", "\\x0d\\x09\\x7f"}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    struct page page = { 0 };
+    struct page page = {0};
     page_printable(&page, cases[k].text, strlen(cases[k].text));
     assert_string_equal(page.text, cases[k].shown);
     page_free(&page);
@@ -70,7 +74,7 @@ static void test_printable(void **state)
 static void test_failed(void **state)
 {
   (void)state;
-  struct page page = { 0 };
+  struct page page = {0};
   page_fill(&page, "x", NULL);
   assert_true(page.failed && page.length == 0);
   page_free(&page);
@@ -78,7 +82,7 @@ static void test_failed(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = { cmocka_unit_test(test_values), cmocka_unit_test(test_sections),
-                                      cmocka_unit_test(test_printable), cmocka_unit_test(test_failed) };
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_sections),
+                                     cmocka_unit_test(test_printable), cmocka_unit_test(test_failed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

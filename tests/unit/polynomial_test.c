@@ -14,10 +14,7 @@ enum { TRIALS = 3000, LARGEST_COUNTED = 9 };
 /* A bound is worth something if it is not larger than this many unit roundoffs of the sum of moduli, per degree. */
 #define BOUND_LOOSENESS 40.0
 
-static quad quad_abs(quad x)
-{
-  return x < 0 ? -x : x;
-}
+static quad quad_abs(quad x) { return x < 0 ? -x : x; }
 
 /* sum c[k] u^k v^(n-k), with v = 1 - u or 1, and its derivative in u. */
 static void quad_values(const struct polynomial *p, double u, quad *value, quad *slope, quad *size)
@@ -136,8 +133,8 @@ static void eq11_is_measured_in_higher_precision(void **state)
   assert_true(polynomial_eq11(&p, 1, 0) == 0 && polynomial_eq11(&p, large, 0) == 0);
   const double far = nextafter(large, INFINITY); /* one place off: |x - 1|^3 times that place */
   const double place = far - large, terms = (3 + large) * far * far * far;
-  assert_true(fabs(polynomial_eq11(&p, far, 0) / ((far - 1) * (far - 1) * (far - 1) * place / (4 * 0x1p-52 * terms)) - 1) <
-              1e-14);
+  assert_true(fabs(polynomial_eq11(&p, far, 0) / ((far - 1) * (far - 1) * (far - 1) * place / (4 * 0x1p-52 * terms)) -
+                   1) < 1e-14);
 }
 
 /* All ways of giving the unknown signs a value: no change is counted at a zero. */
@@ -206,12 +203,9 @@ static void binomials(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(values_lie_within_bounds),
-    cmocka_unit_test(coefficient_errors_count),
-    cmocka_unit_test(bernstein_form_within_bounds),
-    cmocka_unit_test(eq11_is_measured_in_higher_precision),
-    cmocka_unit_test(sign_counts_are_sharp),
-    cmocka_unit_test(binomials),
+    cmocka_unit_test(values_lie_within_bounds),     cmocka_unit_test(coefficient_errors_count),
+    cmocka_unit_test(bernstein_form_within_bounds), cmocka_unit_test(eq11_is_measured_in_higher_precision),
+    cmocka_unit_test(sign_counts_are_sharp),        cmocka_unit_test(binomials),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

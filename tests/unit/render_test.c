@@ -11,9 +11,8 @@
 enum { WIDTH = 70, HEIGHT = 45 }; /* several tiles, none of them whole at the right and lower edges */
 
 static struct scene_texture texture = {
-  .pigment = { 0.8, 0.5, 0.3 },
-  .finish = { .ambient = { 0.1, 0.2, 0.3 }, .diffuse = 0.6, .brilliance = 1, .phong_size = 40, .roughness = 0.05 }
-};
+  .pigment = {0.8, 0.5, 0.3},
+  .finish = {.ambient = {0.1, 0.2, 0.3}, .diffuse = 0.6, .brilliance = 1, .phong_size = 40, .roughness = 0.05}};
 static struct method solver;
 static struct scene_patch patches[2];
 static struct scene_light lights[2];
@@ -21,11 +20,11 @@ static struct scene_light lights[2];
 /* The square |x|, |y| <= half at depth z; bulge pulls its inner control points towards the camera. */
 static struct scene_patch square(double half, double z, double bulge)
 {
-  struct scene_patch patch = { 0 };
+  struct scene_patch patch = {0};
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 4; j++) {
       const bool inner = (i == 1 || i == 2) && (j == 1 || j == 2);
-      const double point[3] = { half * (2 * j / 3.0 - 1), half * (2 * i / 3.0 - 1), inner ? z - bulge : z };
+      const double point[3] = {half * (2 * j / 3.0 - 1), half * (2 * i / 3.0 - 1), inner ? z - bulge : z};
       memcpy(patch.P[i][j], point, sizeof point);
     }
   }
@@ -38,28 +37,27 @@ static struct scene scene_of(void)
   method_default(solver_at(0), &solver);
   patches[0] = square(1, 0, 1.5);
   patches[1] = square(3, 2, 0);
-  lights[0] = (struct scene_light){ .position = { 2, 4, -6 }, .color = { 1, 0.9, 0.8 } };
-  lights[1] = (struct scene_light){ .position = { -5, 1, -6 }, .color = { 0.2, 0.2, 0.4 }, .shadowless = true };
+  lights[0] = (struct scene_light){.position = {2, 4, -6}, .color = {1, 0.9, 0.8}};
+  lights[1] = (struct scene_light){.position = {-5, 1, -6}, .color = {0.2, 0.2, 0.4}, .shadowless = true};
   const struct scene_camera camera = {
-    .location = { 0, 0, -5 }, .direction = { 0, 0, 1 }, .right = { 1.4, 0, 0 }, .up = { 0, 0.9, 0 }
-  };
-  return (struct scene){ .camera = camera,
-                         .background = { 0.1, 0.2, 0.4 },
-                         .ambient_light = { 1, 0.5, 2 },
-                         .lights = lights,
-                         .light_count = 2,
-                         .patches = patches,
-                         .patch_count = 2,
-                         .textures = &texture,
-                         .texture_count = 1,
-                         .solvers = &solver,
-                         .solver_count = 1 };
+    .location = {0, 0, -5}, .direction = {0, 0, 1}, .right = {1.4, 0, 0}, .up = {0, 0.9, 0}};
+  return (struct scene){.camera = camera,
+                        .background = {0.1, 0.2, 0.4},
+                        .ambient_light = {1, 0.5, 2},
+                        .lights = lights,
+                        .light_count = 2,
+                        .patches = patches,
+                        .patch_count = 2,
+                        .textures = &texture,
+                        .texture_count = 1,
+                        .solvers = &solver,
+                        .solver_count = 1};
 }
 
 static struct render_options options_of(const char *channels)
 {
-  struct render_options options = { .width = WIDTH, .height = HEIGHT, .samples = 1, .threads = 1,
-                                    .crop = { .width = WIDTH, .height = HEIGHT } };
+  struct render_options options = {
+    .width = WIDTH, .height = HEIGHT, .samples = 1, .threads = 1, .crop = {.width = WIDTH, .height = HEIGHT}};
   const char *bad;
   size_t length;
   assert_true(channel_list_parse(channels, &options.channels, &bad, &length));
@@ -72,11 +70,10 @@ static float *render(const struct scene *scene, const struct render_options *opt
   const size_t values = options->crop.width * options->crop.height * options->channels.width;
   float *out = malloc(values * sizeof *out);
   assert_non_null(out);
-  for (size_t k = 0; k < values; k++)
-    out[k] = NAN;
+  for (size_t k = 0; k < values; k++) out[k] = NAN;
   struct intersector *intersector;
   assert_int_equal(intersector_create(scene, &intersector), STATUS_OK);
-  const struct render_watch watch = { 0 };
+  const struct render_watch watch = {0};
   assert_int_equal(render_scene(scene, intersector, options, &watch, out, out_stats), STATUS_OK);
   intersector_destroy(intersector);
   return out;
@@ -84,8 +81,8 @@ static float *render(const struct scene *scene, const struct render_options *opt
 
 static void expect_invariance(const struct scene *scene)
 {
-  static const struct rectangle crops[] = { { 0, 0, 1, 1 },   { 69, 44, 1, 1 }, { 31, 31, 2, 2 },
-                                            { 5, 7, 40, 30 }, { 64, 3, 6, 40 }, { 0, 44, 70, 1 } };
+  static const struct rectangle crops[] = {{0, 0, 1, 1},   {69, 44, 1, 1}, {31, 31, 2, 2},
+                                           {5, 7, 40, 30}, {64, 3, 6, 40}, {0, 44, 70, 1}};
   struct render_options options = options_of("rgb,depth,u,v,patch,normal,status");
   struct render_stats stats;
   float *whole = render(scene, &options, &stats);
@@ -135,7 +132,7 @@ static void crop_counts_only_its_rays(void **state)
   (void)state;
   const struct scene scene = scene_of();
   struct render_options options = options_of("rgb");
-  options.crop = (struct rectangle){ 10, 20, 9, 5 };
+  options.crop = (struct rectangle){10, 20, 9, 5};
   options.samples = 3;
   struct render_stats stats;
   free(render(&scene, &options, &stats));
@@ -168,21 +165,19 @@ static bool is_float(float value, double expected)
 /* The colour of a point of the flat square, seen by the camera of scene_of, by the formulas of shade.h. */
 static void expected_colour(const double point[3], const struct scene *scene, double out[3])
 {
-  const double normal[3] = { 0, 0, -1 };
+  const double normal[3] = {0, 0, -1};
   const struct scene_finish *finish = &texture.finish;
   double toward[3];
   vector_subtract(point, scene->camera.location, toward);
   vector_scale(1 / vector_length(toward), toward, toward);
-  for (int c = 0; c < 3; c++)
-    out[c] = finish->ambient[c] * scene->ambient_light[c] * texture.pigment[c];
+  for (int c = 0; c < 3; c++) out[c] = finish->ambient[c] * scene->ambient_light[c] * texture.pigment[c];
   for (size_t k = 0; k < scene->light_count; k++) {
     const struct scene_light *light = &scene->lights[k];
     double to_light[3], half[3], reflected[3];
     vector_subtract(light->position, point, to_light);
     vector_scale(1 / vector_length(to_light), to_light, to_light);
     const double cosine = vector_dot(to_light, normal);
-    if (cosine <= 0)
-      continue;
+    if (cosine <= 0) continue;
     vector_add_scaled(toward, -2 * vector_dot(toward, normal), normal, reflected);
     vector_subtract(to_light, toward, half);
     const double mirror = fmax(0, vector_dot(reflected, to_light));
@@ -205,11 +200,16 @@ static void colours_follow_the_formulas(void **state)
   scene.patch_count = 1;
   const struct scene_finish finishes[] = {
     saved.finish,
-    { .diffuse = 0.7, .brilliance = 3, .phong_size = 40, .roughness = 0.05 },
-    { .phong = 0.8, .phong_size = 12, .brilliance = 1, .roughness = 0.05 },
-    { .specular = 0.9, .roughness = 0.02, .brilliance = 1, .phong_size = 40 },
-    { .ambient = { 0.1, 0, 0.3 }, .diffuse = 0.4, .brilliance = 0.5, .phong = 0.3, .phong_size = 5, .specular = 0.3,
-      .roughness = 0.1 },
+    {.diffuse = 0.7, .brilliance = 3, .phong_size = 40, .roughness = 0.05},
+    {.phong = 0.8, .phong_size = 12, .brilliance = 1, .roughness = 0.05},
+    {.specular = 0.9, .roughness = 0.02, .brilliance = 1, .phong_size = 40},
+    {.ambient = {0.1, 0, 0.3},
+     .diffuse = 0.4,
+     .brilliance = 0.5,
+     .phong = 0.3,
+     .phong_size = 5,
+     .specular = 0.3,
+     .roughness = 0.1},
   };
   const struct render_options options = options_of("rgb");
   for (size_t f = 0; f < sizeof finishes / sizeof finishes[0]; f++) {
@@ -223,8 +223,7 @@ static void colours_follow_the_formulas(void **state)
         double point[3], expected[3];
         point_on_wall(x, y, point);
         expected_colour(point, &scene, expected);
-        for (int c = 0; c < 3; c++)
-          assert_true(is_float(out[(y * WIDTH + x) * 3 + (size_t)c], expected[c]));
+        for (int c = 0; c < 3; c++) assert_true(is_float(out[(y * WIDTH + x) * 3 + (size_t)c], expected[c]));
       }
     }
     free(out);
@@ -241,7 +240,7 @@ static void shadows_are_cast(void **state)
   /* Straight before both squares, flat ones: the front one, half a side 1, hides 5/3 of the other, more than the
    * camera's 7/5. */
   patches[0] = square(1, 0, 0);
-  memcpy(lights[0].position, (const double[3]){ 0, 0, -3 }, sizeof lights[0].position);
+  memcpy(lights[0].position, (const double[3]){0, 0, -3}, sizeof lights[0].position);
   const struct render_options options = options_of("rgb,patch");
   struct render_stats stats;
   size_t dark = 0, lit = 0;
@@ -251,8 +250,7 @@ static void shadows_are_cast(void **state)
     for (size_t n = 0; n < WIDTH * HEIGHT; n++) {
       double point[3];
       const float *pixel = wall_pixel(out, n, point);
-      if (pixel == NULL)
-        continue;
+      if (pixel == NULL) continue;
       const bool hidden = shadowless == 0 && fmax(fabs(point[0]), fabs(point[1])) < 5.0 / 3;
       const bool ambient = fabs((double)pixel[0] - 0.1 * 1 * 0.8) < 1e-6;
       assert_int_equal(ambient, hidden);
@@ -261,8 +259,7 @@ static void shadows_are_cast(void **state)
     }
     free(out);
     assert_true(lit > 0);
-    if (shadowless != 0)
-      assert_int_equal(stats.counts.rays[1], 0);
+    if (shadowless != 0) assert_int_equal(stats.counts.rays[1], 0);
   }
   assert_true(dark > 0);
 }
@@ -276,11 +273,11 @@ static void a_light_may_lie_on_a_surface(void **state)
   patches[0] = square(1, 0, 0);
   for (int i = 0; i < 4; i++) { /* a floor, wider than the wall, that leans to the left */
     for (int j = 0; j < 4; j++) {
-      const double x = 2.4 * j - 3.6, floor[3] = { x, 0.1 * x - 0.7, 1.3 * i - 2.1 };
+      const double x = 2.4 * j - 3.6, floor[3] = {x, 0.1 * x - 0.7, 1.3 * i - 2.1};
       memcpy(patches[0].P[i][j], floor, sizeof floor);
     }
   }
-  memcpy(lights[0].position, (const double[3]){ 0.3, 0.1 * 0.3 - 0.7, -0.4 }, sizeof lights[0].position);
+  memcpy(lights[0].position, (const double[3]){0.3, 0.1 * 0.3 - 0.7, -0.4}, sizeof lights[0].position);
   const struct render_options options = options_of("rgb,patch");
   struct render_stats stats;
   float *out = render(&scene, &options, &stats);
@@ -288,8 +285,7 @@ static void a_light_may_lie_on_a_surface(void **state)
   for (size_t n = 0; n < WIDTH * HEIGHT; n++) {
     double point[3];
     const float *pixel = wall_pixel(out, n, point);
-    if (pixel == NULL || point[1] < 0.1 * point[0] - 0.7)
-      continue;
+    if (pixel == NULL || point[1] < 0.1 * point[0] - 0.7) continue;
     assert_true((double)pixel[0] > 0.1 * 1 * 0.8 + 1e-3);
     lit++;
   }
@@ -313,15 +309,15 @@ static void channels_tell_of_the_hit(void **state)
       double point[3];
       point_on_wall(x, y, point);
       const bool hit = fmax(fabs(point[0]), fabs(point[1])) < 3;
-      const double expected[9] = { hit ? sqrt(point[0] * point[0] + point[1] * point[1] + 49) : INFINITY,
-                                   hit ? (point[1] + 3) / 6 : 0, /* rows of the net run along y: u */
-                                   hit ? (point[0] + 3) / 6 : 0,
-                                   hit ? 0 : -1,
-                                   0,
-                                   0,
-                                   hit ? -1 : 0,
-                                   hit ? CHANNEL_HIT_CERTAIN : CHANNEL_MISS_CERTAIN,
-                                   hit };
+      const double expected[9] = {hit ? sqrt(point[0] * point[0] + point[1] * point[1] + 49) : INFINITY,
+                                  hit ? (point[1] + 3) / 6 : 0, /* rows of the net run along y: u */
+                                  hit ? (point[0] + 3) / 6 : 0,
+                                  hit ? 0 : -1,
+                                  0,
+                                  0,
+                                  hit ? -1 : 0,
+                                  hit ? CHANNEL_HIT_CERTAIN : CHANNEL_MISS_CERTAIN,
+                                  hit};
       for (int k = 0; k < 9; k++) {
         assert_true(is_float(pixel[k], expected[k]));
       }
@@ -347,16 +343,14 @@ static void samples_are_a_finer_picture(void **state)
     for (size_t y = 0; y < HEIGHT; y++) {
       for (size_t x = 0; x < WIDTH; x++) {
         const float *pixel = out + 5 * (y * WIDTH + x);
-        double mean[5] = { 0 };
+        double mean[5] = {0};
         for (size_t k = 0; k < n * n; k++) {
           const float *sample = large + 5 * ((y * n + k / n) * n * WIDTH + x * n + k % n);
-          for (int c = 0; c < 5; c++)
-            mean[c] += (double)sample[c] / (double)(n * n);
+          for (int c = 0; c < 5; c++) mean[c] += (double)sample[c] / (double)(n * n);
         }
         const float *middle = large + 5 * ((y * n + n / 2) * n * WIDTH + x * n + n / 2);
         const double slack = 1e-6; /* floats, and rays that differ in the last place */
-        for (int c = 0; c < 3; c++)
-          assert_true(fabs((double)pixel[c] - mean[c]) < slack);
+        for (int c = 0; c < 3; c++) assert_true(fabs((double)pixel[c] - mean[c]) < slack);
         assert_true(fabs((double)pixel[4] - mean[4]) < slack);
         assert_true(pixel[3] == middle[3] || fabs((double)pixel[3] - (double)middle[3]) < slack * (double)middle[3]);
       }
@@ -373,7 +367,7 @@ static void a_stopped_rendering_says_so(void **state)
   const struct render_options options = options_of("rgb");
   static float out[WIDTH * HEIGHT * 3];
   const atomic_int stop = 15;
-  const struct render_watch watch = { .stop = &stop };
+  const struct render_watch watch = {.stop = &stop};
   struct render_stats stats;
   struct intersector *intersector;
   assert_int_equal(intersector_create(&scene, &intersector), STATUS_OK);
@@ -385,10 +379,14 @@ static void a_stopped_rendering_says_so(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(threads_and_crop_change_nothing), cmocka_unit_test(nor_do_they_with_warm_starts),
-    cmocka_unit_test(crop_counts_only_its_rays),       cmocka_unit_test(colours_follow_the_formulas),
-    cmocka_unit_test(shadows_are_cast),                cmocka_unit_test(a_light_may_lie_on_a_surface),
-    cmocka_unit_test(channels_tell_of_the_hit),        cmocka_unit_test(samples_are_a_finer_picture),
+    cmocka_unit_test(threads_and_crop_change_nothing),
+    cmocka_unit_test(nor_do_they_with_warm_starts),
+    cmocka_unit_test(crop_counts_only_its_rays),
+    cmocka_unit_test(colours_follow_the_formulas),
+    cmocka_unit_test(shadows_are_cast),
+    cmocka_unit_test(a_light_may_lie_on_a_surface),
+    cmocka_unit_test(channels_tell_of_the_hit),
+    cmocka_unit_test(samples_are_a_finer_picture),
     cmocka_unit_test(a_stopped_rendering_says_so),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

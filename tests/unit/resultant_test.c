@@ -303,9 +303,9 @@ static void null_vectors_of_known_roots(void **state)
       double p[4] = {0}, q[4] = {0}, num[2], den[2], better;
       for (int i = 0; i < n; i++) { /* degree elevation by multiplication */
         p[i] += choose(n - 1, i) * f[i] * c0 / choose(n, i),
-            p[i + 1] += choose(n - 1, i) * f[i] * c1 / choose(n, i + 1);
+          p[i + 1] += choose(n - 1, i) * f[i] * c1 / choose(n, i + 1);
         q[i] += choose(n - 1, i) * g[i] * c0 / choose(n, i),
-            q[i + 1] += choose(n - 1, i) * g[i] * c1 / choose(n, i + 1);
+          q[i + 1] += choose(n - 1, i) * g[i] * c1 / choose(n, i + 1);
       }
       bezout_null_vector(n, p, q, num, den, &better);
       const int row = better > 0 ? 0 : 1;

@@ -20,7 +20,7 @@ static void outside_is_clipped(void **state)
   (void)state;
   struct srgb_table table;
   srgb_table_fill(&table);
-  const float low[] = { -1.0f, -INFINITY, NAN, -0.0f }, high[] = { 1.5f, INFINITY };
+  const float low[] = {-1.0f, -INFINITY, NAN, -0.0f}, high[] = {1.5f, INFINITY};
   for (size_t k = 0; k < sizeof low / sizeof low[0]; k++) {
     assert_int_equal(srgb_encode8(&table, low[k]), 0);
     assert_int_equal(srgb_encode16(low[k]), 0);
@@ -58,7 +58,7 @@ static void table_is_the_formula(void **state)
   srgb_table_fill(&table);
   for (int k = 0; k < 255; k++) {
     const float bound = table.bound[k];
-    const float samples[] = { nextafterf(bound, 0.0f), bound, nextafterf(bound, 1.0f), bound * 1.003f };
+    const float samples[] = {nextafterf(bound, 0.0f), bound, nextafterf(bound, 1.0f), bound * 1.003f};
     for (int s = 0; s < 4; s++) {
       const int expected = (int)floor(srgb_encode((double)samples[s]) * 255 + 0.5);
       assert_int_equal(srgb_encode8(&table, samples[s]), expected);

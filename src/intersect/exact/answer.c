@@ -54,7 +54,9 @@ static void answer(const struct model *model, const struct ray *ray, uint32_t pa
   out->patch = patch;
   out->u = real_min(real_max(out->u, 0), 1), out->v = real_min(real_max(out->v, 0), 1);
   /* Rounding may have taken the last bits of t to the end of the interval. */
-  out->t = !(t > ray->t_min) ? nextafter(ray->t_min, INFINITY) : !(t < ray->t_max) ? nextafter(ray->t_max, -INFINITY) : t;
+  out->t = !(t > ray->t_min)   ? nextafter(ray->t_min, INFINITY)
+           : !(t < ray->t_max) ? nextafter(ray->t_max, -INFINITY)
+                               : t;
   set_surface(model, ray, out);
   out->clearance = clearance(model, patch, borders, out);
 }

@@ -29,10 +29,10 @@ struct exact_region {
 /* A proven root, in parameters of the whole patch: exactly one root of the exact ray lies within the radii. */
 struct exact_root {
   uint32_t patch;
-  bool sharp;                     /* as good as wide arithmetic makes it */
-  wide u, v, t;                   /* t in units of the scaled direction */
-  double radius_u, radius_v;      /* absolute */
-  double t_error;                 /* absolute */
+  bool sharp;                /* as good as wide arithmetic makes it */
+  wide u, v, t;              /* t in units of the scaled direction */
+  double radius_u, radius_v; /* absolute */
+  double t_error;            /* absolute */
 };
 
 static inline bool exact_region_equal(const struct exact_region *a, const struct exact_region *b)
@@ -54,12 +54,12 @@ enum { EXACT_REGIONS_MAX = 128 };
 /* What is asked. */
 struct exact_case {
   const struct model *model;
-  const struct ray *ray;          /* direction scaled to about 1 */
+  const struct ray *ray;           /* direction scaled to about 1 */
   const struct exact_root *known;  /* the nearest that the lanes took; NULL where there is none */
   const struct exact_maybe *maybe; /* the same where it is not proven; NULL */
   const struct exact_region *regions;
   size_t region_count;
-  bool cut_off;                   /* there were more: the answer is not certain */
+  bool cut_off; /* there were more: the answer is not certain */
 };
 
 enum exact_verdict {
@@ -85,6 +85,7 @@ bool exact_occluded(const struct exact_case *asked);
  * units of the scaled direction. */
 void exact_root_hit(const struct model *model, const struct ray *ray, struct exact_root *root, bool sure,
                     struct hit *out);
-void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe, struct hit *out);
+void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe,
+                     struct hit *out);
 
 #endif

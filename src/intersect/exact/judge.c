@@ -182,7 +182,8 @@ static bool passes_exactly(const struct ray *ray, const double point[3])
     for (int s = 0; s < 2; s++) {
       const int at = s ? j : i, by = s ? i : j;
       const struct double_double way = dd_two_sum(point[at], -ray->origin[at]);
-      const double d = s ? -ray->direction[by] : ray->direction[by], parts[2] = {ldexp(way.lo, -exponent), ldexp(way.hi, -exponent)};
+      const double d = s ? -ray->direction[by] : ray->direction[by],
+                   parts[2] = {ldexp(way.lo, -exponent), ldexp(way.hi, -exponent)};
       if (ldexp(parts[0], exponent) != way.lo || ldexp(parts[1], exponent) != way.hi) return false;
       for (int n = 0; n < 2; n++) {
         const struct double_double p = dd_two_product(parts[n], d);
@@ -202,8 +203,8 @@ static bool tell_point(struct judge *j, int row, int column, double u, double v)
   const double *point = j->asked->model->scene->patches[j->patch].P[row][column];
   if (!passes_exactly(ray, point)) return false;
   const int k = j->local.axis;
-  struct exact_root root = {.patch = j->patch, .sharp = true, .u = u, .v = v,
-                            .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
+  struct exact_root root = {
+    .patch = j->patch, .sharp = true, .u = u, .v = v, .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
   root.t_error = 4 * (double)(WIDE_ROUNDOFF * (root.t < 0 ? -root.t : root.t));
   const enum place in_range = root_in_range(j, &root);
   if (in_range == PLACE_INSIDE) keep_nearest(j, &root);
@@ -219,7 +220,11 @@ bool judge_pole(struct judge *j, int border)
   const struct model_patch *patch = &j->asked->model->patches[j->patch];
   const double w = patch->x[j->local.axis][row][column];
   const wide t = (w - judge_zoom(j)->place) * judge_zoom(j)->to_t;
-  const struct exact_maybe maybe = {j->patch, 1u << border, u, v, (double)t,
+  const struct exact_maybe maybe = {j->patch,
+                                    1u << border,
+                                    u,
+                                    v,
+                                    (double)t,
                                     16 * UNIT_ROUNDOFF * fabs((double)t) +
                                       (double)(ZOOM_POLE_REACH * judge_zoom(j)->error) * fabs(j->local.to_t)};
   keep_maybe(j, &maybe);
@@ -343,7 +348,7 @@ static bool passes_near(struct judge *j, uint32_t patch, int border)
 {
   judge_turn(j, patch);
   const struct local_ray *ray = &j->local;
-  double (*x)[4][4] = j->asked->model->patches[patch].x;
+  double(*x)[4][4] = j->asked->model->patches[patch].x;
   const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
   for (int s = 0; s < 2; s++) {
     const double side = x[(ray->axis + 1 + s) % 3][row][column] - ray->moment[s];

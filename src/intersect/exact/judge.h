@@ -26,7 +26,7 @@ struct judge {
   int work;     /* boxes that may still be looked at */
   /* of the patch looked at last */
   uint32_t patch;
-  bool zoomed;  /* `zoom` is set */
+  bool zoomed; /* `zoom` is set */
   struct zoom zoom;
   struct local_ray local;
 };

@@ -45,23 +45,20 @@ enum { NO_BORDER = -1, TWO_BORDERS = -2 };
 
 struct search {
   struct judge *judge;
-  int depth;               /* how often the whole box has been put under the glass */
-  int divided;             /* the border by the distance to which the first net is divided (zoom_pole_box), or NO_BORDER */
-  wide low[2], size[2];    /* of the whole box, in parameters of the patch */
-  bool dependent;          /* some combination is zero, which it then is everywhere: there is nothing to see of it */
-  bool met;                /* the pole there may be met: nothing is said of what is next to it */
-  double start[2], to_t;   /* t = ((w + start[1]) + start[0]) to_t */
-  double error[2];         /* bounds on the errors of coefficients of the first two nets before any halving */
-  double place_error;      /* of w */
-  double extent[2];        /* bounds on the derivatives by the whole box's parameters */
-  double resolution;       /* of t */
-  bool pole[4];            /* borders of the whole box (geometry/edges.h) that are one point */
+  int depth;            /* how often the whole box has been put under the glass */
+  int divided;          /* the border by the distance to which the first net is divided (zoom_pole_box), or NO_BORDER */
+  wide low[2], size[2]; /* of the whole box, in parameters of the patch */
+  bool dependent;       /* some combination is zero, which it then is everywhere: there is nothing to see of it */
+  bool met;             /* the pole there may be met: nothing is said of what is next to it */
+  double start[2], to_t; /* t = ((w + start[1]) + start[0]) to_t */
+  double error[2];       /* bounds on the errors of coefficients of the first two nets before any halving */
+  double place_error;    /* of w */
+  double extent[2];      /* bounds on the derivatives by the whole box's parameters */
+  double resolution;     /* of t */
+  bool pole[4];          /* borders of the whole box (geometry/edges.h) that are one point */
 };
 
-static double place_to_t(const struct search *s, double w)
-{
-  return ((w + s->start[1]) + s->start[0]) * s->to_t;
-}
+static double place_to_t(const struct search *s, double w) { return ((w + s->start[1]) + s->start[0]) * s->to_t; }
 
 /* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the
  * whole box's size. */
@@ -165,8 +162,8 @@ static void search_run(struct search *s, const struct box *whole);
 /* The search of the box alone. */
 static struct search closer_search(const struct search *s, const struct box *box)
 {
-  struct search closer = {.judge = s->judge, .depth = s->depth + 1, .divided = NO_BORDER, .to_t = s->to_t,
-                          .resolution = s->resolution};
+  struct search closer = {
+    .judge = s->judge, .depth = s->depth + 1, .divided = NO_BORDER, .to_t = s->to_t, .resolution = s->resolution};
   closer.size[0] = s->size[0] * box->size_u, closer.size[1] = s->size[1] * box->size_v;
   closer.low[0] = s->low[0] + s->size[0] * box->u, closer.low[1] = s->low[1] + s->size[1] * box->v;
   closer.extent[0] = s->extent[0] * box->size_u, closer.extent[1] = s->extent[1] * box->size_v;
@@ -332,7 +329,8 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
   *whole = (struct box){.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   memcpy(whole->net, nets, sizeof nets);
   box_place(s, whole);
-  const double slack = fabs(s->to_t) * s->place_error + 8 * UNIT_ROUNDOFF * real_max(fabs(whole->near), fabs(whole->far));
+  const double slack = fabs(s->to_t) * s->place_error +
+                       8 * UNIT_ROUNDOFF * real_max(fabs(whole->near), fabs(whole->far));
   s->resolution = real_max((whole->far - whole->near) * SEARCH_RESOLUTION, 4 * slack);
 }
 

@@ -313,7 +313,8 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
   }
   for (int k = 0; k < 2; k++)
     radius[k] = certificate_radius(fabs(m[k][0]) * second[0] + fabs(m[k][1]) * second[1], step,
-                                   (fabs(m[k][0]) + fabs(m[k][1])) * error) / 2;
+                                   (fabs(m[k][0]) + fabs(m[k][1])) * error) /
+                2;
   /* Both enclosures hold one root each: it is the same where one holds the other. */
   if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
         (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))

@@ -17,7 +17,7 @@ enum { TRIED_ROOTS = 8, MISS_HALVINGS = 3 };
 struct all_roots {
   int count;
   struct bilinear_root root[TRIED_ROOTS]; /* where the leaf has no parts, only `at` */
-  lane_mask proven[TRIED_ROOTS]; /* a root that none before it is */
+  lane_mask proven[TRIED_ROOTS];          /* a root that none before it is */
 };
 
 /* Start values on the lanes of `active`: the roots kept, taken off the real axis, or cold. */
@@ -42,8 +42,7 @@ static void all_roots_keep(const struct aberth_lanes *a, lane_mask done, struct 
   warm->count = bits ? a->degree : 0;
   if (!bits) return;
   const unsigned lane = 31 - (unsigned)__builtin_clz(bits);
-  for (int k = 0; k < a->degree; k++)
-    warm->re[k] = 0.5 + 0.5 * a->zr[k][lane], warm->im[k] = 0.5 * a->zi[k][lane];
+  for (int k = 0; k < a->degree; k++) warm->re[k] = 0.5 + 0.5 * a->zr[k][lane], warm->im[k] = 0.5 * a->zi[k][lane];
 }
 
 /* The roots near [0,1], collected lane by lane: kept[k] the k-th of every lane, has[k] where there is one. */
@@ -125,7 +124,8 @@ static int all_roots_solve(struct packet *p, const struct candidate *it, lane_ma
   struct aberth_lanes a;
   active &= aberth_lanes_set(&a, it->degree, it->c);
   if (!lanes_any(active)) return 0;
-  struct solver_warm *warm = p->model == p->tracer->model ? tracer_warm(p->tracer, it->patch->method, it->number) : NULL;
+  struct solver_warm *warm = p->model == p->tracer->model ? tracer_warm(p->tracer, it->patch->method, it->number)
+                                                          : NULL;
   all_roots_start(&a, warm, active);
   const double settled = options->tolerance > ABERTH_SETTLED ? options->tolerance : ABERTH_SETTLED;
   const lane_mask done = aberth_lanes_run(&a, active, settled, options->max_iterations);

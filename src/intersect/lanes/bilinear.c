@@ -188,7 +188,8 @@ LANES_INLINE struct row row_bounds(const struct packet *p, int axis, const struc
  * because M times it has a positive diagonal whose product is larger than that of the other elements, no other point
  * of the leaf has the root's values. */
 LANES_INLINE lane_mask alone_at(const struct packet *p, int axis, const struct leaf *leaf,
-                                const struct newton_inverse *m, const struct newton_root *r, lanes step, lanes s, lanes t)
+                                const struct newton_inverse *m, const struct newton_root *r, lanes step, lanes s,
+                                lanes t)
 {
   struct halfway at;
   surface_at(leaf->parts, 0.5 * s, 0.5 * t, at.x);
@@ -201,8 +202,8 @@ LANES_INLINE lane_mask alone_at(const struct packet *p, int axis, const struct l
   return (u.least > 0) & (v.least > 0) & (u.least * v.least > (1 + 8 * UNIT_ROUNDOFF) * (u.cross * v.cross));
 }
 
-void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
-                     struct bilinear_root *out)
+void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2],
+                         lane_mask active, struct bilinear_root *out)
 {
   const struct leaf_parts *parts = leaf->parts;
   const int k = axis;

@@ -20,14 +20,14 @@ struct candidate {
   int64_t number;                  /* the leaf's, in its model */
   int axis;
   struct plane_nets nets;
-  lanes alpha, beta;                 /* largest |a|, |b| of the nets, then of the form */
-  lanes form_error;                  /* of a coefficient of the form */
-  lanes form_a[16], form_b[16];      /* where the form is not the leaf's own net */
+  lanes alpha, beta;            /* largest |a|, |b| of the nets, then of the form */
+  lanes form_error;             /* of a coefficient of the form */
+  lanes form_a[16], form_b[16]; /* where the form is not the leaf's own net */
   const lanes *fa, *fb;
-  int degree;                        /* of r, exact roots at the ends taken off */
+  int degree; /* of r, exact roots at the ends taken off */
   lanes c_store[RESULTANT_MAX_DEGREE + 1];
-  const lanes *c;                    /* c[0..degree] */
-  lanes variations;                  /* sign variations of c; -1 where not known: a sign is within its error */
+  const lanes *c;   /* c[0..degree] */
+  lanes variations; /* sign variations of c; -1 where not known: a sign is within its error */
 };
 
 /* planes.c: the box along the leaf. */

@@ -24,8 +24,8 @@ LANES_INLINE lane_mask cover_unknown(const struct leaf *leaf, const struct cover
 {
   const lanes reach_u = lanes_max(root->u - box->u, (box->u + box->size_u) - root->u);
   const lanes reach_v = lanes_max(root->v - box->v, (box->v + box->size_v) - root->v);
-  const lanes q = root->size * ((leaf->second[0] + leaf->second[1]) * reach_u +
-                                (leaf->second[1] + leaf->second[2]) * reach_v);
+  const lanes q = root->size *
+                  ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
   return open & ~(root->proven & certificate_alone(q + 6 * root->bend, root->off));
 }
 
@@ -77,7 +77,7 @@ LANES_INLINE lane_mask cover_full(const struct cover_box *box, lanes size, lanes
 }
 
 lane_mask cover_proves(const struct candidate *it, int count, const struct known_root roots[], int halvings,
-                              lane_mask open)
+                       lane_mask open)
 {
   struct cover_box stack[COVER_HALVINGS + 2];
   struct cover_box *whole = &stack[0];

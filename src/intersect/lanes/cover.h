@@ -21,6 +21,6 @@ struct known_root {
 
 /* The lanes of `open` on which all of the leaf's roots are among `roots`. */
 lane_mask cover_proves(const struct candidate *it, int count, const struct known_root roots[], int halvings,
-                              lane_mask open);
+                       lane_mask open);
 
 #endif

@@ -22,24 +22,31 @@ static unsigned packet_doubt(const struct packet *p) { return p->model->unproven
 static struct exact_case lane_case(const struct packet *p, unsigned lane)
 {
   const struct postponed *postponed = p->postponed;
-  return (struct exact_case){.model = p->model, .ray = &p->rays[lane], .regions = postponed->region[lane],
-                             .region_count = postponed->count[lane], .cut_off = postponed->cut_off >> lane & 1};
+  return (struct exact_case){.model = p->model,
+                             .ray = &p->rays[lane],
+                             .regions = postponed->region[lane],
+                             .region_count = postponed->count[lane],
+                             .cut_off = postponed->cut_off >> lane & 1};
 }
 
 /* The lane's best root, which is certain. */
 static struct exact_root lane_root(const struct packet *p, unsigned lane)
 {
   const struct best *best = &p->best;
-  return (struct exact_root){.patch = (uint32_t)best->patch[lane], .u = best->u[lane], .v = best->v[lane],
-                             .t = best->t[lane], .radius_u = best->radius_u[lane], .radius_v = best->radius_v[lane],
+  return (struct exact_root){.patch = (uint32_t)best->patch[lane],
+                             .u = best->u[lane],
+                             .v = best->v[lane],
+                             .t = best->t[lane],
+                             .radius_u = best->radius_u[lane],
+                             .radius_v = best->radius_v[lane],
                              .t_error = p->t_far[lane] - best->t[lane]};
 }
 
 static struct exact_maybe lane_maybe(const struct packet *p, unsigned lane)
 {
   const struct best *best = &p->best;
-  return (struct exact_maybe){.patch = (uint32_t)best->patch[lane], .u = best->u[lane], .v = best->v[lane],
-                              .t = best->t[lane]};
+  return (struct exact_maybe){
+    .patch = (uint32_t)best->patch[lane], .u = best->u[lane], .v = best->v[lane], .t = best->t[lane]};
 }
 
 /* Has the last resort decide the lane. Returns whether the answer is written; else it is the lane's best root now. */
@@ -120,8 +127,13 @@ static unsigned write_hits(const struct packet *p, unsigned group, const struct 
     }
     out[l] = (struct hit){.patch = (uint32_t)best->patch[l],
                           .certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING,
-                          .t = x[0], .u = x[1], .v = x[2], .point = {x[4], x[5], x[6]}, .point_error = x[3],
-                          .clearance = x[7], .normal = {x[8], x[9], x[10]}};
+                          .t = x[0],
+                          .u = x[1],
+                          .v = x[2],
+                          .point = {x[4], x[5], x[6]},
+                          .point_error = x[3],
+                          .clearance = x[7],
+                          .normal = {x[8], x[9], x[10]}};
     grazing += !sure;
   }
   return grazing;

@@ -149,8 +149,7 @@ void last_step_take(struct last_step *l)
   const lane_mask lost = l->improves & ~moving;
   l->u = surface_clamp(lanes_select(lost, l->u, u + du)), l->v = surface_clamp(lanes_select(lost, l->v, v + dv));
   const lanes to_u = l->u - u, to_v = l->v - v;
-  for (int c = 0; c < 3; c++)
-    l->point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
+  for (int c = 0; c < 3; c++) l->point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
   last_step_normal(l, &jet);
   l->plain &= ~lost; /* the jet is elsewhere */
 }

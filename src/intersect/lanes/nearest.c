@@ -7,8 +7,10 @@
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
 {
   struct postponed *to = p->postponed;
-  const struct exact_region region = {p->outer ? NULL : leaf, leaf->patch + (p->outer ? p->copy->first_patch : 0),
-                                      {leaf->column_u, leaf->column_v}, {1, 1}};
+  const struct exact_region region = {p->outer ? NULL : leaf,
+                                      leaf->patch + (p->outer ? p->copy->first_patch : 0),
+                                      {leaf->column_u, leaf->column_v},
+                                      {1, 1}};
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
     if (count == EXACT_REGIONS_MAX) to->cut_off |= 1u << lane;
@@ -38,15 +40,16 @@ LANES_INLINE lanes place_on_ray(const struct packet *p, int axis, lanes w)
 }
 
 /* The bound on the error of a proven root's place: how far its radii let x_k move, and the roundings of x_k and it. */
-LANES_INLINE lanes place_error(const struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w, lanes at)
+LANES_INLINE lanes place_error(const struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w,
+                               lanes at)
 {
   const lanes size = lanes_abs(p->local[it->axis].to_t);
   return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + p->local[it->axis].error) +
          8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
 }
 
-LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes at, lanes error,
-                              lane_mask taken)
+LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes at,
+                              lanes error, lane_mask taken)
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const double part = 1.0 / it->patch->split;
@@ -64,7 +67,7 @@ LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, cons
  * that may lie on a border of the patch, at an end of the ray or where another patch's is, is left to the last resort.
  * Returns the lanes that took theirs. */
 static lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w, lanes at,
-                              lane_mask hits)
+                       lane_mask hits)
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const lanes error = place_error(p, it, r, w, at);

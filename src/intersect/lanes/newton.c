@@ -5,7 +5,7 @@
 #include "intersect/lanes/newton.h"
 
 struct newton_root newton_refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v,
-                                   lane_mask active)
+                                 lane_mask active)
 {
   struct newton_root r = {.u = u, .v = v};
   struct newton_inverse m = {{0}, {0}, {0}, {0}};

@@ -98,6 +98,6 @@ LANES_INLINE void newton_prove(const struct leaf *leaf, const struct newton_inve
 
 /* newton.c: Newton's process from (u,v) on the lanes of `active`, and the test. */
 struct newton_root newton_refine(const struct plane_nets *nets, const struct leaf *leaf, lanes u, lanes v,
-                                   lane_mask active);
+                                 lane_mask active);
 
 #endif

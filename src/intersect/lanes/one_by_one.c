@@ -17,7 +17,8 @@ static void proven_add(struct proven *all, const struct candidate *it, const str
 {
   const double u = r->u[n], v = r->v[n], radius_u = r->radius_u[n], radius_v = r->radius_v[n];
   for (int k = 0; k < all->count; k++)
-    if (fabs(all->u[k] - u) <= all->radius_u[k] + radius_u && fabs(all->v[k] - v) <= all->radius_v[k] + radius_v) return;
+    if (fabs(all->u[k] - u) <= all->radius_u[k] + radius_u && fabs(all->v[k] - v) <= all->radius_v[k] + radius_v)
+      return;
   const double kept = it->leaf->v_kept ? v : u, radius = it->leaf->v_kept ? radius_v : radius_u;
   all->within += kept > radius && 1 - kept > radius;
   const int k = all->count++;
@@ -47,8 +48,11 @@ static bool lane_prove(struct packet *p, const struct candidate *it, unsigned la
   }
   if (!alone && !(all.count > 0 && all.within == it->variations[lane])) return false;
   for (int k = 0; k < all.count; k++) {
-    const struct newton_root r = {.u = lanes_all(all.u[k]), .v = lanes_all(all.v[k]), .radius_u = lanes_all(all.radius_u[k]),
-                              .radius_v = lanes_all(all.radius_v[k]), .exists = lanes_mask(1u << lane)};
+    const struct newton_root r = {.u = lanes_all(all.u[k]),
+                                  .v = lanes_all(all.v[k]),
+                                  .radius_u = lanes_all(all.radius_u[k]),
+                                  .radius_v = lanes_all(all.radius_v[k]),
+                                  .exists = lanes_mask(1u << lane)};
     offer_root(p, it, &r, inside(&r));
   }
   return true;

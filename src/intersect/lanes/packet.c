@@ -12,7 +12,8 @@
 /* A ray is eight doubles in a row. */
 enum { RAY_STRIDE = sizeof(struct ray) / sizeof(double) };
 static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(double) &&
-                offsetof(struct ray, t_min) == 6 * sizeof(double), "read as two fours");
+                offsetof(struct ray, t_min) == 6 * sizeof(double),
+              "read as two fours");
 
 void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
                   struct postponed *postponed)
@@ -75,8 +76,7 @@ void packet_set_patch(struct packet *p, uint32_t index)
       sum.lo += (plus_error - minus_error) + (lo[i] * p->direction[k] - lo[k] * p->direction[i]);
       const lanes moment = (sum.hi + sum.lo) * p->reciprocal[k];
       p->local[k].moment[s] = moment;
-      p->local[k].moment_rest[s] =
-          (sum.lo - lanes_product_error(moment, p->direction[k], sum.hi)) * p->reciprocal[k];
+      p->local[k].moment_rest[s] = (sum.lo - lanes_product_error(moment, p->direction[k], sum.hi)) * p->reciprocal[k];
     }
     p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
     p->local[k].to_t = patch->scale * p->reciprocal[k];

@@ -23,11 +23,11 @@ struct best {
   lanes u, v, radius_u, radius_v; /* parameters of the whole patch; the exact root is within the radii */
   lanes t;                        /* infinite where there is none */
   lane_mask patch, leaf;          /* where it is; NO_PATCH where there is none. They order roots of equal t */
-  lane_mask certain;             /* proven */
+  lane_mask certain;              /* proven */
   lane_mask final; /* right to the last places, and what follows is set; the others' comes from last_step.h */
   struct surface_point point;
-  lanes normal[3];                  /* of any length and sense */
-  lanes tangent;                    /* bound on the derivatives' coordinates that the normal is the product of */
+  lanes normal[3]; /* of any length and sense */
+  lanes tangent;   /* bound on the derivatives' coordinates that the normal is the product of */
   lane_mask doubt; /* some unproven root could not be told from t_min, and was left out */
 };
 
@@ -45,20 +45,20 @@ struct packet {
   size_t count;
   /* of the scene's rays, where these are the same in an object's coordinates; else NULL */
   struct packet *outer;
-  const struct model_copy *copy;  /* then the object's copy */
-  lanes shift;                    /* then t of the scene is shift + t */
-  bool any;               /* any hit will do */
-  bool moved;             /* live or t_far is not what it was */
-  lane_mask live;         /* lanes with a ray that still looks for a hit */
-  lane_mask on_axis[3];   /* lanes whose dominant axis this is */
-  unsigned axes;          /* bit k: some lane's */
+  const struct model_copy *copy;          /* then the object's copy */
+  lanes shift;                            /* then t of the scene is shift + t */
+  bool any;                               /* any hit will do */
+  bool moved;                             /* live or t_far is not what it was */
+  lane_mask live;                         /* lanes with a ray that still looks for a hit */
+  lane_mask on_axis[3];                   /* lanes whose dominant axis this is */
+  unsigned axes;                          /* bit k: some lane's */
   lanes origin[3], direction[3], longest; /* longest: the largest component of the direction */
-  lanes slope[3][2], reciprocal[3]; /* per axis; slope 0 on other lanes */
-  lanes slope_rest[3][2];           /* what its rounding took away */
-  lanes t_min, t_max, t_far;        /* t_far: the nearest hit so far plus its error, or the ray's end */
+  lanes slope[3][2], reciprocal[3];       /* per axis; slope 0 on other lanes */
+  lanes slope_rest[3][2];                 /* what its rounding took away */
+  lanes t_min, t_max, t_far;              /* t_far: the nearest hit so far plus its error, or the ray's end */
   /* what control points and rays are off by besides their rounding in a patch's frame */
   double net_error;
-  lanes t_error;                    /* what that, and the shift, makes of t */
+  lanes t_error; /* what that, and the shift, makes of t */
   struct best best;
   struct postponed *postponed;
   /* The frame of the patch tried last. */

@@ -41,8 +41,8 @@ static lane_mask resultant_varies(struct candidate *it, lane_mask active)
   it->c = it->c_store + it->leaf->zeros[0];
   it->degree = 2 * m * n - it->leaf->zeros[0] - it->leaf->zeros[1];
   const lanes product = it->alpha * it->beta, power = n == 1   ? product
-                                                    : n == 2 ? product * product
-                                                             : product * product * product;
+                                                      : n == 2 ? product * product
+                                                               : product * product * product;
   const lanes bound = RESULTANT_ERROR(n, power, it->alpha, it->beta, it->form_error);
   lanes last = {0}, variations = {0};
   lane_mask doubt = {0};
@@ -120,7 +120,8 @@ lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask act
   p->tracer->counts.roots_found += lanes_count(active);
   const lanes kept = start_within(resultant_root(it)), eliminated = start_within(resultant_eliminated(it, kept));
   const bool v_kept = it->leaf->v_kept;
-  const struct newton_root r = newton_refine(&it->nets, it->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, active);
+  const struct newton_root r = newton_refine(&it->nets, it->leaf, v_kept ? eliminated : kept,
+                                             v_kept ? kept : eliminated, active);
   const lanes k = v_kept ? r.v : r.u, radius = v_kept ? r.radius_v : r.radius_u;
   /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
   const lane_mask single = (it->variations == 1) & r.exists & (k > radius) & (1 - k > radius);

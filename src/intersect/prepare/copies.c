@@ -18,7 +18,7 @@
 struct candidate {
   const struct scene_copy *copy;
   double W[3][3], b[3];
-  double error; /* of its patches and rays in the object's coordinates */
+  double error;  /* of its patches and rays in the object's coordinates */
   double widest; /* largest sum of |A| over a column: how much longer an error is in the scene */
   bool good;
 };
@@ -88,7 +88,7 @@ static void candidate_map(struct candidate *c, const struct model *model, const 
   }
   double off = 0;
   for (size_t p = 0; p < object->patch_count; p++) {
-    double (*P)[4][3] = model->scene->patches[c->copy->first_patch + p].P;
+    double(*P)[4][3] = model->scene->patches[c->copy->first_patch + p].P;
     for (int n = 0; n < 16; n++) {
       for (int j = 0; j < 3; j++) {
         double x = m->center[j] - object->P[p][n / 4][n % 4][j];
@@ -175,9 +175,8 @@ static enum status prepare_object(const struct model *model, const struct model_
     for (int n = 0; n < 16; n++)
       for (int k = 0; k < 3; k++) patches[p].P[n / 4][n % 4][k] = declared->P[p][n / 4][n % 4][k] - middle.center[k];
   }
-  const struct scene nets = {.patches = patches,
-                             .patch_count = declared->patch_count,
-                             .solvers = model->scene->solvers};
+  const struct scene nets = {
+    .patches = patches, .patch_count = declared->patch_count, .solvers = model->scene->solvers};
   const enum status status = model_create_object(&nets, most, object->error, &object->model);
   free(patches);
   return status;
@@ -203,7 +202,7 @@ void copy_box(const struct model *model, const struct model_copy *copy, struct b
   for (int k = 0; k < 3; k++) {
     double lo = INFINITY, hi = -INFINITY;
     for (size_t p = 0; p < copy->object->declared->patch_count; p++) {
-      double (*P)[4][3] = model->scene->patches[copy->first_patch + p].P;
+      double(*P)[4][3] = model->scene->patches[copy->first_patch + p].P;
       for (int n = 0; n < 16; n++) lo = real_min(lo, P[n / 4][n % 4][k]), hi = real_max(hi, P[n / 4][n % 4][k]);
     }
     const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo), fabs(hi)) + fabs(model->origin[k]));

@@ -147,7 +147,8 @@ static void cut_net(struct model_patch *patch, const uint16_t column[2], const u
     double head[4][4], tail[4][4];
     for (int n = 0; n < 16; n++) {
       const double x = patch->x[k][n / 4][n % 4];
-      head[n / 4][n % 4] = (x + round) - round, tail[n / 4][n % 4] = (x - head[n / 4][n % 4]) + patch->rest[k][n / 4][n % 4];
+      head[n / 4][n % 4] = (x + round) - round,
+                      tail[n / 4][n % 4] = (x - head[n / 4][n % 4]) + patch->rest[k][n / 4][n % 4];
     }
     patch_subnet(head, u0, u1, v0, v1, hi[k]);
     patch_subnet(tail, u0, u1, v0, v1, lo[k]);
@@ -200,8 +201,8 @@ static double third_bound(const struct leaf_parts *parts)
  * rounds it. */
 #define LAST_STEP_CURVE (UNIT_ROUNDOFF / 32)
 
-static void set_parts(const struct model_patch *patch, const struct leaf *leaf, double hi[3][4][4],
-                      double lo[3][4][4], struct leaf_parts *out)
+static void set_parts(const struct model_patch *patch, const struct leaf *leaf, double hi[3][4][4], double lo[3][4][4],
+                      struct leaf_parts *out)
 {
   static const int bilinear[4] = {0, 4, 1, 5};
   for (int k = 0; k < 3; k++) {

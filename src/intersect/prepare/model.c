@@ -46,9 +46,9 @@ static void patch_frame(double P[4][4][3], double scene_size, struct model_patch
       for (int j = 0; j < 4; j++) lo[k] = real_min(lo[k], P[i][j][k]), hi[k] = real_max(hi[k], P[i][j][k]);
     extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
   }
-  int exponent = 0; /* all of the scene is the origin: any scale will do */
+  int exponent = 0;                         /* all of the scene is the origin: any scale will do */
   if (extent > 0) frexp(extent, &exponent); /* extent < 2^exponent */
-  out->scale = ldexp(1, exponent + 1); /* the center may be a grain off the middle */
+  out->scale = ldexp(1, exponent + 1);      /* the center may be a grain off the middle */
   for (int k = 0; k < 3; k++) {
     const double middle = lo[k] / 2 + hi[k] / 2, grain = out->scale / 4;
     out->center[k] = fabs(middle) < grain * 0x1p50 ? real_coarse(middle, grain) : middle;
