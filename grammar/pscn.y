@@ -208,7 +208,7 @@ camera_item:
   | SKY expression                             { camera_vector(language, CAMERA_SKY, &$2); }
   | LOOK_AT expression                         { camera_vector(language, CAMERA_LOOK_AT, &$2); }
   | ANGLE expression                           { camera_angle(language, &$2); }
-  | transform                                  { camera_transform(language, @1); }
+  | transform                                  { camera_transform(language, $1); }
   | declaration
   | error                                      { RECOVER(); }
   ;

@@ -1,6 +1,6 @@
 /* The camera's items, folded into location, direction, right and up as POV-Ray 3.7 does it, wherever they stand: the
- * angle sets the length of direction from that of right; look_at comes last and turns the frame, keeping lengths and
- * handedness. */
+ * angle sets the length of direction from that of right; look_at comes after all vectors and turns the frame, keeping
+ * lengths and handedness; the transforms come last. */
 #include "language/camera.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 void camera_default(struct camera_items *out)
 {
   static const double item[5][3] = {{0, 0, 0}, {0, 0, 1}, {1.33, 0, 0}, {0, 1, 0}, {0, 1, 0}};
-  *out = (struct camera_items){.angle = 0};
+  *out = (struct camera_items){.transform = transform_identity()};
   memcpy(out->item, item, sizeof item);
 }
 
@@ -54,9 +54,11 @@ void camera_angle(struct language *language, const struct value *value)
   else language_error(language, value->place, "the angle must be at least 0 and less than 180 degrees");
 }
 
-void camera_transform(struct language *language, struct place place)
+void camera_transform(struct language *language, const struct transform *transform)
 {
-  language_error(language, place, "transforms of the camera are POV-Ray, but pscn has none: use location and look_at");
+  struct camera_items *camera = language->camera;
+  camera->begun = true;
+  camera->transform = transform_then(&camera->transform, transform);
 }
 
 /* Errors are told while the camera's text is at hand. */
@@ -149,8 +151,14 @@ bool camera_fold(struct language *language, const struct camera_items *items, st
     vector_scale(frame.right_length, frame.right, out->right);
     vector_scale(frame.up_length, frame.up, out->up);
   }
+  transform_point(&items->transform, out->location, out->location);
+  transform_direction(&items->transform, out->direction, out->direction);
+  transform_direction(&items->transform, out->right, out->right);
+  transform_direction(&items->transform, out->up, out->up);
   bool finite = true;
-  for (int k = 0; k < 3; k++) finite &= isfinite(out->direction[k]) && isfinite(out->right[k]) && isfinite(out->up[k]);
+  for (int k = 0; k < 3; k++)
+    finite &= isfinite(out->location[k]) && isfinite(out->direction[k]) && isfinite(out->right[k]) &&
+              isfinite(out->up[k]);
   if (!finite) language_error(language, items->block.place, "the camera's vectors are too large for numbers");
   return finite;
 }

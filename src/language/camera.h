@@ -2,6 +2,7 @@
 #ifndef PSCN_LANGUAGE_CAMERA_H
 #define PSCN_LANGUAGE_CAMERA_H
 
+#include "language/transforms.h"
 #include "language/values.h"
 #include "scene/scene.h"
 
@@ -12,7 +13,8 @@ struct camera_items {
   bool said;  /* there is a camera statement */
   bool begun; /* an item has come */
   bool look_at;
-  double angle; /* degrees, 0 where not given */
+  double angle;               /* degrees, 0 where not given */
+  struct transform transform; /* of what all items but it make */
   struct block block;
   struct place look_at_place;
 };
@@ -22,7 +24,7 @@ void camera_begin(struct language *language, struct place place);
 void camera_perspective(struct language *language, struct place place);
 void camera_vector(struct language *language, int which, const struct value *value);
 void camera_angle(struct language *language, const struct value *value);
-void camera_transform(struct language *language, struct place place);
+void camera_transform(struct language *language, const struct transform *transform);
 void camera_end(struct language *language);
 
 /* Folds the items into `out`; false, and an error told, where they make no picture. */

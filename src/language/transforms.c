@@ -37,16 +37,28 @@ bool transform_finite(const struct transform *transform)
   return finite;
 }
 
-void transform_point(const struct transform *transform, const double p[3], double out[3])
+/* p A + b */
+static void apply(const struct transform *transform, const struct double_double b[3], const double p[3], double out[3])
 {
   const double from[3] = {p[0], p[1], p[2]};
   for (int j = 0; j < 3; j++) {
     out[j] = from[j];
     if (transform->identity) continue;
-    struct double_double q = transform->b[j];
+    struct double_double q = b[j];
     for (int k = 0; k < 3; k++) q = dd_add(q, dd_scale(transform->A[k][j], from[k]));
     out[j] = q.hi + q.lo;
   }
+}
+
+void transform_point(const struct transform *transform, const double p[3], double out[3])
+{
+  apply(transform, transform->b, p, out);
+}
+
+void transform_direction(const struct transform *transform, const double p[3], double out[3])
+{
+  static const struct double_double nowhere[3];
+  apply(transform, nowhere, p, out);
 }
 
 static struct transform *new_identity(struct language *language)

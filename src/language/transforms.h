@@ -19,7 +19,9 @@ struct transform transform_identity(void);
 /* first, then second. */
 struct transform transform_then(const struct transform *first, const struct transform *second);
 bool transform_finite(const struct transform *transform);
-void transform_point(const struct transform *transform, const double p[3], double out[3]); /* out may be p */
+/* out may be p; a direction is not moved. */
+void transform_point(const struct transform *transform, const double p[3], double out[3]);
+void transform_direction(const struct transform *transform, const double p[3], double out[3]);
 
 /* The statements, in the reading's memory; the identity where an error has been told. */
 const struct transform *transform_translate(struct language *language, const struct value *by);

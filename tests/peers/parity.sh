@@ -116,6 +116,13 @@ location <0, 5, 0> look_at 0
 location <0, 5, 0> look_at 0 angle 70 right x
 location <-4, 0.7, 0.4> look_at <0, 0.5, 0> angle 40 angle 60
 location <3, 2, -3> right x*image_width/image_height look_at 0
+location <0, 0.5, -4> translate <0.5, 0.2, 0.3>
+rotate <10, 20, 5> location <0, 0.5, -4>
+location <0, 0.5, -4> rotate <10, 20, 5> translate y/2 look_at <0, 0.4, 0> angle 50
+location <3, 2, -3> translate -x look_at 0 rotate 20*y sky <1, 1, 0.5>
+location <3, 2, -3> look_at 0 scale <1, 0.5, 0.8>
+location <3, 2, -3> look_at 0 angle 50 scale <-1, 1, 1> rotate 40*z
+location <3, 2, -3> look_at 0 matrix <1, 0.2, 0.1, 0, 0.8, 0.6, 0.3, 0, 1, 0.1, 0.4, 0>
 END
 for size in 48x64 70x35 33x47; do
   for items in '' 'right x*image_width/image_height' 'right x*image_width/image_height angle 50' \
