@@ -171,7 +171,7 @@ static void append_value(struct text *text, const struct method_item *item, doub
   size_t words = 0;
   while (item->keywords && item->keywords[words]) words++;
   char number[NUMBER_TEXT_SIZE];
-  const bool word = value >= 0 && value < (double)words;
+  const bool word = value >= 0 && value < (double)words && value == (double)(size_t)value; /* 1e-9 is no auto */
   if (!word) number_write(value, number);
   append(text, word ? item->keywords[(size_t)value] : number);
 }

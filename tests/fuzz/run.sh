@@ -1,22 +1,23 @@
 #!/bin/bash
-# run.sh SECONDS [TARGET...]: lets libFuzzer run each target (all, where none is named) for so many seconds, one after the
-# other, under address, undefined and leak sanitizers. Needs clang; builds into build-fuzz at first.
+# run.sh SECONDS [TARGET...]: lets libFuzzer run each target (all, where none is named) for so many seconds of CPU, one
+# after the other, under address, undefined and leak sanitizers. Needs clang; builds into build-fuzz at first.
 #
-# Inputs begin with seeds/, the scenes of the project and of its tests; what covers more is kept in build-fuzz/corpus and
-# taken up by the next run. What crashes, leaks or takes longer than PSCN_FUZZ_TIMEOUT seconds (10) is put into
-# build-fuzz/artifacts and named at the end: exit 1. Once it is mended, or told, it moves to found/TARGET, where ctest
-# replays it.
+# Inputs begin with seeds/, found/, the scenes of the project and of its tests; what covers more is kept in
+# build-fuzz/corpus and taken up by the next run. What crashes, leaks or takes longer than PSCN_FUZZ_TIMEOUT seconds (10)
+# ends the target: it is put into build-fuzz/artifacts and named, and the exit code is 1. Once it is mended, or told, it
+# moves to found/TARGET, where ctest replays it. For each target one line: CPU seconds, executions, what they cover (edges,
+# and the features libFuzzer counts), inputs kept, the slowest input.
 set -euo pipefail
-seconds=${1:?seconds for each target}
+seconds=${1:?seconds of CPU for each target}
 shift
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-top=$here/../..
+top=$(cd "$here/../.." && pwd)
 build=$top/build-fuzz
-[ $# -gt 0 ] || set -- scene render solver rays polynomials options
+[ $# -gt 0 ] || set -- scene render solver rays polynomials options pictures
 
 cd "$top"
 cmake --preset fuzz >/dev/null
-nice cmake --build --preset fuzz --parallel >/dev/null
+nice cmake --build --preset fuzz --parallel 1 >/dev/null
 mkdir -p "$build/artifacts" "$build/work"
 
 # Words of the language: the names of the grammar's tokens and of the methods, and what else stands between words.
@@ -24,30 +25,59 @@ words=$build/words.dict
 {
   grep -oh '"#\?[a-z][a-z_]*"' "$top/grammar/pscn.y" "$top"/src/algebra/solver*.c "$top"/src/scene/method.c
   printf '"%s"\n' '#ifdef (' '#ifndef (' '#else' '#end' '#include \"' 'pscn' '{' '}' '(' ')' '<' '>' ',' ';' '.x' '/*' \
-    '*/' '//' '1e308' '1e-320' '-1' '0.5' '<1,2,3>' 'rgb 1' '#declare A = ' '#local B = ' '; '
+    '*/' '//' '//: ' '1e308' '1e-320' '-1' '0.5' '<1,2,3>' 'rgb 1' '#declare A = ' '#local B = ' '; ' 'Given' 'nested.inc'
 } | sort -u >"$words"
 options=$build/options.dict
-for command in render trace roots dump compare check chart; do
-  "$build/src/command/pscn" help $command
-done | grep -o -- '--[a-z-]*' | sort -u | sed 's/.*/"&"\n"&="/' >"$options"
+{
+  for command in render trace roots dump compare check chart; do
+    "$build/src/command/pscn" help $command
+  done | grep -o -- '--[a-z-]*' | sort -u | sed 's/.*/"&"\n"&="/'
+  printf '"%s"\n' s.pscn a.png b.exr '\x0a' '-o' '-I.' 'rgb,depth' 'Low=1' '4/255' 5M
+} >"$options"
+numbers=$build/numbers.dict
+printf '"%s"\n' '0 ' '-1 ' '1e-11 ' '1.999 ' '1e308 ' '1e-320 ' '1e-17 ' '.5 ' '\x0a' '\x00\x00\x00\x00\x00\x00\xf0\x3f' \
+  '\x00\x00\x00\x00\x00\x00\xf0\x7f' '\x00\x00\x00\x00\x00\x00\xf8\x7f' '\x01\x00\x00\x00\x00\x00\x00\x00' >"$numbers"
+
+# The number behind the last NAME of libFuzzer's log.
+last() { grep -o "$1 *[0-9]*" "$2" | tail -n 1 | grep -o '[0-9]*$' || echo 0; }
+
+# fuzz TARGET: until its CPU time is spent, of which the children of this shell tell.
+fuzz() {
+  local target=$1 corpus=$build/corpus/$1 log=$build/$1.log dictionary=$words spent=0 runs=0 slowest=0 length=4096 code
+  local artifacts=$build/artifacts/$1- seeds=("$here/seeds/$1")
+  mkdir -p "$corpus"
+  [ ! -d "$here/found/$target" ] || seeds+=("$here/found/$target")
+  case $target in
+    scene | render)
+      seeds+=("$top/scenes" "$top/tests/language/ok" "$top/tests/language/bad" "$top/tests/accuracy/cases")
+      length=16384
+      ;;
+    options) dictionary=$options ;;
+    rays | polynomials | pictures) dictionary=$numbers ;;
+  esac
+  while [ "$spent" -lt "$seconds" ]; do
+    code=0
+    (cd "$build/work" && TIMEFORMAT='cpu %U %S' && time nice "$build/tests/fuzz/fuzz-$target" -print_final_stats=1 \
+      -timeout="${PSCN_FUZZ_TIMEOUT:-10}" -rss_limit_mb=4000 -max_len=$length -len_control=20 -close_fd_mask=1 \
+      -max_total_time=$((seconds - spent)) -report_slow_units=2 -dict="$dictionary" -artifact_prefix="$artifacts" \
+      "$corpus" "${seeds[@]}") >"$log" 2>&1 || code=$?
+    spent=$((spent + $(sed -n 's/^cpu //p' "$log" | tr ' ' '\n' | awk '{ s += $1 } END { printf "%d", s + 1 }')))
+    runs=$((runs + $(last 'stat::number_of_executed_units:' "$log")))
+    [ "$(last 'stat::slowest_unit_time_sec:' "$log")" -le "$slowest" ] || slowest=$(last 'stat::slowest_unit_time_sec:' "$log")
+    [ "$code" = 0 ] || break
+  done
+  echo "$target: $spent CPU s, $runs executions, $(last 'cov:' "$log") edges, $(last 'ft:' "$log") features," \
+    "$(find "$corpus" -type f | wc -l) inputs kept, the slowest $slowest s"
+  return "$code"
+}
 
 status=0
 for target in "$@"; do
-  corpus=$build/corpus/$target artifacts=$build/artifacts/$target- dictionary=$words
-  mkdir -p "$corpus"
-  seeds=("$here/seeds/$target")
-  [ ! -d "$here/found/$target" ] || seeds+=("$here/found/$target")
-  case $target in
-    scene | render) seeds+=("$top/scenes" "$top/tests/language/ok" "$top/tests/language/bad") ;;
-    options) dictionary=$options ;;
-  esac
-  (cd "$build/work" && nice "$build/tests/fuzz/fuzz-$target" -fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1 \
-    -timeout="${PSCN_FUZZ_TIMEOUT:-10}" -rss_limit_mb=4000 -max_len=4096 -close_fd_mask=1 -max_total_time="$seconds" \
-    -dict="$dictionary" -artifact_prefix="$artifacts" "$corpus" "${seeds[@]}") >"$build/$target.log" 2>&1 || true
-  echo "$target: $(grep -c . <(ls "$corpus")) inputs kept; $(grep '^#' "$build/$target.log" | tail -n 1)"
-  if compgen -G "$artifacts*" >/dev/null; then
-    ls "$artifacts"*
+  if ! fuzz "$target"; then
+    echo "$target has ended; $build/$target.log says why"
+    ls "$build/artifacts/$target-"* 2>/dev/null || true
     status=1
   fi
 done
+rm -rf "$build/work"
 exit "$status"

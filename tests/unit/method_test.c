@@ -80,6 +80,10 @@ static void text_says_what_differs(void **state)
   method_item_find("polish")->set(&method, 0);
   method_text(&method, text, sizeof text);
   assert_string_equal(text, "newton { polish off split 3 }");
+  method_item_find("split")->set(&method, 0);
+  method_item_find("residual")->set(&method, 0.5); /* a number beside a word for 0 */
+  method_text(&method, text, sizeof text);
+  assert_string_equal(text, "newton { polish off residual 0.5 }");
   char little[12];
   method_text(&method, little, sizeof little);
   assert_memory_equal(little, "newton", 6);
