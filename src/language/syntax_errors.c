@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "language/hints.h"
 #include "language/tokens.h"
 
 static bool is_one_of(const char *name, const char *const list[])
@@ -65,15 +66,6 @@ static struct guess guess_meant(const struct language *language, const char *wor
   return guess;
 }
 
-static void tell_foreign(struct language *language, struct place place, const char *word, int length)
-{
-  if (words_foreign_shape(word, (size_t)length)) {
-    language_error(language, place, "%.*s is POV-Ray, but pscn renders bicubic_patch only", length, word);
-  } else {
-    language_error(language, place, "%.*s is POV-Ray, but pscn has no %.*s", length, word, length, word);
-  }
-}
-
 static bool same_place(struct place a, struct place b)
 {
   return a.source && a.source == b.source && a.begin == b.begin;
@@ -95,7 +87,9 @@ void syntax_error(struct language *language, struct place place, bool is_word, c
     return;
   }
   if (tokens->last.token == PSCN_TOKEN_FOREIGN) {
-    tell_foreign(language, place, text, shown);
+    char hint[HINT_SIZE];
+    hint_write(text, length, hint, sizeof hint);
+    language_error(language, place, "%.*s is POV-Ray, but pscn %s", shown, text, hint);
     return;
   }
   char list[300] = "";

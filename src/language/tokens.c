@@ -1,7 +1,10 @@
 /* The stream of tokens, with braces counted for recovery. */
 #include "language/tokens.h"
 
+#include <stdio.h>
 #include <string.h>
+
+#include "language/hints.h"
 
 static const char *text_at(struct place place) { return place.source->text + place.begin; }
 
@@ -125,7 +128,10 @@ static void tell_directive(struct language *language, int token)
   size_t length = length_of(place);
   const char *name = words_directive(text_at(place), &length);
   if (token != TOKEN_UNKNOWN_DIRECTIVE) {
-    language_error(language, place, "#%.*s is POV-Ray, but pscn has no #%.*s", (int)length, name, (int)length, name);
+    char directive[HINT_SIZE], hint[HINT_SIZE];
+    const int size = snprintf(directive, sizeof directive, "#%.*s", (int)length, name);
+    hint_write(directive, (size_t)size, hint, sizeof hint);
+    language_error(language, place, "%s is POV-Ray, but pscn %s", directive, hint);
     return;
   }
   struct guess guess = guess_begin(name, length);
@@ -189,7 +195,9 @@ static bool aside(struct language *language, int token)
   case TOKEN_ENDIF: end_condition(language, token); return true;
   case TOKEN_OPEN_COMMENT: tell_open_comment(language); return true;
   case TOKEN_OPEN_STRING: language_error(language, sources_here(language), "this quote is not closed"); return true;
-  case TOKEN_BAD_CHARACTER: language_error(language, sources_here(language), "this means nothing here"); return true;
+  case TOKEN_BAD_CHARACTER:
+    if (!language->tokens->skipping) language_error(language, sources_here(language), "this means nothing here");
+    return true;
   case TOKEN_FOREIGN_OPENER:
     tell_directive(language, token);
     skip_branch(language, false);
@@ -266,7 +274,7 @@ int tokens_next(struct language *language, struct token *out_token)
 
 /* ---- recovery ---- */
 
-bool tokens_recover(struct language *language)
+static bool recover(struct language *language)
 {
   struct tokens *tokens = language->tokens;
   const struct delivered *last = &tokens->last;
@@ -292,4 +300,13 @@ bool tokens_recover(struct language *language)
     if (!first && token == '}' && last->depth == block + 1) return true;
     if (token == ';' && last->depth == block && block == 0) return true;
   }
+}
+
+/* What is skipped may hold what means nothing here, as a map of colours does: it is told of once. */
+bool tokens_recover(struct language *language)
+{
+  language->tokens->skipping = true;
+  const bool more = recover(language);
+  language->tokens->skipping = false;
+  return more;
 }

@@ -21,6 +21,7 @@ struct tokens {
   struct place braces[MAX_NESTING];
   struct delivered last;
   struct place previous;        /* of the token before the last */
+  bool skipping;                /* in tokens_recover */
   struct place recovered, told; /* where the last recovery began, what the last syntax error was about */
 };
 

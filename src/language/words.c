@@ -44,14 +44,6 @@ static const struct keyword FOREIGN_DIRECTIVES[] = {
   {"warning", TOKEN_FOREIGN_DIRECTIVE}, {"while", TOKEN_FOREIGN_OPENER},
   {"write", TOKEN_FOREIGN_DIRECTIVE}};
 
-/* Which of POV-Ray's words are shapes. */
-static const char *const SHAPES[] = {
-  "blob",           "box",          "cone",       "cubic",           "cylinder", "difference", "disc",
-  "height_field",   "intersection", "isosurface", "julia_fractal",   "lathe",    "merge",      "mesh",
-  "mesh2",          "ovus",         "parametric", "plane",           "poly",     "polygon",    "polynomial",
-  "prism",          "quadric",      "quartic",    "smooth_triangle", "sor",      "sphere",     "sphere_sweep",
-  "superellipsoid", "text",         "torus",      "triangle"};
-
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 
 int words_compare(const char *word, size_t length, const char *name)
@@ -82,8 +74,6 @@ int words_token(const char *word, size_t length)
   if (found) return found->token;
   return FIND(word, length, FOREIGN) ? PSCN_TOKEN_FOREIGN : PSCN_TOKEN_WORD;
 }
-
-bool words_foreign_shape(const char *word, size_t length) { return FIND(word, length, SHAPES) != NULL; }
 
 const char *words_directive(const char *text, size_t *length)
 {

@@ -12,9 +12,6 @@ int words_directive_token(const char *text, size_t length);
 /* The name of a directive, behind its # and blanks; *length, which was the directive's, becomes its own. */
 const char *words_directive(const char *text, size_t *length);
 
-/* Whether a word of POV-Ray's names a shape. */
-bool words_foreign_shape(const char *word, size_t length);
-
 /* Whether a token begins a statement, or an item of a block and not a value. */
 bool words_begin_statement(int token);
 bool words_begin_item(int token);
