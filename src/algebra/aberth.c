@@ -11,6 +11,14 @@
 #include "algebra/root_kernel.h"
 #include "algebra/start.h"
 
+/* The values that the sweep has moved; number 0: the start. */
+static void tell_sweep(const struct aberth *a, const struct root_problem *problem, const struct solver_options *options,
+                       int number, const struct root_estimates *out)
+{
+  for (int i = 0; i < problem->degree; i++)
+    if (out->iterations[i] == number) root_problem_tell(options, problem->basis, i, number, a->zr[i], a->zi[i]);
+}
+
 void aberth_find(const struct root_problem *problem, const struct solver_options *options,
                  const struct solver_warm *warm, struct root_estimates *out)
 {
@@ -30,8 +38,10 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
     out->converged[i] = out->cluster[i] = false;
     out->reach[i] = 0.0;
   }
+  if (options->watch != NULL) tell_sweep(&a, problem, options, 0, out);
   for (int number = 1; number <= options->max_iterations && a.active_count > 0; number++) {
     kernel->aberth_sweep(&a, options, number, out);
+    if (options->watch != NULL) tell_sweep(&a, problem, options, number, out);
   }
   for (int i = 0; i < n; i++) {
     out->re[i] = a.zr[i];

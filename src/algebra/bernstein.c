@@ -77,6 +77,12 @@ static struct probe probe_at(const struct search *search, double u)
   return out;
 }
 
+/* Tells whoever looks on of a step of the root that is sought. */
+static void tell_step(const struct search *search, int step, double u)
+{
+  root_problem_tell(search->options, BASIS_POWER, search->out->count, step, u, 0.0); /* u already */
+}
+
 /* The one root between low and high, where p has the signs `low_sign` and its opposite. A Newton step is taken where it
  * stays in the bracket and is at most half the step before the last; otherwise the bracket is halved. */
 static void bracketed_newton(struct search *search, double low, double high, int low_sign, double start)
@@ -84,7 +90,8 @@ static void bracketed_newton(struct search *search, double low, double high, int
   double u = start, last_step = high - low, step_before = high - low;
   int spent = 0;
   bool converged = false;
-  while (spent < search->options->max_iterations && !converged) {
+  tell_step(search, 0, u);
+  for (; spent < search->options->max_iterations && !converged; tell_step(search, spent, u)) {
     spent++;
     const struct probe probe = probe_at(search, u);
     double next = u - probe.newton;
@@ -130,6 +137,7 @@ static void add_end_root(struct search *search, double u, double width)
   int spent = 0;
   double at = u;
   bool moving = true;
+  tell_step(search, 0, u);
   while (moving && spent < search->options->max_iterations) {
     spent++;
     const struct probe probe = probe_at(search, at);
@@ -139,6 +147,7 @@ static void add_end_root(struct search *search, double u, double width)
       break; /* not finite, or gone: the end itself is the candidate */
     }
     at = next;
+    tell_step(search, spent, at);
   }
   root_estimates_add(search->out, at, 0.0, spent, !moving, false);
 }

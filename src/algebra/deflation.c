@@ -172,9 +172,9 @@ struct sought {
   bool converged;
 };
 
-/* The paper's iteration, from `start`. */
+/* The paper's iteration, from `start`, for the root of that number. */
 static struct sought seek(const struct root_problem *problem, const struct solver_options *options,
-                          const struct deflation_method *method, struct complex_number start)
+                          const struct deflation_method *method, struct complex_number start, int number)
 {
   const int n = problem->degree;
   const double *c = problem->c, mean_modulus = start_mean_modulus(problem);
@@ -182,6 +182,7 @@ static struct sought seek(const struct root_problem *problem, const struct solve
   const double tolerance = options->tolerance * options->tolerance, above = root_problem_reversed_above(options, n);
   const bool relative = options->stop == STOP_ROUNDING; /* the paper's tolerance is absolute */
   double last = INFINITY, checked = INFINITY, longest = LONGEST_STEP;
+  root_problem_tell(options, problem->basis, number, 0, start.re, start.im);
   while (!out.converged && out.iterations < options->max_iterations) {
     out.iterations++;
     const struct local_values here = options->stop == STOP_ROUNDING ? look_with_error(method, n, c, out.x, above)
@@ -219,6 +220,7 @@ static struct sought seek(const struct root_problem *problem, const struct solve
       checked = now;
     }
     out.x = complex_add(out.x, move);
+    root_problem_tell(options, problem->basis, number, out.iterations, out.x.re, out.x.im);
     last = in_u;
   }
   return out;
@@ -283,7 +285,7 @@ void deflation_find(const struct root_problem *problem, const struct solver_opti
     if (n == 1) {
       found = (struct sought){{-c[0] / c[1], 0.0}, 0, true};
     } else {
-      found = seek(&rest, options, method, start);
+      found = seek(&rest, options, method, start, out->count);
     }
     if (n == 1 || taken_for_real(n, c, found.x)) {
       found.x.im = 0.0;

@@ -92,6 +92,7 @@ void durand_kerner_find(const struct root_problem *problem, const struct solver_
     sweep.x[i] = sweep.next[i] = (struct complex_number){re[i], im[i]};
     sweep.last[i] = sweep.checked[i] = INFINITY;
     root_estimates_add(out, 0.0, 0.0, 0, false, false);
+    root_problem_tell(options, problem->basis, i, 0, re[i], im[i]);
   }
   bool moving = true;
   for (sweep.number = 1; sweep.number <= options->max_iterations && moving; sweep.number++) {
@@ -101,6 +102,7 @@ void durand_kerner_find(const struct root_problem *problem, const struct solver_
       out->converged[i] = move(&sweep, i);
       out->iterations[i]++;
       moving |= !out->converged[i];
+      root_problem_tell(options, problem->basis, i, sweep.number, sweep.next[i].re, sweep.next[i].im);
       if (options->update == UPDATE_GAUSS_SEIDEL) sweep.x[i] = sweep.next[i];
     }
     for (int i = 0; i < n; i++) sweep.x[i] = sweep.next[i];

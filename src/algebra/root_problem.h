@@ -68,6 +68,15 @@ static inline void root_problem_x_from_u(enum basis basis, double *re, double *i
   *re = x;
 }
 
+/* Tells whoever looks on that a root is at x now. */
+static inline void root_problem_tell(const struct solver_options *options, enum basis basis, int root, int step,
+                                     double re, double im)
+{
+  if (options->watch == NULL) return;
+  root_problem_u_from_x(basis, &re, &im);
+  options->watch->tell(options->watch->context, root, step, re, im);
+}
+
 /* The table of solvers, one row each: name (NAME_find is the method), summary, real roots in [0,1] only, form on lanes,
  * steps a root may take. The first is the default. */
 #define SOLVERS(ROW)                                                                                                   \

@@ -45,6 +45,13 @@ enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL }; /* aberth: the values of the
 enum horner { HORNER_PLAIN, HORNER_CHARTS };        /* values in powers of z, or of 1/z where |z| > 1 */
 enum deflation { DEFLATION_FORWARD, DEFLATION_COMPOSITE };
 
+/* Somebody who looks on: told the values z, in u, that the iterations of a solver pass, in the order in which they come
+ * to be. `root` counts the roots of the polynomial as the solver does, from 0; step 0 is the start. */
+struct solver_watch {
+  void (*tell)(void *context, int root, int step, double re, double im);
+  void *context;
+};
+
 struct solver;
 struct root_problem;   /* internal: root_problem.h */
 struct root_estimates; /* internal: root_problem.h */
@@ -61,7 +68,8 @@ struct solver_options {
   enum update update;
   bool rest; /* aberth: a root that has converged is left alone while others still move */
   enum deflation deflation;
-  bool refine; /* newton, laguerre: last steps on the polynomial before deflation */
+  bool refine;                      /* newton, laguerre: last steps on the polynomial before deflation */
+  const struct solver_watch *watch; /* borrowed; NULL, the default: nobody looks on */
 };
 
 /* Roots of the previous polynomial of a family, kept for `start previous`. Zero-initialised means "none yet". */

@@ -26,13 +26,14 @@ enum {
 /* All roots are asked for, so the default is not the scene's, which finds those in [0,1] only. */
 static const char DEFAULT_SOLVER[] = "aberth";
 
-enum format { FORMAT_PLAIN, FORMAT_TABLE, FORMAT_JSON };
+/* The last is no word of --format but --iterates. */
+enum format { FORMAT_PLAIN, FORMAT_TABLE, FORMAT_JSON, FORMAT_ITERATES };
 
 struct request {
   struct scene_request scene; /* its solver and tolerance alone */
   enum format format;
   const char *stats;
-  bool quiet;
+  bool iterates, quiet;
 };
 
 static const struct command_option OPTIONS[] = {
@@ -40,6 +41,7 @@ static const struct command_option OPTIONS[] = {
   SCENE_SOLVER_OPTION("what may follow 'solver' in a scene; default aberth"),
   SCENE_TOLERANCE_OPTION("instead of the solver's tolerance"),
   COMMAND_OPTION("format", 0, 0, "plain: pairs re im (default); table, json: with radius, status, eq 11", "FORMAT"),
+  COMMAND_TRUE("iterates", 0, iterates, "instead of the roots the values on the way to them, step by step"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the roots", "FILE"),
   COMMAND_TRUE("quiet", 'q', quiet, "no summary on a terminal"),
   COMMAND_OPTIONS_END,
@@ -63,6 +65,7 @@ struct session {
   enum format format;
   struct method method;
   struct solver_warm warm;
+  struct solver_watch watch;
   size_t polynomials, roots, iterations, accurate, missing;
   size_t doubtful; /* lines printed in plain with roots that are not known */
   size_t statuses[ROOT_CLUSTER + 1];
@@ -178,6 +181,16 @@ static void write_json(const struct answer *answer)
   json_decref(whole);
 }
 
+/* --iterates: a row a step, as it is taken. */
+static void write_iterate(void *context, int root, int step, double re, double im)
+{
+  const struct session *session = context;
+  char real[NUMBER_TEXT_SIZE], imaginary[NUMBER_TEXT_SIZE];
+  number_write_17(re, real);
+  number_write_17(im, imaginary);
+  printf("%6zu %6d %6d %24s %24s\n", session->polynomials, step, root, real, imaginary);
+}
+
 /* The plain format has no place for what is not known of a line's roots. */
 static void tell_unknown(struct session *session, const struct answer *answer)
 {
@@ -244,7 +257,7 @@ static void answer(struct session *session, int degree, const double c[])
     tell_unknown(session, &answer);
   } else if (session->format == FORMAT_TABLE) {
     write_table(&answer);
-  } else {
+  } else if (session->format == FORMAT_JSON) {
     write_json(&answer);
   }
 }
@@ -309,13 +322,24 @@ static enum status choose_solver(const struct command *command, const struct req
   return STATUS_OK;
 }
 
+static void begin_iterates(struct session *session)
+{
+  session->format = FORMAT_ITERATES;
+  session->watch = (struct solver_watch){write_iterate, session};
+  session->method.roots.watch = &session->watch;
+  printf("%6s %6s %6s %24s %24s\n", "line", "step", "root", "re", "im");
+}
+
 static enum status roots(const struct command *command, const struct request *request)
 {
   struct session session = {.format = request->format};
   const struct stream_reader reader = {.take = take, .context = &session};
+  if (request->iterates && request->format != FORMAT_PLAIN)
+    return (enum status)command_usage(command, "--iterates has a format of its own");
   enum status status = output_spare(command, request->stats, "/dev/stdin");
   if (status == STATUS_OK) status = output_probe(command, request->stats);
   if (status == STATUS_OK) status = choose_solver(command, request, &session.method);
+  if (status == STATUS_OK && request->iterates) begin_iterates(&session);
   if (status == STATUS_OK) status = stream_read(command, &reader);
   if (status == STATUS_OK && request->stats != NULL)
     status = report_write(command, statistics(&session), request->stats);
@@ -350,7 +374,12 @@ const struct command command_roots = {
     "\n"
     "The solver works on the coefficients as they are (basis power), unless --solver says 'basis bernstein': then the\n"
     "same polynomial is brought into scaled Bernstein form on [0,1] first. 'bernstein' finds the real roots in [0,1].\n"
-    "With 'start previous' each polynomial starts from the roots of the one before.\n",
+    "With 'start previous' each polynomial starts from the roots of the one before.\n"
+    "\n"
+    "--iterates: a row for every value that the solver's iteration passes, in the order in which it comes to be: "
+    "number\n"
+    "of the line, step (0: the start), number of the root as the solver counts them, re, im. Nothing is said of roots\n"
+    "that need no iteration. For plots of the ways to the roots.\n",
   .options = OPTIONS,
   .run = run,
 };
