@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "command/command.h"
+#include "command/explain.h"
 #include "command/output.h"
 #include "command/report.h"
 #include "command/scene_file.h"
@@ -24,7 +25,7 @@ enum {
 struct request {
   struct scene_request scene; /* first: scene_request_take is told of it */
   const char *stats;
-  bool binary, certainty;
+  bool binary, certainty, explain;
 };
 
 static const struct command_option OPTIONS[] = {
@@ -32,6 +33,7 @@ static const struct command_option OPTIONS[] = {
   SCENE_OPTIONS,
   COMMAND_TRUE("binary", 0, binary, "little-endian doubles instead of text"),
   COMMAND_TRUE("certainty", 0, certainty, "whether each answer is 'certain' or 'grazing'"),
+  COMMAND_TRUE("explain", 0, explain, "instead of an answer the story of how it came to be"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the hits", "FILE"),
   COMMAND_TRUE("quiet", 'q', scene.quiet, "no summary on a terminal"),
   COMMAND_OPTIONS_END,
@@ -40,7 +42,9 @@ static const struct command_option OPTIONS[] = {
 /* Rays that wait for an answer, and who answers them. */
 struct session {
   const struct request *request;
+  const struct scene *scene;
   struct tracer *tracer;
+  size_t number; /* of the rays explained */
   size_t count;
   struct ray rays[PACKET_SIZE];
 };
@@ -100,6 +104,9 @@ static void answer(void *context)
 {
   struct session *session = context;
   struct hit hits[PACKET_SIZE];
+  for (size_t k = 0; k < session->count && session->request->explain; k++)
+    explain_ray(session->scene, session->tracer, ++session->number, &session->rays[k]);
+  if (session->request->explain) session->count = 0;
   if (session->count > 0) tracer_closest(session->tracer, session->count, session->rays, hits);
   for (size_t k = 0; k < session->count; k++)
     (session->request->binary ? write_binary : write_text)(session->request, &session->rays[k], &hits[k]);
@@ -172,6 +179,8 @@ static enum status trace(const struct command *command, struct request *request)
   struct intersector *intersector = NULL;
   struct session session = {.request = request};
   struct seconds start = seconds_now();
+  if (request->explain && request->binary)
+    return (enum status)command_usage(command, "a story is text: --explain and --binary do not go together");
   if (output_is_standard(request->scene.path))
     return (enum status)command_usage(command, "the rays come from standard input, the scene from a file");
   enum status status = scene_file_spare(command, &request->scene, NULL, request->stats);
@@ -191,6 +200,7 @@ static enum status trace(const struct command *command, struct request *request)
   report.build = seconds_since(start);
   if (status == STATUS_OK) {
     start = seconds_now();
+    session.scene = scene;
     const struct stream_reader reader = {take, answer, &session, request->binary ? RAY_VALUES * sizeof(double) : 0};
     status = stream_read(command, &reader);
     report.render = seconds_since(start);
@@ -234,7 +244,12 @@ const struct command command_trace = {
     "PATCH -1 and zeros.\n"
     "\n"
     "--certainty: each line ends with 'certain' where the answer is proven, or with 'grazing' where a change of the\n"
-    "input within rounding could turn it; a binary answer has an eighth number, 1 or 0.\n",
+    "input within rounding could turn it; a binary answer has an eighth number, 1 or 0.\n"
+    "\n"
+    "--explain: for each ray the leaves of patches that it came to, in order; of each its equations a and b, their\n"
+    "resultant r in the format that 'pscn roots' reads (in powers of x = u/(1-u) where the basis is bernstein), the\n"
+    "solver's roots, what became of each, the nearest hit so far with its certificate; and the answer. To ask another\n"
+    "solver: pscn trace SCENE --explain <ray | sed -n 's/^  r: //p' | pscn roots --format table\n",
   .options = OPTIONS,
   .run = run,
 };

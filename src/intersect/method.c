@@ -178,40 +178,68 @@ static double coefficient_error(int n, double alpha, double beta, double error)
   return RESULTANT_ERROR(n, power, alpha, beta, error);
 }
 
+/* r of the leaf's form, exact roots at its ends taken off. */
+static struct polynomial resultant(const struct method *method, const struct leaf *leaf, const struct form *form,
+                                   const double size[2], double error, double c[19], double bound[19])
+{
+  if (method->resultant == RESULTANT_SYLVESTER) sylvester_determinant(form->m, form->n, form->A, form->B, c);
+  else bezout_determinant(form->m, form->n, form->A, form->B, c);
+  struct polynomial r = {2 * form->m * form->n, method->basis, c, NULL};
+  if (method->basis == BASIS_BERNSTEIN) {
+    double choose = coefficient_error(form->n, size[0], size[1], error);
+    for (int k = 0; k <= r.degree; k++) bound[k] = choose, choose = choose * (r.degree - k) / (k + 1);
+    r.c = c + leaf->zeros[0], r.error = bound + leaf->zeros[0];
+    r.degree -= leaf->zeros[0] + leaf->zeros[1];
+  }
+  return r;
+}
+
+/* What becomes of a root, and the other parameter that follows from it. */
+static enum root_fate substitute(const struct method *method, const struct form *form, const double size[2],
+                                 const struct root *root, double *out_other)
+{
+  /* paper 2.2: the real ones, as far as eps tells */
+  const double real = method->polish ? START_MARGIN : method->roots.tolerance;
+  const double margin = method->polish ? START_MARGIN : 0;
+  if (!(fabs(root->im) <= real)) return ROOT_COMPLEX;
+  if (!(root->re >= -margin && root->re <= 1 + margin)) return ROOT_OUTSIDE;
+  const double v = *out_other = eliminated_at(form, method, root->re);
+  if (!(v >= -1 && v <= 2)) return ROOT_ELSEWHERE;
+  return method->polish || solves_planes(form, method, size, root->re, v) ? ROOT_OFFERED : ROOT_NO_SOLUTION;
+}
+
+void method_find(const struct method *method, struct solver_warm *warm, const struct leaf *leaf, const double a[16],
+                 const double b[16], double error, struct method_roots *out, struct explained_roots *story)
+{
+  struct form form = {leaf->kept_degree, leaf->eliminated_degree, {0}, {0}};
+  form_net(form.m, form.n, method->basis, a, form.A);
+  form_net(form.m, form.n, method->basis, b, form.B);
+  const double size[2] = {largest(a, form.m, form.n), largest(b, form.m, form.n)};
+  double c[19], bound[19];
+  const struct polynomial r = resultant(method, leaf, &form, size, error, c, bound);
+  struct root_set roots = {.count = 0};
+  out->count = out->found = 0;
+  if (r.degree > 0) solver_roots(&r, &method->roots, warm, &roots);
+  out->found = roots.count;
+  if (story) {
+    story->basis = r.basis, story->degree = r.degree, story->roots = roots;
+    for (int k = 0; k <= r.degree; k++) story->c[k] = r.c[k];
+  }
+  for (int k = 0; k < roots.count; k++) {
+    double other = NAN;
+    const enum root_fate fate = substitute(method, &form, size, &roots.root[k], &other);
+    if (story) story->fate[k] = fate, story->other[k] = other;
+    if (fate != ROOT_OFFERED) continue;
+    out->u[out->count] = leaf->v_kept ? other : roots.root[k].re;
+    out->v[out->count++] = leaf->v_kept ? roots.root[k].re : other;
+  }
+}
+
 void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
                   struct method_roots *out)
 {
   const struct method *method = tracer->model->patches[leaf->patch].method;
   struct solver_warm *warm = tracer_warm(tracer, method, leaf - tracer->model->leaves);
-  struct form form = {leaf->kept_degree, leaf->eliminated_degree, {0}, {0}};
-  form_net(form.m, form.n, method->basis, a, form.A);
-  form_net(form.m, form.n, method->basis, b, form.B);
-  double c[19], bound[19];
-  const double size[2] = {largest(a, form.m, form.n), largest(b, form.m, form.n)};
-  if (method->resultant == RESULTANT_SYLVESTER) sylvester_determinant(form.m, form.n, form.A, form.B, c);
-  else bezout_determinant(form.m, form.n, form.A, form.B, c);
-  struct polynomial r = {2 * form.m * form.n, method->basis, c, NULL};
-  if (method->basis == BASIS_BERNSTEIN) {
-    double choose = coefficient_error(form.n, size[0], size[1], error);
-    for (int k = 0; k <= r.degree; k++) bound[k] = choose, choose = choose * (r.degree - k) / (k + 1);
-    r.c = c + leaf->zeros[0], r.error = bound + leaf->zeros[0];
-    r.degree -= leaf->zeros[0] + leaf->zeros[1];
-  }
-  out->count = 0;
-  if (r.degree < 1) return;
-  struct root_set roots;
-  solver_roots(&r, &method->roots, warm, &roots);
-  tracer->counts.roots_found += (unsigned)roots.count;
-  for (int k = 0; k < roots.count; k++) {
-    const struct root *root = &roots.root[k];
-    /* paper 2.2: the real ones, as far as eps tells */
-    const double real = method->polish ? START_MARGIN : method->roots.tolerance;
-    const double margin = method->polish ? START_MARGIN : 0;
-    if (!(fabs(root->im) <= real && root->re >= -margin && root->re <= 1 + margin)) continue;
-    const double v = eliminated_at(&form, method, root->re);
-    if (!(v >= -1 && v <= 2)) continue;
-    if (!method->polish && !solves_planes(&form, method, size, root->re, v)) continue;
-    out->u[out->count] = leaf->v_kept ? v : root->re;
-    out->v[out->count++] = leaf->v_kept ? root->re : v;
-  }
+  method_find(method, warm, leaf, a, b, error, out, explain_roots(tracer));
+  tracer->counts.roots_found += (unsigned)out->found;
 }

@@ -8,11 +8,13 @@
 #ifndef PSCN_INTERSECT_METHOD_H
 #define PSCN_INTERSECT_METHOD_H
 
+#include "intersect/explain.h"
 #include "intersect/tracer.h"
 
 enum { METHOD_MAX_ROOTS = POLYNOMIAL_MAX_DEGREE };
 
 struct method_roots {
+  int found; /* roots of r */
   int count;
   double u[METHOD_MAX_ROOTS], v[METHOD_MAX_ROOTS]; /* leaf parameters, near or in [0,1] */
 };
@@ -21,5 +23,9 @@ struct method_roots {
  * substitutes back. Counts the roots. Starting points only: nothing here is proven. */
 void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
                   struct method_roots *out);
+
+/* The same of any model's leaf, for whoever asks what became of r: `story` may be NULL. Counts nothing. */
+void method_find(const struct method *method, struct solver_warm *warm, const struct leaf *leaf, const double a[16],
+                 const double b[16], double error, struct method_roots *out, struct explained_roots *story);
 
 #endif

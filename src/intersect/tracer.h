@@ -33,7 +33,8 @@ struct tracer {
   const struct kernel *kernel;
   struct intersect_counts counts;
   uint64_t epoch;
-  struct warm_leaf *warm; /* one a leaf, NULL where no patch asks for it */
+  struct warm_leaf *warm;      /* one a leaf, NULL where no patch asks for it */
+  struct explainer *explainer; /* explain.c; NULL where nobody asks */
 };
 
 /* The warm start of a leaf of the tracer's model by its number; NULL where the method asks for none. */

@@ -4,6 +4,8 @@
  */
 #include "intersect/lanes/candidate.h"
 
+#include "intersect/explain.h"
+
 /* A scene with `polish off` asks for the roots as its solver finds them: nothing is closed before that. */
 static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
 {
@@ -30,6 +32,26 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (lanes_any(open)) packet_postpone(p, it->leaf, open);
 }
 
+/* A candidate of a ray that is to be explained: it is the first one of its packet, and the others are the same. */
+static void candidate_explained(struct packet *p, struct candidate *it, lane_mask open)
+{
+  const struct best *best = &p->best;
+  explain_before(p->tracer, it->leaf, best->t[0]);
+  candidate_pass(p, it, open);
+  struct explained_ray told = {.model = p->model,
+                               .leaf = it->leaf,
+                               .first_patch = p->outer ? p->copy->first_patch : 0,
+                               .shift = p->outer ? p->shift[0] : 0,
+                               .proven = best->certain[0] != 0,
+                               .t = best->t[0],
+                               .u = best->u[0],
+                               .v = best->v[0],
+                               .radius_u = best->radius_u[0],
+                               .radius_v = best->radius_v[0]};
+  for (int k = 0; k < 3; k++) told.ray.origin[k] = p->origin[k][0], told.ray.direction[k] = p->direction[k][0];
+  explain_after(p->tracer, &told);
+}
+
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
 {
   struct candidate it;
@@ -39,6 +61,8 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {
     it.axis = __builtin_ctz(bits);
     const lane_mask here = active & p->on_axis[it.axis];
-    if (lanes_any(here)) candidate_pass(p, &it, here);
+    if (!lanes_any(here)) continue;
+    if (p->tracer->explainer) candidate_explained(p, &it, here);
+    else candidate_pass(p, &it, here);
   }
 }

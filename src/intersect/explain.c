@@ -1,0 +1,178 @@
+/* What becomes of a ray. See explain.h. */
+#include "intersect/explain.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "intersect/local_ray.h"
+#include "intersect/method.h"
+
+/* Somebody is told. */
+struct explainer {
+  explain_listener *tell;
+  void *context;
+  struct intersect_counts before; /* of the candidate that is under way */
+  double t_before;
+  bool warmed; /* `warm` holds what the candidate's solver was to start from */
+  struct solver_warm warm;
+  bool by_solver; /* story.found is told */
+  struct explained_candidate story;
+};
+
+struct explained_roots *explain_roots(struct tracer *tracer)
+{
+  if (tracer->explainer == NULL) return NULL;
+  tracer->explainer->by_solver = true;
+  return &tracer->explainer->story.found;
+}
+
+void explain_before(struct tracer *tracer, const struct leaf *leaf, double t)
+{
+  struct explainer *explainer = tracer->explainer;
+  const struct model *model = tracer->model;
+  explainer->before = tracer->counts;
+  explainer->t_before = t;
+  explainer->warmed = explainer->by_solver = false;
+  if (tracer->warm == NULL || leaf < model->leaves || leaf >= model->leaves + model->leaf_count) return;
+  const struct solver_warm *warm = tracer_warm(tracer, model->patches[leaf->patch].method, leaf - model->leaves);
+  explainer->warmed = warm != NULL;
+  if (warm != NULL) explainer->warm = *warm;
+}
+
+/* The places on the ray of the points that are offered. */
+static void place_points(const struct local_ray *local, const double w[16], const struct explained_ray *ray,
+                         struct explained_candidate *story)
+{
+  for (int k = 0; k < story->found.roots.count; k++) {
+    if (story->found.fate[k] != ROOT_OFFERED) continue;
+    const double kept = story->found.roots.root[k].re, other = story->found.other[k];
+    const double u = story->v_kept ? other : kept, v = story->v_kept ? kept : other;
+    const double wu[4] = {(1 - u) * (1 - u) * (1 - u), 3 * u * (1 - u) * (1 - u), 3 * u * u * (1 - u), u * u * u};
+    const double wv[4] = {(1 - v) * (1 - v) * (1 - v), 3 * v * (1 - v) * (1 - v), 3 * v * v * (1 - v), v * v * v};
+    double place = 0;
+    for (int n = 0; n < 16; n++) place += wu[n / 4] * wv[n % 4] * w[n];
+    story->t[k] = ray->shift + (place + local->start[1] + local->start[0]) * local->to_t;
+  }
+}
+
+/* The leaf, its a and b, and what the solver makes of them where it has not been told already. */
+static void tell_algebra(struct explainer *explainer, const struct explained_ray *ray)
+{
+  struct explained_candidate *story = &explainer->story;
+  const struct leaf *leaf = ray->leaf;
+  const struct model_patch *patch = &ray->model->patches[leaf->patch];
+  story->patch = ray->first_patch + leaf->patch;
+  story->split = patch->split, story->column_u = leaf->column_u, story->column_v = leaf->column_v;
+  story->v_kept = leaf->v_kept;
+  story->kept_degree = leaf->kept_degree, story->other_degree = leaf->eliminated_degree;
+  struct local_ray local;
+  double w[16], unused[16], error;
+  local_ray_make(patch, &ray->ray, &local);
+  local_ray_nets(&local, leaf->x, story->a, story->b, w);
+  error = local.error;
+  if (leaf->form != NULL) {
+    local_ray_nets(&local, leaf->form->x, story->a, story->b, unused);
+    error = error * leaf->form->size + 2 * leaf->form->excess;
+  }
+  if (!story->solved) return;
+  struct method_roots points;
+  if (!explainer->by_solver)
+    method_find(patch->method, explainer->warmed ? &explainer->warm : NULL, leaf, story->a, story->b, error, &points,
+                &story->found);
+  place_points(&local, w, ray, story);
+}
+
+void explain_after(struct tracer *tracer, const struct explained_ray *ray)
+{
+  struct explainer *explainer = tracer->explainer;
+  const struct intersect_counts *before = &explainer->before, *after = &tracer->counts;
+  struct explained_candidate *story = &explainer->story;
+  if (after->patches_tested == before->patches_tested) return; /* its box along the leaf is passed by */
+  for (int k = 0; k < STAGE_COUNT; k++)
+    if (after->stages[k] > before->stages[k]) story->reached = (enum stage)k;
+  story->solved = story->reached == STAGE_BILINEAR || story->reached == STAGE_ROOTS;
+  story->by_solver = explainer->by_solver;
+  tell_algebra(explainer, ray);
+  story->left_open = after->escalated > before->escalated;
+  story->taken = ray->t != explainer->t_before;
+  story->proven = ray->proven;
+  story->hit_t = ray->shift + ray->t, story->hit_u = ray->u, story->hit_v = ray->v;
+  story->radius_u = ray->radius_u, story->radius_v = ray->radius_v;
+  explainer->tell(explainer->context, story);
+}
+
+void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listener *tell, void *context,
+                    struct hit *out_hit)
+{
+  struct explainer explainer = {.tell = tell, .context = context};
+  tracer->explainer = &explainer;
+  tracer_closest(tracer, 1, ray, out_hit);
+  tracer->explainer = NULL;
+}
+
+/* ---- numbers ---- */
+
+/* A root that a hit may be. */
+struct measured_root {
+  uint32_t patch;
+  int split, column_u, column_v;
+  bool v_kept;
+  double re, im, residual;
+};
+
+enum { MEASURED_ROOTS = 256 }; /* of one ray; those beyond are not looked at */
+
+/* Roots farther than this from the kept parameter's range are no hit's. */
+#define MEASURED_MARGIN 0.125
+
+struct measured {
+  struct explained_numbers *numbers;
+  int count;
+  struct measured_root root[MEASURED_ROOTS];
+};
+
+static void measure_candidate(void *context, const struct explained_candidate *candidate)
+{
+  struct measured *all = context;
+  const struct explained_roots *found = &candidate->found;
+  const struct polynomial r = {found->degree, found->basis, found->c, NULL};
+  for (int k = 0; candidate->solved && k < found->roots.count; k++) {
+    const struct root *root = &found->roots.root[k];
+    all->numbers->iterations += root->iterations;
+    all->numbers->roots += 1;
+    const bool near = fabs(root->re - 0.5) <= 0.5 + MEASURED_MARGIN && fabs(root->im) <= MEASURED_MARGIN;
+    if (!near || all->count == MEASURED_ROOTS) continue;
+    all->root[all->count++] = (struct measured_root){candidate->patch,
+                                                     candidate->split,
+                                                     candidate->column_u,
+                                                     candidate->column_v,
+                                                     candidate->v_kept,
+                                                     root->re,
+                                                     root->im,
+                                                     polynomial_eq11(&r, root->re, root->im)};
+  }
+}
+
+/* How far the root is from the hit's kept parameter, of a leaf that holds the hit; infinite of another. */
+static double distance_to(const struct measured_root *root, const struct hit *hit)
+{
+  const double u = hit->u * root->split - root->column_u, v = hit->v * root->split - root->column_v;
+  const bool holds = fabs(u - 0.5) <= 0.5 + MEASURED_MARGIN && fabs(v - 0.5) <= 0.5 + MEASURED_MARGIN;
+  return root->patch == hit->patch && holds ? hypot(root->re - (root->v_kept ? v : u), root->im) : INFINITY;
+}
+
+void tracer_measure(struct tracer *tracer, const struct ray *ray, struct hit *out_hit,
+                    struct explained_numbers *out_numbers)
+{
+  struct measured all;
+  all.count = 0, all.numbers = out_numbers;
+  *out_numbers = (struct explained_numbers){0, 0, 0};
+  tracer_explain(tracer, ray, measure_candidate, &all, out_hit);
+  if (out_hit->patch == HIT_NONE) return;
+  double nearest = INFINITY;
+  out_numbers->residual = INFINITY;
+  for (int k = 0; k < all.count; k++) {
+    const double distance = distance_to(&all.root[k], out_hit);
+    if (distance < nearest) nearest = distance, out_numbers->residual = all.root[k].residual;
+  }
+}
