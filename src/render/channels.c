@@ -13,6 +13,10 @@ static const struct channel_traits TRAITS[CHANNEL_KINDS] = {
   [CHANNEL_NORMAL] =
     {"normal", "unit normal facing the camera; a miss: 0", 3, {"normal.x", "normal.y", "normal.z"}, true},
   [CHANNEL_STATUS] = {"status", "0 miss, 1 hit, both certain; 2 miss, 3 hit, both grazing", 1, {"status"}, true},
+  [CHANNEL_ITERATIONS] = {"iterations", "of the solver, for all roots of all leaves", 1, {"iterations"}, true},
+  [CHANNEL_ROOTS] = {"roots", "that the solver found, of all leaves", 1, {"roots"}, true},
+  [CHANNEL_RESIDUAL] = {"residual", "|P|/delta of the root that is the hit (eq 11); a miss: 0", 1, {"residual"}, true},
+  [CHANNEL_DEVIATION] = {"deviation", "relative, from the certified distance", 1, {"deviation"}, true},
 };
 
 const struct channel_traits *channel_traits(enum channel_kind kind) { return &TRAITS[kind]; }
@@ -24,6 +28,19 @@ static enum channel_kind find(const char *name, size_t length)
   while (kind < CHANNEL_KINDS && (strlen(TRAITS[kind].name) != length || memcmp(TRAITS[kind].name, name, length) != 0))
     kind++;
   return (enum channel_kind)kind;
+}
+
+bool channel_list_has(const struct channel_list *list, enum channel_kind kind)
+{
+  bool has = false;
+  for (size_t k = 0; k < list->count; k++) has |= list->kind[k] == kind;
+  return has;
+}
+
+bool channel_list_measures(const struct channel_list *list)
+{
+  return channel_list_has(list, CHANNEL_ITERATIONS) || channel_list_has(list, CHANNEL_ROOTS) ||
+         channel_list_has(list, CHANNEL_RESIDUAL);
 }
 
 bool channel_list_parse(const char *text, struct channel_list *out, const char **out_bad, size_t *out_bad_length)

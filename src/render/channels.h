@@ -15,6 +15,11 @@ enum channel_kind {
   CHANNEL_PATCH,  /* the patch's number, from 0; -1 on a miss */
   CHANNEL_NORMAL, /* unit normal facing the camera; 0 on a miss */
   CHANNEL_STATUS, /* enum channel_status */
+  /* What the scene's solver did for the sample, over all leaves of patches that it came to (intersect/explain.h). */
+  CHANNEL_ITERATIONS, /* of all roots */
+  CHANNEL_ROOTS,      /* how many roots it found */
+  CHANNEL_RESIDUAL,   /* eq 11's ratio |P|/delta of the root that is the hit; 0 on a miss */
+  CHANNEL_DEVIATION,  /* |T - T'|/T', T' being the default solver's, certified; 0 where both miss, infinite where one */
   CHANNEL_KINDS
 };
 
@@ -41,6 +46,10 @@ struct channel_list {
   size_t count, width; /* width: values a pixel, of all together */
   enum channel_kind kind[CHANNEL_KINDS];
 };
+
+/* Whether any of the list is of what the solver did, and whether the list has that one. */
+bool channel_list_measures(const struct channel_list *list);
+bool channel_list_has(const struct channel_list *list, enum channel_kind kind);
 
 /* Reads names with commas between them. false: *out_bad .. + *out_bad_length is the name that is unknown or stands
  * twice (possibly empty), and *out is unchanged. */

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "base/clock.h"
@@ -28,7 +29,7 @@ struct crew {
 
 struct worker {
   struct crew *crew;
-  struct tracer *tracer;
+  struct tracer *tracer, *certified; /* certified: NULL unless it is asked for */
   pthread_t thread;
 };
 
@@ -52,7 +53,8 @@ static void *work(void *argument)
     const size_t tile = atomic_fetch_add(&crew->next, 1);
     if (tile >= total) break;
     const uint64_t before = count_rays(worker->tracer);
-    const size_t pixels = tile_render(crew->job, worker->tracer, crew->tiles.x + tile % crew->tiles.width,
+    const size_t pixels = tile_render(crew->job, worker->tracer, worker->certified,
+                                      crew->tiles.x + tile % crew->tiles.width,
                                       crew->tiles.y + tile / crew->tiles.width);
     atomic_fetch_add(&crew->pixels, pixels);
     atomic_fetch_add(&crew->rays, count_rays(worker->tracer) - before);
@@ -142,6 +144,31 @@ static bool warm_starts(const struct scene *scene)
   return false;
 }
 
+/* The same scene by the default solver, whose answers are proven. Borrows the scene. */
+struct certified {
+  struct scene scene;
+  struct method method;
+  struct intersector *intersector;
+};
+
+static enum status certified_create(const struct scene *scene, struct certified *out)
+{
+  out->scene = *scene;
+  out->scene.patches = calloc(scene->patch_count + 1, sizeof *scene->patches);
+  if (out->scene.patches == NULL) return STATUS_LIMIT;
+  memcpy(out->scene.patches, scene->patches, scene->patch_count * sizeof *scene->patches);
+  method_default(solver_at(0), &out->method);
+  out->scene.solvers = &out->method, out->scene.solver_count = 1;
+  for (size_t p = 0; p < scene->patch_count; p++) out->scene.patches[p].solver = 0;
+  return intersector_create(&out->scene, &out->intersector);
+}
+
+static void certified_destroy(struct certified *certified)
+{
+  intersector_destroy(certified->intersector);
+  free(certified->scene.patches);
+}
+
 static void add_counts(struct intersect_counts *sum, const struct intersect_counts *counts)
 {
   sum->rays[0] += counts->rays[0];
@@ -173,10 +200,15 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   const size_t tile_count = crew.tiles.width * crew.tiles.height;
   const size_t count = options->threads < tile_count ? options->threads : tile_count;
   struct worker *workers = calloc(count, sizeof *workers);
+  struct certified certified = {.intersector = NULL};
   enum status status = workers == NULL ? STATUS_LIMIT : STATUS_OK;
+  if (status == STATUS_OK && channel_list_has(&options->channels, CHANNEL_DEVIATION))
+    status = certified_create(scene, &certified);
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     workers[k].crew = &crew;
     status = tracer_create(intersector, &workers[k].tracer);
+    if (status == STATUS_OK && certified.intersector != NULL)
+      status = tracer_create(certified.intersector, &workers[k].certified);
   }
   if (status == STATUS_OK) status = crew_synchronise(&crew);
   if (status == STATUS_OK) {
@@ -188,8 +220,10 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
     if (workers[k].tracer == NULL) continue;
     add_counts(&out_stats->counts, tracer_counts(workers[k].tracer));
     tracer_destroy(workers[k].tracer);
+    tracer_destroy(workers[k].certified);
   }
   free(workers);
+  certified_destroy(&certified);
   out_stats->threads = count;
   out_stats->seconds = clock_seconds(CLOCK_MONOTONIC) - start;
   return status;

@@ -16,6 +16,8 @@ struct pixel {
   size_t hits;    /* samples that hit */
   struct hit hit; /* of the middle sample, with its distance */
   double distance;
+  struct explained_numbers solver; /* where they are asked for */
+  double deviation;
 };
 
 static bool inside(const struct rectangle *r, size_t x, size_t y)
@@ -35,9 +37,22 @@ static size_t gather(const struct tile_job *job, size_t x0, size_t y0, struct pi
   return count;
 }
 
+/* How far the hits are from the certified ones. */
+static void deviations(struct tracer *certified, size_t count, const struct ray rays[], const struct hit hits[],
+                       struct pixel pixels[])
+{
+  struct hit exact[PACKET_SIZE];
+  tracer_closest(certified, count, rays, exact);
+  for (size_t k = 0; k < count; k++) {
+    const bool missed = hits[k].patch == HIT_NONE, misses = exact[k].patch == HIT_NONE;
+    if (missed || misses) pixels[k].deviation = missed == misses ? 0 : INFINITY;
+    else pixels[k].deviation = fabs(hits[k].t - exact[k].t) / exact[k].t;
+  }
+}
+
 /* Adds sample (i, j) to every pixel. */
-static void sample(const struct tile_job *job, struct tracer *tracer, size_t i, size_t j, size_t count,
-                   struct pixel pixels[])
+static void sample(const struct tile_job *job, struct tracer *tracer, struct tracer *certified, size_t i, size_t j,
+                   size_t count, struct pixel pixels[])
 {
   const double n = (double)job->samples;
   const bool middle = i == job->samples / 2 && j == job->samples / 2;
@@ -49,7 +64,10 @@ static void sample(const struct tile_job *job, struct tracer *tracer, size_t i, 
     const double t = ((double)pixels[k].y + ((double)j + 0.5) / n) / (double)job->height;
     camera_ray(&job->scene->camera, s, t, &rays[k]);
   }
-  tracer_closest(tracer, count, rays, hits);
+  if (middle && channel_list_measures(&job->channels))
+    for (size_t k = 0; k < count; k++) tracer_measure(tracer, &rays[k], &hits[k], &pixels[k].solver);
+  else tracer_closest(tracer, count, rays, hits);
+  if (middle && certified != NULL) deviations(certified, count, rays, hits, pixels);
   shade_packet(job->scene, tracer, count, rays, hits, rgb);
   for (size_t k = 0; k < count; k++) {
     vector_add_scaled(pixels[k].rgb, 1, rgb[k], pixels[k].rgb);
@@ -84,6 +102,10 @@ static void channel_values(enum channel_kind kind, const struct pixel *pixel, do
     for (int k = 0; k < 3; k++) out[k] = missed ? 0 : hit->normal[k];
     break;
   case CHANNEL_STATUS: out[0] = status_value(hit); break;
+  case CHANNEL_ITERATIONS: out[0] = pixel->solver.iterations; break;
+  case CHANNEL_ROOTS: out[0] = pixel->solver.roots; break;
+  case CHANNEL_RESIDUAL: out[0] = pixel->solver.residual; break;
+  case CHANNEL_DEVIATION: out[0] = pixel->deviation; break;
   case CHANNEL_KINDS: break;
   }
 }
@@ -101,7 +123,8 @@ static void keep(const struct tile_job *job, const struct pixel *pixel)
   }
 }
 
-size_t tile_render(const struct tile_job *job, struct tracer *tracer, size_t column, size_t row)
+size_t tile_render(const struct tile_job *job, struct tracer *tracer, struct tracer *certified, size_t column,
+                   size_t row)
 {
   const size_t x0 = column * TILE_SIZE, y0 = row * TILE_SIZE;
   size_t kept = 0;
@@ -112,7 +135,7 @@ size_t tile_render(const struct tile_job *job, struct tracer *tracer, size_t col
       const size_t count = gather(job, x, y, pixels);
       if (count == 0) continue;
       for (size_t j = 0; j < job->samples; j++) {
-        for (size_t i = 0; i < job->samples; i++) sample(job, tracer, i, j, count, pixels);
+        for (size_t i = 0; i < job->samples; i++) sample(job, tracer, certified, i, j, count, pixels);
       }
       for (size_t k = 0; k < count; k++) {
         if (inside(&job->crop, pixels[k].x, pixels[k].y)) {

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "intersect/intersect.h"
+#include "intersect/explain.h"
 #include "render/channels.h"
 #include "scene/scene.h"
 
@@ -31,7 +31,9 @@ struct tile_job {
   float *out; /* [crop.height][crop.width][channels.width] */
 };
 
-/* Renders tile (column, row) of the grid and stores its pixels that are kept. Returns how many those are. */
-size_t tile_render(const struct tile_job *job, struct tracer *tracer, size_t column, size_t row);
+/* Renders tile (column, row) of the grid and stores its pixels that are kept. Returns how many those are. `certified`
+ * answers for CHANNEL_DEVIATION; NULL where nobody asks. */
+size_t tile_render(const struct tile_job *job, struct tracer *tracer, struct tracer *certified, size_t column,
+                   size_t row);
 
 #endif

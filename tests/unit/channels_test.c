@@ -11,7 +11,8 @@ static void every_channel_is_found(void **state)
   struct channel_list list;
   const char *bad;
   size_t length, width = 0;
-  assert_true(channel_list_parse("status,normal,patch,v,u,depth,coverage,rgb", &list, &bad, &length));
+  assert_true(channel_list_parse("deviation,residual,roots,iterations,status,normal,patch,v,u,depth,coverage,rgb",
+                                 &list, &bad, &length));
   assert_int_equal(list.count, CHANNEL_KINDS);
   for (int k = 0; k < CHANNEL_KINDS; k++) {
     assert_int_equal(list.kind[k], CHANNEL_KINDS - 1 - k);

@@ -83,7 +83,7 @@ static void expect_invariance(const struct scene *scene)
 {
   static const struct rectangle crops[] = {{0, 0, 1, 1},   {69, 44, 1, 1}, {31, 31, 2, 2},
                                            {5, 7, 40, 30}, {64, 3, 6, 40}, {0, 44, 70, 1}};
-  struct render_options options = options_of("rgb,depth,u,v,patch,normal,status");
+  struct render_options options = options_of("rgb,depth,u,v,patch,normal,status,iterations,roots,residual,deviation");
   struct render_stats stats;
   float *whole = render(scene, &options, &stats);
   const size_t pixel = options.channels.width * sizeof(float);
@@ -328,6 +328,58 @@ static void channels_tell_of_the_hit(void **state)
   free(out);
 }
 
+/* What the solver did: iterations, roots, eq 11, the distance from the certified answer. The other channels are the same
+ * bits whether they are asked for or not. Returns how many pixels deviate by more than `off`, or are wrong. */
+static size_t expect_measures(const struct scene *scene, double most_roots, double most_off)
+{
+  const struct render_options plain = options_of("rgb,depth,u,v,patch,normal,status");
+  const struct render_options more = options_of(
+    "rgb,depth,u,v,patch,normal,status,iterations,roots,residual,deviation");
+  struct render_stats stats;
+  float *expected = render(scene, &plain, &stats), *out = render(scene, &more, &stats);
+  method_default(solver_at(0), &solver); /* the scene's */
+  float *exact = render(scene, &plain, &stats);
+  size_t off = 0, hits = 0, accurate = 0;
+  for (size_t n = 0; n < WIDTH * HEIGHT; n++) {
+    const float *pixel = out + 15 * n;
+    assert_memory_equal(pixel, expected + 11 * n, 11 * sizeof *pixel);
+    const double iterations = (double)pixel[11], roots = (double)pixel[12], residual = (double)pixel[13];
+    const double depth = (double)pixel[3], right = (double)exact[11 * n + 3], deviation = (double)pixel[14];
+    const bool hit = isfinite(depth);
+    assert_true(roots <= most_roots);
+    assert_true(!hit || (roots > 0 && iterations > 0));
+    assert_true(hit ? residual >= 0 && isfinite(residual) : residual == 0);
+    accurate += hit && residual < 1;
+    if (hit != isfinite(right)) assert_true(isinf(deviation));
+    else if (!hit) assert_true(deviation == 0);
+    else assert_true(fabs(deviation - fabs(depth - right) / right) < 1e-6 * (1 + deviation));
+    off += deviation > most_off, hits += hit;
+  }
+  assert_true(hits > WIDTH * HEIGHT / 4 && (most_off > 0 || accurate > hits / 2));
+  free(expected), free(out), free(exact);
+  return off;
+}
+
+static void channels_tell_of_the_solver(void **state)
+{
+  (void)state;
+  struct scene scene = scene_of();
+  assert_int_equal(expect_measures(&scene, INFINITY, 0), 0); /* the default is what is certified */
+  static const char *const names[] = {"newton", "laguerre", "aberth", "durand_kerner"};
+  size_t off = 0;
+  for (int k = 0; k < 4; k++) {
+    scene = scene_of();
+    patches[1] = square(3, 2, 0.7); /* bidegree 3, as the other one */
+    method_default(solver_find(names[k], strlen(names[k])), &solver);
+    solver_options_form(&solver.roots, false);
+    solver.basis = BASIS_POWER, solver.polish = false, solver.split = 1;
+    solver.back_substitution = BACK_SUBSTITUTION_EUCLID, solver.resultant = RESULTANT_SYLVESTER;
+    solver.roots.tolerance = 0.05, solver.residual = 1; /* so that answers are off */
+    off += expect_measures(&scene, 2 * 18, 1e-6);
+  }
+  assert_true(off > 0 && off < 4 * WIDTH * HEIGHT / 2);
+}
+
 /* N x N samples are the pixels of a picture N times as large, averaged; data are those of the middle sample. */
 static void samples_are_a_finer_picture(void **state)
 {
@@ -386,6 +438,7 @@ int main(void)
     cmocka_unit_test(shadows_are_cast),
     cmocka_unit_test(a_light_may_lie_on_a_surface),
     cmocka_unit_test(channels_tell_of_the_hit),
+    cmocka_unit_test(channels_tell_of_the_solver),
     cmocka_unit_test(samples_are_a_finer_picture),
     cmocka_unit_test(a_stopped_rendering_says_so),
   };
