@@ -20,14 +20,12 @@ LANES_INLINE float_lanes float_lanes_all(float x) { return x - (float_lanes){0};
 /* The doubles of two registers, rounded to nearest: a in the first LANES lanes. */
 LANES_INLINE float_lanes float_lanes_join(lanes a, lanes b)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (float_lanes)_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps((__m512d)a)),
-                                         _mm512_cvtpd_ps((__m512d)b), 1);
-#elif defined(__AVX__)
-  return (float_lanes)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps((__m256d)a)),
-                                           _mm256_cvtpd_ps((__m256d)b), 1);
-#elif defined(__SSE2__)
-  return (float_lanes)_mm_movelh_ps(_mm_cvtpd_ps((__m128d)a), _mm_cvtpd_ps((__m128d)b));
+#if LANES == 8
+  return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a)), _mm512_cvtpd_ps(b), 1);
+#elif LANES == 4
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(a)), _mm256_cvtpd_ps(b), 1);
+#elif defined(LANES_OP)
+  return _mm_movelh_ps(_mm_cvtpd_ps(a), _mm_cvtpd_ps(b));
 #else
   float_lanes joined;
   for (int k = 0; k < LANES; k++) joined[k] = (float)a[k], joined[LANES + k] = (float)b[k];
@@ -38,8 +36,8 @@ LANES_INLINE float_lanes float_lanes_join(lanes a, lanes b)
 /* Lane k: mask ? a : b. */
 LANES_INLINE float_lanes float_lanes_select(float_mask mask, float_lanes a, float_lanes b)
 {
-#if defined(__AVX__) && !defined(__AVX512F__)
-  return (float_lanes)_mm256_blendv_ps((__m256)b, (__m256)a, (__m256)mask);
+#if LANES == 4
+  return _mm256_blendv_ps(b, a, (__m256)mask);
 #else
   return (float_lanes)((mask & (float_mask)a) | (~mask & (float_mask)b));
 #endif
@@ -53,42 +51,30 @@ LANES_INLINE float_lanes float_lanes_abs(float_lanes a)
 /* Lane k: a < b ? a : b, so b where either is NaN. */
 LANES_INLINE float_lanes float_lanes_min(float_lanes a, float_lanes b)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (float_lanes)_mm512_min_ps((__m512)a, (__m512)b);
-#elif defined(__AVX__)
-  return (float_lanes)_mm256_min_ps((__m256)a, (__m256)b);
-#elif defined(__SSE2__)
-  return (float_lanes)_mm_min_ps((__m128)a, (__m128)b);
+#if defined(LANES_OP)
+  return LANES_OP(min_ps)(a, b);
 #else
-  for (int k = 0; k < FLOAT_LANES; k++) b[k] = a[k] < b[k] ? a[k] : b[k];
-  return b;
+  return float_lanes_select(a < b, a, b);
 #endif
 }
 
 /* Lane k: a > b ? a : b, so b where either is NaN. */
 LANES_INLINE float_lanes float_lanes_max(float_lanes a, float_lanes b)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (float_lanes)_mm512_max_ps((__m512)a, (__m512)b);
-#elif defined(__AVX__)
-  return (float_lanes)_mm256_max_ps((__m256)a, (__m256)b);
-#elif defined(__SSE2__)
-  return (float_lanes)_mm_max_ps((__m128)a, (__m128)b);
+#if defined(LANES_OP)
+  return LANES_OP(max_ps)(a, b);
 #else
-  for (int k = 0; k < FLOAT_LANES; k++) b[k] = a[k] > b[k] ? a[k] : b[k];
-  return b;
+  return float_lanes_select(a > b, a, b);
 #endif
 }
 
 /* The mask as bits: bit k is lane k. */
 LANES_INLINE unsigned float_lanes_bits(float_mask mask)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (unsigned)_mm512_movepi32_mask((__m512i)mask);
-#elif defined(__AVX__)
-  return (unsigned)_mm256_movemask_ps((__m256)mask);
-#elif defined(__SSE2__)
-  return (unsigned)_mm_movemask_ps((__m128)mask);
+#if LANES == 8
+  return _mm512_movepi32_mask((__m512i)mask);
+#elif defined(LANES_OP)
+  return (unsigned)LANES_OP(movemask_ps)((float_lanes)mask);
 #else
   unsigned bits = 0;
   for (int k = 0; k < FLOAT_LANES; k++) bits |= (unsigned)(mask[k] & 1) << k;

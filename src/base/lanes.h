@@ -15,12 +15,18 @@
 #include <immintrin.h>
 #endif
 
+/* LANES_OP(min_pd) is the intrinsic of that name for the whole register; without SSE2 there are none. */
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define LANES 8
+#define LANES_OP(name) _mm512_##name
 #elif defined(__AVX__)
 #define LANES 4
+#define LANES_OP(name) _mm256_##name
 #else
 #define LANES 2
+#if defined(__SSE2__)
+#define LANES_OP(name) _mm_##name
+#endif
 #endif
 
 typedef double lanes __attribute__((vector_size(8 * LANES)));
@@ -61,14 +67,14 @@ LANES_INLINE void lanes_load4(const double *from, size_t stride, lanes *a, lanes
 #if LANES == 8
   __m256d x[4], y[4];
   lanes_load_square(from, stride, x), lanes_load_square(from + 4 * stride, stride, y);
-  *a = (lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(x[0]), y[0], 1);
-  *b = (lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(x[1]), y[1], 1);
-  *c = (lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(x[2]), y[2], 1);
-  *d = (lanes)_mm512_insertf64x4(_mm512_castpd256_pd512(x[3]), y[3], 1);
+  *a = _mm512_insertf64x4(_mm512_castpd256_pd512(x[0]), y[0], 1);
+  *b = _mm512_insertf64x4(_mm512_castpd256_pd512(x[1]), y[1], 1);
+  *c = _mm512_insertf64x4(_mm512_castpd256_pd512(x[2]), y[2], 1);
+  *d = _mm512_insertf64x4(_mm512_castpd256_pd512(x[3]), y[3], 1);
 #elif LANES == 4
   __m256d x[4];
   lanes_load_square(from, stride, x);
-  *a = (lanes)x[0], *b = (lanes)x[1], *c = (lanes)x[2], *d = (lanes)x[3];
+  *a = x[0], *b = x[1], *c = x[2], *d = x[3];
 #else
   for (size_t k = 0; k < LANES; k++) {
     const double *x = from + k * stride;
@@ -81,13 +87,13 @@ LANES_INLINE void lanes_load4(const double *from, size_t stride, lanes *a, lanes
 LANES_INLINE void lanes_store4(lanes a, lanes b, lanes c, lanes d, double *to, size_t stride)
 {
 #if LANES == 8
-  __m256d x[4] = {_mm512_castpd512_pd256((__m512d)a), _mm512_castpd512_pd256((__m512d)b),
-                  _mm512_castpd512_pd256((__m512d)c), _mm512_castpd512_pd256((__m512d)d)};
-  __m256d y[4] = {_mm512_extractf64x4_pd((__m512d)a, 1), _mm512_extractf64x4_pd((__m512d)b, 1),
-                  _mm512_extractf64x4_pd((__m512d)c, 1), _mm512_extractf64x4_pd((__m512d)d, 1)};
+  __m256d x[4] = {_mm512_castpd512_pd256(a), _mm512_castpd512_pd256(b), _mm512_castpd512_pd256(c),
+                  _mm512_castpd512_pd256(d)};
+  __m256d y[4] = {_mm512_extractf64x4_pd(a, 1), _mm512_extractf64x4_pd(b, 1), _mm512_extractf64x4_pd(c, 1),
+                  _mm512_extractf64x4_pd(d, 1)};
   lanes_store_square(x, to, stride), lanes_store_square(y, to + 4 * stride, stride);
 #elif LANES == 4
-  __m256d x[4] = {(__m256d)a, (__m256d)b, (__m256d)c, (__m256d)d};
+  __m256d x[4] = {a, b, c, d};
   lanes_store_square(x, to, stride);
 #else
   for (size_t k = 0; k < LANES; k++) {
@@ -100,10 +106,10 @@ LANES_INLINE void lanes_store4(lanes a, lanes b, lanes c, lanes d, double *to, s
 /* Lane k: mask ? a : b. */
 LANES_INLINE lanes lanes_select(lane_mask mask, lanes a, lanes b)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (lanes)_mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)mask), (__m512d)b, (__m512d)a);
-#elif defined(__AVX__)
-  return (lanes)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)mask);
+#if LANES == 8
+  return _mm512_mask_blend_pd(_mm512_movepi64_mask((__m512i)mask), b, a);
+#elif LANES == 4
+  return _mm256_blendv_pd(b, a, (__m256d)mask);
 #else
   return (lanes)((mask & (lane_mask)a) | (~mask & (lane_mask)b));
 #endif
@@ -112,12 +118,8 @@ LANES_INLINE lanes lanes_select(lane_mask mask, lanes a, lanes b)
 /* Lane k: a < b ? a : b, so b where either is NaN. */
 LANES_INLINE lanes lanes_min(lanes a, lanes b)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (lanes)_mm512_min_pd((__m512d)a, (__m512d)b);
-#elif defined(__AVX__)
-  return (lanes)_mm256_min_pd((__m256d)a, (__m256d)b);
-#elif defined(__SSE2__)
-  return (lanes)_mm_min_pd((__m128d)a, (__m128d)b);
+#if defined(LANES_OP)
+  return LANES_OP(min_pd)(a, b);
 #else
   return lanes_select(a < b, a, b);
 #endif
@@ -126,12 +128,8 @@ LANES_INLINE lanes lanes_min(lanes a, lanes b)
 /* Lane k: a > b ? a : b, so b where either is NaN. */
 LANES_INLINE lanes lanes_max(lanes a, lanes b)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (lanes)_mm512_max_pd((__m512d)a, (__m512d)b);
-#elif defined(__AVX__)
-  return (lanes)_mm256_max_pd((__m256d)a, (__m256d)b);
-#elif defined(__SSE2__)
-  return (lanes)_mm_max_pd((__m128d)a, (__m128d)b);
+#if defined(LANES_OP)
+  return LANES_OP(max_pd)(a, b);
 #else
   return lanes_select(a > b, a, b);
 #endif
@@ -142,12 +140,8 @@ LANES_INLINE lanes lanes_abs(lanes a) { return (lanes)((lane_mask)a & (INT64_MAX
 /* Lane k: the square root. */
 LANES_INLINE lanes lanes_sqrt(lanes a)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (lanes)_mm512_sqrt_pd((__m512d)a);
-#elif defined(__AVX__)
-  return (lanes)_mm256_sqrt_pd((__m256d)a);
-#elif defined(__SSE2__)
-  return (lanes)_mm_sqrt_pd((__m128d)a);
+#if defined(LANES_OP)
+  return LANES_OP(sqrt_pd)(a);
 #else
   for (int k = 0; k < LANES; k++) a[k] = __builtin_sqrt(a[k]);
   return a;
@@ -158,10 +152,8 @@ LANES_INLINE lanes lanes_sqrt(lanes a)
  * contraction of multiply and add by the compiler can change it. */
 LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (lanes)_mm512_fmsub_pd((__m512d)a, (__m512d)b, (__m512d)product);
-#elif defined(__FMA__)
-  return (lanes)_mm256_fmsub_pd((__m256d)a, (__m256d)b, (__m256d)product);
+#if LANES == 8 || defined(__FMA__)
+  return LANES_OP(fmsub_pd)(a, b, product);
 #else
   for (int k = 0; k < LANES; k++) a[k] = __builtin_fma(a[k], b[k], -product[k]);
   return a;
@@ -171,10 +163,8 @@ LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)
 /* Lane k: a b + c, with one rounding or two. */
 LANES_INLINE lanes lanes_multiply_add(lanes a, lanes b, lanes c)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (lanes)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
-#elif defined(__FMA__)
-  return (lanes)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+#if LANES == 8 || defined(__FMA__)
+  return LANES_OP(fmadd_pd)(a, b, c);
 #else
   return a * b + c;
 #endif
@@ -183,12 +173,10 @@ LANES_INLINE lanes lanes_multiply_add(lanes a, lanes b, lanes c)
 /* The mask as bits: bit k is lane k. */
 LANES_INLINE unsigned lanes_bits(lane_mask mask)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return (unsigned)_mm512_movepi64_mask((__m512i)mask);
-#elif defined(__AVX__)
-  return (unsigned)_mm256_movemask_pd((__m256d)mask);
-#elif defined(__SSE2__)
-  return (unsigned)_mm_movemask_pd((__m128d)mask);
+#if LANES == 8
+  return _mm512_movepi64_mask((__m512i)mask);
+#elif defined(LANES_OP)
+  return (unsigned)LANES_OP(movemask_pd)((lanes)mask);
 #else
   unsigned bits = 0;
   for (int k = 0; k < LANES; k++) bits |= (unsigned)(mask[k] & 1) << k;
