@@ -17,7 +17,7 @@ struct reference {
   struct patch *patches;
 };
 
-enum { MAX_CANDIDATES = 128, FOOT_STEPS = 6 };
+enum { MAX_CANDIDATES = 128 };
 
 /* A zero found on a patch. */
 struct candidate {
@@ -64,6 +64,11 @@ void reference_destroy(struct reference *reference)
   if (!reference) return;
   free(reference->patches);
   free(reference);
+}
+
+const double (*reference_net(const struct reference *reference, uint32_t patch))[4][3]
+{
+  return (const double(*)[4][3])reference->patches[patch].P;
 }
 
 /* The slab test on the box of the control points, widened by its rounding errors: a difference and a quotient, 3
@@ -162,75 +167,6 @@ static void collect(const struct reference *reference, const double origin[3], c
   }
 }
 
-/* out = x, y, z components of M^-1's absolute values times terms, in double from a quadruple-precision inverse. */
-static void floor_bound(quad M[3][3], const double terms[3], double t, double u, double v, struct reference_floor *out)
-{
-  quad determinant = 0;
-  for (int k = 0; k < 3; k++)
-    determinant += M[0][k] * (M[1][(k + 1) % 3] * M[2][(k + 2) % 3] - M[1][(k + 2) % 3] * M[2][(k + 1) % 3]);
-  double moved[3] = {0};
-  for (int row = 0; row < 3; row++) {
-    for (int column = 0; column < 3; column++) {
-      int r1 = (column + 1) % 3, r2 = (column + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;
-      quad cofactor = M[r1][c1] * M[r2][c2] - M[r1][c2] * M[r2][c1];
-      moved[row] += fabs((double)(cofactor / determinant)) * terms[column];
-    }
-  }
-  out->u = DOUBLE_UNIT * (moved[0] + fabs(u));
-  out->v = DOUBLE_UNIT * (moved[1] + fabs(v));
-  out->t = DOUBLE_UNIT * (moved[2] + fabs(t));
-}
-
-static void describe(const struct reference *reference, const struct candidate *c, const double origin[3],
-                     const double direction[3], struct reference_answer *out)
-{
-  const struct patch *patch = &reference->patches[c->patch];
-  out->patch = c->patch;
-  out->t = c->root.t;
-  out->u = c->root.u;
-  out->v = c->root.v;
-  out->radius = c->root.radius;
-  out->t_radius = c->root.t_radius;
-  quad M[3][3], point[3], normal[3];
-  double data[3], local[3], whole[3];
-  for (int axis = 0; axis < 3; axis++) {
-    struct quad_net net, sizes, spread;
-    for (int k = 0; k < 16; k++) net.c[k / 4][k % 4] = patch->P[k / 4][k % 4][axis];
-    struct quad_jet jet = quad_net_jet(&net, out->u, out->v);
-    for (int k = 0; k < 16; k++) {
-      sizes.c[k / 4][k % 4] = quad_abs(net.c[k / 4][k % 4]);
-      spread.c[k / 4][k % 4] = quad_abs(net.c[k / 4][k % 4] - jet.value);
-    }
-    point[axis] = jet.value;
-    M[axis][0] = jet.du;
-    M[axis][1] = jet.dv;
-    M[axis][2] = -(quad)direction[axis];
-    data[axis] = (double)quad_net_jet(&sizes, out->u, out->v).value + fabs(origin[axis]) +
-                 fabs((double)out->t * direction[axis]);
-    local[axis] = (double)quad_net_jet(&spread, out->u, out->v).value;
-    whole[axis] = (double)quad_net_magnitude(&spread);
-  }
-  floor_bound(M, data, (double)out->t, (double)out->u, (double)out->v, &out->data);
-  floor_bound(M, local, (double)out->t, (double)out->u, (double)out->v, &out->local);
-  floor_bound(M, whole, (double)out->t, (double)out->u, (double)out->v, &out->whole);
-
-  quad square = 0, along = 0, length = 0, tangents[2] = {0};
-  for (int axis = 0; axis < 3; axis++) {
-    int i = (axis + 1) % 3, j = (axis + 2) % 3;
-    normal[axis] = M[i][0] * M[j][1] - M[j][0] * M[i][1];
-    square += normal[axis] * normal[axis];
-    along += normal[axis] * direction[axis];
-    length += (quad)direction[axis] * direction[axis];
-    for (int k = 0; k < 2; k++) tangents[k] += M[axis][k] * M[axis][k];
-  }
-  (void)point;
-  quad norm = quad_sqrt(square);
-  out->has_normal = norm > (quad)0x1p-60 * quad_max(tangents[0], tangents[1]);
-  out->incidence = out->has_normal ? (double)(quad_abs(along) / (norm * quad_sqrt(length))) : 0;
-  for (int axis = 0; axis < 3; axis++)
-    out->normal[axis] = out->has_normal ? (double)((along > 0 ? -normal[axis] : normal[axis]) / norm) : 0;
-}
-
 void reference_closest(const struct reference *reference, const double origin[3], const double direction[3],
                        struct reference_answer *out)
 {
@@ -267,51 +203,9 @@ void reference_closest(const struct reference *reference, const double origin[3]
     out->verdict = REFERENCE_GRAZING;
     out->t_first = fmax(0, all.t_undecided);
   }
-  if (answer >= 0) describe(reference, &all.list[answer], origin, direction, out);
-}
-
-void reference_floors_at(const struct reference *reference, uint32_t patch, const double origin[3],
-                         const double direction[3], double t, double u, double v, struct reference_floor *out_data,
-                         struct reference_floor *out_whole)
-{
-  const struct candidate at = {.root = {.u = u, .v = v, .t = t}, .patch = patch};
-  struct reference_answer answer;
-  describe(reference, &at, origin, direction, &answer);
-  *out_data = answer.data, *out_whole = answer.whole;
-}
-
-double reference_residual(const struct reference *reference, uint32_t patch, const double origin[3],
-                          const double direction[3], double t, double u, double v)
-{
-  quad square = 0;
-  for (int axis = 0; axis < 3; axis++) {
-    struct quad_net net;
-    for (int k = 0; k < 16; k++) net.c[k / 4][k % 4] = reference->patches[patch].P[k / 4][k % 4][axis];
-    quad difference = quad_net_jet(&net, u, v).value - ((quad)origin[axis] + (quad)t * direction[axis]);
-    square += difference * difference;
-  }
-  return (double)quad_sqrt(square);
-}
-
-static quad clamp(quad x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
-
-double reference_distance(const struct reference *reference, uint32_t patch, const double point[3], double u, double v)
-{
-  struct quad_net net[3];
-  for (int k = 0; k < 48; k++) net[k % 3].c[k / 12][k / 3 % 4] = reference->patches[patch].P[k / 12][k / 3 % 4][k % 3];
-  quad x = u, y = v, least = -1;
-  for (int step = 0; step < FOOT_STEPS; step++) {
-    quad square = 0, uu = 0, uv = 0, vv = 0, ru = 0, rv = 0;
-    for (int axis = 0; axis < 3; axis++) {
-      const struct quad_jet jet = quad_net_jet(&net[axis], x, y);
-      const quad off = jet.value - point[axis];
-      square += off * off, ru += off * jet.du, rv += off * jet.dv;
-      uu += jet.du * jet.du, uv += jet.du * jet.dv, vv += jet.dv * jet.dv;
-    }
-    if (least < 0 || square < least) least = square;
-    const quad determinant = uu * vv - uv * uv;
-    if (!(determinant > 0)) break;
-    x = clamp(x - (vv * ru - uv * rv) / determinant), y = clamp(y - (uu * rv - uv * ru) / determinant);
-  }
-  return (double)quad_sqrt(least);
+  if (answer < 0) return;
+  const struct candidate *hit = &all.list[answer];
+  out->patch = hit->patch;
+  out->t = hit->root.t, out->u = hit->root.u, out->v = hit->root.v;
+  out->radius = hit->root.radius, out->t_radius = hit->root.t_radius;
 }

@@ -40,17 +40,6 @@ enum reference_verdict { REFERENCE_MISS, REFERENCE_HIT, REFERENCE_GRAZING };
 
 enum { REFERENCE_NONE = UINT32_MAX };
 
-/* How far rounding alone can move a hit: a first-order bound.
- *
- * S(u,v) - o - t d = 0 is solved in double with residuals known only to `terms` units of rounding, so (u,v,t) moves
- * by at most |[S_u S_v -d]^-1| (2^-53 terms), entry by entry, and each result is rounded once. Three choices of terms:
- * data:  sum B_i B_j |P_ij| + |o| + |t d|   every input coordinate changed by one rounding;
- * local: sum B_i B_j |P_ij - S|             the origin moved to the hit first, exactly: only the bicubic is rounded;
- * whole: max |P_ij - S|                     the same, by roundings of the patch's extent. */
-struct reference_floor {
-  double t, u, v;
-};
-
 struct reference_answer {
   enum reference_verdict verdict;
   /* REFERENCE_GRAZING: nothing is hit before this t (units of |direction|). Otherwise equal to t. */
@@ -58,14 +47,10 @@ struct reference_answer {
   /* The nearest proven hit: with REFERENCE_HIT the answer, with REFERENCE_GRAZING an upper bound of it. patch is
    * REFERENCE_NONE where there is none, and then the rest is not written. */
   uint32_t patch;
-  quad t, u, v;     /* t in units of |direction|; u, v in [0,1] but for the radius */
-  double radius;    /* bound on the error of u and v */
-  double t_radius;  /* bound on the error of t */
-  bool shared;      /* at an edge that another patch has too: patch, u, v may be the neighbour's */
-  bool has_normal;  /* false where S_u x S_v vanishes (a collapsed pole) */
-  double normal[3]; /* unit, facing the origin */
-  double incidence; /* |normal . direction| / |direction|: 0 is tangent */
-  struct reference_floor data, local, whole;
+  quad t, u, v;    /* t in units of |direction|; u, v in [0,1] but for the radius */
+  double radius;   /* bound on the error of u and v */
+  double t_radius; /* bound on the error of t */
+  bool shared;     /* at an edge that another patch has too: patch, u, v may be the neighbour's */
 };
 
 struct reference;
@@ -80,18 +65,7 @@ void reference_destroy(struct reference *reference);
 void reference_closest(const struct reference *reference, const double origin[3], const double direction[3],
                        struct reference_answer *out);
 
-/* The floors of a hit that lies there, or next to it. */
-void reference_floors_at(const struct reference *reference, uint32_t patch, const double origin[3],
-                         const double direction[3], double t, double u, double v, struct reference_floor *out_data,
-                         struct reference_floor *out_whole);
-
-/* |S(u,v) - (origin + t direction)|, each difference in quadruple precision: how far an answer of any program is from
- * being a common point of ray and patch. */
-double reference_residual(const struct reference *reference, uint32_t patch, const double origin[3],
-                          const double direction[3], double t, double u, double v);
-
-/* How far `point` is from the patch, at the foot that Gauss' and Newton's method finds next to (u,v), clamped to the
- * square: no less than the distance. */
-double reference_distance(const struct reference *reference, uint32_t patch, const double point[3], double u, double v);
+/* The net of a patch, as long as the reference lives. */
+const double (*reference_net(const struct reference *reference, uint32_t patch))[4][3];
 
 #endif

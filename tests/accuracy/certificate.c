@@ -160,8 +160,8 @@ static void judge_hit(struct judging *j)
     tell_root(j, &j->before, j->before_patch);
     out->finding = FINDING_LATER;
   } else if (!certain) {
-    const double off = reference_residual(j->certifier->reference, hit->patch, j->ray->origin, j->ray->direction,
-                                          hit->t, hit->u, hit->v);
+    const double off = facts_residual(reference_net(j->certifier->reference, hit->patch), j->ray->origin,
+                                      j->ray->direction, hit->t, hit->u, hit->v);
     out->finding = off <= GRAZING_NEAR * size ? FINDING_PROVEN : FINDING_INVENTED;
   } else if (!exists && !j->doubt_at) {
     out->finding = FINDING_INVENTED;
@@ -202,8 +202,7 @@ static bool place_good(const struct judging *j)
 {
   const struct hit *hit = j->hit;
   if (hit->certainty == CERTAINTY_GRAZING || j->at_patch != hit->patch) return true;
-  const struct reference_floor floor = trial_floor(j->certifier->reference, j->ray, hit->patch, hit->t, j->at.u,
-                                                   j->at.v);
+  const struct facts_floor floor = trial_floor(j->certifier->reference, j->ray, hit->patch, hit->t, j->at.u, j->at.v);
   return !(fabs(hit->u - j->at.u) > PLACE_FLOORS * (floor.u + DOUBLE_UNIT)) &&
          !(fabs(hit->v - j->at.v) > PLACE_FLOORS * (floor.v + DOUBLE_UNIT));
 }
@@ -215,7 +214,8 @@ static bool surface_good(const struct judging *j)
   const double *n = hit->normal;
   if (!(hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1)) return false;
   if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max) || !place_good(j)) return false;
-  if (!(reference_distance(j->certifier->reference, hit->patch, hit->point, hit->u, hit->v) <= hit->point_error))
+  if (!(facts_distance(reference_net(j->certifier->reference, hit->patch), hit->point, hit->u, hit->v) <=
+        hit->point_error))
     return false;
   return hit->certainty == CERTAINTY_GRAZING || fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < UNIT_NORMAL;
 }

@@ -137,7 +137,10 @@ static bool right_after_all(const struct trial *trial, const struct ray *ray, co
   reference_closest(trial->reference, ray->origin, ray->direction, &truth);
   if (hit->patch == HIT_NONE) return truth.verdict == REFERENCE_MISS;
   if (truth.patch == REFERENCE_NONE) return truth.verdict == REFERENCE_GRAZING && hit->t >= truth.t_first;
-  return hit->t <= (double)truth.t + TRIAL_SAME_FLOORS * truth.data.t;
+  struct facts facts;
+  facts_find(reference_net(trial->reference, truth.patch), ray->origin, ray->direction, truth.t, truth.u, truth.v,
+             &facts);
+  return hit->t <= (double)truth.t + TRIAL_SAME_FLOORS * facts.data.t;
 }
 
 static size_t count_leaks(struct trial *trial, const char *name, const char *solver, int kind, size_t count,

@@ -100,7 +100,7 @@ static void test_line(void **state)
     const struct hit hit = closest(&trial, origin, direction);
     assert_int_equal(hit.patch, 0);
     assert_int_equal(hit.certainty, CERTAINTY_GRAZING);
-    assert_true(reference_residual(trial.reference, 0, origin, direction, hit.t, hit.u, hit.v) < 1e-11);
+    assert_true(facts_residual(reference_net(trial.reference, 0), origin, direction, hit.t, hit.u, hit.v) < 1e-11);
   }
   trial_destroy(&trial);
 }
@@ -124,7 +124,7 @@ static void test_corner_of_line(void **state)
   const struct hit hit = closest(&trial, origin, direction);
   assert_int_equal(hit.patch, 0);
   assert_int_equal(hit.certainty, CERTAINTY_GRAZING);
-  assert_true(reference_residual(trial.reference, 0, origin, direction, hit.t, hit.u, hit.v) < TRIAL_NEAR);
+  assert_true(facts_residual(reference_net(trial.reference, 0), origin, direction, hit.t, hit.u, hit.v) < TRIAL_NEAR);
   trial_destroy(&trial);
 }
 

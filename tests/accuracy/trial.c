@@ -81,7 +81,7 @@ void trial_destroy(struct trial *trial)
 }
 
 static void show(const char *what, const struct ray *ray, const struct hit *hit, const struct reference_answer *truth,
-                 struct tally *tally)
+                 const struct facts *facts, struct tally *tally)
 {
   static const char *const verdicts[] = {"miss", "hit", "grazing"};
   if (tally->quiet || tally->shown++ >= MOST_SHOWN) return;
@@ -90,7 +90,7 @@ static void show(const char *what, const struct ray *ray, const struct hit *hit,
   printf("  reference: %s", verdicts[truth->verdict]);
   if (truth->patch != REFERENCE_NONE)
     printf(" t %.17g u %.17g v %.17g patch %u incidence %.3g%s", (double)truth->t, (double)truth->u, (double)truth->v,
-           (unsigned)truth->patch, truth->incidence, truth->shared ? " (shared edge)" : "");
+           (unsigned)truth->patch, facts->incidence, truth->shared ? " (shared edge)" : "");
   if (truth->verdict == REFERENCE_GRAZING) printf(" (nothing before t %.17g)", truth->t_first);
   printf("\n  intersector: %s", hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing");
   if (hit->patch == HIT_NONE) {
@@ -124,16 +124,16 @@ double trial_size(const struct ray *ray, double t)
   return size / direction_length(ray);
 }
 
-struct reference_floor trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t,
-                                   double u, double v)
+struct facts_floor trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t,
+                               double u, double v)
 {
-  struct reference_floor data, whole;
-  reference_floors_at(reference, patch, ray->origin, ray->direction, t, u, v, &data, &whole);
-  const double floor = fmax(data.t, fmin(whole.t, TRIAL_EXTENT * t));
-  return (struct reference_floor){.t = floor > 0 ? fmax(floor, TRIAL_LEAST * trial_size(ray, t))
-                                                 : INFINITY, /* not a number: singular */
-                                  .u = fmax(data.u, whole.u),
-                                  .v = fmax(data.v, whole.v)};
+  struct facts facts;
+  facts_find(reference_net(reference, patch), ray->origin, ray->direction, t, u, v, &facts);
+  const double floor = fmax(facts.data.t, fmin(facts.whole.t, TRIAL_EXTENT * t));
+  return (struct facts_floor){.t = floor > 0 ? fmax(floor, TRIAL_LEAST * trial_size(ray, t))
+                                             : INFINITY, /* not a number: singular */
+                              .u = fmax(facts.data.u, facts.whole.u),
+                              .v = fmax(facts.data.v, facts.whole.v)};
 }
 
 /* How far in t the answer may be from the reference's, whose floor is given, and be the same hit still. */
@@ -151,7 +151,8 @@ static double same_within(const struct trial *trial, const struct ray *ray, cons
 static bool excused(const struct trial *trial, const struct ray *ray, const struct hit *hit)
 {
   if (hit->certainty != CERTAINTY_GRAZING) return false;
-  double off = reference_residual(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u, hit->v);
+  double off = facts_residual(reference_net(trial->reference, hit->patch), ray->origin, ray->direction, hit->t, hit->u,
+                              hit->v);
   return off <= TRIAL_NEAR * largest_coordinate(trial, ray, hit);
 }
 
@@ -162,7 +163,8 @@ static bool other_sheet(const struct trial *trial, const struct ray *ray, const 
 {
   double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
   if (hit->patch != truth->patch || fmax(du, dv) < OTHER_SHEET) return false;
-  double off = reference_residual(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u, hit->v);
+  double off = facts_residual(reference_net(trial->reference, hit->patch), ray->origin, ray->direction, hit->t, hit->u,
+                              hit->v);
   return off <= OTHER_SHEET_NEAR * largest_coordinate(trial, ray, hit);
 }
 
@@ -202,7 +204,7 @@ static double difference_bound(const double P[4][4][3], int by_u, int by_v)
 /* What the floors of u and v, and the roundings of the tangents (twelve, on weights that sum up to 6 in size, times
  * the patch's extent), do to the unit normal n = S_u x S_v/|S_u x S_v|: to first order |dn| <= |d(S_u x S_v)|/|S_u x
  * S_v|. */
-static double normal_bound(const double P[4][4][3], const struct reference_answer *truth)
+static double normal_bound(const double P[4][4][3], const struct reference_answer *truth, const struct facts *facts)
 {
   double su[3], sv[3], cross[3];
   net_tangents(P, (double)truth->u, (double)truth->v, su, sv);
@@ -210,7 +212,7 @@ static double normal_bound(const double P[4][4][3], const struct reference_answe
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
     cross[axis] = su[i] * sv[j] - su[j] * sv[i];
   }
-  const double du = TRIAL_FLOORS * truth->data.u, dv = TRIAL_FLOORS * truth->data.v, mixed = difference_bound(P, 1, 1);
+  const double du = TRIAL_FLOORS * facts->data.u, dv = TRIAL_FLOORS * facts->data.v, mixed = difference_bound(P, 1, 1);
   double extent = 0;
   for (int k = 0; k < 16; k++)
     for (int axis = 0; axis < 3; axis++) extent = fmax(extent, fabs(P[k / 4][k % 4][axis] - P[0][0][axis]));
@@ -222,25 +224,25 @@ static double normal_bound(const double P[4][4][3], const struct reference_answe
 
 /* The normal, where its bound is small enough for the first order to hold. */
 static void measure_normal(const struct trial *trial, const struct ray *ray, const struct hit *hit,
-                           const struct reference_answer *truth, struct tally *tally)
+                           const struct reference_answer *truth, const struct facts *facts, struct tally *tally)
 {
-  if (!truth->has_normal) return;
-  const double bound = normal_bound((const double(*)[4][3])trial->scene.patches[hit->patch].P, truth);
+  if (!facts->has_normal) return;
+  const double bound = normal_bound((const double(*)[4][3])trial->scene.patches[hit->patch].P, truth, facts);
   if (!(bound < NORMAL_FIRST_ORDER)) return;
   double off = 0, facing = 0;
   for (int axis = 0; axis < 3; axis++) {
-    off = fmax(off, fabs(hit->normal[axis] - truth->normal[axis]));
-    facing += truth->normal[axis] * ray->direction[axis];
+    off = fmax(off, fabs(hit->normal[axis] - facts->normal[axis]));
+    facing += facts->normal[axis] * ray->direction[axis];
   }
   if (fabs(facing) <= bound * direction_length(ray)) return; /* seen edge-on: which side is seen is rounding */
   tally->worst_normal = fmax(tally->worst_normal, off);
   tally->worst_normal_floor = fmax(tally->worst_normal_floor, off / bound);
-  if (off > bound && tally->bad_normal++ == 0) show("wrong normal", ray, hit, truth, tally);
+  if (off > bound && tally->bad_normal++ == 0) show("wrong normal", ray, hit, truth, facts, tally);
 }
 
 /* Both found the same hit: how well. */
 static void measure(const struct trial *trial, const struct ray *ray, const struct hit *hit,
-                    const struct reference_answer *truth, struct tally *tally)
+                    const struct reference_answer *truth, const struct facts *facts, struct tally *tally)
 {
   double reach = 0;
   for (int axis = 0; axis < 3; axis++) reach = fmax(reach, fabs(ray->origin[axis]));
@@ -250,70 +252,75 @@ static void measure(const struct trial *trial, const struct ray *ray, const stru
     return;
   }
   add_t_error(tally, dt / (double)truth->t);
-  tally->worst_t_floor = fmax(tally->worst_t_floor, dt / truth->data.t);
-  tally->worst_t_local = fmax(tally->worst_t_local, dt / (truth->local.t + origin_rounding));
-  bool beyond = dt > TRIAL_FLOORS * truth->data.t;
+  tally->worst_t_floor = fmax(tally->worst_t_floor, dt / facts->data.t);
+  tally->worst_t_local = fmax(tally->worst_t_local, dt / (facts->local.t + origin_rounding));
+  bool beyond = dt > TRIAL_FLOORS * facts->data.t;
   const bool other = other_sheet(trial, ray, hit, truth);
   if (hit->patch == truth->patch && !truth->shared && !other) {
     double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
-    tally->worst_u_floor = fmax(tally->worst_u_floor, du / truth->data.u);
-    tally->worst_v_floor = fmax(tally->worst_v_floor, dv / truth->data.v);
-    tally->worst_u_local = fmax(tally->worst_u_local, du / truth->local.u);
-    tally->worst_v_local = fmax(tally->worst_v_local, dv / truth->local.v);
-    beyond = beyond || du > TRIAL_FLOORS * truth->data.u || dv > TRIAL_FLOORS * truth->data.v;
+    tally->worst_u_floor = fmax(tally->worst_u_floor, du / facts->data.u);
+    tally->worst_v_floor = fmax(tally->worst_v_floor, dv / facts->data.v);
+    tally->worst_u_local = fmax(tally->worst_u_local, du / facts->local.u);
+    tally->worst_v_local = fmax(tally->worst_v_local, dv / facts->local.v);
+    beyond = beyond || du > TRIAL_FLOORS * facts->data.u || dv > TRIAL_FLOORS * facts->data.v;
   }
-  if (beyond) show("T, U or V beyond its floor", ray, hit, truth, tally);
+  if (beyond) show("T, U or V beyond its floor", ray, hit, truth, facts, tally);
   if (hit->patch != truth->patch || other) return;
-  measure_normal(trial, ray, hit, truth, tally);
+  measure_normal(trial, ray, hit, truth, facts, tally);
 }
 
 static void judge_hit(const struct trial *trial, const struct ray *ray, const struct hit *hit,
-                      const struct reference_answer *truth, struct tally *tally)
+                      const struct reference_answer *truth, const struct facts *facts, struct tally *tally)
 {
   double difference = (double)((quad)hit->t - truth->t);
-  if (fabs(difference) <= same_within(trial, ray, hit, (double)truth->t, truth->data.t)) {
-    measure(trial, ray, hit, truth, tally);
+  if (fabs(difference) <= same_within(trial, ray, hit, (double)truth->t, facts->data.t)) {
+    measure(trial, ray, hit, truth, facts, tally);
   } else if (difference > 0) {
     tally->lost++;
-    show("lost, a later hit is answered", ray, hit, truth, tally);
+    show("lost, a later hit is answered", ray, hit, truth, facts, tally);
   } else if (excused(trial, ray, hit)) {
     tally->over++;
   } else {
     tally->invented++;
-    show("invented, nearer than the first", ray, hit, truth, tally);
+    show("invented, nearer than the first", ray, hit, truth, facts, tally);
   }
 }
 
 /* The reference cannot say: any answer between "nothing before t_first" and its own proven hit will do. */
 static void judge_grazing(const struct trial *trial, const struct ray *ray, const struct hit *hit,
-                          const struct reference_answer *truth, struct tally *tally)
+                          const struct reference_answer *truth, const struct facts *facts, struct tally *tally)
 {
   tally->undecided++;
   if (hit->certainty == CERTAINTY_CERTAIN) tally->bold++;
   bool proven = truth->patch != REFERENCE_NONE;
   if (proven && (hit->patch == HIT_NONE ||
-                 hit->t > (double)truth->t + same_within(trial, ray, hit, (double)truth->t, truth->data.t))) {
+                 hit->t > (double)truth->t + same_within(trial, ray, hit, (double)truth->t, facts->data.t))) {
     tally->lost++;
     tally->holes += hit->patch == HIT_NONE;
-    show("lost behind a grazing one", ray, hit, truth, tally);
+    show("lost behind a grazing one", ray, hit, truth, facts, tally);
   } else if (hit->patch != HIT_NONE && hit->t < truth->t_first) {
-    struct reference_floor data, whole;
-    reference_floors_at(trial->reference, hit->patch, ray->origin, ray->direction, hit->t, hit->u, hit->v, &data,
-                        &whole);
-    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, data.t) || excused(trial, ray, hit))
+    struct facts at;
+    facts_find(reference_net(trial->reference, hit->patch), ray->origin, ray->direction, hit->t, hit->u, hit->v, &at);
+    if (hit->t >= truth->t_first - same_within(trial, ray, hit, truth->t_first, at.data.t) || excused(trial, ray, hit))
       return;
     tally->invented++;
-    show("invented before a grazing one", ray, hit, truth, tally);
+    show("invented before a grazing one", ray, hit, truth, facts, tally);
   }
 }
 
 void trial_judge_by(const struct trial *trial, const struct ray *ray, const struct hit *hit,
                     const struct reference_answer *truth, struct tally *tally)
 {
+  struct facts known, *facts = NULL; /* of the hit that the reference has proven, if any */
+  if (truth->patch != REFERENCE_NONE) {
+    facts = &known;
+    facts_find(reference_net(trial->reference, truth->patch), ray->origin, ray->direction, truth->t, truth->u, truth->v,
+               facts);
+  }
   tally->rays++;
   if (hit->certainty == CERTAINTY_GRAZING) tally->grazing++;
   if (truth->verdict == REFERENCE_GRAZING) {
-    judge_grazing(trial, ray, hit, truth, tally);
+    judge_grazing(trial, ray, hit, truth, facts, tally);
   } else if (truth->verdict == REFERENCE_MISS) {
     tally->misses++;
     if (hit->patch == HIT_NONE) return;
@@ -321,16 +328,16 @@ void trial_judge_by(const struct trial *trial, const struct ray *ray, const stru
       tally->over++;
     } else {
       tally->invented++;
-      show("invented", ray, hit, truth, tally);
+      show("invented", ray, hit, truth, facts, tally);
     }
   } else {
     tally->hits++;
     if (hit->patch == HIT_NONE) {
       tally->lost++;
       tally->holes++;
-      show("lost", ray, hit, truth, tally);
+      show("lost", ray, hit, truth, facts, tally);
     } else {
-      judge_hit(trial, ray, hit, truth, tally);
+      judge_hit(trial, ray, hit, truth, facts, tally);
     }
   }
 }

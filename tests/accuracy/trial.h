@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 #include "intersect/intersect.h"
-#include "reference/reference.h"
+#include "reference/facts.h"
 
 struct trial {
   struct scene scene; /* lives as long as the trial; where the trial made it, arena is NULL */
@@ -72,8 +72,8 @@ double trial_size(const struct ray *ray, double t);
  * rounding: where a patch is thin, its floor is smaller still. */
 #define TRIAL_EXTENT 0x1p-22
 #define TRIAL_LEAST 0x1p-62
-struct reference_floor trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t,
-                                   double u, double v);
+struct facts_floor trial_floor(const struct reference *reference, const struct ray *ray, uint32_t patch, double t,
+                               double u, double v);
 
 /* Makes intersector, tracer and reference of `count` nets. solver may be NULL (the default). Aborts the running
  * cmocka test where that fails. */

@@ -6,7 +6,7 @@
 #include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
-#include "reference/reference.h"
+#include "reference/facts.h"
 
 static struct reference_answer ask(const double P[][4][4][3], size_t count, const double origin[3],
                                    const double direction[3])
@@ -17,6 +17,14 @@ static struct reference_answer ask(const double P[][4][4][3], size_t count, cons
   reference_closest(reference, origin, direction, &answer);
   reference_destroy(reference);
   return answer;
+}
+
+static struct facts facts_of(double P[1][4][4][3], const double origin[3], const double direction[3],
+                             const struct reference_answer *a)
+{
+  struct facts facts;
+  facts_find((const double(*)[4][3])P[0], origin, direction, a->t, a->u, a->v, &facts);
+  return facts;
 }
 
 /* A unit square of the plane z = height over [x0, x0 + 3] x [0,3]: u is (x - x0) / 3, v is y / 3. */
@@ -55,7 +63,8 @@ static void test_flat(void **state)
   assert_true(quad_abs(a.t - 2.25) <= a.t_radius && a.t_radius < 1e-28);
   assert_true(quad_abs(a.u - (quad)1.25 / 3) <= a.radius && a.radius < 1e-28);
   assert_true(quad_abs(a.v - ((quad)0.75 + 0.25 * 2.25) / 3) <= a.radius);
-  assert_true(a.has_normal && a.normal[2] == 1 && a.normal[0] == 0);
+  const struct facts facts = facts_of(P, origin, direction, &a);
+  assert_true(facts.has_normal && facts.normal[2] == 1 && facts.normal[0] == 0);
   const double away[3] = {0, 0.25, 3};
   assert_int_equal(ask(P, 1, origin, away).verdict, REFERENCE_MISS);
   const double beside[3] = {3.0001, 0.75, 7.25}, down[3] = {0, 0, -1};
@@ -224,8 +233,10 @@ static void test_brute_force(void **state)
       hits++;
       assert_true(a.t > 0 && a.u >= -a.radius && a.u <= 1 + (quad)a.radius);
       /* t, u, v rounded to double move the point by a unit of the largest coordinate times the derivatives. */
-      assert_true(reference_residual(reference, 0, origin, direction, (double)a.t, (double)a.u, (double)a.v) < 1e-13);
-      assert_true(a.t_radius < 1e-20 && a.incidence >= 0 && a.incidence <= 1);
+      assert_true(
+        facts_residual(reference_net(reference, 0), origin, direction, (double)a.t, (double)a.u, (double)a.v) < 1e-13);
+      const double incidence = facts_of(P, origin, direction, &a).incidence;
+      assert_true(a.t_radius < 1e-20 && incidence >= 0 && incidence <= 1);
     } else if (a.verdict == REFERENCE_MISS) {
       misses++;
     } else {
@@ -249,7 +260,9 @@ static void test_floor(void **state)
     random_net(&random, n % 2 ? 0.4 : 2, P[0]);
     random_ray(&random, origin, direction);
     struct reference_answer a = ask(P, 1, origin, direction);
-    if (a.verdict != REFERENCE_HIT || a.incidence < 1e-4) continue;
+    if (a.verdict != REFERENCE_HIT) continue;
+    const struct facts facts = facts_of(P, origin, direction, &a);
+    if (facts.incidence < 1e-4) continue;
     double *numbers = &P[0][0][0][0];
     for (int k = 0; k < 48; k++) numbers[k] += numbers[k] * (random_bits(&random) & 1 ? 0x1p-53 : -0x1p-53) * 1.5;
     for (int k = 0; k < 3; k++) origin[k] += origin[k] * (random_bits(&random) & 1 ? 0x1p-53 : -0x1p-53) * 1.5;
@@ -257,8 +270,8 @@ static void test_floor(void **state)
     if (b.verdict != REFERENCE_HIT) continue;
     hits++;
     /* The moves are up to two units: 1.5 units of the number rounded to a neighbour. */
-    double t = (double)quad_abs(a.t - b.t) / (2 * a.data.t), u = (double)quad_abs(a.u - b.u) / (2 * a.data.u);
-    assert_true(t <= 1.01 && u <= 1.01 && (double)quad_abs(a.v - b.v) <= 2.02 * a.data.v);
+    double t = (double)quad_abs(a.t - b.t) / (2 * facts.data.t), u = (double)quad_abs(a.u - b.u) / (2 * facts.data.u);
+    assert_true(t <= 1.01 && u <= 1.01 && (double)quad_abs(a.v - b.v) <= 2.02 * facts.data.v);
     share = fmax(share, fmax(t, u));
   }
   printf("floor: %zu hits, worst move %.3f of the bound\n", hits, share);
