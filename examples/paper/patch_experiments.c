@@ -39,18 +39,12 @@ static void plane_polynomial(const struct scene_patch *patch, const double norma
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 4; j++) {
       double from[3];
-      for (int k = 0; k < 3; k++) {
-        from[k] = patch->P[i][j][k] - point[k];
-      }
+      for (int k = 0; k < 3; k++) from[k] = patch->P[i][j][k] - point[k];
       out[4 * i + j] = vector_dot(normal, from) * (basis == BASIS_BERNSTEIN ? choose[i] * choose[j] : 1.0);
     }
   }
-  for (int i = 0; basis == BASIS_POWER && i < 4; i++) {
-    cubic_to_power(out + 4 * i, 1);
-  }
-  for (int j = 0; basis == BASIS_POWER && j < 4; j++) {
-    cubic_to_power(out + j, 4);
-  }
+  for (int i = 0; basis == BASIS_POWER && i < 4; i++) cubic_to_power(out + 4 * i, 1);
+  for (int j = 0; basis == BASIS_POWER && j < 4; j++) cubic_to_power(out + j, 4);
 }
 
 /* r(u) of the ray through the point (s,t) of the picture; eq 2 with two planes that are perpendicular to each other. */
@@ -58,9 +52,7 @@ static void pixel_polynomial(const struct scene *scene, double s, double t, enum
 {
   const struct scene_camera *camera = &scene->camera;
   double d[3], first[3], second[3], a[16], b[16];
-  for (int k = 0; k < 3; k++) {
-    d[k] = camera->direction[k] + (s - 0.5) * camera->right[k] + (0.5 - t) * camera->up[k];
-  }
+  for (int k = 0; k < 3; k++) d[k] = camera->direction[k] + (s - 0.5) * camera->right[k] + (0.5 - t) * camera->up[k];
   vector_cross(d, camera->right, first);
   vector_cross(d, first, second);
   const double first_scale = 1.0 / vector_length(first), second_scale = 1.0 / vector_length(second);
@@ -83,9 +75,7 @@ static void solve_pixel(enum basis basis, const double c[], const struct solver_
   struct root_problem problem = {.degree = DEGREE, .basis = basis};
   struct root_estimates roots;
   memcpy(problem.c, c, sizeof problem.c[0] * (DEGREE + 1));
-  if (c[0] == 0.0 || c[DEGREE] == 0.0) {
-    return; /* a root at 0 or at infinity: not of degree 18 */
-  }
+  if (c[0] == 0.0 || c[DEGREE] == 0.0) return; /* a root at 0 or at infinity: not of degree 18 */
   const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   options->solver->find(&problem, options, warm, &roots);
   totals->seconds += clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
@@ -118,9 +108,7 @@ static void experiment(enum basis basis, const double *c, size_t pixels)
         struct solver_warm warm = {0};
         struct totals totals = {0};
         for (size_t p = 0; p < pixels; p++) {
-          if (previous == 0) {
-            warm.count = 0;
-          }
+          if (previous == 0) warm.count = 0;
           solve_pixel(basis, c + p * (DEGREE + 1), &options, &warm, &totals);
         }
         printf("1e-%d,%s,%s,%s,%.3f,%.3f,%.4f,%.4f\n", digits, methods[m], previous != 0 ? "previous" : "cold",
@@ -148,14 +136,10 @@ int main(int argc, char **argv)
   const struct language_settings settings = {.image_width = width, .image_height = height, .tolerance = NAN};
   struct diagnostics diagnostics = {.tell = tell};
   struct scene *scene = NULL;
-  if (width < 1 || height < 1 || language_load(argv[1], &settings, &diagnostics, &scene) != STATUS_OK) {
-    return 3;
-  }
+  if (width < 1 || height < 1 || language_load(argv[1], &settings, &diagnostics, &scene) != STATUS_OK) return 3;
   const size_t pixels = (size_t)width * (size_t)height;
   double *c = malloc(pixels * (DEGREE + 1) * sizeof *c);
-  if (c == NULL) {
-    return 5;
-  }
+  if (c == NULL) return 5;
   printf("eps,method,start,basis,iterations,us_pixel,accurate_pixels,accurate_roots\n");
   for (int basis = BASIS_POWER; basis >= BASIS_BERNSTEIN; basis--) {
     for (size_t p = 0; p < pixels; p++) {

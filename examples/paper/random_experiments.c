@@ -50,9 +50,7 @@ static struct solver_options paper_options(const char *method, double tolerance)
 static void random_problem(uint64_t *state, int degree, struct root_problem *out)
 {
   *out = (struct root_problem){.degree = degree, .basis = BASIS_POWER};
-  for (int k = 0; k <= degree; k++) {
-    out->c[k] = 2.0 * measure_random(state) - 1.0;
-  }
+  for (int k = 0; k <= degree; k++) out->c[k] = 2.0 * measure_random(state) - 1.0;
 }
 
 /* All roots, or the first one alone; a method that moves all at once always finds all. */
@@ -84,9 +82,7 @@ static struct summary measure(int degree, const struct solver_options *options, 
     struct root_estimates roots;
     random_problem(&seed, degree, &problem);
     const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-    for (int repeat = 0; repeat < REPEATS; repeat++) {
-      find(&problem, options, first_only, &roots);
-    }
+    for (int repeat = 0; repeat < REPEATS; repeat++) find(&problem, options, first_only, &roots);
     out.seconds += (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start) / REPEATS / POLYNOMIALS;
     const int count = first_only && !at_once(options) ? 1 : roots.count;
     for (int r = 0; r < count; r++) {
@@ -156,9 +152,8 @@ static void order(void)
           error[r] += log10(fmax(ratio, 1e-6));
         }
       }
-      for (int r = 0; r < PAPER_DEGREE; r++) {
+      for (int r = 0; r < PAPER_DEGREE; r++)
         printf("%g,%s,%d,%.4f,%.3f\n", eps[e], methods[m], r + 1, accurate[r] / POLYNOMIALS, error[r] / POLYNOMIALS);
-      }
     }
   }
 }

@@ -103,14 +103,9 @@ static void bracketed_newton(struct search *search, double low, double high, int
       last_step = step;
       continue;
     }
-    if (probe.sign == low_sign) {
-      low = u;
-    } else {
-      high = u;
-    }
-    if (!(next > low && next < high) || fabs(next - u) > 0.5 * step_before) {
-      next = low + 0.5 * (high - low);
-    }
+    if (probe.sign == low_sign) low = u;
+    else high = u;
+    if (!(next > low && next < high) || fabs(next - u) > 0.5 * step_before) next = low + 0.5 * (high - low);
     step_before = last_step;
     last_step = fabs(next - u);
     converged = last_step < search->options->tolerance || next == low || next == high;
@@ -123,9 +118,7 @@ static void bracketed_newton(struct search *search, double low, double high, int
 static double polygon_crossing(const struct interval *part, int n)
 {
   int k = 1;
-  while (k < n && (part->b[k] > 0.0) == (part->b[0] > 0.0)) {
-    k++;
-  }
+  while (k < n && (part->b[k] > 0.0) == (part->b[0] > 0.0)) k++;
   const double rise = part->b[k] - part->b[k - 1];
   const double inside = rise != 0.0 ? -part->b[k - 1] / rise : 0.5;
   return part->low + part->width * (k - 1 + inside) / n;
@@ -143,9 +136,7 @@ static void add_end_root(struct search *search, double u, double width)
     const struct probe probe = probe_at(search, at);
     const double next = fmin(fmax(at - probe.newton, 0.0), 1.0);
     moving = probe.sign != 0 && fabs(next - at) >= search->options->tolerance;
-    if (!(fabs(next - u) <= width)) {
-      break; /* not finite, or gone: the end itself is the candidate */
-    }
+    if (!(fabs(next - u) <= width)) break; /* not finite, or gone: the end itself is the candidate */
     at = next;
     tell_step(search, spent, at);
   }
@@ -155,9 +146,7 @@ static void add_end_root(struct search *search, double u, double width)
 /* Answers the pending undecided stretch: the two roots of the parabola that p is like there, or its vertex. */
 static void flush_cluster(struct search *search)
 {
-  if (search->cluster_low > search->cluster_high) {
-    return;
-  }
+  if (search->cluster_low > search->cluster_high) return;
   const double low = search->cluster_low, high = search->cluster_high, middle = low + 0.5 * (high - low);
   search->cluster_low = 1.0;
   search->cluster_high = 0.0;
@@ -202,36 +191,26 @@ static bool examine(struct search *search, const struct interval *part)
   const int n = search->degree;
   const struct sign_variations all = polynomial_sign_variations(n, part->b, part->error);
   const bool low_open = fabs(part->b[0]) <= part->error[0], high_open = fabs(part->b[n]) <= part->error[n];
-  if (all.most == 0 && !low_open && !high_open) {
-    return false;
-  }
+  if (all.most == 0 && !low_open && !high_open) return false;
   bool any_sign = false;
-  for (int k = 0; k <= n; k++) {
-    any_sign = any_sign || fabs(part->b[k]) > part->error[k];
-  }
+  for (int k = 0; k <= n; k++) any_sign = any_sign || fabs(part->b[k]) > part->error[k];
   if (!any_sign || part->level >= DEEPEST) {
     add_undecided(search, part);
     return false;
   }
   const double high = part->low + part->width;
   if (!low_open && !high_open) {
-    if (all.most == 1) {
-      bracketed_newton(search, part->low, high, part->b[0] > 0.0 ? 1 : -1, polygon_crossing(part, n));
-    }
+    if (all.most == 1) bracketed_newton(search, part->low, high, part->b[0] > 0.0 ? 1 : -1, polygon_crossing(part, n));
     return all.most > 1;
   }
   /* Undecided ends and one sign between them: at most a root at either. The interval on the other side sees it too. */
   const int first = low_open ? 1 : 0, last = high_open ? n - 1 : n;
-  if (last <= first && n > 1) {
-    return true;
-  }
+  if (last <= first && n > 1) return true;
   const struct sign_variations inner = polynomial_sign_variations(last - first, part->b + first, part->error + first);
-  if (inner.most != 0 || fabs(part->b[first]) <= part->error[first] || fabs(part->b[last]) <= part->error[last]) {
+  if (inner.most != 0 || fabs(part->b[first]) <= part->error[first] || fabs(part->b[last]) <= part->error[last])
     return true;
-  }
-  if (low_open && search->joint != part->low && search->cluster_high != part->low) {
+  if (low_open && search->joint != part->low && search->cluster_high != part->low)
     add_end_root(search, part->low, part->width);
-  }
   if (high_open) {
     add_end_root(search, high, part->width);
     search->joint = high;
@@ -282,9 +261,8 @@ void bernstein_find(const struct root_problem *problem, const struct solver_opti
   (void)warm; /* nothing to start from: the signs lead to every root */
   out->count = 0;
   if (problem->basis == BASIS_BERNSTEIN &&
-      polynomial_sign_variations(problem->degree, problem->c, problem->error).most == 0) {
+      polynomial_sign_variations(problem->degree, problem->c, problem->error).most == 0)
     return; /* end coefficients are not zero here, and all have one sign */
-  }
   struct search search = {
     .options = options, .degree = problem->degree, .out = out, .joint = -1.0, .cluster_low = 1.0, .cluster_high = 0.0};
   evaluation_prepare(problem->degree, problem->basis, problem->c, NULL, &search.p);

@@ -47,9 +47,7 @@ static inline struct complex_number complex_sqrt(struct complex_number a)
 {
   const double modulus = hypot(a.re, a.im);
   const double larger = sqrt(0.5 * (modulus + fabs(a.re)));
-  if (!(larger > 0.0)) {
-    return (struct complex_number){0.0, 0.0};
-  }
+  if (!(larger > 0.0)) return (struct complex_number){0.0, 0.0};
   const double smaller = 0.5 * fabs(a.im) / larger;
   const double re = a.re >= 0.0 ? larger : smaller, im = a.re >= 0.0 ? smaller : larger;
   return (struct complex_number){re, copysign(im, a.im)};

@@ -99,23 +99,15 @@ static inline __attribute__((always_inline)) struct local_values look_inlined(in
   double error = (4 * n + 2) * UNIT_ROUNDOFF * fabs(q.re);
   for (int k = n - 1; k >= 0; k--) {
     const double coefficient = c[reversed ? n - k : k];
-    if ((wanted & LOOK_CURVATURE) != 0) {
-      half_second = complex_add(complex_multiply(half_second, z), slope);
-    }
-    if ((wanted & LOOK_SLOPE) != 0) {
-      slope = complex_add(complex_multiply(slope, z), q);
-    }
+    if ((wanted & LOOK_CURVATURE) != 0) half_second = complex_add(complex_multiply(half_second, z), slope);
+    if ((wanted & LOOK_SLOPE) != 0) slope = complex_add(complex_multiply(slope, z), q);
     q = complex_multiply(q, z);
     q.re += coefficient;
-    if ((wanted & LOOK_ERROR) != 0) {
-      error = error * modulus + (4 * k + 2) * UNIT_ROUNDOFF * fabs(coefficient);
-    }
+    if ((wanted & LOOK_ERROR) != 0) error = error * modulus + (4 * k + 2) * UNIT_ROUNDOFF * fabs(coefficient);
   }
   struct local_values out = {
     .view = {n, {0.0, 0.0}, {0.0, 0.0}}, .size = complex_modulus(q), .error = error + UNDERFLOW_ERROR};
-  if ((wanted & LOOK_SLOPE) == 0) {
-    return out;
-  }
+  if ((wanted & LOOK_SLOPE) == 0) return out;
   const struct complex_number g = complex_divide(slope, q), zg = complex_multiply(z, g);
   out.view.slope = reversed ? complex_multiply(z, (struct complex_number){n - zg.re, -zg.im}) : g;
   if ((wanted & LOOK_CURVATURE) != 0) {
@@ -151,9 +143,7 @@ static struct local_values look_at_value(int n, const double c[], struct complex
 /* |step|^2 in u: |dx|^2 in the power basis, |dx|^2 / (|1 + x|^2 |1 + x + dx|^2) in Bernstein form. */
 static double step_in_u(enum basis basis, struct complex_number x, struct complex_number step)
 {
-  if (basis == BASIS_POWER) {
-    return complex_norm(step);
-  }
+  if (basis == BASIS_POWER) return complex_norm(step);
   x.re += 1.0;
   return complex_norm(step) / (complex_norm(x) * complex_norm(complex_add(x, step)));
 }
@@ -194,20 +184,14 @@ static struct sought seek(const struct root_problem *problem, const struct solve
     struct complex_number move = method->step(&here.view);
     const bool usable = isfinite(move.re) && isfinite(move.im);
     const double reach = longest * (complex_modulus(out.x) + mean_modulus);
-    if (!usable) {
-      move = (struct complex_number){0.25 * reach, 0.125 * reach};
-    }
+    if (!usable) move = (struct complex_number){0.25 * reach, 0.125 * reach};
     const double length = complex_modulus(move);
-    if (length > reach) {
-      move = complex_scale(reach / length, move);
-    }
+    if (length > reach) move = complex_scale(reach / length, move);
     const double in_u = step_in_u(problem->basis, out.x, move);
     if (options->stop == STOP_ROUNDING && here.size <= here.error) {
       const bool noise = !usable || in_u >= last;
       out.converged = noise || in_u < STEEP_FALL * last;
-      if (noise) {
-        break;
-      }
+      if (noise) break;
     }
     const double square = relative ? square_in_u(problem->basis, out.x) : 1.0;
     out.converged = out.converged || (usable && in_u < (square < 1.0 ? tolerance * square : tolerance));
@@ -243,14 +227,10 @@ static struct complex_number refined(const struct root_problem *problem, const s
   struct local_values here = look(method, n, problem->c, x, 1.0);
   for (int i = 0; i < REFINE_STEPS && here.size > 0.0; i++) {
     const struct complex_number next = complex_add(x, method->step(&here.view));
-    if (!isfinite(next.re) || !isfinite(next.im)) {
-      break;
-    }
+    if (!isfinite(next.re) || !isfinite(next.im)) break;
     const struct local_values there = look(method, n, problem->c, next, 1.0);
     const double ratio = fmax(1.0, complex_norm(next)) / fmax(1.0, complex_norm(x));
-    if (!(there.size * pow(ratio, 0.5 * n) < here.size)) {
-      break;
-    }
+    if (!(there.size * pow(ratio, 0.5 * n) < here.size)) break;
     x = next;
     here = there;
   }
@@ -282,11 +262,8 @@ void deflation_find(const struct root_problem *problem, const struct solver_opti
     if (cold && n < problem->degree) start_values(&rest, options->radii, NULL, re, im);
     const struct complex_number start = {re[order], im[order]};
     struct sought found;
-    if (n == 1) {
-      found = (struct sought){{-c[0] / c[1], 0.0}, 0, true};
-    } else {
-      found = seek(&rest, options, method, start, out->count);
-    }
+    if (n == 1) found = (struct sought){{-c[0] / c[1], 0.0}, 0, true};
+    else found = seek(&rest, options, method, start, out->count);
     if (n == 1 || taken_for_real(n, c, found.x)) {
       found.x.im = 0.0;
       deflation_divide_linear(options->deflation, n, c, found.x.re);

@@ -9,15 +9,11 @@
 
 double polynomial_binomial(int n, int k)
 {
-  if (k < 0 || k > n) {
-    return 0.0;
-  }
+  if (k < 0 || k > n) return 0.0;
   k = k < n - k ? k : n - k;
   /* Every division is exact; C(64,32) * 64 passes 64 bits. */
   unsigned __int128 value = 1;
-  for (int i = 1; i <= k; i++) {
-    value = value * (unsigned)(n - k + i) / (unsigned)i;
-  }
+  for (int i = 1; i <= k; i++) value = value * (unsigned)(n - k + i) / (unsigned)i;
   return (double)value;
 }
 
@@ -87,9 +83,7 @@ struct sign_variations polynomial_sign_variations(int degree, const double c[], 
   int last = 0, gap = 0;
   for (int k = 0; k <= degree; k++) {
     const double bound = error == NULL ? 0.0 : error[k];
-    if (c[k] == 0.0 && bound == 0.0) {
-      continue; /* a true zero is no sign */
-    }
+    if (c[k] == 0.0 && bound == 0.0) continue; /* a true zero is no sign */
     if (!(fabs(c[k]) > bound)) {
       gap++;
       continue;

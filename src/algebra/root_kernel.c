@@ -144,9 +144,7 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
     a->noisy[i] += noise;
     done = square <= STEEP_FALL * a->last_step[i] || a->noisy[i] > PATIENCE;
     a->last_step[i] = noise ? a->last_step[i] : square;
-    if (!usable || square > WILD * a->last_step[i]) {
-      dx = dy = 0.0;
-    }
+    if (!usable || square > WILD * a->last_step[i]) dx = dy = 0.0;
   } else if (resting && !usable) {
     done = true; /* P is 0 */
     dx = dy = 0.0;
@@ -188,11 +186,8 @@ static void aberth_sweep(struct aberth *a, const struct solver_options *options,
       xi[l] = a->zi[i];
     }
     struct aberth_step step;
-    if (options->stop == STOP_ROUNDING) {
-      step_lanes(a, xr, xi, true, &step);
-    } else {
-      step_lanes(a, xr, xi, false, &step);
-    }
+    if (options->stop == STOP_ROUNDING) step_lanes(a, xr, xi, true, &step);
+    else step_lanes(a, xr, xi, false, &step);
     for (int l = 0; l < used; l++) {
       const int i = active[first + l];
       const double limit = relative && step.square[l] < 1.0 ? tolerance * step.square[l] : tolerance;
@@ -201,9 +196,7 @@ static void aberth_sweep(struct aberth *a, const struct solver_options *options,
       out->iterations[i]++;
       out->converged[i] = done;
       moving += !done;
-      if (!done || !options->rest) {
-        a->active[still_active++] = i;
-      }
+      if (!done || !options->rest) a->active[still_active++] = i;
       if (options->update == UPDATE_GAUSS_SEIDEL) {
         a->zr[i] = a->next_zr[i];
         a->zi[i] = a->next_zi[i];

@@ -39,9 +39,7 @@ static inline double root_problem_reversed_above(const struct solver_options *op
 /* Between u and x. The point at infinity of either comes out as infinite or as NaN. */
 static inline void root_problem_u_from_x(enum basis basis, double *re, double *im)
 {
-  if (basis == BASIS_POWER) {
-    return;
-  }
+  if (basis == BASIS_POWER) return;
   const double x = *re, y = *im;
   if (fabs(x) + fabs(y) < 1.0) { /* x / (1 + x) */
     const double d = (1.0 + x) * (1.0 + x) + y * y;
@@ -58,9 +56,7 @@ static inline void root_problem_u_from_x(enum basis basis, double *re, double *i
 
 static inline void root_problem_x_from_u(enum basis basis, double *re, double *im)
 {
-  if (basis == BASIS_POWER) {
-    return;
-  }
+  if (basis == BASIS_POWER) return;
   const double a = 1.0 - *re, b = -*im; /* 1 - u */
   const double d = a * a + b * b;
   const double x = (*re * a + *im * b) / d;

@@ -23,11 +23,8 @@ const struct solver *solver_at(size_t index) { return index < solver_count() ? &
 
 const struct solver *solver_find(const char *name, size_t length)
 {
-  for (size_t i = 0; i < solver_count(); i++) {
-    if (strlen(solvers[i].name) == length && memcmp(solvers[i].name, name, length) == 0) {
-      return &solvers[i];
-    }
-  }
+  for (size_t i = 0; i < solver_count(); i++)
+    if (strlen(solvers[i].name) == length && memcmp(solvers[i].name, name, length) == 0) return &solvers[i];
   return NULL;
 }
 
@@ -59,9 +56,7 @@ void solver_options_default(const struct solver *solver, struct solver_options *
 const struct root_kernel *root_kernel_best(void)
 {
 #ifdef PSCN_ROOT_KERNEL_AVX2
-  if (__builtin_cpu_supports("avx2")) {
-    return &root_kernel_avx2;
-  }
+  if (__builtin_cpu_supports("avx2")) return &root_kernel_avx2;
 #endif
   return &root_kernel_baseline;
 }
@@ -81,9 +76,7 @@ static bool scale_polynomial(const struct polynomial *p, struct root_problem *sc
   }
   out->not_finite = !finite;
   out->identically_zero = finite && zero;
-  if (!finite || zero) {
-    return false;
-  }
+  if (!finite || zero) return false;
   scaled->degree = p->degree;
   scaled->basis = p->basis;
   int exponent;
@@ -94,18 +87,15 @@ static bool scale_polynomial(const struct polynomial *p, struct root_problem *sc
     scaled->c[k] = p->c[k] * first * second;
     const bool exact = scaled->c[k] / first / second == p->c[k];
     scaled->error[k] = p->error == NULL ? 0.0 : p->error[k] * first * second * (1.0 + DBL_EPSILON);
-    if (!exact || (p->error != NULL && p->error[k] > 0.0)) {
+    if (!exact || (p->error != NULL && p->error[k] > 0.0))
       scaled->error[k] += 2 * DBL_TRUE_MIN; /* what underflow may have taken */
-    }
   }
   return true;
 }
 
 static void add_root(struct root_set *out, double re, double im, int iterations, enum root_status status)
 {
-  if (out->count < POLYNOMIAL_MAX_DEGREE) {
-    out->root[out->count++] = (struct root){re, im, 0.0, iterations, status};
-  }
+  if (out->count < POLYNOMIAL_MAX_DEGREE) out->root[out->count++] = (struct root){re, im, 0.0, iterations, status};
 }
 
 /* The same polynomial without its first `low` coefficients and those behind `high`. */
@@ -177,9 +167,7 @@ static bool find_roots(const struct polynomial *p, const struct solver_options *
                        struct root_problem *out_rest, int *out_exact, struct root_set *out)
 {
   out->count = out->missing = 0;
-  if (!scale_polynomial(p, out_rest, out)) {
-    return false;
-  }
+  if (!scale_polynomial(p, out_rest, out)) return false;
   const int infinite = strip_ends(out_rest, out);
   *out_exact = out->count;
   struct root_problem problem = *out_rest;
@@ -198,9 +186,7 @@ static bool find_roots(const struct polynomial *p, const struct solver_options *
         out->root[out->count - 1].radius = estimates.reach[i];
       }
     }
-    if (previous) {
-      remember(&estimates, warm);
-    }
+    if (previous) remember(&estimates, warm);
   }
   if (!options->solver->real_only) out->missing = p->degree - infinite - out->count;
   return true;
@@ -219,9 +205,7 @@ void solver_solve(const struct polynomial *p, const struct solver_options *optio
 {
   struct root_problem rest;
   int exact;
-  if (!find_roots(p, options, warm, &rest, &exact, out)) {
-    return;
-  }
+  if (!find_roots(p, options, warm, &rest, &exact, out)) return;
   const int sought = out->count + out->missing;
   struct evaluation evaluation;
   evaluation_prepare(rest.degree, rest.basis, rest.c, rest.error, &evaluation);

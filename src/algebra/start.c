@@ -27,11 +27,8 @@ enum { RADIUS_STEPS = 60 };
 static double cauchy_radius(int n, const double b[])
 {
   double radius = 0.0;
-  for (int k = 0; k < n; k++) {
-    if (b[k] != 0.0) {
-      radius = fmax(radius, exp2((log2(n) + log2(fabs(b[k])) - log2(fabs(b[n]))) / (n - k)));
-    }
-  }
+  for (int k = 0; k < n; k++)
+    if (b[k] != 0.0) radius = fmax(radius, exp2((log2(n) + log2(fabs(b[k])) - log2(fabs(b[n]))) / (n - k)));
   for (int step = 0; step < RADIUS_STEPS && radius > 0.0; step++) {
     /* f(r) = |b[n]| - sum |b[k]| r^(k-n), in powers of 1/r */
     const double w = 1.0 / radius;
@@ -41,15 +38,11 @@ static double cauchy_radius(int n, const double b[])
       f = f * w + (k == n ? -fabs(b[n]) : fabs(b[k]));
     }
     const double next_w = w - f / slope;
-    if (!(next_w > 0.0) || !isfinite(next_w)) {
-      break;
-    }
+    if (!(next_w > 0.0) || !isfinite(next_w)) break;
     const double next = 1.0 / next_w;
     const bool near = fabs(next - radius) <= RADIUS_ACCURACY * radius;
     radius = next;
-    if (near) {
-      break;
-    }
+    if (near) break;
   }
   return radius;
 }
@@ -65,11 +58,8 @@ static void circle_values(const struct root_problem *problem, double out_re[], d
   double centre = -problem->c[n - 1] / (n * problem->c[n]);
   double b[POLYNOMIAL_MAX_DEGREE + 1];
   memcpy(b, problem->c, sizeof b[0] * (size_t)(n + 1));
-  for (int j = 0; j < n; j++) {
-    for (int k = n - 1; k >= j; k--) {
-      b[k] += b[k + 1] * centre;
-    }
-  }
+  for (int j = 0; j < n; j++)
+    for (int k = n - 1; k >= j; k--) b[k] += b[k + 1] * centre;
   double radius = cauchy_radius(n, b);
   if (!(radius > 0.0 && radius < sqrt(DBL_MAX)) || !(fabs(centre) < sqrt(DBL_MAX))) {
     /* All roots equal, or the centre overflows: the mean modulus about 0 is always finite and positive. */
@@ -91,14 +81,10 @@ static void polygon_values(const struct root_problem *problem, double out_re[], 
   int corner[POLYNOMIAL_MAX_DEGREE + 1], corners = 0;
   for (int k = 0; k <= n; k++) {
     height[k] = log2(fabs(problem->c[k])); /* -infinity for 0: never on the hull, whose ends are not 0 */
-    if (problem->c[k] == 0.0) {
-      continue;
-    }
+    if (problem->c[k] == 0.0) continue;
     while (corners >= 2) {
       const int a = corner[corners - 2], b = corner[corners - 1];
-      if ((height[b] - height[a]) * (k - a) > (height[k] - height[a]) * (b - a)) {
-        break;
-      }
+      if ((height[b] - height[a]) * (k - a) > (height[k] - height[a]) * (b - a)) break;
       corners--;
     }
     corner[corners++] = k;
@@ -119,11 +105,8 @@ static void polygon_values(const struct root_problem *problem, double out_re[], 
 
 static void cold_values(const struct root_problem *problem, enum radii radii, double out_re[], double out_im[])
 {
-  if (radii == RADII_CIRCLE) {
-    circle_values(problem, out_re, out_im);
-  } else {
-    polygon_values(problem, out_re, out_im);
-  }
+  if (radii == RADII_CIRCLE) circle_values(problem, out_re, out_im);
+  else polygon_values(problem, out_re, out_im);
 }
 
 void start_values(const struct root_problem *problem, enum radii radii, const struct solver_warm *warm, double out_re[],

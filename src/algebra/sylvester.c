@@ -41,10 +41,9 @@ void sylvester_determinant(int m, int n, const double A[16], const double B[16],
   for (unsigned set = 0; set < 1u << (2 * n); set++) {
     if (__builtin_popcount(set) != n) continue;
     int upper[MAX_N], lower[MAX_N], u = 0, l = 0, sum = 0;
-    for (int k = 0; k < 2 * n; k++) {
+    for (int k = 0; k < 2 * n; k++)
       if (set >> k & 1) upper[u++] = k, sum += k;
       else lower[l++] = k;
-    }
     double p[MAX_MINOR_DEGREE + 1], q[MAX_MINOR_DEGREE + 1];
     minor(m, n, A, upper, p);
     minor(m, n, B, lower, q);

@@ -238,9 +238,8 @@ void validation_judge(const struct evaluation *p, bool all_sought, int exact, st
     if (!(root->radius < INFINITY)) {
       infinite = asked ? infinite : may_reach_infinity(p);
       asked = true;
-      if (infinite && hypot(root->re - 0.5, root->im) > 1.0 && root->status != ROOT_LIMIT) {
+      if (infinite && hypot(root->re - 0.5, root->im) > 1.0 && root->status != ROOT_LIMIT)
         continue; /* a candidate for [0,1] is kept in any case */
-      }
       root->status = ROOT_LIMIT;
     }
     roots->root[kept++] = *root;

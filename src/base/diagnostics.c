@@ -90,16 +90,12 @@ static void block_add_line(struct block *block, struct place place, struct sourc
   block_add_clean(block, text + begin, end - begin);
   block_add_text(block, end < at.line_end ? "...\n" : "\n");
   block_add_text(block, begin > at.line_begin ? "     " : "  ");
-  for (size_t i = begin; i < place_begin; i = step_forward(text, i, at.line_end)) {
+  for (size_t i = begin; i < place_begin; i = step_forward(text, i, at.line_end))
     block_add_text(block, text[i] == '\t' ? "\t" : " ");
-  }
   block_add_text(block, "^");
-  if (place_begin < place_end) {
-    for (size_t i = step_forward(text, place_begin, at.line_end); i < place_end;
-         i = step_forward(text, i, at.line_end)) {
+  if (place_begin < place_end)
+    for (size_t i = step_forward(text, place_begin, at.line_end); i < place_end; i = step_forward(text, i, at.line_end))
       block_add_text(block, "~");
-    }
-  }
   block_add_text(block, "\n");
 }
 
@@ -133,9 +129,8 @@ static void tell(struct diagnostics *diagnostics, struct place place, const char
   block_add_clean(&block, message, strlen(message));
   block_add_text(&block, "\n");
   if (place.source) block_add_line(&block, place, at);
-  if (block.length > 0 && block.text[block.length - 1] == '\n') {
+  if (block.length > 0 && block.text[block.length - 1] == '\n')
     diagnostics->tell(diagnostics->context, block.text, block.length);
-  }
   free(block.text);
 }
 

@@ -61,9 +61,8 @@ static size_t read_exponent(const char *text, size_t length, size_t i, struct de
   if (j < length && (text[j] == '+' || text[j] == '-')) negative = text[j++] == '-';
   if (j >= length || !is_digit(text[j])) return i;
   int64_t exponent = 0;
-  for (; j < length && is_digit(text[j]); j++) {
+  for (; j < length && is_digit(text[j]); j++)
     if (exponent < INT64_C(1000000000000)) exponent = 10 * exponent + (text[j] - '0');
-  }
   out->exponent += negative ? -exponent : exponent;
   return j;
 }
@@ -165,9 +164,8 @@ static void round_to_digits(double value, int count, char *out_digits, int *out_
   snprintf(text, sizeof text, "%.*e", count - 1, fabs(value));
   int found = 0;
   const char *from = text;
-  for (; found < count; from++) {
+  for (; found < count; from++)
     if (is_digit(*from)) out_digits[found++] = *from;
-  }
   *out_exponent = atoi(from + 1);
 }
 

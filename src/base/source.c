@@ -132,9 +132,8 @@ size_t source_character(const char *text, size_t length)
   if (byte[0] < 0x80) return 1;
   size_t count = byte[0] >= 0xF0 ? 4 : byte[0] >= 0xE0 ? 3 : 2;
   if (byte[0] < 0xC2 || byte[0] > 0xF4 || count > length) return 0;
-  for (size_t i = 1; i < count; i++) {
+  for (size_t i = 1; i < count; i++)
     if ((byte[i] & 0xC0) != 0x80) return 0;
-  }
   /* Overlong forms, surrogates, and what lies beyond U+10FFFF (RFC 3629). */
   if ((byte[0] == 0xE0 && byte[1] < 0xA0) || (byte[0] == 0xED && byte[1] > 0x9F)) return 0;
   if ((byte[0] == 0xF0 && byte[1] < 0x90) || (byte[0] == 0xF4 && byte[1] > 0x8F)) return 0;

@@ -129,10 +129,9 @@ static enum status measure_embree(struct chart *chart, const struct embree_peer 
     embree.rays[kind] = list->count == 0 ? NULL : peer->rays_create(list->rays, list->count);
     status = list->count > 0 && embree.rays[kind] == NULL ? STATUS_LIMIT : STATUS_OK;
   }
-  for (size_t k = 0; status == STATUS_OK && k < SIDE_COUNT; k += chart->request->quick ? 2 : 1) {
+  for (size_t k = 0; status == STATUS_OK && k < SIDE_COUNT; k += chart->request->quick ? 2 : 1)
     if (k == 0 || triangles(chart, SIDES[k]) <= MAX_TRIANGLES)
       status = measure_side(chart, &embree, (const double(*)[4][4][3])nets, SIDES[k]);
-  }
   for (int kind = 0; kind < RAY_KINDS; kind++) peer->rays_destroy(embree.rays[kind]);
   free(nets);
   return status;
@@ -224,10 +223,9 @@ static enum status ask_povray(struct chart *chart)
                           .optional = true};
   enum status status = povray_open(&povray);
   if (povray.missing) chart_note(chart, "POV-Ray is left out: there is no program '%s'.", chart->request->program);
-  for (int type = chart->request->quick ? 1 : 0; type <= 1; type++) {
+  for (int type = chart->request->quick ? 1 : 0; type <= 1; type++)
     for (int steps = 1; steps <= 7 && status == STATUS_OK; steps += chart->request->quick ? 3 : 1)
       status = ask_povray_once(chart, &povray, type, steps);
-  }
   if (status == STATUS_OK)
     chart_note(chart,
                "POV-Ray %s: errors from its trace(); the time is the CPU time of its trace phase for all "

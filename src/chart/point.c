@@ -101,11 +101,10 @@ static bool ties(const struct chart_point *a, const struct chart_point *b)
 /* Whether another one is no less exact, and faster by more than the noise. */
 static bool clearly_beaten(const struct chart_point *points, size_t count, const struct chart_point *point)
 {
-  for (size_t k = 0; k < count; k++) {
+  for (size_t k = 0; k < count; k++)
     if (points[k].camera.most_of_all <= point->camera.most_of_all &&
         points[k].time[RAYS_CAMERA].upper < point->time[RAYS_CAMERA].lower)
       return true;
-  }
   return false;
 }
 

@@ -149,9 +149,8 @@ static bool add_front(const struct chart *chart, json_t *root)
   json_t *lists[2] = {json_array(), json_array()};
   size_t count = 0;
   bool good = front != NULL;
-  for (size_t k = 0; good && k < chart->point_count; k++) {
+  for (size_t k = 0; good && k < chart->point_count; k++)
     if (chart->points[k].front) front[count++] = &chart->points[k];
-  }
   if (good) qsort(front, count, sizeof *front, by_error);
   for (size_t k = 0; k + 1 < count; k++) {
     const bool right = all_right(front[k]) && all_right(front[k + 1]);

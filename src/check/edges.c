@@ -74,10 +74,9 @@ static void put_spots(const struct check *check, const struct check_row *row, bo
     for (size_t x = 0; x < check->request->width; x++) {
       const bool off = check->ours.pixel[y * check->request->width + x].edge == CHECK_EDGE_NONE;
       if (off != off_edges || !(check_pixel_difference(check, row, x, y) > check_limit(check))) continue;
-      for (size_t v = y < reach ? 0 : y - reach; v <= y + reach && v < check->request->height; v++) {
+      for (size_t v = y < reach ? 0 : y - reach; v <= y + reach && v < check->request->height; v++)
         for (size_t u = x < reach ? 0 : x - reach; u <= x + reach && u < check->request->width; u++)
           put_color(map, u, v, CHECK_SPOT_COLOR[check->ours.pixel[y * check->request->width + x].edge]);
-      }
     }
   }
 }

@@ -46,10 +46,9 @@ static void look_at_light(const struct check *check, struct tracer *tracer, size
   struct check_pixel *asked[PACKET_SIZE];
   bool hidden[PACKET_SIZE] = {false};
   size_t rays = 0;
-  for (size_t k = 0; k < count; k++) {
+  for (size_t k = 0; k < count; k++)
     if (pixels[k].hit.patch != HIT_NONE && shade_shadow_ray(light, &pixels[k].hit, &shadow[rays]))
       asked[rays++] = &pixels[k];
-  }
   if (rays > 0 && !light->shadowless) tracer_occluded(tracer, rays, shadow, hidden);
   for (size_t k = 0; k < rays; k++) asked[k]->lights |= (uint64_t)!hidden[k] << light_index;
 }
@@ -237,9 +236,8 @@ static size_t gap(size_t a, size_t b) { return a > b ? a - b : b - a; }
 static bool near_one(const struct check *check, size_t x, size_t y)
 {
   const size_t apart_by = check->request->width / 20 + 4;
-  for (size_t k = 0; k < check->worst_count; k++) {
+  for (size_t k = 0; k < check->worst_count; k++)
     if (gap(check->worst[k].x, x) < apart_by && gap(check->worst[k].y, y) < apart_by) return true;
-  }
   return false;
 }
 

@@ -177,9 +177,8 @@ static void fill_section(struct page *page, const char *text, size_t length, con
 /* Where the section of that name ends: its {{/name}}. */
 static const char *section_end(const char *text, const char *name, size_t length)
 {
-  for (const char *at = text; (at = strstr(at, "{{/")) != NULL; at += 3) {
+  for (const char *at = text; (at = strstr(at, "{{/")) != NULL; at += 3)
     if (strncmp(at + 3, name, length) == 0 && strncmp(at + 3 + length, "}}", 2) == 0) return at;
-  }
   return NULL;
 }
 

@@ -67,9 +67,8 @@ static void show_log(const struct povray *povray, const struct page *log)
   if (log->text == NULL) return;
   const char *parsing = strstr(log->text, "==== [Parsing"), *line = parsing == NULL ? log->text : parsing;
   if (strlen(line) > SHOWN) line += strlen(line) - SHOWN;
-  for (; *line != '\0'; line += strcspn(line, "\n"), line += strspn(line, "\n")) {
+  for (; *line != '\0'; line += strcspn(line, "\n"), line += strspn(line, "\n"))
     if (*line != '\n') listener_tell(povray->listener, TOLD_DETAIL, "  povray: %.*s", (int)strcspn(line, "\n"), line);
-  }
 }
 
 static bool holds(const char *line, size_t length, const char *words)

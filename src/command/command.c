@@ -21,9 +21,8 @@ static const struct command *const commands[] = {&command_render, &command_trace
 
 const struct command *command_find(const char *name)
 {
-  for (const struct command *const *command = commands; *command != NULL; command++) {
+  for (const struct command *const *command = commands; *command != NULL; command++)
     if (strcmp((*command)->name, name) == 0) return *command;
-  }
   return NULL;
 }
 
@@ -172,9 +171,8 @@ static const struct command_option *find_option(const struct command *command, i
 {
   const int code = found == '?' || found == ':' ? optopt : found;
   const struct command_option *option = command->options;
-  for (int row = 0; option->name != NULL; option++, row++) {
+  for (int row = 0; option->name != NULL; option++, row++)
     if (code == FIRST_LONG + row || (option->letter != '\0' && code == option->letter)) break;
-  }
   if (option->name == NULL || (code >= FIRST_LONG && strlen(option->name) != strcspn(word + 2, "=")))
     unknown_option(command, word, option->name);
   else if (found == ':') command_usage(command, "option '%s': missing argument", word);

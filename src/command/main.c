@@ -14,9 +14,8 @@
  * place and takes what is meant for it. */
 static void hold_streams(void)
 {
-  for (int stream = 0; stream <= 2; stream++) {
+  for (int stream = 0; stream <= 2; stream++)
     if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
-  }
 }
 
 /* "pscn scene.pscn" means that it is to be rendered. */

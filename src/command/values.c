@@ -83,9 +83,8 @@ bool value_rectangle(const char *text, struct rectangle *out)
   struct rectangle r;
   size_t *const part[4] = {&r.x, &r.y, &r.width, &r.height};
   const size_t maximum = (size_t)-1 / 2; /* a sum of two of them does not overflow */
-  for (int k = 0; k < 4; k++) {
+  for (int k = 0; k < 4; k++)
     if ((k > 0 && !read_sign(&text, ',')) || !read_integer(&text, maximum, part[k])) return false;
-  }
   if (*text != '\0' || r.width == 0 || r.height == 0) return false;
   *out = r;
   return true;

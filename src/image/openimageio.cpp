@@ -144,19 +144,21 @@ template <typename Work> status guarded(char *message, Work work)
 status module_encode(const image *picture, const image_encoding *encoding, unsigned char **out_bytes,
                      std::size_t *out_size, char *message)
 {
-  return guarded(message, [&] {
-    Bytes file;
-    const std::string problem = encode(*picture, *encoding, file);
-    if (!problem.empty()) {
-      say(message, problem);
-      return STATUS_FILE;
-    }
-    *out_bytes = static_cast<unsigned char *>(std::malloc(file.size()));
-    if (*out_bytes == nullptr) throw std::bad_alloc();
-    std::memcpy(*out_bytes, file.data(), file.size());
-    *out_size = file.size();
-    return STATUS_OK;
-  });
+  return guarded(
+    message,
+    [&] {
+      Bytes file;
+      const std::string problem = encode(*picture, *encoding, file);
+      if (!problem.empty()) {
+        say(message, problem);
+        return STATUS_FILE;
+      }
+      *out_bytes = static_cast<unsigned char *>(std::malloc(file.size()));
+      if (*out_bytes == nullptr) throw std::bad_alloc();
+      std::memcpy(*out_bytes, file.data(), file.size());
+      *out_size = file.size();
+      return STATUS_OK;
+    });
 }
 
 status module_read(const char *path, image *out, char *message)

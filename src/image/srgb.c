@@ -40,9 +40,8 @@ uint8_t srgb_encode8(const struct srgb_table *table, float linear)
 {
   /* The number of bounds not above the value: a binary search over 255 = 2^8 - 1 of them. */
   unsigned code = 0;
-  for (unsigned step = 128; step != 0; step /= 2) {
+  for (unsigned step = 128; step != 0; step /= 2)
     if (linear >= table->bound[code + step - 1]) code += step;
-  }
   return (uint8_t)code;
 }
 

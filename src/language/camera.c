@@ -105,11 +105,8 @@ static bool turn_frame(struct language *language, const struct camera_items *ite
     return false;
   }
   vector_cross(sky, ahead, across);
-  if (vector_length(across) > FLAT) {
-    unit(across, across);
-  } else {
-    memcpy(across, frame->right, sizeof across);
-  }
+  if (vector_length(across) > FLAT) unit(across, across);
+  else memcpy(across, frame->right, sizeof across);
   memcpy(frame->direction, ahead, sizeof ahead);
   vector_cross(ahead, across, frame->up);
   vector_scale(sign, across, frame->right);

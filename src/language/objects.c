@@ -143,9 +143,8 @@ void union_begin(struct language *language, struct place place) { open_node(lang
 void union_add(struct language *language, struct place place, struct node *object)
 {
   struct node *node = language->objects->open;
-  if (node->stage == STAGE_MODIFIERS) {
+  if (node->stage == STAGE_MODIFIERS)
     language_error_in(language, &node->block, place, "the objects of a union stand before its texture and transforms");
-  }
   add_child(language, node, object, place);
 }
 

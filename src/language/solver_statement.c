@@ -86,11 +86,9 @@ void solver_word(struct language *language, const struct token *name, const stru
     return;
   }
   const struct symbol *symbol = symbol_find(language, value->text, value->length);
-  if (symbol && symbol->kind == SYMBOL_VALUE && symbol->value.kind == VALUE_NUMBER) {
+  if (symbol && symbol->kind == SYMBOL_VALUE && symbol->value.kind == VALUE_NUMBER)
     set_number(language, item, value->place, symbol->value.x[0]);
-  } else if (!symbol || symbol->kind != SYMBOL_BROKEN) {
-    tell_wanted(language, value->place, item);
-  }
+  else if (!symbol || symbol->kind != SYMBOL_BROKEN) tell_wanted(language, value->place, item);
 }
 
 void solver_misplaced(struct language *language, struct place place)

@@ -139,9 +139,8 @@ static void tell_cycle(struct language *language, struct place place, const stru
   char text[1000];
   size_t used = 0;
   text[0] = '\0';
-  while (count-- > 0 && used < sizeof text) {
+  while (count-- > 0 && used < sizeof text)
     used += (size_t)snprintf(text + used, sizeof text - used, "%s -> ", chain[count]->source->name);
-  }
   language_error(language, place, "files include each other: %s%s", text, again->name);
 }
 

@@ -114,11 +114,9 @@ static void skip_macro(struct language *language)
   const struct place place = sources_here(language);
   const int token = pscn_scan_next(&language->sources->frame->scan);
   const struct place name = sources_here(language);
-  if (is_word(token)) {
+  if (is_word(token))
     declare_macro(language, &(struct token){.text = text_at(name), .length = length_of(name), .place = name});
-  } else {
-    language_error(language, name, "#macro wants a name");
-  }
+  else language_error(language, name, "#macro wants a name");
   if (skip_branch(language, false) != TOKEN_ENDIF) language_error(language, place, "#macro without #end");
 }
 
@@ -136,11 +134,9 @@ static void tell_directive(struct language *language, int token)
   }
   struct guess guess = guess_begin(name, length);
   guess_directives(&guess);
-  if (guess.best) {
+  if (guess.best)
     language_error(language, place, "unknown directive '#%.*s'; did you mean '#%s'?", (int)length, name, guess.best);
-  } else {
-    language_error(language, place, "unknown directive '#%.*s'", (int)length, name);
-  }
+  else language_error(language, place, "unknown directive '#%.*s'", (int)length, name);
 }
 
 /* Words in a solver statement are plain, whatever they mean elsewhere. */

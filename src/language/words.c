@@ -145,9 +145,8 @@ static size_t distance_between(const char *a, size_t m, const char *b, size_t n)
     for (size_t j = 1; j <= n; j++) {
       const size_t replaced = row[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
       row[i][j] = smallest(row[i - 1][j] + 1, row[i][j - 1] + 1, replaced);
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         row[i][j] = smallest(row[i][j], row[i - 2][j - 2] + 1, row[i][j]);
-      }
     }
   }
   return row[m][n];

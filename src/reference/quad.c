@@ -51,11 +51,10 @@ static void cubic_cut(quad c[4], quad t, int high)
 {
   quad s = 1 - t;
   for (int level = 1; level < 4; level++) {
-    if (high) {
+    if (high)
       for (int k = 0; k < 4 - level; k++) c[k] = s * c[k] + t * c[k + 1];
-    } else {
+    else
       for (int k = 3; k >= level; k--) c[k] = s * c[k - 1] + t * c[k];
-    }
   }
 }
 

@@ -138,9 +138,8 @@ static struct rectangle tiles_of(const struct rectangle *crop)
 
 static bool warm_starts(const struct scene *scene)
 {
-  for (size_t k = 0; k < scene->solver_count; k++) {
+  for (size_t k = 0; k < scene->solver_count; k++)
     if (scene->solvers[k].roots.start == START_PREVIOUS) return true;
-  }
   return false;
 }
 

@@ -90,9 +90,8 @@ static void light_packet(const struct scene_light *light, struct tracer *tracer,
   }
   bool hidden[PACKET_SIZE] = {false};
   if (lit > 0 && !light->shadowless) tracer_occluded(tracer, lit, shadow, hidden);
-  for (size_t k = 0; k < lit; k++) {
+  for (size_t k = 0; k < lit; k++)
     if (!hidden[k]) add_light(&views[lane[k]], light, to_light[k], cosine[k], out_rgb[lane[k]]);
-  }
 }
 
 void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count, const struct ray rays[],

@@ -134,9 +134,8 @@ size_t tile_render(const struct tile_job *job, struct tracer *tracer, struct tra
       struct pixel pixels[PACKET_SIZE];
       const size_t count = gather(job, x, y, pixels);
       if (count == 0) continue;
-      for (size_t j = 0; j < job->samples; j++) {
+      for (size_t j = 0; j < job->samples; j++)
         for (size_t i = 0; i < job->samples; i++) sample(job, tracer, certified, i, j, count, pixels);
-      }
       for (size_t k = 0; k < count; k++) {
         if (inside(&job->crop, pixels[k].x, pixels[k].y)) {
           keep(job, &pixels[k]);

@@ -240,11 +240,9 @@ static void line_or_point(struct random *random, size_t index, struct situation 
   gentle(random, 1, s->P[0]);
   for (int k = 0; k < 16; k++) {
     double *p = point(s, k / 4, k % 4);
-    if (index % 3 == 2) {
+    if (index % 3 == 2)
       for (int axis = 0; axis < 3; axis++) p[axis] = s->P[0][0][0][axis];
-    } else {
-      p[1 - index % 3] = p[2] = 0.25;
-    }
+    else p[1 - index % 3] = p[2] = 0.25;
   }
   rays_at_patch(random, s);
   rays_at_corners(s);

@@ -41,11 +41,8 @@ static void trial_start(struct trial *trial)
 void trial_create(struct trial *trial, const double (*P)[4][4][3], size_t count, const struct method *solver)
 {
   memset(trial, 0, sizeof *trial);
-  if (solver) {
-    trial->solver = *solver;
-  } else {
-    method_default(solver_at(0), &trial->solver);
-  }
+  if (solver) trial->solver = *solver;
+  else method_default(solver_at(0), &trial->solver);
   trial->own_patches = calloc(count ? count : 1, sizeof *trial->own_patches);
   assert_non_null(trial->own_patches);
   for (size_t n = 0; n < count; n++) memcpy(trial->own_patches[n].P, P[n], sizeof P[n]);
@@ -93,11 +90,8 @@ static void show(const char *what, const struct ray *ray, const struct hit *hit,
            (unsigned)truth->patch, facts->incidence, truth->shared ? " (shared edge)" : "");
   if (truth->verdict == REFERENCE_GRAZING) printf(" (nothing before t %.17g)", truth->t_first);
   printf("\n  intersector: %s", hit->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing");
-  if (hit->patch == HIT_NONE) {
-    printf(" miss\n");
-  } else {
-    printf(" t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
-  }
+  if (hit->patch == HIT_NONE) printf(" miss\n");
+  else printf(" t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
 }
 
 static double largest_coordinate(const struct trial *trial, const struct ray *ray, const struct hit *hit)

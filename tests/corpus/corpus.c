@@ -11,9 +11,7 @@ static const char PATH[] = PSCN_SOURCE_DIR "/tests/corpus/polynomials.txt";
 static int read_name(const char *line, struct corpus_entry *out)
 {
   const char *colon = strstr(line, ": ");
-  if (colon == NULL || colon - line - 2 >= (long)sizeof out->name || strchr(line + 2, ' ') < colon) {
-    return 0;
-  }
+  if (colon == NULL || colon - line - 2 >= (long)sizeof out->name || strchr(line + 2, ' ') < colon) return 0;
   memcpy(out->name, line + 2, (size_t)(colon - line - 2));
   out->name[colon - line - 2] = '\0';
   snprintf(out->what, sizeof out->what, "%.*s", (int)strcspn(colon + 2, "\n"), colon + 2);
@@ -27,19 +25,13 @@ static int read_coefficients(const char *line, struct corpus_entry *out)
   char *end;
   for (const char *at = line; count <= POLYNOMIAL_MAX_DEGREE; at = end) {
     high_first[count] = strtod(at, &end);
-    if (end == at) {
-      break;
-    }
+    if (end == at) break;
     count++;
   }
   out->degree = count - 1;
-  for (int k = 0; k < count; k++) {
-    out->c[k] = high_first[count - 1 - k];
-  }
+  for (int k = 0; k < count; k++) out->c[k] = high_first[count - 1 - k];
   const struct polynomial power = {out->degree, BASIS_POWER, out->c, NULL};
-  if (count >= 2) {
-    polynomial_to_bernstein(&power, out->b, out->error);
-  }
+  if (count >= 2) polynomial_to_bernstein(&power, out->b, out->error);
   return count >= 2;
 }
 
@@ -58,8 +50,6 @@ size_t corpus_read(struct corpus_entry out[CORPUS_MAX])
       count++;
     }
   }
-  if (file != NULL) {
-    fclose(file);
-  }
+  if (file != NULL) fclose(file);
   return good ? count : 0;
 }

@@ -84,12 +84,8 @@ static void cell(const struct corpus_entry *entry, const struct exact_roots *exa
     return;
   }
   printf(" %.0e", error);
-  if (missing > 0) {
-    printf(", %d without value", missing);
-  }
-  if (limit > 0) {
-    printf(", %d at the limit", limit);
-  }
+  if (missing > 0) printf(", %d without value", missing);
+  if (limit > 0) printf(", %d at the limit", limit);
   printf(" (%d) |", iterations);
 }
 
@@ -98,21 +94,15 @@ int main(void)
   static struct corpus_entry entries[CORPUS_MAX];
   const size_t count = corpus_read(entries);
   printf("| polynomial | degree |");
-  for (int c = 0; c < COLUMNS; c++) {
-    printf(" %s |", columns[c].title);
-  }
+  for (int c = 0; c < COLUMNS; c++) printf(" %s |", columns[c].title);
   printf("\n|---|---|");
-  for (int c = 0; c < COLUMNS; c++) {
-    printf("---|");
-  }
+  for (int c = 0; c < COLUMNS; c++) printf("---|");
   printf("\n");
   for (size_t i = 0; i < count; i++) {
     const struct polynomial p = {entries[i].degree, BASIS_POWER, entries[i].c, NULL};
     struct exact_roots *exact = exact_roots_find(&p);
     printf("| %s | %d |", entries[i].name, entries[i].degree);
-    for (int c = 0; exact != NULL && c < COLUMNS; c++) {
-      cell(&entries[i], exact, &columns[c]);
-    }
+    for (int c = 0; exact != NULL && c < COLUMNS; c++) cell(&entries[i], exact, &columns[c]);
     printf("\n");
     exact_roots_destroy(exact);
   }

@@ -24,9 +24,7 @@ static int set_up(void **state)
 {
   struct fixture *fixture = calloc(1, sizeof *fixture);
   *state = fixture;
-  if (fixture == NULL) {
-    return -1;
-  }
+  if (fixture == NULL) return -1;
   fixture->count = corpus_read(fixture->entry);
   for (size_t i = 0; i < fixture->count; i++) {
     const struct polynomial p = {fixture->entry[i].degree, BASIS_POWER, fixture->entry[i].c, NULL};
@@ -38,9 +36,7 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
   struct fixture *fixture = *state;
-  for (size_t i = 0; i < fixture->count; i++) {
-    exact_roots_destroy(fixture->exact[i]);
-  }
+  for (size_t i = 0; i < fixture->count; i++) exact_roots_destroy(fixture->exact[i]);
   free(fixture);
   return 0;
 }
@@ -121,9 +117,7 @@ static void no_real_root_is_lost(void **state)
       solver_solve(&p, &options, NULL, &roots);
       for (int k = 0; k < exact_roots_count(fixture->exact[i]); k++) {
         const struct exact_root exact = exact_roots_at(fixture->exact[i], k);
-        if (!exact.real || exact.re < 0.0 || exact.re > 1.0) {
-          continue;
-        }
+        if (!exact.real || exact.re < 0.0 || exact.re > 1.0) continue;
         int held = 0;
         for (int r = 0; r < roots.count; r++) {
           held += exact_roots_distance_above(fixture->exact[i], k, roots.root[r].re, roots.root[r].im) <=
@@ -194,9 +188,7 @@ static void wild_coefficients(void **state)
     for (int k = 0; k <= entry.degree; k++) {
       const double size = exp2(random_between(&random, -spread, spread));
       entry.c[k] = random_bits(&random) % 5 == 0 ? 0.0 : random_between(&random, -1.0, 1.0) * size;
-      if (trial % 4 == 3) {
-        entry.c[k] = rint(4.0 * entry.c[k]); /* small integers: multiple and rational roots */
-      }
+      if (trial % 4 == 3) entry.c[k] = rint(4.0 * entry.c[k]); /* small integers: multiple and rational roots */
       error[k] = random_bits(&random) % 2 == 0 ? 0.0 : 1e-9 * size;
     }
     entry.c[random_bits(&random) % 2 == 0 ? 0 : entry.degree] = 3.0;

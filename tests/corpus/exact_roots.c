@@ -44,9 +44,7 @@ static void set_integers(fmpz_poly_t out, int degree, const double c[])
     int exponent;
     const double mantissa = frexp(c[k], &exponent);
     fmpz_set_d(integer, ldexp(mantissa, 53));
-    if (c[k] != 0.0) {
-      fmpz_mul_2exp(integer, integer, (ulong)(exponent - 53 - lowest));
-    }
+    if (c[k] != 0.0) fmpz_mul_2exp(integer, integer, (ulong)(exponent - 53 - lowest));
     fmpz_poly_set_coeff_fmpz(out, k, integer);
   }
   fmpz_clear(integer);
@@ -80,25 +78,19 @@ static void bernstein_to_power(fmpz_poly_t poly, int degree)
 struct exact_roots *exact_roots_find(const struct polynomial *p)
 {
   struct exact_roots *out = calloc(1, sizeof *out);
-  if (out == NULL) {
-    return NULL;
-  }
+  if (out == NULL) return NULL;
   out->root = _acb_vec_init(POLYNOMIAL_MAX_DEGREE);
   fmpz_poly_t poly;
   fmpz_poly_init(poly);
   set_integers(poly, p->degree, p->c);
-  if (p->basis == BASIS_BERNSTEIN) {
-    bernstein_to_power(poly, p->degree);
-  }
+  if (p->basis == BASIS_BERNSTEIN) bernstein_to_power(poly, p->degree);
   fmpz_poly_factor_t factors;
   fmpz_poly_factor_init(factors);
   fmpz_poly_factor_squarefree(factors, poly);
   for (slong f = 0; f < factors->num; f++) {
     const int degree = (int)fmpz_poly_degree(factors->p + f);
     arb_fmpz_poly_complex_roots(out->root + out->count, factors->p + f, 0, PRECISION);
-    for (int i = 0; i < degree; i++) {
-      out->multiplicity[out->count++] = (int)factors->exp[f];
-    }
+    for (int i = 0; i < degree; i++) out->multiplicity[out->count++] = (int)factors->exp[f];
   }
   fmpz_poly_factor_clear(factors);
   fmpz_poly_clear(poly);
@@ -166,8 +158,6 @@ double exact_roots_distance_above(const struct exact_roots *roots, int index, do
 double exact_roots_nearest_below(const struct exact_roots *roots, double re, double im)
 {
   double nearest = INFINITY;
-  for (int i = 0; i < roots->count; i++) {
-    nearest = fmin(nearest, distance(roots, i, re, im, false));
-  }
+  for (int i = 0; i < roots->count; i++) nearest = fmin(nearest, distance(roots, i, re, im, false));
   return nearest;
 }

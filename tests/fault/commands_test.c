@@ -154,9 +154,8 @@ static void expect_no_litter(void)
 {
   DIR *here = opendir(folder);
   assert_non_null(here);
-  for (const struct dirent *entry; (entry = readdir(here)) != NULL;) {
+  for (const struct dirent *entry; (entry = readdir(here)) != NULL;)
     if (strncmp(entry->d_name, ".pscn", 5) == 0) fail_msg("'%s' is left behind", entry->d_name);
-  }
   closedir(here);
 }
 

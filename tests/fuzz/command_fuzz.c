@@ -51,9 +51,8 @@ static const char *const keep[] = {".", "./s.pscn", "./i.inc", "./a.png", "./b.e
 static int remove_made(const char *path, const struct stat *state, int type, struct FTW *walk)
 {
   (void)state, (void)type, (void)walk;
-  for (size_t k = 0; k < sizeof keep / sizeof *keep; k++) {
+  for (size_t k = 0; k < sizeof keep / sizeof *keep; k++)
     if (strcmp(path, keep[k]) == 0) return 0;
-  }
   return remove(path);
 }
 

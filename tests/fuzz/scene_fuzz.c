@@ -104,9 +104,8 @@ static void use(const struct scene *scene)
     assert(setenv("PSCN_KERNEL", kernels[k], 1) == 0);
     if (!intersector_kernel_here()) continue;
     render(scene, out[k]);
-    for (int y = 0; y < HEIGHT; y++) {
+    for (int y = 0; y < HEIGHT; y++)
       for (int x = 0; x < WIDTH; x++) expect(out[k][y][x], out[0][y][x]);
-    }
   }
 }
 #else

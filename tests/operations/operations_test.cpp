@@ -54,9 +54,7 @@ static int steps;
 
 static void note_step()
 {
-  if (steps < STEPS) {
-    at_step[steps] = counter;
-  }
+  if (steps < STEPS) at_step[steps] = counter;
   steps++;
 }
 

@@ -180,12 +180,10 @@ struct ray world_ray(struct random *random, world_net *nets, size_t count, int k
     for (int k = 0; k < 3; k++)
       ray.direction[k] = k == axis ? sign : sign * 0.0, ray.origin[k] = point[k] - 4 * ray.direction[k];
   }
-  if (kind == 5) { /* from the surface, anywhere */
+  if (kind == 5) /* from the surface, anywhere */
     for (int k = 0; k < 3; k++) ray.origin[k] = point[k], ray.direction[k] = random_between(random, -1, 1);
-  }
-  if (kind == 7) { /* missing more often than not */
+  if (kind == 7) /* missing more often than not */
     for (int k = 0; k < 3; k++) ray.direction[k] += random_between(random, -1, 1);
-  }
   if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0) ray.direction[2] = 1;
   return ray;
 }

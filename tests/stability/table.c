@@ -101,11 +101,8 @@ static void print_summary(bool polish)
     for (int form = 0; form < FORMS; form++) {
       const struct tally *tally = &tallies[n][form];
       if (forms[form].polish != polish) continue;
-      if (tally->lost + tally->invented == 0) {
-        printf(" 0 |");
-      } else {
-        printf(" %zu + %zu |", tally->lost, tally->invented);
-      }
+      if (tally->lost + tally->invented == 0) printf(" 0 |");
+      else printf(" %zu + %zu |", tally->lost, tally->invented);
     }
     printf("\n");
   }
@@ -115,11 +112,8 @@ static void print_summary(bool polish)
 /* Two digits, or a dash for "none measured". */
 static void print_error(double error, bool measured)
 {
-  if (measured) {
-    printf(" %.1e |", error);
-  } else {
-    printf(" - |");
-  }
+  if (measured) printf(" %.1e |", error);
+  else printf(" - |");
 }
 
 static void print_class(const struct situation_class *class, const struct tally row[FORMS])
@@ -134,11 +128,8 @@ static void print_class(const struct situation_class *class, const struct tally 
     double worst = 0;
     for (size_t k = 0; k < tally->t_count; k++) worst = fmax(worst, tally->t_errors[k]);
     printf("| `%s` | %zu | %zu | %zu |", forms[form].text, tally->lost, tally->holes, tally->invented);
-    if (forms[form].polish) {
-      printf(" %zu |", tally->grazing);
-    } else {
-      printf(" all |");
-    }
+    if (forms[form].polish) printf(" %zu |", tally->grazing);
+    else printf(" all |");
     print_error(worst, tally->t_count > 0);
     print_error(tally->worst_t_grazing, tally->worst_t_grazing > 0);
     printf("\n");

@@ -34,9 +34,7 @@ static int read_teapot(void **state)
   (void)state;
   FILE *file = fopen(PSCN_SOURCE_DIR "/scenes/teapot.pscn", "r");
   static char text[1 << 18];
-  if (file == NULL) {
-    return -1;
-  }
+  if (file == NULL) return -1;
   text[fread(text, 1, sizeof text - 1, file)] = '\0';
   fclose(file);
   int count = 0;
@@ -46,9 +44,7 @@ static int read_teapot(void **state)
     double *out = &teapot[count][0][0][0];
     for (int k = 0; k < 48; k++) {
       at += strcspn(at, "<,") + 1;
-      while (isspace((unsigned char)*at) || *at == '<') {
-        at++;
-      }
+      while (isspace((unsigned char)*at) || *at == '<') at++;
       out[k] = strtod(at, &at);
     }
     count++;
@@ -111,11 +107,9 @@ static void find_roots(struct target *target, const struct ray *ray, struct meth
 
 static bool among(const struct method_roots *found, const struct search_root *root)
 {
-  for (int k = 0; k < found->count; k++) {
-    if (fabs(found->u[k] - (double)root->u) <= FOUND_WITHIN && fabs(found->v[k] - (double)root->v) <= FOUND_WITHIN) {
+  for (int k = 0; k < found->count; k++)
+    if (fabs(found->u[k] - (double)root->u) <= FOUND_WITHIN && fabs(found->v[k] - (double)root->v) <= FOUND_WITHIN)
       return true;
-    }
-  }
   return false;
 }
 

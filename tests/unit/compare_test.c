@@ -12,9 +12,8 @@ static int setup(void **state)
 {
   static struct image images[2];
   *state = images;
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < 2; k++)
     if (image_create(2, 2, 2, &images[k]) != STATUS_OK) return -1;
-  }
   return 0;
 }
 

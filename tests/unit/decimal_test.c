@@ -35,9 +35,8 @@ static void expect_digits(double value, int count, uint64_t digits, int exponent
   snprintf(ours, sizeof ours, "%" PRIu64, digits);
   char theirs[64];
   size_t length = 0;
-  for (const char *c = text; *c != 'e'; c++) {
+  for (const char *c = text; *c != 'e'; c++)
     if (*c >= '0' && *c <= '9') theirs[length++] = *c;
-  }
   theirs[length] = '\0';
   if (strcmp(ours, theirs) != 0 || atoi(strchr(text, 'e') + 1) != exponent + count - 1)
     print_error("%a as %d digits: %s here, %s there\n", value, count, ours, text);
@@ -90,9 +89,8 @@ static void ties_and_powers(void **state)
   int exponent;
   for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
     assert_true(decimal_from_double(values[k], 17, &digits, &exponent));
-    for (int count = 1; count <= 17; count++) {
+    for (int count = 1; count <= 17; count++)
       if (decimal_from_double(values[k], count, &digits, &exponent)) expect_digits(values[k], count, digits, exponent);
-    }
   }
   static const double outside[] = {0, -1, INFINITY, NAN, 1e300, DBL_TRUE_MIN, DBL_MIN};
   for (size_t k = 0; k < sizeof outside / sizeof outside[0]; k++)

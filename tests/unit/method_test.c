@@ -14,18 +14,14 @@ static void items_round_trip(void **state)
     struct method options, copy;
     method_default(solver_at(0), &options);
     int words = 0;
-    while (item->keywords != NULL && item->keywords[words] != NULL) {
-      words++;
-    }
+    while (item->keywords != NULL && item->keywords[words] != NULL) words++;
     const double last = item->kind == METHOD_ITEM_KEYWORD ? words - 1 : item->maximum;
     item->set(&options, last);
     assert_true(item->get(&options) == last);
     item->set(&options, item->kind == METHOD_ITEM_KEYWORD ? 0.0 : item->minimum);
     assert_true(item->get(&options) == (item->kind == METHOD_ITEM_KEYWORD ? 0.0 : item->minimum));
     method_default(solver_at(0), &copy);
-    for (size_t k = 0; k < method_item_count(); k++) {
-      method_item_at(k)->set(&copy, method_item_at(k)->get(&options));
-    }
+    for (size_t k = 0; k < method_item_count(); k++) method_item_at(k)->set(&copy, method_item_at(k)->get(&options));
     assert_true(method_equal(&copy, &options));
   }
 }

@@ -120,10 +120,9 @@ static void collapsed_corners(void **state)
     random_surface(&random, x);
     const int corner = n % 4, i = corner / 2 * 3, j = corner % 2 * 3;
     const bool along_u = n / 4 % 2;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
       if (along_u) x[k][i == 0 ? 1 : 2][j] = x[k][i][j];
       else x[k][i][j == 0 ? 1 : 2] = x[k][i][j];
-    }
     assert_true(patch_normal(x, corner / 2, corner % 2, got));
     limit_normal(x, corner / 2, corner % 2, 0x1p-40, 3, want);
     assert_true(distance(got, want) < 1e-6);

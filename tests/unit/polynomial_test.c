@@ -144,16 +144,12 @@ static void count_by_enumeration(int degree, const double c[], const double erro
   double sign[LARGEST_COUNTED + 1];
   for (int k = 0; k <= degree; k++) {
     sign[k] = c[k];
-    if (fabs(c[k]) <= error[k] && error[k] > 0.0) {
-      open[open_count++] = k;
-    }
+    if (fabs(c[k]) <= error[k] && error[k] > 0.0) open[open_count++] = k;
   }
   *fewest = degree + 1;
   *most = 0;
   for (int choice = 0; choice < 1 << open_count; choice++) {
-    for (int i = 0; i < open_count; i++) {
-      sign[open[i]] = (choice >> i & 1) != 0 ? 1.0 : -1.0;
-    }
+    for (int i = 0; i < open_count; i++) sign[open[i]] = (choice >> i & 1) != 0 ? 1.0 : -1.0;
     int changes = 0;
     double last = 0.0;
     for (int k = 0; k <= degree; k++) {
@@ -191,9 +187,7 @@ static void binomials(void **state)
   (void)state;
   for (int n = 0; n <= POLYNOMIAL_MAX_DEGREE; n++) {
     quad row = 0;
-    for (int k = 0; k <= n; k++) {
-      row += polynomial_binomial(n, k);
-    }
+    for (int k = 0; k <= n; k++) row += polynomial_binomial(n, k);
     assert_true(quad_abs(row - exp2(n)) <= exp2(n - 52));
   }
   assert_true(polynomial_binomial(18, 9) == 48620.0);

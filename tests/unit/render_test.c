@@ -318,9 +318,7 @@ static void channels_tell_of_the_hit(void **state)
                                   hit ? -1 : 0,
                                   hit ? CHANNEL_HIT_CERTAIN : CHANNEL_MISS_CERTAIN,
                                   hit};
-      for (int k = 0; k < 9; k++) {
-        assert_true(is_float(pixel[k], expected[k]));
-      }
+      for (int k = 0; k < 9; k++) assert_true(is_float(pixel[k], expected[k]));
       hits += hit;
     }
   }

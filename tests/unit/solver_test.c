@@ -21,11 +21,8 @@ static struct root_set solve(const char *name, int degree, enum basis basis, con
 /* Whether some value's disc holds the real number. */
 static bool found(const struct root_set *roots, double at)
 {
-  for (int i = 0; i < roots->count; i++) {
-    if (hypot(roots->root[i].re - at, roots->root[i].im) <= roots->root[i].radius) {
-      return true;
-    }
-  }
+  for (int i = 0; i < roots->count; i++)
+    if (hypot(roots->root[i].re - at, roots->root[i].im) <= roots->root[i].radius) return true;
   return false;
 }
 
@@ -101,9 +98,8 @@ static void raised_degree(void **state)
     const struct root_set roots = solve(solver_at(i)->name, 6, BASIS_BERNSTEIN, c, error);
     assert_true(found(&roots, 0.25));
     assert_true(found(&roots, 0.75));
-    for (int k = 0; k < roots.count; k++) {
+    for (int k = 0; k < roots.count; k++)
       assert_true(roots.root[k].status != ROOT_CONVERGED || fabs(roots.root[k].re - 0.5) < 0.5);
-    }
   }
 }
 
@@ -131,26 +127,19 @@ static void random_roots(void **state)
         real[real_count++] = -factor[0] / (factor[1] - factor[0]);
       }
       double product[POLYNOMIAL_MAX_DEGREE + 1] = {0};
-      for (int i = 0; i <= n; i++) {
-        for (int j = 0; j <= m; j++) {
-          product[i + j] += c[i] * factor[j];
-        }
-      }
+      for (int i = 0; i <= n; i++)
+        for (int j = 0; j <= m; j++) product[i + j] += c[i] * factor[j];
       n += m;
       memcpy(c, product, sizeof c);
     }
     /* The roots above are those of the unrounded product: one rounding a product and a sum, for each of the factors. */
     double error[POLYNOMIAL_MAX_DEGREE + 1];
-    for (int k = 0; k <= degree; k++) {
-      error[k] = 0x1p-45;
-    }
+    for (int k = 0; k <= degree; k++) error[k] = 0x1p-45;
     for (size_t s = 0; s < solver_count(); s++) {
       const struct root_set roots = solve(solver_at(s)->name, degree, BASIS_BERNSTEIN, c, error);
       assert_true(solver_at(s)->real_only || roots.count == degree);
       for (int k = 0; k < real_count; k++) {
-        if (!found(&roots, real[k])) {
-          print_error("trial %d: %s lost %.17g\n", trial, solver_at(s)->name, real[k]);
-        }
+        if (!found(&roots, real[k])) print_error("trial %d: %s lost %.17g\n", trial, solver_at(s)->name, real[k]);
         assert_true(found(&roots, real[k]));
       }
     }
@@ -176,9 +165,7 @@ static void warm_start(void **state)
       if (!solver_at(s)->real_only) {
         assert_int_equal(roots.count, 3);
         assert_true(found(&roots, -1.0));
-        for (int k = 0; k < 3; k++) {
-          assert_true(roots.root[k].status != ROOT_LIMIT);
-        }
+        for (int k = 0; k < 3; k++) assert_true(roots.root[k].status != ROOT_LIMIT);
       }
       if (step < 0) {
         assert_true(found(&roots, 0.5 - sqrt(-height)));
