@@ -13,7 +13,7 @@
 #include "command/report.h"
 #include "command/scene_file.h"
 #include "command/values.h"
-#include "image/image_file.h"
+#include "image/image_loading.h"
 #include "language/words.h"
 
 enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_BITS };
@@ -139,10 +139,6 @@ static enum status check(const struct command *command, struct request *request)
   status = check_outputs(command, request, NULL);
   if (status == STATUS_OK) status = output_probe(command, request->output);
   if (status == STATUS_OK) status = output_probe(command, request->stats);
-  if (status != STATUS_OK) return status;
-  char message[IMAGE_MESSAGE_SIZE];
-  status = image_file_ready(message);
-  if (status != STATUS_OK) command_error(command, "cannot write pictures: %s", message);
   return status;
 }
 
@@ -158,15 +154,26 @@ static void name_channels(const struct channel_list *channels, struct image *ima
   }
 }
 
-/* Renders into a new image. */
-static enum status make_picture(const struct command *command, const struct request *request, struct report *report,
-                                struct image *out)
+/* Waits until pictures can be written; tells it where they cannot. */
+static enum status loaded(const struct command *command, struct image_loading *loading)
+{
+  const char *message;
+  const enum status status = image_loading_end(loading, &message);
+  if (status != STATUS_OK) command_error(command, "cannot write pictures: %s", message);
+  return status;
+}
+
+/* Renders into a new image, and no further where it could not be written. */
+static enum status make_picture(const struct command *command, const struct request *request,
+                                struct image_loading *loading, struct report *report, struct image *out)
 {
   const struct rectangle *crop = &request->options.crop;
   struct intersector *intersector = NULL;
   struct progress progress = progress_start();
-  const struct render_watch watch = {
-    .progress = request->scene.quiet ? NULL : progress_tell, .context = &progress, .stop = &interrupt_signal};
+  const struct render_watch watch = {.progress = request->scene.quiet ? NULL : progress_tell,
+                                     .context = &progress,
+                                     .stop = &interrupt_signal,
+                                     .failed = &loading->failed};
   struct render_stats stats = {0};
   enum status status = image_create(crop->width, crop->height, request->options.channels.width, out);
   if (status == STATUS_OK) {
@@ -187,6 +194,7 @@ static enum status make_picture(const struct command *command, const struct requ
     report->render = seconds_since(start);
   }
   if (status == STATUS_LIMIT) command_error(command, "out of memory or threads");
+  else if (atomic_load(&interrupt_signal) == 0) status = loaded(command, loading);
   intersector_destroy(intersector);
   return status;
 }
@@ -221,14 +229,12 @@ static enum status write_results(const struct command *command, const struct req
   return status;
 }
 
-static enum status render(const struct command *command, struct request *request)
+static enum status render(const struct command *command, struct request *request, struct image_loading *loading)
 {
-  enum status status = check(command, request);
-  if (status != STATUS_OK) return status;
   struct scene *scene = NULL;
   struct image image = {0};
   const struct seconds start = seconds_now();
-  status = scene_file_load(command, &request->scene, &scene);
+  enum status status = scene_file_load(command, &request->scene, &scene);
   if (status == STATUS_OK && !request->scene.quiet) scene_file_warn(command, scene);
   struct report report = {.scene_path = request->scene.path,
                           .picture_path = request->output,
@@ -239,7 +245,7 @@ static enum status render(const struct command *command, struct request *request
                           .samples = request->options.samples,
                           .parse = seconds_since(start)};
   if (status == STATUS_OK) status = check_outputs(command, request, scene);
-  if (status == STATUS_OK) status = make_picture(command, request, &report, &image);
+  if (status == STATUS_OK) status = make_picture(command, request, loading, &report, &image);
   if (status == STATUS_OK) status = write_results(command, request, &report, &image);
   if (status == STATUS_OK && !request->scene.quiet) report_print(&report);
   image_destroy(&image);
@@ -259,7 +265,14 @@ static int run(const struct command *command, int argc, const char **argv)
     request.scene.path = line.positional[0];
     request.options.width = request.scene.width;
     request.options.height = request.scene.height;
-    status = render(command, &request);
+    status = check(command, &request);
+  }
+  if (status == STATUS_OK && !line.help) {
+    struct image_loading loading;
+    const char *unused;
+    image_loading_begin(&loading);
+    status = render(command, &request, &loading);
+    (void)!image_loading_end(&loading, &unused);
   }
   free(request.default_output);
   return (int)status;

@@ -40,7 +40,8 @@ struct image_encoding {
 };
 
 /* Whether picture files can be read and written at all, to be asked before long work: OpenImageIO is loaded when it is
- * first needed. STATUS_FILE where it can not be, STATUS_LIMIT where memory is short for it. */
+ * first needed. STATUS_FILE where it can not be, STATUS_LIMIT where memory is short for it. Beside
+ * other work: image_loading.h. */
 enum status image_file_ready(char *message) STATUS_MUST_CHECK;
 
 /* The bytes of the file, owned by the caller (free). STATUS_LIMIT where memory is short, STATUS_FILE where the format

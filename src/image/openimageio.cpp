@@ -52,35 +52,38 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
   return spec;
 }
 
-template <typename Value> void append(Bytes &bytes, Value value)
+template <typename Value> void put(unsigned char *&at, Value value)
 {
-  unsigned char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.insert(bytes.end(), raw, raw + sizeof value);
+  std::memcpy(at, &value, sizeof value);
+  at += sizeof value;
 }
 
 /* The pixels in the file's own types, packed. */
 Bytes native_pixels(const image &picture, const image_encoding &encoding)
 {
-  Bytes bytes;
-  const std::size_t values = picture.width * picture.height * picture.channel_count;
-  bytes.reserve(values * static_cast<std::size_t>(encoding.bits) / 8);
+  const std::size_t pixels = picture.width * picture.height, values = pixels * picture.channel_count;
   srgb_table table;
   srgb_table_fill(&table);
   std::vector<OIIO::TypeDesc> types;
-  for (std::size_t c = 0; c < picture.channel_count; c++) types.push_back(channel_type(encoding, picture.channel[c]));
+  std::size_t size = 0; /* of a pixel */
+  for (std::size_t c = 0; c < picture.channel_count; c++) {
+    types.push_back(channel_type(encoding, picture.channel[c]));
+    size += types[c].size();
+  }
+  Bytes bytes(pixels * size);
+  unsigned char *at = bytes.data();
   for (std::size_t k = 0; k < values; k++) {
     const float value = picture.value[k];
     switch (types[k % picture.channel_count].basetype) {
-    case OIIO::TypeDesc::UINT8: append(bytes, encoding.encoded ? code8(value) : srgb_encode8(&table, value)); break;
-    case OIIO::TypeDesc::UINT16: append(bytes, encoding.encoded ? code16(value) : srgb_encode16(value)); break;
+    case OIIO::TypeDesc::UINT8: put(at, encoding.encoded ? code8(value) : srgb_encode8(&table, value)); break;
+    case OIIO::TypeDesc::UINT16: put(at, encoding.encoded ? code16(value) : srgb_encode16(value)); break;
     case OIIO::TypeDesc::HALF: {
       unsigned short half = 0;
       OIIO::convert_types(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &half, 1);
-      append(bytes, half);
+      put(at, half);
       break;
     }
-    default: append(bytes, value);
+    default: put(at, value);
     }
   }
   return bytes;

@@ -17,7 +17,7 @@ enum {
 /* What the threads share. The mutex guards `running` only; the rest is atomic or read-only. */
 struct crew {
   const struct tile_job *job;
-  const atomic_int *stop;
+  const struct render_watch *watch;
   struct rectangle tiles; /* columns and rows of the grid that meet the crop */
   atomic_size_t next, pixels;
   atomic_uint_fast64_t rays;
@@ -39,9 +39,11 @@ static uint64_t count_rays(const struct tracer *tracer)
   return counts->rays[0] + counts->rays[1];
 }
 
+static bool raised(const atomic_int *flag) { return flag != NULL && atomic_load(flag) != 0; }
+
 static bool stopped(struct crew *crew)
 {
-  return atomic_load(&crew->aborted) || (crew->stop != NULL && atomic_load(crew->stop) != 0);
+  return atomic_load(&crew->aborted) || raised(crew->watch->stop) || raised(crew->watch->failed);
 }
 
 static void *work(void *argument)
@@ -195,7 +197,7 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
                                .every_pixel = warm_starts(scene),
                                .channels = options->channels,
                                .out = out};
-  struct crew crew = {.job = &job, .stop = watch->stop, .tiles = tiles_of(&options->crop)};
+  struct crew crew = {.job = &job, .watch = watch, .tiles = tiles_of(&options->crop)};
   const size_t tile_count = crew.tiles.width * crew.tiles.height;
   const size_t count = options->threads < tile_count ? options->threads : tile_count;
   struct worker *workers = calloc(count, sizeof *workers);

@@ -27,11 +27,12 @@ struct render_progress {
 };
 
 /* How the caller watches. progress is called on the thread that called render_scene, about ten times a second; NULL for
- * none. When *stop turns nonzero (a signal handler may set it) the rendering ends early; NULL for never. */
+ * none. When *stop or *failed turns nonzero (a signal handler or another thread may set it) the rendering ends early;
+ * NULL for never. */
 struct render_watch {
   void (*progress)(void *context, const struct render_progress *progress);
   void *context;
-  const atomic_int *stop;
+  const atomic_int *stop, *failed;
 };
 
 struct render_stats {

@@ -85,6 +85,14 @@ wait
 expect 0 "$PSCN" compare a.png copy.png --quiet
 only a.png copy.png
 
+# Without the module that writes pictures, which is loaded beside the rendering: told, and the rendering ends.
+mkdir alone
+cp "$PSCN" alone/pscn
+expect 4 timeout 60 alone/pscn render "$scene" --samples 256 --quiet -o b.png
+grep -q "cannot write pictures" "$said" || wrong "the missing module was not told"
+rm -r alone
+only a.png copy.png
+
 # Little address space, in which OpenImageIO would not come up (a sanitizer needs more for itself).
 if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   for kilobytes in 50000 200000 300000 395000 410000 425000 440000; do
