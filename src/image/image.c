@@ -27,6 +27,7 @@ void image_destroy(struct image *image)
 {
   free(image->channel);
   free(image->value);
+  free(image->metadata);
   *image = (struct image){0};
 }
 
@@ -35,4 +36,15 @@ size_t image_find_channel(const struct image *image, const char *name)
   size_t index = 0;
   while (index < image->channel_count && strcmp(image->channel[index].name, name) != 0) index++;
   return index;
+}
+
+const char *image_metadata(const struct image *image, const char *name, size_t *out_length)
+{
+  const size_t length = strlen(name);
+  for (const char *line = image->metadata; line != NULL && *line != '\0'; line += strcspn(line, "\n") + 1) {
+    if (strncmp(line, name, length) != 0 || line[length] != '=') continue;
+    *out_length = strcspn(line + length + 1, "\n");
+    return line + length + 1;
+  }
+  return NULL;
 }

@@ -22,8 +22,10 @@ struct image_channel {
 
 struct image {
   size_t width, height, channel_count;
-  struct image_channel *channel; /* channel_count of them */
+  size_t x, y, full_width, full_height; /* where it stands in a larger picture; full 0 x 0: it is the whole */
+  struct image_channel *channel;        /* channel_count of them */
   float *value;
+  char *metadata; /* of a picture that was read: the texts named "pscn:...", a line "NAME=TEXT" each; or NULL */
 };
 
 /* A black picture with unnamed channels, owned by the caller. STATUS_LIMIT where memory is short or the product
@@ -35,6 +37,9 @@ void image_destroy(struct image *image);
 
 /* The index of the channel of that name, or channel_count where there is none. */
 size_t image_find_channel(const struct image *image, const char *name);
+
+/* The text of that name in the metadata, without its line's end; NULL where there is none. */
+const char *image_metadata(const struct image *image, const char *name, size_t *out_length);
 
 /* The channel_count values of one pixel. */
 static inline float *image_pixel(const struct image *image, size_t x, size_t y)

@@ -34,6 +34,7 @@ struct image_attribute {
 struct image_encoding {
   enum image_format format;
   int bits;     /* of every channel that is not data; data channels of EXR always have 32 */
+  bool quick;   /* EXR: packed as fast as can be, for what is soon read again */
   bool encoded; /* the values are display codes already: PNG takes them without the sRGB curve */
   const struct image_attribute *attributes;
   size_t attribute_count;
@@ -50,7 +51,7 @@ enum status image_encode(const struct image *image, const struct image_encoding 
                          size_t *out_size, char *message) STATUS_MUST_CHECK;
 
 /* Reads the first picture of a file of any format OpenImageIO knows, values as they are stored (integers to [0,1]). The
- * picture is owned by the caller. STATUS_FILE or STATUS_LIMIT; then *out is zero. */
+ * picture is owned by the caller and has its window and its metadata. STATUS_FILE or STATUS_LIMIT; then *out is zero. */
 enum status image_read(const char *path, struct image *out, char *message) STATUS_MUST_CHECK;
 
 #endif

@@ -39,6 +39,13 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
 {
   OIIO::ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height),
                        static_cast<int>(picture.channel_count), channel_type(encoding, picture.channel[0]));
+  if (encoding.format == IMAGE_EXR && picture.full_width != 0) {
+    spec.x = static_cast<int>(picture.x);
+    spec.y = static_cast<int>(picture.y);
+    spec.full_width = static_cast<int>(picture.full_width);
+    spec.full_height = static_cast<int>(picture.full_height);
+  }
+  if (encoding.quick) spec.attribute("compression", "rle");
   bool mixed = false;
   for (std::size_t c = 0; c < picture.channel_count; c++) {
     spec.channelnames[c] = picture.channel[c].name;
@@ -108,6 +115,27 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
   return "";
 }
 
+/* Where it stands in its picture; what lies outside is taken for a whole. */
+void read_window(const OIIO::ImageSpec &spec, image &out)
+{
+  const int x = spec.x - spec.full_x, y = spec.y - spec.full_y;
+  if (x < 0 || y < 0 || x + spec.width > spec.full_width || y + spec.height > spec.full_height) return;
+  out.x = static_cast<std::size_t>(x);
+  out.y = static_cast<std::size_t>(y);
+  out.full_width = static_cast<std::size_t>(spec.full_width);
+  out.full_height = static_cast<std::size_t>(spec.full_height);
+}
+
+void read_metadata(const OIIO::ImageSpec &spec, image &out)
+{
+  std::string lines;
+  for (const auto &attribute : spec.extra_attribs)
+    if (attribute.name().string().rfind("pscn:", 0) == 0 && attribute.type() == OIIO::TypeDesc::STRING)
+      lines += attribute.name().string() + "=" + attribute.get_string() + "\n";
+  out.metadata = strdup(lines.c_str());
+  if (out.metadata == nullptr) throw std::bad_alloc();
+}
+
 std::string read(const char *path, image &out, status &result)
 {
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
@@ -125,6 +153,8 @@ std::string read(const char *path, image &out, status &result)
   result = STATUS_FILE;
   for (std::size_t c = 0; c < out.channel_count; c++)
     std::snprintf(out.channel[c].name, IMAGE_NAME_SIZE, "%s", spec.channelnames[c].c_str());
+  read_window(spec, out);
+  read_metadata(spec, out);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value)) return input->geterror();
   result = STATUS_OK;
   return "";

@@ -18,7 +18,8 @@ enum {
 struct crew {
   const struct tile_job *job;
   const struct render_watch *watch;
-  struct rectangle tiles; /* columns and rows of the grid that meet the crop */
+  const struct tile_list *tiles;
+  size_t pixels_total;
   atomic_size_t next, pixels;
   atomic_uint_fast64_t rays;
   atomic_bool aborted;
@@ -50,15 +51,15 @@ static void *work(void *argument)
 {
   const struct worker *worker = argument;
   struct crew *crew = worker->crew;
-  const size_t total = crew->tiles.width * crew->tiles.height;
   while (!stopped(crew)) {
-    const size_t tile = atomic_fetch_add(&crew->next, 1);
-    if (tile >= total) break;
+    const size_t k = atomic_fetch_add(&crew->next, 1);
+    if (k >= crew->tiles->count) break;
+    if (atomic_load(&crew->tiles->done[k])) continue;
+    const struct rectangle *tile = &crew->tiles->tile[k];
     const uint64_t before = count_rays(worker->tracer);
-    const size_t pixels = tile_render(crew->job, worker->tracer, worker->certified,
-                                      crew->tiles.x + tile % crew->tiles.width,
-                                      crew->tiles.y + tile / crew->tiles.width);
-    atomic_fetch_add(&crew->pixels, pixels);
+    tile_render(crew->job, worker->tracer, worker->certified, tile);
+    atomic_store(&crew->tiles->done[k], true);
+    atomic_fetch_add(&crew->pixels, tile->width * tile->height);
     atomic_fetch_add(&crew->rays, count_rays(worker->tracer) - before);
   }
   pthread_mutex_lock(&crew->mutex);
@@ -79,7 +80,7 @@ static void watch_crew(struct crew *crew, const struct render_watch *watch, doub
     until.tv_nsec %= NANOSECONDS;
     if (pthread_cond_timedwait(&crew->ended, &crew->mutex, &until) == ETIMEDOUT && watch->progress != NULL) {
       const struct render_progress progress = {.pixels = atomic_load(&crew->pixels),
-                                               .pixels_total = crew->job->crop.width * crew->job->crop.height,
+                                               .pixels_total = crew->pixels_total,
                                                .rays = atomic_load(&crew->rays),
                                                .seconds = clock_seconds(CLOCK_MONOTONIC) - start};
       pthread_mutex_unlock(&crew->mutex);
@@ -126,16 +127,6 @@ static enum status crew_synchronise(struct crew *crew)
   }
   pthread_condattr_destroy(&attributes);
   return status;
-}
-
-/* The tiles that meet the crop. */
-static struct rectangle tiles_of(const struct rectangle *crop)
-{
-  const size_t x = crop->x / TILE_SIZE, y = crop->y / TILE_SIZE;
-  return (struct rectangle){.x = x,
-                            .y = y,
-                            .width = (crop->x + crop->width - 1) / TILE_SIZE - x + 1,
-                            .height = (crop->y + crop->height - 1) / TILE_SIZE - y + 1};
 }
 
 static bool warm_starts(const struct scene *scene)
@@ -197,12 +188,14 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
                                .every_pixel = warm_starts(scene),
                                .channels = options->channels,
                                .out = out};
-  struct crew crew = {.job = &job, .watch = watch, .tiles = tiles_of(&options->crop)};
-  const size_t tile_count = crew.tiles.width * crew.tiles.height;
-  const size_t count = options->threads < tile_count ? options->threads : tile_count;
-  struct worker *workers = calloc(count, sizeof *workers);
+  struct tile_list all = {0};
+  struct crew crew = {.job = &job, .watch = watch, .tiles = options->tiles == NULL ? &all : options->tiles};
+  enum status status = options->tiles == NULL ? tile_list_create(&options->crop, 1, 1, &all) : STATUS_OK;
+  crew.pixels_total = tile_list_pixels(crew.tiles, false) - tile_list_pixels(crew.tiles, true);
+  const size_t count = options->threads < crew.tiles->count ? options->threads : crew.tiles->count;
+  struct worker *workers = calloc(count + 1, sizeof *workers);
   struct certified certified = {.intersector = NULL};
-  enum status status = workers == NULL ? STATUS_LIMIT : STATUS_OK;
+  if (workers == NULL) status = STATUS_LIMIT;
   if (status == STATUS_OK && channel_list_has(&options->channels, CHANNEL_DEVIATION))
     status = certified_create(scene, &certified);
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
@@ -225,6 +218,7 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   }
   free(workers);
   certified_destroy(&certified);
+  tile_list_destroy(&all);
   out_stats->threads = count;
   out_stats->seconds = clock_seconds(CLOCK_MONOTONIC) - start;
   return status;

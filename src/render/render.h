@@ -10,18 +10,21 @@
 #include "intersect/intersect.h"
 #include "render/channels.h"
 #include "render/tile.h"
+#include "render/tile_list.h"
 #include "scene/scene.h"
 
 struct render_options {
   size_t width, height;  /* pixels, >= 1 */
   size_t samples;        /* N >= 1: N x N rays a pixel */
-  struct rectangle crop; /* the pixels that are rendered; inside the picture, not empty */
+  struct rectangle crop; /* the pixels of `out`; inside the picture, not empty */
   size_t threads;        /* >= 1 */
+  /* What is rendered of it: the tiles that are not done; the others' pixels stay as they are. NULL: all. */
+  const struct tile_list *tiles;
   struct channel_list channels;
 };
 
 struct render_progress {
-  size_t pixels, pixels_total; /* done, and of the crop */
+  size_t pixels, pixels_total; /* done, and to do, of all tiles that were not done before */
   uint64_t rays;               /* primary and shadow rays so far */
   double seconds;              /* of the clock since render_scene was called */
 };
@@ -43,7 +46,7 @@ struct render_stats {
 
 /* Renders into out[crop.height][crop.width][channels.width]. The same options give the same values, bit for bit, for
  * any number of threads and in every crop. STATUS_LIMIT where memory or threads are short, STATUS_INTERRUPTED where
- * stopped; then `out` is not complete. `intersector` is the scene's. */
+ * stopped; then `out` has the tiles that are done. `intersector` is the scene's. */
 enum status render_scene(const struct scene *scene, const struct intersector *intersector,
                          const struct render_options *options, const struct render_watch *watch, float *out,
                          struct render_stats *out_stats) STATUS_MUST_CHECK;

@@ -26,12 +26,13 @@ static bool inside(const struct rectangle *r, size_t x, size_t y)
 }
 
 /* The pixels of the packet at (x0, y0) that are to be rendered. */
-static size_t gather(const struct tile_job *job, size_t x0, size_t y0, struct pixel out[PACKET_SIZE])
+static size_t gather(const struct tile_job *job, const struct rectangle *kept, size_t x0, size_t y0,
+                     struct pixel out[PACKET_SIZE])
 {
   size_t count = 0;
   for (size_t k = 0; k < PACKET_SIZE; k++) {
     const size_t x = x0 + k % PACKET_WIDTH, y = y0 + k / PACKET_WIDTH;
-    if (x < job->width && y < job->height && (job->every_pixel || inside(&job->crop, x, y)))
+    if (x < job->width && y < job->height && (job->every_pixel || inside(kept, x, y)))
       out[count++] = (struct pixel){.x = x, .y = y, .hit.patch = HIT_NONE};
   }
   return count;
@@ -123,26 +124,20 @@ static void keep(const struct tile_job *job, const struct pixel *pixel)
   }
 }
 
-size_t tile_render(const struct tile_job *job, struct tracer *tracer, struct tracer *certified, size_t column,
-                   size_t row)
+void tile_render(const struct tile_job *job, struct tracer *tracer, struct tracer *certified,
+                 const struct rectangle *kept)
 {
-  const size_t x0 = column * TILE_SIZE, y0 = row * TILE_SIZE;
-  size_t kept = 0;
+  const size_t x0 = kept->x / TILE_SIZE * TILE_SIZE, y0 = kept->y / TILE_SIZE * TILE_SIZE;
   tracer_forget(tracer);
   for (size_t y = y0; y < y0 + TILE_SIZE; y += PACKET_HEIGHT) {
     for (size_t x = x0; x < x0 + TILE_SIZE; x += PACKET_WIDTH) {
       struct pixel pixels[PACKET_SIZE];
-      const size_t count = gather(job, x, y, pixels);
+      const size_t count = gather(job, kept, x, y, pixels);
       if (count == 0) continue;
       for (size_t j = 0; j < job->samples; j++)
         for (size_t i = 0; i < job->samples; i++) sample(job, tracer, certified, i, j, count, pixels);
-      for (size_t k = 0; k < count; k++) {
-        if (inside(&job->crop, pixels[k].x, pixels[k].y)) {
-          keep(job, &pixels[k]);
-          kept++;
-        }
-      }
+      for (size_t k = 0; k < count; k++)
+        if (inside(kept, pixels[k].x, pixels[k].y)) keep(job, &pixels[k]);
     }
   }
-  return kept;
 }

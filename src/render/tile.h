@@ -1,6 +1,6 @@
 /* Tiles: the unit of work of a thread.
  *
- * The grid of tiles, and in each tile the grid of packets of 4 x 2 pixels, is fixed to the picture, and a tracer starts
+ * The grid of tiles, and in each tile the grid of packets of 4 x 4 pixels, is fixed to the picture, and a tracer starts
  * each tile without memory. So a pixel depends neither on the crop nor on which thread renders it.
  */
 #ifndef PSCN_RENDER_TILE_H
@@ -25,15 +25,15 @@ struct tile_job {
   const struct scene *scene;
   size_t width, height;  /* of the whole picture, pixels */
   size_t samples;        /* N: N x N rays a pixel, on a regular grid */
-  struct rectangle crop; /* the pixels that are kept */
+  struct rectangle crop; /* the pixels that `out` holds */
   bool every_pixel;      /* render whole tiles, because a ray may depend on the one before it (`start previous`) */
   struct channel_list channels;
   float *out; /* [crop.height][crop.width][channels.width] */
 };
 
-/* Renders tile (column, row) of the grid and stores its pixels that are kept. Returns how many those are. `certified`
- * answers for CHANNEL_DEVIATION; NULL where nobody asks. */
-size_t tile_render(const struct tile_job *job, struct tracer *tracer, struct tracer *certified, size_t column,
-                   size_t row);
+/* Renders the tile in which the pixels `kept` lie, all in one, and stores those. `certified` answers for
+ * CHANNEL_DEVIATION; NULL where nobody asks. */
+void tile_render(const struct tile_job *job, struct tracer *tracer, struct tracer *certified,
+                 const struct rectangle *kept);
 
 #endif

@@ -125,6 +125,34 @@ static void exr_keeps_values_and_names(void **state)
   image_destroy(&image);
 }
 
+/* A crop knows where it stands, in either packing; its texts come back, others do not. */
+static void exr_keeps_its_window_and_texts(void **state)
+{
+  (void)state;
+  const char *const names[] = {"R", "G", "B"};
+  const struct image_attribute attributes[] = {{"pscn:scene", "a=b.pscn"}, {"pscn:size", "70x50"}, {"Software", "us"}};
+  struct image image = picture(3, names);
+  image.x = 5;
+  image.y = 7;
+  image.full_width = 70;
+  image.full_height = 50;
+  for (int quick = 0; quick < 2; quick++) {
+    const struct image_encoding encoding = {
+      .format = IMAGE_EXR, .bits = 32, .quick = quick, .attributes = attributes, .attribute_count = 3};
+    struct image back = there_and_back(&image, &encoding);
+    size_t length;
+    assert_true(back.x == 5 && back.y == 7 && back.full_width == 70 && back.full_height == 50);
+    assert_memory_equal(back.value, image.value, WIDTH * HEIGHT * 3 * sizeof *image.value);
+    assert_memory_equal(image_metadata(&back, "pscn:scene", &length), "a=b.pscn", 8);
+    assert_int_equal(length, 8);
+    assert_memory_equal(image_metadata(&back, "pscn:size", &length), "70x50", 5);
+    assert_null(image_metadata(&back, "Software", &length));
+    assert_null(image_metadata(&back, "pscn:siz", &length));
+    image_destroy(&back);
+  }
+  image_destroy(&image);
+}
+
 static void png_refuses_five_channels(void **state)
 {
   (void)state;
@@ -184,10 +212,10 @@ static void absurd_sizes_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    WITH_FILE(png_holds_the_nearest_codes),     WITH_FILE(encoded_values_take_no_curve),
-    WITH_FILE(exr_keeps_values_and_names),      cmocka_unit_test(png_refuses_five_channels),
-    WITH_FILE(unreadable_files_are_told),       cmocka_unit_test(suffixes_choose_formats),
-    cmocka_unit_test(absurd_sizes_are_refused),
+    WITH_FILE(png_holds_the_nearest_codes),      WITH_FILE(encoded_values_take_no_curve),
+    WITH_FILE(exr_keeps_values_and_names),       WITH_FILE(exr_keeps_its_window_and_texts),
+    cmocka_unit_test(png_refuses_five_channels), WITH_FILE(unreadable_files_are_told),
+    cmocka_unit_test(suffixes_choose_formats),   cmocka_unit_test(absurd_sizes_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
