@@ -23,11 +23,14 @@
 }
 
 %code {
+#include "base/memory.h"
 #include "language/syntax_errors.h"
 #include "language/tokens.h"
 
 #define YYLLOC_DEFAULT(current, rhs, n) ((current) = language_span(&YYRHSLOC(rhs, (n) ? 1 : 0), &YYRHSLOC(rhs, n)))
 #define YYSTACK_USE_ALLOCA 0
+#define YYMALLOC(size) memory_alloc(1, size)
+#define YYFREE memory_free
 
 /* In the action of an `error` item: the parser goes on with the token tokens_recover stops at. */
 #define RECOVER() \

@@ -3,7 +3,8 @@
 
 #include <stdalign.h>
 #include <stdint.h>
-#include <stdlib.h>
+
+#include "base/memory.h"
 
 enum {
   FIRST_CHUNK_BYTES = 4096,
@@ -24,7 +25,7 @@ struct arena {
 
 struct arena *arena_create(void)
 {
-  struct arena *arena = calloc(1, sizeof *arena);
+  struct arena *arena = memory_alloc(1, sizeof *arena);
   if (arena) arena->next_size = FIRST_CHUNK_BYTES;
   return arena;
 }
@@ -32,7 +33,7 @@ struct arena *arena_create(void)
 static struct chunk *chunk_create(size_t bytes)
 {
   if (bytes > SIZE_MAX - sizeof(struct chunk)) return NULL;
-  return calloc(1, sizeof(struct chunk) + bytes);
+  return memory_alloc(1, sizeof(struct chunk) + bytes);
 }
 
 void *arena_alloc(struct arena *arena, size_t count, size_t size)
@@ -70,8 +71,8 @@ void arena_destroy(struct arena *arena)
   if (!arena) return;
   for (struct chunk *chunk = arena->chunks; chunk;) {
     struct chunk *next = chunk->next;
-    free(chunk);
+    memory_free(chunk);
     chunk = next;
   }
-  free(arena);
+  memory_free(arena);
 }

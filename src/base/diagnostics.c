@@ -3,8 +3,9 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/memory.h"
 
 enum {
   MESSAGE_BYTES = 2000,   /* longer messages are cut */
@@ -23,7 +24,7 @@ static void block_add(struct block *block, const char *text, size_t length)
 {
   if (length > block->capacity - block->length) {
     size_t capacity = 2 * block->capacity + length + 256;
-    char *grown = realloc(block->text, capacity);
+    char *grown = memory_resize(block->text, capacity);
     if (!grown) return;
     block->text = grown;
     block->capacity = capacity;
@@ -46,12 +47,15 @@ static void block_add_clean(struct block *block, const char *text, size_t length
   }
 }
 
-static void block_add_position(struct block *block, const struct source *source, struct source_position at)
+/* Returns where the name ends. */
+static size_t block_add_position(struct block *block, const struct source *source, struct source_position at)
 {
   char numbers[64];
   block_add_clean(block, source->name, strlen(source->name));
+  const size_t name_end = block->length;
   snprintf(numbers, sizeof numbers, ":%zu:%zu:", at.line, at.column);
   block_add_text(block, numbers);
+  return name_end;
 }
 
 static void block_add_include_chain(struct block *block, const struct source *source)
@@ -62,7 +66,7 @@ static void block_add_include_chain(struct block *block, const struct source *so
   while (levels-- > 0) {
     const struct source *includer = chain[levels]->includer;
     block_add_text(block, "included from ");
-    block_add_position(block, includer, source_locate(includer, chain[levels]->include_begin));
+    (void)block_add_position(block, includer, source_locate(includer, chain[levels]->include_begin));
     block_add_text(block, "\n");
   }
 }
@@ -107,7 +111,8 @@ bool diagnostics_full(const struct diagnostics *diagnostics)
 static void tell_closing_line(struct diagnostics *diagnostics)
 {
   char text[64];
-  int length = snprintf(text, sizeof text, "%d errors: no more are shown\n", DIAGNOSTICS_MAX_ERRORS);
+  const int length = snprintf(text, sizeof text, "%d errors: no more are shown\n", DIAGNOSTICS_MAX_ERRORS);
+  diagnostics->parts = (struct diagnostics_parts){.said_end = (size_t)length - 1};
   diagnostics->tell(diagnostics->context, text, (size_t)length);
 }
 
@@ -119,19 +124,27 @@ static void tell(struct diagnostics *diagnostics, struct place place, const char
   if (vsnprintf(message, sizeof message, format, arguments) < 0) message[0] = '\0';
   struct block block = {0};
   struct source_position at = {0};
+  struct diagnostics_parts parts = {.warning = kind[0] == 'w'};
   if (place.source) {
     at = source_locate(place.source, place.begin);
+    parts.line = at.line;
+    parts.column = at.column;
     block_add_include_chain(&block, place.source);
-    block_add_position(&block, place.source, at);
+    parts.name_begin = block.length;
+    parts.name_end = block_add_position(&block, place.source, at);
     block_add_text(&block, " ");
   }
   block_add_text(&block, kind);
+  parts.said_begin = block.length;
   block_add_clean(&block, message, strlen(message));
+  parts.said_end = block.length;
   block_add_text(&block, "\n");
   if (place.source) block_add_line(&block, place, at);
-  if (block.length > 0 && block.text[block.length - 1] == '\n')
+  if (block.length > 0 && block.text[block.length - 1] == '\n') {
+    diagnostics->parts = parts;
     diagnostics->tell(diagnostics->context, block.text, block.length);
-  free(block.text);
+  }
+  memory_free(block.text);
 }
 
 void diagnostics_error(struct diagnostics *diagnostics, struct place place, const char *format, ...)

@@ -20,11 +20,19 @@
 
 enum { DIAGNOSTICS_MAX_ERRORS = 20 };
 
+/* Where in a text that is told its parts stand, in bytes: the name of the file, and what is said of it. */
+struct diagnostics_parts {
+  size_t name_begin, name_end, said_begin, said_end;
+  size_t line, column; /* 0 where it has no place, and then no name */
+  bool warning;
+};
+
 struct diagnostics {
   void (*tell)(void *context, const char *text, size_t length); /* text ends with a newline; NULL: only counted */
   void *context;
   size_t error_count;
-  bool quiet; /* warnings are not told */
+  bool quiet;                     /* warnings are not told */
+  struct diagnostics_parts parts; /* of the text, while it is told */
 };
 
 /* An error at a place. A place without source gives a bare "error: text" line. */

@@ -3,12 +3,12 @@
 #include "base/source.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/input.h"
+#include "base/memory.h"
 
 enum {
   TEXT_PADDING = 2,         /* the NULs behind the text, for scanners that want a sentinel */
@@ -17,11 +17,11 @@ enum {
 
 static struct source *source_create(const char *name)
 {
-  struct source *source = calloc(1, sizeof *source);
+  struct source *source = memory_alloc(1, sizeof *source);
   if (!source) return NULL;
-  source->name = strdup(name);
+  source->name = memory_copy_text(name);
   if (!source->name) {
-    free(source);
+    memory_free(source);
     return NULL;
   }
   return source;
@@ -30,7 +30,7 @@ static struct source *source_create(const char *name)
 static enum status grow_text(struct source *source, size_t *capacity, size_t wanted)
 {
   if (wanted > SOURCE_MAX_BYTES + 1) wanted = SOURCE_MAX_BYTES + 1;
-  char *text = realloc(source->text, wanted + TEXT_PADDING);
+  char *text = memory_resize(source->text, wanted + TEXT_PADDING);
   if (!text) return STATUS_LIMIT;
   source->text = text;
   *capacity = wanted;
@@ -163,7 +163,7 @@ struct source_position source_locate(const struct source *source, size_t offset)
 void source_destroy(struct source *source)
 {
   if (!source) return;
-  free(source->name);
-  if (!source->shared) free(source->text);
-  free(source);
+  memory_free(source->name);
+  if (!source->shared) memory_free(source->text);
+  memory_free(source);
 }

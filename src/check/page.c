@@ -13,8 +13,8 @@
 #include "base/atomic_file.h"
 #include "base/number.h"
 #include "base/source.h"
-#include "base/version.h"
 #include "image/image_file.h"
+#include "library/pscn.h"
 #include "check/templates.h"
 
 /* ---- text ---- */

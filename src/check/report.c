@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/version.h"
+#include "library/pscn.h"
 
 static void row_name(const struct check_row *row, char *out, size_t size)
 {

@@ -5,10 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/version.h"
 #include "command/command.h"
 #include "command/interrupt.h"
 #include "intersect/intersect.h"
+#include "library/pscn.h"
 
 /* A standard stream that was closed gets a descriptor that refuses its use, so that no file of ours is opened in its
  * place and takes what is meant for it. */

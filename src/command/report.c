@@ -8,8 +8,8 @@
 #include <time.h>
 
 #include "base/number.h"
-#include "base/version.h"
 #include "command/output.h"
+#include "library/pscn.h"
 
 enum { JSON_DIGITS = 15 }; /* of numbers in the statistics: 1e-12 stays 1e-12 */
 

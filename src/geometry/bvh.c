@@ -3,8 +3,8 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
 
+#include "base/memory.h"
 #include "base/real.h"
 
 enum { BIN_COUNT = 16 };
@@ -165,8 +165,8 @@ enum status bvh_build(const struct bvh_box *boxes, size_t count, struct bvh *out
   if (count > INT32_MAX) return STATUS_LIMIT;
   struct builder b = {boxes, NULL, NULL, 0};
   enum status status = STATUS_LIMIT;
-  b.order = malloc(count * sizeof *b.order);
-  b.nodes = malloc((count > 1 ? count - 1 : 1) * sizeof *b.nodes);
+  b.order = memory_alloc(count, sizeof *b.order);
+  b.nodes = memory_alloc(count > 1 ? count - 1 : 1, sizeof *b.nodes);
   if (!b.order || !b.nodes) goto done;
   for (size_t k = 0; k < count; k++) b.order[k] = (uint32_t)k;
   build(&b, (uint32_t)count);
@@ -174,13 +174,13 @@ enum status bvh_build(const struct bvh_box *boxes, size_t count, struct bvh *out
   b.nodes = NULL;
   status = STATUS_OK;
 done:
-  free(b.order);
-  free(b.nodes);
+  memory_free(b.order);
+  memory_free(b.nodes);
   return status;
 }
 
 void bvh_free(struct bvh *bvh)
 {
-  free(bvh->nodes);
+  memory_free(bvh->nodes);
   *bvh = (struct bvh){NULL, 0};
 }

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
+
 struct border {
   double point[4][3]; /* in the direction that sorts first */
   uint32_t patch;
@@ -56,7 +58,7 @@ static bool collapsed(const struct border *b)
 enum status edges_match(const void *nets, size_t stride, size_t count, struct edge_neighbour *out)
 {
   if (count == 0) return STATUS_OK;
-  struct border *all = malloc(count * 4 * sizeof *all);
+  struct border *all = memory_alloc(count, 4 * sizeof *all);
   if (!all) return STATUS_LIMIT;
   for (size_t p = 0; p < count; p++) {
     double P[4][4][3];
@@ -75,6 +77,6 @@ enum status edges_match(const void *nets, size_t stride, size_t count, struct ed
         pair ? (struct edge_neighbour){other->patch, other->border, here->reversed != other->reversed} : none;
     }
   }
-  free(all);
+  memory_free(all);
   return STATUS_OK;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "geometry/vector.h"
 #include "intersect/tracer.h"
 
@@ -49,11 +50,11 @@ enum status intersector_create(const struct scene *scene, struct intersector **o
   *out = NULL;
   const struct kernel *kernel = kernel_chosen();
   if (!kernel) return STATUS_USAGE;
-  struct intersector *intersector = calloc(1, sizeof *intersector);
+  struct intersector *intersector = memory_alloc(1, sizeof *intersector);
   if (!intersector) return STATUS_LIMIT;
   const enum status status = model_create(scene, &intersector->model);
   if (status != STATUS_OK) {
-    free(intersector);
+    memory_free(intersector);
     return status;
   }
   intersector->kernel = kernel;
@@ -66,21 +67,24 @@ void intersector_destroy(struct intersector *intersector)
 {
   if (!intersector) return;
   model_destroy(intersector->model);
-  free(intersector);
+  memory_free(intersector);
+}
+
+void tracer_begin(const struct intersector *intersector, struct tracer *out)
+{
+  *out = (struct tracer){.model = intersector->model, .kernel = intersector->kernel, .epoch = 1};
 }
 
 enum status tracer_create(const struct intersector *intersector, struct tracer **out)
 {
   *out = NULL;
-  struct tracer *tracer = calloc(1, sizeof *tracer);
+  struct tracer *tracer = memory_alloc(1, sizeof *tracer);
   if (!tracer) return STATUS_LIMIT;
-  tracer->model = intersector->model;
-  tracer->kernel = intersector->kernel;
-  tracer->epoch = 1;
+  tracer_begin(intersector, tracer);
   if (intersector->warm && tracer->model->leaf_count > 0) {
-    tracer->warm = calloc(tracer->model->leaf_count, sizeof *tracer->warm);
+    tracer->warm = memory_alloc(tracer->model->leaf_count, sizeof *tracer->warm);
     if (!tracer->warm) {
-      free(tracer);
+      memory_free(tracer);
       return STATUS_LIMIT;
     }
   }
@@ -91,8 +95,8 @@ enum status tracer_create(const struct intersector *intersector, struct tracer *
 void tracer_destroy(struct tracer *tracer)
 {
   if (!tracer) return;
-  free(tracer->warm);
-  free(tracer);
+  memory_free(tracer->warm);
+  memory_free(tracer);
 }
 
 void tracer_forget(struct tracer *tracer) { tracer->epoch++; }

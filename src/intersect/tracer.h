@@ -37,6 +37,9 @@ struct tracer {
   struct explainer *explainer; /* explain.c; NULL where nobody asks */
 };
 
+/* intersect.c: a tracer in memory of the caller's, without warm starts, whatever the scene asks for. */
+void tracer_begin(const struct intersector *intersector, struct tracer *out);
+
 /* The warm start of a leaf of the tracer's model by its number; NULL where the method asks for none. */
 static inline struct solver_warm *tracer_warm(struct tracer *tracer, const struct method *method, int64_t leaf)
 {

@@ -3,9 +3,9 @@
 
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/source.h"
 #include "language/scan.h"
 
@@ -51,7 +51,7 @@ static size_t add_source(struct copies *copies, struct source *source)
   }
   if (copies->count == copies->room) {
     const size_t room = 2 * copies->room + 8;
-    struct source **list = copies->count < MAX_FILES ? realloc(copies->source, room * sizeof *list) : NULL;
+    struct source **list = copies->count < MAX_FILES ? memory_resize(copies->source, room * sizeof *list) : NULL;
     if (list == NULL) {
       source_destroy(source);
       return MAX_FILES;
@@ -179,7 +179,7 @@ enum status plain_copy(const char *path, const char *folder, const char *name, c
   for (size_t k = 0; k < copies.count && status == STATUS_OK; k++) /* copying adds what is included */
     status = copy_file(&copies, k);
   for (size_t k = 0; k < copies.count; k++) source_destroy(copies.source[k]);
-  free(copies.source);
+  memory_free(copies.source);
   *out_reason = copies.reason;
   return status;
 }

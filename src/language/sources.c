@@ -2,8 +2,9 @@
 #include "language/sources.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/memory.h"
 
 enum {
   MAX_INCLUDE_DEPTH = 32,
@@ -48,9 +49,9 @@ bool sources_open(struct language *language, struct source *source)
     source_destroy(source);
     return false;
   }
-  struct frame *frame = calloc(1, sizeof *frame);
+  struct frame *frame = memory_alloc(1, sizeof *frame);
   if (!frame || !pscn_scan_open(&frame->scan, source->text, source->length)) {
-    free(frame);
+    memory_free(frame);
     return false;
   }
   frame->source = source;
@@ -79,7 +80,7 @@ void sources_leave(struct language *language)
   if (frame->outer) symbols_leave(language->symbols);
   language->sources->frame = frame->outer;
   pscn_scan_close(&frame->scan);
-  free(frame);
+  memory_free(frame);
 }
 
 void sources_close(struct language *language)

@@ -35,7 +35,7 @@ while IFS= read -r -d '' file; do
 done < <(find "$folder" "$build/src" "$build/tests" "$build/examples" \
   \( -name CMakeFiles -prune \) -o -type f \( -perm -u+x -o -name '*.so*' \) -print0 2>/dev/null)
 [ "$looked" -ge 4 ] || say "$build" "only $looked programs and modules were found"
-for file in "$folder"/bin/pscn $(find "$folder" -name pscn_openimageio.so); do
+for file in "$folder"/bin/pscn $(find "$folder" -name pscn_openimageio.so -o -name "libpscn.so.*.*.*"); do
   grep -q __stack_chk_fail < <(readelf -sW --dyn-syms "$file") || say "$file" "its stack frames are not guarded"
 done
 exit "$failed"

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/real.h"
 
 /* A map that stretches errors more than this is no gain: what is undecidable in the object would be decided twice. */
@@ -141,11 +142,11 @@ enum status copies_choose(struct model *model, size_t *own)
   const struct scene *scene = model->scene;
   const size_t count = scene->copy_count;
   if (count == 0) return STATUS_OK;
-  struct candidate *all = calloc(count, sizeof *all);
+  struct candidate *all = memory_alloc(count, sizeof *all);
   model->objects = arena_alloc(model->arena, scene->object_count, sizeof *model->objects);
   model->copies = arena_alloc(model->arena, count, sizeof *model->copies);
   if (!all || !model->objects || !model->copies) {
-    free(all);
+    memory_free(all);
     return STATUS_LIMIT;
   }
   for (size_t k = 0; k < count; k++) all[k].copy = &scene->copies[k];
@@ -158,7 +159,7 @@ enum status copies_choose(struct model *model, size_t *own)
     const size_t before = model->copy_count;
     if (take(model, object, end - first, all + first)) *own -= (model->copy_count - before - 1) * object->patch_count;
   }
-  free(all);
+  memory_free(all);
   return STATUS_OK;
 }
 
@@ -168,7 +169,7 @@ static enum status prepare_object(const struct model *model, const struct model_
 {
   const struct scene_object *declared = object->declared;
   const struct middle middle = object_middle(declared);
-  struct scene_patch *patches = calloc(declared->patch_count, sizeof *patches);
+  struct scene_patch *patches = memory_alloc(declared->patch_count, sizeof *patches);
   if (!patches) return STATUS_LIMIT;
   for (size_t p = 0; p < declared->patch_count; p++) {
     patches[p] = model->scene->patches[copy->first_patch + p];
@@ -178,7 +179,7 @@ static enum status prepare_object(const struct model *model, const struct model_
   const struct scene nets = {
     .patches = patches, .patch_count = declared->patch_count, .solvers = model->scene->solvers};
   const enum status status = model_create_object(&nets, most, object->error, &object->model);
-  free(patches);
+  memory_free(patches);
   return status;
 }
 

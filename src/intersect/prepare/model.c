@@ -2,10 +2,10 @@
 #include "intersect/model.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/double_double.h"
+#include "base/memory.h"
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
@@ -171,14 +171,14 @@ static enum status prepare_hierarchy(struct model *model, int most)
 {
   split_patches(model, most);
   const size_t count = model->leaf_count + model->copy_count;
-  struct bvh_box *boxes = calloc(count + 1, sizeof *boxes);
+  struct bvh_box *boxes = memory_alloc(count + 1, sizeof *boxes);
   model->leaves = arena_alloc(model->arena, model->leaf_count + 1, sizeof *model->leaves);
   enum status status = boxes && model->leaves ? prepare_leaves(model, boxes) : STATUS_LIMIT;
   if (status == STATUS_OK) {
     for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &boxes[model->leaf_count + c]);
     status = tree_build(model->arena, boxes, count, model->origin, model->frame, &model->tree);
   }
-  free(boxes);
+  memory_free(boxes);
   return status;
 }
 
@@ -192,7 +192,7 @@ static int most_split(size_t patch_count)
 /* An empty model with the patches in their frames. */
 static struct model *model_begin(const struct scene *scene)
 {
-  struct model *model = calloc(1, sizeof *model);
+  struct model *model = memory_alloc(1, sizeof *model);
   if (!model) return NULL;
   model->scene = scene;
   model->arena = arena_create();
@@ -252,5 +252,5 @@ void model_destroy(struct model *model)
   for (size_t k = 0; k < model->object_count; k++) model_destroy(model->objects[k].model);
   tree_free(&model->tree);
   arena_destroy(model->arena);
-  free(model);
+  memory_free(model);
 }

@@ -2,8 +2,8 @@
 #include "intersect/prepare/tree.h"
 
 #include <math.h>
-#include <stdlib.h>
 
+#include "base/memory.h"
 #include "base/real.h"
 
 /* Boxes no larger than this part of a frame have one of their own where all of them lie within that part: a float is
@@ -55,7 +55,7 @@ static enum status build(struct arena *arena, const struct bvh_box boxes[], uint
 {
   struct bvh_box hull;
   const size_t stay = set_apart(boxes, index, count, frame, &hull), inner = stay < count;
-  struct bvh_box *own = calloc(stay + inner + 1, sizeof *own);
+  struct bvh_box *own = memory_alloc(stay + inner + 1, sizeof *own);
   *out = (struct model_tree){.frame = whole->frame * frame};
   for (int k = 0; k < 3; k++) out->origin[k] = whole->origin[k] + whole->frame * middle[k];
   if (!own) return STATUS_LIMIT;
@@ -63,7 +63,7 @@ static enum status build(struct arena *arena, const struct bvh_box boxes[], uint
   for (size_t k = 0; k < stay; k++) own[k] = first ? boxes[index[k]] : framed(&boxes[index[k]], middle, frame);
   if (inner) own[stay] = framed(&hull, middle, frame);
   enum status status = bvh_build(own, stay + inner, &out->bvh);
-  free(own);
+  memory_free(own);
   for (size_t n = 0; status == STATUS_OK && n < out->bvh.node_count; n++) {
     for (int side = 0; side < 2; side++) {
       uint32_t *child = &out->bvh.nodes[n].child[side];
@@ -87,11 +87,11 @@ enum status tree_build(struct arena *arena, const struct bvh_box boxes[], size_t
   static const double middle[3] = {0, 0, 0};
   const struct model_tree whole = {.origin = {origin[0], origin[1], origin[2]}, .frame = frame};
   *out = (struct model_tree){.frame = frame};
-  uint32_t *index = calloc(count + 1, sizeof *index);
+  uint32_t *index = memory_alloc(count + 1, sizeof *index);
   if (!index) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
   const enum status status = build(arena, boxes, index, count, middle, 1, &whole, out);
-  free(index);
+  memory_free(index);
   return status;
 }
 

@@ -1,0 +1,42 @@
+/* Memory from the hooks of this thread. */
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static _Thread_local struct memory_hooks hooks_now;
+
+struct memory_hooks memory_use(struct memory_hooks hooks)
+{
+  const struct memory_hooks before = hooks_now;
+  hooks_now = hooks;
+  return before;
+}
+
+void *memory_alloc(size_t count, size_t size)
+{
+  size_t bytes;
+  if (!hooks_now.resize) return calloc(count ? count : 1, size);
+  if (__builtin_mul_overflow(count, size, &bytes)) return NULL;
+  void *block = hooks_now.resize(hooks_now.context, NULL, bytes ? bytes : 1);
+  if (block) memset(block, 0, bytes);
+  return block;
+}
+
+void *memory_resize(void *block, size_t size)
+{
+  return hooks_now.resize ? hooks_now.resize(hooks_now.context, block, size) : realloc(block, size);
+}
+
+char *memory_copy_text(const char *text)
+{
+  const size_t size = strlen(text) + 1;
+  char *copy = memory_resize(NULL, size);
+  return copy ? memcpy(copy, text, size) : NULL;
+}
+
+void memory_free(void *block)
+{
+  if (!hooks_now.resize) free(block);
+  else if (block) (void)hooks_now.resize(hooks_now.context, block, 0);
+}

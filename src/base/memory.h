@@ -1,0 +1,33 @@
+/* Memory that a scene is made of, from libc or from whoever asked for the scene (pscn.h's struct pscn_memory).
+ *
+ * The hooks belong to a thread while it makes or frees a scene: memory_use sets them there and back again. Handing them
+ * down to every list that grows would put them into each signature from the parser to the hierarchy. Without hooks all
+ * this is calloc, realloc and free.
+ */
+#ifndef PSCN_BASE_MEMORY_H
+#define PSCN_BASE_MEMORY_H
+
+#include <stddef.h>
+
+struct memory_hooks {
+  void *(*resize)(void *context, void *block, size_t size); /* as realloc, frees where size is 0; NULL: libc's */
+  void *context;
+};
+
+/* From now on this thread's memory comes from there; returns where it came from before. */
+struct memory_hooks memory_use(struct memory_hooks hooks);
+
+/* `count` zeroed elements of `size` bytes, aligned for any type, or NULL where memory is short or the product overflows. */
+void *memory_alloc(size_t count, size_t size);
+
+/* The block with room for `size` > 0 bytes, what is new in it not zeroed. NULL, the block as it was, where memory is
+ * short. A NULL block is a new one. */
+void *memory_resize(void *block, size_t size);
+
+/* A copy of the text, or NULL. */
+char *memory_copy_text(const char *text);
+
+/* What the same hooks gave. NULL is allowed. */
+void memory_free(void *block);
+
+#endif

@@ -1,0 +1,183 @@
+/* Rays of pscn.h, a packet at a time. */
+#include <math.h>
+#include <string.h>
+
+#include "geometry/patch.h"
+#include "geometry/vector.h"
+#include "intersect/tracer.h"
+#include "library/library.h"
+
+/* One call: who answers, and where rays and answers stand. `failed`: some ray was wrong. */
+struct call {
+  struct tracer tracer;
+  const struct scene *scene;
+  const char *rays;
+  char *answers;
+  ptrdiff_t ray_stride, answer_stride;
+  bool failed;
+};
+
+/* Up to PACKET_SIZE rays that are as they should be, and which they are. */
+struct packet {
+  size_t count, number[PACKET_SIZE];
+  struct ray rays[PACKET_SIZE];
+};
+
+static const struct pscn_hit NO_HIT = {.t = INFINITY, .patch = PSCN_NO_PATCH};
+
+static void *answer_at(const struct call *call, size_t number)
+{
+  return call->answers + (ptrdiff_t)number * call->answer_stride;
+}
+
+/* False where the ray is not as it should be. */
+static bool take_ray(const struct pscn_ray *ray, struct ray *out)
+{
+  bool finite = true, moves = false;
+  for (int k = 0; k < 3; k++) {
+    finite &= isfinite(ray->origin[k]) && isfinite(ray->direction[k]);
+    moves |= ray->direction[k] != 0;
+  }
+  memcpy(out->origin, ray->origin, sizeof out->origin);
+  memcpy(out->direction, ray->direction, sizeof out->direction);
+  out->t_min = ray->t_min;
+  out->t_max = ray->t_max;
+  return finite && moves && ray->t_min >= 0 && !isnan(ray->t_max);
+}
+
+/* ---- the nearest hit ---- */
+
+static void derivatives(const struct scene_patch *patch, struct pscn_hit *hit)
+{
+  for (int k = 0; k < 3; k++) {
+    double net[4][4];
+    for (int n = 0; n < 16; n++) net[n / 4][n % 4] = patch->P[n / 4][n % 4][k];
+    const struct patch_jet jet = patch_evaluate(net, hit->u, hit->v);
+    hit->du[k] = jet.du;
+    hit->dv[k] = jet.dv;
+  }
+}
+
+static struct pscn_hit make_hit(const struct call *call, const struct hit *from)
+{
+  struct pscn_hit hit = NO_HIT;
+  hit.certain = from->certainty == CERTAINTY_CERTAIN;
+  if (from->patch == HIT_NONE) return hit;
+  hit.verdict = PSCN_HIT;
+  hit.t = from->t;
+  hit.u = from->u;
+  hit.v = from->v;
+  hit.point_error = from->point_error;
+  hit.clearance = from->clearance;
+  hit.patch = from->patch;
+  for (int k = 0; k < 3; k++) {
+    hit.point[k] = from->point[k];
+    hit.normal[k] = from->normal[k];
+  }
+  derivatives(&call->scene->patches[hit.patch], &hit);
+  return hit;
+}
+
+static void answer_nearest(struct call *call, const struct packet *packet)
+{
+  struct hit hits[PACKET_SIZE];
+  tracer_closest(&call->tracer, packet->count, packet->rays, hits);
+  for (size_t k = 0; k < packet->count; k++) {
+    const struct pscn_hit hit = make_hit(call, &hits[k]);
+    memcpy(answer_at(call, packet->number[k]), &hit, sizeof hit);
+  }
+}
+
+static void write_nearest(struct call *call, size_t number, enum pscn_verdict verdict)
+{
+  struct pscn_hit hit = NO_HIT;
+  hit.verdict = (int32_t)verdict;
+  hit.certain = verdict == PSCN_MISS;
+  memcpy(answer_at(call, number), &hit, sizeof hit);
+}
+
+/* ---- any hit ---- */
+
+static void write_occluded(struct call *call, size_t number, enum pscn_verdict verdict)
+{
+  *(uint8_t *)answer_at(call, number) = (uint8_t)verdict;
+}
+
+static void answer_occluded(struct call *call, const struct packet *packet)
+{
+  bool occluded[PACKET_SIZE];
+  tracer_occluded(&call->tracer, packet->count, packet->rays, occluded);
+  for (size_t k = 0; k < packet->count; k++)
+    write_occluded(call, packet->number[k], occluded[k] ? PSCN_HIT : PSCN_MISS);
+}
+
+/* ---- calls ---- */
+
+/* What is done with rays that can be traced, and what is written where there is nothing to trace. */
+struct asked {
+  void (*answer)(struct call *call, const struct packet *packet);
+  void (*write)(struct call *call, size_t number, enum pscn_verdict verdict);
+};
+
+static void answer_all(struct call *call, const struct asked *asked, size_t count)
+{
+  struct packet packet = {.count = 0};
+  for (size_t number = 0; number < count; number++) {
+    struct pscn_ray ray;
+    memcpy(&ray, call->rays + (ptrdiff_t)number * call->ray_stride, sizeof ray);
+    const size_t k = packet.count;
+    if (!take_ray(&ray, &packet.rays[k])) {
+      asked->write(call, number, PSCN_NO_ANSWER);
+      call->failed = true;
+    } else if (!(packet.rays[k].t_min < packet.rays[k].t_max)) {
+      asked->write(call, number, PSCN_MISS);
+    } else {
+      packet.number[k] = number;
+      packet.count++;
+    }
+    if (packet.count == PACKET_SIZE || (packet.count > 0 && number == count - 1)) {
+      asked->answer(call, &packet);
+      packet.count = 0;
+    }
+  }
+}
+
+static enum pscn_status ask(const struct pscn_scene *scene, const struct asked *asked, size_t count, struct call *call)
+{
+  if (count == 0) return pscn_scene_status(scene) == PSCN_OK ? PSCN_OK : PSCN_USAGE;
+  if (!call->answers) return PSCN_USAGE;
+  if (pscn_scene_status(scene) != PSCN_OK || !call->rays) {
+    for (size_t k = 0; k < count; k++) asked->write(call, k, PSCN_NO_ANSWER);
+    return PSCN_USAGE;
+  }
+  const struct calm calm = calm_begin();
+  call->scene = scene->scene;
+  tracer_begin(scene->intersector, &call->tracer);
+  answer_all(call, asked, count);
+  calm_end(&calm);
+  return call->failed ? PSCN_INPUT : PSCN_OK;
+}
+
+enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
+                              ptrdiff_t ray_stride, struct pscn_hit *hits, ptrdiff_t hit_stride)
+{
+  static const struct asked asked = {answer_nearest, write_nearest};
+  struct call call = {
+    .rays = (const char *)rays, .answers = (char *)hits, .ray_stride = ray_stride, .answer_stride = hit_stride};
+  return ask(scene, &asked, count, &call);
+}
+
+enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
+                               ptrdiff_t ray_stride, uint8_t *verdicts, ptrdiff_t verdict_stride)
+{
+  static const struct asked asked = {answer_occluded, write_occluded};
+  struct call call = {
+    .rays = (const char *)rays, .answers = (char *)verdicts, .ray_stride = ray_stride, .answer_stride = verdict_stride};
+  return ask(scene, &asked, count, &call);
+}
+
+void pscn_leave(const struct pscn_hit *hit, const double direction[3], double out_origin[3])
+{
+  const double side = vector_dot(hit->normal, direction) < 0 ? -hit->clearance : hit->clearance;
+  vector_add_scaled(hit->point, side, hit->normal, out_origin);
+}

@@ -1,0 +1,297 @@
+/* Scenes for users of pscn.h: made of text or of points, and what was wrong kept with them. */
+#include <math.h>
+#include <string.h>
+
+#include "language/language.h"
+#include "library/library.h"
+
+static const struct place NOWHERE = {NULL, 0, 0};
+
+int pscn_version(void) { return PSCN_VERSION_NUMBER; }
+const char *pscn_version_text(void) { return PSCN_VERSION; }
+
+const char *pscn_status_text(enum pscn_status status)
+{
+  switch (status) {
+  case PSCN_OK: return "done";
+  case PSCN_USAGE: return "an argument is wrong";
+  case PSCN_INPUT: return "the scene or a ray is wrong";
+  case PSCN_FILE: return "a file cannot be read";
+  case PSCN_LIMIT: return "out of memory or beyond a limit";
+  default: return "no status of pscn's";
+  }
+}
+
+/* ---- messages ---- */
+
+static const char *keep_text(struct arena *arena, const char *text, size_t length)
+{
+  char *kept = arena_alloc(arena, length + 1, 1);
+  return kept ? memcpy(kept, text, length) : NULL;
+}
+
+static void add_message(struct pscn_scene *scene, struct message *message)
+{
+  *scene->messages_end = message;
+  scene->messages_end = &message->next;
+  scene->message_count++;
+}
+
+/* Stands for all messages that there was no memory for. */
+static void add_spare(struct pscn_scene *scene)
+{
+  if (scene->spare.shown) return;
+  scene->spare = (struct message){.is = {.text = "memory is short", .file = ""}, .shown = "error: memory is short\n"};
+  add_message(scene, &scene->spare);
+}
+
+static void keep_message(void *context, const char *text, size_t length)
+{
+  struct pscn_scene *scene = context;
+  const struct diagnostics_parts *parts = &scene->diagnostics.parts;
+  struct message *message = scene->spare.shown ? NULL : arena_alloc(scene->arena, 1, sizeof *message);
+  if (message) {
+    message->shown = keep_text(scene->arena, text, length);
+    message->is.file = keep_text(scene->arena, text + parts->name_begin, parts->name_end - parts->name_begin);
+    message->is.text = keep_text(scene->arena, text + parts->said_begin, parts->said_end - parts->said_begin);
+    message->is.line = parts->line;
+    message->is.column = parts->column;
+    message->is.warning = parts->warning;
+  }
+  if (message && message->shown && message->is.file && message->is.text) add_message(scene, message);
+  else add_spare(scene);
+}
+
+/* Whether an error was kept. */
+static bool told_error(const struct pscn_scene *scene)
+{
+  for (const struct message *message = scene->messages; message; message = message->next)
+    if (!message->is.warning) return true;
+  return false;
+}
+
+static void join_messages(struct pscn_scene *scene)
+{
+  size_t length = 0;
+  for (const struct message *message = scene->messages; message; message = message->next)
+    length += strlen(message->shown);
+  char *end = scene->text = scene->messages ? arena_alloc(scene->arena, length + 1, 1) : NULL;
+  for (const struct message *message = scene->messages; end && message; message = message->next) {
+    const size_t more = strlen(message->shown);
+    memcpy(end, message->shown, more);
+    end += more;
+  }
+}
+
+const char *pscn_scene_messages(const struct pscn_scene *scene)
+{
+  if (!scene) return "error: memory is short\n";
+  if (!scene->messages) return "";
+  return scene->text ? scene->text : scene->messages->shown;
+}
+
+size_t pscn_message_count(const struct pscn_scene *scene) { return scene ? scene->message_count : 0; }
+
+enum pscn_status pscn_message(const struct pscn_scene *scene, size_t number, struct pscn_message *out)
+{
+  const struct message *message = scene ? scene->messages : NULL;
+  if (!out) return PSCN_USAGE;
+  for (; message && number > 0; number--) message = message->next;
+  *out = message ? message->is : (struct pscn_message){.text = "", .file = ""};
+  return message ? PSCN_OK : PSCN_USAGE;
+}
+
+/* ---- building ---- */
+
+static enum pscn_status wrong(struct pscn_scene *scene, const char *text)
+{
+  diagnostics_error(&scene->diagnostics, NOWHERE, "%s", text);
+  return PSCN_USAGE;
+}
+
+/* The caller's options as this version knows them: shorter ones, of an older version, ask for nothing more; longer ones,
+ * of a newer, must not. */
+static bool take_options(const struct pscn_options *options, struct pscn_options *out)
+{
+  *out = (struct pscn_options)PSCN_OPTIONS;
+  if (!options) return true;
+  const size_t known = sizeof *out;
+  if (options->size < sizeof options->size) return false;
+  memcpy(out, options, options->size < known ? options->size : known);
+  for (size_t k = known; k < options->size; k++)
+    if (((const unsigned char *)options)[k]) return false;
+  return true;
+}
+
+static enum pscn_status language_options(struct pscn_scene *scene, const struct pscn_options *options,
+                                         struct language_settings *out)
+{
+  struct language_number *numbers = NULL;
+  if (options->image_width < 0 || options->image_height < 0) return wrong(scene, "the size of the image is negative");
+  if (options->number_count > 0) {
+    if (!options->numbers) return wrong(scene, "numbers is NULL");
+    numbers = arena_alloc(scene->arena, options->number_count, sizeof *numbers);
+    if (!numbers) return PSCN_LIMIT;
+  }
+  for (size_t k = 0; k < options->number_count; k++) {
+    const struct pscn_number *number = &options->numbers[k];
+    const size_t length = number->name ? strlen(number->name) : 0;
+    if (!language_is_name(number->name, length)) return wrong(scene, "a number has a name that cannot be declared");
+    if (!isfinite(number->value)) return wrong(scene, "a declared number is not finite");
+    numbers[k] = (struct language_number){number->name, length, number->value};
+  }
+  if (isnan(options->tolerance)) return wrong(scene, "the tolerance is no number");
+  *out = (struct language_settings){.image_width = options->image_width ? options->image_width : 800,
+                                    .image_height = options->image_height ? options->image_height : 600,
+                                    .solver_text = options->solver,
+                                    .tolerance = options->tolerance == 0 ? NAN : options->tolerance,
+                                    .folders = options->folders,
+                                    .numbers = numbers,
+                                    .number_count = options->number_count,
+                                    .max_memory = options->max_memory};
+  return PSCN_OK;
+}
+
+/* Control points, where a scene is made of them. */
+struct points {
+  const double *first;
+  size_t count;
+  ptrdiff_t patch_stride, point_stride;
+};
+
+static enum pscn_status add_points(struct pscn_scene *scene, const struct points *points, size_t max_memory)
+{
+  struct scene *to = scene->scene;
+  if (max_memory > 0 && points->count > max_memory / sizeof *to->patches) {
+    diagnostics_error(&scene->diagnostics, NOWHERE, "%zu patches take more memory than max_memory allows",
+                      points->count);
+    return PSCN_LIMIT;
+  }
+  to->textures = arena_alloc(to->arena, 1, sizeof *to->textures);
+  to->patches = arena_alloc(to->arena, points->count, sizeof *to->patches);
+  if (!to->textures || !to->patches) return PSCN_LIMIT;
+  to->texture_count = 1;
+  to->patch_count = points->count;
+  for (size_t n = 0; n < points->count; n++) {
+    const char *patch = (const char *)points->first + (ptrdiff_t)n * points->patch_stride;
+    for (int k = 0; k < 16; k++) {
+      double *p = to->patches[n].P[k / 4][k % 4];
+      memcpy(p, patch + k * points->point_stride, 3 * sizeof *p);
+      if (isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2])) continue;
+      diagnostics_error(&scene->diagnostics, NOWHERE, "patch %zu: control point [%d][%d] is not finite", n, k / 4,
+                        k % 4);
+      return PSCN_INPUT;
+    }
+  }
+  return PSCN_OK;
+}
+
+/* What a scene is built from: the text at `text`, or where that is NULL the file `name`; then `points`, or NULL. */
+struct origin {
+  const char *name, *text;
+  size_t length;
+  const struct points *points;
+};
+
+static enum pscn_status build(struct pscn_scene *scene, const struct origin *origin, const struct pscn_options *given)
+{
+  struct pscn_options options;
+  struct language_settings settings;
+  if (!take_options(given, &options)) return wrong(scene, "these options are not of this version of pscn");
+  enum pscn_status status = language_options(scene, &options, &settings);
+  if (status != PSCN_OK) return status;
+  struct diagnostics *diagnostics = &scene->diagnostics;
+  status = (enum pscn_status)(
+    origin->text ? language_load_text(origin->name, origin->text, origin->length, &settings, diagnostics, &scene->scene)
+                 : language_load(origin->name, &settings, diagnostics, &scene->scene));
+  if (status == PSCN_OK && origin->points) status = add_points(scene, origin->points, options.max_memory);
+  if (status != PSCN_OK) return status;
+  status = (enum pscn_status)intersector_create(scene->scene, &scene->intersector);
+  return status == PSCN_USAGE ? wrong(scene, "PSCN_KERNEL asks for what this processor has not") : status;
+}
+
+static enum pscn_status create(const struct origin *origin, const struct pscn_options *options, struct pscn_scene **out)
+{
+  struct memory_hooks hooks = {NULL, NULL};
+  struct pscn_options known;
+  if (!out) return PSCN_USAGE;
+  if (take_options(options, &known)) hooks = (struct memory_hooks){known.memory.resize, known.memory.context};
+  const struct memory_hooks before = memory_use(hooks);
+  const struct calm calm = calm_begin();
+  struct pscn_scene *scene = memory_alloc(1, sizeof *scene);
+  if (scene && !(scene->arena = arena_create())) {
+    memory_free(scene);
+    scene = NULL;
+  }
+  if (scene) {
+    scene->hooks = hooks;
+    scene->messages_end = &scene->messages;
+    scene->diagnostics = (struct diagnostics){.tell = keep_message, .context = scene};
+    scene->status = origin->name ? build(scene, origin, options) : wrong(scene, "an argument is NULL");
+    if (scene->status != PSCN_OK && !told_error(scene)) add_spare(scene);
+    join_messages(scene);
+  }
+  calm_end(&calm);
+  (void)memory_use(before);
+  *out = scene;
+  return scene ? scene->status : PSCN_LIMIT;
+}
+
+enum pscn_status pscn_scene_from_file(const char *path, const struct pscn_options *options, struct pscn_scene **out)
+{
+  return create(&(struct origin){.name = path}, options, out);
+}
+
+enum pscn_status pscn_scene_from_text(const char *name, const char *text, size_t length,
+                                      const struct pscn_options *options, struct pscn_scene **out)
+{
+  return create(&(struct origin){text || length == 0 ? name : NULL, text ? text : "", length, NULL}, options, out);
+}
+
+enum pscn_status pscn_scene_from_points(const double *points, size_t count, ptrdiff_t patch_stride,
+                                        ptrdiff_t point_stride, const struct pscn_options *options,
+                                        struct pscn_scene **out)
+{
+  const struct points all = {points, count, patch_stride, point_stride};
+  return create(&(struct origin){points || count == 0 ? "<points>" : NULL, "", 0, &all}, options, out);
+}
+
+void pscn_scene_free(struct pscn_scene *scene)
+{
+  if (!scene) return;
+  const struct memory_hooks before = memory_use(scene->hooks);
+  intersector_destroy(scene->intersector);
+  scene_destroy(scene->scene);
+  arena_destroy(scene->arena);
+  memory_free(scene);
+  (void)memory_use(before);
+}
+
+/* ---- what a scene is ---- */
+
+enum pscn_status pscn_scene_status(const struct pscn_scene *scene) { return scene ? scene->status : PSCN_LIMIT; }
+
+size_t pscn_patch_count(const struct pscn_scene *scene)
+{
+  return pscn_scene_status(scene) == PSCN_OK ? scene->scene->patch_count : 0;
+}
+
+enum pscn_status pscn_patch(const struct pscn_scene *scene, size_t number, double out[4][4][3])
+{
+  const double(*P)[4][3] = number < pscn_patch_count(scene) ? scene->scene->patches[number].P : NULL;
+  for (int k = 0; k < 48; k++) out[k / 12][k / 3 % 4][k % 3] = P ? P[k / 12][k / 3 % 4][k % 3] : 0;
+  return P ? PSCN_OK : PSCN_USAGE;
+}
+
+void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_camera *out)
+{
+  *out = (struct pscn_camera){{0}, {0}, {0}, {0}};
+  if (pscn_scene_status(scene) != PSCN_OK) return;
+  const struct scene_camera *camera = &scene->scene->camera;
+  for (int k = 0; k < 3; k++) {
+    out->location[k] = camera->location[k];
+    out->direction[k] = camera->direction[k];
+    out->right[k] = camera->right[k];
+    out->up[k] = camera->up[k];
+  }
+}

@@ -1,0 +1,364 @@
+/* pscn.h: answers are the intersector's, each its ray's alone, whatever the order of rays, the strides, the caller's
+ * rounding mode and the other threads; and every member of an answer is written. */
+#define _GNU_SOURCE /* feenableexcept */
+#include <fenv.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+#include "library/ball.h"
+#include "library/pscn.h"
+
+#include "cmocka_test.h"
+
+enum { COUNT = 500 };
+
+struct rays {
+  struct pscn_scene *scene;
+  struct pscn_ray ray[COUNT];
+  struct pscn_hit hit[COUNT];
+};
+
+static double random_unit(uint64_t *seed)
+{
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return (double)(*seed >> 11) * 0x1p-53;
+}
+
+static struct pscn_scene *make_ball(void)
+{
+  double points[BALL_PATCHES][4][4][3];
+  struct pscn_scene *scene;
+  ball_points(points);
+  assert_int_equal(pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, NULL, &scene),
+                   PSCN_OK);
+  return scene;
+}
+
+/* Rays of all directions from around the ball and from within; some at its poles and seams. */
+static int setup(void **state)
+{
+  static struct rays rays;
+  uint64_t seed = 1;
+  for (int n = 0; n < COUNT; n++) {
+    struct pscn_ray *ray = &rays.ray[n];
+    for (int k = 0; k < 3; k++) {
+      const double reach = n % 5 == 0 ? 0.5 : 1.25,
+                   at = n % 7 == 0 && k != 1 ? 0 : reach * (2 * random_unit(&seed) - 1);
+      ray->origin[k] = n % 5 == 0 ? at : 6 * random_unit(&seed) - 3;
+      ray->direction[k] = at - (n % 5 == 0 ? 0.1 : ray->origin[k]);
+    }
+    ray->t_min = 0;
+    ray->t_max = INFINITY;
+  }
+  rays.scene = make_ball();
+  *state = &rays;
+  return pscn_nearest(rays.scene, COUNT, rays.ray, sizeof *rays.ray, rays.hit, sizeof *rays.hit) == PSCN_OK ? 0 : -1;
+}
+
+static int teardown(void **state)
+{
+  pscn_scene_free(((struct rays *)*state)->scene);
+  return 0;
+}
+
+static double length(const double a[3]) { return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+
+/* The point of a patch at (u,v), by de Casteljau's construction. */
+static void patch_point(double P[4][4][3], double u, double v, double out[3])
+{
+  for (int k = 0; k < 3; k++) {
+    double row[4];
+    for (int i = 0; i < 4; i++) {
+      double p[4] = {P[i][0][k], P[i][1][k], P[i][2][k], P[i][3][k]};
+      for (int n = 3; n > 0; n--)
+        for (int j = 0; j < n; j++) p[j] += v * (p[j + 1] - p[j]);
+      row[i] = p[0];
+    }
+    for (int n = 3; n > 0; n--)
+      for (int j = 0; j < n; j++) row[j] += u * (row[j + 1] - row[j]);
+    out[k] = row[0];
+  }
+}
+
+/* What hit->du and hit->dv are off from differences of nearby points. */
+static double derivative_error(const struct pscn_scene *scene, const struct pscn_hit *hit)
+{
+  const double step = 1e-6;
+  double P[4][4][3], worst = 0, from[3], to[3];
+  assert_int_equal(pscn_patch(scene, hit->patch, P), PSCN_OK);
+  for (int along_v = 0; along_v <= 1; along_v++) {
+    const double u = along_v ? 0 : step, v = along_v ? step : 0;
+    patch_point(P, hit->u - u, hit->v - v, from);
+    patch_point(P, hit->u + u, hit->v + v, to);
+    for (int k = 0; k < 3; k++)
+      worst = fmax(worst, fabs((to[k] - from[k]) / (2 * step) - (along_v ? hit->dv : hit->du)[k]));
+  }
+  return worst;
+}
+
+/* A hit lies on the ray and on the surface, its derivatives are the surface's, its normal is theirs. */
+static void test_hits(void **state)
+{
+  const struct rays *rays = *state;
+  int hits = 0, misses = 0, certain = 0;
+  for (int n = 0; n < COUNT; n++) {
+    const struct pscn_hit *hit = &rays->hit[n];
+    const struct pscn_ray *ray = &rays->ray[n];
+    certain += hit->certain;
+    misses += hit->verdict == PSCN_MISS;
+    if (hit->verdict != PSCN_HIT) continue;
+    hits++;
+    double off[3], across[3];
+    for (int k = 0; k < 3; k++) {
+      off[k] = hit->point[k] - ray->origin[k] - hit->t * ray->direction[k];
+      across[k] = hit->du[(k + 1) % 3] * hit->dv[(k + 2) % 3] - hit->du[(k + 2) % 3] * hit->dv[(k + 1) % 3];
+    }
+    assert_true(length(off) < 1e-14);
+    assert_true(fabs(length(hit->point) - 1) < 1e-3);
+    assert_true(hit->point_error < 1e-14 && hit->point_error >= 0 && hit->clearance > 0);
+    assert_true(fabs(length(hit->normal) - 1) < 1e-14);
+    assert_true(hit->patch < BALL_PATCHES && hit->reserved == 0);
+    assert_true(derivative_error(rays->scene, hit) < 1e-8);
+    const double size = length(across);
+    if (size < 1e-3) continue; /* near a pole */
+    double cosine = 0;
+    for (int k = 0; k < 3; k++) cosine += across[k] / size * hit->normal[k];
+    assert_true(fabs(fabs(cosine) - 1) < 1e-12);
+  }
+  assert_true(hits > 100 && misses > 50 && certain > COUNT * 9 / 10);
+}
+
+/* One by one, backwards, and as members of something else. */
+static void test_order_and_strides(void **state)
+{
+  const struct rays *rays = *state;
+  struct pscn_hit alone, backwards[COUNT];
+  assert_int_equal(pscn_nearest(rays->scene, COUNT, rays->ray + COUNT - 1, -(ptrdiff_t)sizeof *rays->ray, backwards,
+                                sizeof *backwards),
+                   PSCN_OK);
+  static struct {
+    char before[5];
+    struct pscn_ray ray;
+    float more;
+    struct pscn_hit hit;
+    char after[9];
+  } apart[COUNT];
+  memset(apart, 0x5A, sizeof apart);
+  for (int n = 0; n < COUNT; n++) {
+    assert_int_equal(pscn_nearest(rays->scene, 1, &rays->ray[n], 0, &alone, 0), PSCN_OK);
+    assert_memory_equal(&alone, &rays->hit[n], sizeof alone);
+    assert_memory_equal(&backwards[COUNT - 1 - n], &rays->hit[n], sizeof alone);
+    apart[n].ray = rays->ray[n];
+  }
+  assert_int_equal(pscn_nearest(rays->scene, COUNT, &apart->ray, sizeof *apart, &apart->hit, sizeof *apart), PSCN_OK);
+  for (int n = 0; n < COUNT; n++) {
+    assert_memory_equal(&apart[n].hit, &rays->hit[n], sizeof alone);
+    for (int k = 0; k < 9; k++) assert_int_equal(apart[n].after[k], 0x5A);
+  }
+}
+
+static void test_occluded(void **state)
+{
+  const struct rays *rays = *state;
+  uint8_t verdicts[COUNT][2];
+  memset(verdicts, 9, sizeof verdicts);
+  assert_int_equal(pscn_occluded(rays->scene, COUNT, rays->ray, sizeof *rays->ray, *verdicts, 2), PSCN_OK);
+  for (int n = 0; n < COUNT; n++) {
+    assert_int_equal(verdicts[n][0], rays->hit[n].verdict);
+    assert_int_equal(verdicts[n][1], 9);
+  }
+}
+
+/* From the surface outwards nothing is met, inwards the other side; what t_min and t_max leave over. */
+static void test_ranges(void **state)
+{
+  const struct rays *rays = *state;
+  for (int n = 0; n < COUNT; n++) {
+    const struct pscn_hit *hit = &rays->hit[n];
+    if (hit->verdict != PSCN_HIT || !hit->certain) continue;
+    struct pscn_ray ray = rays->ray[n];
+    struct pscn_hit other;
+    ray.t_max = hit->t * (1 - 1e-9);
+    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_OK);
+    assert_int_equal(other.verdict, PSCN_MISS);
+    ray.t_max = hit->t * (1 + 1e-9);
+    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_OK);
+    assert_memory_equal(&other, hit, sizeof other);
+    struct pscn_ray leaving = {.t_max = INFINITY};
+    memcpy(leaving.direction, hit->normal, sizeof leaving.direction);
+    const bool inside =
+      hit->normal[0] * hit->point[0] + hit->normal[1] * hit->point[1] + hit->normal[2] * hit->point[2] < 0;
+    pscn_leave(hit, leaving.direction, leaving.origin);
+    assert_int_equal(pscn_nearest(rays->scene, 1, &leaving, 0, &other, 0), PSCN_OK);
+    assert_int_equal(other.verdict, inside ? PSCN_HIT : PSCN_MISS);
+  }
+}
+
+/* Directions as short and as long as doubles go; with 2^-1060 they have few bits left. */
+static void test_lengths(void **state)
+{
+  const struct rays *rays = *state;
+  const struct pscn_ray towards = {{0.1, 0.2, -4}, {0.0625, -0.125, 1}, 0, 8};
+  struct pscn_hit one, other;
+  assert_int_equal(pscn_nearest(rays->scene, 1, &towards, 0, &one, 0), PSCN_OK);
+  assert_int_equal(one.verdict, PSCN_HIT);
+  for (int e = -1060; e <= 1020; e += 20) {
+    struct pscn_ray ray = towards;
+    for (int k = 0; k < 3; k++) ray.direction[k] = ldexp(towards.direction[k], e);
+    ray.t_max = e < -1020 ? INFINITY : ldexp(8, -e);
+    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_OK);
+    if (e < -1020) assert_true(isinf(other.t)); /* beyond all doubles, but a hit */
+    else assert_true(ldexp(other.t, e) == one.t);
+    other.t = one.t;
+    assert_memory_equal(&other, &one, sizeof one);
+  }
+}
+
+/* What is no ray, or has no scene, has no answer, and that is written too. */
+static void test_no_answer(void **state)
+{
+  const struct rays *rays = *state;
+  struct pscn_ray all[] = {rays->ray[0], rays->ray[1], rays->ray[2], rays->ray[3],
+                           rays->ray[4], rays->ray[5], rays->ray[6]};
+  struct pscn_hit hits[7], hit;
+  const struct pscn_hit none = {.t = INFINITY, .patch = PSCN_NO_PATCH, .verdict = PSCN_NO_ANSWER};
+  struct pscn_hit missed = {.t = INFINITY, .patch = PSCN_NO_PATCH, .certain = 1};
+  uint8_t verdicts[7];
+  all[1].origin[2] = NAN;
+  memset(all[2].direction, 0, sizeof all[2].direction);
+  all[3].direction[1] = INFINITY;
+  all[4].t_min = -1e-300;
+  all[5].t_max = NAN;
+  all[6].t_min = all[6].t_max = 1;
+  memset(hits, 0xA5, sizeof hits);
+  assert_int_equal(pscn_nearest(rays->scene, 7, all, sizeof *all, hits, sizeof *hits), PSCN_INPUT);
+  assert_memory_equal(&hits[0], &rays->hit[0], sizeof hit);
+  for (int k = 1; k < 6; k++) assert_memory_equal(&hits[k], &none, sizeof none);
+  assert_memory_equal(&hits[6], &missed, sizeof missed);
+  assert_int_equal(pscn_occluded(rays->scene, 7, all, sizeof *all, verdicts, 1), PSCN_INPUT);
+  assert_int_equal(verdicts[5], PSCN_NO_ANSWER);
+  assert_int_equal(verdicts[6], PSCN_MISS);
+
+  struct pscn_scene *broken;
+  assert_int_equal(pscn_scene_from_text("broken", "union {", 7, NULL, &broken), PSCN_INPUT);
+  memset(hits, 0xA5, sizeof hits);
+  assert_int_equal(pscn_nearest(broken, 7, rays->ray, sizeof *all, hits, sizeof *hits), PSCN_USAGE);
+  for (int k = 0; k < 7; k++) assert_memory_equal(&hits[k], &none, sizeof none);
+  assert_int_equal(pscn_nearest(NULL, 1, rays->ray, 0, &hit, 0), PSCN_USAGE);
+  assert_int_equal(pscn_nearest(rays->scene, 1, NULL, 0, &hit, 0), PSCN_USAGE);
+  assert_memory_equal(&hit, &none, sizeof none);
+  assert_int_equal(pscn_nearest(rays->scene, 1, rays->ray, 0, NULL, 0), PSCN_USAGE);
+  assert_int_equal(pscn_nearest(rays->scene, 0, NULL, 0, NULL, 0), PSCN_OK);
+  pscn_scene_free(broken);
+}
+
+/* The arithmetic of the caller is another: answers are the same bits, and the caller's is as it was. */
+static void test_arithmetic(void **state)
+{
+  const struct rays *rays = *state;
+  static struct pscn_hit hits[COUNT];
+  fenv_t before;
+  assert_int_equal(fegetenv(&before), 0);
+#if defined(__SSE2__)
+  const unsigned control = _mm_getcsr() | 0x8040; /* subnormal numbers are flushed to zero, read and written */
+  _mm_setcsr(control);
+#endif
+  assert_int_equal(fesetround(FE_UPWARD), 0);
+  feclearexcept(FE_ALL_EXCEPT);
+  (void)feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+  const enum pscn_status status = pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits);
+  struct pscn_scene *scene = make_ball();
+  const int round = fegetround(), raised = fetestexcept(FE_ALL_EXCEPT), traps = fegetexcept();
+#if defined(__SSE2__)
+  const unsigned after = _mm_getcsr();
+#endif
+  assert_int_equal(fesetenv(&before), 0);
+#if defined(__SSE2__)
+  assert_int_equal(after & 0x8040, 0x8040);
+#endif
+  assert_int_equal(round, FE_UPWARD);
+  assert_int_equal(raised, 0);
+  assert_int_equal(traps, FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+  assert_int_equal(status, PSCN_OK);
+  assert_memory_equal(hits, rays->hit, sizeof hits);
+  assert_int_equal(pscn_nearest(scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits), PSCN_OK);
+  assert_memory_equal(hits, rays->hit, sizeof hits);
+  pscn_scene_free(scene);
+}
+
+/* `start previous` is for one ray after the other; here it is a cold start. */
+static void test_previous(void **state)
+{
+  const struct rays *rays = *state;
+  double points[BALL_PATCHES][4][4][3];
+  static struct pscn_hit forwards[COUNT], backwards[COUNT];
+  struct pscn_options options = PSCN_OPTIONS;
+  struct pscn_scene *scene;
+  options.solver = "newton { start previous polish off }";
+  ball_points(points);
+  assert_int_equal(
+    pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, &options, &scene), PSCN_OK);
+  assert_int_equal(pscn_nearest(scene, COUNT, rays->ray, sizeof *rays->ray, forwards, sizeof *forwards), PSCN_OK);
+  assert_int_equal(pscn_nearest(scene, COUNT, rays->ray + COUNT - 1, -(ptrdiff_t)sizeof *rays->ray,
+                                backwards + COUNT - 1, -(ptrdiff_t)sizeof *backwards),
+                   PSCN_OK);
+  assert_memory_equal(forwards, backwards, sizeof forwards);
+  pscn_scene_free(scene);
+}
+
+/* ---- threads ---- */
+
+enum { THREADS = 4, TURNS = 6 };
+
+/* Asks the scene that all share, and builds, asks and frees one of its own, time and again. Returns what went wrong. */
+static void *thread_run(void *context)
+{
+  const struct rays *rays = context;
+  struct pscn_hit hits[COUNT];
+  for (int turn = 0; turn < TURNS; turn++) {
+    memset(hits, 0, sizeof hits);
+    if (pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits) != PSCN_OK ||
+        memcmp(hits, rays->hit, sizeof hits) != 0)
+      return "the shared scene answers otherwise";
+    struct pscn_scene *own;
+    double points[BALL_PATCHES][4][4][3];
+    ball_points(points);
+    if (pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, NULL, &own) != PSCN_OK ||
+        pscn_nearest(own, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits) != PSCN_OK ||
+        memcmp(hits, rays->hit, sizeof hits) != 0)
+      return "a scene of its own answers otherwise";
+    pscn_scene_free(own);
+    if (pscn_scene_from_text("wrong", "camera { loaction }", 19, NULL, &own) != PSCN_INPUT ||
+        pscn_message_count(own) == 0)
+      return "a wrong text has no message";
+    pscn_scene_free(own);
+  }
+  return NULL;
+}
+
+static void test_threads(void **state)
+{
+  pthread_t threads[THREADS];
+  for (int k = 0; k < THREADS; k++) assert_int_equal(pthread_create(&threads[k], NULL, thread_run, *state), 0);
+  for (int k = 0; k < THREADS; k++) {
+    void *wrong;
+    assert_int_equal(pthread_join(threads[k], &wrong), 0);
+    if (wrong) fail_msg("%s", (const char *)wrong);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_hits),       cmocka_unit_test(test_order_and_strides), cmocka_unit_test(test_occluded),
+    cmocka_unit_test(test_ranges),     cmocka_unit_test(test_lengths),           cmocka_unit_test(test_no_answer),
+    cmocka_unit_test(test_arithmetic), cmocka_unit_test(test_previous),          cmocka_unit_test(test_threads),
+  };
+  return cmocka_run_group_tests(tests, setup, teardown);
+}

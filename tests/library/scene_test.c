@@ -1,0 +1,249 @@
+/* pscn.h: scenes are made of files, texts and points; what is wrong is kept, with its place; memory comes from the caller's
+ * hooks and goes back there, also when there is not enough. */
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "library/ball.h"
+#include "library/pscn.h"
+
+#include "cmocka_test.h"
+
+static const char PATCH[] = "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3\n"
+                            "<0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,1> <3,1,0>\n"
+                            "<0,2,0> <1,2,1> <2,2,1> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0.5> }\n";
+
+static enum pscn_status from_text(const char *text, const struct pscn_options *options, struct pscn_scene **out)
+{
+  return pscn_scene_from_text("given.pscn", text, strlen(text), options, out);
+}
+
+static void test_version(void **state)
+{
+  (void)state;
+  char text[32];
+  snprintf(text, sizeof text, "%d.%d.%d", PSCN_VERSION_MAJOR, PSCN_VERSION_MINOR, PSCN_VERSION_PATCH);
+  assert_string_equal(text, PSCN_VERSION);
+  assert_string_equal(pscn_version_text(), PSCN_VERSION);
+  assert_int_equal(pscn_version(), PSCN_VERSION_NUMBER);
+  for (int status = -1; status < 7; status++) assert_true(strlen(pscn_status_text((enum pscn_status)status)) > 3);
+}
+
+/* A file, its text, and the points that it has are one scene. */
+static void test_origins(void **state)
+{
+  (void)state;
+  static const char path[] = PSCN_SOURCE_DIR "/scenes/bent.pscn";
+  struct pscn_scene *file, *points, *none;
+  double P[4][4][3], Q[4][4][3];
+  assert_int_equal(pscn_scene_from_file(path, NULL, &file), PSCN_OK);
+  assert_int_equal(pscn_scene_status(file), PSCN_OK);
+  assert_string_equal(pscn_scene_messages(file), "");
+  assert_int_equal(pscn_patch_count(file), 1);
+  assert_int_equal(pscn_patch(file, 0, P), PSCN_OK);
+  /* 64 bytes a point, the coordinates in the midst of it. */
+  double apart[16][8];
+  for (int n = 0; n < 16; n++) memcpy(&apart[n][3], P[n / 4][n % 4], sizeof P[0][0]);
+  assert_int_equal(pscn_scene_from_points(&apart[0][3], 1, 0, sizeof apart[0], NULL, &points), PSCN_OK);
+  assert_int_equal(pscn_patch(points, 0, Q), PSCN_OK);
+  assert_memory_equal(P, Q, sizeof P);
+  assert_int_equal(pscn_patch(points, 1, Q), PSCN_USAGE);
+  assert_true(Q[0][0][0] == 0 && Q[3][3][2] == 0);
+  struct pscn_camera camera;
+  pscn_scene_camera(points, &camera); /* POV-Ray's default */
+  assert_true(camera.location[2] == 0 && camera.direction[2] == 1 && camera.up[1] == 1);
+  assert_int_equal(pscn_scene_from_points(NULL, 0, 0, 0, NULL, &none), PSCN_OK);
+  assert_int_equal(pscn_patch_count(none), 0);
+  pscn_scene_free(file);
+  pscn_scene_free(points);
+  pscn_scene_free(none);
+}
+
+static void test_messages(void **state)
+{
+  (void)state;
+  struct pscn_scene *scene;
+  struct pscn_message message;
+  assert_int_equal(from_text("#version 3.5;\ncamera {\n  loaction <0,0,1>\n}\nspher { }\n", NULL, &scene), PSCN_INPUT);
+  assert_int_equal(pscn_scene_status(scene), PSCN_INPUT);
+  assert_int_equal(pscn_message_count(scene), 3);
+  assert_int_equal(pscn_message(scene, 0, &message), PSCN_OK);
+  assert_int_equal(message.warning, 1);
+  assert_int_equal(message.line, 1);
+  assert_int_equal(pscn_message(scene, 1, &message), PSCN_OK);
+  assert_int_equal(message.warning, 0);
+  assert_string_equal(message.file, "given.pscn");
+  assert_int_equal(message.line, 3);
+  assert_int_equal(message.column, 3);
+  assert_string_equal(message.text, "unknown word 'loaction'; did you mean 'location'?");
+  assert_int_equal(pscn_message(scene, 2, &message), PSCN_OK);
+  assert_int_equal(message.line, 5);
+  assert_int_equal(pscn_message(scene, 3, &message), PSCN_USAGE);
+  assert_string_equal(message.text, "");
+  const char *all = pscn_scene_messages(scene); /* asked again they are still there */
+  assert_non_null(strstr(all, "given.pscn:3:3: error: unknown word 'loaction'"));
+  assert_non_null(strstr(all, "\n  ^~~~~") ? all : strstr(all, "    ^~~~~~~~\n"));
+  assert_string_equal(all, pscn_scene_messages(scene));
+  pscn_scene_free(scene);
+
+  assert_int_equal(pscn_scene_from_file("/nowhere/at all.pscn", NULL, &scene), PSCN_FILE);
+  assert_int_equal(pscn_message(scene, 0, &message), PSCN_OK);
+  assert_string_equal(message.text, "/nowhere/at all.pscn: there is no such file");
+  assert_int_equal(message.line, 0);
+  assert_string_equal(message.file, "");
+  pscn_scene_free(scene);
+}
+
+/* Each wrong argument is PSCN_USAGE, or PSCN_INPUT where it is data, with a message that names it. */
+static void test_arguments(void **state)
+{
+  (void)state;
+  struct pscn_number named_so = {"x", 1}, infinite = {"Width", INFINITY};
+  union {
+    struct pscn_options options;
+    char bytes[sizeof(struct pscn_options) + 16];
+  } newer = {PSCN_OPTIONS};
+  newer.options.size += 16;
+  newer.bytes[sizeof(struct pscn_options) + 3] = 1;
+  const struct {
+    struct pscn_options options;
+    const char *says;
+  } wrong[] = {
+    {{.size = 3}, "not of this version"},
+    {{.size = sizeof(struct pscn_options), .solver = "abert"}, "did you mean 'aberth'?"},
+    {{.size = sizeof(struct pscn_options), .tolerance = 7}, "the tolerance is a number from"},
+    {{.size = sizeof(struct pscn_options), .tolerance = NAN}, "the tolerance is no number"},
+    {{.size = sizeof(struct pscn_options), .image_width = -1}, "negative"},
+    {{.size = sizeof(struct pscn_options), .number_count = 1}, "numbers is NULL"},
+    {{.size = sizeof(struct pscn_options), .numbers = &named_so, .number_count = 1}, "cannot be declared"},
+    {{.size = sizeof(struct pscn_options), .numbers = &infinite, .number_count = 1}, "not finite"},
+  };
+  struct pscn_scene *scene;
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+    assert_int_equal(from_text(PATCH, &wrong[k].options, &scene), PSCN_USAGE);
+    if (!strstr(pscn_scene_messages(scene), wrong[k].says)) fail_msg("%zu: %s", k, pscn_scene_messages(scene));
+    pscn_scene_free(scene);
+  }
+  assert_int_equal(from_text(PATCH, &newer.options, &scene), PSCN_USAGE);
+  pscn_scene_free(scene);
+  newer.bytes[sizeof(struct pscn_options) + 3] = 0;
+  assert_int_equal(from_text(PATCH, &newer.options, &scene), PSCN_OK);
+  pscn_scene_free(scene);
+  double points[BALL_PATCHES][4][4][3];
+  ball_points(points);
+  points[5][1][2][0] = NAN;
+  assert_int_equal(pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, NULL, &scene),
+                   PSCN_INPUT);
+  assert_string_equal(pscn_scene_messages(scene), "error: patch 5: control point [1][2] is not finite\n");
+  assert_int_equal(pscn_patch_count(scene), 0);
+  pscn_scene_free(scene);
+  assert_int_equal(pscn_scene_from_file(NULL, NULL, &scene), PSCN_USAGE);
+  pscn_scene_free(scene);
+  assert_int_equal(pscn_scene_from_points(NULL, 1, 0, 0, NULL, &scene), PSCN_USAGE);
+  pscn_scene_free(scene);
+  assert_int_equal(pscn_scene_from_file("x", NULL, NULL), PSCN_USAGE);
+}
+
+/* What the options ask for is done. */
+static void test_options(void **state)
+{
+  (void)state;
+  static const char text[] = "#ifndef (Far) #error #end\n"
+                             "camera { location <Far, image_width, image_height> look_at 0 }\n"
+                             "#include \"part.inc\"\n";
+  const char *const folders[] = {PSCN_SOURCE_DIR "/tests/library", NULL};
+  const struct pscn_number far = {"Far", 1.5};
+  struct pscn_options options = PSCN_OPTIONS;
+  options.numbers = &far;
+  options.number_count = 1;
+  options.folders = folders;
+  options.image_height = 30;
+  struct pscn_scene *scene;
+  struct pscn_camera camera;
+  if (from_text(text, &options, &scene) != PSCN_OK) fail_msg("%s", pscn_scene_messages(scene));
+  pscn_scene_camera(scene, &camera);
+  assert_true(camera.location[0] == 1.5 && camera.location[1] == 800 && camera.location[2] == 30);
+  assert_int_equal(pscn_patch_count(scene), 1);
+  pscn_scene_free(scene);
+
+  options = (struct pscn_options)PSCN_OPTIONS;
+  options.max_memory = 1000;
+  assert_int_equal(from_text(PATCH, &options, &scene), PSCN_LIMIT);
+  assert_int_equal(pscn_message_count(scene), 1);
+  pscn_scene_free(scene);
+  double points[BALL_PATCHES][4][4][3];
+  ball_points(points);
+  assert_int_equal(
+    pscn_scene_from_points(**points[0], BALL_PATCHES, sizeof *points, sizeof ***points, &options, &scene), PSCN_LIMIT);
+  assert_non_null(strstr(pscn_scene_messages(scene), "8 patches take more memory"));
+  pscn_scene_free(scene);
+}
+
+/* ---- memory ---- */
+
+struct pool {
+  long blocks, asked, fails; /* held; asked for so far; the one that fails, or -1 */
+};
+
+/* Memory of ours has its number before it: nothing else is given back here. */
+static void *pool_resize(void *context, void *block, size_t size)
+{
+  enum { HEAD = 32, MARK = 0x5ca1ab1e };
+  struct pool *pool = context;
+  int *head = block ? (int *)((char *)block - HEAD) : NULL;
+  if (head) assert_int_equal(*head, MARK);
+  if (size > 0 && pool->asked++ == pool->fails) return NULL;
+  pool->blocks += (size > 0) - (block != NULL);
+  if (size > 0) {
+    head = realloc(head, size + HEAD);
+    assert_non_null(head);
+    if (!block) memset((char *)head + HEAD, 0xA5, size);
+    *head = MARK;
+    return (char *)head + HEAD;
+  }
+  *head = 0;
+  free(head);
+  return NULL;
+}
+
+static void test_memory(void **state)
+{
+  (void)state;
+  struct pool pool = {0, 0, -1};
+  struct pscn_options options = PSCN_OPTIONS;
+  options.memory = (struct pscn_memory){pool_resize, &pool};
+  const struct pscn_ray ray = {{1.5, 1.5, -5}, {0, 0, 1}, 0, INFINITY};
+  const char *const texts[] = {PATCH, "camera { loaction 0 }", "#declare A = union { object {", NULL};
+  for (const char *const *text = texts; *text; text++) {
+    struct pscn_scene *scene;
+    struct pscn_hit hit;
+    pool = (struct pool){0, 0, -1};
+    const enum pscn_status as_ever = from_text(*text, &options, &scene);
+    assert_true(pool.blocks > 0);
+    (void)pscn_nearest(scene, 1, &ray, 0, &hit, 0);
+    pscn_scene_free(scene);
+    assert_int_equal(pool.blocks, 0);
+    const long all = pool.asked;
+    for (long fails = 0; fails < all; fails++) {
+      pool = (struct pool){0, 0, fails};
+      const enum pscn_status status = from_text(*text, &options, &scene);
+      /* Only a message is a thing that can be missing without harm. */
+      assert_true(status == PSCN_LIMIT || (status == as_ever && (status == PSCN_INPUT || scene)));
+      assert_true(status == PSCN_OK || strstr(pscn_scene_messages(scene), "error: "));
+      pscn_scene_free(scene);
+      assert_int_equal(pool.blocks, 0);
+    }
+  }
+}
+
+int main(void)
+{
+  (void)setlocale(LC_ALL, "");
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_version),   cmocka_unit_test(test_origins), cmocka_unit_test(test_messages),
+    cmocka_unit_test(test_arguments), cmocka_unit_test(test_options), cmocka_unit_test(test_memory),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
