@@ -16,8 +16,7 @@ enum {
   RAYS = 2048,
   QUICK_RAYS = 1024, /* of the camera, about */
   ROUNDS = 5,
-  QUICK_ROUNDS = 3,
-  BATCH = 24 /* points measured in turns; the default solver takes part in every batch */
+  QUICK_ROUNDS = 3
 };
 
 void chart_note(struct chart *chart, const char *format, ...)
@@ -31,21 +30,37 @@ void chart_note(struct chart *chart, const char *format, ...)
   listener_tell(chart->listener, TOLD_PROGRESS, "%s", note);
 }
 
-struct chart_point *chart_add(struct chart *chart, enum family family)
+struct chart_point *chart_add(struct chart *chart, const struct chart_point *said, const struct timing time[RAY_KINDS])
 {
-  const struct timing unknown = {NAN, NAN, NAN, NAN, NAN, NAN};
   assert(chart->point_count < chart->point_room);
   struct chart_point *point = &chart->points[chart->point_count++];
-  *point = (struct chart_point){.family = family, .time = {unknown, unknown}};
+  *point = *said;
+  memcpy(point->time, time, sizeof point->time);
+  judge_answers(chart->rays[RAYS_CAMERA].count, chart->truths[RAYS_CAMERA], chart->answers, chart->errors,
+                &point->camera);
   return point;
 }
 
-void chart_judge(struct chart *chart, struct chart_point *point)
+enum status chart_measure(struct chart *chart, size_t count, const struct runner runners[],
+                          const struct chart_point said[], struct timing out_yard[RAY_KINDS])
 {
-  const struct ray_list *camera = &chart->rays[RAYS_CAMERA], *shadow = &chart->rays[RAYS_SHADOW];
-  judge_answers(camera->count, chart->truths[RAYS_CAMERA], chart->answers, chart->errors, &point->camera);
-  if (point->has_shadow)
-    judge_occluded(shadow->count, shadow->rays, chart->truths[RAYS_SHADOW], chart->occluded, &point->shadow);
+  struct runner turns[1 + CHART_BATCH] = {pscn_runner_face(&chart->yardstick)};
+  struct timing time[1 + CHART_BATCH][RAY_KINDS];
+  const struct ray_list *shadow = &chart->rays[RAYS_SHADOW];
+  const size_t counts[RAY_KINDS] = {chart->rays[RAYS_CAMERA].count, shadow->count};
+  assert(count <= CHART_BATCH);
+  memcpy(turns + 1, runners, count * sizeof *runners);
+  const enum status status = measure_rounds(turns, 1 + count, counts, chart->rounds, chart->listener->stop, time);
+  if (status != STATUS_OK) return status;
+  for (size_t k = 0; k < count; k++) {
+    runners[k].run(runners[k].context, RAYS_CAMERA, chart->answers);
+    struct chart_point *point = chart_add(chart, &said[k], time[1 + k]);
+    runners[k].run(runners[k].context, RAYS_SHADOW, chart->answers);
+    judge_occluded(shadow->count, shadow->rays, chart->truths[RAYS_SHADOW], chart->answers, &point->shadow);
+    point->has_shadow = true;
+  }
+  if (out_yard != NULL) memcpy(out_yard, time[0], sizeof time[0]);
+  return STATUS_OK;
 }
 
 /* ---- the rays, and the truth about them ---- */
@@ -66,11 +81,9 @@ static enum status find_truths(struct chart *chart)
 {
   const size_t camera = chart->rays[RAYS_CAMERA].count, shadow = chart->rays[RAYS_SHADOW].count;
   listener_tell(chart->listener, TOLD_PROGRESS, "reference: %zu camera rays, %zu shadow rays", camera, shadow);
-  chart->answers = arena_alloc(chart->arena, camera + 1, sizeof *chart->answers);
-  chart->occluded = arena_alloc(chart->arena, shadow + 1, sizeof *chart->occluded);
+  chart->answers = arena_alloc(chart->arena, camera + shadow + 1, sizeof *chart->answers);
   chart->errors = arena_alloc(chart->arena, 2 * camera + 1, sizeof *chart->errors);
-  const bool room = chart->answers != NULL && chart->occluded != NULL && chart->errors != NULL;
-  enum status status = room ? STATUS_OK : STATUS_LIMIT;
+  enum status status = chart->answers != NULL && chart->errors != NULL ? STATUS_OK : STATUS_LIMIT;
   for (int kind = 0; kind < RAY_KINDS && status == STATUS_OK; kind++) {
     struct truth *truths = arena_alloc(chart->arena, chart->rays[kind].count + 1, sizeof *truths);
     chart->truths[kind] = truths;
@@ -82,48 +95,26 @@ static enum status find_truths(struct chart *chart)
 
 /* ---- the sweep over our own solvers ---- */
 
-static void judge_ours(struct chart *chart, struct pscn_runner *runner, struct chart_point *point)
-{
-  const size_t count = chart->rays[RAYS_CAMERA].count;
-  struct hit *hits = malloc((count + 1) * sizeof *hits);
-  if (hits == NULL) return;
-  pscn_runner_hits(runner, hits);
-  for (size_t k = 0; k < count; k++)
-    chart->answers[k] = (struct answer){hits[k].patch == HIT_NONE ? INFINITY : hits[k].t, hits[k].patch};
-  pscn_runner_occluded(runner, chart->occluded);
-  point->has_shadow = true;
-  chart_judge(chart, point);
-  free(hits);
-}
-
-/* Measures and judges sweep[0..count), count <= BATCH, with the yardstick in front. */
+/* sweep[0..count), count <= CHART_BATCH. */
 static enum status run_batch(struct chart *chart, const struct sweep_point *sweep, size_t count)
 {
-  struct pscn_runner ours[BATCH];
-  struct runner runners[1 + BATCH] = {pscn_runner_face(&chart->yardstick)};
-  struct timing time[1 + BATCH][RAY_KINDS];
-  const size_t counts[RAY_KINDS] = {chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count};
-  memset(ours, 0, sizeof ours);
+  struct pscn_runner ours[CHART_BATCH];
+  struct runner runners[CHART_BATCH];
+  struct chart_point said[CHART_BATCH];
+  struct timing yard[RAY_KINDS];
   enum status status = STATUS_OK;
+  memset(ours, 0, sizeof ours);
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     status = pscn_runner_create(chart->scene, &sweep[k].options, chart->rays, &ours[k]);
-    runners[1 + k] = pscn_runner_face(&ours[k]);
+    runners[k] = pscn_runner_face(&ours[k]);
+    said[k] = (struct chart_point){.family = sweep[k].family, .ours = true, .options = sweep[k].options};
+    method_text(&sweep[k].options, said[k].name, sizeof said[k].name);
+    if (chart->point_count + k == 0) strcpy(said[k].label, "default");
   }
-  if (status == STATUS_OK)
-    status = measure_rounds(runners, 1 + count, counts, chart->rounds, chart->listener->stop, time);
-  if (status == STATUS_OK) {
-    for (int kind = 0; kind < RAY_KINDS; kind++) chart->yard[kind][chart->yard_count] = time[0][kind].median;
-    chart->yard_count++;
-  }
-  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
-    struct chart_point *point = chart_add(chart, sweep[k].family);
-    point->ours = true;
-    point->options = sweep[k].options;
-    method_text(&point->options, point->name, sizeof point->name);
-    snprintf(point->label, sizeof point->label, "%s", chart->point_count == 1 ? "default" : "");
-    memcpy(point->time, time[1 + k], sizeof point->time);
-    judge_ours(chart, &ours[k], point);
-  }
+  if (status == STATUS_OK) status = chart_measure(chart, count, runners, said, yard);
+  for (int kind = 0; kind < RAY_KINDS && status == STATUS_OK; kind++)
+    chart->yard[kind][chart->yard_count] = yard[kind].median;
+  chart->yard_count += status == STATUS_OK;
   for (size_t k = 0; k < count; k++) pscn_runner_free(&ours[k]);
   return status;
 }
@@ -131,9 +122,9 @@ static enum status run_batch(struct chart *chart, const struct sweep_point *swee
 static enum status sweep_solvers(struct chart *chart, const struct sweep_point *sweep, size_t count)
 {
   enum status status = STATUS_OK;
-  for (size_t k = 0; k < count && status == STATUS_OK; k += BATCH) {
+  for (size_t k = 0; k < count && status == STATUS_OK; k += CHART_BATCH) {
     listener_tell(chart->listener, TOLD_PROGRESS, "solvers: %zu of %zu", k, count);
-    status = run_batch(chart, sweep + k, count - k < BATCH ? count - k : BATCH);
+    status = run_batch(chart, sweep + k, count - k < CHART_BATCH ? count - k : CHART_BATCH);
   }
   return status;
 }
@@ -165,7 +156,7 @@ static enum status measure(struct chart *chart)
   struct sweep_point *sweep = arena_alloc(chart->arena, count, sizeof *sweep);
   if (sweep == NULL) return STATUS_LIMIT;
   for (int kind = 0; kind < RAY_KINDS; kind++) {
-    chart->yard[kind] = arena_alloc(chart->arena, count / BATCH + 1, sizeof *chart->yard[kind]);
+    chart->yard[kind] = arena_alloc(chart->arena, count / CHART_BATCH + 1, sizeof *chart->yard[kind]);
     if (chart->yard[kind] == NULL) return STATUS_LIMIT;
   }
   (void)point_sweep(chart->request->quick, sweep);

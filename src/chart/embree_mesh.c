@@ -186,31 +186,18 @@ static double trace(const struct embree_mesh *mesh, const struct embree_rays *ra
   return width == 8 ? trace_eights(mesh, rays, any) : trace_singles(mesh, rays, any);
 }
 
-static void answer(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index, double *out_t,
-                   uint32_t *out_patch)
+static void answer(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index, bool any,
+                   double *out_t, uint32_t *out_patch)
 {
   struct RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   struct RTCRayHit hit = single(&rays->ray[index]);
-  rtcIntersect1(mesh->scene, &context, &hit);
-  const bool missed = hit.hit.geomID == RTC_INVALID_GEOMETRY_ID;
-  *out_t = missed ? INFINITY : (double)hit.ray.tfar;
-  *out_patch = missed ? HIT_NONE : hit.hit.primID / (2 * mesh->side * mesh->side);
+  if (any) rtcOccluded1(mesh->scene, &context, &hit.ray);
+  else rtcIntersect1(mesh->scene, &context, &hit);
+  const bool missed = any ? hit.ray.tfar >= 0 : hit.hit.geomID == RTC_INVALID_GEOMETRY_ID;
+  *out_t = missed ? INFINITY : any ? 0 : (double)hit.ray.tfar;
+  *out_patch = missed || any ? HIT_NONE : hit.hit.primID / (2 * mesh->side * mesh->side);
 }
 
-static bool answer_any(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index)
-{
-  struct RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  struct RTCRay ray = rays->ray[index];
-  rtcOccluded1(mesh->scene, &context, &ray);
-  return ray.tfar < 0;
-}
-
-__attribute__((visibility("default"))) const struct embree_peer pscn_embree_peer = {.mesh_create = mesh_create,
-                                                                                    .mesh_destroy = mesh_destroy,
-                                                                                    .rays_create = rays_create,
-                                                                                    .rays_destroy = rays_destroy,
-                                                                                    .trace = trace,
-                                                                                    .answer = answer,
-                                                                                    .answer_any = answer_any};
+__attribute__((visibility("default")))
+const struct embree_peer pscn_embree_peer = {mesh_create, mesh_destroy, rays_create, rays_destroy, trace, answer};

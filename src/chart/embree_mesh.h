@@ -29,12 +29,10 @@ struct embree_peer {
    * or for any. Returns a number made of all answers, so that none can be left out. */
   double (*trace)(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool any);
 
-  /* What one ray answers: t of the closest hit, and the patch the triangle is of; HIT_NONE on a miss. */
-  void (*answer)(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index, double *out_t,
+  /* What one ray answers: t of the closest hit, or where `any` will do a finite one, and the patch the triangle is of;
+   * INFINITY and HIT_NONE on a miss. */
+  void (*answer)(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index, bool any, double *out_t,
                  uint32_t *out_patch);
-
-  /* Whether anything is hit by the ray. */
-  bool (*answer_any)(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index);
 };
 
 extern const struct embree_peer pscn_embree_peer;

@@ -92,7 +92,7 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
   out->most_of_all = out->hits == 0 ? NAN : sorted_quantile(all, asked, 0.99);
 }
 
-void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const bool *occluded,
+void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const struct answer *answers,
                     struct judgement *out)
 {
   *out = (struct judgement){.rays = count, .median = NAN, .most = NAN, .max = NAN, .most_of_all = NAN};
@@ -102,8 +102,9 @@ void judge_occluded(size_t count, const struct ray *rays, const struct truth *tr
       continue;
     }
     const bool hidden = truths[k].kind == TRUTH_HIT && truths[k].t < rays[k].t_max;
+    const bool occluded = isfinite(answers[k].t);
     out->hits += hidden;
-    out->lost += hidden && !occluded[k];
-    out->invented += !hidden && occluded[k];
+    out->lost += hidden && !occluded;
+    out->invented += !hidden && occluded;
   }
 }

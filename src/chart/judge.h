@@ -56,9 +56,9 @@ enum status judge_truths(const struct scene *scene, const struct ray_list *rays,
 void judge_answers(size_t count, const struct truth *truths, const struct answer *answers, double *errors,
                    struct judgement *out);
 
-/* Any-hit answers: only rays, undecided, hits (rays in shadow), lost and invented are set. A hit beyond t_max is
- * none. */
-void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const bool *occluded,
+/* Whether anything is hit: only rays, undecided, hits (rays in shadow), lost and invented are set. A truth beyond t_max
+ * is no hit. */
+void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const struct answer *answers,
                     struct judgement *out);
 
 #endif

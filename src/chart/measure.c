@@ -33,9 +33,9 @@ enum { MOST_REPEATS = 1000 };
 /* Seconds of one run, out of a turn of `repeats`. */
 static double take_turn(const struct runner *runner, enum ray_kind kind, size_t repeats)
 {
-  if (repeats > 1) runner->run(runner->context, kind);
+  if (repeats > 1) runner->run(runner->context, kind, NULL);
   const double start = thread_seconds();
-  for (size_t k = 0; k < repeats; k++) runner->run(runner->context, kind);
+  for (size_t k = 0; k < repeats; k++) runner->run(runner->context, kind, NULL);
   return (thread_seconds() - start) / (double)repeats;
 }
 
@@ -59,7 +59,7 @@ enum status measure_rounds(const struct runner *runners, size_t count, const siz
   for (size_t round = 0; round <= rounds && !stopped; round++) { /* the first only tells how often to repeat */
     for (size_t k = 0; k < count && !stopped; k++) {
       for (int kind = 0; kind < RAY_KINDS; kind++) {
-        if (!runners[k].kinds[kind] || counts[kind] == 0) continue;
+        if (counts[kind] == 0) continue;
         if (round == 0) repeats[k][kind] = repeats_for(take_turn(&runners[k], (enum ray_kind)kind, 1));
         else seconds[k][kind][round - 1] = take_turn(&runners[k], (enum ray_kind)kind, repeats[k][kind]);
       }
@@ -68,7 +68,7 @@ enum status measure_rounds(const struct runner *runners, size_t count, const siz
   }
   for (size_t k = 0; k < count; k++) {
     for (int kind = 0; kind < RAY_KINDS; kind++) {
-      const bool known = runners[k].kinds[kind] && counts[kind] > 0 && rounds > 0;
+      const bool known = counts[kind] > 0 && rounds > 0;
       out[k][kind] = known ? summarise(seconds[k][kind], seconds[0][kind], rounds, counts[kind])
                            : (struct timing){NAN, NAN, NAN, NAN, NAN, NAN};
     }
@@ -97,28 +97,28 @@ void pscn_runner_free(struct pscn_runner *runner)
   *runner = (struct pscn_runner){.tracer = NULL};
 }
 
-/* Writes the answers where they are asked for. */
-static void trace(struct pscn_runner *runner, enum ray_kind kind, struct hit *hits, bool *occluded)
+/* Writes hits or answers where they are asked for. */
+static void trace(struct pscn_runner *runner, enum ray_kind kind, struct hit *hits, struct answer *answers)
 {
   const struct ray_list *list = &runner->rays[kind];
-  for (size_t k = 0; k < list->packet_count; k++) {
-    const struct ray_packet *packet = &list->packets[k];
-    struct hit own_hits[PACKET_SIZE];
-    bool own_occluded[PACKET_SIZE];
+  for (size_t p = 0; p < list->packet_count; p++) {
+    const struct ray_packet *packet = &list->packets[p];
+    const struct ray *rays = &list->rays[packet->first];
+    struct hit own_hits[PACKET_SIZE], *hit = hits == NULL ? own_hits : hits + packet->first;
+    bool occluded[PACKET_SIZE];
     if (packet->new_run) tracer_forget(runner->tracer);
-    if (kind == RAYS_CAMERA)
-      tracer_closest(runner->tracer, packet->count, &list->rays[packet->first],
-                     hits == NULL ? own_hits : hits + packet->first);
-    else
-      tracer_occluded(runner->tracer, packet->count, &list->rays[packet->first],
-                      occluded == NULL ? own_occluded : occluded + packet->first);
+    if (kind == RAYS_CAMERA) tracer_closest(runner->tracer, packet->count, rays, hit);
+    else tracer_occluded(runner->tracer, packet->count, rays, occluded);
+    for (size_t k = 0; k < packet->count && answers != NULL; k++) {
+      const bool met = kind == RAYS_CAMERA ? hit[k].patch != HIT_NONE : occluded[k];
+      answers[packet->first + k] = kind == RAYS_CAMERA ? (struct answer){met ? hit[k].t : INFINITY, hit[k].patch}
+                                                       : (struct answer){met ? 0 : INFINITY, ANSWER_PATCH_UNKNOWN};
+    }
   }
 }
 
-static void run(void *context, enum ray_kind kind) { trace(context, kind, NULL, NULL); }
+static void run(void *context, enum ray_kind kind, struct answer *answers) { trace(context, kind, NULL, answers); }
 
-struct runner pscn_runner_face(struct pscn_runner *runner) { return (struct runner){run, runner, {true, true}}; }
+struct runner pscn_runner_face(struct pscn_runner *runner) { return (struct runner){run, runner}; }
 
 void pscn_runner_hits(struct pscn_runner *runner, struct hit *hits) { trace(runner, RAYS_CAMERA, hits, NULL); }
-
-void pscn_runner_occluded(struct pscn_runner *runner, bool *occluded) { trace(runner, RAYS_SHADOW, NULL, occluded); }

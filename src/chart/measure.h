@@ -25,15 +25,16 @@ struct timing {
 /* The two kinds of rays of a chart. */
 enum ray_kind { RAYS_CAMERA, RAYS_SHADOW, RAY_KINDS };
 
-/* Answers all rays of a kind, and throws the answers away. Kinds that it does not know take no time and stay NAN. */
+/* Answers all rays of a kind: into `answers`, of a shadow ray those of some hit, or where that is NULL for nothing but
+ * the time it takes. */
 struct runner {
-  void (*run)(void *context, enum ray_kind kind);
+  void (*run)(void *context, enum ray_kind kind, struct answer *answers);
   void *context;
-  bool kinds[RAY_KINDS];
 };
 
 /* Runs each runner once unmeasured, then gives it `rounds` turns (at most MEASURE_MAX_ROUNDS); in a turn of fast ones
- * the run is repeated until 1 ms is full, with warm caches. counts[kind] is the number of rays. out[runner][kind].
+ * the run is repeated until 1 ms is full, with warm caches. counts[kind] is the number of rays; where there are none all
+ * is NAN. out[runner][kind].
  * STATUS_INTERRUPTED where *stop turns nonzero. */
 enum status measure_rounds(const struct runner *runners, size_t count, const size_t counts[RAY_KINDS], size_t rounds,
                            const atomic_int *stop, struct timing (*out)[RAY_KINDS]) STATUS_MUST_CHECK;
@@ -53,8 +54,7 @@ enum status pscn_runner_create(const struct scene *scene, const struct method *o
 void pscn_runner_free(struct pscn_runner *runner);
 struct runner pscn_runner_face(struct pscn_runner *runner);
 
-/* The answers: hits[camera rays] or occluded[shadow rays]. */
+/* The answers to the camera rays as the renderer has them. */
 void pscn_runner_hits(struct pscn_runner *runner, struct hit *hits);
-void pscn_runner_occluded(struct pscn_runner *runner, bool *occluded);
 
 #endif

@@ -18,30 +18,14 @@
 static enum status ask_plain_newton(struct chart *chart)
 {
   struct plain_newton *plain = plain_newton_create(chart->scene, chart->rays);
-  struct answer *shadows = malloc((chart->rays[RAYS_SHADOW].count + 1) * sizeof *shadows);
-  if (plain == NULL || shadows == NULL) {
-    plain_newton_destroy(plain);
-    free(shadows);
-    return STATUS_LIMIT;
-  }
+  if (plain == NULL) return STATUS_LIMIT;
   listener_tell(chart->listener, TOLD_PROGRESS, "plain Newton");
-  const struct runner runners[] = {pscn_runner_face(&chart->yardstick), plain_newton_face(plain)};
-  const size_t counts[RAY_KINDS] = {chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count};
-  struct timing time[2][RAY_KINDS];
-  const enum status status = measure_rounds(runners, 2, counts, chart->rounds, chart->listener->stop, time);
-  if (status == STATUS_OK) {
-    struct chart_point *point = chart_add(chart, FAMILY_PLAIN_NEWTON);
-    snprintf(point->name, sizeof point->name, "2-D Newton from the middle of %dx%d parts", PLAIN_NEWTON_SPLIT,
-             PLAIN_NEWTON_SPLIT);
-    memcpy(point->time, time[1], sizeof point->time);
-    plain_newton_answers(plain, RAYS_SHADOW, shadows);
-    for (size_t k = 0; k < counts[RAYS_SHADOW]; k++) chart->occluded[k] = isfinite(shadows[k].t);
-    plain_newton_answers(plain, RAYS_CAMERA, chart->answers);
-    point->has_shadow = true;
-    chart_judge(chart, point);
-  }
+  const struct runner runner = plain_newton_face(plain);
+  struct chart_point said = {.family = FAMILY_PLAIN_NEWTON};
+  snprintf(said.name, sizeof said.name, "2-D Newton from the middle of %dx%d parts", PLAIN_NEWTON_SPLIT,
+           PLAIN_NEWTON_SPLIT);
+  const enum status status = chart_measure(chart, 1, &runner, &said, NULL);
   plain_newton_destroy(plain);
-  free(shadows);
   return status;
 }
 
@@ -52,6 +36,7 @@ enum { WIDTH_COUNT = sizeof WIDTHS / sizeof WIDTHS[0] };
 
 struct embree {
   const struct embree_peer *peer;
+  const struct ray_list *lists;
   struct embree_rays *rays[RAY_KINDS]; /* NULL where there are none of the kind */
 };
 
@@ -62,28 +47,15 @@ struct embree_runner {
   volatile double sink;
 };
 
-static void run_embree(void *context, enum ray_kind kind)
+/* The answers are those of single rays. */
+static void run_embree(void *context, enum ray_kind kind, struct answer *answers)
 {
   struct embree_runner *runner = context;
   const struct embree *embree = runner->embree;
-  runner->sink = embree->peer->trace(runner->mesh, embree->rays[kind], runner->width, kind == RAYS_SHADOW);
-}
-
-static void add_embree(struct chart *chart, const struct embree_runner *runner, size_t side,
-                       const struct timing time[RAY_KINDS])
-{
-  const struct embree *embree = runner->embree;
-  struct chart_point *point = chart_add(chart, FAMILY_EMBREE);
-  snprintf(point->name, sizeof point->name, "Embree, %zux%zux2 triangles a patch, %s", side, side,
-           runner->width == 1 ? "one by one" : "8 coherent");
-  if (runner->width > 1) snprintf(point->label, sizeof point->label, "%zu", side);
-  memcpy(point->time, time, sizeof point->time);
-  for (size_t k = 0; k < chart->rays[RAYS_CAMERA].count; k++)
-    embree->peer->answer(runner->mesh, embree->rays[RAYS_CAMERA], k, &chart->answers[k].t, &chart->answers[k].patch);
-  for (size_t k = 0; k < chart->rays[RAYS_SHADOW].count; k++)
-    chart->occluded[k] = embree->peer->answer_any(runner->mesh, embree->rays[RAYS_SHADOW], k);
-  point->has_shadow = true;
-  chart_judge(chart, point);
+  const bool any = kind == RAYS_SHADOW;
+  if (answers == NULL) runner->sink = embree->peer->trace(runner->mesh, embree->rays[kind], runner->width, any);
+  for (size_t k = 0; answers != NULL && k < embree->lists[kind].count; k++)
+    embree->peer->answer(runner->mesh, embree->rays[kind], k, any, &answers[k].t, &answers[k].patch);
 }
 
 /* Each mesh in turn with the yardstick. STATUS_FILE where Embree makes no mesh. */
@@ -93,16 +65,17 @@ static enum status measure_side(struct chart *chart, const struct embree *embree
   struct embree_mesh *mesh = embree->peer->mesh_create(nets, chart->scene->patch_count, (unsigned)side);
   if (mesh == NULL) return STATUS_FILE;
   struct embree_runner own[WIDTH_COUNT];
-  struct runner runners[1 + WIDTH_COUNT] = {pscn_runner_face(&chart->yardstick)};
-  struct timing time[1 + WIDTH_COUNT][RAY_KINDS];
-  const size_t counts[RAY_KINDS] = {chart->rays[RAYS_CAMERA].count, chart->rays[RAYS_SHADOW].count};
+  struct runner runners[WIDTH_COUNT];
+  struct chart_point said[WIDTH_COUNT];
   for (size_t w = 0; w < WIDTH_COUNT; w++) {
     own[w] = (struct embree_runner){.embree = embree, .mesh = mesh, .width = WIDTHS[w]};
-    runners[1 + w] = (struct runner){run_embree, &own[w], {counts[0] > 0, counts[1] > 0}};
+    runners[w] = (struct runner){run_embree, &own[w]};
+    said[w] = (struct chart_point){.family = FAMILY_EMBREE};
+    snprintf(said[w].name, sizeof said[w].name, "Embree, %zux%zux2 triangles a patch, %s", side, side,
+             WIDTHS[w] == 1 ? "one by one" : "8 coherent");
+    if (WIDTHS[w] > 1) snprintf(said[w].label, sizeof said[w].label, "%zu", side);
   }
-  const enum status status = measure_rounds(runners, 1 + WIDTH_COUNT, counts, chart->rounds, chart->listener->stop,
-                                            time);
-  for (size_t w = 0; status == STATUS_OK && w < WIDTH_COUNT; w++) add_embree(chart, &own[w], side, time[1 + w]);
+  const enum status status = chart_measure(chart, WIDTH_COUNT, runners, said, NULL);
   embree->peer->mesh_destroy(mesh);
   return status;
 }
@@ -119,7 +92,7 @@ static enum status measure_embree(struct chart *chart, const struct embree_peer 
 {
   static const size_t SIDES[] = {8, 16, 32, 64, 128, 256};
   enum { SIDE_COUNT = sizeof SIDES / sizeof SIDES[0] };
-  struct embree embree = {.peer = peer};
+  struct embree embree = {.peer = peer, .lists = chart->rays};
   double(*nets)[4][4][3] = calloc(chart->scene->patch_count, sizeof *nets);
   enum status status = nets == NULL ? STATUS_LIMIT : STATUS_OK;
   for (size_t n = 0; status == STATUS_OK && n < chart->scene->patch_count; n++)
@@ -195,18 +168,18 @@ static enum status ask_povray_once(struct chart *chart, struct povray *povray, i
   }
   listener_tell(chart->listener, TOLD_PROGRESS, "POV-Ray: type %d, u_steps %d", type, steps);
   double *distance = malloc((camera->count + 1) * sizeof *distance);
-  struct timing time;
+  const struct timing unknown = {NAN, NAN, NAN, NAN, NAN, NAN};
+  struct timing time[RAY_KINDS] = {unknown, unknown};
   enum status status = distance == NULL ? STATUS_LIMIT : STATUS_OK;
   if (status == STATUS_OK) status = povray_ask(povray, chart->scene, camera->count, camera->rays, distance, NULL);
-  if (status == STATUS_OK) status = time_povray(chart, povray, &time);
+  if (status == STATUS_OK) status = time_povray(chart, povray, &time[RAYS_CAMERA]);
   if (status == STATUS_OK) {
-    struct chart_point *point = chart_add(chart, FAMILY_POVRAY);
-    snprintf(point->name, sizeof point->name, "POV-Ray, type %d, u_steps %d, flatness 0", type, steps);
-    if (type == 1) snprintf(point->label, sizeof point->label, "%d", steps);
-    point->time[RAYS_CAMERA] = time;
+    struct chart_point said = {.family = FAMILY_POVRAY};
+    snprintf(said.name, sizeof said.name, "POV-Ray, type %d, u_steps %d, flatness 0", type, steps);
+    if (type == 1) snprintf(said.label, sizeof said.label, "%d", steps);
     for (size_t k = 0; k < camera->count; k++)
       chart->answers[k] = (struct answer){distance[k] / vector_length(camera->rays[k].direction), ANSWER_PATCH_UNKNOWN};
-    chart_judge(chart, point);
+    (void)chart_add(chart, &said, time);
   }
   free(distance);
   return status;

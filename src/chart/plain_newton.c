@@ -70,31 +70,19 @@ void plain_newton_destroy(struct plain_newton *plain)
   free(plain);
 }
 
-/* Answers all rays of a kind, where they are asked for. */
-static void trace(const struct plain_newton *plain, enum ray_kind kind, struct answer *answers, double *sum)
+static void run(void *context, enum ray_kind kind, struct answer *answers)
 {
+  struct plain_newton *plain = context;
   const struct ray_list *list = &plain->rays[kind];
   struct answer own[PACKET_SIZE];
+  double sum = 0;
   for (size_t p = 0; p < list->packet_count; p++) {
     const struct ray_packet *packet = &list->packets[p];
     struct answer *out = answers == NULL ? own : answers + packet->first;
     plain->packet(&plain->model, packet->count, &list->rays[packet->first], kind == RAYS_SHADOW, out);
-    for (size_t k = 0; k < packet->count; k++) *sum += isfinite(out[k].t) ? out[k].t : 0;
+    for (size_t k = 0; k < packet->count; k++) sum += isfinite(out[k].t) ? out[k].t : 0;
   }
-}
-
-static void run(void *context, enum ray_kind kind)
-{
-  struct plain_newton *plain = context;
-  double sum = 0;
-  trace(plain, kind, NULL, &sum);
   plain->sink = sum;
 }
 
-struct runner plain_newton_face(struct plain_newton *plain) { return (struct runner){run, plain, {true, true}}; }
-
-void plain_newton_answers(const struct plain_newton *plain, enum ray_kind kind, struct answer *answers)
-{
-  double sum = 0;
-  trace(plain, kind, answers, &sum);
-}
+struct runner plain_newton_face(struct plain_newton *plain) { return (struct runner){run, plain}; }

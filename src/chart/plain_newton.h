@@ -17,7 +17,4 @@ struct plain_newton *plain_newton_create(const struct scene *scene, const struct
 void plain_newton_destroy(struct plain_newton *plain);
 struct runner plain_newton_face(struct plain_newton *plain);
 
-/* The answers to all rays of a kind; to a shadow ray, of some hit. */
-void plain_newton_answers(const struct plain_newton *plain, enum ray_kind kind, struct answer *answers);
-
 #endif

@@ -19,8 +19,7 @@ struct chart {
   struct arena *arena;   /* of all below */
   struct ray_list rays[RAY_KINDS];
   struct truth *truths[RAY_KINDS];
-  struct answer *answers;       /* room for the camera rays' */
-  bool *occluded;               /* room for the shadow rays' */
+  struct answer *answers;       /* room for those to the rays of a kind */
   double *errors;               /* room for judge_answers */
   struct pscn_runner yardstick; /* the default solver */
   double *yard[RAY_KINDS];      /* its medians in the batches, in ns a ray; sorted in the end */
@@ -31,11 +30,15 @@ struct chart {
   size_t note_count;
 };
 
-/* A new point, all of whose numbers are unknown; there is always room. */
-struct chart_point *chart_add(struct chart *chart, enum family family);
+/* Adds a point like `said`, measured and answered elsewhere: chart->answers are those to the camera rays. There is always
+ * room. */
+struct chart_point *chart_add(struct chart *chart, const struct chart_point *said, const struct timing time[RAY_KINDS]);
 
-/* Judges chart->answers and, where point->has_shadow, chart->occluded. */
-void chart_judge(struct chart *chart, struct chart_point *point);
+/* Adds a point like said[k] for each of `count` <= CHART_BATCH runners, measured in turns with the yardstick, whose own
+ * times go to out_yard where that is not NULL. */
+enum { CHART_BATCH = 24 };
+enum status chart_measure(struct chart *chart, size_t count, const struct runner runners[],
+                          const struct chart_point said[], struct timing out_yard[RAY_KINDS]) STATUS_MUST_CHECK;
 
 /* Says what is going on, and keeps the sentence for the page. */
 void chart_note(struct chart *chart, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -308,5 +308,5 @@ json_t *page_of_head(const char *command_line)
   if (gmtime_r(&now, &calendar) != NULL) (void)strftime(date, sizeof date, "%Y-%m-%d %H:%M UTC", &calendar);
   find_machine(machine, sizeof machine);
   return json_pack("{s:s,s:s,s:o,s:o,s:s}", "version", PSCN_VERSION, "date", date, "machine", page_of_text(machine),
-                   "command", page_of_text(command_line), "style", TEMPLATE_STYLE);
+                   "command", page_of_text(command_line), "head", TEMPLATE_HEAD);
 }

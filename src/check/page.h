@@ -53,7 +53,7 @@ json_t *page_of_number(double value);
 json_t *page_of_count(size_t count);
 json_t *page_of_text(const char *text);
 
-/* What stands at the head of every page: version, date, machine, command (the command line), and the style. */
+/* What every page tells of itself: version, date, machine, command (the command line); and `head`, its first lines. */
 json_t *page_of_head(const char *command_line);
 
 /* The bytes of a PNG with 8 bits of a picture, whose values are display codes in [0,1]; as a value, a data: URI. */

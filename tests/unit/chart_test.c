@@ -77,8 +77,9 @@ static void test_level(void **state)
   assert_true(isnan(points[0].time[RAYS_SHADOW].median) && isnan(points[1].time[RAYS_CAMERA].median));
 }
 
-static void count_up(void *context, enum ray_kind kind)
+static void count_up(void *context, enum ray_kind kind, struct answer *answers)
 {
+  assert_null(answers);
   size_t *calls = context;
   calls[kind]++;
 }
@@ -87,7 +88,7 @@ static void test_measure(void **state)
 {
   (void)state;
   size_t calls[2][RAY_KINDS] = {{0}};
-  const struct runner runners[2] = {{count_up, calls[0], {true, true}}, {count_up, calls[1], {true, false}}};
+  const struct runner runners[2] = {{count_up, calls[0]}, {count_up, calls[1]}};
   const size_t counts[RAY_KINDS] = {10, 0};
   struct timing time[2][RAY_KINDS];
   assert_int_equal(measure_rounds(runners, 2, counts, 5, NULL, time), STATUS_OK);
@@ -155,7 +156,8 @@ static void test_judge_occluded(void **state)
                                   {TRUTH_HIT, 1.5, 0, 0, false},
                                   {TRUTH_MISS, INFINITY, 0, HIT_NONE, false},
                                   {TRUTH_UNDECIDED, 0, 0, 0, false}};
-  const bool none[4] = {false}, all[4] = {true, true, true, true};
+  const struct answer miss = {INFINITY, HIT_NONE}, hit = {0, 0};
+  const struct answer none[4] = {miss, miss, miss, miss}, all[4] = {hit, hit, hit, hit};
   struct judgement j;
   judge_occluded(4, rays, truths, none, &j);
   assert_true(j.hits == 1 && j.lost == 1 && j.invented == 0 && j.undecided == 1);
