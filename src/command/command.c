@@ -19,6 +19,12 @@ static const struct command *const commands[] = {&command_render, &command_trace
                                                  &command_dump,   &command_compare, &command_check,
                                                  &command_chart,  &command_help,    NULL};
 
+const struct command *command_at(size_t index) { return commands[index]; }
+
+const char command_exit_codes[] =
+  "Exit codes: 0 done, 1 a comparison failed, 2 usage, 3 scene or input error, 4 file error,\n"
+  "5 memory or a limit, 130 and 143 interrupted.\n";
+
 const struct command *command_find(const char *name)
 {
   for (const struct command *const *command = commands; *command != NULL; command++)
@@ -62,10 +68,8 @@ void command_print_overview(FILE *file)
         file);
   for (const struct command *const *command = commands; *command != NULL; command++)
     fprintf(file, "  %-8s %-12s %s\n", (*command)->name, (*command)->arguments, (*command)->summary);
-  fputs("\n'pscn SCENE' renders it. 'pscn help COMMAND' tells more of each, 'pscn --version' the version.\n"
-        "Exit codes: 0 done, 1 a comparison failed, 2 usage, 3 scene or input error, 4 file error,\n"
-        "5 memory or a limit, 130 and 143 interrupted.\n",
-        file);
+  fputs("\n'pscn SCENE' renders it. 'pscn help COMMAND' tells more of each, 'pscn --version' the version.\n", file);
+  fputs(command_exit_codes, file);
 }
 
 static void print_error(const struct command *command, const char *format, va_list arguments)

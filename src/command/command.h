@@ -42,6 +42,12 @@ struct command {
 extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_check,
   command_chart, command_help;
 
+/* The commands in the order of the help text, from 0 on; NULL behind the last. */
+const struct command *command_at(size_t index);
+
+/* What exit codes mean, two lines of the help text. */
+extern const char command_exit_codes[];
+
 /* The command of that name, or NULL; then command_unknown tells so, and which may have been meant: STATUS_USAGE. */
 const struct command *command_find(const char *name);
 int command_unknown(const char *name);

@@ -116,6 +116,23 @@ bool words_begin_item(int token)
   return token > 255 && !is_one_of(token, in_values, COUNT(in_values));
 }
 
+static enum words_kind kind_of(int token)
+{
+  if (words_begin_statement(token)) return WORDS_STATEMENTS;
+  return words_begin_item(token) ? WORDS_ITEMS : WORDS_VALUES;
+}
+
+const char *words_at(enum words_kind kind, size_t index)
+{
+  if (kind == WORDS_DIRECTIVES) return index < COUNT(DIRECTIVES) ? DIRECTIVES[index].name : NULL;
+  if (kind == WORDS_FOREIGN) return index < COUNT(FOREIGN) ? FOREIGN[index] : NULL;
+  for (size_t k = 0; k < COUNT(KEYWORDS) + COUNT(SYNONYMS); k++) {
+    const struct keyword *word = k < COUNT(KEYWORDS) ? &KEYWORDS[k] : &SYNONYMS[k - COUNT(KEYWORDS)];
+    if (kind_of(word->token) == kind && index-- == 0) return word->name;
+  }
+  return NULL;
+}
+
 /* ---- lists and guesses ---- */
 
 void words_list(const char *const words[], size_t count, char *out, size_t size)

@@ -16,6 +16,11 @@ const char *words_directive(const char *text, size_t *length);
 bool words_begin_statement(int token);
 bool words_begin_item(int token);
 
+/* All words of a kind, from 0 on; NULL behind the last: those that begin a statement, other words of the language, names
+ * of values, directives without their #, and POV-Ray's words that are not ours. */
+enum words_kind { WORDS_STATEMENTS, WORDS_ITEMS, WORDS_VALUES, WORDS_DIRECTIVES, WORDS_FOREIGN };
+const char *words_at(enum words_kind kind, size_t index);
+
 /* Below, at or above 0 as word[0 .. length-1] stands before, is, or stands behind `name` in the order of bytes. */
 int words_compare(const char *word, size_t length, const char *name);
 
