@@ -115,8 +115,9 @@ static enum status explain(const struct command *command, const struct stream *s
 
 static enum status write_answers(const struct command *command, const struct stream_reader *reader)
 {
-  if (reader->answer != NULL) reader->answer(reader->context);
-  return command_finish_output(command);
+  const enum status status = reader->answer == NULL ? STATUS_OK : reader->answer(reader->context);
+  const enum status written = command_finish_output(command);
+  return status == STATUS_OK ? written : status;
 }
 
 enum status stream_read(const struct command *command, const struct stream_reader *reader)

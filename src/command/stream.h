@@ -20,10 +20,10 @@ struct stream_fault {
 
 /* What a command does with its input. `take` is told each line or record, and what is wrong with it is what it answers;
  * the last record may be cut off. `answer`, which may be NULL, is to write to stdout whatever is still to be said of
- * what was taken. */
+ * what was taken; a failure, STATUS_LIMIT, ends the reading. */
 struct stream_reader {
   struct stream_fault (*take)(void *context, const struct stream_line *line);
-  void (*answer)(void *context);
+  enum status (*answer)(void *context);
   void *context;
   size_t record; /* bytes of a record, 0: lines */
 };

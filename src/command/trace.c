@@ -25,13 +25,14 @@ enum {
 struct request {
   struct scene_request scene; /* first: scene_request_take is told of it */
   const char *stats;
-  bool binary, certainty, explain;
+  bool binary, certainty, all, explain;
 };
 
 static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   SCENE_OPTIONS,
   COMMAND_TRUE("binary", 0, binary, "little-endian doubles instead of text"),
+  COMMAND_TRUE("all", 0, all, "all hits of each ray: a line with their number, then a line for each"),
   COMMAND_TRUE("certainty", 0, certainty, "whether each answer is 'certain' or 'grazing'"),
   COMMAND_TRUE("explain", 0, explain, "instead of an answer the story of how it came to be"),
   COMMAND_TEXT("stats", 0, stats, "statistics as JSON; - is standard output, after the hits", "FILE"),
@@ -47,6 +48,7 @@ struct session {
   size_t number; /* of the rays explained */
   size_t count;
   struct ray rays[PACKET_SIZE];
+  enum status status; /* where it is not STATUS_OK nothing is answered any more */
 };
 
 /* The numbers of an answer, of which the last is for --certainty; a miss has T infinite and PATCH -1. */
@@ -64,6 +66,12 @@ static void answer_values(const struct ray *ray, const struct hit *hit, double o
   }
 }
 
+static size_t append_certainty(enum certainty certainty, char *line, size_t length)
+{
+  memcpy(line + length, certainty == CERTAINTY_CERTAIN ? " certain" : " grazing", 8);
+  return length + 8;
+}
+
 static void write_text(const struct request *request, const struct ray *ray, const struct hit *hit)
 {
   double value[ANSWER_VALUES];
@@ -78,20 +86,14 @@ static void write_text(const struct request *request, const struct ray *ray, con
       length += number_write_17(value[k], line + length);
     }
   }
-  if (request->certainty) {
-    memcpy(line + length, hit->certainty == CERTAINTY_CERTAIN ? " certain" : " grazing", 8);
-    length += 8;
-  }
+  if (request->certainty) length = append_certainty(hit->certainty, line, length);
   line[length++] = '\n';
   fwrite(line, 1, length, stdout);
 }
 
-static void write_binary(const struct request *request, const struct ray *ray, const struct hit *hit)
+static void write_doubles(const double value[], size_t count)
 {
-  double value[ANSWER_VALUES];
   unsigned char bytes[8 * ANSWER_VALUES];
-  const size_t count = request->certainty ? ANSWER_VALUES : ANSWER_VALUES - 1;
-  answer_values(ray, hit, value);
   for (size_t k = 0; k < count; k++) {
     uint64_t bits;
     memcpy(&bits, &value[k], sizeof bits);
@@ -100,17 +102,48 @@ static void write_binary(const struct request *request, const struct ray *ray, c
   fwrite(bytes, 8, count, stdout);
 }
 
-static void answer(void *context)
+static void write_binary(const struct request *request, const struct ray *ray, const struct hit *hit)
+{
+  double value[ANSWER_VALUES];
+  answer_values(ray, hit, value);
+  write_doubles(value, request->certainty ? ANSWER_VALUES : ANSWER_VALUES - 1);
+}
+
+/* The line before a ray's hits. */
+static void write_count(const struct request *request, const struct hit_list *list)
+{
+  char line[NUMBER_TEXT_SIZE + 16];
+  if (request->binary) {
+    write_doubles((double[]){(double)list->count, list->certainty == CERTAINTY_CERTAIN}, 2);
+    return;
+  }
+  size_t length = append_certainty(list->certainty, line, (size_t)snprintf(line, NUMBER_TEXT_SIZE, "%zu", list->count));
+  line[length++] = '\n';
+  fwrite(line, 1, length, stdout);
+}
+
+static enum status answer(void *context)
 {
   struct session *session = context;
+  const struct request *request = session->request;
   struct hit hits[PACKET_SIZE];
-  for (size_t k = 0; k < session->count && session->request->explain; k++)
-    explain_ray(session->scene, session->tracer, ++session->number, &session->rays[k]);
-  if (session->request->explain) session->count = 0;
-  if (session->count > 0) tracer_closest(session->tracer, session->count, session->rays, hits);
-  for (size_t k = 0; k < session->count; k++)
-    (session->request->binary ? write_binary : write_text)(session->request, &session->rays[k], &hits[k]);
+  struct hit_list lists[PACKET_SIZE];
+  const size_t count = session->status == STATUS_OK ? session->count : 0;
   session->count = 0;
+  if (request->explain) {
+    for (size_t k = 0; k < count; k++)
+      explain_ray(session->scene, session->tracer, ++session->number, &session->rays[k]);
+    return STATUS_OK;
+  }
+  if (request->all && count > 0) session->status = tracer_all(session->tracer, count, session->rays, lists);
+  else if (count > 0) tracer_closest(session->tracer, count, session->rays, hits);
+  for (size_t k = 0; k < count && session->status == STATUS_OK; k++) {
+    if (request->all) write_count(request, &lists[k]);
+    else lists[k] = (struct hit_list){.count = 1, .hits = &hits[k]};
+    for (size_t n = 0; n < lists[k].count; n++)
+      (request->binary ? write_binary : write_text)(request, &session->rays[k], &lists[k].hits[n]);
+  }
+  return session->status;
 }
 
 /* Makes a ray of six finite numbers; false where the direction is zero. The direction has a power of two taken out, so
@@ -169,7 +202,7 @@ static struct stream_fault take(void *context, const struct stream_line *line)
   struct session *session = context;
   const struct stream_fault fault = (session->request->binary ? parse_record
                                                               : parse_line)(line, &session->rays[session->count]);
-  if (fault.text == NULL && ++session->count == PACKET_SIZE) answer(session);
+  if (fault.text == NULL && ++session->count == PACKET_SIZE) (void)answer(session); /* which fails again at the end */
   return fault;
 }
 
@@ -179,6 +212,8 @@ static enum status trace(const struct command *command, struct request *request)
   struct intersector *intersector = NULL;
   struct session session = {.request = request};
   struct seconds start = seconds_now();
+  if (request->explain && request->all)
+    return (enum status)command_usage(command, "a story is the nearest hit's: --explain and --all do not go together");
   if (request->explain && request->binary)
     return (enum status)command_usage(command, "a story is text: --explain and --binary do not go together");
   if (output_is_standard(request->scene.path))
@@ -245,6 +280,10 @@ const struct command command_trace = {
     "\n"
     "--certainty: each line ends with 'certain' where the answer is proven, or with 'grazing' where a change of the\n"
     "input within rounding could turn it; a binary answer has an eighth number, 1 or 0.\n"
+    "\n"
+    "--all: all hits of a ray. A line 'N certain' or 'N grazing', then N lines 'hit ...' as above, in order of T.\n"
+    "'certain' means that the number is proven: a ray starts inside a closed surface where it is odd. In binary, N\n"
+    "and 1 or 0 as doubles, then N answers.\n"
     "\n"
     "--explain: for each ray the leaves of patches that it came to, in order; of each its equations a and b, their\n"
     "resultant r in the format that 'pscn roots' reads (in powers of x = u/(1-u) where the basis is bernstein), the\n"

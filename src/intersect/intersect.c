@@ -92,9 +92,21 @@ enum status tracer_create(const struct intersector *intersector, struct tracer *
   return STATUS_OK;
 }
 
+void tracer_end(struct tracer *tracer)
+{
+  for (int h = 0; h < 2; h++) {
+    struct gather *gather = &tracer->gather[h];
+    memory_free(gather->roots.at), memory_free(gather->open.at), memory_free(gather->order.at);
+    memory_free(gather->regions.at), memory_free(gather->plan.at), memory_free(gather->list.at);
+    memory_free(gather->decided.at);
+  }
+  memory_free(tracer->hits.at);
+}
+
 void tracer_destroy(struct tracer *tracer)
 {
   if (!tracer) return;
+  tracer_end(tracer);
   memory_free(tracer->warm);
   memory_free(tracer);
 }
@@ -109,6 +121,24 @@ void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[]
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
   tracer->kernel->occluded(tracer, count, rays, out_occluded);
+}
+
+enum { FIRST_ROOM = 64 };
+
+void *growing_add(struct growing *list, size_t size)
+{
+  if (list->count == list->room) {
+    const size_t room = list->room ? 2 * list->room : FIRST_ROOM;
+    void *larger = room > SIZE_MAX / size ? NULL : memory_resize(list->at, room * size);
+    if (!larger) return NULL;
+    list->at = larger, list->room = room;
+  }
+  return (char *)list->at + size * list->count++;
+}
+
+enum status tracer_all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])
+{
+  return tracer->kernel->all(tracer, count, rays, out) ? STATUS_OK : STATUS_LIMIT;
 }
 
 void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3])

@@ -1,7 +1,7 @@
-/* Rays against all patches of a scene: closest hit and any hit, a packet of rays at a time.
+/* Rays against all patches of a scene: closest hit, any hit and all hits, a packet of rays at a time.
  *
  * Build once from a scene, then share between threads; each thread owns one `tracer`, which holds its counters, its
- * scratch memory and its warm starts. No call on a tracer allocates or fails.
+ * scratch memory and its warm starts. No call on a tracer allocates or fails, but tracer_all.
  *
  * What an answer promises (with `polish on`, the default): of all points where the exact ray meets the exact
  * patches, a hit is the nearest with t in (t_min, t_max); a miss has none. `certain` means this is proven; `grazing`
@@ -43,6 +43,21 @@ struct hit {
   double normal[3]; /* unit, facing the ray's origin */
 };
 
+/* Every hit of one ray, in order of t. A point of a border that patches share is one hit where the ray crosses the
+ * surface there, and so is a pole, or a corner of several patches; its patch is the first of them in the scene. Surfaces
+ * that lie on each other are a hit each, the first in the scene first.
+ *
+ * `certain`: it is proven that there are `count` hits, each of them listed, and that this is their order; so a ray whose
+ * t_max is infinite starts inside a closed surface where `count` is odd, and outside where it is even. `grazing`: not
+ * proven, for the ray touches a surface, an open border or a crease from outside, or starts or ends on a surface, nearer
+ * than 113 bits can tell; then the list has what is proven, and what may be a hit as well: their own certainty tells
+ * them apart. */
+struct hit_list {
+  enum certainty certainty;
+  size_t count;
+  const struct hit *hits; /* hits[0..count-1], the tracer's; they are gone at its next call of tracer_all */
+};
+
 /* The stages of a ray and a leaf whose box it passes (lanes/candidate.h). */
 enum stage {
   STAGE_BILINEAR,  /* the resultant of degree 2 of a nearly bilinear leaf */
@@ -53,12 +68,12 @@ enum stage {
 };
 
 struct intersect_counts {
-  uint64_t rays[2];        /* closest-hit rays, any-hit rays */
+  uint64_t rays[2];        /* closest-hit and all-hits rays, any-hit rays */
   uint64_t patches_tested; /* ray-leaf pairs that reached the algebra */
   uint64_t roots_found, roots_accepted;
   uint64_t stages[STAGE_COUNT]; /* ray-leaf pairs that came to each */
   uint64_t escalated;           /* ray-leaf pairs left to the last resort (exact/exact.h) */
-  uint64_t certain, grazing;    /* answers by certainty, closest-hit rays only */
+  uint64_t certain, grazing;    /* answers by certainty, not of any-hit rays */
 };
 
 struct intersector;
@@ -85,6 +100,11 @@ void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[]
 
 /* Whether anything is hit by each of `count` <= PACKET_SIZE rays. */
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
+
+/* All hits of each of `count` <= PACKET_SIZE rays. The first hit of a certain list is the nearest hit. STATUS_LIMIT where
+ * memory is short; then *out means nothing. */
+enum status tracer_all(struct tracer *tracer, size_t count, const struct ray rays[],
+                       struct hit_list out[]) STATUS_MUST_CHECK;
 
 /* An origin for a ray that leaves the surface at `hit` along `direction`: moved off the surface by the clearance, to
  * the side that `direction` points to. It meets neither the sheet it leaves nor skips one beyond. */

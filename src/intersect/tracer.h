@@ -6,6 +6,7 @@
 #define PSCN_INTERSECT_TRACER_H
 
 #include "algebra/solver.h"
+#include "intersect/exact/exact.h"
 #include "intersect/intersect.h"
 #include "intersect/local_ray.h"
 #include "intersect/model.h"
@@ -15,6 +16,8 @@ struct kernel {
   const char *name;
   void (*closest)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
   void (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
+  /* whether there was memory for it */
+  bool (*all)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[]);
 };
 
 enum { KERNELS_MAX = 3 };
@@ -28,17 +31,45 @@ struct warm_leaf {
   struct solver_warm warm;
 };
 
+/* A list of anything that grows and is used again. Zero-initialise; memory_free `at`. */
+struct growing {
+  void *at;
+  size_t count, room;
+};
+
+/* intersect.c: room for one more element of `size` bytes at the end, which is counted; NULL where memory is short. */
+void *growing_add(struct growing *list, size_t size);
+
+/* All that is found on the rays of a packet, where all hits are asked for (lanes/gather.h). */
+struct gather {
+  struct growing roots;   /* struct gathered, as the lanes took them */
+  struct growing open;    /* struct gathered_region: what they left open */
+  struct growing order;   /* const struct gathered *: one lane's roots */
+  struct growing regions; /* struct exact_region, one lane's */
+  struct exact_list list; /* what the last resort makes of one lane's */
+  /* int64_t: what is a hit, lane by lane: the number of a root, or -1 less the number of one of `decided` */
+  struct growing plan;
+  struct exact_list decided;
+  bool failed; /* memory was short */
+};
+
 struct tracer {
   const struct model *model;
   const struct kernel *kernel;
   struct intersect_counts counts;
   uint64_t epoch;
   struct warm_leaf *warm;      /* one a leaf, NULL where no patch asks for it */
+  struct gather gather[2];     /* of two packets side by side */
+  struct growing hits;         /* struct hit: of all lists of the last call of tracer_all */
   struct explainer *explainer; /* explain.c; NULL where nobody asks */
 };
 
 /* intersect.c: a tracer in memory of the caller's, without warm starts, whatever the scene asks for. */
 void tracer_begin(const struct intersector *intersector, struct tracer *out);
+
+/* intersect.c: gives back what tracer_all has taken for it, by memory_free, so on a thread with the same hooks. Not asked
+ * for all hits, a tracer has nothing. */
+void tracer_end(struct tracer *tracer);
 
 /* The warm start of a leaf of the tracer's model by its number; NULL where the method asks for none. */
 static inline struct solver_warm *tracer_warm(struct tracer *tracer, const struct method *method, int64_t leaf)

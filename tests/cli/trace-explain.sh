@@ -35,3 +35,4 @@ done
 # One whole, on a plane patch, where all numbers are exact.
 printf '0 0 -4 0 0 1\n' | pscn trace "$SCENES/flat.pscn" --explain --solver 'aberth { split 1 }' | grep -v ' root\|= '
 try pscn trace "$SCENES/flat.pscn" --explain --binary </dev/null
+try pscn trace "$SCENES/flat.pscn" --explain --all </dev/null

@@ -16,6 +16,19 @@ cat one two | pscn trace "$scene" --binary | LC_ALL=C od -A n -v -t f8 -w56 | se
 # With what is proven and what is not: the border of an open surface.
 printf '0.5 0 -4 0 0 1\n9 0 -4 0 0 1\n1 0 -4 0 0 1\n' | pscn trace "$scene" --certainty
 cat one two | pscn trace "$scene" --binary --certainty | LC_ALL=C od -A n -v -t f8 -w64 | sed 's/  */ /g'
+# All hits: across two sheets and one that lies on the second; beside them; along a border, open; from between them.
+patch() { # Z
+  echo "bicubic_patch { type 1 flatness 0 u_steps 1 v_steps 1"
+  for u in 0 1 2 3; do for v in 0 1 2 3; do echo "<$u, $v, $1>$([ $u$v = 33 ] || echo ,)"; done; done
+  echo "pigment { color rgb 1 } }"
+}
+(sed -n '/^camera/p;/^light/p' "$scene"; patch 2; patch 1; patch 2) >sheets.pscn
+printf '%s\n' '1.5 0.75 0 0 0 2' '9 0 0 0 0 1' '3 1 0 0 0 1' '1.5 0.75 1.5 0 0 1' '1.5 0.75 1 0 0 1' |
+  try pscn trace --all sheets.pscn
+printf '3 1 1.5 0 0 1\n' | pscn trace --all --certainty sheets.pscn
+printf "$half$zero$minus_four$zero$zero$one" | pscn trace "$scene" --binary --all | LC_ALL=C od -A n -v -t f8 -w72 |
+  sed 's/  */ /g'
+cat one two | pscn trace "$scene" --binary --all --certainty | LC_ALL=C od -A n -v -t f8 -w80 | sed 's/  */ /g'
 # Each answer comes before more is asked.
 mkfifo ask tell
 dialogue() { # WHAT COMMAND...: writes `one` and `two` in turn, and waits in between for $1 to have read an answer

@@ -33,6 +33,7 @@ struct exact_root {
   wide u, v, t;              /* t in units of the scaled direction */
   double radius_u, radius_v; /* absolute */
   double t_error;            /* absolute */
+  double alone; /* of a sharp one: no other root of the patch has parameters that are both within this of its */
 };
 
 static inline bool exact_region_equal(const struct exact_region *a, const struct exact_region *b)
@@ -48,8 +49,29 @@ struct exact_maybe {
   double u, v, t, t_error;
 };
 
-/* Of one ray; one with more is decided as far as they go. */
+/* Of one ray whose nearest hit is asked for; one with more is decided as far as they go. */
 enum { EXACT_REGIONS_MAX = 128 };
+
+/* What is found on a ray. */
+enum exact_kind {
+  EXACT_INSIDE, /* a root that is strictly inside its patch */
+  EXACT_BORDER, /* one that even wide arithmetic cannot tell from borders of its patch, or a pole that the ray meets */
+  EXACT_OPEN    /* a place that may be a hit or none */
+};
+
+struct exact_found {
+  struct exact_root root; /* of an open one u, v, t and t_error */
+  enum exact_kind kind;
+  unsigned borders; /* bits as of geometry/edges.h */
+  int64_t taken;    /* the number of the lanes' root that it is; negative: of none */
+};
+
+/* A list that grows by memory_resize, but where it is fixed. Zero-initialise; memory_free `at`. */
+struct exact_list {
+  struct exact_found *at;
+  size_t count, room;
+  bool fixed, failed; /* failed: memory was short, and something was left out */
+};
 
 /* What is asked. */
 struct exact_case {
@@ -57,7 +79,7 @@ struct exact_case {
   const struct ray *ray;           /* direction scaled to about 1 */
   const struct exact_root *known;  /* the nearest that the lanes took; NULL where there is none */
   const struct exact_maybe *maybe; /* the same where it is not proven; NULL */
-  const struct exact_region *regions;
+  struct exact_region *regions;    /* in any order; put into another one */
   size_t region_count;
   bool cut_off; /* there were more: the answer is not certain */
 };
@@ -77,6 +99,14 @@ struct exact_decision {
 
 /* The nearest hit of the ray. */
 void exact_closest(const struct exact_case *asked, struct exact_decision *out);
+
+/* all.c: all hits of the ray, of which *list has those that the lanes took, `known`, `maybe` and `cut_off` are not
+ * looked at, and of regions there may be any number. *list becomes the hits in their order, roots inside patches and open
+ * ones. Returns whether it is proven. */
+bool exact_all(const struct exact_case *asked, struct exact_list *list);
+
+/* all.c: whether there was room for it. */
+bool exact_list_add(struct exact_list *list, const struct exact_found *found);
 
 /* Whether anything is hit, or may be. */
 bool exact_occluded(const struct exact_case *asked);

@@ -19,6 +19,9 @@
  * surfaces that lie along the ray over an area come there. About a millisecond. */
 enum { JUDGE_WORK = 2500 };
 
+/* More of them for each region where all hits are asked for, and none ends the search. */
+enum { JUDGE_REGION_WORK = 128 };
+
 void judge_turn(struct judge *j, uint32_t patch)
 {
   if (j->patch == patch) return;
@@ -76,15 +79,14 @@ static enum place root_in_range(const struct judge *j, const struct exact_root *
                                                         : PLACE_UNKNOWN;
 }
 
-static bool root_sharpen(struct judge *j, struct exact_root *root)
+bool judge_sharpen(struct judge *j, struct exact_root *root)
 {
   if (root->sharp) return true;
   judge_turn(j, root->patch);
   return zoom_sharpen(judge_zoom(j), root);
 }
 
-/* Whether the two cannot be told apart by t. */
-static bool roots_tie(const struct exact_root *a, const struct exact_root *b)
+bool judge_tie(const struct exact_root *a, const struct exact_root *b)
 {
   const wide apart = a->t < b->t ? b->t - a->t : a->t - b->t;
   return apart <= a->t_error + b->t_error;
@@ -101,14 +103,24 @@ static void set_limit(struct judge *j)
   j->limit = limit + 4 * UNIT_ROUNDOFF * fabs(limit);
 }
 
-/* A root inside: the nearest, or of those that cannot be told apart that of the first patch. */
-static void keep_nearest(struct judge *j, struct exact_root *root)
+static bool list_root(struct judge *j, const struct exact_root *root, enum exact_kind kind, unsigned borders)
 {
-  if (j->found && roots_tie(root, &j->nearest) && root->patch != j->nearest.patch) {
+  const struct exact_found found = {*root, kind, borders, -1};
+  return exact_list_add(j->list, &found);
+}
+
+/* A root inside: the nearest, or of those that cannot be told apart that of the first patch. */
+static void keep_root(struct judge *j, struct exact_root *root)
+{
+  if (j->all) {
+    (void)list_root(j, root, EXACT_INSIDE, 0); /* or the list has failed */
+    return;
+  }
+  if (j->found && judge_tie(root, &j->nearest) && root->patch != j->nearest.patch) {
     struct exact_root other = j->nearest;
-    const bool sharp = root_sharpen(j, root) && root_sharpen(j, &other);
+    const bool sharp = judge_sharpen(j, root) && judge_sharpen(j, &other);
     if (sharp) j->nearest = other;
-    if (roots_tie(root, &other) ? root->patch > other.patch : root->t > other.t) return;
+    if (judge_tie(root, &other) ? root->patch > other.patch : root->t > other.t) return;
   } else if (j->found && !(root->t < j->nearest.t)) {
     return;
   }
@@ -122,6 +134,10 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe)
   if (maybe->t < ray->t_min - maybe->t_error || maybe->t > ray->t_max + maybe->t_error) return;
   if (!(maybe->t > ray->t_min + maybe->t_error && maybe->t < ray->t_max)) {
     j->doubt = true;
+    return;
+  }
+  if (j->all) {
+    judge_add_open(j, maybe);
     return;
   }
   if (j->doubtful && !(maybe->t < j->maybe.t || (maybe->t == j->maybe.t && maybe->patch < j->maybe.patch))) return;
@@ -196,18 +212,27 @@ static bool passes_exactly(const struct ray *ray, const double point[3])
   return true;
 }
 
-/* A control point that is a point of the patch: whether it is hit, which is told. */
-static bool tell_point(struct judge *j, int row, int column, double u, double v)
+/* The point (u,v) of the patch, a control point, where the ray meets it: whether it does. */
+static bool point_root(const struct judge *j, int row, int column, double u, double v, struct exact_root *out)
 {
   const struct ray *ray = j->asked->ray;
   const double *point = j->asked->model->scene->patches[j->patch].P[row][column];
   if (!passes_exactly(ray, point)) return false;
   const int k = j->local.axis;
-  struct exact_root root = {
+  *out = (struct exact_root){
     .patch = j->patch, .sharp = true, .u = u, .v = v, .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
-  root.t_error = 4 * (double)(WIDE_ROUNDOFF * (root.t < 0 ? -root.t : root.t));
+  out->t_error = 4 * (double)(WIDE_ROUNDOFF * (out->t < 0 ? -out->t : out->t));
+  return true;
+}
+
+/* The same, which is told; `border` is the pole that it is, or negative. */
+static bool tell_point(struct judge *j, int row, int column, double u, double v, int border)
+{
+  struct exact_root root;
+  if (!point_root(j, row, column, u, v, &root)) return false;
   const enum place in_range = root_in_range(j, &root);
-  if (in_range == PLACE_INSIDE) keep_nearest(j, &root);
+  if (in_range == PLACE_INSIDE && j->all) (void)list_root(j, &root, EXACT_BORDER, 1u << border);
+  else if (in_range == PLACE_INSIDE) keep_root(j, &root);
   if (in_range == PLACE_UNKNOWN) j->doubt = true;
   return true;
 }
@@ -216,7 +241,7 @@ bool judge_pole(struct judge *j, int border)
 {
   const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
   const double u = border == 0 ? 0 : border == 1 ? 1 : 0.5, v = border == 2 ? 0 : border == 3 ? 1 : 0.5;
-  if (tell_point(j, row, column, u, v)) return true;
+  if (tell_point(j, row, column, u, v, border)) return true;
   const struct model_patch *patch = &j->asked->model->patches[j->patch];
   const double w = patch->x[j->local.axis][row][column];
   const wide t = (w - judge_zoom(j)->place) * judge_zoom(j)->to_t;
@@ -238,7 +263,7 @@ void judge_root(struct judge *j, struct exact_root *root)
   enum place in_patch = root_in_patch(root, &borders), in_range = root_in_range(j, root);
   if ((double)root->t - root->t_error > j->limit || in_patch == PLACE_OUTSIDE || in_range == PLACE_OUTSIDE) return;
   if (in_patch == PLACE_UNKNOWN || in_range == PLACE_UNKNOWN) {
-    if (!root_sharpen(j, root)) {
+    if (!judge_sharpen(j, root)) {
       tell_maybe(j, borders, root);
       return;
     }
@@ -249,10 +274,8 @@ void judge_root(struct judge *j, struct exact_root *root)
     /* Nobody can tell whether a ray that starts on the surface meets it. */
     j->doubt = true;
   } else if (in_patch == PLACE_INSIDE) {
-    keep_nearest(j, root);
-  } else if (j->border_count < JUDGE_BORDERS_MAX) {
-    j->border[j->border_count] = *root, j->border_of[j->border_count++] = borders;
-  } else {
+    keep_root(j, root);
+  } else if (!list_root(j, root, EXACT_BORDER, borders)) {
     tell_maybe(j, borders, root);
   }
 }
@@ -284,15 +307,14 @@ static double along_border(const struct exact_root *root, unsigned border)
   return (double)(border < 2 ? root->v : root->u);
 }
 
-/* Whether the two roots, each on one border of its patch, are on the same border from either side. */
-static bool roots_across(const struct judge *j, int a, int b)
+bool judge_across(const struct judge *j, const struct exact_found *a, const struct exact_found *b)
 {
   const struct model *model = j->asked->model;
-  const struct exact_root *one = &j->border[a], *two = &j->border[b];
-  if (j->border_of[a] & (j->border_of[a] - 1) || j->border_of[b] & (j->border_of[b] - 1)) return false; /* a corner */
-  const unsigned here = (unsigned)__builtin_ctz(j->border_of[a]), there = (unsigned)__builtin_ctz(j->border_of[b]);
+  const struct exact_root *one = &a->root, *two = &b->root;
+  if (a->borders & (a->borders - 1) || b->borders & (b->borders - 1)) return false; /* a corner */
+  const unsigned here = (unsigned)__builtin_ctz(a->borders), there = (unsigned)__builtin_ctz(b->borders);
   const struct edge_neighbour *other = &model->neighbours[4 * (size_t)one->patch + here];
-  if (other->patch != two->patch || other->border != there || !roots_tie(one, two)) return false;
+  if (other->patch != two->patch || other->border != there || !judge_tie(one, two)) return false;
   const double along = along_border(one, here), along_two = along_border(two, there);
   const int inner = inner_side(&model->patches[one->patch], here, along, j->asked->ray->direction);
   const int inner_two = inner_side(&model->patches[two->patch], there, along_two, j->asked->ray->direction);
@@ -301,25 +323,50 @@ static bool roots_across(const struct judge *j, int a, int b)
 
 static wide within(wide t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
 
+static bool in_corner(const struct exact_found *found) { return found->borders & 3 && found->borders & 12; }
+
+/* Where the corner is that a root is in. */
+static void corner_of(const struct exact_found *found, double *u, double *v)
+{
+  *u = found->root.u < 0.5 ? 0 : 1, *v = found->root.v < 0.5 ? 0 : 1;
+}
+
+void judge_to_border(struct judge *j, struct exact_found *found)
+{
+  struct exact_root *root = &found->root;
+  double u, v;
+  judge_turn(j, root->patch);
+  corner_of(found, &u, &v);
+  if (in_corner(found) && point_root(j, u > 0 ? 3 : 0, v > 0 ? 3 : 0, u, v, root)) return;
+  root->u = within(root->u), root->v = within(root->v);
+}
+
+void judge_open(struct judge *j, const struct exact_found *border)
+{
+  judge_turn(j, border->root.patch);
+  tell_maybe(j, border->borders, &border->root);
+}
+
 /* Roots on borders that something certain is next to are hits; the others may be. */
 static void settle_borders(struct judge *j)
 {
-  for (int a = 0; a < j->border_count; a++) {
-    struct exact_root *root = &j->border[a];
-    bool certain = j->found && roots_tie(root, &j->nearest);
-    for (int b = 0; b < j->border_count && !certain; b++) {
-      if (a == b || !roots_across(j, a, b)) continue;
+  for (size_t a = 0; a < j->list->count; a++) {
+    struct exact_found *found = &j->list->at[a];
+    struct exact_root *root = &found->root;
+    bool certain = j->found && judge_tie(root, &j->nearest);
+    for (size_t b = 0; b < j->list->count && !certain; b++) {
+      if (a == b || !judge_across(j, found, &j->list->at[b])) continue;
       certain = true;
-      if (root->patch > j->border[b].patch) continue; /* the patch that stands first in the scene has it */
+      if (root->patch > j->list->at[b].root.patch) continue; /* the patch that stands first in the scene has it */
       root->u = within(root->u), root->v = within(root->v);
-      keep_nearest(j, root);
+      keep_root(j, root);
     }
     if (certain) continue;
     judge_turn(j, root->patch);
-    const double u = root->u < 0.5 ? 0 : 1, v = root->v < 0.5 ? 0 : 1;
-    const bool corner = j->border_of[a] & 3 && j->border_of[a] & 12;
-    if (corner && tell_point(j, u > 0 ? 3 : 0, v > 0 ? 3 : 0, u, v)) continue;
-    tell_maybe(j, j->border_of[a], root);
+    double u, v;
+    corner_of(found, &u, &v);
+    if (in_corner(found) && tell_point(j, u > 0 ? 3 : 0, v > 0 ? 3 : 0, u, v, -1)) continue;
+    judge_open(j, found);
   }
 }
 
@@ -357,34 +404,45 @@ static bool passes_near(struct judge *j, uint32_t patch, int border)
   return true;
 }
 
-/* Takes the region into the list, where it is not there: at a border that is one point all of the strip along it, for
- * what a ray that passes it closely meets may be anywhere there. */
-static size_t region_add(struct judge *j, const struct exact_region *region, struct exact_region all[], size_t count)
+/* Widens the region at a border that is one point to all of the strip along it, for what a ray that passes it closely
+ * meets may be anywhere there. */
+static void region_widen(struct judge *j, struct exact_region *r)
 {
-  struct model_patch *patch = &j->asked->model->patches[region->patch];
-  struct exact_region r = *region;
+  struct model_patch *patch = &j->asked->model->patches[r->patch];
+  const uint16_t column[2] = {r->column[0], r->column[1]};
   for (int border = 0; border < 4; border++) {
     const int side = border / 2, across = 1 - side, at = border & 1 ? patch->split - 1 : 0;
-    if (patch->split == 1 || region->column[side] != at || !patch_border_is_point(patch->x, border)) continue;
-    if (!passes_near(j, region->patch, border)) continue;
-    r.column[across] = 0, r.span[across] = (uint16_t)patch->split, r.leaf = NULL;
+    if (patch->split == 1 || column[side] != at || !patch_border_is_point(patch->x, border)) continue;
+    if (!passes_near(j, r->patch, border)) continue;
+    r->column[across] = 0, r->span[across] = (uint16_t)patch->split, r->leaf = NULL;
   }
-  for (size_t k = 0; k < count; k++)
-    if (exact_region_equal(&all[k], &r)) return count;
-  all[count] = r;
-  return count + 1;
 }
 
-static void judge_run(struct judge *j, const struct exact_case *asked)
+static int by_region(const void *a, const void *b)
+{
+  const struct exact_region *x = a, *y = b;
+  if (x->patch != y->patch) return x->patch < y->patch ? -1 : 1;
+  for (int k = 0; k < 2; k++)
+    if (x->column[k] != y->column[k]) return x->column[k] < y->column[k] ? -1 : 1;
+  for (int k = 0; k < 2; k++)
+    if (x->span[k] != y->span[k]) return x->span[k] < y->span[k] ? -1 : 1;
+  return 0;
+}
+
+/* Widens the regions, sorts them, and leaves each there once. Returns how many. */
+static size_t regions_prepare(struct judge *j, struct exact_region regions[], size_t count)
+{
+  size_t kept = 0;
+  for (size_t k = 0; k < count; k++) region_widen(j, &regions[k]);
+  if (count > 1) qsort(regions, count, sizeof *regions, by_region);
+  for (size_t k = 0; k < count; k++)
+    if (kept == 0 || !exact_region_equal(&regions[kept - 1], &regions[k])) regions[kept++] = regions[k];
+  return kept;
+}
+
+static void search_nearest(struct judge *j, const struct exact_region regions[], size_t count)
 {
   struct ordered order[EXACT_REGIONS_MAX];
-  struct exact_region regions[EXACT_REGIONS_MAX];
-  size_t count = 0;
-  *j = (struct judge){.asked = asked, .work = JUDGE_WORK, .patch = UINT32_MAX, .doubt = asked->cut_off};
-  if (asked->known) j->nearest = *asked->known, j->found = true;
-  set_limit(j);
-  if (asked->maybe) keep_maybe(j, asked->maybe);
-  for (size_t k = 0; k < asked->region_count; k++) count = region_add(j, &asked->regions[k], regions, count);
   for (size_t k = 0; k < count; k++) {
     order[k] = (struct ordered){-INFINITY, &regions[k]};
     if (count == 1) break;
@@ -396,13 +454,42 @@ static void judge_run(struct judge *j, const struct exact_case *asked)
     judge_turn(j, order[k].region->patch);
     search_region(j, order[k].region);
   }
+}
+
+void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct exact_list *list)
+{
+  *j = (struct judge){.asked = asked, .all = all, .list = list, .work = JUDGE_WORK, .patch = UINT32_MAX};
+  if (!all) {
+    j->doubt = asked->cut_off;
+    if (asked->known) j->nearest = *asked->known, j->found = true;
+  }
+  set_limit(j);
+  if (!all && asked->maybe) keep_maybe(j, asked->maybe);
+  const size_t count = regions_prepare(j, asked->regions, asked->region_count);
+  if (!all) {
+    search_nearest(j, asked->regions, count);
+    return;
+  }
+  j->work += JUDGE_REGION_WORK * (int)count;
+  for (size_t k = 0; k < count; k++) {
+    judge_turn(j, asked->regions[k].patch);
+    search_region(j, &asked->regions[k]);
+  }
+}
+
+/* The nearest hit. */
+static void nearest_run(struct judge *j, const struct exact_case *asked)
+{
+  struct exact_found borders[JUDGE_BORDERS_MAX];
+  struct exact_list list = {.at = borders, .room = JUDGE_BORDERS_MAX, .fixed = true};
+  judge_run(j, asked, false, &list);
   settle_borders(j);
 }
 
 void exact_closest(const struct exact_case *asked, struct exact_decision *out)
 {
   struct judge j;
-  judge_run(&j, asked);
+  nearest_run(&j, asked);
   *out = (struct exact_decision){.verdict = EXACT_MISS, .sure = !j.doubt};
   if (j.doubtful && !(j.found && j.nearest.t <= j.maybe.t)) {
     *out = (struct exact_decision){.verdict = EXACT_MAYBE, .maybe = j.maybe};
@@ -415,6 +502,6 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
 bool exact_occluded(const struct exact_case *asked)
 {
   struct judge j;
-  judge_run(&j, asked);
+  nearest_run(&j, asked);
   return j.found || j.doubtful;
 }

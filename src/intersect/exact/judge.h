@@ -15,13 +15,12 @@ enum { JUDGE_BORDERS_MAX = 16 };
 
 struct judge {
   const struct exact_case *asked;
+  bool all; /* all hits are asked for, and `list` has whatever is found; else roots on borders only */
+  struct exact_list *list;
   struct exact_root nearest; /* of the certain roots inside patches, where `found` */
   struct exact_maybe maybe;  /* the nearest, where `doubtful` */
-  struct exact_root border[JUDGE_BORDERS_MAX];
-  unsigned border_of[JUDGE_BORDERS_MAX]; /* which borders, as bits */
-  int border_count;
   bool found, doubtful;
-  bool doubt;   /* something could not be told from the ray's start, and was left out */
+  bool doubt;   /* something could not be told from the ray's start, and was left out; of all hits, any doubt */
   double limit; /* nothing beyond this t matters */
   int work;     /* boxes that may still be looked at */
   /* of the patch looked at last */
@@ -30,6 +29,34 @@ struct judge {
   struct zoom zoom;
   struct local_ray local;
 };
+
+/* Starts the case, and has its regions searched. */
+void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct exact_list *list);
+
+/* Makes the root as good as wide arithmetic can; returns whether it is. */
+bool judge_sharpen(struct judge *j, struct exact_root *root);
+
+/* Whether the two cannot be told apart by t. */
+bool judge_tie(const struct exact_root *a, const struct exact_root *b);
+
+/* Whether the two roots, each on one border of its patch, are on the same border, and the patches lie on either side of
+ * it as the ray sees them: then it crosses the surface there. */
+bool judge_across(const struct judge *j, const struct exact_found *a, const struct exact_found *b);
+
+/* Takes the root to where it is on its patch's borders, and to the control point in a corner that the ray meets. */
+void judge_to_border(struct judge *j, struct exact_found *found);
+
+/* Tells of the border's root as of what may be a hit. */
+void judge_open(struct judge *j, const struct exact_found *border);
+
+/* all.c: what may be a hit, where all hits are asked for. */
+void judge_add_open(struct judge *j, const struct exact_maybe *maybe);
+
+/* star.c: the roots of j->list[first..end-1] that lie in one corner of patches, or at one pole, together with `at`, as
+ * out[..], where the ray crosses the surface there: these are all that the patches have next to that point, and are one
+ * hit. Returns how many, 0 where that is not proven. */
+enum { STAR_MAX = 32 };
+size_t judge_star(struct judge *j, size_t at, size_t first, size_t end, size_t out[STAR_MAX]);
 
 /* Turns to the patch. */
 void judge_turn(struct judge *j, uint32_t patch);

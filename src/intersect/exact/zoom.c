@@ -326,6 +326,9 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
                      second_bound(zoom->power[2]) * reach * reach;
   root->u = u, root->v = v, root->t = (place - zoom->place) * zoom->to_t;
   root->radius_u = radius[0], root->radius_v = radius[1];
+  /* The certificate's map contracts as far as bend |w - z| and rounding make less than 1, where bend holds. */
+  const double here = (double)wide_max(wide_abs(x), wide_abs(y));
+  root->alone = fmax(fmin(0.5 / bend, 1 + 2 * LEAF_MARGIN - here) / 2 - step, 0);
   root->t_error = fabs((double)zoom->to_t) * off + 8 * (double)(WIDE_ROUNDOFF * wide_abs(root->t));
   root->sharp = true;
   return true;

@@ -11,6 +11,7 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
 {
   inner->tracer = outer->tracer, inner->model = copy->object->model, inner->rays = NULL, inner->count = LANES;
   inner->any = outer->any, inner->outer = outer, inner->copy = copy, inner->postponed = outer->postponed;
+  inner->gather = outer->gather;
   inner->live = active & outer->live;
   lanes ahead = lanes_all(0), square = lanes_all(0);
   for (int k = 0; k < 3; k++) {

@@ -21,7 +21,7 @@ static unsigned packet_doubt(const struct packet *p) { return p->model->unproven
 
 static struct exact_case lane_case(const struct packet *p, unsigned lane)
 {
-  const struct postponed *postponed = p->postponed;
+  struct postponed *postponed = p->postponed;
   return (struct exact_case){.model = p->model,
                              .ray = &p->rays[lane],
                              .regions = postponed->region[lane],
@@ -29,8 +29,7 @@ static struct exact_case lane_case(const struct packet *p, unsigned lane)
                              .cut_off = postponed->cut_off >> lane & 1};
 }
 
-/* The lane's best root, which is certain. */
-static struct exact_root lane_root(const struct packet *p, unsigned lane)
+struct exact_root finish_root(const struct packet *p, unsigned lane)
 {
   const struct best *best = &p->best;
   return (struct exact_root){.patch = (uint32_t)best->patch[lane],
@@ -49,13 +48,22 @@ static struct exact_maybe lane_maybe(const struct packet *p, unsigned lane)
     .patch = (uint32_t)best->patch[lane], .u = best->u[lane], .v = best->v[lane], .t = best->t[lane]};
 }
 
+void finish_set_root(struct packet *p, unsigned lane, const struct exact_root *root)
+{
+  struct best *best = &p->best;
+  best->patch[lane] = root->patch, best->certain[lane] = -1, best->final[lane] = 0;
+  best->u[lane] = (double)root->u, best->v[lane] = (double)root->v, best->t[lane] = (double)root->t;
+  best->radius_u[lane] = root->radius_u + UNIT_ROUNDOFF, best->radius_v[lane] = root->radius_v + UNIT_ROUNDOFF;
+  p->t_far[lane] = best->t[lane] + root->t_error;
+}
+
 /* Has the last resort decide the lane. Returns whether the answer is written; else it is the lane's best root now. */
 static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
 {
   struct best *best = &p->best;
   struct exact_case asked = lane_case(p, lane);
   const bool hit = best->patch[lane] != NO_PATCH;
-  const struct exact_root known = lane_root(p, lane);
+  const struct exact_root known = finish_root(p, lane);
   const struct exact_maybe maybe = lane_maybe(p, lane);
   if (hit && best->certain[lane]) asked.known = &known;
   else if (hit) asked.maybe = &maybe;
@@ -76,17 +84,14 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
     return true;
   }
   if (asked.known && root->patch == known.patch && root->u == known.u && root->v == known.v) return false;
-  best->patch[lane] = root->patch, best->certain[lane] = -1, best->final[lane] = 0;
-  best->u[lane] = (double)root->u, best->v[lane] = (double)root->v, best->t[lane] = (double)root->t;
-  best->radius_u[lane] = root->radius_u + UNIT_ROUNDOFF, best->radius_v[lane] = root->radius_v + UNIT_ROUNDOFF;
-  p->t_far[lane] = best->t[lane] + root->t_error;
+  finish_set_root(p, lane, root);
   return false;
 }
 
 /* The hit of a lane whose best root the last step has not made good. */
 static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct hit *out)
 {
-  struct exact_root root = lane_root(p, lane);
+  struct exact_root root = finish_root(p, lane);
   const struct exact_maybe maybe = lane_maybe(p, lane);
   if (p->best.certain[lane]) exact_root_hit(p->model, &p->rays[lane], &root, sure, out);
   else exact_maybe_hit(p->model, &p->rays[lane], &maybe, out);
@@ -183,9 +188,9 @@ static unsigned decide_open(struct packet *p, struct hit out[])
   return written;
 }
 
-unsigned finish_hits(struct packet *p, struct hit out[])
+unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
 {
-  const unsigned written = decide_open(p, out), hits = lanes_bits(p->best.patch != NO_PATCH);
+  const unsigned hits = lanes_bits(p->best.patch != NO_PATCH);
   unsigned left = ((1u << p->count) - 1) & ~written, grazing = 0;
   const unsigned misses = left & ~hits, doubt = misses & packet_doubt(p);
   for (unsigned bits = written; bits; bits &= bits - 1)
@@ -209,3 +214,5 @@ unsigned finish_hits(struct packet *p, struct hit out[])
   }
   return grazing;
 }
+
+unsigned finish_hits(struct packet *p, struct hit out[]) { return finish_best(p, decide_open(p, out), out); }

@@ -39,6 +39,14 @@
 #define cover_proves KERNEL(cover_proves)
 #define last_step_take KERNEL(last_step_take)
 #define finish_hits KERNEL(finish_hits)
+#define finish_best KERNEL(finish_best)
+#define finish_root KERNEL(finish_root)
+#define finish_set_root KERNEL(finish_set_root)
 #define finish_occluded KERNEL(finish_occluded)
+#define gather_start KERNEL(gather_start)
+#define gather_take KERNEL(gather_take)
+#define gather_surface KERNEL(gather_surface)
+#define gather_postpone KERNEL(gather_postpone)
+#define gather_finish KERNEL(gather_finish)
 
 #endif

@@ -4,6 +4,8 @@
  */
 #include "intersect/lanes/nearest.h"
 
+#include "intersect/lanes/gather.h"
+
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
 {
   struct postponed *to = p->postponed;
@@ -11,13 +13,17 @@ void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
                                       leaf->patch + (p->outer ? p->copy->first_patch : 0),
                                       {leaf->column_u, leaf->column_v},
                                       {1, 1}};
+  p->tracer->counts.escalated += lanes_count(open);
+  if (p->gather) {
+    gather_postpone(p->gather, &region, lanes_bits(open));
+    return;
+  }
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
     if (count == EXACT_REGIONS_MAX) to->cut_off |= 1u << lane;
     else if (count == 0 || !exact_region_equal(&to->region[lane][count - 1], &region))
       to->region[lane][to->count[lane]++] = region;
   }
-  p->tracer->counts.escalated += lanes_count(open);
 }
 
 /* Lanes whose root may lie on a border of the patch. */
@@ -49,21 +55,27 @@ LANES_INLINE lanes place_error(const struct packet *p, const struct candidate *i
 }
 
 LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes at,
-                              lanes error, lane_mask taken)
+                              lanes error, lane_mask taken, bool certain)
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const double part = 1.0 / it->patch->split;
   const lanes place[2] = {(it->leaf->column_u + r->u) * part, (it->leaf->column_v + r->v) * part};
   const lanes radius[2] = {r->radius_u * part + UNIT_ROUNDOFF, r->radius_v * part + UNIT_ROUNDOFF};
+  p->tracer->counts.roots_accepted += lanes_count(taken);
+  if (p->gather) {
+    gather_take(p, taken, place, radius, at, error, patch, certain);
+    return;
+  }
   const lane_mask none = {0};
   best_take(&p->best, taken, place, radius, at, patch + none, leaf + none);
+  if (!certain) p->best.certain &= ~taken;
   p->t_far = lanes_select(taken, at + error, p->t_far);
   if (p->any) p->live &= ~taken;
   p->moved = true;
-  p->tracer->counts.roots_accepted += lanes_count(taken);
 }
 
-/* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it. One
+/* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it, or are
+ * gathered; then there is no best. One
  * that may lie on a border of the patch, at an end of the ray or where another patch's is, is left to the last resort.
  * Returns the lanes that took theirs. */
 static lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w, lanes at,
@@ -78,7 +90,7 @@ static lane_mask offer(struct packet *p, const struct candidate *it, const struc
   if (lanes_any(hits & ~sure)) packet_postpone(p, it->leaf, hits & ~sure);
   const lane_mask none = {0};
   const lane_mask taken = hits & sure & best_after(&p->best, at, patch + none, leaf + none);
-  if (lanes_any(taken)) packet_take(p, it, r, at, error, taken);
+  if (lanes_any(taken)) packet_take(p, it, r, at, error, taken, true);
   return taken;
 }
 
@@ -97,9 +109,7 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
   p->best.doubt |= hits & ~behind & ~(at < p->t_min - error);
   const lane_mask taken = hits & behind & (at < p->t_max) &
                           best_after(&p->best, at, it->leaf->patch + none, it->number + none);
-  if (!lanes_any(taken)) return;
-  packet_take(p, it, &r, at, error, taken);
-  p->best.certain &= ~taken;
+  if (lanes_any(taken)) packet_take(p, it, &r, at, error, taken, false);
 }
 
 /* Keeps what a leaf's root says of the surface. */
@@ -111,6 +121,11 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
   surface_cross(root->su, root->sv, normal);
   const lanes tangent = surface_tangent(root->su, root->sv);
   const struct surface_point point = surface_point(patch, root->point, patch->split * tangent);
+  const lane_mask final = lanes_abs(root->t) * p->longest >= NEAR_START_FINAL * patch->scale;
+  if (p->gather) {
+    gather_surface(p->gather, taken, &point, normal, tangent, final);
+    return;
+  }
   for (int c = 0; c < 3; c++) {
     best->point.at[c] = lanes_select(taken, point.at[c], best->point.at[c]);
     best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
@@ -118,7 +133,7 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
   best->tangent = lanes_select(taken, tangent, best->tangent);
   best->point.error = lanes_select(taken, point.error, best->point.error);
   best->point.clearance = lanes_select(taken, point.clearance, best->point.clearance);
-  best->final |= taken & (lanes_abs(root->t) * p->longest >= NEAR_START_FINAL * patch->scale);
+  best->final |= taken & final;
 }
 
 void offer_bend_root(struct packet *p, const struct candidate *it, const struct bilinear_root *root, lane_mask hits)

@@ -22,7 +22,7 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
   postponed->cut_off = 0;
   memset(postponed->count, 0, sizeof postponed->count);
   p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
-  p->outer = NULL, p->net_error = 0, p->t_error = lanes_all(0);
+  p->outer = NULL, p->gather = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);
   lanes *o = p->origin, *d = p->direction;
   lanes_load4(rays->origin, RAY_STRIDE, &o[0], &o[1], &o[2], &d[0]);

@@ -48,6 +48,7 @@ struct packet {
   const struct model_copy *copy;          /* then the object's copy */
   lanes shift;                            /* then t of the scene is shift + t */
   bool any;                               /* any hit will do */
+  struct gather *gather;                  /* all hits are asked for, and gathered here; else NULL */
   bool moved;                             /* live or t_far is not what it was */
   lane_mask live;                         /* lanes with a ray that still looks for a hit */
   lane_mask on_axis[3];                   /* lanes whose dominant axis this is */
@@ -60,7 +61,7 @@ struct packet {
   double net_error;
   lanes t_error; /* what that, and the shift, makes of t */
   struct best best;
-  struct postponed *postponed;
+  struct postponed *postponed; /* not used where all hits are asked for */
   /* The frame of the patch tried last. */
   uint32_t patch;
   struct {
@@ -101,6 +102,15 @@ void packet_leave(struct packet *inner);
  * where they are not right to the last places yet; or by the last resort. t is in units of the scaled direction.
  * Returns how many are not certain. */
 unsigned finish_hits(struct packet *p, struct hit out[]);
+
+/* finish.c: the same, of lanes that have nothing open; those of `written` have their answers. */
+unsigned finish_best(const struct packet *p, unsigned written, struct hit out[]);
+
+/* finish.c: the lane's best root, which is certain. */
+struct exact_root finish_root(const struct packet *p, unsigned lane);
+
+/* finish.c: the lane's best root is one that the last resort has found, and that is not sharp. */
+void finish_set_root(struct packet *p, unsigned lane, const struct exact_root *root);
 
 /* finish.c: whether the lane's ray, on which the lanes have found nothing, hits what they have left open. */
 bool finish_occluded(const struct packet *p, unsigned lane);

@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "base/float_lanes.h"
-#include "intersect/lanes/packet.h"
+#include "intersect/lanes/gather.h"
 
 #define FLOAT_ROUNDOFF 0x1p-24f
 
@@ -288,4 +288,30 @@ static void occluded(struct tracer *tracer, size_t count, const struct ray rays[
   }
 }
 
-const struct kernel KERNEL(kernel) = {KERNEL_NAME, closest, occluded};
+/* The lists' hits are where they are in tracer->hits only when all of them are there. */
+static bool all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])
+{
+  bool done = true;
+  tracer->hits.count = 0;
+  for (size_t first = 0; first < count; first += FLOAT_LANES) {
+    struct ready ready[2];
+    struct bundle bundle;
+    bundle_begin(&bundle, ready, tracer, count - first, rays + first, false);
+    for (size_t h = 0; h < 2; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
+    bundle_walk(&bundle, &tracer->model->tree, bundle.live);
+    for (size_t h = 0; h < 2; h++) {
+      struct packet *packet = &bundle.packet[h];
+      if (packet->count == 0) continue;
+      done &= gather_finish(packet, ready[h].copied ? ready[h].exponent : NULL, out + first + h * LANES);
+      tracer->counts.rays[0] += packet->count;
+    }
+  }
+  const struct hit *hits = tracer->hits.at;
+  for (size_t k = 0; k < count && done; k++) {
+    out[k].hits = hits, hits += out[k].count;
+    ++*(out[k].certainty == CERTAINTY_CERTAIN ? &tracer->counts.certain : &tracer->counts.grazing);
+  }
+  return done;
+}
+
+const struct kernel KERNEL(kernel) = {KERNEL_NAME, closest, occluded, all};

@@ -1,0 +1,236 @@
+/* All hits of one ray: which of the roots found are the same, what those on borders mean, and their order.
+ *
+ * Each step is a proof or a doubt. Roots of one patch whose enclosures meet are one root where one enclosure holds the
+ * other, or where the certificate says that no other is as near. A border's root counts where the ray is proven to cross
+ * the surface there, once for all the patches that meet. Two roots whose order double precision cannot tell are made as
+ * good as wide arithmetic can; those that lie at one t even then are in the order of their patches.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "intersect/exact/judge.h"
+
+/* Open places of one ray that are listed; there may be hundreds where a surface lies along the ray. */
+enum { LISTED_OPEN = 64, FIRST_ROOM = 32 };
+
+bool exact_list_add(struct exact_list *list, const struct exact_found *found)
+{
+  if (list->count == list->room) {
+    const size_t room = list->room ? 2 * list->room : FIRST_ROOM;
+    struct exact_found *larger = list->fixed || room > SIZE_MAX / sizeof *larger
+                                   ? NULL
+                                   : memory_resize(list->at, room * sizeof *larger);
+    list->failed |= !larger && !list->fixed;
+    if (!larger) return false;
+    list->at = larger, list->room = room;
+  }
+  list->at[list->count++] = *found;
+  return true;
+}
+
+/* Leaves out those that are marked, by a patch that is none. */
+#define LEFT_OUT UINT32_MAX
+
+static void list_close(struct exact_list *list)
+{
+  size_t kept = 0;
+  for (size_t k = 0; k < list->count; k++)
+    if (list->at[k].root.patch != LEFT_OUT) list->at[kept++] = list->at[k];
+  list->count = kept;
+}
+
+void judge_add_open(struct judge *j, const struct exact_maybe *maybe)
+{
+  j->doubt = true;
+  size_t open = 0;
+  for (size_t k = 0; k < j->list->count; k++) open += j->list->at[k].kind == EXACT_OPEN;
+  const struct exact_found found = {
+    .root = {.patch = maybe->patch, .u = maybe->u, .v = maybe->v, .t = maybe->t, .t_error = maybe->t_error},
+    .kind = EXACT_OPEN,
+    .borders = maybe->borders,
+    .taken = -1};
+  if (open < LISTED_OPEN) (void)exact_list_add(j->list, &found); /* or the list has failed */
+}
+
+/* ---- the same root ---- */
+
+static double apart(wide a, wide b) { return fabs((double)(a - b)); }
+
+/* Whether the enclosure of a root holds all of another's. */
+static bool holds(const struct exact_root *a, const struct exact_root *b)
+{
+  return apart(a->u, b->u) + b->radius_u <= a->radius_u && apart(a->v, b->v) + b->radius_v <= a->radius_v;
+}
+
+static bool enclosures_meet(const struct exact_root *a, const struct exact_root *b)
+{
+  return apart(a->u, b->u) <= a->radius_u + b->radius_u && apart(a->v, b->v) <= a->radius_v + b->radius_v;
+}
+
+/* Whether two roots of one patch are one; true and a doubt where that cannot be told. */
+static bool same_root(struct judge *j, const struct exact_root *a, const struct exact_root *b)
+{
+  if (!enclosures_meet(a, b)) return false;
+  if (holds(a, b) || holds(b, a)) return true;
+  struct exact_root one = *a, two = *b;
+  if (judge_sharpen(j, &one) && judge_sharpen(j, &two)) {
+    if (!enclosures_meet(&one, &two)) return false;
+    const double off = fmax(apart(one.u, two.u) + one.radius_u + two.radius_u,
+                            apart(one.v, two.v) + one.radius_v + two.radius_v);
+    if (off <= fmax(one.alone, two.alone) || holds(&one, &two) || holds(&two, &one)) return true;
+  }
+  j->doubt = true;
+  return true;
+}
+
+/* The end of the run of roots from `first` on, of which each may be at one t with one before it. */
+static size_t run_end(const struct exact_list *list, size_t first)
+{
+  wide reach = list->at[first].root.t + list->at[first].root.t_error;
+  size_t end = first + 1;
+  for (; end < list->count; end++) {
+    const struct exact_root *root = &list->at[end].root;
+    if (root->t - root->t_error > reach) break;
+    if (root->t + root->t_error > reach) reach = root->t + root->t_error;
+  }
+  return end;
+}
+
+/* Of roots that are one the first stays, or the one of least t: that is the one which the nearest hit would be. */
+static void leave_out_same(struct judge *j, size_t first, size_t end)
+{
+  struct exact_found *at = j->list->at;
+  for (size_t a = first; a < end; a++) {
+    for (size_t b = a + 1; b < end && at[a].root.patch != LEFT_OUT; b++) {
+      if (at[b].root.patch != at[a].root.patch || at[a].kind == EXACT_OPEN || at[b].kind == EXACT_OPEN) continue;
+      if (!same_root(j, &at[a].root, &at[b].root)) continue;
+      /* One that is known to be inside its patch says so of both. */
+      if (at[a].kind == EXACT_BORDER) at[a] = at[b];
+      at[b].root.patch = LEFT_OUT;
+    }
+  }
+}
+
+/* An open place is not listed where another hit is, that it cannot be told from by t. */
+static void leave_out_open(struct judge *j, size_t first, size_t end)
+{
+  struct exact_found *at = j->list->at;
+  for (size_t a = first; a < end; a++) {
+    bool alone = at[a].kind != EXACT_OPEN;
+    for (size_t b = first; b < end && !alone; b++)
+      if (b != a && at[b].root.patch != LEFT_OUT && (at[b].kind == EXACT_INSIDE || b < a) &&
+          judge_tie(&at[a].root, &at[b].root)) {
+        at[a].root.patch = LEFT_OUT;
+        break;
+      }
+  }
+}
+
+/* ---- borders ---- */
+
+/* The roots out[0..count-1] of the list are one hit, of the patch that stands first in the scene. */
+static void count_once(struct judge *j, const size_t which[], size_t count)
+{
+  struct exact_found *at = j->list->at, *first = &at[which[0]];
+  for (size_t k = 1; k < count; k++)
+    if (at[which[k]].root.patch < first->root.patch) first = &at[which[k]];
+  for (size_t k = 0; k < count; k++)
+    if (&at[which[k]] != first) at[which[k]].root.patch = LEFT_OUT;
+  judge_to_border(j, first);
+  first->kind = EXACT_INSIDE;
+}
+
+/* Roots on borders are hits where the ray crosses the surface there; the others may be. */
+static void settle_border(struct judge *j, size_t at, size_t first, size_t end)
+{
+  size_t which[STAR_MAX] = {at}, count = judge_star(j, at, first, end, which);
+  for (size_t b = first; b < end && count == 0; b++) {
+    const struct exact_found *other = &j->list->at[b];
+    if (b == at || other->root.patch == LEFT_OUT || other->kind != EXACT_BORDER) continue;
+    if (judge_across(j, &j->list->at[at], other)) which[0] = at, which[1] = b, count = 2;
+  }
+  if (count > 0) {
+    count_once(j, which, count);
+    return;
+  }
+  const struct exact_found border = j->list->at[at];
+  j->list->at[at].root.patch = LEFT_OUT;
+  judge_open(j, &border);
+}
+
+/* ---- the order ---- */
+
+/* By t, and by all else where that is equal: so the order does not depend on how they came. The lanes' come first. */
+static int by_t(const void *a, const void *b)
+{
+  const struct exact_found *x = a, *y = b;
+  if (x->root.t != y->root.t) return x->root.t < y->root.t ? -1 : 1;
+  if (x->root.patch != y->root.patch) return x->root.patch < y->root.patch ? -1 : 1;
+  if ((x->taken < 0) != (y->taken < 0)) return x->taken < 0 ? 1 : -1;
+  if (x->root.u != y->root.u) return x->root.u < y->root.u ? -1 : 1;
+  if (x->root.v != y->root.v) return x->root.v < y->root.v ? -1 : 1;
+  return x->kind < y->kind ? -1 : x->kind > y->kind;
+}
+
+static void sort(struct exact_list *list)
+{
+  if (list->count > 1) qsort(list->at, list->count, sizeof *list->at, by_t);
+}
+
+/* Whether a, which comes before b by t as it is known, is to stay before it. Of two patches' roots that cannot be told
+ * apart both are made sharp, as they are where the nearest of them is asked for. */
+static bool in_order(struct judge *j, struct exact_found *a, struct exact_found *b)
+{
+  if (a->kind == EXACT_OPEN || b->kind == EXACT_OPEN || !judge_tie(&a->root, &b->root)) return !(b->root.t < a->root.t);
+  struct exact_root one = a->root, two = b->root;
+  if (!judge_sharpen(j, &one) || !judge_sharpen(j, &two)) {
+    j->doubt = true;
+    return by_t(a, b) <= 0;
+  }
+  if (one.patch != two.patch) a->root = one, b->root = two;
+  if (!judge_tie(&one, &two)) return one.t < two.t;
+  if (one.patch != two.patch) return one.patch < two.patch;
+  return one.u != two.u ? one.u < two.u : one.v <= two.v;
+}
+
+static void order(struct judge *j, size_t first, size_t end)
+{
+  struct exact_found *at = j->list->at;
+  for (size_t k = first + 1; k < end; k++)
+    for (size_t n = k; n > first && !in_order(j, &at[n - 1], &at[n]); n--) {
+      const struct exact_found swap = at[n];
+      at[n] = at[n - 1], at[n - 1] = swap;
+    }
+}
+
+/* Does it for all runs of roots that cannot be told apart by t. */
+static void for_runs(struct judge *j, void (*run)(struct judge *j, size_t first, size_t end))
+{
+  for (size_t first = 0, end; first < j->list->count; first = end) {
+    end = run_end(j->list, first);
+    if (end - first > 1) run(j, first, end);
+  }
+}
+
+bool exact_all(const struct exact_case *asked, struct exact_list *list)
+{
+  struct judge j;
+  judge_run(&j, asked, true, list);
+  sort(list);
+  for_runs(&j, leave_out_same);
+  list_close(list);
+  const size_t count = list->count; /* open places are added behind */
+  for (size_t first = 0, end; first < count; first = end) {
+    end = run_end(list, first);
+    end = end < count ? end : count;
+    for (size_t k = first; k < end; k++)
+      if (list->at[k].kind == EXACT_BORDER && list->at[k].root.patch != LEFT_OUT) settle_border(&j, k, first, end);
+  }
+  list_close(list);
+  sort(list);
+  for_runs(&j, leave_out_open);
+  list_close(list);
+  for_runs(&j, order);
+  return !j.doubt;
+}

@@ -1,0 +1,201 @@
+/* A ray through a point where several patches meet: a corner, or a pole, a border that is one point.
+ *
+ * Walking round the point from border to border one comes through all patches that have it, and back, where the surface
+ * is closed round it. Seen along the ray each patch fills a sector there, between its borders' directions; where all
+ * sectors turn the same way and go round just once the patches' projections fit together without a fold: next to the
+ * point the surface is a sheet across the ray, which meets it exactly once, wherever it passes.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "geometry/patch.h"
+#include "intersect/exact/judge.h"
+
+/* Directions are differences of control points of size at most 1 in the frame of a patch, right to some units of
+ * 2^-53; what is sure with this as their error leaves room for the surface to bend within 2^-40 of the point. */
+#define DIRECTION_ERROR 0x1p-36
+
+/* How often a pole's directions are halved to see that they turn one way. */
+enum { TURN_HALVINGS = 8 };
+
+/* The point as one patch has it: between two borders, from one of which one comes to the other. */
+struct wedge {
+  uint32_t patch;
+  int in, out;
+  int end;  /* at which end of `in` the point is, 0 or 1 of its running parameter */
+  int pole; /* the border that is the point, between the two; or -1 where they meet */
+};
+
+struct direction {
+  double x, y; /* along the two axes across the dominant one, as the ray sees it */
+};
+
+static bool border_is_point(const struct model *model, uint32_t patch, int border)
+{
+  double point[4][3];
+  edge_points(model->scene->patches[patch].P, border, point);
+  return !memcmp(point[0], point[1], sizeof point[0]) && !memcmp(point[0], point[2], sizeof point[0]) &&
+         !memcmp(point[0], point[3], sizeof point[0]);
+}
+
+/* The wedge of a patch whose border `in` ends in the point. */
+static struct wedge wedge_at(const struct model *model, uint32_t patch, int in, int end)
+{
+  const int other = (in < 2 ? 2 : 0) + end; /* the border at that end */
+  struct wedge w = {patch, in, other, end, -1};
+  if (border_is_point(model, patch, other)) w.pole = other, w.out = in ^ 1;
+  return w;
+}
+
+/* The end of `out` at which the point is. */
+static int out_end(const struct wedge *w) { return w->pole >= 0 ? w->end : w->in & 1; }
+
+/* The wedge across the border `out`; false where nothing is there. */
+static bool next_wedge(const struct model *model, const struct wedge *w, struct wedge *out)
+{
+  const struct edge_neighbour *other = &model->neighbours[4 * (size_t)w->patch + (size_t)w->out];
+  if (other->patch == EDGE_NONE) return false;
+  *out = wedge_at(model, other->patch, other->border, other->reversed ? 1 - out_end(w) : out_end(w));
+  return true;
+}
+
+/* The wedge of a root that was found in a corner or at a pole; false where it is on one border only. */
+static bool wedge_of(const struct model *model, const struct exact_found *found, struct wedge *out)
+{
+  const uint32_t patch = found->root.patch;
+  int bits[4], count = 0;
+  for (int k = 0; k < 4; k++)
+    if (found->borders >> k & 1) bits[count++] = k;
+  for (int k = 0; k < count; k++) {
+    if (!border_is_point(model, patch, bits[k])) continue;
+    *out = wedge_at(model, patch, bits[k] < 2 ? 2 : 0, bits[k] & 1);
+    return out->pole == bits[k];
+  }
+  if (count != 2 || bits[1] < 2 || bits[0] > 1) return false;
+  *out = wedge_at(model, patch, bits[0], bits[1] & 1);
+  return true;
+}
+
+/* Whether the two are the same place of a patch. */
+static bool same_wedge(const struct wedge *a, const struct wedge *b)
+{
+  if (a->patch != b->patch || (a->pole >= 0) != (b->pole >= 0)) return false;
+  if (a->pole >= 0) return a->pole == b->pole;
+  return (a->in == b->in && a->out == b->out) || (a->in == b->out && a->out == b->in);
+}
+
+/* ---- how it is seen ---- */
+
+/* From control point (i,j) to (k,l) of the patch. */
+static struct direction seen(const struct judge *j, uint32_t patch, const int from[2], const int to[2])
+{
+  double(*x)[4][4] = j->asked->model->patches[patch].x, t[3];
+  for (int c = 0; c < 3; c++) t[c] = x[c][to[0]][to[1]] - x[c][from[0]][from[1]];
+  const double *d = j->asked->ray->direction;
+  const int k = dominant_axis(d), one = (k + 1) % 3, two = (k + 2) % 3;
+  return (struct direction){t[one] - d[one] / d[k] * t[k], t[two] - d[two] / d[k] * t[k]};
+}
+
+/* Of a border away from its end. */
+static struct direction border_direction(const struct judge *j, uint32_t patch, int border, int end)
+{
+  const int side = border & 1 ? 3 : 0, last = end ? 3 : 0, before = end ? 2 : 1;
+  const int from[2] = {border < 2 ? side : last, border < 2 ? last : side};
+  const int to[2] = {border < 2 ? side : before, border < 2 ? before : side};
+  return seen(j, patch, from, to);
+}
+
+/* 1 or -1: how one turns from a to b; 0 where that is not sure. */
+static int turn(struct direction a, struct direction b)
+{
+  const double sine = a.x * b.y - a.y * b.x;
+  const double least = 4 * DIRECTION_ERROR *
+                       (fmax(fabs(a.x), fabs(a.y)) + fmax(fabs(b.x), fabs(b.y)) + DIRECTION_ERROR);
+  return sine > least ? 1 : sine < -least ? -1 : 0;
+}
+
+/* Going round the point. */
+struct round {
+  struct direction at; /* looking there */
+  int way;             /* which way it turned first; 0: not yet */
+  double angle;        /* how far in all */
+};
+
+/* Goes on to b, which is less than half a turn away; false where that is another way, or not sure. */
+static bool go_to(struct round *round, struct direction b)
+{
+  const struct direction a = round->at;
+  const int way = turn(a, b);
+  if (way == 0 || (round->way != 0 && way != round->way)) return false;
+  round->at = b, round->way = way;
+  round->angle += atan2(fabs(a.x * b.y - a.y * b.x), a.x * b.x + a.y * b.y);
+  return true;
+}
+
+/* The same along a cubic of directions: one turns one way, and less than half a turn, where any two of its control
+ * values do. */
+static bool go_along(struct round *round, const struct direction c[4], int halvings)
+{
+  int sum = 0;
+  for (int a = 0; a < 4; a++)
+    for (int b = a + 1; b < 4; b++) sum += turn(c[a], c[b]);
+  if (sum == 6 || sum == -6) return go_to(round, c[3]);
+  if (halvings == 0) return false;
+  struct direction half[2][4], level[4] = {c[0], c[1], c[2], c[3]};
+  for (int n = 0; n < 4; n++) {
+    half[0][n] = level[0], half[1][3 - n] = level[3 - n];
+    for (int k = 0; k + n < 3; k++)
+      level[k] = (struct direction){(level[k].x + level[k + 1].x) / 2, (level[k].y + level[k + 1].y) / 2};
+  }
+  return go_along(round, half[0], halvings - 1) && go_along(round, half[1], halvings - 1);
+}
+
+/* Goes through a wedge. */
+static bool go_through(const struct judge *j, const struct wedge *w, struct round *round)
+{
+  if (w->pole < 0) return go_to(round, border_direction(j, w->patch, w->out, out_end(w)));
+  const int row = w->pole & 1 ? 3 : 0, next = w->pole & 1 ? 2 : 1;
+  struct direction c[4];
+  for (int n = 0; n < 4; n++) {
+    const int k = w->in & 1 ? 3 - n : n; /* the pole runs from one of the two borders to the other */
+    const int from[2] = {w->pole < 2 ? row : k, w->pole < 2 ? k : row};
+    const int to[2] = {w->pole < 2 ? next : k, w->pole < 2 ? k : next};
+    c[n] = seen(j, w->patch, from, to);
+  }
+  return go_along(round, c, TURN_HALVINGS);
+}
+
+/* Once round, but for what rounding can do. */
+static bool once_round(const struct round *round) { return fabs(round->angle - 2 * acos(-1)) < 1; }
+
+/* The root that lies there in the wedge; `end` where there is none. */
+static size_t root_in(const struct judge *j, const struct wedge *w, const struct exact_root *at, size_t first,
+                      size_t end)
+{
+  for (size_t k = first; k < end; k++) {
+    const struct exact_found *found = &j->list->at[k];
+    struct wedge its;
+    if (found->root.patch == w->patch && found->kind == EXACT_BORDER && wedge_of(j->asked->model, found, &its) &&
+        same_wedge(w, &its) && judge_tie(&found->root, at))
+      return k;
+  }
+  return end;
+}
+
+size_t judge_star(struct judge *j, size_t at, size_t first, size_t end, size_t out[STAR_MAX])
+{
+  const struct model *model = j->asked->model;
+  const struct exact_root *root = &j->list->at[at].root;
+  struct wedge start, w;
+  if (!wedge_of(model, &j->list->at[at], &start)) return 0;
+  struct round round = {.at = border_direction(j, start.patch, start.in, start.end)};
+  w = start;
+  for (size_t count = 0; count < STAR_MAX;) {
+    const size_t found = root_in(j, &w, root, first, end);
+    if (found == end || !go_through(j, &w, &round)) return 0;
+    out[count++] = found;
+    if (!next_wedge(model, &w, &w)) return 0;
+    if (same_wedge(&w, &start) && w.in == start.in) return once_round(&round) ? count : 0;
+  }
+  return 0;
+}

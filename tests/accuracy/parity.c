@@ -1,0 +1,196 @@
+/* Inside and outside by parity: of all hits of a ray with a closed model a certain number is odd where the ray starts
+ * inside and even where it starts outside. Rays aimed exactly at shared edges, corners, poles and iso-lines, next to
+ * them, along tangents of the surface and along the axes, each from inside and from outside, with every solver and with
+ * whole patches. Whatever is wrong says that it is grazing. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "accuracy/models.h"
+#include "accuracy/trial.h"
+#include "cmocka_test.h"
+#include "effort.h"
+#include "random.h"
+
+enum { FULL_RAYS = 10000000, LEAST_RAYS = 4000, PLACEMENTS = 5, MOST_SHOWN = 12 };
+
+/* Each solver and form but the default gets this share of the rays. */
+#define OTHERS_SHARE 0.05
+
+static void (*const models[])(struct model *) = {model_dome, model_ball, model_torus};
+enum { MODELS = sizeof models / sizeof models[0] };
+
+static const char *const aims[] = {"edge", "corner", "pole", "eighth", "anywhere", "near edge", "near pole", "tangent"};
+enum { AIM_EDGE, AIM_CORNER, AIM_POLE, AIM_EIGHTH, AIM_ANYWHERE, AIM_NEAR_EDGE, AIM_NEAR_POLE, AIM_TANGENT, AIMS };
+
+/* Every model lies within this of the middle; what is inside as model_inside has it is, also moved by rounding. */
+#define OUTSIDE 4.0
+
+struct aimed {
+  size_t patch;
+  double u, v;
+};
+
+static struct aimed aim(int kind, const struct model *model, struct random *random)
+{
+  const uint64_t bits = random_bits(random);
+  const double tiny = ldexp(1, -(int)(bits % 56) - 4), end = (double)(bits >> 8 & 1);
+  struct aimed at = {(size_t)(random_bits(random) % model->count), random_unit(random), random_unit(random)};
+  double *fixed = bits >> 9 & 1 ? &at.u : &at.v;
+  if (kind == AIM_EDGE) *fixed = end;
+  if (kind == AIM_CORNER) at.u = end, at.v = (double)(bits >> 10 & 1);
+  if (kind == AIM_POLE) at.u = 0;
+  if (kind == AIM_EIGHTH) *fixed = (double)(bits >> 10 & 7) / 8;
+  if (kind == AIM_NEAR_EDGE) *fixed = end > 0 ? 1 - tiny : tiny;
+  if (kind == AIM_NEAR_POLE) at.u = tiny;
+  return at;
+}
+
+/* One axis of the direction, or two, made zero. */
+static void align(struct random *random, double direction[3])
+{
+  const uint64_t bits = random_bits(random);
+  const size_t axis = bits % 3;
+  direction[(axis + 1) % 3] *= (double)(bits >> 8 & 1);
+  direction[axis] = 0;
+  if (direction[(axis + 1) % 3] == 0 && direction[(axis + 2) % 3] == 0) direction[(axis + 2) % 3] = 1;
+}
+
+/* The direction of a ray at the point, seen from inside the model. */
+static void choose_direction(int kind, const struct model *model, const struct aimed *at, const double target[3],
+                             struct random *random, double out[3])
+{
+  double inside[3], along[2][3];
+  model_inside(model, random, inside);
+  for (int k = 0; k < 3; k++) out[k] = target[k] - inside[k];
+  if (kind != AIM_TANGENT) return;
+  net_tangents((const double(*)[4][3])model->P[at->patch], at->u, at->v, along[0], along[1]);
+  const double part = random_between(random, -1, 1),
+               off = random_bits(random) % 2 ? 0 : pow(10, -random_between(random, 3, 18));
+  for (int k = 0; k < 3; k++) out[k] = part * along[0][k] + (1 - fabs(part)) * along[1][k] + off * out[k];
+}
+
+/* A ray through a point of the model that starts outside, or, where the point is seen from inside, there. */
+static bool make_ray(const struct model *model, const struct placement *placement, const struct model *placed, int kind,
+                     struct random *random, struct ray *ray)
+{
+  const struct aimed at = aim(kind, model, random);
+  double target[3], direction[3], origin[3];
+  bool inside = random_bits(random) % 2 && kind != AIM_TANGENT;
+  net_point((const double(*)[4][3])model->P[at.patch], at.u, at.v, target);
+  choose_direction(kind, model, &at, target, random, direction);
+  if (!inside && !placement && random_bits(random) % 2) align(random, direction);
+  double size = 0;
+  for (int k = 0; k < 3; k++) size = fmax(size, fabs(direction[k]));
+  if (!(size > 0)) direction[0] = size = 1;
+  for (int k = 0; k < 3; k++) origin[k] = target[k] - direction[k] * (inside ? 1 : OUTSIDE / size);
+  if (placement) {
+    net_point((const double(*)[4][3])placed->P[at.patch], at.u, at.v, target);
+    placement_apply(placement, origin, origin);
+  }
+  *ray = (struct ray){.t_max = INFINITY};
+  for (int k = 0; k < 3; k++) {
+    ray->origin[k] = origin[k];
+    ray->direction[k] = target[k] - origin[k];
+  }
+  /* On a line whose digits say little of the axes the start may have to be moved: exactly along them. */
+  if (!placement && !inside)
+    for (int k = 0; k < 3; k++) ray->direction[k] = direction[k];
+  return inside;
+}
+
+struct count {
+  size_t rays, hits, grazing[AIMS], aimed[AIMS], wrong;
+};
+
+static void show(const char *name, int kind, bool inside, const struct ray *ray, const struct hit_list *list)
+{
+  const double *o = ray->origin, *d = ray->direction;
+  printf("parity: %s, %s, from %s: %zu hits; ray %.17g %.17g %.17g %.17g %.17g %.17g\n", name, aims[kind],
+         inside ? "inside" : "outside", list->count, o[0], o[1], o[2], d[0], d[1], d[2]);
+  for (size_t k = 0; k < list->count && k < MOST_SHOWN; k++)
+    printf("  t %.17g u %.17g v %.17g patch %u\n", list->hits[k].t, list->hits[k].u, list->hits[k].v,
+           (unsigned)list->hits[k].patch);
+}
+
+static void count_packet(struct trial *trial, const char *name, int kind, size_t count, const struct ray rays[],
+                         const bool inside[], struct count *to)
+{
+  struct hit_list lists[PACKET_SIZE];
+  assert_int_equal(tracer_all(trial->tracer, count, rays, lists), STATUS_OK);
+  for (size_t n = 0; n < count; n++) {
+    to->rays++, to->aimed[kind]++, to->hits += lists[n].count;
+    to->grazing[kind] += lists[n].certainty == CERTAINTY_GRAZING;
+    if (lists[n].certainty == CERTAINTY_GRAZING || lists[n].count % 2 == (inside[n] ? 1 : 0)) continue;
+    if (to->wrong++ < MOST_SHOWN) show(name, kind, inside[n], &rays[n], &lists[n]);
+  }
+}
+
+/* Placement 0 leaves the model where it is: only there are rays exactly along axes, and through what they aim at. */
+static size_t wrong_of(const struct method *options, size_t wanted, uint64_t seed)
+{
+  static const double scales[PLACEMENTS] = {1, 1, 1e6, 1e-6, 1}, shifts[PLACEMENTS] = {0, 1, 1e6, 1e-6, 1e3};
+  struct random random = {.state = seed = effort_seed(seed)};
+  struct count count = {0};
+  for (int which = 0; which < MODELS; which++) {
+    for (int place = 0; place < PLACEMENTS; place++) {
+      struct model model, placed;
+      struct placement placement;
+      models[which](&model);
+      placed = model;
+      placement_random(&random, scales[place], shifts[place], &placement);
+      if (place > 0) model_place(&placed, &placement);
+      struct trial trial;
+      trial_create(&trial, (const double(*)[4][4][3])placed.P, placed.count, options);
+      const size_t each = wanted / (MODELS * PLACEMENTS * AIMS) + 1;
+      for (int kind = 0; kind < AIMS; kind++) {
+        for (size_t first = 0; first < each; first += PACKET_SIZE) {
+          struct ray rays[PACKET_SIZE];
+          bool inside[PACKET_SIZE];
+          const size_t most = each - first < PACKET_SIZE ? each - first : PACKET_SIZE;
+          for (size_t n = 0; n < most; n++)
+            inside[n] = make_ray(&model, place > 0 ? &placement : NULL, &placed, kind, &random, &rays[n]);
+          count_packet(&trial, model.name, kind, most, rays, inside, &count);
+        }
+      }
+      trial_destroy(&trial);
+    }
+  }
+  printf("seed %llu, solver %s, split %d: %zu rays, %zu hits, %zu of wrong parity; grazing:", (unsigned long long)seed,
+         options->roots.solver->name, options->split, count.rays, count.hits, count.wrong);
+  for (int kind = 0; kind < AIMS; kind++)
+    printf(" %s %.2f %%", aims[kind], 100 * (double)count.grazing[kind] / (double)count.aimed[kind]);
+  printf("\n");
+  fflush(stdout);
+  return count.wrong;
+}
+
+static void test_default(void **state)
+{
+  (void)state;
+  struct method options;
+  method_default(solver_at(0), &options);
+  assert_int_equal(wrong_of(&options, effort_count(FULL_RAYS, LEAST_RAYS), 811), 0);
+}
+
+static void test_others(void **state)
+{
+  (void)state;
+  static const int splits[] = {1, 2, 3, 16};
+  const size_t wanted = effort_count((size_t)(OTHERS_SHARE * FULL_RAYS), LEAST_RAYS / 8);
+  size_t wrong = 0;
+  for (size_t n = 0; n < sizeof splits / sizeof splits[0] + solver_count() - 1; n++) {
+    struct method options;
+    const bool solver = n + 1 < solver_count();
+    method_default(solver_at(solver ? n + 1 : 0), &options);
+    if (!solver) options.split = splits[n + 1 - solver_count()];
+    wrong += wrong_of(&options, wanted, 820 + n);
+  }
+  assert_int_equal(wrong, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_default), cmocka_unit_test(test_others)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
