@@ -2,6 +2,7 @@
 #include "measure.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 double measure_random(uint64_t *state)
 {
@@ -9,6 +10,23 @@ double measure_random(uint64_t *state)
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
   return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+void measure_random_polynomial(uint64_t *state, int degree, double c[])
+{
+  for (int k = 0; k <= degree; k++) c[k] = 2.0 * measure_random(state) - 1.0;
+}
+
+static int ascending(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+double measure_median(size_t count, double x[])
+{
+  qsort(x, count, sizeof *x, ascending);
+  return x[count / 2];
 }
 
 double measure_eq11(const struct root_problem *problem, double re, double im)

@@ -50,7 +50,7 @@ static struct solver_options paper_options(const char *method, double tolerance)
 static void random_problem(uint64_t *state, int degree, struct root_problem *out)
 {
   *out = (struct root_problem){.degree = degree, .basis = BASIS_POWER};
-  for (int k = 0; k <= degree; k++) out->c[k] = 2.0 * measure_random(state) - 1.0;
+  measure_random_polynomial(state, degree, out->c);
 }
 
 /* All roots, or the first one alone; a method that moves all at once always finds all. */

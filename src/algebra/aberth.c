@@ -28,7 +28,7 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
   /* The bound of the stop is that of rounding alone: coefficient errors say nothing about where to stop. */
   evaluation_prepare(n, problem->basis, problem->c, NULL, &a.p);
   a.reversed_above = root_problem_reversed_above(options, n);
-  start_values(problem, options->radii, warm, a.zr, a.zi);
+  start_values(problem, options->radii, warm, n, a.zr, a.zi);
   a.active_count = n;
   out->count = n;
   for (int i = 0; i < n; i++) {

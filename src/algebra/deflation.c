@@ -252,14 +252,14 @@ void deflation_find(const struct root_problem *problem, const struct solver_opti
   struct root_problem rest = *problem;
   double *c = rest.c;
   out->count = 0;
-  start_values(problem, options->radii, warm, re, im);
+  start_values(problem, options->radii, warm, 1, re, im);
   const bool cold = warm == NULL || warm->count != problem->degree;
   int n = problem->degree;
   while (n > problem->degree - wanted) {
     /* A cold start is the first start value of what is left, whose circle holds all of its roots. */
     const int order = cold ? 0 : problem->degree - n;
     rest.degree = n;
-    if (cold && n < problem->degree) start_values(&rest, options->radii, NULL, re, im);
+    if (cold && n < problem->degree) start_values(&rest, options->radii, NULL, 1, re, im);
     const struct complex_number start = {re[order], im[order]};
     struct sought found;
     if (n == 1) found = (struct sought){{-c[0] / c[1], 0.0}, 0, true};

@@ -86,7 +86,7 @@ void durand_kerner_find(const struct root_problem *problem, const struct solver_
   struct sweep sweep = {.options = options, .reversed_above = root_problem_reversed_above(options, n)};
   double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
   evaluation_prepare(n, problem->basis, problem->c, NULL, &sweep.p);
-  start_values(problem, options->radii, warm, re, im);
+  start_values(problem, options->radii, warm, n, re, im);
   out->count = 0;
   for (int i = 0; i < n; i++) {
     sweep.x[i] = sweep.next[i] = (struct complex_number){re[i], im[i]};

@@ -26,9 +26,11 @@ enum { RADIUS_STEPS = 60 };
 /* Cauchy's bound. The first guess, the largest of (n |b[k]/b[n]|)^(1/(n-k)), is not below it. */
 static double cauchy_radius(int n, const double b[])
 {
-  double radius = 0.0;
+  double height = -INFINITY; /* log2 of the guess */
+  const double top = log2(fabs(b[n])), more = log2(n);
   for (int k = 0; k < n; k++)
-    if (b[k] != 0.0) radius = fmax(radius, exp2((log2(n) + log2(fabs(b[k])) - log2(fabs(b[n]))) / (n - k)));
+    if (b[k] != 0.0) height = fmax(height, (more + log2(fabs(b[k])) - top) / (n - k));
+  double radius = exp2(height);
   for (int step = 0; step < RADIUS_STEPS && radius > 0.0; step++) {
     /* f(r) = |b[n]| - sum |b[k]| r^(k-n), in powers of 1/r */
     const double w = 1.0 / radius;
@@ -52,7 +54,7 @@ double start_mean_modulus(const struct root_problem *problem)
   return exp2((log2(fabs(problem->c[0])) - log2(fabs(problem->c[problem->degree]))) / problem->degree);
 }
 
-static void circle_values(const struct root_problem *problem, double out_re[], double out_im[])
+static void circle_values(const struct root_problem *problem, int wanted, double out_re[], double out_im[])
 {
   const int n = problem->degree;
   double centre = -problem->c[n - 1] / (n * problem->c[n]);
@@ -67,14 +69,14 @@ static void circle_values(const struct root_problem *problem, double out_re[], d
     radius = start_mean_modulus(problem);
   }
   const double turn = 2.0 * acos(-1.0) / n;
-  for (int i = 0; i < n; i++) {
+  for (int i = 0; i < wanted; i++) {
     const double angle = turn * (i + 0.25);
     out_re[i] = centre + radius * cos(angle);
     out_im[i] = radius * sin(angle);
   }
 }
 
-static void polygon_values(const struct root_problem *problem, double out_re[], double out_im[])
+static void polygon_values(const struct root_problem *problem, int wanted, double out_re[], double out_im[])
 {
   const int n = problem->degree;
   double height[POLYNOMIAL_MAX_DEGREE + 1];
@@ -91,10 +93,10 @@ static void polygon_values(const struct root_problem *problem, double out_re[], 
   }
   const double full_turn = 2.0 * acos(-1.0);
   int i = 0;
-  for (int edge = 0; edge + 1 < corners; edge++) {
+  for (int edge = 0; edge + 1 < corners && i < wanted; edge++) {
     const int low = corner[edge], count = corner[edge + 1] - low;
     const double radius = exp2((height[low] - height[low + count]) / count);
-    for (int k = 0; k < count; k++, i++) {
+    for (int k = 0; k < count && i < wanted; k++, i++) {
       /* Each circle is turned by its own angle, so that neither conjugates nor rows of values arise. */
       const double angle = full_turn * ((k + 0.25) / count + (double)edge / n);
       out_re[i] = radius * cos(angle);
@@ -103,25 +105,26 @@ static void polygon_values(const struct root_problem *problem, double out_re[], 
   }
 }
 
-static void cold_values(const struct root_problem *problem, enum radii radii, double out_re[], double out_im[])
+static void cold_values(const struct root_problem *problem, enum radii radii, int wanted, double out_re[],
+                        double out_im[])
 {
-  if (radii == RADII_CIRCLE) circle_values(problem, out_re, out_im);
-  else polygon_values(problem, out_re, out_im);
+  if (radii == RADII_CIRCLE) circle_values(problem, wanted, out_re, out_im);
+  else polygon_values(problem, wanted, out_re, out_im);
 }
 
-void start_values(const struct root_problem *problem, enum radii radii, const struct solver_warm *warm, double out_re[],
-                  double out_im[])
+void start_values(const struct root_problem *problem, enum radii radii, const struct solver_warm *warm, int wanted,
+                  double out_re[], double out_im[])
 {
   const int n = problem->degree;
   if (warm == NULL || warm->count != n) {
-    cold_values(problem, radii, out_re, out_im);
+    cold_values(problem, radii, wanted, out_re, out_im);
     return;
   }
   for (int i = 0; i < n; i++) {
     double re = warm->re[i], im = warm->im[i];
     root_problem_x_from_u(problem->basis, &re, &im);
     if (!isfinite(re) || !isfinite(im) || (re == 0.0 && im == 0.0)) {
-      cold_values(problem, radii, out_re, out_im);
+      cold_values(problem, radii, wanted, out_re, out_im);
       return;
     }
     out_re[i] = re;

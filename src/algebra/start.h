@@ -5,9 +5,9 @@
 #include "algebra/root_problem.h"
 
 /* Writes problem->degree distinct finite values in x: those of `warm` where it holds as many (equal ones moved apart),
- * otherwise new ones by `radii`. warm may be NULL. */
-void start_values(const struct root_problem *problem, enum radii radii, const struct solver_warm *warm, double out_re[],
-                  double out_im[]);
+ * otherwise new ones by `radii`, of which the first `wanted` are enough. warm may be NULL. */
+void start_values(const struct root_problem *problem, enum radii radii, const struct solver_warm *warm, int wanted,
+                  double out_re[], double out_im[]);
 
 /* The geometric mean of the moduli of the roots, in x. */
 double start_mean_modulus(const struct root_problem *problem);
