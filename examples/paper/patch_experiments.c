@@ -1,6 +1,6 @@
 /* The paper's experiments on a patch (section 4, Fig 13-15): CSV on standard output.
  *
- *     patch_experiments SCENE WIDTH HEIGHT
+ *     patch_experiments SCENE WIDTH HEIGHT [DIGITS]     with DIGITS only eps = 1e-DIGITS
  *
  * Every pixel's ray against the first patch of the scene, in the order of the picture's lines: Sylvester's determinant
  * in the power basis (and beyond the paper, in scaled Bernstein form), degree 18, all roots. Against eps: iterations a
@@ -50,9 +50,9 @@ static void solve_pixel(enum basis basis, const double c[], const struct solver_
   totals->pixels += 1.0;
 }
 
-static void experiment(enum basis basis, const double *c, size_t pixels)
+static void experiment(enum basis basis, const double *c, size_t pixels, int only)
 {
-  for (int digits = 1; digits <= 14; digits++) {
+  for (int digits = only > 0 ? only : 1; digits <= (only > 0 ? only : 14); digits++) {
     for (size_t m = 0; m < sizeof methods / sizeof methods[0]; m++) {
       for (int previous = 0; previous < 2; previous++) {
         struct solver_options options;
@@ -77,16 +77,17 @@ static void experiment(enum basis basis, const double *c, size_t pixels)
 
 int main(int argc, char **argv)
 {
-  const int width = argc == 4 ? atoi(argv[2]) : 0, height = argc == 4 ? atoi(argv[3]) : 0;
+  const bool good = argc == 4 || argc == 5;
+  const int width = good ? atoi(argv[2]) : 0, height = good ? atoi(argv[3]) : 0, only = argc == 5 ? atoi(argv[4]) : 0;
   if (width < 1 || height < 1) {
-    fputs("usage: patch_experiments SCENE WIDTH HEIGHT\n", stderr);
+    fputs("usage: patch_experiments SCENE WIDTH HEIGHT [DIGITS]\n", stderr);
     return 2;
   }
   printf("eps,method,start,basis,iterations,us_pixel,accurate_pixels,accurate_roots\n");
   for (int basis = BASIS_POWER; basis >= BASIS_BERNSTEIN; basis--) {
     double *c = patch_polynomials(argv[1], (size_t)width, (size_t)height, (enum basis)basis);
     if (c == NULL) return 3;
-    experiment((enum basis)basis, c, (size_t)width * (size_t)height);
+    experiment((enum basis)basis, c, (size_t)width * (size_t)height, only);
     free(c);
   }
   return 0;

@@ -3,6 +3,7 @@
  *
  *     random_experiments degrees      Fig 2-5: iterations and time against the degree, eps = 1e-6
  *     random_experiments tolerances   Fig 6-10: iterations, time and accuracy against eps, degree 18
+ *     random_experiments caps         the cap of steps, degree 18
  *     random_experiments order        Fig 11-12: accuracy against the order in which the roots were found, degree 18
  *     random_experiments improvements what each improvement does to iterations, time and accuracy, degree 18
  *
@@ -158,6 +159,22 @@ static void order(void)
   }
 }
 
+/* What the cap of steps does: every method with few and many steps a root, eps = 1e-6 and 1e-12. */
+static void caps(void)
+{
+  static const int most[] = {5, 10, 20, 30, 50, 100, 200, 500, 2000};
+  printf("cap,eps,method,iterations,unconverged,accurate\n");
+  for (size_t k = 0; k < sizeof most / sizeof most[0]; k++)
+    for (int tight = 0; tight < 2; tight++)
+      for (int m = 0; m < METHODS; m++) {
+        struct solver_options options = paper_options(methods[m], tight ? 1e-12 : 1e-6);
+        options.max_iterations = most[k];
+        const struct summary all = measure(PAPER_DEGREE, &options, false, 99);
+        printf("%d,%g,%s,%.2f,%.4f,%.4f\n", most[k], options.tolerance, methods[m], all.iterations, all.unconverged,
+               all.accurate);
+      }
+}
+
 /* One variant: items set over the paper's form, in the order given. */
 struct variant {
   const char *method, *name;
@@ -208,18 +225,13 @@ static void improvements(void)
 
 int main(int argc, char **argv)
 {
-  const char *what = argc == 2 ? argv[1] : "";
-  if (strcmp(what, "degrees") == 0) {
-    degrees();
-  } else if (strcmp(what, "tolerances") == 0) {
-    tolerances();
-  } else if (strcmp(what, "order") == 0) {
-    order();
-  } else if (strcmp(what, "improvements") == 0) {
-    improvements();
-  } else {
-    fputs("usage: random_experiments degrees|tolerances|order|improvements\n", stderr);
-    return 2;
-  }
-  return 0;
+  static const struct {
+    const char *name;
+    void (*run)(void);
+  } experiments[] = {
+    {"degrees", degrees}, {"tolerances", tolerances}, {"order", order}, {"caps", caps}, {"improvements", improvements}};
+  for (size_t k = 0; argc == 2 && k < sizeof experiments / sizeof experiments[0]; k++)
+    if (strcmp(argv[1], experiments[k].name) == 0) return experiments[k].run(), 0;
+  fputs("usage: random_experiments degrees|tolerances|order|caps|improvements\n", stderr);
+  return 2;
 }

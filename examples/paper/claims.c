@@ -1,0 +1,278 @@
+/* What the paper says of its methods without a figure: CSV on standard output.
+ *
+ *     claims lower             2.1: patches of lower degree cost less
+ *     claims nearest FOLDER    3.2: Laguerre's method goes to the root nearest to the start; maps of where starts go
+ *     claims slopes            3.1 to 3.3: the orders of convergence, from the iterates
+ *     claims steps             the same, a row a step: the points of the chart
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "algebra/complex_number.h"
+#include "algebra/sylvester.h"
+#include "base/clock.h"
+#include "forms.h"
+#include "measure.h"
+#include "pictures.h"
+
+enum { POLYNOMIALS = 100, PAPER_DEGREE = 18, ROUNDS = 9 };
+
+static struct solver_options paper_options(enum paper_method method, double tolerance)
+{
+  const char *name = paper_method_names[method];
+  struct solver_options options;
+  solver_options_default(solver_find(name, strlen(name)), &options);
+  solver_options_form(&options, false);
+  options.tolerance = tolerance, options.max_iterations = 500;
+  return options;
+}
+
+/* ---- 2.1 ---- */
+
+/* Random plane polynomials of one bidegree, their determinants, and the median time of making one. */
+static double make_resultants(int n, double c[])
+{
+  const size_t terms = 2 * (size_t)n * (size_t)n + 1;
+  double seconds[ROUNDS];
+  for (int round = 0; round < ROUNDS; round++) {
+    uint64_t seed = 7;
+    double spent = 0;
+    for (size_t p = 0; p < POLYNOMIALS; p++) {
+      double a[16] = {0}, b[16] = {0};
+      for (int i = 0; i <= n; i++) measure_random_polynomial(&seed, n, a + 4 * i);
+      for (int i = 0; i <= n; i++) measure_random_polynomial(&seed, n, b + 4 * i);
+      const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
+      for (int k = 0; k < 10; k++) sylvester_determinant(n, n, a, b, c + p * terms);
+      spent += (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start) / 10;
+    }
+    seconds[round] = spent / POLYNOMIALS;
+  }
+  return measure_median(ROUNDS, seconds);
+}
+
+static void lower(void)
+{
+  printf("bidegree,degree,ns_resultant,ns_newton,ns_laguerre,ns_aberth\n");
+  static double c[POLYNOMIALS * (PAPER_DEGREE + 1)];
+  for (int n = 1; n <= 3; n++) {
+    printf("%d,%d,%.0f", n, 2 * n * n, make_resultants(n, c) * 1e9);
+    const struct batch batch = {2 * n * n, POLYNOMIALS, c, 1e-6, 500, false, false};
+    for (int m = 0; m < PAPER_METHODS; m++) {
+      double seconds[ROUNDS];
+      struct batch_totals totals;
+      for (int round = 0; round < ROUNDS; round++) {
+        const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
+        for (int k = 0; k < 4; k++) form_run(FORM_SCALAR, (enum paper_method)m, &batch, &totals, NULL);
+        seconds[round] = (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start) / 4 / POLYNOMIALS;
+      }
+      printf(",%.0f", measure_median(ROUNDS, seconds) * 1e9);
+    }
+    putchar('\n');
+  }
+}
+
+/* ---- 3.2 ---- */
+
+enum { BASIN_DEGREE = 7, BASIN_PIXELS = 240, BASIN_STEPS = 100, STARTS = 400 };
+
+/* The step of eq 7 or eq 8 alone, without any care. */
+static struct complex_number plain_step(enum paper_method method, const struct root_problem *problem,
+                                        struct complex_number z)
+{
+  const int n = problem->degree;
+  struct complex_number p = {problem->c[n], 0}, slope = {0, 0}, half = {0, 0};
+  for (int k = n - 1; k >= 0; k--) {
+    half = complex_add(complex_multiply(half, z), slope);
+    slope = complex_add(complex_multiply(slope, z), p);
+    p = complex_multiply(p, z);
+    p.re += problem->c[k];
+  }
+  if (p.re == 0 && p.im == 0) return p;
+  if (method == PAPER_NEWTON) return complex_divide(complex_scale(-1, p), slope);
+  const struct complex_number square = complex_scale(n - 1.0, complex_multiply(slope, slope));
+  const struct complex_number product = complex_scale(2.0 * n, complex_multiply(p, half));
+  const struct complex_number root = complex_sqrt(complex_scale(n - 1.0, complex_subtract(square, product)));
+  const struct complex_number plus = complex_add(slope, root), minus = complex_subtract(slope, root);
+  return complex_divide(complex_scale(-n, p), complex_norm(plus) >= complex_norm(minus) ? plus : minus);
+}
+
+/* The root that the start goes to; -1: none in BASIN_STEPS. */
+static int goes_to(enum paper_method method, const struct root_problem *problem, const struct root_set *roots,
+                   struct complex_number z)
+{
+  for (int step = 0; step < BASIN_STEPS; step++) {
+    const struct complex_number move = plain_step(method, problem, z);
+    z = complex_add(z, move);
+    if (complex_norm(move) < 1e-20 * complex_norm(z)) break;
+  }
+  for (int k = 0; k < roots->count; k++)
+    if (hypot(roots->root[k].re - z.re, roots->root[k].im - z.im) < 1e-6) return k;
+  return -1;
+}
+
+static int nearest_root(const struct root_set *roots, struct complex_number z)
+{
+  int best = 0;
+  for (int k = 1; k < roots->count; k++) {
+    const struct root *root = &roots->root[k], *other = &roots->root[best];
+    if (hypot(root->re - z.re, root->im - z.im) < hypot(other->re - z.re, other->im - z.im)) best = k;
+  }
+  return best;
+}
+
+static void random_problem(uint64_t *seed, int degree, struct root_problem *out, struct root_set *out_roots)
+{
+  struct solver_options options;
+  *out = (struct root_problem){.degree = degree, .basis = BASIS_POWER};
+  measure_random_polynomial(seed, degree, out->c);
+  solver_options_default(solver_find("aberth", 6), &options);
+  const struct polynomial p = {degree, BASIS_POWER, out->c, NULL};
+  solver_solve(&p, &options, NULL, out_roots);
+}
+
+/* Which root each start goes to, on [-2,2] x [-2,2]; PAPER_METHODS as the method: which is nearest. Roots are black. */
+static bool draw_basins(const char *path, int method)
+{
+  uint64_t seed = 5;
+  struct root_problem problem;
+  struct root_set roots;
+  struct image image;
+  random_problem(&seed, BASIN_DEGREE, &problem, &roots);
+  if (!picture_begin(BASIN_PIXELS, BASIN_PIXELS, &image)) return false;
+  for (size_t p = 0; p < BASIN_PIXELS * BASIN_PIXELS; p++) {
+    const double x = ((double)(p % BASIN_PIXELS) + 0.5) / BASIN_PIXELS,
+                 y = ((double)(p / BASIN_PIXELS) + 0.5) / BASIN_PIXELS;
+    const struct complex_number z = {4 * x - 2, 2 - 4 * y};
+    const int near = nearest_root(&roots, z);
+    const int root = method == PAPER_METHODS ? near : goes_to((enum paper_method)method, &problem, &roots, z);
+    float *pixel = image.value + 3 * p;
+    pixel[0] = pixel[1] = pixel[2] = 1;
+    if (root >= 0) picture_scale((root + 0.5) / BASIN_DEGREE, pixel);
+    if (hypot(roots.root[near].re - z.re, roots.root[near].im - z.im) < 0.04) pixel[0] = pixel[1] = pixel[2] = 0;
+  }
+  return picture_end(&image, path);
+}
+
+static bool nearest(const char *folder)
+{
+  for (int m = 0; m <= PAPER_METHODS; m++) {
+    char path[4096];
+    if (m == PAPER_ABERTH) continue; /* it has no start of one root */
+    const char *name = m == PAPER_METHODS ? "nearest" : paper_method_names[m];
+    if (snprintf(path, sizeof path, "%s/basins-%s.png", folder, name) >= (int)sizeof path || !draw_basins(path, m))
+      return false;
+  }
+  printf("degree,method,nearest,lost\n");
+  for (int degree = BASIN_DEGREE; degree <= PAPER_DEGREE; degree += PAPER_DEGREE - BASIN_DEGREE) {
+    for (int m = 0; m < PAPER_ABERTH; m++) {
+      uint64_t seed = 5;
+      int near = 0, lost = 0;
+      for (int p = 0; p < POLYNOMIALS; p++) {
+        struct root_problem problem;
+        struct root_set roots;
+        random_problem(&seed, degree, &problem, &roots);
+        for (int s = 0; s < STARTS; s++) {
+          const struct complex_number z = {4 * measure_random(&seed) - 2, 4 * measure_random(&seed) - 2};
+          const int root = goes_to((enum paper_method)m, &problem, &roots, z);
+          near += root == nearest_root(&roots, z), lost += root < 0;
+        }
+      }
+      const double all = (double)POLYNOMIALS * STARTS;
+      printf("%d,%s,%.4f,%.4f\n", degree, paper_method_names[m], near / all, lost / all);
+    }
+  }
+  return true;
+}
+
+/* ---- the orders ---- */
+
+/* All values of one solve. */
+enum { STEPS_KEPT = 600 };
+struct ways {
+  int steps[PAPER_DEGREE];
+  struct complex_number at[PAPER_DEGREE][STEPS_KEPT];
+};
+
+static void keep(void *context, int root, int step, double re, double im)
+{
+  struct ways *ways = context;
+  if (step >= STEPS_KEPT) return;
+  ways->at[root][step] = (struct complex_number){re, im};
+  ways->steps[root] = step + 1;
+}
+
+/* The sums of a line through points (x, y). */
+struct line {
+  double n, x, y, xx, xy;
+};
+
+/* Errors between these, relative to the root or 1, are near enough for the order to show and far enough from rounding. */
+#define NEAR 3e-2
+#define ROUNDED 1e-13
+
+static void take_step(struct line *line, bool print, enum paper_method method, double error, double next)
+{
+  if (!(error < NEAR && next > ROUNDED && next < error)) return;
+  const double x = log10(error), y = log10(next);
+  line->n += 1, line->x += x, line->y += y, line->xx += x * x, line->xy += x * y;
+  if (print) printf("%s,%.3f,%.3f\n", paper_method_names[method], x, y);
+}
+
+static double error_at(const struct ways *ways, int root, int step)
+{
+  const struct complex_number last = ways->at[root][ways->steps[root] - 1], z = ways->at[root][step];
+  return hypot(z.re - last.re, z.im - last.im) / fmax(1, complex_modulus(last));
+}
+
+/* Newton and Laguerre: every root by itself. Aberth: the largest error of all roots, which are one iteration. */
+static void take_steps(const struct ways *ways, bool print, enum paper_method method, struct line *line)
+{
+  if (method == PAPER_ABERTH) {
+    for (int step = 0; step + 2 < ways->steps[0]; step++) {
+      double error = 0, next = 0;
+      for (int root = 0; root < PAPER_DEGREE; root++)
+        error = fmax(error, error_at(ways, root, step)), next = fmax(next, error_at(ways, root, step + 1));
+      take_step(line, print, method, error, next);
+    }
+    return;
+  }
+  for (int root = 0; root < PAPER_DEGREE; root++)
+    for (int step = 0; step + 2 < ways->steps[root]; step++)
+      take_step(line, print, method, error_at(ways, root, step), error_at(ways, root, step + 1));
+}
+
+static void orders(bool print)
+{
+  printf(print ? "method,error,next\n" : "method,order,steps\n");
+  static struct ways ways;
+  for (int m = 0; m < PAPER_METHODS; m++) {
+    const struct solver_watch watch = {keep, &ways};
+    struct solver_options options = paper_options((enum paper_method)m, 1e-14);
+    struct line line = {0};
+    uint64_t seed = 11;
+    options.watch = &watch;
+    for (int p = 0; p < 4 * POLYNOMIALS; p++) {
+      struct root_problem problem = {.degree = PAPER_DEGREE, .basis = BASIS_POWER};
+      struct root_estimates roots;
+      measure_random_polynomial(&seed, PAPER_DEGREE, problem.c);
+      memset(ways.steps, 0, sizeof ways.steps);
+      options.solver->find(&problem, &options, NULL, &roots);
+      take_steps(&ways, print, (enum paper_method)m, &line);
+    }
+    const double slope = (line.n * line.xy - line.x * line.y) / (line.n * line.xx - line.x * line.x);
+    if (!print) printf("%s,%.2f,%.0f\n", paper_method_names[m], slope, line.n);
+  }
+}
+
+int main(int argc, char **argv)
+{
+  const char *what = argc > 1 ? argv[1] : "";
+  if (argc == 2 && strcmp(what, "lower") == 0) return lower(), 0;
+  if (argc == 3 && strcmp(what, "nearest") == 0) return nearest(argv[2]) ? 0 : 4;
+  if (argc == 2 && strcmp(what, "slopes") == 0) return orders(false), 0;
+  if (argc == 2 && strcmp(what, "steps") == 0) return orders(true), 0;
+  fputs("usage: claims lower | nearest FOLDER | slopes | steps\n", stderr);
+  return 2;
+}
