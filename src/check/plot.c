@@ -30,8 +30,9 @@ static void copy_with_titles(const char *svg, struct page *out)
 static void read_figure(const struct scratch *folder, struct page *out)
 {
   static const char LAST[] = "</svg>";
+  char *svg;
   size_t length;
-  char *svg = scratch_read(folder, FIGURE, &length);
+  out->failed = scratch_read(folder, FIGURE, &svg, &length) == STATUS_LIMIT;
   while (svg != NULL && length > 0 && strchr(" \n", svg[length - 1]) != NULL) svg[--length] = '\0';
   const char *begin = svg == NULL ? NULL : strstr(svg, "<svg");
   if (begin != NULL && length > sizeof LAST && strcmp(svg + length - (sizeof LAST - 1), LAST) == 0)
@@ -56,9 +57,10 @@ static enum status run_gnuplot(const struct listener *listener, const struct scr
                   "gnuplot is not installed, so there is no figure; the numbers are written "
                   "all the same. On Debian 'apt-get install gnuplot-nox' installs it.");
   } else if (out->length == 0) {
-    size_t length = 0;
+    char *text;
+    size_t length;
     struct page said = {0};
-    char *text = scratch_read(folder, LOG, &length);
+    out->failed = scratch_read(folder, LOG, &text, &length) == STATUS_LIMIT || out->failed;
     page_printable(&said, text == NULL ? "" : text, length < 400 ? length : 400);
     listener_tell(listener, TOLD_WARNING, "gnuplot made no figure: %s", said.text == NULL ? "" : said.text);
     page_free(&said);

@@ -39,12 +39,13 @@ static void run_path(const struct povray *povray, const char *name, char out[SCR
 
 /* ---- what it says ---- */
 
-/* All it said, printable. */
+/* All it said, printable; `failed` where memory is short for it. */
 static struct page read_log(const struct povray *povray)
 {
   struct page log = {0};
+  char *text;
   size_t length;
-  char *text = scratch_read(&povray->folder, LOG, &length);
+  log.failed = scratch_read(&povray->folder, LOG, &text, &length) == STATUS_LIMIT;
   for (size_t k = 0; text != NULL && k < length; k++) text[k] = text[k] == '\r' ? '\n' : text[k];
   if (text != NULL) page_printable(&log, text, length);
   free(text);
@@ -134,6 +135,7 @@ static enum status run_program(struct povray *povray, const char *const *argumen
                   "POV-Ray 3.7 is what scenes are checked against; on Debian 'apt-get install povray' installs it.");
   if (status != STATUS_OK) return status;
   struct page log = read_log(povray);
+  const bool failed = log.failed;
   note_version(povray, &log);
   if (out->exit_code != 0) {
     listener_tell(povray->listener, TOLD_ERROR, "POV-Ray ended with exit code %d on %s; it says:", out->exit_code,
@@ -141,6 +143,7 @@ static enum status run_program(struct povray *povray, const char *const *argumen
     show_log(povray, &log);
   }
   page_free(&log);
+  if (failed) return listener_out_of_memory(povray->listener);
   return out->exit_code == 0 ? STATUS_OK : STATUS_INPUT;
 }
 
@@ -349,9 +352,11 @@ static enum status write_questions(const struct question *question, FILE *file)
 static enum status read_answers(const struct povray *povray, size_t count, double out_distance[])
 {
   char name[64];
+  char *text;
   size_t length, at = 0, read = 0;
   snprintf(name, sizeof name, "%s/%s", RUN, ANSWERS);
-  char *text = scratch_read(&povray->folder, name, &length);
+  const enum status status = scratch_read(&povray->folder, name, &text, &length);
+  if (status == STATUS_LIMIT) return listener_out_of_memory(povray->listener);
   while (text != NULL && read < count && at < length) {
     double value;
     size_t used;

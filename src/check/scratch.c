@@ -62,16 +62,19 @@ enum status scratch_close(FILE *file)
   return fclose(file) == 0 && !failed ? STATUS_OK : STATUS_FILE;
 }
 
-char *scratch_read(const struct scratch *scratch, const char *name, size_t *out_length)
+enum status scratch_read(const struct scratch *scratch, const char *name, char **out_text, size_t *out_length)
 {
   char path[SCRATCH_PATH_SIZE];
   const char *reason;
   struct source *source = NULL;
   scratch_path(scratch, name, path);
-  if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK) return NULL;
-  char *text = source->text;
+  *out_text = NULL;
+  *out_length = 0;
+  const enum status status = source_read(path, INPUT_FILE, &source, &reason);
+  if (status != STATUS_OK) return status;
+  *out_text = source->text;
   *out_length = source->length;
   source->text = NULL;
   source_destroy(source);
-  return text;
+  return STATUS_OK;
 }

@@ -29,7 +29,9 @@ void scratch_path(const struct scratch *scratch, const char *name, char *out);
 FILE *scratch_open(const struct scratch *scratch, const char *name);
 enum status scratch_close(FILE *file) STATUS_MUST_CHECK;
 
-/* The bytes of a file in it, with a NUL behind them, owned by the caller (free); NULL where it cannot be read. */
-char *scratch_read(const struct scratch *scratch, const char *name, size_t *out_length);
+/* The bytes of a file in it, with a NUL behind them, owned by the caller (free). STATUS_FILE where it cannot be read,
+ * STATUS_LIMIT where memory is short; then *out_text is NULL and *out_length 0. */
+enum status scratch_read(const struct scratch *scratch, const char *name, char **out_text,
+                         size_t *out_length) STATUS_MUST_CHECK;
 
 #endif

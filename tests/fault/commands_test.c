@@ -6,31 +6,54 @@
  * The linker hands every such call in commands and library to the functions below. What jansson and OpenImageIO allocate
  * is theirs.
  */
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <pthread.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "cmocka_test.h"
 #include "command/command.h"
 
-enum { LEAST = 8, MOST_ARGUMENTS = 16 };
+enum { LEAST = 8, MOST_ARGUMENTS = 24 };
 
-enum call { ALLOCATE, THREAD, OPEN, WRITE, FSYNC, FCHMOD, LINK, RENAME, CLOSE, FORK, PIPE, CALLS };
+enum call {
+  ALLOCATE,
+  THREAD,
+  MMAP,
+  OPEN,
+  WRITE,
+  FSYNC,
+  FCHMOD,
+  LINK,
+  RENAME,
+  CLOSE,
+  FOPEN,
+  FCLOSE,
+  MKDIR,
+  MKDTEMP,
+  DUP,
+  FORK,
+  PIPE
+};
 
-/* Of one kind of call: how many succeed before one fails; negative: all do. `armed` only while a command runs. */
+/* Of one kind of call: how many succeed before one fails; negative: all do. `armed` only while a command runs. A child
+ * of ours, before it becomes another program, counts on. */
 static enum call failing;
-static long left = -1;
+static atomic_long *left;
 static bool armed;
 
-static bool fails(enum call call) { return armed && call == failing && left >= 0 && left-- == 0; }
+static bool fails(enum call call) { return armed && call == failing && atomic_fetch_sub(left, 1) == 0; }
 
 static int failure(int reason)
 {
@@ -50,6 +73,12 @@ int __real_fchmod(int file, mode_t mode);
 int __real_linkat(int from_folder, const char *from, int to_folder, const char *to, int flags);
 int __real_rename(const char *from, const char *to);
 int __real_close(int file);
+void *__real_mmap(void *place, size_t size, int protection, int flags, int file, off_t offset);
+FILE *__real_fopen(const char *path, const char *mode);
+int __real_fclose(FILE *file);
+int __real_mkdir(const char *path, mode_t mode);
+char *__real_mkdtemp(char *name);
+int __real_dup(int file);
 pid_t __real_fork(void);
 int __real_pipe(int files[2]);
 void *__wrap_malloc(size_t size);
@@ -64,6 +93,12 @@ int __wrap_fchmod(int file, mode_t mode);
 int __wrap_linkat(int from_folder, const char *from, int to_folder, const char *to, int flags);
 int __wrap_rename(const char *from, const char *to);
 int __wrap_close(int file);
+void *__wrap_mmap(void *place, size_t size, int protection, int flags, int file, off_t offset);
+FILE *__wrap_fopen(const char *path, const char *mode);
+int __wrap_fclose(FILE *file);
+int __wrap_mkdir(const char *path, mode_t mode);
+char *__wrap_mkdtemp(char *name);
+int __wrap_dup(int file);
 pid_t __wrap_fork(void);
 int __wrap_pipe(int files[2]);
 
@@ -107,11 +142,31 @@ int __wrap_close(int file)
   return told ? failure(EIO) : result;
 }
 
+int __wrap_fclose(FILE *file)
+{
+  const bool told = fails(FCLOSE);
+  const int result = __real_fclose(file); /* likewise */
+  return told ? failure(ENOSPC) : result;
+}
+
+FILE *__wrap_fopen(const char *path, const char *mode)
+{
+  return fails(FOPEN) ? (void)failure(EMFILE), NULL : __real_fopen(path, mode);
+}
+
+void *__wrap_mmap(void *place, size_t size, int protection, int flags, int file, off_t offset)
+{
+  return fails(MMAP) ? (void)failure(ENOMEM), MAP_FAILED : __real_mmap(place, size, protection, flags, file, offset);
+}
+
+int __wrap_mkdir(const char *path, mode_t mode) { return fails(MKDIR) ? failure(EACCES) : __real_mkdir(path, mode); }
+char *__wrap_mkdtemp(char *name) { return fails(MKDTEMP) ? (void)failure(ENOSPC), NULL : __real_mkdtemp(name); }
+int __wrap_dup(int file) { return fails(DUP) ? failure(EMFILE) : __real_dup(file); }
 pid_t __wrap_fork(void) { return fails(FORK) ? failure(EAGAIN) : __real_fork(); }
 int __wrap_pipe(int files[2]) { return fails(PIPE) ? failure(EMFILE) : __real_pipe(files); }
 
 static char folder[] = "/tmp/pscn-fault-XXXXXX";
-static char input[64], output[64], errors[64], answers[64], stats[64];
+static char input[64], output[64], errors[64], answers[64], stats[64], results[64], page[80], povray[64], picture[64];
 
 static size_t size_of(const char *path)
 {
@@ -155,53 +210,119 @@ static void expect_no_litter(void)
   DIR *here = opendir(folder);
   assert_non_null(here);
   for (const struct dirent *entry; (entry = readdir(here)) != NULL;)
-    if (strncmp(entry->d_name, ".pscn", 5) == 0) fail_msg("'%s' is left behind", entry->d_name);
+    if (strncmp(entry->d_name, ".pscn", 5) == 0 || strncmp(entry->d_name, "pscn-", 5) == 0)
+      fail_msg("'%s' is left behind", entry->d_name);
   closedir(here);
 }
 
-/* Lets the calls of that kind fail one after the other. Answers how many there are. `old`: what the file to be written
- * held before, or NULL. */
-static long fail_each(const char *const arguments[], enum call call, bool writes, const char *old)
+/* What a command leaves: nothing but its answers, a file (`output`, with `stats`), a folder of files (`results`). */
+enum leaves { NOTHING, FILES, FOLDER };
+
+static void remove_results(void)
 {
-  const int expected = call == ALLOCATE || call == THREAD ? STATUS_LIMIT : STATUS_FILE;
-  remove(output);
+  DIR *here = opendir(results);
+  if (!here) return;
+  for (const struct dirent *entry; (entry = readdir(here)) != NULL;) {
+    char path[sizeof results + sizeof entry->d_name];
+    snprintf(path, sizeof path, "%s/%s", results, entry->d_name);
+    remove(path);
+  }
+  closedir(here);
+  rmdir(results);
+}
+
+static size_t count_results(void)
+{
+  size_t count = 0;
+  DIR *here = opendir(results);
+  if (!here) return 0;
+  for (const struct dirent *entry; (entry = readdir(here)) != NULL;) count += entry->d_name[0] != '.';
+  closedir(here);
+  return count;
+}
+
+/* What was there before: nothing, or an old file of that name. */
+static void prepare(enum leaves leaves, const char *old)
+{
+  remove(output), remove(stats), remove_results();
+  if (!old) return;
+  if (leaves == FOLDER) assert_int_equal(mkdir(results, 0700), 0);
+  put(leaves == FOLDER ? page : output, old);
+}
+
+/* After a command that failed all is as it was. */
+static void expect_as_before(enum leaves leaves, const char *old)
+{
+  const char *path = leaves == FOLDER ? page : output;
+  assert_true(old ? size_of(path) == strlen(old) : access(path, F_OK) != 0);
+  assert_true(access(stats, F_OK) != 0);
+  if (leaves == FOLDER) assert_true(old ? count_results() == 1 : access(results, F_OK) != 0);
+}
+
+/* Fails the test with what was told. */
+static void fail_told(const char *command, enum call call, long n, int code)
+{
+  char text[1000];
+  FILE *file = fopen(errors, "r");
+  const size_t length = file ? fread(text, 1, sizeof text - 1, file) : 0;
+  text[length] = '\0';
+  if (file) fclose(file);
+  fail_msg("%s: exit code %d where call %ld of kind %d fails: %s", command, code, n, call, text);
+}
+
+static bool fits(int code, enum call call)
+{
+  if (call == ALLOCATE || call == THREAD || call == MMAP) return code == STATUS_LIMIT;
+  return code == STATUS_FILE || (call == OPEN && code == STATUS_INPUT); /* an error of the scene that includes */
+}
+
+/* Lets the calls of that kind fail one after the other. Answers how many there are. `old`: what the file to be written,
+ * or the page of the folder, held before, or NULL. */
+static long fail_each(const char *const arguments[], enum call call, enum leaves leaves, const char *old)
+{
+  prepare(leaves, NULL);
   assert_int_equal(run(arguments), STATUS_OK);
-  const size_t whole = size_of(output), answered = size_of(answers);
-  assert_true(!writes || whole > 0);
+  const size_t whole = size_of(output), answered = size_of(answers), files = count_results();
+  assert_true(leaves == NOTHING || (leaves == FILES ? whole : files) > 0);
   failing = call;
-  for (long n = 0;; n++) {
-    remove(output), remove(stats);
-    if (old) put(output, old);
-    left = n;
+  /* A check or chart takes memory thousands of times, and starts programs: the later, the fewer are tried. */
+  const long spared = call == ALLOCATE && leaves == FOLDER ? 4 : LONG_MAX;
+  for (long n = 0;; n += 1 + n / spared) {
+    prepare(leaves, old);
+    atomic_store(left, n);
     const int code = run(arguments);
-    const bool failed = left < 0;
-    left = -1;
-    if (code == STATUS_OK) assert_true(!writes || size_of(output) == whole);
-    if (code == STATUS_OK) assert_int_equal(size_of(answers), answered);
-    const bool include = call == OPEN && code == STATUS_INPUT; /* an error of the scene that includes */
-    if (code != STATUS_OK && code != expected && !include)
-      fail_msg("%s: exit code %d where call %ld of kind %d fails", arguments[0], code, n, call);
-    if (code != STATUS_OK) assert_true(size_of(errors) > 0);
-    /* Picture and statistics appear together. */
-    if (code != STATUS_OK || !writes) assert_true(old ? size_of(output) == strlen(old) : access(output, F_OK) != 0);
-    if (code != STATUS_OK) assert_true(access(stats, F_OK) != 0);
+    const bool failed = atomic_load(left) < 0;
+    atomic_store(left, -1);
+    if (code != STATUS_OK && !fits(code, call)) fail_told(arguments[0], call, n, code);
+    if (code != STATUS_OK) {
+      assert_true(size_of(errors) > 0);
+      expect_as_before(leaves, old);
+    } else if (leaves == FOLDER) { /* the figure may be left out, and that is told */
+      assert_true(count_results() == files || (count_results() == files - 1 && size_of(errors) > 0));
+    } else {
+      assert_int_equal(size_of(answers), answered);
+      assert_int_equal(size_of(output), leaves == FILES ? whole : 0);
+    }
     expect_no_litter();
     if (!failed) {
       assert_int_equal(code, STATUS_OK);
-      remove(output);
+      prepare(leaves, NULL);
       return n;
     }
   }
 }
 
 /* Lets every kind of call on files fail. */
-static void fail_files(const char *const arguments[], bool writes)
+static void fail_files(const char *const arguments[], enum leaves leaves)
 {
-  static const enum call calls[] = {OPEN, WRITE, FSYNC, FCHMOD, LINK, RENAME, CLOSE};
+  static const enum call calls[] = {OPEN, WRITE, FSYNC, FCHMOD, LINK, RENAME, CLOSE, FOPEN, FCLOSE, MKDIR, MKDTEMP};
   for (size_t k = 0; k < sizeof calls / sizeof calls[0]; k++) {
-    const long made = fail_each(arguments, calls[k], writes, NULL);
-    const long replaced = writes ? fail_each(arguments, calls[k], writes, "old") : 1;
-    assert_true(replaced > 0 && (made > 0 || !writes || calls[k] == FCHMOD || calls[k] == RENAME));
+    const bool always = calls[k] != FCHMOD && calls[k] != RENAME && calls[k] < FOPEN;
+    const long made = fail_each(arguments, calls[k], leaves, NULL);
+    assert_true(leaves == NOTHING || !always || made > 0);
+    const bool naming = calls[k] == FCHMOD || calls[k] == LINK || calls[k] == RENAME; /* of a file that was there */
+    if (leaves == FILES || (leaves == FOLDER && naming))
+      assert_true(fail_each(arguments, calls[k], leaves, "old") > 0 || calls[k] >= FOPEN);
   }
 }
 
@@ -215,9 +336,9 @@ static void test_render(void **state)
   const char *const more[] = {
     "render",   PSCN_SOURCE_DIR "/scenes/nested.pscn", "--size",  "9x7", "--threads", "2",    "--quiet",
     "--solver", "aberth { start previous }",           "--stats", stats, "-o",        output, NULL};
-  assert_true(fail_each(plain, ALLOCATE, true, NULL) > LEAST);
-  assert_true(fail_each(more, ALLOCATE, true, NULL) > LEAST);
-  fail_files(more, true);
+  assert_true(fail_each(plain, ALLOCATE, FILES, NULL) > LEAST);
+  assert_true(fail_each(more, ALLOCATE, FILES, NULL) > LEAST);
+  fail_files(more, FILES);
 }
 
 static void test_render_threads(void **state)
@@ -226,7 +347,7 @@ static void test_render_threads(void **state)
   const char *const arguments[] = {
     "render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "200x150", "--threads", "3", "--quiet", "-o", output,
     NULL};
-  assert_true(fail_each(arguments, THREAD, true, NULL) > 0);
+  assert_true(fail_each(arguments, THREAD, FILES, NULL) > 0);
 }
 
 static void test_others(void **state)
@@ -236,64 +357,136 @@ static void test_others(void **state)
   const char *const trace[] = {"trace", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", "--stats", stats, NULL};
   const char *const all[] = {"trace", "--all", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", NULL};
   const char *const roots[] = {"roots", "--quiet", "--stats", stats, NULL};
-  assert_true(fail_each(dump, ALLOCATE, false, NULL) > LEAST);
+  assert_true(fail_each(dump, ALLOCATE, NOTHING, NULL) > LEAST);
   feed("0 3 -9 0 -0.25 1\n0 3 -9 1 0 0\n");
-  assert_true(fail_each(trace, ALLOCATE, false, NULL) > LEAST);
+  assert_true(fail_each(trace, ALLOCATE, NOTHING, NULL) > LEAST);
   feed("0 3 -9 0 -0.25 1\n0 3 -9 1 0 0\n0 1 0 0 1 0\n"); /* the last one meets the pole: the last resort's lists too */
-  assert_true(fail_each(all, ALLOCATE, false, NULL) > LEAST);
-  fail_files(trace, false);
-  fail_files(dump, false);
+  assert_true(fail_each(all, ALLOCATE, NOTHING, NULL) > LEAST);
+  fail_files(trace, NOTHING);
+  fail_files(dump, NOTHING);
   feed("1 0 -1\n1 -6 11 -6\n");
-  assert_true(fail_each(roots, ALLOCATE, false, NULL) > 0);
-  fail_files(roots, false);
+  assert_true(fail_each(roots, ALLOCATE, NOTHING, NULL) > 0);
+  fail_files(roots, NOTHING);
   feed("");
+}
+
+/* A picture, as `compare` reads it and the other program below answers with. */
+static void make_picture(void)
+{
+  const char *const render[] = {
+    "render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "8x6", "--quiet", "-o", picture, NULL};
+  if (access(picture, F_OK) != 0) assert_int_equal(run(render), STATUS_OK);
+}
+
+/* Room for OpenImageIO is asked for before it is loaded, which is once. */
+static void test_first_picture(void **state)
+{
+  (void)state;
+  const char *const render[] = {"render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "8x6", "--quiet", "-o", output,
+                                NULL};
+  failing = MMAP;
+  atomic_store(left, 0);
+  assert_int_equal(run(render), STATUS_LIMIT);
+  assert_true(atomic_load(left) < 0 && size_of(errors) > 0);
+  expect_as_before(FILES, NULL);
 }
 
 static void test_compare(void **state)
 {
   (void)state;
-  char picture[64];
-  snprintf(picture, sizeof picture, "%s/picture.png", folder);
-  const char *const render[] = {
-    "render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "9x7", "--quiet", "-o", picture, NULL};
   const char *const compare[] = {"compare", picture, picture, "-o", output, NULL};
-  assert_int_equal(run(render), STATUS_OK);
-  assert_true(fail_each(compare, ALLOCATE, true, NULL) > LEAST);
-  fail_files(compare, true);
-  remove(picture);
+  make_picture();
+  assert_true(fail_each(compare, ALLOCATE, FILES, NULL) > LEAST);
+  fail_files(compare, FILES);
 }
 
-/* POV-Ray cannot be started: nothing is written. */
-static void test_check_processes(void **state)
+static void test_standard_input(void **state)
 {
   (void)state;
-  char results[64];
-  snprintf(results, sizeof results, "%s/check", folder);
-  const char *const arguments[] = {
-    "check", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", "--povray", "/bin/true", "--size", "8x6", "-o", results,
-    NULL};
-  for (enum call call = FORK; call <= PIPE; call++) {
-    failing = call, left = 0;
-    assert_int_equal(run(arguments), STATUS_FILE);
-    assert_true(left < 0 && size_of(errors) > 0 && access(results, F_OK) != 0);
-    left = -1;
-  }
+  const char *const dump[] = {"dump", "-", NULL};
+  feed("camera { location -z }\n");
+  assert_int_equal(fail_each(dump, DUP, NOTHING, NULL), 1);
+  feed("");
 }
 
-int main(void)
+/* A program that answers as POV-Ray would: the picture, a hit for every ray, a time. */
+static const char POVRAY[] = "#!/bin/sh\n"
+                             "[ \"$1\" = --version ] && { echo 'POV-Ray 3.7.0'; exit; }\n"
+                             "sed -n 's/^Ask(.*/1/p' scene.pov >answers.txt\n"
+                             "cat %s >picture.png\n"
+                             "echo 'Trace Time: 0 hours 0 minutes 0 seconds (0.1 seconds)'\n"
+                             "echo '  using 1 thread(s) with 0.100 CPU-seconds total'\n";
+
+static void make_povray(void)
 {
-  if (!mkdtemp(folder)) return EXIT_FAILURE;
+  char text[sizeof POVRAY + sizeof picture];
+  snprintf(text, sizeof text, POVRAY, picture);
+  put(povray, text);
+  assert_int_equal(chmod(povray, 0700), 0);
+}
+
+static void test_check(void **state)
+{
+  (void)state;
+  const char *const arguments[] = {"check",   PSCN_SOURCE_DIR "/tests/cli/scenes/bent.pscn",
+                                   "--quiet", "--povray",
+                                   povray,    "--size",
+                                   "8x6",     "--steps",
+                                   "0",       "--grid",
+                                   "2",       "--failpercent",
+                                   "100",     "--failpsnr",
+                                   "0",       "--failmask",
+                                   "100",     "-o",
+                                   results,   NULL};
+  make_picture();
+  snprintf(page, sizeof page, "%s/check.html", results);
+  assert_true(fail_each(arguments, FORK, FOLDER, NULL) > 1); /* POV-Ray */
+  assert_true(fail_each(arguments, PIPE, FOLDER, "old") > 1);
+  fail_files(arguments, FOLDER);
+  assert_true(fail_each(arguments, ALLOCATE, FOLDER, NULL) > LEAST);
+}
+
+static void test_chart(void **state)
+{
+  (void)state;
+  const char *const arguments[] = {"chart",      PSCN_SOURCE_DIR "/scenes/bent.pscn",
+                                   "--quiet",    "--quick",
+                                   "--size",     "1x1",
+                                   "--rays",     "1",
+                                   "--rounds",   "1",
+                                   "--no-peers", "-o",
+                                   results,      NULL};
+  snprintf(page, sizeof page, "%s/chart.html", results);
+  assert_true(fail_each(arguments, FORK, FOLDER, NULL) == 1); /* gnuplot */
+  assert_true(fail_each(arguments, PIPE, FOLDER, "old") == 1);
+  fail_files(arguments, FOLDER);
+  assert_true(fail_each(arguments, ALLOCATE, FOLDER, NULL) > LEAST);
+}
+
+int main(int argc, char **argv)
+{
+  if (argc > 1) cmocka_set_test_filter(argv[1]); /* one test by its name, by hand */
+  left = mmap(NULL, sizeof *left, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (left == MAP_FAILED || !mkdtemp(folder)) return EXIT_FAILURE;
+  atomic_init(left, -1);
+  setenv("TMPDIR", folder, 1);
   snprintf(input, sizeof input, "%s/input", folder);
   snprintf(output, sizeof output, "%s/output.png", folder);
   snprintf(errors, sizeof errors, "%s/errors", folder);
   snprintf(answers, sizeof answers, "%s/answers", folder);
   snprintf(stats, sizeof stats, "%s/stats", folder);
+  snprintf(results, sizeof results, "%s/results", folder);
+  snprintf(povray, sizeof povray, "%s/povray", folder);
+  snprintf(picture, sizeof picture, "%s/picture.png", folder);
   feed("");
+  make_povray();
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_render),  cmocka_unit_test(test_render_threads),  cmocka_unit_test(test_others),
-    cmocka_unit_test(test_compare), cmocka_unit_test(test_check_processes),
+    cmocka_unit_test(test_first_picture), cmocka_unit_test(test_render),         cmocka_unit_test(test_render_threads),
+    cmocka_unit_test(test_others),        cmocka_unit_test(test_standard_input), cmocka_unit_test(test_compare),
+    cmocka_unit_test(test_check),         cmocka_unit_test(test_chart),
   };
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-  remove(input), remove(output), remove(errors), remove(answers), remove(stats), rmdir(folder);
+  remove(input), remove(output), remove(errors), remove(answers), remove(stats), remove(povray), remove(picture);
+  rmdir(folder);
   return failed;
 }

@@ -3,7 +3,7 @@
 # after the other, under address, undefined and leak sanitizers. Needs clang; builds into build-fuzz at first.
 #
 # Inputs begin with seeds/, found/, the scenes of the project and of its tests; what covers more is kept in
-# build-fuzz/corpus and taken up by the next run. What crashes, leaks or takes longer than PSCN_FUZZ_TIMEOUT seconds (10)
+# build-fuzz/corpus and taken up by the next run. What crashes, leaks or takes longer than PSCN_FUZZ_TIMEOUT seconds by the clock (100)
 # ends the target: it is put into build-fuzz/artifacts and named, and the exit code is 1. Once it is mended, or told, it
 # moves to found/TARGET, where ctest replays it. For each target one line: CPU seconds, executions, what they cover (edges,
 # and the features libFuzzer counts), inputs kept, the slowest input.
@@ -53,13 +53,16 @@ fuzz() {
       length=16384
       ;;
     options) dictionary=$options ;;
-    rays | polynomials | pictures) dictionary=$numbers ;;
+    rays | polynomials | pictures)
+      dictionary=$numbers
+      length=1024
+      ;;
   esac
   while [ "$spent" -lt "$seconds" ]; do
     code=0
     (cd "$build/work" && TIMEFORMAT='cpu %U %S' && time nice "$build/tests/fuzz/fuzz-$target" -print_final_stats=1 \
-      -timeout="${PSCN_FUZZ_TIMEOUT:-10}" -rss_limit_mb=4000 -max_len=$length -len_control=20 -close_fd_mask=1 \
-      -max_total_time=$((seconds - spent)) -report_slow_units=2 -dict="$dictionary" -artifact_prefix="$artifacts" \
+      -timeout="${PSCN_FUZZ_TIMEOUT:-100}" -rss_limit_mb=4000 -max_len=$length -len_control=20 -close_fd_mask=3 \
+      -max_total_time=$((seconds - spent)) -report_slow_units=20 -dict="$dictionary" -artifact_prefix="$artifacts" \
       "$corpus" "${seeds[@]}") >"$log" 2>&1 || code=$?
     spent=$((spent + $(sed -n 's/^cpu //p' "$log" | tr ' ' '\n' | awk '{ s += $1 } END { printf "%d", s + 1 }')))
     runs=$((runs + $(last 'stat::number_of_executed_units:' "$log")))
