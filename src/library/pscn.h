@@ -76,7 +76,7 @@ PSCN_API const char *pscn_status_text(enum pscn_status status);
 struct pscn_scene;
 
 /* Where a scene's memory comes from. `resize` is as realloc, and frees where `size` is 0; it is called by the threads
- * that build and free scenes, never by one that asks rays. It may answer NULL: what asked for memory then fails with
+ * that build and free scenes and by those in pscn_all, never by pscn_nearest and pscn_occluded. It may answer NULL: what asked for memory then fails with
  * PSCN_LIMIT and nothing is lost. */
 struct pscn_memory {
   void *(*resize)(void *context, void *block, size_t size); /* NULL: realloc and free */
@@ -106,17 +106,10 @@ struct pscn_options {
   struct pscn_memory memory;
 };
 
-#ifdef __cplusplus
-#define PSCN_OPTIONS            \
-  {                             \
-    sizeof(struct pscn_options) \
+#define PSCN_OPTIONS                                                             \
+  {                                                                              \
+    sizeof(struct pscn_options), NULL, 0, 0, NULL, NULL, 0, 0, 0, { NULL, NULL } \
   }
-#else
-#define PSCN_OPTIONS                    \
-  {                                     \
-    .size = sizeof(struct pscn_options) \
-  }
-#endif
 
 /* Each builds a scene and writes it to *out, also where it fails: then it answers no rays but holds the messages, and is
  * to be freed as any other. It is NULL only where there was no memory even for that. Every function takes NULL for such a
@@ -172,8 +165,7 @@ PSCN_API void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_came
 /* ---- rays ----
  *
  * `count` rays are read, ray k at rays + k ray_stride, and as many answers written, strides in bytes: a ray or an answer
- * may be a member of a structure of the caller's. A stride of 0 or below is fine where that makes sense. Nothing is
- * allocated. Neighbouring rays in any order are answered fastest where they are near each other.
+ * may be a member of a structure of the caller's. A stride of 0 or below is fine where that makes sense. Neighbouring rays in any order are answered fastest where they are near each other.
  *
  * PSCN_OK; or PSCN_INPUT where some ray is not as it should be: that one has the verdict PSCN_NO_ANSWER, the others are
  * answered. PSCN_USAGE where the scene was not built, or a pointer is NULL: whatever can be written then has no answer.
@@ -211,6 +203,24 @@ PSCN_API enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t co
 /* Whether each ray hits anything, which is faster: an enum pscn_verdict in one byte. Grazing counts as a hit. */
 PSCN_API enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                         ptrdiff_t ray_stride, uint8_t *verdicts, ptrdiff_t verdict_stride);
+
+/* How many hits a ray has. `certain`: it is proven that these are all, and that their order is right. A point of an edge
+ * that patches share is one hit where the ray crosses the surface there, and so is a pole; a ray with t_max infinite
+ * starts inside a closed surface where `count` is odd, outside where it is even. Grazing: what may be a hit is counted as
+ * well, and its own `certain` is 0. */
+struct pscn_hits {
+  size_t count;
+  int32_t verdict; /* PSCN_HIT where count > 0 */
+  int32_t certain;
+};
+
+/* All hits of each ray in order of t: how many, and the first `most` of them, those of ray k at hits + k row_stride,
+ * one behind the other; what is left over of `most` is written as misses. `most` may be 0 and `hits` NULL where only
+ * their number matters. This call takes memory while it lasts, by the scene's hooks, which several threads may then call
+ * at once: where there is none, PSCN_LIMIT, and rays that are not answered have the verdict PSCN_NO_ANSWER. */
+PSCN_API enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
+                                   ptrdiff_t ray_stride, struct pscn_hits *counts, ptrdiff_t counts_stride,
+                                   struct pscn_hit *hits, ptrdiff_t row_stride, size_t most);
 
 /* An origin for a ray that leaves the surface at `hit` along `direction`, as a shadow's or a mirror's: moved off the
  * surface by the clearance, to the side where the direction points. It meets neither the sheet it leaves nor skips one

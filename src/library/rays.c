@@ -14,7 +14,10 @@ struct call {
   const char *rays;
   char *answers;
   ptrdiff_t ray_stride, answer_stride;
-  bool failed;
+  char *hits; /* of pscn_all: rows of `most`, row_stride bytes apart */
+  ptrdiff_t row_stride;
+  size_t most;
+  bool failed, short_of_memory;
 };
 
 /* Up to PACKET_SIZE rays that are as they should be, and which they are. */
@@ -111,6 +114,44 @@ static void answer_occluded(struct call *call, const struct packet *packet)
     write_occluded(call, packet->number[k], occluded[k] ? PSCN_HIT : PSCN_MISS);
 }
 
+/* ---- all hits ---- */
+
+/* The count of a ray, and its row with what is written of `list`. */
+static void write_list(struct call *call, size_t number, const struct pscn_hits *counts, const struct hit list[])
+{
+  memcpy(answer_at(call, number), counts, sizeof *counts);
+  for (size_t k = 0; k < call->most; k++) {
+    struct pscn_hit hit = NO_HIT;
+    if (k < counts->count) hit = make_hit(call, &list[k]);
+    else if (counts->verdict == PSCN_NO_ANSWER) hit.verdict = PSCN_NO_ANSWER;
+    else hit.certain = counts->certain;
+    memcpy(call->hits + (ptrdiff_t)number * call->row_stride + k * sizeof hit, &hit, sizeof hit);
+  }
+}
+
+static void write_all(struct call *call, size_t number, enum pscn_verdict verdict)
+{
+  write_list(call, number, &(struct pscn_hits){.verdict = (int32_t)verdict, .certain = verdict == PSCN_MISS}, NULL);
+}
+
+static void answer_all(struct call *call, const struct packet *packet)
+{
+  struct hit_list lists[PACKET_SIZE];
+  const bool answered = !call->short_of_memory &&
+                        tracer_all(&call->tracer, packet->count, packet->rays, lists) == STATUS_OK;
+  call->short_of_memory = !answered;
+  for (size_t k = 0; k < packet->count; k++) {
+    if (!answered) {
+      write_all(call, packet->number[k], PSCN_NO_ANSWER);
+      continue;
+    }
+    const struct pscn_hits counts = {.count = lists[k].count,
+                                     .verdict = lists[k].count > 0 ? PSCN_HIT : PSCN_MISS,
+                                     .certain = lists[k].certainty == CERTAINTY_CERTAIN};
+    write_list(call, packet->number[k], &counts, lists[k].hits);
+  }
+}
+
 /* ---- calls ---- */
 
 /* What is done with rays that can be traced, and what is written where there is nothing to trace. */
@@ -119,7 +160,7 @@ struct asked {
   void (*write)(struct call *call, size_t number, enum pscn_verdict verdict);
 };
 
-static void answer_all(struct call *call, const struct asked *asked, size_t count)
+static void answer_rays(struct call *call, const struct asked *asked, size_t count)
 {
   struct packet packet = {.count = 0};
   for (size_t number = 0; number < count; number++) {
@@ -151,10 +192,14 @@ static enum pscn_status ask(const struct pscn_scene *scene, const struct asked *
     return PSCN_USAGE;
   }
   const struct calm calm = calm_begin();
+  const struct memory_hooks before = memory_use(scene->hooks);
   call->scene = scene->scene;
   tracer_begin(scene->intersector, &call->tracer);
-  answer_all(call, asked, count);
+  answer_rays(call, asked, count);
+  tracer_end(&call->tracer);
+  (void)memory_use(before);
   calm_end(&calm);
+  if (call->short_of_memory) return PSCN_LIMIT;
   return call->failed ? PSCN_INPUT : PSCN_OK;
 }
 
@@ -173,6 +218,22 @@ enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t count, con
   static const struct asked asked = {answer_occluded, write_occluded};
   struct call call = {
     .rays = (const char *)rays, .answers = (char *)verdicts, .ray_stride = ray_stride, .answer_stride = verdict_stride};
+  return ask(scene, &asked, count, &call);
+}
+
+enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
+                          ptrdiff_t ray_stride, struct pscn_hits *counts, ptrdiff_t counts_stride,
+                          struct pscn_hit *hits, ptrdiff_t row_stride, size_t most)
+{
+  static const struct asked asked = {answer_all, write_all};
+  struct call call = {.rays = (const char *)rays,
+                      .answers = (char *)counts,
+                      .ray_stride = ray_stride,
+                      .answer_stride = counts_stride,
+                      .hits = (char *)hits,
+                      .row_stride = row_stride,
+                      .most = hits ? most : 0};
+  if (!hits && most > 0) call.rays = NULL; /* refused, as other wrong arguments are */
   return ask(scene, &asked, count, &call);
 }
 

@@ -1,0 +1,32 @@
+#!/bin/bash
+# deb.sh BUILD: the package that cpack makes names what it needs, and what is in it works where it is unpacked: the program
+# renders with the module that came with it, from a folder that is not the build tree's, with nothing in the environment.
+set -euo pipefail
+for program in dpkg-deb dpkg-shlibdeps cpack; do
+  command -v "$program" >/dev/null || { echo "skipped: $program is not installed" >&2; exit 77; }
+done
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+cpack --config "$1/CPackConfig.cmake" -B "$folder" -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >cpack.log 2>&1 || { cat cpack.log; exit 1; }
+dpkg-deb -x pscn_*.deb root
+depends=$(dpkg-deb -f pscn_*.deb Depends)
+for package in libc6 libopenimageio libjansson4 libstdc++6; do
+  [[ $depends == *"$package"* ]] || { echo "Depends has no $package: $depends"; exit 1; }
+done
+[ "$(dpkg-deb -f pscn_*.deb Package)" = pscn ]
+[ "$(env -i root/usr/bin/pscn --version)" = "pscn $(dpkg-deb -f pscn_*.deb Version)" ]
+
+cp "$PSCN_SOURCE_DIR/scenes/bent.pscn" .
+env -i LD_DEBUG=libs LD_DEBUG_OUTPUT=libs root/usr/bin/pscn render bent.pscn --size 40x30 -q
+[ -s bent.png ] || { echo "there is no picture"; exit 1; }
+loaded=$(grep -ho 'calling init: .*pscn_openimageio.so' libs.*)
+[[ $loaded == *"$folder"/root/usr/* ]] || { echo "the module is another one: $loaded"; exit 1; }
+"$PSCN" render bent.pscn --size 40x30 -q -o built.png
+"$PSCN" compare bent.png built.png --fail 0 -q
+
+# Nothing stands outside /usr, nothing can be written to by others.
+[ -z "$(find root -mindepth 1 -maxdepth 1 ! -name usr)" ]
+[ -z "$(find root -perm /022 ! -type l)" ]
+# The library's links lead to it.
+[ -s root/usr/lib/libpscn.so ] || [ -s root/usr/lib/*/libpscn.so ]
