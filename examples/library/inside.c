@@ -89,7 +89,7 @@ int main(int argc, char **argv)
   struct pscn_hits *counts = calloc(n, sizeof *counts);
   struct pscn_hit(*hits)[MOST] = calloc(n, sizeof *hits);
   struct sums sums = {0, 0, 0, 0};
-  int code = status;
+  int code = (int)status;
   if (status == PSCN_OK && (rays == NULL || counts == NULL || hits == NULL)) code = PSCN_LIMIT;
   if (code != PSCN_OK) goto done;
 
@@ -97,7 +97,7 @@ int main(int argc, char **argv)
   find_box(scene, low, high);
   for (size_t row = 0; row < n; row++) {
     make_lines(low, high, row, n, rays);
-    code = pscn_all(scene, n, rays, sizeof *rays, counts, sizeof *counts, *hits, sizeof *hits, MOST);
+    code = (int)pscn_all(scene, n, rays, sizeof *rays, counts, sizeof *counts, *hits, sizeof *hits, MOST);
     if (code != PSCN_OK) goto done;
     for (size_t k = 0; k < n; k++) add_line(&counts[k], hits[k], &sums);
   }
