@@ -23,7 +23,7 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
                  const struct solver_warm *warm, struct root_estimates *out)
 {
   const int n = problem->degree;
-  const struct root_kernel *kernel = root_kernel_best();
+  root_kernel *const sweep = root_kernel_best();
   struct aberth a;
   /* The bound of the stop is that of rounding alone: coefficient errors say nothing about where to stop. */
   evaluation_prepare(n, problem->basis, problem->c, NULL, &a.p);
@@ -40,7 +40,7 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
   }
   if (options->watch != NULL) tell_sweep(&a, problem, options, 0, out);
   for (int number = 1; number <= options->max_iterations && a.active_count > 0; number++) {
-    kernel->aberth_sweep(&a, options, number, out);
+    sweep(&a, options, number, out);
     if (options->watch != NULL) tell_sweep(&a, problem, options, number, out);
   }
   for (int i = 0; i < n; i++) {

@@ -19,6 +19,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "algebra/polynomial.h"
 #include "base/lanes.h"
 
 enum { ABERTH_LANES_DEGREE = 18 };
@@ -49,9 +50,9 @@ struct aberth_lanes {
 /* 1/x to about 20 bits; 0 where x is above 1e38. */
 LANES_INLINE lanes aberth_lanes_inverse(lanes x)
 {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#if LANES == 8
   return (lanes)_mm512_cvtps_pd(_mm256_div_ps(_mm256_set1_ps(1), _mm512_cvtpd_ps((__m512d)x)));
-#elif defined(__AVX__)
+#elif LANES == 4
   return (lanes)_mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1), _mm256_cvtpd_ps((__m256d)x)));
 #else
   return 1 / x;
@@ -125,12 +126,7 @@ static void aberth_lanes_start(struct aberth_lanes *a, unsigned lane)
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
     height[k] = (double)bits * 0x1p-52;
-    while (corners >= 2) {
-      const int l = corner[corners - 2], m = corner[corners - 1];
-      if ((height[m] - height[l]) * (k - l) > (height[k] - height[l]) * (m - l)) break;
-      corners--;
-    }
-    corner[corners++] = k;
+    corners = polynomial_add_corner(height, corner, corners, k);
   }
   for (int edge = -1; edge < corners; edge++) {
     const int low = edge < 0 ? 0 : corner[edge], high = edge + 1 < corners ? corner[edge + 1] : n;

@@ -140,22 +140,6 @@ static struct local_values look_at_value(int n, const double c[], struct complex
   return look_inlined(n, c, x, 1.0, LOOK_VALUE | LOOK_ERROR);
 }
 
-/* |step|^2 in u: |dx|^2 in the power basis, |dx|^2 / (|1 + x|^2 |1 + x + dx|^2) in Bernstein form. */
-static double step_in_u(enum basis basis, struct complex_number x, struct complex_number step)
-{
-  if (basis == BASIS_POWER) return complex_norm(step);
-  x.re += 1.0;
-  return complex_norm(step) / (complex_norm(x) * complex_norm(complex_add(x, step)));
-}
-
-/* |u|^2 */
-static double square_in_u(enum basis basis, struct complex_number x)
-{
-  const double square = complex_norm(x);
-  x.re += basis == BASIS_POWER ? 0.0 : 1.0;
-  return basis == BASIS_POWER ? square : square / complex_norm(x);
-}
-
 struct sought {
   struct complex_number x;
   int iterations;
@@ -187,13 +171,13 @@ static struct sought seek(const struct root_problem *problem, const struct solve
     if (!usable) move = (struct complex_number){0.25 * reach, 0.125 * reach};
     const double length = complex_modulus(move);
     if (length > reach) move = complex_scale(reach / length, move);
-    const double in_u = step_in_u(problem->basis, out.x, move);
+    const double in_u = root_problem_step_in_u(problem->basis, out.x, move);
     if (options->stop == STOP_ROUNDING && here.size <= here.error) {
       const bool noise = !usable || in_u >= last;
       out.converged = noise || in_u < STEEP_FALL * last;
       if (noise) break;
     }
-    const double square = relative ? square_in_u(problem->basis, out.x) : 1.0;
+    const double square = relative ? root_problem_square_in_u(problem->basis, out.x) : 1.0;
     out.converged = out.converged || (usable && in_u < (square < 1.0 ? tolerance * square : tolerance));
     if (!out.converged && out.iterations % TURN_PERIOD == 0) {
       const double now = complex_norm(move);

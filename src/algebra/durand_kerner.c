@@ -40,16 +40,6 @@ static struct complex_number step_of(const struct sweep *sweep, int i, bool *res
   return step;
 }
 
-/* |step|^2 and |x|^2 in u: du = dx / ((1 + x) (1 + x + dx)) in Bernstein form. */
-static double step_in_u(enum basis basis, struct complex_number x, struct complex_number step, double *square)
-{
-  *square = complex_norm(x);
-  if (basis == BASIS_POWER) return complex_norm(step);
-  x.re += 1.0;
-  *square /= complex_norm(x);
-  return complex_norm(step) / (complex_norm(x) * complex_norm(complex_add(x, step)));
-}
-
 /* Moves root i. True when it is done. */
 static bool move(struct sweep *sweep, int i)
 {
@@ -57,9 +47,9 @@ static bool move(struct sweep *sweep, int i)
   const struct complex_number x = sweep->x[i];
   const bool rounding = options->stop == STOP_ROUNDING;
   bool resting;
-  double square;
   struct complex_number step = step_of(sweep, i, &resting);
-  const double length = step_in_u(sweep->p.basis, x, step, &square);
+  const double length = root_problem_step_in_u(sweep->p.basis, x, step);
+  const double square = root_problem_square_in_u(sweep->p.basis, x);
   if (!isfinite(step.re) || !isfinite(step.im) || isnan(length)) { /* two values are equal: part them */
     sweep->next[i] = (struct complex_number){x.re + 0.25 * x.re - 0.125 * x.im, x.im + 0.25 * x.im + 0.125 * x.re};
     sweep->last[i] = INFINITY;

@@ -37,6 +37,18 @@ struct sign_variations {
 
 struct sign_variations polynomial_sign_variations(int degree, const double c[], const double error[]);
 
+/* Newton's polygon, the upper convex hull of the points (k, height[k]), from left to right: adds point k to the corners
+ * so far and returns how many there are then. An edge from k to l stands for l - k roots of about one modulus. */
+static inline int polynomial_add_corner(const double height[], int corner[], int corners, int k)
+{
+  for (; corners >= 2; corners--) {
+    const int a = corner[corners - 2], b = corner[corners - 1];
+    if ((height[b] - height[a]) * (k - a) > (height[k] - height[a]) * (b - a)) break;
+  }
+  corner[corners] = k;
+  return corners + 1;
+}
+
 /* C(n,k), exact in double for n <= POLYNOMIAL_MAX_DEGREE as far as 2^53, correctly rounded beyond. */
 double polynomial_binomial(int n, int k);
 

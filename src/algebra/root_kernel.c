@@ -1,15 +1,12 @@
-/* The loops over the roots of one polynomial: Aberth's step (eq 9; aberth.c) and the first-order bound (validation.c).
+/* Aberth's step (eq 9; aberth.c) for the roots of one polynomial.
  *
- * Compiled once per instruction set, PSCN_KERNEL being the name of the table it defines.
+ * Compiled once per instruction set, PSCN_KERNEL being the name of the function it defines.
  */
 #include "algebra/root_kernel.h"
 
 #include <string.h>
 
 #include "base/lanes.h"
-
-/* A slope known to less than half of itself makes the first-order bound poor: then the higher orders are asked too. */
-#define SLOPE_CERTAINTY 0.5
 
 /* Every so many sweeps a step no shorter than this much of the one so many before is turned by the root's own angle.
  * Symmetric starts (real values seeking a complex pair, pairs seeking two real roots) would otherwise never part. */
@@ -38,13 +35,13 @@ LANES_INLINE lanes modulus_of(lanes re, lanes im)
   return lanes_sqrt(re * re + im * im) * drop;
 }
 
-/* q and q' of the chart polynomial at a few chart points z, and bounds on their errors. Lanes of `reversed` take
+/* q and q' of the chart polynomial at a few chart points z, and a bound on the error of q. Lanes of `reversed` take
  * 1/x. */
 struct evaluation_lanes {
-  lanes re, im, slope_re, slope_im, error, slope_error;
+  lanes re, im, slope_re, slope_im, error;
 };
 
-/* `bounded` is a constant at every call; without it the errors are left 0. */
+/* `bounded` is a constant at every call; without it the error is left 0. */
 LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lanes zi, lane_mask reversed, bool bounded,
                                       struct evaluation_lanes *out)
 {
@@ -52,7 +49,7 @@ LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lane
   const lanes modulus = bounded ? modulus_of(zr, zi) : (lanes){0};
   lanes re = lanes_select(reversed, lanes_all(p->reverse[n]), lanes_all(p->forward[n]));
   lanes error = lanes_select(reversed, lanes_all(p->reverse_bound[n]), lanes_all(p->forward_bound[n]));
-  lanes im = {0}, slope_re = {0}, slope_im = {0}, slope_error = {0};
+  lanes im = {0}, slope_re = {0}, slope_im = {0};
   for (int k = n - 1; k >= 0; k--) {
     const lanes c = lanes_select(reversed, lanes_all(p->reverse[k]), lanes_all(p->forward[k]));
     const lanes next_slope_re = slope_re * zr - slope_im * zi + re;
@@ -63,7 +60,6 @@ LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lane
     re = next_re;
     if (bounded) {
       const lanes b = lanes_select(reversed, lanes_all(p->reverse_bound[k]), lanes_all(p->forward_bound[k]));
-      slope_error = slope_error * modulus + error;
       error = error * modulus + b;
     }
   }
@@ -72,7 +68,6 @@ LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lane
   out->slope_re = slope_re;
   out->slope_im = slope_im;
   out->error = bounded ? error + UNDERFLOW_ERROR : (lanes){0};
-  out->slope_error = bounded ? slope_error + UNDERFLOW_ERROR : (lanes){0};
 }
 
 /* a / b without overflow or underflow of |b|^2; not finite where b = 0. */
@@ -167,7 +162,7 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
   return done;
 }
 
-static void aberth_sweep(struct aberth *a, const struct solver_options *options, int number, struct root_estimates *out)
+void PSCN_KERNEL(struct aberth *a, const struct solver_options *options, int number, struct root_estimates *out)
 {
   const bool turning = number % TURN_PERIOD == 0;
   /* The paper's tolerance is absolute. */
@@ -209,74 +204,3 @@ static void aberth_sweep(struct aberth *a, const struct solver_options *options,
   }
   a->active_count = moving > 0 ? still_active : 0;
 }
-
-struct inclusion_lanes {
-  lanes zr, zi;       /* chart point */
-  lanes bound;        /* of the distance from z to the nearest root, by j = 1 */
-  lanes width_square; /* |w|^2 */
-  lanes width;        /* |w|; 0 where z = u */
-  lane_mask reversed;
-  lane_mask doubtful; /* worth the higher orders */
-};
-
-/* Chart and first-order bound of a few values. */
-LANES_INLINE void include_lanes(const struct evaluation *p, lanes ur, lanes ui, struct inclusion_lanes *out)
-{
-  const bool power = p->basis == BASIS_POWER;
-  const lanes one = lanes_all(1.0), zero = {0};
-  const lanes vr = power ? one : 1.0 - ur, vi = power ? zero : -ui;
-  const lanes u_square = ur * ur + ui * ui, v_square = vr * vr + vi * vi;
-  out->reversed = u_square > v_square;
-  const lanes top_r = lanes_select(out->reversed, vr, ur), top_i = lanes_select(out->reversed, vi, ui);
-  const lanes low_r = lanes_select(out->reversed, ur, vr), low_i = lanes_select(out->reversed, ui, vi);
-  out->width_square = lanes_select(out->reversed, u_square, v_square);
-  out->width = lanes_sqrt(out->width_square);
-  out->zr = (top_r * low_r + top_i * low_i) / out->width_square;
-  out->zi = (top_i * low_r - top_r * low_i) / out->width_square;
-
-  struct evaluation_lanes q;
-  evaluation_at_lanes(p, out->zr, out->zi, out->reversed, true, &q);
-  const lanes size = modulus_of(out->zr, out->zi);
-  const lanes value = modulus_of(q.re, q.im);
-  const lanes slope = modulus_of(q.slope_re, q.slope_im);
-  const lanes end_error = lanes_select(out->reversed, lanes_all(p->reverse_bound[0]), lanes_all(p->forward_bound[0]));
-  const lane_mask at_end = size == 0.0; /* no arithmetic was done there: an exact coefficient is an exact value */
-  const lanes end_value = lanes_select(value == 0.0, end_error, value + end_error);
-  const lanes top = lanes_select(at_end, end_value, value + q.error);
-  const lanes sure_slope = slope * (2.0 - BOUND_ROOM) - q.slope_error;
-  out->bound = p->degree * top / sure_slope * BOUND_ROOM;
-  out->bound = lanes_select(sure_slope > 0.0, out->bound, lanes_all(INFINITY));
-  out->bound = lanes_select(top == 0.0, zero, out->bound);
-  out->doubtful = (lane_mask)(sure_slope < SLOPE_CERTAINTY * slope) & (lane_mask)(top > 0.0);
-  /* z = u needs no chart and has no chart rounding */
-  const lane_mask plain = power ? ~out->reversed : (lane_mask){0};
-  out->bound += lanes_select(plain, zero, CHART_ROUNDING * size);
-  out->width = lanes_select(plain, zero, out->width);
-}
-
-static void include(const struct evaluation *p, int count, const double re[], const double im[], struct inclusion out[])
-{
-  for (int first = 0; first < count; first += LANES) {
-    const int used = count - first < LANES ? count - first : LANES;
-    lanes ur = {0}, ui = {0};
-    for (int l = 0; l < used; l++) {
-      ur[l] = re[first + l];
-      ui[l] = im[first + l];
-    }
-    struct inclusion_lanes found;
-    include_lanes(p, ur, ui, &found);
-    for (int l = 0; l < used; l++) {
-      out[first + l] = (struct inclusion){
-        .zr = found.zr[l],
-        .zi = found.zi[l],
-        .bound = found.bound[l],
-        .width = found.width[l],
-        .width_square = found.width_square[l],
-        .reversed = found.reversed[l] != 0,
-        .doubtful = found.doubtful[l] != 0,
-      };
-    }
-  }
-}
-
-const struct root_kernel PSCN_KERNEL = {PSCN_KERNEL_NAME, aberth_sweep, include};

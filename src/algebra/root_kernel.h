@@ -1,4 +1,4 @@
-/* The loops over the roots of one polynomial, several roots side by side. Internal to src/algebra.
+/* Aberth's method for one polynomial, several roots side by side. Internal to src/algebra.
  *
  * root_kernel.c is compiled once per instruction set; root_kernel_best picks at run time. All of them round alike (no
  * contraction of multiply and add), so an answer does not depend on the machine.
@@ -7,9 +7,6 @@
 #define PSCN_ALGEBRA_ROOT_KERNEL_H
 
 #include "algebra/root_problem.h"
-
-/* The chart point is computed from u with a difference, a reciprocal of a square and products: under 10 roundings. */
-#define CHART_ROUNDING (10 * UNIT_ROUNDOFF)
 
 /* `stop rounding`: where |p| is below its rounding bound, which is never sharp, steps go on while they shrink. One not
  * shorter than the last is noise; after one that has shrunk by this much (its square against the last one's),
@@ -29,27 +26,11 @@ struct aberth {
   int active_count;
 };
 
-/* What the first-order bound says of one value: see validation.c. */
-struct inclusion {
-  double zr, zi;              /* chart point */
-  double bound;               /* of the distance from z to the nearest root; may be infinite or NaN */
-  double width, width_square; /* |w| and |w|^2 of the chart at u; width is 0 where z = u */
-  bool reversed;
-  bool doubtful; /* the slope is hardly told from zero: higher orders may bound better */
-};
+/* One sweep over the active roots, as options->stop, update and rest say. `number` counts from 1. */
+typedef void root_kernel(struct aberth *a, const struct solver_options *options, int number,
+                         struct root_estimates *out);
 
-struct root_kernel {
-  const char *name;
-  /* One sweep over the active roots, as options->stop, update and rest say. `number` counts from 1. */
-  void (*aberth_sweep)(struct aberth *a, const struct solver_options *options, int number, struct root_estimates *out);
-  void (*include)(const struct evaluation *p, int count, const double re[], const double im[], struct inclusion out[]);
-};
-
-extern const struct root_kernel root_kernel_baseline;
-#ifdef PSCN_ROOT_KERNEL_AVX2
-extern const struct root_kernel root_kernel_avx2;
-#endif
-
-const struct root_kernel *root_kernel_best(void);
+root_kernel root_kernel_baseline, root_kernel_avx2;
+root_kernel *root_kernel_best(void);
 
 #endif

@@ -64,6 +64,22 @@ static inline void root_problem_x_from_u(enum basis basis, double *re, double *i
   *re = x;
 }
 
+/* |u|^2 at x, and |step|^2 in u of a step from there: du = dx / ((1 + x) (1 + x + dx)) in Bernstein form. */
+static inline double root_problem_square_in_u(enum basis basis, struct complex_number x)
+{
+  const double square = complex_norm(x);
+  if (basis == BASIS_POWER) return square;
+  x.re += 1.0;
+  return square / complex_norm(x);
+}
+
+static inline double root_problem_step_in_u(enum basis basis, struct complex_number x, struct complex_number step)
+{
+  if (basis == BASIS_POWER) return complex_norm(step);
+  x.re += 1.0;
+  return complex_norm(step) / (complex_norm(x) * complex_norm(complex_add(x, step)));
+}
+
 /* Tells whoever looks on that a root is at x now. */
 static inline void root_problem_tell(const struct solver_options *options, enum basis basis, int root, int step,
                                      double re, double im)

@@ -53,12 +53,12 @@ void solver_options_default(const struct solver *solver, struct solver_options *
   solver_options_form(out, true);
 }
 
-const struct root_kernel *root_kernel_best(void)
+root_kernel *root_kernel_best(void)
 {
 #ifdef PSCN_ROOT_KERNEL_AVX2
-  if (__builtin_cpu_supports("avx2")) return &root_kernel_avx2;
+  if (__builtin_cpu_supports("avx2")) return root_kernel_avx2;
 #endif
-  return &root_kernel_baseline;
+  return root_kernel_baseline;
 }
 
 /* The polynomial scaled by a power of two so that its largest coefficient lies in [1/2, 1), which changes no root.

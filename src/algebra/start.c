@@ -83,13 +83,7 @@ static void polygon_values(const struct root_problem *problem, int wanted, doubl
   int corner[POLYNOMIAL_MAX_DEGREE + 1], corners = 0;
   for (int k = 0; k <= n; k++) {
     height[k] = log2(fabs(problem->c[k])); /* -infinity for 0: never on the hull, whose ends are not 0 */
-    if (problem->c[k] == 0.0) continue;
-    while (corners >= 2) {
-      const int a = corner[corners - 2], b = corner[corners - 1];
-      if ((height[b] - height[a]) * (k - a) > (height[k] - height[a]) * (b - a)) break;
-      corners--;
-    }
-    corner[corners++] = k;
+    if (problem->c[k] != 0.0) corners = polynomial_add_corner(height, corner, corners, k);
   }
   const double full_turn = 2.0 * acos(-1.0);
   int i = 0;

@@ -22,22 +22,83 @@
 #include <math.h>
 #include <string.h>
 
-#include "algebra/root_kernel.h"
+#include "algebra/root_problem.h"
+
+/* The chart point is computed from u with a difference, a reciprocal of a square and products: under 10 roundings. */
+#define CHART_ROUNDING (10 * UNIT_ROUNDOFF)
+
+/* A slope known to less than half of itself makes the first-order bound poor: then the higher orders are asked too. */
+#define SLOPE_CERTAINTY 0.5
+
+/* Squares of values below this underflow; above it they cannot, times LIFT squared they do not overflow either. */
+#define SMALL 0x1p-400
+#define LIFT 0x1p600
+
+/* |a|, to a few roundings however small. */
+static double modulus(struct complex_number a)
+{
+  const double lift = fmax(fabs(a.re), fabs(a.im)) < SMALL ? LIFT : 1.0;
+  return complex_modulus(complex_scale(lift, a)) * (1.0 / lift);
+}
+
+/* What the first-order bound says of one value. */
+struct inclusion {
+  struct complex_number z;    /* chart point */
+  double bound;               /* of the distance from z to the nearest root; may be infinite or NaN */
+  double width, width_square; /* |w| and |w|^2 of the chart at u; width is 0 where z = u */
+  bool reversed;
+  bool doubtful; /* the slope is hardly told from zero: higher orders may bound better */
+};
+
+static struct inclusion include(const struct evaluation *p, struct complex_number u)
+{
+  const bool power = p->basis == BASIS_POWER;
+  const struct complex_number v = power ? (struct complex_number){1.0, 0.0}
+                                        : (struct complex_number){1.0 - u.re, -u.im};
+  struct inclusion out = {.reversed = complex_norm(u) > complex_norm(v)};
+  const struct complex_number top = out.reversed ? v : u, low = out.reversed ? u : v;
+  out.width_square = complex_norm(low);
+  out.z.re = (top.re * low.re + top.im * low.im) / out.width_square;
+  out.z.im = (top.im * low.re - top.re * low.im) / out.width_square;
+
+  const double *c = out.reversed ? p->reverse : p->forward;
+  const double *bound = out.reversed ? p->reverse_bound : p->forward_bound;
+  const double size = modulus(out.z);
+  struct complex_number q = {c[p->degree], 0.0}, slope = {0.0, 0.0};
+  double error = bound[p->degree], slope_error = 0.0;
+  for (int k = p->degree - 1; k >= 0; k--) {
+    slope = complex_add(complex_multiply(slope, out.z), q);
+    q = complex_multiply(q, out.z);
+    q.re += c[k];
+    slope_error = slope_error * size + error;
+    error = error * size + bound[k];
+  }
+  /* at an end no arithmetic was done: an exact coefficient is an exact value */
+  const double value = modulus(q), value_error = size == 0.0 ? bound[0] : error + UNDERFLOW_ERROR;
+  const double most = value + value_error, steep = modulus(slope);
+  const double sure_slope = steep * (2.0 - BOUND_ROOM) - (slope_error + UNDERFLOW_ERROR);
+  out.bound = most == 0.0 ? 0.0 : sure_slope > 0.0 ? p->degree * most / sure_slope * BOUND_ROOM : INFINITY;
+  out.doubtful = sure_slope < SLOPE_CERTAINTY * steep && most > 0.0;
+  if (power && !out.reversed) return out; /* z = u needs no chart and has no chart rounding */
+  out.bound += CHART_ROUNDING * size;
+  out.width = sqrt(out.width_square);
+  return out;
+}
 
 /* The least bound over all orders j, at one chart point. */
-static double all_orders_bound(const struct evaluation *p, double zr, double zi, bool reversed)
+static double all_orders_bound(const struct evaluation *p, struct complex_number z, bool reversed)
 {
   const int n = p->degree;
   const size_t bytes = sizeof(double) * (size_t)(n + 1);
-  const double modulus = hypot(zr, zi) * (1.0 + 4 * UNIT_ROUNDOFF);
+  const double modulus = hypot(z.re, z.im) * (1.0 + 4 * UNIT_ROUNDOFF);
   double re[POLYNOMIAL_MAX_DEGREE + 1], im[POLYNOMIAL_MAX_DEGREE + 1] = {0}, error[POLYNOMIAL_MAX_DEGREE + 1];
   memcpy(re, reversed ? p->reverse : p->forward, bytes);
   memcpy(error, reversed ? p->reverse_bound : p->forward_bound, bytes);
   double best = INFINITY, top = 0.0;
   for (int j = 0; j <= n; j++) {
     for (int k = n - 1; k >= j; k--) {
-      re[k] += re[k + 1] * zr - im[k + 1] * zi;
-      im[k] += re[k + 1] * zi + im[k + 1] * zr;
+      re[k] += re[k + 1] * z.re - im[k + 1] * z.im;
+      im[k] += re[k + 1] * z.im + im[k + 1] * z.re;
       error[k] += error[k + 1] * modulus;
     }
     const double size = hypot(re[j], im[j]), doubt = error[j] + UNDERFLOW_ERROR;
@@ -83,26 +144,23 @@ static void set_apart(struct judged *later, const struct judged *earlier)
 
 static void find_own(const struct evaluation *p, int count, const struct root root[], struct judged all[])
 {
-  double re[POLYNOMIAL_MAX_DEGREE], im[POLYNOMIAL_MAX_DEGREE];
-  struct inclusion found[POLYNOMIAL_MAX_DEGREE];
-  for (int i = 0; i < count; i++) re[i] = root[i].re, im[i] = root[i].im;
-  root_kernel_best()->include(p, count, re, im, found);
   for (int i = 0; i < count; i++) {
-    const struct inclusion *at = &found[i];
-    double bound = at->bound, x_width = 0.0;
-    if (at->doubtful) {
-      const double rounding = at->width == 0.0 ? 0.0 : CHART_ROUNDING * hypot(at->zr, at->zi);
-      bound = fmin(bound, all_orders_bound(p, at->zr, at->zi, at->reversed) + rounding);
+    const struct complex_number u = {root[i].re, root[i].im};
+    const struct inclusion at = include(p, u);
+    double bound = at.bound, x_width = 0.0;
+    if (at.doubtful) {
+      const double rounding = at.width == 0.0 ? 0.0 : CHART_ROUNDING * hypot(at.z.re, at.z.im);
+      bound = fmin(bound, all_orders_bound(p, at.z, at.reversed) + rounding);
     }
-    all[i] = (struct judged){.x = {re[i], im[i]}, .shared = INFINITY, .width_square = 1.0, .group = i};
+    all[i] = (struct judged){.x = u, .shared = INFINITY, .width_square = 1.0, .group = i};
     root_problem_x_from_u(p->basis, &all[i].x.re, &all[i].x.im);
     if (p->basis == BASIS_BERNSTEIN) {
-      all[i].width = hypot(1.0 - re[i], im[i]);
+      all[i].width = hypot(1.0 - u.re, u.im);
       all[i].width_square = all[i].width * all[i].width;
     }
-    if (at->reversed) x_width = complex_modulus(all[i].x);
-    all[i].own = radius_in_u(bound, x_width, at->reversed ? x_width * x_width : 1.0);
-    all[i].own_in_u = radius_in_u(bound, at->width, at->width_square);
+    if (at.reversed) x_width = complex_modulus(all[i].x);
+    all[i].own = radius_in_u(bound, x_width, at.reversed ? x_width * x_width : 1.0);
+    all[i].own_in_u = radius_in_u(bound, at.width, at.width_square);
     for (int j = 0; j < i; j++) set_apart(&all[i], &all[j]);
   }
 }

@@ -27,7 +27,6 @@
 #undef isnan
 #define double counted
 #define PSCN_KERNEL root_kernel_baseline
-#define PSCN_KERNEL_NAME "counted"
 #include "algebra/aberth.c"
 #undef UNDERFLOW_ERROR
 #define UNDERFLOW_ERROR 0x1p-1057
@@ -41,7 +40,7 @@
 #include "algebra/start.c"
 #undef double
 
-const struct root_kernel *root_kernel_best(void) { return &root_kernel_baseline; }
+root_kernel *root_kernel_best(void) { return root_kernel_baseline; }
 
 static const struct solver newton_row = {"newton", "", false, SOLVER_LANES_NONE, 1e-300, 1, newton_find};
 static const struct solver laguerre_row = {"laguerre", "", false, SOLVER_LANES_NONE, 1e-300, 1, laguerre_find};
