@@ -102,10 +102,12 @@ static void trace(const uint8_t *data, size_t size)
                                         "newton { basis power split 2 start previous }"};
   char path[1000];
   (void)snprintf(path, sizeof path, PSCN_SOURCE_DIR "/%s.pscn", TURN(scenes, data[0]));
-  const char *argv[8] = {"trace", path, "-q", "--solver", TURN(solvers, data[1] & 15)};
+  const char *argv[10] = {"trace", path, "-q", "--solver", TURN(solvers, data[1] & 15)};
   int argc = 5;
   if (data[1] & 16) argv[argc++] = "--binary";
   if (data[1] & 32) argv[argc++] = "--certainty";
+  if (data[1] & 64) argv[argc++] = "--all";
+  if (data[1] & 128) argv[argc++] = "--explain";
   run(argv, data + 2, size - 2);
 }
 
@@ -129,7 +131,9 @@ static void roots(const uint8_t *data, size_t size)
                                         "laguerre { tolerance 1e-300 }"};
   static const char *const formats[] = {"plain", "table", "json"};
   run(ARGUMENTS("roots", "-q", "--solver", TURN(solvers, data[0]), "--format", TURN(formats, data[1]),
-                data[1] >= 128 ? "--tolerance=1e-9" : "--stats=s.json"),
+                data[1] >= 192   ? "--iterates"
+                : data[1] >= 128 ? "--tolerance=1e-9"
+                                 : "--stats=s.json"),
       data + 2, size - 2);
 }
 
