@@ -15,9 +15,9 @@
 #include "language/words.h"
 
 /* In the order of the help text. */
-static const struct command *const commands[] = {&command_render, &command_trace,   &command_roots,
-                                                 &command_dump,   &command_compare, &command_check,
-                                                 &command_chart,  &command_help,    NULL};
+static const struct command *const commands[] = {
+  &command_render, &command_trace, &command_roots, &command_dump, &command_compare,
+  &command_merge,  &command_check, &command_chart, &command_help, NULL};
 
 const struct command *command_at(size_t index) { return commands[index]; }
 
@@ -242,7 +242,7 @@ enum status command_line_read(const struct command *command, int argc, const cha
     argv[out->positional_count++] = argv[optind++];
   if (out->positional_count < count)
     return (enum status)command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);
-  if (out->positional_count > count)
+  if (out->positional_count > count && strstr(command->arguments, "...") == NULL)
     return (enum status)command_usage(command, "one argument too many: '%s'", out->positional[count]);
   return STATUS_OK;
 }

@@ -39,8 +39,8 @@ struct command {
   int (*run)(const struct command *command, int argc, const char **argv); /* argv[0] is the command's name */
 };
 
-extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_check,
-  command_chart, command_help;
+extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_merge,
+  command_check, command_chart, command_help;
 
 /* The commands in the order of the help text, from 0 on; NULL behind the last. */
 const struct command *command_at(size_t index);
@@ -81,8 +81,8 @@ struct command_line {
 
 typedef enum status command_option_handler(const struct command *command, void *context, int val, const char *argument);
 
-/* STATUS_USAGE after telling the error where options are wrong or the number of other arguments is not `count`. argv
- * ends with NULL. */
+/* STATUS_USAGE after telling the error where options are wrong or the number of other arguments is not `count`, or less
+ * where the command's arguments end with "...". argv ends with NULL. */
 enum status command_line_read(const struct command *command, int argc, const char **argv, size_t count,
                               command_option_handler *handle, void *context,
                               struct command_line *out) STATUS_MUST_CHECK;

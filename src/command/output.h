@@ -15,7 +15,7 @@ bool output_is_standard(const char *path);
 /* Asks before the work whether a file can be written, and after it writes the files of a result, OUTPUT_MOST of them at
  * most: all together or none (atomic_file.h). A NULL path is nowhere, "-" standard output, which cannot be taken back
  * and comes first. Errors are told. A signal that comes meanwhile leaves what was there: STATUS_INTERRUPTED. */
-enum { OUTPUT_MOST = 2 };
+enum { OUTPUT_MOST = 3 };
 enum status output_probe(const struct command *command, const char *path) STATUS_MUST_CHECK;
 enum status output_write(const struct command *command, const struct atomic_file outputs[],
                          size_t count) STATUS_MUST_CHECK;

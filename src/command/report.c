@@ -108,6 +108,14 @@ static void add(struct report_metadata *metadata, const char *name, const char *
   metadata->attribute[metadata->count++] = (struct image_attribute){name, text};
 }
 
+void report_date(char out[REPORT_DATE_SIZE])
+{
+  const time_t now = time(NULL);
+  struct tm calendar;
+  if (gmtime_r(&now, &calendar) == NULL || strftime(out, REPORT_DATE_SIZE, "%Y:%m:%d %H:%M:%S", &calendar) == 0)
+    out[0] = '\0';
+}
+
 void report_metadata_fill(const struct report *report, struct report_metadata *out)
 {
   const struct method *solver = &report->scene->solvers[0];
@@ -119,10 +127,7 @@ void report_metadata_fill(const struct report *report, struct report_metadata *o
   snprintf(out->seconds, sizeof out->seconds, "%.3f", report->render.wall);
   number_write(solver->roots.tolerance, out->tolerance);
   method_text(solver, out->solver, sizeof out->solver);
-  const time_t now = time(NULL);
-  struct tm calendar;
-  if (gmtime_r(&now, &calendar) == NULL || strftime(out->date, sizeof out->date, "%Y:%m:%d %H:%M:%S", &calendar) == 0)
-    out->date[0] = '\0';
+  report_date(out->date);
   add(out, "Software", "pscn " PSCN_VERSION);
   add(out, "DateTime", out->date);
   add(out, "pscn:version", PSCN_VERSION);
@@ -132,5 +137,9 @@ void report_metadata_fill(const struct report *report, struct report_metadata *o
   add(out, "pscn:size", out->size);
   add(out, "pscn:crop", out->crop);
   add(out, "pscn:samples", out->samples);
+  add(out, "pscn:channels", report->channels);
+  add(out, "pscn:options", report->options);
+  add(out, "pscn:text", report->scene->text_hash);
+  add(out, "pscn:arithmetic", intersector_arithmetic());
   add(out, "pscn:render_seconds", out->seconds);
 }

@@ -18,6 +18,8 @@ struct report {
   const struct scene *scene;
   size_t width, height, samples, threads;
   struct rectangle crop; /* the part of width x height that the picture shows */
+  const char *channels,
+    *options; /* as on the command line: --channels LIST, and what else says how the scene is read */
   struct intersect_counts counts;
   struct seconds parse, build, render, write; /* write: what the bytes of the picture took */
 };
@@ -33,11 +35,15 @@ json_t *report_statistics(const struct report *report);
 enum status report_text(const struct command *command, json_t *statistics, char **out_text) STATUS_MUST_CHECK;
 enum status report_write(const struct command *command, json_t *statistics, const char *path) STATUS_MUST_CHECK;
 
+/* Now, as pictures have it. */
+enum { REPORT_DATE_SIZE = 32 };
+void report_date(char out[REPORT_DATE_SIZE]);
+
 /* The metadata of the picture, in `out`; texts live in *out. */
 struct report_metadata {
   struct image_attribute attribute[16];
   size_t count;
-  char size[64], crop[96], samples[32], tolerance[32], seconds[32], date[32];
+  char size[64], crop[96], samples[32], tolerance[32], seconds[32], date[REPORT_DATE_SIZE];
   char solver[METHOD_TEXT_SIZE];
 };
 void report_metadata_fill(const struct report *report, struct report_metadata *out);

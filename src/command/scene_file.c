@@ -1,6 +1,7 @@
 /* A scene from a file, its errors told on stderr. */
 #include "command/scene_file.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,6 +115,25 @@ enum status scene_file_load(const struct command *command, const struct scene_re
   status = language_load_text(text->name, text->text, text->length, &settings, &diagnostics, out);
   source_destroy(text);
   return status;
+}
+
+char *scene_request_text(const struct scene_request *request)
+{
+  char *text = NULL, number[NUMBER_TEXT_SIZE];
+  size_t size;
+  FILE *memory = open_memstream(&text, &size);
+  if (memory == NULL) return NULL;
+  if (request->solver_text != NULL) fprintf(memory, " --solver '%s'", request->solver_text);
+  number_write(request->tolerance, number);
+  if (!isnan(request->tolerance)) fprintf(memory, " --tolerance %s", number);
+  for (size_t k = 0; k < request->number_count; k++) {
+    const struct language_number *given = &request->numbers[k];
+    number_write(given->value, number);
+    fprintf(memory, " --declare %.*s=%s", (int)given->name_length, given->name, number);
+  }
+  if (fclose(memory) == 0) return text;
+  free(text);
+  return NULL;
 }
 
 void scene_file_warn(const struct command *command, const struct scene *scene)

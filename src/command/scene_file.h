@@ -54,6 +54,10 @@ size_t scene_request_memory(const struct scene_request *request);
 enum status scene_file_load(const struct command *command, const struct scene_request *request,
                             struct scene **out) STATUS_MUST_CHECK;
 
+/* What the options say of how a scene is read, but for where it is found, as a command line; to be freed, NULL where
+ * memory is short. */
+char *scene_request_text(const struct scene_request *request);
+
 /* Warns of a scene of which nothing will be seen: without patches, lights or a camera. */
 void scene_file_warn(const struct command *command, const struct scene *scene);
 

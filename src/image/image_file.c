@@ -116,7 +116,7 @@ enum status image_encode(const struct image *image, const struct image_encoding 
   return status == STATUS_OK ? module->encode(image, encoding, out_bytes, out_size, message) : status;
 }
 
-enum status image_read(const char *path, struct image *out, char *message)
+static enum status read_file(const char *path, bool pixels, struct image *out, char *message)
 {
   *out = (struct image){0};
   const char *reason;
@@ -128,5 +128,15 @@ enum status image_read(const char *path, struct image *out, char *message)
   (void)close(file); /* OpenImageIO opens files itself, each format anew, and says nothing of why it cannot */
   const struct image_module *module;
   const enum status status = load_module(&module, message);
-  return status == STATUS_OK ? module->read(path, out, message) : status;
+  return status == STATUS_OK ? module->read(path, pixels, out, message) : status;
+}
+
+enum status image_read(const char *path, struct image *out, char *message)
+{
+  return read_file(path, true, out, message);
+}
+
+enum status image_read_header(const char *path, struct image *out, char *message)
+{
+  return read_file(path, false, out, message);
 }

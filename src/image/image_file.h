@@ -54,4 +54,7 @@ enum status image_encode(const struct image *image, const struct image_encoding 
  * picture is owned by the caller and has its window and its metadata. STATUS_FILE or STATUS_LIMIT; then *out is zero. */
 enum status image_read(const char *path, struct image *out, char *message) STATUS_MUST_CHECK;
 
+/* The same of all but its pixels, whose value is NULL. */
+enum status image_read_header(const char *path, struct image *out, char *message) STATUS_MUST_CHECK;
+
 #endif

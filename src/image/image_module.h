@@ -15,7 +15,7 @@
 struct image_module {
   enum status (*encode)(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
                         size_t *out_size, char *message);
-  enum status (*read)(const char *path, struct image *out, char *message);
+  enum status (*read)(const char *path, bool pixels, struct image *out, char *message);
 };
 
 extern const struct image_module image_module __attribute__((visibility("default")));

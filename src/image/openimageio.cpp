@@ -136,7 +136,7 @@ void read_metadata(const OIIO::ImageSpec &spec, image &out)
   if (out.metadata == nullptr) throw std::bad_alloc();
 }
 
-std::string read(const char *path, image &out, status &result)
+std::string read(const char *path, bool pixels, image &out, status &result)
 {
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
   if (!input) {
@@ -151,11 +151,15 @@ std::string read(const char *path, image &out, status &result)
                         static_cast<std::size_t>(spec.nchannels), &out);
   if (result != STATUS_OK) return "out of memory";
   result = STATUS_FILE;
+  if (!pixels) {
+    std::free(out.value);
+    out.value = nullptr;
+  }
   for (std::size_t c = 0; c < out.channel_count; c++)
     std::snprintf(out.channel[c].name, IMAGE_NAME_SIZE, "%s", spec.channelnames[c].c_str());
   read_window(spec, out);
   read_metadata(spec, out);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value)) return input->geterror();
+  if (pixels && !input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value)) return input->geterror();
   result = STATUS_OK;
   return "";
 }
@@ -194,11 +198,11 @@ status module_encode(const image *picture, const image_encoding *encoding, unsig
     });
 }
 
-status module_read(const char *path, image *out, char *message)
+status module_read(const char *path, bool pixels, image *out, char *message)
 {
   const status result = guarded(message, [&] {
     status reading = STATUS_FILE;
-    const std::string problem = read(path, *out, reading);
+    const std::string problem = read(path, pixels, *out, reading);
     if (!problem.empty()) say(message, problem);
     return reading;
   });

@@ -45,6 +45,8 @@ static const struct kernel *kernel_chosen(void)
 
 bool intersector_kernel_here(void) { return kernel_chosen() != NULL; }
 
+const char *intersector_arithmetic(void) { return kernel_chosen() == &kernel_baseline ? "baseline" : "fused"; }
+
 enum status intersector_create(const struct scene *scene, struct intersector **out)
 {
   *out = NULL;

@@ -83,6 +83,9 @@ struct tracer;
  * best there is) is one that this processor has and the program was built with. */
 bool intersector_kernel_here(void);
 
+/* "fused" or "baseline": how that one rounds products that are added to. Those of one kind answer alike to the last bit. */
+const char *intersector_arithmetic(void);
+
 /* Prepares the scene: degrees, leaves, bounding hierarchy. Borrows the scene, which must outlive it.
  * STATUS_LIMIT where memory is short, STATUS_USAGE where PSCN_KERNEL asks for what is not here; then *out is NULL. */
 enum status intersector_create(const struct scene *scene, struct intersector **out) STATUS_MUST_CHECK;

@@ -1,6 +1,7 @@
 /* The stack of sources. */
 #include "language/sources.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -60,8 +61,24 @@ bool sources_open(struct language *language, struct source *source)
   return true;
 }
 
+/* FNV-1a of 128 bits (Fowler, Noll, Vo; RFC 9923) over the length and the text of each file, the last one read first. */
+static void hash_texts(const struct sources *sources, char out[SCENE_HASH_SIZE])
+{
+  __extension__ typedef unsigned __int128 hash_type;
+  const hash_type prime = ((hash_type)1 << 88) + 0x13b;
+  hash_type hash = (hash_type)UINT64_C(0x6c62272e07bb0142) << 64 | UINT64_C(0x62b821756295c58d);
+  for (const struct source_list *entry = sources->all; entry; entry = entry->next) {
+    const struct source *source = entry->source;
+    if (source->shared) continue;
+    for (size_t length = source->length; length > 0; length /= 256) hash = (hash ^ length % 256) * prime;
+    for (size_t k = 0; k < source->length; k++) hash = (hash ^ (unsigned char)source->text[k]) * prime;
+  }
+  snprintf(out, SCENE_HASH_SIZE, "%016" PRIx64 "%016" PRIx64, (uint64_t)(hash >> 64), (uint64_t)hash);
+}
+
 bool sources_list(const struct language *language, struct scene *scene)
 {
+  hash_texts(language->sources, scene->text_hash);
   scene->files = arena_alloc(scene->arena, (size_t)language->sources->count, sizeof *scene->files);
   for (const struct source_list *entry = language->sources->all; scene->files && entry; entry = entry->next) {
     const struct source *source = entry->source;

@@ -61,6 +61,8 @@ struct scene_camera {
   double location[3], direction[3], right[3], up[3];
 };
 
+enum { SCENE_HASH_SIZE = 33 };
+
 struct scene {
   struct arena *arena;
   struct scene_camera camera;
@@ -80,6 +82,7 @@ struct scene {
   size_t solver_count;
   const char **files; /* the paths of the files that were read for it */
   size_t file_count;
+  char text_hash[SCENE_HASH_SIZE]; /* of all text that was read for it, in hexadecimal digits */
 };
 
 /* Makes `method` the solver of every patch (--solver and --tolerance on the command line). */

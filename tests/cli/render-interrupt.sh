@@ -1,4 +1,4 @@
-# SIGINT gives 130, SIGTERM 143; neither leaves a file.
+# SIGINT gives 130, SIGTERM 143; neither touches the picture, and what is done is kept beside it, or nowhere.
 scene=$SCENES/bent.pscn
 echo old >a.png
 for signal in INT TERM; do
@@ -9,6 +9,13 @@ for signal in INT TERM; do
   echo "exit $?"
 done
 cat a.png
+ls -A
+rm a.png.part.exr
+pscn render "$scene" -o - --size 2000x2000 --samples 16 --quiet >/dev/null &
+sleep 1
+kill -INT $!
+wait $!
+echo "exit $?"
 ls -A
 # Whoever waits for input ends at once.
 mkfifo pipe

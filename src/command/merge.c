@@ -1,0 +1,328 @@
+/* pscn merge PIECE...: the picture that the pieces are of. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "base/version.h"
+#include "command/command.h"
+#include "command/output.h"
+#include "command/piece.h"
+#include "command/report.h"
+#include "command/values.h"
+
+struct request {
+  const char *output;
+  size_t bits; /* 0: not given */
+  bool quiet;
+  enum image_format format;
+};
+
+enum { OPTION_BITS = 1 };
+
+static const struct command_option OPTIONS[] = {
+  COMMAND_HELP_OPTION,
+  COMMAND_TEXT("output", 'o', output, "the picture, .png or .exr", "FILE"),
+  COMMAND_OPTION("bits", 0, OPTION_BITS, "of a colour value: 8 or 16 (PNG), 16 or 32 (EXR)", "N"),
+  COMMAND_TRUE("quiet", 'q', quiet, "say nothing unless something is wrong"),
+  COMMAND_OPTIONS_END,
+};
+
+/* One of the files. */
+struct file {
+  const char *path;
+  struct piece piece; /* without pixels */
+  bool good;          /* a piece of the picture, as far as is known */
+  size_t alike;       /* files that this one is the first of, being of one picture */
+};
+
+/* What is being put together. */
+struct merge {
+  const struct command *command;
+  const struct request *request;
+  struct file *file;
+  size_t count;
+  const struct file *first; /* of the files of the picture that most are of; NULL: no file is a piece */
+  struct piece picture;     /* piece 1 of 1; done: the tiles that a file has */
+  double seconds;           /* that the pieces took */
+  bool strange;             /* something is wrong with a file, which has been told */
+};
+
+static enum status take_option(const struct command *command, void *context, int val, const char *argument)
+{
+  struct request *request = context;
+  (void)val;
+  if (value_integer(argument, 8, 32, &request->bits)) return STATUS_OK;
+  return (enum status)command_usage(command, "'%s' bits are 8, 16 or 32", argument);
+}
+
+/* From here on the file counts for nothing. */
+static void refuse(struct merge *merge, struct file *file, const char *format, const char *text)
+{
+  char message[2 * IMAGE_MESSAGE_SIZE];
+  snprintf(message, sizeof message, format, text);
+  command_error(merge->command, "'%s': %s", file->path, message);
+  file->good = false;
+  merge->strange = true;
+}
+
+/* ---- which picture, and which files are of it ---- */
+
+static enum status read_headers(struct merge *merge)
+{
+  char message[IMAGE_MESSAGE_SIZE];
+  for (size_t k = 0; k < merge->count; k++) {
+    struct file *file = &merge->file[k];
+    const enum status status = piece_read(file->path, false, &file->piece, message);
+    if (status == STATUS_LIMIT) return status;
+    file->good = status == STATUS_OK;
+    if (!file->good) refuse(merge, file, "%s", message);
+  }
+  return STATUS_OK;
+}
+
+/* Of two pieces, which each belong to themselves at least. */
+static bool belong(const struct file *a, const struct file *b, char *message, size_t size)
+{
+  const struct image *x = &a->piece.image, *y = &b->piece.image;
+  if (!piece_belongs(x, y, message, size)) return false;
+  if (a->piece.count != b->piece.count) {
+    snprintf(message, size, "its number of pieces: %zu, not %zu", a->piece.count, b->piece.count);
+    return false;
+  }
+  snprintf(message, size, "its window");
+  return x->x == y->x && x->y == y->y && x->width == y->width && x->height == y->height;
+}
+
+/* The picture that most files are of; of two with equally many, that of the first file. */
+static void choose_picture(struct merge *merge)
+{
+  char message[IMAGE_MESSAGE_SIZE];
+  for (size_t k = 0; k < merge->count; k++) {
+    struct file *like = merge->file;
+    if (!merge->file[k].good) continue;
+    while (!like->good || !belong(&merge->file[k], like, message, sizeof message)) like++;
+    if (++like->alike > (merge->first == NULL ? 0 : merge->first->alike)) merge->first = like;
+  }
+}
+
+/* The picture, still black, and what is common to all pieces. */
+static enum status create_picture(struct merge *merge)
+{
+  const struct image *image = &merge->first->piece.image;
+  struct render_options options = {.width = image->full_width,
+                                   .height = image->full_height,
+                                   .crop = {image->x, image->y, image->width, image->height}};
+  size_t length, bad_length;
+  const char *channels = image_metadata(image, "pscn:channels", &length), *bad;
+  char *list = strndup(channels, length);
+  if (list == NULL) return STATUS_LIMIT;
+  const bool known = channel_list_parse(list, &options.channels, &bad, &bad_length);
+  free(list);
+  if (known) return piece_create(&options, 1, 1, NULL, 0, &merge->picture);
+  command_error(merge->command, "'%s': its channels are unknown", merge->first->path);
+  return STATUS_FILE;
+}
+
+/* Where a tile of a piece stands in the list of the whole picture (tile_list.h). */
+static atomic_bool *place_of(const struct merge *merge, const struct piece *piece, size_t tile)
+{
+  return &merge->picture.tiles.done[tile * piece->count + piece->number - 1];
+}
+
+/* Marks the tiles that a piece has as done, or none where one of them is already. */
+static bool count_tiles(const struct merge *merge, const struct piece *piece)
+{
+  bool twice = false;
+  for (size_t t = 0; t < piece->tiles.count; t++)
+    twice |= atomic_load(&piece->tiles.done[t]) && atomic_load(place_of(merge, piece, t));
+  for (size_t t = 0; t < piece->tiles.count && !twice; t++)
+    if (atomic_load(&piece->tiles.done[t])) atomic_store(place_of(merge, piece, t), true);
+  return !twice;
+}
+
+static void judge_files(struct merge *merge)
+{
+  char message[IMAGE_MESSAGE_SIZE];
+  for (size_t k = 0; k < merge->count; k++) {
+    struct file *file = &merge->file[k];
+    if (file->good && !belong(file, merge->first, message, sizeof message))
+      refuse(merge, file, "is a piece of another picture; %s", message);
+    if (file->good && !count_tiles(merge, &file->piece))
+      refuse(merge, file, "what it has is in %s too", "a file before it");
+  }
+}
+
+/* ---- pixels ---- */
+
+static double seconds_of(const struct image *image)
+{
+  double seconds = 0;
+  size_t length, used;
+  const char *text = image_metadata(image, "pscn:render_seconds", &length);
+  if (text == NULL || number_read(text, length, &seconds, &used) != NUMBER_FINITE) return 0;
+  return seconds;
+}
+
+static enum status read_pixels(struct merge *merge)
+{
+  char message[IMAGE_MESSAGE_SIZE];
+  for (size_t k = 0; k < merge->count; k++) {
+    struct file *file = &merge->file[k];
+    struct piece whole;
+    if (!file->good) continue;
+    const enum status status = piece_read(file->path, true, &whole, message);
+    if (status == STATUS_LIMIT) return status;
+    if (status != STATUS_OK) refuse(merge, file, "%s", message);
+    else if (!piece_copy(&whole, &merge->picture.image)) refuse(merge, file, "%s", "it lacks a channel");
+    merge->seconds += seconds_of(&whole.image);
+    piece_destroy(&whole);
+    for (size_t t = 0; t < file->piece.tiles.count && !file->good; t++)
+      atomic_store(place_of(merge, &file->piece, t), false);
+  }
+  return STATUS_OK;
+}
+
+static bool is_missing(const struct merge *merge, size_t number)
+{
+  const struct tile_list *tiles = &merge->picture.tiles;
+  for (size_t k = number - 1; k < tiles->count; k += merge->first->piece.count)
+    if (!atomic_load(&tiles->done[k])) return true;
+  return false;
+}
+
+/* The numbers of the pieces that are missing, as Slurm's sbatch --array takes them: "2,5-7". Whether there are any. */
+static bool print_missing(const struct merge *merge)
+{
+  const size_t last = merge->first->piece.count;
+  const char *comma = "";
+  for (size_t number = 1; number <= last; number++) {
+    const size_t begin = number;
+    while (number <= last && is_missing(merge, number)) number++;
+    if (number == begin) continue;
+    printf("%s%zu", comma, begin);
+    if (number - 1 > begin) printf("-%zu", number - 1);
+    comma = ",";
+  }
+  if (*comma != '\0') printf("\n");
+  return *comma != '\0';
+}
+
+/* ---- the picture ---- */
+
+enum { MOST_TEXTS = 40 };
+
+/* The texts of the picture: those of the pieces, but for what is a piece's own, and today's. `lines` is cut up. */
+static size_t list_texts(char *lines, const char *date, const char *seconds, struct image_attribute out[MOST_TEXTS])
+{
+  size_t count = 0;
+  out[count++] = (struct image_attribute){"Software", "pscn " PSCN_VERSION};
+  out[count++] = (struct image_attribute){"DateTime", date};
+  out[count++] = (struct image_attribute){"pscn:render_seconds", seconds};
+  for (char *name = strtok(lines, "\n"); name != NULL && count < MOST_TEXTS; name = strtok(NULL, "\n")) {
+    char *text = strchr(name, '=');
+    *text++ = '\0';
+    if (strcmp(name, "pscn:tile") != 0 && strcmp(name, "pscn:done") != 0 && strcmp(name, "pscn:render_seconds") != 0)
+      out[count++] = (struct image_attribute){name, text};
+  }
+  return count;
+}
+
+static enum status write_picture(const struct merge *merge)
+{
+  const struct request *request = merge->request;
+  struct image_attribute texts[MOST_TEXTS];
+  char message[IMAGE_MESSAGE_SIZE], date[REPORT_DATE_SIZE], seconds[32], *lines;
+  unsigned char *bytes = NULL;
+  size_t size;
+  report_date(date);
+  snprintf(seconds, sizeof seconds, "%.3f", merge->seconds);
+  lines = strdup(merge->first->piece.image.metadata);
+  if (lines == NULL) return STATUS_LIMIT;
+  const struct image_encoding encoding = {.format = request->format,
+                                          .bits = (int)request->bits,
+                                          .attributes = texts,
+                                          .attribute_count = list_texts(lines, date, seconds, texts)};
+  enum status status = image_encode(&merge->picture.image, &encoding, &bytes, &size, message);
+  if (status != STATUS_OK) command_error(merge->command, "cannot make '%s': %s", request->output, message);
+  else status = output_write(merge->command, &(struct atomic_file){request->output, bytes, size}, 1);
+  free(bytes);
+  free(lines);
+  return status;
+}
+
+static enum status put_together(struct merge *merge)
+{
+  enum status status = read_headers(merge);
+  if (status == STATUS_OK) choose_picture(merge);
+  if (status == STATUS_OK && merge->first == NULL) return STATUS_FILE;
+  if (status == STATUS_OK) status = create_picture(merge);
+  if (status == STATUS_OK) judge_files(merge);
+  if (status == STATUS_OK) status = read_pixels(merge);
+  if (status == STATUS_LIMIT) command_error(merge->command, "out of memory");
+  if (status != STATUS_OK) return status;
+  if (print_missing(merge) || merge->strange) {
+    status = command_finish_output(merge->command);
+    return status == STATUS_OK ? STATUS_DIFFERENT : status;
+  }
+  status = write_picture(merge);
+  if (status == STATUS_OK && !merge->request->quiet)
+    fprintf(stderr, "%s: %zu piece%s\n", merge->request->output, merge->count, merge->count == 1 ? "" : "s");
+  return status;
+}
+
+/* ---- the command ---- */
+
+static enum status check(const struct command *command, struct request *request, const struct command_line *line)
+{
+  if (request->output == NULL) return (enum status)command_usage(command, "-o FILE says what the picture is called");
+  enum status status = output_format(command, request->output, &request->format);
+  if (status != STATUS_OK) return status;
+  if (request->bits == 0) request->bits = (size_t)image_format_default_bits(request->format);
+  if (!image_format_has_bits(request->format, (int)request->bits))
+    return (enum status)command_usage(command, "'%s' cannot have %zu bits a value", request->output, request->bits);
+  for (size_t k = 0; k < line->positional_count && status == STATUS_OK; k++)
+    status = output_spare(command, request->output, line->positional[k]);
+  return status == STATUS_OK ? output_probe(command, request->output) : status;
+}
+
+static int run(const struct command *command, int argc, const char **argv)
+{
+  struct request request = {.output = NULL};
+  struct command_line line;
+  enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
+  if (status == STATUS_OK && !line.help) status = check(command, &request, &line);
+  if (status != STATUS_OK || line.help) return (int)status;
+  struct merge merge = {.command = command, .request = &request, .count = line.positional_count};
+  merge.file = calloc(merge.count, sizeof *merge.file);
+  if (merge.file == NULL) {
+    command_error(command, "out of memory");
+    return (int)STATUS_LIMIT;
+  }
+  for (size_t k = 0; k < merge.count; k++) merge.file[k].path = line.positional[k];
+  status = put_together(&merge);
+  for (size_t k = 0; k < merge.count; k++) piece_destroy(&merge.file[k].piece);
+  piece_destroy(&merge.picture);
+  free(merge.file);
+  return (int)status;
+}
+
+const struct command command_merge = {
+  .name = "merge",
+  .arguments = "PIECE...",
+  .summary = "Puts the pieces of a picture together",
+  .description =
+    "Pieces are what 'pscn render --tile K/N' writes, K = 1 to N, on any machines and in any order; what an "
+    "interrupted\n"
+    "rendering has kept (*.part.exr) is one too. The picture is, pixel by pixel and bit by bit, the one that a single\n"
+    "rendering without --tile makes.\n"
+    "\n"
+    "Each piece says what it is of: the text of the scene and of all it includes, the options, the version and the "
+    "kind of\n"
+    "processor. Where a piece is missing, cannot be read, is of another picture than most or has what another one has "
+    "as\n"
+    "well, no picture is written, the exit code is 1, and standard output has the numbers of the pieces that are still "
+    "to be\n"
+    "rendered, such as 2,5-7: what sbatch --array takes.\n",
+  .options = OPTIONS,
+  .run = run,
+};

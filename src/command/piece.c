@@ -1,0 +1,253 @@
+/* Parts of a picture. */
+#include "command/piece.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command/values.h"
+
+/* What two parts of a picture have in common, and what a message calls it. */
+static const struct {
+  const char *name, *what;
+} COMMON[] = {
+  {"pscn:size", "size"},         {"pscn:crop", "crop"},
+  {"pscn:samples", "samples"},   {"pscn:channels", "channels"},
+  {"pscn:text", "scene's text"}, {"pscn:options", "options"},
+  {"pscn:version", "version"},   {"pscn:arithmetic", "processor's arithmetic"},
+};
+
+enum { MOST_PIECES = 1000000 };
+
+/* Digits at *text, which is moved behind them. */
+static bool take_integer(const char **text, const char *end, size_t most, size_t *out)
+{
+  size_t value = 0;
+  const char *begin = *text;
+  for (; *text < end && **text >= '0' && **text <= '9' && value <= most; ++*text)
+    value = 10 * value + (size_t)(**text - '0');
+  *out = value;
+  return *text > begin && value <= most;
+}
+
+static bool take_letter(const char **text, const char *end, char letter)
+{
+  if (*text >= end || **text != letter) return false;
+  ++*text;
+  return true;
+}
+
+bool piece_number(const char *text, size_t length, size_t *out_number, size_t *out_count)
+{
+  const char *end = text + length;
+  size_t number, count;
+  if (!take_integer(&text, end, MOST_PIECES, &number) || !take_letter(&text, end, '/') ||
+      !take_integer(&text, end, MOST_PIECES, &count) || text != end || number < 1 || number > count)
+    return false;
+  *out_number = number;
+  *out_count = count;
+  return true;
+}
+
+/* The lines of struct image's metadata; NULL where memory is short. */
+static char *metadata_lines(const struct image_attribute *attributes, size_t count)
+{
+  size_t size = 1, used = 0;
+  for (size_t k = 0; k < count; k++) size += strlen(attributes[k].name) + strlen(attributes[k].text) + 2;
+  char *lines = malloc(size);
+  if (lines == NULL) return NULL;
+  lines[0] = '\0';
+  for (size_t k = 0; k < count; k++)
+    if (strncmp(attributes[k].name, "pscn:", 5) == 0)
+      used += (size_t)snprintf(lines + used, size - used, "%s=%s\n", attributes[k].name, attributes[k].text);
+  return lines;
+}
+
+static void name_channels(const struct channel_list *channels, struct image *image)
+{
+  struct image_channel *channel = image->channel;
+  for (size_t k = 0; k < channels->count; k++) {
+    const struct channel_traits *traits = channel_traits(channels->kind[k]);
+    for (size_t c = 0; c < traits->width; c++, channel++) {
+      channel->data = traits->data;
+      snprintf(channel->name, IMAGE_NAME_SIZE, "%s", traits->value_names[c]);
+    }
+  }
+}
+
+enum status piece_create(const struct render_options *options, size_t number, size_t count,
+                         const struct image_attribute *attributes, size_t attribute_count, struct piece *out)
+{
+  const struct rectangle *crop = &options->crop;
+  struct image *image = &out->image;
+  *out = (struct piece){.number = number, .count = count};
+  enum status status = image_create(crop->width, crop->height, options->channels.width, image);
+  if (status == STATUS_OK) status = tile_list_create(crop, number, count, &out->tiles);
+  if (status != STATUS_OK) return status;
+  image->x = crop->x;
+  image->y = crop->y;
+  image->full_width = options->width;
+  image->full_height = options->height;
+  name_channels(&options->channels, image);
+  image->metadata = metadata_lines(attributes, attribute_count);
+  return image->metadata == NULL ? STATUS_LIMIT : STATUS_OK;
+}
+
+void piece_destroy(struct piece *piece)
+{
+  image_destroy(&piece->image);
+  tile_list_destroy(&piece->tiles);
+  *piece = (struct piece){0};
+}
+
+/* "0-17,19", the opposite of piece_done_text; false where it is no such list. */
+static bool read_done(const char *text, size_t length, const struct tile_list *tiles)
+{
+  const char *end = text + length;
+  while (text < end) {
+    size_t first, last;
+    if (!take_integer(&text, end, tiles->count, &first)) return false;
+    last = first;
+    if (take_letter(&text, end, '-') && !take_integer(&text, end, tiles->count, &last)) return false;
+    if (last < first || last >= tiles->count || !(text == end || take_letter(&text, end, ','))) return false;
+    for (size_t k = first; k <= last; k++) atomic_store(&tiles->done[k], true);
+  }
+  return true;
+}
+
+/* What the picture says of its tiles; STATUS_INPUT where that is nothing, or nothing that can be. */
+static enum status read_tiles(struct piece *piece)
+{
+  const struct image *image = &piece->image;
+  const struct rectangle crop = {image->x, image->y, image->width, image->height};
+  size_t length;
+  const char *tile = image_metadata(image, "pscn:tile", &length);
+  if (tile == NULL || image_metadata(image, "pscn:channels", &(size_t){0}) == NULL || image->full_width == 0 ||
+      !piece_number(tile, length, &piece->number, &piece->count))
+    return STATUS_INPUT;
+  const enum status status = tile_list_create(&crop, piece->number, piece->count, &piece->tiles);
+  if (status != STATUS_OK) return status;
+  const char *done = image_metadata(image, "pscn:done", &length);
+  if (done != NULL) return read_done(done, length, &piece->tiles) ? STATUS_OK : STATUS_INPUT;
+  for (size_t k = 0; k < piece->tiles.count; k++) atomic_store(&piece->tiles.done[k], true);
+  return STATUS_OK;
+}
+
+enum status piece_read(const char *path, bool pixels, struct piece *out, char *message)
+{
+  *out = (struct piece){0};
+  enum status status = pixels ? image_read(path, &out->image, message) : image_read_header(path, &out->image, message);
+  if (status != STATUS_OK) return status;
+  status = read_tiles(out);
+  if (status == STATUS_OK) return STATUS_OK;
+  snprintf(message, IMAGE_MESSAGE_SIZE, "%s", status == STATUS_INPUT ? "no piece of a picture" : "out of memory");
+  piece_destroy(out);
+  return status;
+}
+
+bool piece_belongs(const struct image *part, const struct image *picture, char *out, size_t size)
+{
+  for (size_t k = 0; k < sizeof COMMON / sizeof *COMMON; k++) {
+    size_t here = 0, there = 0;
+    const char *a = image_metadata(part, COMMON[k].name, &here), *b = image_metadata(picture, COMMON[k].name, &there);
+    if (a == NULL) a = "", here = 0; /* an empty text is not in the file */
+    if (b == NULL) b = "", there = 0;
+    if (here == there && memcmp(a, b, here) == 0) continue;
+    snprintf(out, size, "its %s: '%.*s', not '%.*s'", COMMON[k].what, (int)here, a, (int)there, b);
+    return false;
+  }
+  return true;
+}
+
+/* The values of one tile, of which `channel` says for each of to's channels which of from's it is. */
+static void copy_tile(const struct image *from, const struct rectangle *tile, const size_t *channel, struct image *to)
+{
+  for (size_t y = tile->y - to->y; y < tile->y - to->y + tile->height; y++) {
+    const float *value = image_pixel(from, tile->x - to->x, y);
+    float *out = image_pixel(to, tile->x - to->x, y);
+    for (size_t x = 0; x < tile->width; x++, value += from->channel_count)
+      for (size_t c = 0; c < to->channel_count; c++) *out++ = value[channel[c]];
+  }
+}
+
+bool piece_copy(const struct piece *from, struct image *to)
+{
+  size_t channel[IMAGE_MAX_CHANNELS];
+  for (size_t c = 0; c < to->channel_count; c++) {
+    channel[c] = image_find_channel(&from->image, to->channel[c].name);
+    if (channel[c] == from->image.channel_count) return false;
+  }
+  for (size_t k = 0; k < from->tiles.count; k++)
+    if (atomic_load(&from->tiles.done[k])) copy_tile(&from->image, &from->tiles.tile[k], channel, to);
+  return true;
+}
+
+char *piece_done_text(const struct tile_list *tiles)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *memory = open_memstream(&text, &size);
+  if (memory == NULL) return NULL;
+  const char *comma = "";
+  for (size_t k = 0; k < tiles->count; k++) {
+    const size_t first = k;
+    while (k < tiles->count && atomic_load(&tiles->done[k])) k++;
+    if (k == first) continue;
+    fprintf(memory, "%s%zu", comma, first);
+    if (k - 1 > first) fprintf(memory, "-%zu", k - 1);
+    comma = ",";
+  }
+  if (fclose(memory) == 0) return text;
+  free(text);
+  return NULL;
+}
+
+/* A copy of the tiles that are done, and of no others: nobody reads what is being written. */
+static enum status copy_done(const struct piece *piece, struct piece *out)
+{
+  const struct image *image = &piece->image;
+  const struct rectangle crop = {image->x, image->y, image->width, image->height};
+  *out = (struct piece){.number = piece->number, .count = piece->count};
+  enum status status = image_create(image->width, image->height, image->channel_count, &out->image);
+  if (status == STATUS_OK) status = tile_list_create(&crop, piece->number, piece->count, &out->tiles);
+  if (status != STATUS_OK) return status;
+  memcpy(out->image.channel, image->channel, image->channel_count * sizeof *image->channel);
+  out->image.x = image->x;
+  out->image.y = image->y;
+  out->image.full_width = image->full_width;
+  out->image.full_height = image->full_height;
+  size_t channel[IMAGE_MAX_CHANNELS];
+  for (size_t c = 0; c < image->channel_count; c++) channel[c] = c;
+  for (size_t k = 0; k < out->tiles.count; k++) {
+    if (!atomic_load(&piece->tiles.done[k])) continue;
+    copy_tile(image, &out->tiles.tile[k], channel, &out->image);
+    atomic_store(&out->tiles.done[k], true);
+  }
+  return STATUS_OK;
+}
+
+enum status piece_encode(const struct piece *piece, const struct image_attribute *attributes, size_t attribute_count,
+                         unsigned char **out_bytes, size_t *out_size, char *message)
+{
+  enum { MOST = 32 };
+  struct image_attribute all[MOST];
+  struct piece copy;
+  char tile[48], *done = NULL;
+  *out_bytes = NULL;
+  *out_size = 0;
+  enum status status = copy_done(piece, &copy);
+  if (status == STATUS_OK) done = piece_done_text(&copy.tiles);
+  if (done == NULL) status = STATUS_LIMIT;
+  snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
+  snprintf(tile, sizeof tile, "%zu/%zu", piece->number, piece->count);
+  for (size_t k = 0; k < attribute_count; k++) all[k] = attributes[k];
+  all[attribute_count] = (struct image_attribute){"pscn:tile", tile};
+  all[attribute_count + 1] = (struct image_attribute){"pscn:done", done};
+  const struct image_encoding encoding = {
+    .format = IMAGE_EXR, .bits = 32, .quick = true, .attributes = all, .attribute_count = attribute_count + 2};
+  if (status == STATUS_OK) status = image_encode(&copy.image, &encoding, out_bytes, out_size, message);
+  free(done);
+  piece_destroy(&copy);
+  return status;
+}

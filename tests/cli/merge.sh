@@ -1,0 +1,55 @@
+# Pieces of a picture, rendered apart, give the picture of a single run to the bit, in every format and with all channels.
+scene="$SCENES/bent.pscn --size 150x100 --quiet"
+channels=rgb,depth,coverage,patch
+same() { # A B: no value differs
+  pscn compare $1 $2 --fail 0 --quiet && echo "$1 is $2"
+}
+pscn render $scene --channels $channels --bits 32 -o one.exr
+pscn render $scene --samples 2 -o one.png
+pscn render $scene --samples 2 --bits 16 -o one16.png
+for k in 1 2 3 4; do
+  pscn render $scene --channels $channels --tile $k/4 -o all$k.exr
+  pscn render $scene --samples 2 --tile $k/4 -o p$k.exr
+done
+try pscn merge all3.exr all1.exr all4.exr all2.exr -o all.exr --bits 32 --quiet
+try pscn merge p?.exr -o p.png --quiet
+try pscn merge p?.exr -o p16.png --bits 16
+same one.exr all.exr
+same one.png p.png
+same one16.png p16.png
+pscn render $scene --crop 37,5,66,80 -o crop.exr
+for k in 1 2; do pscn render $scene --crop 37,5,66,80 --tile $k/2 -o crop$k.exr; done
+pscn merge crop?.exr -o cropped.exr --quiet
+same crop.exr cropped.exr
+# More pieces than tiles.
+for k in 1 2 3; do pscn render $scene --crop 0,0,40,20 --tile $k/3 -o tiny$k.exr; done
+try pscn merge tiny?.exr -o tiny.exr --quiet
+# What is missing, strange or there twice is told, and no picture is made.
+try pscn merge p2.exr -o no.png
+try pscn merge p1.exr p3.exr p4.exr p3.exr -o no.png
+try pscn merge p?.exr p2.exr -o no.png
+try pscn merge p?.exr all2.exr -o no.png
+pscn render $scene --samples 2 --tile 3/4 --declare Unused=1 -o p3.exr
+try pscn merge p?.exr -o no.png
+pscn render $scene --samples 2 --tile 3/5 -o p3.exr
+try pscn merge p?.exr -o no.png
+sed 's/angle 4/angle 5/' $SCENES/bent.pscn >other.pscn
+pscn render other.pscn --size 150x100 --quiet --samples 2 --tile 3/4 -o p3.exr
+pscn merge p?.exr -o no.png 2>err; echo "exit $?"
+sed "s/'[0-9a-f]\{32\}'/HASH/g" err
+pscn render $scene --samples 2 --tile 3/4 -o whole3.exr
+head -c 3000 whole3.exr >p3.exr
+pscn merge p?.exr -o no.png 2>/dev/null; echo "exit $?"
+try pscn merge p1.exr gone.exr one.exr crop.exr -o no.png
+try pscn merge gone.exr one.png -o no.png
+ls no.png
+# The command line.
+try pscn merge -o no.png
+try pscn merge p1.exr
+try pscn merge p1.exr -o p1.exr
+try pscn merge p1.exr -o no.jpg
+try pscn merge p1.exr -o no.png --bits 32
+try pscn render $scene --tile 1/4 -o no.png
+try pscn render $scene --tile 5/4 -o no.exr
+try pscn render $scene --tile 1/4 --bits 16 -o no.exr
+try pscn render $scene --resume -o -

@@ -1,0 +1,47 @@
+# What ends a rendering costs little of its work: --resume goes on to the same bits, or says what has changed.
+scene="$SCENES/bent.pscn --size 300x200 --samples 10"
+pscn render $scene -o one.exr --quiet
+all=$((300 * 200 * 10 * 10))
+# end SIGNAL FILE OPTION...: ends a rendering by the signal when a part of it is done.
+end() {
+  local signal=$1 file=$2
+  shift 2
+  pscn render $scene -o $file --quiet --threads 1 --checkpoint 0.2 "$@" &
+  for wait in {1..200}; do [ -e $file.part.exr ] && break || sleep 0.05; done
+  kill -$signal $!
+  wait $! 2>/dev/null
+  echo "exit $?"
+  [ -e $file ] && echo "$file is there"
+}
+# The bits of one.exr, by fewer rays than all.
+resumed() {
+  pscn render $scene -o $1 --resume --quiet --stats stats.json
+  primary=$(sed -n 's/.*"primary": \([0-9]*\).*/\1/p' stats.json)
+  [ "$primary" -lt $all ] || echo "$primary rays of $all"
+  pscn compare $1 one.exr --fail 0 --quiet && echo "$1 is one.exr"
+}
+for signal in INT TERM KILL; do
+  end $signal $signal.exr
+  resumed $signal.exr
+done
+end INT again.png
+end TERM again.png --resume
+pscn render $scene -o again.png --resume --quiet
+pscn render $scene -o one.png --quiet
+pscn compare again.png one.png --fail 0 --quiet && echo 'again.png is one.png'
+# What is kept is a piece of the picture.
+end INT half.exr
+pscn merge half.exr.part.exr -o no.png; echo "exit $?"
+# It goes on with nothing else.
+try pscn render $scene -o half.exr --resume --samples 3
+try pscn render $scene -o half.exr --resume --size 30x20
+try pscn render $scene -o half.exr --resume --tile 1/2
+try pscn render $scene -o half.exr --resume --solver newton
+echo no picture >half.exr.part.exr
+pscn render $scene -o half.exr --resume 2>/dev/null; echo "exit $?"
+# Nor without being asked to, but it says so.
+cp one.exr half.exr.part.exr
+pscn render $SCENES/flat.pscn --size 20x10 -o half.exr 2>&1 | head -1
+# Nothing to go on from.
+pscn render $SCENES/flat.pscn --size 20x10 -o new.png --resume --quiet
+ls
