@@ -1,0 +1,35 @@
+#!/bin/bash
+# A picture in pieces by Slurm: an array job of one task a piece, and the merging once all are there.
+#
+#   examples/farm_slurm.sh PIECES FILE SCENE [OPTION...]      options of pscn render
+#
+# Waits for the picture. What sbatch asks for is in SBATCH_OPTIONS ("--time=1:00:00 --cpus-per-task=8"); PSCN chooses the program. The
+# folder must be one that the nodes share. A task that is requeued, or ended by its time, goes on where it was: SIGTERM comes before
+# SIGKILL, and what is done is kept every half minute anyway. Pieces that failed are submitted again, twice at most.
+set -euo pipefail
+pieces=${1:?how many pieces?} file=${2:?which picture?}
+shift 2
+pscn=${PSCN:-pscn}
+command -v sbatch >/dev/null || { echo "Slurm is not installed" >&2; exit 4; }
+
+folder=$(realpath -m "$file").pieces
+mkdir -p "$folder"
+cat >"$folder/task.sh" <<END
+#!/bin/bash
+exec $(printf '%q ' "$pscn" render "$@") --tile "\$SLURM_ARRAY_TASK_ID/$pieces" -o $(printf %q "$folder")/"\$SLURM_ARRAY_TASK_ID.exr" \\
+  --threads "\${SLURM_CPUS_PER_TASK:-1}" --quiet --resume
+END
+
+missing=1-$pieces
+for try in 1 2 3; do
+  # shellcheck disable=SC2086 # options are words
+  sbatch --quiet --wait --requeue --array="$missing" --output="$folder/%a.log" ${SBATCH_OPTIONS:-} "$folder/task.sh" || true
+  if missing=$("$pscn" merge "$folder"/*.exr -o "$file"); then
+    rm -r "$folder"
+    exit 0
+  fi
+  [ -n "$missing" ] || missing=1-$pieces
+  echo "missing: $missing" >&2
+done
+cat "$folder"/*.log >&2
+exit 1
