@@ -3,13 +3,14 @@
  *   primary_rays SCENE [RUNS [SIDE [SOLVER...]]]
  *
  * All 800x600 camera rays in the renderer's order: pscn's packets by the scene's own solvers, then by each SOLVER
- * ("aberth { split 1 }"), beside Embree's rtcIntersect1 and coherent rtcIntersect8 on SIDE x SIDE x 2 triangles a patch
+ * ("aberth { split 1 }"; "all" or "all SOLVER": all hits of each ray instead of the nearest), beside Embree's rtcIntersect1 and coherent rtcIntersect8 on SIDE x SIDE x 2 triangles a patch
  * (128). CPU time of the thread. A line a contestant, tabs between: name, ns a ray (median over runs, smallest,
  * largest), and the medians of the ratios to rtcIntersect1, to rtcIntersect8 and to pscn in the same run.
  */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "base/sort.h"
@@ -22,6 +23,7 @@ enum { WIDTH = 800, HEIGHT = 600, MAX_CONTESTANTS = 16, MAX_RUNS = 1000, FIRST_P
 struct contestant {
   const char *name;
   unsigned embree_width; /* 0: pscn */
+  bool all;              /* hits of a ray */
   struct scene *scene;
   struct intersector *intersector;
   struct tracer *tracer;
@@ -43,21 +45,26 @@ static void fail(const char *what)
 static void contestant_load(struct contestant *c, const char *path, const char *solver)
 {
   struct diagnostics diagnostics = {.tell = tell};
+  c->name = solver == NULL ? "pscn" : solver;
+  c->all = solver != NULL && strncmp(solver, "all", 3) == 0 && (solver[3] == ' ' || solver[3] == '\0');
+  if (c->all) solver = solver[3] == ' ' ? solver + 4 : NULL;
   const struct language_settings settings = {
     .image_width = WIDTH, .image_height = HEIGHT, .solver_text = solver, .tolerance = NAN};
-  c->name = solver == NULL ? "pscn" : solver;
   if (language_load(path, &settings, &diagnostics, &c->scene) != STATUS_OK) exit(EXIT_FAILURE);
   if (intersector_create(c->scene, &c->intersector) != STATUS_OK) fail("out of memory");
   if (tracer_create(c->intersector, &c->tracer) != STATUS_OK) fail("out of memory");
 }
 
-static void trace(struct tracer *tracer, const struct ray_list *list)
+static void trace(struct tracer *tracer, bool all, const struct ray_list *list)
 {
   struct hit hits[PACKET_SIZE];
+  struct hit_list lists[PACKET_SIZE];
   for (size_t k = 0; k < list->packet_count; k++) {
     const struct ray_packet *packet = &list->packets[k];
     if (packet->new_run) tracer_forget(tracer);
-    tracer_closest(tracer, packet->count, &list->rays[packet->first], hits);
+    const struct ray *rays = &list->rays[packet->first];
+    if (!all) tracer_closest(tracer, packet->count, rays, hits);
+    else if (tracer_all(tracer, packet->count, rays, lists) != STATUS_OK) fail("out of memory");
   }
 }
 
@@ -117,7 +124,7 @@ int main(int argc, char **argv)
   for (size_t r = 0; r < runs; r++) {
     for (size_t c = 0; c < count; c++) {
       const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-      if (list[c].embree_width == 0) trace(list[c].tracer, &rays);
+      if (list[c].embree_width == 0) trace(list[c].tracer, list[c].all, &rays);
       else sum += pscn_embree_peer.trace(mesh, embree, list[c].embree_width, false);
       list[c].seconds[r] = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
     }

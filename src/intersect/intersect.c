@@ -127,15 +127,17 @@ void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[
 
 enum { FIRST_ROOM = 64 };
 
-void *growing_add(struct growing *list, size_t size)
+void *growing_add(struct growing *list, size_t more, size_t size)
 {
-  if (list->count == list->room) {
-    const size_t room = list->room ? 2 * list->room : FIRST_ROOM;
+  if (!list->at || more > list->room - list->count) {
+    size_t room = list->room ? list->room : FIRST_ROOM;
+    while (room - list->count < more && room <= SIZE_MAX / size) room *= 2;
     void *larger = room > SIZE_MAX / size ? NULL : memory_resize(list->at, room * size);
     if (!larger) return NULL;
     list->at = larger, list->room = room;
   }
-  return (char *)list->at + size * list->count++;
+  list->count += more;
+  return (char *)list->at + size * (list->count - more);
 }
 
 enum status tracer_all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])

@@ -104,8 +104,8 @@ void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[]
 /* Whether anything is hit by each of `count` <= PACKET_SIZE rays. */
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
 
-/* All hits of each of `count` <= PACKET_SIZE rays. The first hit of a certain list is the nearest hit. STATUS_LIMIT where
- * memory is short; then *out means nothing. */
+/* All hits of each of `count` <= PACKET_SIZE rays. The first hit of a certain list is the nearest hit, which may
+ * differ in last bits from that of tracer_closest. STATUS_LIMIT where memory is short; then *out means nothing. */
 enum status tracer_all(struct tracer *tracer, size_t count, const struct ray rays[],
                        struct hit_list out[]) STATUS_MUST_CHECK;
 

@@ -37,17 +37,17 @@ struct growing {
   size_t count, room;
 };
 
-/* intersect.c: room for one more element of `size` bytes at the end, which is counted; NULL where memory is short. */
-void *growing_add(struct growing *list, size_t size);
+/* intersect.c: room for `more` elements of `size` bytes at the end, which are counted; NULL where memory is short. */
+void *growing_add(struct growing *list, size_t more, size_t size);
 
 /* All that is found on the rays of a packet, where all hits are asked for (lanes/gather.h). */
 struct gather {
   struct growing roots;   /* struct gathered, as the lanes took them */
   struct growing open;    /* struct gathered_region: what they left open */
-  struct growing order;   /* const struct gathered *: one lane's roots */
+  struct growing order;   /* const struct gathered *: the roots, lane by lane, in their order */
   struct growing regions; /* struct exact_region, one lane's */
   struct exact_list list; /* what the last resort makes of one lane's */
-  /* int64_t: what is a hit, lane by lane: the number of a root, or -1 less the number of one of `decided` */
+  /* const struct gathered *: the roots that are hits, lane by lane; NULL where the next one of `decided` is */
   struct growing plan;
   struct exact_list decided;
   bool failed; /* memory was short */

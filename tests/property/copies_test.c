@@ -137,6 +137,33 @@ static void compare(struct pair *pair)
   assert_true(certain[0] >= certain[1] - RAYS / 200);
 }
 
+/* All hits: as many, at the same places, on the same patches. */
+static void compare_all(struct pair *pair)
+{
+  int wrong = 0, certain = 0;
+  for (int n = 0; n < RAYS; n++) {
+    struct hit_list lists[2];
+    for (int k = 0; k < 2; k++) assert_int_equal(tracer_all(pair->tracer[k], 1, &pair->rays[n], &lists[k]), STATUS_OK);
+    if (lists[0].certainty != CERTAINTY_CERTAIN || lists[1].certainty != CERTAINTY_CERTAIN) continue;
+    bool same = lists[0].count == lists[1].count;
+    for (size_t h = 0; same && h < lists[0].count; h++) {
+      const struct hit *a = &lists[0].hits[h], *b = &lists[1].hits[h];
+      same = a->patch == b->patch && agree(&pair->rays[n], a, b);
+    }
+    certain++;
+    if (!same && wrong++ < 3)
+      print_message("kind %d ray %d: %zu hits, by themselves %zu\n", pair->kind, n, lists[0].count, lists[1].count);
+  }
+  assert_int_equal(wrong, 0);
+  assert_true(certain > RAYS / 4 || pair->kind == WORLD_DEGENERATE);
+}
+
+static void all_hits_of_copies_are_those_of_patches(void **state)
+{
+  (void)state;
+  each_kind(SEED + 2, compare_all);
+}
+
 static void copies_answer_as_patches_of_their_own(void **state)
 {
   (void)state;
@@ -199,6 +226,7 @@ int main(void)
   print_message("seed %d\n", SEED);
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(copies_answer_as_patches_of_their_own),
+    cmocka_unit_test(all_hits_of_copies_are_those_of_patches),
     cmocka_unit_test(answers_do_not_depend_on_companions),
     cmocka_unit_test(rays_leave_copies),
   };

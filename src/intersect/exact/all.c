@@ -161,13 +161,15 @@ static void settle_border(struct judge *j, size_t at, size_t first, size_t end)
 
 /* ---- the order ---- */
 
-/* By t, and by all else where that is equal: so the order does not depend on how they came. The lanes' come first. */
+/* By t, and by all else where that is equal: so the order does not depend on how they came. The lanes' come
+ * first, in their order. */
 static int by_t(const void *a, const void *b)
 {
   const struct exact_found *x = a, *y = b;
   if (x->root.t != y->root.t) return x->root.t < y->root.t ? -1 : 1;
   if (x->root.patch != y->root.patch) return x->root.patch < y->root.patch ? -1 : 1;
   if ((x->taken < 0) != (y->taken < 0)) return x->taken < 0 ? 1 : -1;
+  if (x->taken != y->taken) return x->taken < y->taken ? -1 : 1;
   if (x->root.u != y->root.u) return x->root.u < y->root.u ? -1 : 1;
   if (x->root.v != y->root.v) return x->root.v < y->root.v ? -1 : 1;
   return x->kind < y->kind ? -1 : x->kind > y->kind;

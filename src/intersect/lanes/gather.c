@@ -18,7 +18,7 @@ void gather_start(struct packet *p, struct gather *gather)
 }
 
 void gather_take(struct packet *p, lane_mask taken, const lanes at[2], const lanes radius[2], lanes t, lanes error,
-                 int64_t patch, bool certain)
+                 int64_t patch, int64_t leaf, bool certain)
 {
   struct gather *gather = p->gather;
   if (p->outer) {
@@ -28,16 +28,14 @@ void gather_take(struct packet *p, lane_mask taken, const lanes at[2], const lan
   double place[LANES][4], distance[LANES][4];
   lanes_store4(at[0], at[1], radius[0], radius[1], &place[0][0], 4);
   lanes_store4(t, error, lanes_all(0), lanes_all(0), &distance[0][0], 4);
-  for (unsigned bits = lanes_bits(taken); bits; bits &= bits - 1) {
+  struct gathered *root = growing_add(&gather->roots, lanes_count(taken), sizeof *root);
+  gather->failed |= !root;
+  for (unsigned bits = root ? lanes_bits(taken) : 0; bits; bits &= bits - 1, root++) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    struct gathered *root = growing_add(&gather->roots, sizeof *root);
-    if (!root) {
-      gather->failed = true;
-      return;
-    }
     memcpy(root->row[ROW_PLACE], place[lane], sizeof place[lane]);
     memcpy(root->row[ROW_DISTANCE], distance[lane], sizeof distance[lane]);
-    root->patch = (uint32_t)patch, root->lane = (uint8_t)lane, root->certain = certain, root->final = false;
+    root->leaf = leaf, root->patch = (uint32_t)patch, root->lane = (uint8_t)lane, root->certain = certain,
+    root->final = false;
   }
 }
 
@@ -61,7 +59,7 @@ void gather_surface(struct gather *gather, lane_mask taken, const struct surface
 void gather_postpone(struct gather *gather, const struct exact_region *region, unsigned on)
 {
   for (unsigned bits = on; bits; bits &= bits - 1) {
-    struct gathered_region *open = growing_add(&gather->open, sizeof *open);
+    struct gathered_region *open = growing_add(&gather->open, 1, sizeof *open);
     if (!open) gather->failed = true;
     else *open = (struct gathered_region){*region, (unsigned)__builtin_ctz(bits)};
   }
@@ -72,15 +70,13 @@ void gather_postpone(struct gather *gather, const struct exact_region *region, u
 static double t_of(const struct gathered *root) { return root->row[ROW_DISTANCE][0]; }
 static double error_of(const struct gathered *root) { return root->row[ROW_DISTANCE][1]; }
 
-/* By t; by all else, where that is equal, so that the order does not depend on the walk. */
+/* In the order in which nearest.h prefers them, which does not depend on the walk. */
 static int by_t(const void *a, const void *b)
 {
   const struct gathered *x = *(const struct gathered *const *)a, *y = *(const struct gathered *const *)b;
   if (t_of(x) != t_of(y)) return t_of(x) < t_of(y) ? -1 : 1;
   if (x->patch != y->patch) return x->patch < y->patch ? -1 : 1;
-  for (int k = 0; k < 2; k++)
-    if (x->row[ROW_PLACE][k] != y->row[ROW_PLACE][k]) return x->row[ROW_PLACE][k] < y->row[ROW_PLACE][k] ? -1 : 1;
-  return 0;
+  return x->leaf < y->leaf ? -1 : x->leaf > y->leaf;
 }
 
 /* Few are put in order faster one by one: the walk comes by them nearly so. */
@@ -100,52 +96,60 @@ static void sort_roots(const struct gathered *roots[], size_t count)
   }
 }
 
-/* The lane's roots in order, and its regions. */
-static void collect(struct gather *gather, unsigned lane)
+/* All lanes' roots in order: lane l has those from begin[l] to begin[l + 1] of gather->order. */
+static void order_roots(struct gather *gather, size_t begin[LANES + 1])
 {
-  gather->order.count = gather->regions.count = 0;
   const struct gathered *roots = gather->roots.at;
-  const struct gathered_region *open = gather->open.at;
-  for (size_t k = 0; k < gather->roots.count && !gather->failed; k++) {
-    if (roots[k].lane != lane) continue;
-    const struct gathered **root = growing_add(&gather->order, sizeof *root);
-    if (root) *root = &roots[k];
-    else gather->failed = true;
-  }
-  for (size_t k = 0; k < gather->open.count && !gather->failed; k++) {
-    if (open[k].lane != lane) continue;
-    struct exact_region *region = growing_add(&gather->regions, sizeof *region);
-    if (region) *region = open[k].region;
-    else gather->failed = true;
-  }
-  if (!gather->failed) sort_roots(gather->order.at, gather->order.count);
+  const size_t count = gather->roots.count;
+  gather->order.count = 0;
+  const struct gathered **order = growing_add(&gather->order, count, sizeof *order);
+  size_t next[LANES + 1] = {0};
+  gather->failed |= !order;
+  if (gather->failed) return;
+  for (size_t k = 0; k < count; k++) next[roots[k].lane + 1]++;
+  for (size_t lane = 0; lane <= LANES; lane++) begin[lane] = next[lane] += lane > 0 ? next[lane - 1] : 0;
+  for (size_t k = 0; k < count; k++) order[next[roots[k].lane]++] = &roots[k];
+  for (size_t lane = 0; lane < LANES; lane++) sort_roots(order + begin[lane], begin[lane + 1] - begin[lane]);
 }
 
-static void plan(struct gather *gather, int64_t number)
+static void collect_regions(struct gather *gather, unsigned lane)
 {
-  int64_t *planned = growing_add(&gather->plan, sizeof *planned);
-  if (planned) *planned = number;
-  else gather->failed = true;
+  const struct gathered_region *open = gather->open.at;
+  gather->regions.count = 0;
+  for (size_t k = 0; k < gather->open.count; k++) {
+    if (open[k].lane != lane) continue;
+    struct exact_region *region = growing_add(&gather->regions, 1, sizeof *region);
+    gather->failed |= !region;
+    if (region) *region = open[k].region;
+  }
 }
 
-/* Has the last resort decide which hits the lane has. Returns whether that is proven. */
-static bool decide(struct packet *p, unsigned lane)
+/* Adds `count` hits, which are these roots or, where `roots` is NULL, of those decided. */
+static void plan(struct gather *gather, const struct gathered *const roots[], size_t count)
+{
+  const struct gathered **planned = growing_add(&gather->plan, count, sizeof *planned);
+  gather->failed |= !planned;
+  for (size_t k = 0; k < count && planned; k++) planned[k] = roots ? roots[k] : NULL;
+}
+
+/* Has the last resort decide which hits the lane has, of whose roots the lanes have taken `count`. Returns whether that
+ * is proven. */
+static bool decide(struct packet *p, unsigned lane, const struct gathered *const roots[], size_t count)
 {
   struct gather *gather = p->gather;
-  const struct gathered *const *order = gather->order.at;
   struct exact_list *list = &gather->list;
   list->count = 0;
-  for (size_t k = 0; k < gather->order.count; k++) {
-    const double *place = order[k]->row[ROW_PLACE];
-    const struct exact_found found = {.root = {.patch = order[k]->patch,
+  for (size_t k = 0; k < count; k++) {
+    const double *place = roots[k]->row[ROW_PLACE];
+    const struct exact_found found = {.root = {.patch = roots[k]->patch,
                                                .u = place[0],
                                                .v = place[1],
                                                .radius_u = place[2],
                                                .radius_v = place[3],
-                                               .t = t_of(order[k]),
-                                               .t_error = error_of(order[k])},
-                                      .kind = order[k]->certain ? EXACT_INSIDE : EXACT_OPEN,
-                                      .taken = order[k] - (const struct gathered *)gather->roots.at};
+                                               .t = t_of(roots[k]),
+                                               .t_error = error_of(roots[k])},
+                                      .kind = roots[k]->certain ? EXACT_INSIDE : EXACT_OPEN,
+                                      .taken = (int64_t)k};
     (void)exact_list_add(list, &found); /* or it has failed */
   }
   const struct exact_case asked = {
@@ -154,7 +158,7 @@ static bool decide(struct packet *p, unsigned lane)
   for (size_t k = 0; k < list->count; k++) {
     const struct exact_found *found = &list->at[k];
     const bool taken = found->taken >= 0 && !found->root.sharp;
-    plan(gather, taken ? found->taken : -1 - (int64_t)gather->decided.count);
+    plan(gather, taken ? &roots[found->taken] : NULL, 1);
     if (!taken) (void)exact_list_add(&gather->decided, found);
   }
   gather->failed |= list->failed || gather->decided.failed;
@@ -162,31 +166,30 @@ static bool decide(struct packet *p, unsigned lane)
 }
 
 /* Plans the lane's hits. Returns whether it is proven that these are all, and their order. */
-static bool plan_lane(struct packet *p, unsigned lane)
+static bool plan_lane(struct packet *p, unsigned lane, const struct gathered *const roots[], size_t count)
 {
   struct gather *gather = p->gather;
-  collect(gather, lane);
-  if (gather->failed) return false;
-  const struct gathered *const *order = gather->order.at;
   bool certain = !p->model->unproven && !p->best.doubt[lane], tie = false;
   double reach = -INFINITY;
-  for (size_t k = 0; k < gather->order.count; k++) {
-    certain &= order[k]->certain;
-    tie |= !(t_of(order[k]) - error_of(order[k]) > reach);
-    reach = fmax(reach, t_of(order[k]) + error_of(order[k]));
+  for (size_t k = 0; k < count; k++) {
+    certain &= roots[k]->certain;
+    tie |= !(t_of(roots[k]) - error_of(roots[k]) > reach);
+    reach = fmax(reach, t_of(roots[k]) + error_of(roots[k]));
   }
-  if (gather->regions.count > 0 || (tie && certain)) return decide(p, lane) && certain;
-  for (size_t k = 0; k < gather->order.count; k++) plan(gather, order[k] - (const struct gathered *)gather->roots.at);
+  collect_regions(gather, lane);
+  if (gather->failed) return false;
+  if (gather->regions.count > 0 || (tie && certain)) return decide(p, lane, roots, count) && certain;
+  plan(gather, roots, count);
   return certain;
 }
 
 /* ---- the answers ---- */
 
-/* Makes the planned hits next[lane] the best roots of the lanes of `group`. Returns the lanes whose hits are written, as
- * bits. */
-static unsigned set_best(struct packet *p, unsigned group, const int64_t *const next[], struct hit out[])
+/* Makes the planned hits the best roots of the lanes of `group`: next[lane], or the next one of those decided. Returns
+ * the lanes whose hits are written, as bits. */
+static unsigned set_best(struct packet *p, unsigned group, const struct gathered *const *const next[],
+                         struct exact_found *decided[], struct hit out[])
 {
-  const struct gather *gather = p->gather;
   struct best *best = &p->best;
   double row[LANES][ROWS][4] = {{{0}}};
   unsigned written = 0;
@@ -194,8 +197,8 @@ static unsigned set_best(struct packet *p, unsigned group, const int64_t *const 
   best->certain = best->final = best->doubt = (lane_mask){0};
   for (unsigned bits = group; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    if (*next[lane] < 0) continue;
-    const struct gathered *root = (const struct gathered *)gather->roots.at + *next[lane];
+    const struct gathered *root = *next[lane];
+    if (!root) continue;
     memcpy(row[lane], root->row, sizeof root->row);
     best->patch[lane] = root->patch;
     best->certain[lane] = root->certain ? -1 : 0, best->final[lane] = root->final ? -1 : 0;
@@ -209,8 +212,8 @@ static unsigned set_best(struct packet *p, unsigned group, const int64_t *const 
   p->t_far = best->t + t_error;
   for (unsigned bits = group; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    if (*next[lane] >= 0) continue;
-    struct exact_found *found = &gather->decided.at[-1 - *next[lane]];
+    if (*next[lane]) continue;
+    struct exact_found *found = decided[lane]++;
     const struct exact_root *root = &found->root;
     const struct exact_maybe maybe = {root->patch,     found->borders,  (double)root->u,
                                       (double)root->v, (double)root->t, root->t_error};
@@ -240,25 +243,29 @@ static void put(const struct hit from[], unsigned group, size_t number, const in
 bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[])
 {
   struct gather *gather = p->gather;
-  struct growing *hits = &p->tracer->hits;
-  const size_t first = hits->count;
-  for (unsigned lane = 0; lane < p->count; lane++) {
-    const size_t before = gather->plan.count;
-    out[lane].certainty = plan_lane(p, lane) ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
-    out[lane].count = gather->plan.count - before;
+  size_t begin[LANES + 1], before[LANES][2];
+  order_roots(gather, begin);
+  for (unsigned lane = 0; lane < p->count && !gather->failed; lane++) {
+    before[lane][0] = gather->plan.count, before[lane][1] = gather->decided.count;
+    const bool sure = plan_lane(p, lane, (const struct gathered *const *)gather->order.at + begin[lane],
+                                begin[lane + 1] - begin[lane]);
+    out[lane].certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
+    out[lane].count = gather->plan.count - before[lane][0];
   }
-  for (size_t k = 0; k < gather->plan.count && !gather->failed; k++)
-    gather->failed |= !growing_add(hits, sizeof(struct hit));
-  if (gather->failed) return false;
-  const int64_t *next[LANES] = {gather->plan.at};
-  struct hit *to[LANES] = {(struct hit *)hits->at + first}, answer[LANES];
-  for (unsigned lane = 1; lane < p->count; lane++)
-    next[lane] = next[lane - 1] + out[lane - 1].count, to[lane] = to[lane - 1] + out[lane - 1].count;
+  struct hit *hits = gather->failed ? NULL : growing_add(&p->tracer->hits, gather->plan.count, sizeof *hits);
+  if (!hits) return false;
+  const struct gathered *const *next[LANES];
+  struct exact_found *decided[LANES];
+  struct hit *to[LANES], answer[LANES];
+  for (unsigned lane = 0; lane < p->count; lane++) {
+    next[lane] = (const struct gathered *const *)gather->plan.at + before[lane][0];
+    decided[lane] = gather->decided.at + before[lane][1], to[lane] = hits + before[lane][0];
+  }
   for (size_t number = 0;; number++) {
     unsigned group = 0;
     for (unsigned lane = 0; lane < p->count; lane++) group |= (unsigned)(number < out[lane].count) << lane;
     if (!group) return true;
-    finish_best(p, set_best(p, group, next, answer), answer);
+    finish_best(p, set_best(p, group, next, decided, answer), answer);
     put(answer, group, number, exponents, to, out);
     for (unsigned bits = group; bits; bits &= bits - 1) next[__builtin_ctz(bits)]++;
   }

@@ -18,6 +18,7 @@ enum gathered_row {
 
 struct gathered {
   double row[ROWS][4];
+  int64_t leaf; /* that and the patch order roots of equal t, as struct best's */
   uint32_t patch;
   uint8_t lane;
   bool certain, final;
@@ -32,9 +33,10 @@ struct gathered_region {
 /* The packet, which has just been started, gathers there from now on, beginning with nothing. */
 void gather_start(struct packet *p, struct gather *gather);
 
-/* Adds roots of the lanes of `taken`, at t within error of the packet's rays; `patch` is the scene's. */
+/* Adds roots of the lanes of `taken`, at t within error of the packet's rays; `patch` is the scene's, `leaf` the
+ * packet's model's. */
 void gather_take(struct packet *p, lane_mask taken, const lanes at[2], const lanes radius[2], lanes t, lanes error,
-                 int64_t patch, bool certain);
+                 int64_t patch, int64_t leaf, bool certain);
 
 /* What is known of the surface at those that were added last, which were of the same lanes, and which of them are
  * final. */

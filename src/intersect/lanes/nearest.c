@@ -63,7 +63,7 @@ LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, cons
   const lanes radius[2] = {r->radius_u * part + UNIT_ROUNDOFF, r->radius_v * part + UNIT_ROUNDOFF};
   p->tracer->counts.roots_accepted += lanes_count(taken);
   if (p->gather) {
-    gather_take(p, taken, place, radius, at, error, patch, certain);
+    gather_take(p, taken, place, radius, at, error, patch, leaf, certain);
     return;
   }
   const lane_mask none = {0};

@@ -1,0 +1,220 @@
+/* All hits against all roots: every list of hits, of all classes of situations.h and hostile.h, with every solver and
+ * with whole patches, beside what the exact judge finds on each patch (exact.h). A certain list has a hit for each root
+ * inside a patch, and one at each point of a border; a hit that is certain is a root, in any list. Prints for each class
+ * and solver the counts, and the share of lists that are grazing though the judge has no doubt. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accuracy/exact.h"
+#include "accuracy/hostile.h"
+#include "accuracy/trial.h"
+#include "cmocka_test.h"
+#include "effort.h"
+#include "random.h"
+
+/* As in certificate_test.c. */
+#define OTHERS_SHARE 0.1
+enum { FULL_RAYS = 20000, LEAST_RAYS = 16, OTHERS_LEAST = 4, MOST_CLASSES = 64, MOST_SHOWN = 6, MOST_ROOTS = 512 };
+
+/* How far off t of a hit may be, in floors; next to a tangency they are of the first order only, and roots that lie
+ * nearer than that are told apart by their order. */
+#define SAME_FLOORS 16
+
+struct form {
+  const char *solver;
+  int split; /* 0: the solver's own */
+};
+static const struct form forms[] = {{"bernstein", 0}, {"newton", 0},    {"laguerre", 0},
+                                    {"aberth", 0},    {"bernstein", 1}, {"bernstein", 8}};
+enum { FORMS = sizeof forms / sizeof forms[0] };
+
+struct truth {
+  uint32_t patch;
+  double t, u, v, floor;
+  bool border, met; /* on a border to the last bit of a double; a hit has been found for it */
+};
+
+struct truths {
+  size_t count;
+  bool doubt; /* the judge has left something open */
+  struct truth root[MOST_ROOTS];
+};
+
+enum finding { FOUND_RIGHT, FOUND_UNDECIDED, FOUND_LOST, FOUND_INVENTED, FOUND_BORDER_LOST, FOUND_ORDER, FINDINGS };
+static const char *const finding_names[FINDINGS] = {"right",    "undecided",        "lost",
+                                                    "invented", "lost on a border", "out of order"};
+
+struct count {
+  size_t rays, answers[2][FINDINGS]; /* certain, grazing */
+  size_t roots, sure;                /* sure: grazing though the judge has no doubt, nor any root on a border */
+};
+
+/* A root on a line where the judge has halved a box is found in both halves: its parameters are the nearest doubles. */
+static bool known(const struct truths *truths, uint32_t patch, const struct exact_root *r)
+{
+  for (size_t k = truths->count; k-- > 0 && truths->root[k].patch == patch;)
+    if (truths->root[k].u == r->u && truths->root[k].v == r->v) return true;
+  return false;
+}
+
+static void find_truths(const struct trial *trial, const struct ray *ray, struct truths *out)
+{
+  out->count = 0, out->doubt = false;
+  for (size_t n = 0; n < trial->scene.patch_count; n++) {
+    struct exact_roots roots;
+    exact_patch_roots((const double(*)[4][3])trial->scene.patches[n].P, ray->origin, ray->direction, ray->t_min,
+                      ray->t_max, 0, &roots);
+    out->doubt |= roots.count == EXACT_MOST_ROOTS;
+    for (size_t k = 0; k < roots.count; k++) {
+      const struct exact_root *r = &roots.root[k];
+      out->doubt |= !r->proven;
+      if (!r->proven || out->count == MOST_ROOTS || known(out, (uint32_t)n, r)) continue;
+      const bool border = r->u <= 0 || r->u >= 1 || r->v <= 0 || r->v >= 1;
+      const double floor = trial_floor(trial->reference, ray, (uint32_t)n, r->t_off, r->u, r->v).t;
+      out->root[out->count++] = (struct truth){(uint32_t)n, r->t_off, r->u, r->v, floor, border, false};
+    }
+  }
+}
+
+/* The root that a hit is: of its patch, not met yet, the nearest. NULL where none is near enough. */
+static struct truth *root_of(struct truths *truths, const struct hit *hit)
+{
+  struct truth *best = NULL;
+  double least = INFINITY;
+  for (size_t k = 0; k < truths->count; k++) {
+    struct truth *r = &truths->root[k];
+    const double off = fabs(r->t - hit->t) / r->floor;
+    if (r->met || r->patch != hit->patch || !(off <= SAME_FLOORS)) continue;
+    /* Of two that t cannot tell apart the one whose parameters are nearer. */
+    const double aside = fmax(fabs(r->u - hit->u), fabs(r->v - hit->v));
+    if (aside < least) best = r, least = aside;
+  }
+  return best;
+}
+
+static enum finding judge(const struct hit_list *list, struct truths *truths)
+{
+  for (size_t k = 0; k < list->count; k++) {
+    const struct hit *hit = &list->hits[k];
+    if (k > 0 && !(hit[-1].t <= hit->t)) return FOUND_ORDER;
+    if (hit->certainty != CERTAINTY_CERTAIN) continue;
+    struct truth *root = root_of(truths, hit);
+    if (root) root->met = true;
+    else if (!truths->doubt) return FOUND_INVENTED;
+  }
+  if (list->certainty != CERTAINTY_CERTAIN) return FOUND_RIGHT;
+  for (size_t k = 0; k < truths->count; k++) {
+    const struct truth *r = &truths->root[k];
+    bool met = r->met;
+    for (size_t n = 0; n < list->count && r->border; n++) met |= fabs(list->hits[n].t - r->t) <= SAME_FLOORS * r->floor;
+    if (!met) return r->border ? FOUND_BORDER_LOST : FOUND_LOST;
+  }
+  return truths->doubt ? FOUND_UNDECIDED : FOUND_RIGHT;
+}
+
+static void show(const char *name, const struct form *form, const struct situation *s, const struct ray *ray,
+                 const struct hit_list *list, const struct truths *truths, const char *what)
+{
+  static size_t shown = 0;
+  if (shown++ >= MOST_SHOWN && !getenv("PSCN_SHOW")) return;
+  const double *o = ray->origin, *d = ray->direction;
+  printf("%s, %s, split %d: %s %s\n  ray %.17g %.17g %.17g %.17g %.17g %.17g\n", name, form->solver, form->split,
+         list->certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", what, o[0], o[1], o[2], d[0], d[1], d[2]);
+  for (size_t k = 0; k < list->count; k++)
+    printf("  hit  t %.17g u %.17g v %.17g patch %u%s\n", list->hits[k].t, list->hits[k].u, list->hits[k].v,
+           (unsigned)list->hits[k].patch, list->hits[k].certainty == CERTAINTY_CERTAIN ? "" : " open");
+  for (size_t k = 0; k < truths->count; k++)
+    printf("  root t %.17g u %.17g v %.17g patch %u, floor %.3g%s\n", truths->root[k].t, truths->root[k].u,
+           truths->root[k].v, (unsigned)truths->root[k].patch, truths->root[k].floor,
+           truths->root[k].met ? "" : ", not met");
+  if (truths->doubt) printf("  and a doubt\n");
+  if (!getenv("PSCN_SHOW")) return;
+  for (size_t n = 0; n < s->count; n++) {
+    printf("bicubic_patch { type 1 flatness 0 u_steps 5 v_steps 5\n");
+    for (int k = 0; k < 16; k++)
+      printf("  <%.17g, %.17g, %.17g>%s\n", s->P[n][k / 4][k % 4][0], s->P[n][k / 4][k % 4][1],
+             s->P[n][k / 4][k % 4][2], k < 15 ? "," : "\n pigment { color rgb 1 } }");
+  }
+}
+
+static void run_situation(const char *name, const struct form *form, const struct situation *s, size_t first,
+                          size_t most, struct count *count)
+{
+  static struct truths truths;
+  struct method method;
+  for (size_t n = 0; n < solver_count(); n++)
+    if (!strcmp(solver_at(n)->name, form->solver)) method_default(solver_at(n), &method);
+  if (form->split) method.split = form->split;
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &method);
+  for (size_t n = 0; n < SITUATION_RAYS && n < most; n++) {
+    const struct ray *ray = &s->rays[(first + n) % SITUATION_RAYS];
+    struct hit_list list;
+    assert_int_equal(tracer_all(trial.tracer, 1, ray, &list), STATUS_OK);
+    find_truths(&trial, ray, &truths);
+    const enum finding finding = judge(&list, &truths);
+    const bool grazing = list.certainty != CERTAINTY_CERTAIN;
+    bool clear = !truths.doubt;
+    for (size_t k = 0; k < truths.count; k++) clear &= !truths.root[k].border;
+    count->rays++, count->answers[grazing][finding]++, count->roots += truths.count, count->sure += grazing && clear;
+    if (finding > FOUND_UNDECIDED) show(name, form, s, ray, &list, &truths, finding_names[finding]);
+    else if (grazing && clear && getenv("PSCN_SHOW_SURE")) show(name, form, s, ray, &list, &truths, "but clear");
+  }
+  trial_destroy(&trial);
+}
+
+static size_t refuted(const size_t answers[FINDINGS])
+{
+  size_t sum = 0;
+  for (int n = FOUND_UNDECIDED + 1; n < FINDINGS; n++) sum += answers[n];
+  return sum;
+}
+
+static void print_count(const char *name, const struct form *form, uint64_t seed, const struct count *c)
+{
+  printf(
+    "%-36s %-9s %2d %6zu rays, %6zu roots: certain %zu, %zu undecided, %zu refuted; grazing %zu, %zu of them clear, "
+    "%zu refuted; seed %llu\n",
+    name, form->solver, form->split, c->rays, c->roots, c->answers[0][FOUND_RIGHT], c->answers[0][FOUND_UNDECIDED],
+    refuted(c->answers[0]), c->answers[1][FOUND_RIGHT] + refuted(c->answers[1]), c->sure, refuted(c->answers[1]),
+    (unsigned long long)seed);
+  fflush(stdout);
+}
+
+static void test_class(void **state)
+{
+  const struct situation_class *class = *state;
+  size_t bad = 0;
+  const char *only = getenv("PSCN_CLASS");
+  if (only && !strstr(class->name, only)) return;
+  for (int m = 0; m < FORMS; m++) {
+    struct count count = {0};
+    const size_t wanted = effort_count((size_t)(class->share * (m ? OTHERS_SHARE : 1) * FULL_RAYS),
+                                       m ? OTHERS_LEAST : LEAST_RAYS);
+    const uint64_t seed = effort_seed(class->seed + 7000);
+    struct random random = {.state = seed + (uint64_t)m * 1000};
+    for (size_t index = 0; count.rays < wanted; index++) {
+      struct situation situation;
+      class->generate(&random, index, &situation);
+      run_situation(class->name, &forms[m], &situation, (size_t)m * OTHERS_LEAST, wanted - count.rays, &count);
+    }
+    print_count(class->name, &forms[m], seed, &count);
+    bad += refuted(count.answers[0]) + refuted(count.answers[1]);
+  }
+  exact_cleanup();
+  if (!class_told_only(class)) assert_int_equal(bad, 0);
+}
+
+int main(void)
+{
+  struct CMUnitTest tests[MOST_CLASSES];
+  const size_t count = every_class_count();
+  assert_true(count <= MOST_CLASSES);
+  for (size_t n = 0; n < count; n++) {
+    void *class = (void *)(uintptr_t)every_class_at(n); /* cmocka's state is not const */
+    tests[n] = (struct CMUnitTest){.name = every_class_at(n)->name, .test_func = test_class, .initial_state = class};
+  }
+  return _cmocka_run_group_tests("all hits", tests, count, NULL, NULL);
+}

@@ -1,0 +1,265 @@
+/* All hits of a ray: against nearest hits asked for one after the other, within parts of the ray, in any company, with
+ * every instruction set; very many of them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "property/world.h"
+
+enum { SEED = 20240514, SCENES = 3, RAYS = 96, MOST_HITS = 200 };
+
+/* What is to be kept of a list when the next one is asked for. */
+struct kept {
+  enum certainty certainty;
+  size_t count;
+  struct hit hits[MOST_HITS];
+};
+
+static void keep(const struct hit_list *list, struct kept *out)
+{
+  assert_true(list->count <= MOST_HITS);
+  out->certainty = list->certainty, out->count = list->count;
+  if (list->count > 0) memcpy(out->hits, list->hits, list->count * sizeof *list->hits);
+}
+
+static void all_of(struct world *world, const struct ray *ray, struct kept *out)
+{
+  struct hit_list list;
+  assert_int_equal(tracer_all(world->tracer, 1, ray, &list), STATUS_OK);
+  keep(&list, out);
+}
+
+static bool same_list(const struct kept *a, const struct hit_list *b)
+{
+  bool same = a->certainty == b->certainty && a->count == b->count;
+  for (size_t k = 0; same && k < a->count; k++) same = same_hit(&a->hits[k], &b->hits[k]);
+  return same;
+}
+
+struct set_up {
+  int kind;
+  struct random *random;
+  struct world *world;
+  struct ray rays[RAYS];
+  struct kept alone[RAYS];
+};
+
+static void on_all_stages(uint64_t seed, void (*body)(struct set_up *stage))
+{
+  static struct set_up stage;
+  static world_net nets[WORLD_MAX];
+  struct random random = {seed};
+  for (int kind = 0; kind < WORLD_KINDS; kind++) {
+    for (int scene = 0; scene < SCENES; scene++) {
+      struct world world;
+      stage.kind = kind, stage.random = &random, stage.world = &world;
+      const size_t count = world_fill((enum world_kind)kind, &random, nets);
+      world_open(&world, nets, count, NULL);
+      for (int n = 0; n < RAYS; n++) {
+        stage.rays[n] = world_ray(&random, nets, count, n % RAY_KINDS);
+        all_of(&world, &stage.rays[n], &stage.alone[n]);
+      }
+      body(&stage);
+      world_close(&world);
+    }
+  }
+}
+
+static void print_lists(const char *what, int kind, const struct ray *ray, const struct kept *a)
+{
+  struct hit none = {.patch = HIT_NONE};
+  world_print_case(what, kind, ray, a->count > 0 ? &a->hits[0] : &none, a->count > 1 ? &a->hits[1] : &none);
+  for (size_t k = 0; k < a->count; k++) print_message("  %.17g on %u\n", a->hits[k].t, a->hits[k].patch);
+}
+
+/* One that lies on the line where leaves of a patch meet may be that of either leaf. */
+static bool same_but_for_rounding(const struct hit *a, const struct hit *b)
+{
+  return a->patch == b->patch && fabs(a->t - b->t) <= 0x1p-51 * b->t && fabs(a->u - b->u) <= 0x1p-36 &&
+         fabs(a->v - b->v) <= 0x1p-36;
+}
+
+/* The first of them is the nearest hit, nearly always to the last bit; the others are the nearest ones behind it. */
+static void one_by_one(struct set_up *s)
+{
+  int wrong = 0, followed = 0, certain = 0, equal = 0;
+  for (size_t n = 0; n < RAYS; n++) {
+    const struct kept *all = &s->alone[n];
+    struct ray ray = s->rays[n];
+    struct hit next = world_closest(s->world, &ray);
+    if (all->certainty == CERTAINTY_CERTAIN) {
+      /* A patch that is folded flat may be met twice in one point; which of them is the nearest means nothing. */
+      const bool twice = all->count > 1 && all->hits[1].t == all->hits[0].t;
+      const bool first = all->count == 0 ? next.patch == HIT_NONE
+                         : twice         ? next.t == all->hits[0].t
+                                         : same_but_for_rounding(&next, &all->hits[0]);
+      certain++, equal += all->count > 0 ? same_hit(&next, &all->hits[0]) : first;
+      if ((!first || next.certainty != CERTAINTY_CERTAIN) && wrong++ < 2) print_lists("first", s->kind, &ray, all);
+    }
+    bool tame = all->certainty == CERTAINTY_CERTAIN;
+    for (size_t k = 1; k < all->count; k++) tame &= all->hits[k].t > all->hits[k - 1].t * (1 + 1e-9);
+    for (size_t k = 0; k < all->count && tame; k++) {
+      if (fabs(next.t - all->hits[k].t) > 1e-12 * next.t && wrong++ < 2) print_lists("next", s->kind, &ray, all);
+      ray.t_min = all->hits[k].t * (1 + 1e-10);
+      next = world_closest(s->world, &ray);
+      followed++;
+    }
+    if (tame && next.patch != HIT_NONE && wrong++ < 2) print_lists("last", s->kind, &ray, all);
+  }
+  assert_int_equal(wrong, 0);
+  assert_true(equal >= certain - 1 || s->kind == WORLD_DEGENERATE);
+  assert_true(followed > 0 || s->kind == WORLD_DEGENERATE || s->kind == WORLD_FLAT);
+}
+
+static void they_are_the_nearest_one_by_one(void **state)
+{
+  (void)state;
+  on_all_stages(SEED, one_by_one);
+}
+
+/* Those of a part of the ray are those of the whole that are in it. */
+static void parts(struct set_up *s)
+{
+  int wrong = 0;
+  for (size_t n = 0; n < RAYS; n++) {
+    const struct kept *all = &s->alone[n];
+    for (size_t from = 0; from < all->count && all->certainty == CERTAINTY_CERTAIN; from++) {
+      struct ray part = s->rays[n];
+      struct kept some;
+      part.t_min = all->hits[from].t * (1 - 1e-9), part.t_max = all->hits[all->count - 1].t * (1 - 1e-9);
+      size_t inside = 0, clear = 1;
+      for (size_t k = 0; k < all->count; k++) {
+        const double t = all->hits[k].t;
+        inside += t > part.t_min && t < part.t_max;
+        clear &= fabs(t - part.t_min) > 1e-10 * t && fabs(t - part.t_max) > 1e-10 * t;
+      }
+      all_of(s->world, &part, &some);
+      if (clear && (some.count != inside || some.certainty != CERTAINTY_CERTAIN) && wrong++ < 2)
+        print_lists("part", s->kind, &part, &some);
+    }
+  }
+  assert_int_equal(wrong, 0);
+}
+
+static void parts_of_a_ray_have_theirs(void **state)
+{
+  (void)state;
+  on_all_stages(SEED + 1, parts);
+}
+
+/* In packets of every size, shuffled, with companions of other kinds: the same bits. */
+static void companions(struct set_up *s)
+{
+  size_t order[RAYS];
+  for (size_t n = 0; n < RAYS; n++) order[n] = n;
+  int wrong = 0;
+  for (int round = 0; round < 3; round++) {
+    for (size_t first = 0, size; first < RAYS; first += size) {
+      size = round == 2 ? 1 + random_bits(s->random) % PACKET_SIZE : PACKET_SIZE;
+      if (size > RAYS - first) size = RAYS - first;
+      struct ray rays[PACKET_SIZE];
+      struct hit_list lists[PACKET_SIZE];
+      for (size_t n = 0; n < size; n++) rays[n] = s->rays[order[first + n]];
+      assert_int_equal(tracer_all(s->world->tracer, size, rays, lists), STATUS_OK);
+      for (size_t n = 0; n < size; n++)
+        if (!same_list(&s->alone[order[first + n]], &lists[n]) && wrong++ < 2)
+          print_lists("companions", s->kind, &rays[n], &s->alone[order[first + n]]);
+    }
+    for (size_t n = RAYS - 1; n > 0; n--) {
+      const size_t other = random_bits(s->random) % (n + 1), swap = order[n];
+      order[n] = order[other], order[other] = swap;
+    }
+  }
+  assert_int_equal(wrong, 0);
+}
+
+static void lists_do_not_depend_on_companions(void **state)
+{
+  (void)state;
+  on_all_stages(SEED + 2, companions);
+}
+
+/* Every instruction set counts the same, and finds them on the same patches, where it is certain. */
+static void kernels(struct set_up *s)
+{
+  const struct kernel *before = s->world->tracer->kernel, *here[KERNELS_MAX];
+  const size_t count = kernels_here(here);
+  static struct kept list;
+  int wrong = 0;
+  for (size_t k = 0; k < count; k++) {
+    s->world->tracer->kernel = here[k];
+    for (size_t n = 0; n < RAYS; n++) {
+      const struct kept *other = &s->alone[n];
+      all_of(s->world, &s->rays[n], &list);
+      if (list.certainty != CERTAINTY_CERTAIN || other->certainty != CERTAINTY_CERTAIN) continue;
+      bool same = list.count == other->count;
+      for (size_t h = 0; same && h < list.count; h++) same = list.hits[h].patch == other->hits[h].patch;
+      if (!same && wrong++ < 2) print_lists(here[k]->name, s->kind, &s->rays[n], &list);
+    }
+  }
+  s->world->tracer->kernel = before;
+  assert_int_equal(wrong, 0);
+}
+
+static void kernels_agree(void **state)
+{
+  (void)state;
+  on_all_stages(SEED + 3, kernels);
+}
+
+/* A stack of sheets, its lowest one first: a hit each, in their order; exactly through their corners, four to a layer,
+ * a hit each layer, of the first of the four. */
+static void test_stack(void **state)
+{
+  (void)state;
+  enum { LAYERS = 3000, CORNERS = 100 };
+  world_net *nets = calloc(LAYERS, sizeof *nets);
+  assert_non_null(nets);
+  for (size_t p = 0; p < LAYERS; p++)
+    for (int n = 0; n < 16; n++) {
+      nets[p][n / 4][n % 4][0] = n / 4, nets[p][n / 4][n % 4][1] = n % 4;
+      nets[p][n / 4][n % 4][2] = -(double)p - ((n == 5 || n == 10) && p % 2 ? 0.5 : 0);
+    }
+  struct world world;
+  world_open(&world, nets, LAYERS, NULL);
+  const struct ray rays[3] = {{{1.3, 1.7, 1}, {0, 0, -1}, 0, INFINITY},
+                              {{1.3, 1.7, -2.0 * LAYERS}, {0, 0, 1}, 0, INFINITY},
+                              {{1.3, 3.5, 1}, {0, 0, -1}, 0, INFINITY}};
+  struct hit_list lists[3];
+  assert_int_equal(tracer_all(world.tracer, 3, rays, lists), STATUS_OK);
+  for (int r = 0; r < 2; r++) {
+    assert_int_equal(lists[r].certainty, CERTAINTY_CERTAIN);
+    assert_int_equal(lists[r].count, LAYERS);
+    for (size_t k = 0; k < LAYERS; k++) assert_int_equal(lists[r].hits[k].patch, r ? LAYERS - 1 - k : k);
+  }
+  assert_int_equal(lists[2].count, 0);
+  world_close(&world);
+
+  for (size_t p = 0; p < 4 * CORNERS; p++)
+    for (int n = 0; n < 16; n++) {
+      nets[p][n / 4][n % 4][0] = n / 4 - (p & 1 ? 3 : 0), nets[p][n / 4][n % 4][1] = n % 4 - (p & 2 ? 3 : 0);
+      nets[p][n / 4][n % 4][2] = -(double)(p / 4);
+    }
+  world_open(&world, nets, 4 * CORNERS, NULL);
+  const struct ray down = {{0, 0, 1}, {0, 0, -1}, 0, INFINITY};
+  assert_int_equal(tracer_all(world.tracer, 1, &down, lists), STATUS_OK);
+  assert_int_equal(lists[0].certainty, CERTAINTY_CERTAIN);
+  assert_int_equal(lists[0].count, CORNERS);
+  for (size_t k = 0; k < CORNERS; k++) assert_int_equal(lists[0].hits[k].patch, 4 * k);
+  world_close(&world);
+  free(nets);
+}
+
+int main(void)
+{
+  print_message("seed %d\n", SEED);
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(they_are_the_nearest_one_by_one),
+    cmocka_unit_test(parts_of_a_ray_have_theirs),
+    cmocka_unit_test(lists_do_not_depend_on_companions),
+    cmocka_unit_test(kernels_agree),
+    cmocka_unit_test(test_stack),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
