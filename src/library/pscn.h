@@ -207,7 +207,7 @@ PSCN_API enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t c
 /* How many hits a ray has. `certain`: it is proven that these are all, and that their order is right. A point of an edge
  * that patches share is one hit where the ray crosses the surface there, and so is a pole; a ray with t_max infinite
  * starts inside a closed surface where `count` is odd, outside where it is even. Grazing: what may be a hit is counted as
- * well, and its own `certain` is 0. */
+ * well, and its own `certain` is 0. The first of proven hits is pscn_nearest's, but for the last bit of the normal. */
 struct pscn_hits {
   size_t count;
   int32_t verdict; /* PSCN_HIT where count > 0 */

@@ -326,6 +326,14 @@ static void *thread_run(void *context)
     if (pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits) != PSCN_OK ||
         memcmp(hits, rays->hit, sizeof hits) != 0)
       return "the shared scene answers otherwise";
+    struct pscn_hits counts[COUNT];
+    if (pscn_all(rays->scene, COUNT, rays->ray, sizeof *rays->ray, counts, sizeof *counts, hits, sizeof *hits, 1) !=
+        PSCN_OK)
+      return "all hits cannot be had";
+    for (int n = 0; n < COUNT; n++) /* all members up to the normal */
+      if (memcmp(&hits[n], &rays->hit[n], offsetof(struct pscn_hit, normal)) != 0 ||
+          hits[n].patch != rays->hit[n].patch)
+        return "the first of all hits is not the nearest";
     struct pscn_scene *own;
     double points[BALL_PATCHES][4][4][3];
     ball_points(points);

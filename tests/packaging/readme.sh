@@ -1,0 +1,29 @@
+#!/bin/bash
+# readme.sh: the scene at the top of README.md has the eight lines it says, is read without a word, and is seen; POV-Ray
+# reads it too, where it is installed. The files that README.md and docs/ lead to are there.
+set -uo pipefail
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failed=0
+say() { echo "$*"; failed=1; }
+
+sed -n '/^A scene is eight lines/,/^[A-Z].*POV-Ray/s/^    //p' "$PSCN_SOURCE_DIR/README.md" >bowl.pscn
+[ "$(wc -l <bowl.pscn)" -eq 8 ] || say "the scene has $(wc -l <bowl.pscn) lines"
+"$PSCN" bowl.pscn --size 40x30 -q --stats stats.json 2>said || say "it is not rendered"
+[ ! -s said ] && [ -s bowl.png ] || say "pscn says of it: $(cat said)"
+accepted=$(sed -n 's/.*"accepted": \([0-9]*\).*/\1/p' stats.json)
+[ "${accepted:-0}" -gt 250 ] || say "little of it is seen: ${accepted:-0} rays of 1200 hit"
+"$PSCN" bowl.pscn --size 40x30 -q -o same.png && "$PSCN" dump bowl.pscn >bowl.pov && "$PSCN" bowl.pov --size 40x30 -q -o dumped.png &&
+  "$PSCN" compare same.png dumped.png --fail 0 -q || say "its dump is another picture"
+if command -v povray >/dev/null; then
+  HOME=$folder povray +Ibowl.pscn +Opov.png +W40 +H30 -D >log 2>&1 || { tail -5 log; say "POV-Ray does not read it"; }
+fi
+
+for page in README.md $(cd "$PSCN_SOURCE_DIR" && echo docs/*.md); do
+  (cd "$PSCN_SOURCE_DIR" && cd "$(dirname "$page")" &&
+    grep -o ']([^):]*)' "$(basename "$page")" | sed 's/](\([^#)]*\).*/\1/' | grep . | sort -u |
+    while read -r link; do [ -e "$link" ] || echo "$page leads to $link, which is not there"; done) >links
+  [ ! -s links ] || say "$(cat links)"
+done
+exit "$failed"
