@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/kernel.h"
 #include "base/sort.h"
 #include "resultant_time.h"
 
@@ -19,17 +20,17 @@ int main(int argc, char **argv)
 {
   static struct contestant list[] = {
     {.name = "baseline", .time = resultant_time_baseline, .present = 1},
-#ifdef RESULTANT_X86
+#if defined(PSCN_HAS_AVX2)
     {.name = "avx2", .time = resultant_time_avx2},
+#endif
+#if defined(PSCN_HAS_AVX512)
     {.name = "avx512", .time = resultant_time_avx512},
 #endif
   };
   const size_t count = sizeof list / sizeof list[0], runs = argc > 1 ? strtoul(argv[1], NULL, 10) : 9;
   if (runs == 0 || runs > MAX_RUNS) return EXIT_FAILURE;
-#ifdef RESULTANT_X86
-  list[1].present = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  list[2].present = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
-#endif
+  if (count > 1) list[1].present = KERNEL_RUNS_AVX2;
+  if (count > 2) list[2].present = KERNEL_RUNS_AVX512;
   double sum = 0;
   for (size_t r = 0; r < runs; r++) {
     for (size_t k = 0; k < count; k++) {

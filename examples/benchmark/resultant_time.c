@@ -5,6 +5,7 @@
 #include "resultant_time.h"
 
 #include "base/clock.h"
+#include "base/kernel.h"
 #include "base/lanes.h"
 
 #define BEZOUT_REAL lanes
@@ -19,7 +20,7 @@ static __attribute__((noinline)) void form(const lanes a[16], const lanes b[16],
   bezout_lanes_resultant(3, 3, a, b, c);
 }
 
-double RESULTANT_TIME(int repeats, int *out_lanes, double *out_sum)
+double KERNEL(resultant_time)(int repeats, int *out_lanes, double *out_sum)
 {
   static lanes net[NETS + 1][16];
   unsigned long long state = 1;

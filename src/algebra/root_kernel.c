@@ -1,11 +1,12 @@
 /* Aberth's step (eq 9; aberth.c) for the roots of one polynomial.
  *
- * Compiled once per instruction set, PSCN_KERNEL being the name of the function it defines.
+ * Compiled once per instruction set.
  */
 #include "algebra/root_kernel.h"
 
 #include <string.h>
 
+#include "base/kernel.h"
 #include "base/lanes.h"
 
 /* Every so many sweeps a step no shorter than this much of the one so many before is turned by the root's own angle.
@@ -162,7 +163,7 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
   return done;
 }
 
-void PSCN_KERNEL(struct aberth *a, const struct solver_options *options, int number, struct root_estimates *out)
+void KERNEL(root_kernel)(struct aberth *a, const struct solver_options *options, int number, struct root_estimates *out)
 {
   const bool turning = number % TURN_PERIOD == 0;
   /* The paper's tolerance is absolute. */

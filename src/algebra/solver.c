@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "algebra/root_kernel.h"
+#include "base/kernel.h"
 
 /* eps of eq 10, absolute in the unknown: the least at which the paper's plain iterations still stop by it, as values of
  * size 100 do not move by less. It and the steps a root may take decide when to stop, never what is true: radii and
@@ -55,8 +56,8 @@ void solver_options_default(const struct solver *solver, struct solver_options *
 
 root_kernel *root_kernel_best(void)
 {
-#ifdef PSCN_ROOT_KERNEL_AVX2
-  if (__builtin_cpu_supports("avx2")) return root_kernel_avx2;
+#if defined(PSCN_HAS_AVX2)
+  if (KERNEL_RUNS_AVX2) return root_kernel_avx2;
 #endif
   return root_kernel_baseline;
 }

@@ -3,7 +3,7 @@
  * Plain GCC/clang vector extensions, so one source serves every instruction set; LANES is what one register of the
  * target holds (vectors wider than that are taken apart into single doubles by the compiler, which costs more than
  * it saves). Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are 0 or -1. A source
- * that uses this is compiled once per instruction set (src/intersect/CMakeLists.txt).
+ * that uses this is compiled once per instruction set (base/kernel.h).
  */
 #ifndef PSCN_BASE_LANES_H
 #define PSCN_BASE_LANES_H

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/kernel.h"
 #include "chart/plain_newton_kernel.h"
 #include "geometry/patch.h"
 
@@ -16,8 +17,8 @@ struct plain_newton {
 
 static plain_newton_packet *best_kernel(void)
 {
-#ifdef PLAIN_NEWTON_AVX2
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return plain_newton_avx2;
+#if defined(PSCN_HAS_AVX2)
+  if (KERNEL_RUNS_AVX2) return plain_newton_avx2;
 #endif
   return plain_newton_baseline;
 }

@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/kernel.h"
 #include "base/lanes.h"
 #include "chart/plain_newton.h"
 #include "chart/plain_newton_kernel.h"
@@ -179,8 +180,8 @@ static void load(size_t count, const struct ray *rays, struct ray_lanes *out, la
   }
 }
 
-void PLAIN_NEWTON_KERNEL(const struct plain_model *model, size_t count, const struct ray *rays, bool any,
-                         struct answer *out)
+void KERNEL(plain_newton)(const struct plain_model *model, size_t count, const struct ray *rays, bool any,
+                          struct answer *out)
 {
   for (size_t first = 0; first < count; first += LANES) {
     const size_t some = count - first < LANES ? count - first : LANES;

@@ -20,9 +20,6 @@ struct plain_model {
 typedef void plain_newton_packet(const struct plain_model *model, size_t count, const struct ray *rays, bool any,
                                  struct answer *out);
 
-plain_newton_packet plain_newton_baseline;
-#ifdef PLAIN_NEWTON_AVX2
-plain_newton_packet plain_newton_avx2;
-#endif
+plain_newton_packet plain_newton_baseline, plain_newton_avx2;
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/kernel.h"
 #include "base/memory.h"
 #include "geometry/vector.h"
 #include "intersect/tracer.h"
@@ -20,13 +21,11 @@ extern const struct kernel kernel_baseline, kernel_avx2, kernel_avx512;
 size_t kernels_here(const struct kernel *out[KERNELS_MAX])
 {
   size_t count = 0;
-#if defined(PSCN_KERNEL_AVX512)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    out[count++] = &kernel_avx512;
+#if defined(PSCN_HAS_AVX512)
+  if (KERNEL_RUNS_AVX512) out[count++] = &kernel_avx512;
 #endif
-#if defined(PSCN_KERNEL_AVX2)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) out[count++] = &kernel_avx2;
+#if defined(PSCN_HAS_AVX2)
+  if (KERNEL_RUNS_AVX2) out[count++] = &kernel_avx2;
 #endif
   out[count++] = &kernel_baseline;
   return count;

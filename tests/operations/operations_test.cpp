@@ -26,7 +26,7 @@
 #undef isfinite
 #undef isnan
 #define double counted
-#define PSCN_KERNEL root_kernel_baseline
+#define PSCN_KERNEL baseline
 #include "algebra/aberth.c"
 #undef UNDERFLOW_ERROR
 #define UNDERFLOW_ERROR 0x1p-1057

@@ -1,19 +1,10 @@
-/* Names of one compilation.
- *
- * What runs for every ray is compiled once per instruction set, all of src/intersect/lanes, and linked into one
- * program: PSCN_KERNEL, which the build sets, is the name of the set, and what one file of the room calls in another
- * is called by that name too.
+/* Names of one compilation (base/kernel.h): what one file of the room calls in another is called by the name of the
+ * instruction set too.
  */
 #ifndef PSCN_INTERSECT_LANES_NAMES_H
 #define PSCN_INTERSECT_LANES_NAMES_H
 
-#define KERNEL_JOIN(name, kernel) name##_##kernel
-#define KERNEL_EXPANDED(name, kernel) KERNEL_JOIN(name, kernel)
-#define KERNEL(name) KERNEL_EXPANDED(name, PSCN_KERNEL)
-
-#define KERNEL_TEXT(kernel) #kernel
-#define KERNEL_TEXT_EXPANDED(kernel) KERNEL_TEXT(kernel)
-#define KERNEL_NAME KERNEL_TEXT_EXPANDED(PSCN_KERNEL)
+#include "base/kernel.h"
 
 #define packet_start KERNEL(packet_start)
 #define packet_orient KERNEL(packet_orient)

@@ -1,0 +1,23 @@
+/* Sources compiled once per instruction set and linked into one program (pscn_kernels in CMakeLists.txt).
+ *
+ * In them PSCN_KERNEL is the name of the set: baseline, avx2 or avx512; KERNEL(name) is a name of one compilation and
+ * KERNEL_NAME the set's as a text. Elsewhere PSCN_HAS_AVX2 and PSCN_HAS_AVX512 say which sets there are besides the
+ * baseline, and KERNEL_RUNS_... whether this processor has them.
+ */
+#ifndef PSCN_BASE_KERNEL_H
+#define PSCN_BASE_KERNEL_H
+
+#define KERNEL_JOIN(name, kernel) name##_##kernel
+#define KERNEL_EXPANDED(name, kernel) KERNEL_JOIN(name, kernel)
+#define KERNEL(name) KERNEL_EXPANDED(name, PSCN_KERNEL)
+
+#define KERNEL_TEXT(kernel) #kernel
+#define KERNEL_TEXT_EXPANDED(kernel) KERNEL_TEXT(kernel)
+#define KERNEL_NAME KERNEL_TEXT_EXPANDED(PSCN_KERNEL)
+
+#define KERNEL_RUNS_AVX2 (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+#define KERNEL_RUNS_AVX512                                                                        \
+  (KERNEL_RUNS_AVX2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && \
+   __builtin_cpu_supports("avx512vl"))
+
+#endif
