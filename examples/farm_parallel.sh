@@ -1,5 +1,5 @@
 #!/bin/bash
-# A picture in pieces by GNU parallel, on this machine or on others (parallel -S host1,host2 --workdir . --return {}).
+# A picture in pieces by GNU parallel.
 #
 #   examples/farm_parallel.sh PIECES FILE SCENE [OPTION...]      options of pscn render
 #
@@ -12,14 +12,8 @@ command -v parallel >/dev/null || { echo "GNU parallel is not installed" >&2; ex
 
 folder=$file.pieces
 mkdir -p "$folder"
-render() { # K
-  "$pscn" render "${@:2}" --tile "$1/$pieces" -o "$folder/$1.exr" --threads 1 --quiet --resume
-}
-missing() { # those without a file, a number a line
-  for ((k = 1; k <= pieces; k++)); do [ -e "$folder/$k.exr" ] || echo "$k"; done
-}
-export pscn pieces folder
-export -f render
-missing | parallel --will-cite --jobs "${JOBS:-100%}" --halt now,fail=1 render {} "$(printf '%q ' "$@")"
+for ((k = 1; k <= pieces; k++)); do [ -e "$folder/$k.exr" ] || echo "$k"; done |
+  parallel --will-cite --jobs "${JOBS:-100%}" --halt now,fail=1 "$(printf '%q ' "$pscn" render "$@")" \
+    --tile "{}/$pieces" -o "$(printf %q "$folder")/{}.exr" --threads 1 --quiet --resume
 "$pscn" merge "$folder"/*.exr -o "$file"
 rm -r "$folder"

@@ -20,16 +20,24 @@ exec $(printf '%q ' "$pscn" render "$@") --tile "\$SLURM_ARRAY_TASK_ID/$pieces" 
   --threads "\${SLURM_CPUS_PER_TASK:-1}" --quiet --resume
 END
 
-missing=1-$pieces
+# Either the picture, or the numbers of the pieces to render.
+merged() {
+  missing=1-$pieces
+  compgen -G "$folder/*.exr" >/dev/null || return 1
+  local told
+  told=$("$pscn" merge "$folder"/*.exr -o "$file" 2>"$folder/merge.log") && return
+  missing=${told:-$missing}
+  return 1
+}
+
 for try in 1 2 3; do
+  merged && break
+  echo "to render: $missing" >&2
   # shellcheck disable=SC2086 # options are words
   sbatch --quiet --wait --requeue --array="$missing" --output="$folder/%a.log" ${SBATCH_OPTIONS:-} "$folder/task.sh" || true
-  if missing=$("$pscn" merge "$folder"/*.exr -o "$file"); then
-    rm -r "$folder"
-    exit 0
-  fi
-  [ -n "$missing" ] || missing=1-$pieces
-  echo "missing: $missing" >&2
 done
-cat "$folder"/*.log >&2
-exit 1
+if ! merged; then
+  cat "$folder"/*.log >&2
+  exit 1
+fi
+rm -r "$folder"

@@ -26,7 +26,7 @@ case ${1:-} in
 esac
 
 TEST_PACKAGES=(chromium clang-format dpkg-dev libcmocka-dev libflint-arb-dev locales openimageio-tools povray
-  povray-examples povray-includes python3-numpy)
+  povray-examples povray-includes parallel python3-numpy)
 # Of 1. Sanitized code looks for faults of memory and arithmetic, which show on few rays.
 QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.002
 # Hundreds of pictures and their comparison with a peer's: the code they run is looked at by other tests already.
