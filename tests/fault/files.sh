@@ -7,6 +7,8 @@ self=$(realpath "$0")
 said=$(mktemp)
 scene=$PSCN_SOURCE_DIR/scenes/dome.pscn
 small="--size 40x30 --quiet"
+chart="--size 1x1 --rays 1 --rounds 1 --quick --no-peers --quiet"
+check="--size 40x30 --steps 0 --grid 0 --failpercent 100 --failpsnr 0 --failmask 100 --quiet"
 failed=0
 RANDOM=${PSCN_SEED:-1}
 
@@ -22,23 +24,38 @@ expect() {
 only() { [ "$(ls -A)" = "$(printf '%s\n' "$@" | LC_ALL=C sort)" ] || wrong "here are: $(ls -A | tr '\n' ' ')"; }
 export LC_ALL=C
 
+# A program that answers check as POV-Ray does, with a picture of ours: pretend FOLDER
+pretend() {
+  "$PSCN" render "$scene" $small -o "$1/answer.png"
+  printf '#!/bin/sh\necho POV-Ray 3.7.0\ncat %s >picture.png\n>answers.txt\n' "$1/answer.png" >"$1/povray"
+  chmod +x "$1/povray"
+  check="$check --povray $1/povray"
+}
+
 # On a small file system of its own, full and then read-only.
 if [ "${1:-}" = inside ]; then
   cd "$2" && mount -t tmpfs -o size=200k pscn . && cd . && cd "$2" || exit 77
+  check="$check --povray $3/povray"
   echo old >old.exr
   echo '1 0 -1' >polynomials
   expect 0 "$PSCN" render "$scene" $small -o a.png
   expect 4 "$PSCN" render "$scene" --size 300x300 --quiet --bits 32 --channels rgb,depth,normal,u,v -o old.exr
   expect 4 "$PSCN" render "$scene" --size 300x300 --quiet --bits 32 --channels rgb,depth,normal,u,v -o new.exr
   only a.png old.exr polynomials
+  mkdir old && echo old | tee old/chart.html old/check.html >/dev/null
   head -c 1M /dev/zero >full 2>/dev/null
   expect 4 "$PSCN" render "$scene" $small -o b.png
   expect 4 "$PSCN" compare a.png a.png --quiet -o b.png
   expect 4 "$PSCN" trace "$scene" --stats s.json </dev/null
   expect 4 "$PSCN" roots --stats s.json <polynomials >/dev/null
   expect 4 "$PSCN" roots --stats old.exr <polynomials >/dev/null
+  for folder in new old; do
+    expect 4 "$PSCN" chart "$scene" $chart -o $folder
+    expect 4 "$PSCN" check "$scene" $check -o $folder
+  done
+  [ "$(cat old/*)" = "$(printf 'old\nold')" ] || wrong "old pages have changed: $(ls old)"
   [ "$(cat old.exr)" = old ] || wrong "the old file has changed"
-  only a.png full old.exr polynomials
+  only a.png full old old.exr polynomials
   mount -o remount,ro "$2"
   for out in new.png old.exr a.png; do
     expect 4 "$PSCN" render "$scene" $small -o $out
@@ -52,7 +69,8 @@ trap 'rm -rf "$folder" "$said"' EXIT
 cd "$folder"
 mkdir disk
 if unshare -m true 2>/dev/null; then
-  unshare -m "$self" inside "$folder/disk" || { [ $? = 77 ] && echo "no file system can be mounted: a full disk is left out" || failed=1; }
+  mkdir tool && pretend "$folder/tool"
+  unshare -m "$self" inside "$folder/disk" "$folder/tool" || { [ $? = 77 ] && echo "no file system can be mounted: a full disk is left out" || failed=1; }
 else
   echo "no file system can be mounted: a full disk is left out"
 fi
@@ -68,6 +86,13 @@ expect 0 "$PSCN" render "$scene" $small -o pipe.png
 wait
 [ -p pipe.png ] || wrong "the pipe is gone"
 rm pipe.png
+# A device that is always full: by its name, and where a name leads to it.
+expect 4 "$PSCN" roots --stats /dev/full <<<'1 0 -1' >/dev/null
+ln -s /dev/full full.png
+expect 4 "$PSCN" render "$scene" $small -o full.png
+[ -L full.png ] && rm full.png || wrong "the link is gone"
+expect 4 "$PSCN" dump "$scene" >/dev/full
+expect 4 "$PSCN" trace "$scene" <<<'0 0 -9 0 0 1' >/dev/full
 (umask 027 && expect 0 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || failed=1
 [ "$(stat -c %a a.png)" = 640 ] || wrong "the mask was not heeded"
 expect 0 "$PSCN" compare a.png copy.png --quiet
@@ -88,7 +113,7 @@ only a.png copy.png
 # Without the module that writes pictures, which is loaded beside the rendering: told, and the rendering ends.
 mkdir alone
 cp "$PSCN" alone/pscn
-expect 4 timeout 60 alone/pscn render "$scene" --samples 256 --quiet -o b.png
+expect 4 timeout 60 alone/pscn render "$scene" --samples 64 --quiet -o b.png
 grep -q "cannot write pictures" "$said" || wrong "the missing module was not told"
 rm -r alone
 only a.png copy.png
@@ -116,6 +141,30 @@ for signal in KILL INT TERM HUP; do
     if [ -e new.json ]; then [ "$(tail -n 1 new.json)" = "}" ] || wrong "half a file of statistics"; fi
     rm -f new.json
     only a.png copy.png $([ -e new.png ] && echo new.png)
+  done
+done
+
+# Folders of results: the page is what it was or is whole, and the program that was started has ended too.
+export TMPDIR=$folder/tmp
+mkdir "$TMPDIR"
+for signal in KILL TERM; do
+  for k in $(seq 6); do
+    for command in chart check; do
+      mkdir -p results && echo old >results/$command.html
+      "$PSCN" $command "$scene" ${!command} -o results &
+      sleep "0.$(printf %03d $((RANDOM % 300)))"
+      kill -$signal $! 2>/dev/null
+      wait $! 2>/dev/null
+      code=$?
+      case $code in 0 | 137 | 143) ;; *) wrong "$command: exit $code after SIG$signal" ;; esac
+      case $(tail -n 1 results/$command.html) in
+        old) [ $code != 0 ] || wrong "$command: done without its page" ;;
+        '</html>') ;;
+        *) wrong "$command: half a page" ;;
+      esac
+      [ $signal = KILL ] || [ -z "$(ls -A "$TMPDIR")" ] || wrong "$command: left here: $(ls "$TMPDIR")"
+      rm -rf results "$TMPDIR"/*
+    done
   done
 done
 exit "$failed"
