@@ -254,7 +254,7 @@ static void test_max_memory(void **state)
   struct scene *scene = NULL;
   settings.max_memory = (size_t)2 << 30;
   assert_int_equal(load(text, strlen(text), &settings, &scene), STATUS_LIMIT);
-  assert_non_null(strstr(told, "the scene has more than 1533916 patches; --max-memory allows more"));
+  assert_non_null(strstr(told, "the scene has more than 1431655 patches; --max-memory allows more"));
   assert_null(scene);
 }
 
