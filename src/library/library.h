@@ -3,6 +3,10 @@
 #define PSCN_LIBRARY_LIBRARY_H
 
 #include <fenv.h>
+#include <stdbool.h>
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
 
 #include "base/arena.h"
 #include "base/diagnostics.h"
@@ -30,19 +34,39 @@ struct pscn_scene {
   struct intersector *intersector; /* NULL where the scene was not built */
 };
 
-/* Arithmetic as ours counts on: rounding to nearest, no flush to zero, no traps. Between calm_begin and calm_end. */
+/* Arithmetic as ours counts on: rounding to nearest, no flush to zero, no traps. Between calm_begin and calm_end. Where it
+ * is so already, which x86-64 says in one register, no more is done than is worth it for a single ray. */
 struct calm {
   fenv_t callers;
+  unsigned control; /* the register */
+  bool plain;
 };
 
-static inline struct calm calm_begin(void)
+#if defined(__SSE2__)
+enum { PLAIN_CONTROL = 0x1f80, CONTROL_FLAGS = 0x3f };
+#endif
+
+static inline void calm_begin(struct calm *calm)
 {
-  struct calm calm;
-  (void)fegetenv(&calm.callers);
+  calm->plain = false;
+#if defined(__SSE2__)
+  calm->control = _mm_getcsr();
+  calm->plain = (calm->control & ~(unsigned)CONTROL_FLAGS) == PLAIN_CONTROL;
+  if (calm->plain) return;
+#endif
+  (void)fegetenv(&calm->callers);
   (void)fesetenv(FE_DFL_ENV);
-  return calm;
 }
 
-static inline void calm_end(const struct calm *calm) { (void)fesetenv(&calm->callers); }
+static inline void calm_end(const struct calm *calm)
+{
+#if defined(__SSE2__)
+  if (calm->plain) {
+    if (_mm_getcsr() != calm->control) _mm_setcsr(calm->control);
+    return;
+  }
+#endif
+  (void)fesetenv(&calm->callers);
+}
 
 #endif

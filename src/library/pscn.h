@@ -89,7 +89,8 @@ struct pscn_number {
   double value;
 };
 
-/* How a scene is built. PSCN_OPTIONS, or all zero but `size`, asks for the defaults; so does NULL instead. */
+/* How a scene is built. PSCN_OPTIONS, or all zero but `size`, asks for the defaults; so does NULL instead. Messages call
+ * some by the names that they have for the program: --solver, --max-memory. */
 struct pscn_options {
   size_t size;        /* sizeof(struct pscn_options) */
   const char *solver; /* what may follow `solver` in a scene, as "aberth { polish off }": instead of every solver

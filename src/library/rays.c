@@ -9,7 +9,7 @@
 
 /* One call: who answers, and where rays and answers stand. `failed`: some ray was wrong. */
 struct call {
-  struct tracer tracer;
+  struct tracer *tracer;
   const struct scene *scene;
   const char *rays;
   char *answers;
@@ -84,7 +84,7 @@ static struct pscn_hit make_hit(const struct call *call, const struct hit *from)
 static void answer_nearest(struct call *call, const struct packet *packet)
 {
   struct hit hits[PACKET_SIZE];
-  tracer_closest(&call->tracer, packet->count, packet->rays, hits);
+  tracer_closest(call->tracer, packet->count, packet->rays, hits);
   for (size_t k = 0; k < packet->count; k++) {
     const struct pscn_hit hit = make_hit(call, &hits[k]);
     memcpy(answer_at(call, packet->number[k]), &hit, sizeof hit);
@@ -109,7 +109,7 @@ static void write_occluded(struct call *call, size_t number, enum pscn_verdict v
 static void answer_occluded(struct call *call, const struct packet *packet)
 {
   bool occluded[PACKET_SIZE];
-  tracer_occluded(&call->tracer, packet->count, packet->rays, occluded);
+  tracer_occluded(call->tracer, packet->count, packet->rays, occluded);
   for (size_t k = 0; k < packet->count; k++)
     write_occluded(call, packet->number[k], occluded[k] ? PSCN_HIT : PSCN_MISS);
 }
@@ -138,7 +138,7 @@ static void answer_all(struct call *call, const struct packet *packet)
 {
   struct hit_list lists[PACKET_SIZE];
   const bool answered = !call->short_of_memory &&
-                        tracer_all(&call->tracer, packet->count, packet->rays, lists) == STATUS_OK;
+                        tracer_all(call->tracer, packet->count, packet->rays, lists) == STATUS_OK;
   call->short_of_memory = !answered;
   for (size_t k = 0; k < packet->count; k++) {
     if (!answered) {
@@ -158,11 +158,13 @@ static void answer_all(struct call *call, const struct packet *packet)
 struct asked {
   void (*answer)(struct call *call, const struct packet *packet);
   void (*write)(struct call *call, size_t number, enum pscn_verdict verdict);
+  bool takes_memory;
 };
 
 static void answer_rays(struct call *call, const struct asked *asked, size_t count)
 {
-  struct packet packet = {.count = 0};
+  struct packet packet;
+  packet.count = 0;
   for (size_t number = 0; number < count; number++) {
     struct pscn_ray ray;
     memcpy(&ray, call->rays + (ptrdiff_t)number * call->ray_stride, sizeof ray);
@@ -191,13 +193,20 @@ static enum pscn_status ask(const struct pscn_scene *scene, const struct asked *
     for (size_t k = 0; k < count; k++) asked->write(call, k, PSCN_NO_ANSWER);
     return PSCN_USAGE;
   }
-  const struct calm calm = calm_begin();
-  const struct memory_hooks before = memory_use(scene->hooks);
+  struct calm calm;
+  struct tracer tracer;
+  calm_begin(&calm);
+  tracer_begin(scene->intersector, &tracer);
   call->scene = scene->scene;
-  tracer_begin(scene->intersector, &call->tracer);
-  answer_rays(call, asked, count);
-  tracer_end(&call->tracer);
-  (void)memory_use(before);
+  call->tracer = &tracer;
+  if (asked->takes_memory) {
+    const struct memory_hooks before = memory_use(scene->hooks);
+    answer_rays(call, asked, count);
+    tracer_end(&tracer);
+    (void)memory_use(before);
+  } else {
+    answer_rays(call, asked, count);
+  }
   calm_end(&calm);
   if (call->short_of_memory) return PSCN_LIMIT;
   return call->failed ? PSCN_INPUT : PSCN_OK;
@@ -206,7 +215,7 @@ static enum pscn_status ask(const struct pscn_scene *scene, const struct asked *
 enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                               ptrdiff_t ray_stride, struct pscn_hit *hits, ptrdiff_t hit_stride)
 {
-  static const struct asked asked = {answer_nearest, write_nearest};
+  static const struct asked asked = {answer_nearest, write_nearest, false};
   struct call call = {
     .rays = (const char *)rays, .answers = (char *)hits, .ray_stride = ray_stride, .answer_stride = hit_stride};
   return ask(scene, &asked, count, &call);
@@ -215,7 +224,7 @@ enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t count, cons
 enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                ptrdiff_t ray_stride, uint8_t *verdicts, ptrdiff_t verdict_stride)
 {
-  static const struct asked asked = {answer_occluded, write_occluded};
+  static const struct asked asked = {answer_occluded, write_occluded, false};
   struct call call = {
     .rays = (const char *)rays, .answers = (char *)verdicts, .ray_stride = ray_stride, .answer_stride = verdict_stride};
   return ask(scene, &asked, count, &call);
@@ -225,7 +234,7 @@ enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count, const st
                           ptrdiff_t ray_stride, struct pscn_hits *counts, ptrdiff_t counts_stride,
                           struct pscn_hit *hits, ptrdiff_t row_stride, size_t most)
 {
-  static const struct asked asked = {answer_all, write_all};
+  static const struct asked asked = {answer_all, write_all, true};
   struct call call = {.rays = (const char *)rays,
                       .answers = (char *)counts,
                       .ray_stride = ray_stride,

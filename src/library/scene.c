@@ -217,7 +217,8 @@ static enum pscn_status create(const struct origin *origin, const struct pscn_op
   if (!out) return PSCN_USAGE;
   if (take_options(options, &known)) hooks = (struct memory_hooks){known.memory.resize, known.memory.context};
   const struct memory_hooks before = memory_use(hooks);
-  const struct calm calm = calm_begin();
+  struct calm calm;
+  calm_begin(&calm);
   struct pscn_scene *scene = memory_alloc(1, sizeof *scene);
   if (scene && !(scene->arena = arena_create())) {
     memory_free(scene);

@@ -265,6 +265,9 @@ static void test_arithmetic(void **state)
   static struct pscn_hit hits[COUNT];
   fenv_t before;
   assert_int_equal(fegetenv(&before), 0);
+  feclearexcept(FE_ALL_EXCEPT);
+  assert_int_equal(pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits), PSCN_OK);
+  assert_int_equal(fetestexcept(FE_ALL_EXCEPT), 0);
 #if defined(__SSE2__)
   const unsigned control = _mm_getcsr() | 0x8040; /* subnormal numbers are flushed to zero, read and written */
   _mm_setcsr(control);

@@ -146,6 +146,19 @@ static void test_arguments(void **state)
   assert_int_equal(pscn_scene_from_file("x", NULL, NULL), PSCN_USAGE);
 }
 
+/* An instruction set that is not here is told. */
+static void test_kernel(void **state)
+{
+  (void)state;
+  struct pscn_scene *scene;
+  assert_int_equal(setenv("PSCN_KERNEL", "sparc", 1), 0);
+  const enum pscn_status status = from_text(PATCH, NULL, &scene);
+  assert_int_equal(unsetenv("PSCN_KERNEL"), 0);
+  assert_int_equal(status, PSCN_USAGE);
+  assert_non_null(strstr(pscn_scene_messages(scene), "PSCN_KERNEL"));
+  pscn_scene_free(scene);
+}
+
 /* What the options ask for is done. */
 static void test_options(void **state)
 {
@@ -243,7 +256,8 @@ int main(void)
   (void)setlocale(LC_ALL, "");
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_version),   cmocka_unit_test(test_origins), cmocka_unit_test(test_messages),
-    cmocka_unit_test(test_arguments), cmocka_unit_test(test_options), cmocka_unit_test(test_memory),
+    cmocka_unit_test(test_arguments), cmocka_unit_test(test_kernel),  cmocka_unit_test(test_options),
+    cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
