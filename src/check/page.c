@@ -81,9 +81,9 @@ static void put_escaped(struct page *page, const char *text)
   static const char RESERVED[] = "&<>\"'";
   static const char *const NAME[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   while (*text != '\0') {
-    const size_t plain = strcspn(text, RESERVED);
-    page_bytes(page, text, plain);
-    text += plain;
+    const size_t free_of_them = strcspn(text, RESERVED);
+    page_bytes(page, text, free_of_them);
+    text += free_of_them;
     if (*text != '\0') page_format(page, "%s", NAME[strchr(RESERVED, *text++) - RESERVED]);
   }
 }
@@ -139,12 +139,12 @@ static void put_shortest(struct page *page, double value, int digits)
 }
 
 /* format: WIDTH.DIGITS and a letter, or DIGITS alone, or "". */
-static void put_value(struct page *page, const json_t *value, const char *format, bool plain)
+static void put_value(struct page *page, const json_t *value, const char *format, bool as_it_is)
 {
   char *point;
   const long width = strtol(format, &point, 10), digits = *point == '.' ? strtol(point + 1, &point, 10) : 0;
   if (json_is_string(value) && *point == 's') page_format(page, "%*s", (int)width, json_string_value(value));
-  else if (json_is_string(value) && plain) page_bytes(page, json_string_value(value), json_string_length(value));
+  else if (json_is_string(value) && as_it_is) page_bytes(page, json_string_value(value), json_string_length(value));
   else if (json_is_string(value)) put_escaped(page, json_string_value(value));
   else if (json_is_number(value) && strchr("feg", *point) != NULL && *point != '\0')
     put_decimal(page, json_number_value(value), (int)width, (int)digits, *point);
@@ -190,8 +190,8 @@ static void fill(struct page *page, const char *text, size_t length, struct scop
     const char *close = tag == NULL || tag >= end ? NULL : strstr(tag, "}}");
     page_bytes(page, text, (size_t)((close == NULL ? end : tag) - text));
     if (close == NULL) return;
-    const bool section = tag[2] == '#' || tag[2] == '^', plain = tag[2] == '&';
-    const char *name = tag + 2 + (section || plain), *format = memchr(name, ':', (size_t)(close - name));
+    const bool section = tag[2] == '#' || tag[2] == '^', as_it_is = tag[2] == '&';
+    const char *name = tag + 2 + (section || as_it_is), *format = memchr(name, ':', (size_t)(close - name));
     const size_t name_length = (size_t)((format == NULL ? close : format) - name);
     const json_t *value = find(scope, name, name_length);
     const char *rest = section ? section_end(close, name, name_length) : NULL;
@@ -200,7 +200,7 @@ static void fill(struct page *page, const char *text, size_t length, struct scop
       fill_section(page, text, (size_t)(rest - text), value, tag[2] == '^', scope);
       text = rest + 5 + name_length;
     } else {
-      put_value(page, value, format == NULL ? "" : format + 1, plain);
+      put_value(page, value, format == NULL ? "" : format + 1, as_it_is);
     }
   }
 }

@@ -49,9 +49,9 @@ static void place_points(const struct local_ray *local, const double w[16], cons
     const double u = story->v_kept ? other : kept, v = story->v_kept ? kept : other;
     const double wu[4] = {(1 - u) * (1 - u) * (1 - u), 3 * u * (1 - u) * (1 - u), 3 * u * u * (1 - u), u * u * u};
     const double wv[4] = {(1 - v) * (1 - v) * (1 - v), 3 * v * (1 - v) * (1 - v), 3 * v * v * (1 - v), v * v * v};
-    double place = 0;
-    for (int n = 0; n < 16; n++) place += wu[n / 4] * wv[n % 4] * w[n];
-    story->t[k] = ray->shift + (place + local->start[1] + local->start[0]) * local->to_t;
+    double depth = 0;
+    for (int n = 0; n < 16; n++) depth += wu[n / 4] * wv[n % 4] * w[n];
+    story->t[k] = ray->shift + (depth + local->start[1] + local->start[0]) * local->to_t;
   }
 }
 

@@ -57,7 +57,7 @@ struct leaf_parts {
   bool exact;         /* but for rounding the rest: cut without rounding */
   /* steps up to these, in leaf parameters, leave the root right to the rounding of its coordinates, and derivatives
    * right to their own */
-  double last_step, plain_step;
+  double last_step, slope_step;
   double third; /* bound on third derivatives */
 };
 

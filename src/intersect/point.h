@@ -13,7 +13,7 @@
 #define UNDECIDED_ERRORS 5
 
 /* |Su x Sv| relative to the squared derivatives down to which it is the normal without further thought. */
-#define SURFACE_PLAIN 0x1p-20
+#define SURFACE_SURE 0x1p-20
 
 /* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the
  * sum; in each coordinate, so up to sqrt(3) of it in distance. `tangent` bounds the derivatives' coordinates. */

@@ -104,7 +104,7 @@ static void judge_parameter(quad x, double radius, bool *border, bool *inside)
 }
 
 /* The nearest candidate inside its patch and away from the border; -1 for none. */
-static int nearest_plain(const struct candidates *all)
+static int nearest_inner(const struct candidates *all)
 {
   int best = -1;
   for (int n = 0; n < all->count; n++) {
@@ -174,7 +174,7 @@ void reference_closest(const struct reference *reference, const double origin[3]
   collect(reference, origin, direction, &all);
   *out = (struct reference_answer){.verdict = REFERENCE_MISS, .t_first = INFINITY, .patch = REFERENCE_NONE};
 
-  int answer = nearest_plain(&all), border = nearest_border(&all);
+  int answer = nearest_inner(&all), border = nearest_border(&all);
   if (answer >= 0) {
     out->verdict = REFERENCE_HIT;
     out->t_first = (double)all.list[answer].root.t;

@@ -27,7 +27,7 @@ static void set_surface(const struct model *model, const struct ray *ray, struct
   out->point_error = POINT_ERROR(patch->scale, tangent, magnitude);
   vector_cross(su, sv, out->normal);
   const double length = vector_length(out->normal);
-  if (length > SURFACE_PLAIN * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
+  if (length > SURFACE_SURE * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
   else if (!patch_normal(patch->x, out->u, out->v, out->normal) &&
            !wide_normal(model->scene->patches[out->patch].P, out->u, out->v, out->normal))
     vector_scale(-1 / vector_length(direction), direction, out->normal);

@@ -40,43 +40,43 @@ struct zoom *judge_zoom(struct judge *j)
 
 /* ---- where a root lies ---- */
 
-enum place { PLACE_OUTSIDE, PLACE_INSIDE, PLACE_UNKNOWN };
+enum side { SIDE_OUTSIDE, SIDE_INSIDE, SIDE_UNKNOWN };
 
 /* Of x within error against a border at 0, inside above. */
-static enum place place_above(wide x, double error)
+static enum side side_of(wide x, double error)
 {
-  return x > error ? PLACE_INSIDE : x < -error ? PLACE_OUTSIDE : PLACE_UNKNOWN;
+  return x > error ? SIDE_INSIDE : x < -error ? SIDE_OUTSIDE : SIDE_UNKNOWN;
 }
 
 /* Farther from a border than this all doubles are. */
 #define CLEARLY 0x1p-40
 
 /* Of the root in its patch; *borders: those that it cannot be told from. */
-static enum place root_in_patch(const struct exact_root *root, unsigned *borders)
+static enum side root_in_patch(const struct exact_root *root, unsigned *borders)
 {
   const double u = (double)root->u, v = (double)root->v;
   const double from_u = root->radius_u + CLEARLY, from_v = root->radius_v + CLEARLY;
   *borders = 0;
-  if (u > from_u && 1 - u > from_u && v > from_v && 1 - v > from_v) return PLACE_INSIDE;
+  if (u > from_u && 1 - u > from_u && v > from_v && 1 - v > from_v) return SIDE_INSIDE;
   const wide distance[4] = {root->u, 1 - root->u, root->v, 1 - root->v};
   for (unsigned k = 0; k < 4; k++) {
-    const enum place place = place_above(distance[k], k < 2 ? root->radius_u : root->radius_v);
-    if (place == PLACE_OUTSIDE) return PLACE_OUTSIDE;
-    if (place == PLACE_UNKNOWN) *borders |= 1u << k;
+    const enum side side = side_of(distance[k], k < 2 ? root->radius_u : root->radius_v);
+    if (side == SIDE_OUTSIDE) return SIDE_OUTSIDE;
+    if (side == SIDE_UNKNOWN) *borders |= 1u << k;
   }
-  return *borders ? PLACE_UNKNOWN : PLACE_INSIDE;
+  return *borders ? SIDE_UNKNOWN : SIDE_INSIDE;
 }
 
 /* Of the root between the ray's start and its end, which it may be next to only from outside. */
-static enum place root_in_range(const struct judge *j, const struct exact_root *root)
+static enum side root_in_range(const struct judge *j, const struct exact_root *root)
 {
   const double t = (double)root->t, clearly = root->t_error + 4 * UNIT_ROUNDOFF * fabs(t);
-  if (t - j->asked->ray->t_min > clearly && j->asked->ray->t_max - t > clearly) return PLACE_INSIDE;
-  const enum place start = place_above(root->t - j->asked->ray->t_min, root->t_error);
-  const enum place end = place_above(j->asked->ray->t_max - root->t, root->t_error);
-  return start == PLACE_OUTSIDE || end == PLACE_OUTSIDE ? PLACE_OUTSIDE
-         : start == PLACE_INSIDE && end == PLACE_INSIDE ? PLACE_INSIDE
-                                                        : PLACE_UNKNOWN;
+  if (t - j->asked->ray->t_min > clearly && j->asked->ray->t_max - t > clearly) return SIDE_INSIDE;
+  const enum side start = side_of(root->t - j->asked->ray->t_min, root->t_error);
+  const enum side end = side_of(j->asked->ray->t_max - root->t, root->t_error);
+  return start == SIDE_OUTSIDE || end == SIDE_OUTSIDE ? SIDE_OUTSIDE
+         : start == SIDE_INSIDE && end == SIDE_INSIDE ? SIDE_INSIDE
+                                                      : SIDE_UNKNOWN;
 }
 
 bool judge_sharpen(struct judge *j, struct exact_root *root)
@@ -230,10 +230,10 @@ static bool tell_point(struct judge *j, int row, int column, double u, double v,
 {
   struct exact_root root;
   if (!point_root(j, row, column, u, v, &root)) return false;
-  const enum place in_range = root_in_range(j, &root);
-  if (in_range == PLACE_INSIDE && j->all) (void)list_root(j, &root, EXACT_BORDER, 1u << border);
-  else if (in_range == PLACE_INSIDE) keep_root(j, &root);
-  if (in_range == PLACE_UNKNOWN) j->doubt = true;
+  const enum side in_range = root_in_range(j, &root);
+  if (in_range == SIDE_INSIDE && j->all) (void)list_root(j, &root, EXACT_BORDER, 1u << border);
+  else if (in_range == SIDE_INSIDE) keep_root(j, &root);
+  if (in_range == SIDE_UNKNOWN) j->doubt = true;
   return true;
 }
 
@@ -244,7 +244,7 @@ bool judge_pole(struct judge *j, int border)
   if (tell_point(j, row, column, u, v, border)) return true;
   const struct model_patch *patch = &j->asked->model->patches[j->patch];
   const double w = patch->x[j->local.axis][row][column];
-  const wide t = (w - judge_zoom(j)->place) * judge_zoom(j)->to_t;
+  const wide t = (w - judge_zoom(j)->origin) * judge_zoom(j)->to_t;
   const struct exact_maybe maybe = {j->patch,
                                     1u << border,
                                     u,
@@ -260,20 +260,20 @@ void judge_root(struct judge *j, struct exact_root *root)
 {
   unsigned borders;
   root->patch = j->patch;
-  enum place in_patch = root_in_patch(root, &borders), in_range = root_in_range(j, root);
-  if ((double)root->t - root->t_error > j->limit || in_patch == PLACE_OUTSIDE || in_range == PLACE_OUTSIDE) return;
-  if (in_patch == PLACE_UNKNOWN || in_range == PLACE_UNKNOWN) {
+  enum side in_patch = root_in_patch(root, &borders), in_range = root_in_range(j, root);
+  if ((double)root->t - root->t_error > j->limit || in_patch == SIDE_OUTSIDE || in_range == SIDE_OUTSIDE) return;
+  if (in_patch == SIDE_UNKNOWN || in_range == SIDE_UNKNOWN) {
     if (!judge_sharpen(j, root)) {
       tell_maybe(j, borders, root);
       return;
     }
     in_patch = root_in_patch(root, &borders), in_range = root_in_range(j, root);
-    if (in_patch == PLACE_OUTSIDE || in_range == PLACE_OUTSIDE) return;
+    if (in_patch == SIDE_OUTSIDE || in_range == SIDE_OUTSIDE) return;
   }
-  if (in_range == PLACE_UNKNOWN) {
+  if (in_range == SIDE_UNKNOWN) {
     /* Nobody can tell whether a ray that starts on the surface meets it. */
     j->doubt = true;
-  } else if (in_patch == PLACE_INSIDE) {
+  } else if (in_patch == SIDE_INSIDE) {
     keep_root(j, root);
   } else if (!list_root(j, root, EXACT_BORDER, borders)) {
     tell_maybe(j, borders, root);
@@ -377,7 +377,7 @@ struct ordered {
   const struct exact_region *region;
 };
 
-static int by_place(const void *a, const void *b)
+static int by_distance(const void *a, const void *b)
 {
   const struct ordered *x = a, *y = b;
   if (x->near != y->near) return x->near < y->near ? -1 : 1;
@@ -449,7 +449,7 @@ static void search_nearest(struct judge *j, const struct exact_region regions[],
     judge_turn(j, regions[k].patch);
     order[k].near = search_near(j, &regions[k]);
   }
-  qsort(order, count, sizeof *order, by_place);
+  qsort(order, count, sizeof *order, by_distance);
   for (size_t k = 0; k < count && order[k].near <= j->limit; k++) {
     judge_turn(j, order[k].region->patch);
     search_region(j, order[k].region);

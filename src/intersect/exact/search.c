@@ -52,13 +52,13 @@ struct search {
   bool met;             /* the pole there may be met: nothing is said of what is next to it */
   double start[2], to_t; /* t = ((w + start[1]) + start[0]) to_t */
   double error[2];       /* bounds on the errors of coefficients of the first two nets before any halving */
-  double place_error;    /* of w */
+  double depth_error;    /* of w, x_k */
   double extent[2];      /* bounds on the derivatives by the whole box's parameters */
   double resolution;     /* of t */
   bool pole[4];          /* borders of the whole box (geometry/edges.h) that are one point */
 };
 
-static double place_to_t(const struct search *s, double w) { return ((w + s->start[1]) + s->start[0]) * s->to_t; }
+static double depth_to_t(const struct search *s, double w) { return ((w + s->start[1]) + s->start[0]) * s->to_t; }
 
 /* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the
  * whole box's size. */
@@ -67,13 +67,13 @@ static void box_error(const struct search *s, const struct box *box, double out[
   for (int k = 0; k < 2; k++) out[k] = s->error[k] + box->halvings * 4 * UNIT_ROUNDOFF;
 }
 
-static void box_place(const struct search *s, struct box *box)
+static void box_reach(const struct search *s, struct box *box)
 {
   double lo = box->net[2][0][0], hi = lo;
   for (int n = 1; n < 16; n++)
     lo = real_min(lo, box->net[2][n / 4][n % 4]), hi = real_max(hi, box->net[2][n / 4][n % 4]);
-  const double p = place_to_t(s, lo), q = place_to_t(s, hi);
-  const double slack = fabs(s->to_t) * s->place_error + 8 * UNIT_ROUNDOFF * real_max(fabs(p), fabs(q));
+  const double p = depth_to_t(s, lo), q = depth_to_t(s, hi);
+  const double slack = fabs(s->to_t) * s->depth_error + 8 * UNIT_ROUNDOFF * real_max(fabs(p), fabs(q));
   box->near = real_min(p, q) - slack, box->far = real_max(p, q) + slack;
 }
 
@@ -83,15 +83,15 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
   const struct patch_jet w = patch_evaluate(box->net[2], at[0], at[1]);
   double bend[3];
   box_bends(box->net[2], bend);
-  const double t = place_to_t(s, w.value), sum = radius[0] + radius[1], to_t = fabs(s->to_t);
+  const double t = depth_to_t(s, w.value), sum = radius[0] + radius[1], to_t = fabs(s->to_t);
   const double off = fabs(w.du) * radius[0] + fabs(w.dv) * radius[1] +
                      BOX_MARGIN_GROWTH * (bend[0] + 2 * bend[1] + bend[2]) * sum * sum;
   struct exact_root root = {.t = t};
-  root.t_error = to_t * (off + s->place_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + to_t * fabs(w.value));
+  root.t_error = to_t * (off + s->depth_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + to_t * fabs(w.value));
   if (s->depth > 0) {
     root.u = s->low[0] + s->size[0] * ((wide)box->u + (wide)box->size_u * at[0]);
     root.v = s->low[1] + s->size[1] * ((wide)box->v + (wide)box->size_v * at[1]);
-    root.t = zoom_place(judge_zoom(s->judge), root.u, root.v);
+    root.t = zoom_t(judge_zoom(s->judge), root.u, root.v);
     root.t_error = to_t * (off + (double)judge_zoom(s->judge)->error);
   } else {
     root.u = (double)s->low[0] + (double)s->size[0] * (box->u + box->size_u * at[0]);
@@ -113,7 +113,7 @@ static void box_tell_maybe(struct search *s, struct box *box, bool small)
     s->judge->doubt = true;
     return;
   }
-  const double t = place_to_t(s, patch_evaluate(box->net[2], u, v).value);
+  const double t = depth_to_t(s, patch_evaluate(box->net[2], u, v).value);
   judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u * u)),
               (double)(s->low[1] + s->size[1] * (box->v + box->size_v * v)), t, box->far - box->near);
 }
@@ -154,7 +154,7 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
   if (s->dependent) across_u = s->extent[0] * box->size_u >= s->extent[1] * box->size_v;
   if (across_u ? box->size_u <= LEAST_SIZE : box->size_v <= LEAST_SIZE) across_u = !across_u;
   box_cut(box, across_u, out);
-  for (int h = 0; h < 2; h++) box_place(s, &out[h]);
+  for (int h = 0; h < 2; h++) box_reach(s, &out[h]);
 }
 
 static void search_run(struct search *s, const struct box *whole);
@@ -177,7 +177,7 @@ static void closer_run(struct search *closer, const struct zoomed *zoomed)
   double size = 0;
   for (int n = 0; n < 16; n++) size = real_max(size, fabs(zoomed->net[2][n / 4][n % 4]));
   for (int k = 0; k < 2; k++) closer->start[k] = zoomed->start[k], closer->error[k] = zoomed->error[k];
-  closer->place_error = 32 * UNIT_ROUNDOFF * size + (double)judge_zoom(closer->judge)->error;
+  closer->depth_error = 32 * UNIT_ROUNDOFF * size + (double)judge_zoom(closer->judge)->error;
   struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   memcpy(whole.net, zoomed->net, sizeof whole.net);
   search_run(closer, &whole);
@@ -278,7 +278,7 @@ static void search_run(struct search *s, const struct box *whole)
 {
   struct box stack[SEARCH_HALVINGS + 2];
   stack[0] = *whole;
-  box_place(s, &stack[0]);
+  box_reach(s, &stack[0]);
   for (int top = 1; top > 0;) {
     struct box box = stack[--top];
     s->judge->work--;
@@ -317,7 +317,7 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
                        .start = {ray->start[0], ray->start[1]},
                        .to_t = ray->to_t,
                        .error = {ray->error, ray->error},
-                       .place_error = ray->error,
+                       .depth_error = ray->error,
                        .divided = NO_BORDER};
   for (int k = 0; k < 2; k++)
     s->low[k] = part_of(region->column[k], patch->split), s->size[k] = part_of(region->span[k], patch->split);
@@ -328,8 +328,8 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
   local_ray_nets(ray, x, nets[0], nets[1], nets[2]);
   *whole = (struct box){.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   memcpy(whole->net, nets, sizeof nets);
-  box_place(s, whole);
-  const double slack = fabs(s->to_t) * s->place_error +
+  box_reach(s, whole);
+  const double slack = fabs(s->to_t) * s->depth_error +
                        8 * UNIT_ROUNDOFF * real_max(fabs(whole->near), fabs(whole->far));
   s->resolution = real_max((whole->far - whole->near) * SEARCH_RESOLUTION, 4 * slack);
 }

@@ -48,7 +48,7 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
     for (int n = 0; n < 4; n++) to_powers(&out->power[s][0][n], 4);
     if (s < 2) size = wide_max(size, 2 + wide_abs(q[i]) + wide_abs(q[k]));
   }
-  out->place = q[k], out->to_t = (wide)patch->scale / d[k];
+  out->origin = q[k], out->to_t = (wide)patch->scale / d[k];
   out->error = WIDE_ROUNDOFF * ZOOM_ROUNDINGS * POWER_GROWTH * size;
 }
 
@@ -96,9 +96,9 @@ static void box_powers(const struct zoom *zoom, const wide low[2], const wide si
 }
 
 /* The net of x_k, less the middle's. */
-static void set_place(const struct zoom *zoom, wide power[4][4], struct zoomed *out)
+static void set_depth(const struct zoom *zoom, wide power[4][4], struct zoomed *out)
 {
-  const wide start = power[0][0] - zoom->place;
+  const wide start = power[0][0] - zoom->origin;
   power[0][0] = 0;
   net_of(power, 1, out->net[2]);
   out->start[0] = (double)start, out->start[1] = (double)(start - out->start[0]);
@@ -125,7 +125,7 @@ bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], st
     net_of(combination, 1 / sum, out->net[s]);
     out->error[s] = (double)(error / sum) + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
   }
-  set_place(zoom, c[2], out);
+  set_depth(zoom, c[2], out);
   return true;
 }
 
@@ -196,7 +196,7 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
   const wide away = *out_pole == POLE_PASSED ? error * 4 * slope / distance : 0;
   if (!scaled_net(net[0], 6 * error + away, distance, 0, out) || !scaled_net(net[1], 6 * error, distance, 1, out))
     return false;
-  set_place(zoom, c[2], out);
+  set_depth(zoom, c[2], out);
   return true;
 }
 
@@ -243,11 +243,11 @@ bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3])
   return true;
 }
 
-wide zoom_place(struct zoom *zoom, wide u, wide v)
+wide zoom_t(struct zoom *zoom, wide u, wide v)
 {
-  wide place, unused[2];
-  evaluate(zoom->power[2], 2 * u - 1, 2 * v - 1, &place, &unused[0], &unused[1]);
-  return (place - zoom->place) * zoom->to_t;
+  wide depth, unused[2];
+  evaluate(zoom->power[2], 2 * u - 1, 2 * v - 1, &depth, &unused[0], &unused[1]);
+  return (depth - zoom->origin) * zoom->to_t;
 }
 
 /* Bounds on the second derivatives of the polynomial with these powers, as `s` of struct bend, where x and y reach
@@ -308,7 +308,7 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
   const wide u = (1 + x) / 2, v = (1 + y) / 2;
   if (!certificate_holds(bend, step, size * error)) {
     if (wide_abs(u - root->u) <= root->radius_u && wide_abs(v - root->v) <= root->radius_v)
-      root->u = u, root->v = v, root->t = zoom_place(zoom, u, v);
+      root->u = u, root->v = v, root->t = zoom_t(zoom, u, v);
     return false;
   }
   for (int k = 0; k < 2; k++)
@@ -319,12 +319,12 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
   if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
         (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))
     return false;
-  wide place, dx, dy;
-  evaluate(zoom->power[2], x, y, &place, &dx, &dy);
+  wide depth, dx, dy;
+  evaluate(zoom->power[2], x, y, &depth, &dx, &dy);
   const double rx = 2 * radius[0], ry = 2 * radius[1], reach = rx + ry;
   const double off = fabs((double)dx) * rx + fabs((double)dy) * ry + error +
                      second_bound(zoom->power[2]) * reach * reach;
-  root->u = u, root->v = v, root->t = (place - zoom->place) * zoom->to_t;
+  root->u = u, root->v = v, root->t = (depth - zoom->origin) * zoom->to_t;
   root->radius_u = radius[0], root->radius_v = radius[1];
   /* The certificate's map contracts as far as bend |w - z| and rounding make less than 1, where bend holds. */
   const double here = (double)wide_max(wide_abs(x), wide_abs(y));

@@ -15,8 +15,8 @@
 /* A ray through a whole patch: a, b and x_k as powers of 2u - 1 and 2v - 1. */
 struct zoom {
   wide power[3][4][4];
-  wide place; /* (origin_k - center_k)/scale */
-  wide to_t;  /* t = (x_k - place) to_t */
+  wide origin; /* (origin_k - center_k)/scale */
+  wide to_t;   /* t = (x_k - origin) to_t */
   wide error; /* bound on the rounding of a or b anywhere on the patch, or of their coefficients over a box inside it */
 };
 
@@ -58,7 +58,7 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
 bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3]);
 
 /* t of the point (u,v). */
-wide zoom_place(struct zoom *zoom, wide u, wide v);
+wide zoom_t(struct zoom *zoom, wide u, wide v);
 
 /* Makes a proven root of this ray and patch as good as wide arithmetic can. False where the certificate does not hold
  * there or what is found is not the same root: then its place may be better for it, and its bounds are what they were.

@@ -91,9 +91,9 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
                              (lanes_abs(old->v - r->v) <= old->radius_v + r->radius_v);
       *proven &= ~same;
     }
-    const lanes place = v_kept ? r->v : r->u, radius = v_kept ? r->radius_v : r->radius_u;
+    const lanes parameter = v_kept ? r->v : r->u, radius = v_kept ? r->radius_v : r->radius_u;
     found += lanes_select(*proven, lanes_all(1), lanes_all(0));
-    within += lanes_select(*proven & (place > radius) & (1 - place > radius), lanes_all(1), lanes_all(0));
+    within += lanes_select(*proven & (parameter > radius) & (1 - parameter > radius), lanes_all(1), lanes_all(0));
     /* whatever else was found is this root again */
     const lane_mask only = open & r->alone;
     for (int j = 0; j < k; j++) all->proven[j] &= ~only;

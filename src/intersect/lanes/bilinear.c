@@ -18,12 +18,12 @@ struct coordinate {
 };
 
 /* The products of heads of size at most 4 with multiples of LEAF_GRAIN, and their sums of size at most 8, are exact. */
-struct place {
+struct split_point {
   lanes s, t;
   struct split_lanes split_s, split_t, split_st;
 };
 
-LANES_INLINE struct coordinate coordinate_at(const double base[4], const double rest[16], const struct place *at)
+LANES_INLINE struct coordinate coordinate_at(const double base[4], const double rest[16], const struct split_point *at)
 {
   const lanes A = lanes_all(base[1]), B = lanes_all(base[2]), C = lanes_all(base[3]), s = at->s, t = at->t;
   struct coordinate x;
@@ -53,7 +53,7 @@ __attribute__((noinline)) static void surface_at(const struct leaf_parts *parts,
                                                  struct coordinate out[3])
 {
   const lanes st = s * t;
-  struct place at = {s, t, split_lanes_of(s), split_lanes_of(t), split_lanes_of(st)};
+  struct split_point at = {s, t, split_lanes_of(s), split_lanes_of(t), split_lanes_of(st)};
   at.split_st.tail += lanes_product_error(s, t, st);
   for (int c = 0; c < 3; c++) out[c] = coordinate_at(parts->base[c], parts->rest[c], &at);
 }
@@ -240,7 +240,7 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
   const lanes to_s = lanes_max(lanes_min(s - step_s, half), -half) - s;
   const lanes to_t = lanes_max(lanes_min(t - step_t, half), -half) - t;
   for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo + (x[c].ds * to_s + x[c].dt * to_t));
-  const lane_mask turned = settled & (step > parts->plain_step);
+  const lane_mask turned = settled & (step > parts->slope_step);
   if (lanes_any(turned)) surface_turn(parts, s, t, to_s, to_t, turned, x);
   for (int c = 0; c < 3; c++) out->su[c] = x[c].ds, out->sv[c] = x[c].dt;
 }

@@ -11,7 +11,7 @@
 /* What is known of a root on a nearly bilinear leaf. Points and derivatives are in the frame of its patch. */
 struct bilinear_root {
   struct newton_root at;
-  lanes w, t;                   /* place on the ray */
+  lanes w, t;                   /* x_k, and how far along the ray */
   lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters */
 };
 

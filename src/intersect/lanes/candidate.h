@@ -60,7 +60,7 @@ LANES_INLINE void plane_values(const struct packet *p, int axis, const double x[
 }
 
 /* planes.c: x_k of the points (u,v). */
-lanes plane_place(const struct candidate *it, lanes u, lanes v);
+lanes plane_depth(const struct candidate *it, lanes u, lanes v);
 
 /* resultant.c: the eliminated parameter at a root of r. */
 lanes resultant_eliminated(const struct candidate *it, lanes kept);

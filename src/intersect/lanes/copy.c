@@ -59,8 +59,8 @@ void packet_leave(struct packet *inner)
   }
   const lane_mask taken = hits & ~rival & best_after(&outer->best, t, found->patch, found->leaf);
   if (!lanes_any(taken)) return;
-  const lanes place[2] = {found->u, found->v}, radius[2] = {found->radius_u, found->radius_v};
-  best_take(&outer->best, taken, place, radius, t, found->patch, found->leaf);
+  const lanes uv[2] = {found->u, found->v}, radius[2] = {found->radius_u, found->radius_v};
+  best_take(&outer->best, taken, uv, radius, t, found->patch, found->leaf);
   outer->t_far = lanes_select(taken, lanes_min(far, outer->t_far), outer->t_far);
   if (outer->any) outer->live &= ~taken;
   outer->moved = true;

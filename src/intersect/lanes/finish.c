@@ -13,7 +13,7 @@ struct answers {
   lanes u, v, t;
   struct surface_point point;
   lanes normal[3]; /* of unit length and either sense */
-  lane_mask plain; /* point and normal are sure, and the root has gone no farther than its radius */
+  lane_mask done;  /* point and normal are sure, and the root has gone no farther than its radius */
 };
 
 /* Lanes whose answer, whatever it is, is not sure. */
@@ -112,9 +112,9 @@ static unsigned write_hits(const struct packet *p, unsigned group, const struct 
   lanes facing = lanes_all(0), normal[3];
   for (int c = 0; c < 3; c++) facing += a->normal[c] * p->direction[c];
   for (int c = 0; c < 3; c++) normal[c] = lanes_select(facing > 0, -a->normal[c], a->normal[c]);
-  const lane_mask plain = a->plain & best->certain & (a->t > p->t_min) & (a->t < p->t_max) &
-                          (best->radius_u <= BLURRED_RADIUS) & (best->radius_v <= BLURRED_RADIUS);
-  const unsigned plains = lanes_bits(plain);
+  const lane_mask done = a->done & best->certain & (a->t > p->t_min) & (a->t < p->t_max) &
+                         (best->radius_u <= BLURRED_RADIUS) & (best->radius_v <= BLURRED_RADIUS);
+  const unsigned done_bits = lanes_bits(done);
   double row[LANES][12];
   unsigned grazing = 0;
   const struct surface_point *point = &a->point;
@@ -125,7 +125,7 @@ static unsigned write_hits(const struct packet *p, unsigned group, const struct 
     const unsigned l = (unsigned)__builtin_ctz(bits);
     const double *x = row[l];
     const bool sure = !(doubt >> l & 1);
-    if (!(plains >> l & 1)) {
+    if (!(done_bits >> l & 1)) {
       lane_finish(p, l, sure, &out[l]);
       grazing += out[l].certainty == CERTAINTY_GRAZING;
       continue;
@@ -156,7 +156,7 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
   const struct best *best = &p->best;
   struct answers a;
   a.u = surface_clamp(best->u), a.v = surface_clamp(best->v), a.t = best->t;
-  a.plain = surface_normal(best->normal, best->tangent, a.normal);
+  a.done = surface_normal(best->normal, best->tangent, a.normal);
   a.point = best->point;
   return write_hits(p, group, &a, out);
 }
@@ -171,9 +171,9 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, u
   step.improves = lanes_mask(group) & best->certain;
   step.u = surface_clamp(best->u), step.v = surface_clamp(best->v), step.t = best->t;
   last_step_take(&step);
-  struct answers a = {.u = step.u, .v = step.v, .t = step.t, .plain = step.plain};
-  a.plain &= (lanes_abs(step.u - best->u) <= best->radius_u) & (lanes_abs(step.v - best->v) <= best->radius_v) &
-             far_enough(p, patch, best->t);
+  struct answers a = {.u = step.u, .v = step.v, .t = step.t, .done = step.done};
+  a.done &= (lanes_abs(step.u - best->u) <= best->radius_u) & (lanes_abs(step.v - best->v) <= best->radius_v) &
+            far_enough(p, patch, best->t);
   a.point = surface_point(patch, step.point, step.tangent);
   for (int c = 0; c < 3; c++) a.normal[c] = step.normal[c];
   return write_hits(p, group, &a, out);

@@ -25,14 +25,14 @@ void gather_take(struct packet *p, lane_mask taken, const lanes at[2], const lan
     const lanes far = (p->shift + (t + error)) + 4 * UNIT_ROUNDOFF * (lanes_abs(p->shift) + lanes_abs(t + error));
     t = p->shift + t, error = far - t;
   }
-  double place[LANES][4], distance[LANES][4];
-  lanes_store4(at[0], at[1], radius[0], radius[1], &place[0][0], 4);
+  double uv[LANES][4], distance[LANES][4];
+  lanes_store4(at[0], at[1], radius[0], radius[1], &uv[0][0], 4);
   lanes_store4(t, error, lanes_all(0), lanes_all(0), &distance[0][0], 4);
   struct gathered *root = growing_add(&gather->roots, lanes_count(taken), sizeof *root);
   gather->failed |= !root;
   for (unsigned bits = root ? lanes_bits(taken) : 0; bits; bits &= bits - 1, root++) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    memcpy(root->row[ROW_PLACE], place[lane], sizeof place[lane]);
+    memcpy(root->row[ROW_UV], uv[lane], sizeof uv[lane]);
     memcpy(root->row[ROW_DISTANCE], distance[lane], sizeof distance[lane]);
     root->leaf = leaf, root->patch = (uint32_t)patch, root->lane = (uint8_t)lane, root->certain = certain,
     root->final = false;
@@ -43,14 +43,14 @@ void gather_surface(struct gather *gather, lane_mask taken, const struct surface
                     lanes tangent, lane_mask final)
 {
   if (gather->failed) return;
-  double place[LANES][4], across[LANES][4];
-  lanes_store4(point->at[0], point->at[1], point->at[2], point->clearance, &place[0][0], 4);
+  double at[LANES][4], across[LANES][4];
+  lanes_store4(point->at[0], point->at[1], point->at[2], point->clearance, &at[0][0], 4);
   lanes_store4(normal[0], normal[1], normal[2], tangent, &across[0][0], 4);
   const unsigned finals = lanes_bits(final);
   struct gathered *root = (struct gathered *)gather->roots.at + gather->roots.count - lanes_count(taken);
   for (unsigned bits = lanes_bits(taken); bits; bits &= bits - 1, root++) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    memcpy(root->row[ROW_POINT], place[lane], sizeof place[lane]);
+    memcpy(root->row[ROW_POINT], at[lane], sizeof at[lane]);
     memcpy(root->row[ROW_NORMAL], across[lane], sizeof across[lane]);
     root->row[ROW_DISTANCE][2] = point->error[lane], root->final = finals >> lane & 1;
   }
@@ -140,12 +140,12 @@ static bool decide(struct packet *p, unsigned lane, const struct gathered *const
   struct exact_list *list = &gather->list;
   list->count = 0;
   for (size_t k = 0; k < count; k++) {
-    const double *place = roots[k]->row[ROW_PLACE];
+    const double *uv = roots[k]->row[ROW_UV];
     const struct exact_found found = {.root = {.patch = roots[k]->patch,
-                                               .u = place[0],
-                                               .v = place[1],
-                                               .radius_u = place[2],
-                                               .radius_v = place[3],
+                                               .u = uv[0],
+                                               .v = uv[1],
+                                               .radius_u = uv[2],
+                                               .radius_v = uv[3],
                                                .t = t_of(roots[k]),
                                                .t_error = error_of(roots[k])},
                                       .kind = roots[k]->certain ? EXACT_INSIDE : EXACT_OPEN,
@@ -204,7 +204,7 @@ static unsigned set_best(struct packet *p, unsigned group, const struct gathered
     best->certain[lane] = root->certain ? -1 : 0, best->final[lane] = root->final ? -1 : 0;
   }
   lanes t_error, unused;
-  lanes_load4(row[0][ROW_PLACE], 4 * ROWS, &best->u, &best->v, &best->radius_u, &best->radius_v);
+  lanes_load4(row[0][ROW_UV], 4 * ROWS, &best->u, &best->v, &best->radius_u, &best->radius_v);
   lanes_load4(row[0][ROW_DISTANCE], 4 * ROWS, &best->t, &t_error, &best->point.error, &unused);
   lanes_load4(row[0][ROW_POINT], 4 * ROWS, &best->point.at[0], &best->point.at[1], &best->point.at[2],
               &best->point.clearance);

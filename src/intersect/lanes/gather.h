@@ -9,7 +9,7 @@
 
 /* One root: what struct best has of a lane, in rows as lanes_store4 writes them. */
 enum gathered_row {
-  ROW_PLACE,    /* u, v, radius_u, radius_v */
+  ROW_UV,       /* u, v, radius_u, radius_v */
   ROW_DISTANCE, /* t, its error, error of the point, 0; of the last two and all below something where `final` */
   ROW_POINT,    /* x, y, z, clearance */
   ROW_NORMAL,   /* x, y, z, tangent */

@@ -99,7 +99,7 @@ LANES_INLINE void last_step_normal(struct last_step *l, const struct last_step_j
   lanes normal[3];
   l->tangent = surface_tangent(jet->du, jet->dv);
   surface_cross(jet->du, jet->dv, normal);
-  l->plain = surface_normal(normal, l->tangent, l->normal);
+  l->done = surface_normal(normal, l->tangent, l->normal);
 }
 
 /* Improves the lanes that ask for it, and takes point and normal of all lanes. A lane whose steps do not end within
@@ -144,12 +144,12 @@ void last_step_take(struct last_step *l)
     /* A lane that is done stays where it is: what it gets then must not depend on the others. */
     u = lanes_select(again, u + du, u), v = lanes_select(again, v + dv, v);
   }
-  const lanes place = way[k].hi + (way[k].lo + (jet.du[k] * du + jet.dv[k] * dv));
-  l->t = lanes_select(moving, place * (patch->scale * inverse), l->t);
+  const lanes depth = way[k].hi + (way[k].lo + (jet.du[k] * du + jet.dv[k] * dv));
+  l->t = lanes_select(moving, depth * (patch->scale * inverse), l->t);
   const lane_mask lost = l->improves & ~moving;
   l->u = surface_clamp(lanes_select(lost, l->u, u + du)), l->v = surface_clamp(lanes_select(lost, l->v, v + dv));
   const lanes to_u = l->u - u, to_v = l->v - v;
   for (int c = 0; c < 3; c++) l->point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
   last_step_normal(l, &jet);
-  l->plain &= ~lost; /* the jet is elsewhere */
+  l->done &= ~lost; /* the jet is elsewhere */
 }

@@ -18,7 +18,7 @@ struct last_step {
   lanes u, v, t;                   /* in and out */
   lanes point[3], normal[3];       /* out: in the patch's frame; unit, of either sense */
   lanes tangent;                   /* out: bound on the derivatives' coordinates */
-  lane_mask plain;                 /* out: point and normal are sure */
+  lane_mask done;                  /* out: point and normal are sure */
 };
 
 /* Improves the lanes that ask for it, and takes point and normal of all lanes. A lane whose steps do not end within

@@ -23,7 +23,7 @@
 #define stage_first_root KERNEL(stage_first_root)
 #define stage_all_roots KERNEL(stage_all_roots)
 #define stage_method KERNEL(stage_method)
-#define plane_place KERNEL(plane_place)
+#define plane_depth KERNEL(plane_depth)
 #define resultant_eliminated KERNEL(resultant_eliminated)
 #define newton_refine KERNEL(newton_refine)
 #define bilinear_root_solve KERNEL(bilinear_root_solve)

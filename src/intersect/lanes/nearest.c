@@ -38,16 +38,16 @@ static lane_mask on_border(const struct candidate *it, const struct newton_root 
   return border;
 }
 
-/* The place on the ray of x_k = w. */
-LANES_INLINE lanes place_on_ray(const struct packet *p, int axis, lanes w)
+/* t where x_k = w. */
+LANES_INLINE lanes depth_to_t(const struct packet *p, int axis, lanes w)
 {
   const lanes *start = p->local[axis].start;
   return ((w + start[1]) + start[0]) * p->local[axis].to_t;
 }
 
-/* The bound on the error of a proven root's place: how far its radii let x_k move, and the roundings of x_k and it. */
-LANES_INLINE lanes place_error(const struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w,
-                               lanes at)
+/* The bound on the error of a proven root's t: how far its radii let x_k move, and the roundings of x_k and it. */
+LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *it, const struct newton_root *r,
+                                lanes w, lanes at)
 {
   const lanes size = lanes_abs(p->local[it->axis].to_t);
   return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + p->local[it->axis].error) +
@@ -59,15 +59,15 @@ LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, cons
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const double part = 1.0 / it->patch->split;
-  const lanes place[2] = {(it->leaf->column_u + r->u) * part, (it->leaf->column_v + r->v) * part};
+  const lanes uv[2] = {(it->leaf->column_u + r->u) * part, (it->leaf->column_v + r->v) * part};
   const lanes radius[2] = {r->radius_u * part + UNIT_ROUNDOFF, r->radius_v * part + UNIT_ROUNDOFF};
   p->tracer->counts.roots_accepted += lanes_count(taken);
   if (p->gather) {
-    gather_take(p, taken, place, radius, at, error, patch, leaf, certain);
+    gather_take(p, taken, uv, radius, at, error, patch, leaf, certain);
     return;
   }
   const lane_mask none = {0};
-  best_take(&p->best, taken, place, radius, at, patch + none, leaf + none);
+  best_take(&p->best, taken, uv, radius, at, patch + none, leaf + none);
   if (!certain) p->best.certain &= ~taken;
   p->t_far = lanes_select(taken, at + error, p->t_far);
   if (p->any) p->live &= ~taken;
@@ -82,7 +82,7 @@ static lane_mask offer(struct packet *p, const struct candidate *it, const struc
                        lane_mask hits)
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
-  const lanes error = place_error(p, it, r, w, at);
+  const lanes error = root_t_error(p, it, r, w, at);
   hits &= ~((at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far)));
   if (!lanes_any(hits)) return hits;
   const lane_mask rival = (p->best.patch != patch) & (lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t));
@@ -97,14 +97,14 @@ static lane_mask offer(struct packet *p, const struct candidate *it, const struc
 void offer_root(struct packet *p, const struct candidate *it, const struct newton_root *r, lane_mask hits)
 {
   if (!lanes_any(hits)) return;
-  const lanes w = plane_place(it, r->u, r->v);
-  offer(p, it, r, w, place_on_ray(p, it->axis, w), hits);
+  const lanes w = plane_depth(it, r->u, r->v);
+  offer(p, it, r, w, depth_to_t(p, it->axis, w), hits);
 }
 
 void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits)
 {
   const struct newton_root r = {.u = u, .v = v};
-  const lanes w = plane_place(it, u, v), at = place_on_ray(p, it->axis, w), error = place_error(p, it, &r, w, at);
+  const lanes w = plane_depth(it, u, v), at = depth_to_t(p, it->axis, w), error = root_t_error(p, it, &r, w, at);
   const lane_mask behind = at > p->t_min + error, none = {0};
   p->best.doubt |= hits & ~behind & ~(at < p->t_min - error);
   const lane_mask taken = hits & behind & (at < p->t_max) &

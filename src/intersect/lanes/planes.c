@@ -77,7 +77,7 @@ lane_mask stage_planes(struct packet *p, struct candidate *it, lane_mask open)
 }
 
 /* x_k of the points (u,v). */
-lanes plane_place(const struct candidate *it, lanes u, lanes v)
+lanes plane_depth(const struct candidate *it, lanes u, lanes v)
 {
   lanes wu[4], wv[4], unused[4], w = {0};
   newton_weights(u, wu, unused);

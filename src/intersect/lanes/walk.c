@@ -2,7 +2,7 @@
  *
  * Compiled once per instruction set; the table of this compilation is KERNEL(kernel), see names.h.
  *
- * The boxes lie in the frame (world - origin)/frame, all within about [-1,1]. A ray is looked at there by its place:
+ * The boxes lie in the frame (world - origin)/frame, all within about [-1,1]. A ray is looked at there by its depth:
  * the distance along its dominant axis, counted from where it enters the frame, so that few bits are enough wherever
  * it comes from. Every rounding widens the boxes: an absolute slack for the origin's, a relative one for those of
  * the distances (Ize, Robust BVH Ray Traversal, 2013).
@@ -14,9 +14,9 @@
 
 #define FLOAT_ROUNDOFF 0x1p-24f
 
-/* Growth of a place that others are compared with: four roundings in each of the two (difference, direction,
+/* Growth of a depth that others are compared with: four roundings in each of the two (difference, direction,
  * reciprocal, product), one in the end of the ray, and those of growing. */
-#define PLACE_GROWTH (1 + 16 * FLOAT_ROUNDOFF)
+#define DEPTH_GROWTH (1 + 16 * FLOAT_ROUNDOFF)
 
 /* All boxes, and the roundings of making them. */
 #define FRAME_HALF 1.0625
@@ -35,7 +35,7 @@
 /* The rays as one tree's frame sees them. */
 struct view {
   float_lanes low_origin[3], high_origin[3], inverse[3], far;
-  lanes start[2], unit[2]; /* of each packet: place = t unit - start */
+  lanes start[2], unit[2]; /* of each packet: depth = t unit - start */
 };
 
 struct bundle {
@@ -51,11 +51,11 @@ static void bundle_update(struct bundle *b)
     const lanes end = b->packet[h].t_far * b->view.unit[h];
     far[h] = (end - b->view.start[h]) + 8 * UNIT_ROUNDOFF * (lanes_abs(end) + lanes_abs(b->view.start[h]));
   }
-  b->view.far = float_lanes_join(far[0], far[1]) * PLACE_GROWTH;
+  b->view.far = float_lanes_join(far[0], far[1]) * DEPTH_GROWTH;
   b->live = lanes_bits(b->packet[0].live) | lanes_bits(b->packet[1].live) << LANES;
 }
 
-/* The place where the line of a ray enters the frame, or less. */
+/* The depth where the line of a ray enters the frame, or less. */
 static lanes frame_entry(const lanes from[3], const lanes slack[3], const lanes direction[3])
 {
   lanes enter = lanes_all(-INFINITY);
@@ -81,7 +81,7 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
       farthest = lanes_max(lanes_abs(from[k]), farthest);
     }
     b->view.unit[h] = p->longest * to_frame;
-    /* No ray is in the frame before this place: its dominant coordinate is outside. */
+    /* No ray is in the frame before this depth: its dominant coordinate is outside. */
     lanes start = lanes_max(p->t_min * b->view.unit[h], -(farthest + 2));
     if (lanes_any(farthest > FRAME_NEAR)) start = lanes_max(frame_entry(from, slack, direction), start);
     b->view.start[h] = start;
@@ -112,7 +112,7 @@ LANES_INLINE unsigned bundle_box(const struct bundle *b, const struct bvh_node *
     far = float_lanes_min(float_lanes_max(one, other), far);
   }
   *out_near = near;
-  return float_lanes_bits(near <= far * PLACE_GROWTH);
+  return float_lanes_bits(near <= far * DEPTH_GROWTH);
 }
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);

@@ -83,9 +83,9 @@ static void candidate_map(struct candidate *c, const struct model *model, const 
     c->widest = real_max(c->widest, columns[k]);
   }
   for (int j = 0; j < 3; j++) {
-    double sum = 0, plain = 0;
-    for (int k = 0; k < 3; k++) sum += columns[k] * fabs(c->W[k][j]), plain += fabs(c->W[k][j]);
-    stretch = real_max(stretch, sum), back = real_max(back, plain);
+    double sum = 0, bare = 0;
+    for (int k = 0; k < 3; k++) sum += columns[k] * fabs(c->W[k][j]), bare += fabs(c->W[k][j]);
+    stretch = real_max(stretch, sum), back = real_max(back, bare);
   }
   double off = 0;
   for (size_t p = 0; p < object->patch_count; p++) {

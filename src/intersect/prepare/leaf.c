@@ -219,7 +219,7 @@ static void set_parts(const struct model_patch *patch, const struct leaf *leaf, 
   const double second = leaf->second[0] + 2 * leaf->second[1] + leaf->second[2];
   const double first = real_min(leaf->first[0], leaf->first[1]);
   out->last_step = real_min(NEWTON_LAST_STEP, sqrt(LAST_STEP_CURVE / real_max(second, LAST_STEP_CURVE)));
-  out->plain_step = second > UNIT_ROUNDOFF * first ? 2 * UNIT_ROUNDOFF * first / second : 2;
+  out->slope_step = second > UNIT_ROUNDOFF * first ? 2 * UNIT_ROUNDOFF * first / second : 2;
   out->third = third_bound(out);
   out->exact = patch->split <= EXACT_SPLIT && (patch->split & (patch->split - 1)) == 0;
 }
