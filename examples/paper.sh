@@ -1,55 +1,144 @@
 #!/bin/bash
 # Regenerates docs/paper.md with every table and figure of docs/paper/, the numbers in its text included: some minutes, on an
 # otherwise idle machine. Counts are the same every time; times are not.
+#
+#   examples/paper.sh             everything
+#   examples/paper.sh PART...     only these, with the programs as they are built: curves random claims patch pictures maps
+#                                 tangency teapot page; the last makes the figures and the page of the CSV files as they are
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh
 export LC_ALL=C
 
-install_packages "${BUILD_PACKAGES[@]}" gnuplot-nox
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release
-cmake --build build --target pscn random_experiments patch_experiments picture_errors
 data=docs/paper
-mkdir -p "$data"
+programs=build/examples/paper
+pscn=build/src/command/pscn
+paper='form paper start previous max_iterations 500'
+kinds='hole_background,hole_farther,phantom_before,phantom_background'
 
-# Fig 2-12 and the table of improvements: random polynomials.
-for experiment in degrees tolerances order improvements; do
-  echo "$experiment"
-  build/examples/paper/random_experiments "$experiment" >"$data/$experiment.csv"
-done
+# Writes standard input under a name of $data.
+keep() { cat >"$data/$1.new" && mv "$data/$1.new" "$data/$1"; }
+
+build() {
+  install_packages "${BUILD_PACKAGES[@]}" gnuplot-nox
+  cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+  cmake --build build --target pscn random_experiments patch_experiments picture_errors channel_maps footing claims tangency \
+    >/dev/null
+}
+
+# Fig 1: eq 3 of a ray with three hits, and the common roots on the patch.
+curves() {
+  ray='3.5 4 -8.5 -0.55341152527134552 -0.34365070520881941 0.75870934916232857'
+  echo "$ray" | "$pscn" trace scenes/paper.pscn --explain --solver 'aberth { form paper tolerance 1e-12 max_iterations 500 }' |
+    awk 'BEGIN { print "curve,i,j,value" }
+      $1 == "a:" || $1 == "b:" { for (k = 0; k < 16; k++) printf "%s,%d,%d,%s\n", substr($1, 1, 1), k / 4, k % 4, $(k + 2) }
+      /, T = / { sub(/,/, "", $3); v = $0; sub(/.*, v = /, "", v); sub(/,.*/, "", v); printf "root,%s,%s,\n", $3, v }' |
+    keep fig01.csv
+}
+
+# Fig 2-12, the improvements, the cap of steps: random polynomials. Fig 2, 4, 5, 9 on an equal footing.
+random() {
+  for experiment in degrees tolerances order improvements caps; do
+    echo "$experiment"
+    "$programs/random_experiments" "$experiment" | keep "$experiment.csv"
+  done
+  for experiment in degrees tolerances; do
+    echo "$experiment on an equal footing"
+    "$programs/footing" "$experiment" | keep "footing_$experiment.csv"
+  done
+}
+
+# What the paper says without a figure; the chart has every twentieth step. The ways to the roots of a polynomial.
+claims() {
+  "$programs/claims" lower | keep lower.csv
+  "$programs/claims" nearest "$data" | keep nearest.csv
+  "$programs/claims" slopes | keep slopes.csv
+  "$programs/claims" steps | awk 'NR == 1 || NR % 20 == 0' | keep steps.csv
+  polynomial='1 -0.3 0.7 0.2 -0.5 0.9 -0.1 0.4 -0.6'
+  echo "$polynomial" | "$pscn" roots | tr ' ' '\n' | paste -d, - - | keep paths_roots.csv
+  for method in newton laguerre aberth; do
+    echo "$polynomial" | "$pscn" roots --iterates --solver "$method { form paper tolerance 1e-10 }" |
+      awk -v method="$method" 'NR > 1 { printf "%s,%d,%d,%.6g,%.6g\n", method, $3, $2, $4, $5 }'
+  done | { echo 'method,root,step,re,im'; cat; } | keep paths.csv
+}
 
 # Fig 13-15: the patch, 100 x 75 rays.
-echo patch
-build/examples/paper/patch_experiments scenes/paper.pscn 100 75 >"$data/patch.csv"
+patch() {
+  "$programs/patch_experiments" scenes/paper.pscn 100 75 | keep patch.csv
+  "$programs/footing" patch scenes/paper.pscn 100 75 | keep footing_patch.csv
+}
 
-gnuplot -e "data='$data'" examples/paper/figures.gp
+# How many pixels are wrong, and how: what stands in the columns before, the scene, the solver, a map.
+errors() {
+  printf '%s,' "$1"
+  "$programs/picture_errors" "$2" 320 240 "$3" "${4:-$data/map.png}"
+}
 
 # Fig 16 and 17: the paper's own form, eps 1e-2, and 200 x magnified, eps 1e-10; and the default solver. Beside each picture
 # a map of what is wrong in it, and how many pixels of each kind.
-echo pictures
-paper='form paper start previous max_iterations 500'
-for figure in 'fig16 paper 1e-2' 'fig17 paper_magnified 1e-10'; do
-  read -r name scene eps <<<"$figure"
-  build/src/command/pscn render "scenes/$scene.pscn" -o "$data/$name-default.png" --size 320x240 --quiet
-  for method in newton laguerre aberth durand_kerner; do
-    solver="$method { $paper tolerance $eps }"
-    build/src/command/pscn render "scenes/$scene.pscn" -o "$data/$name-$method.png" --size 320x240 --quiet --solver "$solver"
-    printf '%s,%s,' "$name" "$method"
-    build/examples/paper/picture_errors "scenes/$scene.pscn" 320 240 "$solver" "$data/$name-$method-map.png"
-  done
-done >"$data/rows"
-{ echo 'figure,method,hole_background,hole_farther,phantom_before,phantom_background'; cat "$data/rows"; } >"$data/pictures.csv"
+pictures() {
+  for figure in 'fig16 paper 1e-2' 'fig17 paper_magnified 1e-10'; do
+    read -r name scene eps <<<"$figure"
+    "$pscn" render "scenes/$scene.pscn" -o "$data/$name-default.png" --size 320x240 --quiet
+    for method in newton laguerre aberth durand_kerner; do
+      solver="$method { $paper tolerance $eps }"
+      "$pscn" render "scenes/$scene.pscn" -o "$data/$name-$method.png" --size 320x240 --quiet --solver "$solver"
+      errors "$name,$method" "scenes/$scene.pscn" "$solver" "$data/$name-$method-map.png"
+    done
+  done | { echo "figure,method,$kinds"; cat; } | keep pictures.csv
 
-# The residual at which Euclid's v is an answer, Fig 16.
-for residual in 1e-2 5e-3 2.5e-3 1e-3 1; do
-  for method in newton laguerre aberth; do
-    printf '%s,%s,' "$residual" "$method"
-    build/examples/paper/picture_errors scenes/paper.pscn 320 240 "$method { $paper tolerance 1e-2 residual $residual }" \
-      "$data/map.png"
-  done
-done >"$data/rows"
-{ echo 'residual,method,hole_background,hole_farther,phantom_before,phantom_background'; cat "$data/rows"; } >"$data/residual.csv"
-rm "$data/rows" "$data/map.png"
+  # The residual at which Euclid's v is an answer, and the cap of steps, Fig 16.
+  for residual in 1e-2 5e-3 2.5e-3 1e-3 1; do
+    for method in newton laguerre aberth; do
+      errors "$residual,$method" scenes/paper.pscn "$method { $paper tolerance 1e-2 residual $residual }"
+    done
+  done | { echo "residual,method,$kinds"; cat; } | keep residual.csv
+  for cap in 10 20 50 100 500; do
+    for method in newton laguerre aberth; do
+      errors "$cap,$method" scenes/paper.pscn "$method { $paper tolerance 1e-2 max_iterations $cap }"
+    done
+  done | { echo "cap,method,$kinds"; cat; } | keep picture_caps.csv
+  rm "$data/map.png"
+}
 
-awk -v data="$data" -f examples/paper/fill.awk examples/paper/paper.md.in >docs/paper.md
+# The same as maps: iterations, eq 11, the distance from the certified answer; Fig 16's patch, eps 1e-2 and 1e-6.
+maps() {
+  for eps in 1e-2 1e-6; do
+    for method in newton laguerre aberth durand_kerner; do
+      printf '%s,%s,' "$eps" "$method"
+      "$programs/channel_maps" scenes/paper.pscn 320 240 "$method { $paper tolerance $eps }" "$data/map$eps-$method"
+    done
+  done | { echo 'eps,method,iterations,roots,accurate,off,wrong'; cat; } | keep maps.csv
+}
+
+# More than the paper: cost and error against the distance to the nearest tangency.
+tangency() { "$programs/tangency" scenes/paper.pscn | keep tangency.csv; }
+
+# The share of the teapot's roots that are found, as its test counts it (tests/stability/teapot_roots.c).
+teapot() {
+  install_packages libcmocka-dev
+  cmake -S . -B build -DPSCN_TESTS=ON >/dev/null
+  cmake --build build --target stability-teapot-roots >/dev/null
+  { echo 'all,pairs,undecided,roots,unpolished,paper,right,hits'
+    PSCN_EFFORT=full build/tests/stability/stability-teapot-roots |
+      sed -n 's/^\([0-9]*\) pairs (\([0-9]*\) undecided), \([0-9]*\) roots; .* unpolished \([0-9.]*\) %, .* form \([0-9.]*\) %; polished: \([0-9]*\) of \([0-9]*\) .*/teapot,\1,\2,\3,\4,\5,\6,\7/p'
+  } | keep teapot.csv
+}
+
+page() {
+  gnuplot -e "data='$data'" examples/paper/figures.gp
+  awk -v data="$data" -f examples/paper/fill.awk examples/paper/paper.md.in >docs/paper.md
+}
+
+mkdir -p "$data"
+for part in "${@:-build curves random claims patch pictures maps tangency teapot page}"; do
+  for name in $part; do
+    case $name in
+    build | curves | random | claims | patch | pictures | maps | tangency | teapot | page) ;;
+    *) echo "paper.sh: there is no part '$name'" >&2 && exit 2 ;;
+    esac
+    echo "$name"
+    "$name"
+  done
+done
 echo "docs/paper.md shows what is in $data"

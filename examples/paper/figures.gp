@@ -3,28 +3,49 @@ set datafile separator ','
 set datafile missing NaN
 set terminal svg size 640,420 font 'sans,13' background rgb 'white'
 set grid
-set key outside below
+set key outside below noenhanced
 methods = 'newton laguerre aberth durand_kerner'
+
+# Figures on an equal footing: three panels, scalar as printed, operations counted (full: by our Table 1, dotted: by the
+# paper's), and on lanes. `rows` is the file, x its column, time and operations those of the panels.
+paper_methods = 'newton laguerre aberth'
+set macros
+panels = "set multiplot layout 1,3 title figure font ',14'; set title 'scalar, as printed'; set ylabel 'microseconds'; \
+  plot for [m = 1:3] rows using (column(across)):(@chosen && strcol('form') eq 'scalar' && strcol('method') eq word(paper_methods, m) \
+    ? column(time) : NaN) with linespoints title word(paper_methods, m); \
+  set title 'operations'; set ylabel 'operations'; \
+  plot for [m = 1:3] rows using (column(across)):(@chosen && strcol('form') eq 'scalar' && strcol('method') eq word(paper_methods, m) \
+    ? @ours : NaN) with linespoints lt m title word(paper_methods, m), \
+    for [m = 1:3] rows using (column(across)):(@chosen && strcol('form') eq 'scalar' && strcol('method') eq word(paper_methods, m) \
+    ? @theirs : NaN) with lines lt m dt 3 notitle; \
+  set title 'on lanes, one polynomial a lane'; set ylabel 'microseconds'; \
+  plot for [m = 1:3] rows using (column(across)):(@chosen && strcol('form') eq 'lanes' && strcol('method') eq word(paper_methods, m) \
+    ? column(time) : NaN) with linespoints title word(paper_methods, m); unset multiplot"
+wide = "set terminal svg size 1100,400 font 'sans,13' background rgb 'white'"
+narrow = "set terminal svg size 640,420 font 'sans,13' background rgb 'white'"
+
 
 # Against the degree, eps = 1e-6.
 set xlabel 'degree n'
 set xrange [2:24]
 degrees = data.'/degrees.csv'
-set output data.'/fig02.svg'
-set title 'Fig 2: time of one iteration of one root'
-set ylabel 'microseconds'
-plot for [method in methods] degrees using 1:(strcol(2) eq method ? $4 : NaN) with linespoints title method
 set output data.'/fig03.svg'
 set title 'Fig 3: iterations to find one root'
 set ylabel 'iterations'
 plot for [method in methods] degrees using 1:(strcol(2) eq method ? $3 : NaN) with linespoints title method
+@wide
+rows = data.'/footing_degrees.csv'; across = 'degree'; chosen = "1"
+figure = 'Fig 2: one iteration of one root'; time = 'us_iteration'
+ours = "(column('operations_one') / column('iterations_one'))"; theirs = "(column('paper_one') / column('iterations_one'))"
+set output data.'/fig02.svg'
+@panels
+figure = 'Fig 4: one root'; time = 'us_one'; ours = "column('operations_one')"; theirs = "column('paper_one')"
 set output data.'/fig04.svg'
-set title 'Fig 4: time to find one root'
-set ylabel 'microseconds'
-plot for [method in methods] degrees using 1:(strcol(2) eq method ? $5 : NaN) with linespoints title method
+@panels
+figure = 'Fig 5: all roots'; time = 'us_all'; ours = "column('operations_all')"; theirs = "column('paper_all')"
 set output data.'/fig05.svg'
-set title 'Fig 5: time to find all roots'
-plot for [method in methods] degrees using 1:(strcol(2) eq method ? $6 : NaN) with linespoints title method
+@panels
+@narrow
 
 # Against eps, degree 18.
 set xlabel 'eps'
@@ -48,11 +69,13 @@ set title 'Fig 8: share of accurate roots (eq 11), one root each'
 set ylabel 'share'
 set yrange [0:1.02]
 plot for [method in methods] tolerances using 1:(strcol(2) eq method ? $5 : NaN) with linespoints title method
+@wide
+set yrange [0:*]
+rows = data.'/footing_tolerances.csv'; across = 'eps'; figure = 'Fig 9: all roots, degree 18'; time = 'us_all'
+ours = "column('operations_all')"; theirs = "column('paper_all')"
 set output data.'/fig09.svg'
-set title 'Fig 9: time to find all roots, degree 18'
-set ylabel 'microseconds'
-set yrange [0:40]
-plot for [method in methods] tolerances using 1:(strcol(2) eq method ? $6 : NaN) with linespoints title method
+@panels
+@narrow
 set output data.'/fig10.svg'
 set title 'Fig 10: share of accurate roots (eq 11), all roots'
 set ylabel 'share'
@@ -67,31 +90,36 @@ set title 'Fig 13: iterations a root (full: from the ray before)'
 set ylabel 'iterations'
 set yrange [0:30]
 plot for [m = 1:3] patch \
-       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' && strcol(4) eq 'power' ? $5 : NaN) \
+       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' ? $4 : NaN) \
        with linespoints lt m lw 2 title word(methods, m), \
      for [m = 1:3] patch \
-       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' && strcol(4) eq 'power' ? $5 : NaN) \
+       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' ? $4 : NaN) \
        with linespoints lt m dt 3 title word(methods, m).', cold'
+@wide
+set yrange [*:*]
+set logscale y
+rows = data.'/footing_patch.csv'; figure = 'Fig 14: a pixel, from the roots of the ray before'; time = 'us_pixel'
+chosen = "strcol('start') eq 'previous'"; ours = "column('operations_pixel')"; theirs = "column('paper_pixel')"
 set output data.'/fig14.svg'
-set title 'Fig 14: time of a pixel (full: from the ray before)'
-set ylabel 'microseconds'
-set yrange [0:30]
-plot for [m = 1:3] patch \
-       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' && strcol(4) eq 'power' ? $6 : NaN) \
-       with linespoints lt m lw 2 title word(methods, m), \
-     for [m = 1:3] patch \
-       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' && strcol(4) eq 'power' ? $6 : NaN) \
-       with linespoints lt m dt 3 title word(methods, m).', cold'
+@panels
+unset logscale y
+set terminal svg size 960,420 font 'sans,13' background rgb 'white'
 set output data.'/fig15.svg'
-set title 'Fig 15: share of pixels whose roots are all accurate (eq 11)'
+set multiplot layout 1,2 title 'Fig 15: share that meets eq 11 (full: from the ray before)' font ',14'
 set ylabel 'share'
 set yrange [0:1.02]
-plot for [m = 1:3] patch \
-       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' && strcol(4) eq 'power' ? $7 : NaN) \
-       with linespoints lt m lw 2 title word(methods, m), \
-     for [m = 1:3] patch \
-       using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' && strcol(4) eq 'power' ? $7 : NaN) \
-       with linespoints lt m dt 3 title word(methods, m).', cold'
+do for [count in 'roots pixels'] {
+  set title (count eq 'roots' ? 'solutions' : 'pixels, all of whose solutions do')
+  plot for [m = 1:3] patch \
+         using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'previous' ? column('accurate_'.count) : NaN) \
+         with linespoints lt m lw 2 title word(methods, m), \
+       for [m = 1:3] patch \
+         using 1:(strcol(2) eq word(methods, m) && strcol(3) eq 'cold' ? column('accurate_'.count) : NaN) \
+         with linespoints lt m dt 3 title word(methods, m).', cold'
+}
+unset multiplot
+@narrow
+unset title
 
 # Against the order in which the roots were found.
 unset logscale x
@@ -113,3 +141,102 @@ do for [figure in 'fig11,newton fig12,laguerre fig12-aberth,aberth'] {
   plot for [eps in tried] order using 3:(strcol(2) eq method && strcol(1) eq eps ? $5 : NaN) \
        with linespoints title 'eps '.eps
 }
+
+# 3.3: the error of a step against that of the step before.
+set output data.'/slopes.svg'
+set title 'one step: error before and after'
+set xlabel 'log10 of the error'
+set ylabel 'log10 of the next'
+set xrange [-7:-1.5] noreverse
+set yrange [-13:-2]
+plot for [m = 1:3] data.'/steps.csv' using 2:(strcol(1) eq word(methods, m) ? $3 : NaN) with points pt 7 ps 0.3 lt m \
+       title word(methods, m), \
+     2 * x with lines lc 'black' dt 2 title 'slope 2', 3 * x with lines lc 'black' dt 4 title 'slope 3'
+
+# The ways of the values to the roots of one polynomial.
+@wide
+set output data.'/paths.svg'
+set multiplot layout 1,3 title 'The way to the roots of one polynomial of degree 8' font ',14'
+set xlabel 're'
+set ylabel 'im'
+set xrange [-2:2]
+set yrange [-2:2]
+set size ratio -1
+unset key
+do for [method in paper_methods] {
+  set title method
+  plot for [root = 0:7] data.'/paths.csv' \
+         using (strcol(1) eq method && $2 == root ? $4 : NaN):5 with linespoints pt 7 ps 0.4 lt root + 1, \
+       data.'/paths_roots.csv' using 1:2 with points pt 6 ps 1.2 lc 'black'
+}
+unset multiplot
+@narrow
+set size noratio
+
+# Fig 1: the two curves of a ray, and where they meet.
+set output data.'/fig01.svg'
+set title 'Fig 1: a(u,v) = 0 and b(u,v) = 0 of one ray, and their common roots'
+set xlabel 'u'
+set ylabel 'v'
+set xrange [0:1]
+set yrange [0:1]
+set key outside below noenhanced
+bernstein(k, t) = (k == 0 || k == 3 ? 1 : 3) * t**k * (1 - t)**(3 - k)
+curve(name) = sprintf('%s(u, v) = ', name).system("awk -F, '$1 == \"".name."\" { printf \"%s%s * bernstein(%d, u) * bernstein(%d, v)\", \
+  n++ ? \" + \" : \"\", $4, $2, $3 }' ".data.'/fig01.csv')
+eval curve('a')
+eval curve('b')
+set isosamples 200
+set samples 200
+set contour base
+set cntrparam levels discrete 0
+unset surface
+set view map
+set table $a
+splot [u = 0:1] [v = 0:1] a(u, v) notitle
+unset table
+set table $b
+splot [u = 0:1] [v = 0:1] b(u, v) notitle
+unset table
+unset contour
+set surface
+set datafile separator whitespace
+plot $a using 1:2 with lines lw 2 title 'a = 0', $b using 1:2 with lines lw 2 title 'b = 0', \
+  sprintf("< awk -F, '$1 == \"root\" { print $2, $3 }' %s/fig01.csv", data) using 1:2 with points pt 7 lc 'black' title 'roots'
+set datafile separator ','
+
+# The price of a certificate.
+unset key
+set key outside below noenhanced
+set terminal svg size 1100,820 font 'sans,13' background rgb 'white'
+set output data.'/tangency.svg'
+set multiplot layout 2,2 title 'Rays near a tangency' font ',14'
+solvers = 'bernstein newton laguerre aberth durand_kerner'
+set logscale xy
+set format xy '10^{%L}'
+set xlabel 'distance to the tangency'
+set xrange [1e-15:1] reverse
+do for [polish in 'on off'] {
+  set title 'time a ray, polish '.polish
+  set ylabel 'microseconds'
+  set yrange [1:1000]
+  plot for [m = 1:5] data.'/tangency.csv' using 1:(strcol(2) eq word(solvers, m) && strcol(3) eq polish ? $4 : NaN) \
+       with linespoints lt m title word(solvers, m)
+}
+set title 'largest error of T, relative, of the hits found'
+set ylabel 'error'
+set yrange [1e-17:1e-5]
+plot for [m = 1:5] data.'/tangency.csv' using 1:(strcol(2) eq word(solvers, m) && strcol(3) eq 'off' && $6 > 0 ? $6 : NaN) \
+     with linespoints lt m title word(solvers, m).', off', \
+     data.'/tangency.csv' using 1:(strcol(2) eq 'bernstein' && strcol(3) eq 'on' ? $6 : NaN) \
+     with lines lc 'black' lw 2 title 'bernstein and the others, on', \
+     data.'/tangency.csv' using 1:(strcol(2) eq 'aberth' && strcol(3) eq 'on' ? $6 : NaN) \
+     with lines lc 'black' lw 2 dt 2 title 'aberth, on'
+set title 'share of hits lost, polish off (on: none)'
+set ylabel 'share'
+unset logscale y
+set format y '%g'
+set yrange [0:1.02]
+plot for [m = 1:5] data.'/tangency.csv' using 1:(strcol(2) eq word(solvers, m) && strcol(3) eq 'off' ? $7 : NaN) \
+     with linespoints lt m title word(solvers, m)
+unset multiplot

@@ -12,7 +12,16 @@ function table_read(file,   path, line, count, k, head) {
   rows[file] = count
 }
 function fail(text) { print FILENAME ":" FNR ": " text > "/dev/stderr"; failed = 1; exit 1 }
-function fill(spec,   word, words, r, k, cell, pair, fits, part, parts, sum, format) {
+# {{ratio file column=value ... key a b column format}}: that column in the row where key=a over that where key=b.
+function ratio(spec,   word, words, common, k, above, below) {
+  words = split(spec, word, " ")
+  for (k = 1; k <= words - 5; k++) common = common word[k] " "
+  above = value(common word[words - 4] "=" word[words - 3] " " word[words - 1] " %.17g")
+  below = value(common word[words - 4] "=" word[words - 2] " " word[words - 1] " %.17g")
+  return sprintf(word[words], above / below)
+}
+function fill(spec) { return sub(/^ratio /, "", spec) ? ratio(spec) : value(spec) }
+function value(spec,   word, words, r, k, cell, pair, fits, part, parts, sum, format) {
   words = split(spec, word, " ")
   table_read(word[1])
   for (r = 1; r <= rows[word[1]]; r++) {

@@ -1,6 +1,6 @@
 /* The paper's three methods on an equal footing: CSV on standard output.
  *
- *     footing degrees                    Fig 2, 4, 5: against the degree, eps = 1e-6
+ *     footing degrees [once]             Fig 2, 4, 5: against the degree, eps = 1e-6
  *     footing tolerances                 Fig 9: against eps, degree 18
  *     footing patch SCENE WIDTH HEIGHT   Fig 14: the rays of a picture, against eps
  *
@@ -21,7 +21,10 @@ enum {
   POLYNOMIALS = 100,
   PAPER_DEGREE = 18,
   MAX_ITERATIONS = 500,
-  ROUNDS = 9 /* at most */
+  ROUNDS = 21,      /* at most */
+  LAST_DIGIT = 13,  /* of eps = 1e-1 ... */
+  COLD_DIGIT = 6,   /* where the patch is measured from Aberth's start values too */
+  MANY_SWEEPS = 11, /* beyond, Aberth's method hardly meets eq 10, and takes as many sweeps as it may */
 };
 
 /* Seconds a polynomial. */
@@ -35,10 +38,13 @@ struct effort {
   int rounds, repeat;
 };
 
+static int most_rounds = ROUNDS;
+
 static void measure_all(struct batch batch, struct effort effort, struct measured out[PAPER_METHODS][FORMS])
 {
   static double seconds[PAPER_METHODS][FORMS][ROUNDS];
-  for (int round = 0; round < effort.rounds; round++) {
+  const int rounds = effort.rounds < most_rounds ? effort.rounds : most_rounds;
+  for (int round = 0; round < rounds; round++) {
     for (int m = 0; m < PAPER_METHODS; m++) {
       for (int f = 0; f < FORMS; f++) {
         const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
@@ -49,7 +55,7 @@ static void measure_all(struct batch batch, struct effort effort, struct measure
     }
   }
   for (int m = 0; m < PAPER_METHODS; m++)
-    for (int f = 0; f < FORMS; f++) out[m][f].seconds = measure_median((size_t)effort.rounds, seconds[m][f]);
+    for (int f = 0; f < FORMS; f++) out[m][f].seconds = measure_median((size_t)rounds, seconds[m][f]);
 }
 
 static double *random_polynomials(int degree, uint64_t seed)
@@ -100,10 +106,11 @@ static bool degrees(void)
 }
 
 /* Rows of one batch of polynomials against eps. */
-static void against_eps(struct batch batch, const char *start, struct effort effort)
+static void against_eps(struct batch batch, const char *start, int first, int last, struct effort effort)
 {
-  for (int digits = 1; digits <= 14; digits++) {
+  for (int digits = first; digits <= last; digits++) {
     struct measured found[PAPER_METHODS][FORMS];
+    if (digits > MANY_SWEEPS) effort = (struct effort){1, 1};
     batch.tolerance = pow(10.0, -digits);
     measure_all(batch, effort, found);
     for (int m = 0; m < PAPER_METHODS; m++) {
@@ -122,7 +129,7 @@ static bool tolerances(void)
   double *c = random_polynomials(PAPER_DEGREE, 99);
   if (c == NULL) return false;
   printf("eps,start,method,form,iterations,us_all,operations_all,paper_all\n");
-  against_eps((struct batch){PAPER_DEGREE, POLYNOMIALS, c, 0, MAX_ITERATIONS, false, false}, "cold",
+  against_eps((struct batch){PAPER_DEGREE, POLYNOMIALS, c, 0, MAX_ITERATIONS, false, false}, "cold", 1, LAST_DIGIT,
               (struct effort){ROUNDS, 2});
   free(c);
   return true;
@@ -147,9 +154,9 @@ static bool patch(const char *scene, int width, int height)
   if (c == NULL) return false;
   printf("eps,start,method,form,iterations,us_pixel,operations_pixel,paper_pixel\n");
   struct batch batch = {PATCH_DEGREE, keep_whole(count, c), c, 0, MAX_ITERATIONS, true, false};
-  against_eps(batch, "previous", (struct effort){3, 1});
+  against_eps(batch, "previous", 1, LAST_DIGIT, (struct effort){3, 1});
   batch.previous = false;
-  against_eps(batch, "cold", (struct effort){3, 1});
+  against_eps(batch, "cold", COLD_DIGIT, COLD_DIGIT, (struct effort){3, 1});
   free(c);
   return true;
 }
@@ -157,10 +164,12 @@ static bool patch(const char *scene, int width, int height)
 int main(int argc, char **argv)
 {
   const char *what = argc > 1 ? argv[1] : "";
-  if (argc == 2 && strcmp(what, "degrees") == 0) return degrees() ? 0 : 5;
+  const bool once = argc == 3 && strcmp(argv[2], "once") == 0;
+  if (once) most_rounds = 1;
+  if ((argc == 2 || once) && strcmp(what, "degrees") == 0) return degrees() ? 0 : 5;
   if (argc == 2 && strcmp(what, "tolerances") == 0) return tolerances() ? 0 : 5;
   if (argc == 5 && strcmp(what, "patch") == 0 && atoi(argv[3]) > 0 && atoi(argv[4]) > 0)
     return patch(argv[2], atoi(argv[3]), atoi(argv[4])) ? 0 : 3;
-  fputs("usage: footing degrees | tolerances | patch SCENE WIDTH HEIGHT\n", stderr);
+  fputs("usage: footing degrees [once] | tolerances | patch SCENE WIDTH HEIGHT\n", stderr);
   return 2;
 }

@@ -3,7 +3,7 @@
  *     patch_experiments SCENE WIDTH HEIGHT [DIGITS]     with DIGITS only eps = 1e-DIGITS
  *
  * Every pixel's ray against the first patch of the scene, in the order of the picture's lines: Sylvester's determinant
- * in the power basis (and beyond the paper, in scaled Bernstein form), degree 18, all roots. Against eps: iterations a
+ * in the power basis, degree 18, all roots. Against eps: iterations a
  * root, CPU time of the solver a pixel, and the shares of roots, and of pixels all of whose roots, that meet eq 11;
  * from Aberth's start values (cold), and from the roots of the ray before (previous).
  */
@@ -24,10 +24,10 @@ struct totals {
   double iterations, roots, seconds, accurate_roots, accurate_pixels, pixels;
 };
 
-static void solve_pixel(enum basis basis, const double c[], const struct solver_options *options,
-                        struct solver_warm *warm, struct totals *totals)
+static void solve_pixel(const double c[], const struct solver_options *options, struct solver_warm *warm,
+                        struct totals *totals)
 {
-  struct root_problem problem = {.degree = DEGREE, .basis = basis};
+  struct root_problem problem = {.degree = DEGREE, .basis = BASIS_POWER};
   struct root_estimates roots;
   memcpy(problem.c, c, sizeof problem.c[0] * (DEGREE + 1));
   if (c[0] == 0.0 || c[DEGREE] == 0.0) return; /* a root at 0 or at infinity: not of degree 18 */
@@ -50,7 +50,7 @@ static void solve_pixel(enum basis basis, const double c[], const struct solver_
   totals->pixels += 1.0;
 }
 
-static void experiment(enum basis basis, const double *c, size_t pixels, int only)
+static void experiment(const double *c, size_t pixels, int only)
 {
   for (int digits = only > 0 ? only : 1; digits <= (only > 0 ? only : 14); digits++) {
     for (size_t m = 0; m < sizeof methods / sizeof methods[0]; m++) {
@@ -64,12 +64,11 @@ static void experiment(enum basis basis, const double *c, size_t pixels, int onl
         struct totals totals = {0};
         for (size_t p = 0; p < pixels; p++) {
           if (previous == 0) warm.count = 0;
-          solve_pixel(basis, c + p * (DEGREE + 1), &options, &warm, &totals);
+          solve_pixel(c + p * (DEGREE + 1), &options, &warm, &totals);
         }
-        printf("1e-%d,%s,%s,%s,%.3f,%.3f,%.4f,%.4f\n", digits, methods[m], previous != 0 ? "previous" : "cold",
-               basis == BASIS_POWER ? "power" : "bernstein", totals.iterations / totals.roots,
-               totals.seconds / totals.pixels * 1e6, totals.accurate_pixels / totals.pixels,
-               totals.accurate_roots / totals.pixels / DEGREE);
+        printf("1e-%d,%s,%s,%.3f,%.3f,%.4f,%.4f\n", digits, methods[m], previous != 0 ? "previous" : "cold",
+               totals.iterations / totals.roots, totals.seconds / totals.pixels * 1e6,
+               totals.accurate_pixels / totals.pixels, totals.accurate_roots / totals.pixels / DEGREE);
       }
     }
   }
@@ -83,12 +82,10 @@ int main(int argc, char **argv)
     fputs("usage: patch_experiments SCENE WIDTH HEIGHT [DIGITS]\n", stderr);
     return 2;
   }
-  printf("eps,method,start,basis,iterations,us_pixel,accurate_pixels,accurate_roots\n");
-  for (int basis = BASIS_POWER; basis >= BASIS_BERNSTEIN; basis--) {
-    double *c = patch_polynomials(argv[1], (size_t)width, (size_t)height, (enum basis)basis);
-    if (c == NULL) return 3;
-    experiment((enum basis)basis, c, (size_t)width * (size_t)height, only);
-    free(c);
-  }
+  printf("eps,method,start,iterations,us_pixel,accurate_pixels,accurate_roots\n");
+  double *c = patch_polynomials(argv[1], (size_t)width, (size_t)height, BASIS_POWER);
+  if (c == NULL) return 3;
+  experiment(c, (size_t)width * (size_t)height, only);
+  free(c);
   return 0;
 }

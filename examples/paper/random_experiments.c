@@ -7,6 +7,8 @@
  *     random_experiments order        Fig 11-12: accuracy against the order in which the roots were found, degree 18
  *     random_experiments improvements what each improvement does to iterations, time and accuracy, degree 18
  *
+ * A word `once` behind that: the counts alone, times mean nothing.
+ *
  * As in the paper, with Durand-Kerner's method beside: 100 polynomials with random coefficients (here uniform in
  * [-1,1], seeded) a point, power basis, Aberth's start values, eq 10 as the stop, eq 11 as the measure of accuracy. The
  * solvers' own values are judged, before the library's validation. Times are CPU time of the solver alone.
@@ -28,6 +30,8 @@ enum {
   LAST_DEGREE = 24,
   REPEATS = 20 /* of every timed solve: one alone is too short for the clock */
 };
+
+static int repeats = REPEATS; /* of a solve, for its time */
 
 static const char *const methods[] = {"newton", "laguerre", "aberth", "durand_kerner"};
 enum { METHODS = sizeof methods / sizeof methods[0] };
@@ -83,8 +87,8 @@ static struct summary measure(int degree, const struct solver_options *options, 
     struct root_estimates roots;
     random_problem(&seed, degree, &problem);
     const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-    for (int repeat = 0; repeat < REPEATS; repeat++) find(&problem, options, first_only, &roots);
-    out.seconds += (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start) / REPEATS / POLYNOMIALS;
+    for (int repeat = 0; repeat < repeats; repeat++) find(&problem, options, first_only, &roots);
+    out.seconds += (clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start) / repeats / POLYNOMIALS;
     const int count = first_only && !at_once(options) ? 1 : roots.count;
     for (int r = 0; r < count; r++) {
       const double ratio = measure_eq11(&problem, roots.re[r], roots.im[r]);
@@ -230,8 +234,10 @@ int main(int argc, char **argv)
     void (*run)(void);
   } experiments[] = {
     {"degrees", degrees}, {"tolerances", tolerances}, {"order", order}, {"caps", caps}, {"improvements", improvements}};
-  for (size_t k = 0; argc == 2 && k < sizeof experiments / sizeof experiments[0]; k++)
+  const bool once = argc == 3 && strcmp(argv[2], "once") == 0;
+  if (once) repeats = 1;
+  for (size_t k = 0; (argc == 2 || once) && k < sizeof experiments / sizeof experiments[0]; k++)
     if (strcmp(argv[1], experiments[k].name) == 0) return experiments[k].run(), 0;
-  fputs("usage: random_experiments degrees|tolerances|order|caps|improvements\n", stderr);
+  fputs("usage: random_experiments degrees|tolerances|order|caps|improvements [once]\n", stderr);
   return 2;
 }

@@ -1,0 +1,44 @@
+#!/bin/bash
+# paper_counts.sh PROGRAMS: the counts in the committed files of docs/paper are those of the code, times aside: all of the
+# random polynomials, the patch at eps = 1e-6, some of the pictures. Where this fails, examples/paper.sh makes the page
+# again. PROGRAMS is the folder of examples/paper in the build tree; PSCN_SOURCE_DIR the source tree.
+set -euo pipefail
+export LC_ALL=C
+programs=$1
+cd "$PSCN_SOURCE_DIR"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failed=0
+
+# The columns of a file are those of what a command prints; with a pattern, of the rows that it matches.
+same() { # FILE COLUMNS PATTERN COMMAND...
+  local file=$1 columns=$2 pattern=$3
+  shift 3
+  "$@" | grep -E "$pattern" | cut -d, -f"$columns" >"$folder/here"
+  grep -E "$pattern" "docs/paper/$file.csv" | cut -d, -f"$columns" >"$folder/there"
+  [ -s "$folder/here" ] || { echo "$file: nothing to compare"; failed=1; }
+  if ! diff "$folder/there" "$folder/here" >"$folder/diff"; then
+    echo "docs/paper/$file.csv: its counts (<) are not those of the code (>)"
+    head -8 "$folder/diff"
+    failed=1
+  fi
+}
+
+picture() { # FIGURE SCENE METHOD EPS
+  printf '%s,%s,' "$1" "$3"
+  "$programs/picture_errors" "scenes/$2.pscn" 320 240 \
+    "$3 { form paper start previous max_iterations 500 tolerance $4 }" "$folder/map.png"
+}
+
+same degrees 1-3 . "$programs/random_experiments" degrees once
+same tolerances 1-3,5,7,8 . "$programs/random_experiments" tolerances once
+same order 1-5 . "$programs/random_experiments" order
+same improvements 1-4,6-8 . "$programs/random_experiments" improvements once
+same caps 1-6 . "$programs/random_experiments" caps once
+same footing_degrees 1-4,8-11 . "$programs/footing" degrees once
+same slopes 1-3 . "$programs/claims" slopes
+same patch 1-4,6,7 '^1e-6,' "$programs/patch_experiments" scenes/paper.pscn 100 75 6
+same pictures 1-6 '^fig16,laguerre' picture fig16 paper laguerre 1e-2
+same pictures 1-6 '^fig16,aberth' picture fig16 paper aberth 1e-2
+same pictures 1-6 '^fig17,newton' picture fig17 paper_magnified newton 1e-10
+exit $failed
