@@ -31,7 +31,7 @@ static const struct hint HINTS[] = {
   {"gradient checker brick hexagon marble wood granite agate bozo leopard onion spotted crackle wrinkles spherical "
    "cylindrical planar radial boxed mandel julia image_map material_map bump_map image_pattern cells ripples waves "
    "dents bumps quilted spiral1 spiral2 square cubic color_map colour_map pigment_map texture_map texture_list "
-   "slope average function turbulence warp uv_mapping uv_vectors tiling facets magnet",
+   "slope average turbulence warp uv_mapping uv_vectors tiling facets magnet",
    false, "a pigment is one colour"},
   {"quick_color quick_colour", false, "leave it out: the pigment's colour is the one that counts"},
   {"normal normal_map slope_map bump_size", false, "the patch itself is what is bumpy: leave it out"},
@@ -56,7 +56,7 @@ static const struct hint HINTS[] = {
   {"abs acos asin atan atan2 ceil cos degrees div exp floor int ln log max min mod pow radians rand seed select sin "
    "sqrt sqr tan vcross vdot vlength vnormalize vrotate vaxis_rotate t u v defined clock_on now",
    false, "write the number, or give it by --declare NAME=NUMBER"},
-  {"array spline dimensions dimension_size str chr concat vstr substr strlen", false,
+  {"array function spline dimensions dimension_size str chr concat vstr substr strlen", false,
    "names stand for numbers, vectors, colours, textures and objects"},
   {"#if #elseif #while #for #switch #case #range #break", false,
    "conditions are #ifdef and #ifndef; let a script write what a loop stands for"},
