@@ -14,8 +14,24 @@ struct embree_mesh {
   unsigned side;
 };
 
+/* Rays together, 8 or 16, are columns of words: of the ray, then of the hit (Embree's accessors of RTCRayN and RTCHitN). */
+enum column {
+  ORIGIN = 0,
+  NEAR = 3,
+  DIRECTION = 4,
+  TIME = 7,
+  FAR = 8,
+  MASK = 9,
+  ID = 10,
+  FLAGS = 11,
+  GEOMETRY = 18,
+  INSTANCE = 19,
+  COLUMNS = 20,
+  MOST_TOGETHER = 16
+};
+
 struct embree_rays {
-  size_t count; /* rounded up to 8: the last ray is repeated */
+  size_t count; /* rounded up to MOST_TOGETHER: the last ray is repeated */
   struct RTCRay *ray;
 };
 
@@ -88,9 +104,9 @@ static struct embree_mesh *mesh_create(const double (*P)[4][4][3], size_t patch_
 static struct embree_rays *rays_create(const struct ray *rays, size_t count)
 {
   struct embree_rays *out = calloc(1, sizeof *out);
-  const size_t padded = (count + 7) / 8 * 8;
+  const size_t padded = (count + MOST_TOGETHER - 1) / MOST_TOGETHER * MOST_TOGETHER;
   if (out == NULL) return NULL;
-  out->ray = aligned_alloc(64, (padded + 8) * sizeof *out->ray);
+  out->ray = aligned_alloc(64, padded * sizeof *out->ray);
   if (out->ray == NULL) {
     free(out);
     return NULL;
@@ -127,15 +143,10 @@ static struct RTCRayHit single(const struct RTCRay *ray)
   return hit;
 }
 
-static void eight(const struct RTCRay *from, struct RTCRay8 *out)
-{
-  for (int k = 0; k < 8; k++) {
-    out->org_x[k] = from[k].org_x, out->org_y[k] = from[k].org_y, out->org_z[k] = from[k].org_z;
-    out->dir_x[k] = from[k].dir_x, out->dir_y[k] = from[k].dir_y, out->dir_z[k] = from[k].dir_z;
-    out->tnear[k] = from[k].tnear, out->tfar[k] = from[k].tfar;
-    out->time[k] = 0, out->mask[k] = UINT32_MAX, out->id[k] = 0, out->flags[k] = 0;
-  }
-}
+union word {
+  float real;
+  unsigned integer;
+};
 
 static double trace_singles(const struct embree_mesh *mesh, const struct embree_rays *rays, bool any)
 {
@@ -156,34 +167,52 @@ static double trace_singles(const struct embree_mesh *mesh, const struct embree_
   return sum;
 }
 
-static double trace_eights(const struct embree_mesh *mesh, const struct embree_rays *rays, bool any)
+/* Inlined, so that the width is known to the compiler. */
+__attribute__((always_inline)) static inline double trace_together(const struct embree_mesh *mesh,
+                                                                   const struct embree_rays *rays, unsigned width,
+                                                                   bool coherent, bool any)
 {
-  static const int VALID[8] __attribute__((aligned(32))) = {-1, -1, -1, -1, -1, -1, -1, -1};
+  static const int VALID[MOST_TOGETHER]
+    __attribute__((aligned(64))) = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
   struct RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   double sum = 0;
-  for (size_t k = 0; k < rays->count; k += 8) {
-    if (any) {
-      struct RTCRay8 ray;
-      eight(&rays->ray[k], &ray);
-      rtcOccluded8(VALID, mesh->scene, &context, &ray);
-      for (int n = 0; n < 8; n++) sum += ray.tfar[n] < 0;
-    } else {
-      struct RTCRayHit8 hit;
-      eight(&rays->ray[k], &hit.ray);
-      for (int n = 0; n < 8; n++) hit.hit.geomID[n] = hit.hit.instID[0][n] = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect8(VALID, mesh->scene, &context, &hit);
-      for (int n = 0; n < 8; n++)
-        if (hit.hit.geomID[n] != RTC_INVALID_GEOMETRY_ID) sum += (double)hit.ray.tfar[n];
+  for (size_t first = 0; first < rays->count; first += width) {
+    union word word[COLUMNS * MOST_TOGETHER] __attribute__((aligned(64)));
+    for (unsigned k = 0; k < width; k++) {
+      const struct RTCRay *from = &rays->ray[first + k];
+      const float values[9] = {from->org_x, from->org_y, from->org_z, from->tnear, from->dir_x,
+                               from->dir_y, from->dir_z, 0,           from->tfar};
+      for (unsigned c = ORIGIN; c <= FAR; c++) word[c * width + k].real = values[c];
+      word[MASK * width + k].integer = UINT32_MAX;
+      word[ID * width + k].integer = word[FLAGS * width + k].integer = 0;
+      word[GEOMETRY * width + k].integer = word[INSTANCE * width + k].integer = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (any && width == 8) rtcOccluded8(VALID, mesh->scene, &context, (struct RTCRay8 *)(void *)word);
+    else if (any) rtcOccluded16(VALID, mesh->scene, &context, (struct RTCRay16 *)(void *)word);
+    else if (width == 8) rtcIntersect8(VALID, mesh->scene, &context, (struct RTCRayHit8 *)(void *)word);
+    else rtcIntersect16(VALID, mesh->scene, &context, (struct RTCRayHit16 *)(void *)word);
+    for (unsigned k = 0; k < width; k++) {
+      const double t = (double)word[FAR * width + k].real;
+      if (any) sum += t < 0;
+      else if (word[GEOMETRY * width + k].integer != RTC_INVALID_GEOMETRY_ID) sum += t;
     }
   }
   return sum;
 }
 
-static double trace(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool any)
+static double trace(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool coherent,
+                    bool any)
 {
-  return width == 8 ? trace_eights(mesh, rays, any) : trace_singles(mesh, rays, any);
+  if (width == 16) return trace_together(mesh, rays, 16, coherent, any);
+  if (width == 8) return trace_together(mesh, rays, 8, coherent, any);
+  return trace_singles(mesh, rays, any);
+}
+
+static unsigned widest(const struct embree_mesh *mesh)
+{
+  return rtcGetDeviceProperty(mesh->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) ? 16 : 8;
 }
 
 static void answer(const struct embree_mesh *mesh, const struct embree_rays *rays, size_t index, bool any,
@@ -199,5 +228,5 @@ static void answer(const struct embree_mesh *mesh, const struct embree_rays *ray
   *out_patch = missed || any ? HIT_NONE : hit.hit.primID / (2 * mesh->side * mesh->side);
 }
 
-__attribute__((visibility("default")))
-const struct embree_peer pscn_embree_peer = {mesh_create, mesh_destroy, rays_create, rays_destroy, trace, answer};
+__attribute__((visibility("default"))) const struct embree_peer pscn_embree_peer = {
+  mesh_create, mesh_destroy, rays_create, rays_destroy, widest, trace, answer};

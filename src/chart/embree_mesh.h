@@ -25,9 +25,13 @@ struct embree_peer {
   struct embree_rays *(*rays_create)(const struct ray *rays, size_t count);
   void (*rays_destroy)(struct embree_rays *rays);
 
-  /* Traces all rays in order: one by one (width 1), or 8 together said to be coherent (width 8); for the closest hit,
+  /* How many rays together this processor has the instructions for: 8 or 16. */
+  unsigned (*widest)(const struct embree_mesh *mesh);
+
+  /* Traces all rays in order: one by one (width 1), or 8 or 16 together, said to be coherent or not; for the closest hit,
    * or for any. Returns a number made of all answers, so that none can be left out. */
-  double (*trace)(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool any);
+  double (*trace)(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool coherent,
+                  bool any);
 
   /* What one ray answers: t of the closest hit, or where `any` will do a finite one, and the patch the triangle is of;
    * INFINITY and HIT_NONE on a miss. */

@@ -31,7 +31,7 @@ static enum status ask_plain_newton(struct chart *chart)
 
 /* ---- Embree ---- */
 
-static const unsigned WIDTHS[] = {1, 8}; /* rays at once */
+static const unsigned WIDTHS[] = {1, 8, 16}; /* rays at once; the last where the processor has it */
 enum { WIDTH_COUNT = sizeof WIDTHS / sizeof WIDTHS[0] };
 
 struct embree {
@@ -53,7 +53,7 @@ static void run_embree(void *context, enum ray_kind kind, struct answer *answers
   struct embree_runner *runner = context;
   const struct embree *embree = runner->embree;
   const bool any = kind == RAYS_SHADOW;
-  if (answers == NULL) runner->sink = embree->peer->trace(runner->mesh, embree->rays[kind], runner->width, any);
+  if (answers == NULL) runner->sink = embree->peer->trace(runner->mesh, embree->rays[kind], runner->width, true, any);
   for (size_t k = 0; answers != NULL && k < embree->lists[kind].count; k++)
     embree->peer->answer(runner->mesh, embree->rays[kind], k, any, &answers[k].t, &answers[k].patch);
 }
@@ -67,15 +67,17 @@ static enum status measure_side(struct chart *chart, const struct embree *embree
   struct embree_runner own[WIDTH_COUNT];
   struct runner runners[WIDTH_COUNT];
   struct chart_point said[WIDTH_COUNT];
-  for (size_t w = 0; w < WIDTH_COUNT; w++) {
+  const size_t widths = embree->peer->widest(mesh) == WIDTHS[WIDTH_COUNT - 1] ? WIDTH_COUNT : WIDTH_COUNT - 1;
+  for (size_t w = 0; w < widths; w++) {
+    char how[32] = "one by one";
+    if (WIDTHS[w] > 1) snprintf(how, sizeof how, "%u coherent", WIDTHS[w]);
     own[w] = (struct embree_runner){.embree = embree, .mesh = mesh, .width = WIDTHS[w]};
     runners[w] = (struct runner){run_embree, &own[w]};
     said[w] = (struct chart_point){.family = FAMILY_EMBREE};
-    snprintf(said[w].name, sizeof said[w].name, "Embree, %zux%zux2 triangles a patch, %s", side, side,
-             WIDTHS[w] == 1 ? "one by one" : "8 coherent");
-    if (WIDTHS[w] > 1) snprintf(said[w].label, sizeof said[w].label, "%zu", side);
+    snprintf(said[w].name, sizeof said[w].name, "Embree, %zux%zux2 triangles a patch, %s", side, side, how);
+    if (WIDTHS[w] == 8) snprintf(said[w].label, sizeof said[w].label, "%zu", side);
   }
-  const enum status status = chart_measure(chart, WIDTH_COUNT, runners, said, NULL);
+  const enum status status = chart_measure(chart, widths, runners, said, NULL);
   embree->peer->mesh_destroy(mesh);
   return status;
 }

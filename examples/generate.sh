@@ -1,0 +1,125 @@
+#!/bin/bash
+# Writes a scene of many distinct patches to standard output.
+#
+#   examples/generate.sh hair N        N hairs on a ball, each one patch, 1 : 200
+#   examples/generate.sh ribbons N     N loose ribbons, each one patch, 1 : 1000
+#   examples/generate.sh creature N    about N patches of one smooth closed skin, a knotted body with bumps on it, no two
+#                                      alike
+#
+# The light stands at the camera: every hit of a camera ray sends one shadow ray, so that counting those counts hits.
+set -euo pipefail
+export LC_ALL=C
+
+kind=${1:?hair, ribbons or creature?}
+count=${2:?how many patches?}
+case $kind in hair | ribbons | creature) ;; *) echo "$0: there is no '$kind'" >&2 && exit 2 ;; esac
+awk -v kind="$kind" -v n="$count" '
+  # A generator of its own: the same scene wherever awk runs.
+  function random() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
+  function between(a, b) { return a + (b - a) * random() }
+  function head(x, y, z) {
+    printf "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n"
+    printf "camera { location <%g, %g, %g> look_at 0 angle 40 }\n", x, y, z
+    printf "light_source { <%g, %g, %g>, rgb 1 }\nbackground { rgb <0.74, 0.80, 0.88> }\n", x, y, z
+    printf "#default { pigment { color rgb <0.8, 0.6, 0.5> } finish { ambient 0.1 diffuse 0.9 } }\n"
+  }
+  # P[k, c], k = 4 i + j, as a patch.
+  function patch(k) {
+    printf "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3"
+    for (k = 0; k < 16; k++) printf ", <%.8g, %.8g, %.8g>", P[k, 0], P[k, 1], P[k, 2]
+    printf " }\n"
+  }
+  # The cubic with the points A[i, c], made as wide as `width` along the direction W[c] that turns by `twist` of a turn.
+  function strip(width, twist, i, j, c, s, t, a) {
+    for (i = 0; i < 4; i++) {
+      a = 6.28318 * twist * i / 3
+      for (j = 0; j < 4; j++)
+        for (c = 0; c < 3; c++) {
+          s = W[c] * cos(a) + V[c] * sin(a)
+          P[4 * i + j, c] = A[i, c] + (j / 3 - 0.5) * width * s
+        }
+    }
+    patch()
+  }
+  function unit(x, l) { l = sqrt(x[0] ^ 2 + x[1] ^ 2 + x[2] ^ 2); x[0] /= l; x[1] /= l; x[2] /= l }
+  # Two directions across D.
+  function across(c) {
+    W[0] = D[1] + 0.1; W[1] = D[2] - 0.2; W[2] = D[0] + 0.3
+    V[0] = D[1] * W[2] - D[2] * W[1]; V[1] = D[2] * W[0] - D[0] * W[2]; V[2] = D[0] * W[1] - D[1] * W[0]; unit(V)
+    W[0] = V[1] * D[2] - V[2] * D[1]; W[1] = V[2] * D[0] - V[0] * D[2]; W[2] = V[0] * D[1] - V[1] * D[0]; unit(W)
+  }
+  function direction() {
+    do { for (c = 0; c < 3; c++) D[c] = between(-1, 1); l = D[0] ^ 2 + D[1] ^ 2 + D[2] ^ 2 } while (l > 1 || l < 0.01)
+    unit(D)
+  }
+  function hair(k, i, c) {
+    head(0, 1.5, -8)
+    for (k = 0; k < n; k++) {
+      direction(); across()
+      for (i = 0; i < 4; i++)
+        for (c = 0; c < 3; c++) A[i, c] = D[c] * (1 + i / 3) + (i > 1 ? between(-0.15, 0.15) * i : 0) - (c == 1) * i * i / 18
+      strip(0.005, between(0, 0.5))
+    }
+  }
+  function ribbons(k, i, c) {
+    head(0, 1.5, -8)
+    for (k = 0; k < n; k++) {
+      direction(); across()
+      for (c = 0; c < 3; c++) at[c] = between(-1.5, 1.5)
+      for (i = 0; i < 4; i++)
+        for (c = 0; c < 3; c++) A[i, c] = at[c] + D[c] * (i - 1.5) * 1.2 + between(-0.6, 0.6)
+      strip(0.004, between(0, 1))
+    }
+  }
+  # A point of the body: a tube about a knot, bumps on it; s, t in turns.
+  function body(s, t, c, a, b, r, q) {
+    a = 6.28318530718 * s; b = 6.28318530718 * t
+    for (c = 0; c < 2; c++) {
+      q = a + c * 1e-4; r = 2 + cos(3 * q)
+      K[c, 0] = r * cos(2 * q); K[c, 1] = 1.2 * sin(3 * q); K[c, 2] = r * sin(2 * q)
+    }
+    for (c = 0; c < 3; c++) D[c] = K[1, c] - K[0, c]
+    unit(D)
+    V[0] = -D[2]; V[1] = 0; V[2] = D[0]; unit(V) # the knot is nowhere upright
+    W[0] = V[1] * D[2] - V[2] * D[1]; W[1] = V[2] * D[0] - V[0] * D[2]; W[2] = V[0] * D[1] - V[1] * D[0]
+    r = 0.55 + 0.12 * sin(7 * a + 2 * b) + 0.05 * sin(31 * a) * cos(5 * b) + 0.02 * sin(97 * a + 13 * b)
+    for (c = 0; c < 3; c++) B[c] = K[0, c] + r * (cos(b) * V[c] + sin(b) * W[c])
+  }
+  # Bezier points of a uniform cubic B-spline with control points at whole numbers: weights of the points -1 ... 2.
+  function creature(rows, columns, i, j, k, c, x, y, r, w) {
+    split("1 4 1 0 0 4 2 0 0 2 4 0 0 1 4 1", M, " ")
+    columns = int(sqrt(n / 8)); if (columns < 3) columns = 3
+    rows = int(n / columns + 0.5); if (rows < 3) rows = 3
+    head(0, 7, -7)
+    for (i = -1; i < rows + 2; i++) {
+      for (j = 0; j < columns; j++) {
+        body(((i + rows) % rows) / rows, j / columns)
+        for (c = 0; c < 3; c++) G[i % 4 + (i < 0) * 4, j, c] = B[c]
+      }
+      if (i < 2) continue
+      for (j = 0; j < columns; j++) {
+        for (x = 0; x < 4; x++)
+          for (y = 0; y < 4; y++)
+            for (c = 0; c < 3; c++) Q[x, y, c] = G[(i - 3 + x + 4) % 4, (j - 1 + y + columns) % columns, c]
+        for (x = 0; x < 4; x++)
+          for (y = 0; y < 4; y++)
+            for (c = 0; c < 3; c++) {
+              w = 0
+              for (r = 0; r < 4; r++) if (M[4 * y + r + 1]) w += M[4 * y + r + 1] * Q[x, r, c]
+              R[x, y, c] = w / 6
+            }
+        for (x = 0; x < 4; x++)
+          for (y = 0; y < 4; y++)
+            for (c = 0; c < 3; c++) {
+              w = 0
+              for (r = 0; r < 4; r++) if (M[4 * x + r + 1]) w += M[4 * x + r + 1] * R[r, y, c]
+              P[4 * x + y, c] = w / 6
+            }
+        patch()
+      }
+    }
+  }
+  BEGIN {
+    seed = 20240511
+    if (kind == "hair") hair(); else if (kind == "ribbons") ribbons(); else creature()
+  }'
