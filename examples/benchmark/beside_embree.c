@@ -5,7 +5,7 @@
  * KIND camera: all 800x600 camera rays in the renderer's order. shadow: the shadow rays that their hits send, asked whether
  * anything is hit. scattered: as many rays between random points of the box that holds the hits, in random directions: nothing
  * is said of their order. pscn answers by the scene's own solvers, in packets and, "one by one", each ray for itself; then
- * by each SOLVER ("aberth { split 1 }"); beside Embree's rtcIntersect1 and its packets of 8 and, where the processor has
+ * by each SOLVER ("aberth { split 1 }"; "all" or "all SOLVER": all hits of each ray instead of the nearest); beside Embree's rtcIntersect1 and its packets of 8 and, where the processor has
  * the instructions, 16, which are told whether the rays are coherent; or rtcOccluded. SIDE x SIDE x 2 triangles a patch
  * (64). CPU time of the thread. A line a contestant, tabs between: name, ns a ray (median over runs, smallest, largest), and
  * the medians of the ratios in the same run to Embree's rays one by one, to its fastest packets, to pscn's packets.
@@ -32,6 +32,7 @@ struct contestant {
   const char *name;
   unsigned width; /* rays at once */
   bool embree;
+  bool all; /* hits of a ray */
   struct scene *scene;
   struct intersector *intersector;
   struct tracer *tracer;
@@ -53,10 +54,12 @@ static void fail(const char *what)
 static void contestant_load(struct contestant *c, const char *path, const char *solver)
 {
   struct diagnostics diagnostics = {.tell = tell};
-  const struct language_settings settings = {
-    .image_width = WIDTH, .image_height = HEIGHT, .solver_text = solver, .tolerance = NAN};
   c->name = solver == NULL ? "pscn" : solver;
   c->width = PACKET_SIZE;
+  c->all = solver != NULL && strncmp(solver, "all", 3) == 0 && (solver[3] == ' ' || solver[3] == '\0');
+  if (c->all) solver = solver[3] == ' ' ? solver + 4 : NULL;
+  const struct language_settings settings = {
+    .image_width = WIDTH, .image_height = HEIGHT, .solver_text = solver, .tolerance = NAN};
   if (language_load(path, &settings, &diagnostics, &c->scene) != STATUS_OK) exit(EXIT_FAILURE);
   if (intersector_create(c->scene, &c->intersector) != STATUS_OK) fail("out of memory");
   if (tracer_create(c->intersector, &c->tracer) != STATUS_OK) fail("out of memory");
@@ -121,6 +124,7 @@ static struct ray_list make_rays(enum kind kind, const struct contestant *pscn, 
 static void trace(const struct contestant *c, const struct ray_list *list, bool any)
 {
   struct hit hits[PACKET_SIZE];
+  struct hit_list lists[PACKET_SIZE];
   bool occluded[PACKET_SIZE];
   for (size_t k = 0; k < list->packet_count; k++) {
     const struct ray_packet *packet = &list->packets[k];
@@ -129,7 +133,8 @@ static void trace(const struct contestant *c, const struct ray_list *list, bool 
       const size_t left = packet->count - first, count = left < c->width ? left : c->width;
       const struct ray *rays = &list->rays[packet->first + first];
       if (any) tracer_occluded(c->tracer, count, rays, occluded);
-      else tracer_closest(c->tracer, count, rays, hits);
+      else if (!c->all) tracer_closest(c->tracer, count, rays, hits);
+      else if (tracer_all(c->tracer, count, rays, lists) != STATUS_OK) fail("out of memory");
     }
   }
 }

@@ -117,11 +117,11 @@ static void tell(void *context, const struct explained_candidate *candidate)
   static const char *const stages[STAGE_COUNT] = {"its bilinear part", "the planes a and b", "the resultant r",
                                                   "the roots of r"};
   struct teller *teller = context;
-  const int split = candidate->split;
+  const int *split = candidate->split;
   printf("candidate %zu: patch %u", ++teller->candidates, candidate->patch);
-  if (split > 1)
+  if (split[0] * split[1] > 1)
     printf(", its part [%d,%d]/%d x [%d,%d]/%d, which u, v = 0..1 are here", candidate->column_u,
-           candidate->column_u + 1, split, candidate->column_v, candidate->column_v + 1, split);
+           candidate->column_u + 1, split[0], candidate->column_v, candidate->column_v + 1, split[1]);
   printf("; came to %s\n", stages[candidate->reached]);
   printf("  eq 3, Bernstein coefficients of degree %d in %c and %d in %c:\n", candidate->kept_degree,
          candidate->v_kept ? 'v' : 'u', candidate->other_degree, candidate->v_kept ? 'u' : 'v');

@@ -62,7 +62,8 @@ static void tell_algebra(struct explainer *explainer, const struct explained_ray
   const struct leaf *leaf = ray->leaf;
   const struct model_patch *patch = &ray->model->patches[leaf->patch];
   story->patch = ray->first_patch + leaf->patch;
-  story->split = patch->split, story->column_u = leaf->column_u, story->column_v = leaf->column_v;
+  memcpy(story->split, patch->split, sizeof story->split);
+  story->column_u = leaf->column_u, story->column_v = leaf->column_v;
   story->v_kept = leaf->v_kept;
   story->kept_degree = leaf->kept_degree, story->other_degree = leaf->eliminated_degree;
   struct local_ray local;
@@ -115,7 +116,7 @@ void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listen
 /* A root that a hit may be. */
 struct measured_root {
   uint32_t patch;
-  int split, column_u, column_v;
+  int split[2], column_u, column_v;
   bool v_kept;
   double re, im, residual;
 };
@@ -143,7 +144,7 @@ static void measure_candidate(void *context, const struct explained_candidate *c
     const bool near = fabs(root->re - 0.5) <= 0.5 + MEASURED_MARGIN && fabs(root->im) <= MEASURED_MARGIN;
     if (!near || all->count == MEASURED_ROOTS) continue;
     all->root[all->count++] = (struct measured_root){candidate->patch,
-                                                     candidate->split,
+                                                     {candidate->split[0], candidate->split[1]},
                                                      candidate->column_u,
                                                      candidate->column_v,
                                                      candidate->v_kept,
@@ -156,7 +157,7 @@ static void measure_candidate(void *context, const struct explained_candidate *c
 /* How far the root is from the hit's kept parameter, of a leaf that holds the hit; infinite of another. */
 static double distance_to(const struct measured_root *root, const struct hit *hit)
 {
-  const double u = hit->u * root->split - root->column_u, v = hit->v * root->split - root->column_v;
+  const double u = hit->u * root->split[0] - root->column_u, v = hit->v * root->split[1] - root->column_v;
   const bool holds = fabs(u - 0.5) <= 0.5 + MEASURED_MARGIN && fabs(v - 0.5) <= 0.5 + MEASURED_MARGIN;
   return root->patch == hit->patch && holds ? hypot(root->re - (root->v_kept ? v : u), root->im) : INFINITY;
 }

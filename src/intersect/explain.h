@@ -32,9 +32,9 @@ struct explained_roots {
 
 /* A leaf whose boxes the ray passes: a part of a patch, with parameters of its own. */
 struct explained_candidate {
-  uint32_t patch;                /* of the scene */
-  int split, column_u, column_v; /* the leaf is [column, column + 1]/split */
-  bool v_kept;                   /* r is one of v, and u follows; otherwise the other way round */
+  uint32_t patch;                   /* of the scene */
+  int split[2], column_u, column_v; /* the leaf is [column, column + 1]/split, along u and v */
+  bool v_kept;                      /* r is one of v, and u follows; otherwise the other way round */
   int kept_degree, other_degree;
   double a[16], b[16]; /* eq 3: Bernstein coefficients [4 i + j], i of the kept parameter */
   enum stage reached;  /* the last stage it came to (intersect.h) */

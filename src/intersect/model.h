@@ -4,8 +4,8 @@
  *
  * Every patch has a frame of its own: world = center + scale * local, scale a power of two, center with few bits, so
  * that |local| <= 1 and going to local coordinates rounds almost nothing. All algebra is done in local coordinates,
- * so scale and offset of a scene cost no accuracy. A patch is cut into N x N leaves, the units the hierarchy holds
- * and rays are tried on. Where leaves for all patches would be too many, copies of a declared object share the
+ * so scale and offset of a scene cost no accuracy. A patch is cut into N x N leaves, a slender one along its
+ * long side only: they are the units the hierarchy holds and rays are tried on. Where leaves for all patches would be too many, copies of a declared object share the
  * object's (copies.h).
  */
 #ifndef PSCN_INTERSECT_MODEL_H
@@ -31,7 +31,7 @@ struct model_patch {
   double x[3][4][4];    /* local control net, x[coordinate][i][j], |x| <= 1 */
   double rest[3][4][4]; /* what its rounding has taken away: x + rest is exact */
   int m, n;             /* true bidegree in u, v */
-  int split;            /* cut into split x split leaves */
+  int split[2];         /* cut into split[0] x split[1] leaves, along u and v */
   bool lanes;           /* default method, or all_roots: tried on a lane of rays at once */
   bool all_roots;       /* aberth, improved and polished: all roots of r are tried */
   bool copied;          /* its leaves are those of the object it is copied from; then m and n mean nothing */
@@ -80,7 +80,7 @@ struct leaf {
   double second[3];
   double first[2]; /* bounds on |Su|, |Sv| there */
   uint32_t patch;
-  uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split in u, and so on */
+  uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split[0] in u, and so on */
   uint8_t kept_degree, eliminated_degree;
   bool v_kept;      /* the form keeps v and eliminates u */
   uint8_t zeros[2]; /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
@@ -136,8 +136,5 @@ void model_destroy(struct model *model);
 /* The model of an object: the patches of `nets`, which is borrowed for the call, cut into at most `most` leaves a
  * side, their boxes wider by `error`. */
 enum status model_create_object(const struct scene *nets, int most, double error, struct model **out) STATUS_MUST_CHECK;
-
-/* Leaf parameters to parameters of the whole patch. Exact up to one rounding. */
-static inline double leaf_to_patch(int split, int column, double t) { return (column + t) / split; }
 
 #endif

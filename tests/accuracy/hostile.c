@@ -322,10 +322,10 @@ static void degenerate(struct random *random, size_t index, struct situation *s)
   }
 }
 
-/* As thin as 1e-6 ... 1e-15 of its length, in space. */
+/* As thin as 1e-2 ... 1e-15 of its length, in space. */
 static void thin(struct random *random, size_t index, struct situation *s)
 {
-  const double width = decade(index, 6, 15);
+  const double width = decade(index, 2, 15);
   s->count = 1;
   gentle(random, 0.5, s->P[0]);
   struct placement turn;

@@ -26,8 +26,8 @@ static void truth_make(const struct model *model, const struct leaf *leaf, const
   for (int c = 0; c < 3; c++) {
     struct quad_net whole;
     for (int n = 0; n < 16; n++) whole.c[n / 4][n % 4] = ((quad)P[n / 4][n % 4][c] - patch->center[c]) / patch->scale;
-    const double step = 1.0 / patch->split; /* splits are powers of two here: exact */
-    quad_net_restrict(&whole, leaf->column_u * step, step, leaf->column_v * step, step, &x[c]);
+    const double step[2] = {1.0 / patch->split[0], 1.0 / patch->split[1]}; /* splits are powers of two here: exact */
+    quad_net_restrict(&whole, leaf->column_u * step[0], step[0], leaf->column_v * step[1], step[1], &x[c]);
     q[c] = ((quad)ray->origin[c] - patch->center[c]) / patch->scale;
   }
   for (int s = 0; s < 2; s++) {

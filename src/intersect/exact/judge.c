@@ -411,10 +411,10 @@ static void region_widen(struct judge *j, struct exact_region *r)
   struct model_patch *patch = &j->asked->model->patches[r->patch];
   const uint16_t column[2] = {r->column[0], r->column[1]};
   for (int border = 0; border < 4; border++) {
-    const int side = border / 2, across = 1 - side, at = border & 1 ? patch->split - 1 : 0;
-    if (patch->split == 1 || column[side] != at || !patch_border_is_point(patch->x, border)) continue;
+    const int side = border / 2, across = 1 - side, at = border & 1 ? patch->split[side] - 1 : 0;
+    if (patch->split[across] == 1 || column[side] != at || !patch_border_is_point(patch->x, border)) continue;
     if (!passes_near(j, r->patch, border)) continue;
-    r->column[across] = 0, r->span[across] = (uint16_t)patch->split, r->leaf = NULL;
+    r->column[across] = 0, r->span[across] = (uint16_t)patch->split[across], r->leaf = NULL;
   }
 }
 

@@ -320,7 +320,7 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
                        .depth_error = ray->error,
                        .divided = NO_BORDER};
   for (int k = 0; k < 2; k++)
-    s->low[k] = part_of(region->column[k], patch->split), s->size[k] = part_of(region->span[k], patch->split);
+    s->low[k] = part_of(region->column[k], patch->split[k]), s->size[k] = part_of(region->span[k], patch->split[k]);
   for (int k = 0; k < 4; k++) s->pole[k] = patch_border_is_point((double(*)[4][4])x, k);
   if (region->leaf) memcpy(s->extent, region->leaf->first, sizeof s->extent);
   else leaf_first_bounds(x, s->extent);

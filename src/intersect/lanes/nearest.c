@@ -29,12 +29,12 @@ void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
 /* Lanes whose root may lie on a border of the patch. */
 static lane_mask on_border(const struct candidate *it, const struct newton_root *r)
 {
-  const int last = it->patch->split - 1;
+  const int *split = it->patch->split;
   lane_mask border = {0};
   if (it->leaf->column_u == 0) border |= r->u <= r->radius_u;
-  if (it->leaf->column_u == last) border |= 1 - r->u <= r->radius_u;
+  if (it->leaf->column_u == split[0] - 1) border |= 1 - r->u <= r->radius_u;
   if (it->leaf->column_v == 0) border |= r->v <= r->radius_v;
-  if (it->leaf->column_v == last) border |= 1 - r->v <= r->radius_v;
+  if (it->leaf->column_v == split[1] - 1) border |= 1 - r->v <= r->radius_v;
   return border;
 }
 
@@ -58,9 +58,9 @@ LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, cons
                               lanes error, lane_mask taken, bool certain)
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
-  const double part = 1.0 / it->patch->split;
-  const lanes uv[2] = {(it->leaf->column_u + r->u) * part, (it->leaf->column_v + r->v) * part};
-  const lanes radius[2] = {r->radius_u * part + UNIT_ROUNDOFF, r->radius_v * part + UNIT_ROUNDOFF};
+  const double part[2] = {1.0 / it->patch->split[0], 1.0 / it->patch->split[1]};
+  const lanes uv[2] = {(it->leaf->column_u + r->u) * part[0], (it->leaf->column_v + r->v) * part[1]};
+  const lanes radius[2] = {r->radius_u * part[0] + UNIT_ROUNDOFF, r->radius_v * part[1] + UNIT_ROUNDOFF};
   p->tracer->counts.roots_accepted += lanes_count(taken);
   if (p->gather) {
     gather_take(p, taken, uv, radius, at, error, patch, leaf, certain);
@@ -120,7 +120,8 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
   lanes normal[3];
   surface_cross(root->su, root->sv, normal);
   const lanes tangent = surface_tangent(root->su, root->sv);
-  const struct surface_point point = surface_point(patch, root->point, patch->split * tangent);
+  const int most = patch->split[0] > patch->split[1] ? patch->split[0] : patch->split[1];
+  const struct surface_point point = surface_point(patch, root->point, most * tangent);
   const lane_mask final = lanes_abs(root->t) * p->longest >= NEAR_START_FINAL * patch->scale;
   if (p->gather) {
     gather_surface(p->gather, taken, &point, normal, tangent, final);

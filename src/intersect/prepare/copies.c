@@ -193,7 +193,7 @@ enum status copies_prepare(struct model *model, int most)
       if (status != STATUS_OK) return status;
     }
     for (size_t p = 0; p < object->declared->patch_count; p++)
-      model->patches[copy->first_patch + p].split = object->model->patches[p].split;
+      memcpy(model->patches[copy->first_patch + p].split, object->model->patches[p].split, sizeof(int[2]));
   }
   return STATUS_OK;
 }

@@ -130,18 +130,19 @@ static void leaf_set_slabs(struct leaf *leaf)
   slabs->slack = flat ? INFINITY : 16 * largest * largest;
 }
 
-/* With parameters of four bits behind the point and coordinates of HEAD_BITS, three halfway values in either
- * direction are multiples of 2^-44, and their Taylor coefficients of 2^-50: nothing is rounded. */
-enum { EXACT_SPLIT = 16, HEAD_BITS = 20 };
+/* With parameters that have eight bits behind the point between them and coordinates of HEAD_BITS, three halfway values
+ * in either direction are multiples of 2^-44, and their Taylor coefficients of 2^-50: nothing is rounded. */
+enum { EXACT_LEAVES = 256, HEAD_BITS = 20 };
 
-/* The leaf's net as hi + lo. hi is cut from the coordinates' first HEAD_BITS bits: exactly where the split is a power
- * of two up to EXACT_SPLIT. lo, which is smaller by as many bits and has what x is rounded by, is rounded. */
+/* The leaf's net as hi + lo. hi is cut from the coordinates' first HEAD_BITS bits: exactly where the leaves are a
+ * power of two up to EXACT_LEAVES. lo, which is smaller by as many bits and has what x is rounded by, is rounded. */
 static void cut_net(struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], double hi[3][4][4],
                     double lo[3][4][4])
 {
-  const double parts = patch->split; /* quotients, so that the last one is 1 whatever the split */
-  const double u0 = column[0] / parts, u1 = (column[0] + span[0]) / parts;
-  const double v0 = column[1] / parts, v1 = (column[1] + span[1]) / parts;
+  const double parts_u = patch->split[0],
+               parts_v = patch->split[1]; /* quotients: the last one is 1 whatever the split */
+  const double u0 = column[0] / parts_u, u1 = (column[0] + span[0]) / parts_u;
+  const double v0 = column[1] / parts_v, v1 = (column[1] + span[1]) / parts_v;
   const double round = 0x1.8p52 / (1 << HEAD_BITS);
   for (int k = 0; k < 3; k++) {
     double head[4][4], tail[4][4];
@@ -221,7 +222,8 @@ static void set_parts(const struct model_patch *patch, const struct leaf *leaf, 
   out->last_step = real_min(NEWTON_LAST_STEP, sqrt(LAST_STEP_CURVE / real_max(second, LAST_STEP_CURVE)));
   out->slope_step = second > UNIT_ROUNDOFF * first ? 2 * UNIT_ROUNDOFF * first / second : 2;
   out->third = third_bound(out);
-  out->exact = patch->split <= EXACT_SPLIT && (patch->split & (patch->split - 1)) == 0;
+  const int leaves = patch->split[0] * patch->split[1];
+  out->exact = leaves <= EXACT_LEAVES && (leaves & (leaves - 1)) == 0;
 }
 
 void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf, struct leaf_parts *room)

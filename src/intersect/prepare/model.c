@@ -9,6 +9,7 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
+#include "intersect/exact/exact.h"
 #include "intersect/prepare/copies.h"
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/tree.h"
@@ -22,6 +23,12 @@
  * then one Newton process holds on the whole leaf for all but grazing rays. A choice of speed, not of correctness. */
 #define AUTO_TURN 0.25
 enum { AUTO_SPLIT_MAX = 16 };
+
+/* A patch this many times as long as wide is slender, up to what so many leaves along it can make good, whose number
+ * goes with the root of that. What lies in the plane of a ray must not be more than exact.h has room for. */
+#define SLENDER 16.0
+#define SLENDER_MOST ((double)SLENDER_SPLIT_MAX * SLENDER_SPLIT_MAX)
+enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 
 /* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory
  * and time to make. The limit on the split is halved until they fit. */
@@ -68,26 +75,29 @@ static double largest_coordinate(double P[4][4][3])
   return size;
 }
 
-/* How many leaves a side make every leaf nearly flat: second derivatives fall with the square, first ones with one
- * over it. */
-static int auto_split(struct model_patch *patch, int most)
+/* How many leaves make every leaf nearly flat: second derivatives fall with the square, first ones with one over it. A
+ * slender patch is cut along its long side only, for only that bends, until its leaves turn as little as the short side
+ * wants or are no longer slender. */
+static void auto_split(struct model_patch *patch, int most)
 {
-  double second[3], first = 0;
+  double second[3], first[2], net[3][16];
   patch_second_derivative_bounds(patch->x, second);
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 3; j++) {
-      double du[3], dv[3];
-      for (int k = 0; k < 3; k++) {
-        dv[k] = 3 * (patch->x[k][i][j + 1] - patch->x[k][i][j]);
-        du[k] = 3 * (patch->x[k][j + 1][i] - patch->x[k][j][i]);
-      }
-      first = real_max(first, real_max(vector_length(du), vector_length(dv)));
-    }
-  }
+  memcpy(net, patch->x, sizeof net);
+  leaf_first_bounds(net, first);
   const double turn = (second[0] + 2 * second[1] + second[2]) / 2;
-  int split = 1;
-  while (split < most && turn > AUTO_TURN * split * first) split *= 2;
-  return split;
+  const int side = first[1] > first[0];
+  const double along = first[side], across = first[1 - side], bend = second[2 * side];
+  patch->split[0] = patch->split[1] = 1;
+  if (along > SLENDER * across && along <= SLENDER_MOST * across) {
+    int *split = &patch->split[side];
+    while (2 * *split <= most * most && 2 * *split <= SLENDER_SPLIT_MAX && along > 2 * *split * across &&
+           bend / *split + 2 * second[1] > 2 * AUTO_TURN * *split * across)
+      *split *= 2;
+    return;
+  }
+  int *split = patch->split;
+  while (split[0] < most && turn > AUTO_TURN * split[0] * along) split[0] *= 2;
+  split[1] = split[0];
 }
 
 /* What the patch's solver does on lanes: the whole method as it is by default, or nothing. */
@@ -140,8 +150,9 @@ static void split_patches(struct model *model, int most)
     if (patch->copied) continue;
     const double size = largest_coordinate(model->scene->patches[p].P);
     patch_bidegree(patch->x, DEGREE_SLACK * real_max(1, size / patch->scale), &patch->m, &patch->n);
-    patch->split = patch->method->split > 0 ? patch->method->split : auto_split(patch, most);
-    model->leaf_count += (size_t)patch->split * (size_t)patch->split;
+    if (patch->method->split > 0) patch->split[0] = patch->split[1] = patch->method->split;
+    else auto_split(patch, most);
+    model->leaf_count += (size_t)patch->split[0] * (size_t)patch->split[1];
   }
 }
 
@@ -151,11 +162,11 @@ static enum status prepare_leaves(struct model *model, struct bvh_box boxes[])
   struct leaf_parts *room = NULL; /* for the next leaf that has parts */
   for (size_t p = 0; p < model->scene->patch_count; p++) {
     struct model_patch *patch = &model->patches[p];
-    for (int k = 0; k < patch->split * patch->split && !patch->copied; k++, l++) {
+    for (int k = 0; k < patch->split[0] * patch->split[1] && !patch->copied; k++, l++) {
       struct leaf *leaf = &model->leaves[l];
       if (!room) room = arena_alloc(model->arena, 1, sizeof *room);
       if (!room) return STATUS_LIMIT;
-      leaf_cut(patch, k / patch->split, k % patch->split, leaf, room);
+      leaf_cut(patch, k / patch->split[1], k % patch->split[1], leaf, room);
       if (leaf->parts) room = NULL;
       leaf->patch = (uint32_t)p;
       leaf_box(model, leaf, &boxes[l]);
