@@ -41,9 +41,9 @@ printf '"%s"\n' '0 ' '-1 ' '1e-11 ' '1.999 ' '1e308 ' '1e-320 ' '1e-17 ' '.5 ' '
 # The number behind the last NAME of libFuzzer's log.
 last() { grep -o "$1 *[0-9]*" "$2" | tail -n 1 | grep -o '[0-9]*$' || echo 0; }
 
-# fuzz TARGET: until its CPU time is spent, of which the children of this shell tell.
+# fuzz TARGET: until its CPU time is spent, which is looked at every two seconds.
 fuzz() {
-  local target=$1 corpus=$build/corpus/$1 log=$build/$1.log dictionary=$words spent=0 runs=0 slowest=0 length=4096 code
+  local target=$1 corpus=$build/corpus/$1 log=$build/$1.log dictionary=$words length=4096 spent=0 now code=0 process
   local artifacts=$build/artifacts/$1- seeds=("$here/seeds/$1")
   mkdir -p "$corpus"
   [ ! -d "$here/found/$target" ] || seeds+=("$here/found/$target")
@@ -58,19 +58,19 @@ fuzz() {
       length=1024
       ;;
   esac
-  while [ "$spent" -lt "$seconds" ]; do
-    code=0
-    (cd "$build/work" && TIMEFORMAT='cpu %U %S' && time nice "$build/tests/fuzz/fuzz-$target" -print_final_stats=1 \
-      -timeout="${PSCN_FUZZ_TIMEOUT:-100}" -rss_limit_mb=4000 -max_len=$length -len_control=20 -close_fd_mask=3 \
-      -max_total_time=$((seconds - spent)) -report_slow_units=20 -dict="$dictionary" -artifact_prefix="$artifacts" \
-      "$corpus" "${seeds[@]}") >"$log" 2>&1 || code=$?
-    spent=$((spent + $(sed -n 's/^cpu //p' "$log" | tr ' ' '\n' | awk '{ s += $1 } END { printf "%d", s + 1 }')))
-    runs=$((runs + $(last 'stat::number_of_executed_units:' "$log")))
-    [ "$(last 'stat::slowest_unit_time_sec:' "$log")" -le "$slowest" ] || slowest=$(last 'stat::slowest_unit_time_sec:' "$log")
-    [ "$code" = 0 ] || break
+  (cd "$build/work" && exec nice "$build/tests/fuzz/fuzz-$target" -print_final_stats=1 -max_len=$length -len_control=20 \
+    -timeout="${PSCN_FUZZ_TIMEOUT:-100}" -rss_limit_mb=4000 -close_fd_mask=3 -report_slow_units=20 -dict="$dictionary" \
+    -artifact_prefix="$artifacts" "$corpus" "${seeds[@]}") >"$log" 2>&1 &
+  process=$!
+  while now=$(ps -o cputimes= -p "$process"); do
+    spent=$((now))
+    [ "$spent" -lt "$seconds" ] || kill -USR1 "$process" 2>/dev/null # which it ends at, and tells what it did
+    sleep 2
   done
-  echo "$target: $spent CPU s, $runs executions, $(last 'cov:' "$log") edges, $(last 'ft:' "$log") features," \
-    "$(find "$corpus" -type f | wc -l) inputs kept, the slowest $slowest s"
+  wait "$process" || code=$?
+  echo "$target: $spent CPU s, $(last 'stat::number_of_executed_units:' "$log") executions, $(last 'cov:' "$log") edges," \
+    "$(last 'ft:' "$log") features, $(find "$corpus" -type f | wc -l) inputs kept," \
+    "the slowest $(last 'stat::slowest_unit_time_sec:' "$log") s"
   return "$code"
 }
 
