@@ -34,8 +34,8 @@ struct pscn_scene {
   struct intersector *intersector; /* NULL where the scene was not built */
 };
 
-/* Arithmetic as ours counts on: rounding to nearest, no flush to zero, no traps. Between calm_begin and calm_end. Where it
- * is so already, which x86-64 says in one register, no more is done than is worth it for a single ray. */
+/* Arithmetic as ours counts on: rounding to nearest, no flush to zero, no traps. Between calm_begin and calm_end.
+ * Where it is so already, which x86-64 says in one register, no more is done than is worth it for a single ray. */
 struct calm {
   fenv_t callers;
   unsigned control; /* the register */

@@ -7,14 +7,14 @@
  *     pscn_nearest(scene, 1, &ray, sizeof ray, &hit, sizeof hit);
  *     pscn_scene_free(scene);
  *
- * A scene is built once, from a file, from text or from control points, and never changes. Any number of threads may ask
- * it at once; what each is answered depends on nothing but the ray: not on the other rays of the call, their order or
- * their number, nor on what other threads do. To change a scene build another, and free the old one when nobody asks it
- * any more.
+ * A scene is built once, from a file, from text or from control points, and never changes. Any number of threads may
+ * ask it at once; what each is answered depends on nothing but the ray: not on the other rays of the call, their order
+ * or their number, nor on what other threads do. To change a scene build another, and free the old one when nobody
+ * asks it any more.
  *
- * Nothing is ever printed, no signal handled, no thread started, the process never ended. The locale means nothing. The
- * caller's rounding mode, flush-to-zero and floating-point traps mean nothing either, and are as before after each call.
- * Functions answer a status; what was wrong, and where, is kept with the scene until it is asked for.
+ * Nothing is ever printed, no signal handled, no thread started, the process never ended. The locale means nothing.
+ * The caller's rounding mode, flush-to-zero and floating-point traps mean nothing either, and are as before after each
+ * call. Functions answer a status; what was wrong, and where, is kept with the scene until it is asked for.
  *
  * What an answer promises: of all points where the ray meets the patches, as both are given in doubles, the hit is the
  * nearest with t_min < t < t_max, and a miss has none. `certain` is 1 where this is proven. It is 0, "grazing", where a
@@ -76,8 +76,8 @@ PSCN_API const char *pscn_status_text(enum pscn_status status);
 struct pscn_scene;
 
 /* Where a scene's memory comes from. `resize` is as realloc, and frees where `size` is 0; it is called by the threads
- * that build and free scenes and by those in pscn_all, never by pscn_nearest and pscn_occluded. It may answer NULL: what asked for memory then fails with
- * PSCN_LIMIT and nothing is lost. */
+ * that build and free scenes and by those in pscn_all, never by pscn_nearest and pscn_occluded. It may answer NULL:
+ * what asked for memory then fails with PSCN_LIMIT and nothing is lost. */
 struct pscn_memory {
   void *(*resize)(void *context, void *block, size_t size); /* NULL: realloc and free */
   void *context;
@@ -89,8 +89,8 @@ struct pscn_number {
   double value;
 };
 
-/* How a scene is built. PSCN_OPTIONS, or all zero but `size`, asks for the defaults; so does NULL instead. Messages call
- * some by the names that they have for the program: --solver, --max-memory. */
+/* How a scene is built. PSCN_OPTIONS, or all zero but `size`, asks for the defaults; so does NULL instead. Messages
+ * call some by the names that they have for the program: --solver, --max-memory. */
 struct pscn_options {
   size_t size;        /* sizeof(struct pscn_options) */
   const char *solver; /* what may follow `solver` in a scene, as "aberth { polish off }": instead of every solver
@@ -112,9 +112,9 @@ struct pscn_options {
     sizeof(struct pscn_options), NULL, 0, 0, NULL, NULL, 0, 0, 0, { NULL, NULL } \
   }
 
-/* Each builds a scene and writes it to *out, also where it fails: then it answers no rays but holds the messages, and is
- * to be freed as any other. It is NULL only where there was no memory even for that. Every function takes NULL for such a
- * scene. Nothing that is passed need stay.
+/* Each builds a scene and writes it to *out, also where it fails: then it answers no rays but holds the messages, and
+ * is to be freed as any other. It is NULL only where there was no memory even for that. Every function takes NULL for
+ * such a scene. Nothing that is passed need stay.
  *
  * The language of files and texts is docs/language.md's, a subset of POV-Ray's. `name` is what messages call the text;
  * what it includes is looked for in the folder that the name says. */
@@ -150,8 +150,8 @@ PSCN_API const char *pscn_scene_messages(const struct pscn_scene *scene);
 PSCN_API size_t pscn_message_count(const struct pscn_scene *scene);
 PSCN_API enum pscn_status pscn_message(const struct pscn_scene *scene, size_t number, struct pscn_message *out);
 
-/* Patches count from 0 as they stand in the text, objects expanded. pscn_patch writes the control net of one, transforms
- * applied; PSCN_USAGE where there is none of that number, and then zeros. */
+/* Patches count from 0 as they stand in the text, objects expanded. pscn_patch writes the control net of one,
+ * transforms applied; PSCN_USAGE where there is none of that number, and then zeros. */
 PSCN_API size_t pscn_patch_count(const struct pscn_scene *scene);
 PSCN_API enum pscn_status pscn_patch(const struct pscn_scene *scene, size_t number, double out[4][4][3]);
 
@@ -165,8 +165,9 @@ PSCN_API void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_came
 
 /* ---- rays ----
  *
- * `count` rays are read, ray k at rays + k ray_stride, and as many answers written, strides in bytes: a ray or an answer
- * may be a member of a structure of the caller's. A stride of 0 or below is fine where that makes sense. Neighbouring rays in any order are answered fastest where they are near each other.
+ * `count` rays are read, ray k at rays + k ray_stride, and as many answers written, strides in bytes: a ray or an
+ * answer may be a member of a structure of the caller's. A stride of 0 or below is fine where that makes sense. A call
+ * is fastest with many rays, those that lie near each other side by side, and takes up to 256 KB of stack.
  *
  * PSCN_OK; or PSCN_INPUT where some ray is not as it should be: that one has the verdict PSCN_NO_ANSWER, the others are
  * answered. PSCN_USAGE where the scene was not built, or a pointer is NULL: whatever can be written then has no answer.
@@ -181,8 +182,8 @@ enum pscn_verdict { PSCN_MISS = 0, PSCN_HIT = 1, PSCN_NO_ANSWER = 2 };
 
 #define PSCN_NO_PATCH UINT32_MAX
 
-/* Every member is written, whatever the verdict. Where it is no hit, t is infinite, patch is PSCN_NO_PATCH and all other
- * numbers are 0. */
+/* Every member is written, whatever the verdict. Where it is no hit, t is infinite, patch is PSCN_NO_PATCH and all
+ * other numbers are 0. */
 struct pscn_hit {
   double t;            /* in units of the direction's length */
   double u, v;         /* of the whole patch, in [0,1] */
@@ -205,10 +206,11 @@ PSCN_API enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t co
 PSCN_API enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                         ptrdiff_t ray_stride, uint8_t *verdicts, ptrdiff_t verdict_stride);
 
-/* How many hits a ray has. `certain`: it is proven that these are all, and that their order is right. A point of an edge
- * that patches share is one hit where the ray crosses the surface there, and so is a pole; a ray with t_max infinite
- * starts inside a closed surface where `count` is odd, outside where it is even. Grazing: what may be a hit is counted as
- * well, and its own `certain` is 0. The first of proven hits is pscn_nearest's, but for the last bit of the normal. */
+/* How many hits a ray has. `certain`: it is proven that these are all, and that their order is right. A point of an
+ * edge that patches share is one hit where the ray crosses the surface there, and so is a pole; a ray with t_max
+ * infinite starts inside a closed surface where `count` is odd, outside where it is even. Grazing: what may be a hit
+ * is counted as well, and its own `certain` is 0. The first of proven hits is pscn_nearest's, but for the last bit of
+ * the normal. */
 struct pscn_hits {
   size_t count;
   int32_t verdict; /* PSCN_HIT where count > 0 */
@@ -217,8 +219,8 @@ struct pscn_hits {
 
 /* All hits of each ray in order of t: how many, and the first `most` of them, those of ray k at hits + k row_stride,
  * one behind the other; what is left over of `most` is written as misses. `most` may be 0 and `hits` NULL where only
- * their number matters. This call takes memory while it lasts, by the scene's hooks, which several threads may then call
- * at once: where there is none, PSCN_LIMIT, and rays that are not answered have the verdict PSCN_NO_ANSWER. */
+ * their number matters. This call takes memory while it lasts, by the scene's hooks, which several threads may then
+ * call at once: where there is none, PSCN_LIMIT, and rays that are not answered have the verdict PSCN_NO_ANSWER. */
 PSCN_API enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                    ptrdiff_t ray_stride, struct pscn_hits *counts, ptrdiff_t counts_stride,
                                    struct pscn_hit *hits, ptrdiff_t row_stride, size_t most);

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "geometry/patch.h"
-#include "geometry/vector.h"
 #include "intersect/tracer.h"
 #include "library/library.h"
 
@@ -248,6 +247,8 @@ enum pscn_status pscn_all(const struct pscn_scene *scene, size_t count, const st
 
 void pscn_leave(const struct pscn_hit *hit, const double direction[3], double out_origin[3])
 {
-  const double side = vector_dot(hit->normal, direction) < 0 ? -hit->clearance : hit->clearance;
-  vector_add_scaled(hit->point, side, hit->normal, out_origin);
+  struct hit from = {.clearance = hit->clearance};
+  memcpy(from.point, hit->point, sizeof from.point);
+  memcpy(from.normal, hit->normal, sizeof from.normal);
+  hit_leave(&from, direction, out_origin);
 }

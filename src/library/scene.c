@@ -109,8 +109,8 @@ static enum pscn_status wrong(struct pscn_scene *scene, const char *text)
   return PSCN_USAGE;
 }
 
-/* The caller's options as this version knows them: shorter ones, of an older version, ask for nothing more; longer ones,
- * of a newer, must not. */
+/* The caller's options as this version knows them: shorter ones, of an older version, ask for nothing more; longer
+ * ones, of a newer, must not. */
 static bool take_options(const struct pscn_options *options, struct pscn_options *out)
 {
   *out = (struct pscn_options)PSCN_OPTIONS;

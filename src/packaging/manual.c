@@ -113,7 +113,7 @@ void write_manual(const struct command *command, FILE *file)
     snprintf(name, sizeof name, "pscn-%s", command->name);
     put_head(file, name, command->summary);
     fprintf(file, ".B pscn %s\n", command->name);
-    if (command->arguments[0] != '\0') fprintf(file, ".I %s\n", command->arguments);
+    if (command->arguments[0] != '\0') fprintf(file, ".I %s\\&\n", command->arguments);
     if (command->options[1].name != NULL) fputs("[\\fIOPTION\\fR...]\n", file);
     fputs(".SH DESCRIPTION\n", file);
     put_paragraphs(file, command->description);

@@ -1,5 +1,5 @@
-/* pscn.h: scenes are made of files, texts and points; what is wrong is kept, with its place; memory comes from the caller's
- * hooks and goes back there, also when there is not enough. */
+/* pscn.h: scenes are made of files, texts and points; what is wrong is kept, with its place; memory comes from the
+ * caller's hooks and goes back there, also when there is not enough. */
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
 #!/bin/bash
 # deb.sh BUILD: the package that cpack makes names what it needs, and what is in it works where it is unpacked: the program
-# renders with the module that came with it, from a folder that is not the build tree's, with nothing in the environment.
+# renders with the module that came with it, from a folder that is not the build tree's, with nothing in the environment
+# (but what the sanitizers want).
 set -euo pipefail
 for program in dpkg-deb dpkg-shlibdeps cpack; do
   command -v "$program" >/dev/null || { echo "skipped: $program is not installed" >&2; exit 77; }
@@ -18,7 +19,7 @@ done
 [ "$(env -i root/usr/bin/pscn --version)" = "pscn $(dpkg-deb -f pscn_*.deb Version)" ]
 
 cp "$PSCN_SOURCE_DIR/scenes/bent.pscn" .
-env -i LD_DEBUG=libs LD_DEBUG_OUTPUT=libs root/usr/bin/pscn render bent.pscn --size 40x30 -q
+env -i ${LSAN_OPTIONS:+"LSAN_OPTIONS=$LSAN_OPTIONS"} LD_DEBUG=libs LD_DEBUG_OUTPUT=libs root/usr/bin/pscn render bent.pscn --size 40x30 -q
 [ -s bent.png ] || { echo "there is no picture"; exit 1; }
 loaded=$(grep -ho 'calling init: .*pscn_openimageio.so' libs.*)
 [[ $loaded == *"$folder"/root/usr/* ]] || { echo "the module is another one: $loaded"; exit 1; }
