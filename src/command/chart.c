@@ -53,7 +53,7 @@ static enum status work(void *context, const char *folder, struct page *out_text
   return status;
 }
 
-static int run(const struct command *command, int argc, const char **argv)
+static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN},
                             .chart = {.program = "povray", .timeout = POVRAY_TIMEOUT},
@@ -70,7 +70,7 @@ static int run(const struct command *command, int argc, const char **argv)
     status = output_folder_fill(command, &request.folder, work, &request);
   }
   free(command_line);
-  return (int)status;
+  return status;
 }
 
 const struct command command_chart = {

@@ -68,7 +68,7 @@ static enum status take_option(const struct command *command, void *context, int
   if (val != OPTION_SIZE) return scene_request_take(command, &request->scene, val, argument);
   if (value_size(argument, MAX_SIDE, &check->width, &check->height) && check->height <= MAX_PIXELS / check->width)
     return STATUS_OK;
-  return (enum status)command_usage(command, "'%s' is no size WxH of at most %d pixels", argument, MAX_PIXELS);
+  return command_usage(command, "'%s' is no size WxH of at most %d pixels", argument, MAX_PIXELS);
 }
 
 /* ---- the work ---- */
@@ -106,7 +106,7 @@ static enum status work(void *context, const char *folder, struct page *out_text
   return status;
 }
 
-static int run(const struct command *command, int argc, const char **argv)
+static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {.scene = {.tolerance = NAN},
                             .check = {.width = DEFAULT_WIDTH,
@@ -133,7 +133,7 @@ static int run(const struct command *command, int argc, const char **argv)
   }
   free(command_line);
   free(request.options);
-  return (int)status;
+  return status;
 }
 
 const struct command command_check = {

@@ -32,7 +32,7 @@ const struct command *command_find(const char *name)
   return NULL;
 }
 
-int command_unknown(const char *name)
+enum status command_unknown(const char *name)
 {
   struct guess guess = guess_begin(name, strlen(name));
   for (const struct command *const *command = commands; *command != NULL; command++)
@@ -88,7 +88,7 @@ void command_error(const struct command *command, const char *format, ...)
   va_end(arguments);
 }
 
-int command_usage(const struct command *command, const char *format, ...)
+enum status command_usage(const struct command *command, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
@@ -198,16 +198,15 @@ static enum status store_option(const struct command *command, const struct comm
   case STORE_TRUE: *(bool *)field = true; return STATUS_OK;
   case STORE_NUMBER:
     if (value_number(argument, field)) return STATUS_OK;
-    return (enum status)command_usage(command, "'%s' is no number from 0 up, such as 0.01 or 4/255", argument);
+    return command_usage(command, "'%s' is no number from 0 up, such as 0.01 or 4/255", argument);
   case STORE_POSITIVE:
     if (!value_number(argument, &number) || number == 0)
-      return (enum status)command_usage(command, "'%s' is no %s", argument, option->what);
+      return command_usage(command, "'%s' is no %s", argument, option->what);
     *(double *)field = number;
     return STATUS_OK;
   case STORE_INTEGER:
     if (value_integer(argument, option->least, option->most, field)) return STATUS_OK;
-    return (enum status)command_usage(command, "'%s' is no %s from %zu to %zu", argument, option->what, option->least,
-                                      option->most);
+    return command_usage(command, "'%s' is no %s from %zu to %zu", argument, option->what, option->least, option->most);
   default: return handle(command, context, option->val, argument);
   }
 }
@@ -241,9 +240,9 @@ enum status command_line_read(const struct command *command, int argc, const cha
   while (optind < argc) /* behind "--" */
     argv[out->positional_count++] = argv[optind++];
   if (out->positional_count < count)
-    return (enum status)command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);
+    return command_usage(command, "an argument is missing: pscn %s %s", command->name, command->arguments);
   if (out->positional_count > count && strstr(command->arguments, "...") == NULL)
-    return (enum status)command_usage(command, "one argument too many: '%s'", out->positional[count]);
+    return command_usage(command, "one argument too many: '%s'", out->positional[count]);
   return STATUS_OK;
 }
 

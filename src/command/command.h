@@ -1,7 +1,7 @@
 /* Subcommands: what main.c and `pscn help` know of each, and what they share.
  *
- * Results go to stdout, everything else to stderr. A command's run function answers the exit code: enum status, or
- * interrupt_exit_code().
+ * Results go to stdout, everything else to stderr. What a command's run function answers is the exit code; of
+ * STATUS_INTERRUPTED main makes interrupt_exit_code().
  */
 #ifndef PSCN_COMMAND_COMMAND_H
 #define PSCN_COMMAND_COMMAND_H
@@ -36,7 +36,7 @@ struct command {
   const char *summary;                  /* one line */
   const char *description;              /* paragraphs for `pscn help NAME`, ending with a newline */
   const struct command_option *options; /* ended by COMMAND_OPTIONS_END */
-  int (*run)(const struct command *command, int argc, const char **argv); /* argv[0] is the command's name */
+  enum status (*run)(const struct command *command, int argc, const char **argv); /* argv[0] is the command's name */
 };
 
 extern const struct command command_render, command_trace, command_roots, command_dump, command_compare, command_merge,
@@ -50,17 +50,16 @@ extern const char command_exit_codes[];
 
 /* The command of that name, or NULL; then command_unknown tells so, and which may have been meant: STATUS_USAGE. */
 const struct command *command_find(const char *name);
-int command_unknown(const char *name);
+enum status command_unknown(const char *name);
 
 /* The help text of one command, and of all. */
 void command_print_help(const struct command *command, FILE *file);
 void command_print_overview(FILE *file);
 
 /* "pscn NAME: error: text" to stderr (without NAME where command is NULL), the form of all errors that no line of
- * an input has. command_usage adds where help is, and
- * answers STATUS_USAGE. */
+ * an input has. command_usage adds where help is, and answers STATUS_USAGE. */
 void command_error(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
-int command_usage(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
+enum status command_usage(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* A listener that tells on stderr: progress unless it is to be quiet, warnings and errors as "pscn NAME: ...". Stopped
  * by signals (interrupt.h). `ear` stays where it is. */

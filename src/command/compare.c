@@ -56,7 +56,7 @@ static enum status add_channel(const struct command *command, const struct reque
 {
   const char *const path[2] = {request->first, request->second};
   if (subject->channel_count == IMAGE_MAX_CHANNELS)
-    return (enum status)command_usage(command, "more than %d channels", IMAGE_MAX_CHANNELS);
+    return command_usage(command, "more than %d channels", IMAGE_MAX_CHANNELS);
   for (int k = 0; k < 2; k++) {
     const size_t index = image_find_channel(&subject->image[k], name);
     if (index == subject->image[k].channel_count) {
@@ -207,7 +207,7 @@ static enum status compare(const struct command *command, const struct request *
                                     .second_channel = subject.channel[1]};
   if (request->output != NULL) {
     if (format == IMAGE_PNG && pair.channel_count > 4) {
-      status = (enum status)command_usage(command, "a PNG holds at most 4 channels; choose some, or an .exr");
+      status = command_usage(command, "a PNG holds at most 4 channels; choose some, or an .exr");
       goto done;
     }
     status = image_create(pair.first->width, pair.first->height, pair.channel_count, &difference);
@@ -231,7 +231,7 @@ done:
   return status;
 }
 
-static int run(const struct command *command, int argc, const char **argv)
+static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {
     .scale = 1, .fail = {.each = DEFAULT_LIMIT, .any = INFINITY}, .warn = {.each = INFINITY, .any = INFINITY}};
@@ -242,7 +242,7 @@ static int run(const struct command *command, int argc, const char **argv)
     request.second = line.positional[1];
     status = compare(command, &request);
   }
-  return (int)status;
+  return status;
 }
 
 const struct command command_compare = {

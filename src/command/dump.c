@@ -16,7 +16,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_OPTIONS_END,
 };
 
-static int run(const struct command *command, int argc, const char **argv)
+static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct command_line line;
   struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN}};
@@ -31,7 +31,7 @@ static int run(const struct command *command, int argc, const char **argv)
     }
   }
   scene_destroy(scene);
-  return (int)status;
+  return status;
 }
 
 const struct command command_dump = {

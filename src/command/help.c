@@ -5,18 +5,18 @@
 
 static const struct command_option OPTIONS[] = {COMMAND_HELP_OPTION, COMMAND_OPTIONS_END};
 
-static int run(const struct command *command, int argc, const char **argv)
+static enum status run(const struct command *command, int argc, const char **argv)
 {
   if (argc > 2) return command_usage(NULL, "one argument too many: '%s'", argv[2]);
   if (argc < 2) {
     command_print_overview(stdout);
-    return (int)command_finish_output(command);
+    return command_finish_output(command);
   }
   const bool itself = strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0;
   const struct command *subject = itself ? command : command_find(argv[1]);
   if (subject == NULL) return command_unknown(argv[1]);
   command_print_help(subject, stdout);
-  return (int)command_finish_output(command);
+  return command_finish_output(command);
 }
 
 const struct command command_help = {

@@ -3,9 +3,9 @@
  *
  * A signal ends the process at once. Between interrupt_defer and interrupt_resume it only raises the flag, for whoever
  * has something to put away first, and watches it; the command then answers STATUS_INTERRUPTED, of which main makes
- * interrupt_exit_code(). So does a
- * reader that goes away: SIGPIPE, which otherwise keeps its default. A SIGHUP that is ignored when we start, as under nohup, stays ignored; SIGXFSZ is, so
- * that a file that may grow no further is an error of writing it.
+ * interrupt_exit_code(). So does a reader that goes away: SIGPIPE, which otherwise keeps its default. A SIGHUP that is
+ * ignored when we start, as under nohup, stays ignored; SIGXFSZ is, so that a file that may grow no further is an error
+ * of writing it.
  */
 #ifndef PSCN_COMMAND_INTERRUPT_H
 #define PSCN_COMMAND_INTERRUPT_H

@@ -45,9 +45,9 @@ int main(int argc, char **argv)
     command = &command_render;
     words = 0;
   }
-  if (command == NULL) return command_unknown(name);
+  if (command == NULL) return (int)command_unknown(name);
   if (!intersector_kernel_here())
-    return command_usage(NULL, "PSCN_KERNEL='%s' is no instruction set of this processor", getenv("PSCN_KERNEL"));
-  const int code = command->run(command, argc - words, (const char **)argv + words);
+    return (int)command_usage(NULL, "PSCN_KERNEL='%s' is no instruction set of this processor", getenv("PSCN_KERNEL"));
+  const int code = (int)command->run(command, argc - words, (const char **)argv + words);
   return code == STATUS_INTERRUPTED ? interrupt_exit_code() : code;
 }

@@ -52,7 +52,7 @@ static enum status take_option(const struct command *command, void *context, int
   struct request *request = context;
   (void)val;
   if (value_integer(argument, 8, 32, &request->bits)) return STATUS_OK;
-  return (enum status)command_usage(command, "'%s' bits are 8, 16 or 32", argument);
+  return command_usage(command, "'%s' bits are 8, 16 or 32", argument);
 }
 
 /* From here on the file counts for nothing. */
@@ -274,24 +274,24 @@ static enum status put_together(struct merge *merge)
 
 static enum status check(const struct command *command, struct request *request, const struct command_line *line)
 {
-  if (request->output == NULL) return (enum status)command_usage(command, "-o FILE says what the picture is called");
+  if (request->output == NULL) return command_usage(command, "-o FILE says what the picture is called");
   enum status status = output_format(command, request->output, &request->format);
   if (status != STATUS_OK) return status;
   if (request->bits == 0) request->bits = (size_t)image_format_default_bits(request->format);
   if (!image_format_has_bits(request->format, (int)request->bits))
-    return (enum status)command_usage(command, "'%s' cannot have %zu bits a value", request->output, request->bits);
+    return command_usage(command, "'%s' cannot have %zu bits a value", request->output, request->bits);
   for (size_t k = 0; k < line->positional_count && status == STATUS_OK; k++)
     status = output_spare(command, request->output, line->positional[k]);
   return status == STATUS_OK ? output_probe(command, request->output) : status;
 }
 
-static int run(const struct command *command, int argc, const char **argv)
+static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {.output = NULL};
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) status = check(command, &request, &line);
-  if (status != STATUS_OK || line.help) return (int)status;
+  if (status != STATUS_OK || line.help) return status;
   struct merge merge = {.command = command, .request = &request, .count = line.positional_count};
   merge.file = calloc(merge.count, sizeof *merge.file);
   if (merge.file == NULL) {
@@ -303,7 +303,7 @@ static int run(const struct command *command, int argc, const char **argv)
   for (size_t k = 0; k < merge.count; k++) piece_destroy(&merge.file[k].piece);
   piece_destroy(&merge.picture);
   free(merge.file);
-  return (int)status;
+  return status;
 }
 
 const struct command command_merge = {

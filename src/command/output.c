@@ -63,14 +63,14 @@ enum status output_format(const struct command *command, const char *path, enum 
   const char *base = base_of(path);
   char named[16];
   if (snprintf(named, sizeof named, "a%s", base) < (int)sizeof named && image_format_of(named, out))
-    return (enum status)command_usage(command, "'%s' is a suffix without a name before it", path);
-  return (enum status)command_usage(command, "'%s' ends neither in .png nor in .exr", path);
+    return command_usage(command, "'%s' is a suffix without a name before it", path);
+  return command_usage(command, "'%s' ends neither in .png nor in .exr", path);
 }
 
 enum status output_spare(const struct command *command, const char *path, const char *other)
 {
   if (path == NULL || other == NULL || !(strcmp(path, other) == 0 || input_same(path, other))) return STATUS_OK;
-  return (enum status)command_usage(command, "'%s' and '%s' are one file and must be two", path, other);
+  return command_usage(command, "'%s' and '%s' are one file and must be two", path, other);
 }
 
 char *output_name(const char *scene, const char *suffix)

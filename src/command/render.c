@@ -74,10 +74,10 @@ static enum status take_channels(const struct command *command, struct request *
   for (int k = 0; k < CHANNEL_KINDS; k++) {
     names[k] = channel_traits((enum channel_kind)k)->name;
     if (strlen(names[k]) == length && memcmp(names[k], bad, length) == 0)
-      return (enum status)command_usage(command, "channel '%s' is named twice", names[k]);
+      return command_usage(command, "channel '%s' is named twice", names[k]);
   }
   words_list(names, CHANNEL_KINDS, known, sizeof known);
-  return (enum status)command_usage(command, "there is no channel '%.*s', only %s", (int)length, bad, known);
+  return command_usage(command, "there is no channel '%.*s', only %s", (int)length, bad, known);
 }
 
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
@@ -86,16 +86,16 @@ static enum status take_option(const struct command *command, void *context, int
   switch (val) {
   case OPTION_CROP:
     if (!value_rectangle(argument, &request->options.crop))
-      return (enum status)command_usage(command, "'%s' is no crop X,Y,W,H in pixels", argument);
+      return command_usage(command, "'%s' is no crop X,Y,W,H in pixels", argument);
     break;
   case OPTION_CHANNELS: return take_channels(command, request, argument);
   case OPTION_BITS:
     if (!value_integer(argument, 8, 32, &request->bits))
-      return (enum status)command_usage(command, "'%s' bits are 8, 16 or 32", argument);
+      return command_usage(command, "'%s' bits are 8, 16 or 32", argument);
     break;
   case OPTION_TILE:
     if (!piece_number(argument, strlen(argument), &request->piece, &request->pieces))
-      return (enum status)command_usage(command, "'%s' is no piece K/N, such as 3/16", argument);
+      return command_usage(command, "'%s' is no piece K/N, such as 3/16", argument);
     break;
   default: return scene_request_take(command, &request->scene, val, argument);
   }
@@ -106,12 +106,10 @@ static enum status take_option(const struct command *command, void *context, int
 static enum status check_piece(const struct command *command, struct request *request)
 {
   if (request->pieces == 0) return STATUS_OK;
-  if (request->bits != 0)
-    return (enum status)command_usage(command, "a piece has 32 bits a value; pscn merge takes --bits");
+  if (request->bits != 0) return command_usage(command, "a piece has 32 bits a value; pscn merge takes --bits");
   request->bits = 32;
   if (request->format == IMAGE_EXR || output_is_standard(request->output)) return STATUS_OK;
-  return (enum status)command_usage(command,
-                                    "a piece is an EXR: -o FILE.exr; pscn merge makes pictures of all formats");
+  return command_usage(command, "a piece is an EXR: -o FILE.exr; pscn merge makes pictures of all formats");
 }
 
 static enum status check_format(const struct command *command, struct request *request)
@@ -124,10 +122,10 @@ static enum status check_format(const struct command *command, struct request *r
   if (check_piece(command, request) != STATUS_OK) return STATUS_USAGE;
   if (request->bits == 0) request->bits = (size_t)image_format_default_bits(request->format);
   if (!image_format_has_bits(request->format, (int)request->bits))
-    return (enum status)command_usage(command, "'%s' cannot have %zu bits a value: %s", request->output, request->bits,
-                                      request->format == IMAGE_PNG ? "a PNG has 8 or 16" : "an EXR has 16 or 32");
+    return command_usage(command, "'%s' cannot have %zu bits a value: %s", request->output, request->bits,
+                         request->format == IMAGE_PNG ? "a PNG has 8 or 16" : "an EXR has 16 or 32");
   if (request->format == IMAGE_PNG && !plain)
-    return (enum status)command_usage(command, "a PNG holds the channel rgb only; other channels need an .exr");
+    return command_usage(command, "a PNG holds the channel rgb only; other channels need an .exr");
   return STATUS_OK;
 }
 
@@ -137,11 +135,11 @@ static enum status check_crop(const struct command *command, struct render_optio
   struct rectangle *crop = &options->crop;
   if (crop->width == 0) *crop = (struct rectangle){.width = options->width, .height = options->height};
   if (crop->x + crop->width > options->width || crop->y + crop->height > options->height)
-    return (enum status)command_usage(command, "the crop %zu,%zu,%zu,%zu is not inside the picture of %zux%zu pixels",
-                                      crop->x, crop->y, crop->width, crop->height, options->width, options->height);
+    return command_usage(command, "the crop %zu,%zu,%zu,%zu is not inside the picture of %zux%zu pixels", crop->x,
+                         crop->y, crop->width, crop->height, options->width, options->height);
   if (crop->height > MAX_PIXELS / crop->width)
-    return (enum status)command_usage(command, "%zux%zu pixels are more than the %d that a picture may have",
-                                      crop->width, crop->height, MAX_PIXELS);
+    return command_usage(command, "%zux%zu pixels are more than the %d that a picture may have", crop->width,
+                         crop->height, MAX_PIXELS);
   return STATUS_OK;
 }
 
@@ -177,9 +175,9 @@ static enum status check(const struct command *command, struct request *request)
 {
   if (complete(command, request) != STATUS_OK) return STATUS_LIMIT;
   if (request->part == NULL && request->resume)
-    return (enum status)command_usage(command, "--resume wants a picture that is a file");
+    return command_usage(command, "--resume wants a picture that is a file");
   if (output_is_standard(request->output) && isatty(STDOUT_FILENO) == 1)
-    return (enum status)command_usage(command, "a picture is not written to a terminal; -o FILE says where to");
+    return command_usage(command, "a picture is not written to a terminal; -o FILE says where to");
   enum status status = check_format(command, request);
   if (status == STATUS_OK) status = check_crop(command, &request->options);
   if (status != STATUS_OK) return status;
@@ -407,7 +405,7 @@ static enum status render(const struct command *command, struct request *request
   return status;
 }
 
-static int run(const struct command *command, int argc, const char **argv)
+static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN},
                             .options = {.samples = 1,
@@ -433,7 +431,7 @@ static int run(const struct command *command, int argc, const char **argv)
   free(request.default_output);
   free(request.part);
   free(request.scene_options);
-  return (int)status;
+  return status;
 }
 
 const struct command command_render = {

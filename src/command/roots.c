@@ -58,7 +58,7 @@ static enum status take_option(const struct command *command, void *context, int
       return STATUS_OK;
     }
   }
-  return (enum status)command_usage(command, "'%s' is no format, only plain, table or json", argument);
+  return command_usage(command, "'%s' is no format, only plain, table or json", argument);
 }
 
 struct session {
@@ -335,7 +335,7 @@ static enum status roots(const struct command *command, const struct request *re
   struct session session = {.format = request->format};
   const struct stream_reader reader = {.take = take, .context = &session};
   if (request->iterates && request->format != FORMAT_PLAIN)
-    return (enum status)command_usage(command, "--iterates has a format of its own");
+    return command_usage(command, "--iterates has a format of its own");
   enum status status = output_spare(command, request->stats, "/dev/stdin");
   if (status == STATUS_OK) status = output_probe(command, request->stats);
   if (status == STATUS_OK) status = choose_solver(command, request, &session.method);
@@ -349,7 +349,7 @@ static enum status roots(const struct command *command, const struct request *re
   return status == STATUS_OK && session.doubtful > 0 ? STATUS_DIFFERENT : status;
 }
 
-static int run(const struct command *command, int argc, const char **argv)
+static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {.scene.tolerance = NAN};
   struct command_line line;
@@ -359,7 +359,7 @@ static int run(const struct command *command, int argc, const char **argv)
     (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     status = roots(command, &request);
   }
-  return (int)status;
+  return status;
 }
 
 const struct command command_roots = {

@@ -33,11 +33,11 @@ static enum status take_number(const struct command *command, struct scene_reque
   size_t used = 0;
   if (argument[length] == '\0' || number_read(value, strlen(value), &number.value, &used) != NUMBER_FINITE ||
       value[used] != '\0')
-    return (enum status)command_usage(command, "'%s' is no NAME=NUMBER", argument);
+    return command_usage(command, "'%s' is no NAME=NUMBER", argument);
   if (!language_is_name(argument, length))
-    return (enum status)command_usage(command, "'%.*s' is no name that can be declared", (int)length, argument);
+    return command_usage(command, "'%.*s' is no name that can be declared", (int)length, argument);
   if (request->number_count == SCENE_MOST_NUMBERS)
-    return (enum status)command_usage(command, "more than %d numbers are declared", SCENE_MOST_NUMBERS);
+    return command_usage(command, "more than %d numbers are declared", SCENE_MOST_NUMBERS);
   request->numbers[request->number_count++] = number;
   return STATUS_OK;
 }
@@ -48,17 +48,17 @@ enum status scene_request_take(const struct command *command, void *scene_reques
   switch (val) {
   case OPTION_SIZE:
     if (!value_size(argument, MAX_SIDE, &request->width, &request->height))
-      return (enum status)command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
+      return command_usage(command, "'%s' is no size WxH of 1 to %d pixels each", argument, MAX_SIDE);
     break;
   case OPTION_DECLARE: return take_number(command, request, argument);
   case OPTION_INCLUDE:
     if (request->folder_count == SCENE_MOST_FOLDERS)
-      return (enum status)command_usage(command, "more than %d folders are named", SCENE_MOST_FOLDERS);
+      return command_usage(command, "more than %d folders are named", SCENE_MOST_FOLDERS);
     request->folders[request->folder_count++] = argument;
     break;
   default:
     if (!value_bytes(argument, &request->max_memory))
-      return (enum status)command_usage(command, "'%s' is no size of memory, such as 500M or 2G", argument);
+      return command_usage(command, "'%s' is no size of memory, such as 500M or 2G", argument);
     break;
   }
   return STATUS_OK;

@@ -213,11 +213,11 @@ static enum status trace(const struct command *command, struct request *request)
   struct session session = {.request = request};
   struct seconds start = seconds_now();
   if (request->explain && request->all)
-    return (enum status)command_usage(command, "a story is the nearest hit's: --explain and --all do not go together");
+    return command_usage(command, "a story is the nearest hit's: --explain and --all do not go together");
   if (request->explain && request->binary)
-    return (enum status)command_usage(command, "a story is text: --explain and --binary do not go together");
+    return command_usage(command, "a story is text: --explain and --binary do not go together");
   if (output_is_standard(request->scene.path))
-    return (enum status)command_usage(command, "the rays come from standard input, the scene from a file");
+    return command_usage(command, "the rays come from standard input, the scene from a file");
   enum status status = scene_file_spare(command, &request->scene, NULL, request->stats);
   if (status == STATUS_OK) status = output_spare(command, request->stats, "/dev/stdin");
   if (status == STATUS_OK) status = output_probe(command, request->stats);
@@ -251,7 +251,7 @@ done:
   return status;
 }
 
-static int run(const struct command *command, int argc, const char **argv)
+static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN}};
   struct command_line line;
@@ -262,7 +262,7 @@ static int run(const struct command *command, int argc, const char **argv)
     request.scene.path = line.positional[0];
     status = trace(command, &request);
   }
-  return (int)status;
+  return status;
 }
 
 const struct command command_trace = {
