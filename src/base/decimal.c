@@ -13,36 +13,16 @@ enum {
   MAX_DIGITS = 17
 };
 
-static const uint64_t POWERS_OF_FIVE[STORED_POWERS] = {
-  1u,
-  5u,
-  25u,
-  125u,
-  625u,
-  3125u,
-  15625u,
-  78125u,
-  390625u,
-  1953125u,
-  9765625u,
-  48828125u,
-  244140625u,
-  1220703125u,
-  6103515625u,
-  30517578125u,
-  152587890625u,
-  762939453125u,
-  3814697265625u,
-  19073486328125u,
-  95367431640625u,
-  476837158203125u,
-  2384185791015625u,
-  11920928955078125u,
-  59604644775390625u,
-  298023223876953125u,
-  1490116119384765625u,
-  7450580596923828125u,
-};
+/* A power of 5 and the three behind it. */
+#define FOUR_POWERS(power) power, 5 * power, 25 * power, 125 * power
+
+static const uint64_t POWERS_OF_FIVE[STORED_POWERS] = {FOUR_POWERS(UINT64_C(1)),
+                                                       FOUR_POWERS(UINT64_C(625)),
+                                                       FOUR_POWERS(UINT64_C(390625)),
+                                                       FOUR_POWERS(UINT64_C(244140625)),
+                                                       FOUR_POWERS(UINT64_C(152587890625)),
+                                                       FOUR_POWERS(UINT64_C(95367431640625)),
+                                                       FOUR_POWERS(UINT64_C(59604644775390625))};
 
 /* 10^n for n <= 19. */
 static uint64_t power_of_ten(int n) { return POWERS_OF_FIVE[n] << n; }
