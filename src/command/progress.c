@@ -6,6 +6,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "base/clock.h"
+
 /* Seconds between two tellings. */
 static const double TERMINAL_PERIOD = 0.2;
 static const double LINE_PERIOD = 5;
@@ -63,6 +65,19 @@ void progress_tell(void *context, const struct render_progress *progress)
   char line[LINE_SIZE];
   const int length = snprintf(line, sizeof line, "%.0f %%, %s, %s left", 100 * done, rate, left);
   if (state->terminal) tell_terminal(line, (size_t)length, done);
+  else fprintf(stderr, "%s\n", line);
+}
+
+void progress_write(void *context, double part)
+{
+  struct progress *state = context;
+  const double now = clock_seconds(CLOCK_MONOTONIC);
+  char line[LINE_SIZE];
+  if (state->began == 0) state->began = now;
+  if (now - state->began - state->told < (state->terminal ? TERMINAL_PERIOD : LINE_PERIOD)) return;
+  state->told = now - state->began;
+  const int length = snprintf(line, sizeof line, "%.0f %% of the file", 100 * part);
+  if (state->terminal) tell_terminal(line, (size_t)length, part);
   else fprintf(stderr, "%s\n", line);
 }
 

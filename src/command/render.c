@@ -338,21 +338,27 @@ static enum status make_picture(struct run *run, struct image_loading *loading)
   return status;
 }
 
-static enum status encode(const struct run *run, unsigned char **out_bytes, size_t *out_size, char *message)
+static enum status encode(struct run *run, unsigned char **out_bytes, size_t *out_size, char *message)
 {
   const struct request *request = run->request;
   struct report_metadata metadata;
   report_metadata_fill(run->report, &metadata);
+  if (request->pieces != 0)
+    return piece_encode(&run->piece, metadata.attribute, metadata.count, out_bytes, out_size, message);
+  run->progress = progress_start();
   const struct image_encoding encoding = {.format = request->format,
                                           .bits = (int)request->bits,
                                           .attributes = metadata.attribute,
-                                          .attribute_count = metadata.count};
-  if (request->pieces == 0) return image_encode(&run->piece.image, &encoding, out_bytes, out_size, message);
-  return piece_encode(&run->piece, metadata.attribute, metadata.count, out_bytes, out_size, message);
+                                          .attribute_count = metadata.count,
+                                          .progress = request->scene.quiet ? NULL : progress_write,
+                                          .context = &run->progress};
+  const enum status status = image_encode(&run->piece.image, &encoding, out_bytes, out_size, message);
+  progress_end(&run->progress);
+  return status;
 }
 
 /* The picture, and the statistics where they are asked for; what was kept of it on the way goes. */
-static enum status write_results(const struct run *run)
+static enum status write_results(struct run *run)
 {
   const struct command *command = run->command;
   const struct request *request = run->request;

@@ -38,6 +38,9 @@ struct image_encoding {
   bool encoded; /* the values are display codes already: PNG takes them without the sRGB curve */
   const struct image_attribute *attributes;
   size_t attribute_count;
+  /* Told now and then, with its context, which part is encoded; NULL: nobody asks. */
+  void (*progress)(void *context, double part);
+  void *context;
 };
 
 /* Whether picture files can be read and written at all, to be asked before long work: OpenImageIO is loaded when it is

@@ -7,6 +7,7 @@ extern "C" {
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -65,12 +66,11 @@ template <typename Value> void put(unsigned char *&at, Value value)
   at += sizeof value;
 }
 
-/* The pixels in the file's own types, packed. */
-Bytes native_pixels(const image &picture, const image_encoding &encoding)
+/* Rows of pixels in the file's own types, packed. */
+Bytes native_rows(const image &picture, const image_encoding &encoding, const srgb_table &table, std::size_t row,
+                  std::size_t rows)
 {
-  const std::size_t pixels = picture.width * picture.height, values = pixels * picture.channel_count;
-  srgb_table table;
-  srgb_table_fill(&table);
+  const std::size_t pixels = picture.width * rows, begin = row * picture.width * picture.channel_count;
   std::vector<OIIO::TypeDesc> types;
   std::size_t size = 0; /* of a pixel */
   for (std::size_t c = 0; c < picture.channel_count; c++) {
@@ -79,8 +79,8 @@ Bytes native_pixels(const image &picture, const image_encoding &encoding)
   }
   Bytes bytes(pixels * size);
   unsigned char *at = bytes.data();
-  for (std::size_t k = 0; k < values; k++) {
-    const float value = picture.value[k];
+  for (std::size_t k = 0; k < pixels * picture.channel_count; k++) {
+    const float value = picture.value[begin + k];
     switch (types[k % picture.channel_count].basetype) {
     case OIIO::TypeDesc::UINT8: put(at, encoding.encoded ? code8(value) : srgb_encode8(&table, value)); break;
     case OIIO::TypeDesc::UINT16: put(at, encoding.encoded ? code16(value) : srgb_encode16(value)); break;
@@ -96,11 +96,29 @@ Bytes native_pixels(const image &picture, const image_encoding &encoding)
   return bytes;
 }
 
+/* Writes all rows, some at a time: what they are turned into takes little memory, and how far it is can be told. */
+bool write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const image &picture,
+                const image_encoding &encoding)
+{
+  const std::size_t most = 64; /* whole blocks of every way to pack an EXR */
+  const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeDesc();
+  srgb_table table;
+  srgb_table_fill(&table);
+  for (std::size_t row = 0; row < picture.height; row += most) {
+    const std::size_t rows = std::min(most, picture.height - row);
+    const Bytes pixels = native_rows(picture, encoding, table, row, rows);
+    const int y = spec.y + static_cast<int>(row);
+    if (!output.write_scanlines(y, y + static_cast<int>(rows), 0, type, pixels.data())) return false;
+    if (encoding.progress != nullptr)
+      encoding.progress(encoding.context, static_cast<double>(row + rows) / static_cast<double>(picture.height));
+  }
+  return true;
+}
+
 /* Encodes into `file`; an empty string or what went wrong. */
 std::string encode(const image &picture, const image_encoding &encoding, Bytes &file)
 {
   OIIO::ImageSpec spec = make_spec(picture, encoding);
-  const Bytes pixels = native_pixels(picture, encoding);
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(SUFFIXES[encoding.format] + 1);
   if (!output) return "OpenImageIO: " + OIIO::geterror();
   if (!output->supports("ioproxy")) return "this OpenImageIO can not write the format to memory";
@@ -108,8 +126,7 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
   if (!output->set_ioproxy(&proxy)) return "OpenImageIO: " + output->geterror();
   /* The name decides nothing but the format: the proxy takes the bytes. */
   if (!output->open(std::string("memory") + SUFFIXES[encoding.format], spec) ||
-      !output->write_image(spec.channelformats.empty() ? spec.format : OIIO::TypeDesc(), pixels.data()) ||
-      !output->close())
+      !write_rows(*output, spec, picture, encoding) || !output->close())
     return "OpenImageIO: " + output->geterror();
   if (file.empty()) return "OpenImageIO wrote nothing";
   return "";

@@ -378,6 +378,26 @@ static void make_picture(void)
   if (access(picture, F_OK) != 0) assert_int_equal(run(render), STATUS_OK);
 }
 
+/* The pieces of a picture: none is changed, and the picture is there or not. */
+static void test_merge(void **state)
+{
+  (void)state;
+  char piece[2][80];
+  for (int k = 0; k < 2; k++) {
+    const char *const numbers[] = {"1/2", "2/2"};
+    snprintf(piece[k], sizeof piece[k], "%s/piece%d.exr", folder, k);
+    const char *const render[] = {
+      "render", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--size", "70x40", "--quiet", "--tile", numbers[k], "-o", piece[k],
+      NULL};
+    assert_int_equal(run(render), STATUS_OK);
+  }
+  const char *const merge[] = {"merge", piece[1], piece[0], "--quiet", "-o", output, NULL};
+  assert_true(fail_each(merge, ALLOCATE, FILES, NULL) > LEAST);
+  assert_true(fail_each(merge, WRITE, FILES, "old") > 0);
+  assert_true(fail_each(merge, FSYNC, FILES, "old") > 0);
+  for (int k = 0; k < 2; k++) remove(piece[k]);
+}
+
 /* Room for OpenImageIO is asked for before it is loaded, which is once. */
 static void test_first_picture(void **state)
 {
@@ -481,9 +501,9 @@ int main(int argc, char **argv)
   feed("");
   make_povray();
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_first_picture), cmocka_unit_test(test_render),         cmocka_unit_test(test_render_threads),
-    cmocka_unit_test(test_others),        cmocka_unit_test(test_standard_input), cmocka_unit_test(test_compare),
-    cmocka_unit_test(test_check),         cmocka_unit_test(test_chart),
+    cmocka_unit_test(test_first_picture), cmocka_unit_test(test_render), cmocka_unit_test(test_render_threads),
+    cmocka_unit_test(test_merge),         cmocka_unit_test(test_others), cmocka_unit_test(test_standard_input),
+    cmocka_unit_test(test_compare),       cmocka_unit_test(test_check),  cmocka_unit_test(test_chart),
   };
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   remove(input), remove(output), remove(errors), remove(answers), remove(stats), remove(povray), remove(picture);

@@ -125,6 +125,31 @@ static void exr_keeps_values_and_names(void **state)
   image_destroy(&image);
 }
 
+static void note_progress(void *context, double part)
+{
+  double *last = context;
+  assert_true(part > *last && part <= 1);
+  *last = part;
+}
+
+/* How far the file is, to its end; rows that are written apart are the picture. */
+static void encoding_is_told(void **state)
+{
+  (void)state;
+  enum { TALL = 1000 };
+  struct image image;
+  double last = 0;
+  assert_int_equal(image_create(3, TALL, 3, &image), STATUS_OK);
+  for (size_t c = 0; c < 3; c++) snprintf(image.channel[c].name, IMAGE_NAME_SIZE, "%c", "RGB"[c]);
+  for (size_t k = 0; k < 9 * TALL; k++) image.value[k] = (float)k;
+  const struct image_encoding encoding = {.format = IMAGE_EXR, .bits = 32, .progress = note_progress, .context = &last};
+  struct image back = there_and_back(&image, &encoding);
+  assert_true(last == 1);
+  assert_memory_equal(back.value, image.value, 9 * TALL * sizeof *image.value);
+  image_destroy(&back);
+  image_destroy(&image);
+}
+
 /* A crop knows where it stands, in either packing; its texts come back, others do not. */
 static void exr_keeps_its_window_and_texts(void **state)
 {
@@ -212,10 +237,15 @@ static void absurd_sizes_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    WITH_FILE(png_holds_the_nearest_codes),      WITH_FILE(encoded_values_take_no_curve),
-    WITH_FILE(exr_keeps_values_and_names),       WITH_FILE(exr_keeps_its_window_and_texts),
-    cmocka_unit_test(png_refuses_five_channels), WITH_FILE(unreadable_files_are_told),
-    cmocka_unit_test(suffixes_choose_formats),   cmocka_unit_test(absurd_sizes_are_refused),
+    WITH_FILE(png_holds_the_nearest_codes),
+    WITH_FILE(encoded_values_take_no_curve),
+    WITH_FILE(exr_keeps_values_and_names),
+    WITH_FILE(exr_keeps_its_window_and_texts),
+    WITH_FILE(encoding_is_told),
+    cmocka_unit_test(png_refuses_five_channels),
+    WITH_FILE(unreadable_files_are_told),
+    cmocka_unit_test(suffixes_choose_formats),
+    cmocka_unit_test(absurd_sizes_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
