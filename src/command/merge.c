@@ -237,7 +237,10 @@ static enum status write_picture(const struct merge *merge)
   report_date(date);
   snprintf(seconds, sizeof seconds, "%.3f", merge->seconds);
   lines = strdup(merge->first->piece.image.metadata);
-  if (lines == NULL) return STATUS_LIMIT;
+  if (lines == NULL) {
+    command_error(merge->command, "out of memory");
+    return STATUS_LIMIT;
+  }
   const struct image_encoding encoding = {.format = request->format,
                                           .bits = (int)request->bits,
                                           .attributes = texts,

@@ -1,12 +1,11 @@
 /* Parts of a picture. */
 #include "command/piece.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "command/values.h"
+#include "check/page.h"
 
 /* What two parts of a picture have in common, and what a message calls it. */
 static const struct {
@@ -185,21 +184,19 @@ bool piece_copy(const struct piece *from, struct image *to)
 
 char *piece_done_text(const struct tile_list *tiles)
 {
-  char *text = NULL;
-  size_t size;
-  FILE *memory = open_memstream(&text, &size);
-  if (memory == NULL) return NULL;
+  struct page text = {0};
   const char *comma = "";
   for (size_t k = 0; k < tiles->count; k++) {
     const size_t first = k;
     while (k < tiles->count && atomic_load(&tiles->done[k])) k++;
     if (k == first) continue;
-    fprintf(memory, "%s%zu", comma, first);
-    if (k - 1 > first) fprintf(memory, "-%zu", k - 1);
+    page_format(&text, "%s%zu", comma, first);
+    if (k - 1 > first) page_format(&text, "-%zu", k - 1);
     comma = ",";
   }
-  if (fclose(memory) == 0) return text;
-  free(text);
+  page_bytes(&text, "", 1); /* so that there is a text */
+  if (!text.failed) return text.text;
+  page_free(&text);
   return NULL;
 }
 

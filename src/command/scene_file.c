@@ -119,20 +119,19 @@ enum status scene_file_load(const struct command *command, const struct scene_re
 
 char *scene_request_text(const struct scene_request *request)
 {
-  char *text = NULL, number[NUMBER_TEXT_SIZE];
-  size_t size;
-  FILE *memory = open_memstream(&text, &size);
-  if (memory == NULL) return NULL;
-  if (request->solver_text != NULL) fprintf(memory, " --solver '%s'", request->solver_text);
+  struct page text = {0};
+  char number[NUMBER_TEXT_SIZE];
+  if (request->solver_text != NULL) page_format(&text, " --solver '%s'", request->solver_text);
   number_write(request->tolerance, number);
-  if (!isnan(request->tolerance)) fprintf(memory, " --tolerance %s", number);
+  if (!isnan(request->tolerance)) page_format(&text, " --tolerance %s", number);
   for (size_t k = 0; k < request->number_count; k++) {
     const struct language_number *given = &request->numbers[k];
     number_write(given->value, number);
-    fprintf(memory, " --declare %.*s=%s", (int)given->name_length, given->name, number);
+    page_format(&text, " --declare %.*s=%s", (int)given->name_length, given->name, number);
   }
-  if (fclose(memory) == 0) return text;
-  free(text);
+  page_bytes(&text, "", 1); /* so that there is a text */
+  if (!text.failed) return text.text;
+  page_free(&text);
   return NULL;
 }
 
