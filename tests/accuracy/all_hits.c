@@ -33,7 +33,7 @@ enum { FORMS = sizeof forms / sizeof forms[0] };
 struct truth {
   uint32_t patch;
   double t, u, v, floor;
-  bool border, met; /* on a border to the last bit of a double; a hit has been found for it */
+  bool border, met; /* on a border; a hit has been found for it */
 };
 
 struct truths {
@@ -50,6 +50,12 @@ struct count {
   size_t rays, answers[2][FINDINGS]; /* certain, grazing */
   size_t roots, sure;                /* sure: grazing though the judge has no doubt, nor any root on a border */
 };
+
+/* Of a root's parameter, the nearest double to it. What 113 bits cannot tell from a border is a hit on it, of the first of
+ * the patches that share it, though it may be in the other one. */
+#define AT_BORDER 0x1p-90
+
+static bool on_border(double parameter) { return parameter <= AT_BORDER || parameter >= 1; }
 
 /* A root on a line where the judge has halved a box is found in both halves: its parameters are the nearest doubles. */
 static bool known(const struct truths *truths, uint32_t patch, const struct exact_root *r)
@@ -71,24 +77,26 @@ static void find_truths(const struct trial *trial, const struct ray *ray, struct
       const struct exact_root *r = &roots.root[k];
       out->doubt |= !r->proven;
       if (!r->proven || out->count == MOST_ROOTS || known(out, (uint32_t)n, r)) continue;
-      const bool border = r->u <= 0 || r->u >= 1 || r->v <= 0 || r->v >= 1;
+      const bool border = on_border(r->u) || on_border(r->v);
       const double floor = trial_floor(trial->reference, ray, (uint32_t)n, r->t_off, r->u, r->v).t;
       out->root[out->count++] = (struct truth){(uint32_t)n, r->t_off, r->u, r->v, floor, border, false};
     }
   }
 }
 
-/* The root that a hit is: of its patch, not met yet, the nearest. NULL where none is near enough. */
+/* The root that a hit is: of its patch, or on a border as it is, not met yet, the nearest. NULL where none is near
+ * enough. */
 static struct truth *root_of(struct truths *truths, const struct hit *hit)
 {
   struct truth *best = NULL;
   double least = INFINITY;
+  const bool border = on_border(hit->u) || on_border(hit->v);
   for (size_t k = 0; k < truths->count; k++) {
     struct truth *r = &truths->root[k];
     const double off = fabs(r->t - hit->t) / r->floor;
-    if (r->met || r->patch != hit->patch || !(off <= SAME_FLOORS)) continue;
+    if (r->met || !(off <= SAME_FLOORS) || (r->patch != hit->patch && !(border && r->border))) continue;
     /* Of two that t cannot tell apart the one whose parameters are nearer. */
-    const double aside = fmax(fabs(r->u - hit->u), fabs(r->v - hit->v));
+    const double aside = r->patch != hit->patch ? 1 : fmax(fabs(r->u - hit->u), fabs(r->v - hit->v));
     if (aside < least) best = r, least = aside;
   }
   return best;
