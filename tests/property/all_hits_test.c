@@ -251,6 +251,66 @@ static void test_stack(void **state)
   free(nets);
 }
 
+static struct hit_list list_of(struct world *world, const struct ray *ray)
+{
+  struct hit_list list;
+  assert_int_equal(tracer_all(world->tracer, 1, ray, &list), STATUS_OK);
+  return list;
+}
+
+/* What only touches a surface is not counted for certain: a bowl touched at its bottom, a sheet met along a line, a start
+ * on a surface. Beside them it is. */
+static void test_touching(void **state)
+{
+  (void)state;
+  static const double square[4] = {3, -1, -1, 3}; /* 3 x^2 on [-1,1] */
+  world_net nets[2];
+  for (int n = 0; n < 16; n++)
+    for (int p = 0; p < 2; p++) {
+      nets[p][n / 4][n % 4][0] = 2 * (n / 4) - 3, nets[p][n / 4][n % 4][1] = 2 * (n % 4) - 3;
+      nets[p][n / 4][n % 4][2] = p ? 16 : square[n / 4] + square[n % 4];
+    }
+  struct world world;
+  world_open(&world, nets, 2, NULL);
+  static const struct ray touching[] = {{{-8, 0, 0}, {1, 0, 0}, 0, INFINITY},
+                                        {{-8, -8, 0}, {1, 1, 0}, 0, INFINITY},
+                                        {{-8, 0.5, 16}, {1, 0, 0}, 0, INFINITY},
+                                        {{0.5, 0.25, 16}, {0, 0, 1}, 0, INFINITY},
+                                        {{0.5, 0.25, 8}, {0, 0, 1}, 0, 8}};
+  for (size_t n = 0; n < sizeof touching / sizeof touching[0]; n++)
+    assert_int_equal(list_of(&world, &touching[n]).certainty, CERTAINTY_GRAZING);
+  for (int n = 1; n < 60; n++) {
+    const struct ray above = {{-8, 0, ldexp(1, -n)}, {1, 0, 0}, 0, INFINITY},
+                     below = {{-8, 0, -ldexp(1, -n)}, {1, 0, 0}, 0, INFINITY};
+    const struct hit_list list = list_of(&world, &above);
+    assert_true(list.certainty == CERTAINTY_CERTAIN && list.count == 2 && list.hits[0].t < list.hits[1].t);
+    assert_true(list_of(&world, &below).certainty == CERTAINTY_CERTAIN && list_of(&world, &below).count == 0);
+  }
+  world_close(&world);
+}
+
+/* Six patches that go twice round a point: a ray through it meets two sheets there, which is not one hit. A ray beside it
+ * has two. */
+static void test_twice_round(void **state)
+{
+  (void)state;
+  static const double way[3][2] = {{18, 0}, {-9, 18}, {-9, -18}};
+  world_net nets[6];
+  for (int p = 0; p < 6; p++)
+    for (int n = 0; n < 16; n++) { /* (i a_p + j a_(p+1))/3, a_p being the p-th of six ways, each of its own height */
+      const int i = n / 4, j = n % 4, q = (p + 1) % 6;
+      for (int k = 0; k < 2; k++) nets[p][i][j][k] = (i * way[p % 3][k] + j * way[q % 3][k]) / 3;
+      nets[p][i][j][2] = i * p + j * q;
+    }
+  struct world world;
+  world_open(&world, nets, 6, NULL);
+  const struct ray through = {{0, 0, -4}, {0, 0, 1}, 0, INFINITY}, beside = {{0.5, 0.25, -4}, {0, 0, 1}, 0, INFINITY};
+  assert_int_equal(list_of(&world, &through).certainty, CERTAINTY_GRAZING);
+  const struct hit_list list = list_of(&world, &beside);
+  assert_true(list.certainty == CERTAINTY_CERTAIN && list.count == 2);
+  world_close(&world);
+}
+
 int main(void)
 {
   print_message("seed %d\n", SEED);
@@ -260,6 +320,8 @@ int main(void)
     cmocka_unit_test(lists_do_not_depend_on_companions),
     cmocka_unit_test(kernels_agree),
     cmocka_unit_test(test_stack),
+    cmocka_unit_test(test_touching),
+    cmocka_unit_test(test_twice_round),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
