@@ -65,7 +65,8 @@ bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, st
   if (!(vector_dot(way, hit->normal) > 0)) return false;
   hit_leave(hit, way, out->origin);
   vector_subtract(light->position, out->origin, out->direction);
-  if (vector_length(out->direction) == 0) /* a light at the very point we moved to */
+  const double *d = out->direction;
+  if (d[0] == 0 && d[1] == 0 && d[2] == 0) /* a light at the very point we moved to */
     memcpy(out->direction, way, sizeof way);
   out->t_min = 0;
   out->t_max = SHADOW_END;

@@ -32,8 +32,11 @@ static size_t gather(const struct tile_job *job, const struct rectangle *kept, s
   size_t count = 0;
   for (size_t k = 0; k < PACKET_SIZE; k++) {
     const size_t x = x0 + k % PACKET_WIDTH, y = y0 + k / PACKET_WIDTH;
-    if (x < job->width && y < job->height && (job->every_pixel || inside(kept, x, y)))
-      out[count++] = (struct pixel){.x = x, .y = y, .hit.patch = HIT_NONE};
+    if (!(x < job->width && y < job->height && (job->every_pixel || inside(kept, x, y)))) continue;
+    /* Of the rest, a hundred bytes, only what is asked for is written. */
+    struct pixel *pixel = &out[count++];
+    pixel->x = x, pixel->y = y, pixel->hits = 0, pixel->hit.patch = HIT_NONE;
+    pixel->rgb[0] = pixel->rgb[1] = pixel->rgb[2] = 0;
   }
   return count;
 }
@@ -56,7 +59,8 @@ static void sample(const struct tile_job *job, struct tracer *tracer, struct tra
                    size_t count, struct pixel pixels[])
 {
   const double n = (double)job->samples;
-  const bool middle = i == job->samples / 2 && j == job->samples / 2;
+  const bool plain = job->channels.count == 1 && job->channels.kind[0] == CHANNEL_RGB; /* asks for no sample's hit */
+  const bool middle = !plain && i == job->samples / 2 && j == job->samples / 2;
   struct ray rays[PACKET_SIZE];
   struct hit hits[PACKET_SIZE];
   double rgb[PACKET_SIZE][3];
