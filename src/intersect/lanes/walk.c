@@ -72,6 +72,11 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
   lanes low[3][2], high[3][2], along[3][2];
   for (int h = 0; h < 2; h++) {
     const struct packet *p = &b->packet[h];
+    if (p->count == 0) { /* the second of few rays: as the first */
+      for (int k = 0; k < 3; k++) low[k][1] = low[k][0], high[k][1] = high[k][0], along[k][1] = along[k][0];
+      b->view.unit[1] = b->view.unit[0], b->view.start[1] = b->view.start[0];
+      break;
+    }
     const lanes shrink = 1 / p->longest;
     lanes from[3], slack[3], direction[3], farthest = {0};
     for (int k = 0; k < 3; k++) {
@@ -238,7 +243,8 @@ static void packet_begin(struct packet *p, struct ready *ready, struct tracer *t
     ready->copied = lanes_any(~((p->longest >= DIRECTION_MIN) & (p->longest <= DIRECTION_MAX)));
     if (!ready->copied) return;
   }
-  for (size_t l = 0; l < LANES; l++) ready->copy[l] = ray_scaled(&rays[l < count ? l : 0], &ready->exponent[l]);
+  for (size_t l = 0; l < count; l++) ready->copy[l] = ray_scaled(&rays[l], &ready->exponent[l]);
+  for (size_t l = count; l < LANES; l++) ready->copy[l] = ready->copy[0];
   packet_start(p, tracer, ready->copy, count, any, postponed);
 }
 
@@ -247,7 +253,8 @@ static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer 
 {
   for (size_t h = 0, first = 0; h < 2; h++, first += LANES) {
     const size_t left = count > first ? count - first : 0, n = left < LANES ? left : LANES;
-    packet_begin(&b->packet[h], &ready[h], tracer, n, n > 0 ? rays + first : rays, any);
+    if (n > 0) packet_begin(&b->packet[h], &ready[h], tracer, n, rays + first, any);
+    else packet_start(&b->packet[h], tracer, b->packet[0].rays, 0, any, &ready[h].postponed);
   }
   bundle_start(b, &tracer->model->tree);
 }
