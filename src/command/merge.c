@@ -3,12 +3,12 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "base/version.h"
 #include "command/command.h"
 #include "command/output.h"
 #include "command/piece.h"
 #include "command/report.h"
 #include "command/values.h"
+#include "library/pscn.h"
 
 struct request {
   const char *output;
