@@ -147,7 +147,7 @@ static enum status answer(void *context)
 }
 
 /* Makes a ray of six finite numbers; false where the direction is zero. The direction has a power of two taken out, so
- * that its length neither overflows nor underflows. */
+ * that its length neither overflows nor underflows, and no t is larger than a distance. */
 static bool make_ray(const double value[RAY_VALUES], struct ray *out)
 {
   const double largest = fmax(fmax(fabs(value[3]), fabs(value[4])), fabs(value[5]));
@@ -156,7 +156,7 @@ static bool make_ray(const double value[RAY_VALUES], struct ray *out)
   (void)frexp(largest, &exponent);
   for (int k = 0; k < 3; k++) {
     out->origin[k] = value[k];
-    out->direction[k] = ldexp(value[k + 3], -exponent);
+    out->direction[k] = ldexp(value[k + 3], 1 - exponent);
   }
   out->t_min = 0;
   out->t_max = INFINITY;

@@ -1,9 +1,11 @@
 /* A ray in the frame of one patch. */
 #include "intersect/local_ray.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/double_double.h"
+#include "base/real.h"
 
 /* (q_i d_k - q_k d_i)/d_k */
 static double moment(struct double_double qi, struct double_double qk, double di, double dk)
@@ -12,22 +14,34 @@ static double moment(struct double_double qi, struct double_double qk, double di
   return (s.hi + (s.lo + (p.lo - r.lo) + (qi.lo * dk - qk.lo * di))) / dk;
 }
 
+/* The largest power of two at most 1 by which a number of size `largest` over `scale` can be had. */
+static double unit_for(double largest, double scale)
+{
+  int exponent, scale_exponent;
+  frexp(largest, &exponent);
+  frexp(scale, &scale_exponent);
+  const int excess = exponent - scale_exponent + 2 - DBL_MAX_EXP;
+  return excess > 0 ? ldexp(1, -excess) : 1;
+}
+
 void local_ray_make(const struct model_patch *patch, const struct ray *ray, struct local_ray *out)
 {
   const double *d = ray->direction;
   const int k = dominant_axis(d), i = (k + 1) % 3, j = (k + 2) % 3;
-  const double inverse = 1 / patch->scale;
   struct double_double q[3];
+  double largest = 0, size = 0;
   for (int c = 0; c < 3; c++) {
     q[c] = dd_two_sum(ray->origin[c], -patch->center[c]);
-    q[c].hi *= inverse, q[c].lo *= inverse;
+    largest = real_max(largest, fabs(q[c].hi));
   }
-  out->axis = k;
+  const double unit = unit_for(largest, patch->scale), inverse = unit / patch->scale;
+  for (int c = 0; c < 3; c++) q[c].hi *= inverse, q[c].lo *= inverse, size += fabs(q[c].hi);
+  out->axis = k, out->unit = unit;
   out->slope[0] = d[i] / d[k], out->slope[1] = d[j] / d[k];
-  out->moment[0] = moment(q[i], q[k], d[i], d[k]), out->moment[1] = moment(q[j], q[k], d[j], d[k]);
+  out->moment[0] = moment(q[i], q[k], d[i], d[k]) / unit, out->moment[1] = moment(q[j], q[k], d[j], d[k]) / unit;
   out->start[0] = -q[k].hi, out->start[1] = -q[k].lo;
-  out->to_t = patch->scale / d[k];
-  out->error = PLANE_ERROR(fabs(out->moment[0]), fabs(out->moment[1]));
+  out->to_t = patch->scale / d[k] / unit;
+  out->error = PLANE_ERROR(fabs(out->moment[0]), fabs(out->moment[1])) + MOMENT_ERROR(size) / unit;
 }
 
 void local_ray_nets(const struct local_ray *ray, const double x[3][16], double a[16], double b[16], double w[16])

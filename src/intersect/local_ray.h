@@ -4,8 +4,8 @@
  * ray is the line where two planes meet (paper eq 2), chosen so that their normals are exactly perpendicular to d:
  *   x_i - (d_i/d_k) x_k = m[0],   x_j - (d_j/d_k) x_k = m[1].
  * The moments m are formed in double-double from the untouched origin, so that they are right to a few units in the
- * last place of their own size, however far away the ray starts. In local coordinates that size is about 1 for a ray
- * that passes the patch. The place along the ray is read off x_k.
+ * last place of their own size, about 1 for a ray that passes the patch, where the ray starts no farther away than some
+ * 2^50 patches; beyond that the error grows, and says so. The place along the ray is read off x_k.
  */
 #ifndef PSCN_INTERSECT_LOCAL_RAY_H
 #define PSCN_INTERSECT_LOCAL_RAY_H
@@ -17,8 +17,9 @@ struct local_ray {
   int axis;         /* k; i = k + 1, j = k + 2 modulo 3 */
   double slope[2];  /* d_i/d_k, d_j/d_k, rounded; at most 1 in size */
   double moment[2]; /* m */
-  double start[2];  /* (center_k - origin_k)/scale as a double-double */
-  double to_t;      /* scale/d_k: t = (x_k + start) to_t */
+  double unit;      /* 1, or the power of two that keeps a start beyond the range of double in it */
+  double start[2];  /* unit (center_k - origin_k)/scale as a double-double */
+  double to_t;      /* scale/d_k/unit: t = (unit x_k + start) to_t */
   double error;     /* bound on the error of a coefficient or a value (inside [0,1]^2) of either plane's polynomial */
 };
 
@@ -26,6 +27,11 @@ struct local_ray {
  * |x| <= 1: net 8 (see model.c), slope 2 (packet.c multiplies by the reciprocal), moment 4|m|, the two operations
  * 2 + |m|, and for the value ten products and sums on coefficients of at most 2 + |m|. */
 #define PLANE_ERROR(m0, m1) (UNIT_ROUNDOFF * (36 + 16 * ((m0) + (m1))))
+
+/* What double-double leaves unknown of a moment where the origin's coordinates, in the frame of the patch, sum up to q:
+ * of q_i d_k and q_k d_i, exact products of their leading parts, the sum of the rests takes roundings of at most 8
+ * UNIT_ROUNDOFF^2 of the two products. */
+#define MOMENT_ERROR(q) (8 * UNIT_ROUNDOFF * UNIT_ROUNDOFF * (q))
 
 /* The axis along which d is longest. */
 static inline int dominant_axis(const double d[3])
@@ -35,6 +41,12 @@ static inline int dominant_axis(const double d[3])
 }
 
 void local_ray_make(const struct model_patch *patch, const struct ray *ray, struct local_ray *out);
+
+/* Where along the ray x_k is w. */
+static inline double local_ray_place(const struct local_ray *ray, double w)
+{
+  return ((ray->unit * w + ray->start[1]) + ray->start[0]) * ray->to_t;
+}
 
 /* The plane polynomials' nets a, b and the net w of x_k for a local net x. */
 void local_ray_nets(const struct local_ray *ray, const double x[3][16], double a[16], double b[16], double w[16]);

@@ -1,5 +1,5 @@
-/* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver and
- * the ray; judged by the exact judge. Every file is a scene that pscn and POV-Ray read. */
+/* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver, the
+ * ray, and `certain: yes` where the answer must be that too; judged by the exact judge. Every file is a scene that pscn and POV-Ray read. */
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -39,8 +39,8 @@ static void header(const char *path, const char *key, char out[LINE_SIZE])
 
 static bool judged_good(const char *path)
 {
-  char solver[LINE_SIZE], text[LINE_SIZE];
-  header(path, "solver", solver), header(path, "ray", text);
+  char solver[LINE_SIZE], text[LINE_SIZE], certain[LINE_SIZE];
+  header(path, "solver", solver), header(path, "ray", text), header(path, "certain", certain);
   struct ray ray = {.t_min = 0, .t_max = INFINITY};
   double *o = ray.origin, *d = ray.direction;
   assert_int_equal(sscanf(text, "%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]), 6);
@@ -57,7 +57,7 @@ static bool judged_good(const char *path)
   certifier_create(&certifier, scene, trial.reference);
   tracer_closest(trial.tracer, 1, &ray, &hit);
   certify(&certifier, &ray, &hit, &certificate);
-  const bool good = certificate.finding <= FINDING_UNDECIDED;
+  const bool good = certificate.finding <= FINDING_UNDECIDED && (!certain[0] || hit.certainty == CERTAINTY_CERTAIN);
   if (!good)
     printf("%s: %s, %s\n", strrchr(path, '/') + 1, hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing",
            finding_names[certificate.finding]);

@@ -6,6 +6,7 @@
 
 #include "accuracy/exact.h"
 #include "accuracy/trial.h"
+#include "base/wide.h"
 #include "cmocka_test.h"
 
 /* How near to its patch a grazing hit must be, relative to the largest coordinate: TRIAL_NEAR for each of three, and
@@ -20,6 +21,10 @@
 
 /* How far U and V of a certain hit may be off, in floors. */
 #define PLACE_FLOORS 16
+
+/* How far from the ray, as a line, the place of a certain hit may be, in roundings of the patch's extent: those of U and V
+ * move it by no more than 3 each. */
+#define LINE_ROUNDINGS 16
 
 /* However ill-conditioned a certain hit is, T is right to this share. */
 #define MOST_ALLOWED 0x1p-10
@@ -207,13 +212,42 @@ static bool place_good(const struct judging *j)
          !(fabs(hit->v - j->at.v) > PLACE_FLOORS * (floor.v + DOUBLE_UNIT));
 }
 
+/* The largest coordinate of (S(U,V) - origin) x direction/|direction|: how far the hit's place is from the ray, as a line. */
+static double off_line(const struct judging *j)
+{
+  const struct hit *hit = j->hit;
+  const double *o = j->ray->origin, *d = j->ray->direction;
+  double(*P)[4][3] = j->certifier->scene->patches[hit->patch].P;
+  const wide u = hit->u, v = hit->v,
+             bu[4] = {(1 - u) * (1 - u) * (1 - u), 3 * u * (1 - u) * (1 - u), 3 * u * u * (1 - u), u * u * u},
+             bv[4] = {(1 - v) * (1 - v) * (1 - v), 3 * v * (1 - v) * (1 - v), 3 * v * v * (1 - v), v * v * v};
+  wide at[3] = {0};
+  for (int axis = 0; axis < 3; axis++)
+    for (int k = 0; k < 16; k++) at[axis] += bu[k / 4] * bv[k % 4] * P[k / 4][k % 4][axis];
+  double most = 0, longest = fmax(fmax(fabs(d[0]), fabs(d[1])), fabs(d[2]));
+  for (int i = 0, k = 1; i < 3; i++, k = (i + 1) % 3) {
+    const wide line = (wide)o[i] * d[k] - (wide)o[k] * d[i]; /* of exact products: a far start loses nothing */
+    most = fmax(most, fabs((double)((at[i] * d[k] - at[k] * d[i] - line) / longest)));
+  }
+  return most;
+}
+
+/* Whether a certain hit's place is on the ray, but for what the rounding of U and V moves it. */
+static bool line_good(const struct judging *j)
+{
+  const double(*box)[3] = (const double(*)[3])j->certifier->boxes[j->hit->patch];
+  double extent = 0;
+  for (int axis = 0; axis < 3; axis++) extent = fmax(extent, box[1][axis] - box[0][axis]);
+  return j->hit->certainty == CERTAINTY_GRAZING || off_line(j) <= LINE_ROUNDINGS * DOUBLE_UNIT * extent;
+}
+
 /* What a hit says of the surface, but for its place on the ray. */
 static bool surface_good(const struct judging *j)
 {
   const struct hit *hit = j->hit;
   const double *n = hit->normal;
   if (!(hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1)) return false;
-  if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max) || !place_good(j)) return false;
+  if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max) || !place_good(j) || !line_good(j)) return false;
   if (!(facts_distance(reference_net(j->certifier->reference, hit->patch), hit->point, hit->u, hit->v) <=
         hit->point_error))
     return false;

@@ -6,6 +6,7 @@
 
 #include "accuracy/generate.h"
 #include "accuracy/models.h"
+#include "base/wide.h"
 
 enum { RAYS = SITUATION_RAYS };
 
@@ -434,6 +435,28 @@ static void far_origins(struct random *random, size_t index, struct situation *s
   }
 }
 
+/* A ray in any direction whose start is so far away, next to the patch's size, that neither start nor direction could be
+ * moved by a rounding without missing: the patch is put where the ray happens to pass. The other rays mostly miss. */
+static void far_oblique(struct random *random, size_t index, struct situation *s)
+{
+  const double far = ldexp(random_between(random, 1, 2), (int)(44 + index % 36));
+  double at[3], d[3];
+  s->count = 1;
+  gentle(random, choose(random, 2) ? 1 : 20, s->P[0]);
+  const double u = choose(random, 2) ? random_unit(random) : 1 - random_decade(random, 4, 18);
+  net_point((const double(*)[4][3])s->P[0], u, random_unit(random), at);
+  for (int n = 0; n < RAYS; n++) {
+    random_vector(random, 1, d);
+    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
+    for (int axis = 0; axis < 3; axis++) s->rays[n].direction[axis] = d[axis], s->rays[n].origin[axis] = -far * d[axis];
+  }
+  const struct ray *ray = &s->rays[0];
+  for (int axis = 0; axis < 3; axis++) {
+    const wide shift = (wide)ray->origin[axis] + (wide)far * ray->direction[axis] - at[axis];
+    for (int k = 0; k < 16; k++) s->P[0][k / 4][k % 4][axis] += (double)shift;
+  }
+}
+
 /* The faces of a cube, bent or not, and rays in their planes and through their edges. */
 static void cubes(struct random *random, size_t index, struct situation *s)
 {
@@ -493,6 +516,7 @@ static const struct situation_class classes[] = {
   {"uneven sizes", 718, 0.5, uneven_sizes},
   {"sizes beyond all digits", 714, 0.5, wild_sizes},
   {"far origins", 715, 1, far_origins},
+  {"far origins, oblique", 719, 0.5, far_oblique},
   {"cubes from within their planes", 716, 0.1, cubes},
   {"coincident patches", 717, 0.5, coincident},
 };

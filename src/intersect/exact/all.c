@@ -180,7 +180,7 @@ static void sort(struct exact_list *list)
   if (list->count > 1) qsort(list->at, list->count, sizeof *list->at, by_t);
 }
 
-/* Whether a, which comes before b by t as it is known, is to stay before it. Of two patches' roots that cannot be told
+/* Whether a, which comes before b by t as it is known, is to stay before it. Of two roots that cannot be told
  * apart both are made sharp, as they are where the nearest of them is asked for. */
 static bool in_order(struct judge *j, struct exact_found *a, struct exact_found *b)
 {
@@ -190,8 +190,9 @@ static bool in_order(struct judge *j, struct exact_found *a, struct exact_found 
     j->doubt = true;
     return by_t(a, b) <= 0;
   }
-  if (one.patch != two.patch) a->root = one, b->root = two;
+  a->root = one, b->root = two;
   if (!judge_tie(&one, &two)) return one.t < two.t;
+  j->doubt |= !judge_tie_fine(j, &one, &two);
   if (one.patch != two.patch) return one.patch < two.patch;
   return one.u != two.u ? one.u < two.u : one.v <= two.v;
 }

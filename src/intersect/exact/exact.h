@@ -4,7 +4,7 @@
  * processor. Pure; safe on any thread; uses some hundred KB of stack.
  *
  * The lanes take a root only where double precision leaves no question: it is proven, strictly inside its patch,
- * strictly within the ray's range, not next to another patch's. Whatever they leave open comes here as a list of
+ * strictly within the ray's range, not next to another one. Whatever they leave open comes here as a list of
  * regions (leaves, or parts of a patch cut for a copy), which are searched in the order in which the ray meets them,
  * so that the answer depends neither on neighbours nor on the order in which the lanes came by. Roots are looked at in
  * wide arithmetic wherever double cannot tell on which side of something they lie.

@@ -86,10 +86,35 @@ bool judge_sharpen(struct judge *j, struct exact_root *root)
   return zoom_sharpen(judge_zoom(j), root);
 }
 
+/* Two roots whose t is known to so many errors of wide arithmetic are not ill-conditioned: the ray meets the surface at
+ * a slant no worse than about that. A choice of words: what is worse is called grazing. */
+#define TIE_ERRORS 256
+
 bool judge_tie(const struct exact_root *a, const struct exact_root *b)
 {
   const wide apart = a->t < b->t ? b->t - a->t : a->t - b->t;
   return apart <= a->t_error + b->t_error;
+}
+
+bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct exact_root *b)
+{
+  judge_turn(j, a->patch);
+  const struct zoom *zoom = judge_zoom(j);
+  const double well = TIE_ERRORS * (double)(zoom->error * (zoom->to_t < 0 ? -zoom->to_t : zoom->to_t));
+  return a->t_error + b->t_error <= UNIT_ROUNDOFF * fabs((double)a->t) + well;
+}
+
+static bool same_root(const struct exact_root *a, const struct exact_root *b)
+{
+  return a->patch == b->patch && fabs((double)(a->u - b->u)) <= a->radius_u + b->radius_u &&
+         fabs((double)(a->v - b->v)) <= a->radius_v + b->radius_v;
+}
+
+/* Of two roots that nothing tells apart on the ray: by patch, and by place where a patch meets itself. */
+static bool stands_before(const struct exact_root *a, const struct exact_root *b)
+{
+  if (a->patch != b->patch) return a->patch < b->patch;
+  return a->u != b->u ? a->u < b->u : a->v < b->v;
 }
 
 /* ---- what is found ---- */
@@ -109,22 +134,25 @@ static bool list_root(struct judge *j, const struct exact_root *root, enum exact
   return exact_list_add(j->list, &found);
 }
 
-/* A root inside: the nearest, or of those that cannot be told apart that of the first patch. */
+/* A root inside: the nearest, or of those that cannot be told apart the first. */
 static void keep_root(struct judge *j, struct exact_root *root)
 {
   if (j->all) {
     (void)list_root(j, root, EXACT_INSIDE, 0); /* or the list has failed */
     return;
   }
-  if (j->found && judge_tie(root, &j->nearest) && root->patch != j->nearest.patch) {
+  if (j->found && same_root(root, &j->nearest)) return;
+  bool tied = false;
+  if (j->found && judge_tie(root, &j->nearest)) {
     struct exact_root other = j->nearest;
-    const bool sharp = judge_sharpen(j, root) && judge_sharpen(j, &other);
+    const bool sharp = judge_sharpen(j, root) && judge_sharpen(j, &other), tie = judge_tie(root, &other);
     if (sharp) j->nearest = other;
-    if (judge_tie(root, &other) ? root->patch > other.patch : root->t > other.t) return;
+    tied = j->tied |= tie && !judge_tie_fine(j, root, &other);
+    if (tie ? stands_before(&other, root) : root->t > other.t) return;
   } else if (j->found && !(root->t < j->nearest.t)) {
     return;
   }
-  j->nearest = *root, j->found = true;
+  j->nearest = *root, j->found = true, j->tied = tied;
   set_limit(j);
 }
 
@@ -154,8 +182,8 @@ static void tell_maybe(struct judge *j, unsigned borders, const struct exact_roo
   const double w = patch_evaluate(patch->x[j->local.axis], u, v).value;
   double t = (double)root->t;
   if (!root->sharp) {
-    t = ((w + j->local.start[1]) + j->local.start[0]) * j->local.to_t;
-    t_error += 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.to_t));
+    t = local_ray_place(&j->local, w);
+    t_error += 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.unit * j->local.to_t));
   }
   const struct exact_maybe maybe = {j->patch, borders, u, v, t, t_error};
   keep_maybe(j, &maybe);
@@ -251,7 +279,8 @@ bool judge_pole(struct judge *j, int border)
                                     v,
                                     (double)t,
                                     16 * UNIT_ROUNDOFF * fabs((double)t) +
-                                      (double)(ZOOM_POLE_REACH * judge_zoom(j)->error) * fabs(j->local.to_t)};
+                                      (double)(ZOOM_POLE_REACH * judge_zoom(j)->error) *
+                                        fabs(j->local.unit * j->local.to_t)};
   keep_maybe(j, &maybe);
   return false;
 }
@@ -494,7 +523,7 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
   if (j.doubtful && !(j.found && j.nearest.t <= j.maybe.t)) {
     *out = (struct exact_decision){.verdict = EXACT_MAYBE, .maybe = j.maybe};
   } else if (j.found) {
-    out->verdict = EXACT_ROOT, out->root = j.nearest;
+    out->verdict = EXACT_ROOT, out->root = j.nearest, out->sure &= !j.tied;
     if (j.doubtful) out->sure &= j.maybe.t - j.maybe.t_error > j.nearest.t + j.nearest.t_error;
   }
 }

@@ -20,6 +20,7 @@ struct judge {
   struct exact_root nearest; /* of the certain roots inside patches, where `found` */
   struct exact_maybe maybe;  /* the nearest, where `doubtful` */
   bool found, doubtful;
+  bool tied;    /* `nearest` may be behind another one: see judge_tie_fine */
   bool doubt;   /* something could not be told from the ray's start, and was left out; of all hits, any doubt */
   double limit; /* nothing beyond this t matters */
   int work;     /* boxes that may still be looked at */
@@ -38,6 +39,10 @@ bool judge_sharpen(struct judge *j, struct exact_root *root);
 
 /* Whether the two cannot be told apart by t. */
 bool judge_tie(const struct exact_root *a, const struct exact_root *b);
+
+/* Of two such roots, made as sharp as they get: whether it is no matter, t being the same to a rounding, or to what wide
+ * arithmetic leaves of roots that are not ill-conditioned. Turns to the patch of a. */
+bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct exact_root *b);
 
 /* Whether the two roots, each on one border of its patch, are on the same border, and the patches lie on either side of
  * it as the ray sees them: then it crosses the surface there. */

@@ -50,15 +50,21 @@ struct search {
   wide low[2], size[2]; /* of the whole box, in parameters of the patch */
   bool dependent;       /* some combination is zero, which it then is everywhere: there is nothing to see of it */
   bool met;             /* the pole there may be met: nothing is said of what is next to it */
-  double start[2], to_t; /* t = ((w + start[1]) + start[0]) to_t */
-  double error[2];       /* bounds on the errors of coefficients of the first two nets before any halving */
-  double depth_error;    /* of w, x_k */
-  double extent[2];      /* bounds on the derivatives by the whole box's parameters */
-  double resolution;     /* of t */
-  bool pole[4];          /* borders of the whole box (geometry/edges.h) that are one point */
+  double unit, start[2], to_t; /* t = ((unit w + start[1]) + start[0]) to_t: see local_ray.h */
+  double error[2];             /* bounds on the errors of coefficients of the first two nets before any halving */
+  double depth_error;          /* of w */
+  double extent[2];            /* bounds on the derivatives by the whole box's parameters */
+  double resolution;           /* of t */
+  bool pole[4];                /* borders of the whole box (geometry/edges.h) that are one point */
 };
 
-static double depth_to_t(const struct search *s, double w) { return ((w + s->start[1]) + s->start[0]) * s->to_t; }
+static double depth_to_t(const struct search *s, double w)
+{
+  return ((s->unit * w + s->start[1]) + s->start[0]) * s->to_t;
+}
+
+/* What dw on x_k is on the ray. */
+static double length_to_t(const struct search *s, double dw) { return fabs(s->to_t) * (s->unit * dw); }
 
 /* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the
  * whole box's size. */
@@ -73,7 +79,7 @@ static void box_reach(const struct search *s, struct box *box)
   for (int n = 1; n < 16; n++)
     lo = real_min(lo, box->net[2][n / 4][n % 4]), hi = real_max(hi, box->net[2][n / 4][n % 4]);
   const double p = depth_to_t(s, lo), q = depth_to_t(s, hi);
-  const double slack = fabs(s->to_t) * s->depth_error + 8 * UNIT_ROUNDOFF * real_max(fabs(p), fabs(q));
+  const double slack = length_to_t(s, s->depth_error) + 8 * UNIT_ROUNDOFF * real_max(fabs(p), fabs(q));
   box->near = real_min(p, q) - slack, box->far = real_max(p, q) + slack;
 }
 
@@ -83,16 +89,16 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
   const struct patch_jet w = patch_evaluate(box->net[2], at[0], at[1]);
   double bend[3];
   box_bends(box->net[2], bend);
-  const double t = depth_to_t(s, w.value), sum = radius[0] + radius[1], to_t = fabs(s->to_t);
+  const double t = depth_to_t(s, w.value), sum = radius[0] + radius[1];
   const double off = fabs(w.du) * radius[0] + fabs(w.dv) * radius[1] +
                      BOX_MARGIN_GROWTH * (bend[0] + 2 * bend[1] + bend[2]) * sum * sum;
   struct exact_root root = {.t = t};
-  root.t_error = to_t * (off + s->depth_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + to_t * fabs(w.value));
+  root.t_error = length_to_t(s, off + s->depth_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + length_to_t(s, fabs(w.value)));
   if (s->depth > 0) {
     root.u = s->low[0] + s->size[0] * ((wide)box->u + (wide)box->size_u * at[0]);
     root.v = s->low[1] + s->size[1] * ((wide)box->v + (wide)box->size_v * at[1]);
     root.t = zoom_t(judge_zoom(s->judge), root.u, root.v);
-    root.t_error = to_t * (off + (double)judge_zoom(s->judge)->error);
+    root.t_error = length_to_t(s, off + (double)judge_zoom(s->judge)->error);
   } else {
     root.u = (double)s->low[0] + (double)s->size[0] * (box->u + box->size_u * at[0]);
     root.v = (double)s->low[1] + (double)s->size[1] * (box->v + box->size_v * at[1]);
@@ -162,8 +168,12 @@ static void search_run(struct search *s, const struct box *whole);
 /* The search of the box alone. */
 static struct search closer_search(const struct search *s, const struct box *box)
 {
-  struct search closer = {
-    .judge = s->judge, .depth = s->depth + 1, .divided = NO_BORDER, .to_t = s->to_t, .resolution = s->resolution};
+  struct search closer = {.judge = s->judge,
+                          .depth = s->depth + 1,
+                          .divided = NO_BORDER,
+                          .unit = s->unit,
+                          .to_t = s->to_t,
+                          .resolution = s->resolution};
   closer.size[0] = s->size[0] * box->size_u, closer.size[1] = s->size[1] * box->size_v;
   closer.low[0] = s->low[0] + s->size[0] * box->u, closer.low[1] = s->low[1] + s->size[1] * box->v;
   closer.extent[0] = s->extent[0] * box->size_u, closer.extent[1] = s->extent[1] * box->size_v;
@@ -176,7 +186,9 @@ static void closer_run(struct search *closer, const struct zoomed *zoomed)
 {
   double size = 0;
   for (int n = 0; n < 16; n++) size = real_max(size, fabs(zoomed->net[2][n / 4][n % 4]));
-  for (int k = 0; k < 2; k++) closer->start[k] = zoomed->start[k], closer->error[k] = zoomed->error[k];
+  const wide start = zoomed->start * closer->unit;
+  closer->start[0] = (double)start, closer->start[1] = (double)(start - closer->start[0]);
+  for (int k = 0; k < 2; k++) closer->error[k] = zoomed->error[k];
   closer->depth_error = 32 * UNIT_ROUNDOFF * size + (double)judge_zoom(closer->judge)->error;
   struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   memcpy(whole.net, zoomed->net, sizeof whole.net);
@@ -314,10 +326,11 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
   if (region->leaf) memcpy(x, region->leaf->x, sizeof x);
   else leaf_net(patch, region->column, region->span, x);
   *s = (struct search){.judge = j,
+                       .unit = ray->unit,
                        .start = {ray->start[0], ray->start[1]},
                        .to_t = ray->to_t,
                        .error = {ray->error, ray->error},
-                       .depth_error = ray->error,
+                       .depth_error = PLANE_ERROR(0, 0),
                        .divided = NO_BORDER};
   for (int k = 0; k < 2; k++)
     s->low[k] = part_of(region->column[k], patch->split[k]), s->size[k] = part_of(region->span[k], patch->split[k]);
@@ -329,7 +342,7 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
   *whole = (struct box){.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   memcpy(whole->net, nets, sizeof nets);
   box_reach(s, whole);
-  const double slack = fabs(s->to_t) * s->depth_error +
+  const double slack = length_to_t(s, s->depth_error) +
                        8 * UNIT_ROUNDOFF * real_max(fabs(whole->near), fabs(whole->far));
   s->resolution = real_max((whole->far - whole->near) * SEARCH_RESOLUTION, 4 * slack);
 }

@@ -30,15 +30,28 @@ static void to_powers(wide *b, int stride)
   b[3 * stride] = eighth * ((b3 - b0) - 3 * (b2 - b1));
 }
 
-void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out)
+/* (q_i d_k - q_k d_i)/d_k for q = (origin - center)/scale, and adds to `size` what its roundings are relative to. Either
+ * of the differences, or of the products of 106 bits, where those nearly cancel far from the scene's origin. */
+static wide wide_moment(const struct model_patch *patch, const struct ray *ray, int i, int k, wide *size)
 {
   const double *d = ray->direction, *o = ray->origin;
-  wide q[3], size = 0;
+  const wide slope = (wide)d[i] / d[k], to_local = 1 / (wide)patch->scale; /* a power of two */
+  const wide qi = ((wide)o[i] - patch->center[i]) * to_local, qk = ((wide)o[k] - patch->center[k]) * to_local;
+  const wide line = ((wide)o[i] * d[k] - (wide)o[k] * d[i]) / d[k] * to_local;
+  const wide ci = patch->center[i] * to_local, ck = patch->center[k] * to_local;
+  const wide by_start = wide_abs(qi) + wide_abs(qk), by_line = wide_abs(line) + wide_abs(ci) + wide_abs(ck);
+  *size = wide_max(*size, 2 + (by_line < by_start ? by_line : by_start));
+  return by_line < by_start ? line - (ci - slope * ck) : qi - slope * qk;
+}
+
+void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out)
+{
+  const double *d = ray->direction;
+  wide size = 0;
   const wide to_local = 1 / (wide)patch->scale; /* a power of two */
-  for (int c = 0; c < 3; c++) q[c] = ((wide)o[c] - patch->center[c]) * to_local;
   for (int s = 0; s < 3; s++) {
     const int i = (k + 1 + s) % 3;
-    const wide slope = (wide)d[i] / d[k], moment = q[i] - slope * q[k];
+    const wide slope = (wide)d[i] / d[k], moment = s < 2 ? wide_moment(patch, ray, i, k, &size) : 0;
     for (int n = 0; n < 16; n++) {
       const double *p = P[n / 4][n % 4];
       const wide x = ((wide)p[i] - patch->center[i]) * to_local, y = ((wide)p[k] - patch->center[k]) * to_local;
@@ -46,9 +59,8 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
     }
     for (int n = 0; n < 4; n++) to_powers(out->power[s][n], 1);
     for (int n = 0; n < 4; n++) to_powers(&out->power[s][0][n], 4);
-    if (s < 2) size = wide_max(size, 2 + wide_abs(q[i]) + wide_abs(q[k]));
   }
-  out->origin = q[k], out->to_t = (wide)patch->scale / d[k];
+  out->origin = ((wide)ray->origin[k] - patch->center[k]) * to_local, out->to_t = (wide)patch->scale / d[k];
   out->error = WIDE_ROUNDOFF * ZOOM_ROUNDINGS * POWER_GROWTH * size;
 }
 
@@ -98,10 +110,9 @@ static void box_powers(const struct zoom *zoom, const wide low[2], const wide si
 /* The net of x_k, less the middle's. */
 static void set_depth(const struct zoom *zoom, wide power[4][4], struct zoomed *out)
 {
-  const wide start = power[0][0] - zoom->origin;
+  out->start = power[0][0] - zoom->origin;
   power[0][0] = 0;
   net_of(power, 1, out->net[2]);
-  out->start[0] = (double)start, out->start[1] = (double)(start - out->start[0]);
 }
 
 bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out)

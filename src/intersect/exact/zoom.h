@@ -26,7 +26,7 @@ struct zoomed {
   double net[3][4][4];
   double error[2]; /* bounds on the errors of coefficients of the first two */
   double met[2];   /* of zoom_pole_box: what they are off by besides where the pole is met, but not exactly, ... */
-  double start[2]; /* t = ((w + start[1]) + start[0]) scale/d_k for w of net[2] */
+  wide start;      /* t = (w + start) scale/d_k for w of net[2] */
 };
 
 /* P: the patch's control points in the scene. k: the axis along which the ray is longest. */

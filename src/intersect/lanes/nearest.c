@@ -74,10 +74,20 @@ LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, cons
   p->moved = true;
 }
 
+/* Lanes where the root is the best one again, as another leaf has found it. */
+static lane_mask same_root(const struct packet *p, const struct candidate *it, const struct newton_root *r,
+                           int64_t patch)
+{
+  const struct best *best = &p->best;
+  const double part[2] = {1.0 / it->patch->split[0], 1.0 / it->patch->split[1]};
+  const lanes u = (it->leaf->column_u + r->u) * part[0], v = (it->leaf->column_v + r->v) * part[1];
+  return (best->patch == patch) & (lanes_abs(u - best->u) <= r->radius_u * part[0] + best->radius_u + UNIT_ROUNDOFF) &
+         (lanes_abs(v - best->v) <= r->radius_v * part[1] + best->radius_v + UNIT_ROUNDOFF);
+}
+
 /* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it, or are
- * gathered; then there is no best. One
- * that may lie on a border of the patch, at an end of the ray or where another patch's is, is left to the last resort.
- * Returns the lanes that took theirs. */
+ * gathered; then there is no best. One that may lie on a border of the patch, at an end of the ray or where another root
+ * is, is left to the last resort. Returns the lanes that took theirs. */
 static lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w, lanes at,
                        lane_mask hits)
 {
@@ -85,7 +95,8 @@ static lane_mask offer(struct packet *p, const struct candidate *it, const struc
   const lanes error = root_t_error(p, it, r, w, at);
   hits &= ~((at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far)));
   if (!lanes_any(hits)) return hits;
-  const lane_mask rival = (p->best.patch != patch) & (lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t));
+  lane_mask rival = lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t);
+  if (lanes_any(hits & rival)) rival &= ~same_root(p, it, r, patch);
   const lane_mask sure = ~on_border(it, r) & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
   if (lanes_any(hits & ~sure)) packet_postpone(p, it->leaf, hits & ~sure);
   const lane_mask none = {0};
@@ -122,7 +133,8 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
   const lanes tangent = surface_tangent(root->su, root->sv);
   const int most = patch->split[0] > patch->split[1] ? patch->split[0] : patch->split[1];
   const struct surface_point point = surface_point(patch, root->point, most * tangent);
-  const lane_mask final = lanes_abs(root->t) * p->longest >= NEAR_START_FINAL * patch->scale;
+  const lanes away = lanes_abs(root->t) * p->longest;
+  const lane_mask final = (away >= NEAR_START_FINAL * patch->scale) & (away <= FAR_START * patch->scale);
   if (p->gather) {
     gather_surface(p->gather, taken, &point, normal, tangent, final);
     return;

@@ -1,7 +1,7 @@
 /* The nearest root of every lane, or all (gather.h): the one place where roots are taken or refused.
  *
  * Internal to src/intersect/lanes. A root is taken where double precision leaves no question; where one may lie on a
- * border of its patch, at an end of the ray or where another patch's is, the leaf is left to the last resort.
+ * border of its patch, at an end of the ray or where another root is, the leaf is left to the last resort.
  */
 #ifndef PSCN_INTERSECT_LANES_NEAREST_H
 #define PSCN_INTERSECT_LANES_NEAREST_H

@@ -65,6 +65,7 @@ void packet_set_patch(struct packet *p, uint32_t index)
     const struct double_lanes from = double_lanes_sum(p->origin[k], lanes_all(-patch->center[k]));
     hi[k] = from.hi * inverse, lo[k] = from.lo * inverse;
   }
+  const lanes moment_error = MOMENT_ERROR(lanes_abs(hi[0]) + lanes_abs(hi[1]) + lanes_abs(hi[2]));
   for (int k = 0; k < 3; k++) {
     if (!(p->axes & 1u << k)) continue;
     for (int s = 0; s < 2; s++) {
@@ -80,7 +81,7 @@ void packet_set_patch(struct packet *p, uint32_t index)
     }
     p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
     p->local[k].to_t = patch->scale * p->reciprocal[k];
-    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1])) +
+    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1])) + moment_error +
                         2 * p->net_error * inverse;
   }
   p->patch = index;

@@ -18,6 +18,10 @@
 #define NEAR_START 0x1p-16
 #define NEAR_START_FINAL 0x1p-6
 
+/* And so do roots farther from it: the moments of a ray that starts there, in double-double, are no better than 2^-60
+ * (MOMENT_ERROR). */
+#define FAR_START 0x1p40
+
 /* The best root of every lane. */
 struct best {
   lanes u, v, radius_u, radius_v; /* parameters of the whole patch; the exact root is within the radii */
