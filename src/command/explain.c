@@ -47,7 +47,10 @@ static void put_fate(const struct teller *teller, const struct explained_candida
   switch (found->fate[k]) {
   case ROOT_COMPLEX: printf(", refused: not real"); break;
   case ROOT_OUTSIDE: printf(", refused: outside [0,1]"); break;
-  case ROOT_ELSEWHERE: printf(", refused: %c = %.6g is outside", other, found->other[k]); break;
+  case ROOT_ELSEWHERE:
+    if (isnan(found->other[k])) printf(", refused: no %c follows", other);
+    else printf(", refused: %c = %.6g is outside", other, found->other[k]);
+    break;
   case ROOT_NO_SOLUTION: printf(", refused: with %c = %.6g it does not solve eq 3", other, found->other[k]); break;
   case ROOT_OFFERED:
     printf(", %c =", other);
