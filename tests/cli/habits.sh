@@ -48,5 +48,11 @@ if command -v script >/dev/null; then
       tr '\r' '\n' | sed 's/\x1b\[K//g' | grep 'rays/s\|%' |
       awk -v columns=$columns 'length($0) >= columns && !/answers|patches|rays  |x/ { long++ } END { print columns, long + 0 }'
   done
+  # What was done is told on a terminal.
+  printf '1 0 -1\n1 -2 1\n' >polynomials
+  script -qec "pscn roots <polynomials >/dev/null" /dev/null | tr -d '\r' | grep -v iterations
+  echo '0 0 -9 0 0 1' >rays
+  script -qec "pscn trace $SCENES/bent.pscn <rays >/dev/null" /dev/null | tr -d '\r' | grep -v '^time'
+  rm polynomials rays
 fi
 ls
