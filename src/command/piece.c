@@ -49,7 +49,7 @@ bool piece_number(const char *text, size_t length, size_t *out_number, size_t *o
   return true;
 }
 
-/* The lines of struct image's metadata; NULL where memory is short. */
+/* The lines of struct image's metadata, as they will be read again; NULL where memory is short. */
 static char *metadata_lines(const struct image_attribute *attributes, size_t count)
 {
   size_t size = 1, used = 0;
@@ -58,8 +58,12 @@ static char *metadata_lines(const struct image_attribute *attributes, size_t cou
   if (lines == NULL) return NULL;
   lines[0] = '\0';
   for (size_t k = 0; k < count; k++)
-    if (strncmp(attributes[k].name, "pscn:", 5) == 0)
-      used += (size_t)snprintf(lines + used, size - used, "%s=%s\n", attributes[k].name, attributes[k].text);
+    if (strncmp(attributes[k].name, "pscn:", 5) == 0) {
+      char *line = lines + used;
+      used += (size_t)snprintf(line, size - used, "%s=%s\n", attributes[k].name, attributes[k].text);
+      for (char *c = line; c < lines + used - 1; c++)
+        if (*c == '\n') *c = ' ';
+    }
   return lines;
 }
 

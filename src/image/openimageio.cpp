@@ -147,8 +147,11 @@ void read_metadata(const OIIO::ImageSpec &spec, image &out)
 {
   std::string lines;
   for (const auto &attribute : spec.extra_attribs)
-    if (attribute.name().string().rfind("pscn:", 0) == 0 && attribute.type() == OIIO::TypeDesc::STRING)
-      lines += attribute.name().string() + "=" + attribute.get_string() + "\n";
+    if (attribute.name().string().rfind("pscn:", 0) == 0 && attribute.type() == OIIO::TypeDesc::STRING) {
+      std::string line = attribute.name().string() + "=" + attribute.get_string();
+      std::replace(line.begin(), line.end(), '\n', ' ');
+      lines += line + "\n";
+    }
   out.metadata = strdup(lines.c_str());
   if (out.metadata == nullptr) throw std::bad_alloc();
 }

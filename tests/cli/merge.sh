@@ -24,6 +24,11 @@ same crop.exr cropped.exr
 # More pieces than tiles.
 for k in 1 2 3; do pscn render $scene --crop 0,0,40,20 --tile $k/3 -o tiny$k.exr; done
 try pscn merge tiny?.exr -o tiny.exr --quiet
+# Texts of several lines are compared to their end.
+for k in 1 2; do pscn render $scene --solver $'aberth {\n polish on }' --tile $k/2 -o line$k.exr; done
+try pscn merge line?.exr -o line.exr --quiet
+pscn render $scene --solver $'aberth {\n polish off }' --tile 2/2 -o line2.exr
+try pscn merge line?.exr -o no.png
 # What is missing, strange or there twice is told, and no picture is made.
 try pscn merge p2.exr -o no.png
 try pscn merge p1.exr p3.exr p4.exr p3.exr -o no.png
