@@ -37,6 +37,25 @@ static inline void random_vector(struct random *random, double size, double out[
   for (int axis = 0; axis < 3; axis++) out[axis] = size * random_between(random, -1, 1);
 }
 
+static inline size_t choose(struct random *random, size_t count) { return (size_t)(random_bits(random) % count); }
+
+/* 10^-k for a whole k in [first, last]. */
+static inline double random_decade(struct random *random, int first, int last)
+{
+  return pow(10, -(double)(first + (int)choose(random, (size_t)(last - first + 1))));
+}
+
+static inline void random_direction(struct random *random, double out[3])
+{
+  random_vector(random, 1, out);
+  if (choose(random, 4) == 0) { /* along an axis, or in a plane of two */
+    const size_t axis = choose(random, 3);
+    out[axis] = 0;
+    if (choose(random, 2)) out[(axis + 1) % 3] = 0;
+  }
+  if (out[0] == 0 && out[1] == 0 && out[2] == 0) out[0] = 1;
+}
+
 /* 10^-k, k counting with the index. */
 static inline double decade(size_t index, int first, int last)
 {

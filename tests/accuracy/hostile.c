@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "accuracy/extremes.h"
 #include "accuracy/generate.h"
 #include "accuracy/models.h"
-#include "base/wide.h"
 
 enum { RAYS = SITUATION_RAYS };
 
@@ -14,25 +14,6 @@ enum { RAYS = SITUATION_RAYS };
 #define ROUNDING 0x1p-53
 
 /* ---- pieces ---- */
-
-static size_t choose(struct random *random, size_t count) { return (size_t)(random_bits(random) % count); }
-
-/* 10^-k for a whole k in [first, last]. */
-static double random_decade(struct random *random, int first, int last)
-{
-  return pow(10, -(double)(first + (int)choose(random, (size_t)(last - first + 1))));
-}
-
-static void random_direction(struct random *random, double out[3])
-{
-  random_vector(random, 1, out);
-  if (choose(random, 4) == 0) { /* along an axis, or in a plane of two */
-    const size_t axis = choose(random, 3);
-    out[axis] = 0;
-    if (choose(random, 2)) out[(axis + 1) % 3] = 0;
-  }
-  if (out[0] == 0 && out[1] == 0 && out[2] == 0) out[0] = 1;
-}
 
 /* A ray along d through a point at the distance `off` from `at`, that starts before it: next to it or far, or a little
  * behind. */
@@ -381,82 +362,6 @@ static void surface_starts(struct random *random, size_t index, struct situation
   }
 }
 
-/* A patch long along one axis and short along another, by a factor from `thinnest` on; small next to what is far away,
- * some coordinates of its own up to 1e`farthest`; a far origin. */
-static void uneven(struct random *random, size_t index, size_t thinnest, int farthest, struct situation *s)
-{
-  static const double factors[] = {1e-160, 1e-12, 1e-9, 1e-6, 1, 1, 1e6};
-  s->count = 1;
-  gentle(random, 1, s->P[0]);
-  double factor[3], shift[3];
-  for (int axis = 0; axis < 3; axis++) {
-    factor[axis] = factors[thinnest + choose(random, 7 - thinnest)];
-    shift[axis] = choose(random, 3) ? 0 : factor[axis] * random_decade(random, -6, 6) * random_between(random, -1, 1);
-  }
-  for (int k = 0; k < 48; k++) {
-    double *at = &s->P[0][k / 12][k / 3 % 4][k % 3];
-    *at = *at * factor[k % 3] + shift[k % 3];
-  }
-  for (int axis = 0; axis < 3 && index % 3 == 0; axis++) {
-    double *at = &s->P[0][choose(random, 4)][choose(random, 4)][axis];
-    *at = random_decade(random, -farthest, 0) * random_between(random, -1, 1);
-  }
-  for (int n = 0; n < RAYS; n++) {
-    double at[3], d[3], away = choose(random, 3) ? 1 : random_decade(random, -9, 3);
-    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
-    random_direction(random, d);
-    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
-    for (int axis = 0; axis < 3; axis++) {
-      s->rays[n].direction[axis] = d[axis] * (choose(random, 2) ? factor[axis] : 1);
-      s->rays[n].origin[axis] = at[axis] - away * s->rays[n].direction[axis];
-    }
-  }
-}
-
-static void uneven_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 1, 12, s); }
-static void wild_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 0, 29, s); }
-
-/* From the ends of what a double holds. */
-static void far_origins(struct random *random, size_t index, struct situation *s)
-{
-  s->count = 1;
-  gentle(random, 1, s->P[0]);
-  for (int n = 0; n < RAYS; n++) {
-    const double far = index % 2 ? 1.7e308 : pow(10, (double)choose(random, 300));
-    const size_t axis = choose(random, 3);
-    double at[3];
-    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
-    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
-    memcpy(s->rays[n].origin, at, sizeof at);
-    const double sign = choose(random, 2) ? 1 : -1;
-    s->rays[n].origin[axis] = -sign * far, s->rays[n].direction[axis] = sign;
-    if (choose(random, 3) == 0)
-      for (int k = 0; k < 3; k++) s->rays[n].direction[k] = at[k] / far - s->rays[n].origin[k] / far;
-  }
-}
-
-/* A ray in any direction whose start is so far away, next to the patch's size, that neither start nor direction could be
- * moved by a rounding without missing: the patch is put where the ray happens to pass. The other rays mostly miss. */
-static void far_oblique(struct random *random, size_t index, struct situation *s)
-{
-  const double far = ldexp(random_between(random, 1, 2), (int)(44 + index % 36));
-  double at[3], d[3];
-  s->count = 1;
-  gentle(random, choose(random, 2) ? 1 : 20, s->P[0]);
-  const double u = choose(random, 2) ? random_unit(random) : 1 - random_decade(random, 4, 18);
-  net_point((const double(*)[4][3])s->P[0], u, random_unit(random), at);
-  for (int n = 0; n < RAYS; n++) {
-    random_vector(random, 1, d);
-    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
-    for (int axis = 0; axis < 3; axis++) s->rays[n].direction[axis] = d[axis], s->rays[n].origin[axis] = -far * d[axis];
-  }
-  const struct ray *ray = &s->rays[0];
-  for (int axis = 0; axis < 3; axis++) {
-    const wide shift = (wide)ray->origin[axis] + (wide)far * ray->direction[axis] - at[axis];
-    for (int k = 0; k < 16; k++) s->P[0][k / 4][k % 4][axis] += (double)shift;
-  }
-}
-
 /* The faces of a cube, bent or not, and rays in their planes and through their edges. */
 static void cubes(struct random *random, size_t index, struct situation *s)
 {
@@ -513,10 +418,10 @@ static const struct situation_class classes[] = {
   {"thin patches", 711, 1, thin},
   {"starts next to poles", 712, 1, pole_starts},
   {"starts next to surfaces", 713, 1, surface_starts},
-  {"uneven sizes", 718, 0.5, uneven_sizes},
-  {"sizes beyond all digits", 714, 0.5, wild_sizes},
-  {"far origins", 715, 1, far_origins},
-  {"far origins, oblique", 719, 0.5, far_oblique},
+  {"uneven sizes", 718, 0.5, extreme_uneven_sizes},
+  {"sizes beyond all digits", 714, 0.5, extreme_wild_sizes},
+  {"far origins", 715, 1, extreme_far_origins},
+  {"far origins, oblique", 719, 0.5, extreme_far_oblique},
   {"cubes from within their planes", 716, 0.1, cubes},
   {"coincident patches", 717, 0.5, coincident},
 };
@@ -529,4 +434,4 @@ const struct situation_class *every_class_at(size_t index)
   return index < first ? situation_class_at(index) : &classes[index - first];
 }
 
-bool class_told_only(const struct situation_class *class) { return class->generate == wild_sizes; }
+bool class_told_only(const struct situation_class *class) { return class->generate == extreme_wild_sizes; }

@@ -63,6 +63,10 @@ void judge_add_open(struct judge *j, const struct exact_maybe *maybe);
 enum { STAR_MAX = 32 };
 size_t judge_star(struct judge *j, size_t at, size_t first, size_t end, size_t out[STAR_MAX]);
 
+/* passes.c: whether the ray passes through the point, in exact arithmetic; false too where a product is too small for
+ * that. */
+bool judge_passes(const struct ray *ray, const double point[3]);
+
 /* Turns to the patch. */
 void judge_turn(struct judge *j, uint32_t patch);
 

@@ -1,0 +1,86 @@
+/* See extremes.h. */
+#include "accuracy/extremes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "accuracy/generate.h"
+#include "base/wide.h"
+
+enum { RAYS = SITUATION_RAYS };
+
+/* A patch long along one axis and short along another, by a factor from `thinnest` on; small next to what is far away,
+ * some coordinates of its own up to 1e`farthest`; a far origin. */
+static void uneven(struct random *random, size_t index, size_t thinnest, int farthest, struct situation *s)
+{
+  static const double factors[] = {1e-160, 1e-12, 1e-9, 1e-6, 1, 1, 1e6};
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  double factor[3], shift[3];
+  for (int axis = 0; axis < 3; axis++) {
+    factor[axis] = factors[thinnest + choose(random, 7 - thinnest)];
+    shift[axis] = choose(random, 3) ? 0 : factor[axis] * random_decade(random, -6, 6) * random_between(random, -1, 1);
+  }
+  for (int k = 0; k < 48; k++) {
+    double *at = &s->P[0][k / 12][k / 3 % 4][k % 3];
+    *at = *at * factor[k % 3] + shift[k % 3];
+  }
+  for (int axis = 0; axis < 3 && index % 3 == 0; axis++) {
+    double *at = &s->P[0][choose(random, 4)][choose(random, 4)][axis];
+    *at = random_decade(random, -farthest, 0) * random_between(random, -1, 1);
+  }
+  for (int n = 0; n < RAYS; n++) {
+    double at[3], d[3], away = choose(random, 3) ? 1 : random_decade(random, -9, 3);
+    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
+    random_direction(random, d);
+    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
+    for (int axis = 0; axis < 3; axis++) {
+      s->rays[n].direction[axis] = d[axis] * (choose(random, 2) ? factor[axis] : 1);
+      s->rays[n].origin[axis] = at[axis] - away * s->rays[n].direction[axis];
+    }
+  }
+}
+
+void extreme_uneven_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 1, 12, s); }
+void extreme_wild_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 0, 29, s); }
+
+/* From the ends of what a double holds. */
+void extreme_far_origins(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, 1, s->P[0]);
+  for (int n = 0; n < RAYS; n++) {
+    const double far = index % 2 ? 1.7e308 : pow(10, (double)choose(random, 300));
+    const size_t axis = choose(random, 3);
+    double at[3];
+    net_point((const double(*)[4][3])s->P[0], random_unit(random), random_unit(random), at);
+    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
+    memcpy(s->rays[n].origin, at, sizeof at);
+    const double sign = choose(random, 2) ? 1 : -1;
+    s->rays[n].origin[axis] = -sign * far, s->rays[n].direction[axis] = sign;
+    if (choose(random, 3) == 0)
+      for (int k = 0; k < 3; k++) s->rays[n].direction[k] = at[k] / far - s->rays[n].origin[k] / far;
+  }
+}
+
+/* A ray in any direction whose start is so far away, next to the patch's size, that neither start nor direction could be
+ * moved by a rounding without missing: the patch is put where the ray happens to pass. The other rays mostly miss. */
+void extreme_far_oblique(struct random *random, size_t index, struct situation *s)
+{
+  const double far = ldexp(random_between(random, 1, 2), (int)(44 + index % 36));
+  double at[3], d[3];
+  s->count = 1;
+  gentle(random, choose(random, 2) ? 1 : 20, s->P[0]);
+  const double u = choose(random, 2) ? random_unit(random) : 1 - random_decade(random, 4, 18);
+  net_point((const double(*)[4][3])s->P[0], u, random_unit(random), at);
+  for (int n = 0; n < RAYS; n++) {
+    random_vector(random, 1, d);
+    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
+    for (int axis = 0; axis < 3; axis++) s->rays[n].direction[axis] = d[axis], s->rays[n].origin[axis] = -far * d[axis];
+  }
+  const struct ray *ray = &s->rays[0];
+  for (int axis = 0; axis < 3; axis++) {
+    const wide shift = (wide)ray->origin[axis] + (wide)far * ray->direction[axis] - at[axis];
+    for (int k = 0; k < 16; k++) s->P[0][k / 4][k % 4][axis] += (double)shift;
+  }
+}
