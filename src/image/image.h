@@ -25,8 +25,8 @@ struct image {
   size_t x, y, full_width, full_height; /* where it stands in a larger picture; full 0 x 0: it is the whole */
   struct image_channel *channel;        /* channel_count of them */
   float *value;
-  char *
-    metadata; /* of one that was read: its texts "pscn:...", a line "NAME=TEXT" each, line ends in it blanks; or NULL */
+  /* Of a picture that was read: its texts named "pscn:...", a line "NAME=TEXT" each, where a line end in it is a blank. */
+  char *metadata;
 };
 
 /* A black picture with unnamed channels, owned by the caller. STATUS_LIMIT where memory is short or the product
