@@ -28,14 +28,15 @@
 
 struct model_patch {
   double center[3], scale;
-  double x[3][4][4];    /* local control net, x[coordinate][i][j], |x| <= 1 */
-  double rest[3][4][4]; /* what its rounding has taken away: x + rest is exact */
-  int m, n;             /* true bidegree in u, v */
-  int split[2];         /* cut into split[0] x split[1] leaves, along u and v */
-  bool lanes;           /* default method, or all_roots: tried on a lane of rays at once */
-  bool all_roots;       /* aberth, improved and polished: all roots of r are tried */
-  bool copied;          /* its leaves are those of the object it is copied from; then m and n mean nothing */
-  double loose;         /* how far off its surface a ray may be met by those, in the scene; 0 where not copied */
+  double x[3][4][4]; /* local control net, x[coordinate][i][j], |x| <= 1 */
+  /* rest[3][4][4], what its rounding has taken away: x + rest is exact. Nothing of most patches, who share the zeros */
+  const double (*rest)[4][4];
+  int m, n;       /* true bidegree in u, v */
+  int split[2];   /* cut into split[0] x split[1] leaves, along u and v */
+  bool lanes;     /* default method, or all_roots: tried on a lane of rays at once */
+  bool all_roots; /* aberth, improved and polished: all roots of r are tried */
+  bool copied;    /* its leaves are those of the object it is copied from; then m and n mean nothing */
+  double loose;   /* how far off its surface a ray may be met by those, in the scene; 0 where not copied */
   const struct method *method;
 };
 

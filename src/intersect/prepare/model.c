@@ -44,8 +44,10 @@ enum { AUTO_LEAVES_MAX = 1 << 18 };
 /* A frame no smaller than this: its reciprocal times a direction is finite. */
 #define LEAST_FRAME 0x1p-700
 
-static void patch_frame(double P[4][4][3], double scene_size, struct model_patch *out)
+/* Writes all but the rest, and that to where it may stay. Returns whether there is any. */
+static bool patch_frame(double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4])
 {
+  bool rounded = false;
   double extent = scene_size > 0 ? real_max(LEAST_EXTENT * scene_size, LEAST_SCALE) : 0, lo[3], hi[3];
   for (int k = 0; k < 3; k++) {
     lo[k] = INFINITY, hi[k] = -INFINITY;
@@ -61,9 +63,11 @@ static void patch_frame(double P[4][4][3], double scene_size, struct model_patch
     out->center[k] = fabs(middle) < grain * 0x1p50 ? real_coarse(middle, grain) : middle;
     for (int n = 0; n < 16; n++) {
       const struct double_double x = dd_two_sum(P[n / 4][n % 4][k], -out->center[k]);
-      out->x[k][n / 4][n % 4] = x.hi / out->scale, out->rest[k][n / 4][n % 4] = x.lo / out->scale;
+      out->x[k][n / 4][n % 4] = x.hi / out->scale, rest[k][n / 4][n % 4] = x.lo / out->scale;
+      rounded |= x.lo != 0;
     }
   }
+  return rounded;
 }
 
 static double largest_coordinate(double P[4][4][3])
@@ -112,8 +116,10 @@ static enum solver_lanes lanes_of(const struct method *s)
 }
 
 /* The frame of the hierarchy, and the patches' own. */
-static void prepare_patches(struct model *model)
+static enum status prepare_patches(struct model *model)
 {
+  static const double none[3][4][4];
+  double(*rest)[4][4] = NULL; /* room for the next patch that has one */
   const struct scene *scene = model->scene;
   double lo[3] = {0}, hi[3] = {0}, size = 0;
   for (size_t p = 0; p < scene->patch_count; p++) {
@@ -134,12 +140,17 @@ static void prepare_patches(struct model *model)
   for (size_t p = 0; p < scene->patch_count; p++) {
     struct scene_patch *source = &scene->patches[p];
     struct model_patch *patch = &model->patches[p];
-    patch_frame(source->P, size, patch);
+    if (rest == NULL) rest = arena_alloc(model->arena, 3, sizeof *rest);
+    if (rest == NULL) return STATUS_LIMIT;
+    const bool rounded = patch_frame(source->P, size, patch, rest);
+    patch->rest = rounded ? (const double(*)[4][4])rest : none;
+    if (rounded) rest = NULL;
     patch->method = &scene->solvers[source->solver];
     patch->all_roots = lanes_of(patch->method) == SOLVER_LANES_ABERTH;
     patch->lanes = lanes_of(patch->method) != SOLVER_LANES_NONE;
     model->unproven |= !patch->method->polish;
   }
+  return STATUS_OK;
 }
 
 /* How far each patch with leaves of its own is cut. */
@@ -208,10 +219,7 @@ static struct model *model_begin(const struct scene *scene)
   model->scene = scene;
   model->arena = arena_create();
   if (model->arena) model->patches = arena_alloc(model->arena, scene->patch_count + 1, sizeof *model->patches);
-  if (model->patches) {
-    prepare_patches(model);
-    return model;
-  }
+  if (model->patches && prepare_patches(model) == STATUS_OK) return model;
   model_destroy(model);
   return NULL;
 }
