@@ -1,0 +1,35 @@
+/* Calls that fail: the linker (CMakeLists.txt) hands every such call in commands and library to calls.c. What jansson and
+ * OpenImageIO allocate is theirs. */
+#ifndef PSCN_TESTS_FAULT_CALLS_H
+#define PSCN_TESTS_FAULT_CALLS_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+enum call {
+  ALLOCATE,
+  THREAD,
+  MMAP,
+  OPEN,
+  WRITE,
+  FSYNC,
+  FCHMOD,
+  LINK,
+  RENAME,
+  CLOSE,
+  FOPEN,
+  FCLOSE,
+  MKDIR,
+  MKDTEMP,
+  DUP,
+  FORK,
+  PIPE
+};
+
+/* Of one kind of call: how many succeed before one fails; negative: all do. `armed` only while a command runs. A child
+ * of ours, before it becomes another program, counts on: `left` is shared memory, which main maps. */
+extern enum call failing;
+extern atomic_long *left;
+extern bool armed;
+
+#endif
