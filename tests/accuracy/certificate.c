@@ -13,7 +13,7 @@
  * some. */
 #define GRAZING_NEAR (4 * TRIAL_NEAR)
 
-/* A grazing answer may overlook a root this near to the ray's origin, relative to the same. */
+/* A grazing answer may overlook a root this near to the ray's origin, relative to the same or the patch's extent. */
 #define AT_ORIGIN 0x1p-46
 
 /* The square of a normal's length is 1 but for some roundings. */
@@ -88,12 +88,27 @@ static double floor_at(const struct judging *j, uint32_t patch, double t, double
   return trial_floor(j->certifier->reference, j->ray, patch, t, u, v).t;
 }
 
+static double extent_of(const struct certifier *certifier, uint32_t patch)
+{
+  const double(*box)[3] = (const double(*)[3])certifier->boxes[patch];
+  double extent = 0;
+  for (int axis = 0; axis < 3; axis++) extent = fmax(extent, box[1][axis] - box[0][axis]);
+  return extent;
+}
+
+/* Where on the ray a root of the patch is too near to its origin to be told from it. */
+static double end_of_origin(const struct certifier *certifier, const struct ray *ray, uint32_t patch)
+{
+  const double *d = ray->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  return AT_ORIGIN * fmax(trial_size(ray, 0), extent_of(certifier, patch) / length);
+}
+
 /* All roots of a patch that matter to a hit. */
 static void judge_patch(struct judging *j, uint32_t patch)
 {
   const double T = j->hit->t, end = T + 2 * j->allowed;
   const bool certain = j->hit->certainty == CERTAINTY_CERTAIN;
-  const double at_origin = AT_ORIGIN * trial_size(j->ray, 0);
+  const double at_origin = end_of_origin(j->certifier, j->ray, patch);
   struct exact_roots roots;
   exact_patch_roots(j->certifier->scene->patches[patch].P, j->ray->origin, j->ray->direction, j->ray->t_min,
                     j->ray->t_max < end ? j->ray->t_max : end, T, &roots);
@@ -191,7 +206,7 @@ static void judge_miss(struct judging *j)
       const struct exact_root *root = &roots.root[k];
       doubt |= !root->proven;
       if (!root->proven || root->t_off >= j->out->t) continue;
-      if (grazing && root->t_off < AT_ORIGIN * trial_size(j->ray, 0)) continue;
+      if (grazing && root->t_off < end_of_origin(c, j->ray, (uint32_t)n)) continue;
       j->out->finding = FINDING_LOST;
       j->out->t = root->t_off, j->out->u = root->u, j->out->v = root->v, j->out->patch = (uint32_t)n;
     }
@@ -235,9 +250,7 @@ static double off_line(const struct judging *j)
 /* Whether a certain hit's place is on the ray, but for what the rounding of U and V moves it. */
 static bool line_good(const struct judging *j)
 {
-  const double(*box)[3] = (const double(*)[3])j->certifier->boxes[j->hit->patch];
-  double extent = 0;
-  for (int axis = 0; axis < 3; axis++) extent = fmax(extent, box[1][axis] - box[0][axis]);
+  const double extent = extent_of(j->certifier, j->hit->patch);
   return j->hit->certainty == CERTAINTY_GRAZING || off_line(j) <= LINE_ROUNDINGS * DOUBLE_UNIT * extent;
 }
 
