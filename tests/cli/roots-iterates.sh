@@ -4,7 +4,7 @@ for solver in bernstein newton laguerre aberth durand_kerner 'newton { form pape
   'aberth { form paper }' 'aberth { basis bernstein }' 'durand_kerner { form paper }'; do
   pscn roots --solver "$solver" --format table <polynomials >roots
   pscn roots --solver "$solver" --iterates <polynomials >ways
-  awk -v solver="$solver" '
+  LC_ALL=C awk -v solver="$solver" '
     function abs(x) { return x < 0 ? -x : x }
     FNR == 1 { next }
     FNR == NR { root[++roots] = $0; next }

@@ -7,7 +7,7 @@ for scene in "$SCENES"/flat.pscn "$SCENES"/bent.pscn; do
     sed -n 's/^answer: //p' story | cmp - answers && echo "the answers are the same"
     sed -n 's/^  r: //p' story >polynomials
     pscn roots --format table --solver 'aberth { form paper }' <polynomials >roots
-    awk -v scene="${scene##*/}" -v solver="$solver" '
+    LC_ALL=C awk -v scene="${scene##*/}" -v solver="$solver" '
       function abs(x) { return x < 0 ? -x : x }
       FNR == 1 && FNR != NR { next }
       FILENAME == "story" {
