@@ -44,4 +44,4 @@ cp one.exr half.exr.part.exr
 pscn render $SCENES/flat.pscn --size 20x10 -o half.exr 2>&1 | head -1
 # Nothing to go on from.
 pscn render $SCENES/flat.pscn --size 20x10 -o new.png --resume --quiet
-ls
+LC_ALL=C ls
