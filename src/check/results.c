@@ -142,7 +142,7 @@ static void add_worst(struct results *results, json_t *list)
 {
   const struct check *check = results->check;
   const struct check_row *last = &check->row[check->row_count - 1];
-  struct image difference;
+  struct image difference = {0};
   results->failed = results->failed || check_difference(check, last, MAGNIFIED, &difference) != STATUS_OK;
   for (size_t k = 0; k < check->worst_count && !results->failed; k++) {
     const struct check_worst *worst = &check->worst[k];
@@ -162,7 +162,7 @@ static void add_worst(struct results *results, json_t *list)
     set(results, value, "our_color", codes_of(&check->ours.picture, worst->x, worst->y));
     set(results, value, "their_color", codes_of(&last->picture.image, worst->x, worst->y));
   }
-  if (!results->failed) image_destroy(&difference);
+  image_destroy(&difference);
 }
 
 /* How POV-Ray's answer nears ours, where there is anything to draw. */

@@ -1,6 +1,6 @@
 #!/bin/bash
 # paper_counts.sh PROGRAMS: the counts in the committed files of docs/paper are those of the code, times aside: all of the
-# random polynomials, the patch at eps = 1e-6, some of the pictures. Where this fails, examples/paper.sh makes the page
+# random polynomials, the patch at eps = 1e-6, and nearly those of some pictures. Where this fails, examples/paper.sh makes the page
 # again. PROGRAMS is the folder of examples/paper in the build tree; PSCN_SOURCE_DIR the source tree.
 set -euo pipefail
 export LC_ALL=C
@@ -24,6 +24,22 @@ same() { # FILE COLUMNS PATTERN COMMAND...
   fi
 }
 
+# The same of a picture's pixels, within 3 % and 5 of them: a root that is nearly lost is so by its last bits, which are
+# the instruction set's and the compiler's.
+near() { # FILE PATTERN COMMAND...
+  local file=$1 pattern=$2
+  shift 2
+  "$@" | grep -E "$pattern" >"$folder/here"
+  grep -E "$pattern" "docs/paper/$file.csv" >"$folder/there"
+  if ! paste -d, "$folder/there" "$folder/here" | awk -F, '
+    function off(a, b) { a -= b; return a < 0 ? -a : a }
+    { n = NF / 2; for (k = 3; k <= n; k++) bad += off($k, $(n + k)) > 5 + 0.03 * $k } END { exit NR == 0 || bad > 0 }'; then
+    echo "docs/paper/$file.csv: its counts (<) are far from those of the code (>)"
+    diff "$folder/there" "$folder/here" | head -8
+    failed=1
+  fi
+}
+
 picture() { # FIGURE SCENE METHOD EPS
   printf '%s,%s,' "$1" "$3"
   "$programs/picture_errors" "scenes/$2.pscn" 320 240 \
@@ -38,7 +54,7 @@ same caps 1-6 . "$programs/random_experiments" caps once
 same footing_degrees 1-4,8-11 . "$programs/footing" degrees once
 same slopes 1-3 . "$programs/claims" slopes
 same patch 1-4,6,7 '^1e-6,' "$programs/patch_experiments" scenes/paper.pscn 100 75 6
-same pictures 1-6 '^fig16,laguerre' picture fig16 paper laguerre 1e-2
-same pictures 1-6 '^fig16,aberth' picture fig16 paper aberth 1e-2
-same pictures 1-6 '^fig17,newton' picture fig17 paper_magnified newton 1e-10
+near pictures '^fig16,laguerre' picture fig16 paper laguerre 1e-2
+near pictures '^fig16,aberth' picture fig16 paper aberth 1e-2
+near pictures '^fig17,newton' picture fig17 paper_magnified newton 1e-10
 exit $failed
