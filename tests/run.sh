@@ -30,7 +30,7 @@ TEST_PACKAGES=(chromium clang-format dpkg-dev libcmocka-dev libflint-arb-dev loc
 # Of 1. Sanitized code looks for faults of memory and arithmetic, which show on few rays.
 QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.002
 # Hundreds of pictures and their comparison with a peer's: the code they run is looked at by other tests already.
-ASAN_WITHOUT='^peers-(parity|random|shading|compare-idiff)$'
+ASAN_WITHOUT='^(peers-(parity|random|shading|compare-idiff|kinds|examples|farm-slurm)|paper-counts)$'
 JOBS=$(nproc)
 
 # build PRESET [OPTION...]
