@@ -227,18 +227,39 @@ static bool place_good(const struct judging *j)
          !(fabs(hit->v - j->at.v) > PLACE_FLOORS * (floor.v + DOUBLE_UNIT));
 }
 
-/* The largest coordinate of (S(U,V) - origin) x direction/|direction|: how far the hit's place is from the ray, as a line. */
-static double off_line(const struct judging *j)
+/* S(U,V). */
+static void surface_of(const struct judging *j, wide out[3])
 {
-  const struct hit *hit = j->hit;
-  const double *o = j->ray->origin, *d = j->ray->direction;
-  double(*P)[4][3] = j->certifier->scene->patches[hit->patch].P;
-  const wide u = hit->u, v = hit->v,
+  double(*P)[4][3] = j->certifier->scene->patches[j->hit->patch].P;
+  const wide u = j->hit->u, v = j->hit->v,
              bu[4] = {(1 - u) * (1 - u) * (1 - u), 3 * u * (1 - u) * (1 - u), 3 * u * u * (1 - u), u * u * u},
              bv[4] = {(1 - v) * (1 - v) * (1 - v), 3 * v * (1 - v) * (1 - v), 3 * v * v * (1 - v), v * v * v};
-  wide at[3] = {0};
-  for (int axis = 0; axis < 3; axis++)
-    for (int k = 0; k < 16; k++) at[axis] += bu[k / 4] * bv[k % 4] * P[k / 4][k % 4][axis];
+  for (int axis = 0; axis < 3; axis++) {
+    out[axis] = 0;
+    for (int k = 0; k < 16; k++) out[axis] += bu[k / 4] * bv[k % 4] * P[k / 4][k % 4][axis];
+  }
+}
+
+/* How far the hit's point is from it. */
+static double off_surface(const struct judging *j)
+{
+  wide at[3];
+  double square = 0;
+  surface_of(j, at);
+  for (int axis = 0; axis < 3; axis++) {
+    const double off = (double)(at[axis] - j->hit->point[axis]);
+    square += off * off;
+  }
+  return sqrt(square);
+}
+
+/* The largest coordinate of (S(U,V) - origin) x direction/|direction|: how far the hit's place is from the ray, as a
+ * line. */
+static double off_line(const struct judging *j)
+{
+  const double *o = j->ray->origin, *d = j->ray->direction;
+  wide at[3];
+  surface_of(j, at);
   double most = 0, longest = fmax(fmax(fabs(d[0]), fabs(d[1])), fabs(d[2]));
   for (int i = 0, k = 1; i < 3; i++, k = (i + 1) % 3) {
     const wide line = (wide)o[i] * d[k] - (wide)o[k] * d[i]; /* of exact products: a far start loses nothing */
@@ -261,9 +282,7 @@ static bool surface_good(const struct judging *j)
   const double *n = hit->normal;
   if (!(hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1)) return false;
   if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max) || !place_good(j) || !line_good(j)) return false;
-  if (!(facts_distance(reference_net(j->certifier->reference, hit->patch), hit->point, hit->u, hit->v) <=
-        hit->point_error))
-    return false;
+  if (!(off_surface(j) <= hit->point_error)) return false;
   return hit->certainty == CERTAINTY_GRAZING || fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < UNIT_NORMAL;
 }
 

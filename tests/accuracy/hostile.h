@@ -11,8 +11,8 @@
 size_t every_class_count(void);
 const struct situation_class *every_class_at(size_t index); /* index < the count */
 
-/* Coordinates of one patch spread over more decades than wide arithmetic has digits: what the exact judge finds there is
- * counted and printed, and proves no fault. */
+/* Coordinates of one patch spread over more decades than wide arithmetic has digits: what the exact judge finds of
+ * grazing answers there is counted and printed, and proves no fault. */
 bool class_told_only(const struct situation_class *class);
 
 #endif
