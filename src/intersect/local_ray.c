@@ -29,19 +29,21 @@ void local_ray_make(const struct model_patch *patch, const struct ray *ray, stru
   const double *d = ray->direction;
   const int k = dominant_axis(d), i = (k + 1) % 3, j = (k + 2) % 3;
   struct double_double q[3];
-  double largest = 0, size = 0;
+  double largest = 0;
   for (int c = 0; c < 3; c++) {
     q[c] = dd_two_sum(ray->origin[c], -patch->center[c]);
     largest = real_max(largest, fabs(q[c].hi));
   }
   const double unit = unit_for(largest, patch->scale), inverse = unit / patch->scale;
-  for (int c = 0; c < 3; c++) q[c].hi *= inverse, q[c].lo *= inverse, size += fabs(q[c].hi);
+  for (int c = 0; c < 3; c++) q[c].hi *= inverse, q[c].lo *= inverse;
   out->axis = k, out->unit = unit;
   out->slope[0] = d[i] / d[k], out->slope[1] = d[j] / d[k];
   out->moment[0] = moment(q[i], q[k], d[i], d[k]) / unit, out->moment[1] = moment(q[j], q[k], d[j], d[k]) / unit;
   out->start[0] = -q[k].hi, out->start[1] = -q[k].lo;
   out->to_t = patch->scale / d[k] / unit;
-  out->error = PLANE_ERROR(fabs(out->moment[0]), fabs(out->moment[1])) + MOMENT_ERROR(size) / unit;
+  const double far[2] = {MOMENT_ERROR(fabs(q[i].hi), fabs(q[k].hi * out->slope[0])),
+                         MOMENT_ERROR(fabs(q[j].hi), fabs(q[k].hi * out->slope[1]))};
+  out->error = PLANE_ERROR(fabs(out->moment[0]), fabs(out->moment[1])) + real_max(far[0], far[1]) / unit;
 }
 
 void local_ray_nets(const struct local_ray *ray, const double x[3][16], double a[16], double b[16], double w[16])

@@ -28,10 +28,10 @@ struct local_ray {
  * 2 + |m|, and for the value ten products and sums on coefficients of at most 2 + |m|. */
 #define PLANE_ERROR(m0, m1) (UNIT_ROUNDOFF * (36 + 16 * ((m0) + (m1))))
 
-/* What double-double leaves unknown of a moment where the origin's coordinates, in the frame of the patch, sum up to q:
- * of q_i d_k and q_k d_i, exact products of their leading parts, the sum of the rests takes roundings of at most 8
- * UNIT_ROUNDOFF^2 of the two products. */
-#define MOMENT_ERROR(q) (8 * UNIT_ROUNDOFF * UNIT_ROUNDOFF * (q))
+/* What double-double leaves unknown of a moment m_i: of q_i d_k and q_k d_i, exact products of the leading parts of the
+ * origin's coordinates q in the frame of the patch, the sum of the rests takes roundings of at most 8 UNIT_ROUNDOFF^2 of
+ * the two. qi = |q_i|, qk = |q_k d_i/d_k|. */
+#define MOMENT_ERROR(qi, qk) (8 * UNIT_ROUNDOFF * UNIT_ROUNDOFF * ((qi) + (qk)))
 
 /* The axis along which d is longest. */
 static inline int dominant_axis(const double d[3])

@@ -235,13 +235,9 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
   const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
   out->w = x[k].hi + rest;
   out->t = (way.hi + (rest + (way.lo + p->local[k].start[1]))) * p->local[k].to_t;
-  /* The point is on the leaf, where the root is just outside by its rounding. */
-  const lanes half = lanes_all(0.5);
-  const lanes to_s = lanes_max(lanes_min(s - step_s, half), -half) - s;
-  const lanes to_t = lanes_max(lanes_min(t - step_t, half), -half) - t;
-  for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo + (x[c].ds * to_s + x[c].dt * to_t));
+  for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo - (x[c].ds * step_s + x[c].dt * step_t));
   const lane_mask turned = settled & (step > parts->slope_step);
-  if (lanes_any(turned)) surface_turn(parts, s, t, to_s, to_t, turned, x);
+  if (lanes_any(turned)) surface_turn(parts, s, t, -step_s, -step_t, turned, x);
   for (int c = 0; c < 3; c++) out->su[c] = x[c].ds, out->sv[c] = x[c].dt;
 }
 

@@ -65,11 +65,12 @@ void packet_set_patch(struct packet *p, uint32_t index)
     const struct double_lanes from = double_lanes_sum(p->origin[k], lanes_all(-patch->center[k]));
     hi[k] = from.hi * inverse, lo[k] = from.lo * inverse;
   }
-  const lanes moment_error = MOMENT_ERROR(lanes_abs(hi[0]) + lanes_abs(hi[1]) + lanes_abs(hi[2]));
   for (int k = 0; k < 3; k++) {
     if (!(p->axes & 1u << k)) continue;
+    lanes far[2];
     for (int s = 0; s < 2; s++) {
       const int i = (k + 1 + s) % 3;
+      far[s] = MOMENT_ERROR(lanes_abs(hi[i]), lanes_abs(hi[k] * p->slope[k][s]));
       const lanes plus = hi[i] * p->direction[k], minus = hi[k] * p->direction[i];
       const lanes plus_error = lanes_product_error(hi[i], p->direction[k], plus);
       const lanes minus_error = lanes_product_error(hi[k], p->direction[i], minus);
@@ -81,8 +82,8 @@ void packet_set_patch(struct packet *p, uint32_t index)
     }
     p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
     p->local[k].to_t = patch->scale * p->reciprocal[k];
-    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1])) + moment_error +
-                        2 * p->net_error * inverse;
+    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1])) +
+                        lanes_max(far[0], far[1]) + 2 * p->net_error * inverse;
   }
   p->patch = index;
 }
