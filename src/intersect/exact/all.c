@@ -193,8 +193,7 @@ static bool in_order(struct judge *j, struct exact_found *a, struct exact_found 
   a->root = one, b->root = two;
   if (!judge_tie(&one, &two)) return one.t < two.t;
   j->doubt |= !judge_tie_fine(j, &one, &two);
-  if (one.patch != two.patch) return one.patch < two.patch;
-  return one.u != two.u ? one.u < two.u : one.v <= two.v;
+  return !judge_stands_before(&two, &one);
 }
 
 static void order(struct judge *j, size_t first, size_t end)

@@ -110,8 +110,7 @@ static bool same_root(const struct exact_root *a, const struct exact_root *b)
          fabs((double)(a->v - b->v)) <= a->radius_v + b->radius_v;
 }
 
-/* Of two roots that nothing tells apart on the ray: by patch, and by place where a patch meets itself. */
-static bool stands_before(const struct exact_root *a, const struct exact_root *b)
+bool judge_stands_before(const struct exact_root *a, const struct exact_root *b)
 {
   if (a->patch != b->patch) return a->patch < b->patch;
   return a->u != b->u ? a->u < b->u : a->v < b->v;
@@ -148,7 +147,7 @@ static void keep_root(struct judge *j, struct exact_root *root)
     const bool sharp = judge_sharpen(j, root) && judge_sharpen(j, &other), tie = judge_tie(root, &other);
     if (sharp) j->nearest = other;
     tied = j->tied |= tie && !judge_tie_fine(j, root, &other);
-    if (tie ? stands_before(&other, root) : root->t > other.t) return;
+    if (tie ? judge_stands_before(&other, root) : root->t > other.t) return;
   } else if (j->found && !(root->t < j->nearest.t)) {
     return;
   }

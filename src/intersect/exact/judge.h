@@ -44,6 +44,10 @@ bool judge_tie(const struct exact_root *a, const struct exact_root *b);
  * arithmetic leaves of roots that are not ill-conditioned. Turns to the patch of a. */
 bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct exact_root *b);
 
+/* Which of two roots that nothing tells apart on the ray comes first: by patch, and by its parameters where a patch meets
+ * itself. */
+bool judge_stands_before(const struct exact_root *a, const struct exact_root *b);
+
 /* Whether the two roots, each on one border of its patch, are on the same border, and the patches lie on either side of
  * it as the ray sees them: then it crosses the surface there. */
 bool judge_across(const struct judge *j, const struct exact_found *a, const struct exact_found *b);

@@ -144,13 +144,6 @@ static unsigned write_hits(const struct packet *p, unsigned group, const struct 
   return grazing;
 }
 
-/* Lanes whose root has all its digits after the last step. */
-static lane_mask has_digits(const struct packet *p, const struct model_patch *patch, lanes t)
-{
-  const lanes away = lanes_abs(t) * p->longest;
-  return (away >= NEAR_START * patch->scale) & (away <= FAR_START * patch->scale);
-}
-
 /* The lanes of `group`, whose best roots are final. */
 static unsigned finish_final(const struct packet *p, unsigned group, struct hit out[])
 {
@@ -174,7 +167,7 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, u
   last_step_take(&step);
   struct answers a = {.u = step.u, .v = step.v, .t = step.t, .done = step.done};
   a.done &= (lanes_abs(step.u - best->u) <= best->radius_u) & (lanes_abs(step.v - best->v) <= best->radius_v) &
-            has_digits(p, patch, best->t);
+            packet_has_digits(p, patch, best->t, NEAR_START);
   a.point = surface_point(patch, step.point, step.tangent);
   for (int c = 0; c < 3; c++) a.normal[c] = step.normal[c];
   return write_hits(p, group, &a, out);

@@ -54,13 +54,20 @@ LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *
          8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
 }
 
+/* The root and its radii in parameters of the patch. */
+LANES_INLINE void root_uv(const struct candidate *it, const struct newton_root *r, lanes uv[2], lanes radius[2])
+{
+  const double part[2] = {1.0 / it->patch->split[0], 1.0 / it->patch->split[1]};
+  uv[0] = (it->leaf->column_u + r->u) * part[0], uv[1] = (it->leaf->column_v + r->v) * part[1];
+  radius[0] = r->radius_u * part[0] + UNIT_ROUNDOFF, radius[1] = r->radius_v * part[1] + UNIT_ROUNDOFF;
+}
+
 LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes at,
                               lanes error, lane_mask taken, bool certain)
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
-  const double part[2] = {1.0 / it->patch->split[0], 1.0 / it->patch->split[1]};
-  const lanes uv[2] = {(it->leaf->column_u + r->u) * part[0], (it->leaf->column_v + r->v) * part[1]};
-  const lanes radius[2] = {r->radius_u * part[0] + UNIT_ROUNDOFF, r->radius_v * part[1] + UNIT_ROUNDOFF};
+  lanes uv[2], radius[2];
+  root_uv(it, r, uv, radius);
   p->tracer->counts.roots_accepted += lanes_count(taken);
   if (p->gather) {
     gather_take(p, taken, uv, radius, at, error, patch, leaf, certain);
@@ -79,10 +86,10 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
                            int64_t patch)
 {
   const struct best *best = &p->best;
-  const double part[2] = {1.0 / it->patch->split[0], 1.0 / it->patch->split[1]};
-  const lanes u = (it->leaf->column_u + r->u) * part[0], v = (it->leaf->column_v + r->v) * part[1];
-  return (best->patch == patch) & (lanes_abs(u - best->u) <= r->radius_u * part[0] + best->radius_u + UNIT_ROUNDOFF) &
-         (lanes_abs(v - best->v) <= r->radius_v * part[1] + best->radius_v + UNIT_ROUNDOFF);
+  lanes uv[2], radius[2];
+  root_uv(it, r, uv, radius);
+  return (best->patch == patch) & (lanes_abs(uv[0] - best->u) <= radius[0] + best->radius_u) &
+         (lanes_abs(uv[1] - best->v) <= radius[1] + best->radius_v);
 }
 
 /* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it, or are
@@ -133,8 +140,7 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
   const lanes tangent = surface_tangent(root->su, root->sv);
   const int most = patch->split[0] > patch->split[1] ? patch->split[0] : patch->split[1];
   const struct surface_point point = surface_point(patch, root->point, most * tangent);
-  const lanes away = lanes_abs(root->t) * p->longest;
-  const lane_mask final = (away >= NEAR_START_FINAL * patch->scale) & (away <= FAR_START * patch->scale);
+  const lane_mask final = packet_has_digits(p, patch, root->t, NEAR_START_FINAL);
   if (p->gather) {
     gather_surface(p->gather, taken, &point, normal, tangent, final);
     return;

@@ -90,6 +90,14 @@ void packet_orient(struct packet *p);
 /* packet.c: turns to the frame of a patch, as local_ray.c makes it for one ray. */
 void packet_set_patch(struct packet *p, uint32_t index);
 
+/* Lanes whose root at t, in units of the packet's directions, has all its digits as double precision leaves it: at least
+ * the part `least` of the patch's frame away from the ray's start, and not too far. */
+LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, lanes t, double least)
+{
+  const lanes away = lanes_abs(t) * p->longest;
+  return (away >= least * patch->scale) & (away <= FAR_START * patch->scale);
+}
+
 /* candidate.c: tries the leaf on the lanes of `active`, and keeps what is nearer than the best. */
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active);
 
