@@ -7,28 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accuracy/class_tests.h"
 #include "accuracy/exact.h"
-#include "accuracy/hostile.h"
 #include "accuracy/trial.h"
 #include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
 
-/* As in certificate_test.c. */
-#define OTHERS_SHARE 0.1
-enum { FULL_RAYS = 20000, LEAST_RAYS = 16, OTHERS_LEAST = 4, MOST_CLASSES = 64, MOST_SHOWN = 6, MOST_ROOTS = 512 };
+enum { FULL_RAYS = 20000, MOST_SHOWN = 6, MOST_ROOTS = 512 };
 
 /* How far off t of a hit may be, in floors; next to a tangency they are of the first order only, and roots that lie
  * nearer than that are told apart by their order. */
 #define SAME_FLOORS 16
-
-struct form {
-  const char *solver;
-  int split; /* 0: the solver's own */
-};
-static const struct form forms[] = {{"bernstein", 0}, {"newton", 0},    {"laguerre", 0},
-                                    {"aberth", 0},    {"bernstein", 1}, {"bernstein", 8}};
-enum { FORMS = sizeof forms / sizeof forms[0] };
 
 struct truth {
   uint32_t patch;
@@ -122,7 +112,7 @@ static enum finding judge(const struct hit_list *list, struct truths *truths)
   return truths->doubt ? FOUND_UNDECIDED : FOUND_RIGHT;
 }
 
-static void show(const char *name, const struct form *form, const struct situation *s, const struct ray *ray,
+static void show(const char *name, const struct class_form *form, const struct situation *s, const struct ray *ray,
                  const struct hit_list *list, const struct truths *truths, const char *what)
 {
   static size_t shown = 0;
@@ -139,25 +129,19 @@ static void show(const char *name, const struct form *form, const struct situati
            truths->root[k].met ? "" : ", not met");
   if (truths->doubt) printf("  and a doubt\n");
   if (!getenv("PSCN_SHOW")) return;
-  for (size_t n = 0; n < s->count; n++) {
-    printf("bicubic_patch { type 1 flatness 0 u_steps 5 v_steps 5\n");
-    for (int k = 0; k < 16; k++)
-      printf("  <%.17g, %.17g, %.17g>%s\n", s->P[n][k / 4][k % 4][0], s->P[n][k / 4][k % 4][1],
-             s->P[n][k / 4][k % 4][2], k < 15 ? "," : "\n pigment { color rgb 1 } }");
-  }
+  class_print_patches(s);
 }
 
-static void run_situation(const char *name, const struct form *form, const struct situation *s, size_t first,
-                          size_t most, struct count *count)
+static size_t ask(const char *name, const struct class_form *form, const struct situation *s, size_t first, size_t most,
+                  void *context)
 {
   static struct truths truths;
+  struct count *count = context;
   struct method method;
-  for (size_t n = 0; n < solver_count(); n++)
-    if (!strcmp(solver_at(n)->name, form->solver)) method_default(solver_at(n), &method);
-  if (form->split) method.split = form->split;
+  class_form_method(form, &method);
   struct trial trial;
   trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &method);
-  for (size_t n = 0; n < SITUATION_RAYS && n < most; n++) {
+  for (size_t n = 0; n < most; n++) {
     const struct ray *ray = &s->rays[(first + n) % SITUATION_RAYS];
     struct hit_list list;
     assert_int_equal(tracer_all(trial.tracer, 1, ray, &list), STATUS_OK);
@@ -171,6 +155,7 @@ static void run_situation(const char *name, const struct form *form, const struc
     else if (grazing && clear && getenv("PSCN_SHOW_SURE")) show(name, form, s, ray, &list, &truths, "but clear");
   }
   trial_destroy(&trial);
+  return most;
 }
 
 static size_t refuted(const size_t answers[FINDINGS])
@@ -180,7 +165,7 @@ static size_t refuted(const size_t answers[FINDINGS])
   return sum;
 }
 
-static void print_count(const char *name, const struct form *form, uint64_t seed, const struct count *c)
+static void print_count(const char *name, const struct class_form *form, uint64_t seed, const struct count *c)
 {
   printf(
     "%-36s %-9s %2d %6zu rays, %6zu roots: certain %zu, %zu undecided, %zu refuted; grazing %zu, %zu of them clear, "
@@ -195,34 +180,16 @@ static void test_class(void **state)
 {
   const struct situation_class *class = *state;
   size_t bad = 0;
-  const char *only = getenv("PSCN_CLASS");
-  if (only && !strstr(class->name, only)) return;
-  for (int m = 0; m < FORMS; m++) {
+  if (!class_wanted(class)) return;
+  for (int m = 0; m < CLASS_FORMS; m++) {
     struct count count = {0};
-    const size_t wanted = effort_count((size_t)(class->share * (m ? OTHERS_SHARE : 1) * FULL_RAYS),
-                                       m ? OTHERS_LEAST : LEAST_RAYS);
     const uint64_t seed = effort_seed(class->seed + 7000);
-    struct random random = {.state = seed + (uint64_t)m * 1000};
-    for (size_t index = 0; count.rays < wanted; index++) {
-      struct situation situation;
-      class->generate(&random, index, &situation);
-      run_situation(class->name, &forms[m], &situation, (size_t)m * OTHERS_LEAST, wanted - count.rays, &count);
-    }
-    print_count(class->name, &forms[m], seed, &count);
+    class_ask_rays(class, m, FULL_RAYS, seed, ask, &count);
+    print_count(class->name, &class_forms[m], seed, &count);
     bad += refuted(count.answers[0]) + refuted(count.answers[1]);
   }
   exact_cleanup();
   if (!class_told_only(class)) assert_int_equal(bad, 0);
 }
 
-int main(void)
-{
-  struct CMUnitTest tests[MOST_CLASSES];
-  const size_t count = every_class_count();
-  assert_true(count <= MOST_CLASSES);
-  for (size_t n = 0; n < count; n++) {
-    void *class = (void *)(uintptr_t)every_class_at(n); /* cmocka's state is not const */
-    tests[n] = (struct CMUnitTest){.name = every_class_at(n)->name, .test_func = test_class, .initial_state = class};
-  }
-  return _cmocka_run_group_tests("all hits", tests, count, NULL, NULL);
-}
+int main(void) { return class_tests_run("all hits", test_class, NULL); }

@@ -8,8 +8,8 @@
 #include <time.h>
 
 #include "accuracy/certificate.h"
+#include "accuracy/class_tests.h"
 #include "accuracy/exact.h"
-#include "accuracy/hostile.h"
 #include "accuracy/trial.h"
 #include "cmocka_test.h"
 #include "effort.h"
@@ -18,17 +18,7 @@
 /* No ray of any scene may take longer, in seconds. Timing decides no test; it is printed. */
 #define SLOW 2e-3
 
-/* The default solver gets all rays, the others this share; of a situation no more rays than are still wanted. */
-#define OTHERS_SHARE 0.1
-enum { FULL_RAYS = 40000, LEAST_RAYS = 16, OTHERS_LEAST = 4, MOST_CLASSES = 64, MOST_SHOWN = 6 };
-
-struct form {
-  const char *solver;
-  int split; /* 0: the solver's own */
-};
-static const struct form forms[] = {{"bernstein", 0}, {"newton", 0},    {"laguerre", 0},
-                                    {"aberth", 0},    {"bernstein", 1}, {"bernstein", 8}};
-enum { FORMS = sizeof forms / sizeof forms[0] };
+enum { FULL_RAYS = 40000, MOST_SHOWN = 6 };
 
 struct count {
   size_t rays, answers[2][FINDINGS]; /* certain, grazing */
@@ -45,7 +35,7 @@ static double seconds(void)
 }
 
 /* With PSCN_SHOW set everything is shown, and the scene too. */
-static void show(const char *name, const struct form *form, const struct situation *s, const struct ray *ray,
+static void show(const char *name, const struct class_form *form, const struct situation *s, const struct ray *ray,
                  const struct hit *hit, const char *what)
 {
   const double *o = ray->origin, *d = ray->direction;
@@ -54,16 +44,11 @@ static void show(const char *name, const struct form *form, const struct situati
   if (hit->patch != HIT_NONE)
     printf("  answer t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
   if (!getenv("PSCN_SHOW")) return;
-  for (size_t n = 0; n < s->count; n++) {
-    printf("bicubic_patch { type 1 flatness 0 u_steps 5 v_steps 5\n");
-    for (int k = 0; k < 16; k++)
-      printf("  <%.17g, %.17g, %.17g>%s\n", s->P[n][k / 4][k % 4][0], s->P[n][k / 4][k % 4][1],
-             s->P[n][k / 4][k % 4][2], k < 15 ? "," : "\n pigment { color rgb 1 } }");
-  }
+  class_print_patches(s);
 }
 
-static void show_refuted(const char *name, const struct form *form, const struct situation *s, const struct ray *ray,
-                         const struct hit *hit, const struct certificate *c)
+static void show_refuted(const char *name, const struct class_form *form, const struct situation *s,
+                         const struct ray *ray, const struct hit *hit, const struct certificate *c)
 {
   static size_t shown = 0;
   if (shown++ >= MOST_SHOWN && !getenv("PSCN_SHOW")) return;
@@ -84,19 +69,17 @@ static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
   return least;
 }
 
-/* `most` rays from `first` on, round the situation. */
-static void run_situation(const char *name, const struct form *form, const struct situation *s, size_t first,
-                          size_t most, struct count *count)
+static size_t ask(const char *name, const struct class_form *form, const struct situation *s, size_t first, size_t most,
+                  void *context)
 {
+  struct count *count = context;
   struct method method;
-  for (size_t n = 0; n < solver_count(); n++)
-    if (!strcmp(solver_at(n)->name, form->solver)) method_default(solver_at(n), &method);
-  if (form->split) method.split = form->split;
+  class_form_method(form, &method);
   struct trial trial;
   struct certifier certifier;
   trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &method);
   certifier_create(&certifier, &trial.scene, trial.reference);
-  for (size_t n = 0; n < SITUATION_RAYS && n < most; n++) {
+  for (size_t n = 0; n < most; n++) {
     const struct ray *ray = &s->rays[(first + n) % SITUATION_RAYS];
     struct hit hit;
     struct certificate certificate;
@@ -111,6 +94,7 @@ static void run_situation(const char *name, const struct form *form, const struc
   }
   certifier_destroy(&certifier);
   trial_destroy(&trial);
+  return most;
 }
 
 static size_t refuted(const size_t answers[FINDINGS])
@@ -120,7 +104,7 @@ static size_t refuted(const size_t answers[FINDINGS])
   return sum;
 }
 
-static void print_count(const char *name, const struct form *form, uint64_t seed, const struct count *c)
+static void print_count(const char *name, const struct class_form *form, uint64_t seed, const struct count *c)
 {
   const size_t *certain = c->answers[0], *grazing = c->answers[1];
   const size_t grazes = grazing[FINDING_PROVEN] + grazing[FINDING_UNDECIDED] + refuted(grazing);
@@ -137,20 +121,12 @@ static void test_class(void **state)
 {
   const struct situation_class *class = *state;
   size_t bad = 0, certain_bad = 0;
-  const char *only = getenv("PSCN_CLASS");
-  if (only && !strstr(class->name, only)) return;
-  for (int m = 0; m < FORMS; m++) {
+  if (!class_wanted(class)) return;
+  for (int m = 0; m < CLASS_FORMS; m++) {
     struct count count = {0};
-    const size_t wanted = effort_count((size_t)(class->share * (m ? OTHERS_SHARE : 1) * FULL_RAYS),
-                                       m ? OTHERS_LEAST : LEAST_RAYS);
     const uint64_t seed = effort_seed(class->seed);
-    struct random random = {.state = seed + (uint64_t)m * 1000};
-    for (size_t index = 0; count.rays < wanted; index++) {
-      struct situation situation;
-      class->generate(&random, index, &situation);
-      run_situation(class->name, &forms[m], &situation, (size_t)m * OTHERS_LEAST, wanted - count.rays, &count);
-    }
-    print_count(class->name, &forms[m], seed, &count);
+    class_ask_rays(class, m, FULL_RAYS, seed, ask, &count);
+    print_count(class->name, &class_forms[m], seed, &count);
     certain_bad += refuted(count.answers[0]), bad += refuted(count.answers[1]);
   }
   exact_cleanup();
@@ -193,7 +169,7 @@ static void test_judges(void **state)
         certify(&certifier, &s.rays[r], &hit, &c);
         found[0][c.finding]++;
         if (c.finding > FINDING_PROVEN)
-          show_refuted(class->name, &(struct form){"reference", 0}, &s, &s.rays[r], &hit, &c);
+          show_refuted(class->name, &(struct class_form){"reference", 0}, &s, &s.rays[r], &hit, &c);
         if (hit.patch == HIT_NONE || c.finding != FINDING_PROVEN) continue;
         const double t = hit.t, floor = trial_floor(trial.reference, &s.rays[r], hit.patch, t, hit.u, hit.v).t;
         if (!(floor < 1e-6 * t)) continue;
@@ -226,13 +202,6 @@ static void test_judges(void **state)
 
 int main(void)
 {
-  struct CMUnitTest tests[MOST_CLASSES + 1];
-  const size_t count = every_class_count();
-  assert_true(count <= MOST_CLASSES);
-  for (size_t n = 0; n < count; n++) {
-    void *class = (void *)(uintptr_t)every_class_at(n); /* cmocka's state is not const */
-    tests[n] = (struct CMUnitTest){.name = every_class_at(n)->name, .test_func = test_class, .initial_state = class};
-  }
-  tests[count] = (struct CMUnitTest)cmocka_unit_test(test_judges);
-  return _cmocka_run_group_tests("certificates", tests, count + 1, NULL, NULL);
+  const struct CMUnitTest judges = cmocka_unit_test(test_judges);
+  return class_tests_run("certificates", test_class, &judges);
 }

@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "accuracy/hostile.h"
+#include "accuracy/class_tests.h"
 #include "accuracy/kernel_choice.h"
 #include "accuracy/trial.h"
 #include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
 
-enum { FULL_RAYS = 100000, LEAST_RAYS = 128, MOST_CLASSES = 64, MOST_SHOWN = 4 };
+enum { FULL_RAYS = 100000, LEAST_RAYS = 128, MOST_SHOWN = 4 };
 
 struct count {
   size_t rays;
@@ -96,8 +96,7 @@ static void run_situation(const char *class, const struct situation *s, struct c
 static void test_class(void **state)
 {
   const struct situation_class *class = *state;
-  const char *only = getenv("PSCN_CLASS");
-  if (only && !strstr(class->name, only)) return;
+  if (!class_wanted(class)) return;
   struct count c = {0};
   const size_t wanted = effort_count((size_t)(class->share * FULL_RAYS), LEAST_RAYS);
   const uint64_t seed = effort_seed(class->seed);
@@ -115,14 +114,4 @@ static void test_class(void **state)
   assert_int_equal(c.verdict + c.certainty + c.patch + c.place + c.company + c.occlusion, 0);
 }
 
-int main(void)
-{
-  struct CMUnitTest tests[MOST_CLASSES];
-  const size_t count = every_class_count();
-  assert_true(count <= MOST_CLASSES);
-  for (size_t n = 0; n < count; n++) {
-    void *class = (void *)(uintptr_t)every_class_at(n); /* cmocka's state is not const */
-    tests[n] = (struct CMUnitTest){.name = every_class_at(n)->name, .test_func = test_class, .initial_state = class};
-  }
-  return _cmocka_run_group_tests("kernels", tests, count, NULL, NULL);
-}
+int main(void) { return class_tests_run("kernels", test_class, NULL); }

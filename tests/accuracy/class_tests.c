@@ -1,0 +1,67 @@
+/* See class_tests.h. */
+#include "accuracy/class_tests.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "effort.h"
+#include "random.h"
+
+/* The default solver gets all rays, the others this share; of a situation no more rays than are still wanted. */
+#define OTHERS_SHARE 0.1
+enum { LEAST_RAYS = 16, OTHERS_LEAST = 4, MOST_CLASSES = 64 };
+
+const struct class_form class_forms[CLASS_FORMS] = {{"bernstein", 0}, {"newton", 0},    {"laguerre", 0},
+                                                    {"aberth", 0},    {"bernstein", 1}, {"bernstein", 8}};
+
+bool class_wanted(const struct situation_class *class)
+{
+  const char *only = getenv("PSCN_CLASS");
+  return !only || strstr(class->name, only);
+}
+
+void class_form_method(const struct class_form *form, struct method *out)
+{
+  for (size_t n = 0; n < solver_count(); n++)
+    if (!strcmp(solver_at(n)->name, form->solver)) method_default(solver_at(n), out);
+  if (form->split) out->split = form->split;
+}
+
+void class_ask_rays(const struct situation_class *class, int form, size_t full, uint64_t seed, class_ask *ask,
+                    void *count)
+{
+  const size_t wanted = effort_count((size_t)(class->share * (form ? OTHERS_SHARE : 1) * (double)full),
+                                     form ? OTHERS_LEAST : LEAST_RAYS);
+  struct random random = {.state = seed + (uint64_t)form * 1000};
+  size_t asked = 0;
+  for (size_t index = 0; asked < wanted; index++) {
+    struct situation situation;
+    class->generate(&random, index, &situation);
+    const size_t left = wanted - asked, most = left < SITUATION_RAYS ? left : SITUATION_RAYS;
+    asked += ask(class->name, &class_forms[form], &situation, (size_t)form * OTHERS_LEAST, most, count);
+  }
+}
+
+void class_print_patches(const struct situation *s)
+{
+  for (size_t n = 0; n < s->count; n++) {
+    printf("bicubic_patch { type 1 flatness 0 u_steps 5 v_steps 5\n");
+    for (int k = 0; k < 16; k++)
+      printf("  <%.17g, %.17g, %.17g>%s\n", s->P[n][k / 4][k % 4][0], s->P[n][k / 4][k % 4][1],
+             s->P[n][k / 4][k % 4][2], k < 15 ? "," : "\n pigment { color rgb 1 } }");
+  }
+}
+
+int class_tests_run(const char *group, CMUnitTestFunction test, const struct CMUnitTest *last)
+{
+  struct CMUnitTest tests[MOST_CLASSES + 1];
+  const size_t count = every_class_count();
+  assert_true(count <= MOST_CLASSES);
+  for (size_t n = 0; n < count; n++) {
+    void *class = (void *)(uintptr_t)every_class_at(n); /* cmocka's state is not const */
+    tests[n] = (struct CMUnitTest){.name = every_class_at(n)->name, .test_func = test, .initial_state = class};
+  }
+  if (last) tests[count] = *last;
+  return _cmocka_run_group_tests(group, tests, count + (last != NULL), NULL, NULL);
+}
