@@ -8,10 +8,7 @@
  */
 #include "algebra/root_problem.h"
 #include "algebra/start.h"
-
-/* A step no shorter than this much of the one so many sweeps before is turned: see root_kernel.c. */
-enum { TURN_PERIOD = 5 };
-#define STUCK 0.9
+#include "algebra/turn.h"
 
 struct sweep {
   const struct solver_options *options;
@@ -58,10 +55,8 @@ static bool move(struct sweep *sweep, int i)
   const double scale = rounding && square < 1.0 ? square : 1.0; /* the paper's tolerance is absolute */
   bool done = length < options->tolerance * options->tolerance * scale;
   if (rounding && resting && length >= sweep->last[i]) done = true, step = (struct complex_number){0.0, 0.0};
-  if (sweep->number % TURN_PERIOD == 0) {
-    const double angle = 0.3 + 0.37 * i;
-    if (!done && length >= STUCK * STUCK * sweep->checked[i])
-      step = complex_multiply(step, (struct complex_number){cos(angle), sin(angle)});
+  if (turn_due(sweep->number)) {
+    if (!done) step = turn_if_stuck(i, step, length, sweep->checked[i]);
     sweep->checked[i] = length;
   }
   sweep->last[i] = length;

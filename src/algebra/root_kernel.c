@@ -6,13 +6,9 @@
 
 #include <string.h>
 
+#include "algebra/turn.h"
 #include "base/kernel.h"
 #include "base/lanes.h"
-
-/* Every so many sweeps a step no shorter than this much of the one so many before is turned by the root's own angle.
- * Symmetric starts (real values seeking a complex pair, pairs seeking two real roots) would otherwise never part. */
-enum { TURN_PERIOD = 5 };
-#define STUCK 0.9
 
 /* Steps of noise a root may meet before it is done: the others are still moving, and the next step may be a good
  * one. */
@@ -150,10 +146,10 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
       dy = 0.25 * xi + 0.125 * xr;
     }
     done = usable && square < limit;
-    if (turning && !done && square >= STUCK * STUCK * a->checked[i]) {
-      const double angle = 0.3 + 0.37 * i, c = cos(angle), s = sin(angle), turned = c * dx - s * dy;
-      dy = s * dx + c * dy;
-      dx = turned;
+    if (turning && !done) {
+      const struct complex_number step = turn_if_stuck(i, (struct complex_number){dx, dy}, square, a->checked[i]);
+      dx = step.re;
+      dy = step.im;
     }
     a->last_step[i] = usable ? square : INFINITY;
     if (turning) a->checked[i] = a->last_step[i];
@@ -165,7 +161,7 @@ static bool take_step(struct aberth *a, const struct solver_options *options, bo
 
 void KERNEL(root_kernel)(struct aberth *a, const struct solver_options *options, int number, struct root_estimates *out)
 {
-  const bool turning = number % TURN_PERIOD == 0;
+  const bool turning = turn_due(number);
   /* The paper's tolerance is absolute. */
   const bool relative = options->stop == STOP_ROUNDING;
   const double tolerance = options->tolerance * options->tolerance;
