@@ -233,8 +233,7 @@ bool judge_pole(struct judge *j, int border)
                                     v,
                                     (double)t,
                                     16 * UNIT_ROUNDOFF * fabs((double)t) +
-                                      (double)(ZOOM_POLE_REACH * judge_zoom(j)->error) *
-                                        fabs(j->local.unit * j->local.to_t)};
+                                      ZOOM_POLE_REACH * judge_zoom(j)->error * fabs(j->local.unit * j->local.to_t)};
   keep_maybe(j, &maybe);
   return false;
 }

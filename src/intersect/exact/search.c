@@ -98,7 +98,7 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
     root.u = s->low[0] + s->size[0] * ((wide)box->u + (wide)box->size_u * at[0]);
     root.v = s->low[1] + s->size[1] * ((wide)box->v + (wide)box->size_v * at[1]);
     root.t = zoom_t(judge_zoom(s->judge), root.u, root.v);
-    root.t_error = length_to_t(s, off + (double)judge_zoom(s->judge)->error);
+    root.t_error = length_to_t(s, off + judge_zoom(s->judge)->error);
   } else {
     root.u = (double)s->low[0] + (double)s->size[0] * (box->u + box->size_u * at[0]);
     root.v = (double)s->low[1] + (double)s->size[1] * (box->v + box->size_v * at[1]);
@@ -189,7 +189,7 @@ static void closer_run(struct search *closer, const struct zoomed *zoomed)
   const wide start = zoomed->start * closer->unit;
   closer->start[0] = (double)start, closer->start[1] = (double)(start - closer->start[0]);
   for (int k = 0; k < 2; k++) closer->error[k] = zoomed->error[k];
-  closer->depth_error = 32 * UNIT_ROUNDOFF * size + (double)judge_zoom(closer->judge)->error;
+  closer->depth_error = 32 * UNIT_ROUNDOFF * size + judge_zoom(closer->judge)->error;
   struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   memcpy(whole.net, zoomed->net, sizeof whole.net);
   search_run(closer, &whole);

@@ -4,31 +4,41 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/double_double.h"
+#include "base/fixed.h"
 #include "intersect/certificate.h"
 
 /* A value of a or b passes at most this many roundings on the way from the control points to a combination's
- * coefficient over a box: local net 2, moment and plane 6, to powers 2 x 5, to the box 2 x 9, combination 3; each on
- * terms that sum up to no more than POWER_GROWTH times the largest value a control point gives, for sum |power| <= 5
- * of a cubic with |b| <= 1, and inside the square the box's terms sum up to no more. */
-#define ZOOM_ROUNDINGS 40
-#define POWER_GROWTH 25
+ * coefficient over a box: local net 3, slope 2, moment and plane 4, to powers 2 x 4, to the box 2 x 12, combination 3;
+ * each of them 2 units of a number below 1, or of one that a number of at most MOST_MOMENT + 2 is multiplied by; and all
+ * terms of a value sum up to no more than POWER_GROWTH times the largest one that a control point gives: sum |power| <=
+ * 7.2 of a cubic with |b| <= 1, as far as LEAF_MARGIN outside the square. */
+#define ZOOM_ROUNDINGS 44
+#define POWER_GROWTH 52
 
-/* Roundings, in double, of what is left of a combination scaled to a sum of 1: conversion 1, to Bernstein form 2 x
- * 4. */
-#define ZOOMED_ROUNDINGS 10
+/* |x_i - (d_i/d_k) x_k| is no more than 2 on the patch: a ray with a larger moment passes it by, and so it does with this
+ * one of the same sign. */
+#define MOST_MOMENT 3
+
+/* Roundings, in double, of what is left of a combination scaled to a sum of 1: conversion and scale 3, to Bernstein form
+ * 2 x 4. */
+#define ZOOMED_ROUNDINGS 12
 
 static wide wide_abs(wide a) { return a < 0 ? -a : a; }
 static wide wide_max(wide a, wide b) { return a > b ? a : b; }
 
 /* Bernstein coefficients with the stride to powers of s = 2t - 1. */
-static void to_powers(wide *b, int stride)
+static void to_powers(fixed *b, int stride)
 {
-  const wide b0 = b[0], b1 = b[stride], b2 = b[2 * stride], b3 = b[3 * stride], eighth = (wide)0.125;
-  b[0] = eighth * ((b0 + b3) + 3 * (b1 + b2));
-  b[stride] = 3 * eighth * ((b3 - b0) + (b2 - b1));
-  b[2 * stride] = 3 * eighth * ((b0 + b3) - (b1 + b2));
-  b[3 * stride] = eighth * ((b3 - b0) - 3 * (b2 - b1));
+  const fixed b0 = b[0], b1 = b[stride], b2 = b[2 * stride], b3 = b[3 * stride];
+  b[0] = ((b0 + b3) + 3 * (b1 + b2)) / 8;
+  b[stride] = 3 * ((b3 - b0) + (b2 - b1)) / 8;
+  b[2 * stride] = 3 * ((b0 + b3) - (b1 + b2)) / 8;
+  b[3 * stride] = ((b3 - b0) - 3 * (b2 - b1)) / 8;
 }
+
+/* Roundings of a moment, of the size that they are relative to. */
+#define MOMENT_ROUNDINGS 10
 
 /* (q_i d_k - q_k d_i)/d_k for q = (origin - center)/scale, and adds to `size` what its roundings are relative to. Either
  * of the differences, or of the products of 106 bits, where those nearly cancel far from the scene's origin. */
@@ -44,33 +54,41 @@ static wide wide_moment(const struct model_patch *patch, const struct ray *ray, 
   return by_line < by_start ? line - (ci - slope * ck) : qi - slope * qk;
 }
 
+/* The coordinate in the frame of the patch: differences and powers of two are exact. */
+static fixed local(const struct model_patch *patch, double p, int c)
+{
+  const struct double_double x = dd_two_sum(p, -patch->center[c]);
+  return fixed_from(x.hi / patch->scale) + fixed_from(x.lo / patch->scale);
+}
+
 void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out)
 {
   const double *d = ray->direction;
   wide size = 0;
-  const wide to_local = 1 / (wide)patch->scale; /* a power of two */
-  for (int s = 0; s < 3; s++) {
+  for (int n = 0; n < 16; n++) out->power[2][n / 4][n % 4] = local(patch, P[n / 4][n % 4][k], k);
+  for (int s = 0; s < 2; s++) {
     const int i = (k + 1 + s) % 3;
-    const wide slope = (wide)d[i] / d[k], moment = s < 2 ? wide_moment(patch, ray, i, k, &size) : 0;
-    for (int n = 0; n < 16; n++) {
-      const double *p = P[n / 4][n % 4];
-      const wide x = ((wide)p[i] - patch->center[i]) * to_local, y = ((wide)p[k] - patch->center[k]) * to_local;
-      out->power[s][n / 4][n % 4] = s == 2 ? y : x - slope * y - moment;
-    }
-    for (int n = 0; n < 4; n++) to_powers(out->power[s][n], 1);
-    for (int n = 0; n < 4; n++) to_powers(&out->power[s][0][n], 4);
+    const fixed slope = fixed_from_wide((wide)d[i] / d[k]);
+    const wide m = wide_moment(patch, ray, i, k, &size);
+    const fixed moment = fixed_from_wide(m > MOST_MOMENT ? MOST_MOMENT : m < -MOST_MOMENT ? -MOST_MOMENT : m);
+    for (int n = 0; n < 16; n++)
+      out->power[s][n / 4][n % 4] = local(patch, P[n / 4][n % 4][i], i) -
+                                    fixed_product(slope, out->power[2][n / 4][n % 4]) - moment;
   }
-  out->origin = ((wide)ray->origin[k] - patch->center[k]) * to_local, out->to_t = (wide)patch->scale / d[k];
-  out->error = WIDE_ROUNDOFF * ZOOM_ROUNDINGS * POWER_GROWTH * size;
+  for (int n = 0; n < 12; n++) to_powers(out->power[n / 4][n % 4], 1);
+  for (int n = 0; n < 12; n++) to_powers(&out->power[n / 4][0][n % 4], 4);
+  out->origin = ((wide)ray->origin[k] - patch->center[k]) / (wide)patch->scale;
+  out->to_t = (wide)patch->scale / d[k];
+  out->error = 2 * FIXED_UNIT * ZOOM_ROUNDINGS * POWER_GROWTH * (MOST_MOMENT + 2) +
+               (double)(WIDE_ROUNDOFF * (MOMENT_ROUNDINGS * size + POWER_GROWTH));
 }
 
 /* The polynomial of s with powers c, as powers of r for s = middle + half r. */
-static void move(wide *c, int stride, wide middle, wide half)
+static void move(fixed *c, int stride, fixed middle, const fixed half[3])
 {
   for (int n = 0; n < 3; n++)
-    for (int k = 2; k >= n; k--) c[k * stride] += middle * c[(k + 1) * stride];
-  wide power = half;
-  for (int k = 1; k < 4; k++) c[k * stride] *= power, power *= half;
+    for (int k = 2; k >= n; k--) c[k * stride] += fixed_product(middle, c[(k + 1) * stride]);
+  for (int k = 1; k < 4; k++) c[k * stride] = fixed_product(c[k * stride], half[k - 1]);
 }
 
 /* Powers of r in [-1,1] to Bernstein coefficients there. */
@@ -81,87 +99,98 @@ static void to_bernstein(double *c, int stride)
   c[stride] = (c0 - third * c2) - (third * c1 - c3), c[2 * stride] = (c0 - third * c2) + (third * c1 - c3);
 }
 
-static void net_of(wide power[4][4], wide factor, double out[4][4])
+static void net_of(fixed power[4][4], double factor, double out[4][4])
 {
-  for (int n = 0; n < 16; n++) out[n / 4][n % 4] = (double)(power[n / 4][n % 4] * factor);
+  for (int n = 0; n < 16; n++) out[n / 4][n % 4] = fixed_double(power[n / 4][n % 4]) * factor;
   for (int n = 0; n < 4; n++) to_bernstein(out[n], 1);
   for (int n = 0; n < 4; n++) to_bernstein(&out[0][n], 4);
 }
 
 /* The combination p a + q b as powers; returns the sum of their sizes. */
-static wide combine(wide a[4][4], wide b[4][4], double p, double q, wide out[4][4])
+static double combine(fixed a[4][4], fixed b[4][4], fixed p, fixed q, fixed out[4][4])
 {
-  wide sum = 0;
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++) out[i][j] = p * a[i][j] + q * b[i][j], sum += wide_abs(out[i][j]);
+  double sum = 0;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      out[i][j] = fixed_product(p, a[i][j]) + fixed_product(q, b[i][j]);
+      sum += fabs(fixed_double(out[i][j]));
+    }
+  }
   return sum;
 }
 
 /* The ray's polynomials over the box, as powers of its own parameters in [-1,1]. */
-static void box_powers(const struct zoom *zoom, const wide low[2], const wide size[2], wide c[3][4][4])
+static void box_powers(const struct zoom *zoom, const wide low[2], const wide size[2], fixed c[3][4][4])
 {
-  memcpy(c, zoom->power, sizeof zoom->power);
-  for (int s = 0; s < 3; s++) {
-    for (int n = 0; n < 4; n++) move(&c[s][0][n], 4, 2 * low[0] + size[0] - 1, size[0]);
-    for (int n = 0; n < 4; n++) move(c[s][n], 1, 2 * low[1] + size[1] - 1, size[1]);
+  fixed middle[2], half[2][3];
+  for (int k = 0; k < 2; k++) {
+    middle[k] = fixed_from_wide(2 * low[k] + size[k] - 1), half[k][0] = fixed_from_wide(size[k]);
+    half[k][1] = fixed_product(half[k][0], half[k][0]), half[k][2] = fixed_product(half[k][1], half[k][0]);
   }
+  memcpy(c, zoom->power, sizeof zoom->power);
+  for (int n = 0; n < 12; n++) move(&c[n / 4][0][n % 4], 4, middle[0], half[0]);
+  for (int n = 0; n < 12; n++) move(c[n / 4][n % 4], 1, middle[1], half[1]);
 }
 
 /* The net of x_k, less the middle's. */
-static void set_depth(const struct zoom *zoom, wide power[4][4], struct zoomed *out)
+static void set_depth(const struct zoom *zoom, fixed power[4][4], struct zoomed *out)
 {
-  out->start = power[0][0] - zoom->origin;
+  out->start = fixed_wide(power[0][0]) - zoom->origin;
   power[0][0] = 0;
   net_of(power, 1, out->net[2]);
 }
 
 bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out)
 {
-  wide c[3][4][4];
+  fixed c[3][4][4];
   box_powers(zoom, low, size, c);
   /* The combination whose first derivatives vanish, as nearly as they can, in the middle: the row of the adjugate
    * Jacobian that is the larger; and the one across it. Rounded rows are as good: both combinations are formed with
    * what they are. */
-  const double au = (double)c[0][1][0], av = (double)c[0][0][1], bu = (double)c[1][1][0], bv = (double)c[1][0][1];
+  const double au = fixed_double(c[0][1][0]), av = fixed_double(c[0][0][1]);
+  const double bu = fixed_double(c[1][1][0]), bv = fixed_double(c[1][0][1]);
   const bool by_v = fabs(bv) + fabs(av) > fabs(bu) + fabs(au);
   double p = by_v ? bv : bu, q = by_v ? -av : -au;
   const double largest = fmax(fabs(p), fabs(q));
   if (!(largest > 0)) return false;
   p /= largest, q /= largest;
-  const double rows[2][2] = {{p, q}, {-q, p}};
+  const fixed rows[2][2] = {{fixed_from(p), fixed_from(q)}, {-fixed_from(q), fixed_from(p)}};
   for (int s = 0; s < 2; s++) {
-    wide combination[4][4];
-    const wide sum = combine(c[0], c[1], rows[s][0], rows[s][1], combination), error = 2 * zoom->error;
+    fixed combination[4][4];
+    const double sum = combine(c[0], c[1], rows[s][0], rows[s][1], combination), error = 2 * zoom->error;
     if (!(sum > error)) return false;
     net_of(combination, 1 / sum, out->net[s]);
-    out->error[s] = (double)(error / sum) + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
+    out->error[s] = error / sum + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
   }
   set_depth(zoom, c[2], out);
   return true;
 }
 
 /* Powers of r in [-1,1] to Bernstein coefficients there, all of a net. */
-static void wide_net(wide c[4][4])
+static void fixed_net(fixed c[4][4])
 {
+  const fixed third = fixed_from_wide((wide)1 / 3);
   for (int n = 0; n < 8; n++) {
-    wide *b = n < 4 ? c[n] : &c[0][n - 4];
+    fixed *b = n < 4 ? c[n] : &c[0][n - 4];
     const int stride = n < 4 ? 1 : 4;
-    const wide c0 = b[0], c1 = b[stride], c2 = b[2 * stride], c3 = b[3 * stride];
+    const fixed c0 = b[0], c1 = b[stride], c2 = b[2 * stride], c3 = b[3 * stride];
+    const fixed p = c0 - fixed_product(third, c2), q = fixed_product(third, c1) - c3;
     b[0] = (c0 + c2) - (c1 + c3), b[3 * stride] = (c0 + c2) + (c1 + c3);
-    b[stride] = (c0 - c2 / 3) - (c1 / 3 - c3), b[2 * stride] = (c0 - c2 / 3) + (c1 / 3 - c3);
+    b[stride] = p - q, b[2 * stride] = p + q;
   }
 }
 
 /* The net, which is 0 along the border, divided by the distance to it, as a net of its own degree again: with b_k for
- * the coefficients away from the border, those of the quotient are 3 b_k/k, k = 1..3. */
-static void divide_by_distance(wide net[4][4], int border)
+ * the coefficients away from the border, those of the quotient are 3 b_k/k, k = 1..3, and raised in degree these. */
+static void divide_by_distance(fixed net[4][4], int border)
 {
+  const fixed third = fixed_from_wide((wide)1 / 3);
   for (int n = 0; n < 4; n++) {
-    wide *b = border < 2 ? &net[0][n] : net[n], q[3];
-    const int stride = border < 2 ? 4 : 1;
-    for (int k = 1; k < 4; k++) q[k - 1] = 3 * b[(border & 1 ? 3 - k : k) * stride] / k;
-    for (int k = 0; k < 4; k++)
-      b[(border & 1 ? 3 - k : k) * stride] = ((k > 0 ? k * q[k - 1] : 0) + (k < 3 ? (3 - k) * q[k] : 0)) / 3;
+    fixed *b = border < 2 ? &net[0][n] : net[n];
+    const int stride = border < 2 ? 4 : 1, first = border & 1 ? 3 * stride : 0, step = border & 1 ? -stride : stride;
+    const fixed b1 = b[first + step], b2 = b[first + 2 * step], b3 = b[first + 3 * step];
+    b[first] = 3 * b1, b[first + step] = b1 + b2;
+    b[first + 2 * step] = b2 + fixed_product(third, b3), b[first + 3 * step] = b3;
   }
 }
 
@@ -171,40 +200,45 @@ static void divide_by_distance(wide net[4][4], int border)
 #define POLE_PRECISION (ZOOM_POLE_REACH / 4)
 
 /* Scales the net to a largest coefficient of 1; false where its error is larger. */
-static bool scaled_net(wide net[4][4], wide error, wide met, int k, struct zoomed *out)
+static bool scaled_net(fixed net[4][4], double error, double met, int k, struct zoomed *out)
 {
-  wide size = 0;
-  for (int n = 0; n < 16; n++) size = wide_max(size, wide_abs(net[n / 4][n % 4]));
+  fixed largest = 0;
+  for (int n = 0; n < 16; n++) largest = fixed_max(largest, fixed_size(net[n / 4][n % 4]));
+  const double size = fixed_double(largest), scale = 1 / size;
   if (!(size > error)) return false;
-  for (int n = 0; n < 16; n++) out->net[k][n / 4][n % 4] = (double)(net[n / 4][n % 4] / size);
-  out->error[k] = (double)(error / size) + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
-  out->met[k] = (double)(met / size) / ZOOM_POLE_MET;
+  for (int n = 0; n < 16; n++) out->net[k][n / 4][n % 4] = fixed_double(net[n / 4][n % 4]) * scale;
+  out->error[k] = error / size + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
+  out->met[k] = met / size / ZOOM_POLE_MET;
   return true;
 }
 
 bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2], int border, struct zoomed *out,
                    enum zoom_pole *out_pole)
 {
-  wide c[3][4][4], net[2][4][4];
+  fixed c[3][4][4], net[2][4][4];
   box_powers(zoom, low, size, c);
-  wide_net(c[0]), wide_net(c[1]);
+  fixed_net(c[0]), fixed_net(c[1]);
   const int at = border == 1 ? 12 : border == 3 ? 3 : 0;
-  const wide a0 = c[0][at / 4][at % 4], b0 = c[1][at / 4][at % 4], distance = wide_max(wide_abs(a0), wide_abs(b0));
-  const wide error = 4 * zoom->error;
+  const fixed a0 = c[0][at / 4][at % 4], b0 = c[1][at / 4][at % 4], far = fixed_max(fixed_size(a0), fixed_size(b0));
+  const double error = 4 * zoom->error, distance = fixed_double(far);
   *out_pole = distance > POLE_PRECISION * error ? POLE_PASSED : POLE_MET;
-  const wide p = *out_pole == POLE_PASSED ? a0 / distance : 1, q = *out_pole == POLE_PASSED ? b0 / distance : 0;
+  const bool passed = *out_pole == POLE_PASSED;
+  const fixed p = fixed_from_wide(passed ? (wide)a0 / (wide)far : 1),
+              q = passed ? fixed_from_wide((wide)b0 / (wide)far) : 0;
   for (int n = 0; n < 16; n++) {
-    const wide a = c[0][n / 4][n % 4], b = c[1][n / 4][n % 4];
-    net[0][n / 4][n % 4] = q * a - p * b, net[1][n / 4][n % 4] = p * a + q * b;
+    const fixed a = c[0][n / 4][n % 4], b = c[1][n / 4][n % 4];
+    net[0][n / 4][n % 4] = fixed_product(q, a) - fixed_product(p, b);
+    net[1][n / 4][n % 4] = fixed_product(p, a) + fixed_product(q, b);
   }
-  divide_by_distance(net[0], border);
-  if (*out_pole == POLE_MET) divide_by_distance(net[1], border);
   /* The quotient's coefficients are off by three times as much; and by what the combination is not 0 along the border,
    * over the least distance at which a root can be, where the other combination is not 0 yet: that is by the same part
    * of its size. */
-  wide slope = 0;
-  for (int n = 0; n < 16; n++) slope = wide_max(slope, wide_abs(net[1][n / 4][n % 4] - (p * a0 + q * b0)));
-  const wide away = *out_pole == POLE_PASSED ? error * 4 * slope / distance : 0;
+  const fixed along = fixed_product(p, a0) + fixed_product(q, b0);
+  double slope = 0;
+  for (int n = 0; n < 16; n++) slope = fmax(slope, fabs(fixed_double(net[1][n / 4][n % 4] - along)));
+  divide_by_distance(net[0], border);
+  if (!passed) divide_by_distance(net[1], border);
+  const double away = passed ? error * 4 * slope / distance : 0;
   if (!scaled_net(net[0], 6 * error + away, distance, 0, out) || !scaled_net(net[1], 6 * error, distance, 1, out))
     return false;
   set_depth(zoom, c[2], out);
@@ -212,13 +246,14 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
 }
 
 /* Value and derivatives of a polynomial of (x, y) by its powers. */
-static void evaluate(wide c[4][4], wide x, wide y, wide *value, wide *dx, wide *dy)
+static void evaluate(fixed c[4][4], fixed x, fixed y, fixed *value, fixed *dx, fixed *dy)
 {
   *value = *dx = *dy = 0;
   for (int i = 3; i >= 0; i--) {
-    wide row = 0, row_dy = 0;
-    for (int j = 3; j >= 0; j--) row_dy = row_dy * y + row, row = row * y + c[i][j];
-    *dx = *dx * x + *value, *value = *value * x + row, *dy = *dy * x + row_dy;
+    fixed row = 0, row_dy = 0;
+    for (int j = 3; j >= 0; j--) row_dy = fixed_product(row_dy, y) + row, row = fixed_product(row, y) + c[i][j];
+    *dx = fixed_product(*dx, x) + *value, *value = fixed_product(*value, x) + row;
+    *dy = fixed_product(*dy, x) + row_dy;
   }
 }
 
@@ -256,20 +291,20 @@ bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3])
 
 wide zoom_t(struct zoom *zoom, wide u, wide v)
 {
-  wide depth, unused[2];
-  evaluate(zoom->power[2], 2 * u - 1, 2 * v - 1, &depth, &unused[0], &unused[1]);
-  return (depth - zoom->origin) * zoom->to_t;
+  fixed depth, unused[2];
+  evaluate(zoom->power[2], fixed_from_wide(2 * u - 1), fixed_from_wide(2 * v - 1), &depth, &unused[0], &unused[1]);
+  return (fixed_wide(depth) - zoom->origin) * zoom->to_t;
 }
 
 /* Bounds on the second derivatives of the polynomial with these powers, as `s` of struct bend, where x and y reach
  * LEAF_MARGIN beyond the patch. */
-static double second_bound(wide c[4][4])
+static double second_bound(fixed c[4][4])
 {
   const double r = 1 + 2 * LEAF_MARGIN, power[4] = {1, r, r * r, r * r * r};
   double sum = 0;
   for (int i = 0; i < 4; i++) {
     for (int j = 0; j < 4; j++) {
-      const double size = fabs((double)c[i][j]);
+      const double size = fabs(fixed_double(c[i][j]));
       if (i > 1) sum += i * (i - 1) * power[i - 2] * power[j] * size;
       if (i > 0 && j > 0) sum += 2 * i * j * power[i - 1] * power[j - 1] * size;
       if (j > 1) sum += j * (j - 1) * power[i] * power[j - 2] * size;
@@ -278,27 +313,35 @@ static double second_bound(wide c[4][4])
   return sum;
 }
 
-/* Newton's process ends when a step is no shorter than half the one before, that is in rounding. It starts within the
+/* Newton's process ends when a step is what rounding makes, or no shorter than half the one before. It starts within the
  * root's radius, where it converges quadratically but for the first few steps next to a pole. */
 enum { SHARPEN_STEPS = 24 };
 
-/* The process from (x,y): where it ends, its last step, and the rows of the inverse Jacobian there. */
-static bool newton(struct zoom *zoom, wide *x, wide *y, double *out_step, double m[2][2])
+/* The process from (x,y): where it ends, its last step, and the rows of the inverse Jacobian there. These are wide: next
+ * to a pole all of the determinant is small, and each row is right to its own last places. */
+static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, double m[2][2])
 {
+  static const fixed most = (fixed)((1 + 2 * LEAF_MARGIN) / FIXED_UNIT);
   double before = INFINITY;
   for (int n = 0; n < SHARPEN_STEPS; n++) {
-    wide a, ax, ay, b, bx, by;
-    evaluate(zoom->power[0], *x, *y, &a, &ax, &ay);
-    evaluate(zoom->power[1], *x, *y, &b, &bx, &by);
-    const wide determinant = ax * by - ay * bx;
+    fixed f[2][3];
+    wide a[3], b[3];
+    for (int k = 0; k < 2; k++) evaluate(zoom->power[k], *x, *y, &f[k][0], &f[k][1], &f[k][2]);
+    for (int k = 0; k < 3; k++) a[k] = fixed_wide(f[0][k]), b[k] = fixed_wide(f[1][k]);
+    const wide determinant = a[1] * b[2] - a[2] * b[1];
     if (determinant == 0) return false;
-    const wide step_x = (by * a - ay * b) / determinant, step_y = (ax * b - bx * a) / determinant;
-    *x -= step_x, *y -= step_y;
-    if (!(wide_abs(*x) <= 1 + 2 * LEAF_MARGIN && wide_abs(*y) <= 1 + 2 * LEAF_MARGIN)) return false;
+    const wide inverse = 1 / determinant;
+    const wide step_x = (b[2] * a[0] - a[2] * b[0]) * inverse, step_y = (a[1] * b[0] - b[1] * a[0]) * inverse;
     *out_step = (double)wide_max(wide_abs(step_x), wide_abs(step_y));
-    m[0][0] = (double)(by / determinant), m[0][1] = (double)(-ay / determinant);
-    m[1][0] = (double)(-bx / determinant), m[1][1] = (double)(ax / determinant);
-    if (*out_step == 0 || (n > 4 && *out_step > before / 2)) return true;
+    if (!(*out_step <= 4)) return false;
+    *x -= fixed_from_wide(step_x), *y -= fixed_from_wide(step_y);
+    if (!(fixed_size(*x) <= most && fixed_size(*y) <= most)) return false;
+    m[0][0] = (double)(b[2] * inverse), m[0][1] = (double)(-a[2] * inverse);
+    m[1][0] = (double)(-b[1] * inverse), m[1][1] = (double)(a[1] * inverse);
+    const double size_x = (fabs(m[0][0]) + fabs(m[0][1])) * zoom->error;
+    const double size_y = (fabs(m[1][0]) + fabs(m[1][1])) * zoom->error;
+    if (wide_abs(step_x) <= size_x && wide_abs(step_y) <= size_y) return true;
+    if (n > 4 && *out_step > before / 2) return true;
     before = *out_step;
   }
   return true;
@@ -306,17 +349,17 @@ static bool newton(struct zoom *zoom, wide *x, wide *y, double *out_step, double
 
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
 {
-  wide x = 2 * root->u - 1, y = 2 * root->v - 1;
+  fixed x = fixed_from_wide(2 * root->u - 1), y = fixed_from_wide(2 * root->v - 1);
   double step, m[2][2], radius[2];
   if (!newton(zoom, &x, &y, &step, m)) return false;
   const double second[2] = {second_bound(zoom->power[0]), second_bound(zoom->power[1])};
-  const double error = (double)zoom->error;
+  const double error = zoom->error;
   double size = 0, bend = 0;
   for (int k = 0; k < 2; k++) {
     size = fmax(size, fabs(m[k][0]) + fabs(m[k][1]));
     bend = fmax(bend, fabs(m[k][0]) * second[0] + fabs(m[k][1]) * second[1]);
   }
-  const wide u = (1 + x) / 2, v = (1 + y) / 2;
+  const wide u = (1 + fixed_wide(x)) / 2, v = (1 + fixed_wide(y)) / 2;
   if (!certificate_holds(bend, step, size * error)) {
     if (wide_abs(u - root->u) <= root->radius_u && wide_abs(v - root->v) <= root->radius_v)
       root->u = u, root->v = v, root->t = zoom_t(zoom, u, v);
@@ -325,20 +368,21 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
   for (int k = 0; k < 2; k++)
     radius[k] = certificate_radius(fabs(m[k][0]) * second[0] + fabs(m[k][1]) * second[1], step,
                                    (fabs(m[k][0]) + fabs(m[k][1])) * error) /
-                2;
+                  2 +
+                (double)WIDE_ROUNDOFF;
   /* Both enclosures hold one root each: it is the same where one holds the other. */
   if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
         (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))
     return false;
-  wide depth, dx, dy;
+  fixed depth, dx, dy;
   evaluate(zoom->power[2], x, y, &depth, &dx, &dy);
   const double rx = 2 * radius[0], ry = 2 * radius[1], reach = rx + ry;
-  const double off = fabs((double)dx) * rx + fabs((double)dy) * ry + error +
+  const double off = fabs(fixed_double(dx)) * rx + fabs(fixed_double(dy)) * ry + error +
                      second_bound(zoom->power[2]) * reach * reach;
-  root->u = u, root->v = v, root->t = (depth - zoom->origin) * zoom->to_t;
+  root->u = u, root->v = v, root->t = (fixed_wide(depth) - zoom->origin) * zoom->to_t;
   root->radius_u = radius[0], root->radius_v = radius[1];
   /* The certificate's map contracts as far as bend |w - z| and rounding make less than 1, where bend holds. */
-  const double here = (double)wide_max(wide_abs(x), wide_abs(y));
+  const double here = fixed_double(fixed_max(fixed_size(x), fixed_size(y)));
   root->alone = fmax(fmin(0.5 / bend, 1 + 2 * LEAF_MARGIN - here) / 2 - step, 0);
   root->t_error = fabs((double)zoom->to_t) * off + 8 * (double)(WIDE_ROUNDOFF * wide_abs(root->t));
   root->sharp = true;

@@ -10,14 +10,16 @@
 #ifndef PSCN_INTERSECT_EXACT_ZOOM_H
 #define PSCN_INTERSECT_EXACT_ZOOM_H
 
+#include "base/fixed.h"
 #include "intersect/exact/exact.h"
 
 /* A ray through a whole patch: a, b and x_k as powers of 2u - 1 and 2v - 1. */
 struct zoom {
-  wide power[3][4][4];
+  fixed power[3][4][4];
   wide origin; /* (origin_k - center_k)/scale */
   wide to_t;   /* t = (x_k - origin) to_t */
-  wide error; /* bound on the rounding of a or b anywhere on the patch, or of their coefficients over a box inside it */
+  double
+    error; /* bound on the rounding of a or b anywhere on the patch, or of their coefficients over a box inside it */
 };
 
 /* The same over a box, in the box's own parameters. */

@@ -1,0 +1,176 @@
+/* What a ray costs, by hand: one by one, in microseconds of this processor, the best of three times.
+ *
+ *   cost [SCENE...]
+ *
+ * Of every class of situations.h and hostile.h (PSCN_CLASS leaves the others out), and of rays aimed at each scene:
+ * tangent at a point of a patch as well as double has it, at points of edges, at corners and poles, exactly. A line each:
+ * the median, what 99 % do not reach, the worst, and how many of the answers are grazing. PSCN_EFFORT sets how many rays.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "accuracy/class_tests.h"
+#include "accuracy/generate.h"
+#include "accuracy/trial.h"
+#include "base/diagnostics.h"
+#include "cmocka_test.h"
+#include "effort.h"
+#include "language/language.h"
+#include "random.h"
+
+enum { FULL_RAYS = 40000, TURNS = 3 };
+
+struct cost {
+  size_t count, room, grazing;
+  double *times; /* seconds */
+  struct ray worst;
+  double slowest;
+};
+
+static double seconds(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void time_ray(struct cost *cost, struct tracer *tracer, const struct ray *ray)
+{
+  double least = INFINITY;
+  struct hit hit;
+  for (int n = 0; n < TURNS; n++) {
+    const double start = seconds();
+    tracer_closest(tracer, 1, ray, &hit);
+    least = fmin(least, seconds() - start);
+  }
+  if (cost->count == cost->room) {
+    cost->room = cost->room ? 2 * cost->room : 1024;
+    cost->times = realloc(cost->times, cost->room * sizeof *cost->times);
+    if (!cost->times) abort();
+  }
+  cost->times[cost->count++] = least;
+  cost->grazing += hit.certainty != CERTAINTY_CERTAIN;
+  if (least > cost->slowest) cost->slowest = least, cost->worst = *ray;
+}
+
+static int by_size(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return x < y ? -1 : x > y;
+}
+
+static void cost_print(struct cost *cost, const char *name, const char *kind)
+{
+  if (cost->count == 0) return;
+  qsort(cost->times, cost->count, sizeof *cost->times, by_size);
+  printf("%s, %s: %zu rays, median %.1f, 99 %% %.1f, worst %.1f us, %.1f %% grazing\n", name, kind, cost->count,
+         1e6 * cost->times[cost->count / 2], 1e6 * cost->times[cost->count - 1 - cost->count / 100],
+         1e6 * cost->times[cost->count - 1], 100 * (double)cost->grazing / (double)cost->count);
+  const double *o = cost->worst.origin, *d = cost->worst.direction;
+  if (getenv("PSCN_SHOW")) printf("  worst %.17g %.17g %.17g %.17g %.17g %.17g\n", o[0], o[1], o[2], d[0], d[1], d[2]);
+  fflush(stdout);
+  free(cost->times);
+}
+
+/* ---- classes ---- */
+
+static size_t ask(const char *name, const struct class_form *form, const struct situation *s, size_t first, size_t most,
+                  void *cost)
+{
+  (void)name;
+  struct method method;
+  class_form_method(form, &method);
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &method);
+  for (size_t n = 0; n < most; n++) time_ray(cost, trial.tracer, &s->rays[(first + n) % SITUATION_RAYS]);
+  trial_destroy(&trial);
+  return most;
+}
+
+static void classes(void **state)
+{
+  (void)state;
+  for (size_t n = 0; n < every_class_count(); n++) {
+    const struct situation_class *class = every_class_at(n);
+    struct cost cost = {0};
+    if (!class_wanted(class)) continue;
+    class_ask_rays(class, 0, FULL_RAYS, effort_seed(class->seed), ask, &cost);
+    cost_print(&cost, "class", class->name);
+  }
+}
+
+/* ---- scenes ---- */
+
+enum kind { TANGENT, EDGE, CORNER, KINDS };
+static const char *const kind_names[KINDS] = {"tangent", "edge", "corner or pole"};
+
+static void aim(struct random *random, const struct scene *scene, enum kind kind, double size, struct ray *ray)
+{
+  const double(*P)[4][3] = (const double(*)[4][3])scene->patches[choose(random, scene->patch_count)].P;
+  double u = random_unit(random), v = random_unit(random), at[3], du[3], dv[3], d[3];
+  if (kind == EDGE) *(choose(random, 2) ? &u : &v) = (double)choose(random, 2);
+  if (kind == CORNER) u = (double)choose(random, 2), v = (double)choose(random, 2);
+  net_point(P, u, v, at);
+  net_tangents(P, u, v, du, dv);
+  random_vector(random, 1, d);
+  const double along = random_between(random, -1, 1), across = random_between(random, -1, 1);
+  if (kind == TANGENT)
+    for (int axis = 0; axis < 3; axis++) d[axis] = along * du[axis] + across * dv[axis];
+  const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), back = size * random_between(random, 0.01, 3);
+  double origin[3];
+  for (int axis = 0; axis < 3; axis++) origin[axis] = at[axis] - d[axis] / length * back;
+  ray_between(origin, at, ray);
+}
+
+static const char *scene_name;
+
+static void tell(void *context, const char *text, size_t length)
+{
+  (void)context;
+  fwrite(text, 1, length, stderr);
+}
+
+static void scene_rays(void **state)
+{
+  (void)state;
+  struct diagnostics diagnostics = {.tell = tell};
+  struct language_settings settings = {.image_width = 800, .image_height = 600, .tolerance = NAN};
+  struct scene *scene = NULL;
+  assert_int_equal(language_load(scene_name, &settings, &diagnostics, &scene), STATUS_OK);
+  struct trial trial;
+  trial_of_scene(&trial, scene);
+  struct random random = {.state = effort_seed(900)};
+  double size = 0;
+  for (size_t n = 0; n < scene->patch_count; n++) {
+    double most = 0;
+    for (int k = 0; k < 16; k++)
+      for (int axis = 0; axis < 3; axis++)
+        most = fmax(most, fabs(scene->patches[n].P[k / 4][k % 4][axis] - scene->patches[n].P[0][0][axis]));
+    size = n == 0 ? most : fmin(size, most);
+  }
+  for (enum kind kind = 0; kind < KINDS; kind++) {
+    struct cost cost = {0};
+    for (size_t n = 0; n < effort_count(FULL_RAYS, 64); n++) {
+      struct ray ray;
+      aim(&random, scene, kind, size, &ray);
+      time_ray(&cost, trial.tracer, &ray);
+    }
+    cost_print(&cost, scene_name, kind_names[kind]);
+  }
+  trial_destroy(&trial);
+  scene_destroy(scene);
+}
+
+int main(int argc, char **argv)
+{
+  const struct CMUnitTest all[] = {cmocka_unit_test(classes)}, one[] = {cmocka_unit_test(scene_rays)};
+  int failed = argc > 1 ? 0 : cmocka_run_group_tests_name("costs", all, NULL, NULL);
+  for (int n = 1; n < argc; n++) {
+    scene_name = argv[n];
+    failed |= cmocka_run_group_tests_name(argv[n], one, NULL, NULL);
+  }
+  return failed;
+}
