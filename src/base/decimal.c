@@ -4,6 +4,7 @@
 #include <assert.h>
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 typedef unsigned __int128 wide; /* of gcc and clang on every 64-bit machine */
 
@@ -68,9 +69,10 @@ static uint64_t scale(uint64_t mantissa, int power, int shift)
 bool decimal_from_double(double value, int count, uint64_t *out_digits, int *out_exponent)
 {
   if (count < 1 || count > MAX_DIGITS || !(value >= DBL_MIN && value <= 1e16)) return false;
-  int binary;
-  const uint64_t mantissa = (uint64_t)ldexp(frexp(value, &binary), DBL_MANT_DIG);
-  binary -= DBL_MANT_DIG; /* value = mantissa x 2^binary */
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  const uint64_t mantissa = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52;
+  const int binary = (int)(bits >> 52) - 1075; /* value = mantissa x 2^binary */
   /* The decimal exponent of the first digit, by value >= 2^(binary + 52): right or one too small. */
   int first = (int)floor((binary + DBL_MANT_DIG - 1) * 0.30102999566398120);
   for (;; first++) {

@@ -157,7 +157,13 @@ static void round_to_digits(double value, int count, char *out_digits, int *out_
   uint64_t integer;
   if (decimal_from_double(fabs(value), count, &integer, out_exponent)) {
     *out_exponent += count - 1;
-    for (int k = count - 1; k >= 0; k--, integer /= 10) out_digits[k] = (char)('0' + integer % 10);
+    /* The last eight digits do not wait for the others, nor these for them. */
+    uint32_t part[2] = {(uint32_t)(integer % 100000000), (uint32_t)(integer / 100000000)};
+    for (int k = count - 1; k >= 0; k--) {
+      uint32_t *left = &part[k < count - 8];
+      out_digits[k] = (char)('0' + *left % 10);
+      *left /= 10;
+    }
     return;
   }
   char text[64];

@@ -40,7 +40,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_OPTIONS_END,
 };
 
-/* Rays that wait for an answer, and who answers them. */
+/* Rays that wait for an answer, who answers them, and the answers, which go to stdout many at a time. */
 struct session {
   const struct request *request;
   const struct scene *scene;
@@ -49,6 +49,8 @@ struct session {
   size_t count;
   struct ray rays[PACKET_SIZE];
   enum status status; /* where it is not STATUS_OK nothing is answered any more */
+  size_t length;
+  char text[OUTPUT_BUFFER];
 };
 
 /* The numbers of an answer, of which the last is for --certainty; a miss has T infinite and PATCH -1. */
@@ -66,65 +68,69 @@ static void answer_values(const struct ray *ray, const struct hit *hit, double o
   }
 }
 
-static size_t append_certainty(enum certainty certainty, char *line, size_t length)
+static void send(struct session *session)
 {
-  memcpy(line + length, certainty == CERTAINTY_CERTAIN ? " certain" : " grazing", 8);
-  return length + 8;
+  fwrite(session->text, 1, session->length, stdout);
+  session->length = 0;
 }
 
-static void write_text(const struct request *request, const struct ray *ray, const struct hit *hit)
+/* Where the next answer is to be written: there is room for it. */
+static char *next_answer(struct session *session)
 {
+  if (session->length > OUTPUT_BUFFER - ANSWER_SIZE) send(session);
+  return session->text + session->length;
+}
+
+/* Ends a line. Returns its end. */
+static char *append_end(bool tells, enum certainty certainty, char *to)
+{
+  if (tells) memcpy(to, certainty == CERTAINTY_CERTAIN ? " certain" : " grazing", 8), to += 8;
+  *to++ = '\n';
+  return to;
+}
+
+static char *append_double(double value, char *to)
+{
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  for (size_t b = 0; b < 8; b++) *to++ = (char)(bits >> (8 * b) & 0xff);
+  return to;
+}
+
+static void write_hit(struct session *session, const struct ray *ray, const struct hit *hit)
+{
+  const struct request *request = session->request;
+  const bool missed = hit->patch == HIT_NONE;
   double value[ANSWER_VALUES];
-  char line[ANSWER_SIZE] = "miss";
-  size_t length = 4;
-  if (hit->patch != HIT_NONE) {
-    answer_values(ray, hit, value);
-    memcpy(line, "hit", 3);
-    length = 3;
-    for (int k = 0; k < ANSWER_VALUES - 1; k++) {
-      line[length++] = ' ';
-      length += number_write_17(value[k], line + length);
-    }
-  }
-  if (request->certainty) length = append_certainty(hit->certainty, line, length);
-  line[length++] = '\n';
-  fwrite(line, 1, length, stdout);
-}
-
-static void write_doubles(const double value[], size_t count)
-{
-  unsigned char bytes[8 * ANSWER_VALUES];
-  for (size_t k = 0; k < count; k++) {
-    uint64_t bits;
-    memcpy(&bits, &value[k], sizeof bits);
-    for (size_t b = 0; b < 8; b++) bytes[8 * k + b] = (unsigned char)(bits >> (8 * b) & 0xff);
-  }
-  fwrite(bytes, 8, count, stdout);
-}
-
-static void write_binary(const struct request *request, const struct ray *ray, const struct hit *hit)
-{
-  double value[ANSWER_VALUES];
+  char *to = next_answer(session);
   answer_values(ray, hit, value);
-  write_doubles(value, request->certainty ? ANSWER_VALUES : ANSWER_VALUES - 1);
-}
-
-/* The line before a ray's hits. */
-static void write_count(const struct request *request, const struct hit_list *list)
-{
-  char line[NUMBER_TEXT_SIZE + 16];
   if (request->binary) {
-    write_doubles((double[]){(double)list->count, list->certainty == CERTAINTY_CERTAIN}, 2);
-    return;
+    for (int k = 0; k < ANSWER_VALUES - !request->certainty; k++) to = append_double(value[k], to);
+  } else {
+    memcpy(to, "miss", 4);
+    to += 4;
+    if (!missed) memcpy(to - 4, "hit", 3), to--;
+    for (int k = 0; k < ANSWER_VALUES - 1 && !missed; k++) {
+      *to++ = ' ';
+      to += number_write_17(value[k], to);
+    }
+    to = append_end(request->certainty, hit->certainty, to);
   }
-  size_t length = append_certainty(list->certainty, line, (size_t)snprintf(line, NUMBER_TEXT_SIZE, "%zu", list->count));
-  line[length++] = '\n';
-  fwrite(line, 1, length, stdout);
+  session->length = (size_t)(to - session->text);
 }
 
-static enum status answer(void *context)
+/* What stands before a ray's hits. */
+static void write_count(struct session *session, const struct hit_list *list)
 {
-  struct session *session = context;
+  char *to = next_answer(session);
+  const double count = (double)list->count;
+  if (session->request->binary) to = append_double(list->certainty == CERTAINTY_CERTAIN, append_double(count, to));
+  else to = append_end(true, list->certainty, to + number_write_17(count, to));
+  session->length = (size_t)(to - session->text);
+}
+
+static enum status answer(struct session *session)
+{
   const struct request *request = session->request;
   struct hit hits[PACKET_SIZE];
   struct hit_list lists[PACKET_SIZE];
@@ -138,12 +144,18 @@ static enum status answer(void *context)
   if (request->all && count > 0) session->status = tracer_all(session->tracer, count, session->rays, lists);
   else if (count > 0) tracer_closest(session->tracer, count, session->rays, hits);
   for (size_t k = 0; k < count && session->status == STATUS_OK; k++) {
-    if (request->all) write_count(request, &lists[k]);
+    if (request->all) write_count(session, &lists[k]);
     else lists[k] = (struct hit_list){.count = 1, .hits = &hits[k]};
-    for (size_t n = 0; n < lists[k].count; n++)
-      (request->binary ? write_binary : write_text)(request, &session->rays[k], &lists[k].hits[n]);
+    for (size_t n = 0; n < lists[k].count; n++) write_hit(session, &session->rays[k], &lists[k].hits[n]);
   }
   return session->status;
+}
+
+static enum status answer_and_send(void *context)
+{
+  const enum status status = answer(context);
+  send(context);
+  return status;
 }
 
 /* Makes a ray of six finite numbers; false where the direction is zero. The direction has a power of two taken out, so
@@ -236,7 +248,8 @@ static enum status trace(const struct command *command, struct request *request)
   if (status == STATUS_OK) {
     start = seconds_now();
     session.scene = scene;
-    const struct stream_reader reader = {take, answer, &session, request->binary ? RAY_VALUES * sizeof(double) : 0};
+    const struct stream_reader reader = {take, answer_and_send, &session,
+                                         request->binary ? RAY_VALUES * sizeof(double) : 0};
     status = stream_read(command, &reader);
     report.render = seconds_since(start);
     report.counts = *tracer_counts(session.tracer);
@@ -257,8 +270,6 @@ static enum status run(const struct command *command, int argc, const char **arg
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
   if (status == STATUS_OK && !line.help) {
-    static char buffer[OUTPUT_BUFFER];
-    (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     request.scene.path = line.positional[0];
     status = trace(command, &request);
   }

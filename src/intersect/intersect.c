@@ -98,8 +98,7 @@ void tracer_end(struct tracer *tracer)
   for (int h = 0; h < 2; h++) {
     struct gather *gather = &tracer->gather[h];
     memory_free(gather->roots.at), memory_free(gather->open.at), memory_free(gather->order.at);
-    memory_free(gather->regions.at), memory_free(gather->plan.at), memory_free(gather->list.at);
-    memory_free(gather->decided.at);
+    memory_free(gather->regions.at), memory_free(gather->list.at);
   }
   memory_free(tracer->hits.at);
 }

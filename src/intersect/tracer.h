@@ -47,10 +47,7 @@ struct gather {
   struct growing order;   /* const struct gathered *: the roots, lane by lane, in their order */
   struct growing regions; /* struct exact_region, one lane's */
   struct exact_list list; /* what the last resort makes of one lane's */
-  /* const struct gathered *: the roots that are hits, lane by lane; NULL where the next one of `decided` is */
-  struct growing plan;
-  struct exact_list decided;
-  bool failed; /* memory was short */
+  bool failed;            /* memory was short */
 };
 
 struct tracer {

@@ -1,8 +1,8 @@
 /* All roots of the rays of a packet. See gather.h.
  *
- * Compiled once per instruction set and without contraction. A lane that has left nothing open, and whose roots are
- * clearly one behind the other, is done but for its answers; the last resort decides the others (exact_all). Answers
- * are made as for nearest hits, from the first hits of all lanes together, then from the second ones, and so on.
+ * Compiled once per instruction set and without contraction. A root gets its answer where it is found, as the nearest
+ * one's is made, together with those that other lanes find there. A lane that has left nothing open, and whose roots are
+ * clearly one behind the other, is done then but for their order; the last resort decides the others (exact_all).
  */
 #include "intersect/lanes/gather.h"
 
@@ -13,47 +13,44 @@
 void gather_start(struct packet *p, struct gather *gather)
 {
   p->gather = gather;
-  gather->roots.count = gather->open.count = gather->plan.count = gather->decided.count = 0;
-  gather->failed = gather->decided.failed = gather->list.failed = false;
+  gather->roots.count = gather->open.count = 0;
+  gather->failed = gather->list.failed = false;
 }
 
-void gather_take(struct packet *p, lane_mask taken, const lanes at[2], const lanes radius[2], lanes t, lanes error,
-                 int64_t patch, int64_t leaf, bool certain)
+/* There is no best on the lanes of `taken` any more. */
+static void forget_best(struct packet *p, lane_mask taken)
+{
+  p->best.t = lanes_select(taken, lanes_all(INFINITY), p->best.t);
+  p->best.patch |= taken & NO_PATCH;
+  p->best.certain &= ~taken, p->best.final &= ~taken;
+  p->t_far = p->t_end, p->moved = false;
+}
+
+void gather_best(struct packet *p, lane_mask taken)
 {
   struct gather *gather = p->gather;
   if (p->outer) {
-    const lanes far = (p->shift + (t + error)) + 4 * UNIT_ROUNDOFF * (lanes_abs(p->shift) + lanes_abs(t + error));
-    t = p->shift + t, error = far - t;
+    packet_leave(p);
+    forget_best(p, taken);
+    p = p->outer;
   }
+  const struct best *best = &p->best;
+  const unsigned certain = lanes_bits(best->certain);
   double uv[LANES][4], distance[LANES][4];
-  lanes_store4(at[0], at[1], radius[0], radius[1], &uv[0][0], 4);
-  lanes_store4(t, error, lanes_all(0), lanes_all(0), &distance[0][0], 4);
+  struct hit hits[LANES];
+  lanes_store4(best->u, best->v, best->radius_u, best->radius_v, &uv[0][0], 4);
+  lanes_store4(best->t, p->t_far - best->t, lanes_all(0), lanes_all(0), &distance[0][0], 4);
+  (void)finish_best(p, 0, hits);
   struct gathered *root = growing_add(&gather->roots, lanes_count(taken), sizeof *root);
   gather->failed |= !root;
   for (unsigned bits = root ? lanes_bits(taken) : 0; bits; bits &= bits - 1, root++) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    memcpy(root->row[ROW_UV], uv[lane], sizeof uv[lane]);
-    memcpy(root->row[ROW_DISTANCE], distance[lane], sizeof distance[lane]);
-    root->leaf = leaf, root->patch = (uint32_t)patch, root->lane = (uint8_t)lane, root->certain = certain,
-    root->final = false;
+    memcpy(root->uv, uv[lane], sizeof uv[lane]);
+    memcpy(root->distance, distance[lane], sizeof distance[lane]);
+    root->hit = hits[lane], root->leaf = best->leaf[lane], root->lane = (uint8_t)lane;
+    root->certain = certain >> lane & 1;
   }
-}
-
-void gather_surface(struct gather *gather, lane_mask taken, const struct surface_point *point, const lanes normal[3],
-                    lanes tangent, lane_mask final)
-{
-  if (gather->failed) return;
-  double at[LANES][4], across[LANES][4];
-  lanes_store4(point->at[0], point->at[1], point->at[2], point->clearance, &at[0][0], 4);
-  lanes_store4(normal[0], normal[1], normal[2], tangent, &across[0][0], 4);
-  const unsigned finals = lanes_bits(final);
-  struct gathered *root = (struct gathered *)gather->roots.at + gather->roots.count - lanes_count(taken);
-  for (unsigned bits = lanes_bits(taken); bits; bits &= bits - 1, root++) {
-    const unsigned lane = (unsigned)__builtin_ctz(bits);
-    memcpy(root->row[ROW_POINT], at[lane], sizeof at[lane]);
-    memcpy(root->row[ROW_NORMAL], across[lane], sizeof across[lane]);
-    root->row[ROW_DISTANCE][2] = point->error[lane], root->final = finals >> lane & 1;
-  }
+  forget_best(p, taken);
 }
 
 void gather_postpone(struct gather *gather, const struct exact_region *region, unsigned on)
@@ -67,15 +64,15 @@ void gather_postpone(struct gather *gather, const struct exact_region *region, u
 
 /* ---- which hits there are ---- */
 
-static double t_of(const struct gathered *root) { return root->row[ROW_DISTANCE][0]; }
-static double error_of(const struct gathered *root) { return root->row[ROW_DISTANCE][1]; }
+static double t_of(const struct gathered *root) { return root->distance[0]; }
+static double error_of(const struct gathered *root) { return root->distance[1]; }
 
 /* In the order in which nearest.h prefers them, which does not depend on the walk. */
 static int by_t(const void *a, const void *b)
 {
   const struct gathered *x = *(const struct gathered *const *)a, *y = *(const struct gathered *const *)b;
   if (t_of(x) != t_of(y)) return t_of(x) < t_of(y) ? -1 : 1;
-  if (x->patch != y->patch) return x->patch < y->patch ? -1 : 1;
+  if (x->hit.patch != y->hit.patch) return x->hit.patch < y->hit.patch ? -1 : 1;
   return x->leaf < y->leaf ? -1 : x->leaf > y->leaf;
 }
 
@@ -124,24 +121,16 @@ static void collect_regions(struct gather *gather, unsigned lane)
   }
 }
 
-/* Adds `count` hits, which are these roots or, where `roots` is NULL, of those decided. */
-static void plan(struct gather *gather, const struct gathered *const roots[], size_t count)
-{
-  const struct gathered **planned = growing_add(&gather->plan, count, sizeof *planned);
-  gather->failed |= !planned;
-  for (size_t k = 0; k < count && planned; k++) planned[k] = roots ? roots[k] : NULL;
-}
-
-/* Has the last resort decide which hits the lane has, of whose roots the lanes have taken `count`. Returns whether that
- * is proven. */
+/* Has the last resort decide which hits the lane has, of whose roots the lanes have taken `count`: then gather->list has
+ * them. Returns whether that is proven. */
 static bool decide(struct packet *p, unsigned lane, const struct gathered *const roots[], size_t count)
 {
   struct gather *gather = p->gather;
   struct exact_list *list = &gather->list;
   list->count = 0;
   for (size_t k = 0; k < count; k++) {
-    const double *uv = roots[k]->row[ROW_UV];
-    const struct exact_found found = {.root = {.patch = roots[k]->patch,
+    const double *uv = roots[k]->uv;
+    const struct exact_found found = {.root = {.patch = roots[k]->hit.patch,
                                                .u = uv[0],
                                                .v = uv[1],
                                                .radius_u = uv[2],
@@ -155,118 +144,79 @@ static bool decide(struct packet *p, unsigned lane, const struct gathered *const
   const struct exact_case asked = {
     .model = p->model, .ray = &p->rays[lane], .regions = gather->regions.at, .region_count = gather->regions.count};
   const bool sure = exact_all(&asked, list);
-  for (size_t k = 0; k < list->count; k++) {
-    const struct exact_found *found = &list->at[k];
-    const bool taken = found->taken >= 0 && !found->root.sharp;
-    plan(gather, taken ? &roots[found->taken] : NULL, 1);
-    if (!taken) (void)exact_list_add(&gather->decided, found);
-  }
-  gather->failed |= list->failed || gather->decided.failed;
+  gather->failed |= list->failed;
   return sure;
 }
 
-/* Plans the lane's hits. Returns whether it is proven that these are all, and their order. */
-static bool plan_lane(struct packet *p, unsigned lane, const struct gathered *const roots[], size_t count)
+/* The answer to what the last resort has found. */
+static struct hit answer_found(struct packet *p, unsigned lane, const struct exact_found *found)
+{
+  struct hit hits[LANES];
+  struct exact_root root = found->root;
+  const struct exact_maybe maybe = {root.patch,     found->borders, (double)root.u,
+                                    (double)root.v, (double)root.t, root.t_error};
+  if (found->kind == EXACT_OPEN) {
+    exact_maybe_hit(p->model, &p->rays[lane], &maybe, &hits[lane]);
+  } else if (root.sharp) {
+    exact_root_hit(p->model, &p->rays[lane], &root, !p->model->unproven, &hits[lane]);
+  } else {
+    finish_set_root(p, lane, &root);
+    (void)finish_best(p, 0, hits);
+    forget_best(p, lanes_mask(1u << lane));
+  }
+  return hits[lane];
+}
+
+static struct hit *add_hits(struct packet *p, size_t count)
+{
+  struct hit *hits = growing_add(&p->tracer->hits, count, sizeof *hits);
+  p->gather->failed |= !hits;
+  return hits;
+}
+
+/* Adds the lane's hits to those of the tracer. Returns the first. */
+static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathered *const roots[], size_t count,
+                             struct hit_list *out)
 {
   struct gather *gather = p->gather;
   bool certain = !p->model->unproven && !p->best.doubt[lane], tie = false;
   double reach = -INFINITY;
   for (size_t k = 0; k < count; k++) {
+    const double t = t_of(roots[k]), error = error_of(roots[k]), far = t + error;
     certain &= roots[k]->certain;
-    tie |= !(t_of(roots[k]) - error_of(roots[k]) > reach);
-    reach = fmax(reach, t_of(roots[k]) + error_of(roots[k]));
+    tie |= !(t - error > reach);
+    reach = far > reach ? far : reach;
   }
-  collect_regions(gather, lane);
-  if (gather->failed) return false;
-  if (gather->regions.count > 0 || (tie && certain)) return decide(p, lane, roots, count) && certain;
-  plan(gather, roots, count);
-  return certain;
-}
-
-/* ---- the answers ---- */
-
-/* Makes the planned hits the best roots of the lanes of `group`: next[lane], or the next one of those decided. Returns
- * the lanes whose hits are written, as bits. */
-static unsigned set_best(struct packet *p, unsigned group, const struct gathered *const *const next[],
-                         struct exact_found *decided[], struct hit out[])
-{
-  struct best *best = &p->best;
-  double row[LANES][ROWS][4] = {{{0}}};
-  unsigned written = 0;
-  best->patch = NO_PATCH + (lane_mask){0};
-  best->certain = best->final = best->doubt = (lane_mask){0};
-  for (unsigned bits = group; bits; bits &= bits - 1) {
-    const unsigned lane = (unsigned)__builtin_ctz(bits);
-    const struct gathered *root = *next[lane];
-    if (!root) continue;
-    memcpy(row[lane], root->row, sizeof root->row);
-    best->patch[lane] = root->patch;
-    best->certain[lane] = root->certain ? -1 : 0, best->final[lane] = root->final ? -1 : 0;
+  if (gather->open.count > 0) collect_regions(gather, lane);
+  const bool decided = gather->regions.count > 0 || (tie && certain);
+  if (decided) certain &= decide(p, lane, roots, count);
+  out->certainty = certain ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
+  out->count = decided ? gather->list.count : count;
+  struct hit *hits = gather->failed ? NULL : add_hits(p, out->count);
+  for (size_t k = 0; k < out->count && hits; k++) {
+    const struct exact_found *found = decided ? &gather->list.at[k] : NULL;
+    if (!found) hits[k] = roots[k]->hit;
+    else if (found->taken >= 0 && !found->root.sharp) hits[k] = roots[found->taken]->hit;
+    else hits[k] = answer_found(p, lane, found);
   }
-  lanes t_error, unused;
-  lanes_load4(row[0][ROW_UV], 4 * ROWS, &best->u, &best->v, &best->radius_u, &best->radius_v);
-  lanes_load4(row[0][ROW_DISTANCE], 4 * ROWS, &best->t, &t_error, &best->point.error, &unused);
-  lanes_load4(row[0][ROW_POINT], 4 * ROWS, &best->point.at[0], &best->point.at[1], &best->point.at[2],
-              &best->point.clearance);
-  lanes_load4(row[0][ROW_NORMAL], 4 * ROWS, &best->normal[0], &best->normal[1], &best->normal[2], &best->tangent);
-  p->t_far = best->t + t_error;
-  for (unsigned bits = group; bits; bits &= bits - 1) {
-    const unsigned lane = (unsigned)__builtin_ctz(bits);
-    if (*next[lane]) continue;
-    struct exact_found *found = decided[lane]++;
-    const struct exact_root *root = &found->root;
-    const struct exact_maybe maybe = {root->patch,     found->borders,  (double)root->u,
-                                      (double)root->v, (double)root->t, root->t_error};
-    if (found->kind == EXACT_OPEN) exact_maybe_hit(p->model, &p->rays[lane], &maybe, &out[lane]);
-    else if (root->sharp) exact_root_hit(p->model, &p->rays[lane], &found->root, !p->model->unproven, &out[lane]);
-    else finish_set_root(p, lane, root);
-    if (found->kind == EXACT_OPEN || root->sharp) written |= 1u << lane;
-  }
-  return written;
-}
-
-/* Puts the hits of the lanes of `group` where they belong, behind those before them. */
-static void put(const struct hit from[], unsigned group, size_t number, const int *exponents, struct hit *const to[],
-                struct hit_list out[])
-{
-  for (unsigned bits = group; bits; bits &= bits - 1) {
-    const unsigned lane = (unsigned)__builtin_ctz(bits);
-    struct hit *hit = to[lane] + number;
-    *hit = from[lane];
-    if (exponents && exponents[lane] != 0) hit->t = ldexp(hit->t, -exponents[lane]);
-    /* What comes later is no nearer, though the last bits may say so. */
-    if (number > 0) hit->t = fmax(hit->t, hit[-1].t);
-    if (hit->certainty != CERTAINTY_CERTAIN) out[lane].certainty = CERTAINTY_GRAZING;
-  }
+  return hits;
 }
 
 bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[])
 {
   struct gather *gather = p->gather;
-  size_t begin[LANES + 1], before[LANES][2];
+  size_t begin[LANES + 1];
+  gather->regions.count = 0;
   order_roots(gather, begin);
   for (unsigned lane = 0; lane < p->count && !gather->failed; lane++) {
-    before[lane][0] = gather->plan.count, before[lane][1] = gather->decided.count;
-    const bool sure = plan_lane(p, lane, (const struct gathered *const *)gather->order.at + begin[lane],
-                                begin[lane + 1] - begin[lane]);
-    out[lane].certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
-    out[lane].count = gather->plan.count - before[lane][0];
+    struct hit *hits = lane_hits(p, lane, (const struct gathered *const *)gather->order.at + begin[lane],
+                                 begin[lane + 1] - begin[lane], &out[lane]);
+    for (size_t k = 0; k < out[lane].count && hits; k++) {
+      if (exponents && exponents[lane] != 0) hits[k].t = ldexp(hits[k].t, -exponents[lane]);
+      /* What comes later is no nearer, though the last bits may say so. */
+      if (k > 0 && hits[k].t < hits[k - 1].t) hits[k].t = hits[k - 1].t;
+      if (hits[k].certainty != CERTAINTY_CERTAIN) out[lane].certainty = CERTAINTY_GRAZING;
+    }
   }
-  struct hit *hits = gather->failed ? NULL : growing_add(&p->tracer->hits, gather->plan.count, sizeof *hits);
-  if (!hits) return false;
-  const struct gathered *const *next[LANES];
-  struct exact_found *decided[LANES];
-  struct hit *to[LANES], answer[LANES];
-  for (unsigned lane = 0; lane < p->count; lane++) {
-    next[lane] = (const struct gathered *const *)gather->plan.at + before[lane][0];
-    decided[lane] = gather->decided.at + before[lane][1], to[lane] = hits + before[lane][0];
-  }
-  for (size_t number = 0;; number++) {
-    unsigned group = 0;
-    for (unsigned lane = 0; lane < p->count; lane++) group |= (unsigned)(number < out[lane].count) << lane;
-    if (!group) return true;
-    finish_best(p, set_best(p, group, next, decided, answer), answer);
-    put(answer, group, number, exponents, to, out);
-    for (unsigned bits = group; bits; bits &= bits - 1) next[__builtin_ctz(bits)]++;
-  }
+  return !gather->failed;
 }

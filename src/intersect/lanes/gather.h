@@ -7,21 +7,13 @@
 
 #include "intersect/lanes/packet.h"
 
-/* One root: what struct best has of a lane, in rows as lanes_store4 writes them. */
-enum gathered_row {
-  ROW_UV,       /* u, v, radius_u, radius_v */
-  ROW_DISTANCE, /* t, its error, error of the point, 0; of the last two and all below something where `final` */
-  ROW_POINT,    /* x, y, z, clearance */
-  ROW_NORMAL,   /* x, y, z, tangent */
-  ROWS
-};
-
+/* One root, as it was taken: u, v and their radii, t and its error; and the hit that it is. */
 struct gathered {
-  double row[ROWS][4];
-  int64_t leaf; /* that and the patch order roots of equal t, as struct best's */
-  uint32_t patch;
+  double uv[4], distance[4]; /* as lanes_store4 writes them; of the second two are used */
+  struct hit hit;
+  int64_t leaf; /* that and the hit's patch order roots of equal t, as struct best's */
   uint8_t lane;
-  bool certain, final;
+  bool certain;
 };
 
 /* What was left open, of a lane. */
@@ -33,15 +25,9 @@ struct gathered_region {
 /* The packet, which has just been started, gathers there from now on, beginning with nothing. */
 void gather_start(struct packet *p, struct gather *gather);
 
-/* Adds roots of the lanes of `taken`, at t within error of the packet's rays; `patch` is the scene's, `leaf` the
- * packet's model's. */
-void gather_take(struct packet *p, lane_mask taken, const lanes at[2], const lanes radius[2], lanes t, lanes error,
-                 int64_t patch, int64_t leaf, bool certain);
-
-/* What is known of the surface at those that were added last, which were of the same lanes, and which of them are
- * final. */
-void gather_surface(struct gather *gather, lane_mask taken, const struct surface_point *point, const lanes normal[3],
-                    lanes tangent, lane_mask final);
+/* Adds the packet's best roots, which are those just taken on the lanes of `taken`, with their answers; then there is no
+ * best again. */
+void gather_best(struct packet *p, lane_mask taken);
 
 /* Leaves a region to the last resort on these lanes, as bits. */
 void gather_postpone(struct gather *gather, const struct exact_region *region, unsigned on);

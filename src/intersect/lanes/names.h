@@ -35,8 +35,7 @@
 #define finish_set_root KERNEL(finish_set_root)
 #define finish_occluded KERNEL(finish_occluded)
 #define gather_start KERNEL(gather_start)
-#define gather_take KERNEL(gather_take)
-#define gather_surface KERNEL(gather_surface)
+#define gather_best KERNEL(gather_best)
 #define gather_postpone KERNEL(gather_postpone)
 #define gather_finish KERNEL(gather_finish)
 

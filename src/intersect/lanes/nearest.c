@@ -69,10 +69,6 @@ LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, cons
   lanes uv[2], radius[2];
   root_uv(it, r, uv, radius);
   p->tracer->counts.roots_accepted += lanes_count(taken);
-  if (p->gather) {
-    gather_take(p, taken, uv, radius, at, error, patch, leaf, certain);
-    return;
-  }
   const lane_mask none = {0};
   best_take(&p->best, taken, uv, radius, at, patch + none, leaf + none);
   if (!certain) p->best.certain &= ~taken;
@@ -92,8 +88,8 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
          (lanes_abs(uv[1] - best->v) <= radius[1] + best->radius_v);
 }
 
-/* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it, or are
- * gathered; then there is no best. One that may lie on a border of the patch, at an end of the ray or where another root
+/* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where all
+ * are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the patch, at an end of the ray or where another root
  * is, is left to the last resort. Returns the lanes that took theirs. */
 static lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w, lanes at,
                        lane_mask hits)
@@ -116,7 +112,8 @@ void offer_root(struct packet *p, const struct candidate *it, const struct newto
 {
   if (!lanes_any(hits)) return;
   const lanes w = plane_depth(it, r->u, r->v);
-  offer(p, it, r, w, depth_to_t(p, it->axis, w), hits);
+  const lane_mask taken = offer(p, it, r, w, depth_to_t(p, it->axis, w), hits);
+  if (p->gather && lanes_any(taken)) gather_best(p, taken);
 }
 
 void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits)
@@ -127,7 +124,9 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
   p->best.doubt |= hits & ~behind & ~(at < p->t_min - error);
   const lane_mask taken = hits & behind & (at < p->t_max) &
                           best_after(&p->best, at, it->leaf->patch + none, it->number + none);
-  if (lanes_any(taken)) packet_take(p, it, &r, at, error, taken, false);
+  if (!lanes_any(taken)) return;
+  packet_take(p, it, &r, at, error, taken, false);
+  if (p->gather) gather_best(p, taken);
 }
 
 /* Keeps what a leaf's root says of the surface. */
@@ -141,10 +140,6 @@ static void packet_keep(struct packet *p, const struct model_patch *patch, const
   const int most = patch->split[0] > patch->split[1] ? patch->split[0] : patch->split[1];
   const struct surface_point point = surface_point(patch, root->point, most * tangent);
   const lane_mask final = packet_has_digits(p, patch, root->t, NEAR_START_FINAL);
-  if (p->gather) {
-    gather_surface(p->gather, taken, &point, normal, tangent, final);
-    return;
-  }
   for (int c = 0; c < 3; c++) {
     best->point.at[c] = lanes_select(taken, point.at[c], best->point.at[c]);
     best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
@@ -159,5 +154,7 @@ void offer_bend_root(struct packet *p, const struct candidate *it, const struct 
 {
   if (!lanes_any(hits)) return;
   const lane_mask taken = offer(p, it, &root->at, root->w, root->t, hits);
-  if (it->leaf->parts->exact && !p->any && !p->outer && lanes_any(taken)) packet_keep(p, it->patch, root, taken);
+  if (!lanes_any(taken)) return;
+  if (it->leaf->parts->exact && !p->any && !p->outer) packet_keep(p, it->patch, root, taken);
+  if (p->gather) gather_best(p, taken);
 }

@@ -35,7 +35,7 @@ void packet_orient(struct packet *p)
 {
   lanes size[3];
   for (int k = 0; k < 3; k++) size[k] = lanes_abs(p->direction[k]);
-  p->moved = false, p->patch = UINT32_MAX;
+  p->moved = false, p->patch = UINT32_MAX, p->t_end = p->t_far;
   p->longest = lanes_max(lanes_max(size[0], size[1]), size[2]);
   /* As dominant_axis has it. */
   const lane_mask first = (size[0] >= size[1]) & (size[0] >= size[2]), second = ~first & (size[1] >= size[2]);

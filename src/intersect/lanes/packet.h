@@ -53,6 +53,7 @@ struct packet {
   lanes shift;                            /* then t of the scene is shift + t */
   bool any;                               /* any hit will do */
   struct gather *gather;                  /* all hits are asked for, and gathered here; else NULL */
+  lanes t_end;                            /* then what t_far is, but while a root is taken */
   bool moved;                             /* live or t_far is not what it was */
   lane_mask live;                         /* lanes with a ray that still looks for a hit */
   lane_mask on_axis[3];                   /* lanes whose dominant axis this is */
