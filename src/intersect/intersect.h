@@ -7,7 +7,8 @@
  * patches, a hit is the nearest with t in (t_min, t_max); a miss has none. `certain` means this is proven; `grazing`
  * means that the answer can be turned by a change of the input within the rounding bound of the evaluation (a
  * tangency, the border of an open surface, a coincident component): then a hit is reported where a hit cannot be
- * excluded. The answer to a ray does not depend on the rays it shares a packet with.
+ * excluded, but for one that 113 bits cannot tell from t_min or t_max, which is left out. The answer to a ray does not
+ * depend on the rays it shares a packet with.
  */
 #ifndef PSCN_INTERSECT_INTERSECT_H
 #define PSCN_INTERSECT_INTERSECT_H
