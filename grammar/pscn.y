@@ -60,7 +60,7 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
   struct value value;
   struct texture *texture;
   struct node *node;
-  struct symbol *symbol;
+  struct declaration *declaration;
   struct matrix *matrix;
   const struct transform *transform;
 }
@@ -81,6 +81,7 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 %token SPECULAR "specular" ROUGHNESS "roughness"
 %token COLOR "color" RGB "rgb" X "x" Y "y" Z "z" RED "red" GREEN "green" BLUE "blue" PI "pi"
 %token IMAGE_WIDTH "image_width" IMAGE_HEIGHT "image_height" VERSION_WORD "version"
+%token DEPRECATED "deprecated" ONCE "once" /* before a name whose use POV-Ray warns of */
 %token RGBF "rgbf" RGBFT "rgbft" FILTER "filter"
 %token SOLVER "solver"
 
@@ -88,15 +89,16 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 %type <token> component part
 %type <texture> texture_block pigment_block finish_block surface
 %type <node> object patch union copy
-%type <symbol> declare
+%type <declaration> declare
 %type <matrix> matrix_numbers
 %type <transform> transform
 
 /* A declaration that an error ends: its name is not unknown as well. */
-%destructor { declare_broken($$); } <symbol>
+%destructor { declare_broken(language, $$); } <declaration>
 
 /* Where an expression may be followed by the next item, "+" and "-" belong to the expression, as in POV-Ray. */
 %precedence ITEM
+%precedence TEXTURE
 %left '+' '-'
 %left '*' '/'
 %precedence SIGN
@@ -128,13 +130,15 @@ default_item:
   ;
 
 declaration:
-    declare colour ';'                         { declare_value($1, &$2); }
+    declare colour ';'                         { declare_value(language, $1, &$2); }
   | declare object                             { declare_object(language, $1, $2); } semicolon
-  | declare surface                            { declare_texture(language, $1, $2); } semicolon
+  | declare surface                            { declare_texture(language, $1, $2); } layers semicolon
   ;
-declare: DECLARE WORD '='                      { $$ = declare_begin(language, &$2, false); }
-  | LOCAL WORD '='                             { $$ = declare_begin(language, &$2, true); };
-semicolon: %empty | ';';
+layers: %empty | layers TEXTURE '{' { layer_begin(language, @2); } texture_items '}' { layer_end(language); };
+declare: DECLARE old WORD '='                  { $$ = declare_begin(language, &$3, false); }
+  | LOCAL old WORD '='                         { $$ = declare_begin(language, &$3, true); };
+old: %empty | DEPRECATED STRING | DEPRECATED ONCE STRING;
+semicolon: %empty %prec ITEM | ';';
 
 /* ---- values ---- */
 
@@ -152,6 +156,7 @@ expression:
   | '(' expression ')'                         { $$ = value_placed($2, @$); }
   | '<' expression comma expression comma expression '>'
                                                { $$ = value_of_parts(language, &$2, &$4, &$6, @$); }
+  | '<' expression comma expression '>'        { $$ = value_flat(language, @$); }
   | expression '+' expression                  { $$ = value_binary(language, '+', &$1, &$3); }
   | expression '-' expression                  { $$ = value_binary(language, '-', &$1, &$3); }
   | expression '*' expression                  { $$ = value_binary(language, '*', &$1, &$3); }

@@ -62,7 +62,6 @@ static const struct hint HINTS[] = {
    "conditions are #ifdef and #ifndef; let a script write what a loop stands for"},
   {"#read #write #fopen #fclose", false, "text comes in by #include"},
   {"#debug #warning #error #statistics #render", false, "leave it out"},
-  {"#undef", false, "declare it anew"},
 };
 
 /* Whether the list holds that very word. */

@@ -57,6 +57,14 @@ static void reading_destroy(struct reading *r)
   arena_destroy(r->language.arena);
 }
 
+/* What pscn has not was held, and the declaration that holds it has no end. */
+static void tell_end(struct language *language)
+{
+  const struct tokens *tokens = language->tokens;
+  if (tokens->depth > 0) language_tell(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
+  else language_tell(language, tokens->last.value.place, "the text ends within a declaration");
+}
+
 /* Runs the grammar over a source, which is taken over; NULL where there was no memory for one. */
 static enum status parse(struct reading *r, struct source *source)
 {
@@ -64,6 +72,7 @@ static enum status parse(struct reading *r, struct source *source)
   if (!source || !sources_open(&r->language, source)) return STATUS_LIMIT;
   const int result = pscn_parse(&r->language);
   symbols_tell_missed(&r->language);
+  if (result == 1 && r->language.diagnostics->error_count == before && !r->language.ended_early) tell_end(&r->language);
   if (r->language.ended_early || result == 2) return STATUS_LIMIT;
   return result != 0 || r->language.diagnostics->error_count > before ? STATUS_INPUT : STATUS_OK;
 }

@@ -204,8 +204,10 @@ void copy_end(struct language *language)
     language_error_in(language, &node->block, node->block.place, "this object has no object in it");
 }
 
-void declare_object(struct language *language, struct symbol *symbol, struct node *object)
+void declare_object(struct language *language, struct declaration *declaration, struct node *object)
 {
+  struct symbol *symbol = declare_end(language, declaration);
+  if (!symbol) return;
   if (!object->sharing) object->sharing = language_alloc(language, sizeof *object->sharing);
   symbol->kind = SYMBOL_OBJECT;
   symbol->object = object;

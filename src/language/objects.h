@@ -62,7 +62,7 @@ void copy_end(struct language *language);
 struct node *node_end(struct language *language);
 void node_transform(struct language *language, const struct transform *transform, struct place place);
 void node_texture(struct language *language, const struct texture *texture);
-void declare_object(struct language *language, struct symbol *symbol, struct node *object);
+void declare_object(struct language *language, struct declaration *declaration, struct node *object);
 void scene_add(struct language *language, struct place place, struct node *object);
 
 #endif

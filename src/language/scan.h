@@ -21,6 +21,7 @@ enum {
   TOKEN_ELSE,
   TOKEN_ENDIF,
   TOKEN_MACRO,
+  TOKEN_UNDEF,
   TOKEN_FOREIGN_OPENER,    /* a directive of POV-Ray's that is not in the language and has an #end: #if, #while ... */
   TOKEN_FOREIGN_DIRECTIVE, /* one that has none */
   TOKEN_UNKNOWN_DIRECTIVE

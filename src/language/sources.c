@@ -159,7 +159,7 @@ static void tell_cycle(struct language *language, struct place place, const stru
   text[0] = '\0';
   while (count-- > 0 && used < sizeof text)
     used += (size_t)snprintf(text + used, sizeof text - used, "%s -> ", chain[count]->source->name);
-  language_error(language, place, "files include each other: %s%s", text, again->name);
+  language_tell(language, place, "files include each other: %s%s", text, again->name);
 }
 
 /* The first source of the file at `path`, if it has been read already. */
@@ -188,7 +188,7 @@ static struct source *read_included(struct language *language, struct place plac
   const char *name = place.source->text + place.begin + 1, *reason;
   const size_t length = place.end - place.begin - 2;
   if (memchr(name, '\0', length)) {
-    language_error(language, place, "a file name holds no NUL");
+    language_tell(language, place, "a file name holds no NUL");
     return NULL;
   }
   const char *path = include_path(language, name, length);
@@ -202,7 +202,7 @@ static struct source *read_included(struct language *language, struct place plac
   if (known) source = source_share(known, path);
   else status = source_read(path, INPUT_FILE, &source, &reason);
   if (status == STATUS_FILE) {
-    language_error(language, place, "cannot include '%s': %s", path, reason);
+    language_tell(language, place, "cannot include '%s': %s", path, reason);
     return NULL;
   }
   if (!source) {
@@ -222,11 +222,11 @@ void sources_include(struct language *language)
   const int token = pscn_scan_next(&language->sources->frame->scan);
   const struct place place = sources_here(language);
   if (token != PSCN_TOKEN_STRING) {
-    language_error(language, place, "#include wants a file name in quotes");
+    language_tell(language, place, "#include wants a file name in quotes");
     return;
   }
   if (language->symbols->depth == MAX_INCLUDE_DEPTH) {
-    language_error(language, place, "files are included more than %d deep", MAX_INCLUDE_DEPTH);
+    language_tell(language, place, "files are included more than %d deep", MAX_INCLUDE_DEPTH);
     return;
   }
   if (language->sources->count == MAX_SOURCES) {

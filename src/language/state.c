@@ -12,24 +12,71 @@ struct place language_span(const struct place *first, const struct place *last)
   return (struct place){first->source, first->begin, last->end};
 }
 
-void language_error(struct language *language, struct place place, const char *format, ...)
+/* More than these of one declaration are not told. */
+enum { MOST_HELD = 20 };
+
+static struct held *hold(struct language *language, struct place place)
+{
+  struct declaration *declaration = language->declaration;
+  language->held_count++;
+  if (declaration->held_count++ >= MOST_HELD) return NULL;
+  struct held *held = *declaration->held_end = language_alloc(language, sizeof *held);
+  declaration->held_end = &held->next;
+  held->place = place;
+  return held;
+}
+
+void language_hold(struct language *language, struct place place, struct held *of)
+{
+  struct held *held = hold(language, place);
+  if (held) held->of = of;
+}
+
+static void tell(struct language *language, struct place place, bool holds, const char *format, va_list arguments)
 {
   char message[400];
+  const size_t size = 1 + (size_t)vsnprintf(message, sizeof message, format, arguments);
+  if (!holds) {
+    diagnostics_error(language->diagnostics, place, "%s", message);
+    return;
+  }
+  struct held *held = hold(language, place);
+  const size_t kept = size < sizeof message ? size : sizeof message;
+  if (held) held->text = memcpy(language_alloc(language, kept), message, kept);
+}
+
+void language_tell(struct language *language, struct place place, const char *format, ...)
+{
   va_list arguments;
   va_start(arguments, format);
-  vsnprintf(message, sizeof message, format, arguments);
+  tell(language, place, false, format, arguments);
   va_end(arguments);
-  diagnostics_error(language->diagnostics, place, "%s", message);
+}
+
+void language_error(struct language *language, struct place place, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  tell(language, place, language->declaration && language->declaration->held_count > 0, format, arguments);
+  va_end(arguments);
+}
+
+void language_foreign(struct language *language, struct place place, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  tell(language, place, language->declaration != NULL, format, arguments);
+  va_end(arguments);
 }
 
 struct block language_block(const struct language *language, struct place place)
 {
-  return (struct block){place, language->diagnostics->error_count};
+  return (struct block){place, language->diagnostics->error_count + language->held_count};
 }
 
 bool language_sound(const struct language *language, const struct block *block)
 {
-  return language->diagnostics->error_count == block->errors;
+  return language->diagnostics->error_count + language->held_count == block->errors;
 }
 
 void language_error_in(struct language *language, const struct block *block, struct place place, const char *text)
@@ -39,7 +86,7 @@ void language_error_in(struct language *language, const struct block *block, str
 
 void language_limit(struct language *language, struct place place, const char *text)
 {
-  if (!language->ended_early) language_error(language, place, "%s", text);
+  if (!language->ended_early) diagnostics_error(language->diagnostics, place, "%s", text);
   language->ended_early = true;
 }
 

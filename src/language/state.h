@@ -31,11 +31,30 @@ struct token {
 /* A block in braces, or what else is read piece by piece. */
 struct block {
   struct place place; /* of the word it begins with */
-  size_t errors;      /* told before it began */
+  size_t errors;      /* told or held before it began */
 };
 
 /* How far a block has come: what may follow. */
 enum stage { STAGE_SETTINGS, STAGE_BODY, STAGE_MODIFIERS };
+
+struct symbol;
+
+/* What pscn has not, within a declaration: told where its name is used. */
+struct held {
+  struct held *next;
+  struct place place;
+  const char *text; /* or, where that is NULL, */
+  struct held *of;  /* all of a name that was used there */
+  bool told;
+};
+
+/* A declaration that is being read. */
+struct declaration {
+  struct declaration *outer;
+  struct symbol *symbol;
+  struct held *held, **held_end;
+  size_t held_count;
+};
 
 struct language {
   struct diagnostics *diagnostics;
@@ -45,6 +64,9 @@ struct language {
   bool unaffordable;                      /* more was wanted */
   bool ended_early;                       /* memory, or a stated limit: STATUS_LIMIT */
   struct place unknown;                   /* the last word told to be unknown */
+  struct declaration *declaration;        /* the innermost that is open, or NULL */
+  struct declaration *declared;           /* the last of a texture */
+  size_t held_count;                      /* in all declarations */
   _Alignas(max_align_t) char spare[4096]; /* stands in for memory that there is not */
   size_t spare_used;
 
@@ -62,8 +84,21 @@ struct language {
 /* From the beginning of one to the end of the other, if both stand in one source. */
 struct place language_span(const struct place *first, const struct place *last);
 
+/* An error in how files are put together: in whole comments, quotes, conditions, blocks. */
+void language_tell(struct language *language, struct place place, const char *format, ...)
+  __attribute__((format(printf, 3, 4)));
+
+/* An error in what the text means. */
 void language_error(struct language *language, struct place place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
+
+/* What pscn has not, though POV-Ray may. Where a declaration is being read this is held, and so is what language_error
+ * gets in it from there on: libraries declare more than a scene uses. */
+void language_foreign(struct language *language, struct place place, const char *format, ...)
+  __attribute__((format(printf, 3, 4)));
+
+/* The same of a name that was declared so. */
+void language_hold(struct language *language, struct place place, struct held *of);
 
 struct block language_block(const struct language *language, struct place place);
 /* Whether no error has been told since the block began: what is missing in it may be the consequence of one. */

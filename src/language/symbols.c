@@ -102,21 +102,42 @@ void symbols_tell_missed(struct language *language)
   }
 }
 
+/* All that its declarations held is told at the first use; other declarations hold it with what they are of. */
+static void tell_foreign(struct language *language, const struct token *name, struct symbol *symbol)
+{
+  if (language->declaration) {
+    language_hold(language, name->place, symbol->held);
+    return;
+  }
+  language_error(language, name->place, "'%.*s' is declared with what pscn has not", (int)name->length, name->text);
+  for (struct held *list = symbol->held, *next; list; list = next) {
+    next = NULL;
+    for (struct held *held = list; held; held = held->next) {
+      if (held->of && !next) next = held->of;
+      if (held->text && !held->told) diagnostics_error(language->diagnostics, held->place, "%s", held->text);
+      held->told = true;
+    }
+  }
+  symbol->kind = SYMBOL_BROKEN;
+}
+
 void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted)
 {
   const char *is = symbol->kind == SYMBOL_OBJECT    ? "an object"
                    : symbol->kind == SYMBOL_TEXTURE ? symbol->texture_kind
                    : symbol->kind == SYMBOL_MACRO   ? "a macro, which pscn does not call"
                                                     : "a value";
-  language_error(language, place, "'%.*s' is %s; %s is wanted here", (int)symbol->length, symbol->name, is, wanted);
+  (symbol->kind == SYMBOL_MACRO ? language_foreign : language_error)(language, place, "'%.*s' is %s; %s is wanted here",
+                                                                     (int)symbol->length, symbol->name, is, wanted);
 }
 
 const struct symbol *symbol_wanted(struct language *language, const struct token *name, enum symbol_kind kind,
                                    const char *wanted)
 {
-  const struct symbol *symbol = symbol_find(language, name->text, name->length);
-  if (!symbol) tell_unknown(language, name, wanted);
+  struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
+  if (!symbol || symbol->kind == SYMBOL_BEGUN || symbol->kind == SYMBOL_UNKNOWN) tell_unknown(language, name, wanted);
   else if (symbol->kind == kind) return symbol;
+  else if (symbol->kind == SYMBOL_FOREIGN) tell_foreign(language, name, symbol);
   else if (symbol->kind != SYMBOL_BROKEN) symbol_mistaken(language, name->place, symbol, wanted);
   return NULL;
 }
@@ -126,7 +147,7 @@ const struct symbol *symbol_wanted(struct language *language, const struct token
 /* As in POV-Ray: #local writes to a name of this file, #declare to the innermost there is, or else to one that belongs
  * to all. Which one is settled before the value is read: a declaration within the first one of its own name hides
  * that, within a later one the outer one is the last to write. */
-struct symbol *declare_begin(struct language *language, const struct token *name, bool local)
+static struct symbol *symbol_begin(struct language *language, const struct token *name, bool local)
 {
   const int depth = local ? language->symbols->depth : -1;
   struct symbol *symbol = find(language->symbols, name->text, name->length, depth);
@@ -135,9 +156,36 @@ struct symbol *declare_begin(struct language *language, const struct token *name
   return add(language, name->text, name->length, local ? depth : 0);
 }
 
-/* A value that is but the name of something else declares another name for it. */
-void declare_value(struct symbol *symbol, const struct value *value)
+struct declaration *declare_begin(struct language *language, const struct token *name, bool local)
 {
+  struct declaration *declaration = language_alloc(language, sizeof *declaration);
+  declaration->symbol = symbol_begin(language, name, local);
+  declaration->outer = language->declaration;
+  declaration->held_end = &declaration->held;
+  return language->declaration = declaration;
+}
+
+struct symbol *declare_end(struct language *language, struct declaration *declaration)
+{
+  struct symbol *symbol = declaration->symbol;
+  language->declaration = declaration->outer;
+  if (!declaration->held) return symbol;
+  symbol->kind = SYMBOL_FOREIGN;
+  symbol->held = declaration->held;
+  return NULL;
+}
+
+static void symbol_set(struct symbol *symbol, const struct value *value)
+{
+  symbol->kind = value->kind == VALUE_UNKNOWN ? SYMBOL_BROKEN : SYMBOL_VALUE;
+  symbol->value = *value;
+}
+
+/* A value that is but the name of something else declares another name for it. */
+void declare_value(struct language *language, struct declaration *declaration, const struct value *value)
+{
+  struct symbol *symbol = declare_end(language, declaration);
+  if (!symbol) return;
   if (value->kind == VALUE_NAMED) {
     symbol->kind = value->symbol->kind;
     symbol->object = value->symbol->object;
@@ -145,19 +193,28 @@ void declare_value(struct symbol *symbol, const struct value *value)
     symbol->texture_kind = value->symbol->texture_kind;
     return;
   }
-  symbol->kind = value->kind == VALUE_UNKNOWN ? SYMBOL_BROKEN : SYMBOL_VALUE;
-  symbol->value = *value;
+  symbol_set(symbol, value);
 }
 
-void declare_broken(struct symbol *symbol) { symbol->kind = SYMBOL_BROKEN; }
+void declare_broken(struct language *language, struct declaration *declaration)
+{
+  struct symbol *symbol = declare_end(language, declaration);
+  if (symbol) symbol->kind = SYMBOL_BROKEN;
+}
 
 void declare_macro(struct language *language, const struct token *name)
 {
-  declare_begin(language, name, false)->kind = SYMBOL_MACRO;
+  symbol_begin(language, name, false)->kind = SYMBOL_MACRO;
+}
+
+void declare_gone(struct language *language, const struct token *name)
+{
+  struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
+  if (symbol && symbol->kind != SYMBOL_BEGUN) symbol->kind = SYMBOL_UNKNOWN;
 }
 
 void declare_number(struct language *language, const char *name, size_t length, double number)
 {
   const struct token token = {.text = name, .length = length};
-  declare_value(declare_begin(language, &token, false), &(struct value){.x = {number, number, number}});
+  symbol_set(symbol_begin(language, &token, false), &(struct value){.x = {number, number, number}});
 }

@@ -6,8 +6,6 @@
 #include "language/table.h"
 #include "language/words.h"
 
-struct symbol;
-
 enum value_kind {
   VALUE_NUMBER, /* stands in all of x, so that it is a vector where one is wanted */
   VALUE_VECTOR,
@@ -34,6 +32,7 @@ enum symbol_kind {
   SYMBOL_TEXTURE,
   SYMBOL_OBJECT,
   SYMBOL_MACRO,
+  SYMBOL_FOREIGN, /* declared with what pscn has not */
   SYMBOL_BROKEN
 };
 
@@ -48,6 +47,7 @@ struct symbol {
   const struct texture *texture;
   const char *texture_kind; /* "a texture", "a pigment", "a finish" */
   const struct node *object;
+  struct held *held;          /* of a foreign one */
   size_t missed;              /* times that it was unknown, */
   struct place missed_last;   /* the last time; */
   struct symbol *missed_next; /* the one that was unknown before it */
@@ -81,11 +81,14 @@ void symbols_tell_missed(struct language *language);
 /* Tells that a name is something else than what is wanted. */
 void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted);
 
-/* The symbol that a declaration writes to; declarations may stand within each other. */
-struct symbol *declare_begin(struct language *language, const struct token *name, bool local);
-void declare_value(struct symbol *symbol, const struct value *value);
-void declare_broken(struct symbol *symbol);                              /* its declaration has an error */
+/* A declaration begins; declarations may stand within each other. */
+struct declaration *declare_begin(struct language *language, const struct token *name, bool local);
+/* It ends. Returns the symbol to write to, or NULL where something was held: then it is foreign. */
+struct symbol *declare_end(struct language *language, struct declaration *declaration);
+void declare_value(struct language *language, struct declaration *declaration, const struct value *value);
+void declare_broken(struct language *language, struct declaration *declaration); /* it has an error */
 void declare_macro(struct language *language, const struct token *name); /* it can be declared, but not called */
+void declare_gone(struct language *language, const struct token *name);  /* #undef */
 
 /* Declares a number, such as the one that tells this program from POV-Ray. The name is kept. */
 void declare_number(struct language *language, const char *name, size_t length, double number);

@@ -30,9 +30,19 @@ static void list_expected(const char *const expected[], int count, char *out, si
                                           "image_width", "image_height", "'('",  "'<'",   "'+'",     "'-'",
                                           "rgb",         "color",        "rgbf", "rgbft", "version", NULL};
   static const char *const parts[] = {"red", "green", "blue", "filter", NULL}; /* which may follow any colour */
-  static const char *const anywhere[] = {
-    "'+'", "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version", "#default", "the end of the text",
-    NULL};
+  static const char *const anywhere[] = {"'+'",
+                                         "'-'",
+                                         "'*'",
+                                         "'/'",
+                                         "'.'",
+                                         "','",
+                                         "#declare",
+                                         "#local",
+                                         "#version",
+                                         "#default",
+                                         "the end of the text",
+                                         "deprecated",
+                                         NULL};
   const char *list[MOST_LISTED];
   int listed = 0;
   const bool value = contains(expected, count, "image_width"), objects = contains(expected, count, "object");
@@ -83,19 +93,19 @@ void syntax_error(struct language *language, struct place place, bool is_word, c
   const int shown = length < LONGEST_SHOWN ? (int)length : LONGEST_SHOWN;
   const char *text = place.source->text + place.begin;
   if (length == 0 && tokens->depth > 0) {
-    language_error(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
+    language_tell(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
     return;
   }
   if (tokens->last.token == PSCN_TOKEN_FOREIGN) {
     char hint[HINT_SIZE];
     hint_write(text, length, hint, sizeof hint);
-    language_error(language, place, "%.*s is POV-Ray, but pscn %s", shown, text, hint);
+    language_foreign(language, place, "%.*s is POV-Ray, but pscn %s", shown, text, hint);
     return;
   }
   char list[300] = "";
   list_expected(expected, count, list, sizeof list);
   if (!is_word) {
-    if (length == 0) language_error(language, place, "the text ends here%s", list);
+    if (length == 0) language_tell(language, place, "the text ends here%s", list);
     else language_error(language, place, "unexpected '%.*s'%s", shown, text, list);
     return;
   }

@@ -125,14 +125,34 @@ void finish_number(struct language *language, int part, const struct value *valu
 }
 
 /* A declared block is whole: what it leaves open has the default. */
-void declare_texture(struct language *language, struct symbol *symbol, const struct texture *texture)
+void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture)
 {
+  struct symbol *symbol = declare_end(language, declaration);
+  language->declared = declaration;
+  if (!symbol) return;
   struct texture *whole = language_alloc(language, sizeof *whole);
   *whole = *texture;
   whole->set = texture->block;
   symbol->kind = SYMBOL_TEXTURE;
   symbol->texture_kind = block_name(texture->block);
   symbol->texture = whole;
+}
+
+void layer_begin(struct language *language, struct place place)
+{
+  struct declaration *declaration = language->declared;
+  declaration->outer = language->declaration;
+  language->declaration = declaration;
+  language_foreign(language, place, "a texture of several layers is POV-Ray, but pscn has one; leave out all but one");
+  texture_begin(language, TEXTURE_ALL);
+}
+
+void layer_end(struct language *language)
+{
+  struct declaration *declaration = language->declaration;
+  texture_end(language);
+  declare_end(language, declaration);
+  language->declared = declaration;
 }
 
 void texture_set_default(struct language *language, const struct texture *texture)

@@ -45,6 +45,8 @@ void texture_moved(struct language *language); /* a transform, which changes not
 void pigment_value(struct language *language, const struct value *value);
 void finish_ambient(struct language *language, const struct value *value);
 void finish_number(struct language *language, int part, const struct value *value);
-void declare_texture(struct language *language, struct symbol *symbol, const struct texture *texture);
+void layer_begin(struct language *language, struct place place); /* of the texture declared last, one more */
+void layer_end(struct language *language);
+void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture);
 
 #endif

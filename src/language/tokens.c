@@ -22,7 +22,7 @@ static void tell_open_comment(struct language *language)
 {
   const struct frame *frame = language->sources->frame;
   const size_t begin = frame->scan.comment_begin;
-  language_error(language, (struct place){frame->source, begin, begin + 2}, "this comment is not closed");
+  language_tell(language, (struct place){frame->source, begin, begin + 2}, "this comment is not closed");
 }
 
 /* ---- conditions ---- */
@@ -68,7 +68,7 @@ static bool condition_holds(struct language *language, const char *directive)
       if (token == ')') return declared;
     }
   }
-  language_error(language, sources_here(language), "%s wants a name in parentheses", directive);
+  language_tell(language, sources_here(language), "%s wants a name in parentheses", directive);
   while (opened && (token == '.' || is_word(token))) token = pscn_scan_next(scan);
   return declared;
 }
@@ -94,12 +94,12 @@ static void end_condition(struct language *language, int token)
 {
   struct frame *frame = language->sources->frame;
   if (frame->conditions == 0) {
-    language_error(language, sources_here(language), "%s without #ifdef", token == TOKEN_ELSE ? "#else" : "#end");
+    language_tell(language, sources_here(language), "%s without #ifdef", token == TOKEN_ELSE ? "#else" : "#end");
     return;
   }
   struct condition *condition = &frame->condition[frame->conditions - 1];
   if (token == TOKEN_ELSE) {
-    if (condition->seen_else) language_error(language, sources_here(language), "a second #else for the same #ifdef");
+    if (condition->seen_else) language_tell(language, sources_here(language), "a second #else for the same #ifdef");
     condition->seen_else = true;
     if (skip_branch(language, false) != TOKEN_ENDIF) return;
   }
@@ -116,8 +116,16 @@ static void skip_macro(struct language *language)
   const struct place name = sources_here(language);
   if (is_word(token))
     declare_macro(language, &(struct token){.text = text_at(name), .length = length_of(name), .place = name});
-  else language_error(language, name, "#macro wants a name");
-  if (skip_branch(language, false) != TOKEN_ENDIF) language_error(language, place, "#macro without #end");
+  else language_tell(language, name, "#macro wants a name");
+  if (skip_branch(language, false) != TOKEN_ENDIF) language_tell(language, place, "#macro without #end");
+}
+
+static void undeclare(struct language *language)
+{
+  const int token = pscn_scan_next(&language->sources->frame->scan);
+  const struct place name = sources_here(language);
+  if (is_word(token)) declare_gone(language, &(struct token){.text = text_at(name), .length = length_of(name)});
+  else language_tell(language, name, "#undef wants a name");
 }
 
 static void tell_directive(struct language *language, int token)
@@ -129,14 +137,14 @@ static void tell_directive(struct language *language, int token)
     char directive[HINT_SIZE], hint[HINT_SIZE];
     const int size = snprintf(directive, sizeof directive, "#%.*s", (int)length, name);
     hint_write(directive, (size_t)size, hint, sizeof hint);
-    language_error(language, place, "%s is POV-Ray, but pscn %s", directive, hint);
+    if (!language->tokens->skipping) language_foreign(language, place, "%s is POV-Ray, but pscn %s", directive, hint);
     return;
   }
   struct guess guess = guess_begin(name, length);
   guess_directives(&guess);
   if (guess.best)
-    language_error(language, place, "unknown directive '#%.*s'; did you mean '#%s'?", (int)length, name, guess.best);
-  else language_error(language, place, "unknown directive '#%.*s'", (int)length, name);
+    language_tell(language, place, "unknown directive '#%.*s'; did you mean '#%s'?", (int)length, name, guess.best);
+  else language_tell(language, place, "unknown directive '#%.*s'", (int)length, name);
 }
 
 /* Words in a solver statement are plain, whatever they mean elsewhere. */
@@ -161,7 +169,7 @@ static bool end_of_source(struct language *language)
   struct frame *frame = language->sources->frame;
   while (frame->conditions > 0) {
     const struct place place = frame->condition[--frame->conditions].place;
-    language_error(language, place, "%.*s without #end", (int)length_of(place), text_at(place));
+    language_tell(language, place, "%.*s without #end", (int)length_of(place), text_at(place));
   }
   if (!frame->outer) return false;
   sources_leave(language);
@@ -174,7 +182,7 @@ static bool refused_directive(struct language *language, int token)
   const bool directive = (token >= TOKEN_INCLUDE && token <= TOKEN_UNKNOWN_DIRECTIVE) ||
                          (token >= PSCN_TOKEN_VERSION && token <= PSCN_TOKEN_DEFAULT);
   if (!directive || !language->tokens->solver_only) return false;
-  language_error(language, sources_here(language), "the text of a solver has no directives");
+  language_tell(language, sources_here(language), "the text of a solver has no directives");
   return true;
 }
 
@@ -190,7 +198,7 @@ static bool aside(struct language *language, int token)
   case TOKEN_ELSE:
   case TOKEN_ENDIF: end_condition(language, token); return true;
   case TOKEN_OPEN_COMMENT: tell_open_comment(language); return true;
-  case TOKEN_OPEN_STRING: language_error(language, sources_here(language), "this quote is not closed"); return true;
+  case TOKEN_OPEN_STRING: language_tell(language, sources_here(language), "this quote is not closed"); return true;
   case TOKEN_BAD_CHARACTER:
     if (!language->tokens->skipping) language_error(language, sources_here(language), "this means nothing here");
     return true;
@@ -199,6 +207,7 @@ static bool aside(struct language *language, int token)
     skip_branch(language, false);
     return true;
   case TOKEN_MACRO: skip_macro(language); return true;
+  case TOKEN_UNDEF: undeclare(language); return true;
   case TOKEN_NO_MEMORY: language->ended_early = true; return true;
   default: return false;
   }
@@ -207,8 +216,8 @@ static bool aside(struct language *language, int token)
 static void tell_too_large(struct language *language)
 {
   struct scan *scan = &language->sources->frame->scan;
-  language_error(language, (struct place){language->sources->frame->source, scan->too_large_begin, scan->too_large_end},
-                 "this number is too large");
+  language_tell(language, (struct place){language->sources->frame->source, scan->too_large_begin, scan->too_large_end},
+                "this number is too large");
   for (int k = 0; k < 3; k++) scan->number[k] = 1;
 }
 

@@ -180,6 +180,12 @@ struct value value_of_parts(struct language *language, const struct value *x, co
   return known ? r : unknown(place);
 }
 
+struct value value_flat(struct language *language, struct place place)
+{
+  language_foreign(language, place, "vectors of two parts are POV-Ray, but pscn has those of three");
+  return unknown(place);
+}
+
 void value_to_vector(struct language *language, const struct value *a, double out[3])
 {
   if (!usable(language, a, "a vector")) return;
@@ -199,12 +205,12 @@ void value_to_colour(struct language *language, const struct value *a, double ou
 void value_to_opaque(struct language *language, const struct value *a, double out[3])
 {
   if (a->transparent & TRANSPARENT_SAID) {
-    language_error(language, a->place, "this colour is transparent, and what pscn renders is not");
+    language_foreign(language, a->place, "this colour is transparent, and what pscn renders is not");
     return;
   }
   if (a->transparent || (a->kind == VALUE_NUMBER && a->x[0] != 0)) {
-    language_error(language, a->place,
-                   "a number alone or after color is a transparent colour in POV-Ray; write rgb before it");
+    language_foreign(language, a->place,
+                     "a number alone or after color is a transparent colour in POV-Ray; write rgb before it");
     return;
   }
   value_to_colour(language, a, out);

@@ -7,6 +7,8 @@
 
 struct value value_of_number(double x, struct place place);
 struct value value_of_vector(const double x[3], struct place place);
+/* A vector of two parts, which is refused. */
+struct value value_flat(struct language *language, struct place place);
 struct value value_of_parts(struct language *language, const struct value *x, const struct value *y,
                             const struct value *z, struct place place);
 struct value value_axis(int axis, struct place place);

@@ -1,0 +1,57 @@
+#!/bin/bash
+# POV-Ray's own include files, where they are installed, each in a scene of one patch: they are read and change nothing, or put
+# things into the scene and are refused, as docs/povray.md lists them. What pscn has not is told where it is used.
+set -euo pipefail
+include=/usr/share/povray-3.7/include
+[ -d $include ] || { echo "skipped: $include is not there" >&2; exit 77; }
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+export LC_ALL=C
+failed=0
+fail() { echo "$*"; failed=1; }
+
+scene() { # LINES...
+  printf '%s\n' '#version 3.7; global_settings { assumed_gamma 1 }' '#include "colors.inc"' "$@" \
+    'camera { location <0.5, 0.5, -4> look_at 0 }' 'light_source { <2, 5, -5>, rgb 1 }' \
+    'bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3' \
+    ' <-1,-1,0> <-.3,-1,1> <.3,-1,1> <1,-1,0>  <-1,-.3,1> <-.3,-.3,1> <.3,-.3,1> <1,-.3,1>' \
+    ' <-1,.3,1> <-.3,.3,1> <.3,.3,1> <1,.3,1>  <-1,1,0> <-.3,1,1> <.3,1,1> <1,1,0> texture { pigment { Red } } }'
+}
+scene '' >plain.pscn
+"$PSCN" dump plain.pscn >plain
+
+declare -a read=() refused=()
+for file in $include/*.inc; do
+  name=$(basename "$file" .inc)
+  scene "#include \"$name.inc\"" >"$name.pscn"
+  if "$PSCN" dump "$name.pscn" >out 2>said; then
+    read+=("$name")
+    cmp -s out plain || fail "$name.inc changes the scene"
+  else
+    refused+=("$name")
+  fi
+  grep -v 'warning: this is read as version\|^ \|^included' said | grep 'warning' && fail "$name.inc: a warning"
+done
+documented() { # BEGINNING NAMES...
+  local beginning=$1
+  shift
+  tr '\n' ' ' <"$PSCN_SOURCE_DIR/docs/povray.md" | tr -s ' ' | grep -Fq -- "- are $beginning: $(printf '%s, ' "$@" | sed 's/, $//')" ||
+    fail "docs/povray.md does not say $beginning: $*"
+}
+documented read "${read[@]}"
+documented 'refused, for they put things into the scene' "${refused[@]}"
+
+# Used, each says what it is made of and where that stands.
+used() { # FILE LINE WORD
+  scene "#include \"$1.inc\"" "$2" >used.pscn
+  "$PSCN" dump used.pscn >out 2>said && fail "$2: exit 0"
+  grep -Eq "^used.pscn:4:[0-9]+: error: '$3' is declared with what pscn has not" said || fail "$2: not told where it is used"
+  grep -Eq "/$4.inc:[0-9]+:[0-9]+: error: $5" said || fail "$2: not told what it is"
+}
+used stones '#default { texture { T_Stone10 } }' T_Stone10 stones1 granite
+used shapes 'object { Disk_X scale 2 }' Disk_X shapes_old cylinder
+used woods '#declare Mine = texture { T_Wood1 } #default { texture { Mine } }' Mine woods wood
+used glass '#default { texture { T_Glass4 } }' T_Glass4 glass_old 'this colour is transparent'
+used math 'camera { angle sind(30) }' sind math function
+exit $failed
