@@ -54,8 +54,8 @@ void box_bends(double n[4][4], double out[3])
 
 /* The certificate in the box's own parameters, with the second derivatives of M's rows of the plane polynomials
  * themselves, for a last step that went to `root`. Sets the radii. */
-static bool box_prove(struct box *box, double m[2][2], const double error[2], double step, const double root[2],
-                      double radius[2])
+static bool box_prove(struct box *box, double m[2][2], const double error[2], bool alone, double step,
+                      const double root[2], double radius[2])
 {
   const double out_u = real_max(-root[0], root[0] - 1), out_v = real_max(-root[1], root[1] - 1);
   if (!(out_u < BOX_MARGIN && out_v < BOX_MARGIN)) return false;
@@ -73,12 +73,12 @@ static bool box_prove(struct box *box, double m[2][2], const double error[2], do
     q = real_max(q, growth * ((s[0] + s[1]) * reach_u + (s[1] + s[2]) * reach_v));
     radius[k] = certificate_radius(row_bend, step, row_size);
   }
-  return certificate_holds(bend, step, size) && certificate_alone(q, size);
+  return certificate_holds(bend, step, size) && (!alone || certificate_alone(q, size));
 }
 
-bool box_solve(struct box *box, const double error[2], double root[2], double radius[2])
+bool box_solve(struct box *box, const double error[2], bool alone, double root[2], double radius[2])
 {
-  double u = 0.5, v = 0.5, step = 2, m[2][2] = {{0}};
+  double u = root[0], v = root[1], step = 2, m[2][2] = {{0}};
   for (int n = 0; n < 12 && step > LAST_STEP; n++) {
     const struct patch_jet a = patch_evaluate(box->net[0], u, v), b = patch_evaluate(box->net[1], u, v);
     const double determinant = a.du * b.dv - a.dv * b.du;
@@ -92,7 +92,7 @@ bool box_solve(struct box *box, const double error[2], double root[2], double ra
   }
   if (!(step <= LAST_STEP)) return false;
   root[0] = u, root[1] = v;
-  return box_prove(box, m, error, step, root, radius);
+  return box_prove(box, m, error, alone, step, root, radius);
 }
 
 /* How many steps take a point of a box onto the ray, where they can; how far off it may be then, in error bounds. */

@@ -37,9 +37,9 @@ struct box {
  * `error` bounds the errors of the coefficients of a and of b. */
 enum verdict box_test(struct box *box, const double error[2]);
 
-/* The root that Newton's process finds from the middle, in box parameters with its radii; returns whether it is proven
- * and alone. */
-bool box_solve(struct box *box, const double error[2], double root[2], double radius[2]);
+/* The root that Newton's process finds from `root`, in box parameters with its radii; returns whether it is proven and,
+ * where that is asked, alone. */
+bool box_solve(struct box *box, const double error[2], bool alone, double root[2], double radius[2]);
 
 /* The largest second derivatives of each kind, of a net on its box. */
 void box_bends(double net[4][4], double out[3]);

@@ -100,7 +100,7 @@ bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct ex
 {
   judge_turn(j, a->patch);
   const struct zoom *zoom = judge_zoom(j);
-  const double well = TIE_ERRORS * (double)(zoom->error * (zoom->to_t < 0 ? -zoom->to_t : zoom->to_t));
+  const double well = TIE_ERRORS * (double)(zoom_error(zoom) * (zoom->to_t < 0 ? -zoom->to_t : zoom->to_t));
   return a->t_error + b->t_error <= UNIT_ROUNDOFF * fabs((double)a->t) + well;
 }
 
@@ -232,8 +232,9 @@ bool judge_pole(struct judge *j, int border)
                                     u,
                                     v,
                                     (double)t,
-                                    16 * UNIT_ROUNDOFF * fabs((double)t) +
-                                      ZOOM_POLE_REACH * judge_zoom(j)->error * fabs(j->local.unit * j->local.to_t)};
+                                    16 * UNIT_ROUNDOFF * fabs((double)t) + ZOOM_POLE_REACH *
+                                                                             judge_zoom(j)->depth_error *
+                                                                             fabs(j->local.unit * j->local.to_t)};
   keep_maybe(j, &maybe);
   return false;
 }

@@ -9,6 +9,7 @@
  * ray in the surface), and poles met exactly, are told to the judge as undecided.
  */
 #include "intersect/exact/box.h"
+#include "intersect/exact/fold.h"
 #include "intersect/exact/judge.h"
 
 #include <math.h>
@@ -40,6 +41,9 @@ enum { ZOOM_WORK = 40, ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
 /* A box at a border that is one point is put under the glass again where it is so small a part, away from the border,
  * of what was: see ZOOM_POLE_NEAREST. */
 #define ZOOM_AGAIN_POLE 0x1p-10
+
+/* What may be roots and is no farther than this from a fold, of the box, is told as one place. */
+#define FOLD_NEAR 0x1p-36
 
 enum { NO_BORDER = -1, TWO_BORDERS = -2 };
 
@@ -98,7 +102,7 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
     root.u = s->low[0] + s->size[0] * ((wide)box->u + (wide)box->size_u * at[0]);
     root.v = s->low[1] + s->size[1] * ((wide)box->v + (wide)box->size_v * at[1]);
     root.t = zoom_t(judge_zoom(s->judge), root.u, root.v);
-    root.t_error = length_to_t(s, off + judge_zoom(s->judge)->error);
+    root.t_error = length_to_t(s, off + judge_zoom(s->judge)->depth_error);
   } else {
     root.u = (double)s->low[0] + (double)s->size[0] * (box->u + box->size_u * at[0]);
     root.v = (double)s->low[1] + (double)s->size[1] * (box->v + box->size_v * at[1]);
@@ -189,7 +193,7 @@ static void closer_run(struct search *closer, const struct zoomed *zoomed)
   const wide start = zoomed->start * closer->unit;
   closer->start[0] = (double)start, closer->start[1] = (double)(start - closer->start[0]);
   for (int k = 0; k < 2; k++) closer->error[k] = zoomed->error[k];
-  closer->depth_error = 32 * UNIT_ROUNDOFF * size + judge_zoom(closer->judge)->error;
+  closer->depth_error = 32 * UNIT_ROUNDOFF * size + judge_zoom(closer->judge)->depth_error;
   struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   memcpy(whole.net, zoomed->net, sizeof whole.net);
   search_run(closer, &whole);
@@ -254,6 +258,88 @@ static bool far_from_pole(const struct search *s, const struct box *box, const d
   return s->divided < 0 || distance[s->divided] >= ZOOM_POLE_NEAREST;
 }
 
+/* ---- folds ---- */
+
+/* The parameter of the patch where the fold's parameter is x. */
+static wide fold_place(const struct search *s, const struct box *box, int k, double x)
+{
+  const double at = k ? box->v : box->u, size = k ? box->size_v : box->size_u;
+  return s->low[k] + s->size[k] * ((wide)at + (wide)size * (0.5 + 0.5 * x));
+}
+
+static bool apart(double a, double b, double radii) { return fabs(a - b) > radii; }
+
+/* Tells of the two roots on either side of a fold; false where they are not proven, and nothing is told. */
+static bool fold_roots(struct search *s, struct box *box, const struct fold *fold, const double error[2])
+{
+  double root[2][2], radius[2][2];
+  for (int n = 0; n < 2; n++) {
+    const double side = n ? fold->half : -fold->half;
+    for (int k = 0; k < 2; k++) root[n][k] = 0.5 + 0.5 * (fold->at[k] + side * fold->way[k]);
+    if (!box_solve(box, error, false, root[n], radius[n])) return false;
+  }
+  if (!apart(root[0][0], root[1][0], radius[0][0] + radius[1][0]) &&
+      !apart(root[0][1], root[1][1], radius[0][1] + radius[1][1]))
+    return false;
+  for (int n = 0; n < 2; n++) box_tell_root(s, box, root[n], radius[n]);
+  return true;
+}
+
+/* The same under the glass. */
+static bool fold_roots_zoom(struct search *s, struct box *box, const struct fold *fold)
+{
+  struct exact_root root[2];
+  for (int n = 0; n < 2; n++) {
+    const double side = n ? fold->half : -fold->half;
+    wide place[2];
+    for (int k = 0; k < 2; k++) place[k] = fold_place(s, box, k, fold->at[k] + side * fold->way[k]);
+    root[n] = (struct exact_root){.u = place[0], .v = place[1], .radius_u = INFINITY, .radius_v = INFINITY};
+    if (!zoom_sharpen(judge_zoom(s->judge), &root[n])) return false;
+    for (int k = 0; k < 2; k++) {
+      const wide at = k ? root[n].v : root[n].u;
+      if (!(at >= fold_place(s, box, k, -FOLD_REACH) && at <= fold_place(s, box, k, FOLD_REACH))) return false;
+    }
+  }
+  if (!apart((double)(root[0].u - root[1].u), 0, root[0].radius_u + root[1].radius_u) &&
+      !apart((double)(root[0].v - root[1].v), 0, root[0].radius_v + root[1].radius_v))
+    return false;
+  for (int n = 0; n < 2; n++) judge_root(s->judge, &root[n]);
+  return true;
+}
+
+/* A double root, two or none: the fold itself may be a hit, where it is in the box. */
+static bool fold_maybe(struct search *s, struct box *box, const struct fold *fold)
+{
+  double at[2], reach[2];
+  for (int k = 0; k < 2; k++) {
+    reach[k] = fold->half * fabs(fold->way[k]) + fold->uncertain;
+    if (reach[k] > FOLD_NEAR) return false;
+    if (fabs(fold->at[k]) > 1 + reach[k]) return true;
+    at[k] = 0.5 + 0.5 * real_min(real_max(fold->at[k], -1), 1);
+  }
+  const struct patch_jet w = patch_evaluate(box->net[2], at[0], at[1]);
+  const double t = depth_to_t(s, w.value), off = fabs(w.du) * reach[0] + fabs(w.dv) * reach[1];
+  judge_maybe(s->judge, (double)fold_place(s, box, 0, 2 * at[0] - 1), (double)fold_place(s, box, 1, 2 * at[1] - 1), t,
+              length_to_t(s, off + s->depth_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + length_to_t(s, fabs(w.value))));
+  return true;
+}
+
+/* Decides the box where it has a fold. */
+static bool box_fold(struct search *s, struct box *box, const double error[2])
+{
+  struct fold fold;
+  if (!fold_find(box, error, &fold)) return false;
+  enum fold_verdict verdict = fold_weigh_box(&fold, box, error);
+  if (verdict == FOLD_EMPTY || (verdict == FOLD_ROOTS && fold_roots(s, box, &fold, error))) return true;
+  double values[2][3];
+  const double size[2] = {box->size_u * (double)s->size[0], box->size_v * (double)s->size[1]};
+  const double off = zoom_combinations(judge_zoom(s->judge), fold_place(s, box, 0, fold.at[0]),
+                                       fold_place(s, box, 1, fold.at[1]), size, fold.row, values);
+  verdict = fold_weigh(&fold, values[0], values[1], off);
+  if (verdict == FOLD_EMPTY || (verdict == FOLD_ROOTS && fold_roots_zoom(s, box, &fold))) return true;
+  return fold_maybe(s, box, &fold);
+}
+
 /* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as
  * seen. */
 static bool box_small(const struct search *s, const struct box *box, enum verdict verdict)
@@ -273,11 +359,12 @@ static bool box_decide(struct search *s, struct box *box)
   box_error(s, box, error);
   const enum verdict verdict = box_test(box, error);
   if (verdict == VERDICT_EMPTY) return true;
-  double root[2], radius[2];
-  if (verdict == VERDICT_OPEN && box_solve(box, error, root, radius) && far_from_pole(s, box, root)) {
+  double root[2] = {0.5, 0.5}, radius[2];
+  if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius) && far_from_pole(s, box, root)) {
     box_tell_root(s, box, root, radius);
     return true;
   }
+  if (s->depth == 0 && border == NO_BORDER && box_fold(s, box, error)) return true;
   const bool small = verdict != VERDICT_OPEN && box_small(s, box, verdict);
   if (verdict != VERDICT_OPEN && box_asks_zoom(s, box) && border == NO_BORDER && box_zoom(s, box)) return true;
   if (!small && box->halvings < SEARCH_HALVINGS) return false;

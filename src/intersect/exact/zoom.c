@@ -40,47 +40,65 @@ static void to_powers(fixed *b, int stride)
 /* Roundings of a moment, of the size that they are relative to. */
 #define MOMENT_ROUNDINGS 10
 
-/* (q_i d_k - q_k d_i)/d_k for q = (origin - center)/scale, and adds to `size` what its roundings are relative to. Either
- * of the differences, or of the products of 106 bits, where those nearly cancel far from the scene's origin. */
-static wide wide_moment(const struct model_patch *patch, const struct ray *ray, int i, int k, wide *size)
+/* (q_i d_k - q_k d_i)/d_k for q = (origin - center)/scale; *size: what its roundings are relative to. Either of the
+ * differences, or of the products of 106 bits, where those nearly cancel far from the scene's origin. */
+static wide wide_moment(const struct model_patch *patch, const struct ray *ray, int i, int k, wide slope, wide *size)
 {
   const double *d = ray->direction, *o = ray->origin;
-  const wide slope = (wide)d[i] / d[k], to_local = 1 / (wide)patch->scale; /* a power of two */
-  const wide qi = ((wide)o[i] - patch->center[i]) * to_local, qk = ((wide)o[k] - patch->center[k]) * to_local;
+  const wide to_local = 1 / (wide)patch->scale; /* a power of two */
+  const wide qi = ((wide)o[i] - patch->center[i]) * to_local, qk = slope * (((wide)o[k] - patch->center[k]) * to_local);
   const wide line = ((wide)o[i] * d[k] - (wide)o[k] * d[i]) / d[k] * to_local;
-  const wide ci = patch->center[i] * to_local, ck = patch->center[k] * to_local;
+  const wide ci = patch->center[i] * to_local, ck = slope * (patch->center[k] * to_local);
   const wide by_start = wide_abs(qi) + wide_abs(qk), by_line = wide_abs(line) + wide_abs(ci) + wide_abs(ck);
-  *size = wide_max(*size, 2 + (by_line < by_start ? by_line : by_start));
-  return by_line < by_start ? line - (ci - slope * ck) : qi - slope * qk;
+  *size = by_line < by_start ? by_line : by_start;
+  return by_line < by_start ? line - (ci - ck) : qi - qk;
 }
 
-/* The coordinate in the frame of the patch: differences and powers of two are exact. */
-static fixed local(const struct model_patch *patch, double p, int c)
+/* The coordinate in the frame of the patch, times a power of two. */
+static fixed local(const struct model_patch *patch, double p, int c, double unit)
 {
   const struct double_double x = dd_two_sum(p, -patch->center[c]);
-  return fixed_from(x.hi / patch->scale) + fixed_from(x.lo / patch->scale);
+  return fixed_from(x.hi / patch->scale * unit) + fixed_from(x.lo / patch->scale * unit);
+}
+
+/* A patch may be so thin that its plane polynomials need no more than this of their digits before the point. */
+#define LARGEST_UNIT 0x1p300
+
+/* The largest power of two that leaves neither x_i on the patch nor the slope above 1. */
+static double unit_for(const struct model_patch *patch, double (*P)[4][3], int i, wide slope)
+{
+  double largest = fabs((double)slope);
+  for (int n = 0; n < 16; n++) largest = fmax(largest, fabs(P[n / 4][n % 4][i] - patch->center[i]) / patch->scale);
+  int exponent;
+  frexp(largest, &exponent);
+  return largest > 1 / LARGEST_UNIT ? ldexp(1, -exponent) : LARGEST_UNIT;
 }
 
 void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out)
 {
-  const double *d = ray->direction;
-  wide size = 0;
-  for (int n = 0; n < 16; n++) out->power[2][n / 4][n % 4] = local(patch, P[n / 4][n % 4][k], k);
+  const double *d = ray->direction, rounding = 2 * FIXED_UNIT * ZOOM_ROUNDINGS * POWER_GROWTH * (MOST_MOMENT + 2);
+  double *unit = out->unit;
+  unit[2] = unit_for(patch, P, k, 0);
+  out->error = 0, out->depth_error = rounding / unit[2];
+  for (int n = 0; n < 16; n++) out->power[2][n / 4][n % 4] = local(patch, P[n / 4][n % 4][k], k, unit[2]);
   for (int s = 0; s < 2; s++) {
     const int i = (k + 1 + s) % 3;
-    const fixed slope = fixed_from_wide((wide)d[i] / d[k]);
-    const wide m = wide_moment(patch, ray, i, k, &size);
-    const fixed moment = fixed_from_wide(m > MOST_MOMENT ? MOST_MOMENT : m < -MOST_MOMENT ? -MOST_MOMENT : m);
+    const wide slope = (wide)d[i] / d[k];
+    unit[s] = unit_for(patch, P, i, slope / unit[2]);
+    const fixed unit_slope = fixed_from_wide(slope / unit[2] * unit[s]);
+    wide size, m = wide_moment(patch, ray, i, k, slope, &size) * unit[s];
+    m = m > MOST_MOMENT ? MOST_MOMENT : m < -MOST_MOMENT ? -MOST_MOMENT : m;
+    const fixed moment = fixed_from_wide(m);
     for (int n = 0; n < 16; n++)
-      out->power[s][n / 4][n % 4] = local(patch, P[n / 4][n % 4][i], i) -
-                                    fixed_product(slope, out->power[2][n / 4][n % 4]) - moment;
+      out->power[s][n / 4][n % 4] = local(patch, P[n / 4][n % 4][i], i, unit[s]) -
+                                    fixed_product(unit_slope, out->power[2][n / 4][n % 4]) - moment;
+    const wide from_wide = WIDE_ROUNDOFF * (unit[s] * MOMENT_ROUNDINGS * size + POWER_GROWTH);
+    out->error = fmax(out->error, rounding + (double)from_wide);
   }
   for (int n = 0; n < 12; n++) to_powers(out->power[n / 4][n % 4], 1);
   for (int n = 0; n < 12; n++) to_powers(&out->power[n / 4][0][n % 4], 4);
   out->origin = ((wide)ray->origin[k] - patch->center[k]) / (wide)patch->scale;
   out->to_t = (wide)patch->scale / d[k];
-  out->error = 2 * FIXED_UNIT * ZOOM_ROUNDINGS * POWER_GROWTH * (MOST_MOMENT + 2) +
-               (double)(WIDE_ROUNDOFF * (MOMENT_ROUNDINGS * size + POWER_GROWTH));
 }
 
 /* The polynomial of s with powers c, as powers of r for s = middle + half r. */
@@ -135,9 +153,9 @@ static void box_powers(const struct zoom *zoom, const wide low[2], const wide si
 /* The net of x_k, less the middle's. */
 static void set_depth(const struct zoom *zoom, fixed power[4][4], struct zoomed *out)
 {
-  out->start = fixed_wide(power[0][0]) - zoom->origin;
+  out->start = fixed_wide(power[0][0]) / zoom->unit[2] - zoom->origin;
   power[0][0] = 0;
-  net_of(power, 1, out->net[2]);
+  net_of(power, 1 / zoom->unit[2], out->net[2]);
 }
 
 bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out)
@@ -293,7 +311,22 @@ wide zoom_t(struct zoom *zoom, wide u, wide v)
 {
   fixed depth, unused[2];
   evaluate(zoom->power[2], fixed_from_wide(2 * u - 1), fixed_from_wide(2 * v - 1), &depth, &unused[0], &unused[1]);
-  return (fixed_wide(depth) - zoom->origin) * zoom->to_t;
+  return (fixed_wide(depth) / zoom->unit[2] - zoom->origin) * zoom->to_t;
+}
+
+double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2], double row[2][2], double out[2][3])
+{
+  fixed f[2][3];
+  double sum = 0;
+  const double unit = fmin(zoom->unit[0], zoom->unit[1]), to[3] = {1 / unit, size[0] / unit, size[1] / unit};
+  for (int k = 0; k < 2; k++)
+    evaluate(zoom->power[k], fixed_from_wide(2 * u - 1), fixed_from_wide(2 * v - 1), &f[k][0], &f[k][1], &f[k][2]);
+  for (int k = 0; k < 2; k++) {
+    const fixed p = fixed_from(row[k][0] * (unit / zoom->unit[0])), q = fixed_from(row[k][1] * (unit / zoom->unit[1]));
+    for (int n = 0; n < 3; n++) out[k][n] = fixed_double(fixed_product(p, f[0][n]) + fixed_product(q, f[1][n])) * to[n];
+    sum = fmax(sum, fabs(row[k][0]) + fabs(row[k][1]));
+  }
+  return (sum + 1) * zoom->error / unit;
 }
 
 /* Bounds on the second derivatives of the polynomial with these powers, as `s` of struct bend, where x and y reach
@@ -377,14 +410,15 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
   fixed depth, dx, dy;
   evaluate(zoom->power[2], x, y, &depth, &dx, &dy);
   const double rx = 2 * radius[0], ry = 2 * radius[1], reach = rx + ry;
-  const double off = fabs(fixed_double(dx)) * rx + fabs(fixed_double(dy)) * ry + error +
+  const double off = fabs(fixed_double(dx)) * rx + fabs(fixed_double(dy)) * ry +
                      second_bound(zoom->power[2]) * reach * reach;
-  root->u = u, root->v = v, root->t = (fixed_wide(depth) - zoom->origin) * zoom->to_t;
+  root->u = u, root->v = v, root->t = (fixed_wide(depth) / zoom->unit[2] - zoom->origin) * zoom->to_t;
   root->radius_u = radius[0], root->radius_v = radius[1];
   /* The certificate's map contracts as far as bend |w - z| and rounding make less than 1, where bend holds. */
   const double here = fixed_double(fixed_max(fixed_size(x), fixed_size(y)));
   root->alone = fmax(fmin(0.5 / bend, 1 + 2 * LEAF_MARGIN - here) / 2 - step, 0);
-  root->t_error = fabs((double)zoom->to_t) * off + 8 * (double)(WIDE_ROUNDOFF * wide_abs(root->t));
+  root->t_error = fabs((double)zoom->to_t) * (off / zoom->unit[2] + zoom->depth_error) +
+                  8 * (double)(WIDE_ROUNDOFF * wide_abs(root->t));
   root->sharp = true;
   return true;
 }

@@ -13,14 +13,23 @@
 #include "base/fixed.h"
 #include "intersect/exact/exact.h"
 
-/* A ray through a whole patch: a, b and x_k as powers of 2u - 1 and 2v - 1. */
+/* A ray through a whole patch: a, b and x_k as powers of 2u - 1 and 2v - 1, each times a power of two, as large as the
+ * patch is thin that way. */
 struct zoom {
   fixed power[3][4][4];
-  wide origin; /* (origin_k - center_k)/scale */
-  wide to_t;   /* t = (x_k - origin) to_t */
-  double
-    error; /* bound on the rounding of a or b anywhere on the patch, or of their coefficients over a box inside it */
+  double unit[3]; /* those powers of two */
+  wide origin;    /* (origin_k - center_k)/scale */
+  wide to_t;      /* t = (x_k - origin) to_t */
+  double error; /* bound on the rounding of a or b, so multiplied, on the patch, or of their coefficients over a box */
+  double depth_error; /* the same of x_k, as it is */
 };
+
+/* What rounding may do in the frame of the patch. */
+static inline double zoom_error(const struct zoom *zoom)
+{
+  const double *unit = zoom->unit;
+  return zoom->depth_error + zoom->error / (unit[0] < unit[1] ? unit[0] : unit[1]);
+}
 
 /* The same over a box, in the box's own parameters. */
 struct zoomed {
@@ -61,6 +70,10 @@ bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3]);
 
 /* t of the point (u,v). */
 wide zoom_t(struct zoom *zoom, wide u, wide v);
+
+/* Two combinations of a and b at (u,v), with their derivatives by parameters of which 2 `size` is 2 of u, of v: out[k] is
+ * row[k][0] a + row[k][1] b. Returns a bound on the errors of the values. */
+double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2], double row[2][2], double out[2][3]);
 
 /* Makes a proven root of this ray and patch as good as wide arithmetic can. False where the certificate does not hold
  * there or what is found is not the same root: then its place may be better for it, and its bounds are what they were.

@@ -1,0 +1,187 @@
+/* Folds. See fold.h. */
+#include "intersect/exact/fold.h"
+
+#include <math.h>
+
+#include "base/real.h"
+#include "geometry/patch.h"
+
+/* A polynomial as powers of x and y in [-1,1], the box. */
+struct powers {
+  double c[4][4];
+};
+
+/* Its derivatives, or bounds on them: out[i][j], i times by x and j times by y. */
+struct derivatives {
+  double d[4][4];
+};
+
+static void to_powers(double *b, int stride)
+{
+  const double b0 = b[0], b1 = b[stride], b2 = b[2 * stride], b3 = b[3 * stride];
+  b[0] = 0.125 * ((b0 + b3) + 3 * (b1 + b2)), b[stride] = 0.375 * ((b3 - b0) + (b2 - b1));
+  b[2 * stride] = 0.375 * ((b0 + b3) - (b1 + b2)), b[3 * stride] = 0.125 * ((b3 - b0) - 3 * (b2 - b1));
+}
+
+static void powers_of(double net[4][4], struct powers *out)
+{
+  for (int n = 0; n < 16; n++) out->c[n / 4][n % 4] = net[n / 4][n % 4];
+  for (int n = 0; n < 4; n++) to_powers(out->c[n], 1);
+  for (int n = 0; n < 4; n++) to_powers(&out->c[0][n], 4);
+}
+
+static void combine(const struct powers *a, const struct powers *b, double p, double q, struct powers *out)
+{
+  for (int n = 0; n < 16; n++) out->c[n / 4][n % 4] = p * a->c[n / 4][n % 4] + q * b->c[n / 4][n % 4];
+}
+
+/* Of a cubic's powers at x: out[i], the i-th derivative. */
+static void cubic_derivatives(const double c[4], double x, double out[4])
+{
+  out[0] = ((c[3] * x + c[2]) * x + c[1]) * x + c[0], out[1] = (3 * c[3] * x + 2 * c[2]) * x + c[1];
+  out[2] = 6 * c[3] * x + 2 * c[2], out[3] = 6 * c[3];
+}
+
+static void derive(const struct powers *p, double x, double y, struct derivatives *out)
+{
+  double rows[4][4], column[4], values[4];
+  for (int i = 0; i < 4; i++) cubic_derivatives(p->c[i], y, rows[i]);
+  for (int j = 0; j < 4; j++) {
+    for (int i = 0; i < 4; i++) column[i] = rows[i][j];
+    cubic_derivatives(column, x, values);
+    for (int i = 0; i < 4; i++) out->d[i][j] = values[i];
+  }
+}
+
+/* Bounds on the larger box. */
+static void bound(const struct powers *p, struct derivatives *out)
+{
+  struct powers sizes;
+  for (int n = 0; n < 16; n++) sizes.c[n / 4][n % 4] = fabs(p->c[n / 4][n % 4]);
+  derive(&sizes, 2, 2, out);
+}
+
+/* D and its first derivatives. */
+static void determinant(const struct derivatives *f, const struct derivatives *g, double out[3])
+{
+  const double(*F)[4] = f->d, (*G)[4] = g->d;
+  out[0] = F[1][0] * G[0][1] - F[0][1] * G[1][0];
+  out[1] = F[2][0] * G[0][1] + F[1][0] * G[1][1] - F[1][1] * G[1][0] - F[0][1] * G[2][0];
+  out[2] = F[1][1] * G[0][1] + F[1][0] * G[0][2] - F[0][2] * G[1][0] - F[0][1] * G[1][1];
+}
+
+/* A bound on D_xx + 2 D_xy + D_yy, by bounds. */
+static double determinant_bend(const struct derivatives *f, const struct derivatives *g)
+{
+  const double(*F)[4] = f->d, (*G)[4] = g->d;
+  const double xx = F[3][0] * G[0][1] + 2 * (F[2][0] * G[1][1] + F[1][1] * G[2][0]) + F[1][0] * G[2][1] +
+                    F[2][1] * G[1][0] + F[0][1] * G[3][0];
+  const double xy = F[2][1] * G[0][1] + F[2][0] * G[0][2] + F[1][0] * G[1][2] + F[1][2] * G[1][0] + F[0][2] * G[2][0] +
+                    F[0][1] * G[2][1];
+  const double yy = F[1][2] * G[0][1] + 2 * (F[1][1] * G[0][2] + F[0][2] * G[1][1]) + F[1][0] * G[0][3] +
+                    F[0][3] * G[1][0] + F[0][1] * G[1][2];
+  return xx + 2 * xy + yy;
+}
+
+static double second_sum(const struct derivatives *f) { return f->d[2][0] + 2 * f->d[1][1] + f->d[0][2]; }
+static double first_most(const struct derivatives *f) { return real_max(f->d[1][0], f->d[0][1]); }
+
+static double row_size(const double m[2], double one, double two) { return fabs(m[0]) * one + fabs(m[1]) * two; }
+
+/* The inverse of the map's Jacobian; returns whether it has one. */
+static bool invert(const double g[3], const double d[3], double m[2][2])
+{
+  const double whole = g[1] * d[2] - g[2] * d[1], inverse = 1 / whole;
+  m[0][0] = d[2] * inverse, m[0][1] = -g[2] * inverse, m[1][0] = -d[1] * inverse, m[1][1] = g[1] * inverse;
+  return fabs(whole) > 0;
+}
+
+/* Rounding in the coefficients of F and G, each off by `error`, moves the map's Jacobian by less than these many times
+ * that, and by what D is made of; it may take no more of FOLD_BEND than the rest to its proof leaves. */
+#define FOLD_ROUNDINGS 256
+#define FOLD_ROUNDING 0x1p-6
+
+/* Newton's process on the map ends at a step whose square is below rounding, or is not one to a fold in the box. */
+#define FOLD_STEP 0x1p-27
+enum { FOLD_STEPS = 8 };
+
+static bool find(const struct powers *f, const struct powers *g, double m[2][2], double at[2])
+{
+  double step = 1;
+  for (int n = 0; n < FOLD_STEPS && step > FOLD_STEP; n++) {
+    struct derivatives here[2];
+    double d[3], inverse[2][2];
+    derive(f, at[0], at[1], &here[0]), derive(g, at[0], at[1], &here[1]);
+    const double values[3] = {here[1].d[0][0], here[1].d[1][0], here[1].d[0][1]};
+    determinant(&here[0], &here[1], d);
+    if (!invert(values, d, n == 0 ? m : inverse)) return false;
+    double(*use)[2] = n == 0 ? m : inverse;
+    const double x = use[0][0] * values[0] + use[0][1] * d[0], y = use[1][0] * values[0] + use[1][1] * d[0];
+    at[0] -= x, at[1] -= y, step = real_max(fabs(x), fabs(y));
+    if (!(fabs(at[0]) <= 2 && fabs(at[1]) <= 2)) return false;
+  }
+  return step <= FOLD_STEP && fabs(at[0]) <= FOLD_REACH && fabs(at[1]) <= FOLD_REACH;
+}
+
+bool fold_find(struct box *box, const double error[2], struct fold *out)
+{
+  struct powers a, b, f, g;
+  powers_of(box->net[0], &a), powers_of(box->net[1], &b);
+  /* F: the combination whose first derivatives vanish, as nearly as they can, in the middle. */
+  const bool by_y = fabs(b.c[0][1]) + fabs(a.c[0][1]) > fabs(b.c[1][0]) + fabs(a.c[1][0]);
+  double p = by_y ? b.c[0][1] : b.c[1][0], q = by_y ? -a.c[0][1] : -a.c[1][0];
+  const double length = sqrt(p * p + q * q);
+  if (!(length > 0)) return false;
+  p /= length, q /= length;
+  combine(&a, &b, p, q, &f), combine(&a, &b, -q, p, &g);
+  out->at[0] = out->at[1] = 0;
+  if (!find(&f, &g, out->m, out->at)) return false;
+  struct derivatives most[2], here[2];
+  bound(&f, &most[0]), bound(&g, &most[1]);
+  const double bend_d = determinant_bend(&most[0], &most[1]), bend_g = second_sum(&most[1]);
+  const double off = FOLD_ROUNDINGS * (error[0] + error[1]);
+  const double off_d = off * (first_most(&most[0]) + first_most(&most[1]) + second_sum(&most[0]) + bend_g);
+  for (int k = 0; k < 2; k++) {
+    if (!(row_size(out->m[k], bend_g, bend_d) <= FOLD_BEND - 2 * FOLD_ROUNDING)) return false;
+    if (!(row_size(out->m[k], off, off_d) <= FOLD_ROUNDING)) return false;
+  }
+  derive(&f, out->at[0], out->at[1], &here[0]), derive(&g, out->at[0], out->at[1], &here[1]);
+  const double gx = here[1].d[1][0], gy = here[1].d[0][1];
+  const double share = (here[0].d[1][0] * gx + here[0].d[0][1] * gy) / (gx * gx + gy * gy);
+  double d[3];
+  determinant(&here[0], &here[1], d);
+  out->row[0][0] = p + share * q, out->row[0][1] = q - share * p, out->row[1][0] = -q, out->row[1][1] = p;
+  out->way[0] = -gy, out->way[1] = gx;
+  out->second = gy * d[1] - gx * d[2];
+  out->first = first_most(&most[0]) + first_most(&most[1]);
+  out->bend = second_sum(&most[0]) + fabs(share) * bend_g;
+  return fabs(out->second) > 0;
+}
+
+enum fold_verdict fold_weigh(struct fold *fold, const double h[3], const double g[3], double error)
+{
+  const double d = fabs(h[1] * g[2] - h[2] * g[1]) +
+                   16 * (error + UNIT_ROUNDOFF * (fabs(h[1]) + fabs(h[2]))) * fold->first;
+  /* Twice Newton's step on the map, with its errors: M is right to half of 1 on the larger box. */
+  const double off = 2 *
+                     real_max(row_size(fold->m[0], fabs(g[0]) + error, d), row_size(fold->m[1], fabs(g[0]) + error, d));
+  const double turned = fabs(h[1]) + fabs(h[2]) + 16 * error;
+  const double least = 2 * (error + (turned + fold->bend * off) * off);
+  const double largest = fabs(h[0]) > least ? fabs(h[0]) : 2 * least;
+  fold->half = sqrt(2 * largest / fabs(fold->second)), fold->uncertain = off;
+  return !(fabs(h[0]) > least) ? FOLD_OPEN : (h[0] > 0) == (fold->second > 0) ? FOLD_EMPTY : FOLD_ROOTS;
+}
+
+enum fold_verdict fold_weigh_box(struct fold *fold, struct box *box, const double error[2])
+{
+  const double u = 0.5 + 0.5 * fold->at[0], v = 0.5 + 0.5 * fold->at[1];
+  const struct patch_jet a = patch_evaluate(box->net[0], u, v), b = patch_evaluate(box->net[1], u, v);
+  double values[2][3], sum = 0;
+  for (int k = 0; k < 2; k++) {
+    const double p = fold->row[k][0], q = fold->row[k][1];
+    values[k][0] = p * a.value + q * b.value;
+    values[k][1] = (p * a.du + q * b.du) / 2, values[k][2] = (p * a.dv + q * b.dv) / 2;
+    sum = real_max(sum, fabs(p) + fabs(q));
+  }
+  return fold_weigh(fold, values[0], values[1], sum * (error[0] + error[1] + 8 * UNIT_ROUNDOFF));
+}
