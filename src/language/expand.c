@@ -52,7 +52,7 @@ static void *append(struct arena *arena, struct list *list)
 static bool intern(struct expansion *e, struct list *list, const void *item, uint32_t *out)
 {
   const uint64_t hash = table_hash(item, list->size);
-  for (struct table_entry *entry = table_find(&list->known, hash); entry; entry = table_next(entry)) {
+  for (struct table_entry *entry = table_find(&list->known, hash); entry; entry = entry->older) {
     *out = ((const struct known *)entry)->index;
     if (memcmp((char *)*list->items + *out * list->size, item, list->size) == 0) return true;
   }

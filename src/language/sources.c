@@ -168,7 +168,7 @@ static const struct source *known_file(const struct language *language, const ch
   uint64_t device, inode;
   if (!source_identify(path, &device, &inode)) return NULL;
   const struct table_entry *entry = table_find(&language->sources->files, hash_of_file(device, inode));
-  for (; entry; entry = table_next(entry)) {
+  for (; entry; entry = entry->older) {
     const struct source *source = ((const struct source_list *)entry)->source;
     if (source->device == device && source->inode == inode) return source;
   }

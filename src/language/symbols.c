@@ -8,7 +8,7 @@ static struct symbol *find(const struct symbols *symbols, const char *name, size
 {
   struct symbol *best = NULL;
   struct table_entry *entry = table_find(&symbols->table, table_hash(name, length));
-  for (; entry; entry = table_next(entry)) {
+  for (; entry; entry = entry->older) {
     struct symbol *s = (struct symbol *)entry;
     if (s->length != length || memcmp(s->name, name, length) != 0) continue;
     if (depth >= 0 && s->depth != depth) continue;
@@ -56,7 +56,7 @@ void guess_symbols(struct guess *guess, const struct language *language)
 {
   const struct table *table = &language->symbols->table;
   for (size_t k = 0; k < table->size; k++) {
-    for (const struct table_entry *entry = table->heads[k]; entry; entry = entry->next) {
+    for (const struct table_entry *entry = table->slots[k].newest; entry; entry = entry->older) {
       const struct symbol *s = (const struct symbol *)entry;
       if (s->kind != SYMBOL_BEGUN && s->kind != SYMBOL_UNKNOWN) guess_consider(guess, s->name, s->length);
     }
@@ -70,16 +70,16 @@ static void tell_unknown(struct language *language, const struct token *name, co
   if (!symbol) {
     symbol = add(language, name->text, name->length, 0);
     symbol->kind = SYMBOL_UNKNOWN;
-    symbol->missed_next = language->symbols->missed;
-    language->symbols->missed = symbol;
   }
-  symbol->missed_last = name->place;
-  if (symbol->missed++ > 0) {
-    language->unknown = name->place;
-    return;
+  if (!symbol->missed) {
+    symbol->missed = language_alloc(language, sizeof *symbol->missed);
+    *symbol->missed = (struct missed){.symbol = symbol, .next = language->symbols->missed};
+    language->symbols->missed = symbol->missed;
   }
-  struct guess guess = guess_begin(name->text, name->length);
   language->unknown = name->place;
+  symbol->missed->last = name->place;
+  if (symbol->missed->times++ > 0) return;
+  struct guess guess = guess_begin(name->text, name->length);
   if (!diagnostics_full(language->diagnostics)) { /* else nobody would read the guess */
     guess_symbols(&guess, language);
     guess_keywords(&guess);
@@ -95,10 +95,10 @@ static void tell_unknown(struct language *language, const struct token *name, co
 
 void symbols_tell_missed(struct language *language)
 {
-  for (const struct symbol *s = language->symbols->missed; s; s = s->missed_next) {
-    if (s->missed > 1)
-      language_error(language, s->missed_last, "'%.*s' is missing here as well, in %zu places in all", (int)s->length,
-                     s->name, s->missed);
+  for (const struct missed *m = language->symbols->missed; m; m = m->next) {
+    if (m->times > 1)
+      language_error(language, m->last, "'%.*s' is missing here as well, in %zu places in all", (int)m->symbol->length,
+                     m->symbol->name, m->times);
   }
 }
 
@@ -158,10 +158,11 @@ static struct symbol *symbol_begin(struct language *language, const struct token
 
 struct declaration *declare_begin(struct language *language, const struct token *name, bool local)
 {
-  struct declaration *declaration = language_alloc(language, sizeof *declaration);
-  declaration->symbol = symbol_begin(language, name, local);
-  declaration->outer = language->declaration;
-  declaration->held_end = &declaration->held;
+  struct declaration *declaration = language->symbols->ended;
+  if (declaration) language->symbols->ended = declaration->outer;
+  else declaration = language_alloc(language, sizeof *declaration);
+  *declaration = (struct declaration){
+    .symbol = symbol_begin(language, name, local), .outer = language->declaration, .held_end = &declaration->held};
   return language->declaration = declaration;
 }
 
@@ -185,12 +186,12 @@ static void symbol_set(struct symbol *symbol, const struct value *value)
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value)
 {
   struct symbol *symbol = declare_end(language, declaration);
+  declaration->outer = language->symbols->ended;
+  language->symbols->ended = declaration;
   if (!symbol) return;
   if (value->kind == VALUE_NAMED) {
     symbol->kind = value->symbol->kind;
-    symbol->object = value->symbol->object;
-    symbol->texture = value->symbol->texture;
-    symbol->texture_kind = value->symbol->texture_kind;
+    symbol->value = value->symbol->value; /* the whole union */
     return;
   }
   symbol_set(symbol, value);

@@ -19,9 +19,9 @@ enum { TRANSPARENT_NUMBER = 1, TRANSPARENT_SAID = 2 };
 
 struct value {
   enum value_kind kind;
+  unsigned transparent; /* a colour that POV-Ray gives transparency: why, or 0 */
   double x[3];
   const struct symbol *symbol;
-  unsigned transparent; /* a colour that POV-Ray gives transparency: why, or 0 */
   struct place place;
 };
 
@@ -36,6 +36,14 @@ enum symbol_kind {
   SYMBOL_BROKEN
 };
 
+/* A name that was unknown. */
+struct missed {
+  const struct symbol *symbol;
+  size_t times;
+  struct place last;
+  struct missed *next; /* the one that was unknown before it */
+};
+
 struct symbol {
   struct table_entry entry;
   struct symbol *older; /* local before it */
@@ -43,22 +51,25 @@ struct symbol {
   size_t length;
   int depth; /* 0: belongs to all; otherwise the include depth of its #local */
   enum symbol_kind kind;
-  struct value value;
-  const struct texture *texture;
-  const char *texture_kind; /* "a texture", "a pigment", "a finish" */
-  const struct node *object;
-  struct held *held;          /* of a foreign one */
-  size_t missed;              /* times that it was unknown, */
-  struct place missed_last;   /* the last time; */
-  struct symbol *missed_next; /* the one that was unknown before it */
+  union {
+    struct value value;
+    struct {
+      const struct texture *texture;
+      const char *texture_kind; /* "a texture", "a pigment", "a finish" */
+    };
+    const struct node *object;
+    struct held *held; /* of a foreign one */
+  };
+  struct missed *missed; /* NULL: never unknown */
 };
 
 /* Zeroed: no names. */
 struct symbols {
   struct table table;
-  struct symbol *locals; /* of the files being read, the newest first */
-  struct symbol *missed; /* names that were unknown */
-  int depth;             /* files that include the one being read */
+  struct symbol *locals;     /* of the files being read, the newest first */
+  struct missed *missed;     /* names that were unknown */
+  struct declaration *ended; /* of values: for the next ones */
+  int depth;                 /* files that include the one being read */
 };
 
 /* The beginning and end of an included file, at which its locals are forgotten. */

@@ -13,21 +13,26 @@
 #include "base/arena.h"
 
 struct table_entry {
-  struct table_entry *next;
+  struct table_entry *older; /* of the same hash; NULL behind the last */
   uint64_t hash;
+};
+
+struct table_slot {
+  uint64_t hash;              /* 0: free */
+  struct table_entry *newest; /* NULL: all of that hash were removed */
 };
 
 /* Zeroed: an empty table. */
 struct table {
-  struct table_entry **heads;
-  size_t size, count;
+  struct table_slot *slots;
+  size_t size, used; /* slots: a power of two, or 0; those that are not free */
 };
 
+/* Never 0. */
 uint64_t table_hash(const void *bytes, size_t length);
 
-/* The newest entry of that hash, and the next older one; NULL behind the last. What else is equal the caller sees. */
+/* The newest entry of that hash, or NULL. What else is equal the caller sees. */
 struct table_entry *table_find(const struct table *table, uint64_t hash);
-struct table_entry *table_next(const struct table_entry *entry);
 
 /* False, and nothing added, where memory is short. */
 bool table_add(struct table *table, struct arena *arena, struct table_entry *entry, uint64_t hash);

@@ -48,8 +48,9 @@ static const struct keyword FOREIGN_DIRECTIVES[] = {
 
 int words_compare(const char *word, size_t length, const char *name)
 {
-  const int order = strncmp(word, name, length);
-  return order ? order : name[length] ? -1 : 0;
+  size_t k = 0; /* most words part at their first letters */
+  while (k < length && name[k] == word[k] && name[k]) k++;
+  return k < length ? (unsigned char)word[k] - (unsigned char)name[k] : name[k] ? -1 : 0;
 }
 
 struct sought {
