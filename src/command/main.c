@@ -25,6 +25,14 @@ static bool is_scene(const char *name)
   return (suffix != NULL && strcmp(suffix, ".pscn") == 0) || strcmp(name, "-") == 0 || access(name, F_OK) == 0;
 }
 
+/* "pscn -o picture.png scene.pscn" as well. */
+static bool is_rendering(int argc, char **argv)
+{
+  int last = argv[1][0] == '-' ? argc - 1 : 1;
+  while (last > 1 && !is_scene(argv[last])) last--;
+  return is_scene(argv[last]);
+}
+
 int main(int argc, char **argv)
 {
   hold_streams();
@@ -41,7 +49,7 @@ int main(int argc, char **argv)
   if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) name = command_help.name;
   const struct command *command = command_find(name);
   int words = 1; /* that stand before the command's own */
-  if (command == NULL && is_scene(name)) {
+  if (command == NULL && is_rendering(argc, argv)) {
     command = &command_render;
     words = 0;
   }

@@ -27,6 +27,9 @@ try pscn render flat.pscn --=1
 try pscn render flat.pscn -qz
 try pscn render flat.pscn -: -q
 try pscn render flat.pscn -- -q
+try pscn -q --size 4x3 -o behind.png flat.pscn
+try pscn -o behind.png no.pscn
+try pscn -o behind.png
 try pscn render flat.pscn --stats -q
 try pscn render flat.pscn -o --quiet
 try pscn render flat.pscn --stats
