@@ -1,4 +1,4 @@
-/* What the files of src/library share, and what the commands that use pscn.h ask besides. */
+/* What the files of src/library share. */
 #ifndef PSCN_LIBRARY_LIBRARY_H
 #define PSCN_LIBRARY_LIBRARY_H
 
