@@ -25,7 +25,8 @@ words=$build/words.dict
 {
   grep -oh '"#\?[a-z][a-z_]*"' "$top/grammar/pscn.y" "$top"/src/algebra/solver*.c "$top"/src/scene/method.c
   printf '"%s"\n' '#ifdef (' '#ifndef (' '#else' '#end' '#include \"' 'pscn' '{' '}' '(' ')' '<' '>' ',' ';' '.x' '/*' \
-    '*/' '//' '//: ' '1e308' '1e-320' '-1' '0.5' '<1,2,3>' 'rgb 1' '#declare A = ' '#local B = ' '; ' 'Given' 'nested.inc'
+    '*/' '//' '//: ' '1e308' '1e-320' '-1' '0.5' '<1,2,3>' 'rgb 1' '#declare A = ' '#local B = ' '; ' 'Given' 'nested.inc' \
+    'sphere { 0, 1 }' 'granite ' 'A ' '#undef A' '<1,2>'
 } | sort -u >"$words"
 options=$build/options.dict
 {
