@@ -68,6 +68,41 @@ LANES_INLINE float_lanes float_lanes_max(float_lanes a, float_lanes b)
 #endif
 }
 
+/* Four floats side by side, whatever the register holds: one ray, four boxes. As above. */
+typedef float four_floats __attribute__((vector_size(16)));
+typedef int32_t four_mask __attribute__((vector_size(16)));
+
+LANES_INLINE four_floats four_floats_all(float x) { return x - (four_floats){0}; }
+
+LANES_INLINE four_floats four_floats_min(four_floats a, four_floats b)
+{
+#if defined(LANES_OP)
+  return _mm_min_ps(a, b);
+#else
+  return (four_floats)(((a < b) & (four_mask)a) | (~(a < b) & (four_mask)b));
+#endif
+}
+
+LANES_INLINE four_floats four_floats_max(four_floats a, four_floats b)
+{
+#if defined(LANES_OP)
+  return _mm_max_ps(a, b);
+#else
+  return (four_floats)(((a > b) & (four_mask)a) | (~(a > b) & (four_mask)b));
+#endif
+}
+
+LANES_INLINE unsigned four_mask_bits(four_mask mask)
+{
+#if defined(LANES_OP)
+  return (unsigned)_mm_movemask_ps((four_floats)mask);
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < 4; k++) bits |= (unsigned)(mask[k] & 1) << k;
+  return bits;
+#endif
+}
+
 /* The mask as bits: bit k is lane k. */
 LANES_INLINE unsigned float_lanes_bits(float_mask mask)
 {

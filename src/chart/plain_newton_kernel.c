@@ -117,8 +117,8 @@ LANES_INLINE lanes enter_box(const struct bvh_node *node, int side, const struct
 {
   lanes t_min = ray->t_min;
   for (int k = 0; k < 3; k++) {
-    const lanes p = ((double)node->lo[side][k] - ray->origin[k]) * ray->inverse[k];
-    const lanes q = ((double)node->hi[side][k] - ray->origin[k]) * ray->inverse[k];
+    const lanes p = ((double)node->lo[k][side] - ray->origin[k]) * ray->inverse[k];
+    const lanes q = ((double)node->hi[k][side] - ray->origin[k]) * ray->inverse[k];
     t_min = lanes_max(lanes_min(p, q), t_min);
     t_max = lanes_min(lanes_max(p, q), t_max);
   }
@@ -137,7 +137,7 @@ static void walk(const struct plain_model *model, const struct ray_lanes *ray, b
   struct {
     uint32_t at;
     double enter;
-  } stack[2 * BVH_MAX_DEPTH];
+  } stack[BVH_STACK];
   const lanes t_max = best->t;
   size_t top = 0;
   if (model->bvh.node_count > 0) stack[top].at = 0, stack[top++].enter = 0;
@@ -150,10 +150,14 @@ static void walk(const struct plain_model *model, const struct ray_lanes *ray, b
       continue;
     }
     const struct bvh_node *node = &model->bvh.nodes[at];
-    const double enter[2] = {least(enter_box(node, 0, ray, best->t)), least(enter_box(node, 1, ray, best->t))};
-    const int nearer = enter[1] < enter[0];
-    if (isfinite(enter[!nearer])) stack[top].at = node->child[!nearer], stack[top++].enter = enter[!nearer];
-    if (isfinite(enter[nearer])) stack[top].at = node->child[nearer], stack[top++].enter = enter[nearer];
+    const size_t first = top;
+    for (int side = 0; side < BVH_WIDTH && node->child[side] != 0; side++) {
+      const double enter = least(enter_box(node, side, ray, best->t));
+      if (!isfinite(enter)) continue;
+      size_t n = top++; /* the nearest on top */
+      for (; n > first && stack[n - 1].enter < enter; n--) stack[n] = stack[n - 1];
+      stack[n].at = node->child[side], stack[n].enter = enter;
+    }
   }
 }
 

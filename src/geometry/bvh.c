@@ -131,14 +131,36 @@ static uint32_t split(const struct builder *b, const struct range *r)
 static void set_child(struct bvh_node *node, int side, const struct bvh_box *box)
 {
   for (int k = 0; k < 3; k++) {
-    node->lo[side][k] = float_below(box->lo[k]);
-    node->hi[side][k] = float_above(box->hi[k]);
+    node->lo[k][side] = float_below(box->lo[k]);
+    node->hi[k][side] = float_above(box->hi[k]);
   }
+}
+
+/* A node's children: the range, halved until they are BVH_WIDTH, each time the one with the largest box. Returns how
+ * many there are. */
+static int divide(const struct builder *b, const struct range *r, struct range out[BVH_WIDTH],
+                  struct bvh_box box[BVH_WIDTH])
+{
+  int count = 1;
+  out[0] = *r, box[0] = range_box(b, r->first, r->count);
+  while (count < BVH_WIDTH) {
+    int largest = -1;
+    for (int k = 0; k < count; k++)
+      if (out[k].count > 1 && (largest < 0 || box_area(&box[k]) > box_area(&box[largest]))) largest = k;
+    if (largest < 0) break;
+    struct range *whole = &out[largest], *right = &out[count];
+    const uint32_t left = split(b, whole);
+    *right = (struct range){whole->first + left, whole->count - left, whole->depth + 1, NULL};
+    whole->count = left, whole->depth++;
+    box[largest] = range_box(b, whole->first, whole->count), box[count] = range_box(b, right->first, right->count);
+    count++;
+  }
+  return count;
 }
 
 static void build(struct builder *b, uint32_t count)
 {
-  struct range stack[BVH_MAX_DEPTH + 2];
+  struct range stack[BVH_STACK];
   size_t top = 0;
   uint32_t root_link;
   stack[top++] = (struct range){0, count, 0, &root_link};
@@ -146,14 +168,15 @@ static void build(struct builder *b, uint32_t count)
     const struct range r = stack[--top];
     struct bvh_node *node = &b->nodes[b->node_count];
     *r.link = (uint32_t)b->node_count++;
-    const uint32_t left = r.count > 1 ? split(b, &r) : 1;
-    const struct range half[2] = {{r.first, left, r.depth + 1, &node->child[0]},
-                                  {r.first + left, r.count - left, r.depth + 1, &node->child[1]}};
-    for (int side = 0; side < 2; side++) {
-      const struct bvh_box box = range_box(b, half[side].first, half[side].count);
-      set_child(node, side, &box);
-      if (half[side].count > 1) stack[top++] = half[side];
-      else node->child[side] = (uint32_t)BVH_LEAF | b->order[half[side].count == 1 ? half[side].first : r.first];
+    *node = (struct bvh_node){.child = {0}};
+    struct range part[BVH_WIDTH];
+    struct bvh_box box[BVH_WIDTH];
+    const int children = divide(b, &r, part, box);
+    for (int side = 0; side < children; side++) {
+      set_child(node, side, &box[side]);
+      part[side].link = &node->child[side];
+      if (part[side].count > 1) stack[top++] = part[side];
+      else node->child[side] = (uint32_t)BVH_LEAF | b->order[part[side].first];
     }
   }
 }
@@ -166,11 +189,12 @@ enum status bvh_build(const struct bvh_box *boxes, size_t count, struct bvh *out
   struct builder b = {boxes, NULL, NULL, 0};
   enum status status = STATUS_LIMIT;
   b.order = memory_alloc(count, sizeof *b.order);
-  b.nodes = memory_alloc(count > 1 ? count - 1 : 1, sizeof *b.nodes);
+  b.nodes = memory_alloc(count, sizeof *b.nodes);
   if (!b.order || !b.nodes) goto done;
   for (size_t k = 0; k < count; k++) b.order[k] = (uint32_t)k;
   build(&b, (uint32_t)count);
-  *out = (struct bvh){b.nodes, b.node_count};
+  struct bvh_node *fewer = memory_resize(b.nodes, b.node_count * sizeof *b.nodes);
+  *out = (struct bvh){fewer ? fewer : b.nodes, b.node_count};
   b.nodes = NULL;
   status = STATUS_OK;
 done:

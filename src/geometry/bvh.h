@@ -1,7 +1,7 @@
-/* A binary bounding volume hierarchy over axis-aligned boxes.
+/* A bounding volume hierarchy over axis-aligned boxes, up to four children a node.
  *
  * Built by binned surface-area heuristic (Wald, On fast Construction of SAH-based Bounding Volume Hierarchies,
- * 2007). Read-only once built; any number of threads may walk it. The caller gives boxes in a frame of its choice
+ * 2007; four children: Wald, Benthin and Boulos, Getting Rid of Packets, 2008). Read-only once built; any number of threads may walk it. The caller gives boxes in a frame of its choice
  * (near the origin is best, for the stored boxes are single precision, rounded outwards: a stored box always
  * contains the given one).
  */
@@ -17,24 +17,29 @@ struct bvh_box {
   double lo[3], hi[3];
 };
 
-/* The two children's boxes stand in their parent, so a walk reads one node a step. */
+enum { BVH_WIDTH = 4 };
+
+/* The children's boxes stand in their parent, so a walk reads one node a step; side by side, so that one ray is tried on
+ * all of them at once. */
 struct bvh_node {
-  float lo[2][3], hi[2][3];
-  uint32_t child[2]; /* inner child: index of its node; leaf child: BVH_LEAF | index of the box */
+  float lo[3][BVH_WIDTH], hi[3][BVH_WIDTH];
+  /* inner child: index of its node; leaf child: BVH_LEAF | index of the box; behind the last child, whose boxes mean
+   * nothing: 0, the root, which is nobody's child */
+  uint32_t child[BVH_WIDTH];
 };
 
 enum { BVH_LEAF = INT32_MIN }; /* the top bit of a child */
 
-/* The depth that no tree built here passes: what a walk's stack must hold. */
-enum { BVH_MAX_DEPTH = 64 };
+/* The depth that no tree built here passes, and what a walk's stack must hold that puts a node's children on it before
+ * it takes the next from it. */
+enum { BVH_MAX_DEPTH = 64, BVH_STACK = (BVH_WIDTH - 1) * BVH_MAX_DEPTH + 1 };
 
 struct bvh {
   struct bvh_node *nodes; /* nodes[0] is the root; owned */
   size_t node_count;      /* 0 for no boxes */
 };
 
-/* Builds over boxes[0..count), count < 2^31. A single box gives one node that has it as both children,
- * the second with an empty box (lo > hi).
+/* Builds over boxes[0..count), count < 2^31. A single box gives one node with one child.
  * STATUS_LIMIT where memory is short; then *out is empty. */
 enum status bvh_build(const struct bvh_box *boxes, size_t count, struct bvh *out) STATUS_MUST_CHECK;
 

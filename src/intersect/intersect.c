@@ -16,6 +16,9 @@ struct intersector {
   bool warm; /* some patch asks for `start previous` */
 };
 
+/* What a register of AVX2 holds. A choice of speed. */
+enum { FEW_RAYS = 4 };
+
 extern const struct kernel kernel_baseline, kernel_avx2, kernel_avx512;
 
 size_t kernels_here(const struct kernel *out[KERNELS_MAX])
@@ -40,6 +43,17 @@ static const struct kernel *kernel_chosen(void)
   for (size_t k = 0; k < count; k++)
     if (!forced || !*forced || strcmp(forced, kernels[k]->name) == 0) return kernels[k];
   return NULL;
+}
+
+/* The one that answers so many rays at once: what few of them leave empty of wide registers is set up all the same, and
+ * sets that round alike answer alike. */
+static const struct kernel *kernel_for(const struct tracer *tracer, size_t count)
+{
+#if defined(PSCN_HAS_AVX512) /* then AVX2 is there too: base/kernel.h */
+  if (tracer->kernel == &kernel_avx512 && count <= FEW_RAYS) return &kernel_avx2;
+#endif
+  (void)count;
+  return tracer->kernel;
 }
 
 bool intersector_kernel_here(void) { return kernel_chosen() != NULL; }
@@ -115,12 +129,12 @@ void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
 
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
-  tracer->kernel->closest(tracer, count, rays, out_hits);
+  kernel_for(tracer, count)->closest(tracer, count, rays, out_hits);
 }
 
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
-  tracer->kernel->occluded(tracer, count, rays, out_occluded);
+  kernel_for(tracer, count)->occluded(tracer, count, rays, out_occluded);
 }
 
 enum { FIRST_ROOM = 64 };
@@ -140,7 +154,7 @@ void *growing_add(struct growing *list, size_t more, size_t size)
 
 enum status tracer_all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])
 {
-  return tracer->kernel->all(tracer, count, rays, out) ? STATUS_OK : STATUS_LIMIT;
+  return kernel_for(tracer, count)->all(tracer, count, rays, out) ? STATUS_OK : STATUS_LIMIT;
 }
 
 void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3])

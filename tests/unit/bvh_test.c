@@ -21,7 +21,7 @@ struct walk {
 static bool contains(const struct bvh_node *node, int side, const struct bvh_box *box)
 {
   for (int k = 0; k < 3; k++)
-    if (!((double)node->lo[side][k] <= box->lo[k] && (double)node->hi[side][k] >= box->hi[k])) return false;
+    if (!((double)node->lo[k][side] <= box->lo[k] && (double)node->hi[k][side] >= box->hi[k])) return false;
   return true;
 }
 
@@ -37,16 +37,18 @@ static struct bvh_box walk(struct walk *w, uint32_t child, int depth)
   const struct bvh_node *node = &w->bvh->nodes[child];
   assert_true(child < w->bvh->node_count);
   assert_true(w->nodes++ < w->bvh->node_count); /* no cycle */
-  struct bvh_box sum[2];
-  for (int side = 0; side < 2; side++) {
-    sum[side] = walk(w, node->child[side], depth + 1);
-    assert_true(contains(node, side, &sum[side]));
+  struct bvh_box sum = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+  assert_int_not_equal(node->child[0], 0);
+  for (int side = 0; side < BVH_WIDTH; side++) {
+    if (node->child[side] == 0) { /* then all that follow */
+      assert_true(side + 1 == BVH_WIDTH || node->child[side + 1] == 0);
+      continue;
+    }
+    const struct bvh_box below = walk(w, node->child[side], depth + 1);
+    assert_true(contains(node, side, &below));
+    for (int k = 0; k < 3; k++) sum.lo[k] = fmin(sum.lo[k], below.lo[k]), sum.hi[k] = fmax(sum.hi[k], below.hi[k]);
   }
-  for (int k = 0; k < 3; k++) {
-    sum[0].lo[k] = fmin(sum[0].lo[k], sum[1].lo[k]);
-    sum[0].hi[k] = fmax(sum[0].hi[k], sum[1].hi[k]);
-  }
-  return sum[0];
+  return sum;
 }
 
 /* Builds and checks all that the header promises; returns the depth. */
@@ -92,7 +94,7 @@ static void none_one_two(void **state)
   assert_int_equal(bvh.node_count, 1);
   assert_true(contains(&bvh.nodes[0], 0, &boxes[0]));
   assert_int_equal(bvh.nodes[0].child[0], (uint32_t)BVH_LEAF);
-  for (int k = 0; k < 3; k++) assert_true(bvh.nodes[0].lo[1][k] > bvh.nodes[0].hi[1][k]);
+  for (int side = 1; side < BVH_WIDTH; side++) assert_int_equal(bvh.nodes[0].child[side], 0);
   bvh_free(&bvh);
   check(boxes, 2);
 }

@@ -8,6 +8,7 @@
  * the distances (Ize, Robust BVH Ray Traversal, 2013).
  */
 #include <math.h>
+#include <string.h>
 
 #include "base/float_lanes.h"
 #include "intersect/lanes/gather.h"
@@ -111,8 +112,8 @@ LANES_INLINE unsigned bundle_box(const struct bundle *b, const struct bvh_node *
 {
   float_lanes near = float_lanes_all(0), far = b->view.far;
   for (int k = 0; k < 3; k++) {
-    const float_lanes one = (node->lo[side][k] - b->view.low_origin[k]) * b->view.inverse[k];
-    const float_lanes other = (node->hi[side][k] - b->view.high_origin[k]) * b->view.inverse[k];
+    const float_lanes one = (node->lo[k][side] - b->view.low_origin[k]) * b->view.inverse[k];
+    const float_lanes other = (node->hi[k][side] - b->view.high_origin[k]) * b->view.inverse[k];
     near = float_lanes_max(float_lanes_min(one, other), near);
     far = float_lanes_min(float_lanes_max(one, other), far);
   }
@@ -159,12 +160,68 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
   bundle_update(b);
 }
 
-/* The side to be visited first: the one that the first ray that passes both enters first. */
-static int nearer_side(const float_lanes near[2], const unsigned hit[2])
+/* One ray as the frame sees it, four times over. */
+struct ray_view {
+  four_floats low_origin[3], high_origin[3], inverse[3];
+};
+
+LANES_INLINE struct ray_view ray_view_of(const struct view *view, unsigned lane)
 {
-  const unsigned both = hit[0] & hit[1];
-  const int one = __builtin_ctz(both ? both : hit[0]), other = __builtin_ctz(both ? both : hit[1]);
-  return near[1][other] < near[0][one];
+  struct ray_view ray;
+  for (int k = 0; k < 3; k++) {
+    ray.low_origin[k] = four_floats_all(view->low_origin[k][lane]);
+    ray.high_origin[k] = four_floats_all(view->high_origin[k][lane]);
+    ray.inverse[k] = four_floats_all(view->inverse[k][lane]);
+  }
+  return ray;
+}
+
+/* The node's children that the ray passes before `end`, as bits; as bundle_box. */
+LANES_INLINE unsigned ray_boxes(const struct ray_view *ray, float end, const struct bvh_node *node, float out_near[4])
+{
+  four_floats near = four_floats_all(0), far = four_floats_all(end), lo, hi;
+  four_mask child;
+  for (int k = 0; k < 3; k++) {
+    memcpy(&lo, node->lo[k], sizeof lo), memcpy(&hi, node->hi[k], sizeof hi);
+    const four_floats one = (lo - ray->low_origin[k]) * ray->inverse[k];
+    const four_floats other = (hi - ray->high_origin[k]) * ray->inverse[k];
+    near = four_floats_max(four_floats_min(one, other), near);
+    far = four_floats_min(four_floats_max(one, other), far);
+  }
+  memcpy(&child, node->child, sizeof child), memcpy(out_near, &near, sizeof near);
+  return four_mask_bits((near <= far * DEPTH_GROWTH) & (child != 0));
+}
+
+/* One ray through what is below `child`: four boxes at a time instead of all rays. */
+static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t child, unsigned lane)
+{
+  const struct ray_view ray = ray_view_of(&b->view, lane);
+  struct {
+    float near;
+    uint32_t child;
+  } stack[BVH_STACK];
+  size_t top = 0;
+  for (;;) {
+    if (child & (uint32_t)BVH_LEAF) {
+      bundle_leaf(b, tree, child & ~(uint32_t)BVH_LEAF, 1u << lane);
+      if (!(b->live >> lane & 1)) return;
+    } else {
+      const struct bvh_node *node = &tree->bvh.nodes[child];
+      const size_t first = top;
+      float near[BVH_WIDTH];
+      for (unsigned bits = ray_boxes(&ray, b->view.far[lane], node, near); bits; bits &= bits - 1) {
+        const int side = __builtin_ctz(bits);
+        size_t n = top++; /* the nearest on top */
+        for (; n > first && stack[n - 1].near < near[side]; n--) stack[n] = stack[n - 1];
+        stack[n].near = near[side], stack[n].child = node->child[side];
+      }
+    }
+    do {
+      if (top == 0) return;
+      top--;
+    } while (stack[top].near > b->view.far[lane]);
+    child = stack[top].child;
+  }
 }
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
@@ -172,29 +229,29 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   const struct bvh *bvh = &tree->bvh;
   struct {
     float_lanes near;
+    float first;   /* where the first of the rays enters */
     unsigned rays; /* a leaf's test on one ray must not depend on its neighbours, so each ray goes its own way */
     uint32_t child;
-  } stack[BVH_MAX_DEPTH + 2];
+  } stack[BVH_STACK];
   size_t top = 0;
   if (bvh->node_count == 0) return;
   uint32_t child = 0;
   for (;;) {
     if (child & (uint32_t)BVH_LEAF) {
       bundle_leaf(b, tree, child & ~(uint32_t)BVH_LEAF, rays);
+    } else if ((rays & (rays - 1)) == 0) {
+      ray_walk(b, tree, child, (unsigned)__builtin_ctz(rays));
     } else {
       const struct bvh_node *node = &bvh->nodes[child];
-      float_lanes near[2];
-      unsigned hit[2];
-      for (int side = 0; side < 2; side++) hit[side] = rays & bundle_box(b, node, side, &near[side]);
-      if (node->child[1] == node->child[0]) hit[1] = 0; /* a tree of one box */
-      if (hit[0] | hit[1]) {
-        int first = hit[0] == 0;
-        if (hit[0] && hit[1]) {
-          first = nearer_side(near, hit);
-          stack[top].near = near[!first], stack[top].rays = hit[!first], stack[top].child = node->child[!first], top++;
-        }
-        rays = hit[first], child = node->child[first];
-        continue;
+      const size_t first = top;
+      for (int side = 0; side < BVH_WIDTH && node->child[side] != 0; side++) {
+        float_lanes near;
+        const unsigned hit = rays & bundle_box(b, node, side, &near);
+        if (!hit) continue;
+        const float enter = near[__builtin_ctz(hit)];
+        size_t n = top++; /* the nearest on top */
+        for (; n > first && stack[n - 1].first < enter; n--) stack[n] = stack[n - 1];
+        stack[n].near = near, stack[n].first = enter, stack[n].rays = hit, stack[n].child = node->child[side];
       }
     }
     do {

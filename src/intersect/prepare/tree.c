@@ -65,7 +65,7 @@ static enum status build(struct arena *arena, const struct bvh_box boxes[], uint
   enum status status = bvh_build(own, stay + inner, &out->bvh);
   memory_free(own);
   for (size_t n = 0; status == STATUS_OK && n < out->bvh.node_count; n++) {
-    for (int side = 0; side < 2; side++) {
+    for (int side = 0; side < BVH_WIDTH; side++) {
       uint32_t *child = &out->bvh.nodes[n].child[side];
       const uint32_t box = *child & ~(uint32_t)BVH_LEAF;
       if (*child & (uint32_t)BVH_LEAF) *child = (uint32_t)BVH_LEAF | (box == stay ? (uint32_t)MODEL_INNER : index[box]);
