@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "accuracy/extremes.h"
+#include "accuracy/lattice.h"
 #include "accuracy/generate.h"
 #include "accuracy/models.h"
 
@@ -424,6 +425,7 @@ static const struct situation_class classes[] = {
   {"far origins, oblique", 719, 0.5, extreme_far_oblique},
   {"cubes from within their planes", 716, 0.1, cubes},
   {"coincident patches", 717, 0.5, coincident},
+  {"small whole numbers", 720, 0.5, lattice},
 };
 
 size_t every_class_count(void) { return situation_class_count() + sizeof classes / sizeof classes[0]; }

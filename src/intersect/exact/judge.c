@@ -15,11 +15,11 @@
 #include "geometry/patch.h"
 #include "geometry/vector.h"
 
-/* Boxes that may be looked at for one ray, all told: isolated roots need some hundreds, tangencies some thousand; only
- * surfaces that lie along the ray over an area come there. About a millisecond. */
+/* Boxes that may be looked at for one ray, by whichever regions ask for them: isolated roots need some hundreds,
+ * tangencies some thousand; only surfaces that lie along the ray over an area come there. About a millisecond. */
 enum { JUDGE_WORK = 2500 };
 
-/* More of them for each region where all hits are asked for, and none ends the search. */
+/* Boxes that each region has for itself besides: so one that the ray lies in leaves the others decided. */
 enum { JUDGE_REGION_WORK = 128 };
 
 void judge_turn(struct judge *j, uint32_t patch)
@@ -423,6 +423,16 @@ static size_t regions_prepare(struct judge *j, struct exact_region regions[], si
   return kept;
 }
 
+static void search(struct judge *j, const struct exact_region *region)
+{
+  const int shared = j->work;
+  judge_turn(j, region->patch);
+  j->work = shared + JUDGE_REGION_WORK;
+  search_region(j, region);
+  if (j->work > shared) j->work = shared;
+  if (j->work < 0) j->work = 0;
+}
+
 static void search_nearest(struct judge *j, const struct exact_region regions[], size_t count)
 {
   struct ordered order[EXACT_REGIONS_MAX];
@@ -433,10 +443,7 @@ static void search_nearest(struct judge *j, const struct exact_region regions[],
     order[k].near = search_near(j, &regions[k]);
   }
   qsort(order, count, sizeof *order, by_distance);
-  for (size_t k = 0; k < count && order[k].near <= j->limit; k++) {
-    judge_turn(j, order[k].region->patch);
-    search_region(j, order[k].region);
-  }
+  for (size_t k = 0; k < count && order[k].near <= j->limit; k++) search(j, order[k].region);
 }
 
 void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct exact_list *list)
@@ -449,15 +456,9 @@ void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct
   set_limit(j);
   if (!all && asked->maybe) keep_maybe(j, asked->maybe);
   const size_t count = regions_prepare(j, asked->regions, asked->region_count);
-  if (!all) {
-    search_nearest(j, asked->regions, count);
-    return;
-  }
-  j->work += JUDGE_REGION_WORK * (int)count;
-  for (size_t k = 0; k < count; k++) {
-    judge_turn(j, asked->regions[k].patch);
-    search_region(j, &asked->regions[k]);
-  }
+  if (!all) search_nearest(j, asked->regions, count);
+  else
+    for (size_t k = 0; k < count; k++) search(j, &asked->regions[k]);
 }
 
 /* The nearest hit. */
