@@ -25,12 +25,15 @@ static bool is_scene(const char *name)
   return (suffix != NULL && strcmp(suffix, ".pscn") == 0) || strcmp(name, "-") == 0 || access(name, F_OK) == 0;
 }
 
-/* "pscn -o picture.png scene.pscn" as well. */
+/* "pscn -o picture.png scene.pscn" as well, but not "pscn -q dump scene.pscn". */
 static bool is_rendering(int argc, char **argv)
 {
-  int last = argv[1][0] == '-' ? argc - 1 : 1;
-  while (last > 1 && !is_scene(argv[last])) last--;
-  return is_scene(argv[last]);
+  bool scene = is_scene(argv[1]);
+  for (int k = 2; k < argc && argv[1][0] == '-'; k++) {
+    if (command_find(argv[k]) != NULL) return false;
+    scene |= is_scene(argv[k]);
+  }
+  return scene;
 }
 
 int main(int argc, char **argv)

@@ -29,6 +29,7 @@ try pscn render flat.pscn -: -q
 try pscn render flat.pscn -- -q
 try pscn -q --size 4x3 -o behind.png flat.pscn
 try pscn -o behind.png no.pscn
+try pscn -q render flat.pscn
 try pscn -o behind.png
 try pscn render flat.pscn --stats -q
 try pscn render flat.pscn -o --quiet
