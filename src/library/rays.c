@@ -49,14 +49,24 @@ static bool take_ray(const struct pscn_ray *ray, struct ray *out)
 
 /* ---- the nearest hit ---- */
 
+/* As patch_evaluate has them, of all three coordinates at a time, which lie side by side. */
 static void derivatives(const struct scene_patch *patch, struct pscn_hit *hit)
 {
-  for (int k = 0; k < 3; k++) {
-    double net[4][4];
-    for (int n = 0; n < 16; n++) net[n / 4][n % 4] = patch->P[n / 4][n % 4][k];
-    const struct patch_jet jet = patch_evaluate(net, hit->u, hit->v);
-    hit->du[k] = jet.du;
-    hit->dv[k] = jet.dv;
+  double wu[4], wu_du[4], wv[4], wv_dv[4];
+  patch_weights(hit->u, wu, wu_du);
+  patch_weights(hit->v, wv, wv_dv);
+  for (int j = 0; j < 4; j++) {
+    double across[3] = {0}, across_du[3] = {0};
+    for (int i = 0; i < 4; i++) {
+      for (int k = 0; k < 3; k++) {
+        across[k] += wu[i] * patch->P[i][j][k];
+        across_du[k] += wu_du[i] * patch->P[i][j][k];
+      }
+    }
+    for (int k = 0; k < 3; k++) {
+      hit->du[k] += across_du[k] * wv[j];
+      hit->dv[k] += across[k] * wv_dv[j];
+    }
   }
 }
 
@@ -118,14 +128,18 @@ static void answer_occluded(struct call *call, const struct packet *packet)
 /* The count of a ray, and its row with what is written of `list`. */
 static void write_list(struct call *call, size_t number, const struct pscn_hits *counts, const struct hit list[])
 {
+  const size_t written = counts->count < call->most ? counts->count : call->most;
+  struct pscn_hit rest = NO_HIT;
+  if (counts->verdict == PSCN_NO_ANSWER) rest.verdict = PSCN_NO_ANSWER;
+  else rest.certain = counts->certain;
   memcpy(answer_at(call, number), counts, sizeof *counts);
-  for (size_t k = 0; k < call->most; k++) {
-    struct pscn_hit hit = NO_HIT;
-    if (k < counts->count) hit = make_hit(call, &list[k]);
-    else if (counts->verdict == PSCN_NO_ANSWER) hit.verdict = PSCN_NO_ANSWER;
-    else hit.certain = counts->certain;
-    memcpy(call->hits + (ptrdiff_t)number * call->row_stride + k * sizeof hit, &hit, sizeof hit);
+  if (call->most == 0) return;
+  char *row = call->hits + (ptrdiff_t)number * call->row_stride;
+  for (size_t k = 0; k < written; k++) {
+    const struct pscn_hit hit = make_hit(call, &list[k]);
+    memcpy(row + k * sizeof hit, &hit, sizeof hit);
   }
+  for (size_t k = written; k < call->most; k++) memcpy(row + k * sizeof rest, &rest, sizeof rest);
 }
 
 static void write_all(struct call *call, size_t number, enum pscn_verdict verdict)
