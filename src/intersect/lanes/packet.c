@@ -25,8 +25,9 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
   p->outer = NULL, p->gather = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);
   lanes *o = p->origin, *d = p->direction;
-  lanes_load4(rays->origin, RAY_STRIDE, &o[0], &o[1], &o[2], &d[0]);
-  lanes_load4(&rays->direction[1], RAY_STRIDE, &d[1], &d[2], &p->t_min, &p->t_max);
+  const size_t stride = count == 1 ? 0 : RAY_STRIDE;
+  lanes_load4(rays->origin, stride, &o[0], &o[1], &o[2], &d[0]);
+  lanes_load4(&rays->direction[1], stride, &d[1], &d[2], &p->t_min, &p->t_max);
   p->t_far = p->t_max;
   packet_orient(p);
 }

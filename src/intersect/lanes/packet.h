@@ -80,8 +80,8 @@ static inline int packet_axis(const struct packet *p, unsigned lane)
   return p->on_axis[0][lane] ? 0 : p->on_axis[1][lane] ? 1 : 2;
 }
 
-/* packet.c: no hit yet on the rays, of which there are LANES; those from `count` on repeat the first. *postponed, which
- * the packet borrows, is emptied. */
+/* packet.c: no hit yet on the rays, of which there are LANES, those from `count` on as the first; of a single one there
+ * may be one. *postponed, which the packet borrows, is emptied. */
 void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
                   struct postponed *postponed);
 

@@ -41,6 +41,7 @@ struct view {
 
 struct bundle {
   struct packet packet[2];
+  int packets; /* 1 where a second would be empty */
   struct view view;
   unsigned live; /* bit k: ray k still looks for a hit */
 };
@@ -48,12 +49,13 @@ struct bundle {
 static void bundle_update(struct bundle *b)
 {
   lanes far[2];
-  for (int h = 0; h < 2; h++) {
+  b->live = 0;
+  for (int h = 0; h < b->packets; h++) {
     const lanes end = b->packet[h].t_far * b->view.unit[h];
     far[h] = (end - b->view.start[h]) + 8 * UNIT_ROUNDOFF * (lanes_abs(end) + lanes_abs(b->view.start[h]));
+    b->live |= lanes_bits(b->packet[h].live) << h * LANES;
   }
-  b->view.far = float_lanes_join(far[0], far[1]) * DEPTH_GROWTH;
-  b->live = lanes_bits(b->packet[0].live) | lanes_bits(b->packet[1].live) << LANES;
+  b->view.far = float_lanes_join(far[0], far[b->packets - 1]) * DEPTH_GROWTH;
 }
 
 /* The depth where the line of a ray enters the frame, or less. */
@@ -71,13 +73,9 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
 {
   const double to_frame = 1 / tree->frame; /* a power of two */
   lanes low[3][2], high[3][2], along[3][2];
-  for (int h = 0; h < 2; h++) {
+  const int last = b->packets - 1;
+  for (int h = 0; h <= last; h++) {
     const struct packet *p = &b->packet[h];
-    if (p->count == 0) { /* the second of few rays: as the first */
-      for (int k = 0; k < 3; k++) low[k][1] = low[k][0], high[k][1] = high[k][0], along[k][1] = along[k][0];
-      b->view.unit[1] = b->view.unit[0], b->view.start[1] = b->view.start[0];
-      break;
-    }
     const lanes shrink = 1 / p->longest;
     lanes from[3], slack[3], direction[3], farthest = {0};
     for (int k = 0; k < 3; k++) {
@@ -98,9 +96,9 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
     }
   }
   for (int k = 0; k < 3; k++) {
-    b->view.low_origin[k] = float_lanes_join(low[k][0], low[k][1]),
-    b->view.high_origin[k] = float_lanes_join(high[k][0], high[k][1]);
-    const float_lanes d = float_lanes_join(along[k][0], along[k][1]);
+    b->view.low_origin[k] = float_lanes_join(low[k][0], low[k][last]),
+    b->view.high_origin[k] = float_lanes_join(high[k][0], high[k][last]);
+    const float_lanes d = float_lanes_join(along[k][0], along[k][last]);
     const float_lanes huge = float_lanes_select(d < 0, float_lanes_all(-HUGE_INVERSE), float_lanes_all(HUGE_INVERSE));
     b->view.inverse[k] = float_lanes_select(float_lanes_abs(d) > 1 / HUGE_INVERSE, 1 / d, huge);
   }
@@ -126,10 +124,12 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
   struct bundle inner;
-  for (int h = 0; h < 2; h++) packet_enter(&b->packet[h], copy, lanes_mask(active >> h * LANES), &inner.packet[h]);
+  inner.packets = b->packets;
+  for (int h = 0; h < b->packets; h++)
+    packet_enter(&b->packet[h], copy, lanes_mask(active >> h * LANES), &inner.packet[h]);
   bundle_start(&inner, &copy->object->model->tree);
   bundle_walk(&inner, &copy->object->model->tree, inner.live);
-  for (int h = 0; h < 2; h++) packet_leave(&inner.packet[h]);
+  for (int h = 0; h < b->packets; h++) packet_leave(&inner.packet[h]);
 }
 
 /* The same rays in the frame of a tree in a tree. */
@@ -155,9 +155,9 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
     if (active & all) packet_leaf(&b->packet[0], index, lanes_mask(active & all));
     if (active >> LANES) packet_leaf(&b->packet[1], index, lanes_mask(active >> LANES));
   }
-  if (!b->packet[0].moved && !b->packet[1].moved) return;
-  b->packet[0].moved = b->packet[1].moved = false;
-  bundle_update(b);
+  bool moved = false;
+  for (int h = 0; h < b->packets; h++) moved |= b->packet[h].moved, b->packet[h].moved = false;
+  if (moved) bundle_update(b);
 }
 
 /* One ray as the frame sees it, four times over. */
@@ -282,7 +282,8 @@ static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
   return r;
 }
 
-/* What a packet borrows: copies of its rays where some need scaling, or there are too few; what it leaves open. */
+/* What a packet borrows: copies of its rays where some need scaling, or there are too few and not one; what it leaves
+ * open. */
 struct ready {
   struct postponed postponed;
   bool copied;
@@ -294,7 +295,7 @@ static void packet_begin(struct packet *p, struct ready *ready, struct tracer *t
                          const struct ray rays[], bool any)
 {
   struct postponed *postponed = &ready->postponed;
-  ready->copied = count < LANES;
+  ready->copied = count > 1 && count < LANES;
   if (!ready->copied) {
     packet_start(p, tracer, rays, count, any, postponed);
     ready->copied = lanes_any(~((p->longest >= DIRECTION_MIN) & (p->longest <= DIRECTION_MAX)));
@@ -308,10 +309,10 @@ static void packet_begin(struct packet *p, struct ready *ready, struct tracer *t
 static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count,
                          const struct ray rays[], bool any)
 {
-  for (size_t h = 0, first = 0; h < 2; h++, first += LANES) {
-    const size_t left = count > first ? count - first : 0, n = left < LANES ? left : LANES;
-    if (n > 0) packet_begin(&b->packet[h], &ready[h], tracer, n, rays + first, any);
-    else packet_start(&b->packet[h], tracer, b->packet[0].rays, 0, any, &ready[h].postponed);
+  b->packets = count > LANES ? 2 : 1;
+  for (size_t h = 0, first = 0; h < (size_t)b->packets; h++, first += LANES) {
+    const size_t left = count - first;
+    packet_begin(&b->packet[h], &ready[h], tracer, left < LANES ? left : LANES, rays + first, any);
   }
   bundle_start(b, &tracer->model->tree);
 }
@@ -323,10 +324,9 @@ static void closest(struct tracer *tracer, size_t count, const struct ray rays[]
     struct bundle bundle;
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, false);
     bundle_walk(&bundle, &tracer->model->tree, bundle.live);
-    for (size_t h = 0; h < 2; h++) {
+    for (size_t h = 0; h < (size_t)bundle.packets; h++) {
       struct packet *packet = &bundle.packet[h];
       struct hit *hits = out_hits + first + h * LANES;
-      if (packet->count == 0) continue;
       const unsigned grazing = finish_hits(packet, hits);
       tracer->counts.grazing += grazing, tracer->counts.certain += packet->count - grazing;
       for (size_t l = 0; l < packet->count && ready[h].copied; l++)
@@ -343,7 +343,7 @@ static void occluded(struct tracer *tracer, size_t count, const struct ray rays[
     struct bundle bundle;
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, true);
     bundle_walk(&bundle, &tracer->model->tree, bundle.live);
-    for (size_t h = 0; h < 2; h++) {
+    for (size_t h = 0; h < (size_t)bundle.packets; h++) {
       const struct packet *packet = &bundle.packet[h];
       for (size_t l = 0; l < packet->count; l++)
         out_occluded[first + h * LANES + l] = packet->best.patch[l] != NO_PATCH || finish_occluded(packet, (unsigned)l);
@@ -361,11 +361,10 @@ static bool all(struct tracer *tracer, size_t count, const struct ray rays[], st
     struct ready ready[2];
     struct bundle bundle;
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, false);
-    for (size_t h = 0; h < 2; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
+    for (int h = 0; h < bundle.packets; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
     bundle_walk(&bundle, &tracer->model->tree, bundle.live);
-    for (size_t h = 0; h < 2; h++) {
+    for (size_t h = 0; h < (size_t)bundle.packets; h++) {
       struct packet *packet = &bundle.packet[h];
-      if (packet->count == 0) continue;
       done &= gather_finish(packet, ready[h].copied ? ready[h].exponent : NULL, out + first + h * LANES);
       tracer->counts.rays[0] += packet->count;
     }
