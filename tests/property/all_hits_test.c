@@ -7,7 +7,7 @@
 #include "cmocka_test.h"
 #include "property/world.h"
 
-enum { SEED = 20240514, SCENES = 3, RAYS = 96, MOST_HITS = 200 };
+enum { SEED = 20240514, SCENES = 3, MOST_HITS = 200 };
 
 /* What is to be kept of a list when the next one is asked for. */
 struct kept {
@@ -37,33 +37,12 @@ static bool same_list(const struct kept *a, const struct hit_list *b)
   return same;
 }
 
-struct set_up {
-  int kind;
-  struct random *random;
-  struct world *world;
-  struct ray rays[RAYS];
-  struct kept alone[RAYS];
-};
-
-static void on_all_stages(uint64_t seed, void (*body)(struct set_up *stage))
+/* All hits of each ray by itself; they are gone at the next call. */
+static const struct kept *lists_alone(const struct set_up *s)
 {
-  static struct set_up stage;
-  static world_net nets[WORLD_MAX];
-  struct random random = {seed};
-  for (int kind = 0; kind < WORLD_KINDS; kind++) {
-    for (int scene = 0; scene < SCENES; scene++) {
-      struct world world;
-      stage.kind = kind, stage.random = &random, stage.world = &world;
-      const size_t count = world_fill((enum world_kind)kind, &random, nets);
-      world_open(&world, nets, count, NULL);
-      for (int n = 0; n < RAYS; n++) {
-        stage.rays[n] = world_ray(&random, nets, count, n % RAY_KINDS);
-        all_of(&world, &stage.rays[n], &stage.alone[n]);
-      }
-      body(&stage);
-      world_close(&world);
-    }
-  }
+  static struct kept alone[STAGE_RAYS];
+  for (int n = 0; n < STAGE_RAYS; n++) all_of(s->world, &s->rays[n], &alone[n]);
+  return alone;
 }
 
 static void print_lists(const char *what, int kind, const struct ray *ray, const struct kept *a)
@@ -83,9 +62,10 @@ static bool same_but_for_rounding(const struct hit *a, const struct hit *b)
 /* The first of them is the nearest hit, nearly always to the last bit; the others are the nearest ones behind it. */
 static void one_by_one(struct set_up *s)
 {
+  const struct kept *alone = lists_alone(s);
   int wrong = 0, followed = 0, certain = 0, equal = 0;
-  for (size_t n = 0; n < RAYS; n++) {
-    const struct kept *all = &s->alone[n];
+  for (size_t n = 0; n < STAGE_RAYS; n++) {
+    const struct kept *all = &alone[n];
     struct ray ray = s->rays[n];
     struct hit next = world_closest(s->world, &ray);
     if (all->certainty == CERTAINTY_CERTAIN) {
@@ -115,15 +95,16 @@ static void one_by_one(struct set_up *s)
 static void they_are_the_nearest_one_by_one(void **state)
 {
   (void)state;
-  on_all_stages(SEED, one_by_one);
+  on_all_stages(SEED, SCENES, one_by_one);
 }
 
 /* Those of a part of the ray are those of the whole that are in it. */
 static void parts(struct set_up *s)
 {
+  const struct kept *alone = lists_alone(s);
   int wrong = 0;
-  for (size_t n = 0; n < RAYS; n++) {
-    const struct kept *all = &s->alone[n];
+  for (size_t n = 0; n < STAGE_RAYS; n++) {
+    const struct kept *all = &alone[n];
     for (size_t from = 0; from < all->count && all->certainty == CERTAINTY_CERTAIN; from++) {
       struct ray part = s->rays[n];
       struct kept some;
@@ -145,28 +126,29 @@ static void parts(struct set_up *s)
 static void parts_of_a_ray_have_theirs(void **state)
 {
   (void)state;
-  on_all_stages(SEED + 1, parts);
+  on_all_stages(SEED + 1, SCENES, parts);
 }
 
 /* In packets of every size, shuffled, with companions of other kinds: the same bits. */
 static void companions(struct set_up *s)
 {
-  size_t order[RAYS];
-  for (size_t n = 0; n < RAYS; n++) order[n] = n;
+  const struct kept *alone = lists_alone(s);
+  size_t order[STAGE_RAYS];
+  for (size_t n = 0; n < STAGE_RAYS; n++) order[n] = n;
   int wrong = 0;
   for (int round = 0; round < 3; round++) {
-    for (size_t first = 0, size; first < RAYS; first += size) {
+    for (size_t first = 0, size; first < STAGE_RAYS; first += size) {
       size = round == 2 ? 1 + random_bits(s->random) % PACKET_SIZE : PACKET_SIZE;
-      if (size > RAYS - first) size = RAYS - first;
+      if (size > STAGE_RAYS - first) size = STAGE_RAYS - first;
       struct ray rays[PACKET_SIZE];
       struct hit_list lists[PACKET_SIZE];
       for (size_t n = 0; n < size; n++) rays[n] = s->rays[order[first + n]];
       assert_int_equal(tracer_all(s->world->tracer, size, rays, lists), STATUS_OK);
       for (size_t n = 0; n < size; n++)
-        if (!same_list(&s->alone[order[first + n]], &lists[n]) && wrong++ < 2)
-          print_lists("companions", s->kind, &rays[n], &s->alone[order[first + n]]);
+        if (!same_list(&alone[order[first + n]], &lists[n]) && wrong++ < 2)
+          print_lists("companions", s->kind, &rays[n], &alone[order[first + n]]);
     }
-    for (size_t n = RAYS - 1; n > 0; n--) {
+    for (size_t n = STAGE_RAYS - 1; n > 0; n--) {
       const size_t other = random_bits(s->random) % (n + 1), swap = order[n];
       order[n] = order[other], order[other] = swap;
     }
@@ -177,20 +159,21 @@ static void companions(struct set_up *s)
 static void lists_do_not_depend_on_companions(void **state)
 {
   (void)state;
-  on_all_stages(SEED + 2, companions);
+  on_all_stages(SEED + 2, SCENES, companions);
 }
 
 /* Every instruction set counts the same, and finds them on the same patches, where it is certain. */
 static void kernels(struct set_up *s)
 {
+  const struct kept *alone = lists_alone(s);
   const struct kernel *before = s->world->tracer->kernel, *here[KERNELS_MAX];
   const size_t count = kernels_here(here);
   static struct kept list;
   int wrong = 0;
   for (size_t k = 0; k < count; k++) {
     s->world->tracer->kernel = here[k];
-    for (size_t n = 0; n < RAYS; n++) {
-      const struct kept *other = &s->alone[n];
+    for (size_t n = 0; n < STAGE_RAYS; n++) {
+      const struct kept *other = &alone[n];
       all_of(s->world, &s->rays[n], &list);
       if (list.certainty != CERTAINTY_CERTAIN || other->certainty != CERTAINTY_CERTAIN) continue;
       bool same = list.count == other->count;
@@ -205,7 +188,7 @@ static void kernels(struct set_up *s)
 static void kernels_agree(void **state)
 {
   (void)state;
-  on_all_stages(SEED + 3, kernels);
+  on_all_stages(SEED + 3, SCENES, kernels);
 }
 
 /* A stack of sheets, its lowest one first: a hit each, in their order; exactly through their corners, four to a layer,

@@ -5,60 +5,37 @@
 #include "cmocka_test.h"
 #include "property/world.h"
 
-enum { SEED = 20240510, SCENES = 1, RAYS = 96 };
+enum { SEED = 20240510, SCENES = 1 };
 
-/* A scene of each kind, several times; `body` gets its world, its nets, its rays and the answers one by one. */
-struct set_up {
-  int kind;
-  struct random *random;
-  struct world *world;
-  world_net *nets;
-  size_t count;
-  struct ray rays[RAYS];
-  struct hit alone[RAYS];
-};
-
-static void on_all_stages(uint64_t seed, void (*body)(struct set_up *stage))
+/* The answers to the rays one by one; they are gone at the next call. */
+static const struct hit *answers_alone(const struct set_up *s)
 {
-  static struct set_up stage;
-  static world_net nets[WORLD_MAX];
-  struct random random = {seed};
-  for (int kind = 0; kind < WORLD_KINDS; kind++) {
-    for (int scene = 0; scene < SCENES; scene++) {
-      struct world world;
-      stage.kind = kind, stage.random = &random, stage.world = &world, stage.nets = nets;
-      stage.count = world_fill((enum world_kind)kind, &random, nets);
-      world_open(&world, nets, stage.count, NULL);
-      for (int n = 0; n < RAYS; n++) {
-        stage.rays[n] = world_ray(&random, nets, stage.count, n % RAY_KINDS);
-        tracer_closest(world.tracer, 1, &stage.rays[n], &stage.alone[n]);
-      }
-      body(&stage);
-      world_close(&world);
-    }
-  }
+  static struct hit alone[STAGE_RAYS];
+  for (int n = 0; n < STAGE_RAYS; n++) tracer_closest(s->world->tracer, 1, &s->rays[n], &alone[n]);
+  return alone;
 }
 
 /* In packets of every size, in the order they come and shuffled, with companions of other kinds. */
 static void companions(struct set_up *s)
 {
-  size_t order[RAYS];
-  for (size_t n = 0; n < RAYS; n++) order[n] = n;
+  const struct hit *alone = answers_alone(s);
+  size_t order[STAGE_RAYS];
+  for (size_t n = 0; n < STAGE_RAYS; n++) order[n] = n;
   int wrong = 0;
   for (int round = 0; round < 3; round++) {
-    for (size_t first = 0, size; first < RAYS; first += size) {
+    for (size_t first = 0, size; first < STAGE_RAYS; first += size) {
       size = round == 2 ? 1 + random_bits(s->random) % PACKET_SIZE : PACKET_SIZE;
-      if (size > RAYS - first) size = RAYS - first;
+      if (size > STAGE_RAYS - first) size = STAGE_RAYS - first;
       struct ray rays[PACKET_SIZE];
       struct hit hits[PACKET_SIZE];
       for (size_t n = 0; n < size; n++) rays[n] = s->rays[order[first + n]];
       tracer_closest(s->world->tracer, size, rays, hits);
       for (size_t n = 0; n < size; n++) {
-        if (same_hit(&hits[n], &s->alone[order[first + n]])) continue;
-        if (wrong++ < 2) world_print_case("companions", s->kind, &rays[n], &s->alone[order[first + n]], &hits[n]);
+        if (same_hit(&hits[n], &alone[order[first + n]])) continue;
+        if (wrong++ < 2) world_print_case("companions", s->kind, &rays[n], &alone[order[first + n]], &hits[n]);
       }
     }
-    for (size_t n = RAYS - 1; n > 0; n--) {
+    for (size_t n = STAGE_RAYS - 1; n > 0; n--) {
       const size_t other = random_bits(s->random) % (n + 1), swap = order[n];
       order[n] = order[other], order[other] = swap;
     }
@@ -69,22 +46,23 @@ static void companions(struct set_up *s)
 static void answers_do_not_depend_on_companions(void **state)
 {
   (void)state;
-  on_all_stages(SEED, companions);
+  on_all_stages(SEED, SCENES, companions);
 }
 
 /* Any hit is found exactly where a closest one is, alone and in company. */
 static void occlusion(struct set_up *s)
 {
+  const struct hit *alone = answers_alone(s);
   int wrong = 0;
-  for (size_t first = 0; first < RAYS; first += PACKET_SIZE) {
+  for (size_t first = 0; first < STAGE_RAYS; first += PACKET_SIZE) {
     bool occluded[PACKET_SIZE], alone;
     tracer_occluded(s->world->tracer, PACKET_SIZE, &s->rays[first], occluded);
     for (size_t n = 0; n < PACKET_SIZE; n++) {
       tracer_occluded(s->world->tracer, 1, &s->rays[first + n], &alone);
-      const bool want = s->alone[first + n].patch != HIT_NONE;
+      const bool want = alone[first + n].patch != HIT_NONE;
       if (occluded[n] == want && alone == want) continue;
       if (wrong++ < 2)
-        world_print_case("occlusion", s->kind, &s->rays[first + n], &s->alone[first + n], &s->alone[first + n]);
+        world_print_case("occlusion", s->kind, &s->rays[first + n], &alone[first + n], &alone[first + n]);
     }
   }
   assert_int_equal(wrong, 0);
@@ -93,7 +71,7 @@ static void occlusion(struct set_up *s)
 static void occluded_is_whether_there_is_a_hit(void **state)
 {
   (void)state;
-  on_all_stages(SEED + 1, occlusion);
+  on_all_stages(SEED + 1, SCENES, occlusion);
 }
 
 /* The kernels may round differently. Where both are certain they agree on hit or miss, and on t to its condition:
@@ -113,18 +91,18 @@ static bool kernels_same(const struct ray *ray, const struct hit *a, const struc
 /* Every kernel that the processor can run, against the plainest, which is the last of them. */
 static void kernels(struct set_up *s)
 {
-  static struct hit answers[KERNELS_MAX][RAYS];
+  static struct hit answers[KERNELS_MAX][STAGE_RAYS];
   const struct kernel *before = s->world->tracer->kernel, *here[KERNELS_MAX];
   const size_t count = kernels_here(here);
   for (size_t k = 0; k < count; k++) {
     s->world->tracer->kernel = here[k];
-    for (size_t first = 0; first < RAYS; first += PACKET_SIZE)
+    for (size_t first = 0; first < STAGE_RAYS; first += PACKET_SIZE)
       tracer_closest(s->world->tracer, PACKET_SIZE, &s->rays[first], &answers[k][first]);
   }
   s->world->tracer->kernel = before;
   int wrong = 0;
   for (size_t k = 0; k + 1 < count; k++) {
-    for (size_t n = 0; n < RAYS; n++) {
+    for (size_t n = 0; n < STAGE_RAYS; n++) {
       const struct hit *a = &answers[k][n], *b = &answers[count - 1][n];
       if (!kernels_same(&s->rays[n], a, b) && wrong++ < 3) world_print_case(here[k]->name, s->kind, &s->rays[n], a, b);
     }
@@ -135,12 +113,13 @@ static void kernels(struct set_up *s)
 static void kernels_agree(void **state)
 {
   (void)state;
-  on_all_stages(SEED + 2, kernels);
+  on_all_stages(SEED + 2, SCENES, kernels);
 }
 
 /* Another order of the patches: the same t, and, where hits are not tied, the same patch. */
 static void shuffled(struct set_up *s)
 {
+  const struct hit *alone = answers_alone(s);
   static world_net nets[WORLD_MAX];
   size_t place[WORLD_MAX];
   for (size_t p = 0; p < s->count; p++) place[p] = p;
@@ -152,10 +131,10 @@ static void shuffled(struct set_up *s)
   struct world world;
   world_open(&world, nets, s->count, NULL);
   int wrong = 0, tied = 0;
-  for (size_t n = 0; n < RAYS; n++) {
+  for (size_t n = 0; n < STAGE_RAYS; n++) {
     struct hit hit;
     tracer_closest(world.tracer, 1, &s->rays[n], &hit);
-    const struct hit *want = &s->alone[n];
+    const struct hit *want = &alone[n];
     bool good = (hit.patch == HIT_NONE) == (want->patch == HIT_NONE);
     if (good && hit.patch != HIT_NONE && (hit.certainty == CERTAINTY_CERTAIN || want->certainty == CERTAINTY_CERTAIN)) {
       if (hit.patch == place[want->patch]) good = hit.t == want->t && hit.u == want->u && hit.v == want->v;
@@ -165,13 +144,13 @@ static void shuffled(struct set_up *s)
   }
   world_close(&world);
   assert_int_equal(wrong, 0);
-  assert_true(tied < RAYS / 2);
+  assert_true(tied < STAGE_RAYS / 2);
 }
 
 static void answers_do_not_depend_on_the_order_of_patches(void **state)
 {
   (void)state;
-  on_all_stages(SEED + 3, shuffled);
+  on_all_stages(SEED + 3, SCENES, shuffled);
 }
 
 int main(void)

@@ -188,6 +188,24 @@ struct ray world_ray(struct random *random, world_net *nets, size_t count, int k
   return ray;
 }
 
+void on_all_stages(uint64_t seed, int scenes, void (*body)(struct set_up *stage))
+{
+  static struct set_up stage;
+  static world_net nets[WORLD_MAX];
+  struct random random = {seed};
+  for (int kind = 0; kind < WORLD_KINDS; kind++) {
+    for (int scene = 0; scene < scenes; scene++) {
+      struct world world;
+      stage.kind = kind, stage.random = &random, stage.world = &world, stage.nets = nets;
+      stage.count = world_fill((enum world_kind)kind, &random, nets);
+      world_open(&world, nets, stage.count, NULL);
+      for (int n = 0; n < STAGE_RAYS; n++) stage.rays[n] = world_ray(&random, nets, stage.count, n % RAY_KINDS);
+      body(&stage);
+      world_close(&world);
+    }
+  }
+}
+
 bool same_hit(const struct hit *a, const struct hit *b)
 {
   if (a->patch != b->patch || a->certainty != b->certainty) return false;

@@ -43,6 +43,20 @@ void world_close(struct world *world);
 enum { RAY_KINDS = 8 };
 struct ray world_ray(struct random *random, world_net *nets, size_t count, int kind);
 
+/* A scene, and rays at it. */
+enum { STAGE_RAYS = 96 };
+struct set_up {
+  int kind; /* of the scene */
+  struct random *random;
+  struct world *world;
+  world_net *nets; /* count of them */
+  size_t count;
+  struct ray rays[STAGE_RAYS];
+};
+
+/* Calls `body` on so many scenes of each kind, one after the other. */
+void on_all_stages(uint64_t seed, int scenes, void (*body)(struct set_up *stage));
+
 /* Whether two hits are the same to the last bit (only the certainty counts for misses). */
 bool same_hit(const struct hit *a, const struct hit *b);
 
