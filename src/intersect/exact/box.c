@@ -52,6 +52,26 @@ void box_bends(double n[4][4], double out[3])
   }
 }
 
+/* A row of M times the polynomials: bounds on its second derivatives. */
+static void row_bends(struct box *box, const double m[2], double out[3])
+{
+  double n[4][4];
+  for (int c = 0; c < 16; c++) n[c / 4][c % 4] = m[0] * box->net[0][c / 4][c % 4] + m[1] * box->net[1][c / 4][c % 4];
+  box_bends(n, out);
+}
+
+/* Whether a root in the middle would be shown to be alone, by M there: else Newton's process is mostly in vain. A choice
+ * of speed. */
+static bool may_be_alone(struct box *box, double m[2][2])
+{
+  for (int k = 0; k < 2; k++) {
+    double s[3];
+    row_bends(box, m[k], s);
+    if (s[0] + 2 * s[1] + s[2] > 2 * CERTIFICATE_ALONE) return false;
+  }
+  return true;
+}
+
 /* The certificate in the box's own parameters, with the second derivatives of M's rows of the plane polynomials
  * themselves, for a last step that went to `root`. Sets the radii. */
 static bool box_prove(struct box *box, double m[2][2], const double error[2], bool alone, double step,
@@ -63,10 +83,8 @@ static bool box_prove(struct box *box, double m[2][2], const double error[2], bo
   const double reach_u = 0.5 + fabs(root[0] - 0.5), reach_v = 0.5 + fabs(root[1] - 0.5);
   double bend = 0, q = 0, size = 0;
   for (int k = 0; k < 2; k++) {
-    double n[4][4], s[3];
-    for (int c = 0; c < 16; c++)
-      n[c / 4][c % 4] = m[k][0] * box->net[0][c / 4][c % 4] + m[k][1] * box->net[1][c / 4][c % 4];
-    box_bends(n, s);
+    double s[3];
+    row_bends(box, m[k], s);
     const double row_bend = growth * (s[0] + 2 * s[1] + s[2]);
     const double row_size = fabs(m[k][0]) * error[0] + fabs(m[k][1]) * error[1];
     bend = real_max(bend, row_bend), size = real_max(size, row_size);
@@ -85,6 +103,7 @@ bool box_solve(struct box *box, const double error[2], bool alone, double root[2
     if (determinant == 0) return false;
     const double inverse = 1 / determinant;
     m[0][0] = b.dv * inverse, m[0][1] = -a.dv * inverse, m[1][0] = -b.du * inverse, m[1][1] = a.du * inverse;
+    if (alone && n == 0 && !may_be_alone(box, m)) return false;
     const double su = m[0][0] * a.value + m[0][1] * b.value, sv = m[1][0] * a.value + m[1][1] * b.value;
     step = real_max(fabs(su), fabs(sv));
     u -= su, v -= sv;
