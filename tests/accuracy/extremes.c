@@ -84,3 +84,24 @@ void extreme_far_oblique(struct random *random, size_t index, struct situation *
     for (int k = 0; k < 16; k++) s->P[0][k / 4][k % 4][axis] += (double)shift;
   }
 }
+
+/* Rays along a diagonal, exactly, from as far as any direction allows, through many patches one behind the other: double
+ * precision can leave out no leaf of any. */
+void extreme_far_diagonal(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1 + index % MODEL_MOST_PATCHES;
+  for (size_t n = 0; n < s->count; n++) {
+    gentle(random, 1, s->P[n]);
+    for (int k = 0; k < 16; k++)
+      for (int axis = 0; axis < 3; axis++) s->P[n][k / 4][k % 4][axis] += 0.25 * (double)n - 2;
+  }
+  for (int n = 0; n < RAYS; n++) {
+    const double far = ldexp(1, (int)(40 + 30 * (index % 7) + choose(random, 30)));
+    const bool straight = choose(random, 4) != 0; /* along the line on which the patches stand */
+    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
+    for (int axis = 0; axis < 3; axis++) {
+      const double sign = straight || choose(random, 2) ? 1 : -1;
+      s->rays[n].direction[axis] = sign, s->rays[n].origin[axis] = -far * sign;
+    }
+  }
+}

@@ -423,6 +423,7 @@ static const struct situation_class classes[] = {
   {"sizes beyond all digits", 714, 0.5, extreme_wild_sizes},
   {"far origins", 715, 1, extreme_far_origins},
   {"far origins, oblique", 719, 0.5, extreme_far_oblique},
+  {"far origins, along a diagonal", 720, 0.1, extreme_far_diagonal},
   {"cubes from within their planes", 716, 0.1, cubes},
   {"coincident patches", 717, 0.5, coincident},
   {"small whole numbers", 720, 0.5, lattice},

@@ -42,6 +42,10 @@ static inline bool exact_region_equal(const struct exact_region *a, const struct
          a->span[0] == b->span[0] && a->span[1] == b->span[1];
 }
 
+/* judge.c: puts the least rectangle of leaves that has them all in the place of a patch's regions, where there are more
+ * than `most` of them. Returns how many are left, sorted. */
+size_t exact_regions_merge(struct exact_region regions[], size_t count, size_t most);
+
 /* A place that may be a hit or none: a point of a patch, and how far along the ray it may be off. */
 struct exact_maybe {
   uint32_t patch;
@@ -49,7 +53,8 @@ struct exact_maybe {
   double u, v, t, t_error;
 };
 
-/* Of one ray whose nearest hit is asked for; one with more is decided as far as they go. */
+/* Of one ray whose nearest hit is asked for; where there are more they are merged, and one that meets more patches than
+ * half as many is decided as far as they go. */
 enum { EXACT_REGIONS_MAX = 128 };
 
 /* What is found on a ray. */

@@ -412,15 +412,48 @@ static int by_region(const void *a, const void *b)
   return 0;
 }
 
+/* The least rectangle that has them all. */
+static struct exact_region hull_of(const struct exact_region regions[], size_t count)
+{
+  struct exact_region hull = regions[0];
+  hull.leaf = NULL;
+  for (int k = 0; k < 2; k++) {
+    uint16_t last = 0;
+    for (size_t n = 0; n < count; n++) {
+      const uint16_t end = (uint16_t)(regions[n].column[k] + regions[n].span[k]);
+      if (regions[n].column[k] < hull.column[k]) hull.column[k] = regions[n].column[k];
+      if (end > last) last = end;
+    }
+    hull.span[k] = (uint16_t)(last - hull.column[k]);
+  }
+  return hull;
+}
+
+size_t exact_regions_merge(struct exact_region regions[], size_t count, size_t most)
+{
+  size_t kept = 0;
+  if (count > 1) qsort(regions, count, sizeof *regions, by_region);
+  for (size_t first = 0, end; first < count; first = end) {
+    for (end = first + 1; end < count && regions[end].patch == regions[first].patch;) end++;
+    if (end - first > most) {
+      regions[kept++] = hull_of(&regions[first], end - first);
+      continue;
+    }
+    for (size_t k = first; k < end; k++) /* each once */
+      if (k == first || !exact_region_equal(&regions[kept - 1], &regions[k])) regions[kept++] = regions[k];
+  }
+  return kept;
+}
+
+/* More regions of a patch than these are searched as one: it lies along the ray, or the ray starts so far away that
+ * double precision tells nothing of it. A choice of speed. */
+enum { REGIONS_APART = 8 };
+
 /* Widens the regions, sorts them, and leaves each there once. Returns how many. */
 static size_t regions_prepare(struct judge *j, struct exact_region regions[], size_t count)
 {
-  size_t kept = 0;
   for (size_t k = 0; k < count; k++) region_widen(j, &regions[k]);
-  if (count > 1) qsort(regions, count, sizeof *regions, by_region);
-  for (size_t k = 0; k < count; k++)
-    if (kept == 0 || !exact_region_equal(&regions[kept - 1], &regions[k])) regions[kept++] = regions[k];
-  return kept;
+  return exact_regions_merge(regions, count, REGIONS_APART);
 }
 
 static void search(struct judge *j, const struct exact_region *region)

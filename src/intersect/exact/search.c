@@ -29,7 +29,7 @@ enum { SEARCH_HALVINGS = 104 };
 #define LEAST_SIZE 0x1p-52
 
 /* What looking at a box under the glass costs, in boxes; how often that may be done, one in the other. */
-enum { ZOOM_WORK = 40, ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
+enum { ZOOM_WORK = 8, ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
 
 /* A box is put under the glass again where it is so small a part of what was. */
 #define ZOOM_AGAIN 0x1p-16

@@ -19,9 +19,12 @@ struct answers {
 /* Lanes whose answer, whatever it is, is not sure. */
 static unsigned packet_doubt(const struct packet *p) { return p->model->unproven ? ~0u : lanes_bits(p->best.doubt); }
 
+/* Where some regions were merged all are, so that the order in which the walk came by them does not show. */
 static struct exact_case lane_case(const struct packet *p, unsigned lane)
 {
   struct postponed *postponed = p->postponed;
+  if (postponed->merged >> lane & 1)
+    postponed->count[lane] = (unsigned)exact_regions_merge(postponed->region[lane], postponed->count[lane], 1);
   return (struct exact_case){.model = p->model,
                              .ray = &p->rays[lane],
                              .regions = postponed->region[lane],

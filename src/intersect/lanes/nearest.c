@@ -6,6 +6,15 @@
 
 #include "intersect/lanes/gather.h"
 
+/* Makes room in the lane's list, where that was not in vain before. */
+static void merge_regions(struct postponed *to, unsigned lane)
+{
+  const unsigned bit = 1u << lane;
+  if (to->crowded & bit) return;
+  to->merged |= bit, to->count[lane] = (unsigned)exact_regions_merge(to->region[lane], to->count[lane], 1);
+  if (to->count[lane] > EXACT_REGIONS_MAX / 2) to->crowded |= bit;
+}
+
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
 {
   struct postponed *to = p->postponed;
@@ -20,9 +29,10 @@ void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
   }
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
-    if (count == EXACT_REGIONS_MAX) to->cut_off |= 1u << lane;
-    else if (count == 0 || !exact_region_equal(&to->region[lane][count - 1], &region))
-      to->region[lane][to->count[lane]++] = region;
+    if (count > 0 && exact_region_equal(&to->region[lane][count - 1], &region)) continue;
+    if (count == EXACT_REGIONS_MAX) merge_regions(to, lane);
+    if (to->count[lane] < EXACT_REGIONS_MAX) to->region[lane][to->count[lane]++] = region;
+    else to->cut_off |= 1u << lane;
   }
 }
 

@@ -19,7 +19,7 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
                   struct postponed *postponed)
 {
   p->postponed = postponed;
-  postponed->cut_off = 0;
+  postponed->merged = postponed->crowded = postponed->cut_off = 0;
   memset(postponed->count, 0, sizeof postponed->count);
   p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
   p->outer = NULL, p->gather = NULL, p->net_error = 0, p->t_error = lanes_all(0);

@@ -37,7 +37,9 @@ struct best {
 
 /* What the lanes leave open, a list a lane. */
 struct postponed {
-  unsigned cut_off; /* bit k: lane k had more than there is room for */
+  /* bit k: of lane k some were merged, that left too little room to do it again, and there were more than there is room
+   * for */
+  unsigned merged, crowded, cut_off;
   unsigned count[LANES];
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
