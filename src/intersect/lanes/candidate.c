@@ -52,6 +52,10 @@ static void candidate_explained(struct packet *p, struct candidate *it, lane_mas
   explain_after(p->tracer, &told);
 }
 
+/* Where the plane polynomials of a patch are known no better than this, the ray starting so far away, double precision
+ * proves no root, and the last resort looks at most of the patch in any case. */
+#define BLIND 0x1p-5
+
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
 {
   struct candidate it;
@@ -60,7 +64,9 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.leaf->patch);
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {
     it.axis = __builtin_ctz(bits);
-    const lane_mask here = active & p->on_axis[it.axis];
+    const lane_mask at = active & p->on_axis[it.axis], blind = at & (p->local[it.axis].error > BLIND);
+    const lane_mask here = at & ~blind;
+    if (lanes_any(blind)) packet_postpone(p, it.leaf, blind);
     if (!lanes_any(here)) continue;
     if (p->tracer->explainer) candidate_explained(p, &it, here);
     else candidate_pass(p, &it, here);
