@@ -55,12 +55,12 @@ static void occlusion(struct set_up *s)
   const struct hit *alone = answers_alone(s);
   int wrong = 0;
   for (size_t first = 0; first < STAGE_RAYS; first += PACKET_SIZE) {
-    bool occluded[PACKET_SIZE], alone;
+    bool occluded[PACKET_SIZE], by_itself;
     tracer_occluded(s->world->tracer, PACKET_SIZE, &s->rays[first], occluded);
     for (size_t n = 0; n < PACKET_SIZE; n++) {
-      tracer_occluded(s->world->tracer, 1, &s->rays[first + n], &alone);
+      tracer_occluded(s->world->tracer, 1, &s->rays[first + n], &by_itself);
       const bool want = alone[first + n].patch != HIT_NONE;
-      if (occluded[n] == want && alone == want) continue;
+      if (occluded[n] == want && by_itself == want) continue;
       if (wrong++ < 2)
         world_print_case("occlusion", s->kind, &s->rays[first + n], &alone[first + n], &alone[first + n]);
     }
