@@ -286,16 +286,23 @@ static bool recover(struct language *language)
   const int block = last->depth;
   const bool twice = last->value.place.source == tokens->recovered.source &&
                      last->value.place.begin == tokens->recovered.begin;
+  int parentheses = 0, before = 0;
   tokens->recovered = last->value.place;
   tokens->last.again = false;
 
-  for (bool first = true;; first = false, advance(language)) {
+  for (bool first = true;; first = false, before = last->token, advance(language)) {
     const int token = last->token;
     if (token == 0) return false;
+    if (token == '(' && !first) parentheses++;
+    if (parentheses > 0) { /* of a function of POV-Ray's: its arguments may be anything */
+      parentheses -= token == ')';
+      continue;
+    }
     /* What was refused where it stands may begin the next item; refused there too, it is dropped. */
     if (!(first && twice)) {
       const bool begins = block == 0 ? words_begin_statement(token) : words_begin_item(token);
-      const bool foreign = token == PSCN_TOKEN_FOREIGN && !first;
+      const bool in_value = before == '+' || before == '-' || before == '*' || before == '/' || before == ',';
+      const bool foreign = token == PSCN_TOKEN_FOREIGN && !first && !in_value;
       if (last->depth == block && (begins || foreign || (token == '}' && block > 0))) {
         tokens->last.again = true;
         return true;
