@@ -16,9 +16,8 @@
 #define ZOOM_ROUNDINGS 44
 #define POWER_GROWTH 52
 
-/* |x_i - (d_i/d_k) x_k| is no more than 2 on the patch: a ray with a larger moment passes it by, and so it does with this
- * one of the same sign. */
-#define MOST_MOMENT 3
+/* What a moment is, times the plane's unit, at most. */
+#define MOST_MOMENT 1
 
 /* Roundings, in double, of what is left of a combination scaled to a sum of 1: conversion and scale 3, to Bernstein form
  * 2 x 4. */
@@ -61,32 +60,34 @@ static fixed local(const struct model_patch *patch, double p, int c, double unit
   return fixed_from(x.hi / patch->scale * unit) + fixed_from(x.lo / patch->scale * unit);
 }
 
-/* A patch may be so thin that its plane polynomials need no more than this of their digits before the point. */
+/* Units go no farther either way. A ray with a larger moment passes any patch by, and so it does with MOST_MOMENT. */
 #define LARGEST_UNIT 0x1p300
 
-/* The largest power of two that leaves neither x_i on the patch nor the slope above 1. */
-static double unit_for(const struct model_patch *patch, double (*P)[4][3], int i, wide slope)
+/* The largest power of two that leaves none of x_i on the patch, the slope and the moment above 1. */
+static double unit_for(const struct model_patch *patch, double (*P)[4][3], int i, wide slope, wide moment)
 {
-  double largest = fabs((double)slope);
+  double largest = fmax(fabs((double)slope), fabs((double)moment));
   for (int n = 0; n < 16; n++) largest = fmax(largest, fabs(P[n / 4][n % 4][i] - patch->center[i]) / patch->scale);
   int exponent;
   frexp(largest, &exponent);
-  return largest > 1 / LARGEST_UNIT ? ldexp(1, -exponent) : LARGEST_UNIT;
+  return !(largest > 1 / LARGEST_UNIT) ? LARGEST_UNIT
+         : !(largest < LARGEST_UNIT)   ? 1 / LARGEST_UNIT
+                                       : ldexp(1, -exponent);
 }
 
 void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out)
 {
   const double *d = ray->direction, rounding = 2 * FIXED_UNIT * ZOOM_ROUNDINGS * POWER_GROWTH * (MOST_MOMENT + 2);
   double *unit = out->unit;
-  unit[2] = unit_for(patch, P, k, 0);
+  unit[2] = unit_for(patch, P, k, 0, 0);
   out->error = 0, out->depth_error = rounding / unit[2];
   for (int n = 0; n < 16; n++) out->power[2][n / 4][n % 4] = local(patch, P[n / 4][n % 4][k], k, unit[2]);
   for (int s = 0; s < 2; s++) {
     const int i = (k + 1 + s) % 3;
     const wide slope = (wide)d[i] / d[k];
-    unit[s] = unit_for(patch, P, i, slope / unit[2]);
+    wide size, m = wide_moment(patch, ray, i, k, slope, &size);
+    unit[s] = unit_for(patch, P, i, slope / unit[2], m), m *= unit[s];
     const fixed unit_slope = fixed_from_wide(slope / unit[2] * unit[s]);
-    wide size, m = wide_moment(patch, ray, i, k, slope, &size) * unit[s];
     m = m > MOST_MOMENT ? MOST_MOMENT : m < -MOST_MOMENT ? -MOST_MOMENT : m;
     const fixed moment = fixed_from_wide(m);
     for (int n = 0; n < 16; n++)
