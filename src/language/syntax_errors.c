@@ -102,6 +102,14 @@ void syntax_error(struct language *language, struct place place, bool is_word, c
     language_foreign(language, place, "%.*s is POV-Ray, but pscn %s", shown, text, hint);
     return;
   }
+  const int token = tokens->last.token;
+  const bool value_begins = tokens->previous.source && tokens->previous.source->text[tokens->previous.begin] == '=';
+  if (language->declaration && (token == PSCN_TOKEN_CAMERA || token == PSCN_TOKEN_LIGHT_SOURCE ||
+                                (token == PSCN_TOKEN_STRING && value_begins))) {
+    language_foreign(language, place, "%.*s cannot be declared in pscn; it stands where it is meant", shown, text);
+    tokens->recovered = place; /* it begins no statement of its own */
+    return;
+  }
   char list[300] = "";
   list_expected(expected, count, list, sizeof list);
   if (!is_word) {
