@@ -32,7 +32,8 @@ static bool grow(struct table *table, struct arena *arena)
   struct table larger = {.size = table->size ? 2 * table->size : FIRST_SIZE};
   larger.slots = arena_alloc(arena, larger.size, sizeof *larger.slots);
   if (!larger.slots) return false;
-  for (const struct table_slot *slot = table->slots; slot != table->slots + table->size; slot++) {
+  for (size_t k = 0; k < table->size; k++) {
+    const struct table_slot *slot = &table->slots[k];
     if (!slot->newest) continue;
     *slot_of(&larger, slot->hash) = *slot;
     larger.used++;
