@@ -26,15 +26,15 @@ struct explained_roots *explain_roots(struct tracer *tracer)
   return &tracer->explainer->story.found;
 }
 
-void explain_before(struct tracer *tracer, const struct leaf *leaf, double t)
+void explain_before(struct tracer *tracer, const struct model *model, const struct model_patch *patch, int64_t leaf,
+                    double t)
 {
   struct explainer *explainer = tracer->explainer;
-  const struct model *model = tracer->model;
   explainer->before = tracer->counts;
   explainer->t_before = t;
   explainer->warmed = explainer->by_solver = false;
-  if (tracer->warm == NULL || leaf < model->leaves || leaf >= model->leaves + model->leaf_count) return;
-  const struct solver_warm *warm = tracer_warm(tracer, model->patches[leaf->patch].method, leaf - model->leaves);
+  if (model != tracer->model) return;
+  const struct solver_warm *warm = tracer_warm(tracer, patch->method, leaf);
   explainer->warmed = warm != NULL;
   if (warm != NULL) explainer->warm = *warm;
 }
@@ -60,7 +60,7 @@ static void tell_algebra(struct explainer *explainer, const struct explained_ray
 {
   struct explained_candidate *story = &explainer->story;
   const struct leaf *leaf = ray->leaf;
-  const struct model_patch *patch = &ray->model->patches[leaf->patch];
+  const struct model_patch *patch = ray->patch;
   story->patch = ray->first_patch + leaf->patch;
   memcpy(story->split, patch->split, sizeof story->split);
   story->column_u = leaf->column_u, story->column_v = leaf->column_v;

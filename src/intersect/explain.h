@@ -65,6 +65,7 @@ void tracer_measure(struct tracer *tracer, const struct ray *ray, struct hit *ou
 /* ---- internal to src/intersect ---- */
 
 struct model;
+struct model_patch;
 struct leaf;
 
 /* What the lanes tell of a candidate's ray, which is the only one of its packet: in the coordinates of `model`, whose
@@ -72,6 +73,7 @@ struct leaf;
 struct explained_ray {
   const struct model *model;
   const struct leaf *leaf;
+  const struct model_patch *patch; /* the leaf's */
   uint32_t first_patch;
   struct ray ray;
   double shift;
@@ -83,7 +85,8 @@ struct explained_ray {
 struct explained_roots *explain_roots(struct tracer *tracer);
 
 /* Before and after a candidate, of a tracer that is to explain. */
-void explain_before(struct tracer *tracer, const struct leaf *leaf, double t);
+void explain_before(struct tracer *tracer, const struct model *model, const struct model_patch *patch, int64_t leaf,
+                    double t);
 void explain_after(struct tracer *tracer, const struct explained_ray *ray);
 
 #endif

@@ -96,12 +96,13 @@ enum status tracer_create(const struct intersector *intersector, struct tracer *
   struct tracer *tracer = memory_alloc(1, sizeof *tracer);
   if (!tracer) return STATUS_LIMIT;
   tracer_begin(intersector, tracer);
-  if (intersector->warm && tracer->model->leaf_count > 0) {
-    tracer->warm = memory_alloc(tracer->model->leaf_count, sizeof *tracer->warm);
-    if (!tracer->warm) {
-      memory_free(tracer);
-      return STATUS_LIMIT;
-    }
+  const struct model *model = tracer->model;
+  const bool warm = intersector->warm && model->leaf_count > 0, made = !model->leaves;
+  if (warm) tracer->warm = memory_alloc(model->leaf_count, sizeof *tracer->warm);
+  if (made) tracer->made = memory_alloc((size_t)1 << MADE_BITS, sizeof *tracer->made);
+  if ((warm && !tracer->warm) || (made && !tracer->made)) {
+    tracer_destroy(tracer);
+    return STATUS_LIMIT;
   }
   *out = tracer;
   return STATUS_OK;
@@ -122,7 +123,20 @@ void tracer_destroy(struct tracer *tracer)
   if (!tracer) return;
   tracer_end(tracer);
   memory_free(tracer->warm);
+  memory_free(tracer->made);
   memory_free(tracer);
+}
+
+const struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct leaf_room *room)
+{
+  if (tracer->made) {
+    struct made_leaf *slot = &tracer->made[number * UINT32_C(0x9e3779b1) >> (32 - MADE_BITS)]; /* Knuth 6.4 */
+    room = &slot->is;
+    if (slot->made && slot->number == number) return room;
+    slot->made = true, slot->number = number;
+  }
+  model_make_leaf(tracer->model, number, room);
+  return room;
 }
 
 void tracer_forget(struct tracer *tracer) { tracer->epoch++; }

@@ -235,11 +235,10 @@ void method_find(const struct method *method, struct solver_warm *warm, const st
   }
 }
 
-void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
-                  struct method_roots *out)
+void method_solve(struct tracer *tracer, const struct method *method, const struct leaf *leaf, int64_t number,
+                  const double a[16], const double b[16], double error, struct method_roots *out)
 {
-  const struct method *method = tracer->model->patches[leaf->patch].method;
-  struct solver_warm *warm = tracer_warm(tracer, method, leaf - tracer->model->leaves);
+  struct solver_warm *warm = tracer_warm(tracer, method, number);
   method_find(method, warm, leaf, a, b, error, out, explain_roots(tracer));
   tracer->counts.roots_found += (unsigned)out->found;
 }

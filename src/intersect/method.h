@@ -19,10 +19,10 @@ struct method_roots {
   double u[METHOD_MAX_ROOTS], v[METHOD_MAX_ROOTS]; /* leaf parameters, near or in [0,1] */
 };
 
-/* Forms r from the nets a, b of the leaf's form with the patch's method, finds its roots with the patch's solver and
- * substitutes back. Counts the roots. Starting points only: nothing here is proven. */
-void method_solve(struct tracer *tracer, const struct leaf *leaf, const double a[16], const double b[16], double error,
-                  struct method_roots *out);
+/* Forms r from the nets a, b of the form of leaf `number` with its patch's method, finds its roots with that solver
+ * and substitutes back. Counts the roots. Starting points only: nothing here is proven. */
+void method_solve(struct tracer *tracer, const struct method *method, const struct leaf *leaf, int64_t number,
+                  const double a[16], const double b[16], double error, struct method_roots *out);
 
 /* The same of any model's leaf, for whoever asks what became of r: `story` may be NULL. Counts nothing. */
 void method_find(const struct method *method, struct solver_warm *warm, const struct leaf *leaf, const double a[16],

@@ -4,9 +4,10 @@
  *
  * Every patch has a frame of its own: world = center + scale * local, scale a power of two, center with few bits, so
  * that |local| <= 1 and going to local coordinates rounds almost nothing. All algebra is done in local coordinates,
- * so scale and offset of a scene cost no accuracy. A patch is cut into N x N leaves, a slender one along its
- * long side only: they are the units the hierarchy holds and rays are tried on. Where leaves for all patches would be too many, copies of a declared object share the
- * object's (copies.h).
+ * so scale and offset of a scene cost no accuracy. A patch is cut into N x N leaves, a slender one along its long side
+ * only: they are the units the hierarchy holds and rays are tried on. Where leaves for all patches would be too many,
+ * copies of a declared object share the object's (copies.h). Where they would be too many all the same, neither patches
+ * nor leaves are kept: they are made anew from the scene whenever a ray comes to one, always the same.
  */
 #ifndef PSCN_INTERSECT_MODEL_H
 #define PSCN_INTERSECT_MODEL_H
@@ -26,17 +27,23 @@
 /* Newton's process on a leaf ends with a step no longer than this, in leaf parameters. */
 #define NEWTON_LAST_STEP 0x1p-16
 
+/* What is found out about a patch once. */
+struct model_cut {
+  double loose; /* how far off its surface a ray may be met by leaves of an object, in the scene; 0 where not copied */
+  uint16_t split[2]; /* cut into split[0] x split[1] leaves, along u and v */
+  uint8_t m, n;      /* true bidegree in u, v */
+  bool copied;       /* its leaves are those of the object it is copied from; then m and n mean nothing */
+};
+
 struct model_patch {
   double center[3], scale;
   double x[3][4][4]; /* local control net, x[coordinate][i][j], |x| <= 1 */
   /* rest[3][4][4], what its rounding has taken away: x + rest is exact. Nothing of most patches, who share the zeros */
   const double (*rest)[4][4];
-  int m, n;       /* true bidegree in u, v */
-  int split[2];   /* cut into split[0] x split[1] leaves, along u and v */
-  bool lanes;     /* default method, or all_roots: tried on a lane of rays at once */
-  bool all_roots; /* aberth, improved and polished: all roots of r are tried */
-  bool copied;    /* its leaves are those of the object it is copied from; then m and n mean nothing */
-  double loose;   /* how far off its surface a ray may be met by those, in the scene; 0 where not copied */
+  int m, n, split[2]; /* as of its cut */
+  bool lanes;         /* default method, or all_roots: tried on a lane of rays at once */
+  bool all_roots;     /* aberth, improved and polished: all roots of r are tried */
+  double loose;       /* as of its cut */
   const struct method *method;
 };
 
@@ -87,6 +94,25 @@ struct leaf {
   uint8_t zeros[2]; /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
 };
 
+/* Which part of which patch a leaf is. */
+struct leaf_place {
+  uint32_t patch;
+  uint16_t column_u, column_v;
+};
+
+/* Room for a patch that is not kept, and for a leaf with all that belongs to it. */
+struct patch_room {
+  struct model_patch patch;
+  double rest[3][4][4];
+};
+
+struct leaf_room {
+  struct patch_room of;
+  struct leaf leaf;
+  struct leaf_parts parts;
+  struct leaf_form form;
+};
+
 /* A declared object whose leaves serve all its copies. */
 struct model_object {
   const struct scene_object *declared;
@@ -116,9 +142,12 @@ enum { MODEL_INNER = INT32_MAX };
 struct model {
   const struct scene *scene;
   struct arena *arena;
-  struct model_patch *patches;
+  double size; /* the largest coordinate of a control point */
+  struct model_cut *cuts;
+  struct model_patch *patches;       /* NULL where they are not kept, */
+  struct leaf *leaves;               /* nor are the leaves then, */
+  struct leaf_place *places;         /* but where they are; else NULL */
   struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h */
-  struct leaf *leaves;
   size_t leaf_count;
   struct model_object *objects;
   size_t object_count;
@@ -133,6 +162,12 @@ struct model {
 /* Prepares all patches of the scene, which is borrowed. STATUS_LIMIT where memory is short; then *out is NULL. */
 enum status model_create(const struct scene *scene, struct model **out) STATUS_MUST_CHECK;
 void model_destroy(struct model *model);
+
+/* The patch, in `room` where it is not kept. */
+struct model_patch *model_patch_at(const struct model *model, uint32_t index, struct patch_room *room);
+
+/* A leaf that is not kept. */
+void model_make_leaf(const struct model *model, uint32_t number, struct leaf_room *out);
 
 /* The model of an object: the patches of `nets`, which is borrowed for the call, cut into at most `most` leaves a
  * side, their boxes wider by `error`. */

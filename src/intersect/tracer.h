@@ -31,6 +31,14 @@ struct warm_leaf {
   struct solver_warm warm;
 };
 
+/* Leaves that the model does not keep, made lately. */
+enum { MADE_BITS = 9 };
+struct made_leaf {
+  bool made;
+  uint32_t number;
+  struct leaf_room is;
+};
+
 /* A list of anything that grows and is used again. Zero-initialise; memory_free `at`. */
 struct growing {
   void *at;
@@ -56,6 +64,7 @@ struct tracer {
   struct intersect_counts counts;
   uint64_t epoch;
   struct warm_leaf *warm;      /* one a leaf, NULL where no patch asks for it */
+  struct made_leaf *made;      /* 2^MADE_BITS; NULL where leaves are kept, or each is made whenever asked for */
   struct gather gather[2];     /* of two packets side by side */
   struct growing hits;         /* struct hit: of all lists of the last call of tracer_all */
   struct explainer *explainer; /* explain.c; NULL where nobody asks */
@@ -63,6 +72,9 @@ struct tracer {
 
 /* intersect.c: a tracer in memory of the caller's, without warm starts, whatever the scene asks for. */
 void tracer_begin(const struct intersector *intersector, struct tracer *out);
+
+/* intersect.c: a leaf of the tracer's model that is not kept, perhaps in `room`; valid until the next call. */
+const struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct leaf_room *room);
 
 /* intersect.c: gives back what tracer_all has taken for it, by memory_free, so on a thread with the same hooks. Not asked
  * for all hits, a tracer has nothing. */

@@ -236,7 +236,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
   truth_make(s->model, s->leaf, &s->ray, s->local.axis, &s->truth);
   for (int l = 0; l < LANES; l++) rays[l] = s->ray;
   packet_start(&p, s->world.tracer, rays, LANES, false, &postponed);
-  packet_set_patch(&p, s->leaf->patch);
+  packet_set_patch(&p, &s->model->patches[s->leaf->patch], s->leaf->patch);
   const int k = s->local.axis;
   assert_int_equal(packet_axis(&p, 0), k);
   bilinear_root_solve(&p, s->leaf, k, NULL, lanes_all(0) == lanes_all(0), &root);

@@ -102,7 +102,7 @@ static void find_roots(struct target *target, const struct ray *ray, struct meth
   double a[16], b[16], w[16];
   local_ray_make(&model->patches[0], ray, &local);
   local_ray_nets(&local, leaf->form != NULL ? leaf->form->x : leaf->x, a, b, w);
-  method_solve(target->tracer, leaf, a, b, local.error, out);
+  method_solve(target->tracer, model->patches[0].method, leaf, 0, a, b, local.error, out);
 }
 
 static bool among(const struct method_roots *found, const struct search_root *root)

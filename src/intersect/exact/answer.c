@@ -14,7 +14,8 @@
  * surface is seen from the front. */
 static void set_surface(const struct model *model, const struct ray *ray, struct hit *out)
 {
-  struct model_patch *patch = &model->patches[out->patch];
+  struct patch_room room;
+  struct model_patch *patch = model_patch_at(model, out->patch, &room);
   const double *direction = ray->direction;
   double tangent = 0, magnitude = 0, su[3], sv[3];
   for (int c = 0; c < 3; c++) {
@@ -37,11 +38,13 @@ static void set_surface(const struct model *model, const struct ray *ray, struct
 /* On a border by the size of the neighbour as well. */
 static double clearance(const struct model *model, uint32_t patch, unsigned borders, const struct hit *hit)
 {
-  double scale = model->patches[patch].scale, loose = model->patches[patch].loose, magnitude = 0;
+  struct patch_room room;
+  double scale = model_patch_at(model, patch, &room)->scale, loose = model->cuts[patch].loose, magnitude = 0;
   for (int border = 0; border < 4; border++) {
     const uint32_t other = model->neighbours[4 * (size_t)patch + (size_t)border].patch;
     if (!(borders >> border & 1) || other == EDGE_NONE) continue;
-    scale = real_max(scale, model->patches[other].scale), loose = real_max(loose, model->patches[other].loose);
+    scale = real_max(scale, model_patch_at(model, other, &room)->scale);
+    loose = real_max(loose, model->cuts[other].loose);
   }
   for (int k = 0; k < 3; k++) magnitude = real_max(magnitude, fabs(hit->point[k]));
   return hit->point_error + CLEARANCE(scale, loose, magnitude);
@@ -66,8 +69,9 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
 {
   if (!root->sharp) {
     struct zoom zoom;
-    zoom_start(&model->patches[root->patch], model->scene->patches[root->patch].P, ray, dominant_axis(ray->direction),
-               &zoom);
+    struct patch_room room;
+    const struct model_patch *patch = model_patch_at(model, root->patch, &room);
+    zoom_start(patch, model->scene->patches[root->patch].P, ray, dominant_axis(ray->direction), &zoom);
     (void)zoom_sharpen(&zoom, root); /* or it stays what it is */
   }
   const double u = (double)root->u, v = (double)root->v;

@@ -20,7 +20,7 @@
 
 /* A part of a patch: the columns of a leaf, of patch->split a side. */
 struct exact_region {
-  const struct leaf *leaf; /* its leaf; NULL where a copy has none of its own */
+  const struct leaf *leaf; /* its leaf; NULL where that is not kept, or a copy has none of its own */
   uint32_t patch;          /* index into the scene's patches */
   uint16_t column[2];      /* along u, v: the first, and how many */
   uint16_t span[2];

@@ -26,14 +26,14 @@ void judge_turn(struct judge *j, uint32_t patch)
 {
   if (j->patch == patch) return;
   j->patch = patch, j->zoomed = false;
-  local_ray_make(&j->asked->model->patches[patch], j->asked->ray, &j->local);
+  j->is = model_patch_at(j->asked->model, patch, &j->room);
+  local_ray_make(j->is, j->asked->ray, &j->local);
 }
 
 struct zoom *judge_zoom(struct judge *j)
 {
-  const struct model *model = j->asked->model;
-  if (!j->zoomed)
-    zoom_start(&model->patches[j->patch], model->scene->patches[j->patch].P, j->asked->ray, j->local.axis, &j->zoom);
+  double(*P)[4][3] = j->asked->model->scene->patches[j->patch].P;
+  if (!j->zoomed) zoom_start(j->is, P, j->asked->ray, j->local.axis, &j->zoom);
   j->zoomed = true;
   return &j->zoom;
 }
@@ -176,9 +176,8 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe)
 static void tell_maybe(struct judge *j, unsigned borders, const struct exact_root *root)
 {
   double u = (double)root->u, v = (double)root->v, t_error = root->t_error;
-  struct model_patch *patch = &j->asked->model->patches[j->patch];
   u = real_min(real_max(u, 0), 1), v = real_min(real_max(v, 0), 1);
-  const double w = patch_evaluate(patch->x[j->local.axis], u, v).value;
+  const double w = patch_evaluate(j->is->x[j->local.axis], u, v).value;
   double t = (double)root->t;
   if (!root->sharp) {
     t = local_ray_place(&j->local, w);
@@ -224,8 +223,7 @@ bool judge_pole(struct judge *j, int border)
   const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
   const double u = border == 0 ? 0 : border == 1 ? 1 : 0.5, v = border == 2 ? 0 : border == 3 ? 1 : 0.5;
   if (tell_point(j, row, column, u, v, border)) return true;
-  const struct model_patch *patch = &j->asked->model->patches[j->patch];
-  const double w = patch->x[j->local.axis][row][column];
+  const double w = j->is->x[j->local.axis][row][column];
   const wide t = (w - judge_zoom(j)->origin) * judge_zoom(j)->to_t;
   const struct exact_maybe maybe = {j->patch,
                                     1u << border,
@@ -299,8 +297,10 @@ bool judge_across(const struct judge *j, const struct exact_found *a, const stru
   const struct edge_neighbour *other = &model->neighbours[4 * (size_t)one->patch + here];
   if (other->patch != two->patch || other->border != there || !judge_tie(one, two)) return false;
   const double along = along_border(one, here), along_two = along_border(two, there);
-  const int inner = inner_side(&model->patches[one->patch], here, along, j->asked->ray->direction);
-  const int inner_two = inner_side(&model->patches[two->patch], there, along_two, j->asked->ray->direction);
+  const double *d = j->asked->ray->direction;
+  struct patch_room room[2];
+  const int inner = inner_side(model_patch_at(model, one->patch, &room[0]), here, along, d);
+  const int inner_two = inner_side(model_patch_at(model, two->patch, &room[1]), there, along_two, d);
   return inner * inner_two * (other->reversed ? -1 : 1) == -1;
 }
 
@@ -378,7 +378,7 @@ static bool passes_near(struct judge *j, uint32_t patch, int border)
 {
   judge_turn(j, patch);
   const struct local_ray *ray = &j->local;
-  double(*x)[4][4] = j->asked->model->patches[patch].x;
+  double(*x)[4][4] = j->is->x;
   const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
   for (int s = 0; s < 2; s++) {
     const double side = x[(ray->axis + 1 + s) % 3][row][column] - ray->moment[s];
@@ -391,7 +391,8 @@ static bool passes_near(struct judge *j, uint32_t patch, int border)
  * meets may be anywhere there. */
 static void region_widen(struct judge *j, struct exact_region *r)
 {
-  struct model_patch *patch = &j->asked->model->patches[r->patch];
+  struct patch_room room;
+  struct model_patch *patch = model_patch_at(j->asked->model, r->patch, &room);
   const uint16_t column[2] = {r->column[0], r->column[1]};
   for (int border = 0; border < 4; border++) {
     const int side = border / 2, across = 1 - side, at = border & 1 ? patch->split[side] - 1 : 0;

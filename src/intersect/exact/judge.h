@@ -26,6 +26,8 @@ struct judge {
   int work;     /* boxes that may still be looked at */
   /* of the patch looked at last */
   uint32_t patch;
+  struct model_patch *is;
+  struct patch_room room;
   bool zoomed; /* `zoom` is set */
   struct zoom zoom;
   struct local_ray local;

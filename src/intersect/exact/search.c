@@ -404,10 +404,16 @@ static wide part_of(int columns, int split)
   return (split & (split - 1)) == 0 ? (wide)((double)columns / split) : (wide)columns / split;
 }
 
+/* Whether the region is a leaf, kept or not. */
+static bool is_leaf(const struct model *model, const struct exact_region *region)
+{
+  return region->span[0] == 1 && region->span[1] == 1 && !model->cuts[region->patch].copied;
+}
+
 /* The search of a region, and its whole box. */
 static void search_begin(struct judge *j, const struct exact_region *region, struct search *s, struct box *whole)
 {
-  struct model_patch *patch = &j->asked->model->patches[region->patch];
+  struct model_patch *patch = j->is;
   const struct local_ray *ray = &j->local;
   double x[3][16];
   if (region->leaf) memcpy(x, region->leaf->x, sizeof x);
@@ -423,6 +429,7 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
     s->low[k] = part_of(region->column[k], patch->split[k]), s->size[k] = part_of(region->span[k], patch->split[k]);
   for (int k = 0; k < 4; k++) s->pole[k] = patch_border_is_point((double(*)[4][4])x, k);
   if (region->leaf) memcpy(s->extent, region->leaf->first, sizeof s->extent);
+  else if (is_leaf(j->asked->model, region)) leaf_bounds(x, s->extent, (double[3]){0});
   else leaf_first_bounds(x, s->extent);
   double nets[3][16];
   local_ray_nets(ray, x, nets[0], nets[1], nets[2]);

@@ -89,7 +89,8 @@ static bool same_wedge(const struct wedge *a, const struct wedge *b)
 /* From control point (i,j) to (k,l) of the patch. */
 static struct direction seen(const struct judge *j, uint32_t patch, const int from[2], const int to[2])
 {
-  double(*x)[4][4] = j->asked->model->patches[patch].x, t[3];
+  struct patch_room room;
+  double(*x)[4][4] = model_patch_at(j->asked->model, patch, &room)->x, t[3];
   for (int c = 0; c < 3; c++) t[c] = x[c][to[0]][to[1]] - x[c][from[0]][from[1]];
   const double *d = j->asked->ray->direction;
   const int k = dominant_axis(d), one = (k + 1) % 3, two = (k + 2) % 3;

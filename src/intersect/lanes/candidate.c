@@ -36,10 +36,11 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
 static void candidate_explained(struct packet *p, struct candidate *it, lane_mask open)
 {
   const struct best *best = &p->best;
-  explain_before(p->tracer, it->leaf, best->t[0]);
+  explain_before(p->tracer, p->model, it->patch, it->number, best->t[0]);
   candidate_pass(p, it, open);
   struct explained_ray told = {.model = p->model,
                                .leaf = it->leaf,
+                               .patch = it->patch,
                                .first_patch = p->outer ? p->copy->first_patch : 0,
                                .shift = p->outer ? p->shift[0] : 0,
                                .proven = best->certain[0] != 0,
@@ -59,9 +60,15 @@ static void candidate_explained(struct packet *p, struct candidate *it, lane_mas
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
 {
   struct candidate it;
-  it.leaf = &p->model->leaves[index], it.number = index;
-  it.patch = &p->model->patches[it.leaf->patch];
-  if (p->patch != it.leaf->patch) packet_set_patch(p, it.leaf->patch);
+  struct leaf_room room;
+  if (p->model->leaves) {
+    it.leaf = &p->model->leaves[index], it.patch = &p->model->patches[it.leaf->patch];
+  } else {
+    const struct leaf_room *made = tracer_leaf(p->tracer, index, &room);
+    it.leaf = &made->leaf, it.patch = &made->of.patch;
+  }
+  it.number = index;
+  if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {
     it.axis = __builtin_ctz(bits);
     const lane_mask at = active & p->on_axis[it.axis], blind = at & (p->local[it.axis].error > BLIND);

@@ -55,7 +55,7 @@ void packet_leave(struct packet *inner)
   const lane_mask rival = hits & (lanes_abs(t - outer->best.t) <= (far - t) + (outer->t_far - outer->best.t));
   for (unsigned bits = lanes_bits(rival); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    packet_postpone(inner, &inner->model->leaves[found->leaf[lane]], lanes_mask(1u << lane));
+    packet_postpone(inner, &inner->model->leaves[found->leaf[lane]], lanes_mask(1u << lane)); /* objects keep theirs */
   }
   const lane_mask taken = hits & ~rival & best_after(&outer->best, t, found->patch, found->leaf);
   if (!lanes_any(taken)) return;

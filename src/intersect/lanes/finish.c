@@ -161,7 +161,8 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
 /* The lanes of `group`, whose best roots are on one patch and whose rays share an axis. */
 static unsigned finish_group(const struct packet *p, unsigned group, int axis, uint32_t index, struct hit out[])
 {
-  struct model_patch *patch = &p->model->patches[index];
+  struct patch_room room;
+  struct model_patch *patch = model_patch_at(p->model, index, &room);
   const struct best *best = &p->best;
   struct last_step step;
   step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;

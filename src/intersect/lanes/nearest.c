@@ -18,7 +18,7 @@ static void merge_regions(struct postponed *to, unsigned lane)
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
 {
   struct postponed *to = p->postponed;
-  const struct exact_region region = {p->outer ? NULL : leaf,
+  const struct exact_region region = {p->outer || !p->model->leaves ? NULL : leaf,
                                       leaf->patch + (p->outer ? p->copy->first_patch : 0),
                                       {leaf->column_u, leaf->column_v},
                                       {1, 1}};

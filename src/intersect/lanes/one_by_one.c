@@ -66,7 +66,7 @@ static void lane_alone(struct packet *p, const struct candidate *it, unsigned la
     for (int j = 0; j <= it->leaf->eliminated_degree; j++)
       a[4 * i + j] = it->fa[4 * i + j][lane], b[4 * i + j] = it->fb[4 * i + j][lane];
   struct method_roots roots;
-  method_solve(tracer, it->leaf, a, b, it->form_error[lane], &roots);
+  method_solve(tracer, it->patch->method, it->leaf, it->number, a, b, it->form_error[lane], &roots);
   if (it->patch->method->polish) {
     if (!lane_prove(p, it, lane, &roots)) packet_postpone(p, it->leaf, lanes_mask(1u << lane));
     return;

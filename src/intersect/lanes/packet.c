@@ -57,9 +57,8 @@ void packet_orient(struct packet *p)
   p->best.certain = p->best.final = p->best.doubt = (lane_mask){0};
 }
 
-void packet_set_patch(struct packet *p, uint32_t index)
+void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index)
 {
-  const struct model_patch *patch = &p->model->patches[index];
   lanes hi[3], lo[3];
   const double inverse = 1 / patch->scale;
   for (int k = 0; k < 3; k++) {

@@ -91,7 +91,7 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
 void packet_orient(struct packet *p);
 
 /* packet.c: turns to the frame of a patch, as local_ray.c makes it for one ray. */
-void packet_set_patch(struct packet *p, uint32_t index);
+void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
 /* Lanes whose root at t, in units of the packet's directions, has all its digits as double precision leaves it: at least
  * the part `least` of the patch's frame away from the ray's start, and not too far. */

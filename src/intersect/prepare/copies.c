@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/real.h"
+#include "intersect/prepare/patch.h"
 
 /* A map that stretches errors more than this is no gain: what is undecidable in the object would be decided twice. */
 #define MOST_STRETCH 0x1p10
@@ -97,8 +98,8 @@ static void candidate_map(struct candidate *c, const struct model *model, const 
         off = real_max(off, fabs(x));
       }
     }
-    c->good &= model->patches[c->copy->first_patch + p].lanes &&
-               model->patches[c->copy->first_patch + p].method->split == 0;
+    const struct method *method = &model->scene->solvers[model->scene->patches[c->copy->first_patch + p].solver];
+    c->good &= patch_on_lanes(method) && method->split == 0;
   }
   const double passes = 2 * c->widest * m->reach * back; /* the ray's nearest point, from the middle; sqrt(3) < 2 */
   c->error = off + 16 * UNIT_ROUNDOFF * stretch * (m->reach + passes);
@@ -123,8 +124,8 @@ static bool take(struct model *model, const struct scene_object *object, size_t 
     copy->object = shared, copy->first_patch = (uint32_t)c->copy->first_patch;
     memcpy(copy->W, c->W, sizeof copy->W), memcpy(copy->b, c->b, sizeof copy->b);
     for (size_t p = 0; p < object->patch_count; p++) {
-      struct model_patch *patch = &model->patches[c->copy->first_patch + p];
-      patch->copied = true, patch->loose = error * c->widest;
+      struct model_cut *cut = &model->cuts[c->copy->first_patch + p];
+      cut->copied = true, cut->loose = error * c->widest;
     }
   }
   return true;
@@ -193,7 +194,7 @@ enum status copies_prepare(struct model *model, int most)
       if (status != STATUS_OK) return status;
     }
     for (size_t p = 0; p < object->declared->patch_count; p++)
-      memcpy(model->patches[copy->first_patch + p].split, object->model->patches[p].split, sizeof(int[2]));
+      memcpy(model->cuts[copy->first_patch + p].split, object->model->cuts[p].split, sizeof(uint16_t[2]));
   }
   return STATUS_OK;
 }

@@ -57,7 +57,8 @@ static double reduction_excess(double r[4][4], int m, int n, double x[4][4])
   return m == 3 && n == 3 ? 0 : excess + 16 * UNIT_ROUNDOFF * size;
 }
 
-enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, struct leaf *leaf)
+/* What resultants are formed of. */
+static void set_form(const struct model_patch *patch, struct leaf *leaf, struct leaf_form *form)
 {
   double x[3][4][4];
   memcpy(x, leaf->x, sizeof x);
@@ -68,9 +69,7 @@ enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, 
   const bool high = leaf->v_kept ? patch_border_is_point(x, 3) : patch_border_is_point(x, 1);
   leaf->zeros[0] = (uint8_t)(low ? eliminated : 0), leaf->zeros[1] = (uint8_t)(high ? eliminated : 0);
   leaf->form = NULL;
-  if (patch->m == 3 && patch->n == 3 && !leaf->v_kept) return STATUS_OK;
-  struct leaf_form *form = arena_alloc(arena, 1, sizeof *form);
-  if (!form) return STATUS_LIMIT;
+  if (patch->m == 3 && patch->n == 3 && !leaf->v_kept) return;
   form->size = 1, form->excess = 0;
   for (int k = 0; k < 3; k++) {
     double r[4][4];
@@ -84,7 +83,6 @@ enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, 
     }
   }
   leaf->form = form;
-  return STATUS_OK;
 }
 
 /* |Su x Sv| relative to the squared derivatives below which a box along the leaf is not worth its rounding. */
@@ -226,37 +224,41 @@ static void set_parts(const struct model_patch *patch, const struct leaf *leaf, 
   out->exact = leaves <= EXACT_LEAVES && (leaves & (leaves - 1)) == 0;
 }
 
-void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf, struct leaf_parts *room)
+void leaf_bounds(double x[3][16], double first[2], double second[3])
 {
-  double hi[3][4][4], lo[3][4][4], wide[3][4][4];
-  cut_net(patch, (uint16_t[2]){(uint16_t)column_u, (uint16_t)column_v}, (uint16_t[2]){1, 1}, hi, lo);
-  for (int k = 0; k < 3; k++) {
-    double x[4][4];
-    for (int n = 0; n < 16; n++) leaf->x[k][n] = hi[k][n / 4][n % 4] + lo[k][n / 4][n % 4];
-    memcpy(x, leaf->x[k], sizeof x);
-    patch_subnet(x, -LEAF_MARGIN, 1 + LEAF_MARGIN, -LEAF_MARGIN, 1 + LEAF_MARGIN, wide[k]);
-  }
-  patch_second_derivative_bounds(wide, leaf->second);
-  double wide_net[3][16];
+  double net[3][4][4], wide[3][4][4], wide_net[3][16];
+  memcpy(net, x, sizeof net);
+  for (int k = 0; k < 3; k++)
+    patch_subnet(net[k], -LEAF_MARGIN, 1 + LEAF_MARGIN, -LEAF_MARGIN, 1 + LEAF_MARGIN, wide[k]);
+  patch_second_derivative_bounds(wide, second);
   memcpy(wide_net, wide, sizeof wide_net);
-  leaf_first_bounds(wide_net, leaf->first);
+  leaf_first_bounds(wide_net, first);
   /* From the widened net's parameters back to the leaf's. */
   const double shrink = 1 / (1 + 2 * LEAF_MARGIN);
-  for (int k = 0; k < 3; k++) leaf->second[k] *= shrink * shrink;
-  for (int k = 0; k < 2; k++) leaf->first[k] *= shrink;
-  leaf->parts = room && patch->lanes && nearly_bilinear(leaf) ? room : NULL;
-  if (leaf->parts) set_parts(patch, leaf, hi, lo, room);
-  leaf_set_slabs(leaf);
-  leaf->column_u = (uint16_t)column_u, leaf->column_v = (uint16_t)column_v;
-  leaf->form = NULL;
+  for (int k = 0; k < 3; k++) second[k] *= shrink * shrink;
+  for (int k = 0; k < 2; k++) first[k] *= shrink;
 }
 
-void leaf_box(const struct model *model, const struct leaf *leaf, struct bvh_box *box)
+void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct leaf *leaf, struct leaf_parts *parts,
+               struct leaf_form *form)
 {
-  const struct model_patch *patch = &model->patches[leaf->patch];
+  double hi[3][4][4], lo[3][4][4];
+  cut_net(patch, (uint16_t[2]){place->column_u, place->column_v}, (uint16_t[2]){1, 1}, hi, lo);
+  for (int k = 0; k < 3; k++)
+    for (int n = 0; n < 16; n++) leaf->x[k][n] = hi[k][n / 4][n % 4] + lo[k][n / 4][n % 4];
+  leaf_bounds(leaf->x, leaf->first, leaf->second);
+  leaf->parts = patch->lanes && nearly_bilinear(leaf) ? parts : NULL;
+  if (leaf->parts) set_parts(patch, leaf, hi, lo, parts);
+  leaf_set_slabs(leaf);
+  leaf->patch = place->patch, leaf->column_u = place->column_u, leaf->column_v = place->column_v;
+  set_form(patch, leaf, form);
+}
+
+void leaf_box(const struct model *model, const struct model_patch *patch, double x[3][16], struct bvh_box *box)
+{
   for (int k = 0; k < 3; k++) {
     double lo = INFINITY, hi = -INFINITY;
-    for (int i = 0; i < 16; i++) lo = real_min(lo, leaf->x[k][i]), hi = real_max(hi, leaf->x[k][i]);
+    for (int i = 0; i < 16; i++) lo = real_min(lo, x[k][i]), hi = real_max(hi, x[k][i]);
     const double shift = patch->center[k] - model->origin[k];
     const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale) +
                          model->error;

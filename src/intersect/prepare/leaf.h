@@ -1,6 +1,6 @@
 /* Cutting a leaf out of its patch, and all that is known of it beforehand.
  *
- * Internal to src/intersect. Pure but for the arena; safe on any thread.
+ * Internal to src/intersect. Pure; safe on any thread.
  */
 #ifndef PSCN_INTERSECT_LEAF_H
 #define PSCN_INTERSECT_LEAF_H
@@ -13,14 +13,15 @@ void leaf_net(struct model_patch *patch, const uint16_t column[2], const uint16_
 /* Bounds on |Su|, |Sv| of a net over its own domain. */
 void leaf_first_bounds(double x[3][16], double out[2]);
 
-/* The leaf at the columns of the patch, all of it but `patch` and the form. Its parts, where it has them, are written
- * to *room, which stays the caller's; no parts where that is NULL. */
-void leaf_cut(struct model_patch *patch, int column_u, int column_v, struct leaf *leaf, struct leaf_parts *room);
+/* Bounds on |Su|, |Sv| and |Suu|, |Suv|, |Svv| over a leaf with that net widened by LEAF_MARGIN, in its parameters. */
+void leaf_bounds(double x[3][16], double first[2], double second[3]);
 
-/* What resultants are formed of; STATUS_LIMIT where memory is short. */
-enum status leaf_set_form(struct arena *arena, const struct model_patch *patch, struct leaf *leaf) STATUS_MUST_CHECK;
+/* The leaf at that place of the patch. What it has of parts and form is written to *parts and *form, which stay the
+ * caller's. */
+void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct leaf *leaf, struct leaf_parts *parts,
+               struct leaf_form *form);
 
-/* Its box in the frame of the model's hierarchy. */
-void leaf_box(const struct model *model, const struct leaf *leaf, struct bvh_box *box);
+/* The box of a leaf's net in the frame of the model's hierarchy. */
+void leaf_box(const struct model *model, const struct model_patch *patch, double x[3][16], struct bvh_box *box);
 
 #endif

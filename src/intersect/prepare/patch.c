@@ -1,0 +1,129 @@
+/* One patch of the scene: its frame, its true degree, how far it is cut. See patch.h. */
+#include "intersect/prepare/patch.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/double_double.h"
+#include "base/real.h"
+#include "geometry/patch.h"
+#include "geometry/vector.h"
+#include "intersect/exact/exact.h"
+#include "intersect/prepare/leaf.h"
+
+/* A declared control point carries half a unit in the last place of its decimal form and a few of its transforms: a
+ * patch whose excess over a lower degree is no more than this, relative to its largest coordinate, was meant to be
+ * of that degree. */
+#define DEGREE_SLACK (8 * UNIT_ROUNDOFF)
+
+/* Leaves of `split auto`: cut until a leaf's derivatives turn by no more than about this fraction of their size, for
+ * then one Newton process holds on the whole leaf for all but grazing rays. A choice of speed, not of correctness. */
+#define AUTO_TURN 0.25
+
+/* A patch this many times as long as wide is slender, up to what so many leaves along it can make good, whose number
+ * goes with the root of that. What lies in the plane of a ray must not be more than exact.h has room for. */
+#define SLENDER 16.0
+#define SLENDER_MOST ((double)SLENDER_SPLIT_MAX * SLENDER_SPLIT_MAX)
+enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
+
+/* A patch's frame is no smaller than this, so that its reciprocal and all products with it are normal numbers. */
+#define LEAST_SCALE 0x1p-1000
+
+/* Writes all but the rest, and that to where it may stay. Returns whether there is any. */
+static bool patch_frame(double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4])
+{
+  bool rounded = false;
+  double extent = scene_size > 0 ? real_max(LEAST_EXTENT * scene_size, LEAST_SCALE) : 0, lo[3], hi[3];
+  for (int k = 0; k < 3; k++) {
+    lo[k] = INFINITY, hi[k] = -INFINITY;
+    for (int i = 0; i < 4; i++)
+      for (int j = 0; j < 4; j++) lo[k] = real_min(lo[k], P[i][j][k]), hi[k] = real_max(hi[k], P[i][j][k]);
+    extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
+  }
+  int exponent = 0;                         /* all of the scene is the origin: any scale will do */
+  if (extent > 0) frexp(extent, &exponent); /* extent < 2^exponent */
+  out->scale = ldexp(1, exponent + 1);      /* the center may be a grain off the middle */
+  for (int k = 0; k < 3; k++) {
+    const double middle = lo[k] / 2 + hi[k] / 2, grain = out->scale / 4;
+    out->center[k] = fabs(middle) < grain * 0x1p50 ? real_coarse(middle, grain) : middle;
+    for (int n = 0; n < 16; n++) {
+      const struct double_double x = dd_two_sum(P[n / 4][n % 4][k], -out->center[k]);
+      out->x[k][n / 4][n % 4] = x.hi / out->scale, rest[k][n / 4][n % 4] = x.lo / out->scale;
+      rounded |= x.lo != 0;
+    }
+  }
+  return rounded;
+}
+
+double patch_largest_coordinate(double P[4][4][3])
+{
+  double size = 0;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++)
+      for (int k = 0; k < 3; k++) size = real_max(size, fabs(P[i][j][k]));
+  return size;
+}
+
+/* How many leaves make every leaf nearly flat: second derivatives fall with the square, first ones with one over it. A
+ * slender patch is cut along its long side only, for only that bends, until its leaves turn as little as the short side
+ * wants or are no longer slender. */
+static void auto_split(struct model_patch *patch, int most, uint16_t split[2])
+{
+  double second[3], first[2], net[3][16];
+  patch_second_derivative_bounds(patch->x, second);
+  memcpy(net, patch->x, sizeof net);
+  leaf_first_bounds(net, first);
+  const double turn = (second[0] + 2 * second[1] + second[2]) / 2;
+  const int side = first[1] > first[0];
+  const double along = first[side], across = first[1 - side], bend = second[2 * side];
+  split[0] = split[1] = 1;
+  if (along > SLENDER * across && along <= SLENDER_MOST * across) {
+    uint16_t *cut = &split[side];
+    while (2 * *cut <= most * most && 2 * *cut <= SLENDER_SPLIT_MAX && along > 2 * *cut * across &&
+           bend / *cut + 2 * second[1] > 2 * AUTO_TURN * *cut * across)
+      *cut = (uint16_t)(2 * *cut);
+    return;
+  }
+  while (split[0] < most && turn > AUTO_TURN * split[0] * along) split[0] = (uint16_t)(2 * split[0]);
+  split[1] = split[0];
+}
+
+/* What the patch's solver does on lanes: the whole method as it is by default, or nothing. */
+static enum solver_lanes lanes_of(const struct method *s)
+{
+  const struct solver_options *r = &s->roots;
+  const bool all = s->basis == BASIS_BERNSTEIN && s->resultant == RESULTANT_BEZOUT &&
+                   s->back_substitution == BACK_SUBSTITUTION_NULL_VECTOR && s->polish;
+  const bool improved = r->radii == RADII_POLYGON && r->stop == STOP_ROUNDING && r->update == UPDATE_GAUSS_SEIDEL &&
+                        r->rest; /* what Aberth's method has of choices */
+  return all && (improved || r->solver->lanes != SOLVER_LANES_ABERTH) ? r->solver->lanes : SOLVER_LANES_NONE;
+}
+
+bool patch_on_lanes(const struct method *method) { return lanes_of(method) != SOLVER_LANES_NONE; }
+
+void patch_make(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4])
+{
+  static const double none[3][4][4];
+  struct scene_patch *source = &model->scene->patches[index];
+  const struct model_cut *cut = &model->cuts[index];
+  out->rest = patch_frame(source->P, model->size, out, rest) ? (const double(*)[4][4])rest : none;
+  out->method = &model->scene->solvers[source->solver];
+  out->all_roots = lanes_of(out->method) == SOLVER_LANES_ABERTH;
+  out->lanes = lanes_of(out->method) != SOLVER_LANES_NONE;
+  out->m = cut->m, out->n = cut->n, out->split[0] = cut->split[0], out->split[1] = cut->split[1];
+  out->loose = cut->loose;
+}
+
+void patch_set_cut(const struct model *model, uint32_t index, int most)
+{
+  struct patch_room room;
+  struct model_patch *patch = &room.patch;
+  struct model_cut *cut = &model->cuts[index];
+  int m, n;
+  patch_make(model, index, patch, room.rest);
+  const double size = patch_largest_coordinate(model->scene->patches[index].P);
+  patch_bidegree(patch->x, DEGREE_SLACK * real_max(1, size / patch->scale), &m, &n);
+  cut->m = (uint8_t)m, cut->n = (uint8_t)n;
+  if (patch->method->split > 0) cut->split[0] = cut->split[1] = (uint16_t)patch->method->split;
+  else auto_split(patch, most, cut->split);
+}

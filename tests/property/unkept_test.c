@@ -1,0 +1,158 @@
+/* Scenes of so many patches that neither patches nor leaves are kept: the answers are those of kept ones, to the last
+ * bit, and memory is what is promised. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include "base/diagnostics.h"
+#include "cmocka_test.h"
+#include "intersect/intersect.h"
+#include "language/language.h"
+#include "property/world.h"
+
+enum { SEED = 20261122, RAYS = 400, PACKET = 8, MANY = 70000 };
+
+/* The nets alone, or with small patches far away besides: one leaf each in either case. */
+struct side {
+  struct scene scene;
+  struct intersector *intersector;
+  struct tracer *tracer;
+};
+
+static void side_open(struct side *side, struct method *solver, world_net nets[], size_t count, size_t far)
+{
+  struct random random = {SEED};
+  *side = (struct side){.scene = {.solvers = solver, .solver_count = 1, .patch_count = count + far}};
+  side->scene.patches = calloc(count + far, sizeof *side->scene.patches);
+  assert_non_null(side->scene.patches);
+  for (size_t p = 0; p < count; p++) memcpy(side->scene.patches[p].P, nets[p], sizeof nets[p]);
+  for (size_t p = count; p < count + far; p++)
+    for (int n = 0; n < 48; n++)
+      side->scene.patches[p].P[n / 12][n / 3 % 4][n % 3] = 1000 + random_between(&random, 0, 0.01);
+  assert_int_equal(intersector_create(&side->scene, &side->intersector), STATUS_OK);
+  assert_int_equal(tracer_create(side->intersector, &side->tracer), STATUS_OK);
+  assert_true((side->tracer->model->leaves != NULL) == (far == 0));
+}
+
+static void side_close(struct side *side)
+{
+  tracer_destroy(side->tracer);
+  intersector_destroy(side->intersector);
+  free(side->scene.patches);
+}
+
+/* Which of the two tracers of the large scene answers: one that remembers leaves, or one that makes each anew. */
+static int compare(int kind, const struct side sides[2], struct tracer *other, struct random *random, world_net nets[],
+                   size_t count)
+{
+  int hits = 0;
+  for (int n = 0; n < RAYS; n += PACKET) {
+    struct ray rays[PACKET];
+    struct hit hit[2][PACKET];
+    struct hit_list list[2][PACKET];
+    bool occluded[2][PACKET];
+    for (int l = 0; l < PACKET; l++) rays[l] = world_ray(random, nets, count, (n + l) % RAY_KINDS);
+    for (int k = 0; k < 2; k++) {
+      struct tracer *tracer = k == 0 ? sides[0].tracer : other;
+      tracer_closest(tracer, PACKET, rays, hit[k]);
+      tracer_occluded(tracer, PACKET, rays, occluded[k]);
+      assert_int_equal(tracer_all(tracer, PACKET, rays, list[k]), STATUS_OK);
+    }
+    for (int l = 0; l < PACKET; l++) {
+      hits += hit[0][l].patch != HIT_NONE;
+      if (!same_hit(&hit[0][l], &hit[1][l])) world_print_case("kept or not", kind, &rays[l], &hit[0][l], &hit[1][l]);
+      assert_true(same_hit(&hit[0][l], &hit[1][l]));
+      assert_int_equal(occluded[0][l], occluded[1][l]);
+      assert_int_equal(list[0][l].count, list[1][l].count);
+      assert_int_equal(list[0][l].certainty, list[1][l].certainty);
+      for (size_t h = 0; h < list[0][l].count; h++) assert_true(same_hit(&list[0][l].hits[h], &list[1][l].hits[h]));
+    }
+  }
+  return hits;
+}
+
+static void answers_are_the_same(void **state)
+{
+  static world_net nets[WORLD_MAX];
+  struct random random = {SEED};
+  static const char *const solvers[] = {"bernstein", "aberth", "newton"};
+  (void)state;
+  for (int kind = 0; kind < WORLD_KINDS; kind++) {
+    struct method solver;
+    struct side sides[2];
+    const size_t count = world_fill((enum world_kind)kind, &random, nets);
+    method_default(solver_find(solvers[kind % 3], strlen(solvers[kind % 3])), &solver);
+    solver.split = 1;
+    for (int k = 0; k < 2; k++) side_open(&sides[k], &solver, nets, count, k == 0 ? 0 : MANY);
+    struct tracer anew;
+    tracer_begin(sides[1].intersector, &anew);
+    const int hits = compare(kind, sides, sides[1].tracer, &random, nets, count) +
+                     compare(kind, sides, &anew, &random, nets, count);
+    tracer_end(&anew);
+    print_message("kind %d: %d rays, %d hits\n", kind, 2 * RAYS, hits);
+    assert_true(hits > RAYS / 16);
+    for (int k = 0; k < 2; k++) side_close(&sides[k]);
+  }
+}
+
+/* What a patch may take of the process from its text to rays, in bytes, at the worst moment. */
+enum { PATCH_BYTES = 1024 };
+
+static long peak_bytes(void)
+{
+  struct rusage usage;
+  assert_int_equal(getrusage(RUSAGE_SELF, &usage), 0);
+  return usage.ru_maxrss * 1024;
+}
+
+static void write_scene(const char *path)
+{
+  struct random random = {SEED};
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  for (int p = 0; p < MANY; p++) {
+    fputs("bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3", file);
+    for (int n = 0; n < 16; n++)
+      fprintf(file, ", <%.9f, %.9f, %.9f>", p % 250 + n / 4 / 3.0, p / 250 + n % 4 / 3.0, random_unit(&random));
+    fputs(" }\n", file);
+  }
+  assert_int_equal(fclose(file), 0);
+}
+
+static void memory_is_bounded(void **state)
+{
+  static const char path[] = "unkept_test.pscn";
+  const struct language_settings settings = {.image_width = 1, .image_height = 1, .tolerance = NAN};
+  struct diagnostics diagnostics = {0};
+  struct side side;
+  struct scene *scene;
+  (void)state;
+  write_scene(path);
+  const long before = peak_bytes();
+  assert_int_equal(language_load(path, &settings, &diagnostics, &scene), STATUS_OK);
+  assert_int_equal(remove(path), 0);
+  const long read = peak_bytes();
+  assert_int_equal(intersector_create(scene, &side.intersector), STATUS_OK);
+  assert_int_equal(tracer_create(side.intersector, &side.tracer), STATUS_OK);
+  const struct ray ray = {.origin = {7.5, 7.5, 9}, .direction = {0.1, 0.1, -1}, .t_max = INFINITY};
+  struct hit hit;
+  tracer_closest(side.tracer, 1, &ray, &hit);
+  assert_int_not_equal(hit.patch, HIT_NONE);
+  const long all = peak_bytes();
+  print_message("%ld bytes a patch, %ld of them to read it\n", (all - before) / MANY, (read - before) / MANY);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  assert_true(all - before <= (long)PATCH_BYTES * MANY);
+#endif
+  tracer_destroy(side.tracer);
+  intersector_destroy(side.intersector);
+  scene_destroy(scene);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(memory_is_bounded), /* first: a peak stays */
+                                     cmocka_unit_test(answers_are_the_same)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
