@@ -13,6 +13,8 @@ struct memory_hooks memory_use(struct memory_hooks hooks)
   return before;
 }
 
+bool memory_is_libcs(void) { return hooks_now.resize == NULL; }
+
 void *memory_alloc(size_t count, size_t size)
 {
   size_t bytes;

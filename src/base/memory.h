@@ -7,6 +7,7 @@
 #ifndef PSCN_BASE_MEMORY_H
 #define PSCN_BASE_MEMORY_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 struct memory_hooks {
@@ -16,6 +17,9 @@ struct memory_hooks {
 
 /* From now on this thread's memory comes from there; returns where it came from before. */
 struct memory_hooks memory_use(struct memory_hooks hooks);
+
+/* Whether there are no hooks. */
+bool memory_is_libcs(void);
 
 /* `count` zeroed elements of `size` bytes, aligned for any type, or NULL where memory is short or the product overflows. */
 void *memory_alloc(size_t count, size_t size);

@@ -1,9 +1,11 @@
 /* Source text: reading a file whole, and finding lines and columns in it. Positions are only wanted for errors, so
  * they are counted from the beginning each time instead of being kept for every token. */
+#define _DEFAULT_SOURCE /* madvise */
 #include "base/source.h"
 
 #include <errno.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,8 +13,17 @@
 #include "base/memory.h"
 
 enum {
-  TEXT_PADDING = 2,         /* the NULs behind the text, for scanners that want a sentinel */
-  READ_STEP_BYTES = 1 << 16 /* first guess for what has no size, such as a pipe */
+  TEXT_PADDING = 2,          /* the NULs behind the text, for scanners that want a sentinel */
+  READ_STEP_BYTES = 1 << 16, /* first guess for what has no size, such as a pipe */
+  LONG_BYTES = 1 << 24,      /* a file longer than this stays open, so that its text can be dropped ... */
+  DROP_STEP_BYTES = 1 << 20, /* ... in pieces of this size or more */
+  DROP_ALIGNMENT = 1 << 16   /* whole pages, of any size; what stays before the end, at least */
+};
+
+/* A file that stays open, for text[begin .. end-1] has been dropped. */
+struct source_rest {
+  int file; /* -1: nothing is dropped any more */
+  size_t begin, end;
 };
 
 static struct source *source_create(const char *name)
@@ -83,11 +94,43 @@ enum status source_read_open(const char *name, int file, struct source **out_sou
   size_t guess = READ_STEP_BYTES;
   if (S_ISREG(info.st_mode) && info.st_size > 0) guess = (size_t)info.st_size + 1; /* one more, to see the end */
   status = read_all(source, file, guess, out_reason);
+  if (status == STATUS_OK && S_ISREG(info.st_mode) && source->length > LONG_BYTES && memory_is_libcs()) {
+    source->rest = memory_alloc(1, sizeof *source->rest);
+    if (source->rest) source->rest->file = file;
+  }
 done:
-  (void)close(file);
+  if (!source || !source->rest) (void)close(file);
   if (status == STATUS_OK) *out_source = source;
   else source_destroy(source);
   return status;
+}
+
+void source_drop(const struct source *source, size_t end)
+{
+#if defined(MADV_DONTNEED)
+  struct source_rest *rest = source->rest;
+  if (!rest || rest->file < 0 || end < rest->end + DROP_STEP_BYTES) return;
+  const size_t misaligned = (uintptr_t)source->text % DROP_ALIGNMENT;
+  if (rest->end == 0) rest->begin = rest->end = (DROP_ALIGNMENT - misaligned) % DROP_ALIGNMENT;
+  const size_t from = rest->end, to = end - DROP_ALIGNMENT - (misaligned + end) % DROP_ALIGNMENT;
+  if (madvise(source->text + from, to - from, MADV_DONTNEED) == 0) rest->end = to;
+#else
+  (void)source, (void)end;
+#endif
+}
+
+void source_recall(const struct source *source)
+{
+  struct source_rest *rest = source->rest;
+  if (!rest || rest->file < 0) return;
+  for (size_t at = rest->begin; at < rest->end;) {
+    const ssize_t got = pread(rest->file, source->text + at, rest->end - at, (off_t)at);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) break;
+    at += (size_t)got;
+  }
+  (void)close(rest->file);
+  rest->file = -1;
 }
 
 bool source_identify(const char *path, uint64_t *out_device, uint64_t *out_inode)
@@ -103,6 +146,7 @@ struct source *source_share(const struct source *source, const char *path)
 {
   struct source *other = source_create(path);
   if (!other) return NULL;
+  source_recall(source);
   other->text = source->text;
   other->length = source->length;
   other->device = source->device;
@@ -143,6 +187,7 @@ size_t source_character(const char *text, size_t length)
 struct source_position source_locate(const struct source *source, size_t offset)
 {
   const char *text = source->text;
+  source_recall(source);
   if (offset > source->length) offset = source->length;
   struct source_position at = {.line = 1, .column = 1};
   for (const char *newline; (newline = memchr(text + at.line_begin, '\n', offset - at.line_begin)) != NULL;) {
@@ -164,6 +209,8 @@ void source_destroy(struct source *source)
 {
   if (!source) return;
   memory_free(source->name);
+  if (source->rest && source->rest->file >= 0) (void)close(source->rest->file);
+  memory_free(source->rest);
   if (!source->shared) memory_free(source->text);
   memory_free(source);
 }

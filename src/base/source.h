@@ -1,7 +1,8 @@
 /* Source text: the bytes of one scene file, and where in them a byte offset lies.
  *
  * The bytes are kept as they are in the file (any bytes, NUL included). A source that was included knows the place
- * of its #include. Sources are read-only once made; they own what they point to, except `includer`.
+ * of its #include. Sources are read-only once made; they own what they point to, except `includer`. The memory of a long
+ * file's text may be given back as it is read, and is filled again where that text is looked at once more.
  */
 #ifndef PSCN_BASE_SOURCE_H
 #define PSCN_BASE_SOURCE_H
@@ -14,9 +15,10 @@
 #include "base/status.h"
 
 struct source {
-  char *name;  /* as shown in diagnostics: the path, or a word in <> for text that has none */
-  char *text;  /* length bytes, then two NULs */
-  bool shared; /* the text belongs to another source of the same file */
+  char *name;               /* as shown in diagnostics: the path, or a word in <> for text that has none */
+  char *text;               /* length bytes, then two NULs */
+  bool shared;              /* the text belongs to another source of the same file */
+  struct source_rest *rest; /* of a long file, or NULL */
   size_t length;
   uint64_t device, inode;            /* what file it is; 0,0 for text */
   const struct source *includer;     /* the source whose #include opened this one, or NULL */
@@ -39,6 +41,13 @@ STATUS_MUST_CHECK enum status source_read(const char *path, enum input_kind kind
                                           const char **out_reason);
 STATUS_MUST_CHECK enum status source_read_open(const char *name, int file, struct source **out_source,
                                                const char **out_reason);
+
+/* Gives back the memory of what stands before byte `end`, but for some bytes, where it can be read from the file again. */
+void source_drop(const struct source *source, size_t end);
+
+/* Reads that again, and keeps it; what the file no longer has is NUL. Wanted before `text` is looked at where it may have
+ * been dropped: source_locate does it. */
+void source_recall(const struct source *source);
 
 /* What file `path` names now; false where there is none. */
 bool source_identify(const char *path, uint64_t *out_device, uint64_t *out_inode);

@@ -4,13 +4,14 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "language/sources.h"
+
 /* Patches of one scene: what fits in the memory of a large machine. */
 #define MAX_PATCHES ((size_t)50 * 1000 * 1000)
 
-/* What one patch more takes until rays can be traced, where it is one leaf: its net, its leaf, its boxes. Of copies 1,280
- * bytes from 65,536 to 262,144 of them and 1,457 from there to 1,048,576; of 80,000 different patches 1,250. The leaves
- * that patches are cut into come on top, 1.3 KB each: in all 350 MB with `split auto` (model.c), as many as are asked for
- * with `split N`. */
+/* What one patch more takes until rays can be traced: its net, its frame, its boxes. Of copies 1,280 bytes from 65,536 to
+ * 262,144 of them and 1,457 from there to 1,048,576; of as many different patches 1,000. The leaves that fewer patches are
+ * cut into come on top, 1.3 KB each: in all 350 MB (model.c). */
 #define PATCH_BYTES ((size_t)1500)
 
 enum {
@@ -113,6 +114,7 @@ void patch_end(struct language *language)
   points_end(language);
   if (!node->has_type)
     language_error_in(language, &node->block, node->block.place, "bicubic_patch needs its type, 0 or 1");
+  sources_pass(language);
 }
 
 /* ---- unions ---- */

@@ -15,12 +15,42 @@ enum {
 /* Likewise of the bytes in them: a minute's reading. */
 #define MAX_TEXT_BYTES ((size_t)4 << 30)
 
-/* Every source read stays until the end: tokens, names and places point into their texts. */
+__extension__ typedef unsigned __int128 hash_type;
+
+/* Every source read stays until the end: places point into their texts. */
 struct source_list {
   struct table_entry entry; /* of the first source of its file */
   struct source_list *next;
   struct source *source;
+  hash_type hash; /* of its text */
 };
+
+/* FNV-1a of 128 bits (Fowler, Noll, Vo; RFC 9923), of eight bytes at once, whose upper half is folded down. */
+static hash_type hash_add(hash_type hash, uint64_t bytes)
+{
+  const hash_type prime = ((hash_type)1 << 88) + 0x13b;
+  hash = (hash ^ bytes) * prime;
+  return hash ^ hash >> 64;
+}
+
+static hash_type hash_begin(uint64_t length)
+{
+  return hash_add((hash_type)UINT64_C(0x6c62272e07bb0142) << 64 | UINT64_C(0x62b821756295c58d), length);
+}
+
+static hash_type hash_text(const struct source *source)
+{
+  const unsigned char *text = (const unsigned char *)source->text;
+  hash_type hash = hash_begin(source->length);
+  size_t k = 0;
+  for (; source->length - k >= 8; k += 8) {
+    const unsigned char *b = text + k;
+    hash = hash_add(hash, b[0] | (uint64_t)b[1] << 8 | (uint64_t)b[2] << 16 | (uint64_t)b[3] << 24 |
+                            (uint64_t)b[4] << 32 | (uint64_t)b[5] << 40 | (uint64_t)b[6] << 48 | (uint64_t)b[7] << 56);
+  }
+  for (; k < source->length; k++) hash = hash_add(hash, text[k]);
+  return hash;
+}
 
 static uint64_t hash_of_file(uint64_t device, uint64_t inode)
 {
@@ -38,6 +68,7 @@ static bool remember(struct language *language, struct source *source)
     return false;
   entry->next = sources->all;
   entry->source = source;
+  entry->hash = source->shared ? 0 : hash_text(source);
   sources->all = entry;
   sources->count++;
   sources->bytes += source->length;
@@ -61,18 +92,12 @@ bool sources_open(struct language *language, struct source *source)
   return true;
 }
 
-/* FNV-1a of 128 bits (Fowler, Noll, Vo; RFC 9923) over the length and the text of each file, the last one read first. */
+/* Of all files, the last one read first. */
 static void hash_texts(const struct sources *sources, char out[SCENE_HASH_SIZE])
 {
-  __extension__ typedef unsigned __int128 hash_type;
-  const hash_type prime = ((hash_type)1 << 88) + 0x13b;
-  hash_type hash = (hash_type)UINT64_C(0x6c62272e07bb0142) << 64 | UINT64_C(0x62b821756295c58d);
-  for (const struct source_list *entry = sources->all; entry; entry = entry->next) {
-    const struct source *source = entry->source;
-    if (source->shared) continue;
-    for (size_t length = source->length; length > 0; length /= 256) hash = (hash ^ length % 256) * prime;
-    for (size_t k = 0; k < source->length; k++) hash = (hash ^ (unsigned char)source->text[k]) * prime;
-  }
+  hash_type hash = hash_begin((uint64_t)sources->count);
+  for (const struct source_list *entry = sources->all; entry; entry = entry->next)
+    if (!entry->source->shared) hash = hash_add(hash_add(hash, (uint64_t)(entry->hash >> 64)), (uint64_t)entry->hash);
   snprintf(out, SCENE_HASH_SIZE, "%016" PRIx64 "%016" PRIx64, (uint64_t)(hash >> 64), (uint64_t)hash);
 }
 
@@ -89,6 +114,12 @@ bool sources_list(const struct language *language, struct scene *scene)
     scene->files[scene->file_count++] = name;
   }
   return scene->files != NULL;
+}
+
+void sources_pass(struct language *language)
+{
+  const struct frame *frame = language->sources->frame;
+  source_drop(frame->source, frame->scan.begin);
 }
 
 void sources_leave(struct language *language)

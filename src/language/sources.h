@@ -41,6 +41,9 @@ bool sources_list(const struct language *language, struct scene *scene);
 /* Reads the file name behind #include and begins to read that file, or tells an error. */
 void sources_include(struct language *language);
 
+/* What has been read so far is needed no more, but for errors: the memory of a long text is given back. */
+void sources_pass(struct language *language);
+
 /* Goes back to the includer. */
 void sources_leave(struct language *language);
 void sources_close(struct language *language);

@@ -21,8 +21,12 @@ static struct symbol *add(struct language *language, const char *name, size_t le
 {
   struct symbols *symbols = language->symbols;
   struct symbol *symbol = language_alloc(language, sizeof *symbol);
-  *symbol = (struct symbol){.name = name, .length = length, .depth = depth, .older = symbols->locals};
+  /* the text may be dropped */
+  char *kept = language_afford(language, length) ? arena_alloc(language->arena, length, 1) : NULL;
+  language->ended_early |= !kept;
   if (language->ended_early) return symbol;
+  *symbol = (struct symbol){
+    .name = memcpy(kept, name, length), .length = length, .depth = depth, .older = symbols->locals};
   if (!table_add(&symbols->table, language->arena, &symbol->entry, table_hash(name, length)))
     language->ended_early = true;
   else if (depth > 0) symbols->locals = symbol;

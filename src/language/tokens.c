@@ -169,6 +169,7 @@ static bool end_of_source(struct language *language)
   struct frame *frame = language->sources->frame;
   while (frame->conditions > 0) {
     const struct place place = frame->condition[--frame->conditions].place;
+    source_recall(place.source);
     language_tell(language, place, "%.*s without #end", (int)length_of(place), text_at(place));
   }
   if (!frame->outer) return false;
