@@ -98,6 +98,7 @@ static void pscn_error(PSCN_LTYPE *place, struct language *language, const char 
 
 /* Where an expression may be followed by the next item, "+" and "-" belong to the expression, as in POV-Ray. */
 %precedence ITEM
+%precedence ','
 %precedence TEXTURE
 %left '+' '-'
 %left '*' '/'
@@ -246,13 +247,15 @@ object: patch | union | copy;
 /* Settings, then 16 points, then modifiers. */
 patch: BICUBIC_PATCH '{' { patch_begin(language, @1); } patch_items '}'
     { patch_end(language); $$ = node_end(language); };
-patch_items: %empty | patch_items patch_item;
+patch_items: %empty | patch_items patch_item
+  | patch_items expression ','                 { patch_point(language, &$2), patch_comma(language, @3); }
+  | patch_items expression %prec ITEM          { patch_point(language, &$2); }
+  ;
 patch_item:
     TYPE expression %prec ITEM                 { patch_number(language, PATCH_TYPE, @1, &$2); }
   | FLATNESS expression %prec ITEM             { patch_number(language, PATCH_FLATNESS, @1, &$2); }
   | U_STEPS expression %prec ITEM              { patch_number(language, PATCH_U_STEPS, @1, &$2); }
   | V_STEPS expression %prec ITEM              { patch_number(language, PATCH_V_STEPS, @1, &$2); }
-  | expression %prec ITEM                      { patch_point(language, &$1); }
   | ','                                        { patch_comma(language, @1); }
   | modifier                                   { patch_modified(language); }
   | solver                                     { patch_solver(language); }
