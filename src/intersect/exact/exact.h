@@ -42,7 +42,7 @@ static inline bool exact_region_equal(const struct exact_region *a, const struct
          a->span[0] == b->span[0] && a->span[1] == b->span[1];
 }
 
-/* judge.c: puts the least rectangle of leaves that has them all in the place of a patch's regions, where there are more
+/* regions.c: puts the least rectangle of leaves that has them all in the place of a patch's regions, where there are more
  * than `most` of them. Returns how many are left, sorted. */
 size_t exact_regions_merge(struct exact_region regions[], size_t count, size_t most);
 

@@ -67,9 +67,10 @@ static enum side root_in_patch(const struct exact_root *root, unsigned *borders)
   return *borders ? SIDE_UNKNOWN : SIDE_INSIDE;
 }
 
-/* Of the root between the ray's start and its end, which it may be next to only from outside. */
+/* Of the root between the ray's start and its end, which do not belong to it: what is known exactly is on one side. */
 static enum side root_in_range(const struct judge *j, const struct exact_root *root)
 {
+  if (root->t_error == 0 && (root->t <= j->asked->ray->t_min || root->t >= j->asked->ray->t_max)) return SIDE_OUTSIDE;
   const double t = (double)root->t, clearly = root->t_error + 4 * UNIT_ROUNDOFF * fabs(t);
   if (t - j->asked->ray->t_min > clearly && j->asked->ray->t_max - t > clearly) return SIDE_INSIDE;
   const enum side start = side_of(root->t - j->asked->ray->t_min, root->t_error);
@@ -237,6 +238,15 @@ bool judge_pole(struct judge *j, int border)
   return false;
 }
 
+/* Whether the root is in a corner where the ray starts, exactly: the corner is a root, and so the one that is there. */
+static bool starts_in_corner(const struct judge *j, unsigned borders, const struct exact_root *root)
+{
+  struct exact_root corner;
+  if (!(borders & 3 && borders & 12)) return false;
+  const int row = root->u < 0.5 ? 0 : 3, column = root->v < 0.5 ? 0 : 3;
+  return point_root(j, row, column, row / 3, column / 3, &corner) && root_in_range(j, &corner) == SIDE_OUTSIDE;
+}
+
 void judge_root(struct judge *j, struct exact_root *root)
 {
   unsigned borders;
@@ -252,8 +262,8 @@ void judge_root(struct judge *j, struct exact_root *root)
     if (in_patch == SIDE_OUTSIDE || in_range == SIDE_OUTSIDE) return;
   }
   if (in_range == SIDE_UNKNOWN) {
-    /* Nobody can tell whether a ray that starts on the surface meets it. */
-    j->doubt = true;
+    /* Nobody can tell whether a ray that starts on the surface meets it, but at a control point. */
+    j->doubt |= !starts_in_corner(j, borders, root);
   } else if (in_patch == SIDE_INSIDE) {
     keep_root(j, root);
   } else if (!list_root(j, root, EXACT_BORDER, borders)) {
@@ -370,93 +380,6 @@ static int by_distance(const void *a, const void *b)
   return a_column[1] < b_column[1] ? -1 : a_column[1] > b_column[1];
 }
 
-/* A ray this near to a pole, in the patch's frame, may meet the strip of leaves along it anywhere; one farther away
- * meets them as it meets others. A choice of speed. */
-#define POLE_NEAR 0x1p-8
-
-static bool passes_near(struct judge *j, uint32_t patch, int border)
-{
-  judge_turn(j, patch);
-  const struct local_ray *ray = &j->local;
-  double(*x)[4][4] = j->is->x;
-  const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
-  for (int s = 0; s < 2; s++) {
-    const double side = x[(ray->axis + 1 + s) % 3][row][column] - ray->moment[s];
-    if (!(fabs(side - ray->slope[s] * x[ray->axis][row][column]) <= POLE_NEAR)) return false;
-  }
-  return true;
-}
-
-/* Widens the region at a border that is one point to all of the strip along it, for what a ray that passes it closely
- * meets may be anywhere there. */
-static void region_widen(struct judge *j, struct exact_region *r)
-{
-  struct patch_room room;
-  struct model_patch *patch = model_patch_at(j->asked->model, r->patch, &room);
-  const uint16_t column[2] = {r->column[0], r->column[1]};
-  for (int border = 0; border < 4; border++) {
-    const int side = border / 2, across = 1 - side, at = border & 1 ? patch->split[side] - 1 : 0;
-    if (patch->split[across] == 1 || column[side] != at || !patch_border_is_point(patch->x, border)) continue;
-    if (!passes_near(j, r->patch, border)) continue;
-    r->column[across] = 0, r->span[across] = (uint16_t)patch->split[across], r->leaf = NULL;
-  }
-}
-
-static int by_region(const void *a, const void *b)
-{
-  const struct exact_region *x = a, *y = b;
-  if (x->patch != y->patch) return x->patch < y->patch ? -1 : 1;
-  for (int k = 0; k < 2; k++)
-    if (x->column[k] != y->column[k]) return x->column[k] < y->column[k] ? -1 : 1;
-  for (int k = 0; k < 2; k++)
-    if (x->span[k] != y->span[k]) return x->span[k] < y->span[k] ? -1 : 1;
-  return 0;
-}
-
-/* The least rectangle that has them all. */
-static struct exact_region hull_of(const struct exact_region regions[], size_t count)
-{
-  struct exact_region hull = regions[0];
-  hull.leaf = NULL;
-  for (int k = 0; k < 2; k++) {
-    uint16_t last = 0;
-    for (size_t n = 0; n < count; n++) {
-      const uint16_t end = (uint16_t)(regions[n].column[k] + regions[n].span[k]);
-      if (regions[n].column[k] < hull.column[k]) hull.column[k] = regions[n].column[k];
-      if (end > last) last = end;
-    }
-    hull.span[k] = (uint16_t)(last - hull.column[k]);
-  }
-  return hull;
-}
-
-size_t exact_regions_merge(struct exact_region regions[], size_t count, size_t most)
-{
-  size_t kept = 0;
-  if (count > 1) qsort(regions, count, sizeof *regions, by_region);
-  for (size_t first = 0, end; first < count; first = end) {
-    for (end = first + 1; end < count && regions[end].patch == regions[first].patch;) end++;
-    if (end - first > most) {
-      regions[kept++] = hull_of(&regions[first], end - first);
-      continue;
-    }
-    for (size_t k = first; k < end; k++) /* each once */
-      if (k == first || !exact_region_equal(&regions[kept - 1], &regions[k])) regions[kept++] = regions[k];
-  }
-  return kept;
-}
-
-/* More regions of a patch than these are searched as one: it lies along the ray, or the ray starts so far away that
- * double precision tells nothing of it. A choice of speed. */
-enum { REGIONS_APART = 8 };
-
-/* Widens the regions, sorts them, and leaves each there once. Returns how many. */
-static size_t regions_prepare(struct judge *j, struct exact_region regions[], size_t count)
-{
-  for (size_t k = 0; k < count; k++) region_widen(j, &regions[k]);
-  return exact_regions_merge(regions, count, REGIONS_APART);
-}
-
 static void search(struct judge *j, const struct exact_region *region)
 {
   const int shared = j->work;
@@ -489,7 +412,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct
   }
   set_limit(j);
   if (!all && asked->maybe) keep_maybe(j, asked->maybe);
-  const size_t count = regions_prepare(j, asked->regions, asked->region_count);
+  const size_t count = judge_regions(j, asked->regions, asked->region_count);
   if (!all) search_nearest(j, asked->regions, count);
   else
     for (size_t k = 0; k < count; k++) search(j, &asked->regions[k]);

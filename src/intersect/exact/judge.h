@@ -73,6 +73,9 @@ size_t judge_star(struct judge *j, size_t at, size_t first, size_t end, size_t o
  * that. */
 bool judge_passes(const struct ray *ray, const double point[3]);
 
+/* regions.c: widens the regions to what is to be searched, sorts them, and leaves each there once. Returns how many. */
+size_t judge_regions(struct judge *j, struct exact_region regions[], size_t count);
+
 /* Turns to the patch. */
 void judge_turn(struct judge *j, uint32_t patch);
 
