@@ -246,6 +246,6 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask activ
   struct bilinear_root root;
   bilinear_root_solve(p, it->leaf, it->axis, NULL, active, &root);
   p->tracer->counts.roots_found += lanes_count(root.at.alone);
-  offer_bend_root(p, it, &root, root.at.alone & inside(&root.at));
-  return active & ~root.at.alone;
+  offer_bend_root(p, it, &root, (p->any ? root.at.exists : root.at.alone) & inside(&root.at));
+  return active & ~root.at.alone & p->live;
 }

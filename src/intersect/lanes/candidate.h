@@ -27,7 +27,7 @@ struct candidate {
   int degree; /* of r, exact roots at the ends taken off */
   lanes c_store[RESULTANT_MAX_DEGREE + 1];
   const lanes *c;   /* c[0..degree] */
-  lanes variations; /* sign variations of c; -1 where not known: a sign is within its error */
+  lanes variations; /* sign variations of c, at most; -1 where they are not counted */
 };
 
 /* planes.c: the box along the leaf. */
@@ -43,7 +43,8 @@ lane_mask stage_planes(struct packet *p, struct candidate *it, lane_mask open);
 /* resultant.c: Bezout's resultant r of a and b in Bernstein form: closed where it has no sign variation. */
 lane_mask stage_resultant(struct packet *p, struct candidate *it, lane_mask open);
 
-/* resultant.c: one root of r, from its control polygon. Closed where it is proven to be the only one. */
+/* resultant.c: one root of r, from its control polygon, and where it is not alone another one. Closed where these are
+ * proven to be all. */
 lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask open);
 
 /* all_roots.c: all roots of r by Aberth's method on all lanes at once; closed where they are proven to be all. */

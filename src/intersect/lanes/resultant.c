@@ -2,6 +2,7 @@
  *
  * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
  */
+#include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
 #include "intersect/resultant_error.h"
 
@@ -32,7 +33,8 @@ static void set_form(const struct packet *p, struct candidate *it)
   it->form_error = it->nets.error * form->size + 2 * form->excess;
 }
 
-/* Stage 2: r and the sign variations of its coefficients. Lanes that may meet the leaf. */
+/* Stage 2: r and the sign variations of its coefficients, at most: one that may have either sign is given the one that
+ * makes more of them. Lanes that may meet the leaf. */
 static lane_mask resultant_varies(struct candidate *it, lane_mask active)
 {
   const int m = it->leaf->kept_degree, n = it->leaf->eliminated_degree;
@@ -45,19 +47,18 @@ static lane_mask resultant_varies(struct candidate *it, lane_mask active)
                                                                : product * product * product;
   const lanes bound = RESULTANT_ERROR(n, power, it->alpha, it->beta, it->form_error);
   lanes last = {0}, variations = {0};
-  lane_mask doubt = {0};
   const int full = 2 * m * n;
   double choose = 1;
   for (int k = 0; k < it->leaf->zeros[0]; k++) choose = choose * (full - k) / (k + 1);
   for (int k = 0; k <= it->degree; k++) {
     const lanes c = it->c[k];
-    doubt |= ~(lanes_abs(c) > choose * bound);
-    variations += lanes_select(c * last < 0, lanes_all(1), lanes_all(0));
-    last = lanes_select(c > 0, lanes_all(1), lanes_all(-1));
+    const lane_mask either = ~(lanes_abs(c) > choose * bound);
+    variations += lanes_select(either | (c * last < 0), lanes_all(1), lanes_all(0));
+    last = lanes_select(either, -last, lanes_select(c > 0, lanes_all(1), lanes_all(-1)));
     const int at = k + it->leaf->zeros[0];
     choose = choose * (full - at) / (at + 1);
   }
-  it->variations = lanes_select(doubt, lanes_all(-1), variations);
+  it->variations = variations;
   return active & (it->variations != 0);
 }
 
@@ -68,16 +69,20 @@ lane_mask stage_resultant(struct packet *p, struct candidate *it, lane_mask open
   return it->patch->method->polish ? resultant_varies(it, open) : open;
 }
 
-/* The value of the kept parameter where the control polygon of r crosses zero, improved by Newton on r. */
-static lanes resultant_root(const struct candidate *it)
+/* The value of the kept parameter where the control polygon of r crosses zero the first or the last time, improved by
+ * Newton on r. */
+static lanes resultant_root(const struct candidate *it, bool first)
 {
   const int d = it->degree;
   lanes at = lanes_all(0.5), before = it->c[0];
+  lane_mask crossed = {0};
   double choose = 1;
   for (int k = 1; k <= d; k++) {
     choose = choose * (d - k + 1) / k;
     const lanes here = it->c[k] * (1 / choose);
-    at = lanes_select(before * here < 0, (k - 1 + before / (before - here)) / d, at);
+    const lane_mask crosses = (before * here < 0) & ~crossed;
+    if (first) crossed |= crosses;
+    at = lanes_select(crosses, (k - 1 + before / (before - here)) / d, at);
     before = here;
   }
   /* r(u) = (1-u)^d sum c_k x^k with x = u/(1-u); the half of the range near 1 reads the coefficients backwards. */
@@ -113,19 +118,46 @@ lanes resultant_eliminated(const struct candidate *it, lanes kept)
   return lanes_select(first, num[0], num[1]) / lanes_select(first, den[0], den[1]);
 }
 
-/* Where r has several sign variations, the start is one of its roots,
- * or none; what is found from it still decides the leaf where it is proven to be alone. */
+/* What Newton's process finds from there. */
+static struct newton_root resultant_refine(const struct candidate *it, bool first, lane_mask active)
+{
+  const lanes kept = start_within(resultant_root(it, first)), eliminated = start_within(resultant_eliminated(it, kept));
+  const bool v_kept = it->leaf->v_kept;
+  return newton_refine(&it->nets, it->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, active);
+}
+
+/* Lanes of `open` where it is proven that the leaf has no roots but r, where that one is proven, and another one, where
+ * there is one: those are offered. */
+static lane_mask resultant_cover(struct packet *p, const struct candidate *it, const struct newton_root *r,
+                                 lane_mask open)
+{
+  const lane_mask proven = open & r->exists, more = proven & (it->variations >= 2);
+  struct known_root known[2] = {{r->u, r->v, r->size, r->bend, r->off, proven}};
+  struct newton_root other = {.exists = {0}};
+  if (lanes_any(more)) {
+    other = resultant_refine(it, true, more);
+    const lane_mask apart = (lanes_abs(r->u - other.u) > r->radius_u + other.radius_u + UNIT_ROUNDOFF) |
+                            (lanes_abs(r->v - other.v) > r->radius_v + other.radius_v + UNIT_ROUNDOFF);
+    other.exists &= more & apart;
+    known[1] = (struct known_root){other.u, other.v, other.size, other.bend, other.off, other.exists};
+  }
+  const lane_mask covered = cover_proves(it, lanes_any(other.exists) ? 2 : 1, known, COVER_HALVINGS, open);
+  offer_root(p, it, r, covered & proven & inside(r));
+  offer_root(p, it, &other, covered & other.exists & inside(&other));
+  return covered;
+}
+
+/* Where r has several sign variations, the start is one of its roots, or none; what is found from it still decides the
+ * leaf where it is proven to be alone, or any hit will do. Boxes decide most of the others. */
 lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask active)
 {
   p->tracer->counts.roots_found += lanes_count(active);
-  const lanes kept = start_within(resultant_root(it)), eliminated = start_within(resultant_eliminated(it, kept));
-  const bool v_kept = it->leaf->v_kept;
-  const struct newton_root r = newton_refine(&it->nets, it->leaf, v_kept ? eliminated : kept,
-                                             v_kept ? kept : eliminated, active);
-  const lanes k = v_kept ? r.v : r.u, radius = v_kept ? r.radius_v : r.radius_u;
+  const struct newton_root r = resultant_refine(it, false, active);
+  const lanes k = it->leaf->v_kept ? r.v : r.u, radius = it->leaf->v_kept ? r.radius_v : r.radius_u;
   /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
   const lane_mask single = (it->variations == 1) & r.exists & (k > radius) & (1 - k > radius);
   const lane_mask decided = active & (r.alone | single);
-  offer_root(p, it, &r, decided & inside(&r));
-  return active & ~decided;
+  offer_root(p, it, &r, (p->any ? active & r.exists : decided) & inside(&r));
+  const lane_mask open = active & ~decided & p->live;
+  return lanes_any(open) ? open & ~resultant_cover(p, it, &r, open) : open;
 }
