@@ -99,7 +99,7 @@ void povray_warnings(const struct povray *povray, struct page *out)
 /* Takes the folder of the last run away and makes a new one. */
 static enum status begin_run(const struct povray *povray)
 {
-  struct scratch run;
+  struct scratch run = {.keeper = 0};
   char path[SCRATCH_PATH_SIZE];
   scratch_path(&povray->folder, RUN, path);
   memcpy(run.path, path, sizeof path);

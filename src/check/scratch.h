@@ -4,14 +4,18 @@
 
 #include <stddef.h>
 #include <stdio.h>
+#include <sys/types.h>
 
 #include "base/status.h"
 
 enum { SCRATCH_PATH_SIZE = 4096 };
 
-/* The folder's path, "" where there is none. It stands in $TMPDIR, or in /tmp, and only we may enter it. */
+/* The folder's path, "" where there is none. It stands in $TMPDIR, or in /tmp, and only we may enter it. A process of
+ * ours waits to remove it in case that we are killed. */
 struct scratch {
   char path[SCRATCH_PATH_SIZE];
+  pid_t keeper; /* that process; 0 where there is none */
+  int alive;    /* a pipe to it, which ends when we do */
 };
 
 /* STATUS_FILE (errno says why) where it cannot be made. */

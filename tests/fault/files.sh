@@ -157,7 +157,11 @@ for signal in KILL TERM; do
     for command in chart check; do
       mkdir -p results && echo old >results/$command.html
       "$PSCN" $command "$scene" ${!command} -o results &
-      sleep "0.$(printf %03d $((RANDOM % 300)))"
+      if [ $((k % 2)) = 0 ]; then # when its scratch folder has just been made
+        while [ -z "$(ls -A "$TMPDIR")" ] && kill -0 $! 2>/dev/null; do :; done
+      else
+        sleep "0.$(printf %03d $((RANDOM % 300)))"
+      fi
       kill -$signal $! 2>/dev/null
       wait $! 2>/dev/null
       code=$?
@@ -167,7 +171,8 @@ for signal in KILL TERM; do
         '</html>') ;;
         *) wrong "$command: half a page" ;;
       esac
-      [ $signal = KILL ] || [ -z "$(ls -A "$TMPDIR")" ] || wrong "$command: left here: $(ls "$TMPDIR")"
+      for wait in $(seq 100); do [ -n "$(ls -A "$TMPDIR")" ] && sleep 0.05; done # who cleans up after SIGKILL is another
+      [ -z "$(ls -A "$TMPDIR")" ] || wrong "$command: left here: $(ls "$TMPDIR")"
       rm -rf results "$TMPDIR"/*
     done
   done
