@@ -2,10 +2,12 @@
 #include "fault/calls.h"
 
 #include <errno.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,7 +16,32 @@ enum call failing;
 atomic_long *left;
 bool armed;
 
-static bool fails(enum call call) { return armed && call == failing && atomic_fetch_sub(left, 1) == 0; }
+/* An allocation's place: who asked, for whom, and so on; memory.c and arena.c are among them. */
+enum { MOST_PLACES = 4096, FRAMES = 8 };
+
+long place_count;
+static void *places[MOST_PLACES][FRAMES];
+static pthread_mutex_t places_lock = PTHREAD_MUTEX_INITIALIZER;
+
+static long place_here(void)
+{
+  void *frames[FRAMES] = {NULL};
+  backtrace(frames, FRAMES);
+  pthread_mutex_lock(&places_lock);
+  long k = 0;
+  while (k < place_count && memcmp(places[k], frames, sizeof places[k]) != 0) k++;
+  if (k == place_count && k < MOST_PLACES) memcpy(places[place_count++], frames, sizeof places[k]);
+  pthread_mutex_unlock(&places_lock);
+  return k;
+}
+
+static bool fails(enum call call)
+{
+  if (!armed || call != (failing == ALLOCATE_AT ? ALLOCATE : failing)) return false;
+  if (failing != ALLOCATE_AT) return atomic_fetch_sub(left, 1) == 0;
+  long here = place_here();
+  return atomic_compare_exchange_strong(left, &here, -1);
+}
 
 static int failure(int reason)
 {

@@ -23,13 +23,16 @@ enum call {
   MKDTEMP,
   DUP,
   FORK,
-  PIPE
+  PIPE,
+  ALLOCATE_AT /* of each place in the sources the first one, instead of the nth */
 };
 
-/* Of one kind of call: how many succeed before one fails; negative: all do. `armed` only while a command runs. A child
- * of ours, before it becomes another program, counts on: `left` is shared memory, which main maps. */
+/* Of one kind of call: how many succeed before one fails, or for ALLOCATE_AT the number of the place, of `place_count`
+ * that have been met; negative: all do. `armed` only while a command runs. A child of ours, before it becomes another
+ * program, counts on: `left` is shared memory, which main maps. */
 extern enum call failing;
 extern atomic_long *left;
 extern bool armed;
+extern long place_count;
 
 #endif

@@ -6,7 +6,6 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <dirent.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -129,22 +128,22 @@ static void fail_told(const char *command, enum call call, long n, int code)
 
 static bool fits(int code, enum call call)
 {
-  if (call == ALLOCATE || call == THREAD || call == MMAP) return code == STATUS_LIMIT;
+  if (call == ALLOCATE || call == ALLOCATE_AT || call == THREAD || call == MMAP) return code == STATUS_LIMIT;
   return code == STATUS_FILE || (call == OPEN && code == STATUS_INPUT); /* an error of the scene that includes */
 }
 
-/* Lets the calls of that kind fail one after the other. Answers how many there are. `old`: what the file to be written,
+/* Lets the calls of that kind fail one after the other; or, of a command that takes memory thousands of times and starts
+ * programs, the first one of each place that takes memory. Answers how many there are. `old`: what the file to be written,
  * or the page of the folder, held before, or NULL. */
 static long fail_each(const char *const arguments[], enum call call, enum leaves leaves, const char *old)
 {
   prepare(leaves, NULL);
+  failing = call;
+  place_count = 0;
   assert_int_equal(run(arguments), STATUS_OK);
   const size_t whole = size_of(output), answered = size_of(answers), files = count_results();
   assert_true(leaves == NOTHING || (leaves == FILES ? whole : files) > 0);
-  failing = call;
-  /* A check or chart takes memory thousands of times, and starts programs: the later, the fewer are tried. */
-  const long spared = call == ALLOCATE && leaves == FOLDER ? 4 : LONG_MAX;
-  for (long n = 0;; n += 1 + n / spared) {
+  for (long n = 0;; n++) {
     prepare(leaves, old);
     atomic_store(left, n);
     const int code = run(arguments);
@@ -161,7 +160,7 @@ static long fail_each(const char *const arguments[], enum call call, enum leaves
       assert_int_equal(size_of(output), leaves == FILES ? whole : 0);
     }
     expect_no_litter();
-    if (!failed) {
+    if (!failed && (call != ALLOCATE_AT || n >= place_count)) {
       assert_int_equal(code, STATUS_OK);
       prepare(leaves, NULL);
       return n;
@@ -320,7 +319,39 @@ static void test_check(void **state)
   assert_true(fail_each(arguments, FORK, FOLDER, NULL) > 1); /* POV-Ray */
   assert_true(fail_each(arguments, PIPE, FOLDER, "old") > 1);
   fail_files(arguments, FOLDER);
-  assert_true(fail_each(arguments, ALLOCATE, FOLDER, NULL) > LEAST);
+}
+
+/* The scene's own text is copied with all that it includes. */
+static void test_check_own_text(void **state)
+{
+  (void)state;
+  const char *const arguments[] = {"check",
+                                   PSCN_SOURCE_DIR "/scenes/nested.pscn",
+                                   "--own-text",
+                                   "--quiet",
+                                   "--povray",
+                                   povray,
+                                   "--size",
+                                   "8x6",
+                                   "--steps",
+                                   "0",
+                                   "--grid",
+                                   "2",
+                                   "--failpercent",
+                                   "100",
+                                   "--failpsnr",
+                                   "0",
+                                   "--failmask",
+                                   "100",
+                                   "-o",
+                                   results,
+                                   NULL};
+  make_picture();
+  snprintf(page, sizeof page, "%s/check.html", results);
+  assert_true(fail_each(arguments, OPEN, FOLDER, NULL) > 2);
+  assert_true(fail_each(arguments, FOPEN, FOLDER, "old") > 2);
+  assert_true(fail_each(arguments, FCLOSE, FOLDER, NULL) > 2);
+  assert_true(fail_each(arguments, ALLOCATE_AT, FOLDER, NULL) > LEAST);
 }
 
 static void test_chart(void **state)
@@ -334,10 +365,10 @@ static void test_chart(void **state)
                                    "--no-peers", "-o",
                                    results,      NULL};
   snprintf(page, sizeof page, "%s/chart.html", results);
-  assert_true(fail_each(arguments, FORK, FOLDER, NULL) == 1); /* gnuplot */
-  assert_true(fail_each(arguments, PIPE, FOLDER, "old") == 1);
+  assert_true(fail_each(arguments, FORK, FOLDER, NULL) == 2); /* gnuplot, and who keeps its folder */
+  assert_true(fail_each(arguments, PIPE, FOLDER, "old") == 2);
   fail_files(arguments, FOLDER);
-  assert_true(fail_each(arguments, ALLOCATE, FOLDER, NULL) > LEAST);
+  assert_true(fail_each(arguments, ALLOCATE_AT, FOLDER, NULL) > LEAST);
 }
 
 int main(int argc, char **argv)
@@ -360,7 +391,8 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_first_picture), cmocka_unit_test(test_render), cmocka_unit_test(test_render_threads),
     cmocka_unit_test(test_merge),         cmocka_unit_test(test_others), cmocka_unit_test(test_standard_input),
-    cmocka_unit_test(test_compare),       cmocka_unit_test(test_check),  cmocka_unit_test(test_chart),
+    cmocka_unit_test(test_compare),       cmocka_unit_test(test_check),  cmocka_unit_test(test_check_own_text),
+    cmocka_unit_test(test_chart),
   };
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   remove(input), remove(output), remove(errors), remove(answers), remove(stats), remove(povray), remove(picture);
