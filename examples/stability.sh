@@ -78,15 +78,17 @@ proof_rows() {
     form = word[1] == "bernstein" && word[2] == 0 ? 1 : 2
     if (!(name in seen)) { seen[name] = 1; order[++classes] = name }
     rays[name, form] += word[3]; refuted[name, form] += n[4] + n[7]; slow[name, form] += n[12]
+    match($0, /slowest [0-9.]+/); time = substr($0, RSTART + 8, RLENGTH - 8) + 0
+    if (time > slowest[name]) slowest[name] = time
     open[name] += n[3]; grazing[name, form] += n[5]; provable[name, form] += n[6]
   }
   function share(part, all) { return all ? sprintf("%.1f %%", 100 * part / all) : "-" }
   END {
     for (k = 1; k <= classes; k++) {
       c = order[k]
-      printf "| %s | %d | %d | %d | %d | %d | %s | %s | %s | %d |\n", c, rays[c, 1], refuted[c, 1], rays[c, 2],
+      printf "| %s | %d | %d | %d | %d | %d | %s | %s | %s | %d | %.2f |\n", c, rays[c, 1], refuted[c, 1], rays[c, 2],
         refuted[c, 2], open[c], share(grazing[c, 1], rays[c, 1]), share(provable[c, 1], rays[c, 1]),
-        share(grazing[c, 2], rays[c, 2]), slow[c, 1] + slow[c, 2]
+        share(grazing[c, 2], rays[c, 2]), slow[c, 1] + slow[c, 2], slowest[c]
     }
   }' "$1"
 }
@@ -105,14 +107,15 @@ each of newton, laguerre, aberth, split 1 and split 8.
 
 - **refuted**: a proven root is lost or passed by, or there is none at T; U, V, the point or the normal are wrong.
   Every kind met so far is a scene of [tests/accuracy/cases](../tests/accuracy/cases).
-- **undecided**: certain answers that the exact judge itself could not decide.
+- **undecided**: certain answers that the exact judge itself could not decide: the ray starts at a pole or a corner, exactly,
+  which is for the renderer a comparison of control points.
 - **grazing**: the share of answers that say so, of the default and of the others; **provable**: of the default's, those
   that the judge proves all the same, so that they could be certain. What is left was met where no proof can be had:
   the exact tangency, the common curve, the border of an open surface or the pole to the last bit, the start on the surface.
-- **slow**: rays that took more than 2 ms, of all.
+- **slow**: rays that took more than 2 ms, of all; **slowest**: the slowest one, in ms, the machine being busy.
 
-| class | rays | refuted | other solvers, splits | refuted | undecided | grazing | provable | others grazing | slow |
-|---|---|---|---|---|---|---|---|---|---|
+| class | rays | refuted | other solvers, splits | refuted | undecided | grazing | provable | others grazing | slow | slowest |
+|---|---|---|---|---|---|---|---|---|---|---|
 END
   proof_rows "$folder/proofs"
   echo
