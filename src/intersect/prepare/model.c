@@ -16,6 +16,9 @@ enum { AUTO_SPLIT_MAX = 16 };
  * and time to make. The limit on the split is halved until they fit. */
 enum { AUTO_LEAVES_MAX = 1 << 18 };
 
+/* The same where leaves are not kept, and are no more than their boxes, an eighth of a leaf. */
+enum { AUTO_BOXES_MAX = 1 << 20 };
+
 /* A frame no smaller than this: its reciprocal times a direction is finite. */
 #define LEAST_FRAME 0x1p-700
 
@@ -131,10 +134,10 @@ static enum status prepare_hierarchy(struct model *model, bool keep)
   return status;
 }
 
-static int most_split(size_t patch_count)
+static int most_split(size_t patch_count, size_t leaves_max)
 {
   int most = AUTO_SPLIT_MAX;
-  while (most > 1 && patch_count * (size_t)(most * most) > AUTO_LEAVES_MAX) most /= 2;
+  while (most > 1 && patch_count * (size_t)(most * most) > leaves_max) most /= 2;
   return most;
 }
 
@@ -176,15 +179,17 @@ static enum status prepare(struct model *model)
   enum status status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->neighbours);
   if (status != STATUS_OK) return status;
   size_t own = scene->patch_count; /* patches that need leaves */
-  if (most_split(own) < AUTO_SPLIT_MAX) {
+  if (most_split(own, AUTO_LEAVES_MAX) < AUTO_SPLIT_MAX) {
     status = copies_choose(model, &own);
     if (status != STATUS_OK) return status;
   }
-  const int most = most_split(own);
+  int most = most_split(own, AUTO_LEAVES_MAX);
+  const bool keep = most > 1;
+  if (!keep) most = most_split(own, AUTO_BOXES_MAX);
   status = copies_prepare(model, most);
   if (status != STATUS_OK) return status;
   split_patches(model, most);
-  return prepare_hierarchy(model, most > 1 && model->leaf_count <= AUTO_LEAVES_MAX);
+  return prepare_hierarchy(model, keep && model->leaf_count <= AUTO_LEAVES_MAX);
 }
 
 enum status model_create(const struct scene *scene, struct model **out)

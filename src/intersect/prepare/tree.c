@@ -55,14 +55,16 @@ static enum status build(struct arena *arena, const struct bvh_box boxes[], uint
 {
   struct bvh_box hull;
   const size_t stay = set_apart(boxes, index, count, frame, &hull), inner = stay < count;
-  struct bvh_box *own = memory_alloc(stay + inner + 1, sizeof *own);
+  const bool first = frame == 1;
+  bool given = first && !inner; /* the boxes as they are: no copies of them */
+  for (size_t k = 0; given && k < stay; k++) given = index[k] == k;
+  struct bvh_box *own = given ? NULL : memory_alloc(stay + inner + 1, sizeof *own);
   *out = (struct model_tree){.frame = whole->frame * frame};
   for (int k = 0; k < 3; k++) out->origin[k] = whole->origin[k] + whole->frame * middle[k];
-  if (!own) return STATUS_LIMIT;
-  const bool first = frame == 1;
-  for (size_t k = 0; k < stay; k++) own[k] = first ? boxes[index[k]] : framed(&boxes[index[k]], middle, frame);
+  if (!own && !given) return STATUS_LIMIT;
+  for (size_t k = 0; own && k < stay; k++) own[k] = first ? boxes[index[k]] : framed(&boxes[index[k]], middle, frame);
   if (inner) own[stay] = framed(&hull, middle, frame);
-  enum status status = bvh_build(own, stay + inner, &out->bvh);
+  enum status status = bvh_build(given ? boxes : own, stay + inner, &out->bvh);
   memory_free(own);
   for (size_t n = 0; status == STATUS_OK && n < out->bvh.node_count; n++) {
     for (int side = 0; side < BVH_WIDTH; side++) {
