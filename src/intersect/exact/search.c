@@ -310,15 +310,16 @@ static bool fold_roots_zoom(struct search *s, struct box *box, const struct fold
 /* A double root, two or none: the fold itself may be a hit, where it is in the box. */
 static bool fold_maybe(struct search *s, struct box *box, const struct fold *fold)
 {
-  double at[2], reach[2];
+  double at[2];
+  const double way = real_max(fabs(fold->way[0]), fabs(fold->way[1]));
+  const double reach = 2 * (fold->half * way + fold->uncertain); /* the arc bends */
+  if (!(reach <= FOLD_NEAR)) return false;
   for (int k = 0; k < 2; k++) {
-    reach[k] = fold->half * fabs(fold->way[k]) + fold->uncertain;
-    if (reach[k] > FOLD_NEAR) return false;
-    if (fabs(fold->at[k]) > 1 + reach[k]) return true;
+    if (fabs(fold->at[k]) > 1 + reach) return true;
     at[k] = 0.5 + 0.5 * real_min(real_max(fold->at[k], -1), 1);
   }
   const struct patch_jet w = patch_evaluate(box->net[2], at[0], at[1]);
-  const double t = depth_to_t(s, w.value), off = fabs(w.du) * reach[0] + fabs(w.dv) * reach[1];
+  const double t = depth_to_t(s, w.value), off = (fabs(w.du) + fabs(w.dv)) * reach;
   judge_maybe(s->judge, (double)fold_place(s, box, 0, 2 * at[0] - 1), (double)fold_place(s, box, 1, 2 * at[1] - 1), t,
               length_to_t(s, off + s->depth_error) + 8 * UNIT_ROUNDOFF * (fabs(t) + length_to_t(s, fabs(w.value))));
   return true;
