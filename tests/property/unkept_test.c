@@ -107,12 +107,13 @@ static long peak_bytes(void)
   return usage.ru_maxrss * 1024;
 }
 
-static void write_scene(const char *path)
+static void write_scene(const char *path, const char *line)
 {
   struct random random = {SEED};
   FILE *file = fopen(path, "w");
   assert_non_null(file);
   for (int p = 0; p < MANY; p++) {
+    if (p == 3000) fputs(line, file);
     fputs("bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3", file);
     for (int n = 0; n < 16; n++)
       fprintf(file, ", <%.9f, %.9f, %.9f>", p % 250 + n / 4 / 3.0, p / 250 + n % 4 / 3.0, random_unit(&random));
@@ -129,7 +130,7 @@ static void memory_is_bounded(void **state)
   struct side side;
   struct scene *scene;
   (void)state;
-  write_scene(path);
+  write_scene(path, "");
   const long before = peak_bytes();
   assert_int_equal(language_load(path, &settings, &diagnostics, &scene), STATUS_OK);
   assert_int_equal(remove(path), 0);
@@ -150,9 +151,31 @@ static void memory_is_bounded(void **state)
   scene_destroy(scene);
 }
 
+static void keep_text(void *context, const char *text, size_t length)
+{
+  assert_true(length < 1000);
+  memcpy(context, text, length); /* where it is zeroed */
+}
+
+/* That line of the text has been given back when the end tells of an error there. */
+static void errors_show_their_lines(void **state)
+{
+  static const char path[] = "unkept_error_test.pscn";
+  const struct language_settings settings = {.image_width = 1, .image_height = 1, .tolerance = NAN};
+  char told[1000] = "";
+  struct diagnostics diagnostics = {.tell = keep_text, .context = told};
+  struct scene *scene;
+  (void)state;
+  write_scene(path, "  #ifdef (pscn) // never closed\n");
+  assert_int_equal(language_load(path, &settings, &diagnostics, &scene), STATUS_INPUT);
+  assert_int_equal(remove(path), 0);
+  assert_string_equal(told, "unkept_error_test.pscn:3001:3: error: #ifdef without #end\n"
+                            "    #ifdef (pscn) // never closed\n    ^~~~~~\n");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(memory_is_bounded), /* first: a peak stays */
-                                     cmocka_unit_test(answers_are_the_same)};
+                                     cmocka_unit_test(errors_show_their_lines), cmocka_unit_test(answers_are_the_same)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
