@@ -78,7 +78,7 @@ static double cubic_excess(const double c[4], int degree)
   return real_max(fabs(c[1] - (2 * r[0] + r[1]) / 3), fabs(c[2] - (r[0] + 2 * r[1]) / 3));
 }
 
-bool patch_border_is_point(double x[3][4][4], int border)
+bool patch_border_is_point(const double x[3][4][4], int border)
 {
   const int first = border == 1 ? 12 : border == 3 ? 3 : 0, stride = border < 2 ? 1 : 4;
   for (int c = 0; c < 3; c++)

@@ -19,7 +19,7 @@ void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, 
 void patch_second_derivative_bounds(double x[3][4][4], double out[3]);
 
 /* Whether a border (numbered as in geometry/edges.h) is one point, its control points equal to the last bit. */
-bool patch_border_is_point(double x[3][4][4], int border);
+bool patch_border_is_point(const double x[3][4][4], int border);
 
 /* The least bidegree (m in u, n in v, each at least 1) that represents all three coordinate nets within `slack`
  * (absolute, in the nets' units) of every control value. */

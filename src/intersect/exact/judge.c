@@ -20,7 +20,7 @@
 enum { JUDGE_WORK = 2500 };
 
 /* Boxes that each region has for itself besides: so one that the ray lies in leaves the others decided. */
-enum { JUDGE_REGION_WORK = 128 };
+enum { JUDGE_REGION_WORK = 512 };
 
 void judge_turn(struct judge *j, uint32_t patch)
 {

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "geometry/patch.h"
 #include "intersect/exact/judge.h"
+#include "intersect/prepare/leaf.h"
 
 /* A ray this near to a pole, in the patch's frame, may meet the strip of leaves along it anywhere; one farther away
  * meets them as it meets others. A choice of speed. */
@@ -29,10 +29,10 @@ static void region_widen(struct judge *j, struct exact_region *r)
 {
   struct patch_room room;
   struct model_patch *patch = model_patch_at(j->asked->model, r->patch, &room);
-  const uint16_t column[2] = {r->column[0], r->column[1]};
+  const struct exact_region narrow = *r;
   for (int border = 0; border < 4; border++) {
-    const int side = border / 2, across = 1 - side, at = border & 1 ? patch->split[side] - 1 : 0;
-    if (patch->split[across] == 1 || column[side] != at || !patch_border_is_point(patch->x, border)) continue;
+    const int across = 1 - border / 2;
+    if (patch->split[across] == 1 || !leaf_border_is_point(patch, narrow.column, narrow.span, border)) continue;
     if (!passes_near(j, r->patch, border)) continue;
     r->column[across] = 0, r->span[across] = (uint16_t)patch->split[across], r->leaf = NULL;
   }

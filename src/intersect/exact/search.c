@@ -428,7 +428,7 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
                        .divided = NO_BORDER};
   for (int k = 0; k < 2; k++)
     s->low[k] = part_of(region->column[k], patch->split[k]), s->size[k] = part_of(region->span[k], patch->split[k]);
-  for (int k = 0; k < 4; k++) s->pole[k] = patch_border_is_point((double(*)[4][4])x, k);
+  for (int k = 0; k < 4; k++) s->pole[k] = leaf_border_is_point(patch, region->column, region->span, k);
   if (region->leaf) memcpy(s->extent, region->leaf->first, sizeof s->extent);
   else if (is_leaf(j->asked->model, region)) leaf_bounds(x, s->extent, (double[3]){0});
   else leaf_first_bounds(x, s->extent);

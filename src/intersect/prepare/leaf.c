@@ -25,13 +25,22 @@ void leaf_first_bounds(double x[3][16], double out[2])
   }
 }
 
+bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], int border)
+{
+  const int side = border / 2, end = column[side] + span[side];
+  return (border & 1 ? end == patch->split[side] : column[side] == 0) && patch_border_is_point(patch->x, border) &&
+         patch_border_is_point(patch->rest, border);
+}
+
 /* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other
  * would leave r identically zero at the apex; otherwise the one of higher degree, for the determinant is the smaller
  * then. */
 static bool keep_v(const struct model_patch *patch, double x[3][4][4])
 {
-  const int rows = patch_border_is_point(x, 0) + patch_border_is_point(x, 1);
-  const int columns = patch_border_is_point(x, 2) + patch_border_is_point(x, 3);
+  const int rows = patch_border_is_point((const double(*)[4][4])x, 0) +
+                   patch_border_is_point((const double(*)[4][4])x, 1);
+  const int columns = patch_border_is_point((const double(*)[4][4])x, 2) +
+                      patch_border_is_point((const double(*)[4][4])x, 3);
   if (rows != columns) return columns > rows;
   return patch->n > patch->m;
 }
@@ -65,8 +74,9 @@ static void set_form(const struct model_patch *patch, struct leaf *leaf, struct 
   leaf->v_kept = keep_v(patch, x);
   const int kept = leaf->v_kept ? patch->n : patch->m, eliminated = leaf->v_kept ? patch->m : patch->n;
   leaf->kept_degree = (uint8_t)kept, leaf->eliminated_degree = (uint8_t)eliminated;
-  const bool low = leaf->v_kept ? patch_border_is_point(x, 2) : patch_border_is_point(x, 0);
-  const bool high = leaf->v_kept ? patch_border_is_point(x, 3) : patch_border_is_point(x, 1);
+  const uint16_t column[2] = {leaf->column_u, leaf->column_v}, span[2] = {1, 1};
+  const bool low = leaf_border_is_point(patch, column, span, leaf->v_kept ? 2 : 0);
+  const bool high = leaf_border_is_point(patch, column, span, leaf->v_kept ? 3 : 1);
   leaf->zeros[0] = (uint8_t)(low ? eliminated : 0), leaf->zeros[1] = (uint8_t)(high ? eliminated : 0);
   leaf->form = NULL;
   if (patch->m == 3 && patch->n == 3 && !leaf->v_kept) return;
