@@ -1,9 +1,9 @@
 /* A bounding volume hierarchy over axis-aligned boxes, up to four children a node.
  *
  * Built by binned surface-area heuristic (Wald, On fast Construction of SAH-based Bounding Volume Hierarchies,
- * 2007; four children: Wald, Benthin and Boulos, Getting Rid of Packets, 2008). Read-only once built; any number of threads may walk it. The caller gives boxes in a frame of its choice
- * (near the origin is best, for the stored boxes are single precision, rounded outwards: a stored box always
- * contains the given one).
+ * 2007; four children: Wald, Benthin and Boulos, Getting Rid of Packets, 2008). Read-only once built; any number of
+ * threads may walk it. The caller gives boxes in a frame of its choice (near the origin is best, for the stored boxes are
+ * single precision, rounded outwards: a stored box always contains the given one).
  */
 #ifndef PSCN_GEOMETRY_BVH_H
 #define PSCN_GEOMETRY_BVH_H

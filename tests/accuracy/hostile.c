@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "accuracy/extremes.h"
-#include "accuracy/lattice.h"
 #include "accuracy/generate.h"
+#include "accuracy/lattice.h"
 #include "accuracy/models.h"
 
 enum { RAYS = SITUATION_RAYS };
