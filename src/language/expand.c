@@ -12,6 +12,8 @@ struct list {
   void **items;
   size_t *count, capacity, size; /* size: of an element */
   struct table known;            /* its elements, where they are all different */
+  const void *last;              /* what was asked for last */
+  uint32_t last_index;
 };
 
 struct known {
@@ -22,6 +24,7 @@ struct known {
 struct expansion {
   struct language *language;
   struct scene *scene;
+  struct texture none; /* of what has no texture */
   struct list textures, methods, objects, copies;
   bool in_copy;
   bool told; /* that a point is too large */
@@ -48,19 +51,28 @@ static void *append(struct arena *arena, struct list *list)
   return (char *)*list->items + (*list->count)++ * list->size;
 }
 
-/* The index of the element equal to `item`, which becomes one if there is none. */
+/* The index of the element equal to `item`, which becomes one if there is none. Neighbours mostly ask for one item. */
 static bool intern(struct expansion *e, struct list *list, const void *item, uint32_t *out)
 {
-  const uint64_t hash = table_hash(item, list->size);
-  for (struct table_entry *entry = table_find(&list->known, hash); entry; entry = entry->older) {
-    *out = ((const struct known *)entry)->index;
-    if (memcmp((char *)*list->items + *out * list->size, item, list->size) == 0) return true;
+  if (item == list->last) {
+    *out = list->last_index;
+    return true;
   }
-  struct known *known = arena_alloc(e->language->arena, 1, sizeof *known);
-  void *added = append(e->scene->arena, list);
-  if (!known || !added || !table_add(&list->known, e->language->arena, &known->entry, hash)) return false;
-  memcpy(added, item, list->size);
-  *out = known->index = (uint32_t)(*list->count - 1);
+  const uint64_t hash = table_hash(item, list->size);
+  const struct table_entry *entry = table_find(&list->known, hash);
+  while (entry &&
+         memcmp((char *)*list->items + ((const struct known *)entry)->index * list->size, item, list->size) != 0)
+    entry = entry->older;
+  if (!entry) {
+    struct known *known = arena_alloc(e->language->arena, 1, sizeof *known);
+    void *added = append(e->scene->arena, list);
+    if (!known || !added || !table_add(&list->known, e->language->arena, &known->entry, hash)) return false;
+    memcpy(added, item, list->size);
+    known->index = (uint32_t)(*list->count - 1);
+    entry = &known->entry;
+  }
+  list->last = item;
+  *out = list->last_index = ((const struct known *)entry)->index;
   return true;
 }
 
@@ -87,8 +99,7 @@ static bool expand_patch(struct expansion *e, const struct node *node, const str
   patch->flatness = node->setting[PATCH_FLATNESS];
   patch->u_steps = (int)node->setting[PATCH_U_STEPS];
   patch->v_steps = (int)node->setting[PATCH_V_STEPS];
-  const struct texture none = texture_default(e->language);
-  return intern(e, &e->textures, with->texture ? &with->texture->is : &none.is, &patch->texture) &&
+  return intern(e, &e->textures, with->texture ? &with->texture->is : &e->none.is, &patch->texture) &&
          intern(e, &e->methods, with->method, &patch->solver);
 }
 
@@ -152,12 +163,14 @@ static bool expand(struct expansion *e, const struct node *node, const struct in
 
 enum status objects_expand(struct language *language, const struct method *method, struct scene *scene)
 {
-  struct expansion e = {.language = language,
-                        .scene = scene,
-                        .textures = {(void **)&scene->textures, &scene->texture_count, 0, sizeof *scene->textures, {0}},
-                        .methods = {(void **)&scene->solvers, &scene->solver_count, 0, sizeof *scene->solvers, {0}},
-                        .objects = {(void **)&scene->objects, &scene->object_count, 0, sizeof *scene->objects, {0}},
-                        .copies = {(void **)&scene->copies, &scene->copy_count, 0, sizeof *scene->copies, {0}}};
+  struct expansion e = {
+    .language = language,
+    .scene = scene,
+    .none = texture_default(language),
+    .textures = {.items = (void **)&scene->textures, .count = &scene->texture_count, .size = sizeof *scene->textures},
+    .methods = {.items = (void **)&scene->solvers, .count = &scene->solver_count, .size = sizeof *scene->solvers},
+    .objects = {.items = (void **)&scene->objects, .count = &scene->object_count, .size = sizeof *scene->objects},
+    .copies = {.items = (void **)&scene->copies, .count = &scene->copy_count, .size = sizeof *scene->copies}};
   const struct node *all = &language->objects->scene;
   const struct inherited nothing = {transform_identity(), NULL, method};
   uint32_t first;

@@ -62,7 +62,7 @@ static void tell_end(struct language *language)
 {
   const struct tokens *tokens = language->tokens;
   if (tokens->depth > 0) language_tell(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
-  else language_tell(language, tokens->last.value.place, "the text ends within a declaration");
+  else language_tell(language, tokens->last.place, "the text ends within a declaration");
 }
 
 /* Runs the grammar over a source, which is taken over; NULL where there was no memory for one. */

@@ -138,12 +138,6 @@ void sources_close(struct language *language)
     source_destroy(entry->source);
 }
 
-struct place sources_here(const struct language *language)
-{
-  const struct frame *frame = language->sources->frame;
-  return (struct place){frame->source, frame->scan.begin, frame->scan.end};
-}
-
 /* `name` in a folder, which is folder[0 .. length-1] with the slash behind it; a name that begins with / is whole. */
 static char *path_in(struct language *language, const char *folder, size_t folder_length, const char *name,
                      size_t length)
@@ -159,16 +153,20 @@ static char *path_in(struct language *language, const char *folder, size_t folde
 }
 
 /* The path of an included file: relative to the folder of the file that includes it, or else to the first of the given
- * folders that has it; the former where it is nowhere. */
-static char *include_path(struct language *language, const char *name, size_t length)
+ * folders that has it; the former where it is nowhere. Writes what file that is, 0 and 0 for none. */
+static char *include_path(struct language *language, const char *name, size_t length, uint64_t *out_device,
+                          uint64_t *out_inode)
 {
-  uint64_t device, inode;
   const char *includer = language->sources->frame->source->name, *slash = strrchr(includer, '/');
   char *path = path_in(language, includer, slash ? (size_t)(slash - includer) + 1 : 0, name, length), *other = path;
   const char *const *folder = language->sources->folders;
-  for (; other && !source_identify(other, &device, &inode) && folder && *folder; folder++)
+  while (other && !source_identify(other, out_device, out_inode)) {
+    *out_device = *out_inode = 0;
+    if (!folder || !*folder) return path;
     other = path_in(language, *folder, strlen(*folder), name, length);
-  return other && source_identify(other, &device, &inode) ? other : path;
+    folder++;
+  }
+  return other;
 }
 
 static bool same_file(const struct source *a, const struct source *b)
@@ -193,11 +191,9 @@ static void tell_cycle(struct language *language, struct place place, const stru
   language_tell(language, place, "files include each other: %s%s", text, again->name);
 }
 
-/* The first source of the file at `path`, if it has been read already. */
-static const struct source *known_file(const struct language *language, const char *path)
+/* The first source of that file, if it has been read already. */
+static const struct source *known_file(const struct language *language, uint64_t device, uint64_t inode)
 {
-  uint64_t device, inode;
-  if (!source_identify(path, &device, &inode)) return NULL;
   const struct table_entry *entry = table_find(&language->sources->files, hash_of_file(device, inode));
   for (; entry; entry = entry->older) {
     const struct source *source = ((const struct source_list *)entry)->source;
@@ -222,13 +218,14 @@ static struct source *read_included(struct language *language, struct place plac
     language_tell(language, place, "a file name holds no NUL");
     return NULL;
   }
-  const char *path = include_path(language, name, length);
+  uint64_t device, inode;
+  const char *path = include_path(language, name, length, &device, &inode);
   struct source *source = NULL;
   if (!path) {
     language->ended_early = true;
     return NULL;
   }
-  const struct source *known = known_file(language, path);
+  const struct source *known = known_file(language, device, inode);
   enum status status = STATUS_OK;
   if (known) source = source_share(known, path);
   else status = source_read(path, INPUT_FILE, &source, &reason);

@@ -49,6 +49,10 @@ void sources_leave(struct language *language);
 void sources_close(struct language *language);
 
 /* The bytes of the last token of the source being read. */
-struct place sources_here(const struct language *language);
+static inline struct place sources_here(const struct language *language)
+{
+  const struct frame *frame = language->sources->frame;
+  return (struct place){frame->source, frame->scan.begin, frame->scan.end};
+}
 
 #endif

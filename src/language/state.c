@@ -6,12 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-struct place language_span(const struct place *first, const struct place *last)
-{
-  if (first->source != last->source || last->end < first->begin) return *first;
-  return (struct place){first->source, first->begin, last->end};
-}
-
 /* More than these of one declaration are not told. */
 enum { MOST_HELD = 20 };
 

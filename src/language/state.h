@@ -19,11 +19,13 @@ enum { MAX_NESTING = 200 };
 
 /* What a token is beside its kind. The text is not terminated and lives as long as its source. */
 struct token {
-  const char *text;
-  size_t length;
   struct place place;
   union {
-    double number[3];
+    struct {
+      const char *text;
+      size_t length;
+    };
+    double number[3]; /* of a number or a vector, whose text is not told */
     int index;
   };
 };
@@ -81,8 +83,13 @@ struct language {
   struct settings *settings;
 };
 
-/* From the beginning of one to the end of the other, if both stand in one source. */
-struct place language_span(const struct place *first, const struct place *last);
+/* From the beginning of one to the end of the other, if both stand in one source. Here, because the parser wants it with
+ * every rule. */
+static inline struct place language_span(const struct place *first, const struct place *last)
+{
+  if (first->source != last->source || last->end < first->begin) return *first;
+  return (struct place){first->source, first->begin, last->end};
+}
 
 /* An error in how files are put together: in whole comments, quotes, conditions, blocks. */
 void language_tell(struct language *language, struct place place, const char *format, ...)

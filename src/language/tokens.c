@@ -10,12 +10,14 @@ static const char *text_at(struct place place) { return place.source->text + pla
 
 static size_t length_of(struct place place) { return place.end - place.begin; }
 
+static bool is_number(int token) { return token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT; }
+
 /* Any word, be it a name or one of the language's or of POV-Ray's. */
 static bool is_word(int token)
 {
-  return token > 255 && token < TOKEN_FIRST_PRIVATE && token != PSCN_TOKEN_NUMBER && token != PSCN_TOKEN_POINT &&
-         token != PSCN_TOKEN_STRING && token != PSCN_TOKEN_VERSION && token != PSCN_TOKEN_DECLARE &&
-         token != PSCN_TOKEN_LOCAL && token != PSCN_TOKEN_DEFAULT;
+  return token > 255 && token < TOKEN_FIRST_PRIVATE && !is_number(token) && token != PSCN_TOKEN_STRING &&
+         token != PSCN_TOKEN_VERSION && token != PSCN_TOKEN_DECLARE && token != PSCN_TOKEN_LOCAL &&
+         token != PSCN_TOKEN_DEFAULT;
 }
 
 static void tell_open_comment(struct language *language)
@@ -233,7 +235,7 @@ static int advance(struct language *language)
     last->again = false;
     return last->token;
   }
-  tokens->previous = last->value.place;
+  tokens->previous = last->place;
   int token;
   do {
     if (language->ended_early || diagnostics_full(language->diagnostics)) {
@@ -250,13 +252,10 @@ static int advance(struct language *language)
     tokens->told = place;
     token = PSCN_TOKEN_FOREIGN;
   }
-  const struct scan *scan = &language->sources->frame->scan;
-  const bool is_number = token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT;
-  if (is_number && scan->too_large) tell_too_large(language);
-  *last = (struct delivered){.token = raw_word(language, token),
-                             .depth = tokens->depth,
-                             .value = {.text = text_at(place), .length = length_of(place), .place = place}};
-  if (is_number) memcpy(last->value.number, scan->number, sizeof last->value.number);
+  if (is_number(token) && language->sources->frame->scan.too_large) tell_too_large(language);
+  last->place = place;
+  last->token = raw_word(language, token);
+  last->depth = tokens->depth;
   if (token == '{' && tokens->depth < MAX_NESTING) tokens->braces[tokens->depth] = place;
   if (token == '{' && ++tokens->depth > MAX_NESTING)
     language_limit(language, place, "blocks are nested more than 200 deep");
@@ -274,7 +273,9 @@ int tokens_next(struct language *language, struct token *out_token)
     return tokens->made_up++ == 0 ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_SOLVER;
   }
   const int token = advance(language);
-  *out_token = tokens->last.value;
+  out_token->place = tokens->last.place;
+  if (is_number(token)) memcpy(out_token->number, language->sources->frame->scan.number, sizeof out_token->number);
+  else out_token->text = text_at(out_token->place), out_token->length = length_of(out_token->place);
   return token;
 }
 
@@ -285,10 +286,9 @@ static bool recover(struct language *language)
   struct tokens *tokens = language->tokens;
   const struct delivered *last = &tokens->last;
   const int block = last->depth;
-  const bool twice = last->value.place.source == tokens->recovered.source &&
-                     last->value.place.begin == tokens->recovered.begin;
+  const bool twice = last->place.source == tokens->recovered.source && last->place.begin == tokens->recovered.begin;
   int parentheses = 0, before = 0;
-  tokens->recovered = last->value.place;
+  tokens->recovered = last->place;
   tokens->last.again = false;
 
   for (bool first = true;; first = false, before = last->token, advance(language)) {

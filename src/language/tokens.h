@@ -7,7 +7,7 @@
 /* The last token handed to the parser, and what it takes to hand it out again. */
 struct delivered {
   int token;
-  struct token value;
+  struct place place;
   int depth;  /* of braces, before it */
   bool again; /* it comes next once more */
 };

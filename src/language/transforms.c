@@ -45,7 +45,8 @@ static void apply(const struct transform *transform, const struct double_double 
     out[j] = from[j];
     if (transform->identity) continue;
     struct double_double q = b[j];
-    for (int k = 0; k < 3; k++) q = dd_add(q, dd_scale(transform->A[k][j], from[k]));
+    for (int k = 0; k < 3; k++)
+      if (transform->A[k][j].hi != 0) q = dd_add(q, dd_scale(transform->A[k][j], from[k]));
     out[j] = q.hi + q.lo;
   }
 }
@@ -88,14 +89,14 @@ static struct double_double divide(struct double_double a, double b)
   return dd_normal(q, left.hi / b);
 }
 
-/* Sum of x^n / n! with alternating signs over n = first, first + 2, ...; for |x| <= pi/4 the 15th term is below
- * 2^-106. */
+/* Sum of x^n / n! with alternating signs over n = first, first + 2, ..., up to a term that is less than what rounds the
+ * sum; for |x| <= pi/4 the 15th term is below 2^-106. */
 static struct double_double alternating(struct double_double x, int first)
 {
   enum { TERMS = 15 };
   struct double_double term = first == 0 ? dd(1) : x, sum = term;
   const struct double_double square = dd_negate(dd_multiply(x, x));
-  for (int n = first + 1; n < 2 * TERMS; n += 2) {
+  for (int n = first + 1; n < 2 * TERMS && fabs(term.hi) > 0x1p-108 * fabs(sum.hi); n += 2) {
     term = divide(dd_multiply(term, square), (double)(n * (n + 1)));
     sum = dd_add(sum, term);
   }

@@ -66,15 +66,16 @@ static double operate(char op, double p, double q)
 /* A colour has five parts in POV-Ray: what happens to the two that say how transparent it is must leave them 0. */
 static bool stays_opaque(struct language *language, char op, const struct value *a, const struct value *b)
 {
-  const struct place both = language_span(&a->place, &b->place);
   const bool number = a->kind == VALUE_NUMBER || b->kind == VALUE_NUMBER;
   const bool colour = a->kind == VALUE_COLOUR || b->kind == VALUE_COLOUR;
   if (colour && number && (op == '+' || op == '-')) {
-    language_error(language, both, "a number added to a colour makes it transparent in POV-Ray; add a vector of three");
+    language_error(language, language_span(&a->place, &b->place),
+                   "a number added to a colour makes it transparent in POV-Ray; add a vector of three");
     return false;
   }
   if (op == '/' && colour && b->kind != VALUE_NUMBER) {
-    language_error(language, both, "this makes a colour infinitely transparent in POV-Ray; divide by a number");
+    language_error(language, language_span(&a->place, &b->place),
+                   "this makes a colour infinitely transparent in POV-Ray; divide by a number");
     return false;
   }
   return true;

@@ -70,6 +70,7 @@ static int compare_row(const void *sought, const void *row)
 
 int words_token(const char *word, size_t length)
 {
+  if (word[0] < 'a') return PSCN_TOKEN_WORD; /* no word of a language begins with a capital */
   const struct keyword *found = FIND(word, length, KEYWORDS);
   if (!found) found = FIND(word, length, SYNONYMS);
   if (found) return found->token;
