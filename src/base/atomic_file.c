@@ -141,7 +141,11 @@ static void sync_directory(const char *path)
 static enum status write_through(const struct target *target, const unsigned char *bytes, size_t size,
                                  const atomic_int *stop, int *out_errno)
 {
-  const int descriptor = open(target->path, O_WRONLY | O_CLOEXEC);
+  int descriptor;
+  do { /* a pipe that nobody reads makes us wait here */
+    if (stop != NULL && atomic_load(stop) != 0) return STATUS_INTERRUPTED;
+    descriptor = open(target->path, O_WRONLY | O_CLOEXEC);
+  } while (descriptor < 0 && errno == EINTR);
   if (descriptor < 0) {
     *out_errno = errno;
     return STATUS_FILE;

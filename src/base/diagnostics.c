@@ -40,8 +40,7 @@ static void block_add_clean(struct block *block, const char *text, size_t length
 {
   for (size_t i = 0; i < length;) {
     size_t bytes = source_character(text + i, length - i);
-    bool plain = bytes > 1 || (bytes == 1 && (unsigned char)text[i] >= ' ' && text[i] != 0x7F) || text[i] == '\t';
-    if (plain) block_add(block, text + i, bytes);
+    if (source_is_shown(text + i, bytes) || text[i] == '\t') block_add(block, text + i, bytes);
     else block_add(block, "?", 1);
     i += bytes ? bytes : 1;
   }

@@ -184,6 +184,12 @@ size_t source_character(const char *text, size_t length)
   return count;
 }
 
+bool source_is_shown(const char *text, size_t bytes)
+{
+  const unsigned char *c = (const unsigned char *)text;
+  return bytes > 2 || (bytes == 2 && !(c[0] == 0xC2 && c[1] < 0xA0)) || (bytes == 1 && c[0] >= ' ' && c[0] != 0x7F);
+}
+
 struct source_position source_locate(const struct source *source, size_t offset)
 {
   const char *text = source->text;

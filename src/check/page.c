@@ -64,15 +64,13 @@ void page_free(struct page *page)
 void page_printable(struct page *page, const char *text, size_t length)
 {
   for (size_t at = 0, size; at < length; at += size) {
-    const unsigned char *c = (const unsigned char *)text + at;
     size = source_character(text + at, length - at);
-    const bool control = (c[0] < 0x20 && c[0] != '\n') || c[0] == 0x7f || (c[0] == 0xc2 && size == 2 && c[1] < 0xa0);
-    if (size > 0 && !control) {
-      page_bytes(page, c, size);
+    if (source_is_shown(text + at, size) || text[at] == '\n') {
+      page_bytes(page, text + at, size);
       continue;
     }
     size += size == 0;
-    for (size_t k = 0; k < size; k++) page_format(page, "\\x%02x", c[k]);
+    for (size_t k = 0; k < size; k++) page_format(page, "\\x%02x", (unsigned char)text[at + k]);
   }
 }
 

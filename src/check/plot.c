@@ -61,8 +61,11 @@ static enum status run_gnuplot(const struct listener *listener, const struct scr
     size_t length;
     struct page said = {0};
     out->failed = scratch_read(folder, LOG, &text, &length) == STATUS_LIMIT || out->failed;
-    page_printable(&said, text == NULL ? "" : text, length < 400 ? length : 400);
-    listener_tell(listener, TOLD_WARNING, "gnuplot made no figure: %s", said.text == NULL ? "" : said.text);
+    if (status == STATUS_LIMIT) page_format(&said, "it took more than %g seconds", TIMEOUT);
+    else if (status != STATUS_OK) page_format(&said, "%s", strerror(result.reason));
+    else page_printable(&said, text == NULL ? "" : text, length < 400 ? length : 400);
+    listener_tell(listener, TOLD_WARNING, "gnuplot made no figure: %s",
+                  said.text == NULL ? "its file cannot be read" : said.text);
     page_free(&said);
     free(text);
   }

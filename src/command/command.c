@@ -10,9 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/source.h"
 #include "command/interrupt.h"
 #include "command/values.h"
 #include "language/words.h"
+
+enum { MESSAGE_BYTES = 8192 }; /* longer messages are cut: a path has at most half of it */
 
 /* In the order of the help text. */
 static const struct command *const commands[] = {
@@ -72,11 +75,21 @@ void command_print_overview(FILE *file)
   fputs(command_exit_codes, file);
 }
 
+/* What files and names bring into a message steers no terminal: control characters, but for the newline, are \xNN. */
 static void print_error(const struct command *command, const char *format, va_list arguments)
 {
+  char text[MESSAGE_BYTES] = "";
+  (void)vsnprintf(text, sizeof text, format, arguments);
   if (command == NULL) fputs("pscn: error: ", stderr);
   else fprintf(stderr, "pscn %s: error: ", command->name);
-  vfprintf(stderr, format, arguments);
+  for (const char *end = text + strlen(text), *begin = text, *at = text; begin < end; begin = at) {
+    for (size_t size = 1; at < end && size > 0; at += size) {
+      size = source_character(at, (size_t)(end - at));
+      if (!source_is_shown(at, size) && *at != '\n') size = 0;
+    }
+    (void)fwrite(begin, 1, (size_t)(at - begin), stderr);
+    if (at < end) fprintf(stderr, "\\x%02x", (unsigned char)*at++);
+  }
   fputc('\n', stderr);
 }
 

@@ -83,14 +83,9 @@ static enum status read_headers(struct merge *merge)
 /* Of two pieces, which each belong to themselves at least. */
 static bool belong(const struct file *a, const struct file *b, char *message, size_t size)
 {
-  const struct image *x = &a->piece.image, *y = &b->piece.image;
-  if (!piece_belongs(x, y, message, size)) return false;
-  if (a->piece.count != b->piece.count) {
-    snprintf(message, size, "its number of pieces: %zu, not %zu", a->piece.count, b->piece.count);
-    return false;
-  }
-  snprintf(message, size, "its window");
-  return x->x == y->x && x->y == y->y && x->width == y->width && x->height == y->height;
+  if (!piece_belongs(&a->piece.image, &b->piece.image, message, size)) return false;
+  snprintf(message, size, "its number of pieces: %zu, not %zu", a->piece.count, b->piece.count);
+  return a->piece.count == b->piece.count;
 }
 
 /* The picture that most files are of; of two with equally many, that of the first file. */

@@ -160,7 +160,9 @@ bool piece_belongs(const struct image *part, const struct image *picture, char *
     snprintf(out, size, "its %s: '%.*s', not '%.*s'", COMMON[k].what, (int)here, a, (int)there, b);
     return false;
   }
-  return true;
+  snprintf(out, size, "its window");
+  return part->x == picture->x && part->y == picture->y && part->width == picture->width &&
+         part->height == picture->height;
 }
 
 /* The values of one tile, of which `channel` says for each of to's channels which of from's it is. */

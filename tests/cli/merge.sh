@@ -48,6 +48,11 @@ pscn merge p?.exr -o no.png 2>/dev/null; echo "exit $?"
 try pscn merge p1.exr gone.exr one.exr crop.exr -o no.png
 try pscn merge gone.exr one.png -o no.png
 [ ! -e no.png ] || echo "there is a picture"
+# Nothing that a piece or a name says steers a terminal.
+cp whole3.exr p3.exr
+pscn render $scene --samples 2 --tile 2/4 --declare Unused=1 -o named.exr
+sed 's/Unused=1/\x1b[31m=1 /' named.exr >p2.exr
+try pscn merge p?.exr $'\x1b[31m\xc2\x9bé\xff.exr' -o no.png
 # The command line.
 try pscn merge -o no.png
 try pscn merge p1.exr

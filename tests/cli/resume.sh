@@ -37,6 +37,12 @@ try pscn render $scene -o half.exr --resume --samples 3
 try pscn render $scene -o half.exr --resume --size 30x20
 try pscn render $scene -o half.exr --resume --tile 1/2
 try pscn render $scene -o half.exr --resume --solver newton
+# What says that it is of this picture but has another size is no part of it.
+small="$SCENES/bent.pscn --size 30x20 --quiet"
+pscn render $SCENES/bent.pscn --size 90x80 --tile 1/1 -o larger.exr --quiet
+sed 's/90x80/30x20/g; s/0,0,90,80/0,0,30,20/g' larger.exr >small.exr.part.exr
+try pscn render $small -o small.exr --resume
+rm larger.exr small.exr.part.exr
 echo no picture >half.exr.part.exr
 pscn render $scene -o half.exr --resume 2>/dev/null; echo "exit $?"
 # Nor without being asked to, but it says so.

@@ -5,12 +5,14 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "cmocka_test.h"
@@ -210,6 +212,29 @@ static void stopped_write_leaves_the_old_file(void **state)
   assert_int_equal(count_entries(), 1);
 }
 
+/* A bell that rings on, since its first stroke may come before anybody waits. */
+static atomic_int rung;
+static void ring(int signal) { atomic_store(&rung, signal); }
+
+static void a_signal_ends_the_wait_for_a_reader(void **state)
+{
+  (void)state;
+  int reason = 0;
+  size_t failed;
+  const struct atomic_file file = {"pipe", "text", 4};
+  const struct itimerval often = {{0, 10000}, {0, 10000}}, never = {{0, 0}, {0, 0}};
+  struct sigaction action = {.sa_handler = ring}, before;
+  assert_int_equal(mkfifo("pipe", 0600), 0);
+  assert_int_equal(sigaction(SIGALRM, &action, &before), 0);
+  assert_int_equal(setitimer(ITIMER_REAL, &often, NULL), 0);
+  atomic_store(&rung, 0);
+  const enum status status = atomic_files_write(&file, 1, &rung, &failed, &reason);
+  assert_int_equal(setitimer(ITIMER_REAL, &never, NULL), 0);
+  assert_int_equal(sigaction(SIGALRM, &before, NULL), 0);
+  assert_int_equal(status, STATUS_INTERRUPTED);
+  assert_int_equal(count_entries(), 1);
+}
+
 /* While a file is written nobody can open it, or where it needs a name, only who could open the old one. */
 static void unfinished_files_are_private(void **state)
 {
@@ -273,11 +298,11 @@ static void a_failing_name_undoes_those_before(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    IN_FOLDER(new_file_has_the_masks_permissions), IN_FOLDER(old_file_is_replaced_and_keeps_its_permissions),
-    IN_FOLDER(symbolic_link_is_followed),          IN_FOLDER(impossible_names_have_their_reasons),
-    IN_FOLDER(device_is_written_to_not_replaced),  IN_FOLDER(stopped_write_leaves_the_old_file),
-    IN_FOLDER(unfinished_files_are_private),       IN_FOLDER(several_files_appear_together),
-    IN_FOLDER(a_failing_name_undoes_those_before),
+    IN_FOLDER(new_file_has_the_masks_permissions),  IN_FOLDER(old_file_is_replaced_and_keeps_its_permissions),
+    IN_FOLDER(symbolic_link_is_followed),           IN_FOLDER(impossible_names_have_their_reasons),
+    IN_FOLDER(device_is_written_to_not_replaced),   IN_FOLDER(stopped_write_leaves_the_old_file),
+    IN_FOLDER(a_signal_ends_the_wait_for_a_reader), IN_FOLDER(unfinished_files_are_private),
+    IN_FOLDER(several_files_appear_together),       IN_FOLDER(a_failing_name_undoes_those_before),
   };
   const int failed = cmocka_run_group_tests_name("files without a name", tests, NULL, NULL);
   no_unnamed = true;
