@@ -2,6 +2,7 @@
 #include "algebra/solver.h"
 
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -62,36 +63,48 @@ root_kernel *root_kernel_best(void)
   return root_kernel_baseline;
 }
 
-/* The polynomial scaled by a power of two so that its largest coefficient lies in [1/2, 1), which changes no root.
- * False where there is nothing to solve; then out says why. */
-static bool scale_polynomial(const struct polynomial *p, struct root_problem *scaled, struct root_set *out)
+/* Whether there is something to solve; where there is not, out says why. */
+static bool worth_solving(const struct polynomial *p, struct root_set *out)
 {
-  double largest = 0.0;
   bool finite = true, zero = true;
   for (int k = 0; k <= p->degree; k++) {
     const double error = p->error == NULL ? 0.0 : p->error[k];
     const double size = fabs(p->c[k]);
     finite = finite && size <= DBL_MAX && error >= 0.0 && error <= DBL_MAX;
     zero = zero && size <= error;
-    largest = fmax(largest, size);
   }
   out->not_finite = !finite;
   out->identically_zero = finite && zero;
-  if (!finite || zero) return false;
-  scaled->degree = p->degree;
-  scaled->basis = p->basis;
-  int exponent;
-  (void)frexp(largest, &exponent);
-  /* Two factors, because 2^-exponent itself may overflow. */
-  const double first = ldexp(1.0, -(exponent / 2)), second = ldexp(1.0, -(exponent - exponent / 2));
-  for (int k = 0; k <= p->degree; k++) {
-    scaled->c[k] = p->c[k] * first * second;
-    const bool exact = scaled->c[k] / first / second == p->c[k];
-    scaled->error[k] = p->error == NULL ? 0.0 : p->error[k] * first * second * (1.0 + DBL_EPSILON);
-    if (!exact || (p->error != NULL && p->error[k] > 0.0))
-      scaled->error[k] += 2 * DBL_TRUE_MIN; /* what underflow may have taken */
+  return finite && !zero;
+}
+
+/* Whose roots are known to 2^unit of their own: the polynomial in x with u = 2^unit x. In powers of u the unit is that of
+ * the mean modulus of the roots, so that no size of u makes values, their bounds or their squares over- or underflow;
+ * the paper's form has a tolerance in u and its unit is 1. */
+static int unit_of(const struct root_problem *problem, const struct solver_options *options)
+{
+  const double low = log2(fabs(problem->c[0])), high = log2(fabs(problem->c[problem->degree]));
+  const bool fixed = problem->basis != BASIS_POWER || options->stop == STOP_STEP || options->solver->real_only;
+  return fixed || problem->degree == 0 || !isfinite(low - high) ? 0 : (int)lrint((low - high) / problem->degree);
+}
+
+/* The same polynomial in x with u = 2^unit x, times a power of two so that its largest coefficient lies in [1/2, 1). */
+static void scale_problem(struct root_problem *problem, int unit)
+{
+  int largest = INT_MIN;
+  for (int k = 0; k <= problem->degree; k++) {
+    int exponent;
+    (void)frexp(problem->c[k], &exponent);
+    if (problem->c[k] != 0.0 && exponent + k * unit > largest) largest = exponent + k * unit;
   }
-  return true;
+  for (int k = 0; k <= problem->degree; k++) {
+    const int exponent = k * unit - largest;
+    const double c = problem->c[k], error = problem->error[k];
+    problem->c[k] = ldexp(c, exponent);
+    problem->error[k] = ldexp(error, exponent) * (1.0 + DBL_EPSILON);
+    if (error > 0.0 || ldexp(problem->c[k], -exponent) != c)
+      problem->error[k] += 2 * DBL_TRUE_MIN; /* what underflow may have taken */
+  }
 }
 
 static void add_root(struct root_set *out, double re, double im, int iterations, enum root_status status)
@@ -162,22 +175,69 @@ static void remember(const struct root_estimates *estimates, struct solver_warm 
   }
 }
 
-/* The roots, each with the radius of what it stands for, the first *out_exact of them exact, and the polynomial that
- * has the others. False where there is nothing to solve. */
+/* Measures known roots in units 2^unit larger. */
+static void scale_warm(struct solver_warm *warm, int unit)
+{
+  for (int i = 0; i < warm->count; i++) {
+    warm->re[i] = ldexp(warm->re[i], -unit);
+    warm->im[i] = ldexp(warm->im[i], -unit);
+  }
+}
+
+/* Who looks on is told values in u. */
+struct unit_watch {
+  const struct solver_watch *told;
+  int unit;
+};
+
+static void tell_in_u(void *context, int root, int step, double re, double im)
+{
+  const struct unit_watch *watch = context;
+  watch->told->tell(watch->told->context, root, step, ldexp(re, watch->unit), ldexp(im, watch->unit));
+}
+
+/* What is left to solve, in x with u = 2^unit x. */
+struct task {
+  struct root_problem rest; /* the polynomial without its exact roots at the ends */
+  int unit;
+  int infinite, exact; /* those roots: at infinity; in the answer, where they are the first */
+};
+
+static void ask_solver(const struct root_problem *problem, int unit, const struct solver_options *options,
+                       struct solver_warm *warm, struct root_estimates *out)
+{
+  struct unit_watch in_u = {options->watch, unit};
+  const struct solver_watch watch = {tell_in_u, &in_u};
+  struct solver_options scaled = *options;
+  if (options->watch != NULL) scaled.watch = &watch;
+  const bool previous = options->start == START_PREVIOUS && warm != NULL;
+  if (previous) scale_warm(warm, unit);
+  out->count = 0;
+  options->solver->find(problem, &scaled, previous ? warm : NULL, out);
+  if (!previous) return;
+  remember(out, warm);
+  scale_warm(warm, -unit);
+}
+
+/* The roots in x, each with the radius of what it stands for. False where there is nothing to solve. */
 static bool find_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
-                       struct root_problem *out_rest, int *out_exact, struct root_set *out)
+                       struct task *task, struct root_set *out)
 {
   out->count = out->missing = 0;
-  if (!scale_polynomial(p, out_rest, out)) return false;
-  const int infinite = strip_ends(out_rest, out);
-  *out_exact = out->count;
-  struct root_problem problem = *out_rest;
+  if (!worth_solving(p, out)) return false;
+  struct root_problem *rest = &task->rest;
+  *rest = (struct root_problem){.degree = p->degree, .basis = p->basis};
+  memcpy(rest->c, p->c, sizeof p->c[0] * (size_t)(p->degree + 1));
+  if (p->error != NULL) memcpy(rest->error, p->error, sizeof p->error[0] * (size_t)(p->degree + 1));
+  task->infinite = strip_ends(rest, out);
+  task->exact = out->count;
+  task->unit = unit_of(rest, options);
+  scale_problem(rest, task->unit);
+  struct root_problem problem = *rest;
   strip_extremes(&problem, out);
   if (problem.degree > 0) {
     struct root_estimates estimates;
-    estimates.count = 0;
-    const bool previous = options->start == START_PREVIOUS && warm != NULL;
-    options->solver->find(&problem, options, previous ? warm : NULL, &estimates);
+    ask_solver(&problem, task->unit, options, warm, &estimates);
     for (int i = 0; i < estimates.count; i++) {
       if (isfinite(estimates.re[i]) && isfinite(estimates.im[i])) {
         const enum root_status status = !estimates.converged[i] ? ROOT_LIMIT
@@ -187,29 +247,47 @@ static bool find_roots(const struct polynomial *p, const struct solver_options *
         out->root[out->count - 1].radius = estimates.reach[i];
       }
     }
-    if (previous) remember(&estimates, warm);
   }
-  if (!options->solver->real_only) out->missing = p->degree - infinite - out->count;
+  if (!options->solver->real_only) out->missing = p->degree - task->infinite - out->count;
   return true;
+}
+
+/* From x to u. What is too large for a double there is missing. */
+static void roots_in_u(int unit, bool real_only, struct root_set *out)
+{
+  int kept = 0;
+  for (int i = 0; i < out->count; i++) {
+    struct root root = out->root[i];
+    const double radius = ldexp(root.radius, unit);
+    const struct root in_u = {ldexp(root.re, unit), ldexp(root.im, unit), radius, root.iterations, root.status};
+    if (!isfinite(in_u.re) || !isfinite(in_u.im)) continue;
+    out->root[kept] = in_u;
+    /* what underflow may have taken, of the radius and of the value */
+    if (ldexp(in_u.re, -unit) != root.re || ldexp(in_u.im, -unit) != root.im || ldexp(radius, -unit) < root.radius)
+      out->root[kept].radius += 3 * DBL_TRUE_MIN;
+    kept++;
+  }
+  if (!real_only) out->missing += out->count - kept;
+  out->count = kept;
 }
 
 void solver_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out)
 {
-  struct root_problem rest;
-  int exact;
-  (void)find_roots(p, options, warm, &rest, &exact, out);
+  struct task task;
+  if (find_roots(p, options, warm, &task, out)) roots_in_u(task.unit, options->solver->real_only, out);
 }
 
 void solver_solve(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                   struct root_set *out)
 {
-  struct root_problem rest;
-  int exact;
-  if (!find_roots(p, options, warm, &rest, &exact, out)) return;
+  struct task task;
+  if (!find_roots(p, options, warm, &task, out)) return;
+  const bool real_only = options->solver->real_only;
   const int sought = out->count + out->missing;
   struct evaluation evaluation;
-  evaluation_prepare(rest.degree, rest.basis, rest.c, rest.error, &evaluation);
-  validation_judge(&evaluation, !options->solver->real_only, exact, out);
-  if (!options->solver->real_only) out->missing = sought - out->count;
+  evaluation_prepare(task.rest.degree, task.rest.basis, task.rest.c, task.rest.error, &evaluation);
+  validation_judge(&evaluation, !real_only, task.exact, out);
+  if (!real_only) out->missing = sought - out->count;
+  roots_in_u(task.unit, real_only, out);
 }

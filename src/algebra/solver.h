@@ -59,7 +59,7 @@ struct root_estimates; /* internal: root_problem.h */
 /* What is asked of a solver. Filled by solver_options_default, then changed one by one. */
 struct solver_options {
   const struct solver *solver;
-  double tolerance;   /* eps of the paper's eq 10, > 0; absolute in u, as in the paper */
+  double tolerance;   /* eps of the paper's eq 10, > 0; absolute in u with STOP_STEP, as in the paper, else relative */
   int max_iterations; /* per root, >= 1 */
   enum start start;
   enum radii radii;

@@ -186,6 +186,32 @@ static void warm_start(void **state)
 }
 
 /* Whatever the iteration limit, an answer comes, and its radii hold. */
+/* The unknown measured in units of 2^size: the same roots, in those units, with the same statuses, as long as the
+ * coefficients are doubles. */
+static void sizes(void **state)
+{
+  (void)state;
+  const double c[][5] = {{-1.0, 0.0, 0.0, 0.0, 1.0}, {3.0, -2.0, 0.5, 7.0, -1.0}, {0.25, 0.5, 8.0, -0.125, 1.0}};
+  for (size_t i = 0; i < solver_count(); i++) {
+    if (solver_at(i)->real_only) continue; /* [0,1] is no interval in other units */
+    for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) {
+      const struct root_set plain = solve(solver_at(i)->name, 4, BASIS_POWER, c[k], NULL);
+      for (int size = -255; size <= 255; size += 17) {
+        double scaled[5];
+        for (int j = 0; j < 5; j++) scaled[j] = ldexp(c[k][j], -j * size);
+        const struct root_set roots = solve(solver_at(i)->name, 4, BASIS_POWER, scaled, NULL);
+        assert_int_equal(roots.count, plain.count);
+        for (int j = 0; j < roots.count; j++) {
+          assert_true(roots.root[j].re == ldexp(plain.root[j].re, size));
+          assert_true(roots.root[j].im == ldexp(plain.root[j].im, size));
+          assert_true(roots.root[j].radius == ldexp(plain.root[j].radius, size));
+          assert_int_equal(roots.root[j].status, plain.root[j].status);
+        }
+      }
+    }
+  }
+}
+
 static void limits(void **state)
 {
   (void)state;
@@ -223,7 +249,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(table),         cmocka_unit_test(hopeless_input), cmocka_unit_test(exact_ends),
     cmocka_unit_test(raised_degree), cmocka_unit_test(random_roots),   cmocka_unit_test(warm_start),
-    cmocka_unit_test(limits),        cmocka_unit_test(division),
+    cmocka_unit_test(limits),        cmocka_unit_test(division),       cmocka_unit_test(sizes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
