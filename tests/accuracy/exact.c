@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "accuracy/exact_ball.h"
+#include "accuracy/exact_point.h"
 
 /* Bits of the entries of a preconditioner (enough for a patch that is a line but for rounding), and how much more than the border of a box (relative to its size) the proof
  * of uniqueness covers, 2^-OVERHANG: the derivatives there change by less than 2^-MARGIN of their largest. */
@@ -291,10 +292,14 @@ static bool accept(struct search *s, const struct box *box, const arb_t at_u, co
   ball_jet_init(&jet);
   ball_evaluate(box->c[T], at_u, at_v, &jet, EXACT_PRECISION);
   const int begun = after(box, jet.value, s->low), ended = s->endless ? -1 : after(box, jet.value, s->high);
-  const bool sure = side == SIDE_IN && begun && ended;
-  if (begun < 0 || ended > 0 || (!sure && !last)) {
+  bool sure = side == SIDE_IN && begun && ended, out = begun < 0 || ended > 0;
+  if (!sure && !out) {
+    const enum side exactly = point_side(box, at_u, at_v, s->low, s->endless ? NULL : s->high);
+    sure = exactly == SIDE_IN, out = exactly == SIDE_OUT;
+  }
+  if (out || (!sure && !last)) {
     ball_jet_clear(&jet);
-    return sure || begun < 0 || ended > 0;
+    return out;
   }
   arb_t t;
   arb_init(t);
@@ -321,7 +326,7 @@ static bool settle_one(struct search *s, const struct box *box, const struct pai
   arb_t u, v;
   bool done = false;
   arb_init(u), arb_init(v);
-  arb_set_d(u, 0.5), arb_set_d(v, 0.5);
+  ball_start(pair, u, v);
   if (ball_prove(pair, u, v, FIRST_PRECISION) && near_box(u) && near_box(v)) {
     done = accept(s, box, u, v, false);
     for (long bits = 4 * FIRST_PRECISION; !done; bits *= 4) {
@@ -384,33 +389,13 @@ static void give_up(struct search *s, const struct box *box)
 
 /* ---- edges met exactly ---- */
 
-static bool edge_vanishes(const fmpz *c, int border)
-{
-  for (int n = 0; n < 4; n++)
-    if (!fmpz_is_zero(&c[border == 0 ? n : border == 1 ? 12 + n : border == 2 ? 4 * n : 4 * n + 3])) return false;
-  return true;
-}
-
-/* 6 c / x as a cubic, x the parameter that is 0 at c[0] = 0. */
-static void divide_out(fmpz *c, int stride)
-{
-  fmpz_t q[3];
-  for (int n = 0; n < 3; n++) fmpz_init(q[n]);
-  fmpz_mul_ui(q[0], c + stride, 6), fmpz_mul_ui(q[1], c + 2 * stride, 3), fmpz_mul_ui(q[2], c + 3 * stride, 2);
-  fmpz_mul_ui(c, q[0], 3); /* raised to degree 3 again, times 3 */
-  fmpz_mul_ui(c + stride, q[1], 2), fmpz_add(c + stride, c + stride, q[0]);
-  fmpz_mul_ui(c + 2 * stride, q[1], 2), fmpz_add(c + 2 * stride, c + 2 * stride, q[2]);
-  fmpz_mul_ui(c + 3 * stride, q[2], 3);
-  for (int n = 0; n < 3; n++) fmpz_clear(q[n]);
-}
-
 /* Where both polynomials vanish on a border all its points are roots: adds them, and divides them out. */
 static void strip_edges(struct search *s)
 {
   struct box *box = &s->stack[0];
   for (int border = 0; border < 4; border++) {
     bool known = false;
-    while (edge_vanishes(box->c[A], border) && edge_vanishes(box->c[B], border)) {
+    while (point_edge_vanishes(box->c[A], border) && point_edge_vanishes(box->c[B], border)) {
       arb_t value, t;
       arb_init(value), arb_init(t);
       double low = INFINITY, high = -INFINITY;
@@ -436,7 +421,7 @@ static void strip_edges(struct search *s)
           fmpz *line = &box->c[f][border < 2 ? n : 4 * n];
           const int stride = border < 2 ? 4 : 1;
           if (border % 2) fmpz_swap(line, line + 3 * stride), fmpz_swap(line + stride, line + 2 * stride);
-          divide_out(line, stride);
+          point_divide_out(line, stride);
           if (border % 2) fmpz_swap(line, line + 3 * stride), fmpz_swap(line + stride, line + 2 * stride);
         }
       }
@@ -471,7 +456,9 @@ static int split_across_v(const struct search *s, const struct box *box)
 void exact_patch_roots(const double P[4][4][3], const double origin[3], const double direction[3], double t_min,
                        double t_max, double t_about, struct exact_roots *out)
 {
-  struct search s = {.out = out};
+  struct search s; /* the stack is too large to be cleared each time */
+  s.out = out, s.depth = 0;
+  memset(s.bits, 0, sizeof s.bits);
   out->count = out->boxes = 0;
   fmpz_init(s.low), fmpz_init(s.high), arb_init(s.unit);
   const double ends[3] = {t_min, t_max, t_about};

@@ -2,8 +2,10 @@
  * border a root lies. */
 #include "accuracy/exact_ball.h"
 
+#include <math.h>
+
 /* Newton's process starts within the box, so these are plenty. */
-enum { NEWTON_STEPS = 40 };
+enum { NEWTON_STEPS = 40, DOUBLE_STEPS = 8 };
 
 void ball_jet_init(struct ball_jet *jet) { arb_init(jet->value), arb_init(jet->ds), arb_init(jet->dt); }
 void ball_jet_clear(struct ball_jet *jet) { arb_clear(jet->value), arb_clear(jet->ds), arb_clear(jet->dt); }
@@ -95,6 +97,45 @@ static bool krawczyk(const struct pair *pair, arb_t s, arb_t t, arb_t Y[4], arb_
   for (int n = 0; n < 2; n++) arb_clear(X[n]), arb_clear(K[n]), ball_jet_clear(&f[n]);
   arb_clear(M), arb_clear(spread);
   return good;
+}
+
+/* The bicubic c[16] over [0,1]^2 at x, and its derivatives. */
+static void double_jet(const double c[16], const double x[2], double out[3])
+{
+  double w[2][4], dw[2][4];
+  for (int k = 0; k < 2; k++) {
+    const double t = x[k], s = 1 - t;
+    w[k][0] = s * s * s, w[k][1] = 3 * s * s * t, w[k][2] = 3 * s * t * t, w[k][3] = t * t * t;
+    dw[k][0] = -3 * s * s, dw[k][1] = 3 * s * (s - 2 * t), dw[k][2] = 3 * t * (2 * s - t), dw[k][3] = 3 * t * t;
+  }
+  out[0] = out[1] = out[2] = 0;
+  for (int n = 0; n < 16; n++) {
+    out[0] += w[0][n / 4] * w[1][n % 4] * c[n];
+    out[1] += dw[0][n / 4] * w[1][n % 4] * c[n], out[2] += w[0][n / 4] * dw[1][n % 4] * c[n];
+  }
+}
+
+void ball_start(const struct pair *pair, arb_t s, arb_t t)
+{
+  double c[2][16], x[2] = {0.5, 0.5};
+  for (int f = 0; f < 2; f++) {
+    slong most = 0;
+    for (int n = 0; n < 16; n++)
+      if ((slong)fmpz_bits(&pair->F[f][n]) > most) most = (slong)fmpz_bits(&pair->F[f][n]);
+    for (int n = 0; n < 16; n++) {
+      slong exponent;
+      const double mantissa = fmpz_get_d_2exp(&exponent, &pair->F[f][n]);
+      c[f][n] = ldexp(mantissa, (int)(exponent - most));
+    }
+  }
+  for (int n = 0; n < DOUBLE_STEPS; n++) {
+    double f[3], g[3];
+    double_jet(c[0], x, f), double_jet(c[1], x, g);
+    const double determinant = f[1] * g[2] - f[2] * g[1];
+    x[0] -= (g[2] * f[0] - f[2] * g[0]) / determinant, x[1] -= (f[1] * g[0] - g[1] * f[0]) / determinant;
+  }
+  if (!(fabs(x[0] - 0.5) <= 1 && fabs(x[1] - 0.5) <= 1)) x[0] = x[1] = 0.5;
+  arb_set_d(s, x[0]), arb_set_d(t, x[1]);
 }
 
 bool ball_prove(const struct pair *pair, arb_t s, arb_t t, long bits)

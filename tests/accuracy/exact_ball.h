@@ -36,6 +36,9 @@ void ball_jet_clear(struct ball_jet *jet);
 /* The net c at the ball (s,t). */
 void ball_evaluate(const fmpz *c, const arb_t s, const arb_t t, struct ball_jet *out, long bits);
 
+/* A point for Newton's method to start from: its end in doubles, from the middle of the box. Proves nothing. */
+void ball_start(const struct pair *pair, arb_t s, arb_t t);
+
 /* From the point (s,t), radii 0, by Newton's method: on success (s,t) is a ball that holds exactly one root. */
 bool ball_prove(const struct pair *pair, arb_t s, arb_t t, long bits);
 

@@ -1,0 +1,19 @@
+/* Roots of the exact judge that are known exactly: at points of rational parameters, and along edges. Internal to it.
+ */
+#ifndef TESTS_ACCURACY_EXACT_POINT_H
+#define TESTS_ACCURACY_EXACT_POINT_H
+
+#include "accuracy/exact_ball.h"
+
+/* The box's one root is in the balls s and t. Where their simplest fractions are it, exactly: whether it lies in the patch
+ * and strictly between the ends low and high (NULL: none) of the interval, in the unit of net T of the whole patch. Else
+ * unknown. */
+enum side point_side(const struct box *box, const arb_t s, const arb_t t, const fmpz_t low, const fmpz *high);
+
+/* Whether the net vanishes on a border: 0 for u = 0, 1 for u = 1, 2 for v = 0, 3 for v = 1. */
+bool point_edge_vanishes(const fmpz *c, int border);
+
+/* 6 c / x as a cubic, x the parameter that is 0 at c[0] = 0. */
+void point_divide_out(fmpz *c, int stride);
+
+#endif
