@@ -147,6 +147,7 @@ static void keep_root(struct judge *j, struct exact_root *root)
     struct exact_root other = j->nearest;
     const bool sharp = judge_sharpen(j, root) && judge_sharpen(j, &other), tie = judge_tie(root, &other);
     if (sharp) j->nearest = other;
+    judge_turn(j, root->patch); /* whose region is being searched */
     tied = j->tied |= tie && !judge_tie_fine(j, root, &other);
     if (tie ? judge_stands_before(&other, root) : root->t > other.t) return;
   } else if (j->found && !(root->t < j->nearest.t)) {

@@ -1,0 +1,247 @@
+/* Parity on closed surfaces that nobody would draw (cycle_nets.h): folded, self-intersecting, thin, skew, graded, of whole
+ * numbers, with poles, seams, T-junctions and borders that four patches share, each patch with a solver of its own in
+ * half of them. A ray that starts outside of all control points meets them an even number of times; of rays that start at
+ * one point, wherever it is, either all meet them an even number of times or none does. And the nearest hit, and whether
+ * there is one, are what the list of all hits says. Whatever is wrong says that it is grazing. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accuracy/class_tests.h"
+#include "accuracy/cycle_nets.h"
+#include "accuracy/generate.h"
+#include "accuracy/models.h"
+#include "cmocka_test.h"
+#include "effort.h"
+#include "intersect/intersect.h"
+#include "random.h"
+
+enum { FULL_RAYS = 4000000, LEAST_RAYS = 512, RAYS_A_CYCLE = 512, MOST_SHOWN = 6, SPLITS = 16, SHAPES_MOST = 8 };
+
+/* Nearest hit and list: the same T but for some roundings of it and of the largest coordinate. */
+#define SAME_T 1e-9
+#define SAME_PLACE 0x1p-40
+
+struct subject {
+  struct cycle cycle;
+  struct scene scene;
+  struct scene_patch patches[CYCLE_MOST];
+  struct method methods[CYCLE_MOST];
+  struct intersector *intersector;
+  struct tracer *tracer;
+  double middle[3], size; /* all control points are nearer to the middle than size */
+};
+
+struct count {
+  size_t rays, hits, grazing, wrong, differing, nearest_grazing;
+};
+
+/* ---- a surface ---- */
+
+static void subject_create(struct subject *s, size_t shape, struct random *random)
+{
+  memset(s, 0, sizeof *s);
+  cycle_make(shape, random, &s->cycle);
+  const bool mixed = choose(random, 2);
+  for (size_t n = 0; n < s->cycle.count; n++) {
+    memcpy(s->patches[n].P, s->cycle.P[n], sizeof s->patches[n].P);
+    s->patches[n].solver = mixed ? (uint32_t)n : 0;
+    method_default(solver_at(mixed ? choose(random, solver_count()) : 0), &s->methods[n]);
+    if (choose(random, 3) == 0) s->methods[n].split = 1 + (int)choose(random, SPLITS);
+  }
+  s->scene.patches = s->patches, s->scene.patch_count = s->cycle.count;
+  s->scene.solvers = s->methods, s->scene.solver_count = s->cycle.count;
+  assert_int_equal(intersector_create(&s->scene, &s->intersector), STATUS_OK);
+  assert_int_equal(tracer_create(s->intersector, &s->tracer), STATUS_OK);
+  for (int axis = 0; axis < 3; axis++) {
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < 16 * s->cycle.count; k++) {
+      const double x = s->cycle.P[k / 16][k / 4 % 4][k % 4][axis];
+      low = fmin(low, x), high = fmax(high, x);
+    }
+    s->middle[axis] = low + (high - low) / 2, s->size += high - low;
+  }
+}
+
+static void subject_destroy(struct subject *s)
+{
+  tracer_destroy(s->tracer);
+  intersector_destroy(s->intersector);
+}
+
+/* ---- rays ---- */
+
+/* In the middle, on a border, at a corner, or next to one. */
+static double parameter(struct random *random)
+{
+  static const size_t most = 6;
+  const double end = (double)choose(random, 2), off = ldexp(1, -4 - (int)choose(random, 56));
+  const size_t kind = choose(random, most);
+  return kind == 0   ? end
+         : kind == 1 ? fabs(end - off)
+         : kind == 2 ? (double)choose(random, 9) / 8
+                     : random_unit(random);
+}
+
+/* A point of a patch; its tangents, too, where `along` is given. */
+static void some_point(const struct subject *s, struct random *random, double out[3], double along[2][3])
+{
+  const size_t n = choose(random, s->cycle.count);
+  const double u = parameter(random), v = parameter(random);
+  net_point((const double(*)[4][3])s->cycle.P[n], u, v, out);
+  if (along) net_tangents((const double(*)[4][3])s->cycle.P[n], u, v, along[0], along[1]);
+}
+
+static double longest(const double d[3]) { return fmax(fmax(fabs(d[0]), fabs(d[1])), fabs(d[2])); }
+
+/* Aimed at a point from anywhere, from along its tangent plane or next to it, or along axes. */
+static void outside_ray(const struct subject *s, struct random *random, struct ray *ray)
+{
+  double at[3], along[2][3], d[3];
+  some_point(s, random, at, along);
+  random_direction(random, d);
+  if (choose(random, 2)) {
+    const double part = random_between(random, -1, 1), off = choose(random, 4) ? random_decade(random, 1, 18) : 0;
+    for (int k = 0; k < 3; k++) d[k] = part * along[0][k] + (1 - fabs(part)) * along[1][k] + off * s->size * d[k];
+  }
+  const double length = longest(d);
+  if (!(length > 0)) d[0] = 1;
+  const double away = (choose(random, 4) ? 4 : 4 / random_decade(random, 0, 6)) * s->size / (length > 0 ? length : 1);
+  for (int k = 0; k < 3; k++) ray->origin[k] = at[k] - away * d[k], ray->direction[k] = d[k];
+}
+
+/* Anywhere among the patches, or next to one; not at a corner, where it would be on the surface. */
+static void inside_point(const struct subject *s, struct random *random, double out[3])
+{
+  double at[3], other[3];
+  do {
+    const double off = choose(random, 2) ? 1 : random_decade(random, 1, 17);
+    some_point(s, random, at, NULL), some_point(s, random, other, NULL);
+    for (int k = 0; k < 3; k++)
+      out[k] = at[k] + off * (0.6 * (other[k] - at[k]) + 0.01 * s->size * random_between(random, -1, 1));
+  } while (memcmp(out, at, sizeof at) == 0);
+}
+
+/* Whether the start is outside of all control points, by far more than roundings. */
+static bool is_outside(const struct subject *s, const double p[3])
+{
+  double off = 0;
+  for (int k = 0; k < 3; k++) off = fmax(off, fabs(p[k] - s->middle[k]));
+  return off > 1.5 * s->size;
+}
+
+/* A packet that starts outside, or one that starts at one point. */
+static bool make_rays(const struct subject *s, struct random *random, struct ray rays[PACKET_SIZE])
+{
+  const bool outside = choose(random, 2);
+  double start[3];
+  inside_point(s, random, start);
+  for (int n = 0; n < PACKET_SIZE; n++) {
+    struct ray *ray = &rays[n];
+    do {
+      *ray = (struct ray){.t_max = INFINITY};
+      if (outside) {
+        outside_ray(s, random, ray);
+        continue;
+      }
+      some_point(s, random, ray->direction, NULL);
+      for (int k = 0; k < 3; k++) ray->origin[k] = start[k], ray->direction[k] -= start[k];
+      if (choose(random, 4) == 0) random_direction(random, ray->direction);
+    } while (!(longest(ray->direction) > 0) || (outside && !is_outside(s, ray->origin)));
+  }
+  return outside;
+}
+
+/* ---- answers ---- */
+
+static void show(const char *what, const struct subject *s, const struct ray *ray, const struct hit_list *list,
+                 const struct hit *hit)
+{
+  static size_t shown = 0;
+  const double *o = ray->origin, *d = ray->direction;
+  if (shown++ >= MOST_SHOWN) return;
+  printf("%s: %zu hits; ray %.17g %.17g %.17g %.17g %.17g %.17g\n", what, list->count, o[0], o[1], o[2], d[0], d[1],
+         d[2]);
+  for (size_t k = 0; k < list->count; k++)
+    printf("  t %.17g u %.17g v %.17g patch %u\n", list->hits[k].t, list->hits[k].u, list->hits[k].v,
+           (unsigned)list->hits[k].patch);
+  if (hit->patch != HIT_NONE)
+    printf("  nearest t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
+  struct situation situation = {.count = s->cycle.count};
+  memcpy(situation.P, s->cycle.P, sizeof s->cycle.P);
+  for (size_t n = 0; n < s->cycle.count; n++) {
+    const struct method *method = &s->methods[s->patches[n].solver];
+    printf("// patch %zu: %s, split %d\n", n, method->roots.solver->name, method->split);
+  }
+  class_print_patches(&situation);
+}
+
+static bool nearest_is_first(const struct subject *s, const struct ray *ray, const struct hit *hit,
+                             const struct hit_list *list)
+{
+  if (list->count == 0 || hit->patch == HIT_NONE) return (list->count == 0) == (hit->patch == HIT_NONE);
+  const double t = list->hits[0].t, size = longest(s->middle) + s->size + longest(ray->origin);
+  return fabs(hit->t - t) <= SAME_T * t + SAME_PLACE * size / longest(ray->direction);
+}
+
+static void ask(const struct subject *s, struct random *random, struct count *to)
+{
+  struct ray rays[PACKET_SIZE];
+  struct hit hits[PACKET_SIZE];
+  bool occluded[PACKET_SIZE];
+  struct hit_list lists[PACKET_SIZE];
+  const bool outside = make_rays(s, random, rays);
+  tracer_closest(s->tracer, PACKET_SIZE, rays, hits);
+  tracer_occluded(s->tracer, PACKET_SIZE, rays, occluded);
+  assert_int_equal(tracer_all(s->tracer, PACKET_SIZE, rays, lists), STATUS_OK);
+  size_t certain[2] = {0, 0};
+  for (int n = 0; n < PACKET_SIZE; n++)
+    if (lists[n].certainty == CERTAINTY_CERTAIN) certain[lists[n].count % 2]++;
+  const size_t expected = outside || certain[0] >= certain[1] ? 0 : 1;
+  for (int n = 0; n < PACKET_SIZE; n++) {
+    to->rays++, to->hits += lists[n].count;
+    if (lists[n].certainty == CERTAINTY_GRAZING) {
+      to->grazing++;
+      continue;
+    }
+    const bool wrong = lists[n].count % 2 != expected;
+    if (wrong) to->wrong++, show(outside ? "odd from outside" : "parity differs", s, &rays[n], &lists[n], &hits[n]);
+    to->nearest_grazing += hits[n].certainty == CERTAINTY_GRAZING;
+    if (hits[n].certainty == CERTAINTY_GRAZING && hits[n].patch != HIT_NONE) continue;
+    if (nearest_is_first(s, &rays[n], &hits[n], &lists[n]) && occluded[n] == (lists[n].count > 0)) continue;
+    to->differing++, show("nearest or occluded differs", s, &rays[n], &lists[n], &hits[n]);
+  }
+}
+
+static void test_shape(void **state)
+{
+  const size_t shape = (size_t)(uintptr_t)*state;
+  const uint64_t seed = effort_seed(840 + shape);
+  struct random random = {.state = seed};
+  struct count count = {0};
+  const size_t wanted = effort_count(FULL_RAYS / cycle_shape_count(), LEAST_RAYS);
+  while (count.rays < wanted) {
+    static struct subject subject;
+    subject_create(&subject, shape, &random);
+    for (size_t n = 0; n < RAYS_A_CYCLE && count.rays < wanted; n += PACKET_SIZE) ask(&subject, &random, &count);
+    subject_destroy(&subject);
+  }
+  printf(
+    "seed %llu, %s: %zu rays, %zu hits, %zu of wrong parity, %zu with another nearest one; grazing %.2f %%, nearest "
+    "%.2f %%\n",
+    (unsigned long long)seed, cycle_shape_name(shape), count.rays, count.hits, count.wrong, count.differing,
+    100 * (double)count.grazing / (double)count.rays, 100 * (double)count.nearest_grazing / (double)count.rays);
+  fflush(stdout);
+  assert_int_equal(count.wrong + count.differing, 0);
+}
+
+int main(void)
+{
+  struct CMUnitTest tests[SHAPES_MOST];
+  assert_true(cycle_shape_count() <= SHAPES_MOST);
+  for (size_t n = 0; n < cycle_shape_count(); n++)
+    tests[n] = (struct CMUnitTest){
+      .name = cycle_shape_name(n), .test_func = test_shape, .initial_state = (void *)(uintptr_t)n};
+  return _cmocka_run_group_tests("cycles", tests, cycle_shape_count(), NULL, NULL);
+}
