@@ -146,6 +146,18 @@ static struct hit hit_of(const struct reference_answer *truth)
   return hit;
 }
 
+/* From so far away, in sizes of the patch, the reference's 113 bits do not tell U and V to a double's. */
+#define FAR 0x1p48
+
+static bool is_far(const struct certifier *certifier, const struct ray *ray, const struct hit *hit)
+{
+  if (hit->patch == HIT_NONE) return false;
+  const double(*box)[3] = (const double(*)[3])certifier->boxes[hit->patch], *d = ray->direction;
+  double extent = 0, way = 0;
+  for (int k = 0; k < 3; k++) extent = fmax(extent, box[1][k] - box[0][k]), way = fmax(way, fabs(hit->t * d[k]));
+  return way > FAR * extent;
+}
+
 /* The two judges agree on what either decides, and the exact one refutes what is wrong. */
 static void test_judges(void **state)
 {
@@ -168,6 +180,7 @@ static void test_judges(void **state)
         if (truth.verdict == REFERENCE_GRAZING) continue;
         struct hit hit = hit_of(&truth);
         struct certificate c;
+        if (is_far(&certifier, &s.rays[r], &hit)) continue;
         certify(&certifier, &s.rays[r], &hit, &c);
         found[0][c.finding]++;
         if (c.finding > FINDING_PROVEN)
