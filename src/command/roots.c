@@ -196,11 +196,10 @@ static void tell_unknown(struct session *session, const struct answer *answer)
 {
   int unknown = 0;
   for (int k = 0; k < answer->roots.count; k++) unknown += !is_known(&answer->roots.root[k]);
-  if (unknown == 0 && answer->roots.missing == 0 && !answer->roots.not_finite) return;
+  if (unknown == 0 && answer->roots.missing == 0) return;
   session->doubtful++;
   if (session->doubtful > MOST_TOLD) return;
   fflush(stdout);
-  if (answer->roots.not_finite) fprintf(stderr, "<stdin>:%zu: error: the coefficients overflow\n", answer->line);
   if (unknown > 0)
     fprintf(stderr, "<stdin>:%zu: error: of %d of the values printed it is not known how near they are to a root\n",
             answer->line, unknown);

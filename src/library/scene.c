@@ -280,12 +280,14 @@ size_t pscn_patch_count(const struct pscn_scene *scene)
 enum pscn_status pscn_patch(const struct pscn_scene *scene, size_t number, double out[4][4][3])
 {
   const double(*P)[4][3] = number < pscn_patch_count(scene) ? scene->scene->patches[number].P : NULL;
+  if (!out) return PSCN_USAGE;
   for (int k = 0; k < 48; k++) out[k / 12][k / 3 % 4][k % 3] = P ? P[k / 12][k / 3 % 4][k % 3] : 0;
   return P ? PSCN_OK : PSCN_USAGE;
 }
 
 void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_camera *out)
 {
+  if (!out) return;
   *out = (struct pscn_camera){{0}, {0}, {0}, {0}};
   if (pscn_scene_status(scene) != PSCN_OK) return;
   const struct scene_camera *camera = &scene->scene->camera;

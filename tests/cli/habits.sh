@@ -52,6 +52,7 @@ if command -v script >/dev/null; then
       tr '\r' '\n' | sed 's/\x1b\[K//g' | grep 'rays/s\|%' |
       awk -v columns=$columns 'length($0) >= columns && !/answers|patches|rays  |x/ { long++ } END { print columns, long + 0 }'
   done
+  script -qec "pscn render flat.pscn -o -" /dev/null | tr -d '\r'
   # What was done is told on a terminal.
   printf '1 0 -1\n1 -2 1\n' >polynomials
   script -qec "pscn roots <polynomials >/dev/null" /dev/null | tr -d '\r' | grep -v iterations

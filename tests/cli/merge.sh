@@ -53,12 +53,23 @@ cp whole3.exr p3.exr
 pscn render $scene --samples 2 --tile 2/4 --declare Unused=1 -o named.exr
 sed 's/Unused=1/\x1b[31m=1 /' named.exr >p2.exr
 try pscn merge p?.exr $'\x1b[31m\xc2\x9bé\xff.exr' -o no.png
+# What a piece says of itself and cannot be, in as many bytes; and one that stands outside its own picture.
+for text in 0-4:4-0 0-4:0-9 '0-4:0;4' 0-4:x-4 0-4:0-x 3/4:5/4 3/4:0/4 3/4:3/0 '3/4:3;4' 3/4:x/4 3/4:3/x; do
+  sed "s|${text%:*}|${text#*:}|" whole3.exr >said.exr
+  pscn merge said.exr -o no.png 2>&1 | sed "s|^|$text: |"
+done
+cp whole3.exr outside.exr
+at=$(grep -abo displayWindow outside.exr | head -n 1 | cut -d: -f1)
+printf '\5' | dd of=outside.exr bs=1 seek=$((at + 24)) conv=notrunc status=none
+try pscn merge outside.exr -o no.png
+same outside.exr whole3.exr
 # The command line.
 try pscn merge -o no.png
 try pscn merge p1.exr
 try pscn merge p1.exr -o p1.exr
 try pscn merge p1.exr -o no.jpg
 try pscn merge p1.exr -o no.png --bits 32
+try pscn merge p1.exr -o no.png --bits 7
 try pscn render $scene --tile 1/4 -o no.png
 try pscn render $scene --tile 5/4 -o no.exr
 try pscn render $scene --tile 1/4 --bits 16 -o no.exr

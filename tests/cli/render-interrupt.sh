@@ -17,6 +17,16 @@ kill -INT $!
 wait $!
 echo "exit $?"
 ls -A
+# What was ignored when it was started stays so: SIGHUP under nohup, SIGPIPE under programs that ask write instead.
+(trap '' HUP PIPE
+pscn render "$scene" -o kept.png --size 60x40 --samples 24 --quiet &
+sleep 0.2
+kill -HUP $!
+wait $!
+echo "exit $?"
+(sleep 0.2; pscn dump "$scene" 2>err; echo "exit $?" >code) | true
+cat code err)
+rm -f kept.png code err
 # Whoever waits for input ends at once.
 mkfifo pipe
 for command in "trace $scene" roots; do

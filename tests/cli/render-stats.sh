@@ -8,3 +8,7 @@ pscn render "$scene" -o a.png --size 20x10 --crop 2,1,8,4 --stats a.json --solve
 grep -c -E '"(parse|build|render|write)": *[0-9]' a.json
 grep -E '"(solver|tolerance|primary|samples)"' a.json
 echo '0 0 -4 0 0 1' | pscn trace "$scene" --stats - | work
+# Names that are no UTF-8.
+cp "$scene" $'fl\xe4t.pscn'
+try pscn render $'fl\xe4t.pscn' -o $'\xc3\xa4\xff.png' --size 4x3 --quiet --stats name.json
+grep -E '"(scene|picture)"' name.json

@@ -6,11 +6,13 @@ all=$((300 * 200 * 10 * 10))
 end() {
   local signal=$1 file=$2
   shift 2
-  pscn render $scene -o $file --quiet --threads 1 --checkpoint 0.2 "$@" &
+  pscn render $scene -o $file --threads 1 --checkpoint 0.2 "$@" 2>said &
   for wait in {1..200}; do [ -e $file.part.exr ] && break || sleep 0.05; done
   kill -$signal $!
   wait $! 2>/dev/null
   echo "exit $?"
+  [ $# -gt 0 ] || sed -n '/interrupted/s/the [0-9]* %/so many %/p' said # else it may end before it begins
+  rm -f said
   [ -e $file ] && echo "$file is there"
 }
 # The bits of one.exr, by fewer rays than all.

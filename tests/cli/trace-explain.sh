@@ -32,6 +32,36 @@ for scene in "$SCENES"/flat.pscn "$SCENES"/bent.pscn; do
       }' story roots
   done
 done
+# Each of its words is said of some ray: beside poles, along borders, past patches that wave.
+printf '%s\n' '0 9 0 0 -1 0' '1.48 -2.51 2.58 -0.72 0.55 -0.09' '0 1 -8 0 0 1' '0 0 -9 0 0 1' '0.01 9 0.02 0 -1 0' \
+  '-2.83 -0.21 2.66 0.3 0.8 -0.77' '0 -0.97 -2.47 -0.46 0.56 0.73' >rays
+for k in $(seq 40); do echo "$((k % 7 - 3)).1 $((k % 5 - 2)).2 -3 0.0$((k % 9)) -0.$((k % 8)) 1"; done >>rays
+for scene in teapot dome wild; do
+  for solver in bernstein 'aberth { split 1 }' 'newton { form paper }' 'laguerre { polish off }'; do
+    pscn trace "$PSCN_SOURCE_DIR/scenes/$scene.pscn" --solver "$solver" --explain <rays
+  done
+done >story
+while read -r words; do
+  grep -q -e "$words" story || echo "nobody says: $words"
+done <<'END'
+degree . in v and . in u
+refused: not real
+refused: outside
+refused: no [uv] follows
+refused: [uv] = .* is outside
+does not solve eq 3
+missed, proven: a, b or
+missed, proven: the coefficients of r
+came to its bilinear part
+nothing taken: not nearer
+nothing taken: no root
+left to the last resort: what
+last resort: [1-9]
+certificate: none
+certificate: a and b
+answer: hit .* grazing
+answer: miss certain
+END
 # One whole, on a plane patch, where all numbers are exact.
 printf '0 0 -4 0 0 1\n' | pscn trace "$SCENES/flat.pscn" --explain --solver 'aberth { split 1 }' | grep -v ' root\|= '
 try pscn trace "$SCENES/flat.pscn" --explain --binary </dev/null

@@ -144,6 +144,11 @@ static void test_arguments(void **state)
   assert_int_equal(pscn_scene_from_points(NULL, 1, 0, 0, NULL, &scene), PSCN_USAGE);
   pscn_scene_free(scene);
   assert_int_equal(pscn_scene_from_file("x", NULL, NULL), PSCN_USAGE);
+  assert_int_equal(from_text(PATCH, NULL, &scene), PSCN_OK);
+  assert_int_equal(pscn_patch(scene, 0, NULL), PSCN_USAGE);
+  assert_int_equal(pscn_message(scene, 0, NULL), PSCN_USAGE);
+  pscn_scene_camera(scene, NULL);
+  pscn_scene_free(scene);
 }
 
 /* An instruction set that is not here is told. */

@@ -1,0 +1,69 @@
+/* What is told of a rendering and of a file that is written: a line now and then, or a bar on a terminal. */
+#include "command/progress.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#include "cmocka_test.h"
+
+static struct render_progress rendered = {.pixels_total = 1000};
+
+static void tell_rendered(struct progress *progress) { progress_tell(progress, &rendered); }
+static void tell_written(struct progress *progress) { progress_write(progress, 0.25); }
+
+/* What is said on standard error, a file. */
+static void expect(void (*tell)(struct progress *progress), struct progress progress, const char *line)
+{
+  char told[1000];
+  FILE *file = tmpfile();
+  const int saved = dup(STDERR_FILENO);
+  assert_true(file != NULL && saved >= 0 && dup2(fileno(file), STDERR_FILENO) >= 0);
+  tell(&progress);
+  progress_end(&progress);
+  assert_true(dup2(saved, STDERR_FILENO) >= 0 && close(saved) == 0);
+  rewind(file);
+  told[fread(told, 1, sizeof told - 1, file)] = '\0';
+  assert_int_equal(fclose(file), 0);
+  assert_string_equal(told, line);
+}
+
+static void test_rendering(void **state)
+{
+  (void)state;
+  const struct progress lines = {.terminal = false}, bar = {.terminal = true};
+  const struct {
+    size_t pixels;
+    uint64_t rays;
+    double seconds;
+    const char *line;
+  } cases[] = {{500, 5000, 4.9, ""}, /* too early */
+               {0, 0, 5, "0 %, 0.0 k rays/s, ? left\n"},
+               {1, 4000, 10, "0 %, 0.4 k rays/s, 2 h 46 min left\n"},
+               {1, 4000, 1e6, "0 %, 0.0 k rays/s, 99 h 59 min left\n"},
+               {100, 40000000, 10, "10 %, 4.00 M rays/s, 1 min 30 s left\n"},
+               {500, 1000000, 8, "50 %, 125.0 k rays/s, 8 s left\n"},
+               {1000, 1000000, 8, "100 %, 125.0 k rays/s, 0 s left\n"}};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    rendered.pixels = cases[k].pixels, rendered.rays = cases[k].rays, rendered.seconds = cases[k].seconds;
+    expect(tell_rendered, lines, cases[k].line);
+  }
+  expect(tell_rendered, (struct progress){.told = 4}, ""); /* not so soon again */
+  rendered.pixels = 500;
+  expect(tell_rendered, bar, "\r[###############...............] 50 %, 125.0 k rays/s, 8 s left\033[K\r\033[K");
+}
+
+/* Writing began long ago, or begins now. */
+static void test_writing(void **state)
+{
+  (void)state;
+  expect(tell_written, (struct progress){.told = 0}, "");
+  expect(tell_written, (struct progress){.began = -10}, "25 % of the file\n");
+  expect(tell_written, (struct progress){.began = -10, .terminal = true},
+         "\r[#######.......................] 25 % of the file\033[K\r\033[K");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_rendering), cmocka_unit_test(test_writing)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
