@@ -218,6 +218,12 @@ static void test_lengths(void **state)
     other.t = one.t;
     assert_memory_equal(&other, &one, sizeof one);
   }
+  for (int e = 0; e <= 1020; e += 20) { /* from the end of the doubles */
+    const struct pscn_ray ray = {{0.1, 0.2, -0x1.fp1023}, {0, 0, ldexp(1, e)}, 0, INFINITY};
+    assert_int_equal(pscn_nearest(rays->scene, 1, &ray, 0, &other, 0), PSCN_OK);
+    assert_int_equal(other.verdict, PSCN_HIT);
+    assert_true(ldexp(other.t, e) == 0x1.fp1023);
+  }
 }
 
 /* What is no ray, or has no scene, has no answer, and that is written too. */

@@ -265,8 +265,8 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
 
 /* ---- the face ---- */
 
-/* Directions whose longest component is outside these are scaled by a power of two, so that no product over- or
- * underflows. */
+/* Directions whose longest component is outside these are scaled by a power of two to one from 1 to 2, so that no product
+ * over- or underflows and no t is larger than a distance. */
 #define DIRECTION_MIN 0x1p-16
 #define DIRECTION_MAX 0x1p16
 
@@ -277,6 +277,7 @@ static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
   *out_exponent = 0;
   if (largest >= DIRECTION_MIN && largest <= DIRECTION_MAX) return r;
   frexp(largest, out_exponent);
+  --*out_exponent;
   for (int k = 0; k < 3; k++) r.direction[k] = ldexp(d[k], -*out_exponent);
   r.t_min = ldexp(r.t_min, *out_exponent), r.t_max = ldexp(r.t_max, *out_exponent);
   return r;
