@@ -74,8 +74,10 @@ static void show_log(const struct povray *povray, const struct page *log)
 
 static bool holds(const char *line, size_t length, const char *words)
 {
-  const char *found = strstr(line, words);
-  return found != NULL && found < line + length;
+  const size_t size = strlen(words);
+  for (; length >= size; line++, length--)
+    if (memcmp(line, words, size) == 0) return true;
+  return false;
 }
 
 /* It breaks its messages into lines, which begin with a blank but for the first. */

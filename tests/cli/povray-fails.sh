@@ -1,0 +1,50 @@
+# A program that calls itself POV-Ray and fails in one of the ways there are: it is told which, the exit code is right, and
+# what check left before stays. In a chart it is left out.
+scene=$SCENES/bent.pscn
+small="--size 8x6 --steps 0 --grid 2 --failpercent 100 --failpsnr 0 --failmask 100 --quiet"
+pscn render "$scene" --size 8x6 --quiet -o answer.png
+pscn render "$scene" --size 6x8 --quiet -o other.png
+cat >povray <<END
+#!/bin/bash
+[ "\$MODE" = mute ] && exit
+[ "\$MODE" = talks ] && seq 300000
+echo "POV-Ray 3.7.0"
+[ "\$1" = --version ] && exit
+case \$MODE in
+  fails) printf 'Parse Error: \\033[31mno\\377 <b>\\n'; exit 1 ;;
+  empty) exit 0 ;;
+  other) cp $PWD/other.png picture.png; exit ;;
+  broken) echo broken >picture.png; exit ;;
+  killed) kill -KILL \$\$ ;;
+  slow) sleep 60 ;;
+  deaf) trap '' TERM; while :; do read -t 1 <> <(:); done ;;
+esac
+cp $PWD/answer.png picture.png
+[ \$MODE = answers ] || sed -n 's/^Ask(.*/1e0 -/p' scene.pov >answers.txt
+[ \$MODE = fewer ] && sed -i 3d answers.txt
+[ \$MODE = warns ] && printf 'File: scene.pov Line: 1\\nParse Warning: this is\\n  old\\nand\\nPossible Parse Error: that\\n'
+[ \$MODE = timeless ] || printf 'Trace Time: 0 hours\\n  using 1 thread(s) with 0.1 CPU-seconds total\\n'
+[ \$MODE = timeless ] && printf 'Trace Time: 0 hours\\n  using 1 thread(s) with x CPU-seconds total\\n'
+exit 0
+END
+chmod +x povray
+mkdir out && echo old >out/check.html
+export MODE TMPDIR=$PWD/tmp
+mkdir tmp
+for MODE in mute fails empty other broken killed slow deaf answers fewer; do
+  echo "$MODE:"
+  try timeout 60 pscn check "$scene" $small --povray ./povray --timeout 1 -o out 2>&1 | cat -v | sed "s|$PWD|HERE|g"
+  ls -A tmp out
+  cat out/check.html
+done
+for MODE in talks warns timeless; do
+  echo "$MODE:"
+  try timeout 60 pscn check "$scene" ${small% --quiet} --own-text --povray ./povray -o done 2>&1 | grep 'exit\|arning\|Error\|old'
+  ls -A tmp
+done
+for MODE in mute fails empty killed slow answers timeless talks; do
+  echo "$MODE:"
+  try pscn chart "$scene" --size 1x1 --rays 1 --rounds 1 --quick --quiet --povray ./povray --timeout 1 -o chart 2>&1 | grep -v -i embree | sed "s|$PWD|HERE|g"
+  grep -o 'POV-Ray failed[^<]*\|POV-Ray 3.7.0: errors' chart/chart.html
+  ls -A tmp
+done
