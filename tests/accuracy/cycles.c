@@ -17,7 +17,7 @@
 #include "intersect/intersect.h"
 #include "random.h"
 
-enum { FULL_RAYS = 4000000, LEAST_RAYS = 512, RAYS_A_CYCLE = 512, MOST_SHOWN = 6, SPLITS = 16, SHAPES_MOST = 8 };
+enum { FULL_RAYS = 4000000, LEAST_RAYS = 512, PACKETS_A_CYCLE = 32, MOST_SHOWN = 6, SPLITS = 16, SHAPES_MOST = 8 };
 
 /* Nearest hit and list: the same T but for some roundings of it and of the largest coordinate. */
 #define SAME_T 1e-9
@@ -34,7 +34,7 @@ struct subject {
 };
 
 struct count {
-  size_t rays, hits, grazing, wrong, differing, nearest_grazing;
+  size_t rays, hits, grazing, wrong, differing, nearest_grazing, parts;
 };
 
 /* ---- a surface ---- */
@@ -47,7 +47,7 @@ static void subject_create(struct subject *s, size_t shape, struct random *rando
   for (size_t n = 0; n < s->cycle.count; n++) {
     memcpy(s->patches[n].P, s->cycle.P[n], sizeof s->patches[n].P);
     s->patches[n].solver = mixed ? (uint32_t)n : 0;
-    method_default(solver_at(mixed ? choose(random, solver_count()) : 0), &s->methods[n]);
+    method_default(solver_at(mixed && choose(random, 3) == 0 ? choose(random, solver_count()) : 0), &s->methods[n]);
     if (choose(random, 3) == 0) s->methods[n].split = 1 + (int)choose(random, SPLITS);
   }
   s->scene.patches = s->patches, s->scene.patch_count = s->cycle.count;
@@ -177,12 +177,58 @@ static void show(const char *what, const struct subject *s, const struct ray *ra
   class_print_patches(&situation);
 }
 
-static bool nearest_is_first(const struct subject *s, const struct ray *ray, const struct hit *hit,
-                             const struct hit_list *list)
+static bool same_t(const struct subject *s, const struct ray *ray, double t, double other)
 {
-  if (list->count == 0 || hit->patch == HIT_NONE) return (list->count == 0) == (hit->patch == HIT_NONE);
-  const double t = list->hits[0].t, size = longest(s->middle) + s->size + longest(ray->origin);
-  return fabs(hit->t - t) <= SAME_T * t + SAME_PLACE * size / longest(ray->direction);
+  const double size = longest(s->middle) + s->size + longest(ray->origin);
+  return fabs(t - other) <= SAME_T * t + SAME_PLACE * size / longest(ray->direction);
+}
+
+static bool nearest_is(const struct subject *s, const struct ray *ray, const struct hit *hit, const struct hit *first)
+{
+  if (!first || hit->patch == HIT_NONE) return !first && hit->patch == HIT_NONE;
+  return same_t(s, ray, hit->t, first->t);
+}
+
+/* Part of a ray, from before a hit of its list to behind it, or to the end, where the hits are well apart; that hit. */
+static const struct hit *part_of(const struct subject *s, struct random *random, const struct hit_list *list,
+                                 struct ray *ray)
+{
+  const size_t k = choose(random, list->count + 1), last = list->count;
+  const struct hit *hits = list->hits;
+  const bool from = k > 0, to = k < last && k + 1 < last && choose(random, 2);
+  const double least = from ? hits[k - 1].t : 0;
+  if (k < last && from && same_t(s, ray, hits[k].t, least)) return NULL;
+  if (to && same_t(s, ray, hits[k + 1].t, hits[k].t)) return NULL;
+  if (from) ray->t_min = k < last ? least + (hits[k].t - least) / 2 : 2 * least;
+  if (to) ray->t_max = hits[k].t + (hits[k + 1].t - hits[k].t) / 2;
+  return k < last ? &hits[k] : NULL;
+}
+
+/* The nearest hits of parts of the rays, and whether there are any, by the lists of the whole. */
+static void ask_parts(const struct subject *s, struct random *random, size_t count, const struct ray whole[],
+                      const struct hit_list lists[], struct count *to)
+{
+  struct ray rays[PACKET_SIZE];
+  struct hit hits[PACKET_SIZE];
+  bool occluded[PACKET_SIZE], clear[PACKET_SIZE];
+  const struct hit *first[PACKET_SIZE];
+  for (size_t n = 0; n < count; n++) {
+    rays[n] = whole[n], first[n] = NULL;
+    clear[n] = lists[n].certainty == CERTAINTY_CERTAIN && lists[n].count > 0;
+    if (clear[n]) first[n] = part_of(s, random, &lists[n], &rays[n]);
+    clear[n] &= first[n] || rays[n].t_min > 0;
+  }
+  tracer_closest(s->tracer, count, rays, hits);
+  tracer_occluded(s->tracer, count, rays, occluded);
+  for (size_t n = 0; n < count; n++) {
+    if (!clear[n]) continue;
+    to->parts++;
+    if (occluded[n] == (first[n] != NULL) &&
+        (hits[n].certainty == CERTAINTY_GRAZING || nearest_is(s, &rays[n], &hits[n], first[n])))
+      continue;
+    to->differing++, show("part differs", s, &rays[n], &lists[n], &hits[n]);
+    printf("  from %.17g to %.17g\n", rays[n].t_min, rays[n].t_max);
+  }
 }
 
 static void ask(const struct subject *s, struct random *random, struct count *to)
@@ -192,14 +238,15 @@ static void ask(const struct subject *s, struct random *random, struct count *to
   bool occluded[PACKET_SIZE];
   struct hit_list lists[PACKET_SIZE];
   const bool outside = make_rays(s, random, rays);
-  tracer_closest(s->tracer, PACKET_SIZE, rays, hits);
-  tracer_occluded(s->tracer, PACKET_SIZE, rays, occluded);
-  assert_int_equal(tracer_all(s->tracer, PACKET_SIZE, rays, lists), STATUS_OK);
+  const size_t count = choose(random, 4) ? PACKET_SIZE : 1 + choose(random, PACKET_SIZE);
+  tracer_closest(s->tracer, count, rays, hits);
+  tracer_occluded(s->tracer, count, rays, occluded);
+  assert_int_equal(tracer_all(s->tracer, count, rays, lists), STATUS_OK);
   size_t certain[2] = {0, 0};
-  for (int n = 0; n < PACKET_SIZE; n++)
+  for (size_t n = 0; n < count; n++)
     if (lists[n].certainty == CERTAINTY_CERTAIN) certain[lists[n].count % 2]++;
   const size_t expected = outside || certain[0] >= certain[1] ? 0 : 1;
-  for (int n = 0; n < PACKET_SIZE; n++) {
+  for (size_t n = 0; n < count; n++) {
     to->rays++, to->hits += lists[n].count;
     if (lists[n].certainty == CERTAINTY_GRAZING) {
       to->grazing++;
@@ -209,9 +256,11 @@ static void ask(const struct subject *s, struct random *random, struct count *to
     if (wrong) to->wrong++, show(outside ? "odd from outside" : "parity differs", s, &rays[n], &lists[n], &hits[n]);
     to->nearest_grazing += hits[n].certainty == CERTAINTY_GRAZING;
     if (hits[n].certainty == CERTAINTY_GRAZING && hits[n].patch != HIT_NONE) continue;
-    if (nearest_is_first(s, &rays[n], &hits[n], &lists[n]) && occluded[n] == (lists[n].count > 0)) continue;
+    const struct hit *first = lists[n].count > 0 ? &lists[n].hits[0] : NULL;
+    if (nearest_is(s, &rays[n], &hits[n], first) && occluded[n] == (first != NULL)) continue;
     to->differing++, show("nearest or occluded differs", s, &rays[n], &lists[n], &hits[n]);
   }
+  ask_parts(s, random, count, rays, lists, to);
 }
 
 static void test_shape(void **state)
@@ -224,14 +273,14 @@ static void test_shape(void **state)
   while (count.rays < wanted) {
     static struct subject subject;
     subject_create(&subject, shape, &random);
-    for (size_t n = 0; n < RAYS_A_CYCLE && count.rays < wanted; n += PACKET_SIZE) ask(&subject, &random, &count);
+    for (size_t n = 0; n < PACKETS_A_CYCLE && count.rays < wanted; n++) ask(&subject, &random, &count);
     subject_destroy(&subject);
   }
-  printf(
-    "seed %llu, %s: %zu rays, %zu hits, %zu of wrong parity, %zu with another nearest one; grazing %.2f %%, nearest "
-    "%.2f %%\n",
-    (unsigned long long)seed, cycle_shape_name(shape), count.rays, count.hits, count.wrong, count.differing,
-    100 * (double)count.grazing / (double)count.rays, 100 * (double)count.nearest_grazing / (double)count.rays);
+  printf("seed %llu, %s: %zu rays, %zu hits, %zu of wrong parity, %zu with another nearest one, of %zu parts too; "
+         "grazing %.2f %%, nearest %.2f %%\n",
+         (unsigned long long)seed, cycle_shape_name(shape), count.rays, count.hits, count.wrong, count.differing,
+         count.parts, 100 * (double)count.grazing / (double)count.rays,
+         100 * (double)count.nearest_grazing / (double)count.rays);
   fflush(stdout);
   assert_int_equal(count.wrong + count.differing, 0);
 }
