@@ -2,7 +2,6 @@
 #include "accuracy/cycle_nets.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 #include "accuracy/generate.h"
@@ -186,6 +185,7 @@ static const struct {
 
 size_t cycle_shape_count(void) { return sizeof shapes / sizeof shapes[0]; }
 const char *cycle_shape_name(size_t shape) { return shapes[shape].name; }
+bool cycle_shape_moves(size_t shape) { return shapes[shape].make != tees; }
 
 /* ---- in space ---- */
 
@@ -212,8 +212,7 @@ void cycle_make(size_t shape, struct random *random, struct cycle *out)
 {
   const enum strew strew = (enum strew)choose(random, STREWS);
   shapes[shape].make(random, strew, out);
-  /* halves of sheets stay what they are only where nothing is rounded */
-  if (shapes[shape].make != tees && choose(random, 2)) lay(random, out);
+  if (cycle_shape_moves(shape) && choose(random, 2)) lay(random, out);
   for (size_t n = 0; n < out->count; n++) {
     if (choose(random, 2)) transpose(out->P[n]);
     if (choose(random, 2)) reverse(out->P[n]);

@@ -4,6 +4,7 @@
 #ifndef TESTS_ACCURACY_CYCLE_NETS_H
 #define TESTS_ACCURACY_CYCLE_NETS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "random.h"
@@ -18,6 +19,10 @@ struct cycle {
 /* What the patches are glued to, how wild they are between their borders, and how they lie in space. */
 size_t cycle_shape_count(void);
 const char *cycle_shape_name(size_t shape);
+
+/* Whether control points may be moved by rounding, equal ones alike, and it is closed still: not where a corner lies within
+ * a border of another patch. */
+bool cycle_shape_moves(size_t shape);
 
 /* Coordinates are some units, or 10^-15 to 10^6 of that along an axis, and shifted. Which way u and v run on a patch is
  * random. */

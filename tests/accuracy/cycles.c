@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "accuracy/class_tests.h"
-#include "accuracy/cycle_nets.h"
+#include "accuracy/cycle_scenes.h"
 #include "accuracy/generate.h"
 #include "accuracy/models.h"
 #include "cmocka_test.h"
@@ -17,58 +17,23 @@
 #include "intersect/intersect.h"
 #include "random.h"
 
-enum { FULL_RAYS = 4000000, LEAST_RAYS = 512, PACKETS_A_CYCLE = 32, MOST_SHOWN = 6, SPLITS = 16, SHAPES_MOST = 8 };
+enum {
+  FULL_RAYS = 4000000,
+  LEAST_RAYS = 512,
+  PACKETS_A_CYCLE = 32,
+  PACKETS_A_CROWD = 1024,
+  MOST_SHOWN = 6,
+  MOST_HITS_SHOWN = 16,
+  TESTS_MOST = 12
+};
 
 /* Nearest hit and list: the same T but for some roundings of it and of the largest coordinate. */
 #define SAME_T 1e-9
 #define SAME_PLACE 0x1p-40
 
-struct subject {
-  struct cycle cycle;
-  struct scene scene;
-  struct scene_patch patches[CYCLE_MOST];
-  struct method methods[CYCLE_MOST];
-  struct intersector *intersector;
-  struct tracer *tracer;
-  double middle[3], size; /* all control points are nearer to the middle than size */
-};
-
 struct count {
   size_t rays, hits, grazing, wrong, differing, nearest_grazing, parts;
 };
-
-/* ---- a surface ---- */
-
-static void subject_create(struct subject *s, size_t shape, struct random *random)
-{
-  memset(s, 0, sizeof *s);
-  cycle_make(shape, random, &s->cycle);
-  const bool mixed = choose(random, 2);
-  for (size_t n = 0; n < s->cycle.count; n++) {
-    memcpy(s->patches[n].P, s->cycle.P[n], sizeof s->patches[n].P);
-    s->patches[n].solver = mixed ? (uint32_t)n : 0;
-    method_default(solver_at(mixed && choose(random, 3) == 0 ? choose(random, solver_count()) : 0), &s->methods[n]);
-    if (choose(random, 3) == 0) s->methods[n].split = 1 + (int)choose(random, SPLITS);
-  }
-  s->scene.patches = s->patches, s->scene.patch_count = s->cycle.count;
-  s->scene.solvers = s->methods, s->scene.solver_count = s->cycle.count;
-  assert_int_equal(intersector_create(&s->scene, &s->intersector), STATUS_OK);
-  assert_int_equal(tracer_create(s->intersector, &s->tracer), STATUS_OK);
-  for (int axis = 0; axis < 3; axis++) {
-    double low = INFINITY, high = -INFINITY;
-    for (size_t k = 0; k < 16 * s->cycle.count; k++) {
-      const double x = s->cycle.P[k / 16][k / 4 % 4][k % 4][axis];
-      low = fmin(low, x), high = fmax(high, x);
-    }
-    s->middle[axis] = low + (high - low) / 2, s->size += high - low;
-  }
-}
-
-static void subject_destroy(struct subject *s)
-{
-  tracer_destroy(s->tracer);
-  intersector_destroy(s->intersector);
-}
 
 /* ---- rays ---- */
 
@@ -85,18 +50,18 @@ static double parameter(struct random *random)
 }
 
 /* A point of a patch; its tangents, too, where `along` is given. */
-static void some_point(const struct subject *s, struct random *random, double out[3], double along[2][3])
+static void some_point(const struct cycle_scene *s, struct random *random, double out[3], double along[2][3])
 {
-  const size_t n = choose(random, s->cycle.count);
+  const double(*P)[4][3] = (const double(*)[4][3])s->scene.patches[choose(random, s->scene.patch_count)].P;
   const double u = parameter(random), v = parameter(random);
-  net_point((const double(*)[4][3])s->cycle.P[n], u, v, out);
-  if (along) net_tangents((const double(*)[4][3])s->cycle.P[n], u, v, along[0], along[1]);
+  net_point(P, u, v, out);
+  if (along) net_tangents(P, u, v, along[0], along[1]);
 }
 
 static double longest(const double d[3]) { return fmax(fmax(fabs(d[0]), fabs(d[1])), fabs(d[2])); }
 
 /* Aimed at a point from anywhere, from along its tangent plane or next to it, or along axes. */
-static void outside_ray(const struct subject *s, struct random *random, struct ray *ray)
+static void outside_ray(const struct cycle_scene *s, struct random *random, struct ray *ray)
 {
   double at[3], along[2][3], d[3];
   some_point(s, random, at, along);
@@ -112,7 +77,7 @@ static void outside_ray(const struct subject *s, struct random *random, struct r
 }
 
 /* Anywhere among the patches, or next to one; not at a corner, where it would be on the surface. */
-static void inside_point(const struct subject *s, struct random *random, double out[3])
+static void inside_point(const struct cycle_scene *s, struct random *random, double out[3])
 {
   double at[3], other[3];
   do {
@@ -124,7 +89,7 @@ static void inside_point(const struct subject *s, struct random *random, double 
 }
 
 /* Whether the start is outside of all control points, by far more than roundings. */
-static bool is_outside(const struct subject *s, const double p[3])
+static bool is_outside(const struct cycle_scene *s, const double p[3])
 {
   double off = 0;
   for (int k = 0; k < 3; k++) off = fmax(off, fabs(p[k] - s->middle[k]));
@@ -132,7 +97,7 @@ static bool is_outside(const struct subject *s, const double p[3])
 }
 
 /* A packet that starts outside, or one that starts at one point. */
-static bool make_rays(const struct subject *s, struct random *random, struct ray rays[PACKET_SIZE])
+static bool make_rays(const struct cycle_scene *s, struct random *random, struct ray rays[PACKET_SIZE])
 {
   const bool outside = choose(random, 2);
   double start[3];
@@ -155,7 +120,7 @@ static bool make_rays(const struct subject *s, struct random *random, struct ray
 
 /* ---- answers ---- */
 
-static void show(const char *what, const struct subject *s, const struct ray *ray, const struct hit_list *list,
+static void show(const char *what, const struct cycle_scene *s, const struct ray *ray, const struct hit_list *list,
                  const struct hit *hit)
 {
   static size_t shown = 0;
@@ -163,34 +128,36 @@ static void show(const char *what, const struct subject *s, const struct ray *ra
   if (shown++ >= MOST_SHOWN) return;
   printf("%s: %zu hits; ray %.17g %.17g %.17g %.17g %.17g %.17g\n", what, list->count, o[0], o[1], o[2], d[0], d[1],
          d[2]);
-  for (size_t k = 0; k < list->count; k++)
+  for (size_t k = 0; k < list->count && k < MOST_HITS_SHOWN; k++)
     printf("  t %.17g u %.17g v %.17g patch %u\n", list->hits[k].t, list->hits[k].u, list->hits[k].v,
            (unsigned)list->hits[k].patch);
   if (hit->patch != HIT_NONE)
     printf("  nearest t %.17g u %.17g v %.17g patch %u\n", hit->t, hit->u, hit->v, (unsigned)hit->patch);
-  struct situation situation = {.count = s->cycle.count};
-  memcpy(situation.P, s->cycle.P, sizeof s->cycle.P);
-  for (size_t n = 0; n < s->cycle.count; n++) {
-    const struct method *method = &s->methods[s->patches[n].solver];
+  struct situation situation = {.count = s->scene.patch_count};
+  if (situation.count > CYCLE_MOST) return;
+  for (size_t n = 0; n < situation.count; n++) {
+    const struct method *method = &s->scene.solvers[s->scene.patches[n].solver];
     printf("// patch %zu: %s, split %d\n", n, method->roots.solver->name, method->split);
+    memcpy(situation.P[n], s->scene.patches[n].P, sizeof situation.P[n]);
   }
   class_print_patches(&situation);
 }
 
-static bool same_t(const struct subject *s, const struct ray *ray, double t, double other)
+static bool same_t(const struct cycle_scene *s, const struct ray *ray, double t, double other)
 {
   const double size = longest(s->middle) + s->size + longest(ray->origin);
   return fabs(t - other) <= SAME_T * t + SAME_PLACE * size / longest(ray->direction);
 }
 
-static bool nearest_is(const struct subject *s, const struct ray *ray, const struct hit *hit, const struct hit *first)
+static bool nearest_is(const struct cycle_scene *s, const struct ray *ray, const struct hit *hit,
+                       const struct hit *first)
 {
   if (!first || hit->patch == HIT_NONE) return !first && hit->patch == HIT_NONE;
   return same_t(s, ray, hit->t, first->t);
 }
 
 /* Part of a ray, from before a hit of its list to behind it, or to the end, where the hits are well apart; that hit. */
-static const struct hit *part_of(const struct subject *s, struct random *random, const struct hit_list *list,
+static const struct hit *part_of(const struct cycle_scene *s, struct random *random, const struct hit_list *list,
                                  struct ray *ray)
 {
   const size_t k = choose(random, list->count + 1), last = list->count;
@@ -205,7 +172,7 @@ static const struct hit *part_of(const struct subject *s, struct random *random,
 }
 
 /* The nearest hits of parts of the rays, and whether there are any, by the lists of the whole. */
-static void ask_parts(const struct subject *s, struct random *random, size_t count, const struct ray whole[],
+static void ask_parts(const struct cycle_scene *s, struct random *random, size_t count, const struct ray whole[],
                       const struct hit_list lists[], struct count *to)
 {
   struct ray rays[PACKET_SIZE];
@@ -231,7 +198,7 @@ static void ask_parts(const struct subject *s, struct random *random, size_t cou
   }
 }
 
-static void ask(const struct subject *s, struct random *random, struct count *to)
+static void ask(const struct cycle_scene *s, struct random *random, struct count *to)
 {
   struct ray rays[PACKET_SIZE];
   struct hit hits[PACKET_SIZE];
@@ -263,6 +230,16 @@ static void ask(const struct subject *s, struct random *random, struct count *to
   ask_parts(s, random, count, rays, lists, to);
 }
 
+static void print_count(const char *name, uint64_t seed, const struct count *c)
+{
+  printf("seed %llu, %s: %zu rays, %zu hits, %zu of wrong parity, %zu with another nearest one, of %zu parts too; "
+         "grazing %.2f %%, nearest %.2f %%\n",
+         (unsigned long long)seed, name, c->rays, c->hits, c->wrong, c->differing, c->parts,
+         100 * (double)c->grazing / (double)c->rays, 100 * (double)c->nearest_grazing / (double)c->rays);
+  fflush(stdout);
+  assert_int_equal(c->wrong + c->differing, 0);
+}
+
 static void test_shape(void **state)
 {
   const size_t shape = (size_t)(uintptr_t)*state;
@@ -271,26 +248,42 @@ static void test_shape(void **state)
   struct count count = {0};
   const size_t wanted = effort_count(FULL_RAYS / cycle_shape_count(), LEAST_RAYS);
   while (count.rays < wanted) {
-    static struct subject subject;
-    subject_create(&subject, shape, &random);
-    for (size_t n = 0; n < PACKETS_A_CYCLE && count.rays < wanted; n++) ask(&subject, &random, &count);
-    subject_destroy(&subject);
+    struct cycle_scene scene;
+    cycle_scene_create(shape, &random, &scene);
+    for (size_t n = 0; n < PACKETS_A_CYCLE && count.rays < wanted; n++) ask(&scene, &random, &count);
+    cycle_scene_destroy(&scene);
   }
-  printf("seed %llu, %s: %zu rays, %zu hits, %zu of wrong parity, %zu with another nearest one, of %zu parts too; "
-         "grazing %.2f %%, nearest %.2f %%\n",
-         (unsigned long long)seed, cycle_shape_name(shape), count.rays, count.hits, count.wrong, count.differing,
-         count.parts, 100 * (double)count.grazing / (double)count.rays,
-         100 * (double)count.nearest_grazing / (double)count.rays);
-  fflush(stdout);
-  assert_int_equal(count.wrong + count.differing, 0);
+  print_count(cycle_shape_name(shape), seed, &count);
+}
+
+/* Many copies of a surface: as copies, or so many patches that none is kept. */
+static void test_crowd(void **state)
+{
+  const bool copied = *state != NULL;
+  const uint64_t seed = effort_seed(copied ? 850 : 851);
+  struct random random = {.state = seed};
+  struct count count = {0};
+  const size_t wanted = effort_count(FULL_RAYS / 20, LEAST_RAYS), shapes = cycle_shape_count();
+  for (size_t n = 0; count.rays < wanted; n++) {
+    struct cycle_scene scene;
+    size_t shape;
+    do shape = choose(&random, shapes);
+    while (!cycle_shape_moves(shape));
+    cycle_crowd_create(shape, copied, &random, &scene);
+    for (size_t k = 0; k < PACKETS_A_CROWD && count.rays < wanted; k++) ask(&scene, &random, &count);
+    cycle_scene_destroy(&scene);
+  }
+  print_count(copied ? "copies" : "not kept", seed, &count);
 }
 
 int main(void)
 {
-  struct CMUnitTest tests[SHAPES_MOST];
-  assert_true(cycle_shape_count() <= SHAPES_MOST);
+  struct CMUnitTest tests[TESTS_MOST] = {
+    {.name = "copies", .test_func = test_crowd, .initial_state = (void *)(uintptr_t)1},
+    {.name = "not kept", .test_func = test_crowd}};
+  assert_true(cycle_shape_count() + 2 <= TESTS_MOST);
   for (size_t n = 0; n < cycle_shape_count(); n++)
-    tests[n] = (struct CMUnitTest){
+    tests[2 + n] = (struct CMUnitTest){
       .name = cycle_shape_name(n), .test_func = test_shape, .initial_state = (void *)(uintptr_t)n};
-  return _cmocka_run_group_tests("cycles", tests, cycle_shape_count(), NULL, NULL);
+  return _cmocka_run_group_tests("cycles", tests, 2 + cycle_shape_count(), NULL, NULL);
 }

@@ -25,7 +25,9 @@ bool exact_list_add(struct exact_list *list, const struct exact_found *found)
     if (!larger) return false;
     list->at = larger, list->room = room;
   }
-  list->at[list->count++] = *found;
+  struct exact_found *added = &list->at[list->count++];
+  *added = *found;
+  added->least = found->root.t - found->root.t_error;
   return true;
 }
 
@@ -84,14 +86,14 @@ static bool same_root(struct judge *j, const struct exact_root *a, const struct 
   return true;
 }
 
-/* The end of the run of roots from `first` on, of which each may be at one t with one before it. */
+/* The end of the run of roots from `first` on of which each may be at one t with another one of them. One that is known
+ * badly may reach back over others. */
 static size_t run_end(const struct exact_list *list, size_t first)
 {
   wide reach = list->at[first].root.t + list->at[first].root.t_error;
   size_t end = first + 1;
-  for (; end < list->count; end++) {
+  for (; end < list->count && list->at[end].least <= reach; end++) {
     const struct exact_root *root = &list->at[end].root;
-    if (root->t - root->t_error > reach) break;
     if (root->t + root->t_error > reach) reach = root->t + root->t_error;
   }
   return end;
@@ -178,6 +180,12 @@ static int by_t(const void *a, const void *b)
 static void sort(struct exact_list *list)
 {
   if (list->count > 1) qsort(list->at, list->count, sizeof *list->at, by_t);
+  wide least = INFINITY;
+  for (size_t k = list->count; k-- > 0;) {
+    const struct exact_root *root = &list->at[k].root;
+    if (root->t - root->t_error < least) least = root->t - root->t_error;
+    list->at[k].least = least;
+  }
 }
 
 /* Whether a, which comes before b by t as it is known, is to stay before it. Of two roots that cannot be told

@@ -130,7 +130,7 @@ static void set_limit(struct judge *j)
 
 static bool list_root(struct judge *j, const struct exact_root *root, enum exact_kind kind, unsigned borders)
 {
-  const struct exact_found found = {*root, kind, borders, -1};
+  const struct exact_found found = {.root = *root, .kind = kind, .borders = borders, .taken = -1};
   return exact_list_add(j->list, &found);
 }
 
@@ -348,6 +348,7 @@ static void settle_borders(struct judge *j)
     struct exact_found *found = &j->list->at[a];
     struct exact_root *root = &found->root;
     bool certain = j->found && judge_tie(root, &j->nearest);
+    if (certain && judge_sharpen(j, &j->nearest)) certain = judge_tie(root, &j->nearest);
     for (size_t b = 0; b < j->list->count && !certain; b++) {
       if (a == b || !judge_across(j, found, &j->list->at[b])) continue;
       certain = true;

@@ -1,0 +1,28 @@
+/* Scenes of the closed surfaces of cycle_nets.h, prepared, with a tracer.
+ */
+#ifndef TESTS_ACCURACY_CYCLE_SCENES_H
+#define TESTS_ACCURACY_CYCLE_SCENES_H
+
+#include <stdbool.h>
+
+#include "accuracy/cycle_nets.h"
+#include "intersect/intersect.h"
+
+struct cycle_scene {
+  struct scene scene;
+  struct scene_object object;
+  struct intersector *intersector;
+  struct tracer *tracer;
+  double middle[3], size; /* all control points are nearer to the middle than size */
+};
+
+/* One surface; each of its patches with a solver and a split of its own, or all with the default. */
+void cycle_scene_create(size_t shape, struct random *random, struct cycle_scene *out);
+
+/* Many of one surface, turned, skew, long and short, crossing each other: so many patches that copies share their leaves,
+ * if they are declared to be `copied`, or that neither patches nor leaves are kept. The shape must move. */
+void cycle_crowd_create(size_t shape, bool copied, struct random *random, struct cycle_scene *out);
+
+void cycle_scene_destroy(struct cycle_scene *scene);
+
+#endif
