@@ -22,6 +22,10 @@ static double blossom(const double c[4], double r, double s, double t)
 
 static void cubic_range(const double c[4], double t0, double t1, double out[4])
 {
+  if (t0 == 0 && t1 == 1) {
+    memmove(out, c, 4 * sizeof *out);
+    return;
+  }
   const double q[4] = {blossom(c, t0, t0, t0), blossom(c, t0, t0, t1), blossom(c, t0, t1, t1), blossom(c, t1, t1, t1)};
   memcpy(out, q, sizeof q);
 }
@@ -39,19 +43,19 @@ void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, 
 
 void patch_second_derivative_bounds(double x[3][4][4], double out[3])
 {
-  double uu = 0, uv = 0, vv = 0;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      double a[3] = {0}, b[3] = {0}, c[3] = {0};
-      for (int k = 0; k < 3; k++) {
-        if (i < 2) a[k] = 6 * (x[k][i + 2][j] - 2 * x[k][i + 1][j] + x[k][i][j]);
-        if (i < 3 && j < 3) b[k] = 9 * (x[k][i + 1][j + 1] - x[k][i + 1][j] - x[k][i][j + 1] + x[k][i][j]);
-        if (j < 2) c[k] = 6 * (x[k][i][j + 2] - 2 * x[k][i][j + 1] + x[k][i][j]);
-      }
-      uu = real_max(uu, vector_length(a)), uv = real_max(uv, vector_length(b)), vv = real_max(vv, vector_length(c));
+  double uu[8][3], uv[9][3], vv[8][3];
+  for (int k = 0; k < 3; k++) {
+    for (int n = 0; n < 8; n++) {
+      const int i = n / 4, j = n % 4;
+      uu[n][k] = 6 * (x[k][i + 2][j] - 2 * x[k][i + 1][j] + x[k][i][j]);
+      vv[n][k] = 6 * (x[k][j][i + 2] - 2 * x[k][j][i + 1] + x[k][j][i]);
+    }
+    for (int n = 0; n < 9; n++) {
+      const int i = n / 3, j = n % 3;
+      uv[n][k] = 9 * (x[k][i + 1][j + 1] - x[k][i + 1][j] - x[k][i][j + 1] + x[k][i][j]);
     }
   }
-  out[0] = uu, out[1] = uv, out[2] = vv;
+  out[0] = vector_longest(uu, 8), out[1] = vector_longest(uv, 9), out[2] = vector_longest(vv, 8);
 }
 
 /* Takes a cubic whose true degree is `degree` to that degree's Bezier form. */
@@ -89,18 +93,18 @@ bool patch_border_is_point(const double x[3][4][4], int border)
 
 void patch_bidegree(double x[3][4][4], double slack, int *out_m, int *out_n)
 {
-  double excess_u[3] = {0}, excess_v[3] = {0};
-  for (int k = 0; k < 3; k++) {
-    for (int i = 0; i < 4; i++) {
-      const double column[4] = {x[k][0][i], x[k][1][i], x[k][2][i], x[k][3][i]};
-      for (int degree = 1; degree <= 2; degree++) {
-        excess_u[degree] = real_max(excess_u[degree], cubic_excess(column, degree));
-        excess_v[degree] = real_max(excess_v[degree], cubic_excess(x[k][i], degree));
-      }
+  bool u[3] = {true, true, true}, v[3] = {true, true, true}; /* whether that degree is enough */
+  for (int n = 0; n < 12 && (u[1] || u[2] || v[1] || v[2]); n++) {
+    double(*net)[4] = x[n / 4];
+    const int i = n % 4;
+    const double column[4] = {net[0][i], net[1][i], net[2][i], net[3][i]};
+    for (int degree = 1; degree <= 2; degree++) {
+      u[degree] = u[degree] && cubic_excess(column, degree) <= slack;
+      v[degree] = v[degree] && cubic_excess(net[i], degree) <= slack;
     }
   }
-  *out_m = excess_u[1] <= slack ? 1 : excess_u[2] <= slack ? 2 : 3;
-  *out_n = excess_v[1] <= slack ? 1 : excess_v[2] <= slack ? 2 : 3;
+  *out_m = u[1] ? 1 : u[2] ? 2 : 3;
+  *out_n = v[1] ? 1 : v[2] ? 2 : 3;
 }
 
 void patch_reduce(double net[4][4], int m, int n, double out[4][4])

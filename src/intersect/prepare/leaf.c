@@ -14,15 +14,14 @@
 
 void leaf_first_bounds(double x[3][16], double out[2])
 {
-  out[0] = out[1] = 0;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 3; j++) {
-      double du[3], dv[3];
-      for (int k = 0; k < 3; k++)
-        dv[k] = 3 * (x[k][4 * i + j + 1] - x[k][4 * i + j]), du[k] = 3 * (x[k][4 * j + 4 + i] - x[k][4 * j + i]);
-      out[0] = real_max(out[0], vector_length(du)), out[1] = real_max(out[1], vector_length(dv));
+  double du[12][3], dv[12][3];
+  for (int k = 0; k < 3; k++) {
+    for (int n = 0; n < 12; n++) {
+      const int i = n / 3, j = n % 3;
+      dv[n][k] = 3 * (x[k][4 * i + j + 1] - x[k][4 * i + j]), du[n][k] = 3 * (x[k][4 * j + 4 + i] - x[k][4 * j + i]);
     }
   }
+  out[0] = vector_longest(du, 12), out[1] = vector_longest(dv, 12);
 }
 
 bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], int border)
