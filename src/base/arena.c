@@ -66,6 +66,20 @@ void *arena_alloc(struct arena *arena, size_t count, size_t size)
   return chunk->bytes;
 }
 
+void arena_join(struct arena *arena, struct arena *other)
+{
+  if (!other) return;
+  if (!arena->chunks) {
+    arena->chunks = other->chunks, arena->used = other->used, arena->size = other->size;
+  } else { /* behind the chunk being filled */
+    struct chunk **end = &arena->chunks->next, *rest = *end;
+    *end = other->chunks;
+    while (*end) end = &(*end)->next;
+    *end = rest;
+  }
+  memory_free(other);
+}
+
 void arena_destroy(struct arena *arena)
 {
   if (!arena) return;

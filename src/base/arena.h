@@ -16,6 +16,9 @@ struct arena *arena_create(void);
 /* `count` zeroed elements of `size` bytes each, or NULL where memory is short or the product overflows. */
 void *arena_alloc(struct arena *arena, size_t count, size_t size);
 
+/* Gives all that `other` has handed out to the arena, and frees `other`. NULL is allowed. */
+void arena_join(struct arena *arena, struct arena *other);
+
 /* Frees the arena and all it handed out. NULL is allowed. */
 void arena_destroy(struct arena *arena);
 

@@ -46,7 +46,7 @@ static bool build(struct plain_model *plain, const struct scene *scene)
       }
     }
   }
-  built = built && bvh_build(boxes, count, &plain->bvh) == STATUS_OK;
+  built = built && bvh_build(boxes, count, NULL, &plain->bvh) == STATUS_OK;
   free(boxes);
   return built;
 }

@@ -16,6 +16,7 @@
 #include "command/values.h"
 #include "image/image_loading.h"
 #include "language/words.h"
+#include "render/threads.h"
 
 enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_BITS, OPTION_TILE };
 
@@ -316,7 +317,8 @@ static enum status make_picture(struct run *run, struct image_loading *loading)
   struct seconds start = seconds_now();
   options.tiles = &run->piece.tiles;
   run->progress = progress_start();
-  enum status status = intersector_create(report->scene, &intersector);
+  const struct team team = threads_team(options.threads);
+  enum status status = intersector_create_by(report->scene, &team, &intersector);
   report->build = seconds_since(start);
   if (status == STATUS_OK) {
     interrupt_defer();

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "base/status.h"
+#include "base/team.h"
 
 struct bvh_box {
   double lo[3], hi[3];
@@ -36,12 +37,13 @@ enum { BVH_MAX_DEPTH = 64, BVH_STACK = (BVH_WIDTH - 1) * BVH_MAX_DEPTH + 1 };
 
 struct bvh {
   struct bvh_node *nodes; /* nodes[0] is the root; owned */
-  size_t node_count;      /* 0 for no boxes */
+  size_t node_count;      /* 0 for no boxes; some of them, all zero, are nobody's child */
 };
 
-/* Builds over boxes[0..count), count < 2^31. A single box gives one node with one child.
- * STATUS_LIMIT where memory is short; then *out is empty. */
-enum status bvh_build(const struct bvh_box *boxes, size_t count, struct bvh *out) STATUS_MUST_CHECK;
+/* Builds over boxes[0..count), count < 2^31, the same tree by any team. A single box gives one node with one child.
+ * STATUS_LIMIT where memory is short, or threads are; then *out is empty. */
+enum status bvh_build(const struct bvh_box *boxes, size_t count, const struct team *team,
+                      struct bvh *out) STATUS_MUST_CHECK;
 
 /* Frees the nodes. */
 void bvh_free(struct bvh *bvh);

@@ -1,24 +1,49 @@
-/* Shared borders, by sorting all borders by their control points. */
+/* Shared borders, by a table of all borders that is looked up by their control points: open addressing with linear
+ * probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L). Each thread has a part of the table to itself,
+ * and fills in the borders that belong there. */
 #include "geometry/edges.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 
 struct border {
   double point[4][3]; /* in the direction that sorts first */
-  uint32_t patch;
-  uint8_t border;
-  bool reversed; /* against the running parameter */
+  bool reversed;      /* against the running parameter */
 };
+
+/* The first border of those points, counted from 1, or 0 for a free place; MANY where there are more than two of them.
+ * */
+struct place {
+  uint32_t border;
+  uint32_t tag; /* bits of the hash */
+};
+
+#define MANY (UINT32_C(1) << 31)
+
+static const struct edge_neighbour alone = {EDGE_NONE, 0, false};
+
+/* What the threads share: they write to places of their own and to what belongs to the borders in them. */
+struct matching {
+  const char *nets;
+  size_t stride, count;
+  size_t workers;
+  uint64_t *hash; /* [4 * patch + border] */
+  struct place *places;
+  size_t place_count;
+  struct edge_neighbour *out;
+};
+
+/* A point of a border of the net that begins there. */
+static const double *border_point(const double *net, int border, int k)
+{
+  const int i = border == 0 ? 0 : border == 1 ? 3 : k, j = border == 2 ? 0 : border == 3 ? 3 : k;
+  return net + 12 * i + 3 * j;
+}
 
 void edge_points(double P[4][4][3], int border, double out[4][3])
 {
-  for (int k = 0; k < 4; k++) {
-    const double *p = border == 0 ? P[0][k] : border == 1 ? P[3][k] : border == 2 ? P[k][0] : P[k][3];
-    memcpy(out[k], p, 3 * sizeof *p);
-  }
+  for (int k = 0; k < 4; k++) memcpy(out[k], border_point(&P[0][0][0], border, k), sizeof out[k]);
 }
 
 static int compare_numbers(const double *a, const double *b, size_t count)
@@ -28,21 +53,15 @@ static int compare_numbers(const double *a, const double *b, size_t count)
   return 0;
 }
 
-static int compare_borders(const void *a, const void *b)
+static struct border border_of(const struct matching *m, size_t index)
 {
-  const struct border *x = a, *y = b;
-  const int order = compare_numbers(&x->point[0][0], &y->point[0][0], 12);
-  if (order) return order;
-  const uint64_t i = (uint64_t)x->patch * 4 + x->border, j = (uint64_t)y->patch * 4 + y->border;
-  return i < j ? -1 : i > j;
-}
-
-static struct border border_of(double P[4][4][3], uint32_t patch, int border)
-{
-  struct border b = {.patch = patch, .border = (uint8_t)border};
+  struct border b;
+  const double *net = (const double *)(const void *)(m->nets + index / 4 * m->stride);
   double points[4][3], back[4][3];
-  edge_points(P, border, points);
-  for (int k = 0; k < 4; k++) memcpy(back[k], points[3 - k], sizeof back[k]);
+  for (int k = 0; k < 4; k++) {
+    const double *p = border_point(net, (int)(index % 4), k);
+    memcpy(points[k], p, sizeof points[k]), memcpy(back[3 - k], p, sizeof back[k]);
+  }
   b.reversed = compare_numbers(&back[0][0], &points[0][0], 12) < 0;
   memcpy(b.point, b.reversed ? back : points, sizeof b.point);
   return b;
@@ -55,28 +74,106 @@ static bool collapsed(const struct border *b)
   return true;
 }
 
-enum status edges_match(const void *nets, size_t stride, size_t count, struct edge_neighbour *out)
+/* Of equal numbers the same, though there are two zeros. Multiplication takes bits up, the shift takes them down. */
+static uint64_t border_hash(const struct border *b)
+{
+  uint64_t hash = 0;
+  for (int k = 0; k < 12; k++) {
+    const double x = b->point[k / 3][k % 3] + 0.0; /* -0 becomes 0 */
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    hash = (hash ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+/* The worker's share of `count` things, from its first one on. */
+static size_t share(const struct matching *m, size_t worker, size_t count)
+{
+  return count / m->workers * worker + count % m->workers * worker / m->workers;
+}
+
+static enum status hash_borders(void *context, size_t worker)
+{
+  struct matching *m = context;
+  const size_t end = share(m, worker + 1, 4 * m->count);
+  for (size_t k = share(m, worker, 4 * m->count); k < end; k++) {
+    const struct border b = border_of(m, k);
+    m->hash[k] = border_hash(&b);
+    m->out[k] = alone;
+  }
+  return STATUS_OK;
+}
+
+/* One more border of the points of the first one in that place. */
+static void meet(struct matching *m, struct place *place, size_t index, const struct border *b,
+                 const struct border *first)
+{
+  const size_t k = place->border - 1;
+  struct edge_neighbour *here = &m->out[k];
+  if (collapsed(b)) return;
+  if (here->patch != EDGE_NONE) {
+    struct edge_neighbour *second = &m->out[4 * (size_t)here->patch + here->border];
+    *second = *here = alone;
+    place->border |= MANY;
+    return;
+  }
+  const bool reversed = b->reversed != first->reversed;
+  *here = (struct edge_neighbour){(uint32_t)(index / 4), (uint8_t)(index % 4), reversed};
+  m->out[index] = (struct edge_neighbour){(uint32_t)(k / 4), (uint8_t)(k % 4), reversed};
+}
+
+/* Places the border among `count` places; false where all are taken. */
+static bool place_border(struct matching *m, size_t index, struct place *places, size_t count, size_t home)
+{
+  const uint32_t tag = (uint32_t)m->hash[index];
+  for (size_t k = 0; k < count; k++, home = home + 1 < count ? home + 1 : 0) {
+    struct place *place = &places[home];
+    if (place->border == 0) {
+      *place = (struct place){(uint32_t)index + 1, tag};
+      return true;
+    }
+    if (place->tag != tag) continue;
+    const struct border b = border_of(m, index), first = border_of(m, (place->border & ~MANY) - 1);
+    if (compare_numbers(&first.point[0][0], &b.point[0][0], 12)) continue;
+    if (!(place->border & MANY)) meet(m, place, index, &b, &first);
+    return true;
+  }
+  return false;
+}
+
+/* STATUS_DIFFERENT where the borders do not fit in the worker's part. */
+static enum status match_borders(void *context, size_t worker)
+{
+  struct matching *m = context;
+  const size_t begin = share(m, worker, m->place_count), end = share(m, worker + 1, m->place_count);
+  for (size_t k = 0; k < 4 * m->count; k++) {
+    const size_t home = (size_t)((m->hash[k] >> 32) * m->place_count >> 32);
+    if (home < begin || home >= end) continue;
+    if (!place_border(m, k, m->places + begin, end - begin, home - begin)) return STATUS_DIFFERENT;
+  }
+  return STATUS_OK;
+}
+
+enum status edges_match(const void *nets, size_t stride, size_t count, const struct team *team,
+                        struct edge_neighbour *out)
 {
   if (count == 0) return STATUS_OK;
-  struct border *all = memory_alloc(count, 4 * sizeof *all);
-  if (!all) return STATUS_LIMIT;
-  for (size_t p = 0; p < count; p++) {
-    double P[4][4][3];
-    memcpy(P, (const char *)nets + p * stride, sizeof P);
-    for (int k = 0; k < 4; k++) all[4 * p + (size_t)k] = border_of(P, (uint32_t)p, k);
+  if (count >= MANY / 4) return STATUS_LIMIT;
+  struct matching m = {
+    .nets = nets, .stride = stride, .count = count, .workers = team_count(team), .place_count = 6 * count, .out = out};
+  m.hash = memory_alloc(count, 4 * sizeof *m.hash);
+  m.places = memory_alloc(m.place_count, sizeof *m.places);
+  enum status status = m.hash && m.places ? team_run(team, m.workers, hash_borders, &m) : STATUS_LIMIT;
+  if (status == STATUS_OK) status = team_run(team, m.workers, match_borders, &m);
+  if (status == STATUS_DIFFERENT) { /* by chance, or malice: all of the table is room enough */
+    memset(m.places, 0, m.place_count * sizeof *m.places);
+    m.workers = 1;
+    (void)hash_borders(&m, 0);
+    status = match_borders(&m, 0);
   }
-  qsort(all, count * 4, sizeof *all, compare_borders);
-  for (size_t first = 0, end; first < count * 4; first = end) {
-    for (end = first + 1; end < count * 4 && !compare_numbers(&all[first].point[0][0], &all[end].point[0][0], 12);)
-      end++;
-    const bool pair = end - first == 2 && !collapsed(&all[first]);
-    for (size_t k = first; k < end; k++) {
-      const struct border *here = &all[k], *other = &all[first + (k == first)];
-      struct edge_neighbour none = {EDGE_NONE, 0, false};
-      out[4 * (size_t)here->patch + here->border] =
-        pair ? (struct edge_neighbour){other->patch, other->border, here->reversed != other->reversed} : none;
-    }
-  }
-  memory_free(all);
-  return STATUS_OK;
+  memory_free(m.hash);
+  memory_free(m.places);
+  return status;
 }

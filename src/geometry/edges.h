@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "base/status.h"
+#include "base/team.h"
 
 enum { EDGE_NONE = UINT32_MAX };
 
@@ -24,8 +25,9 @@ struct edge_neighbour {
 /* The four control points of border `border` of the net P[i][j], in the order of the running parameter. */
 void edge_points(double P[4][4][3], int border, double out[4][3]);
 
-/* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes. STATUS_LIMIT where memory is
- * short. */
-enum status edges_match(const void *nets, size_t stride, size_t count, struct edge_neighbour *out) STATUS_MUST_CHECK;
+/* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes, the same by any team. STATUS_LIMIT
+ * where memory is short, or threads are. */
+enum status edges_match(const void *nets, size_t stride, size_t count, const struct team *team,
+                        struct edge_neighbour *out) STATUS_MUST_CHECK;
 
 #endif

@@ -62,12 +62,17 @@ const char *intersector_arithmetic(void) { return kernel_chosen() == &kernel_bas
 
 enum status intersector_create(const struct scene *scene, struct intersector **out)
 {
+  return intersector_create_by(scene, NULL, out);
+}
+
+enum status intersector_create_by(const struct scene *scene, const struct team *team, struct intersector **out)
+{
   *out = NULL;
   const struct kernel *kernel = kernel_chosen();
   if (!kernel) return STATUS_USAGE;
   struct intersector *intersector = memory_alloc(1, sizeof *intersector);
   if (!intersector) return STATUS_LIMIT;
-  const enum status status = model_create(scene, &intersector->model);
+  const enum status status = model_create(scene, team, &intersector->model);
   if (status != STATUS_OK) {
     memory_free(intersector);
     return status;

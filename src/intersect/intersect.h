@@ -18,6 +18,7 @@
 #include <stdint.h>
 
 #include "base/status.h"
+#include "base/team.h"
 #include "scene/scene.h"
 
 enum { PACKET_SIZE = 16 };
@@ -90,6 +91,11 @@ const char *intersector_arithmetic(void);
 /* Prepares the scene: degrees, leaves, bounding hierarchy. Borrows the scene, which must outlive it.
  * STATUS_LIMIT where memory is short, STATUS_USAGE where PSCN_KERNEL asks for what is not here; then *out is NULL. */
 enum status intersector_create(const struct scene *scene, struct intersector **out) STATUS_MUST_CHECK;
+
+/* The same by a team of threads, where there is enough to do; NULL for none. Answers are those of any other number of
+ * threads, to the last bit. STATUS_LIMIT also where threads are short. */
+enum status intersector_create_by(const struct scene *scene, const struct team *team,
+                                  struct intersector **out) STATUS_MUST_CHECK;
 void intersector_destroy(struct intersector *intersector);
 
 enum status tracer_create(const struct intersector *intersector, struct tracer **out) STATUS_MUST_CHECK;

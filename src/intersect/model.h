@@ -17,6 +17,7 @@
 #include <stdint.h>
 
 #include "base/real.h"
+#include "base/team.h"
 #include "geometry/bvh.h"
 #include "geometry/edges.h"
 #include "scene/scene.h"
@@ -159,8 +160,9 @@ struct model {
   bool unproven; /* some patch has `polish off`: no answer is proven */
 };
 
-/* Prepares all patches of the scene, which is borrowed. STATUS_LIMIT where memory is short; then *out is NULL. */
-enum status model_create(const struct scene *scene, struct model **out) STATUS_MUST_CHECK;
+/* Prepares all patches of the scene, which is borrowed; a large one by a team, with the same outcome. STATUS_LIMIT where
+ * memory is short, or threads are; then *out is NULL. */
+enum status model_create(const struct scene *scene, const struct team *team, struct model **out) STATUS_MUST_CHECK;
 void model_destroy(struct model *model);
 
 /* The patch, in `room` where it is not kept. */
@@ -171,6 +173,7 @@ void model_make_leaf(const struct model *model, uint32_t number, struct leaf_roo
 
 /* The model of an object: the patches of `nets`, which is borrowed for the call, cut into at most `most` leaves a
  * side, their boxes wider by `error`. */
-enum status model_create_object(const struct scene *nets, int most, double error, struct model **out) STATUS_MUST_CHECK;
+enum status model_create_object(const struct scene *nets, const struct team *team, int most, double error,
+                                struct model **out) STATUS_MUST_CHECK;
 
 #endif

@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "base/clock.h"
+#include "render/threads.h"
 
 enum {
   WATCH_NANOSECONDS = 100 * 1000 * 1000, /* between two looks at progress and stop */
@@ -26,12 +27,11 @@ struct crew {
   pthread_mutex_t mutex;
   pthread_cond_t ended;
   size_t running;
+  struct worker *workers;
 };
 
 struct worker {
-  struct crew *crew;
   struct tracer *tracer, *certified; /* certified: NULL unless it is asked for */
-  pthread_t thread;
 };
 
 static uint64_t count_rays(const struct tracer *tracer)
@@ -47,10 +47,10 @@ static bool stopped(struct crew *crew)
   return atomic_load(&crew->aborted) || raised(crew->watch->stop) || raised(crew->watch->failed);
 }
 
-static void *work(void *argument)
+static enum status work(void *context, size_t index)
 {
-  const struct worker *worker = argument;
-  struct crew *crew = worker->crew;
+  struct crew *crew = context;
+  const struct worker *worker = &crew->workers[index];
   while (!stopped(crew)) {
     const size_t k = atomic_fetch_add(&crew->next, 1);
     if (k >= crew->tiles->count) break;
@@ -65,7 +65,7 @@ static void *work(void *argument)
   pthread_mutex_lock(&crew->mutex);
   if (--crew->running == 0) pthread_cond_signal(&crew->ended);
   pthread_mutex_unlock(&crew->mutex);
-  return NULL;
+  return STATUS_OK;
 }
 
 /* Waits for the last worker, telling progress. */
@@ -92,27 +92,23 @@ static void watch_crew(struct crew *crew, const struct render_watch *watch, doub
 }
 
 /* Runs the workers to their end. */
-static enum status run_crew(struct crew *crew, size_t count, struct worker workers[], const struct render_watch *watch,
-                            double start)
+static enum status run_crew(struct crew *crew, size_t count, const struct render_watch *watch, double start)
 {
-  size_t started = 0;
-  while (started < count) {
+  struct thread *threads = calloc(count + 1, sizeof *threads);
+  if (threads == NULL) return STATUS_LIMIT;
+  crew->running = count;
+  const size_t started = threads_start(threads, 0, count, work, crew);
+  if (started < count) {
+    atomic_store(&crew->aborted, true);
     pthread_mutex_lock(&crew->mutex);
-    crew->running++;
+    crew->running -= count - started;
     pthread_mutex_unlock(&crew->mutex);
-    if (pthread_create(&workers[started].thread, NULL, work, &workers[started]) != 0) {
-      pthread_mutex_lock(&crew->mutex);
-      crew->running--;
-      pthread_mutex_unlock(&crew->mutex);
-      atomic_store(&crew->aborted, true);
-      break;
-    }
-    started++;
   }
   watch_crew(crew, watch, start);
-  for (size_t k = 0; k < started; k++) pthread_join(workers[k].thread, NULL);
+  const enum status status = threads_join(threads, started);
+  free(threads);
   if (started < count) return STATUS_LIMIT;
-  return stopped(crew) ? STATUS_INTERRUPTED : STATUS_OK;
+  return status == STATUS_OK && stopped(crew) ? STATUS_INTERRUPTED : status;
 }
 
 static enum status crew_synchronise(struct crew *crew)
@@ -143,7 +139,7 @@ struct certified {
   struct intersector *intersector;
 };
 
-static enum status certified_create(const struct scene *scene, struct certified *out)
+static enum status certified_create(const struct scene *scene, const struct team *team, struct certified *out)
 {
   out->scene = *scene;
   out->scene.patches = calloc(scene->patch_count + 1, sizeof *scene->patches);
@@ -152,7 +148,7 @@ static enum status certified_create(const struct scene *scene, struct certified 
   method_default(solver_at(0), &out->method);
   out->scene.solvers = &out->method, out->scene.solver_count = 1;
   for (size_t p = 0; p < scene->patch_count; p++) out->scene.patches[p].solver = 0;
-  return intersector_create(&out->scene, &out->intersector);
+  return intersector_create_by(&out->scene, team, &out->intersector);
 }
 
 static void certified_destroy(struct certified *certified)
@@ -194,19 +190,20 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   crew.pixels_total = tile_list_pixels(crew.tiles, false) - tile_list_pixels(crew.tiles, true);
   const size_t count = options->threads < crew.tiles->count ? options->threads : crew.tiles->count;
   struct worker *workers = calloc(count + 1, sizeof *workers);
+  const struct team team = threads_team(options->threads);
   struct certified certified = {.intersector = NULL};
+  crew.workers = workers;
   if (workers == NULL) status = STATUS_LIMIT;
   if (status == STATUS_OK && channel_list_has(&options->channels, CHANNEL_DEVIATION))
-    status = certified_create(scene, &certified);
+    status = certified_create(scene, &team, &certified);
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
-    workers[k].crew = &crew;
     status = tracer_create(intersector, &workers[k].tracer);
     if (status == STATUS_OK && certified.intersector != NULL)
       status = tracer_create(certified.intersector, &workers[k].certified);
   }
   if (status == STATUS_OK) status = crew_synchronise(&crew);
   if (status == STATUS_OK) {
-    status = run_crew(&crew, count, workers, watch, start);
+    status = run_crew(&crew, count, watch, start);
     pthread_cond_destroy(&crew.ended);
     pthread_mutex_destroy(&crew.mutex);
   }

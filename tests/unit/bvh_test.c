@@ -55,7 +55,7 @@ static struct bvh_box walk(struct walk *w, uint32_t child, int depth)
 static int check(const struct bvh_box *boxes, size_t count)
 {
   struct bvh bvh;
-  assert_int_equal(bvh_build(boxes, count, &bvh), STATUS_OK);
+  assert_int_equal(bvh_build(boxes, count, NULL, &bvh), STATUS_OK);
   unsigned char *seen = calloc(count, 1);
   assert_non_null(seen);
   struct walk w = {&bvh, boxes, seen, 0, 0};
@@ -83,14 +83,14 @@ static void none_one_two(void **state)
 {
   (void)state;
   struct bvh bvh = {(struct bvh_node *)&bvh, 7};
-  assert_int_equal(bvh_build(NULL, 0, &bvh), STATUS_OK);
+  assert_int_equal(bvh_build(NULL, 0, NULL, &bvh), STATUS_OK);
   assert_true(bvh.node_count == 0 && bvh.nodes == NULL);
   bvh_free(&bvh);
 
   struct random random = {SEED};
   const double zero[3] = {0, 0, 0};
   struct bvh_box boxes[2] = {box_at(&random, 1, 1, zero), box_at(&random, 1, 1, zero)};
-  assert_int_equal(bvh_build(boxes, 1, &bvh), STATUS_OK);
+  assert_int_equal(bvh_build(boxes, 1, NULL, &bvh), STATUS_OK);
   assert_int_equal(bvh.node_count, 1);
   assert_true(contains(&bvh.nodes[0], 0, &boxes[0]));
   assert_int_equal(bvh.nodes[0].child[0], (uint32_t)BVH_LEAF);

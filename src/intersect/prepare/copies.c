@@ -165,8 +165,8 @@ enum status copies_choose(struct model *model, size_t *own)
 }
 
 /* The model of an object, from its nets about their middle; the solver is that of a copy. */
-static enum status prepare_object(const struct model *model, const struct model_copy *copy, int most,
-                                  struct model_object *object)
+static enum status prepare_object(const struct model *model, const struct team *team, const struct model_copy *copy,
+                                  int most, struct model_object *object)
 {
   const struct scene_object *declared = object->declared;
   const struct middle middle = object_middle(declared);
@@ -179,18 +179,18 @@ static enum status prepare_object(const struct model *model, const struct model_
   }
   const struct scene nets = {
     .patches = patches, .patch_count = declared->patch_count, .solvers = model->scene->solvers};
-  const enum status status = model_create_object(&nets, most, object->error, &object->model);
+  const enum status status = model_create_object(&nets, team, most, object->error, &object->model);
   memory_free(patches);
   return status;
 }
 
-enum status copies_prepare(struct model *model, int most)
+enum status copies_prepare(struct model *model, const struct team *team, int most)
 {
   for (size_t k = 0; k < model->copy_count; k++) {
     const struct model_copy *copy = &model->copies[k];
     struct model_object *object = copy->object;
     if (!object->model) {
-      const enum status status = prepare_object(model, copy, most, object);
+      const enum status status = prepare_object(model, team, copy, most, object);
       if (status != STATUS_OK) return status;
     }
     for (size_t p = 0; p < object->declared->patch_count; p++)

@@ -16,7 +16,7 @@
 enum status copies_choose(struct model *model, size_t *own) STATUS_MUST_CHECK;
 
 /* Makes the objects' models, with at most `most` leaves a side. */
-enum status copies_prepare(struct model *model, int most) STATUS_MUST_CHECK;
+enum status copies_prepare(struct model *model, const struct team *team, int most) STATUS_MUST_CHECK;
 
 /* The copy's box in the frame of the model's hierarchy. */
 void copy_box(const struct model *model, const struct model_copy *copy, struct bvh_box *out);

@@ -2,6 +2,7 @@
 #include "intersect/model.h"
 
 #include <math.h>
+#include <stdatomic.h>
 
 #include "base/memory.h"
 #include "base/real.h"
@@ -19,6 +20,12 @@ enum { AUTO_LEAVES_MAX = 1 << 18 };
 /* The same where leaves are not kept, and are no more than their boxes, an eighth of a leaf. */
 enum { AUTO_BOXES_MAX = 1 << 20 };
 
+/* What threads take at once is this part of the patches. */
+enum { PARTS = 1024 };
+
+/* Fewer patches or leaves are done before another thread has begun: one takes a microsecond or two. */
+enum { TEAM_LEAST = 1024 };
+
 /* A frame no smaller than this: its reciprocal times a direction is finite. */
 #define LEAST_FRAME 0x1p-700
 
@@ -27,16 +34,15 @@ static void set_frame(struct model *model)
 {
   const struct scene *scene = model->scene;
   double lo[3] = {0}, hi[3] = {0};
+  for (int k = 0; k < 3 && scene->patch_count > 0; k++) lo[k] = hi[k] = scene->patches[0].P[0][0][k];
   for (size_t p = 0; p < scene->patch_count; p++) {
-    model->size = real_max(model->size, patch_largest_coordinate(scene->patches[p].P));
-    for (int k = 0; k < 3; k++) {
-      for (int i = 0; i < 16; i++) {
-        const double c = scene->patches[p].P[i / 4][i % 4][k];
-        lo[k] = p == 0 && i == 0 ? c : real_min(lo[k], c), hi[k] = p == 0 && i == 0 ? c : real_max(hi[k], c);
-      }
+    for (int n = 0; n < 16; n++) {
+      const double *c = scene->patches[p].P[n / 4][n % 4];
+      for (int k = 0; k < 3; k++) lo[k] = real_min(lo[k], c[k]), hi[k] = real_max(hi[k], c[k]);
     }
     model->unproven |= !scene->solvers[scene->patches[p].solver].polish;
   }
+  for (int k = 0; k < 3; k++) model->size = real_max(model->size, real_max(fabs(lo[k]), fabs(hi[k])));
   double extent = real_max(LEAST_EXTENT * model->size, LEAST_FRAME);
   for (int k = 0; k < 3; k++)
     model->origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
@@ -45,15 +51,26 @@ static void set_frame(struct model *model)
   model->frame = ldexp(1, exponent);
 }
 
-/* How far each patch with leaves of its own is cut. */
-static void split_patches(struct model *model, int most)
+/* Patches and their leaves while they are made, by several threads where there are many. */
+struct making {
+  struct model *model;
+  const struct team *team;
+  int most;                /* leaves a side */
+  bool keep;               /* patches, and leaves; else they are only looked at */
+  struct arena **arenas;   /* one a thread: of what is kept */
+  size_t part, part_count; /* patches in a part */
+  size_t *leaves;          /* in each part; then before it */
+  struct bvh_box *boxes;
+  atomic_size_t taken; /* parts */
+};
+
+/* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
+static bool take_part(struct making *m, size_t *number, size_t *begin, size_t *end)
 {
-  for (size_t p = 0; p < model->scene->patch_count; p++) {
-    const struct model_cut *cut = &model->cuts[p];
-    if (cut->copied) continue;
-    patch_set_cut(model, (uint32_t)p, most);
-    model->leaf_count += (size_t)cut->split[0] * cut->split[1];
-  }
+  *number = atomic_fetch_add(&m->taken, 1);
+  const size_t count = m->model->scene->patch_count;
+  *begin = *number * m->part, *end = count - *begin < m->part ? count : *begin + m->part;
+  return *number < m->part_count;
 }
 
 /* The next room for what not every patch or leaf has: *room, or new where that has been used. */
@@ -63,74 +80,136 @@ static bool next_room(struct arena *arena, void **room, size_t size)
   return *room != NULL;
 }
 
-static enum status keep_patches(struct model *model)
+/* Patches, how far each is cut, and how many leaves there are. */
+static enum status make_patches(void *context, size_t worker)
 {
+  struct making *m = context;
+  struct model *model = m->model;
   void *rest = NULL;
-  model->patches = arena_alloc(model->arena, model->scene->patch_count + 1, sizeof *model->patches);
-  for (size_t p = 0; model->patches && p < model->scene->patch_count; p++) {
-    if (!next_room(model->arena, &rest, sizeof(double[3][4][4]))) return STATUS_LIMIT;
-    patch_make(model, (uint32_t)p, &model->patches[p], rest);
-    if ((const void *)model->patches[p].rest == rest) rest = NULL;
-  }
-  return model->patches ? STATUS_OK : STATUS_LIMIT;
-}
-
-static enum status keep_leaves(struct model *model, struct bvh_box boxes[])
-{
-  size_t l = 0;
-  void *parts = NULL, *form = NULL;
-  model->leaves = arena_alloc(model->arena, model->leaf_count + 1, sizeof *model->leaves);
-  if (!model->leaves || keep_patches(model) != STATUS_OK) return STATUS_LIMIT;
-  for (size_t p = 0; p < model->scene->patch_count; p++) {
-    struct model_patch *patch = &model->patches[p];
-    for (int k = 0; k < patch->split[0] * patch->split[1] && !model->cuts[p].copied; k++, l++) {
-      struct leaf *leaf = &model->leaves[l];
-      if (!next_room(model->arena, &parts, sizeof *leaf->parts) || !next_room(model->arena, &form, sizeof *leaf->form))
-        return STATUS_LIMIT;
-      const struct leaf_place place = {(uint32_t)p, (uint16_t)(k / patch->split[1]), (uint16_t)(k % patch->split[1])};
-      leaf_make(patch, &place, leaf, parts, form);
-      if (leaf->parts) parts = NULL;
-      if (leaf->form) form = NULL;
-      leaf_box(model, patch, leaf->x, &boxes[l]);
+  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+    for (; p < end; p++) {
+      struct patch_room room;
+      struct model_patch *patch = m->keep ? &model->patches[p] : &room.patch;
+      const struct model_cut *cut = &model->cuts[p];
+      if (cut->copied && !m->keep) continue;
+      if (m->keep && !next_room(m->arenas[worker], &rest, sizeof room.rest)) return STATUS_LIMIT;
+      patch_make_first(model, (uint32_t)p, m->most, patch, m->keep ? rest : room.rest);
+      if ((const void *)patch->rest == rest) rest = NULL;
+      if (!cut->copied) m->leaves[part] += (size_t)cut->split[0] * cut->split[1];
     }
   }
   return STATUS_OK;
 }
 
-/* Only where they are, and their boxes. */
-static enum status place_leaves(struct model *model, struct bvh_box boxes[])
+/* Leaves that are kept: from number l on those of patch p. */
+static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, size_t l, void *room[2])
 {
-  size_t l = 0;
-  model->places = arena_alloc(model->arena, model->leaf_count, sizeof *model->places);
-  for (size_t p = 0; model->places && p < model->scene->patch_count; p++) {
-    struct patch_room room;
-    struct model_patch *patch = &room.patch;
-    if (model->cuts[p].copied) continue;
-    patch_make(model, (uint32_t)p, patch, room.rest);
-    for (int k = 0; k < patch->split[0] * patch->split[1]; k++, l++) {
-      const uint16_t column[2] = {(uint16_t)(k / patch->split[1]), (uint16_t)(k % patch->split[1])};
-      double x[3][16];
-      model->places[l] = (struct leaf_place){(uint32_t)p, column[0], column[1]};
-      leaf_net(patch, column, (uint16_t[2]){1, 1}, x);
-      leaf_box(model, patch, x, &boxes[l]);
-    }
+  struct model *model = m->model;
+  struct model_patch *patch = &model->patches[p];
+  for (int k = 0; k < patch->split[0] * patch->split[1]; k++, l++) {
+    struct leaf *leaf = &model->leaves[l];
+    if (!next_room(arena, &room[0], sizeof *leaf->parts) || !next_room(arena, &room[1], sizeof *leaf->form))
+      return STATUS_LIMIT;
+    const struct leaf_place place = {(uint32_t)p, (uint16_t)(k / patch->split[1]), (uint16_t)(k % patch->split[1])};
+    leaf_make(patch, &place, leaf, room[0], room[1]);
+    if (leaf->parts) room[0] = NULL;
+    if (leaf->form) room[1] = NULL;
+    leaf_box(model, patch, leaf->x, &m->boxes[l]);
   }
-  return model->places ? STATUS_OK : STATUS_LIMIT;
+  return STATUS_OK;
 }
 
-/* The leaves of patches and, behind them, the copies, in one hierarchy. Leaves are kept where that is wanted; it makes
- * rays a quarter faster, at 1.5 KB a patch of one leaf. */
-static enum status prepare_hierarchy(struct model *model, bool keep)
+/* Only where they are, and their boxes. */
+static void place_leaves(struct making *m, size_t p, size_t l)
 {
-  const size_t count = model->leaf_count + model->copy_count;
-  struct bvh_box *boxes = memory_alloc(count + 1, sizeof *boxes);
-  enum status status = STATUS_LIMIT;
-  if (boxes) status = keep ? keep_leaves(model, boxes) : place_leaves(model, boxes);
-  if (status == STATUS_OK) {
-    for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &boxes[model->leaf_count + c]);
-    status = tree_build(model->arena, boxes, count, model->origin, model->frame, &model->tree);
+  struct model *model = m->model;
+  struct patch_room room;
+  struct model_patch *patch = &room.patch;
+  patch_make(model, (uint32_t)p, patch, room.rest);
+  for (int k = 0; k < patch->split[0] * patch->split[1]; k++, l++) {
+    const uint16_t column[2] = {(uint16_t)(k / patch->split[1]), (uint16_t)(k % patch->split[1])};
+    double x[3][16];
+    model->places[l] = (struct leaf_place){(uint32_t)p, column[0], column[1]};
+    leaf_net(patch, column, (uint16_t[2]){1, 1}, x);
+    leaf_box(model, patch, x, &m->boxes[l]);
   }
-  memory_free(boxes);
+}
+
+static enum status make_leaves(void *context, size_t worker)
+{
+  struct making *m = context;
+  void *room[2] = {NULL, NULL};
+  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+    for (size_t l = m->leaves[part]; p < end; p++) {
+      const struct model_cut *cut = &m->model->cuts[p];
+      if (cut->copied) continue;
+      if (!m->keep) place_leaves(m, p, l);
+      else if (keep_leaves(m, m->arenas[worker], p, l, room) != STATUS_OK) return STATUS_LIMIT;
+      l += (size_t)cut->split[0] * cut->split[1];
+    }
+  }
+  return STATUS_OK;
+}
+
+/* Has all parts done, by the team where there are so many patches or leaves that it is worth it. */
+static enum status do_parts(struct making *m, team_work *work, size_t count)
+{
+  atomic_store(&m->taken, 0);
+  return team_run(count < TEAM_LEAST ? NULL : m->team, m->part_count, work, m);
+}
+
+static enum status cut_patches(struct making *m)
+{
+  struct model *model = m->model;
+  const size_t count = model->scene->patch_count;
+  m->part = count / PARTS + 1, m->part_count = (count + m->part - 1) / m->part;
+  m->leaves = memory_alloc(m->part_count, sizeof *m->leaves);
+  m->arenas = memory_alloc(team_count(m->team), sizeof *m->arenas);
+  if (!m->leaves || !m->arenas) return STATUS_LIMIT;
+  for (size_t k = 0; k < team_count(m->team); k++)
+    if ((m->arenas[k] = arena_create()) == NULL) return STATUS_LIMIT;
+  if (m->keep) model->patches = arena_alloc(m->arenas[0], count + 1, sizeof *model->patches);
+  if (m->keep && !model->patches) return STATUS_LIMIT;
+  const enum status status = do_parts(m, make_patches, count);
+  for (size_t k = 0; k < m->part_count; k++) {
+    const size_t here = m->leaves[k];
+    m->leaves[k] = model->leaf_count;
+    model->leaf_count += here;
+  }
+  return status;
+}
+
+/* What has been made is the model's, where it is kept. */
+static void end_making(struct making *m)
+{
+  for (size_t k = 0; m->arenas && k < team_count(m->team); k++)
+    if (m->keep) arena_join(m->model->arena, m->arenas[k]);
+    else arena_destroy(m->arenas[k]);
+  memory_free(m->arenas);
+  memory_free(m->leaves);
+  memory_free(m->boxes);
+}
+
+/* The leaves of patches and, behind them, the copies, in one hierarchy. Leaves are kept where that is wanted and they
+ * are not too many; it makes rays a quarter faster, at 1.5 KB a patch of one leaf. */
+static enum status make_hierarchy(struct model *model, const struct team *team, int most, bool keep, size_t keep_most)
+{
+  struct making m = {.model = model, .team = team, .most = most, .keep = keep};
+  enum status status = cut_patches(&m);
+  if (status != STATUS_OK) goto done;
+  if (model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
+  const size_t count = model->leaf_count + model->copy_count;
+  m.boxes = memory_alloc(count + 1, sizeof *m.boxes);
+  if (m.keep) model->leaves = arena_alloc(model->arena, model->leaf_count + 1, sizeof *model->leaves);
+  else model->places = arena_alloc(model->arena, model->leaf_count, sizeof *model->places);
+  status = m.boxes && (m.keep ? (void *)model->leaves : (void *)model->places)
+             ? do_parts(&m, make_leaves, model->leaf_count)
+             : STATUS_LIMIT;
+  if (status != STATUS_OK) goto done;
+  for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m.boxes[model->leaf_count + c]);
+  status = tree_build(model->arena, m.boxes, count, model->origin, model->frame, team, &model->tree);
+done:
+  end_making(&m);
   return status;
 }
 
@@ -157,26 +236,27 @@ static struct model *model_begin(const struct scene *scene)
   return model;
 }
 
-enum status model_create_object(const struct scene *nets, int most, double error, struct model **out)
+enum status model_create_object(const struct scene *nets, const struct team *team, int most, double error,
+                                struct model **out)
 {
   *out = NULL;
   struct model *model = model_begin(nets);
   if (!model) return STATUS_LIMIT;
   model->error = error;
-  split_patches(model, most);
-  const enum status status = prepare_hierarchy(model, true);
+  const enum status status = make_hierarchy(model, team, most, true, SIZE_MAX);
   model->scene = NULL;
   if (status == STATUS_OK) *out = model;
   else model_destroy(model);
   return status;
 }
 
-static enum status prepare(struct model *model)
+static enum status prepare(struct model *model, const struct team *team)
 {
   const struct scene *scene = model->scene;
   model->neighbours = arena_alloc(model->arena, scene->patch_count + 1, 4 * sizeof *model->neighbours);
   if (!model->neighbours) return STATUS_LIMIT;
-  enum status status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->neighbours);
+  enum status status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count,
+                                   scene->patch_count < TEAM_LEAST ? NULL : team, model->neighbours);
   if (status != STATUS_OK) return status;
   size_t own = scene->patch_count; /* patches that need leaves */
   if (most_split(own, AUTO_LEAVES_MAX) < AUTO_SPLIT_MAX) {
@@ -186,18 +266,16 @@ static enum status prepare(struct model *model)
   int most = most_split(own, AUTO_LEAVES_MAX);
   const bool keep = most > 1;
   if (!keep) most = most_split(own, AUTO_BOXES_MAX);
-  status = copies_prepare(model, most);
-  if (status != STATUS_OK) return status;
-  split_patches(model, most);
-  return prepare_hierarchy(model, keep && model->leaf_count <= AUTO_LEAVES_MAX);
+  status = copies_prepare(model, team, most);
+  return status == STATUS_OK ? make_hierarchy(model, team, most, keep, AUTO_LEAVES_MAX) : status;
 }
 
-enum status model_create(const struct scene *scene, struct model **out)
+enum status model_create(const struct scene *scene, const struct team *team, struct model **out)
 {
   *out = NULL;
   struct model *model = model_begin(scene);
   if (!model) return STATUS_LIMIT;
-  const enum status status = prepare(model);
+  const enum status status = prepare(model, team);
   if (status == STATUS_OK) *out = model;
   else model_destroy(model);
   return status;

@@ -29,39 +29,35 @@ enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 /* A patch's frame is no smaller than this, so that its reciprocal and all products with it are normal numbers. */
 #define LEAST_SCALE 0x1p-1000
 
-/* Writes all but the rest, and that to where it may stay. Returns whether there is any. */
-static bool patch_frame(double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4])
+/* Writes all but the rest, and that to where it may stay; tells whether there is any. Returns the largest |coordinate|.
+ * */
+static double patch_frame(double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4],
+                          bool *rounded)
 {
-  bool rounded = false;
+  double largest = 0;
   double extent = scene_size > 0 ? real_max(LEAST_EXTENT * scene_size, LEAST_SCALE) : 0, lo[3], hi[3];
   for (int k = 0; k < 3; k++) {
     lo[k] = INFINITY, hi[k] = -INFINITY;
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) lo[k] = real_min(lo[k], P[i][j][k]), hi[k] = real_max(hi[k], P[i][j][k]);
     extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
+    largest = real_max(largest, real_max(fabs(lo[k]), fabs(hi[k])));
   }
+  *rounded = false;
   int exponent = 0;                         /* all of the scene is the origin: any scale will do */
   if (extent > 0) frexp(extent, &exponent); /* extent < 2^exponent */
   out->scale = ldexp(1, exponent + 1);      /* the center may be a grain off the middle */
+  const double unit = 1 / out->scale;       /* a power of two: so are products quotients */
   for (int k = 0; k < 3; k++) {
     const double middle = lo[k] / 2 + hi[k] / 2, grain = out->scale / 4;
     out->center[k] = fabs(middle) < grain * 0x1p50 ? real_coarse(middle, grain) : middle;
     for (int n = 0; n < 16; n++) {
       const struct double_double x = dd_two_sum(P[n / 4][n % 4][k], -out->center[k]);
-      out->x[k][n / 4][n % 4] = x.hi / out->scale, rest[k][n / 4][n % 4] = x.lo / out->scale;
-      rounded |= x.lo != 0;
+      out->x[k][n / 4][n % 4] = x.hi * unit, rest[k][n / 4][n % 4] = x.lo * unit;
+      *rounded |= x.lo != 0;
     }
   }
-  return rounded;
-}
-
-double patch_largest_coordinate(double P[4][4][3])
-{
-  double size = 0;
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++)
-      for (int k = 0; k < 3; k++) size = real_max(size, fabs(P[i][j][k]));
-  return size;
+  return largest;
 }
 
 /* How many leaves make every leaf nearly flat: second derivatives fall with the square, first ones with one over it. A
@@ -101,29 +97,43 @@ static enum solver_lanes lanes_of(const struct method *s)
 
 bool patch_on_lanes(const struct method *method) { return lanes_of(method) != SOLVER_LANES_NONE; }
 
-void patch_make(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4])
+/* All but what its cut says. Returns the largest |coordinate| of a control point. */
+static double patch_begin(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4])
 {
   static const double none[3][4][4];
   struct scene_patch *source = &model->scene->patches[index];
-  const struct model_cut *cut = &model->cuts[index];
-  out->rest = patch_frame(source->P, model->size, out, rest) ? (const double(*)[4][4])rest : none;
+  bool rounded;
+  const double largest = patch_frame(source->P, model->size, out, rest, &rounded);
+  out->rest = rounded ? (const double(*)[4][4])rest : none;
   out->method = &model->scene->solvers[source->solver];
   out->all_roots = lanes_of(out->method) == SOLVER_LANES_ABERTH;
   out->lanes = lanes_of(out->method) != SOLVER_LANES_NONE;
+  return largest;
+}
+
+static void patch_end(const struct model_cut *cut, struct model_patch *out)
+{
   out->m = cut->m, out->n = cut->n, out->split[0] = cut->split[0], out->split[1] = cut->split[1];
   out->loose = cut->loose;
 }
 
-void patch_set_cut(const struct model *model, uint32_t index, int most)
+void patch_make(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4])
 {
-  struct patch_room room;
-  struct model_patch *patch = &room.patch;
+  (void)patch_begin(model, index, out, rest);
+  patch_end(&model->cuts[index], out);
+}
+
+void patch_make_first(const struct model *model, uint32_t index, int most, struct model_patch *out,
+                      double rest[3][4][4])
+{
   struct model_cut *cut = &model->cuts[index];
-  int m, n;
-  patch_make(model, index, patch, room.rest);
-  const double size = patch_largest_coordinate(model->scene->patches[index].P);
-  patch_bidegree(patch->x, DEGREE_SLACK * real_max(1, size / patch->scale), &m, &n);
-  cut->m = (uint8_t)m, cut->n = (uint8_t)n;
-  if (patch->method->split > 0) cut->split[0] = cut->split[1] = (uint16_t)patch->method->split;
-  else auto_split(patch, most, cut->split);
+  const double largest = patch_begin(model, index, out, rest);
+  if (!cut->copied) {
+    int m, n;
+    patch_bidegree(out->x, DEGREE_SLACK * real_max(1, largest / out->scale), &m, &n);
+    cut->m = (uint8_t)m, cut->n = (uint8_t)n;
+    if (out->method->split > 0) cut->split[0] = cut->split[1] = (uint16_t)out->method->split;
+    else auto_split(out, most, cut->split);
+  }
+  patch_end(cut, out);
 }

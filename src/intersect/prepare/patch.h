@@ -11,16 +11,15 @@
  * point has no size of its own, and a frame too small would overflow. */
 #define LEAST_EXTENT 0x1p-100
 
-/* The largest |coordinate| of a control point. */
-double patch_largest_coordinate(double P[4][4][3]);
-
 /* Whether patches with this method are tried on lanes of rays at once. */
 bool patch_on_lanes(const struct method *method);
 
-/* The patch of the scene, with its cut as far as that is known; its rest, where it has one, in `rest`. */
+/* The patch of the scene; its rest, where it has one, in `rest`. */
 void patch_make(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4]);
 
-/* Finds out degree and split, which is at most `most` a side, and sets them. */
-void patch_set_cut(const struct model *model, uint32_t index, int most);
+/* The same the first time: unless it is copied, finds out degree and split, which is at most `most` a side, and sets
+ * its cut. */
+void patch_make_first(const struct model *model, uint32_t index, int most, struct model_patch *out,
+                      double rest[3][4][4]);
 
 #endif

@@ -51,7 +51,8 @@ static struct bvh_box framed(const struct bvh_box *box, const double middle[3], 
 
 /* A tree about `middle`, of size `frame`, both in the frame of the boxes. */
 static enum status build(struct arena *arena, const struct bvh_box boxes[], uint32_t index[], size_t count,
-                         const double middle[3], double frame, const struct model_tree *whole, struct model_tree *out)
+                         const double middle[3], double frame, const struct model_tree *whole, const struct team *team,
+                         struct model_tree *out)
 {
   struct bvh_box hull;
   const size_t stay = set_apart(boxes, index, count, frame, &hull), inner = stay < count;
@@ -64,7 +65,7 @@ static enum status build(struct arena *arena, const struct bvh_box boxes[], uint
   if (!own && !given) return STATUS_LIMIT;
   for (size_t k = 0; own && k < stay; k++) own[k] = first ? boxes[index[k]] : framed(&boxes[index[k]], middle, frame);
   if (inner) own[stay] = framed(&hull, middle, frame);
-  enum status status = bvh_build(given ? boxes : own, stay + inner, &out->bvh);
+  enum status status = bvh_build(given ? boxes : own, stay + inner, team, &out->bvh);
   memory_free(own);
   for (size_t n = 0; status == STATUS_OK && n < out->bvh.node_count; n++) {
     for (int side = 0; side < BVH_WIDTH; side++) {
@@ -80,11 +81,11 @@ static enum status build(struct arena *arena, const struct bvh_box boxes[], uint
   int exponent;
   for (int k = 0; k < 3; k++) center[k] = hull.lo[k] / 2 + hull.hi[k] / 2;
   frexp(real_max(box_extent(&hull) / 2, UNIT_ROUNDOFF), &exponent);
-  return build(arena, boxes, index + stay, count - stay, center, ldexp(1, exponent), whole, out->inner);
+  return build(arena, boxes, index + stay, count - stay, center, ldexp(1, exponent), whole, team, out->inner);
 }
 
 enum status tree_build(struct arena *arena, const struct bvh_box boxes[], size_t count, const double origin[3],
-                       double frame, struct model_tree *out)
+                       double frame, const struct team *team, struct model_tree *out)
 {
   static const double middle[3] = {0, 0, 0};
   const struct model_tree whole = {.origin = {origin[0], origin[1], origin[2]}, .frame = frame};
@@ -92,7 +93,7 @@ enum status tree_build(struct arena *arena, const struct bvh_box boxes[], size_t
   uint32_t *index = memory_alloc(count + 1, sizeof *index);
   if (!index) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
-  const enum status status = build(arena, boxes, index, count, middle, 1, &whole, out);
+  const enum status status = build(arena, boxes, index, count, middle, 1, &whole, team, out);
   memory_free(index);
   return status;
 }

@@ -1,0 +1,33 @@
+/* Work shared by several threads, which are started by whoever lends them: the library starts none.
+ *
+ * Threads of a team have libc's memory, whatever hooks their caller's has (memory.h).
+ */
+#ifndef PSCN_BASE_TEAM_H
+#define PSCN_BASE_TEAM_H
+
+#include <stddef.h>
+
+#include "base/status.h"
+
+/* One thread's share, of worker 0 ... count-1. */
+typedef enum status team_work(void *context, size_t worker);
+
+struct team {
+  /* Has all workers at it at once, and answers when the last is done: STATUS_OK, or what one of them answered instead,
+   * or STATUS_LIMIT where threads are short. Some workers may not have been called then. */
+  enum status (*run)(size_t count, team_work *work, void *context);
+  size_t count; /* >= 1 */
+};
+
+/* NULL is the calling thread by itself. */
+static inline size_t team_count(const struct team *team) { return team ? team->count : 1; }
+
+/* Has as many of its workers at it as there are parts of work, of which they take one after the other. */
+STATUS_MUST_CHECK static inline enum status team_run(const struct team *team, size_t parts, team_work *work,
+                                                     void *context)
+{
+  const size_t count = team_count(team) < parts ? team_count(team) : parts;
+  return count > 1 ? team->run(count, work, context) : work(context, 0);
+}
+
+#endif

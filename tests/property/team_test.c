@@ -1,0 +1,214 @@
+/* Scenes that several threads prepare: the model is that of one thread, to the last bit, however the work is shared
+ * out; where threads are short there is none. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "intersect/model.h"
+#include "property/world.h"
+#include "render/threads.h"
+
+enum { SEED = 20261123 };
+
+/* What a model is made of: a height field of so many patches that share their borders, or copies of pieces of it. */
+struct trial {
+  struct scene scene;
+  struct method solvers[2];
+  struct scene_object object;
+};
+
+static void trial_open(struct trial *trial, size_t side, size_t copies, int split)
+{
+  struct random random = {SEED};
+  *trial = (struct trial){.scene = {.solver_count = 2}};
+  struct scene *scene = &trial->scene;
+  const size_t count = side * side, points = 3 * side + 1;
+  method_default(solver_at(0), &trial->solvers[0]);
+  trial->solvers[1] = trial->solvers[0], trial->solvers[1].split = split;
+  scene->solvers = trial->solvers;
+  scene->patch_count = count * (copies ? copies : 1);
+  scene->patches = calloc(scene->patch_count, sizeof *scene->patches);
+  double *height = calloc(points * points, sizeof *height);
+  assert_non_null(scene->patches);
+  assert_non_null(height);
+  for (size_t k = 0; k < points * points; k++) height[k] = random_between(&random, -0.3, 0.3);
+  for (size_t p = 0; p < count; p++) {
+    double(*P)[4][3] = scene->patches[p].P;
+    const double bend = random_bits(&random) % 4 == 0 ? 0 : 1; /* some are flat: of degree (1,1) */
+    for (size_t n = 0; n < 16; n++) {
+      const size_t i = p / side * 3 + n / 4, j = p % side * 3 + n % 4;
+      P[n / 4][n % 4][0] = (double)i / 3, P[n / 4][n % 4][1] = (double)j / 3;
+      P[n / 4][n % 4][2] = bend * height[i * points + j];
+    }
+    scene->patches[p].solver = p % 5 == 0;
+  }
+  free(height);
+  if (copies == 0) return;
+  trial->object = (struct scene_object){calloc(count, sizeof *trial->object.P), count};
+  scene->objects = &trial->object, scene->object_count = 1;
+  scene->copies = calloc(copies, sizeof *scene->copies), scene->copy_count = copies;
+  assert_non_null(trial->object.P);
+  assert_non_null(scene->copies);
+  for (size_t p = 0; p < count; p++) memcpy(trial->object.P[p], scene->patches[p].P, sizeof trial->object.P[p]);
+  for (size_t c = 0; c < copies; c++) {
+    struct scene_copy *copy = &scene->copies[c];
+    copy->first_patch = c * count;
+    for (int k = 0; k < 3; k++) copy->A[k][k] = 1;
+    copy->b[2] = (double)c;
+    for (size_t p = 0; p < count; p++) {
+      scene->patches[copy->first_patch + p] = scene->patches[p];
+      for (int n = 0; n < 16; n++)
+        scene->patches[copy->first_patch + p].P[n / 4][n % 4][2] = trial->object.P[p][n / 4][n % 4][2] + copy->b[2];
+    }
+  }
+}
+
+static void trial_close(struct trial *trial)
+{
+  free(trial->scene.patches);
+  free(trial->scene.copies);
+  free(trial->object.P);
+}
+
+#define SAME(a, b, member) assert_memory_equal(&(a)->member, &(b)->member, sizeof(a)->member)
+
+static void assert_same_leaf(const struct leaf *a, const struct leaf *b)
+{
+  SAME(a, b, slabs);
+  SAME(a, b, x);
+  SAME(a, b, second);
+  SAME(a, b, first);
+  assert_true(a->patch == b->patch && a->column_u == b->column_u && a->column_v == b->column_v);
+  assert_true(a->kept_degree == b->kept_degree && a->v_kept == b->v_kept && !a->parts == !b->parts);
+  assert_true(!a->form == !b->form);
+  if (a->form) assert_memory_equal(a->form, b->form, sizeof *a->form);
+  if (!a->parts) return;
+  SAME(a, b, parts->base);
+  SAME(a, b, parts->rest);
+  SAME(a, b, parts->third);
+}
+
+static void assert_same(const struct model *a, const struct model *b)
+{
+  const size_t count = a->scene ? a->scene->patch_count : 0;
+  assert_int_equal(a->leaf_count, b->leaf_count);
+  assert_int_equal(a->copy_count, b->copy_count);
+  assert_true(!a->leaves == !b->leaves && !a->patches == !b->patches && !a->places == !b->places);
+  SAME(a, b, origin);
+  assert_true(a->frame == b->frame && a->size == b->size && a->unproven == b->unproven);
+  assert_int_equal(a->tree.bvh.node_count, b->tree.bvh.node_count);
+  assert_memory_equal(a->tree.bvh.nodes, b->tree.bvh.nodes, a->tree.bvh.node_count * sizeof *a->tree.bvh.nodes);
+  for (size_t p = 0; p < count; p++) {
+    SAME(&a->cuts[p], &b->cuts[p], split);
+    assert_true(a->cuts[p].m == b->cuts[p].m && a->cuts[p].n == b->cuts[p].n);
+    if (a->patches) SAME(&a->patches[p], &b->patches[p], x);
+    if (a->patches) assert_memory_equal(a->patches[p].rest, b->patches[p].rest, sizeof(double[3][4][4]));
+  }
+  for (size_t k = 0; k < 4 * count; k++) {
+    const struct edge_neighbour *m = &a->neighbours[k], *n = &b->neighbours[k];
+    assert_true(m->patch == n->patch && m->border == n->border && m->reversed == n->reversed);
+  }
+  for (size_t l = 0; l < a->leaf_count; l++)
+    if (a->places) SAME(a, b, places[l]);
+    else assert_same_leaf(&a->leaves[l], &b->leaves[l]);
+  for (size_t k = 0; k < a->object_count; k++) assert_same(a->objects[k].model, b->objects[k].model);
+}
+
+/* Teams without threads: the last worker finds all the work, and what workers answer is the answer; nobody comes. */
+static enum status last_first(size_t count, team_work *work, void *context)
+{
+  enum status status = STATUS_OK;
+  for (size_t k = count; k-- > 0;)
+    if (status == STATUS_OK) status = work(context, k);
+  return status;
+}
+
+static int calls_left;
+
+static enum status then_nobody(size_t count, team_work *work, void *context)
+{
+  return calls_left-- > 0 ? last_first(count, work, context) : STATUS_LIMIT;
+}
+
+static void try_teams(size_t side, size_t copies, int split, bool kept)
+{
+  struct trial trial;
+  struct model *alone, *together;
+  const struct team teams[] = {threads_team(2), threads_team(5), {last_first, 3}};
+  trial_open(&trial, side, copies, split);
+  assert_int_equal(model_create(&trial.scene, NULL, &alone), STATUS_OK);
+  assert_true(!alone->leaves == !kept);
+  for (size_t k = 0; k < sizeof teams / sizeof *teams; k++) {
+    assert_int_equal(model_create(&trial.scene, &teams[k], &together), STATUS_OK);
+    assert_same(alone, together);
+    model_destroy(together);
+  }
+  model_destroy(alone);
+  trial_close(&trial);
+}
+
+static void kept(void **state)
+{
+  (void)state;
+  try_teams(40, 0, 3, true);
+}
+
+static void not_kept_for_a_split(void **state)
+{
+  (void)state;
+  try_teams(70, 0, 17, false);
+}
+
+static void not_kept_for_their_number(void **state)
+{
+  (void)state;
+  try_teams(260, 0, 2, false);
+}
+
+static void copied(void **state)
+{
+  (void)state;
+  try_teams(10, 300, 0, true);
+}
+
+/* Whichever of its calls for a team comes to nothing. */
+static void short_of_threads(void **state)
+{
+  struct trial trial;
+  struct model *model;
+  (void)state;
+  trial_open(&trial, 40, 0, 3);
+  const struct team failing = {then_nobody, 2};
+  int failures = 0;
+  for (enum status status = STATUS_LIMIT; status != STATUS_OK; failures++) {
+    calls_left = failures;
+    status = model_create(&trial.scene, &failing, &model);
+    assert_true(status == STATUS_OK || (status == STATUS_LIMIT && model == NULL));
+    if (status == STATUS_OK) model_destroy(model);
+  }
+  assert_true(failures > 3);
+  trial_close(&trial);
+}
+
+/* What few patches want is done before another thread has begun. */
+static void few(void **state)
+{
+  struct trial trial;
+  struct model *model;
+  const struct team nobody = {then_nobody, 2};
+  (void)state;
+  calls_left = 0;
+  trial_open(&trial, 2, 0, 1);
+  assert_int_equal(model_create(&trial.scene, &nobody, &model), STATUS_OK);
+  model_destroy(model);
+  trial_close(&trial);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(kept),   cmocka_unit_test(not_kept_for_a_split), cmocka_unit_test(not_kept_for_their_number),
+    cmocka_unit_test(copied), cmocka_unit_test(short_of_threads),     cmocka_unit_test(few)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
