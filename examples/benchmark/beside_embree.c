@@ -2,13 +2,14 @@
  *
  *   beside_embree KIND SCENE [RUNS [SIDE [SOLVER...]]]
  *
- * KIND camera: all 800x600 camera rays in the renderer's order. shadow: the shadow rays that their hits send, asked whether
- * anything is hit. scattered: as many rays between random points of the box that holds the hits, in random directions: nothing
- * is said of their order. pscn answers by the scene's own solvers, in packets and, "one by one", each ray for itself; then
- * by each SOLVER ("aberth { split 1 }"; "all" or "all SOLVER": all hits of each ray instead of the nearest); beside Embree's rtcIntersect1 and its packets of 8 and, where the processor has
- * the instructions, 16, which are told whether the rays are coherent; or rtcOccluded. SIDE x SIDE x 2 triangles a patch
- * (64). CPU time of the thread. A line a contestant, tabs between: name, ns a ray (median over runs, smallest, largest), and
- * the medians of the ratios in the same run to Embree's rays one by one, to its fastest packets, to pscn's packets.
+ * KIND camera: all 800x600 camera rays in the renderer's order. shadow: the shadow rays that their hits send, asked
+ * whether anything is hit. scattered: as many rays between random points of the box that holds the hits, in random
+ * directions: nothing is said of their order. pscn answers by the scene's own solvers, in packets and, "one by one",
+ * each ray for itself; then by each SOLVER ("aberth { split 1 }"; "all" or "all SOLVER": all hits of each ray instead
+ * of the nearest); beside Embree's rtcIntersect1 and its packets of 8 and, where the processor has the instructions,
+ * 16, which are told whether the rays are coherent; or rtcOccluded. SIDE x SIDE x 2 triangles a patch (64). CPU time of
+ * the thread. A line a contestant, tabs between: name, ns a ray (median over runs, smallest, largest), and the medians
+ * of the ratios in the same run to Embree's rays one by one, to its fastest packets, to pscn's packets.
  */
 #include <math.h>
 #include <stdio.h>
