@@ -39,6 +39,8 @@ count() {
 }
 
 find "$build" -name '*.gcda' -delete
+# A test that runs into its time limit leaves no counts, so each has ten times as long.
+find "$build" -name CTestTestfile.cmake -exec sed -i 's/ TIMEOUT "[0-9]*/&0/' {} +
 # The library with counters in it asks for more than it should: library-install would say so.
 PSCN_EFFORT=${PSCN_EFFORT:-0.0001} ctest --test-dir "$build" -E '^library-install$' --output-on-failure -j "$(nproc)" \
   >"$build/tests.log" ||
