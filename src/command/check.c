@@ -78,7 +78,8 @@ static enum status prepare(const struct command *command, const struct check_req
 {
   struct stat info;
   char message[IMAGE_MESSAGE_SIZE];
-  if (request->own_text && stat(request->path, &info) == 0 && !S_ISREG(info.st_mode)) {
+  if (request->own_text &&
+      (output_is_standard(request->path) || (stat(request->path, &info) == 0 && !S_ISREG(info.st_mode)))) {
     command_error(command, "--own-text reads the scene twice, and '%s' is no regular file", request->path);
     return STATUS_FILE;
   }

@@ -7,4 +7,5 @@ try pscn check $SCENES/bent.pscn --fail -1
 try env PATH=/nonexistent "$(command -v pscn)" check $SCENES/bent.pscn
 try pscn check $SCENES/bent.pscn --povray ./povray 2>&1 | sed "s|$PWD|HERE|"
 try pscn check $SCENES/bent.pscn --povray /bin/true
+try pscn check - --own-text <$SCENES/bent.pscn
 ls

@@ -17,3 +17,6 @@ within pscn compare pipe pipe
 within pscn compare <(cat "$scene") pipe 2>&1 | sed 's|/dev/fd/[0-9]*|PIPE|'
 within pscn compare . .
 ls -A
+# Names that lead nowhere.
+ln -s loop loop
+for name in loop device.pscn/x "$(printf 'x%.0s' {1..300})"; do within pscn dump "$name" 2>&1 | sed 's/xxx*/x.../'; done
