@@ -177,11 +177,25 @@ static void box(struct random *random, enum strew strew, struct cycle *out)
     }
 }
 
+/* A pillow, and a bag or gores that are far smaller, within it. */
+static void speck(struct random *random, enum strew strew, struct cycle *out)
+{
+  struct cycle small;
+  pillow(random, strew, out);
+  if (choose(random, 2)) gores(random, strew, &small);
+  else bag(random, strew, &small);
+  const double size = random_decade(random, 2, 10);
+  for (size_t n = 0; n < small.count; n++) {
+    for (int k = 0; k < 48; k++) small.P[n][k / 12][k / 3 % 4][k % 3] *= size;
+    memcpy(out->P[out->count++], small.P[n], sizeof small.P[n]);
+  }
+}
+
 static const struct {
   const char *name;
   void (*make)(struct random *random, enum strew strew, struct cycle *out);
 } shapes[] = {{"pillow", pillow}, {"box", box},   {"gores", gores}, {"bag", bag},
-              {"tees", tees},     {"book", book}, {"twice", twice}};
+              {"tees", tees},     {"book", book}, {"twice", twice}, {"speck", speck}};
 
 size_t cycle_shape_count(void) { return sizeof shapes / sizeof shapes[0]; }
 const char *cycle_shape_name(size_t shape) { return shapes[shape].name; }

@@ -72,7 +72,7 @@ static void outside_ray(const struct cycle_scene *s, struct random *random, stru
   }
   const double length = longest(d);
   if (!(length > 0)) d[0] = 1;
-  const double away = (choose(random, 4) ? 4 : 4 / random_decade(random, 0, 6)) * s->size / (length > 0 ? length : 1);
+  const double away = (choose(random, 4) ? 4 : 4 / random_decade(random, 0, 14)) * s->size / (length > 0 ? length : 1);
   for (int k = 0; k < 3; k++) ray->origin[k] = at[k] - away * d[k], ray->direction[k] = d[k];
 }
 
@@ -114,6 +114,8 @@ static bool make_rays(const struct cycle_scene *s, struct random *random, struct
       for (int k = 0; k < 3; k++) ray->origin[k] = start[k], ray->direction[k] -= start[k];
       if (choose(random, 4) == 0) random_direction(random, ray->direction);
     } while (!(longest(ray->direction) > 0) || (outside && !is_outside(s, ray->origin)));
+    const double scale = choose(random, 8) ? 1 : random_decade(random, -30, 30);
+    for (int k = 0; k < 3; k++) ray->direction[k] *= scale;
   }
   return outside;
 }
