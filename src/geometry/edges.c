@@ -67,11 +67,19 @@ static struct border border_of(const struct matching *m, size_t index)
   return b;
 }
 
-static bool collapsed(const struct border *b)
+/* Whether the four points of a border are one. */
+static bool collapsed(const double *points)
 {
   for (int k = 1; k < 4; k++)
-    if (compare_numbers(b->point[k], b->point[0], 3)) return false;
+    if (compare_numbers(points + 3 * k, points, 3)) return false;
   return true;
+}
+
+bool edge_is_point(double P[4][4][3], int border)
+{
+  double point[4][3];
+  edge_points(P, border, point);
+  return collapsed(&point[0][0]);
 }
 
 /* Of equal numbers the same, though there are two zeros. Multiplication takes bits up, the shift takes them down. */
@@ -112,7 +120,7 @@ static void meet(struct matching *m, struct place *place, size_t index, const st
 {
   const size_t k = place->border - 1;
   struct edge_neighbour *here = &m->out[k];
-  if (collapsed(b)) return;
+  if (collapsed(&first->point[0][0])) return;
   if (here->patch != EDGE_NONE) {
     struct edge_neighbour *second = &m->out[4 * (size_t)here->patch + here->border];
     *second = *here = alone;

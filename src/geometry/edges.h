@@ -1,4 +1,4 @@
-/* Which borders of patches are shared: equal control points, to the last bit, in the same or the opposite order.
+/* Which borders of patches are shared: equal control points, to the last bit (0 is -0), in the same or the opposite order.
  *
  * Border 0 is u = 0, 1 is u = 1 (both run along v), 2 is v = 0, 3 is v = 1 (both run along u).
  */
@@ -24,6 +24,9 @@ struct edge_neighbour {
 
 /* The four control points of border `border` of the net P[i][j], in the order of the running parameter. */
 void edge_points(double P[4][4][3], int border, double out[4][3]);
+
+/* Whether the border is one point: its control points are equal numbers. */
+bool edge_is_point(double P[4][4][3], int border);
 
 /* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes, the same by any team. STATUS_LIMIT
  * where memory is short, or threads are. */

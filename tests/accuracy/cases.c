@@ -1,5 +1,6 @@
 /* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver, the
- * ray, and `certain: yes` where the answer must be that too; judged by the exact judge. Every file is a scene that pscn and POV-Ray read. */
+ * ray, `certain: yes` where the answer must be that too, and `all: N` where there must be N hits in all, certainly; judged by
+ * the exact judge. Every file is a scene that pscn and POV-Ray read. */
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -37,10 +38,18 @@ static void header(const char *path, const char *key, char out[LINE_SIZE])
   out[strcspn(out, "\n")] = 0;
 }
 
+static bool all_good(struct tracer *tracer, const struct ray *ray, const char *count)
+{
+  struct hit_list list;
+  assert_int_equal(tracer_all(tracer, 1, ray, &list), STATUS_OK);
+  return !count[0] || (list.certainty == CERTAINTY_CERTAIN && list.count == strtoul(count, NULL, 10));
+}
+
 static bool judged_good(const char *path)
 {
-  char solver[LINE_SIZE], text[LINE_SIZE], certain[LINE_SIZE];
+  char solver[LINE_SIZE], text[LINE_SIZE], certain[LINE_SIZE], count[LINE_SIZE];
   header(path, "solver", solver), header(path, "ray", text), header(path, "certain", certain);
+  header(path, "all", count);
   struct ray ray = {.t_min = 0, .t_max = INFINITY};
   double *o = ray.origin, *d = ray.direction;
   assert_int_equal(sscanf(text, "%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]), 6);
@@ -57,10 +66,12 @@ static bool judged_good(const char *path)
   certifier_create(&certifier, scene, trial.reference);
   tracer_closest(trial.tracer, 1, &ray, &hit);
   certify(&certifier, &ray, &hit, &certificate);
-  const bool good = certificate.finding <= FINDING_UNDECIDED && (!certain[0] || hit.certainty == CERTAINTY_CERTAIN);
+  const bool all = all_good(trial.tracer, &ray, count);
+  const bool good = all && certificate.finding <= FINDING_UNDECIDED &&
+                    (!certain[0] || hit.certainty == CERTAINTY_CERTAIN);
   if (!good)
-    printf("%s: %s, %s\n", strrchr(path, '/') + 1, hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing",
-           finding_names[certificate.finding]);
+    printf("%s:%s %s, %s\n", strrchr(path, '/') + 1, all ? "" : " not all, or grazing;",
+           hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[certificate.finding]);
   certifier_destroy(&certifier);
   trial_destroy(&trial);
   scene_destroy(scene);

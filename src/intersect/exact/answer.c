@@ -67,12 +67,17 @@ static void answer(const struct model *model, const struct ray *ray, uint32_t pa
 void exact_root_hit(const struct model *model, const struct ray *ray, struct exact_root *root, bool sure,
                     struct hit *out)
 {
+  double(*P)[4][3] = model->scene->patches[root->patch].P;
   if (!root->sharp) {
     struct zoom zoom;
     struct patch_room room;
     const struct model_patch *patch = model_patch_at(model, root->patch, &room);
-    zoom_start(patch, model->scene->patches[root->patch].P, ray, dominant_axis(ray->direction), &zoom);
+    zoom_start(patch, P, ray, dominant_axis(ray->direction), &zoom);
     (void)zoom_sharpen(&zoom, root); /* or it stays what it is */
+  }
+  if (root->t_error > UNIT_ROUNDOFF / 4 * fabs((double)root->t)) {
+    const wide t = wide_t(P, ray, root->u, root->v);
+    if (fabs((double)(t - root->t)) <= root->t_error) root->t = t;
   }
   const double u = (double)root->u, v = (double)root->v;
   const bool at[4] = {u <= root->radius_u, 1 - u <= root->radius_u, v <= root->radius_v, 1 - v <= root->radius_v};

@@ -125,7 +125,8 @@ static void box_tell_maybe(struct search *s, struct box *box, bool small)
   }
   const double t = depth_to_t(s, patch_evaluate(box->net[2], u, v).value);
   judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u * u)),
-              (double)(s->low[1] + s->size[1] * (box->v + box->size_v * v)), t, box->far - box->near);
+              (double)(s->low[1] + s->size[1] * (box->v + box->size_v * v)), t,
+              real_min(box->far - box->near, s->resolution));
 }
 
 /* The border that is one point and that the box lies at. */

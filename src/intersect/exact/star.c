@@ -6,7 +6,6 @@
  * point the surface is a sheet across the ray, which meets it exactly once, wherever it passes.
  */
 #include <math.h>
-#include <string.h>
 
 #include "geometry/patch.h"
 #include "intersect/exact/judge.h"
@@ -30,20 +29,12 @@ struct direction {
   double x, y; /* along the two axes across the dominant one, as the ray sees it */
 };
 
-static bool border_is_point(const struct model *model, uint32_t patch, int border)
-{
-  double point[4][3];
-  edge_points(model->scene->patches[patch].P, border, point);
-  return !memcmp(point[0], point[1], sizeof point[0]) && !memcmp(point[0], point[2], sizeof point[0]) &&
-         !memcmp(point[0], point[3], sizeof point[0]);
-}
-
 /* The wedge of a patch whose border `in` ends in the point. */
 static struct wedge wedge_at(const struct model *model, uint32_t patch, int in, int end)
 {
   const int other = (in < 2 ? 2 : 0) + end; /* the border at that end */
   struct wedge w = {patch, in, other, end, -1};
-  if (border_is_point(model, patch, other)) w.pole = other, w.out = in ^ 1;
+  if (edge_is_point(model->scene->patches[patch].P, other)) w.pole = other, w.out = in ^ 1;
   return w;
 }
 
@@ -67,7 +58,7 @@ static bool wedge_of(const struct model *model, const struct exact_found *found,
   for (int k = 0; k < 4; k++)
     if (found->borders >> k & 1) bits[count++] = k;
   for (int k = 0; k < count; k++) {
-    if (!border_is_point(model, patch, bits[k])) continue;
+    if (!edge_is_point(model->scene->patches[patch].P, bits[k])) continue;
     *out = wedge_at(model, patch, bits[k] < 2 ? 2 : 0, bits[k] & 1);
     return out->pole == bits[k];
   }

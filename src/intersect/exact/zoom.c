@@ -284,9 +284,10 @@ static void wide_weights(wide t, wide w[4], wide dw[3])
   dw[0] = 3 * s * s, dw[1] = 6 * s * t, dw[2] = 3 * t * t;
 }
 
-bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3])
+/* Su x Sv, over its largest coordinate; false where it vanishes. */
+static bool wide_across(double (*P)[4][3], wide u, wide v, wide n[3])
 {
-  wide wu[4], du[3], wv[4], dv[3], su[3] = {0}, sv[3] = {0}, n[3], size = 0;
+  wide wu[4], du[3], wv[4], dv[3], su[3] = {0}, sv[3] = {0}, size = 0;
   wide_weights(u, wu, du);
   wide_weights(v, wv, dv);
   for (int c = 0; c < 3; c++) {
@@ -301,8 +302,29 @@ bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3])
     n[c] = su[(c + 1) % 3] * sv[(c + 2) % 3] - su[(c + 2) % 3] * sv[(c + 1) % 3];
     size = wide_max(size, wide_abs(n[c]));
   }
-  if (!(size > 0)) return false;
-  for (int c = 0; c < 3; c++) out[c] = (double)(n[c] / size);
+  for (int c = 0; c < 3; c++) n[c] /= size;
+  return size > 0;
+}
+
+wide wide_t(double (*P)[4][3], const struct ray *ray, wide u, wide v)
+{
+  wide wu[4], wv[4], unused[3], n[3], above = 0, along = 0;
+  if (!wide_across(P, u, v, n)) return 0;
+  wide_weights(u, wu, unused);
+  wide_weights(v, wv, unused);
+  for (int c = 0; c < 3; c++) {
+    wide from_start = 0;
+    for (int k = 0; k < 16; k++) from_start += wu[k / 4] * wv[k % 4] * ((wide)P[k / 4][k % 4][c] - ray->origin[c]);
+    above += n[c] * from_start, along += n[c] * ray->direction[c];
+  }
+  return along != 0 ? above / along : 0;
+}
+
+bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3])
+{
+  wide n[3];
+  if (!wide_across(P, u, v, n)) return false;
+  for (int c = 0; c < 3; c++) out[c] = (double)n[c];
   const double length = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
   for (int c = 0; c < 3; c++) out[c] /= length;
   return true;

@@ -27,8 +27,7 @@ void leaf_first_bounds(double x[3][16], double out[2])
 bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], int border)
 {
   const int side = border / 2, end = column[side] + span[side];
-  return (border & 1 ? end == patch->split[side] : column[side] == 0) && patch_border_is_point(patch->x, border) &&
-         patch_border_is_point(patch->rest, border);
+  return (border & 1 ? end == patch->split[side] : column[side] == 0) && patch->pole[border];
 }
 
 /* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other

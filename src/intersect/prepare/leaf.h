@@ -10,8 +10,7 @@
 /* The local net of the part of the patch that has `span` columns of leaves from `column` on, along u and v. */
 void leaf_net(struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], double out[3][16]);
 
-/* Whether a border (geometry/edges.h) of that part lies on one of the patch that is exactly one point. Nets, which are
- * rounded, do not tell: control points a unit in the last place apart may be one in them. */
+/* Whether a border (geometry/edges.h) of that part lies on a pole of the patch. */
 bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2],
                           int border);
 

@@ -105,6 +105,7 @@ static double patch_begin(const struct model *model, uint32_t index, struct mode
   bool rounded;
   const double largest = patch_frame(source->P, model->size, out, rest, &rounded);
   out->rest = rounded ? (const double(*)[4][4])rest : none;
+  for (int k = 0; k < 4; k++) out->pole[k] = edge_is_point(source->P, k);
   out->method = &model->scene->solvers[source->solver];
   out->all_roots = lanes_of(out->method) == SOLVER_LANES_ABERTH;
   out->lanes = lanes_of(out->method) != SOLVER_LANES_NONE;
