@@ -19,8 +19,10 @@
  * tangencies some thousand; only surfaces that lie along the ray over an area come there. About a millisecond. */
 enum { JUDGE_WORK = 2500 };
 
-/* Boxes that each region has for itself besides: so one that the ray lies in leaves the others decided. */
-enum { JUDGE_REGION_WORK = 512 };
+/* Boxes that each region has for itself besides: so one that the ray lies in leaves the others decided. Where something
+ * may be a hit this is all, and in the region where that is there are no more than so many others: most answers are
+ * grazing then, whatever else is found. */
+enum { JUDGE_REGION_WORK = 512, JUDGE_MAYBE_WORK = 128 };
 
 void judge_turn(struct judge *j, uint32_t patch)
 {
@@ -171,6 +173,7 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe)
   }
   if (j->doubtful && !(maybe->t < j->maybe.t || (maybe->t == j->maybe.t && maybe->patch < j->maybe.patch))) return;
   j->maybe = *maybe, j->doubtful = true;
+  if (j->work > JUDGE_MAYBE_WORK) j->work = JUDGE_MAYBE_WORK;
   set_limit(j);
 }
 
@@ -384,7 +387,7 @@ static int by_distance(const void *a, const void *b)
 
 static void search(struct judge *j, const struct exact_region *region)
 {
-  const int shared = j->work;
+  const int shared = j->doubtful ? 0 : j->work;
   judge_turn(j, region->patch);
   j->work = shared + JUDGE_REGION_WORK;
   search_region(j, region);

@@ -28,6 +28,10 @@
 enum { SEARCH_HALVINGS = 104 };
 #define LEAST_SIZE 0x1p-52
 
+/* So many boxes may wait to be looked at in the order in which the ray comes to them: at first, and under the glass. More
+ * than these wait only in the order of halving, and so no more than one box can be halved. */
+enum { SEARCH_AHEAD = 128, CLOSER_AHEAD = 64, SEARCH_STACK = SEARCH_HALVINGS + 2 };
+
 /* What looking at a box under the glass costs, in boxes; how often that may be done, one in the other. */
 enum { ZOOM_WORK = 8, ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
 
@@ -50,6 +54,7 @@ enum { NO_BORDER = -1, TWO_BORDERS = -2 };
 struct search {
   struct judge *judge;
   int depth;            /* how often the whole box has been put under the glass */
+  int ahead;            /* boxes that may wait in the order of the ray */
   int divided;          /* the border by the distance to which the first net is divided (zoom_pole_box), or NO_BORDER */
   wide low[2], size[2]; /* of the whole box, in parameters of the patch */
   bool dependent;       /* some combination is zero, which it then is everywhere: there is nothing to see of it */
@@ -168,13 +173,14 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
   for (int h = 0; h < 2; h++) box_reach(s, &out[h]);
 }
 
-static void search_run(struct search *s, const struct box *whole);
+static void search_run(struct search *s, const struct box *whole, struct box waiting[]);
 
 /* The search of the box alone. */
 static struct search closer_search(const struct search *s, const struct box *box)
 {
   struct search closer = {.judge = s->judge,
                           .depth = s->depth + 1,
+                          .ahead = s->judge->all ? 0 : CLOSER_AHEAD,
                           .divided = NO_BORDER,
                           .unit = s->unit,
                           .to_t = s->to_t,
@@ -195,9 +201,9 @@ static void closer_run(struct search *closer, const struct zoomed *zoomed)
   closer->start[0] = (double)start, closer->start[1] = (double)(start - closer->start[0]);
   for (int k = 0; k < 2; k++) closer->error[k] = zoomed->error[k];
   closer->depth_error = 32 * UNIT_ROUNDOFF * size + judge_zoom(closer->judge)->depth_error;
-  struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
+  struct box whole = {.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0}, waiting[CLOSER_AHEAD + SEARCH_STACK];
   memcpy(whole.net, zoomed->net, sizeof whole.net);
-  search_run(closer, &whole);
+  search_run(closer, &whole, waiting);
 }
 
 /* Searches the box by itself under the glass. Returns whether that could be done. */
@@ -366,7 +372,7 @@ static bool box_decide(struct search *s, struct box *box)
     box_tell_root(s, box, root, radius);
     return true;
   }
-  if (s->depth == 0 && border == NO_BORDER && box_fold(s, box, error)) return true;
+  if (s->depth == 0 && border == NO_BORDER && !s->dependent && box_fold(s, box, error)) return true;
   const bool small = verdict != VERDICT_OPEN && box_small(s, box, verdict);
   if (verdict != VERDICT_OPEN && box_asks_zoom(s, box) && border == NO_BORDER && box_zoom(s, box)) return true;
   if (!small && box->halvings < SEARCH_HALVINGS) return false;
@@ -374,29 +380,39 @@ static bool box_decide(struct search *s, struct box *box)
   return true;
 }
 
-/* Searches the box `whole`, whose nets, and all that the search starts with, are set. */
-static void search_run(struct search *s, const struct box *whole)
+/* The box to look at: the one that begins first along the ray; of those that begin at one place the last one. */
+static int next_box(const struct search *s, const struct box waiting[], int count)
 {
-  struct box stack[SEARCH_HALVINGS + 2];
-  stack[0] = *whole;
-  box_reach(s, &stack[0]);
-  for (int top = 1; top > 0;) {
-    struct box box = stack[--top];
+  int next = count - 1;
+  double before = waiting[next].near - s->resolution;
+  for (int n = next; n-- > 0 && count <= s->ahead;)
+    if (waiting[n].near < before) next = n, before = waiting[n].near - s->resolution;
+  return next;
+}
+
+/* Searches the box `whole`, whose nets, and all that the search starts with, are set. waiting: room for s->ahead and
+ * SEARCH_STACK boxes. */
+static void search_run(struct search *s, const struct box *whole, struct box waiting[])
+{
+  waiting[0] = *whole;
+  box_reach(s, &waiting[0]);
+  for (int count = 1; count > 0;) {
+    const int next = next_box(s, waiting, count);
+    struct box box = waiting[next];
+    waiting[next] = waiting[--count];
     s->judge->work--;
     const bool decided = box_decide(s, &box);
     if (decided) continue;
     if (s->judge->work <= 0) {
       /* What is left may tell of points, and is a doubt. */
       box_tell_maybe(s, &box, false);
-      while (top > 0) box_tell_maybe(s, &stack[--top], false);
+      while (count-- > 0)
+        if (waiting[count].near <= s->judge->limit) box_tell_maybe(s, &waiting[count], false);
       s->judge->doubt = true;
       return;
     }
-    struct box half[2];
-    box_halve(s, &box, half);
-    const int nearer = half[1].near < half[0].near;
-    stack[top++] = half[!nearer];
-    stack[top++] = half[nearer];
+    box_halve(s, &box, &waiting[count]);
+    count += 2;
   }
 }
 
@@ -421,6 +437,7 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
   if (region->leaf) memcpy(x, region->leaf->x, sizeof x);
   else leaf_net(patch, region->column, region->span, x);
   *s = (struct search){.judge = j,
+                       .ahead = j->all ? 0 : SEARCH_AHEAD,
                        .unit = ray->unit,
                        .start = {ray->start[0], ray->start[1]},
                        .to_t = ray->to_t,
@@ -454,10 +471,10 @@ double search_near(struct judge *j, const struct exact_region *region)
 void search_region(struct judge *j, const struct exact_region *region)
 {
   struct search search;
-  struct box whole;
+  struct box whole, waiting[SEARCH_AHEAD + SEARCH_STACK];
   search_begin(j, region, &search, &whole);
   if (j->work > 0) {
-    search_run(&search, &whole);
+    search_run(&search, &whole, waiting);
     return;
   }
   j->doubt = true;
