@@ -51,6 +51,18 @@ bool box_onto_ray(struct box *box, const double error[2], double *u, double *v);
 /* The largest change of the nets first..last from one coefficient to the next, along u and along v. */
 void box_variation(const struct box *box, int first, int last, double *along_u, double *along_v);
 
+enum box_curves {
+  BOX_CURVES_NONE,   /* no point of the box is on the ray */
+  BOX_CURVES_BEGIN,  /* of all that are the one at (u,v), on a border of the box, comes first */
+  BOX_CURVES_UNKNOWN /* that is not known */
+};
+
+/* Of a box on which a and b are one polynomial but for a factor, as they are where a ray lies in the plane of a flat patch:
+ * what is on the ray are curves. Where that polynomial and w are coordinates of the box, along each of them w only grows
+ * or only falls, and it begins on a border. way: 1 where t grows with w, -1 where it falls. *off: a bound on what that
+ * point's w may be larger than the first one's. */
+enum box_curves box_curves_begin(struct box *box, const double error[2], double way, double *u, double *v, double *off);
+
 /* The two halves, but for their hulls of t. */
 void box_cut(struct box *box, bool across_u, struct box out[2]);
 

@@ -356,6 +356,20 @@ static bool box_small(const struct search *s, const struct box *box, enum verdic
          (verdict == VERDICT_POINT || s->extent[0] * box->size_u + s->extent[1] * box->size_v <= SEARCH_RESOLUTION);
 }
 
+/* Decides the box where the two polynomials are one, and the ray meets curves, if that can be told: what comes first on
+ * them may be a hit. Where that is before the ray's start halving finds what is next to it. */
+static bool box_flat(struct search *s, struct box *box, const double error[2])
+{
+  double u = 0, v = 0, off = 0;
+  const enum box_curves curves = box_curves_begin(box, error, s->to_t < 0 ? -1 : 1, &u, &v, &off);
+  if (curves != BOX_CURVES_BEGIN) return curves == BOX_CURVES_NONE;
+  const double t = depth_to_t(s, patch_evaluate(box->net[2], u, v).value);
+  if (!(t > s->judge->asked->ray->t_min + s->resolution && length_to_t(s, off) <= s->resolution)) return false;
+  judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u * u)),
+              (double)(s->low[1] + s->size[1] * (box->v + box->size_v * v)), t, s->resolution);
+  return true;
+}
+
 /* Decides the box: true where nothing is left to do with it. */
 static bool box_decide(struct search *s, struct box *box)
 {
@@ -366,7 +380,7 @@ static bool box_decide(struct search *s, struct box *box)
   double error[2];
   box_error(s, box, error);
   const enum verdict verdict = box_test(box, error);
-  if (verdict == VERDICT_EMPTY) return true;
+  if (verdict == VERDICT_EMPTY || (s->dependent && s->depth == 0 && box_flat(s, box, error))) return true;
   double root[2] = {0.5, 0.5}, radius[2];
   if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius) && far_from_pole(s, box, root)) {
     box_tell_root(s, box, root, radius);
