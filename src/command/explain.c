@@ -125,6 +125,11 @@ static void tell(void *context, const struct explained_candidate *candidate)
   if (split[0] * split[1] > 1)
     printf(", its part [%d,%d]/%d x [%d,%d]/%d, which u, v = 0..1 are here", candidate->column_u,
            candidate->column_u + 1, split[0], candidate->column_v, candidate->column_v + 1, split[1]);
+  if (candidate->blind) {
+    printf("\n  left to the last resort: the ray starts so far away that rounding leaves nothing of a and b\n");
+    teller->left_open++;
+    return;
+  }
   printf("; came to %s\n", stages[candidate->reached]);
   printf("  eq 3, Bernstein coefficients of degree %d in %c and %d in %c:\n", candidate->kept_degree,
          candidate->v_kept ? 'v' : 'u', candidate->other_degree, candidate->v_kept ? 'u' : 'v');

@@ -88,13 +88,15 @@ void explain_after(struct tracer *tracer, const struct explained_ray *ray)
   struct explainer *explainer = tracer->explainer;
   const struct intersect_counts *before = &explainer->before, *after = &tracer->counts;
   struct explained_candidate *story = &explainer->story;
-  if (after->patches_tested == before->patches_tested) return; /* its box along the leaf is passed by */
+  story->blind = ray->blind;
+  /* Its box along the leaf is passed by. */
+  if (!story->blind && after->patches_tested == before->patches_tested) return;
   for (int k = 0; k < STAGE_COUNT; k++)
     if (after->stages[k] > before->stages[k]) story->reached = (enum stage)k;
-  story->solved = story->reached == STAGE_BILINEAR || story->reached == STAGE_ROOTS;
+  story->solved = !story->blind && (story->reached == STAGE_BILINEAR || story->reached == STAGE_ROOTS);
   story->by_solver = explainer->by_solver;
   tell_algebra(explainer, ray);
-  story->left_open = after->escalated > before->escalated;
+  story->left_open = story->blind || after->escalated > before->escalated;
   story->taken = ray->t != explainer->t_before;
   story->proven = ray->proven;
   story->hit_t = ray->shift + ray->t, story->hit_u = ray->u, story->hit_v = ray->v;

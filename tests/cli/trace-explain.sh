@@ -64,5 +64,7 @@ answer: miss certain
 END
 # One whole, on a plane patch, where all numbers are exact.
 printf '0 0 -4 0 0 1\n' | pscn trace "$SCENES/flat.pscn" --explain --solver 'aberth { split 1 }' | grep -v ' root\|= '
+# From so far away that double precision tells nothing.
+printf '%s\n' '-1e31 -1e31 -1e31 1 1 1' | pscn trace "$SCENES/flat.pscn" --explain
 try pscn trace "$SCENES/flat.pscn" --explain --binary </dev/null
 try pscn trace "$SCENES/flat.pscn" --explain --all </dev/null

@@ -33,16 +33,17 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
 }
 
 /* A candidate of a ray that is to be explained: it is the first one of its packet, and the others are the same. */
-static void candidate_explained(struct packet *p, struct candidate *it, lane_mask open)
+static void candidate_explained(struct packet *p, struct candidate *it, lane_mask open, bool blind)
 {
   const struct best *best = &p->best;
   explain_before(p->tracer, p->model, it->patch, it->number, best->t[0]);
-  candidate_pass(p, it, open);
+  if (!blind) candidate_pass(p, it, open);
   struct explained_ray told = {.model = p->model,
                                .leaf = it->leaf,
                                .patch = it->patch,
                                .first_patch = p->outer ? p->copy->first_patch : 0,
                                .shift = p->outer ? p->shift[0] : 0,
+                               .blind = blind,
                                .proven = best->certain[0] != 0,
                                .t = best->t[0],
                                .u = best->u[0],
@@ -74,8 +75,7 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
     const lane_mask at = active & p->on_axis[it.axis], blind = at & (p->local[it.axis].error > BLIND);
     const lane_mask here = at & ~blind;
     if (lanes_any(blind)) packet_postpone(p, it.leaf, blind);
-    if (!lanes_any(here)) continue;
-    if (p->tracer->explainer) candidate_explained(p, &it, here);
-    else candidate_pass(p, &it, here);
+    if (p->tracer->explainer && lanes_any(at)) candidate_explained(p, &it, here, lanes_any(blind));
+    else if (lanes_any(here)) candidate_pass(p, &it, here);
   }
 }
