@@ -1,6 +1,6 @@
 /* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver, the
- * ray, `certain: yes` where the answer must be that too, and `all: N` where there must be N hits in all, certainly; judged by
- * the exact judge. Every file is a scene that pscn and POV-Ray read. */
+ * ray, `certain: yes` where the answer must be that too, `t: T` where it must be there, and `all: N` where there must be N
+ * hits in all, certainly; judged by the exact judge. Every file is a scene that pscn and POV-Ray read. */
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,6 +17,8 @@
 #define FOLDER PSCN_SOURCE_DIR "/tests/accuracy/cases/"
 
 enum { LINE_SIZE = 512 };
+
+#define T_OFF 0x1p-50 /* a unit in the last place or two */
 
 static void tell(void *context, const char *text, size_t length)
 {
@@ -47,9 +49,9 @@ static bool all_good(struct tracer *tracer, const struct ray *ray, const char *c
 
 static bool judged_good(const char *path)
 {
-  char solver[LINE_SIZE], text[LINE_SIZE], certain[LINE_SIZE], count[LINE_SIZE];
+  char solver[LINE_SIZE], text[LINE_SIZE], certain[LINE_SIZE], count[LINE_SIZE], t[LINE_SIZE];
   header(path, "solver", solver), header(path, "ray", text), header(path, "certain", certain);
-  header(path, "all", count);
+  header(path, "all", count), header(path, "t", t);
   struct ray ray = {.t_min = 0, .t_max = INFINITY};
   double *o = ray.origin, *d = ray.direction;
   assert_int_equal(sscanf(text, "%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]), 6);
@@ -68,7 +70,8 @@ static bool judged_good(const char *path)
   certify(&certifier, &ray, &hit, &certificate);
   const bool all = all_good(trial.tracer, &ray, count);
   const bool good = all && certificate.finding <= FINDING_UNDECIDED &&
-                    (!certain[0] || hit.certainty == CERTAINTY_CERTAIN);
+                    (!certain[0] || hit.certainty == CERTAINTY_CERTAIN) &&
+                    (!t[0] || fabs(hit.t - strtod(t, NULL)) <= T_OFF * hit.t);
   if (!good)
     printf("%s:%s %s, %s\n", strrchr(path, '/') + 1, all ? "" : " not all, or grazing;",
            hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[certificate.finding]);
