@@ -118,16 +118,14 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
   judge_root(s->judge, &root);
 }
 
-/* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray. Where a box that is
- * not small has none all that is known is a doubt. */
+/* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray, which stands for all of
+ * a small one. A box that is not small is a doubt, whether or not it has such a point. */
 static void box_tell_maybe(struct search *s, struct box *box, bool small)
 {
   double u = 0.5, v = 0.5, error[2];
   box_error(s, box, error);
-  if (!box_onto_ray(box, error, &u, &v) && !small) {
-    s->judge->doubt = true;
-    return;
-  }
+  s->judge->doubt |= !small;
+  if (!box_onto_ray(box, error, &u, &v) && !small) return;
   const double t = depth_to_t(s, patch_evaluate(box->net[2], u, v).value);
   judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u * u)),
               (double)(s->low[1] + s->size[1] * (box->v + box->size_v * v)), t,
@@ -418,11 +416,9 @@ static void search_run(struct search *s, const struct box *whole, struct box wai
     const bool decided = box_decide(s, &box);
     if (decided) continue;
     if (s->judge->work <= 0) {
-      /* What is left may tell of points, and is a doubt. */
       box_tell_maybe(s, &box, false);
       while (count-- > 0)
         if (waiting[count].near <= s->judge->limit) box_tell_maybe(s, &waiting[count], false);
-      s->judge->doubt = true;
       return;
     }
     box_halve(s, &box, &waiting[count]);
@@ -487,10 +483,6 @@ void search_region(struct judge *j, const struct exact_region *region)
   struct search search;
   struct box whole, waiting[SEARCH_AHEAD + SEARCH_STACK];
   search_begin(j, region, &search, &whole);
-  if (j->work > 0) {
-    search_run(&search, &whole, waiting);
-    return;
-  }
-  j->doubt = true;
-  box_tell_maybe(&search, &whole, false);
+  if (j->work > 0) search_run(&search, &whole, waiting);
+  else box_tell_maybe(&search, &whole, false);
 }
