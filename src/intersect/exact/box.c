@@ -252,12 +252,29 @@ static int side_places(const double c[4], double error, double out[2], double *o
   return 1;
 }
 
+/* Which of a and b is the larger one; negative where the other one is not a multiple of it to rounding. */
+static int one_of_two(struct box *box, const double error[2])
+{
+  double most[2] = {0, 0};
+  for (int k = 0; k < 2; k++)
+    for (int n = 0; n < 16; n++)
+      if (fabs(box->net[k][n / 4][n % 4]) > fabs(most[k])) most[k] = box->net[k][n / 4][n % 4];
+  const int larger = fabs(most[1]) > fabs(most[0]);
+  double factor = 0;
+  for (int n = 0; n < 16; n++)
+    if (box->net[larger][n / 4][n % 4] == most[larger]) factor = box->net[!larger][n / 4][n % 4] / most[larger];
+  for (int n = 0; n < 16; n++) {
+    const double off = box->net[!larger][n / 4][n % 4] - factor * box->net[larger][n / 4][n % 4];
+    if (!(fabs(off) <= 2 * (error[0] + error[1]) + 8 * UNIT_ROUNDOFF)) return -1;
+  }
+  return larger;
+}
+
 enum box_curves box_curves_begin(struct box *box, const double error[2], double way, double *u, double *v, double *off)
 {
-  double size[2] = {0, 0}, du[2][2], dv[2][2], first = INFINITY;
-  for (int k = 0; k < 2; k++)
-    for (int n = 0; n < 16; n++) size[k] = real_max(size[k], fabs(box->net[k][n / 4][n % 4]));
-  const int larger = size[1] > size[0];
+  double du[2][2], dv[2][2], first = INFINITY;
+  const int larger = one_of_two(box, error);
+  if (larger < 0) return BOX_CURVES_UNKNOWN;
   double(*c)[4] = box->net[larger], (*w)[4] = box->net[2];
   const double bound = error[larger] + 4 * UNIT_ROUNDOFF;
   derivative_range(c, true, bound, du[0]), derivative_range(c, false, bound, dv[0]);

@@ -15,8 +15,9 @@
 #include "geometry/patch.h"
 #include "geometry/vector.h"
 
-/* Boxes that may be looked at for one ray, by whichever regions ask for them: isolated roots need some hundreds,
- * tangencies some thousand; only surfaces that lie along the ray over an area come there. About a millisecond. */
+/* Boxes that may be looked at for one ray, by whichever regions ask for them: isolated roots and folds need some tens,
+ * rays that pass a pole or start there some hundreds; only surfaces that lie along the ray over an area, and start where
+ * it does, come there. About a millisecond. */
 enum { JUDGE_WORK = 2500 };
 
 /* Boxes that each region has for itself besides: so one that the ray lies in leaves the others decided. Where something

@@ -2,11 +2,13 @@
  *
  * A box of parameters is dropped where some linear combination of the two plane polynomials keeps one sign on it
  * (the convex hull property), solved where the certificate finds a root that is alone in it, and halved otherwise.
- * Boxes are taken nearest first and dropped behind the nearest hit so far, so curves of roots (a ray in the plane of a
- * flat patch) cost no more than points. Where a combination is indistinguishable from zero on a box, the surface is
- * seen edge-on there, nearer to tangency than about 1e-7: then the box is searched by itself, with polynomials made
- * for it in wide arithmetic (zoom.h), which scales what is too small to tell. What even that leaves (a double root, a
- * ray in the surface), and poles met exactly, are told to the judge as undecided.
+ * The box that begins first along the ray is next, and those behind the nearest hit so far are dropped. Where a
+ * combination is indistinguishable from zero on a box, the surface is seen edge-on there, nearer to tangency than about
+ * 1e-7: a fold is looked for (fold.h), and else the box is searched by itself, with polynomials made for it in wide
+ * arithmetic (zoom.h), which scales what is too small to tell. Where some combination is zero in wide arithmetic, all over
+ * the patch, the ray lies in the plane of a flat patch, or as good as that, and meets curves: what comes first on them lies
+ * on borders of boxes (box.h). What even that leaves (a double root, a ray in the surface), and poles met exactly, are
+ * told to the judge as undecided.
  */
 #include "intersect/exact/box.h"
 #include "intersect/exact/fold.h"
@@ -92,8 +94,8 @@ static void box_reach(const struct search *s, struct box *box)
   box->near = real_min(p, q) - slack, box->far = real_max(p, q) + slack;
 }
 
-/* Tells of the box's root, wherever it lies: one just outside the box is the neighbour's as well, and the same. */
-static void box_tell_root(struct search *s, struct box *box, const double at[2], const double radius[2])
+/* The box's root, wherever it lies: one just outside the box is the neighbour's as well, and the same. */
+static struct exact_root box_root(const struct search *s, struct box *box, const double at[2], const double radius[2])
 {
   const struct patch_jet w = patch_evaluate(box->net[2], at[0], at[1]);
   double bend[3];
@@ -115,7 +117,7 @@ static void box_tell_root(struct search *s, struct box *box, const double at[2],
   const double rounding = s->depth > 0 ? 0 : 4 * UNIT_ROUNDOFF;
   root.radius_u = radius[0] * box->size_u * (double)s->size[0] * (1 + 4 * UNIT_ROUNDOFF) + rounding;
   root.radius_v = radius[1] * box->size_v * (double)s->size[1] * (1 + 4 * UNIT_ROUNDOFF) + rounding;
-  judge_root(s->judge, &root);
+  return root;
 }
 
 /* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray, which stands for all of
@@ -272,41 +274,37 @@ static wide fold_place(const struct search *s, const struct box *box, int k, dou
   return s->low[k] + s->size[k] * ((wide)at + (wide)size * (0.5 + 0.5 * x));
 }
 
-static bool apart(double a, double b, double radii) { return fabs(a - b) > radii; }
-
-/* Tells of the two roots on either side of a fold; false where they are not proven, and nothing is told. */
-static bool fold_roots(struct search *s, struct box *box, const struct fold *fold, const double error[2])
+/* The root on one side of the fold; false where it is not proven. error: of the box's nets, or NULL under the glass. */
+static bool fold_root(struct search *s, struct box *box, const struct fold *fold, const double *error, double side,
+                      struct exact_root *out)
 {
-  double root[2][2], radius[2][2];
-  for (int n = 0; n < 2; n++) {
-    const double side = n ? fold->half : -fold->half;
-    for (int k = 0; k < 2; k++) root[n][k] = 0.5 + 0.5 * (fold->at[k] + side * fold->way[k]);
-    if (!box_solve(box, error, false, root[n], radius[n])) return false;
+  double x[2], root[2], radius[2];
+  for (int k = 0; k < 2; k++) x[k] = fold->at[k] + side * fold->way[k], root[k] = 0.5 + 0.5 * x[k];
+  if (error) {
+    if (!box_solve(box, error, false, root, radius)) return false;
+    *out = box_root(s, box, root, radius);
+    return true;
   }
-  if (!apart(root[0][0], root[1][0], radius[0][0] + radius[1][0]) &&
-      !apart(root[0][1], root[1][1], radius[0][1] + radius[1][1]))
-    return false;
-  for (int n = 0; n < 2; n++) box_tell_root(s, box, root[n], radius[n]);
+  *out = (struct exact_root){
+    .u = fold_place(s, box, 0, x[0]), .v = fold_place(s, box, 1, x[1]), .radius_u = INFINITY, .radius_v = INFINITY};
+  if (!zoom_sharpen(judge_zoom(s->judge), out)) return false;
+  for (int k = 0; k < 2; k++) {
+    const wide at = k ? out->v : out->u;
+    if (!(at >= fold_place(s, box, k, -FOLD_REACH) && at <= fold_place(s, box, k, FOLD_REACH))) return false;
+  }
   return true;
 }
 
-/* The same under the glass. */
-static bool fold_roots_zoom(struct search *s, struct box *box, const struct fold *fold)
+static bool apart(wide a, wide b, double radii) { return fabs((double)(a - b)) > radii; }
+
+/* Tells of the two roots on either side of a fold; false where they are not proven, and nothing is told. */
+static bool fold_roots(struct search *s, struct box *box, const struct fold *fold, const double *error)
 {
   struct exact_root root[2];
-  for (int n = 0; n < 2; n++) {
-    const double side = n ? fold->half : -fold->half;
-    wide place[2];
-    for (int k = 0; k < 2; k++) place[k] = fold_place(s, box, k, fold->at[k] + side * fold->way[k]);
-    root[n] = (struct exact_root){.u = place[0], .v = place[1], .radius_u = INFINITY, .radius_v = INFINITY};
-    if (!zoom_sharpen(judge_zoom(s->judge), &root[n])) return false;
-    for (int k = 0; k < 2; k++) {
-      const wide at = k ? root[n].v : root[n].u;
-      if (!(at >= fold_place(s, box, k, -FOLD_REACH) && at <= fold_place(s, box, k, FOLD_REACH))) return false;
-    }
-  }
-  if (!apart((double)(root[0].u - root[1].u), 0, root[0].radius_u + root[1].radius_u) &&
-      !apart((double)(root[0].v - root[1].v), 0, root[0].radius_v + root[1].radius_v))
+  for (int n = 0; n < 2; n++)
+    if (!fold_root(s, box, fold, error, n ? fold->half : -fold->half, &root[n])) return false;
+  if (!apart(root[0].u, root[1].u, root[0].radius_u + root[1].radius_u) &&
+      !apart(root[0].v, root[1].v, root[0].radius_v + root[1].radius_v))
     return false;
   for (int n = 0; n < 2; n++) judge_root(s->judge, &root[n]);
   return true;
@@ -342,7 +340,7 @@ static bool box_fold(struct search *s, struct box *box, const double error[2])
   const double off = zoom_combinations(judge_zoom(s->judge), fold_place(s, box, 0, fold.at[0]),
                                        fold_place(s, box, 1, fold.at[1]), size, fold.row, values);
   verdict = fold_weigh(&fold, values[0], values[1], off);
-  if (verdict == FOLD_EMPTY || (verdict == FOLD_ROOTS && fold_roots_zoom(s, box, &fold))) return true;
+  if (verdict == FOLD_EMPTY || (verdict == FOLD_ROOTS && fold_roots(s, box, &fold, NULL))) return true;
   return fold_maybe(s, box, &fold);
 }
 
@@ -381,7 +379,8 @@ static bool box_decide(struct search *s, struct box *box)
   if (verdict == VERDICT_EMPTY || (s->dependent && s->depth == 0 && box_flat(s, box, error))) return true;
   double root[2] = {0.5, 0.5}, radius[2];
   if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius) && far_from_pole(s, box, root)) {
-    box_tell_root(s, box, root, radius);
+    struct exact_root found = box_root(s, box, root, radius);
+    judge_root(s->judge, &found);
     return true;
   }
   if (s->depth == 0 && border == NO_BORDER && !s->dependent && box_fold(s, box, error)) return true;

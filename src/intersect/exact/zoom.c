@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/double_double.h"
-#include "base/fixed.h"
 #include "intersect/certificate.h"
 
 /* A value of a or b passes at most this many roundings on the way from the control points to a combination's
@@ -352,8 +351,8 @@ double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2]
   return (sum + 1) * zoom->error / unit;
 }
 
-/* Bounds on the second derivatives of the polynomial with these powers, as `s` of struct bend, where x and y reach
- * LEAF_MARGIN beyond the patch. */
+/* A bound on |f_xx| + 2 |f_xy| + |f_yy| of the polynomial with these powers, where x and y reach LEAF_MARGIN beyond the
+ * patch. */
 static double second_bound(fixed c[4][4])
 {
   const double r = 1 + 2 * LEAF_MARGIN, power[4] = {1, r, r * r, r * r * r};
