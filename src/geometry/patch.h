@@ -18,7 +18,7 @@ void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, 
  * nets x[0..2]: out[0] = |Suu|, out[1] = |Suv|, out[2] = |Svv|. */
 void patch_second_derivative_bounds(double x[3][4][4], double out[3]);
 
-/* Whether a border (numbered as in geometry/edges.h) is one point, its control points equal to the last bit. */
+/* Whether a border (numbered as in geometry/edges.h) is one point, its control points equal numbers. */
 bool patch_border_is_point(const double x[3][4][4], int border);
 
 /* The least bidegree (m in u, n in v, each at least 1) that represents all three coordinate nets within `slack`

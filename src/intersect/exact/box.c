@@ -114,7 +114,9 @@ bool box_solve(struct box *box, const double error[2], bool alone, double root[2
   return box_prove(box, m, error, alone, step, root, radius);
 }
 
-/* How many steps take a point of a box onto the ray, where they can; how far off it may be then, in error bounds. */
+/* How many steps take a point of a box onto the ray, where they can: it converges quadratically, or halves what is left
+ * where there is a double root; and how far off it may be then, in error bounds. A choice of words: what is told is
+ * grazing. */
 enum { ONTO_STEPS = 8, ONTO_ERRORS = 16 };
 
 /* Keeps the shortest step finite where the polynomials are dependent: relative, a choice of how short it is then. */
