@@ -75,21 +75,25 @@ void command_print_overview(FILE *file)
   fputs(command_exit_codes, file);
 }
 
-/* What files and names bring into a message steers no terminal: control characters, but for the newline, are \xNN. */
+void command_print(FILE *file, const char *text)
+{
+  for (const char *end = text + strlen(text), *begin = text, *at = text; begin < end; begin = at) {
+    for (size_t size = 1; at < end && size > 0; at += size) {
+      size = source_character(at, (size_t)(end - at));
+      if (!source_is_shown(at, size) && *at != '\n') size = 0;
+    }
+    (void)fwrite(begin, 1, (size_t)(at - begin), file);
+    if (at < end) fprintf(file, "\\x%02x", (unsigned char)*at++);
+  }
+}
+
 static void print_error(const struct command *command, const char *format, va_list arguments)
 {
   char text[MESSAGE_BYTES] = "";
   (void)vsnprintf(text, sizeof text, format, arguments);
   if (command == NULL) fputs("pscn: error: ", stderr);
   else fprintf(stderr, "pscn %s: error: ", command->name);
-  for (const char *end = text + strlen(text), *begin = text, *at = text; begin < end; begin = at) {
-    for (size_t size = 1; at < end && size > 0; at += size) {
-      size = source_character(at, (size_t)(end - at));
-      if (!source_is_shown(at, size) && *at != '\n') size = 0;
-    }
-    (void)fwrite(begin, 1, (size_t)(at - begin), stderr);
-    if (at < end) fprintf(stderr, "\\x%02x", (unsigned char)*at++);
-  }
+  command_print(stderr, text);
   fputc('\n', stderr);
 }
 

@@ -56,6 +56,10 @@ enum status command_unknown(const char *name);
 void command_print_help(const struct command *command, FILE *file);
 void command_print_overview(FILE *file);
 
+/* What files and names bring along, so that it steers no terminal: control characters, but for the newline, and what is no
+ * UTF-8 are \xNN. */
+void command_print(FILE *file, const char *text);
+
 /* "pscn NAME: error: text" to stderr (without NAME where command is NULL), the form of all errors that no line of
  * an input has. command_usage adds where help is, and answers STATUS_USAGE. */
 void command_error(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -150,13 +150,17 @@ static void print_result(const struct compare_pair *pair, const struct compare_r
   static const int CODES[] = {1, 4, 16};
   const struct image *first = pair->first;
   printf("compared  %zu x %zu pixels, channels", first->width, first->height);
-  for (size_t k = 0; k < pair->channel_count; k++) printf(" %s", first->channel[pair->first_channel[k]].name);
+  for (size_t k = 0; k < pair->channel_count; k++) {
+    putchar(' ');
+    command_print(stdout, first->channel[pair->first_channel[k]].name);
+  }
   printf("\nmean      %.9g\nrms       %.9g\npsnr      %.6g dB\nmax       %.9g", result->mean, result->rms, result->psnr,
          result->max);
-  if (result->max > 0)
-    printf(" at pixel %zu,%zu channel %s: %.9g and %.9g", result->worst_x, result->worst_y,
-           first->channel[pair->first_channel[result->worst_channel]].name, (double)result->worst_first,
-           (double)result->worst_second);
+  if (result->max > 0) {
+    printf(" at pixel %zu,%zu channel ", result->worst_x, result->worst_y);
+    command_print(stdout, first->channel[pair->first_channel[result->worst_channel]].name);
+    printf(": %.9g and %.9g", (double)result->worst_first, (double)result->worst_second);
+  }
   fputc('\n', stdout);
   for (size_t k = 0; k < sizeof CODES / sizeof CODES[0]; k++) {
     char label[16];

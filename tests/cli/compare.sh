@@ -31,3 +31,8 @@ try pscn compare diff.exr diff.exr --quiet
 pscn compare a.png a.png >/dev/full
 echo "exit $?"
 ls -A
+# No channel's name steers a terminal.
+pscn render "$SCENES/flat.pscn" --size 4x3 --channels depth -o depth.exr --quiet
+sed 's/depth/\x1b[31m/g' depth.exr >red.exr
+try pscn compare red.exr red.exr | head -n 1
+try pscn compare red.exr depth.exr
