@@ -2,7 +2,7 @@
 # Cost against the number of patches, the size of the picture and the number of threads, pscn beside POV-Ray on the same
 # files: writes the section "Scale" of docs/performance.md and docs/performance/scale.svg.
 #
-#   examples/scale.sh [TEAPOTS...]       default 1 10 100 1000 10000; takes some five minutes
+#   examples/scale.sh [TEAPOTS...]       default 1 10 100 1000 10000; takes some six minutes
 #
 # The scenes are fields of teapots (examples/field.sh) and a single patch (scenes/bent.pscn). The two programs take
 # turns, TURNS times, or once where one of them is slow; times are medians of CPU seconds. POV-Ray gets MEMORY_LIMIT and
@@ -143,21 +143,61 @@ printf '\n![CPU seconds and memory over patches](performance/scale.svg)\n' >>"$f
 
 # ---- reading ----
 
-# A text without names: every patch written out. Read again and written, the times of both being known from the start of
-# the process.
-examples/field.sh "$TEXT_TEAPOTS" >"$folder/field.pscn"
-"$pscn" dump "$folder/field.pscn" >"$folder/text.pscn"
-for ((turn = 0; turn < TURNS; turn++)); do
-  ours "$folder/text.pscn" 16x16 1
-done | sort -g | awk -v bytes="$(stat -c %s "$folder/text.pscn")" -v patches=$((32 * TEXT_TEAPOTS)) '
-  { v[NR] = $1 }
-  END {
-    t = v[int((NR + 1) / 2)]
-    print "\n### Reading\n"
-    printf "The canonical text of %d patches (`pscn dump`: every one written out, %.1f MB) is read in %.2f s of\n",
-      patches, bytes / 1e6, t
-    printf "CPU time: **%.0f MB/s**; asked: 50.\n", bytes / 1e6 / t
-  }' | tee -a "$folder/section" >&2
+# text KIND: some 8 MB of it, the same again and again but for a number, @.
+text() {
+  awk -v kind="$1" 'BEGIN {
+    patch = "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3"
+    for (k = 0; k < 16; k++) patch = patch sprintf(", <%d, %.7f, %.15g>", k, k / 7, k / 3e5)
+    for (k = 0; k < 100; k++) { opened = opened "union { "; closed = closed "} " }
+    apart = patch
+    gsub(/, /, ",\n", apart)
+    text["patches, one line"] = patch " } "
+    text["patches, a number a line"] = apart " }\n"
+    text["declared numbers"] = "#declare Number@ = @;\n"
+    text["declared textures"] = "#declare Texture@ = texture { pigment { color rgb <0.3, 0.5, 0.@> } }\n"
+    text["unions, 100 deep"] = opened patch " } " closed "\n"
+    text["copies, moved"] = "object { Patch translate <@, 2, 3> }\n"
+    text["comments"] = "// what this is about, in a line or two\n"
+    text["blanks"] = "                                       \n"
+    printf "#version 3.7;\n#declare Patch = %s }\n", patch
+    count = split(text[kind], part, "@")
+    for (n = 0; bytes < 8e6; n++) {
+      piece = part[1]
+      for (k = 2; k <= count; k++) piece = piece n part[k]
+      printf "%s", piece
+      bytes += length(piece)
+    }
+  }'
+}
+
+# reading NAME FILE: a row, by the median of the turns; by trace, which loads no libraries for pictures meanwhile.
+reading() {
+  for ((turn = 0; turn < TURNS; turn++)); do
+    "$pscn" trace --quiet --stats "$folder/stats.json" "$2" </dev/null
+    members "$folder/stats.json" cpu parse
+  done | sort -g | awk -v name="$1" -v bytes="$(stat -c %s "$2")" '
+    { v[NR] = $1 }
+    END { t = v[int((NR + 1) / 2)]; printf "| %s | %.1f | %.2f | %.0f |\n", name, bytes / 1e6, t, bytes / 1e6 / t }'
+}
+
+{
+  echo
+  echo "### Reading"
+  echo
+  echo "CPU time from text to scene; asked: 50 MB/s. The canonical text is \`pscn dump\`'s of $((32 * TEXT_TEAPOTS)) patches, every one"
+  echo "written out. Of copies each line becomes a patch of 416 bytes."
+  echo
+  echo "| text | MB | s | MB/s |"
+  echo "|---|---|---|---|"
+  examples/field.sh "$TEXT_TEAPOTS" >"$folder/field.pscn"
+  "$pscn" dump "$folder/field.pscn" >"$folder/text.pscn"
+  reading canonical "$folder/text.pscn"
+  for kind in 'patches, one line' 'patches, a number a line' 'declared numbers' 'declared textures' 'unions, 100 deep' \
+    'copies, moved' comments blanks; do
+    text "$kind" >"$folder/text.pscn"
+    reading "$kind" "$folder/text.pscn"
+  done
+} | tee -a "$folder/section" >&2
 
 # ---- size ----
 
