@@ -4,8 +4,8 @@
 #
 #   examples/benchmark.sh [--page] [RUNS]     RUNS of each, default 5; --page: the table goes into docs/performance.md
 #
-# The teapot at 800x600, one thread, default solver unless it says otherwise; a quarter of an hour. Times are CPU times, as
-# others may use the machine too; still, an idle one gives steadier numbers.
+# The teapot at 800x600, one thread, default solver unless it says otherwise; some six minutes where it is alone. Times
+# are CPU times, as others may use the machine too; still, an idle one gives steadier numbers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . examples/packages.sh

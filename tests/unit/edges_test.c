@@ -2,6 +2,7 @@
 #include "geometry/edges.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cmocka_test.h"
@@ -29,10 +30,30 @@ static void glue(net P, int from, net Q, int to, bool reversed)
     memcpy(border_point(Q, to, k), border_point(P, from, reversed ? 3 - k : k), 3 * sizeof(double));
 }
 
+/* One worker after the other, as long as all goes well. */
+static enum status in_turn(size_t count, team_work *work, void *context)
+{
+  enum status status = STATUS_OK;
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) status = work(context, k);
+  return status;
+}
+
+/* Also by teams, and by one so large that what belongs to a worker does not fit in its part of the table. */
 static void match(net *nets, size_t count, struct edge_neighbour *out)
 {
+  static const struct team teams[] = {{in_turn, 2}, {in_turn, 64}};
+  struct edge_neighbour *other = calloc(4 * count, sizeof *other);
+  assert_non_null(other);
   memset(out, 0x5a, 4 * count * sizeof *out);
   assert_int_equal(edges_match(nets, sizeof *nets, count, NULL, out), STATUS_OK);
+  for (int t = 0; t < 2; t++) {
+    memset(other, 0xa5, 4 * count * sizeof *other);
+    assert_int_equal(edges_match(nets, sizeof *nets, count, &teams[t], other), STATUS_OK);
+    for (size_t k = 0; k < 4 * count; k++)
+      assert_true(out[k].patch == other[k].patch && out[k].border == other[k].border &&
+                  out[k].reversed == other[k].reversed);
+  }
+  free(other);
 }
 
 static void assert_pair(const struct edge_neighbour *n, uint32_t p, int b, uint32_t q, int c, bool reversed)
