@@ -7,6 +7,9 @@
 #
 #   examples/stability.sh            everything
 #   examples/stability.sh proofs     only the section of what the exact judge says; the rest of the page stays
+#   examples/stability.sh closed     only the section of closed surfaces
+#   examples/stability.sh proofs FILE...  the same, of what accuracy-certificate has printed before, in portions with seeds of
+#                                    their own; and of accuracy-parity and accuracy-cycles for `closed`
 #   examples/stability.sh maps       only the section of maps
 #
 # PSCN_EFFORT (see tests/effort.h) sets the fraction of the rays for everything; without it each part has the fraction
@@ -21,11 +24,13 @@ FRAME_EFFORT=${PSCN_EFFORT:-full}
 RANDOM_EFFORT=${PSCN_EFFORT:-full}
 LEAK_EFFORT=${PSCN_EFFORT:-0.02}
 PROOF_EFFORT=${PSCN_EFFORT:-0.01}
+CLOSED_EFFORT=${PSCN_EFFORT:-0.02}
 
 install_packages "${BUILD_PACKAGES[@]}" libcmocka-dev libflint-arb-dev
 build=${PSCN_BUILD:-build-stability}
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPSCN_TESTS=ON >/dev/null
-targets=(pscn channel_maps stability-table accuracy-camera accuracy-random-patches accuracy-leaks accuracy-certificate)
+targets=(pscn channel_maps stability-table accuracy-camera accuracy-random-patches accuracy-leaks accuracy-certificate
+  accuracy-parity accuracy-cycles)
 [ "${1:-}" != maps ] || targets=(pscn channel_maps)
 cmake --build "$build" -j2 --target "${targets[@]}" >/dev/null
 pscn=$PWD/$build/src/command/pscn
@@ -93,6 +98,58 @@ proof_rows() {
   }' "$1"
 }
 
+# The values of PSCN_SEED that what is printed in $1 was run with: `seed N` is a test's own number and a million times that.
+seeds_of() {
+  grep -oE 'seed [0-9]+' "$1" | awk '{ n = int($2 / 1000000); if (!(n in seen)) { seen[n] = 1; print n } }' | sort -n |
+    awk 'function told() { list = list (list ? ", " : "") (first == last ? first : first " to " last) }
+      NR > 1 && $1 != last + 1 { told(); first = $1 }
+      NR == 1 { first = $1 }
+      { last = $1 }
+      END { told(); print list == "0" ? "none" : list }'
+}
+
+# What accuracy-parity and accuracy-cycles print, summed by what the rays are aimed at and what they are asked with.
+closed_rows() {
+  awk '/ rays, .* of wrong parity/ {
+    name = $0; sub(/^seed [0-9]+, /, "", name); sub(/: .*/, "", name)
+    if (name ~ /^solver/) { sub(/split 0/, "split auto", name); name = "dome, ball, torus; " name }
+    counts = $0; sub(/^[^:]*: /, "", counts); split(counts, n, /[^0-9]+/)
+    if (!(name in rays)) order[++rows] = name
+    rays[name] += n[1]; hits[name] += n[2]; wrong[name] += n[3]
+    if ($0 ~ /another nearest/) differing[name] += n[4]; else differing[name] = "-"
+    all += n[1]; all_hits += n[2]; all_wrong += n[3]
+  }
+  END {
+    for (k = 1; k <= rows; k++)
+      printf "| %s | %d | %d | %d | %s |\n", order[k], rays[order[k]], hits[order[k]], wrong[order[k]], differing[order[k]]
+    printf "| all | %d | %d | %d | |\n", all, all_hits, all_wrong
+  }' "$1"
+}
+
+closed_section() {
+  cat <<END
+## Closed surfaces
+
+A ray that starts outside of a closed surface meets it an even number of times, and one that starts inside an odd number,
+whatever else is true of either; so the parity of a certain list of all hits tells whether one was lost or invented, without
+any judge. [tests/accuracy/parity.c](../tests/accuracy/parity.c) aims at a dome, a ball and a torus (turned, scaled by 1e6 and
+1e-6, shifted by 1000), exactly at edges, corners, poles and iso-lines and next to them by every power of two, and along tangents, and
+exactly at edges and corners of a cube and of two pyramids. [tests/accuracy/cycles.c](../tests/accuracy/cycles.c) takes
+surfaces that nobody would draw: two random sheets with common borders, boxes, gores between two poles, a patch that closes
+upon itself, sheets halved on one side (T-junctions), four patches at one border, a sheet twice, specks within; folded, of whole
+numbers, graded, thin to 1e-15, skew to 1e6; each patch with a solver and a split of its own; crowds of them as copies, and 66,000 patches of
+them. There the nearest hit, and whether there is one, have to be what the list of all hits says, of the whole ray
+and of parts of it.
+
+Of these rays nothing certain was wrong in the runs below (PSCN_SEED $(seeds_of "$folder/closed")):
+
+| surface | rays | hits | of wrong parity | another nearest hit |
+|---|---|---|---|---|
+END
+  closed_rows "$folder/closed"
+  echo
+}
+
 proofs_section() {
   cat <<END
 ## Every answer put to the proof
@@ -102,13 +159,12 @@ nets of exact integers and proves them in ball arithmetic; it shares nothing wit
 takes every answer, hit or miss, certain or grazing, of the classes above and of those that an adversary would aim
 ([tests/accuracy/hostile.c](../tests/accuracy/hostile.c)): rings of every radius from 1e-18 to 1 round poles, edges, corners,
 borders of leaves, cusps, rulings and tangencies; starts next to surfaces; nets degenerate but for some roundings;
-coordinates of every size. PSCN_EFFORT=$PROOF_EFFORT of 40,000 rays a class with the default solver, a tenth of that with
-each of newton, laguerre, aberth, split 1 and split 8.
+coordinates of every size. A tenth as many rays as with the default solver are asked with each of newton, laguerre, aberth,
+split 1 and split 8 (PSCN_SEED $(seeds_of "$folder/proofs")).
 
 - **refuted**: a proven root is lost or passed by, or there is none at T; U, V, the point or the normal are wrong.
   Every kind met so far is a scene of [tests/accuracy/cases](../tests/accuracy/cases).
-- **undecided**: certain answers that the exact judge itself could not decide: the ray starts at a pole or a corner, exactly,
-  which is for the renderer a comparison of control points.
+- **undecided**: certain answers that the exact judge itself could not decide.
 - **grazing**: the share of answers that say so, of the default and of the others; **provable**: of the default's, those
   that the judge proves all the same, so that they could be certain. What is left was met where no proof can be had:
   the exact tangency, the common curve, the border of an open surface or the pole to the last bit, the start on the surface.
@@ -178,9 +234,24 @@ if [ "${1:-}" = maps ]; then
   replace_section Maps maps_section
   exit
 fi
-measure "$PROOF_EFFORT" "$folder/proofs" "$tests/accuracy/accuracy-certificate"
+measure_closed() {
+  measure "$CLOSED_EFFORT" "$folder/parity" "$tests/accuracy/accuracy-parity"
+  measure "$CLOSED_EFFORT" "$folder/cycles" "$tests/accuracy/accuracy-cycles"
+  cat "$folder/parity" "$folder/cycles" >"$folder/closed"
+}
+
+if [ $# -gt 1 ]; then
+  cat "${@:2}" >"$folder/$1"
+elif [ "${1:-}" != closed ]; then
+  measure "$PROOF_EFFORT" "$folder/proofs" "$tests/accuracy/accuracy-certificate"
+fi
 if [ "${1:-}" = proofs ]; then
   replace_section 'Every answer put to the proof' proofs_section
+  exit
+fi
+[ $# -gt 1 ] || measure_closed
+if [ "${1:-}" = closed ]; then
+  replace_section 'Closed surfaces' closed_section
   exit
 fi
 
@@ -271,6 +342,7 @@ What each class is stands in [tests/accuracy/situations.c](../tests/accuracy/sit
 
 END
   cat "$folder/table"
+  closed_section
   proofs_section
   maps_section
   cat <<END
