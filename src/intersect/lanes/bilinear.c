@@ -235,6 +235,7 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
   const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
   out->w = x[k].hi + rest;
   out->t = (way.hi + (rest + (way.lo + p->local[k].start[1]))) * p->local[k].to_t;
+  if (p->any) return;
   for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo - (x[c].ds * step_s + x[c].dt * step_t));
   const lane_mask turned = settled & (step > parts->slope_step);
   if (lanes_any(turned)) surface_turn(parts, s, t, -step_s, -step_t, turned, x);

@@ -12,7 +12,7 @@
 struct bilinear_root {
   struct newton_root at;
   lanes w, t;                   /* x_k, and how far along the ray */
-  lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters */
+  lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters; none of these where any hit will do */
 };
 
 /* A root on a leaf that has parts, on the lanes of `active`: by Newton's process to the last places, and
