@@ -117,4 +117,14 @@ LANES_INLINE unsigned float_lanes_bits(float_mask mask)
 #endif
 }
 
+/* Bit k: whether lane k of a is at most that of b. */
+LANES_INLINE unsigned float_lanes_up_to(float_lanes a, float_lanes b)
+{
+#if LANES == 8
+  return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
+#else
+  return float_lanes_bits(a <= b);
+#endif
+}
+
 #endif

@@ -32,12 +32,11 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (lanes_any(open)) packet_postpone(p, it->leaf, open);
 }
 
-/* A candidate of a ray that is to be explained: it is the first one of its packet, and the others are the same. */
-static void candidate_explained(struct packet *p, struct candidate *it, lane_mask open, bool blind)
+/* What came of a candidate of a ray that is to be explained: it is the first one of its packet, and the others are the
+ * same. */
+static void candidate_explain(const struct packet *p, const struct candidate *it, bool blind)
 {
   const struct best *best = &p->best;
-  explain_before(p->tracer, p->model, it->patch, it->number, best->t[0]);
-  if (!blind) candidate_pass(p, it, open);
   struct explained_ray told = {.model = p->model,
                                .leaf = it->leaf,
                                .patch = it->patch,
@@ -58,6 +57,16 @@ static void candidate_explained(struct packet *p, struct candidate *it, lane_mas
  * proves no root, and the last resort looks at most of the patch in any case. */
 #define BLIND 0x1p-5
 
+/* So few rays are on their own, or start where others do not: their leaf is hardly one that was tried lately. */
+enum { FEW = 2, CACHE_LINE = 64 };
+
+/* The second stage's coefficients are brought from memory while the first one works. */
+static void fetch_parts(const struct leaf *leaf)
+{
+  const char *parts = (const char *)leaf->parts;
+  for (size_t at = 0; parts && at < sizeof *leaf->parts; at += CACHE_LINE) __builtin_prefetch(parts + at);
+}
+
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
 {
   struct candidate it;
@@ -69,13 +78,16 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
     it.leaf = &made->leaf, it.patch = &made->of.patch;
   }
   it.number = index;
+  if (lanes_count(active) <= FEW) fetch_parts(it.leaf);
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {
     it.axis = __builtin_ctz(bits);
     const lane_mask at = active & p->on_axis[it.axis], blind = at & (p->local[it.axis].error > BLIND);
     const lane_mask here = at & ~blind;
     if (lanes_any(blind)) packet_postpone(p, it.leaf, blind);
-    if (p->tracer->explainer && lanes_any(at)) candidate_explained(p, &it, here, lanes_any(blind));
-    else if (lanes_any(here)) candidate_pass(p, &it, here);
+    const bool explained = p->tracer->explainer && lanes_any(at);
+    if (explained) explain_before(p->tracer, p->model, it.patch, it.number, p->best.t[0]);
+    if (lanes_any(here)) candidate_pass(p, &it, here);
+    if (explained) candidate_explain(p, &it, lanes_any(blind));
   }
 }

@@ -9,6 +9,7 @@
 
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner)
 {
+  if (!outer->oriented) packet_orient(outer);
   inner->tracer = outer->tracer, inner->model = copy->object->model, inner->rays = NULL, inner->count = LANES;
   inner->any = outer->any, inner->outer = outer, inner->copy = copy, inner->postponed = outer->postponed;
   inner->gather = outer->gather;
@@ -39,7 +40,7 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
   inner->t_min = outer->t_min - shift, inner->t_max = outer->t_max - shift;
   inner->t_far = (outer->t_far - shift) + 4 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_far));
   inner->net_error = copy->object->error;
-  packet_orient(inner);
+  packet_untried(inner);
   inner->t_error = 2 * inner->net_error / inner->longest +
                    8 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_min));
 }
@@ -48,6 +49,7 @@ void packet_leave(struct packet *inner)
 {
   struct packet *outer = inner->outer;
   const struct best *found = &inner->best;
+  if (!inner->oriented) return;
   const lanes t = inner->shift + found->t;
   const lanes far = (inner->shift + inner->t_far) +
                     4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));

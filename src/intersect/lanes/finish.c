@@ -1,5 +1,8 @@
 /* From the winning roots to the answers: the last Newton step, the point, the normal; and what goes to the last
  * resort. */
+#include <assert.h>
+#include <stddef.h>
+
 #include "intersect/exact/exact.h"
 #include "intersect/lanes/last_step.h"
 #include "intersect/lanes/packet.h"
@@ -100,15 +103,27 @@ static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct
   else exact_maybe_hit(p->model, &p->rays[lane], &maybe, out);
 }
 
-bool finish_occluded(const struct packet *p, unsigned lane)
+unsigned finish_occluded(const struct packet *p)
 {
-  if (p->postponed->count[lane] == 0) return false;
-  const struct exact_case asked = lane_case(p, lane);
-  return exact_occluded(&asked);
+  if (!p->oriented) return 0;
+  unsigned hit = lanes_bits(p->best.patch != NO_PATCH);
+  for (unsigned bits = p->postponed->open & ~hit; bits; bits &= bits - 1) {
+    const unsigned lane = (unsigned)__builtin_ctz(bits);
+    const struct exact_case asked = lane_case(p, lane);
+    if (exact_occluded(&asked)) hit |= 1u << lane;
+  }
+  return hit;
 }
 
+/* A hit's numbers are eleven doubles in a row. */
+enum { HIT_STRIDE = sizeof(struct hit) / sizeof(double), ALL_LANES = (1 << LANES) - 1 };
+static_assert(HIT_STRIDE == 12 && offsetof(struct hit, t) == sizeof(double) &&
+                offsetof(struct hit, point) == 4 * sizeof(double) &&
+                offsetof(struct hit, clearance) == 8 * sizeof(double),
+              "written as three fours");
+
 /* Writes the hits of the lanes of `group`. Returns how many are not certain. */
-static unsigned write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
+LANES_INLINE unsigned write_hits(const struct packet *p, unsigned group, const struct answers *a, struct hit out[])
 {
   const struct best *best = &p->best;
   const unsigned doubt = packet_doubt(p);
@@ -118,30 +133,27 @@ static unsigned write_hits(const struct packet *p, unsigned group, const struct 
   const lane_mask done = a->done & best->certain & (a->t > p->t_min) & (a->t < p->t_max) &
                          (best->radius_u <= BLURRED_RADIUS) & (best->radius_v <= BLURRED_RADIUS);
   const unsigned done_bits = lanes_bits(done);
-  double row[LANES][12];
+  struct hit some[LANES];
+  struct hit *row = (group & done_bits) == ALL_LANES ? out : some;
   unsigned grazing = 0;
   const struct surface_point *point = &a->point;
-  lanes_store4(a->t, a->u, a->v, point->error, &row[0][0], 12);
-  lanes_store4(point->at[0], point->at[1], point->at[2], point->clearance, &row[0][4], 12);
-  lanes_store4(normal[0], normal[1], normal[2], a->t, &row[0][8], 12);
+  lanes_store4(a->t, a->u, a->v, point->at[0], &row->t, HIT_STRIDE);
+  lanes_store4(point->at[1], point->at[2], point->error, point->clearance, &row->point[1], HIT_STRIDE);
+  lanes_store4(point->clearance, normal[0], normal[1], normal[2], &row->clearance, HIT_STRIDE);
+  if (row == out && !doubt) { /* most of the time */
+    for (int l = 0; l < LANES; l++) out[l].patch = (uint32_t)best->patch[l], out[l].certainty = CERTAINTY_CERTAIN;
+    return 0;
+  }
   for (unsigned bits = group; bits; bits &= bits - 1) {
     const unsigned l = (unsigned)__builtin_ctz(bits);
-    const double *x = row[l];
     const bool sure = !(doubt >> l & 1);
     if (!(done_bits >> l & 1)) {
       lane_finish(p, l, sure, &out[l]);
       grazing += out[l].certainty == CERTAINTY_GRAZING;
       continue;
     }
-    out[l] = (struct hit){.patch = (uint32_t)best->patch[l],
-                          .certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING,
-                          .t = x[0],
-                          .u = x[1],
-                          .v = x[2],
-                          .point = {x[4], x[5], x[6]},
-                          .point_error = x[3],
-                          .clearance = x[7],
-                          .normal = {x[8], x[9], x[10]}};
+    row[l].patch = (uint32_t)best->patch[l], row[l].certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
+    if (row != out) out[l] = row[l];
     grazing += !sure;
   }
   return grazing;
@@ -181,23 +193,34 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, u
 static unsigned decide_open(struct packet *p, struct hit out[])
 {
   unsigned written = 0;
-  for (unsigned l = 0; l < p->count; l++)
-    if (p->postponed->count[l] > 0 && lane_decide(p, l, &out[l])) written |= 1u << l;
+  for (unsigned bits = p->postponed->open; bits; bits &= bits - 1) {
+    const unsigned l = (unsigned)__builtin_ctz(bits);
+    if (lane_decide(p, l, &out[l])) written |= 1u << l;
+  }
   return written;
+}
+
+/* Writes that the rays of these lanes hit nothing, and on which of them that is in doubt. Returns how many those are. */
+static unsigned write_misses(struct hit out[], unsigned misses, unsigned doubt)
+{
+  if (misses == ALL_LANES && !doubt) { /* the same, and no loop */
+    for (int l = 0; l < LANES; l++) out[l].patch = HIT_NONE, out[l].certainty = CERTAINTY_CERTAIN;
+    return 0;
+  }
+  for (unsigned bits = misses; bits; bits &= bits - 1) {
+    const int l = __builtin_ctz(bits);
+    out[l].patch = HIT_NONE, out[l].certainty = doubt >> l & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
+  }
+  return (unsigned)__builtin_popcount(misses & doubt);
 }
 
 unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
 {
   const unsigned hits = lanes_bits(p->best.patch != NO_PATCH);
   unsigned left = ((1u << p->count) - 1) & ~written, grazing = 0;
-  const unsigned misses = left & ~hits, doubt = misses & packet_doubt(p);
   for (unsigned bits = written; bits; bits &= bits - 1)
     grazing += out[__builtin_ctz(bits)].certainty == CERTAINTY_GRAZING;
-  for (unsigned bits = misses; bits; bits &= bits - 1) {
-    const int l = __builtin_ctz(bits);
-    out[l].patch = HIT_NONE, out[l].certainty = doubt >> l & 1 ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN;
-  }
-  grazing += (unsigned)__builtin_popcount(doubt);
+  grazing += write_misses(out, left & ~hits, packet_doubt(p));
   left &= hits;
   const unsigned final = left & lanes_bits(p->best.final);
   if (final) grazing += finish_final(p, final, out);
@@ -213,4 +236,8 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
   return grazing;
 }
 
-unsigned finish_hits(struct packet *p, struct hit out[]) { return finish_best(p, decide_open(p, out), out); }
+unsigned finish_hits(struct packet *p, struct hit out[])
+{
+  if (!p->oriented) return write_misses(out, (1u << p->count) - 1, p->model->unproven ? ~0u : 0);
+  return finish_best(p, decide_open(p, out), out);
+}

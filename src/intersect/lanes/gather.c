@@ -12,6 +12,7 @@
 
 void gather_start(struct packet *p, struct gather *gather)
 {
+  packet_orient(p);
   p->gather = gather;
   gather->roots.count = gather->open.count = 0;
   gather->failed = gather->list.failed = false;

@@ -27,6 +27,7 @@ void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
     gather_postpone(p->gather, &region, lanes_bits(open));
     return;
   }
+  to->open |= lanes_bits(open);
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
     if (count > 0 && exact_region_equal(&to->region[lane][count - 1], &region)) continue;
@@ -101,8 +102,8 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
 /* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where all
  * are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the patch, at an end of the ray or where another root
  * is, is left to the last resort. Returns the lanes that took theirs. */
-static lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w, lanes at,
-                       lane_mask hits)
+LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w,
+                             lanes at, lane_mask hits)
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const lanes error = root_t_error(p, it, r, w, at);
@@ -140,8 +141,8 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
 }
 
 /* Keeps what a leaf's root says of the surface. */
-static void packet_keep(struct packet *p, const struct model_patch *patch, const struct bilinear_root *root,
-                        lane_mask taken)
+LANES_INLINE void packet_keep(struct packet *p, const struct model_patch *patch, const struct bilinear_root *root,
+                              lane_mask taken)
 {
   struct best *best = &p->best;
   lanes normal[3];

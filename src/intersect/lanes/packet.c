@@ -19,7 +19,7 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
                   struct postponed *postponed)
 {
   p->postponed = postponed;
-  postponed->merged = postponed->crowded = postponed->cut_off = 0;
+  postponed->open = postponed->merged = postponed->crowded = postponed->cut_off = 0;
   memset(postponed->count, 0, sizeof postponed->count);
   p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
   p->outer = NULL, p->gather = NULL, p->net_error = 0, p->t_error = lanes_all(0);
@@ -29,15 +29,14 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
   lanes_load4(rays->origin, stride, &o[0], &o[1], &o[2], &d[0]);
   lanes_load4(&rays->direction[1], stride, &d[1], &d[2], &p->t_min, &p->t_max);
   p->t_far = p->t_max;
-  packet_orient(p);
+  packet_untried(p);
 }
 
 void packet_orient(struct packet *p)
 {
   lanes size[3];
   for (int k = 0; k < 3; k++) size[k] = lanes_abs(p->direction[k]);
-  p->moved = false, p->patch = UINT32_MAX, p->t_end = p->t_far;
-  p->longest = lanes_max(lanes_max(size[0], size[1]), size[2]);
+  p->oriented = true, p->t_end = p->t_far;
   /* As dominant_axis has it. */
   const lane_mask first = (size[0] >= size[1]) & (size[0] >= size[2]), second = ~first & (size[1] >= size[2]);
   p->on_axis[0] = p->live & first, p->on_axis[1] = p->live & second, p->on_axis[2] = p->live & ~first & ~second;
@@ -61,6 +60,7 @@ void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_
 {
   lanes hi[3], lo[3];
   const double inverse = 1 / patch->scale;
+  if (!p->oriented) packet_orient(p);
   for (int k = 0; k < 3; k++) {
     const struct double_lanes from = double_lanes_sum(p->origin[k], lanes_all(-patch->center[k]));
     hi[k] = from.hi * inverse, lo[k] = from.lo * inverse;

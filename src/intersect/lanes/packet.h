@@ -37,9 +37,9 @@ struct best {
 
 /* What the lanes leave open, a list a lane. */
 struct postponed {
-  /* bit k: of lane k some were merged, that left too little room to do it again, and there were more than there is room
-   * for */
-  unsigned merged, crowded, cut_off;
+  /* bit k: lane k has a list, some of it were merged, that left too little room to do it again, and there were more than
+   * there is room for */
+  unsigned open, merged, crowded, cut_off;
   unsigned count[LANES];
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
@@ -58,19 +58,20 @@ struct packet {
   lanes t_end;                            /* then what t_far is, but while a root is taken */
   bool moved;                             /* live or t_far is not what it was */
   lane_mask live;                         /* lanes with a ray that still looks for a hit */
-  lane_mask on_axis[3];                   /* lanes whose dominant axis this is */
-  unsigned axes;                          /* bit k: some lane's */
   lanes origin[3], direction[3], longest; /* longest: the largest component of the direction */
-  lanes slope[3][2], reciprocal[3];       /* per axis; slope 0 on other lanes */
-  lanes slope_rest[3][2];                 /* what its rounding took away */
   lanes t_min, t_max, t_far;              /* t_far: the nearest hit so far plus its error, or the ray's end */
   /* what control points and rays are off by besides their rounding in a patch's frame */
   double net_error;
-  lanes t_error; /* what that, and the shift, makes of t */
+  lanes t_error;                    /* what that, and the shift, makes of t */
+  struct postponed *postponed;      /* not used where all hits are asked for */
+  uint32_t patch;                   /* the one tried last, UINT32_MAX for none */
+  bool oriented;                    /* by packet_orient, without which nothing of what follows is set: */
+  lane_mask on_axis[3];             /* lanes whose dominant axis this is */
+  unsigned axes;                    /* bit k: some lane's */
+  lanes slope[3][2], reciprocal[3]; /* per axis; slope 0 on other lanes */
+  lanes slope_rest[3][2];           /* what its rounding took away */
   struct best best;
-  struct postponed *postponed; /* not used where all hits are asked for */
-  /* The frame of the patch tried last. */
-  uint32_t patch;
+  /* The frame of the patch. */
   struct {
     lanes moment[2], moment_rest[2], start[2], to_t, error;
   } local[3];
@@ -82,15 +83,25 @@ static inline int packet_axis(const struct packet *p, unsigned lane)
   return p->on_axis[0][lane] ? 0 : p->on_axis[1][lane] ? 1 : 2;
 }
 
-/* packet.c: no hit yet on the rays, of which there are LANES, those from `count` on as the first; of a single one there
- * may be one. *postponed, which the packet borrows, is emptied. */
+/* packet.c: the rays, of which there are LANES, those from `count` on as the first; of a single one there may be one.
+ * *postponed, which the packet borrows, is emptied. */
 void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
                   struct postponed *postponed);
 
-/* packet.c: where the rays look, from their directions; no hit yet. `live` and the ends are set. */
+/* No leaf has been tried on the rays, whose directions and ends are set. */
+LANES_INLINE void packet_untried(struct packet *p)
+{
+  const lanes *d = p->direction;
+  p->longest = lanes_max(lanes_max(lanes_abs(d[0]), lanes_abs(d[1])), lanes_abs(d[2]));
+  p->oriented = p->moved = false, p->patch = UINT32_MAX;
+}
+
+/* packet.c: where the rays look, from their directions, and no hit yet. Many packets never come near a leaf: this is done
+ * for the first one. */
 void packet_orient(struct packet *p);
 
-/* packet.c: turns to the frame of a patch, as local_ray.c makes it for one ray. */
+/* packet.c: turns to the frame of a patch, as local_ray.c makes it for one ray; orients the packet first where no leaf was
+ * tried before. */
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
 /* Lanes whose root at t, in units of the packet's directions, has all its digits as double precision leaves it: at least
@@ -127,7 +138,7 @@ struct exact_root finish_root(const struct packet *p, unsigned lane);
 /* finish.c: the lane's best root is one that the last resort has found, and that is not sharp. */
 void finish_set_root(struct packet *p, unsigned lane, const struct exact_root *root);
 
-/* finish.c: whether the lane's ray, on which the lanes have found nothing, hits what they have left open. */
-bool finish_occluded(const struct packet *p, unsigned lane);
+/* finish.c: the rays that hit anything, as bits: the lanes have found it, or what they have left open is hit. */
+unsigned finish_occluded(const struct packet *p);
 
 #endif

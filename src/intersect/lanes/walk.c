@@ -15,9 +15,15 @@
 
 #define FLOAT_ROUNDOFF 0x1p-24f
 
-/* Growth of a depth that others are compared with: four roundings in each of the two (difference, direction,
- * reciprocal, product), one in the end of the ray, and those of growing. */
+/* Growth of a depth that others are compared with: three roundings in each of the two (direction, reciprocal, sum), one in
+ * the end of the ray, and those of growing. */
 #define DEPTH_GROWTH (1 + 16 * FLOAT_ROUNDOFF)
+
+/* A row of a node's planes, one for each child. */
+enum { BVH_ROW = sizeof(float[BVH_WIDTH]) };
+
+/* All rays' bits. */
+#define ALL_RAYS ((1u << (FLOAT_LANES - 1) << 1) - 1)
 
 /* All boxes, and the roundings of making them. */
 #define FRAME_HALF 1.0625
@@ -25,18 +31,26 @@
 /* A ray that starts farther away is moved up to the frame first. */
 #define FRAME_NEAR 16.0
 
-/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding
- * it and its sum with the slack to float. */
+/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it and
+ * its sum with the slack to float, its product with the reciprocal, and a box's, for the planes are that far off then. */
 #define ORIGIN_SLACK 0x1p-22
 
 /* A stand-in for the reciprocal of 0: so large that all that is beyond the slack ends up beyond the frame, finite so
  * that 0 times it is 0. */
 #define HUGE_INVERSE 0x1p80f
 
-/* The rays as one tree's frame sees them. */
+/* Where in a node the planes stand that a ray comes to first and last along each axis, in bytes. */
+struct sides {
+  size_t first[3], last[3];
+};
+
+/* The rays as one tree's frame sees them. A ray passes the plane x_k = c at a depth from c inverse + early to c inverse +
+ * late. */
 struct view {
-  float_lanes low_origin[3], high_origin[3], inverse[3], far;
+  float_lanes inverse[3], early[3], late[3], far;
   lanes start[2], unit[2]; /* of each packet: depth = t unit - start */
+  bool alike;              /* all rays enter boxes by the same sides: */
+  struct sides sides;
 };
 
 struct bundle {
@@ -69,8 +83,15 @@ static lanes frame_entry(const lanes from[3], const lanes slack[3], const lanes 
   return enter;
 }
 
+LANES_INLINE void sides_set(struct sides *sides, int k, bool down)
+{
+  const size_t lo = offsetof(struct bvh_node, lo), hi = offsetof(struct bvh_node, hi), at = (size_t)k * BVH_ROW;
+  sides->first[k] = (down ? hi : lo) + at, sides->last[k] = (down ? lo : hi) + at;
+}
+
 static void bundle_start(struct bundle *b, const struct model_tree *tree)
 {
+  b->view.alike = true;
   const double to_frame = 1 / tree->frame; /* a power of two */
   lanes low[3][2], high[3][2], along[3][2];
   const int last = b->packets - 1;
@@ -96,27 +117,61 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
     }
   }
   for (int k = 0; k < 3; k++) {
-    b->view.low_origin[k] = float_lanes_join(low[k][0], low[k][last]),
-    b->view.high_origin[k] = float_lanes_join(high[k][0], high[k][last]);
     const float_lanes d = float_lanes_join(along[k][0], along[k][last]);
     const float_lanes huge = float_lanes_select(d < 0, float_lanes_all(-HUGE_INVERSE), float_lanes_all(HUGE_INVERSE));
-    b->view.inverse[k] = float_lanes_select(float_lanes_abs(d) > 1 / HUGE_INVERSE, 1 / d, huge);
+    const float_lanes inverse = float_lanes_select(float_lanes_abs(d) > 1 / HUGE_INVERSE, 1 / d, huge);
+    const float_lanes to_low = float_lanes_join(low[k][0], low[k][last]) * -inverse;
+    const float_lanes to_high = float_lanes_join(high[k][0], high[k][last]) * -inverse;
+    const unsigned down = float_lanes_bits(d < 0);
+    b->view.inverse[k] = inverse;
+    b->view.early[k] = float_lanes_min(to_low, to_high), b->view.late[k] = float_lanes_max(to_low, to_high);
+    b->view.alike &= down == 0 || down == ALL_RAYS;
+    sides_set(&b->view.sides, k, down != 0);
   }
   bundle_update(b);
 }
 
-/* Rays that pass the node's child before their ends, as bits; *out_near is where they enter. */
-LANES_INLINE unsigned bundle_box(const struct bundle *b, const struct bvh_node *node, int side, float_lanes *out_near)
+/* A row of four planes of a node. */
+LANES_INLINE const float *node_row(const struct bvh_node *node, size_t at)
 {
-  float_lanes near = float_lanes_all(0), far = b->view.far;
+  return (const float *)(const void *)((const char *)node + at);
+}
+
+/* What the rays make of a node: where they enter its children, and their bits where they pass one before their ends. */
+struct entries {
+  float_lanes near[BVH_WIDTH];
+  unsigned rays[BVH_WIDTH];
+};
+
+/* `alike`: the view's. */
+LANES_INLINE void bundle_boxes(const struct view *view, const struct bvh_node *node, bool alike, struct entries *out)
+{
+  float_lanes near[BVH_WIDTH], far[BVH_WIDTH];
   for (int k = 0; k < 3; k++) {
-    const float_lanes one = (node->lo[k][side] - b->view.low_origin[k]) * b->view.inverse[k];
-    const float_lanes other = (node->hi[k][side] - b->view.high_origin[k]) * b->view.inverse[k];
-    near = float_lanes_max(float_lanes_min(one, other), near);
-    far = float_lanes_min(float_lanes_max(one, other), far);
+    const float_lanes inverse = view->inverse[k], early = view->early[k], late = view->late[k];
+    const float *first = alike ? node_row(node, view->sides.first[k]) : node->lo[k];
+    const float *last = alike ? node_row(node, view->sides.last[k]) : node->hi[k];
+#pragma GCC unroll 4
+    for (int side = 0; side < BVH_WIDTH; side++) {
+      const float_lanes one = first[side] * inverse, other = last[side] * inverse;
+      const float_lanes enter = (alike ? one : float_lanes_min(one, other)) + early;
+      const float_lanes leave = (alike ? other : float_lanes_max(one, other)) + late;
+      near[side] = float_lanes_max(enter, k > 0 ? near[side] : float_lanes_all(0));
+      far[side] = float_lanes_min(leave, k > 0 ? far[side] : view->far);
+    }
   }
-  *out_near = near;
-  return float_lanes_bits(near <= far * DEPTH_GROWTH);
+#pragma GCC unroll 4
+  for (int side = 0; side < BVH_WIDTH; side++) {
+    out->near[side] = near[side];
+    out->rays[side] = float_lanes_up_to(near[side], far[side] * DEPTH_GROWTH);
+  }
+}
+
+/* Out of line, or the compiler takes the products that both forms have in front of them, and fuses none. */
+__attribute__((noinline)) static void bundle_boxes_any(const struct view *view, const struct bvh_node *node,
+                                                       struct entries *out)
+{
+  bundle_boxes(view, node, false, out);
 }
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
@@ -162,16 +217,17 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
 
 /* One ray as the frame sees it, four times over. */
 struct ray_view {
-  four_floats low_origin[3], high_origin[3], inverse[3];
+  four_floats inverse[3], early[3], late[3];
+  struct sides sides;
 };
 
 LANES_INLINE struct ray_view ray_view_of(const struct view *view, unsigned lane)
 {
   struct ray_view ray;
   for (int k = 0; k < 3; k++) {
-    ray.low_origin[k] = four_floats_all(view->low_origin[k][lane]);
-    ray.high_origin[k] = four_floats_all(view->high_origin[k][lane]);
     ray.inverse[k] = four_floats_all(view->inverse[k][lane]);
+    ray.early[k] = four_floats_all(view->early[k][lane]), ray.late[k] = four_floats_all(view->late[k][lane]);
+    sides_set(&ray.sides, k, view->inverse[k][lane] < 0);
   }
   return ray;
 }
@@ -179,17 +235,32 @@ LANES_INLINE struct ray_view ray_view_of(const struct view *view, unsigned lane)
 /* The node's children that the ray passes before `end`, as bits; as bundle_box. */
 LANES_INLINE unsigned ray_boxes(const struct ray_view *ray, float end, const struct bvh_node *node, float out_near[4])
 {
-  four_floats near = four_floats_all(0), far = four_floats_all(end), lo, hi;
+  four_floats near = four_floats_all(0), far = four_floats_all(end), first, last;
   four_mask child;
   for (int k = 0; k < 3; k++) {
-    memcpy(&lo, node->lo[k], sizeof lo), memcpy(&hi, node->hi[k], sizeof hi);
-    const four_floats one = (lo - ray->low_origin[k]) * ray->inverse[k];
-    const four_floats other = (hi - ray->high_origin[k]) * ray->inverse[k];
-    near = four_floats_max(four_floats_min(one, other), near);
-    far = four_floats_min(four_floats_max(one, other), far);
+    memcpy(&first, node_row(node, ray->sides.first[k]), sizeof first);
+    memcpy(&last, node_row(node, ray->sides.last[k]), sizeof last);
+    near = four_floats_max(first * ray->inverse[k] + ray->early[k], near);
+    far = four_floats_min(last * ray->inverse[k] + ray->late[k], far);
   }
   memcpy(&child, node->child, sizeof child), memcpy(out_near, &near, sizeof near);
   return four_mask_bits((near <= far * DEPTH_GROWTH) & (child != 0));
+}
+
+/* What is on the stack is wanted soon, and the rays of a large scene come by other boxes than those before them: it is
+ * brought from memory meanwhile, of a leaf what its first stage reads. */
+LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, uint32_t child)
+{
+  const uint32_t box = child & ~(uint32_t)BVH_LEAF;
+  if (child == box) {
+    __builtin_prefetch(&bvh->nodes[child]);
+    __builtin_prefetch(&bvh->nodes[child].child);
+  } else if (model->leaves && box < model->leaf_count) {
+    const struct leaf *leaf = &model->leaves[box];
+    __builtin_prefetch(&leaf->slabs);
+    __builtin_prefetch(&leaf->slabs.offset);
+    __builtin_prefetch(&leaf->patch);
+  }
 }
 
 /* One ray through what is below `child`: four boxes at a time instead of all rays. */
@@ -214,6 +285,7 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
         size_t n = top++; /* the nearest on top */
         for (; n > first && stack[n - 1].near < near[side]; n--) stack[n] = stack[n - 1];
         stack[n].near = near[side], stack[n].child = node->child[side];
+        fetch_child(b->packet[0].model, &tree->bvh, node->child[side]);
       }
     }
     do {
@@ -223,6 +295,9 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
     child = stack[top].child;
   }
 }
+
+/* So few rays go their ways one by one: four boxes for one of them are a third of the work of four boxes for all. */
+enum { FEW_TOGETHER = 3 };
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
@@ -235,29 +310,33 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   } stack[BVH_STACK];
   size_t top = 0;
   if (bvh->node_count == 0) return;
+  const int few = b->packet[0].tracer->warm ? 1 : FEW_TOGETHER; /* warm starts go from ray to ray, all together */
   uint32_t child = 0;
   for (;;) {
     if (child & (uint32_t)BVH_LEAF) {
       bundle_leaf(b, tree, child & ~(uint32_t)BVH_LEAF, rays);
-    } else if ((rays & (rays - 1)) == 0) {
-      ray_walk(b, tree, child, (unsigned)__builtin_ctz(rays));
+    } else if (__builtin_popcount(rays) <= few) {
+      for (unsigned bits = rays; bits; bits &= bits - 1) ray_walk(b, tree, child, (unsigned)__builtin_ctz(bits));
     } else {
       const struct bvh_node *node = &bvh->nodes[child];
       const size_t first = top;
+      struct entries in;
+      if (b->view.alike) bundle_boxes(&b->view, node, true, &in);
+      else bundle_boxes_any(&b->view, node, &in);
       for (int side = 0; side < BVH_WIDTH && node->child[side] != 0; side++) {
-        float_lanes near;
-        const unsigned hit = rays & bundle_box(b, node, side, &near);
+        const unsigned hit = rays & in.rays[side];
         if (!hit) continue;
-        const float enter = near[__builtin_ctz(hit)];
+        const float enter = in.near[side][__builtin_ctz(hit)];
         size_t n = top++; /* the nearest on top */
         for (; n > first && stack[n - 1].first < enter; n--) stack[n] = stack[n - 1];
-        stack[n].near = near, stack[n].first = enter, stack[n].rays = hit, stack[n].child = node->child[side];
+        stack[n].near = in.near[side], stack[n].first = enter, stack[n].rays = hit, stack[n].child = node->child[side];
+        fetch_child(b->packet[0].model, bvh, node->child[side]);
       }
     }
     do {
       if (top == 0) return;
       top--;
-      rays = stack[top].rays & b->live & float_lanes_bits(stack[top].near <= b->view.far);
+      rays = stack[top].rays & b->live & float_lanes_up_to(stack[top].near, b->view.far);
     } while (rays == 0);
     child = stack[top].child;
   }
@@ -292,19 +371,25 @@ struct ready {
   int exponent[LANES];
 };
 
+/* Out of line, for it is rare: the packet from copies of its rays. */
+__attribute__((noinline)) static void packet_copied(struct packet *p, struct ready *ready, struct tracer *tracer,
+                                                    size_t count, const struct ray rays[], bool any)
+{
+  ready->copied = true;
+  for (size_t l = 0; l < count; l++) ready->copy[l] = ray_scaled(&rays[l], &ready->exponent[l]);
+  for (size_t l = count; l < LANES; l++) ready->copy[l] = ready->copy[0];
+  packet_start(p, tracer, ready->copy, count, any, &ready->postponed);
+}
+
 static void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count,
                          const struct ray rays[], bool any)
 {
-  struct postponed *postponed = &ready->postponed;
-  ready->copied = count > 1 && count < LANES;
-  if (!ready->copied) {
-    packet_start(p, tracer, rays, count, any, postponed);
-    ready->copied = lanes_any(~((p->longest >= DIRECTION_MIN) & (p->longest <= DIRECTION_MAX)));
-    if (!ready->copied) return;
+  ready->copied = false;
+  if (count == 1 || count == LANES) {
+    packet_start(p, tracer, rays, count, any, &ready->postponed);
+    if (!lanes_any((p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX))) return;
   }
-  for (size_t l = 0; l < count; l++) ready->copy[l] = ray_scaled(&rays[l], &ready->exponent[l]);
-  for (size_t l = count; l < LANES; l++) ready->copy[l] = ready->copy[0];
-  packet_start(p, tracer, ready->copy, count, any, postponed);
+  packet_copied(p, ready, tracer, count, rays, any);
 }
 
 static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count,
@@ -346,8 +431,8 @@ static void occluded(struct tracer *tracer, size_t count, const struct ray rays[
     bundle_walk(&bundle, &tracer->model->tree, bundle.live);
     for (size_t h = 0; h < (size_t)bundle.packets; h++) {
       const struct packet *packet = &bundle.packet[h];
-      for (size_t l = 0; l < packet->count; l++)
-        out_occluded[first + h * LANES + l] = packet->best.patch[l] != NO_PATCH || finish_occluded(packet, (unsigned)l);
+      const unsigned hit = finish_occluded(packet);
+      for (size_t l = 0; l < packet->count; l++) out_occluded[first + h * LANES + l] = hit >> l & 1;
       tracer->counts.rays[1] += packet->count;
     }
   }
