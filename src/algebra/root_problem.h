@@ -93,10 +93,12 @@ static inline void root_problem_tell(const struct solver_options *options, enum 
  * steps a root may take. The first is the default. */
 #define SOLVERS(ROW)                                                                                                   \
   ROW(bernstein, "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, SIGNS, 64)     \
-  ROW(newton, "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, NONE, 200)      \
-  ROW(laguerre, "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false, NONE, 100) \
+  ROW(newton, "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, NEWTON, 200)    \
+  ROW(laguerre, "one root after the other by Laguerre's method, with deflation (eq 8 of the paper)", false, LAGUERRE,  \
+      100)                                                                                                             \
   ROW(aberth, "all roots at once by Aberth's method (eq 9 of the paper)", false, ABERTH, 100)                          \
-  ROW(durand_kerner, "all roots at once by Weierstrass's method: Aberth's without a derivative", false, NONE, 200)
+  ROW(durand_kerner, "all roots at once by Weierstrass's method: Aberth's without a derivative", false, DURAND_KERNER, \
+      200)
 
 #define SOLVER_FIND(name, summary, real_only, lanes, steps)                                  \
   void name##_find(const struct root_problem *problem, const struct solver_options *options, \

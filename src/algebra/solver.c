@@ -41,12 +41,18 @@ void solver_options_form(struct solver_options *options, bool improved)
   options->refine = improved;
 }
 
-bool solver_options_paper(const struct solver_options *options)
+static bool has_form(const struct solver_options *options, bool improved)
 {
-  return options->radii == RADII_CIRCLE && options->stop == STOP_STEP && options->horner == HORNER_PLAIN &&
-         options->update == UPDATE_JACOBI && !options->rest && options->deflation == DEFLATION_FORWARD &&
-         !options->refine;
+  struct solver_options form;
+  solver_options_form(&form, improved);
+  return options->radii == form.radii && options->stop == form.stop && options->horner == form.horner &&
+         options->update == form.update && options->rest == form.rest && options->deflation == form.deflation &&
+         options->refine == form.refine;
 }
+
+bool solver_options_improved(const struct solver_options *options) { return has_form(options, true); }
+
+bool solver_options_paper(const struct solver_options *options) { return has_form(options, false); }
 
 void solver_options_default(const struct solver *solver, struct solver_options *out)
 {

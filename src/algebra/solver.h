@@ -79,8 +79,16 @@ struct solver_warm {
 };
 
 /* What a solver has for many polynomials in scaled Bernstein form at once, one a lane, where all choices are the
- * improved ones: nothing; sign variations, and nothing to be solved where they are 0 or 1; aberth_lanes.h. */
-enum solver_lanes { SOLVER_LANES_NONE, SOLVER_LANES_SIGNS, SOLVER_LANES_ABERTH };
+ * improved ones: nothing; sign variations, and nothing to be solved where they are 0 or 1; its iteration in
+ * roots_lanes.h. */
+enum solver_lanes {
+  SOLVER_LANES_NONE,
+  SOLVER_LANES_SIGNS,
+  SOLVER_LANES_NEWTON,
+  SOLVER_LANES_LAGUERRE,
+  SOLVER_LANES_ABERTH,
+  SOLVER_LANES_DURAND_KERNER
+};
 
 struct solver {
   const char *name;    /* the keyword in a scene */
@@ -103,8 +111,9 @@ const struct solver *solver_find(const char *name, size_t length); /* NULL where
 void solver_options_default(const struct solver *solver, struct solver_options *out);
 
 /* Sets radii, stop, horner, update, rest, deflation and refine: to what docs/paper.md found best, or to the paper's
- * iterations as printed; and whether they are the paper's. */
+ * iterations as printed; and whether they are as the one or the other. */
 void solver_options_form(struct solver_options *options, bool improved);
+bool solver_options_improved(const struct solver_options *options);
 bool solver_options_paper(const struct solver_options *options);
 
 /* Solves p with options->solver and judges the answer: radii and statuses are set by one validation shared by all

@@ -43,9 +43,8 @@ struct model_patch {
   const double (*rest)[4][4];
   bool pole[4];       /* borders (geometry/edges.h) that are one point exactly: in x ones that nearly are may be, too */
   int m, n, split[2]; /* as of its cut */
-  bool lanes;         /* default method, or all_roots: tried on a lane of rays at once */
-  bool all_roots;     /* aberth, improved and polished: all roots of r are tried */
-  double loose;       /* as of its cut */
+  enum solver_lanes lanes; /* of its method, polished; NONE: tried on one ray after the other */
+  double loose;            /* as of its cut */
   const struct method *method;
 };
 

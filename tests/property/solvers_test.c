@@ -1,5 +1,5 @@
-/* Aberth's method on lanes (all_roots.h), whole patches: its answers are the default's, and a ray's answer does not
- * depend on the rays beside it. */
+/* The methods on lanes (all_roots.c), whole patches and leaves: their answers are the default's, and a ray's answer does
+ * not depend on the rays beside it. */
 #include <math.h>
 #include <string.h>
 
@@ -8,10 +8,10 @@
 
 enum { SEED = 20240521, SCENES = 4, RAYS = 160 };
 
-static struct method aberth(enum start start, int split)
+static struct method method_of(const char *name, enum start start, int split)
 {
   struct method options;
-  method_default(solver_find("aberth", 6), &options);
+  method_default(solver_find(name, strlen(name)), &options);
   options.roots.start = start, options.split = split;
   return options;
 }
@@ -44,11 +44,21 @@ static void answers_are_the_defaults(void **state)
 {
   (void)state;
   static const struct {
-    const char *name;
+    const char *name, *solver;
     enum start start;
     int split;
-  } ways[] = {
-    {"cold", START_COLD, 1}, {"warm", START_PREVIOUS, 1}, {"leaves", START_COLD, 0}, {"few", START_PREVIOUS, 2}};
+  } ways[] = {{"aberth", "aberth", START_COLD, 1},
+              {"warm", "aberth", START_PREVIOUS, 1},
+              {"leaves", "aberth", START_COLD, 0},
+              {"few, warm", "aberth", START_PREVIOUS, 2},
+              {"newton", "newton", START_COLD, 1},
+              {"warm", "newton", START_PREVIOUS, 1},
+              {"leaves", "newton", START_COLD, 0},
+              {"laguerre", "laguerre", START_COLD, 1},
+              {"leaves, warm", "laguerre", START_PREVIOUS, 0},
+              {"durand_kerner", "durand_kerner", START_COLD, 1},
+              {"few, warm", "durand_kerner", START_PREVIOUS, 2},
+              {"leaves", "durand_kerner", START_COLD, 0}};
   enum { WAYS = sizeof ways / sizeof ways[0] };
   struct random random = {SEED};
   int wrong = 0, certain[1 + WAYS] = {0};
@@ -63,7 +73,7 @@ static void answers_are_the_defaults(void **state)
     for (int way = 0; way <= WAYS; way++) {
       struct world world;
       const int w = way > 0 ? way - 1 : 0;
-      const struct method options = aberth(ways[w].start, ways[w].split);
+      const struct method options = method_of(ways[w].solver, ways[w].start, ways[w].split);
       world_open(&world, nets, count, way > 0 ? &options : NULL);
       answer(&world, rays, way > 0 ? got : want);
       certain[way] += certain_hits(way > 0 ? got : want);
@@ -93,7 +103,8 @@ static void answers_do_not_depend_on_companions(void **state)
     static world_net nets[WORLD_MAX];
     static struct ray rays[RAYS];
     static struct hit hits[RAYS];
-    const struct method options = aberth(START_COLD, 1);
+    static const char *const solvers[] = {"aberth", "newton", "laguerre", "durand_kerner"};
+    const struct method options = method_of(solvers[scene % 4], START_COLD, 1 + scene / 4 % 2);
     const int kind = scene % WORLD_KINDS;
     const size_t count = world_fill((enum world_kind)kind, &random, nets);
     struct world world;

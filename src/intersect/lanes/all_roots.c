@@ -1,11 +1,11 @@
-/* All roots of r by Aberth's method on all lanes of a packet at once, and what can be proven of them.
+/* The roots of r by the method that the scene asks for, on all lanes of a packet at once, and what can be proven of them.
  *
- * Compiled once per instruction set. This is method.c's task for the method that `solver aberth` means where its roots
- * are only to start from (prepare/model.c).
+ * Compiled once per instruction set. This is method.c's task for methods whose roots are only to start from
+ * (prepare/patch.c).
  */
 #include <math.h>
 
-#include "algebra/aberth_lanes.h"
+#include "algebra/roots_lanes.h"
 #include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
 
@@ -21,21 +21,20 @@ struct all_roots {
 };
 
 /* Start values on the lanes of `active`: the roots kept, taken off the real axis, or cold. */
-static void all_roots_start(struct aberth_lanes *a, const struct solver_warm *warm, lane_mask active)
+static void all_roots_start(struct roots_lanes *a, const struct solver_warm *warm, lane_mask active)
 {
-  if (warm && warm->count == a->degree) {
-    for (int k = 0; k < a->degree; k++) {
-      const double lift = fabs(warm->im[k]) < ABERTH_LIFT ? (k % 2 ? ABERTH_LIFT : -ABERTH_LIFT) : 0;
-      a->zr[k] = lanes_all(2 * warm->re[k] - 1), a->zi[k] = lanes_all(2 * warm->im[k] + lift);
-    }
+  if (!warm || warm->count != a->degree) {
+    roots_lanes_start(a, active);
     return;
   }
-  for (int k = 0; k < a->degree; k++) a->zr[k] = a->zi[k] = lanes_all(1);
-  for (unsigned bits = lanes_bits(active); bits; bits &= bits - 1) aberth_lanes_start(a, (unsigned)__builtin_ctz(bits));
+  for (int k = 0; k < a->degree; k++) {
+    const double lift = fabs(warm->im[k]) < ROOTS_LIFT ? (k % 2 ? ROOTS_LIFT : -ROOTS_LIFT) : 0;
+    a->zr[k] = lanes_all(2 * warm->re[k] - 1), a->zi[k] = lanes_all(2 * warm->im[k] + lift);
+  }
 }
 
 /* Keeps the roots on one of the lanes for the next rays. */
-static void all_roots_keep(const struct aberth_lanes *a, lane_mask done, struct solver_warm *warm)
+static void all_roots_keep(const struct roots_lanes *a, lane_mask done, struct solver_warm *warm)
 {
   const unsigned bits = lanes_bits(done);
   if (!warm) return;
@@ -46,14 +45,14 @@ static void all_roots_keep(const struct aberth_lanes *a, lane_mask done, struct 
 }
 
 /* The roots near [0,1], collected lane by lane: kept[k] the k-th of every lane, has[k] where there is one. */
-static int all_roots_near(const struct aberth_lanes *a, lane_mask done, lanes kept[TRIED_ROOTS],
+static int all_roots_near(const struct roots_lanes *a, lane_mask done, lanes kept[TRIED_ROOTS],
                           lane_mask has[TRIED_ROOTS])
 {
   int counts[LANES] = {0}, most = 0;
   for (int k = 0; k < TRIED_ROOTS; k++) kept[k] = lanes_all(0.5), has[k] = (lane_mask){0};
   for (int i = 0; i < a->degree; i++) {
-    const lane_mask near = (lanes_abs(a->zi[i]) <= ABERTH_MARGIN) & (lanes_abs(a->zr[i]) <= 1 + ABERTH_MARGIN);
-    for (unsigned bits = lanes_bits(done & near); bits; bits &= bits - 1) {
+    const lane_mask near = (lanes_abs(a->zi[i]) <= ROOTS_MARGIN) & (lanes_abs(a->zr[i]) <= 1 + ROOTS_MARGIN);
+    for (unsigned bits = lanes_bits(done & near & ~a->moving[i]); bits; bits &= bits - 1) {
       const unsigned lane = (unsigned)__builtin_ctz(bits);
       if (counts[lane] == TRIED_ROOTS) continue;
       const int k = counts[lane]++;
@@ -81,9 +80,9 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
     *r = (struct newton_root){.exists = {0}};
     if (!lanes_any(open)) continue;
     const lanes at = start_within(kept[k]), other = start_within(resultant_eliminated(it, at));
-    const lanes start[2] = {v_kept ? other : at, v_kept ? at : other};
-    if (it->leaf->parts) bilinear_root_solve(p, it->leaf, it->axis, start, open, &all->root[k]);
-    else *r = newton_refine(&it->nets, it->leaf, start[0], start[1], open);
+    const lanes u = v_kept ? other : at, v = v_kept ? at : other;
+    if (it->leaf->parts) bilinear_root_solve(p, it->leaf, it->axis, (lanes[2]){u - 0.5, v - 0.5}, open, &all->root[k]);
+    else *r = newton_refine(&it->nets, it->leaf, u, v, open);
     *proven = open & r->exists;
     for (int j = 0; j < k; j++) {
       const struct newton_root *old = &all->root[j].at;
@@ -103,7 +102,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
   return alone | ((found > 0) & (within == it->variations));
 }
 
-/* The same for lanes that this leaves open, by boxes. */
+/* The lanes of `open` where these are all that the leaf has, by boxes. */
 static lane_mask all_roots_cover(const struct candidate *it, const struct all_roots *all, lane_mask open)
 {
   struct known_root known[TRIED_ROOTS];
@@ -116,50 +115,70 @@ static lane_mask all_roots_cover(const struct candidate *it, const struct all_ro
   return cover_proves(it, count, known, COVER_HALVINGS, open);
 }
 
-/* The roots of r near [0,1] on the lanes of `active`, as starts: see all_roots_near. */
-static int all_roots_solve(struct packet *p, const struct candidate *it, lane_mask active, lanes kept[TRIED_ROOTS],
-                           lane_mask has[TRIED_ROOTS])
+/* The roots of the polynomial that is set, on the lanes of `active` where the method finds them: see roots_lanes_run. */
+static lane_mask all_roots_solve(struct packet *p, const struct candidate *it, lane_mask active, lanes enough,
+                                 struct roots_lanes *out)
 {
   const struct solver_options *options = &it->patch->method->roots;
-  struct aberth_lanes a;
-  active &= aberth_lanes_set(&a, it->degree, it->c);
-  if (!lanes_any(active)) return 0;
+  if (!lanes_any(active)) return active;
+  out->method = it->patch->lanes;
   struct solver_warm *warm = p->model == p->tracer->model ? tracer_warm(p->tracer, it->patch->method, it->number)
                                                           : NULL;
-  all_roots_start(&a, warm, active);
-  const double settled = options->tolerance > ABERTH_SETTLED ? options->tolerance : ABERTH_SETTLED;
-  const lane_mask done = aberth_lanes_run(&a, active, settled, options->max_iterations);
-  all_roots_keep(&a, done, warm);
-  p->tracer->counts.roots_found += (unsigned)(a.degree * __builtin_popcount(lanes_bits(done)));
-  return all_roots_near(&a, done, kept, has);
+  all_roots_start(out, warm, active);
+  const double settled = options->tolerance > ROOTS_SETTLED ? options->tolerance : ROOTS_SETTLED;
+  const lane_mask done = roots_lanes_run(out, active, enough, settled, options->max_iterations);
+  all_roots_keep(out, done, warm);
+  for (int k = 0; k < out->degree; k++) p->tracer->counts.roots_found += lanes_count(done & ~out->moving[k]);
+  return done;
 }
 
-/* The lanes of `active` that are decided, and their roots. */
+lanes method_quadratic_root(struct packet *p, const struct candidate *it, const lanes r[3], lane_mask *open)
+{
+  struct roots_lanes a;
+  const lane_mask able = roots_lanes_set_quadratic(&a, r[0], 0.5 * r[1], 0.25 * r[2]); /* s = y/2 */
+  *open = all_roots_solve(p, it, *open & able, lanes_all(1), &a);
+  if (!lanes_any(*open)) return lanes_all(0);
+  const lanes size[2] = {lanes_abs(a.zr[0]) + lanes_abs(a.zi[0]), lanes_abs(a.zr[1]) + lanes_abs(a.zi[1])};
+  const lane_mask second = ~a.moving[1] & (size[1] < size[0]);
+  return 0.5 * lanes_select(second, a.zr[1], a.zr[0]);
+}
+
+/* The roots, and the lanes of `active` that are decided by them. */
 static lane_mask all_roots_find(struct packet *p, const struct candidate *it, lane_mask active, struct all_roots *all)
 {
+  struct roots_lanes a;
   lanes kept[TRIED_ROOTS];
   lane_mask has[TRIED_ROOTS];
   all->count = 0;
   if (it->degree < 1) return (lane_mask){0};
   /* One sign variation is a root, which mostly is a hit. */
   const lane_mask doubtful = active & (it->variations != 1);
-  lane_mask decided = {0};
-  if (lanes_any(doubtful)) decided = cover_proves(it, 0, NULL, MISS_HALVINGS, doubtful);
-  if (!lanes_any(active & ~decided)) return decided;
-  const int count = all_roots_solve(p, it, active & ~decided, kept, has);
-  decided |= all_roots_prove(p, it, count, kept, has, all);
-  if (lanes_any(active & ~decided)) decided |= all_roots_cover(it, all, active & ~decided);
-  return decided;
+  lane_mask missed = {0};
+  if (lanes_any(doubtful)) missed = cover_proves(it, 0, NULL, MISS_HALVINGS, doubtful);
+  if (!lanes_any(active & ~missed)) return missed;
+  const lane_mask able = roots_lanes_set(&a, it->degree, it->c);
+  const lane_mask done = all_roots_solve(p, it, active & ~missed & able, it->variations, &a);
+  const int count = all_roots_near(&a, done, kept, has);
+  return missed | all_roots_prove(p, it, count, kept, has, all);
+}
+
+static void all_roots_offer(struct packet *p, const struct candidate *it, const struct all_roots *all, lane_mask where)
+{
+  for (int k = 0; k < all->count; k++) {
+    const lane_mask hits = where & all->proven[k] & inside(&all->root[k].at);
+    if (it->leaf->parts) offer_bend_root(p, it, &all->root[k], hits);
+    else offer_root(p, it, &all->root[k].at, hits);
+  }
 }
 
 lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask active)
 {
   struct all_roots all;
   const lane_mask decided = all_roots_find(p, it, active, &all);
-  for (int k = 0; k < all.count; k++) {
-    const lane_mask hits = decided & all.proven[k] & inside(&all.root[k].at);
-    if (it->leaf->parts) offer_bend_root(p, it, &all.root[k], hits);
-    else offer_root(p, it, &all.root[k].at, hits);
-  }
-  return active & ~decided;
+  all_roots_offer(p, it, &all, p->any ? active : decided);
+  const lane_mask open = active & ~decided & p->live;
+  if (!lanes_any(open)) return open;
+  const lane_mask covered = all_roots_cover(it, &all, open);
+  all_roots_offer(p, it, &all, covered);
+  return open & ~covered;
 }

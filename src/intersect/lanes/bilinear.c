@@ -133,21 +133,30 @@ LANES_INLINE lanes near_middle(lanes t)
 
 /* The root of the bilinear parts a = a0 + s a1 + t a2 + st a3, b alike, that is nearer to the middle: t eliminated by
  * Bezout's determinant (a0 + s a1)(b2 + s b3) - (a2 + s a3)(b0 + s b1) = r0 + r1 s + r2 s^2. A pair of complex roots
- * is replaced by its real part. */
-LANES_INLINE void bilinear_root(const struct packet *p, const struct leaf_parts *parts, int axis, lanes *out_s,
-                                lanes *out_t)
+ * is replaced by its real part. By the default method in closed form; takes lanes out of *open where another one finds
+ * none. */
+LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, lane_mask *open, lanes start[2])
 {
-  lanes a[4], b[4];
-  for (int n = 0; n < 4; n++) a[n] = plane_of(p, axis, 0, parts->base, n), b[n] = plane_of(p, axis, 1, parts->base, n);
+  const int axis = it->axis;
+  lanes a[4], b[4], s;
+  for (int n = 0; n < 4; n++) {
+    a[n] = plane_of(p, axis, 0, it->leaf->parts->base, n);
+    b[n] = plane_of(p, axis, 1, it->leaf->parts->base, n);
+  }
   a[0] -= p->local[axis].moment[0], b[0] -= p->local[axis].moment[1];
   const lanes r0 = a[0] * b[2] - a[2] * b[0], r2 = a[1] * b[3] - a[3] * b[1];
   const lanes r1 = (a[0] * b[3] - a[3] * b[0]) + (a[1] * b[2] - a[2] * b[1]);
-  const lanes root = lanes_sqrt(lanes_max(r1 * r1 - 4 * (r0 * r2), lanes_all(0)));
-  const lanes s = near_middle(-2 * r0 / (r1 + lanes_select(r1 < 0, -root, root)));
+  if (it->patch->lanes == SOLVER_LANES_SIGNS) {
+    const lanes root = lanes_sqrt(lanes_max(r1 * r1 - 4 * (r0 * r2), lanes_all(0)));
+    s = -2 * r0 / (r1 + lanes_select(r1 < 0, -root, root));
+  } else {
+    s = method_quadratic_root(p, it, (lanes[3]){r0, r1, r2}, open);
+  }
+  s = near_middle(s);
   const lanes slope_a = a[2] + s * a[3], slope_b = b[2] + s * b[3];
   const lane_mask steep = lanes_abs(slope_a) > lanes_abs(slope_b);
   const lanes value = lanes_select(steep, a[0] + s * a[1], b[0] + s * b[1]);
-  *out_s = s, *out_t = near_middle(-value / lanes_select(steep, slope_a, slope_b));
+  start[0] = s, start[1] = near_middle(-value / lanes_select(steep, slope_a, slope_b));
 }
 
 /* Bounds on a row of M J: its own parameter's element is at least `least`, the other within `cross`. */
@@ -209,10 +218,8 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
   const int k = axis;
   struct coordinate x[3];
   struct newton_inverse m;
-  lanes s, t, step_s, step_t, step;
+  lanes s = start[0], t = start[1], step_s, step_t, step;
   lane_mask settled, moving = active;
-  if (start) s = start[0] - 0.5, t = start[1] - 0.5;
-  else bilinear_root(p, parts, k, &s, &t);
   for (int n = 1;; n++) {
     surface_at(parts, s, t, x);
     const struct plane a = plane_at(p, k, 0, &x[(k + 1) % 3], &x[k]), b = plane_at(p, k, 1, &x[(k + 2) % 3], &x[k]);
@@ -245,8 +252,12 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask active)
 {
   struct bilinear_root root;
-  bilinear_root_solve(p, it->leaf, it->axis, NULL, active, &root);
-  p->tracer->counts.roots_found += lanes_count(root.at.alone);
+  lanes start[2];
+  lane_mask tried = active;
+  bilinear_root(p, it, &tried, start);
+  if (!lanes_any(tried)) return active;
+  bilinear_root_solve(p, it->leaf, it->axis, start, tried, &root);
+  if (it->patch->lanes == SOLVER_LANES_SIGNS) p->tracer->counts.roots_found += lanes_count(root.at.alone);
   offer_bend_root(p, it, &root, (p->any ? root.at.exists : root.at.alone) & inside(&root.at));
   return active & ~root.at.alone & p->live;
 }

@@ -14,7 +14,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   open = stage_box(p, it, open);
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
-  if (it->leaf->parts && !patch->all_roots) {
+  if (it->leaf->parts) {
     entered[STAGE_BILINEAR] += lanes_count(open);
     open = stage_bilinear(p, it, open);
     if (!lanes_any(open)) return;
@@ -26,8 +26,8 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   open = stage_resultant(p, it, open);
   if (!lanes_any(open)) return;
   entered[STAGE_ROOTS] += lanes_count(open);
-  if (patch->all_roots) open = stage_all_roots(p, it, open);
-  else if (patch->lanes) open = stage_first_root(p, it, open);
+  if (patch->lanes == SOLVER_LANES_SIGNS) open = stage_first_root(p, it, open);
+  else if (patch->lanes != SOLVER_LANES_NONE) open = stage_all_roots(p, it, open);
   else open = stage_method(p, it, open);
   if (lanes_any(open)) packet_postpone(p, it->leaf, open);
 }

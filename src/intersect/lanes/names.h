@@ -22,6 +22,7 @@
 #define stage_resultant KERNEL(stage_resultant)
 #define stage_first_root KERNEL(stage_first_root)
 #define stage_all_roots KERNEL(stage_all_roots)
+#define method_quadratic_root KERNEL(method_quadratic_root)
 #define stage_method KERNEL(stage_method)
 #define plane_depth KERNEL(plane_depth)
 #define resultant_eliminated KERNEL(resultant_eliminated)

@@ -255,7 +255,7 @@ void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct
   for (int k = 0; k < 3; k++)
     for (int n = 0; n < 16; n++) leaf->x[k][n] = hi[k][n / 4][n % 4] + lo[k][n / 4][n % 4];
   leaf_bounds(leaf->x, leaf->first, leaf->second);
-  leaf->parts = patch->lanes && nearly_bilinear(leaf) ? parts : NULL;
+  leaf->parts = patch->lanes != SOLVER_LANES_NONE && nearly_bilinear(leaf) ? parts : NULL;
   if (leaf->parts) set_parts(patch, leaf, hi, lo, parts);
   leaf_set_slabs(leaf);
   leaf->patch = place->patch, leaf->column_u = place->column_u, leaf->column_v = place->column_v;

@@ -87,12 +87,10 @@ static void auto_split(struct model_patch *patch, int most, uint16_t split[2])
 /* What the patch's solver does on lanes: the whole method as it is by default, or nothing. */
 static enum solver_lanes lanes_of(const struct method *s)
 {
-  const struct solver_options *r = &s->roots;
   const bool all = s->basis == BASIS_BERNSTEIN && s->resultant == RESULTANT_BEZOUT &&
                    s->back_substitution == BACK_SUBSTITUTION_NULL_VECTOR && s->polish;
-  const bool improved = r->radii == RADII_POLYGON && r->stop == STOP_ROUNDING && r->update == UPDATE_GAUSS_SEIDEL &&
-                        r->rest; /* what Aberth's method has of choices */
-  return all && (improved || r->solver->lanes != SOLVER_LANES_ABERTH) ? r->solver->lanes : SOLVER_LANES_NONE;
+  const enum solver_lanes lanes = s->roots.solver->lanes;
+  return all && (lanes == SOLVER_LANES_SIGNS || solver_options_improved(&s->roots)) ? lanes : SOLVER_LANES_NONE;
 }
 
 bool patch_on_lanes(const struct method *method) { return lanes_of(method) != SOLVER_LANES_NONE; }
@@ -107,8 +105,7 @@ static double patch_begin(const struct model *model, uint32_t index, struct mode
   out->rest = rounded ? (const double(*)[4][4])rest : none;
   for (int k = 0; k < 4; k++) out->pole[k] = edge_is_point(source->P, k);
   out->method = &model->scene->solvers[source->solver];
-  out->all_roots = lanes_of(out->method) == SOLVER_LANES_ABERTH;
-  out->lanes = lanes_of(out->method) != SOLVER_LANES_NONE;
+  out->lanes = lanes_of(out->method);
   return largest;
 }
 

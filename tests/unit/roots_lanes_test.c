@@ -1,6 +1,6 @@
-/* Aberth's method on lanes, by itself: polynomials of known roots, and what a solver must survive. Compiled once per
+/* Methods on lanes, by themselves: polynomials of known roots, and what a solver must survive. Compiled once per
  * instruction set (CMakeLists.txt); where the processor lacks it the test is skipped. */
-#include "algebra/aberth_lanes.h"
+#include "algebra/roots_lanes.h"
 
 #include "cmocka_test.h"
 #include "lanes_main.h"
@@ -8,7 +8,7 @@
 
 enum { SEED = 20240522, ROUNDS = 400, SWEEPS = 100 };
 
-/* Starts this near are good ones: a step below ABERTH_SETTLED leaves about its square, some times over. */
+/* Starts this near are good ones: a step below ROOTS_SETTLED leaves about its square, some times over. */
 #define NEAR 1e-3
 
 /* Multiplies c[0..*degree], scaled Bernstein form, by e0 (1-u) + e1 u. */
@@ -47,12 +47,15 @@ static void known_polynomial(struct random *random, int n, int inside, double ro
   }
 }
 
-static void start_cold(struct aberth_lanes *a)
+/* The one that is tested. */
+static enum solver_lanes method;
+
+static lane_mask run_all(struct roots_lanes *a, lane_mask wanted)
 {
-  for (unsigned lane = 0; lane < LANES; lane++) aberth_lanes_start(a, lane);
+  return roots_lanes_run(a, wanted, lanes_all(INFINITY), ROOTS_SETTLED, SWEEPS);
 }
 
-static bool found(const struct aberth_lanes *a, unsigned lane, double u)
+static bool found(const struct roots_lanes *a, unsigned lane, double u)
 {
   for (int i = 0; i < a->degree; i++)
     if (fabs(0.5 + 0.5 * a->zr[i][lane] - u) + fabs(0.5 * a->zi[i][lane]) < NEAR) return true;
@@ -65,20 +68,20 @@ static void known_roots_are_found(void **state)
   struct random random = {SEED};
   int roots = 0, lost = 0, undone = 0;
   for (int round = 0; round < ROUNDS; round++) {
-    const int n = 1 + round % ABERTH_LANES_DEGREE, inside = 1 + (int)(random_bits(&random) % 4);
+    const int n = 1 + round % ROOTS_LANES_DEGREE, inside = 1 + (int)(random_bits(&random) % 4);
     const int real = inside < n ? inside : n;
     double root[LANES][4];
-    lanes c[ABERTH_LANES_DEGREE + 1];
+    lanes c[ROOTS_LANES_DEGREE + 1];
     for (int lane = 0; lane < LANES; lane++) {
-      double one[ABERTH_LANES_DEGREE + 3];
+      double one[ROOTS_LANES_DEGREE + 3];
       known_polynomial(&random, n, real, root[lane], one);
       for (int k = 0; k <= n; k++) c[k][lane] = one[k];
     }
-    struct aberth_lanes a;
-    const lane_mask all = aberth_lanes_set(&a, n, c);
+    struct roots_lanes a = {.method = method};
+    const lane_mask all = roots_lanes_set(&a, n, c);
     assert_int_equal(lanes_bits(all), (1u << LANES) - 1);
-    start_cold(&a);
-    undone += LANES - __builtin_popcount(lanes_bits(aberth_lanes_run(&a, all, ABERTH_SETTLED, SWEEPS)));
+    roots_lanes_start(&a, all);
+    undone += LANES - __builtin_popcount(lanes_bits(run_all(&a, all)));
     for (unsigned lane = 0; lane < LANES; lane++)
       for (int k = 0; k < real; k++) roots++, lost += !found(&a, lane, root[lane][k]);
   }
@@ -89,27 +92,51 @@ static void known_roots_are_found(void **state)
   assert_true(undone <= ROUNDS * LANES / 1000);
 }
 
+/* Of degree 2 in powers of y, as leaves that are nearly bilinear have them: one root in [-1,1], the other one anywhere, or
+ * at infinity. */
+static void a_root_of_quadratics_is_found(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 2};
+  for (int round = 0; round < ROUNDS; round++) {
+    lanes q[3], root = {0};
+    for (int lane = 0; lane < LANES; lane++) {
+      const double size = exp2(random_between(&random, -300, 300)), y = random_between(&random, -0.99, 0.99);
+      const double far = random_between(&random, -0.9, 0.9); /* one over the other one */
+      const double one = random_bits(&random) % 4 == 0 ? 0 : far;
+      root[lane] = y, q[0][lane] = -size * y, q[1][lane] = size * (1 + one * y), q[2][lane] = -size * one;
+    }
+    struct roots_lanes a = {.method = method};
+    const lane_mask all = roots_lanes_set_quadratic(&a, q[0], q[1], q[2]);
+    roots_lanes_start(&a, all);
+    assert_int_equal(lanes_bits(roots_lanes_run(&a, all, lanes_all(1), ROOTS_SETTLED, SWEEPS)), (1u << LANES) - 1);
+    lane_mask near = {0};
+    for (int i = 0; i < 2; i++) near |= ~a.moving[i] & (lanes_abs(a.zr[i] - root) + lanes_abs(a.zi[i]) < NEAR);
+    assert_int_equal(lanes_bits(near), (1u << LANES) - 1);
+  }
+}
+
 /* From the roots of a polynomial near by, one of which has become a pair, or the other way round. */
 static void previous_roots_part_and_meet(void **state)
 {
   (void)state;
   for (int way = 0; way < 2; way++) {
-    lanes c[ABERTH_LANES_DEGREE + 1];
-    struct aberth_lanes a;
+    lanes c[ROOTS_LANES_DEGREE + 1];
+    struct roots_lanes a = {.method = method};
     for (int turn = 0; turn < 2; turn++) {
-      double one[ABERTH_LANES_DEGREE + 3] = {1};
+      double one[ROOTS_LANES_DEGREE + 3] = {1};
       int degree = 0;
       const double square = turn == way ? 4e-4 : -4e-4, d = 0.25 + square; /* (u - 1/2)^2 + square */
       times_quadratic(one, &degree, d, 2 * d - 1, d);
       times_quadratic(one, &degree, 2, 3, 2.5);
       times_linear(one, &degree, 3, 2);
       for (int k = 0; k <= degree; k++) c[k] = lanes_all(one[k]);
-      const lane_mask all = aberth_lanes_set(&a, degree, c);
-      if (turn == 0) start_cold(&a);
+      const lane_mask all = roots_lanes_set(&a, degree, c);
+      if (turn == 0) roots_lanes_start(&a, all);
       else
         for (int i = 0; i < degree; i++)
-          if (fabs(a.zi[i][0]) < ABERTH_LIFT) a.zi[i] += i % 2 ? ABERTH_LIFT : -ABERTH_LIFT;
-      assert_int_equal(lanes_bits(aberth_lanes_run(&a, all, ABERTH_SETTLED, SWEEPS)), lanes_bits(all));
+          if (fabs(a.zi[i][0]) < ROOTS_LIFT) a.zi[i] += i % 2 ? ROOTS_LIFT : -ROOTS_LIFT;
+      assert_int_equal(lanes_bits(run_all(&a, all)), lanes_bits(all));
       int real = 0, pair = 0;
       for (int i = 0; i < degree; i++) {
         const double re = 0.5 * a.zr[i][0], im = 0.5 * a.zi[i][0];
@@ -128,19 +155,19 @@ static void neighbours_do_not_matter(void **state)
   (void)state;
   struct random random = {SEED + 1};
   for (int round = 0; round < ROUNDS; round++) {
-    const int n = 2 + round % (ABERTH_LANES_DEGREE - 1);
-    double root[4], one[ABERTH_LANES_DEGREE + 3];
+    const int n = 2 + round % (ROOTS_LANES_DEGREE - 1);
+    double root[4], one[ROOTS_LANES_DEGREE + 3];
     known_polynomial(&random, n, n < 3 ? n : 3, root, one);
     const unsigned subject = (unsigned)(random_bits(&random) % LANES);
-    struct aberth_lanes a, b;
-    lanes c[ABERTH_LANES_DEGREE + 1];
+    struct roots_lanes a = {.method = method}, b = a;
+    lanes c[ROOTS_LANES_DEGREE + 1];
     for (int k = 0; k <= n; k++) c[k] = lanes_all(one[k]);
-    const lane_mask all = aberth_lanes_set(&a, n, c);
-    start_cold(&a);
-    aberth_lanes_run(&a, all & lanes_mask(1u << subject), ABERTH_SETTLED, SWEEPS);
+    const lane_mask all = roots_lanes_set(&a, n, c);
+    roots_lanes_start(&a, all);
+    run_all(&a, all & lanes_mask(1u << subject));
     for (unsigned lane = 0; lane < LANES; lane++) {
       if (lane == subject) continue;
-      double other[ABERTH_LANES_DEGREE + 3] = {1};
+      double other[ROOTS_LANES_DEGREE + 3] = {1};
       int degree = 0;
       while (degree < n) {
         const int kind = (int)(random_bits(&random) % 4);
@@ -151,9 +178,9 @@ static void neighbours_do_not_matter(void **state)
       const int bad = (int)(random_bits(&random) % 8);
       for (int k = 0; k <= n; k++) c[k][lane] = bad == 0 ? 0 : bad == 1 ? NAN : bad == 2 ? INFINITY : other[k];
     }
-    const lane_mask able = aberth_lanes_set(&b, n, c);
-    start_cold(&b);
-    aberth_lanes_run(&b, able, ABERTH_SETTLED, SWEEPS);
+    const lane_mask able = roots_lanes_set(&b, n, c);
+    roots_lanes_start(&b, able);
+    run_all(&b, able);
     assert_true(able[subject] != 0);
     for (int i = 0; i < n; i++) {
       assert_true(a.zr[i][subject] == b.zr[i][subject]);
@@ -165,13 +192,26 @@ static void neighbours_do_not_matter(void **state)
 /* Called only where the processor has the instructions, and not part of main, which must run on all. */
 __attribute__((noinline)) static int run(void)
 {
+  static const struct {
+    enum solver_lanes method;
+    const char *name;
+  } methods[] = {{SOLVER_LANES_ABERTH, "aberth"},
+                 {SOLVER_LANES_NEWTON, "newton"},
+                 {SOLVER_LANES_LAGUERRE, "laguerre"},
+                 {SOLVER_LANES_DURAND_KERNER, "durand_kerner"}};
   print_message("seed %d, %d lanes\n", SEED, LANES);
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(known_roots_are_found),
+    cmocka_unit_test(a_root_of_quadratics_is_found),
     cmocka_unit_test(previous_roots_part_and_meet),
     cmocka_unit_test(neighbours_do_not_matter),
   };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  int failed = 0;
+  for (size_t n = 0; n < sizeof methods / sizeof methods[0]; n++) {
+    method = methods[n].method;
+    failed += cmocka_run_group_tests_name(methods[n].name, tests, NULL, NULL);
+  }
+  return failed;
 }
 
 int main(void) { return lanes_main(run); }
