@@ -146,9 +146,23 @@ const struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, stru
 
 void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
 
+/* Asks once more, one by one, for the rays whose answers are not certain: what the last resort tells of them depends on
+ * the leaves that came to it, and those on how soon the rays beside had the walk find something nearer. */
+static void ask_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit hits[])
+{
+  const struct intersect_counts counts = tracer->counts;
+  const struct kernel *kernel = kernel_for(tracer, 1);
+  for (size_t k = 0; k < count; k++)
+    if (hits[k].certainty == CERTAINTY_GRAZING) kernel->closest(tracer, 1, &rays[k], &hits[k]);
+  tracer->counts = counts;
+}
+
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
+  const uint64_t grazing = tracer->counts.grazing;
   kernel_for(tracer, count)->closest(tracer, count, rays, out_hits);
+  if (count > 1 && tracer->counts.grazing > grazing && !tracer->warm && !tracer->model->unproven)
+    ask_alone(tracer, count, rays, out_hits);
 }
 
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])

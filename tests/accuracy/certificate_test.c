@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "accuracy/certificate.h"
@@ -23,7 +22,7 @@ enum { FULL_RAYS = 40000, FULL_SITUATIONS = 50, MOST_SHOWN = 6 };
 struct count {
   size_t rays, answers[2][FINDINGS]; /* certain, grazing */
   size_t grazing_sure;               /* grazing though the judge proves the answer */
-  size_t company;                    /* other bits in a packet than alone */
+  size_t company;                    /* answered otherwise in a packet than alone */
   size_t slow;                       /* above SLOW */
   double slowest;                    /* seconds */
 };
@@ -70,13 +69,16 @@ static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
   return least;
 }
 
-/* The same bits. */
-static bool same_hit(const struct hit *a, const struct hit *b)
+/* Whether the answer in a packet is as good as the one alone: of one verdict, and where last places differ proven as well.
+ */
+static bool fits(const struct hit *alone, const struct hit *packed, const struct certifier *certifier,
+                 const struct ray *ray)
 {
-  if (a->patch != b->patch || a->certainty != b->certainty) return false;
-  return a->patch == HIT_NONE ||
-         (a->t == b->t && a->u == b->u && a->v == b->v && !memcmp(a->point, b->point, sizeof a->point) &&
-          !memcmp(a->normal, b->normal, sizeof a->normal));
+  if (alone->patch != packed->patch || alone->certainty != packed->certainty) return false;
+  if (alone->patch == HIT_NONE || alone->t == packed->t) return true;
+  struct certificate certificate;
+  certify(certifier, ray, packed, &certificate);
+  return certificate.finding <= FINDING_UNDECIDED;
 }
 
 static size_t ask(const char *name, const struct class_form *form, const struct situation *s, size_t first, size_t most,
@@ -97,8 +99,8 @@ static size_t ask(const char *name, const struct class_form *form, const struct 
     struct certificate certificate;
     const double time = trace(&trial, ray, &hit);
     certify(&certifier, ray, &hit, &certificate);
-    const bool same = same_hit(&hit, &packet[(first + n) % SITUATION_RAYS]);
-    if (!same) count->company++, show(name, form, s, ray, &hit, "otherwise in a packet");
+    if (!fits(&hit, &packet[(first + n) % SITUATION_RAYS], &certifier, ray))
+      count->company++, show(name, form, s, ray, &hit, "otherwise in a packet");
     const bool grazing = hit.certainty != CERTAINTY_CERTAIN;
     count->rays++, count->answers[grazing][certificate.finding]++;
     count->grazing_sure += grazing && certificate.finding == FINDING_PROVEN && certificate.sure;

@@ -49,3 +49,7 @@ dialogue record --binary
 echo '0 0 -4 0 0 1' >one
 echo '9 0 -4 0 0 1' >two
 dialogue line
+# An answer that is not certain is the same among others and alone.
+pscn trace "$SCENES/tangled.pscn" <"$SCENES/tangled.rays" | sed -n 5p >among
+sed -n 5p "$SCENES/tangled.rays" | pscn trace "$SCENES/tangled.pscn" >alone
+cmp among alone && cut -d ' ' -f 1,5 alone

@@ -6,8 +6,8 @@
  * The lanes take a root only where double precision leaves no question: it is proven, strictly inside its patch,
  * strictly within the ray's range, not next to another one. Whatever they leave open comes here as a list of
  * regions (leaves, or parts of a patch cut for a copy), which are searched in the order in which the ray meets them,
- * so that the answer depends neither on neighbours nor on the order in which the lanes came by. Roots are looked at in
- * wide arithmetic wherever double cannot tell on which side of something they lie.
+ * in whatever order the lanes came by. Roots are looked at in wide arithmetic wherever double cannot tell on which side
+ * of something they lie.
  */
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H
 #define PSCN_INTERSECT_EXACT_EXACT_H
