@@ -324,13 +324,28 @@ static void test_previous(void **state)
 /* ---- threads ---- */
 
 /* Stack: what pscn.h asks for, and our own arrays. Sanitizers want more. */
-enum { THREADS = 4, TURNS = 6, STACK = (256 << 10) + COUNT * 200 };
+enum { THREADS = 4, TURNS = 6, STACK = (1536 << 10) + COUNT * 200 };
+
+/* Rays past a pole at 2^-1 ... 2^-64, from outside and along the surface: those that are searched deepest. */
+static char *ask_at_pole(const struct pscn_scene *scene)
+{
+  for (int n = 0; n < 512; n++) {
+    const double off = ldexp(1, -1 - n / 8), x = off * cos(n % 8), z = off * sin(n % 8);
+    const struct pscn_ray rays[2] = {{{x, 3, z}, {0, -1, 0}, 0, INFINITY}, {{x, 1, z}, {1, -off, 0.25}, 0, INFINITY}};
+    struct pscn_hit hits[2];
+    if (pscn_nearest(scene, 2, rays, sizeof *rays, hits, sizeof *hits) != PSCN_OK) return "no answer at a pole";
+    if (hits[0].verdict == PSCN_MISS) return "a ray goes through the pole";
+  }
+  return NULL;
+}
 
 /* Asks the scene that all share, and builds, asks and frees one of its own, time and again. Returns what went wrong. */
 static void *thread_run(void *context)
 {
   const struct rays *rays = context;
   struct pscn_hit hits[COUNT];
+  char *wrong = ask_at_pole(rays->scene);
+  if (wrong) return wrong;
   for (int turn = 0; turn < TURNS; turn++) {
     memset(hits, 0, sizeof hits);
     if (pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits) != PSCN_OK ||

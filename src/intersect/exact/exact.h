@@ -1,7 +1,7 @@
 /* The last resort: what one ray meets, decided for it alone, slowly and to the end.
  *
  * Internal to src/intersect. Compiled once, scalar, without contraction: its answers are the same bits on every
- * processor. Pure; safe on any thread; uses up to a megabyte of stack.
+ * processor. Pure; safe on any thread; uses up to 1.25 MB of stack, for searches within searches.
  *
  * The lanes take a root only where double precision leaves no question: it is proven, strictly inside its patch,
  * strictly within the ray's range, not next to another one. Whatever they leave open comes here as a list of
