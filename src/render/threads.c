@@ -1,6 +1,7 @@
 /* Threads, started and waited for. */
 #include "render/threads.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 static void *run(void *argument)
@@ -10,13 +11,24 @@ static void *run(void *argument)
   return NULL;
 }
 
+/* What a thread has at least, whatever `ulimit -s` says: more than twice what a hard ray takes (intersect/exact/exact.h).
+ */
+enum { LEAST_STACK = 4 << 20 };
+
 size_t threads_start(struct thread threads[], size_t first, size_t count, team_work *work, void *context)
 {
-  for (size_t k = 0; k < count; k++) {
-    threads[k] = (struct thread){.work = work, .context = context, .worker = first + k};
-    if (pthread_create(&threads[k].id, NULL, run, &threads[k]) != 0) return k;
+  pthread_attr_t attributes;
+  size_t stack = 0, started = 0;
+  if (pthread_attr_init(&attributes) != 0) return 0;
+  bool ready = pthread_attr_getstacksize(&attributes, &stack) == 0;
+  if (ready && stack < LEAST_STACK) ready = pthread_attr_setstacksize(&attributes, LEAST_STACK) == 0;
+  for (; ready && started < count; started++) {
+    struct thread *thread = &threads[started];
+    *thread = (struct thread){.work = work, .context = context, .worker = first + started};
+    if (pthread_create(&thread->id, &attributes, run, thread) != 0) break;
   }
-  return count;
+  (void)pthread_attr_destroy(&attributes);
+  return started;
 }
 
 enum status threads_join(struct thread threads[], size_t count)

@@ -1,6 +1,8 @@
 /* Scenes that several threads prepare: the model is that of one thread, to the last bit, however the work is shared
  * out; where threads are short there is none. */
+#define _GNU_SOURCE /* pthread_getattr_np */
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -205,10 +207,39 @@ static void few(void **state)
   trial_close(&trial);
 }
 
+static enum status measure_stack(void *context, size_t worker)
+{
+  pthread_attr_t attributes;
+  size_t *stack = context;
+  if (worker == 0) return STATUS_OK; /* the calling thread */
+  assert_int_equal(pthread_getattr_np(pthread_self(), &attributes), 0);
+  assert_int_equal(pthread_attr_getstacksize(&attributes, stack), 0);
+  assert_int_equal(pthread_attr_destroy(&attributes), 0);
+  return STATUS_OK;
+}
+
+/* Where little stack is the rule (`ulimit -s`), a thread has what hard rays take all the same. */
+static void little_stack(void **state)
+{
+  (void)state;
+  pthread_attr_t attributes, before;
+  size_t stack = 0;
+  assert_int_equal(pthread_getattr_default_np(&before), 0);
+  assert_int_equal(pthread_attr_init(&attributes), 0);
+  assert_int_equal(pthread_attr_setstacksize(&attributes, 256 << 10), 0);
+  assert_int_equal(pthread_setattr_default_np(&attributes), 0);
+  const struct team team = threads_team(2);
+  assert_int_equal(team.run(2, measure_stack, &stack), STATUS_OK);
+  assert_true(stack >= 2 << 20);
+  assert_int_equal(pthread_setattr_default_np(&before), 0);
+  assert_int_equal(pthread_attr_destroy(&attributes), 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(kept),   cmocka_unit_test(not_kept_for_a_split), cmocka_unit_test(not_kept_for_their_number),
-    cmocka_unit_test(copied), cmocka_unit_test(short_of_threads),     cmocka_unit_test(few)};
+    cmocka_unit_test(kept),        cmocka_unit_test(not_kept_for_a_split), cmocka_unit_test(not_kept_for_their_number),
+    cmocka_unit_test(copied),      cmocka_unit_test(short_of_threads),     cmocka_unit_test(few),
+    cmocka_unit_test(little_stack)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
