@@ -172,6 +172,8 @@ if [ -n "$page" ] && [ -e "$folder/every" ]; then
     echo "of which it would otherwise have millions; its packets are of 8 rays and, where the processor has the instructions, 16,"
     echo "said to be coherent but for scattered rays. Shadow rays: \`rtcOccluded\`. Scattered rays: random places and directions."
     echo "hair: 10,000 patches of 1 : 200, ribbons: 1,000 of 1 : 1000, creature: 3,570 patches, animal: 11,532 (examples/generate.sh)."
+    echo "\`inside\` is made of rays exactly along shared edges, \`nested\` of parts that ask for other solvers. Up to four rays are"
+    echo "answered in registers of AVX2; one by itself still costs the start of a packet of four."
     cat "$folder/every"
   } >"$folder/section"
   replace_section "$page" 'Every scene' "$folder/section"
