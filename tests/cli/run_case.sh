@@ -10,7 +10,7 @@ set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 case=$1
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+trap '[ $BASHPID != $$ ] || rm -rf "$folder"' EXIT # not in a child that is killed before it is a program
 mkdir "$folder/work"
 cp -r "$here/scenes" "$folder/scenes"
 ln -s "$PSCN" "$folder/pscn"

@@ -65,12 +65,13 @@ if [ "${1:-}" = inside ]; then
 fi
 
 folder=$(mktemp -d)
-trap 'rm -rf "$folder" "$said"' EXIT
+# A child that is killed before it has become a program would do what is trapped here, too.
+trap '[ $BASHPID != $$ ] || rm -rf "$folder" "$said"' EXIT
 cd "$folder"
 mkdir disk
 if unshare -m true 2>/dev/null; then
   mkdir tool && pretend "$folder/tool"
-  unshare -m "$self" inside "$folder/disk" "$folder/tool" || { [ $? = 77 ] && echo "no file system can be mounted: a full disk is left out" || failed=1; }
+  unshare -m "$self" inside "$folder/disk" "$folder/tool" || { [ $? = 77 ] && echo "no file system can be mounted: a full disk is left out" || wrong "on a disk of its own"; }
 else
   echo "no file system can be mounted: a full disk is left out"
 fi
@@ -93,7 +94,7 @@ expect 4 "$PSCN" render "$scene" $small -o full.png
 [ -L full.png ] && rm full.png || wrong "the link is gone"
 expect 4 "$PSCN" dump "$scene" >/dev/full
 expect 4 "$PSCN" trace "$scene" <<<'0 0 -9 0 0 1' >/dev/full
-(umask 027 && expect 0 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || failed=1
+(umask 027 && expect 0 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "with a mask"
 [ "$(stat -c %a a.png)" = 640 ] || wrong "the mask was not heeded"
 expect 0 "$PSCN" compare a.png copy.png --quiet
 chmod 604 a.png
@@ -121,7 +122,7 @@ only a.png copy.png
 # Little address space, in which OpenImageIO would not come up (a sanitizer needs more for itself).
 if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   for kilobytes in 50000 200000 300000 395000 410000 425000 440000; do
-    (ulimit -v $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || failed=1
+    (ulimit -v $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "in $kilobytes KB"
   done
 fi
 

@@ -6,7 +6,7 @@ set -euo pipefail
 
 command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+trap '[ $BASHPID != $$ ] || rm -rf "$folder"' EXIT # not in a child that is killed before it is a program
 cd "$folder"
 export LC_ALL=C HOME=$folder/home TMPDIR=$folder/tmp
 mkdir "$TMPDIR" "scenes and more"
