@@ -9,6 +9,10 @@ struct complex_number {
   double re, im;
 };
 
+/* exp(i), a turn by one radian: an angle that no symmetry shares. */
+#define COMPLEX_RADIAN_RE 0.5403023058681398
+#define COMPLEX_RADIAN_IM 0.8414709848078965
+
 static inline struct complex_number complex_add(struct complex_number a, struct complex_number b)
 {
   return (struct complex_number){a.re + b.re, a.im + b.im};

@@ -182,7 +182,7 @@ static struct sought seek(const struct root_problem *problem, const struct solve
     if (!out.converged && out.iterations % TURN_PERIOD == 0) {
       const double now = complex_norm(move);
       if (now >= STUCK * STUCK * checked) {
-        move = complex_multiply(move, (struct complex_number){0.5403023058681398, 0.8414709848078965}); /* exp(i) */
+        move = complex_multiply(move, (struct complex_number){COMPLEX_RADIAN_RE, COMPLEX_RADIAN_IM});
         longest = longest > 1.0 ? 0.5 : 0.5 * longest;
       }
       checked = now;

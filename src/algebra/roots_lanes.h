@@ -24,6 +24,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "algebra/complex_number.h"
 #include "algebra/polynomial.h"
 #include "algebra/solver.h"
 #include "base/lanes.h"
@@ -440,7 +441,7 @@ LANES_INLINE void roots_lanes_seek(struct roots_lanes *a, int i, bool curved, do
     roots_lanes_move(a, i, &value, by, true, settled);
     if (step % ROOTS_PATIENCE != ROOTS_PATIENCE - 1) continue;
     const struct roots_lanes_complex at = {a->zr[i], a->zi[i]},
-                                     radian = {lanes_all(0.5403023058681398), lanes_all(0.8414709848078965)};
+                                     radian = {lanes_all(COMPLEX_RADIAN_RE), lanes_all(COMPLEX_RADIAN_IM)};
     const struct roots_lanes_complex on = roots_lanes_times(at, radian);
     const lane_mask moving = a->moving[i] & a->seeking;
     a->zr[i] = lanes_select(moving, on.re, at.re), a->zi[i] = lanes_select(moving, on.im, at.im);

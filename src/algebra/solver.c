@@ -84,9 +84,9 @@ static bool worth_solving(const struct polynomial *p, struct root_set *out)
   return finite && !zero;
 }
 
-/* Whose roots are known to 2^unit of their own: the polynomial in x with u = 2^unit x. In powers of u the unit is that of
- * the mean modulus of the roots, so that no size of u makes values, their bounds or their squares over- or underflow;
- * the paper's form has a tolerance in u and its unit is 1. */
+/* The exponent of the unit in which roots are sought, of x with u = 2^unit x. In powers of u it is next to the roots' mean
+ * modulus, so that no size of u makes values, their bounds or their squares over- or underflow. The paper's tolerance is
+ * one in u, and [0,1] an interval of u: there the unit is 1, as in Bernstein form. */
 static int unit_of(const struct root_problem *problem, const struct solver_options *options)
 {
   const double low = log2(fabs(problem->c[0])), high = log2(fabs(problem->c[problem->degree]));
@@ -206,7 +206,7 @@ static void tell_in_u(void *context, int root, int step, double re, double im)
 struct task {
   struct root_problem rest; /* the polynomial without its exact roots at the ends */
   int unit;
-  int infinite, exact; /* those roots: at infinity; in the answer, where they are the first */
+  int exact; /* how many of those are in the answer, where they are the first */
 };
 
 static void ask_solver(const struct root_problem *problem, int unit, const struct solver_options *options,
@@ -235,7 +235,7 @@ static bool find_roots(const struct polynomial *p, const struct solver_options *
   *rest = (struct root_problem){.degree = p->degree, .basis = p->basis};
   memcpy(rest->c, p->c, sizeof p->c[0] * (size_t)(p->degree + 1));
   if (p->error != NULL) memcpy(rest->error, p->error, sizeof p->error[0] * (size_t)(p->degree + 1));
-  task->infinite = strip_ends(rest, out);
+  const int infinite = strip_ends(rest, out);
   task->exact = out->count;
   task->unit = unit_of(rest, options);
   scale_problem(rest, task->unit);
@@ -254,7 +254,7 @@ static bool find_roots(const struct polynomial *p, const struct solver_options *
       }
     }
   }
-  if (!options->solver->real_only) out->missing = p->degree - task->infinite - out->count;
+  if (!options->solver->real_only) out->missing = p->degree - infinite - out->count;
   return true;
 }
 

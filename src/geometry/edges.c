@@ -12,8 +12,8 @@ struct border {
   bool reversed;      /* against the running parameter */
 };
 
-/* The first border of those points, counted from 1, or 0 for a free place; MANY where there are more than two of them.
- * */
+/* The first border of those points, counted from 1, or 0 for a free place; with MANY where there are more than two of
+ * them. */
 struct place {
   uint32_t border;
   uint32_t tag; /* bits of the hash */

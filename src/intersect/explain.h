@@ -36,8 +36,7 @@ struct explained_candidate {
   int split[2], column_u, column_v; /* the leaf is [column, column + 1]/split, along u and v */
   bool v_kept;                      /* r is one of v, and u follows; otherwise the other way round */
   int kept_degree, other_degree;
-  bool
-    blind; /* the ray starts so far away that double precision tells nothing: left to the last resort, nothing follows */
+  bool blind; /* the ray starts too far away for double precision: left to the last resort, and nothing follows */
   double a[16], b[16]; /* eq 3: Bernstein coefficients [4 i + j], i of the kept parameter */
   enum stage reached;  /* the last stage it came to (intersect.h) */
   bool solved;         /* it came to STAGE_BILINEAR or STAGE_ROOTS; the rest is what the solver makes of r */

@@ -11,8 +11,8 @@ static void *run(void *argument)
   return NULL;
 }
 
-/* What a thread has at least, whatever `ulimit -s` says: more than twice what a hard ray takes (intersect/exact/exact.h).
- */
+/* What a thread has at least, whatever `ulimit -s` says: more than twice what a hard ray takes, as of
+ * intersect/exact/exact.h. */
 enum { LEAST_STACK = 4 << 20 };
 
 size_t threads_start(struct thread threads[], size_t first, size_t count, team_work *work, void *context)

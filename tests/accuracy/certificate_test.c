@@ -69,8 +69,8 @@ static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
   return least;
 }
 
-/* Whether the answer in a packet is as good as the one alone: of one verdict, and where last places differ proven as well.
- */
+/* Whether the answer in a packet is as good as the one alone: of one verdict, and where last places differ proven as
+ * well. */
 static bool fits(const struct hit *alone, const struct hit *packed, const struct certifier *certifier,
                  const struct ray *ray)
 {

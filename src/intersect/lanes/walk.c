@@ -232,7 +232,7 @@ LANES_INLINE struct ray_view ray_view_of(const struct view *view, unsigned lane)
   return ray;
 }
 
-/* The node's children that the ray passes before `end`, as bits; as bundle_box. */
+/* The node's children that the ray passes before `end`, as bits; as bundle_boxes. */
 LANES_INLINE unsigned ray_boxes(const struct ray_view *ray, float end, const struct bvh_node *node, float out_near[4])
 {
   four_floats near = four_floats_all(0), far = four_floats_all(end), first, last;

@@ -29,8 +29,8 @@ enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 /* A patch's frame is no smaller than this, so that its reciprocal and all products with it are normal numbers. */
 #define LEAST_SCALE 0x1p-1000
 
-/* Writes all but the rest, and that to where it may stay; tells whether there is any. Returns the largest |coordinate|.
- * */
+/* Writes all but the rest, and that to where it may stay; *rounded: whether there is any. Returns the largest
+ * |coordinate|. */
 static double patch_frame(double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4],
                           bool *rounded)
 {
