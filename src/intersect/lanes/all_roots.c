@@ -103,7 +103,8 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
 }
 
 /* The lanes of `open` where these are all that the leaf has, by boxes. */
-static lane_mask all_roots_cover(const struct candidate *it, const struct all_roots *all, lane_mask open)
+static lane_mask all_roots_cover(const struct packet *p, const struct candidate *it, const struct all_roots *all,
+                                 lane_mask open)
 {
   struct known_root known[TRIED_ROOTS];
   int count = 0;
@@ -112,7 +113,7 @@ static lane_mask all_roots_cover(const struct candidate *it, const struct all_ro
     const lane_mask proven = all->proven[k] & open;
     if (lanes_any(proven)) known[count++] = (struct known_root){r->u, r->v, r->size, r->bend, r->off, proven};
   }
-  return cover_proves(it, count, known, COVER_HALVINGS, open);
+  return cover_proves(p, it, count, known, COVER_HALVINGS, open);
 }
 
 /* The roots of the polynomial that is set, on the lanes of `active` where the method finds them: see roots_lanes_run. */
@@ -154,7 +155,7 @@ static lane_mask all_roots_find(struct packet *p, const struct candidate *it, la
   /* One sign variation is a root, which mostly is a hit. */
   const lane_mask doubtful = active & (it->variations != 1);
   lane_mask missed = {0};
-  if (lanes_any(doubtful)) missed = cover_proves(it, 0, NULL, MISS_HALVINGS, doubtful);
+  if (lanes_any(doubtful)) missed = cover_proves(p, it, 0, NULL, MISS_HALVINGS, doubtful);
   if (!lanes_any(active & ~missed)) return missed;
   const lane_mask able = roots_lanes_set(&a, it->degree, it->c);
   const lane_mask done = all_roots_solve(p, it, active & ~missed & able, it->variations, &a);
@@ -178,7 +179,7 @@ lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask acti
   all_roots_offer(p, it, &all, p->any ? active : decided);
   const lane_mask open = active & ~decided & p->live;
   if (!lanes_any(open)) return open;
-  const lane_mask covered = all_roots_cover(it, &all, open);
+  const lane_mask covered = all_roots_cover(p, it, &all, open);
   all_roots_offer(p, it, &all, covered);
   return open & ~covered;
 }

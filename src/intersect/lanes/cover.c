@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "intersect/lanes/cover.h"
+#include "intersect/lanes/nearest.h"
 
 /* A choice of speed, as COVER_HALVINGS. */
 enum { COVER_SPLITS = 160 };
@@ -76,8 +77,16 @@ LANES_INLINE lane_mask cover_full(const struct cover_box *box, lanes size, lanes
   return open;
 }
 
-lane_mask cover_proves(const struct candidate *it, int count, const struct known_root roots[], int halvings,
-                       lane_mask open)
+/* The lanes of `open` that look where the box is. */
+static lane_mask cover_seen(const struct packet *p, const struct candidate *it, const struct cover_box *box,
+                            lane_mask open)
+{
+  const double half[2] = {0.5 * box->size_u, 0.5 * box->size_v}, middle[2] = {box->u + half[0], box->v + half[1]};
+  return open & ~box_out_of_range(p, it, middle, half);
+}
+
+lane_mask cover_proves(const struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
+                       int halvings, lane_mask open)
 {
   struct cover_box stack[COVER_HALVINGS + 2];
   struct cover_box *whole = &stack[0];
@@ -104,6 +113,7 @@ lane_mask cover_proves(const struct candidate *it, int count, const struct known
       struct cover_box *half = &stack[first + h];
       for (int k = 0; k < count; k++) half->open = cover_unknown(it->leaf, half, &roots[k], half->open);
       if (lanes_any(half->open)) half->open = cover_full(half, size, error, half->open);
+      if (lanes_any(half->open)) half->open = cover_seen(p, it, half, half->open);
       if (!lanes_any(half->open)) continue;
       if (top != first + h) stack[top] = *half;
       top++;

@@ -13,6 +13,7 @@
 #define packet_enter KERNEL(packet_enter)
 #define packet_leave KERNEL(packet_leave)
 #define packet_leaf KERNEL(packet_leaf)
+#define box_out_of_range KERNEL(box_out_of_range)
 #define offer_root KERNEL(offer_root)
 #define offer_bend_root KERNEL(offer_bend_root)
 #define offer_unproven KERNEL(offer_unproven)

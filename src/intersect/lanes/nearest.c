@@ -56,13 +56,30 @@ LANES_INLINE lanes depth_to_t(const struct packet *p, int axis, lanes w)
   return ((w + start[1]) + start[0]) * p->local[axis].to_t;
 }
 
-/* The bound on the error of a proven root's t: how far its radii let x_k move, and the roundings of x_k and it. */
+/* The bound on the error of t of a root within these radii: how far they let x_k move, and the roundings of x_k and it. */
 LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *it, const struct newton_root *r,
                                 lanes w, lanes at)
 {
   const lanes size = lanes_abs(p->local[it->axis].to_t);
   return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + p->local[it->axis].error) +
          8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
+}
+
+/* Lanes where a root at `at`, off by no more than `error`, is not where the ray looks. */
+LANES_INLINE lane_mask out_of_range(const struct packet *p, lanes at, lanes error)
+{
+  return (at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far));
+}
+
+lane_mask box_out_of_range(const struct packet *p, const struct candidate *it, const double middle[2],
+                           const double half[2])
+{
+  const struct newton_root box = {.u = lanes_all(middle[0]),
+                                  .v = lanes_all(middle[1]),
+                                  .radius_u = lanes_all(half[0]),
+                                  .radius_v = lanes_all(half[1])};
+  const lanes w = plane_depth(it, box.u, box.v), at = depth_to_t(p, it->axis, w);
+  return out_of_range(p, at, root_t_error(p, it, &box, w, at));
 }
 
 /* The root and its radii in parameters of the patch. */
@@ -107,7 +124,7 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const lanes error = root_t_error(p, it, r, w, at);
-  hits &= ~((at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far)));
+  hits &= ~out_of_range(p, at, error);
   if (!lanes_any(hits)) return hits;
   lane_mask rival = lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t);
   if (lanes_any(hits & rival)) rival &= ~same_root(p, it, r, patch);

@@ -36,6 +36,10 @@ LANES_INLINE lane_mask inside(const struct newton_root *r)
          (r->v - 1 <= r->radius_v);
 }
 
+/* Lanes on which no root in the box of the leaf's parameters, `half` about its middle, is where the ray looks. */
+lane_mask box_out_of_range(const struct packet *p, const struct candidate *it, const double middle[2],
+                           const double half[2]);
+
 /* Proven roots of several lanes. */
 void offer_root(struct packet *p, const struct candidate *it, const struct newton_root *r, lane_mask hits);
 

@@ -126,22 +126,22 @@ static struct newton_root resultant_refine(const struct candidate *it, bool firs
   return newton_refine(&it->nets, it->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, active);
 }
 
-/* Lanes of `open` where it is proven that the leaf has no roots but r, where that one is proven, and another one, where
- * there is one: those are offered. */
+/* Lanes of `open` where it is proven that the leaf has no roots in sight but r, where that one is proven, and another one,
+ * where there is one: those are offered. */
 static lane_mask resultant_cover(struct packet *p, const struct candidate *it, const struct newton_root *r,
                                  lane_mask open)
 {
-  const lane_mask proven = open & r->exists, more = proven & (it->variations >= 2);
+  const lane_mask proven = open & r->exists, more = open & (it->variations >= 2);
   struct known_root known[2] = {{r->u, r->v, r->size, r->bend, r->off, proven}};
   struct newton_root other = {.exists = {0}};
   if (lanes_any(more)) {
     other = resultant_refine(it, true, more);
-    const lane_mask apart = (lanes_abs(r->u - other.u) > r->radius_u + other.radius_u + UNIT_ROUNDOFF) |
+    const lane_mask apart = ~proven | (lanes_abs(r->u - other.u) > r->radius_u + other.radius_u + UNIT_ROUNDOFF) |
                             (lanes_abs(r->v - other.v) > r->radius_v + other.radius_v + UNIT_ROUNDOFF);
     other.exists &= more & apart;
     known[1] = (struct known_root){other.u, other.v, other.size, other.bend, other.off, other.exists};
   }
-  const lane_mask covered = cover_proves(it, lanes_any(other.exists) ? 2 : 1, known, COVER_HALVINGS, open);
+  const lane_mask covered = cover_proves(p, it, lanes_any(other.exists) ? 2 : 1, known, COVER_HALVINGS, open);
   offer_root(p, it, r, covered & proven & inside(r));
   offer_root(p, it, &other, covered & other.exists & inside(&other));
   return covered;
