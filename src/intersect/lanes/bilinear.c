@@ -108,21 +108,21 @@ struct plane {
   lanes value, ds, dt;
 };
 
-LANES_INLINE struct plane plane_at(const struct packet *p, int axis, int number, const struct coordinate *i,
+LANES_INLINE struct plane plane_at(const struct line *line, int number, const struct coordinate *i,
                                    const struct coordinate *k)
 {
-  const lanes slope = p->slope[axis][number];
+  const lanes slope = line->slope[number];
   const lanes along = slope * k->hi, along_error = lanes_product_error(slope, k->hi, along);
-  const struct double_lanes side = double_lanes_sum(i->hi, -p->local[axis].moment[number]);
-  const lanes rest = (i->lo - p->local[axis].moment_rest[number]) -
-                     lanes_multiply_add(slope, k->lo, p->slope_rest[axis][number] * k->hi);
+  const struct double_lanes side = double_lanes_sum(i->hi, -line->moment[number]);
+  const lanes rest = (i->lo - line->moment_rest[number]) -
+                     lanes_multiply_add(slope, k->lo, line->slope_rest[number] * k->hi);
   return (struct plane){(side.hi - along) + (rest + (side.lo - along_error)), i->ds - slope * k->ds,
                         i->dt - slope * k->dt};
 }
 
-LANES_INLINE lanes plane_of(const struct packet *p, int axis, int number, const double base[3][4], int n)
+LANES_INLINE lanes plane_of(const struct line *line, int axis, int number, const double base[3][4], int n)
 {
-  return base[(axis + 1 + number) % 3][n] - p->slope[axis][number] * base[axis][n];
+  return base[(axis + 1 + number) % 3][n] - line->slope[number] * base[axis][n];
 }
 
 /* 0 where t is not a number, and within the leaf. */
@@ -140,10 +140,10 @@ LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, la
   const int axis = it->axis;
   lanes a[4], b[4], s;
   for (int n = 0; n < 4; n++) {
-    a[n] = plane_of(p, axis, 0, it->leaf->parts->base, n);
-    b[n] = plane_of(p, axis, 1, it->leaf->parts->base, n);
+    a[n] = plane_of(it->line, axis, 0, it->leaf->parts->base, n);
+    b[n] = plane_of(it->line, axis, 1, it->leaf->parts->base, n);
   }
-  a[0] -= p->local[axis].moment[0], b[0] -= p->local[axis].moment[1];
+  a[0] -= it->line->moment[0], b[0] -= it->line->moment[1];
   const lanes r0 = a[0] * b[2] - a[2] * b[0], r2 = a[1] * b[3] - a[3] * b[1];
   const lanes r1 = (a[0] * b[3] - a[3] * b[0]) + (a[1] * b[2] - a[2] * b[1]);
   if (it->patch->lanes == SOLVER_LANES_SIGNS) {
@@ -171,12 +171,12 @@ struct halfway {
   lanes reach, rest;
 };
 
-LANES_INLINE struct row row_bounds(const struct packet *p, int axis, const struct halfway *at, lanes ma, lanes mb,
+LANES_INLINE struct row row_bounds(const struct line *line, int axis, const struct halfway *at, lanes ma, lanes mb,
                                    bool second)
 {
   const struct coordinate *xk = &at->x[axis], *xi = &at->x[(axis + 1) % 3], *xj = &at->x[(axis + 2) % 3];
   const struct curvature *hk = &at->h[axis], *hi = &at->h[(axis + 1) % 3], *hj = &at->h[(axis + 2) % 3];
-  const lanes mk = -(ma * p->slope[axis][0] + mb * p->slope[axis][1]);
+  const lanes mk = -(ma * line->slope[0] + mb * line->slope[1]);
   const lanes ds = ma * xi->ds + mb * xj->ds + mk * xk->ds, dt = ma * xi->dt + mb * xj->dt + mk * xk->dt;
   const lanes ss = lanes_abs(ma * hi->ss + mb * hj->ss + mk * hk->ss);
   const lanes st = lanes_abs(ma * hi->st + mb * hj->st + mk * hk->st);
@@ -196,7 +196,7 @@ LANES_INLINE struct row row_bounds(const struct packet *p, int axis, const struc
  * the middle of the leaf, c: there the Jacobian is J(c) + H(c) d but for |T|/32. Where no such matrix can be singular,
  * because M times it has a positive diagonal whose product is larger than that of the other elements, no other point
  * of the leaf has the root's values. */
-LANES_INLINE lane_mask alone_at(const struct packet *p, int axis, const struct leaf *leaf,
+LANES_INLINE lane_mask alone_at(const struct line *line, int axis, const struct leaf *leaf,
                                 const struct newton_inverse *m, const struct newton_root *r, lanes step, lanes s,
                                 lanes t)
 {
@@ -206,8 +206,8 @@ LANES_INLINE lane_mask alone_at(const struct packet *p, int axis, const struct l
   const double way = 1 + LEAF_MARGIN, third = leaf->parts->third * (way * way / 24 + 1.0 / 32);
   at.reach = 0.25 + (step + lanes_max(r->radius_u, r->radius_v)); /* (s,t) is not the root itself */
   at.rest = r->size * (third + DERIVATIVE_ROUNDINGS * UNIT_ROUNDOFF * (1 + leaf->first[0] + leaf->first[1]));
-  const struct row u = row_bounds(p, axis, &at, m->ua, m->ub, false);
-  const struct row v = row_bounds(p, axis, &at, m->va, m->vb, true);
+  const struct row u = row_bounds(line, axis, &at, m->ua, m->ub, false);
+  const struct row v = row_bounds(line, axis, &at, m->va, m->vb, true);
   return (u.least > 0) & (v.least > 0) & (u.least * v.least > (1 + 8 * UNIT_ROUNDOFF) * (u.cross * v.cross));
 }
 
@@ -215,6 +215,7 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
                          lane_mask active, struct bilinear_root *out)
 {
   const struct leaf_parts *parts = leaf->parts;
+  const struct line *line = &p->line[axis];
   const int k = axis;
   struct coordinate x[3];
   struct newton_inverse m;
@@ -222,7 +223,7 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
   lane_mask settled, moving = active;
   for (int n = 1;; n++) {
     surface_at(parts, s, t, x);
-    const struct plane a = plane_at(p, k, 0, &x[(k + 1) % 3], &x[k]), b = plane_at(p, k, 1, &x[(k + 2) % 3], &x[k]);
+    const struct plane a = plane_at(line, 0, &x[(k + 1) % 3], &x[k]), b = plane_at(line, 1, &x[(k + 2) % 3], &x[k]);
     const lanes inverse = 1 / (a.ds * b.dt - a.dt * b.ds);
     m = (struct newton_inverse){b.dt * inverse, -a.dt * inverse, -b.ds * inverse, a.ds * inverse};
     step_s = m.ua * a.value + m.ub * b.value, step_t = m.va * a.value + m.vb * b.value;
@@ -235,13 +236,13 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
     s = lanes_select(moving, s - step_s, s), t = lanes_select(moving, t - step_t, t);
   }
   out->at.u = (s - step_s) + 0.5, out->at.v = (t - step_t) + 0.5;
-  newton_prove(leaf, &m, p->slope[k], p->local[k].error, step, settled, &out->at);
+  newton_prove(leaf, &m, line->slope, line->error, step, settled, &out->at);
   const lane_mask open = out->at.exists & ~out->at.alone;
-  if (lanes_any(open)) out->at.alone |= open & alone_at(p, k, leaf, &m, &out->at, step, s, t);
-  const struct double_lanes way = double_lanes_sum(x[k].hi, p->local[k].start[0]);
+  if (lanes_any(open)) out->at.alone |= open & alone_at(line, k, leaf, &m, &out->at, step, s, t);
+  const struct double_lanes way = double_lanes_sum(x[k].hi, line->start[0]);
   const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
   out->w = x[k].hi + rest;
-  out->t = (way.hi + (rest + (way.lo + p->local[k].start[1]))) * p->local[k].to_t;
+  out->t = (way.hi + (rest + (way.lo + line->start[1]))) * line->to_t;
   if (p->any) return;
   for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo - (x[c].ds * step_s + x[c].dt * step_t));
   const lane_mask turned = settled & (step > parts->slope_step);

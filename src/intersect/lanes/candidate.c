@@ -11,7 +11,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
 {
   const struct model_patch *patch = it->patch;
   uint64_t *entered = p->tracer->counts.stages;
-  open = stage_box(p, it, open);
+  open = stage_box(it, open);
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
   if (it->leaf->parts) {
@@ -20,10 +20,10 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     if (!lanes_any(open)) return;
   }
   entered[STAGE_PLANES] += lanes_count(open);
-  open = stage_planes(p, it, open);
+  open = stage_planes(it, open);
   if (!lanes_any(open)) return;
   entered[STAGE_RESULTANT] += lanes_count(open);
-  open = stage_resultant(p, it, open);
+  open = stage_resultant(it, open);
   if (!lanes_any(open)) return;
   entered[STAGE_ROOTS] += lanes_count(open);
   if (patch->lanes == SOLVER_LANES_SIGNS) open = stage_first_root(p, it, open);
@@ -81,8 +81,8 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
   if (lanes_count(active) <= FEW) fetch_parts(it.leaf);
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {
-    it.axis = __builtin_ctz(bits);
-    const lane_mask at = active & p->on_axis[it.axis], blind = at & (p->local[it.axis].error > BLIND);
+    it.axis = __builtin_ctz(bits), it.line = &p->line[it.axis];
+    const lane_mask at = active & p->on_axis[it.axis], blind = at & (it.line->error > BLIND);
     const lane_mask here = at & ~blind;
     if (lanes_any(blind)) packet_postpone(p, it.leaf, blind);
     const bool explained = p->tracer->explainer && lanes_any(at);

@@ -19,6 +19,7 @@ struct candidate {
   const struct model_patch *patch; /* the leaf's */
   int64_t number;                  /* the leaf's, in its model */
   int axis;
+  const struct line *line; /* the packet's for that axis */
   struct plane_nets nets;
   lanes alpha, beta;            /* largest |a|, |b| of the nets, then of the form */
   lanes form_error;             /* of a coefficient of the form */
@@ -31,17 +32,17 @@ struct candidate {
 };
 
 /* planes.c: the box along the leaf. */
-lane_mask stage_box(struct packet *p, struct candidate *it, lane_mask open);
+lane_mask stage_box(struct candidate *it, lane_mask open);
 
 /* bilinear.c: of a nearly bilinear leaf the root of its bilinear part, of degree 2, made good by Newton's process on
  * the leaf. Open stays where the ray is so slanted that the leaf's bend matters. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
 /* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net. */
-lane_mask stage_planes(struct packet *p, struct candidate *it, lane_mask open);
+lane_mask stage_planes(struct candidate *it, lane_mask open);
 
 /* resultant.c: Bezout's resultant r of a and b in Bernstein form: closed where it has no sign variation. */
-lane_mask stage_resultant(struct packet *p, struct candidate *it, lane_mask open);
+lane_mask stage_resultant(struct candidate *it, lane_mask open);
 
 /* resultant.c: one root of r, from its control polygon, and where it is not alone another one. Closed where these are
  * proven to be all. */
@@ -58,11 +59,11 @@ lanes method_quadratic_root(struct packet *p, const struct candidate *it, const 
 /* one_by_one.c: the method that the scene asks for, in a form that is not for lanes, or without polish, lane by lane. */
 lane_mask stage_method(struct packet *p, struct candidate *it, lane_mask open);
 
-LANES_INLINE void plane_values(const struct packet *p, int axis, const double x[3][16], int at, lanes *a, lanes *b)
+LANES_INLINE void plane_values(const struct line *line, int axis, const double x[3][16], int at, lanes *a, lanes *b)
 {
   const double k = x[axis][at], i = x[(axis + 1) % 3][at], j = x[(axis + 2) % 3][at];
-  *a = (i - p->local[axis].moment[0]) - p->slope[axis][0] * k;
-  *b = (j - p->local[axis].moment[1]) - p->slope[axis][1] * k;
+  *a = (i - line->moment[0]) - line->slope[0] * k;
+  *b = (j - line->moment[1]) - line->slope[1] * k;
 }
 
 /* planes.c: x_k of the points (u,v). */

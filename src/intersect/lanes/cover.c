@@ -77,7 +77,7 @@ LANES_INLINE lane_mask cover_full(const struct cover_box *box, lanes size, lanes
   return open;
 }
 
-/* The lanes of `open` that look where the box is. */
+/* The lanes of `open` between whose ends the box is. */
 static lane_mask cover_seen(const struct packet *p, const struct candidate *it, const struct cover_box *box,
                             lane_mask open)
 {

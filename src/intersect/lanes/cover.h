@@ -2,7 +2,7 @@
  *
  * Internal to src/intersect/lanes. A box of parameters is cleared where a plane polynomial or one of the combinations
  * that aim along u and v keeps one sign on its net (as planes.c does with the leaf's), or where a proven root is alone
- * on the box and itself together, by the certificate, or where no root would be where the ray looks. Other boxes are halved. What exact/search.c does for one ray in
+ * on the box and itself together, by the certificate, or where no root would be between the ends of the ray. Other boxes are halved. What exact/search.c does for one ray in
  * the last resort; this ends most cases before.
  */
 #ifndef PSCN_INTERSECT_LANES_COVER_H
@@ -19,7 +19,7 @@ struct known_root {
   lane_mask proven;
 };
 
-/* The lanes of `open` on which all of the leaf's roots that are where the ray looks are among `roots`. */
+/* The lanes of `open` on which all of the leaf's roots that are between the ends of the ray are among `roots`. */
 lane_mask cover_proves(const struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open);
 

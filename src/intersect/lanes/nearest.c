@@ -50,25 +50,18 @@ static lane_mask on_border(const struct candidate *it, const struct newton_root 
 }
 
 /* t where x_k = w. */
-LANES_INLINE lanes depth_to_t(const struct packet *p, int axis, lanes w)
+LANES_INLINE lanes depth_to_t(const struct line *line, lanes w)
 {
-  const lanes *start = p->local[axis].start;
-  return ((w + start[1]) + start[0]) * p->local[axis].to_t;
+  return ((w + line->start[1]) + line->start[0]) * line->to_t;
 }
 
 /* The bound on the error of t of a root within these radii: how far they let x_k move, and the roundings of x_k and it. */
 LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *it, const struct newton_root *r,
                                 lanes w, lanes at)
 {
-  const lanes size = lanes_abs(p->local[it->axis].to_t);
-  return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + p->local[it->axis].error) +
+  const lanes size = lanes_abs(it->line->to_t);
+  return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + it->line->error) +
          8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
-}
-
-/* Lanes where a root at `at`, off by no more than `error`, is not where the ray looks. */
-LANES_INLINE lane_mask out_of_range(const struct packet *p, lanes at, lanes error)
-{
-  return (at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far));
 }
 
 lane_mask box_out_of_range(const struct packet *p, const struct candidate *it, const double middle[2],
@@ -78,8 +71,9 @@ lane_mask box_out_of_range(const struct packet *p, const struct candidate *it, c
                                   .v = lanes_all(middle[1]),
                                   .radius_u = lanes_all(half[0]),
                                   .radius_v = lanes_all(half[1])};
-  const lanes w = plane_depth(it, box.u, box.v), at = depth_to_t(p, it->axis, w);
-  return out_of_range(p, at, root_t_error(p, it, &box, w, at));
+  const lanes w = plane_depth(it, box.u, box.v), at = depth_to_t(it->line, w);
+  const lanes error = root_t_error(p, it, &box, w, at);
+  return (at < p->t_min - error) | (at > p->t_max + error);
 }
 
 /* The root and its radii in parameters of the patch. */
@@ -124,7 +118,7 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
 {
   const int64_t leaf = it->number, patch = it->leaf->patch + (p->outer ? p->copy->first_patch : 0);
   const lanes error = root_t_error(p, it, r, w, at);
-  hits &= ~out_of_range(p, at, error);
+  hits &= ~((at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far)));
   if (!lanes_any(hits)) return hits;
   lane_mask rival = lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t);
   if (lanes_any(hits & rival)) rival &= ~same_root(p, it, r, patch);
@@ -140,14 +134,14 @@ void offer_root(struct packet *p, const struct candidate *it, const struct newto
 {
   if (!lanes_any(hits)) return;
   const lanes w = plane_depth(it, r->u, r->v);
-  const lane_mask taken = offer(p, it, r, w, depth_to_t(p, it->axis, w), hits);
+  const lane_mask taken = offer(p, it, r, w, depth_to_t(it->line, w), hits);
   if (p->gather && lanes_any(taken)) gather_best(p, taken);
 }
 
 void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits)
 {
   const struct newton_root r = {.u = u, .v = v};
-  const lanes w = plane_depth(it, u, v), at = depth_to_t(p, it->axis, w), error = root_t_error(p, it, &r, w, at);
+  const lanes w = plane_depth(it, u, v), at = depth_to_t(it->line, w), error = root_t_error(p, it, &r, w, at);
   const lane_mask behind = at > p->t_min + error, none = {0};
   p->best.doubt |= hits & ~behind & ~(at < p->t_min - error);
   const lane_mask taken = hits & behind & (at < p->t_max) &

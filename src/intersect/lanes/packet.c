@@ -47,8 +47,8 @@ void packet_orient(struct packet *p)
     p->reciprocal[k] = 1 / p->direction[k];
     for (int s = 0; s < 2; s++) {
       const lanes d = p->direction[(k + 1 + s) % 3], slope = d * p->reciprocal[k];
-      p->slope[k][s] = lanes_select(p->on_axis[k], slope, lanes_all(0));
-      p->slope_rest[k][s] = -lanes_product_error(slope, p->direction[k], d) * p->reciprocal[k];
+      p->line[k].slope[s] = lanes_select(p->on_axis[k], slope, lanes_all(0));
+      p->line[k].slope_rest[s] = -lanes_product_error(slope, p->direction[k], d) * p->reciprocal[k];
     }
   }
   p->best.u = p->best.v = p->best.radius_u = p->best.radius_v = lanes_all(0), p->best.t = lanes_all(INFINITY);
@@ -67,23 +67,24 @@ void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_
   }
   for (int k = 0; k < 3; k++) {
     if (!(p->axes & 1u << k)) continue;
+    struct line *line = &p->line[k];
     lanes far[2];
     for (int s = 0; s < 2; s++) {
       const int i = (k + 1 + s) % 3;
-      far[s] = MOMENT_ERROR(lanes_abs(hi[i]), lanes_abs(hi[k] * p->slope[k][s]));
+      far[s] = MOMENT_ERROR(lanes_abs(hi[i]), lanes_abs(hi[k] * line->slope[s]));
       const lanes plus = hi[i] * p->direction[k], minus = hi[k] * p->direction[i];
       const lanes plus_error = lanes_product_error(hi[i], p->direction[k], plus);
       const lanes minus_error = lanes_product_error(hi[k], p->direction[i], minus);
       struct double_lanes sum = double_lanes_sum(plus, -minus);
       sum.lo += (plus_error - minus_error) + (lo[i] * p->direction[k] - lo[k] * p->direction[i]);
       const lanes moment = (sum.hi + sum.lo) * p->reciprocal[k];
-      p->local[k].moment[s] = moment;
-      p->local[k].moment_rest[s] = (sum.lo - lanes_product_error(moment, p->direction[k], sum.hi)) * p->reciprocal[k];
+      line->moment[s] = moment;
+      line->moment_rest[s] = (sum.lo - lanes_product_error(moment, p->direction[k], sum.hi)) * p->reciprocal[k];
     }
-    p->local[k].start[0] = -hi[k], p->local[k].start[1] = -lo[k];
-    p->local[k].to_t = patch->scale * p->reciprocal[k];
-    p->local[k].error = PLANE_ERROR(lanes_abs(p->local[k].moment[0]), lanes_abs(p->local[k].moment[1])) +
-                        lanes_max(far[0], far[1]) + 2 * p->net_error * inverse;
+    line->start[0] = -hi[k], line->start[1] = -lo[k];
+    line->to_t = patch->scale * p->reciprocal[k];
+    line->error = PLANE_ERROR(lanes_abs(line->moment[0]), lanes_abs(line->moment[1])) + lanes_max(far[0], far[1]) +
+                  2 * p->net_error * inverse;
   }
   p->patch = index;
 }

@@ -35,6 +35,14 @@ struct best {
   lane_mask doubt; /* some unproven root could not be told from t_min, and was left out */
 };
 
+/* Rays in the frame of a patch, as local_ray.h has one of them. */
+struct line {
+  lanes slope[2], slope_rest[2]; /* 0 on lanes of another axis; slope_rest: what its rounding took away */
+  lanes moment[2], moment_rest[2];
+  lanes start[2], to_t;
+  lanes error;
+};
+
 /* What the lanes leave open, a list a lane. */
 struct postponed {
   /* bit k: lane k has a list, some of it were merged, that left too little room to do it again, and there were more than
@@ -62,19 +70,15 @@ struct packet {
   lanes t_min, t_max, t_far;              /* t_far: the nearest hit so far plus its error, or the ray's end */
   /* what control points and rays are off by besides their rounding in a patch's frame */
   double net_error;
-  lanes t_error;                    /* what that, and the shift, makes of t */
-  struct postponed *postponed;      /* not used where all hits are asked for */
-  uint32_t patch;                   /* the one tried last, UINT32_MAX for none */
-  bool oriented;                    /* by packet_orient, without which nothing of what follows is set: */
-  lane_mask on_axis[3];             /* lanes whose dominant axis this is */
-  unsigned axes;                    /* bit k: some lane's */
-  lanes slope[3][2], reciprocal[3]; /* per axis; slope 0 on other lanes */
-  lanes slope_rest[3][2];           /* what its rounding took away */
+  lanes t_error;               /* what that, and the shift, makes of t */
+  struct postponed *postponed; /* not used where all hits are asked for */
+  uint32_t patch;              /* the one tried last, UINT32_MAX for none */
+  bool oriented;               /* by packet_orient, without which nothing of what follows is set: */
+  lane_mask on_axis[3];        /* lanes whose dominant axis this is */
+  unsigned axes;               /* bit k: some lane's */
+  lanes reciprocal[3];         /* of the direction, per axis */
+  struct line line[3];         /* per axis; but for the slopes of the patch tried last */
   struct best best;
-  /* The frame of the patch. */
-  struct {
-    lanes moment[2], moment_rest[2], start[2], to_t, error;
-  } local[3];
 };
 
 /* The dominant axis of a lane that looks for a hit. */

@@ -8,18 +8,19 @@
  * slabs' forms are A + B w; two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With
  * e the bound on a plane's error (local_ray.h), A is off by 2 |g| e and B by 4u |g|, where |A| u <= |g| e/4 and |B|
  * <= |g|: the products by 8 |g_q| |g_r| e in all, and the right side by less than that. */
-lane_mask stage_box(struct packet *p, struct candidate *it, lane_mask active)
+lane_mask stage_box(struct candidate *it, lane_mask active)
 {
   const struct leaf_slabs *slabs = &it->leaf->slabs;
   const int k = it->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+  const struct line *line = it->line;
   lanes a[3], b[3], size[3];
   for (int q = 0; q < 3; q++) {
     const double *g = slabs->g[q];
-    a[q] = g[i] * p->local[k].moment[0] + (g[j] * p->local[k].moment[1] - slabs->offset[q]);
-    b[q] = g[i] * p->slope[k][0] + (g[j] * p->slope[k][1] + g[k]);
+    a[q] = g[i] * line->moment[0] + (g[j] * line->moment[1] - slabs->offset[q]);
+    b[q] = g[i] * line->slope[0] + (g[j] * line->slope[1] + g[k]);
     size[q] = lanes_abs(b[q]);
   }
-  const lanes error = slabs->slack * p->local[k].error;
+  const lanes error = slabs->slack * line->error;
   for (int q = 0; q < 3; q++) {
     const int r = (q + 1) % 3;
     active &= ~(lanes_abs(a[q] * b[r] - a[r] * b[q]) > slabs->half[q] * size[r] + (slabs->half[r] * size[q] + error));
@@ -27,11 +28,11 @@ lane_mask stage_box(struct packet *p, struct candidate *it, lane_mask active)
   return active;
 }
 
-static void set_nets(const struct packet *p, struct candidate *it)
+static void set_nets(struct candidate *it)
 {
-  for (int n = 0; n < 16; n++) plane_values(p, it->axis, it->leaf->x, n, &it->nets.a[n], &it->nets.b[n]);
-  it->nets.slope[0] = p->slope[it->axis][0], it->nets.slope[1] = p->slope[it->axis][1];
-  it->nets.error = p->local[it->axis].error;
+  for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->nets.a[n], &it->nets.b[n]);
+  it->nets.slope[0] = it->line->slope[0], it->nets.slope[1] = it->line->slope[1];
+  it->nets.error = it->line->error;
 }
 
 /* Stage 1 again, by the whole net. */
@@ -68,9 +69,9 @@ static lane_mask planes_aligned(const struct candidate *it, lane_mask active)
   return active & (u_low <= u_error) & (u_high >= -u_error) & (v_low <= v_error) & (v_high >= -v_error);
 }
 
-lane_mask stage_planes(struct packet *p, struct candidate *it, lane_mask open)
+lane_mask stage_planes(struct candidate *it, lane_mask open)
 {
-  set_nets(p, it);
+  set_nets(it);
   lane_mask near = planes_hull(it, open);
   if (lanes_any(near)) near = planes_aligned(it, near);
   return it->patch->method->polish ? near : open;

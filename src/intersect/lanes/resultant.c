@@ -12,7 +12,7 @@
 
 enum { RESULTANT_NEWTON_STEPS = 3 };
 
-static void set_form(const struct packet *p, struct candidate *it)
+static void set_form(struct candidate *it)
 {
   const struct leaf_form *form = it->leaf->form;
   it->fa = it->nets.a, it->fb = it->nets.b, it->form_error = it->nets.error;
@@ -21,7 +21,7 @@ static void set_form(const struct packet *p, struct candidate *it)
   for (int i = 0; i <= it->leaf->kept_degree; i++) {
     for (int j = 0; j <= it->leaf->eliminated_degree; j++) {
       lanes a, b;
-      plane_values(p, it->axis, form->x, 4 * i + j, &a, &b);
+      plane_values(it->line, it->axis, form->x, 4 * i + j, &a, &b);
       it->form_a[4 * i + j] = a, it->form_b[4 * i + j] = b;
       it->alpha = lanes_max(it->alpha, lanes_abs(a)), it->beta = lanes_max(it->beta, lanes_abs(b));
     }
@@ -62,9 +62,9 @@ static lane_mask resultant_varies(struct candidate *it, lane_mask active)
   return active & (it->variations != 0);
 }
 
-lane_mask stage_resultant(struct packet *p, struct candidate *it, lane_mask open)
+lane_mask stage_resultant(struct candidate *it, lane_mask open)
 {
-  set_form(p, it);
+  set_form(it);
   it->variations = lanes_all(-1);
   return it->patch->method->polish ? resultant_varies(it, open) : open;
 }
@@ -126,7 +126,7 @@ static struct newton_root resultant_refine(const struct candidate *it, bool firs
   return newton_refine(&it->nets, it->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, active);
 }
 
-/* Lanes of `open` where it is proven that the leaf has no roots in sight but r, where that one is proven, and another one,
+/* Lanes of `open` where it is proven that the leaf has no roots on the ray but r, where that one is proven, and another one,
  * where there is one: those are offered. */
 static lane_mask resultant_cover(struct packet *p, const struct candidate *it, const struct newton_root *r,
                                  lane_mask open)
