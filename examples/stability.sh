@@ -74,27 +74,35 @@ tally_rows() {
   }' "$1"
 }
 
-# What tests/accuracy/certificate_test.c prints: a row a class, the default solver and the sum of the others.
+# What tests/accuracy/certificate_test.c prints, summed: a row a class, or with $2 `solver` a row a solver and split.
 proof_rows() {
-  awk '/ rays: certain / {
+  awk -v by="${2:-class}" '/ answers: proven / {
     name = substr($0, 1, 36); sub(/ +$/, "", name)
     split(substr($0, 38), word, / +/)
-    counts = $0; sub(/.*rays: certain/, "", counts); split(counts, n, /[^0-9]+/)
-    form = word[1] == "bernstein" && word[2] == 0 ? 1 : 2
-    if (!(name in seen)) { seen[name] = 1; order[++classes] = name }
-    rays[name, form] += word[3]; refuted[name, form] += n[4] + n[7]; slow[name, form] += n[12]
+    if (by == "solver") name = word[2] ? word[1] ", split " word[2] : word[1]
+    counts = $0; sub(/.*answers: proven/, "", counts); split(counts, n, /[^0-9]+/)
+    if (!(name in seen)) { seen[name] = 1; order[++rows] = name }
+    all[name] += word[3]
+    for (k = 2; k <= 9; k++) count[name, k] += n[k]
+    slow[name] += n[14]
     match($0, /slowest [0-9.]+/); time = substr($0, RSTART + 8, RLENGTH - 8) + 0
     if (time > slowest[name]) slowest[name] = time
-    open[name] += n[3]; grazing[name, form] += n[5]; provable[name, form] += n[6]
   }
-  function share(part, all) { return all ? sprintf("%.1f %%", 100 * part / all) : "-" }
+  function share(part, all) { return all ? sprintf("%.2f %%", 100 * part / all) : "-" }
+  function row(c) {
+    printf "| %s | %d | %d | %d | %d | %d | %s | %s | %d | %d | %d | %.2f |\n", c, all[c], count[c, 2], count[c, 3],
+      count[c, 4], count[c, 5], share(count[c, 4] + count[c, 5], all[c]), share(count[c, 6], all[c]), count[c, 7],
+      count[c, 8] + count[c, 9], slow[c], slowest[c]
+  }
   END {
-    for (k = 1; k <= classes; k++) {
+    for (k = 1; k <= rows; k++) {
       c = order[k]
-      printf "| %s | %d | %d | %d | %d | %d | %s | %s | %s | %d | %.2f |\n", c, rays[c, 1], refuted[c, 1], rays[c, 2],
-        refuted[c, 2], open[c], share(grazing[c, 1], rays[c, 1]), share(provable[c, 1], rays[c, 1]),
-        share(grazing[c, 2], rays[c, 2]), slow[c, 1] + slow[c, 2], slowest[c]
+      row(c)
+      all["all"] += all[c]; slow["all"] += slow[c]
+      for (m = 2; m <= 9; m++) count["all", m] += count[c, m]
+      if (slowest[c] > slowest["all"]) slowest["all"] = slowest[c]
     }
+    row("all")
   }' "$1"
 }
 
@@ -159,21 +167,30 @@ nets of exact integers and proves them in ball arithmetic; it shares nothing wit
 takes every answer, hit or miss, certain or grazing, of the classes above and of those that an adversary would aim
 ([tests/accuracy/hostile.c](../tests/accuracy/hostile.c)): rings of every radius from 1e-18 to 1 round poles, edges, corners,
 borders of leaves, cusps, rulings and tangencies; starts next to surfaces; nets degenerate but for some roundings;
-coordinates of every size. A tenth as many rays as with the default solver are asked with each of newton, laguerre, aberth,
-split 1 and split 8 (PSCN_SEED $(seeds_of "$folder/proofs")).
+coordinates of every size. Each ray is asked with every solver, and with whole patches (split 1) and 8 x 8 leaves (split 8),
+and all answers to it are held to one proof; asked among other rays it has to be answered the same (PSCN_SEED
+$(seeds_of "$folder/proofs"); PSCN_CLASS takes one class).
 
+- **proven**: certain hits of which T is a root's, within 4 times what one rounding of each input moves it, and none before
+  it; certain misses without a root on the ray.
+- **grazing**: hits and misses that say so, and stand: no proven root is lost or passed by. **provable**: the share of all
+  answers that say grazing though the judge proves them, so that they could be certain. What is left was met where no proof can
+  be had: the exact tangency, the common curve, the border of an open surface or the pole to the last bit, the start on the surface.
+- **undecided**: certain answers that the exact judge itself could not decide.
 - **refuted**: a proven root is lost or passed by, or there is none at T; U, V, the point or the normal are wrong.
   Every kind met so far is a scene of [tests/accuracy/cases](../tests/accuracy/cases).
-- **undecided**: certain answers that the exact judge itself could not decide.
-- **grazing**: the share of answers that say so, of the default and of the others; **provable**: of the default's, those
-  that the judge proves all the same, so that they could be certain. What is left was met where no proof can be had:
-  the exact tangency, the common curve, the border of an open surface or the pole to the last bit, the start on the surface.
-- **slow**: rays that took more than 2 ms, of all; **slowest**: the slowest one, in ms, the machine being busy.
+- **slow**: answers that took more than 2 ms; **slowest**: the slowest one, in ms, the machine being busy.
 
-| class | rays | refuted | other solvers, splits | refuted | undecided | grazing | provable | others grazing | slow | slowest |
-|---|---|---|---|---|---|---|---|---|---|---|
+| class | answers | hits proven | misses proven | grazing hits | grazing misses | grazing | provable | undecided | refuted | slow | slowest |
+|---|---|---|---|---|---|---|---|---|---|---|---|
 END
   proof_rows "$folder/proofs"
+  cat <<END
+
+| solver | answers | hits proven | misses proven | grazing hits | grazing misses | grazing | provable | undecided | refuted | slow | slowest |
+|---|---|---|---|---|---|---|---|---|---|---|---|
+END
+  proof_rows "$folder/proofs" solver
   echo
 }
 

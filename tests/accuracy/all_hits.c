@@ -61,15 +61,15 @@ static void find_truths(const struct trial *trial, const struct ray *ray, struct
   for (size_t n = 0; n < trial->scene.patch_count; n++) {
     struct exact_roots roots;
     exact_patch_roots((const double(*)[4][3])trial->scene.patches[n].P, ray->origin, ray->direction, ray->t_min,
-                      ray->t_max, 0, &roots);
+                      ray->t_max, &roots);
     out->doubt |= roots.count == EXACT_MOST_ROOTS;
     for (size_t k = 0; k < roots.count; k++) {
       const struct exact_root *r = &roots.root[k];
       out->doubt |= !r->proven;
       if (!r->proven || out->count == MOST_ROOTS || known(out, (uint32_t)n, r)) continue;
       const bool border = on_border(r->u) || on_border(r->v);
-      const double floor = trial_floor(trial->reference, ray, (uint32_t)n, r->t_off, r->u, r->v).t;
-      out->root[out->count++] = (struct truth){(uint32_t)n, r->t_off, r->u, r->v, floor, border, false};
+      const double floor = trial_floor(trial->reference, ray, (uint32_t)n, r->t, r->u, r->v).t;
+      out->root[out->count++] = (struct truth){(uint32_t)n, r->t, r->u, r->v, floor, border, false};
     }
   }
 }
@@ -132,30 +132,31 @@ static void show(const char *name, const struct class_form *form, const struct s
   class_print_patches(s);
 }
 
-static size_t ask(const char *name, const struct class_form *form, const struct situation *s, size_t first, size_t most,
-                  void *context)
+static void ask(const char *name, const struct situation *s, size_t most, void *context)
 {
   static struct truths truths;
-  struct count *count = context;
-  struct method method;
-  class_form_method(form, &method);
-  struct trial trial;
-  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &method);
+  struct count *counts = context;
+  struct class_trials trials;
+  class_trials_create(&trials, s);
   for (size_t n = 0; n < most; n++) {
-    const struct ray *ray = &s->rays[(first + n) % SITUATION_RAYS];
-    struct hit_list list;
-    assert_int_equal(tracer_all(trial.tracer, 1, ray, &list), STATUS_OK);
-    find_truths(&trial, ray, &truths);
-    const enum finding finding = judge(&list, &truths);
-    const bool grazing = list.certainty != CERTAINTY_CERTAIN;
+    const struct ray *ray = &s->rays[n];
+    find_truths(&trials.form[0], ray, &truths);
     bool clear = !truths.doubt;
     for (size_t k = 0; k < truths.count; k++) clear &= !truths.root[k].border;
-    count->rays++, count->answers[grazing][finding]++, count->roots += truths.count, count->sure += grazing && clear;
-    if (finding > FOUND_UNDECIDED) show(name, form, s, ray, &list, &truths, finding_names[finding]);
-    else if (grazing && clear && getenv("PSCN_SHOW_SURE")) show(name, form, s, ray, &list, &truths, "but clear");
+    for (int m = 0; m < CLASS_FORMS; m++) {
+      struct count *count = &counts[m];
+      struct hit_list list;
+      for (size_t k = 0; k < truths.count; k++) truths.root[k].met = false;
+      assert_int_equal(tracer_all(trials.form[m].tracer, 1, ray, &list), STATUS_OK);
+      const enum finding finding = judge(&list, &truths);
+      const bool grazing = list.certainty != CERTAINTY_CERTAIN;
+      count->rays++, count->answers[grazing][finding]++, count->roots += truths.count, count->sure += grazing && clear;
+      if (finding > FOUND_UNDECIDED) show(name, &class_forms[m], s, ray, &list, &truths, finding_names[finding]);
+      else if (grazing && clear && getenv("PSCN_SHOW_SURE"))
+        show(name, &class_forms[m], s, ray, &list, &truths, "but clear");
+    }
   }
-  trial_destroy(&trial);
-  return most;
+  class_trials_destroy(&trials);
 }
 
 static size_t refuted(const size_t answers[FINDINGS])
@@ -179,14 +180,14 @@ static void print_count(const char *name, const struct class_form *form, uint64_
 static void test_class(void **state)
 {
   const struct situation_class *class = *state;
+  struct count counts[CLASS_FORMS] = {{.rays = 0}};
+  const uint64_t seed = effort_seed(class->seed + 7000);
   size_t bad = 0;
   if (!class_wanted(class)) return;
+  class_ask_rays(class, FULL_RAYS, seed, ask, counts);
   for (int m = 0; m < CLASS_FORMS; m++) {
-    struct count count = {0};
-    const uint64_t seed = effort_seed(class->seed + 7000);
-    class_ask_rays(class, m, FULL_RAYS, seed, ask, &count);
-    print_count(class->name, &class_forms[m], seed, &count);
-    bad += refuted(count.answers[0]) + refuted(count.answers[1]);
+    print_count(class->name, &class_forms[m], seed, &counts[m]);
+    bad += refuted(counts[m].answers[0]) + refuted(counts[m].answers[1]);
   }
   exact_cleanup();
   if (!class_told_only(class)) assert_int_equal(bad, 0);

@@ -3,8 +3,8 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "accuracy/exact.h"
 #include "accuracy/trial.h"
 #include "base/wide.h"
 #include "cmocka_test.h"
@@ -26,6 +26,12 @@
  * move it by no more than 3 each. */
 #define LINE_ROUNDINGS 16
 
+/* Roots are looked for this much farther than a hit, relative: the next solver's hit may differ in its last places. */
+#define SPARE 0x1p-20
+
+/* A hit this near to a root, in U, V and relative T, has the root's floor. */
+#define SAME_PLACE 0x1p-40
+
 /* However ill-conditioned a certain hit is, T is right to this share. */
 #define MOST_ALLOWED 0x1p-10
 
@@ -33,7 +39,7 @@ const char *const finding_names[FINDINGS] = {"proven", "undecided", "lost", "lat
 
 void certifier_create(struct certifier *certifier, const struct scene *scene, struct reference *reference)
 {
-  *certifier = (struct certifier){scene, reference, NULL};
+  *certifier = (struct certifier){.scene = scene, .reference = reference};
   certifier->boxes = calloc(scene->patch_count ? scene->patch_count : 1, sizeof *certifier->boxes);
   assert_non_null(certifier->boxes);
   for (size_t n = 0; n < scene->patch_count; n++) {
@@ -48,7 +54,7 @@ void certifier_create(struct certifier *certifier, const struct scene *scene, st
   }
 }
 
-void certifier_destroy(struct certifier *certifier) { free(certifier->boxes); }
+void certifier_destroy(struct certifier *certifier) { free(certifier->boxes), free(certifier->truth.root); }
 
 /* False only where the line surely passes the box by: in the plane of any two axes the corners lie all on one side,
  * by more than 8 roundings. */
@@ -71,22 +77,7 @@ static bool may_meet(const double box[2][3], const struct ray *ray)
   return true;
 }
 
-struct judging {
-  const struct certifier *certifier;
-  const struct ray *ray;
-  const struct hit *hit;
-  struct certificate *out;
-  double allowed;                  /* what T may be off by, at the answer's own place */
-  struct exact_root at, before;    /* the root at T, of several the one next to U and V; the first before it */
-  uint32_t at_patch, before_patch; /* or REFERENCE_NONE */
-  double aside;                    /* how far U and V are from those of the root at T, on the same patch */
-  bool doubt_at, doubt_before;
-};
-
-static double floor_at(const struct judging *j, uint32_t patch, double t, double u, double v)
-{
-  return trial_floor(j->certifier->reference, j->ray, patch, t, u, v).t;
-}
+/* ---- the roots of a ray ---- */
 
 static double extent_of(const struct certifier *certifier, uint32_t patch)
 {
@@ -96,6 +87,82 @@ static double extent_of(const struct certifier *certifier, uint32_t patch)
   return extent;
 }
 
+static void add_truth(struct truth *truth, uint32_t patch, const struct exact_root *root)
+{
+  if (truth->count == truth->capacity) {
+    truth->capacity = 2 * truth->capacity + EXACT_MOST_ROOTS;
+    truth->root = realloc(truth->root, truth->capacity * sizeof *truth->root);
+    assert_non_null(truth->root);
+  }
+  truth->root[truth->count++] = (struct truth_root){.at = *root, .patch = patch};
+}
+
+static bool same_ray(const struct ray *a, const struct ray *b)
+{
+  return !memcmp(a->origin, b->origin, sizeof a->origin) && !memcmp(a->direction, b->direction, sizeof a->direction) &&
+         a->t_min == b->t_min && a->t_max == b->t_max;
+}
+
+/* All roots of the ray up to `end` at least: those that are known, or found now, to somewhat more than that. */
+static void find_truth(struct certifier *certifier, const struct ray *ray, double end)
+{
+  struct truth *truth = &certifier->truth;
+  if (end > ray->t_max) end = ray->t_max;
+  if (truth->known && same_ray(&truth->ray, ray) && end <= truth->end) return;
+  end += SPARE * end;
+  if (end > ray->t_max) end = ray->t_max;
+  *truth = (struct truth){.known = true, .ray = *ray, .end = end, .root = truth->root, .capacity = truth->capacity};
+  for (size_t n = 0; n < certifier->scene->patch_count; n++) {
+    if (!may_meet((const double(*)[3])certifier->boxes[n], ray)) continue;
+    struct exact_roots roots;
+    exact_patch_roots(certifier->scene->patches[n].P, ray->origin, ray->direction, ray->t_min, end, &roots);
+    truth->boxes += roots.boxes;
+    for (size_t k = 0; k < roots.count; k++) add_truth(truth, (uint32_t)n, &roots.root[k]);
+  }
+}
+
+static const struct facts_floor *floor_of(struct certifier *certifier, struct truth_root *root)
+{
+  if (!root->floored)
+    root->floor = trial_floor(certifier->reference, &certifier->truth.ray, root->patch, root->at.t, root->at.u,
+                              root->at.v);
+  root->floored = true;
+  return &root->floor;
+}
+
+/* ---- an answer ---- */
+
+struct judging {
+  struct certifier *certifier;
+  const struct ray *ray;
+  const struct hit *hit;
+  struct certificate *out;
+  double allowed;                 /* what T may be off by, at the answer's own place */
+  struct truth_root *at, *before; /* the root at T, of several the one next to U and V; the first before it; or NULL */
+  double aside;                   /* how far U and V are from those of the root at T, on the same patch */
+  bool doubt_at, doubt_before;
+};
+
+/* t of the root less T, to all digits: the difference of the leading parts is exact where they are next to each other. */
+static double t_off(const struct judging *j, const struct truth_root *root)
+{
+  return root->at.t - j->hit->t + root->at.t_rest;
+}
+
+/* The floor at the hit: that of the root which is there, or its own. */
+static double floor_at_hit(const struct judging *j)
+{
+  const struct hit *hit = j->hit;
+  struct truth *truth = &j->certifier->truth;
+  for (size_t n = 0; n < truth->count && same_ray(&truth->ray, j->ray); n++) {
+    struct truth_root *root = &truth->root[n];
+    if (root->patch == hit->patch && root->at.proven && fabs(root->at.u - hit->u) <= SAME_PLACE &&
+        fabs(root->at.v - hit->v) <= SAME_PLACE && fabs(t_off(j, root)) <= SAME_PLACE * hit->t)
+      return floor_of(j->certifier, root)->t;
+  }
+  return trial_floor(j->certifier->reference, j->ray, hit->patch, hit->t, hit->u, hit->v).t;
+}
+
 /* Where on the ray a root of the patch is too near to its origin to be told from it. */
 static double end_of_origin(const struct certifier *certifier, const struct ray *ray, uint32_t patch)
 {
@@ -103,58 +170,43 @@ static double end_of_origin(const struct certifier *certifier, const struct ray 
   return AT_ORIGIN * fmax(trial_size(ray, 0), extent_of(certifier, patch) / length);
 }
 
-/* All roots of a patch that matter to a hit. */
-static void judge_patch(struct judging *j, uint32_t patch)
+/* What a root means to a hit. */
+static void judge_root(struct judging *j, struct truth_root *root)
 {
-  const double T = j->hit->t, end = T + 2 * j->allowed;
-  const bool certain = j->hit->certainty == CERTAINTY_CERTAIN;
-  const double at_origin = end_of_origin(j->certifier, j->ray, patch);
-  struct exact_roots roots;
-  exact_patch_roots(j->certifier->scene->patches[patch].P, j->ray->origin, j->ray->direction, j->ray->t_min,
-                    j->ray->t_max < end ? j->ray->t_max : end, T, &roots);
-  j->out->boxes += roots.boxes;
-  for (size_t n = 0; n < roots.count; n++) {
-    const struct exact_root *root = &roots.root[n];
-    if (!root->proven) {
-      j->doubt_before |= root->t_off < -j->allowed;
-      j->doubt_at |= root->t_off <= j->allowed && root->t_end >= -j->allowed;
-      continue;
-    }
-    const double off = fabs(root->t_off) / floor_at(j, patch, T + root->t_off, root->u, root->v);
-    const double aside = patch != j->hit->patch ? INFINITY : fmax(fabs(root->u - j->hit->u), fabs(root->v - j->hit->v));
-    if (off <= CERTIFICATE_FLOORS && (j->at_patch == REFERENCE_NONE || aside < j->aside))
-      j->at = *root, j->at_patch = patch, j->aside = aside;
-    const bool before = root->t_off < 0 && off > CERTIFICATE_FLOORS &&
-                        (certain || (-root->t_off > j->allowed && T + root->t_off > at_origin));
-    if (before && (j->before_patch == REFERENCE_NONE || root->t_off < j->before.t_off))
-      j->before = *root, j->before_patch = patch;
+  const double off_t = t_off(j, root);
+  if (!root->at.proven) {
+    j->doubt_before |= off_t < -j->allowed;
+    j->doubt_at |= off_t <= j->allowed && root->at.t_end - j->hit->t >= -j->allowed;
+    return;
   }
+  if (off_t >= 2 * j->allowed) return;
+  const double off = fabs(off_t) / floor_of(j->certifier, root)->t;
+  const double aside = root->patch != j->hit->patch ? INFINITY
+                                                    : fmax(fabs(root->at.u - j->hit->u), fabs(root->at.v - j->hit->v));
+  if (off <= CERTIFICATE_FLOORS && (!j->at || aside < j->aside)) j->at = root, j->aside = aside;
+  if (!(off_t < 0 && off > CERTIFICATE_FLOORS)) return;
+  const bool certain = j->hit->certainty == CERTAINTY_CERTAIN;
+  if (!certain && (-off_t <= j->allowed || root->at.t <= end_of_origin(j->certifier, j->ray, root->patch))) return;
+  if (!j->before || off_t < t_off(j, j->before)) j->before = root;
 }
 
-static void tell_root(struct judging *j, const struct exact_root *root, uint32_t patch)
+static void tell_root(struct judging *j, struct truth_root *root)
 {
   struct certificate *out = j->out;
-  out->t = j->hit->t + root->t_off, out->u = root->u, out->v = root->v, out->patch = patch;
-  out->off = fabs(root->t_off) / floor_at(j, patch, out->t, root->u, root->v);
+  out->t = root->at.t, out->u = root->at.u, out->v = root->at.v, out->patch = root->patch;
+  if (j->hit->patch != HIT_NONE) out->off = fabs(t_off(j, root)) / floor_of(j->certifier, root)->t;
 }
 
 /* Where there is no root at T: the nearest one there is. */
 static void nearest_root(struct judging *j)
 {
-  const struct certifier *c = j->certifier;
-  double nearest = INFINITY;
-  for (size_t n = 0; n < c->scene->patch_count; n++) {
-    if (!may_meet((const double(*)[3])c->boxes[n], j->ray)) continue;
-    struct exact_roots roots;
-    exact_patch_roots(c->scene->patches[n].P, j->ray->origin, j->ray->direction, j->ray->t_min, j->ray->t_max,
-                      j->hit->t, &roots);
-    for (size_t k = 0; k < roots.count; k++) {
-      const struct exact_root *root = &roots.root[k];
-      if (!root->proven || fabs(root->t_off) >= nearest) continue;
-      nearest = fabs(root->t_off);
-      tell_root(j, root, (uint32_t)n);
-    }
+  struct truth_root *nearest = NULL;
+  find_truth(j->certifier, j->ray, j->ray->t_max);
+  for (size_t n = 0; n < j->certifier->truth.count; n++) {
+    struct truth_root *root = &j->certifier->truth.root[n];
+    if (root->at.proven && (!nearest || fabs(t_off(j, root)) < fabs(t_off(j, nearest)))) nearest = root;
   }
+  if (nearest) tell_root(j, nearest);
 }
 
 static void judge_hit(struct judging *j)
@@ -165,19 +217,18 @@ static void judge_hit(struct judging *j)
   double size = length * trial_size(j->ray, hit->t); /* the patch's included */
   for (int k = 0; k < 6; k++) size = fmax(size, fabs(j->certifier->boxes[hit->patch][k / 3][k % 3]));
   const double near = TRIAL_NEAR * size / length;
-  const double floor = floor_at(j, hit->patch, hit->t, hit->u, hit->v);
+  const double floor = floor_at_hit(j);
   j->allowed = certain ? CERTIFICATE_FLOORS * floor : near + TRIAL_SAME_FLOORS * floor;
   const double most = certain ? MOST_ALLOWED * hit->t : 0x1p10 * near;
   if (!(j->allowed <= most)) j->allowed = most;
-  for (size_t n = 0; n < j->certifier->scene->patch_count; n++)
-    if (may_meet((const double(*)[3])j->certifier->boxes[n], j->ray)) judge_patch(j, (uint32_t)n);
+  find_truth(j->certifier, j->ray, hit->t + 2 * j->allowed);
+  for (size_t n = 0; n < j->certifier->truth.count; n++) judge_root(j, &j->certifier->truth.root[n]);
   struct certificate *out = j->out;
-  const bool exists = j->at_patch != REFERENCE_NONE;
-  const bool before = j->before_patch != REFERENCE_NONE && !(exists && j->at.t_off <= j->before.t_off);
+  const bool exists = j->at, before = j->before && !(exists && t_off(j, j->at) <= t_off(j, j->before));
   out->sure = exists && !before && !j->doubt_before;
-  if (exists) tell_root(j, &j->at, j->at_patch);
+  if (exists) tell_root(j, j->at);
   if (before) {
-    tell_root(j, &j->before, j->before_patch);
+    tell_root(j, j->before);
     out->finding = FINDING_LATER;
   } else if (!certain) {
     const double off = facts_residual(reference_net(j->certifier->reference, hit->patch), j->ray->origin,
@@ -193,23 +244,16 @@ static void judge_hit(struct judging *j)
 
 static void judge_miss(struct judging *j)
 {
-  const struct certifier *c = j->certifier;
   const bool grazing = j->hit->certainty == CERTAINTY_GRAZING;
   bool doubt = false;
-  for (size_t n = 0; n < c->scene->patch_count; n++) {
-    if (!may_meet((const double(*)[3])c->boxes[n], j->ray)) continue;
-    struct exact_roots roots;
-    exact_patch_roots(c->scene->patches[n].P, j->ray->origin, j->ray->direction, j->ray->t_min, j->ray->t_max, 0,
-                      &roots);
-    j->out->boxes += roots.boxes;
-    for (size_t k = 0; k < roots.count; k++) {
-      const struct exact_root *root = &roots.root[k];
-      doubt |= !root->proven;
-      if (!root->proven || root->t_off >= j->out->t) continue;
-      if (grazing && root->t_off < end_of_origin(c, j->ray, (uint32_t)n)) continue;
-      j->out->finding = FINDING_LOST;
-      j->out->t = root->t_off, j->out->u = root->u, j->out->v = root->v, j->out->patch = (uint32_t)n;
-    }
+  find_truth(j->certifier, j->ray, j->ray->t_max);
+  for (size_t n = 0; n < j->certifier->truth.count; n++) {
+    struct truth_root *root = &j->certifier->truth.root[n];
+    doubt |= !root->at.proven;
+    if (!root->at.proven || root->at.t >= j->out->t) continue;
+    if (grazing && root->at.t < end_of_origin(j->certifier, j->ray, root->patch)) continue;
+    j->out->finding = FINDING_LOST;
+    tell_root(j, root);
   }
   if (j->out->finding == FINDING_LOST) return;
   j->out->sure = !doubt;
@@ -221,10 +265,10 @@ static void judge_miss(struct judging *j)
 static bool place_good(const struct judging *j)
 {
   const struct hit *hit = j->hit;
-  if (hit->certainty == CERTAINTY_GRAZING || j->at_patch != hit->patch) return true;
-  const struct facts_floor floor = trial_floor(j->certifier->reference, j->ray, hit->patch, hit->t, j->at.u, j->at.v);
-  return !(fabs(hit->u - j->at.u) > PLACE_FLOORS * (floor.u + DOUBLE_UNIT)) &&
-         !(fabs(hit->v - j->at.v) > PLACE_FLOORS * (floor.v + DOUBLE_UNIT));
+  if (hit->certainty == CERTAINTY_GRAZING || !j->at || j->at->patch != hit->patch) return true;
+  const struct facts_floor *floor = floor_of(j->certifier, j->at);
+  return !(fabs(hit->u - j->at->at.u) > PLACE_FLOORS * (floor->u + DOUBLE_UNIT)) &&
+         !(fabs(hit->v - j->at->at.v) > PLACE_FLOORS * (floor->v + DOUBLE_UNIT));
 }
 
 /* S(U,V). */
@@ -236,16 +280,18 @@ static void surface_of(const struct judging *j, wide out[3])
              bv[4] = {(1 - v) * (1 - v) * (1 - v), 3 * v * (1 - v) * (1 - v), 3 * v * v * (1 - v), v * v * v};
   for (int axis = 0; axis < 3; axis++) {
     out[axis] = 0;
-    for (int k = 0; k < 16; k++) out[axis] += bu[k / 4] * bv[k % 4] * P[k / 4][k % 4][axis];
+    for (int i = 0; i < 4; i++) {
+      wide row = 0;
+      for (int k = 0; k < 4; k++) row += bv[k] * P[i][k][axis];
+      out[axis] += bu[i] * row;
+    }
   }
 }
 
 /* How far the hit's point is from it. */
-static double off_surface(const struct judging *j)
+static double off_surface(const struct judging *j, const wide at[3])
 {
-  wide at[3];
   double square = 0;
-  surface_of(j, at);
   for (int axis = 0; axis < 3; axis++) {
     const double off = (double)(at[axis] - j->hit->point[axis]);
     square += off * off;
@@ -255,11 +301,9 @@ static double off_surface(const struct judging *j)
 
 /* The largest coordinate of (S(U,V) - origin) x direction/|direction|: how far the hit's place is from the ray, as a
  * line. */
-static double off_line(const struct judging *j)
+static double off_line(const struct judging *j, const wide at[3])
 {
   const double *o = j->ray->origin, *d = j->ray->direction;
-  wide at[3];
-  surface_of(j, at);
   double most = 0, longest = fmax(fmax(fabs(d[0]), fabs(d[1])), fabs(d[2]));
   for (int i = 0, k = 1; i < 3; i++, k = (i + 1) % 3) {
     const wide line = (wide)o[i] * d[k] - (wide)o[k] * d[i]; /* of exact products: a far start loses nothing */
@@ -269,10 +313,10 @@ static double off_line(const struct judging *j)
 }
 
 /* Whether a certain hit's place is on the ray, but for what the rounding of U and V moves it. */
-static bool line_good(const struct judging *j)
+static bool line_good(const struct judging *j, const wide at[3])
 {
   const double extent = extent_of(j->certifier, j->hit->patch);
-  return j->hit->certainty == CERTAINTY_GRAZING || off_line(j) <= LINE_ROUNDINGS * DOUBLE_UNIT * extent;
+  return j->hit->certainty == CERTAINTY_GRAZING || off_line(j, at) <= LINE_ROUNDINGS * DOUBLE_UNIT * extent;
 }
 
 /* What a hit says of the surface, but for its place on the ray. */
@@ -281,16 +325,18 @@ static bool surface_good(const struct judging *j)
   const struct hit *hit = j->hit;
   const double *n = hit->normal;
   if (!(hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1)) return false;
-  if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max) || !place_good(j) || !line_good(j)) return false;
-  if (!(off_surface(j) <= hit->point_error)) return false;
+  if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max) || !place_good(j)) return false;
+  wide at[3];
+  surface_of(j, at);
+  if (!line_good(j, at) || !(off_surface(j, at) <= hit->point_error)) return false;
   return hit->certainty == CERTAINTY_GRAZING || fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < UNIT_NORMAL;
 }
 
-void certify(const struct certifier *certifier, const struct ray *ray, const struct hit *hit, struct certificate *out)
+void certify(struct certifier *certifier, const struct ray *ray, const struct hit *hit, struct certificate *out)
 {
   *out = (struct certificate){.finding = FINDING_PROVEN, .t = INFINITY, .patch = REFERENCE_NONE};
   struct judging j = {.certifier = certifier, .ray = ray, .hit = hit, .out = out};
-  j.at_patch = j.before_patch = REFERENCE_NONE;
   (hit->patch == HIT_NONE ? judge_miss : judge_hit)(&j);
+  out->boxes = certifier->truth.boxes;
   if (hit->patch != HIT_NONE && out->finding <= FINDING_UNDECIDED && !surface_good(&j)) out->finding = FINDING_SURFACE;
 }

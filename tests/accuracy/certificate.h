@@ -13,7 +13,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "accuracy/exact.h"
 #include "intersect/intersect.h"
+#include "reference/facts.h"
 #include "reference/reference.h"
 #include "scene/scene.h"
 
@@ -41,16 +43,33 @@ struct certificate {
   size_t boxes;
 };
 
+struct truth_root {
+  struct exact_root at;
+  uint32_t patch;
+  bool floored; /* `floor` is known */
+  struct facts_floor floor;
+};
+
+/* The roots of one ray, up to `end`. */
+struct truth {
+  bool known;
+  struct ray ray;
+  double end;
+  struct truth_root *root;
+  size_t count, capacity, boxes;
+};
+
 struct certifier {
   const struct scene *scene;
   struct reference *reference; /* for floors and residuals only */
   double (*boxes)[2][3];
+  struct truth truth; /* of the last ray: what several solvers answer to one ray is held to one proof */
 };
 
 /* Borrows scene and reference. Aborts the running test where memory is short. */
 void certifier_create(struct certifier *certifier, const struct scene *scene, struct reference *reference);
 void certifier_destroy(struct certifier *certifier);
 
-void certify(const struct certifier *certifier, const struct ray *ray, const struct hit *hit, struct certificate *out);
+void certify(struct certifier *certifier, const struct ray *ray, const struct hit *hit, struct certificate *out);
 
 #endif

@@ -1,6 +1,6 @@
-/* Every answer proven or refuted by the exact judge: all classes of situations.h and hostile.h, with every solver and
- * with whole patches. Nothing may be refuted, whatever the answer called itself. Prints for each class and solver the
- * counts, the share of grazing answers, and the slowest ray. */
+/* Every answer proven or refuted by the exact judge: all classes of situations.h and hostile.h, each ray with every solver
+ * and several splits, held to one proof. Nothing may be refuted, whatever the answer called itself. Prints for each class
+ * and solver the counts by verdict, and the slowest ray. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,14 +17,17 @@
 /* No ray of any scene may take longer, in seconds. Timing decides no test; it is printed. */
 #define SLOW 2e-3
 
-enum { FULL_RAYS = 40000, FULL_SITUATIONS = 50, MOST_SHOWN = 6 };
+/* So many rays make a million answers. */
+enum { FULL_RAYS = 144000, FULL_SITUATIONS = 50, MOST_SHOWN = 6 };
+
+enum verdict { CERTAIN_HIT, CERTAIN_MISS, GRAZING_HIT, GRAZING_MISS, VERDICTS };
 
 struct count {
-  size_t rays, answers[2][FINDINGS]; /* certain, grazing */
-  size_t grazing_sure;               /* grazing though the judge proves the answer */
-  size_t company;                    /* answered otherwise in a packet than alone */
-  size_t slow;                       /* above SLOW */
-  double slowest;                    /* seconds */
+  size_t answers[VERDICTS][FINDINGS];
+  size_t grazing_sure; /* grazing though the judge proves the answer */
+  size_t company;      /* answered otherwise in a packet than alone */
+  size_t slow;         /* above SLOW */
+  double slowest;      /* seconds */
 };
 
 static double seconds(void)
@@ -71,8 +74,7 @@ static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
 
 /* Whether the answer in a packet is as good as the one alone: of one verdict, and where last places differ proven as
  * well. */
-static bool fits(const struct hit *alone, const struct hit *packed, const struct certifier *certifier,
-                 const struct ray *ray)
+static bool fits(const struct hit *alone, const struct hit *packed, struct certifier *certifier, const struct ray *ray)
 {
   if (alone->patch != packed->patch || alone->certainty != packed->certainty) return false;
   if (alone->patch == HIT_NONE || alone->t == packed->t) return true;
@@ -81,70 +83,89 @@ static bool fits(const struct hit *alone, const struct hit *packed, const struct
   return certificate.finding <= FINDING_UNDECIDED;
 }
 
-static size_t ask(const char *name, const struct class_form *form, const struct situation *s, size_t first, size_t most,
-                  void *context)
+static enum verdict verdict_of(const struct hit *hit)
 {
-  struct count *count = context;
-  struct method method;
-  class_form_method(form, &method);
-  struct trial trial;
-  struct certifier certifier;
-  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &method);
-  certifier_create(&certifier, &trial.scene, trial.reference);
-  struct hit packet[SITUATION_RAYS]; /* a packet's lanes do what they do on a picture; alone a ray goes another way */
-  tracer_closest(trial.tracer, SITUATION_RAYS, s->rays, packet);
-  for (size_t n = 0; n < most; n++) {
-    const struct ray *ray = &s->rays[(first + n) % SITUATION_RAYS];
-    struct hit hit;
-    struct certificate certificate;
-    const double time = trace(&trial, ray, &hit);
-    certify(&certifier, ray, &hit, &certificate);
-    if (!fits(&hit, &packet[(first + n) % SITUATION_RAYS], &certifier, ray))
-      count->company++, show(name, form, s, ray, &hit, "otherwise in a packet");
-    const bool grazing = hit.certainty != CERTAINTY_CERTAIN;
-    count->rays++, count->answers[grazing][certificate.finding]++;
-    count->grazing_sure += grazing && certificate.finding == FINDING_PROVEN && certificate.sure;
-    count->slowest = fmax(count->slowest, time), count->slow += time > SLOW;
-    if (time > SLOW && getenv("PSCN_SHOW")) show(name, form, s, ray, &hit, "slow");
-    if (certificate.finding == FINDING_UNDECIDED && getenv("PSCN_SHOW")) show(name, form, s, ray, &hit, "undecided");
-    if (certificate.finding > FINDING_UNDECIDED) show_refuted(name, form, s, ray, &hit, &certificate);
-  }
-  certifier_destroy(&certifier);
-  trial_destroy(&trial);
-  return most;
+  if (hit->certainty == CERTAINTY_CERTAIN) return hit->patch == HIT_NONE ? CERTAIN_MISS : CERTAIN_HIT;
+  return hit->patch == HIT_NONE ? GRAZING_MISS : GRAZING_HIT;
 }
 
-static size_t refuted(const size_t answers[FINDINGS])
+/* One answer, alone and as it was among the situation's other rays: a packet's lanes do what they do on a picture, alone a
+ * ray goes another way. */
+static void ask_one(const char *name, const struct class_form *form, const struct situation *s, struct trial *trial,
+                    struct certifier *certifier, const struct ray *ray, const struct hit *packed, struct count *count)
 {
-  size_t sum = 0;
-  for (int n = FINDING_UNDECIDED + 1; n < FINDINGS; n++) sum += answers[n];
-  return sum;
+  struct hit hit;
+  struct certificate certificate;
+  const double time = trace(trial, ray, &hit);
+  certify(certifier, ray, &hit, &certificate);
+  if (!fits(&hit, packed, certifier, ray)) count->company++, show(name, form, s, ray, &hit, "otherwise in a packet");
+  const enum verdict verdict = verdict_of(&hit);
+  count->answers[verdict][certificate.finding]++;
+  count->grazing_sure += verdict >= GRAZING_HIT && certificate.finding == FINDING_PROVEN && certificate.sure;
+  count->slowest = fmax(count->slowest, time), count->slow += time > SLOW;
+  if (time > SLOW && getenv("PSCN_SHOW")) show(name, form, s, ray, &hit, "slow");
+  if (certificate.finding == FINDING_UNDECIDED && getenv("PSCN_SHOW")) show(name, form, s, ray, &hit, "undecided");
+  if (certificate.finding > FINDING_UNDECIDED) show_refuted(name, form, s, ray, &hit, &certificate);
+}
+
+static void ask(const char *name, const struct situation *s, size_t most, void *context)
+{
+  struct count *counts = context;
+  struct class_trials trials;
+  struct certifier certifier;
+  struct hit packet[CLASS_FORMS][SITUATION_RAYS];
+  class_trials_create(&trials, s);
+  certifier_create(&certifier, &trials.form[0].scene, trials.form[0].reference);
+  for (int m = 0; m < CLASS_FORMS; m++) tracer_closest(trials.form[m].tracer, SITUATION_RAYS, s->rays, packet[m]);
+  for (size_t n = 0; n < most; n++)
+    for (int m = 0; m < CLASS_FORMS; m++)
+      ask_one(name, &class_forms[m], s, &trials.form[m], &certifier, &s->rays[n], &packet[m][n], &counts[m]);
+  certifier_destroy(&certifier);
+  class_trials_destroy(&trials);
+}
+
+/* Of answers from one verdict to another, those with findings from one to another. */
+static size_t sum(const struct count *c, int verdict, int last_verdict, int finding, int last_finding)
+{
+  size_t all = 0;
+  for (int v = verdict; v <= last_verdict; v++)
+    for (int n = finding; n <= last_finding; n++) all += c->answers[v][n];
+  return all;
+}
+
+static size_t refuted(const struct count *c, int verdict, int last_verdict)
+{
+  return sum(c, verdict, last_verdict, FINDING_UNDECIDED + 1, FINDINGS - 1);
 }
 
 static void print_count(const char *name, const struct class_form *form, uint64_t seed, const struct count *c)
 {
-  const size_t *certain = c->answers[0], *grazing = c->answers[1];
-  const size_t grazes = grazing[FINDING_PROVEN] + grazing[FINDING_UNDECIDED] + refuted(grazing);
-  printf("%-36s %-9s %2d %7zu rays: certain %6zu, %zu undecided, %zu refuted; grazing %zu, %zu provable, %zu refuted; "
-         "lost %zu later %zu invented %zu surface %zu; %zu slow, slowest %.2f ms; seed %llu\n",
-         name, form->solver, form->split, c->rays, certain[FINDING_PROVEN], certain[FINDING_UNDECIDED],
-         refuted(certain), grazes, c->grazing_sure, refuted(grazing), certain[FINDING_LOST] + grazing[FINDING_LOST],
-         certain[FINDING_LATER] + grazing[FINDING_LATER], certain[FINDING_INVENTED] + grazing[FINDING_INVENTED],
-         certain[FINDING_SURFACE] + grazing[FINDING_SURFACE], c->slow, 1e3 * c->slowest, (unsigned long long)seed);
+  printf("%-36s %-13s %2d %7zu answers: proven %zu hits, %zu misses; grazing %zu hits, %zu misses, %zu provable; "
+         "undecided %zu; refuted %zu certain, %zu grazing; ",
+         name, form->solver, form->split, sum(c, 0, VERDICTS - 1, 0, FINDINGS - 1),
+         c->answers[CERTAIN_HIT][FINDING_PROVEN], c->answers[CERTAIN_MISS][FINDING_PROVEN],
+         sum(c, GRAZING_HIT, GRAZING_HIT, FINDING_PROVEN, FINDING_UNDECIDED),
+         sum(c, GRAZING_MISS, GRAZING_MISS, FINDING_PROVEN, FINDING_UNDECIDED), c->grazing_sure,
+         sum(c, CERTAIN_HIT, CERTAIN_MISS, FINDING_UNDECIDED, FINDING_UNDECIDED), refuted(c, CERTAIN_HIT, CERTAIN_MISS),
+         refuted(c, GRAZING_HIT, GRAZING_MISS));
+  for (int n = FINDING_UNDECIDED + 1; n < FINDINGS; n++)
+    printf("%s%s %zu", n > FINDING_UNDECIDED + 1 ? ", " : "", finding_names[n], sum(c, 0, VERDICTS - 1, n, n));
+  printf("; %zu slow, slowest %.2f ms; seed %llu\n", c->slow, 1e3 * c->slowest, (unsigned long long)seed);
   fflush(stdout);
 }
 
 static void test_class(void **state)
 {
   const struct situation_class *class = *state;
+  struct count counts[CLASS_FORMS] = {{.slow = 0}};
+  const uint64_t seed = effort_seed(class->seed);
   size_t bad = 0, certain_bad = 0;
   if (!class_wanted(class)) return;
+  class_ask_rays(class, FULL_RAYS, seed, ask, counts);
   for (int m = 0; m < CLASS_FORMS; m++) {
-    struct count count = {0};
-    const uint64_t seed = effort_seed(class->seed);
-    class_ask_rays(class, m, FULL_RAYS, seed, ask, &count);
-    print_count(class->name, &class_forms[m], seed, &count);
-    certain_bad += refuted(count.answers[0]) + count.company, bad += refuted(count.answers[1]);
+    print_count(class->name, &class_forms[m], seed, &counts[m]);
+    certain_bad += refuted(&counts[m], CERTAIN_HIT, CERTAIN_MISS) + counts[m].company;
+    bad += refuted(&counts[m], GRAZING_HIT, GRAZING_MISS);
   }
   exact_cleanup();
   assert_int_equal(certain_bad, 0);
@@ -174,11 +195,50 @@ static bool is_far(const struct certifier *certifier, const struct ray *ray, con
   return way > FAR * extent;
 }
 
+/* What is asked of the judge about a ray: what the reference says, and answers that are wrong. */
+enum wrong { RIGHT, NEARER, FARTHER, DENIED, MADE_UP, WRONGS };
+static const char *const wrong_names[WRONGS] = {"the reference's", "nearer", "farther", "denied", "made up"};
+
+/* So many floors off is wrong: more than CERTIFICATE_FLOORS, for next to a tangency they change from place to place. */
+#define WRONG_FLOORS 16
+
+static void judge_wrong(const char *name, const struct situation *s, struct certifier *certifier, const struct ray *ray,
+                        size_t found[WRONGS][FINDINGS])
+{
+  struct reference_answer truth;
+  reference_closest(certifier->reference, ray->origin, ray->direction, &truth);
+  if (truth.verdict == REFERENCE_GRAZING) return;
+  struct hit hit = hit_of(&truth);
+  struct certificate c;
+  if (is_far(certifier, ray, &hit)) return;
+  certify(certifier, ray, &hit, &c);
+  found[RIGHT][c.finding]++;
+  if (c.finding > FINDING_PROVEN) show_refuted(name, &(struct class_form){"reference", 0}, s, ray, &hit, &c);
+  if (c.finding != FINDING_PROVEN) return;
+  if (hit.patch == HIT_NONE) {
+    hit = (struct hit){.t = 1, .u = 0.5, .v = 0.5, .point_error = INFINITY, .normal = {1, 0, 0}};
+    certify(certifier, ray, &hit, &c);
+    found[MADE_UP][c.finding]++;
+    return;
+  }
+  const double t = hit.t, floor = trial_floor(certifier->reference, ray, hit.patch, t, hit.u, hit.v).t;
+  if (!(floor < 1e-6 * t)) return;
+  hit.t = t - WRONG_FLOORS * floor;
+  certify(certifier, ray, &hit, &c);
+  found[NEARER][c.finding]++;
+  hit.t = t + WRONG_FLOORS * floor;
+  certify(certifier, ray, &hit, &c);
+  found[FARTHER][c.finding]++;
+  hit.patch = HIT_NONE;
+  certify(certifier, ray, &hit, &c);
+  found[DENIED][c.finding]++;
+}
+
 /* The two judges agree on what either decides, and the exact one refutes what is wrong. */
 static void test_judges(void **state)
 {
   (void)state;
-  size_t found[4][FINDINGS] = {{0}};
+  size_t found[WRONGS][FINDINGS] = {{0}};
   for (size_t n = 0; n < every_class_count(); n++) {
     const struct situation_class *class = every_class_at(n);
     if (!class_wanted(class)) continue;
@@ -190,45 +250,21 @@ static void test_judges(void **state)
       class->generate(&random, index, &s);
       trial_create(&trial, (const double(*)[4][4][3])s.P, s.count, NULL);
       certifier_create(&certifier, &trial.scene, trial.reference);
-      for (int r = 0; r < SITUATION_RAYS; r++) {
-        struct reference_answer truth;
-        reference_closest(trial.reference, s.rays[r].origin, s.rays[r].direction, &truth);
-        if (truth.verdict == REFERENCE_GRAZING) continue;
-        struct hit hit = hit_of(&truth);
-        struct certificate c;
-        if (is_far(&certifier, &s.rays[r], &hit)) continue;
-        certify(&certifier, &s.rays[r], &hit, &c);
-        found[0][c.finding]++;
-        if (c.finding > FINDING_PROVEN)
-          show_refuted(class->name, &(struct class_form){"reference", 0}, &s, &s.rays[r], &hit, &c);
-        if (hit.patch == HIT_NONE || c.finding != FINDING_PROVEN) continue;
-        const double t = hit.t, floor = trial_floor(trial.reference, &s.rays[r], hit.patch, t, hit.u, hit.v).t;
-        if (!(floor < 1e-6 * t)) continue;
-        hit.t = t - 64 * floor;
-        certify(&certifier, &s.rays[r], &hit, &c);
-        found[1][c.finding]++;
-        hit.t = t + 64 * floor;
-        certify(&certifier, &s.rays[r], &hit, &c);
-        found[2][c.finding]++;
-        hit.patch = HIT_NONE;
-        certify(&certifier, &s.rays[r], &hit, &c);
-        found[3][c.finding]++;
-      }
+      for (int r = 0; r < SITUATION_RAYS; r++) judge_wrong(class->name, &s, &certifier, &s.rays[r], found);
       certifier_destroy(&certifier);
       trial_destroy(&trial);
     }
   }
   exact_cleanup();
-  static const char *const names[4] = {"the reference's", "nearer", "farther", "denied"};
-  for (int n = 0; n < 4; n++) {
-    printf("%s:", names[n]);
+  for (int n = 0; n < WRONGS; n++) {
+    printf("%s:", wrong_names[n]);
     for (int k = 0; k < FINDINGS; k++) printf(" %s %zu", finding_names[k], found[n][k]);
     printf("\n");
   }
-  for (int k = FINDING_UNDECIDED + 1; k < FINDINGS; k++) assert_int_equal(found[0][k], 0);
-  assert_int_equal(found[1][FINDING_PROVEN] + found[3][FINDING_PROVEN], 0);
+  for (int k = FINDING_UNDECIDED + 1; k < FINDINGS; k++) assert_int_equal(found[RIGHT][k], 0);
+  assert_int_equal(found[NEARER][FINDING_PROVEN] + found[DENIED][FINDING_PROVEN] + found[MADE_UP][FINDING_PROVEN], 0);
   /* of coincident patches the other one may be there */
-  assert_true(found[2][FINDING_PROVEN] * 50 <= found[2][FINDING_LATER]);
+  assert_true(found[FARTHER][FINDING_PROVEN] * 50 <= found[FARTHER][FINDING_LATER]);
 }
 
 int main(void)

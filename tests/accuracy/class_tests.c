@@ -8,38 +8,55 @@
 #include "effort.h"
 #include "random.h"
 
-/* The default solver gets all rays, the others this share; of a situation no more rays than are still wanted. */
-#define OTHERS_SHARE 0.1
-enum { LEAST_RAYS = 16, OTHERS_LEAST = 4, MOST_CLASSES = 64 };
+enum { LEAST_RAYS = 16, MOST_CLASSES = 64 };
 
-const struct class_form class_forms[CLASS_FORMS] = {{"bernstein", 0}, {"newton", 0},    {"laguerre", 0},
-                                                    {"aberth", 0},    {"bernstein", 1}, {"bernstein", 8}};
+const struct class_form class_forms[CLASS_FORMS] = {
+  {"bernstein", 0},     {"newton", 0},    {"laguerre", 0},  {"aberth", 0},
+  {"durand_kerner", 0}, {"bernstein", 1}, {"bernstein", 8},
+};
 
 bool class_wanted(const struct situation_class *class)
 {
   const char *only = getenv("PSCN_CLASS");
+  for (size_t n = 0; only && n < every_class_count(); n++)
+    if (!strcmp(only, every_class_at(n)->name)) return class == every_class_at(n);
   return !only || strstr(class->name, only);
 }
 
-void class_form_method(const struct class_form *form, struct method *out)
+static void method_of(const struct class_form *form, struct method *out)
 {
-  for (size_t n = 0; n < solver_count(); n++)
-    if (!strcmp(solver_at(n)->name, form->solver)) method_default(solver_at(n), out);
+  const struct solver *solver = solver_find(form->solver, strlen(form->solver));
+  assert_non_null(solver);
+  method_default(solver, out);
   if (form->split) out->split = form->split;
 }
 
-void class_ask_rays(const struct situation_class *class, int form, size_t full, uint64_t seed, class_ask *ask,
-                    void *count)
+void class_trials_create(struct class_trials *trials, const struct situation *s)
 {
-  const size_t wanted = effort_count((size_t)(class->share * (form ? OTHERS_SHARE : 1) * (double)full),
-                                     form ? OTHERS_LEAST : LEAST_RAYS);
-  struct random random = {.state = seed + (uint64_t)form * 1000};
+  for (int m = 0; m < CLASS_FORMS; m++) {
+    struct method method;
+    method_of(&class_forms[m], &method);
+    if (m > 0) trial_create_beside(&trials->form[m], &trials->form[0], &method);
+    else trial_create(&trials->form[0], (const double(*)[4][4][3])s->P, s->count, &method);
+  }
+}
+
+void class_trials_destroy(struct class_trials *trials)
+{
+  for (int m = CLASS_FORMS; m-- > 0;) trial_destroy(&trials->form[m]);
+}
+
+void class_ask_rays(const struct situation_class *class, size_t full, uint64_t seed, class_ask *ask, void *context)
+{
+  const size_t wanted = effort_count((size_t)(class->share * (double)full), LEAST_RAYS);
+  struct random random = {.state = seed};
   size_t asked = 0;
   for (size_t index = 0; asked < wanted; index++) {
     struct situation situation;
     class->generate(&random, index, &situation);
     const size_t left = wanted - asked, most = left < SITUATION_RAYS ? left : SITUATION_RAYS;
-    asked += ask(class->name, &class_forms[form], &situation, (size_t)form * OTHERS_LEAST, most, count);
+    ask(class->name, &situation, most, context);
+    asked += most;
   }
 }
 

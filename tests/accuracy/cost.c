@@ -82,17 +82,13 @@ static void cost_print(struct cost *cost, const char *name, const char *kind)
 
 /* ---- classes ---- */
 
-static size_t ask(const char *name, const struct class_form *form, const struct situation *s, size_t first, size_t most,
-                  void *cost)
+static void ask(const char *name, const struct situation *s, size_t most, void *cost)
 {
   (void)name;
-  struct method method;
-  class_form_method(form, &method);
   struct trial trial;
-  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, &method);
-  for (size_t n = 0; n < most; n++) time_ray(cost, trial.tracer, &s->rays[(first + n) % SITUATION_RAYS]);
+  trial_create(&trial, (const double(*)[4][4][3])s->P, s->count, NULL);
+  for (size_t n = 0; n < most; n++) time_ray(cost, trial.tracer, &s->rays[n]);
   trial_destroy(&trial);
-  return most;
 }
 
 static void classes(void **state)
@@ -102,7 +98,7 @@ static void classes(void **state)
     const struct situation_class *class = every_class_at(n);
     struct cost cost = {0};
     if (!class_wanted(class)) continue;
-    class_ask_rays(class, 0, FULL_RAYS, effort_seed(class->seed), ask, &cost);
+    class_ask_rays(class, FULL_RAYS, effort_seed(class->seed), ask, &cost);
     cost_print(&cost, "class", class->name);
   }
 }

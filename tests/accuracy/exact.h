@@ -2,7 +2,8 @@
  *
  * Shares nothing with the renderer and nothing with src/reference. The two plane polynomials are bicubic nets of exact
  * integers (FLINT's fmpz): the doubles of patch and ray are dyadic numbers, and halving a net keeps it so. Boxes of
- * the (u,v) square are halved; a box
+ * the (u,v) square are halved, first those of nets of doubles that bound what each coefficient is off by
+ * (exact_quick.h), and what rounding hides there as integers; a box
  * - holds no root where a combination of the two nets has coefficients of one sign;
  * - holds at most one where the combinations that aim along u and v have derivatives that dominate (exactly compared);
  *   Newton's and Krawczyk's method in ball arithmetic (arb) find and prove that one, with precision raised until it is
@@ -20,10 +21,11 @@
 enum { EXACT_MOST_ROOTS = 64, EXACT_BOXES = 2000 };
 
 struct exact_root {
-  double u, v;  /* nearest doubles */
-  double t_off; /* t - t_about, relative error below 2^-50 */
-  bool proven;  /* false: not known whether it is within the patch and the interval; or any point of [t_off, t_end] */
-  double t_end; /* = t_off where proven */
+  double u, v;   /* nearest doubles */
+  double t;      /* the nearest double */
+  double t_rest; /* t + t_rest is it to twice the digits */
+  bool proven;   /* false: not known whether it is within the patch and the interval; or any point of [t, t_end] */
+  double t_end;  /* = t where proven */
 };
 
 struct exact_roots {
@@ -32,10 +34,10 @@ struct exact_roots {
   size_t boxes; /* looked at */
 };
 
-/* The common points with t_min < t < t_max (INFINITY: no end) of the closed patch and the line; t_about is any number
- * that the caller wants to compare t with to many places. All arguments finite but t_max; the direction not zero. */
+/* The common points with t_min < t < t_max (INFINITY: no end) of the closed patch and the line. All arguments finite but
+ * t_max; the direction not zero. */
 void exact_patch_roots(const double P[4][4][3], const double origin[3], const double direction[3], double t_min,
-                       double t_max, double t_about, struct exact_roots *out);
+                       double t_max, struct exact_roots *out);
 
 /* Gives back what FLINT keeps. */
 void exact_cleanup(void);

@@ -4,8 +4,10 @@
 
 #include <math.h>
 
+#include "accuracy/exact_quick.h"
+
 /* Newton's process starts within the box, so these are plenty. */
-enum { NEWTON_STEPS = 40, DOUBLE_STEPS = 8 };
+enum { NEWTON_STEPS = 40 };
 
 void ball_jet_init(struct ball_jet *jet) { arb_init(jet->value), arb_init(jet->ds), arb_init(jet->dt); }
 void ball_jet_clear(struct ball_jet *jet) { arb_clear(jet->value), arb_clear(jet->ds), arb_clear(jet->dt); }
@@ -48,12 +50,12 @@ void ball_evaluate(const fmpz *c, const arb_t s, const arb_t t, struct ball_jet 
 }
 
 /* step = Y F at the middles of s and t, Y the inverse Jacobian there, whose middles are kept. */
-static bool newton_step(const struct pair *pair, const arb_t s, const arb_t t, arb_t Y[4], arb_t step[2], long bits)
+static bool newton_step(const fmpz (*F)[16], const arb_t s, const arb_t t, arb_t Y[4], arb_t step[2], long bits)
 {
   struct ball_jet f[2];
   arb_t determinant, x;
   ball_jet_init(&f[0]), ball_jet_init(&f[1]), arb_init(determinant), arb_init(x);
-  for (int n = 0; n < 2; n++) ball_evaluate(pair->F[n], s, t, &f[n], bits);
+  for (int n = 0; n < 2; n++) ball_evaluate(F[n], s, t, &f[n], bits);
   arb_mul(determinant, f[0].ds, f[1].dt, bits), arb_submul(determinant, f[0].dt, f[1].ds, bits);
   const bool good = !arb_contains_zero(determinant);
   if (good) {
@@ -71,7 +73,7 @@ static bool newton_step(const struct pair *pair, const arb_t s, const arb_t t, a
 
 /* Krawczyk's test on the square of half-width r around (s,t): on success both become balls that hold exactly one
  * root. */
-static bool krawczyk(const struct pair *pair, arb_t s, arb_t t, arb_t Y[4], arb_t step[2], const mag_t r, long bits)
+static bool krawczyk(const fmpz (*F)[16], arb_t s, arb_t t, arb_t Y[4], arb_t step[2], const mag_t r, long bits)
 {
   arb_t X[2], K[2], M, spread;
   struct ball_jet f[2];
@@ -82,7 +84,7 @@ static bool krawczyk(const struct pair *pair, arb_t s, arb_t t, arb_t Y[4], arb_
   }
   arb_add_error_mag(spread, r);
   bool good = true;
-  for (int n = 0; n < 2; n++) ball_evaluate(pair->F[n], X[0], X[1], &f[n], bits);
+  for (int n = 0; n < 2; n++) ball_evaluate(F[n], X[0], X[1], &f[n], bits);
   for (int n = 0; n < 2; n++) {
     arb_sub(K[n], n ? t : s, step[n], bits);
     for (int m = 0; m < 2; m++) { /* (I - Y J)[n][m] times the spread */
@@ -99,46 +101,24 @@ static bool krawczyk(const struct pair *pair, arb_t s, arb_t t, arb_t Y[4], arb_
   return good;
 }
 
-/* The bicubic c[16] over [0,1]^2 at x, and its derivatives. */
-static void double_jet(const double c[16], const double x[2], double out[3])
+void ball_start(const fmpz (*F)[16], arb_t s, arb_t t)
 {
-  double w[2][4], dw[2][4];
-  for (int k = 0; k < 2; k++) {
-    const double t = x[k], s = 1 - t;
-    w[k][0] = s * s * s, w[k][1] = 3 * s * s * t, w[k][2] = 3 * s * t * t, w[k][3] = t * t * t;
-    dw[k][0] = -3 * s * s, dw[k][1] = 3 * s * (s - 2 * t), dw[k][2] = 3 * t * (2 * s - t), dw[k][3] = 3 * t * t;
-  }
-  out[0] = out[1] = out[2] = 0;
-  for (int n = 0; n < 16; n++) {
-    out[0] += w[0][n / 4] * w[1][n % 4] * c[n];
-    out[1] += dw[0][n / 4] * w[1][n % 4] * c[n], out[2] += w[0][n / 4] * dw[1][n % 4] * c[n];
-  }
-}
-
-void ball_start(const struct pair *pair, arb_t s, arb_t t)
-{
-  double c[2][16], x[2] = {0.5, 0.5};
+  double c[2][16], x[2];
   for (int f = 0; f < 2; f++) {
     slong most = 0;
     for (int n = 0; n < 16; n++)
-      if ((slong)fmpz_bits(&pair->F[f][n]) > most) most = (slong)fmpz_bits(&pair->F[f][n]);
+      if ((slong)fmpz_bits(&F[f][n]) > most) most = (slong)fmpz_bits(&F[f][n]);
     for (int n = 0; n < 16; n++) {
       slong exponent;
-      const double mantissa = fmpz_get_d_2exp(&exponent, &pair->F[f][n]);
-      c[f][n] = ldexp(mantissa, (int)(exponent - most));
+      const double mantissa = fmpz_get_d_2exp(&exponent, &F[f][n]);
+      c[f][n] = exponent - most > -1000 ? ldexp(mantissa, (int)(exponent - most)) : 0;
     }
   }
-  for (int n = 0; n < DOUBLE_STEPS; n++) {
-    double f[3], g[3];
-    double_jet(c[0], x, f), double_jet(c[1], x, g);
-    const double determinant = f[1] * g[2] - f[2] * g[1];
-    x[0] -= (g[2] * f[0] - f[2] * g[0]) / determinant, x[1] -= (f[1] * g[0] - g[1] * f[0]) / determinant;
-  }
-  if (!(fabs(x[0] - 0.5) <= 1 && fabs(x[1] - 0.5) <= 1)) x[0] = x[1] = 0.5;
+  if (!quick_newton((const double(*)[16])c, x)) x[0] = x[1] = 0.5;
   arb_set_d(s, x[0]), arb_set_d(t, x[1]);
 }
 
-bool ball_prove(const struct pair *pair, arb_t s, arb_t t, long bits)
+bool ball_prove(const fmpz (*F)[16], arb_t s, arb_t t, long bits)
 {
   arb_t Y[4], step[2];
   mag_t size, other;
@@ -146,7 +126,7 @@ bool ball_prove(const struct pair *pair, arb_t s, arb_t t, long bits)
   for (int n = 0; n < 4; n++) arb_init(Y[n]);
   arb_init(step[0]), arb_init(step[1]), mag_init(size), mag_init(other);
   for (int n = 0; n < NEWTON_STEPS && good && !proven; n++) {
-    good = newton_step(pair, s, t, Y, step, bits);
+    good = newton_step(F, s, t, Y, step, bits);
     if (!good) break;
     arb_get_mag(size, step[0]), arb_get_mag(other, step[1]);
     mag_max(size, size, other);
@@ -156,7 +136,7 @@ bool ball_prove(const struct pair *pair, arb_t s, arb_t t, long bits)
       mag_mul_2exp_si(size, size, 2);
       mag_max(size, size, other);
       for (int wide = 0; wide < 4 && !proven; wide++) {
-        proven = krawczyk(pair, s, t, Y, step, size, bits);
+        proven = krawczyk(F, s, t, Y, step, size, bits);
         mag_mul_2exp_si(size, size, 8);
       }
       if (proven) break;

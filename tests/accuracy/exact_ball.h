@@ -21,11 +21,6 @@ struct box {
   int halved[2];
 };
 
-/* A preconditioned pair on a box, in the box's own coordinates. */
-struct pair {
-  fmpz F[2][16];
-};
-
 struct ball_jet {
   arb_t value, ds, dt;
 };
@@ -37,10 +32,10 @@ void ball_jet_clear(struct ball_jet *jet);
 void ball_evaluate(const fmpz *c, const arb_t s, const arb_t t, struct ball_jet *out, long bits);
 
 /* A point for Newton's method to start from: its end in doubles, from the middle of the box. Proves nothing. */
-void ball_start(const struct pair *pair, arb_t s, arb_t t);
+void ball_start(const fmpz (*F)[16], arb_t s, arb_t t);
 
 /* From the point (s,t), radii 0, by Newton's method: on success (s,t) is a ball that holds exactly one root. */
-bool ball_prove(const struct pair *pair, arb_t s, arb_t t, long bits);
+bool ball_prove(const fmpz (*F)[16], arb_t s, arb_t t, long bits);
 
 /* Where the only root in the box or next to it lies beside the patch's border. Where it is exactly on the border that
  * is known if both nets are multiples of one cubic there, or vanish at a corner. */

@@ -93,6 +93,96 @@ enum side point_side(const struct box *box, const arb_t s, const arb_t t, const 
   return side;
 }
 
+/* The net c at u alone, at v alone, and at both. */
+struct lines {
+  fmpz at_u[4], at_v[4], both;
+};
+
+static void lines_of(const fmpz *c, const fmpz wu[4], const fmpz wv[4], struct lines *out)
+{
+  *out = (struct lines){.both = 0};
+  for (int n = 0; n < 16; n++) {
+    fmpz_addmul(&out->at_u[n % 4], &wu[n / 4], &c[n]);
+    fmpz_addmul(&out->at_v[n / 4], &wv[n % 4], &c[n]);
+  }
+  for (int k = 0; k < 4; k++) fmpz_addmul(&out->both, &wu[k], &out->at_v[k]);
+}
+
+static void lines_clear(struct lines *l)
+{
+  for (int k = 0; k < 4; k++) fmpz_clear(&l->at_u[k]), fmpz_clear(&l->at_v[k]);
+  fmpz_clear(&l->both);
+}
+
+static bool vanishes(const fmpz c[4])
+{
+  return fmpz_is_zero(&c[0]) && fmpz_is_zero(&c[1]) && fmpz_is_zero(&c[2]) && fmpz_is_zero(&c[3]);
+}
+
+/* The derivative of a cubic at p/q, times q^2 and over 3. */
+static void slope(const fmpz c[4], const fmpq_t x, fmpz_t out)
+{
+  fmpz_t rest, step;
+  fmpz_init(rest), fmpz_init(step);
+  const fmpz *p = fmpq_numref(x), *q = fmpq_denref(x);
+  fmpz_sub(rest, q, p);
+  fmpz_zero(out);
+  for (int k = 0; k < 3; k++) {
+    fmpz_sub(step, &c[k + 1], &c[k]);
+    fmpz_mul(step, step, k < 2 ? rest : p), fmpz_mul(step, step, k < 1 ? rest : p);
+    fmpz_addmul_ui(out, step, k == 1 ? 2 : 1);
+  }
+  fmpz_clear(rest), fmpz_clear(step);
+}
+
+/* Whether the gradients of both nets are parallel. */
+static bool parallel(const struct lines l[2], const fmpq_t u, const fmpq_t v)
+{
+  fmpz_t du[2], dv[2];
+  for (int f = A; f <= B; f++) {
+    fmpz_init(du[f]), fmpz_init(dv[f]);
+    slope(l[f].at_v, u, du[f]), slope(l[f].at_u, v, dv[f]);
+  }
+  fmpz_mul(du[A], du[A], dv[B]), fmpz_submul(du[A], du[B], dv[A]);
+  const bool good = fmpz_is_zero(du[A]);
+  for (int f = A; f <= B; f++) fmpz_clear(du[f]), fmpz_clear(dv[f]);
+  return good;
+}
+
+/* The simplest fraction in the place. */
+static void simplest_of(const struct place *place, int axis, fmpq_t out)
+{
+  fmpz_t corner, size;
+  fmpq_t from, to;
+  fmpz_init(corner), fmpz_init(size), fmpq_init(from), fmpq_init(to);
+  fmpz_add_ui(corner, corner, place->corner[axis]);
+  fmpz_one(size), fmpz_mul_2exp(size, size, (ulong)place->halved[axis]);
+  fmpq_set_fmpz_frac(from, corner, size);
+  fmpz_add_ui(corner, corner, 1);
+  fmpq_set_fmpz_frac(to, corner, size);
+  fmpq_simplest_between(out, from, to);
+  fmpz_clear(corner), fmpz_clear(size), fmpq_clear(from), fmpq_clear(to);
+}
+
+enum hopeless point_hopeless(const struct box *whole, const struct place *place)
+{
+  fmpq_t u, v;
+  fmpz wu[4] = {0}, wv[4] = {0};
+  struct lines l[2];
+  fmpq_init(u), fmpq_init(v);
+  simplest_of(place, 0, u), simplest_of(place, 1, v);
+  weights(u, wu), weights(v, wv);
+  for (int f = A; f <= B; f++) lines_of(whole->c[f], wu, wv, &l[f]);
+  enum hopeless found = HOPELESS_NOT;
+  if ((vanishes(l[A].at_u) && vanishes(l[B].at_u)) || (vanishes(l[A].at_v) && vanishes(l[B].at_v)))
+    found = HOPELESS_CURVE;
+  else if (fmpz_is_zero(&l[A].both) && fmpz_is_zero(&l[B].both) && parallel(l, u, v)) found = HOPELESS_POINT;
+  for (int k = 0; k < 4; k++) fmpz_clear(&wu[k]), fmpz_clear(&wv[k]);
+  for (int f = A; f <= B; f++) lines_clear(&l[f]);
+  fmpq_clear(u), fmpq_clear(v);
+  return found;
+}
+
 bool point_edge_vanishes(const fmpz *c, int border)
 {
   for (int n = 0; n < 4; n++)
