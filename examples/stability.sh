@@ -167,9 +167,10 @@ nets of exact integers and proves them in ball arithmetic; it shares nothing wit
 takes every answer, hit or miss, certain or grazing, of the classes above and of those that an adversary would aim
 ([tests/accuracy/hostile.c](../tests/accuracy/hostile.c)): rings of every radius from 1e-18 to 1 round poles, edges, corners,
 borders of leaves, cusps, rulings and tangencies; starts next to surfaces; nets degenerate but for some roundings;
-coordinates of every size. Each ray is asked with every solver, and with whole patches (split 1) and 8 x 8 leaves (split 8),
-and all answers to it are held to one proof; asked among other rays it has to be answered the same (PSCN_SEED
-$(seeds_of "$folder/proofs"); PSCN_CLASS takes one class).
+coordinates of every size. Each ray is asked as it is, from beyond what it hits back, ending there and starting there (but for
+2^-20 to 2^-53, or to the last bit); with every solver, and with whole patches (split 1) and 8 x 8 leaves (split 8); and all answers
+to it are held to one proof. Alone it has to be answered as in a packet, and asked for any hit as for the nearest
+(PSCN_SEED $(seeds_of "$folder/proofs"); PSCN_CLASS takes one class).
 
 - **proven**: certain hits of which T is a root's, within 4 times what one rounding of each input moves it, and none before
   it; certain misses without a root on the ray.

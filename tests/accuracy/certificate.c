@@ -13,8 +13,8 @@
  * some. */
 #define GRAZING_NEAR (4 * TRIAL_NEAR)
 
-/* A grazing answer may overlook a root this near to the ray's origin, relative to the same or the patch's extent. */
-#define AT_ORIGIN 0x1p-46
+/* A grazing answer may overlook a root this near to an end of the ray, relative to the same or the patch's extent. */
+#define AT_END 0x1p-46
 
 /* The square of a normal's length is 1 but for some roundings. */
 #define UNIT_NORMAL 0x1p-48
@@ -163,11 +163,12 @@ static double floor_at_hit(const struct judging *j)
   return trial_floor(j->certifier->reference, j->ray, hit->patch, hit->t, hit->u, hit->v).t;
 }
 
-/* Where on the ray a root of the patch is too near to its origin to be told from it. */
-static double end_of_origin(const struct certifier *certifier, const struct ray *ray, uint32_t patch)
+/* Whether a root is too near to an end of the ray to be told from it. */
+static bool at_an_end(const struct judging *j, const struct truth_root *root)
 {
-  const double *d = ray->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  return AT_ORIGIN * fmax(trial_size(ray, 0), extent_of(certifier, patch) / length);
+  const double *d = j->ray->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), t = root->at.t;
+  const double near = AT_END * fmax(trial_size(j->ray, t), extent_of(j->certifier, root->patch) / length);
+  return t - j->ray->t_min <= near || j->ray->t_max - t <= near;
 }
 
 /* What a root means to a hit. */
@@ -186,7 +187,7 @@ static void judge_root(struct judging *j, struct truth_root *root)
   if (off <= CERTIFICATE_FLOORS && (!j->at || aside < j->aside)) j->at = root, j->aside = aside;
   if (!(off_t < 0 && off > CERTIFICATE_FLOORS)) return;
   const bool certain = j->hit->certainty == CERTAINTY_CERTAIN;
-  if (!certain && (-off_t <= j->allowed || root->at.t <= end_of_origin(j->certifier, j->ray, root->patch))) return;
+  if (!certain && (-off_t <= j->allowed || at_an_end(j, root))) return;
   if (!j->before || off_t < t_off(j, j->before)) j->before = root;
 }
 
@@ -251,7 +252,7 @@ static void judge_miss(struct judging *j)
     struct truth_root *root = &j->certifier->truth.root[n];
     doubt |= !root->at.proven;
     if (!root->at.proven || root->at.t >= j->out->t) continue;
-    if (grazing && root->at.t < end_of_origin(j->certifier, j->ray, root->patch)) continue;
+    if (grazing && at_an_end(j, root)) continue;
     j->out->finding = FINDING_LOST;
     tell_root(j, root);
   }

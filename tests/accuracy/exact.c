@@ -310,6 +310,8 @@ static void look(struct search *s, struct view *view)
   size_t done = 0, count = 1, hidden = 0, most = curve ? CURVE_BOXES : EXACT_BOXES;
   struct quick *parts = &s->parts[view->base];
   double at[2];
+  if (dependent) box_straighten(&s->whole, &s->interval);
+  if (dependent && outside_interval(s, &s->whole)) return;
   view_start(s, view, parts);
   while (done < count) {
     if (curve) nearest_first(&parts[done], count - done);

@@ -280,3 +280,30 @@ bool box_dependent(const struct box *box)
   fmpz_clear(x);
   return dependent;
 }
+
+void box_straighten(struct box *box, struct interval *interval)
+{
+  fmpz_t step, slope;
+  fmpz *t = box->c[T], straight[16];
+  fmpz_init(step), fmpz_init(slope);
+  nets_init(straight, 16);
+  const fmpz *c = NULL;
+  for (int n = 0; n < 32 && !c; n++) { /* the first coefficient that is not the net's first */
+    const fmpz *net = box->c[n < 16 ? A : B];
+    fmpz_sub(step, &net[n % 16], &net[0]), fmpz_sub(slope, &t[n % 16], &t[0]);
+    if (!fmpz_is_zero(step)) c = net;
+  }
+  if (fmpz_sgn(step) < 0) fmpz_mul_si(step, step, -1), fmpz_mul_si(slope, slope, -1);
+  bool one = c;
+  for (int n = 0; n < 16 && one; n++) {
+    fmpz_mul(&straight[n], &t[n], step), fmpz_submul(&straight[n], &c[n], slope);
+    one = fmpz_equal(&straight[n], &straight[0]);
+  }
+  if (one) {
+    for (int n = 0; n < 16; n++) fmpz_swap(&t[n], &straight[n]);
+    fmpz_mul(interval->low, interval->low, step), fmpz_mul(interval->high, interval->high, step);
+    arb_div_fmpz(interval->unit, interval->unit, step, UNIT_PRECISION);
+  }
+  nets_clear(straight, 16);
+  fmpz_clear(step), fmpz_clear(slope);
+}

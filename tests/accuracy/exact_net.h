@@ -51,4 +51,8 @@ bool net_dominates(const fmpz *F, int own_is_v);
 /* Whether A and B are multiples of one net. */
 bool box_dependent(const struct box *box);
 
+/* Where T plus a multiple of A or B, A and B themselves being multiples of one net, has one value: puts it in the place of T,
+ * in another unit. So it is where a patch is a line or a point: the ray meets all of it at one t. */
+void box_straighten(struct box *box, struct interval *interval);
+
 #endif
