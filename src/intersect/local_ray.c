@@ -6,6 +6,7 @@
 
 #include "base/double_double.h"
 #include "base/real.h"
+#include "base/wide.h"
 
 /* (q_i d_k - q_k d_i)/d_k */
 static double moment(struct double_double qi, struct double_double qk, double di, double dk)
@@ -44,6 +45,51 @@ void local_ray_make(const struct model_patch *patch, const struct ray *ray, stru
   const double far[2] = {MOMENT_ERROR(fabs(q[i].hi), fabs(q[k].hi * out->slope[0])),
                          MOMENT_ERROR(fabs(q[j].hi), fabs(q[k].hi * out->slope[1]))};
   out->error = PLANE_ERROR(fabs(out->moment[0]), fabs(out->moment[1])) + real_max(far[0], far[1]) / unit;
+}
+
+/* The point of the ray's line on the plane x_k = middle_k across its dominant axis k, less `middle`; the line's moments
+ * about the origin are differences of exact products. Returns t there. */
+static wide line_at(const struct ray *ray, const double middle[3], wide out[3])
+{
+  const double *d = ray->direction, *o = ray->origin;
+  const int k = dominant_axis(d);
+  for (int n = 1; n < 3; n++) {
+    const int i = (k + n) % 3;
+    const wide moment = (wide)o[i] * d[k] - (wide)o[k] * d[i];
+    out[i] = (moment + (wide)d[i] * middle[k]) / d[k] - middle[i];
+  }
+  out[k] = 0;
+  return ((wide)middle[k] - o[k]) / d[k];
+}
+
+/* Beyond these nothing is met, and nothing overflows. */
+#define FARTHEST_AT 0x1p30
+#define FARTHEST_ENTRY 0x1p1000
+
+static double cut_off(wide x, double most) { return x > most ? most : x < -most ? -most : (double)x; }
+
+double local_ray_enter(const struct ray *ray, const double origin[3], double frame, double out_at[3])
+{
+  const double longest = fabs(ray->direction[dominant_axis(ray->direction)]);
+  wide at[3];
+  const wide unit = (wide)longest / frame, ahead = line_at(ray, origin, at) * unit, begin = ray->t_min * unit;
+  const wide off = 4 * WIDE_ROUNDOFF * ((ahead < 0 ? -ahead : ahead) + begin), start = begin - ahead - off;
+  const wide past = start > -2 ? start : -2; /* the middle */
+  for (int c = 0; c < 3; c++)
+    out_at[c] = cut_off(at[c] / frame + past * (ray->direction[c] / (wide)longest), FARTHEST_AT);
+  return cut_off(ahead + past, FARTHEST_ENTRY);
+}
+
+double local_ray_enter_copy(const struct ray *ray, const struct model_copy *copy, double out_at[3])
+{
+  wide at[3];
+  const wide t = line_at(ray, copy->b, at);
+  for (int j = 0; j < 3; j++) {
+    wide sum = 0;
+    for (int k = 0; k < 3; k++) sum += at[k] * copy->W[k][j];
+    out_at[j] = (double)sum;
+  }
+  return (double)t;
 }
 
 void local_ray_nets(const struct local_ray *ray, const double x[3][16], double a[16], double b[16], double w[16])

@@ -42,6 +42,17 @@ static inline int dominant_axis(const double d[3])
 
 void local_ray_make(const struct model_patch *patch, const struct ray *ray, struct local_ray *out);
 
+/* Where a ray that starts so far away that double precision loses it comes by: found in wide arithmetic, and by products
+ * that are exact, so that no distance costs a digit.
+ *
+ * Of what lies within 2 `frame` of `origin` along the ray's dominant axis: the point of the ray in front of it, or the
+ * ray's start where that is later, as (point - origin)/frame, coordinates beyond 2^30 cut off there. Returns how far
+ * along that axis it is from the ray's origin, of the frame, or 2^1000 where it is farther. */
+double local_ray_enter(const struct ray *ray, const double origin[3], double frame, double out_at[3]);
+
+/* In the coordinates of a copy's object, where it passes the middle of the copy. Returns t there. */
+double local_ray_enter_copy(const struct ray *ray, const struct model_copy *copy, double out_at[3]);
+
 /* Where along the ray x_k is w. */
 static inline double local_ray_place(const struct local_ray *ray, double w)
 {

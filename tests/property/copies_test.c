@@ -3,13 +3,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/wide.h"
 #include "cmocka_test.h"
 #include "geometry/vector.h"
 #include "intersect/intersect.h"
 #include "intersect/model.h"
 #include "property/world.h"
 
-enum { SEED = 20261121, RAYS = 512, PATCHES = 1100, PACKET = 8 };
+enum { SEED = 20261121, RAYS = 512, PATCHES = 1100, PACKET = 8, FAR_SCENES = 24 };
+
+/* What U and V of a certain hit that is not seen edge-on may differ by. */
+#define SAME_PLACE 1e-12
 
 /* A scene of many copies of one object, with and without its list of copies. */
 struct pair {
@@ -43,7 +47,21 @@ static void moved(const struct scene_copy *copy, world_net from, world_net to)
   }
 }
 
-static void pair_open(struct pair *pair, int kind, struct random *random)
+/* Moved only, so that a corner comes next to where the ray passes. */
+static void put_in_the_way(const struct ray *ray, double far, world_net net, struct random *random,
+                           struct scene_copy *copy)
+{
+  const double inside = pow(2, random_between(random, -30, -10)) * (random_bits(random) % 4 ? 1 : -1);
+  for (int k = 0; k < 3; k++) {
+    const wide at = (wide)ray->origin[k] + (wide)far * ray->direction[k];
+    const double corner = net[0][0][k] + inside * (net[3][3][k] - net[0][0][k]);
+    for (int i = 0; i < 3; i++) copy->A[i][k] = i == k;
+    copy->b[k] = (double)at - corner;
+  }
+}
+
+/* far: NULL, or a ray whose way leads past the first copy, at t = `at`. */
+static void pair_open(struct pair *pair, int kind, struct random *random, const struct ray *far, double at)
 {
   static world_net nets[WORLD_MAX];
   memset(pair, 0, sizeof *pair);
@@ -62,6 +80,7 @@ static void pair_open(struct pair *pair, int kind, struct random *random)
   for (size_t c = 0; c < copies; c++) {
     scene->copies[c].first_patch = c * count;
     random_map(random, &scene->copies[c]);
+    if (far && c == 0) put_in_the_way(far, at, nets[0], random, &scene->copies[c]);
     for (size_t p = 0; p < count; p++) moved(&scene->copies[c], nets[p], scene->patches[c * count + p].P);
   }
   for (int k = 0; k < 2; k++) {
@@ -106,7 +125,7 @@ static void each_kind(uint64_t seed, void (*body)(struct pair *pair))
   static struct pair pair;
   struct random random = {seed};
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
-    pair_open(&pair, kind, &random);
+    pair_open(&pair, kind, &random, NULL, 0);
     body(&pair);
     pair_close(&pair);
   }
@@ -221,14 +240,41 @@ static void rays_leave_copies(void **state)
   each_kind(SEED + 2, leave);
 }
 
+/* From so far away that twice the precision does not see the copy: the place on it has all its digits all the same. */
+static void rays_meet_copies_from_very_far_away(void **state)
+{
+  (void)state;
+  static struct pair pair;
+  struct random random = {SEED + 3};
+  int wrong = 0, certain = 0;
+  for (int n = 0; n < FAR_SCENES; n++) {
+    const double far = pow(2, random_between(&random, 75, 95));
+    struct ray ray = {.t_max = INFINITY};
+    for (int k = 0; k < 3; k++) ray.direction[k] = random_between(&random, -1, 1);
+    for (int k = 0; k < 3; k++) ray.origin[k] = -far * ray.direction[k];
+    pair_open(&pair, WORLD_GRID, &random, &ray, far);
+    struct hit hits[2];
+    for (int k = 0; k < 2; k++) tracer_closest(pair.tracer[k], 1, &ray, &hits[k]);
+    const bool sure = hits[0].certainty == CERTAINTY_CERTAIN && hits[1].certainty == CERTAINTY_CERTAIN;
+    const bool hit = hits[0].patch != HIT_NONE;
+    certain += sure && hit;
+    bool same = !sure || hit == (hits[1].patch != HIT_NONE);
+    if (sure && hit && hits[0].patch == hits[1].patch)
+      same = fabs(hits[0].u - hits[1].u) <= SAME_PLACE && fabs(hits[0].v - hits[1].v) <= SAME_PLACE;
+    if (!same && wrong++ < 3) world_print_case("far", pair.kind, &ray, &hits[0], &hits[1]);
+    pair_close(&pair);
+  }
+  assert_int_equal(wrong, 0);
+  assert_true(certain > FAR_SCENES / 4);
+}
+
 int main(void)
 {
   print_message("seed %d\n", SEED);
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(copies_answer_as_patches_of_their_own),
-    cmocka_unit_test(all_hits_of_copies_are_those_of_patches),
-    cmocka_unit_test(answers_do_not_depend_on_companions),
-    cmocka_unit_test(rays_leave_copies),
+    cmocka_unit_test(copies_answer_as_patches_of_their_own), cmocka_unit_test(all_hits_of_copies_are_those_of_patches),
+    cmocka_unit_test(answers_do_not_depend_on_companions),   cmocka_unit_test(rays_leave_copies),
+    cmocka_unit_test(rays_meet_copies_from_very_far_away),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

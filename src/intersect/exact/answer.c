@@ -1,4 +1,5 @@
 /* The hit at a point of a patch: the point, its error bound, the normal, the clearance. */
+#include <float.h>
 #include <math.h>
 
 #include "base/real.h"
@@ -50,16 +51,19 @@ static double clearance(const struct model *model, uint32_t patch, unsigned bord
   return hit->point_error + CLEARANCE(scale, loose, magnitude);
 }
 
+/* The double next to t in the ray's range: rounding may have taken its last bits to the end of that. */
+static double t_within(double t, double t_min, double t_max)
+{
+  return !(t > t_min) ? nextafter(t_min, INFINITY) : !(t < t_max) ? nextafter(t_max, -INFINITY) : t;
+}
+
 /* The hit at (u,v) of a patch and t of the ray. `borders`: those of the patch that the point lies on. */
 static void answer(const struct model *model, const struct ray *ray, uint32_t patch, unsigned borders, double t,
                    struct hit *out)
 {
   out->patch = patch;
   out->u = real_min(real_max(out->u, 0), 1), out->v = real_min(real_max(out->v, 0), 1);
-  /* Rounding may have taken the last bits of t to the end of the interval. */
-  out->t = !(t > ray->t_min)   ? nextafter(ray->t_min, INFINITY)
-           : !(t < ray->t_max) ? nextafter(ray->t_max, -INFINITY)
-                               : t;
+  out->t = t_within(t, ray->t_min, ray->t_max);
   set_surface(model, ray, out);
   out->clearance = clearance(model, patch, borders, out);
 }
@@ -93,4 +97,14 @@ void exact_maybe_hit(const struct model *model, const struct ray *ray, const str
 {
   *out = (struct hit){.certainty = CERTAINTY_GRAZING, .u = maybe->u, .v = maybe->v};
   answer(model, ray, maybe->patch, maybe->borders, maybe->t, out);
+}
+
+bool hit_scale_back(struct hit *hit, const struct ray *scaled, int exponent)
+{
+  const bool sure = hit->certainty == CERTAINTY_CERTAIN;
+  const double t = ldexp(hit->t, -exponent);
+  if (exponent == 0) return false;
+  if (!(hit->t >= DBL_MIN && t > 0 && t <= DBL_MAX)) hit->certainty = CERTAINTY_GRAZING;
+  hit->t = t_within(t, ldexp(scaled->t_min, -exponent), ldexp(scaled->t_max, -exponent));
+  return sure && hit->certainty == CERTAINTY_GRAZING;
 }

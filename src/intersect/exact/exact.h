@@ -124,4 +124,8 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
 void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe,
                      struct hit *out);
 
+/* answer.c: of a ray whose direction was scaled by 2^exponent, t of the one that was asked for. Returns whether the hit is
+ * grazing for it: t has lost digits at an end of the doubles. */
+bool hit_scale_back(struct hit *hit, const struct ray *scaled, int exponent);
+
 #endif

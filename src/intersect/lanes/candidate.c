@@ -82,7 +82,7 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {
     it.axis = __builtin_ctz(bits), it.line = &p->line[it.axis];
-    const lane_mask at = active & p->on_axis[it.axis], blind = at & (it.line->error > BLIND);
+    const lane_mask at = active & p->on_axis[it.axis], blind = at & ~(it.line->error <= BLIND);
     const lane_mask here = at & ~blind;
     if (lanes_any(blind)) packet_postpone(p, it.leaf, blind);
     const bool explained = p->tracer->explainer && lanes_any(at);

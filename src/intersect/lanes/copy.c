@@ -1,11 +1,29 @@
 /* A packet in the coordinates of an object, and back. Compiled once per instruction set and without contraction.
  *
  * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, before it is taken to
- * the object's coordinates, and all of that in about twice the precision: so it is right to its last places near the
- * object, however far away it starts. copies.c bounds what rounding is left, model_object.error.
+ * the object's coordinates, and all of that in about twice the precision, or more where it starts very far away: so it is
+ * right to its last places near the object. copies.c bounds what rounding is left, model_object.error.
  */
 #include "base/double_lanes.h"
 #include "intersect/lanes/nearest.h"
+
+/* Twice the precision leaves less unknown than an object's error counts, for a start up to this many of that away, in the
+ * object's coordinates: 2^-104 of the way, by a map that may stretch errors by 2^10 (copies.c). */
+#define FARTHEST_WAY 0x1p88
+
+/* Out of line, for it is rare: as local_ray.h has it. */
+__attribute__((noinline)) static void enter_from_far(struct packet *inner, lane_mask far)
+{
+  for (unsigned bits = lanes_bits(far); bits; bits &= bits - 1) {
+    const int l = __builtin_ctz(bits);
+    struct ray ray;
+    double at[3];
+    for (int k = 0; k < 3; k++)
+      ray.origin[k] = inner->outer->origin[k][l], ray.direction[k] = inner->outer->direction[k][l];
+    inner->shift[l] = local_ray_enter_copy(&ray, inner->copy, at);
+    for (int k = 0; k < 3; k++) inner->origin[k][l] = at[k];
+  }
+}
 
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner)
 {
@@ -19,10 +37,10 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
     const lanes d = outer->direction[k];
     ahead += (copy->b[k] - outer->origin[k]) * d, square += d * d;
   }
-  const lanes shift = inner->shift = ahead / square;
+  inner->shift = ahead / square;
   struct double_lanes from[3]; /* the middle */
   for (int k = 0; k < 3; k++) {
-    const struct double_lanes way = double_lanes_product(shift, outer->direction[k]);
+    const struct double_lanes way = double_lanes_product(inner->shift, outer->direction[k]);
     const struct double_lanes origin = double_lanes_sum(outer->origin[k], lanes_all(-copy->b[k]));
     const struct double_lanes sum = double_lanes_sum(way.hi, origin.hi);
     from[k] = (struct double_lanes){sum.hi, sum.lo + (way.lo + origin.lo)};
@@ -37,10 +55,13 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
     }
     inner->origin[j] = hi + lo, inner->direction[j] = direction;
   }
-  inner->t_min = outer->t_min - shift, inner->t_max = outer->t_max - shift;
-  inner->t_far = (outer->t_far - shift) + 4 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_far));
   inner->net_error = copy->object->error;
   packet_untried(inner);
+  const lane_mask far = inner->live & ~(lanes_abs(inner->shift) * inner->longest <= FARTHEST_WAY * inner->net_error);
+  if (lanes_any(far)) enter_from_far(inner, far);
+  const lanes shift = inner->shift;
+  inner->t_min = outer->t_min - shift, inner->t_max = outer->t_max - shift;
+  inner->t_far = (outer->t_far - shift) + 4 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_far));
   inner->t_error = 2 * inner->net_error / inner->longest +
                    8 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_min));
 }

@@ -213,7 +213,7 @@ bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[]
     struct hit *hits = lane_hits(p, lane, (const struct gathered *const *)gather->order.at + begin[lane],
                                  begin[lane + 1] - begin[lane], &out[lane]);
     for (size_t k = 0; k < out[lane].count && hits; k++) {
-      if (exponents && exponents[lane] != 0) hits[k].t = ldexp(hits[k].t, -exponents[lane]);
+      if (exponents) (void)hit_scale_back(&hits[k], &p->rays[lane], exponents[lane]);
       /* What comes later is no nearer, though the last bits may say so. */
       if (k > 0 && hits[k].t < hits[k - 1].t) hits[k].t = hits[k - 1].t;
       if (hits[k].certainty != CERTAINTY_CERTAIN) out[lane].certainty = CERTAINTY_GRAZING;

@@ -28,8 +28,9 @@ enum { BVH_ROW = sizeof(float[BVH_WIDTH]) };
 /* All boxes, and the roundings of making them. */
 #define FRAME_HALF 1.0625
 
-/* A ray that starts farther away is moved up to the frame first. */
+/* A ray that starts farther away is moved up to the frame first; in wide arithmetic where that would lose it. */
 #define FRAME_NEAR 16.0
+#define FRAME_FAR 0x1p30
 
 /* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it and
  * its sum with the slack to float, its product with the reciprocal, and a box's, for the planes are that far off then. */
@@ -89,6 +90,20 @@ LANES_INLINE void sides_set(struct sides *sides, int k, bool down)
   sides->first[k] = (down ? hi : lo) + at, sides->last[k] = (down ? lo : hi) + at;
 }
 
+/* Out of line, for it is rare: where the rays of the lanes `far` come to the frame, as local_ray.h has it. */
+__attribute__((noinline)) static void come_near(const struct packet *p, const struct model_tree *tree, lane_mask far,
+                                                lanes from[3], lanes slack[3], lanes *start)
+{
+  for (unsigned bits = lanes_bits(far); bits; bits &= bits - 1) {
+    const int l = __builtin_ctz(bits);
+    struct ray ray = {.t_min = p->t_min[l]};
+    double at[3];
+    for (int k = 0; k < 3; k++) ray.origin[k] = p->origin[k][l], ray.direction[k] = p->direction[k][l];
+    (*start)[l] = local_ray_enter(&ray, tree->origin, tree->frame, at);
+    for (int k = 0; k < 3; k++) from[k][l] = at[k], slack[k][l] = 0;
+  }
+}
+
 static void bundle_start(struct bundle *b, const struct model_tree *tree)
 {
   b->view.alike = true;
@@ -109,10 +124,12 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
     /* No ray is in the frame before this depth: its dominant coordinate is outside. */
     lanes start = lanes_max(p->t_min * b->view.unit[h], -(farthest + 2));
     if (lanes_any(farthest > FRAME_NEAR)) start = lanes_max(frame_entry(from, slack, direction), start);
+    for (int k = 0; k < 3; k++) from[k] += start * direction[k], slack[k] += 8 * UNIT_ROUNDOFF * lanes_abs(start);
+    const lane_mask far = ~(farthest <= FRAME_FAR);
+    if (lanes_any(far)) come_near(p, tree, far, from, slack, &start);
     b->view.start[h] = start;
     for (int k = 0; k < 3; k++) {
-      from[k] += start * direction[k];
-      slack[k] += ORIGIN_SLACK * (1 + lanes_abs(from[k])) + 8 * UNIT_ROUNDOFF * lanes_abs(start);
+      slack[k] += ORIGIN_SLACK * (1 + lanes_abs(from[k]));
       low[k][h] = from[k] + slack[k], high[k][h] = from[k] - slack[k];
     }
   }
@@ -345,16 +362,19 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
 /* ---- the face ---- */
 
 /* Directions whose longest component is outside these are scaled by a power of two to one from 1 to 2, so that no product
- * over- or underflows and no t is larger than a distance. */
+ * over- or underflows and no t is larger than a distance: of a ray that starts at the end of the doubles any that is
+ * shorter than 1. */
 #define DIRECTION_MIN 0x1p-16
 #define DIRECTION_MAX 0x1p16
+#define ORIGIN_MAX 0x1p1000
 
 static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
 {
-  const double *d = ray->direction, largest = fabs(d[dominant_axis(d)]);
+  const double *d = ray->direction, *o = ray->origin, largest = fabs(d[dominant_axis(d)]);
+  const double least = fabs(o[dominant_axis(o)]) <= ORIGIN_MAX ? DIRECTION_MIN : 1;
   struct ray r = *ray;
   *out_exponent = 0;
-  if (largest >= DIRECTION_MIN && largest <= DIRECTION_MAX) return r;
+  if (largest >= least && largest <= DIRECTION_MAX) return r;
   frexp(largest, out_exponent);
   --*out_exponent;
   for (int k = 0; k < 3; k++) r.direction[k] = ldexp(d[k], -*out_exponent);
@@ -387,7 +407,9 @@ static void packet_begin(struct packet *p, struct ready *ready, struct tracer *t
   ready->copied = false;
   if (count == 1 || count == LANES) {
     packet_start(p, tracer, rays, count, any, &ready->postponed);
-    if (!lanes_any((p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX))) return;
+    lane_mask scaled = (p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX);
+    for (int k = 0; k < 3; k++) scaled |= lanes_abs(p->origin[k]) > ORIGIN_MAX;
+    if (!lanes_any(scaled)) return;
   }
   packet_copied(p, ready, tracer, count, rays, any);
 }
@@ -413,10 +435,10 @@ static void closest(struct tracer *tracer, size_t count, const struct ray rays[]
     for (size_t h = 0; h < (size_t)bundle.packets; h++) {
       struct packet *packet = &bundle.packet[h];
       struct hit *hits = out_hits + first + h * LANES;
-      const unsigned grazing = finish_hits(packet, hits);
-      tracer->counts.grazing += grazing, tracer->counts.certain += packet->count - grazing;
+      unsigned grazing = finish_hits(packet, hits);
       for (size_t l = 0; l < packet->count && ready[h].copied; l++)
-        if (ready[h].exponent[l] != 0 && hits[l].patch != HIT_NONE) hits[l].t = ldexp(hits[l].t, -ready[h].exponent[l]);
+        if (hits[l].patch != HIT_NONE) grazing += hit_scale_back(&hits[l], &packet->rays[l], ready[h].exponent[l]);
+      tracer->counts.grazing += grazing, tracer->counts.certain += packet->count - grazing;
       tracer->counts.rays[0] += packet->count;
     }
   }

@@ -29,6 +29,9 @@ enum { TEAM_LEAST = 1024 };
 /* A frame no smaller than this: its reciprocal times a direction is finite. */
 #define LEAST_FRAME 0x1p-700
 
+/* Of a scene that reaches farther not even its own size is a number that can be squared, or doubled: nothing is proven. */
+#define LARGEST_SIZE 0x1p1000
+
 /* The frame of the hierarchy. */
 static void set_frame(struct model *model)
 {
@@ -43,6 +46,7 @@ static void set_frame(struct model *model)
     model->unproven |= !scene->solvers[scene->patches[p].solver].polish;
   }
   for (int k = 0; k < 3; k++) model->size = real_max(model->size, real_max(fabs(lo[k]), fabs(hi[k])));
+  model->unproven |= model->size > LARGEST_SIZE;
   double extent = real_max(LEAST_EXTENT * model->size, LEAST_FRAME);
   for (int k = 0; k < 3; k++)
     model->origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);

@@ -1,0 +1,167 @@
+/* Rays, patches and lengths from one end of the doubles to the other, all against all: a ray through the middle of a patch
+ * meets it, whatever their sizes are and wherever it starts. */
+#include <float.h>
+#include <math.h>
+
+#include "base/wide.h"
+#include "cmocka_test.h"
+#include "property/world.h"
+
+enum { SEED = 20261122, SCENES = 1500, RAYS = PACKET_SIZE };
+
+static const double sizes[] = {5e-324, 1e-320, 2.3e-308, 1e-307, 1e-300,  1e-200, 1e-160,  1e-30,   1e-10,
+                               1e-5,   0.25,   0.5,      1,      1,       1,      1e5,     1e10,    1e30,
+                               1e160,  1e200,  1e300,    1e307,  0.9e308, 1e308,  1.2e308, 1.7e308, 1.79e308};
+
+static double any_size(struct random *random, double least, double most)
+{
+  double size;
+  do size = sizes[random_bits(random) % (sizeof sizes / sizeof *sizes)] * (1 - 0.3 * random_between(random, 0, 1));
+  while (!(size >= least && size <= most));
+  return size;
+}
+
+/* What is nearer to the ray's start than this, of the patch, 113 bits cannot tell from it. */
+#define NEAR_START 1e-29
+
+/* A ray that meets the patch next to its middle, at a t that is known to a part of `bend`. */
+struct shot {
+  struct ray ray;
+  double start; /* how far away it starts, of the size */
+  wide t;
+  bool hits; /* within the ray's range */
+};
+
+/* Across axis k, or along a diagonal through the middle of the frame. */
+static struct shot make_shot(struct random *random, int k, double size)
+{
+  const double away = any_size(random, 0, DBL_MAX), length = any_size(random, 0, DBL_MAX);
+  const bool diagonal = random_bits(random) % 2;
+  struct shot shot = {.ray = {.t_max = INFINITY}, .start = away / size, .t = (wide)away / length, .hits = true};
+  for (int c = 0; c < 3; c++) {
+    const double side = random_bits(random) % 2 ? 1 : -1;
+    const bool along = diagonal || c == k;
+    shot.ray.origin[c] = along ? -side * away : size * random_between(random, -0.5, 0.5);
+    shot.ray.direction[c] = along ? side * length : 0;
+  }
+  const double twice = (double)(2 * shot.t), half = (double)(shot.t / 2);
+  const bool plain = half >= DBL_MIN && twice <= DBL_MAX && shot.start > 1e3; /* where the bend does not matter */
+  switch (random_bits(random) % 4) {
+  case 0:
+    if (plain) shot.ray.t_max = twice;
+    break;
+  case 1:
+    if (plain) shot.ray.t_min = half;
+    break;
+  case 2:
+    if (plain) shot.ray.t_max = half, shot.hits = false;
+    break;
+  default: break;
+  }
+  return shot;
+}
+
+static const char *wrong_hit(const struct shot *shot, const struct hit *hit, bool flat)
+{
+  const bool certain = hit->certainty == CERTAINTY_CERTAIN;
+  if (hit->patch == HIT_NONE) return !shot->hits ? NULL : certain ? "a certain miss" : "a miss";
+  if (!shot->hits) return certain ? "a hit beyond the end" : NULL;
+  if (!(hit->t > shot->ray.t_min && hit->t < shot->ray.t_max)) return "t out of range";
+  const wide off = hit->t > shot->t ? hit->t - shot->t : shot->t - hit->t;
+  if (certain && flat && off > 1e-15 * shot->t && off > DBL_TRUE_MIN) return "a certain hit elsewhere";
+  return NULL;
+}
+
+static int check(struct world *world, const struct shot shots[RAYS], bool flat)
+{
+  struct ray rays[RAYS];
+  struct hit hits[RAYS];
+  bool occluded[RAYS];
+  int wrong = 0;
+  for (int n = 0; n < RAYS; n++) rays[n] = shots[n].ray;
+  tracer_closest(world->tracer, RAYS, rays, hits);
+  tracer_occluded(world->tracer, RAYS, rays, occluded);
+  for (int n = 0; n < RAYS; n++) {
+    const struct shot *shot = &shots[n];
+    if (shot->start < NEAR_START || (!flat && shot->start < 4)) continue;
+    const struct hit alone = world_closest(world, &rays[n]);
+    struct hit_list list;
+    assert_int_equal(tracer_all(world->tracer, 1, &rays[n], &list), STATUS_OK);
+    const char *what = wrong_hit(shot, &hits[n], flat);
+    if (!what) what = wrong_hit(shot, &alone, flat);
+    if (!what && occluded[n] != shot->hits) what = "occluded";
+    if (!what && (list.count > 0) != shot->hits) what = "all hits";
+    if (!what && list.count > 0) what = wrong_hit(shot, &list.hits[0], flat);
+    if (!what) continue;
+    if (wrong++ < 3) world_print_case(what, 0, &rays[n], &hits[n], &alone);
+  }
+  return wrong;
+}
+
+static void rays_and_patches_of_all_sizes(void **state)
+{
+  (void)state;
+  struct random random = {SEED};
+  int wrong = 0;
+  for (int scene = 0; scene < SCENES; scene++) {
+    const int k = scene % 3;
+    const double size = any_size(&random, 1e-300, 1e300);
+    const double bend = scene % 2 ? 0 : size * random_between(&random, 0, 0.3);
+    world_net net[1];
+    for (int i = 0; i < 4; i++) {
+      for (int j = 0; j < 4; j++) {
+        double *p = net[0][i][j];
+        p[(k + 1) % 3] = (i - 1.5) * size, p[(k + 2) % 3] = (j - 1.5) * size;
+        p[k] = bend * (i % 3 ? 1 : -1) * (j % 3 ? 1 : -1);
+      }
+    }
+    struct world world;
+    struct shot shots[RAYS];
+    struct method method;
+    method_default(solver_at((size_t)scene % solver_count()), &method);
+    if (scene % 5 == 0) method.split = 1;
+    world_open(&world, net, 1, &method);
+    for (int n = 0; n < RAYS; n++) shots[n] = make_shot(&random, k, size);
+    wrong += check(&world, shots, bend == 0);
+    world_close(&world);
+  }
+  assert_int_equal(wrong, 0);
+}
+
+enum { ACROSS = 24, FAR_RAYS = 64, FEW_LEAVES = 40 };
+
+/* However far away a ray starts, it is tried on the leaves along it only: from 2^40 to 2^100 scenes away, exactly along a
+ * diagonal over a floor of patches. */
+static void far_rays_pass_by_what_is_not_on_their_way(void **state)
+{
+  (void)state;
+  static world_net nets[ACROSS * ACROSS];
+  struct random random = {SEED + 1};
+  for (int n = 0; n < 16 * ACROSS * ACROSS; n++) {
+    double *p = nets[n / 16][n / 4 % 4][n % 4];
+    p[0] = 3 * (n / 16 % ACROSS - ACROSS / 2) + n / 4 % 4 - 1.5;
+    p[1] = 3 * (n / 16 / ACROSS - ACROSS / 2) + n % 4 - 1.5;
+    p[2] = random_between(&random, -0.5, 0.5);
+  }
+  struct world world;
+  world_open(&world, nets, ACROSS * ACROSS, NULL);
+  for (int n = 0; n < FAR_RAYS; n++) {
+    struct ray ray = {.t_max = INFINITY};
+    const double far = ldexp(1, 40 + n);
+    for (int k = 0; k < 3; k++) {
+      const double side = random_bits(&random) % 2 ? 1 : -1;
+      ray.origin[k] = -far * side, ray.direction[k] = side;
+    }
+    const uint64_t before = tracer_counts(world.tracer)->escalated;
+    assert_int_not_equal(world_closest(&world, &ray).patch, HIT_NONE);
+    assert_in_range(tracer_counts(world.tracer)->escalated - before, 0, FEW_LEAVES);
+  }
+  world_close(&world);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(rays_and_patches_of_all_sizes),
+                                     cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
