@@ -333,11 +333,25 @@ static bool surface_good(const struct judging *j)
   return hit->certainty == CERTAINTY_GRAZING || fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < UNIT_NORMAL;
 }
 
+static bool same_answer(const struct hit *a, const struct hit *b)
+{
+  if (a->patch != b->patch || a->certainty != b->certainty) return false;
+  return a->patch == HIT_NONE ||
+         (a->t == b->t && a->u == b->u && a->v == b->v && a->point_error == b->point_error &&
+          !memcmp(a->point, b->point, sizeof a->point) && !memcmp(a->normal, b->normal, sizeof a->normal));
+}
+
 void certify(struct certifier *certifier, const struct ray *ray, const struct hit *hit, struct certificate *out)
 {
+  struct truth *truth = &certifier->truth;
+  if (truth->judged && same_ray(&truth->ray, ray) && same_answer(&truth->hit, hit)) {
+    *out = truth->certificate;
+    return;
+  }
   *out = (struct certificate){.finding = FINDING_PROVEN, .t = INFINITY, .patch = REFERENCE_NONE};
   struct judging j = {.certifier = certifier, .ray = ray, .hit = hit, .out = out};
   (hit->patch == HIT_NONE ? judge_miss : judge_hit)(&j);
-  out->boxes = certifier->truth.boxes;
+  out->boxes = truth->boxes;
   if (hit->patch != HIT_NONE && out->finding <= FINDING_UNDECIDED && !surface_good(&j)) out->finding = FINDING_SURFACE;
+  truth->judged = true, truth->hit = *hit, truth->certificate = *out;
 }

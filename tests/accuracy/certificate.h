@@ -57,6 +57,9 @@ struct truth {
   double end;
   struct truth_root *root;
   size_t count, capacity, boxes;
+  bool judged; /* an answer, which the next solver may give too, has this certificate */
+  struct hit hit;
+  struct certificate certificate;
 };
 
 struct certifier {

@@ -8,6 +8,7 @@
 #include "accuracy/generate.h"
 #include "accuracy/lattice.h"
 #include "accuracy/models.h"
+#include "accuracy/thresholds.h"
 
 enum { RAYS = SITUATION_RAYS };
 
@@ -423,10 +424,16 @@ static const struct situation_class classes[] = {
   {"sizes beyond all digits", 714, 0.5, extreme_wild_sizes},
   {"far origins", 715, 1, extreme_far_origins},
   {"far origins, oblique", 719, 0.5, extreme_far_oblique},
-  {"far origins, along a diagonal", 720, 0.1, extreme_far_diagonal},
+  {"far origins, along a diagonal", 727, 0.1, extreme_far_diagonal},
   {"cubes from within their planes", 716, 0.1, cubes},
   {"coincident patches", 717, 0.5, coincident},
   {"small whole numbers", 720, 0.5, lattice},
+  {"small whole numbers in other units", 721, 0.5, threshold_scaled_lattice},
+  {"directions of any length", 722, 1, threshold_directions},
+  {"nearly of a lower degree", 723, 1, threshold_degrees},
+  {"points anywhere", 724, 0.5, threshold_random_nets},
+  {"coincident, turned round", 725, 0.5, threshold_turned},
+  {"large and small", 726, 0.5, threshold_large_and_small},
 };
 
 size_t every_class_count(void) { return situation_class_count() + sizeof classes / sizeof classes[0]; }
