@@ -190,18 +190,22 @@ bool source_is_shown(const char *text, size_t bytes)
   return bytes > 2 || (bytes == 2 && !(c[0] == 0xC2 && c[1] < 0xA0)) || (bytes == 1 && c[0] >= ' ' && c[0] != 0x7F);
 }
 
+/* Whether a line ends with that byte: LF, or a CR that no LF follows. */
+static bool ends_line(const char *byte) { return *byte == '\n' || (*byte == '\r' && byte[1] != '\n'); }
+
 struct source_position source_locate(const struct source *source, size_t offset)
 {
   const char *text = source->text;
   source_recall(source);
   if (offset > source->length) offset = source->length;
   struct source_position at = {.line = 1, .column = 1};
-  for (const char *newline; (newline = memchr(text + at.line_begin, '\n', offset - at.line_begin)) != NULL;) {
+  for (size_t i = 0; i < offset; i++) {
+    if (!ends_line(text + i)) continue;
     at.line++;
-    at.line_begin = (size_t)(newline - text) + 1;
+    at.line_begin = i + 1;
   }
-  const char *end = memchr(text + offset, '\n', source->length - offset);
-  at.line_end = end ? (size_t)(end - text) : source->length;
+  at.line_end = offset;
+  while (at.line_end < source->length && !ends_line(text + at.line_end)) at.line_end++;
   if (at.line_end > at.line_begin && text[at.line_end - 1] == '\r') at.line_end--;
   for (size_t i = at.line_begin; i < offset;) {
     size_t bytes = source_character(text + i, source->length - i);

@@ -33,6 +33,7 @@ struct scan {
   size_t begin, end; /* bytes of the last token */
   size_t comment_begin;
   int comment_depth;
+  size_t bad_end;   /* behind the last characters that mean nothing */
   double number[3]; /* of PSCN_TOKEN_NUMBER ([0]) and PSCN_TOKEN_POINT */
   bool too_large;   /* one of them is too large for a double: which bytes */
   size_t too_large_begin, too_large_end;

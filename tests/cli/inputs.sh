@@ -20,3 +20,13 @@ ls -A
 # Names that lead nowhere.
 ln -s loop loop
 for name in loop device.pscn/x "$(printf 'x%.0s' {1..300})"; do within pscn dump "$name" 2>&1 | sed 's/xxx*/x.../'; done
+# Texts of NULs take no longer than others, and neither does what holds nothing for 4 GB.
+nuls() { head -c 4000000 /dev/zero; }
+nuls >nuls
+within pscn dump nuls
+(printf '//' && nuls) | timeout 20 pscn dump - | cmp - <(pscn dump - </dev/null) && echo a comment
+(printf '/*' && nuls && printf '*/') | timeout 20 pscn dump - | cmp - <(pscn dump - </dev/null) && echo a comment
+(printf '#include "' && nuls) | within pscn dump - 2>&1 | cut -c 1-60
+truncate -s 4G empty.exr
+within pscn compare empty.exr empty.exr
+within pscn merge empty.exr -o merged.png
