@@ -34,7 +34,8 @@ int input_open(const char *path, enum input_kind kind, const char **out_reason)
   else if (S_ISDIR(info.st_mode)) *out_reason = input_reason(EISDIR);
   else if (S_ISFIFO(info.st_mode) && kind == INPUT_FILE) *out_reason = "it is a pipe";
   else if (!S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode)) *out_reason = "it is a device";
-  else if ((file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY)) < 0) *out_reason = input_reason(errno);
+  else if ((file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | (S_ISREG(info.st_mode) ? O_NONBLOCK : 0))) < 0)
+    *out_reason = input_reason(errno); /* not to wait at a file that is none, such as /proc/kmsg */
   return file;
 }
 

@@ -9,6 +9,7 @@
 #include "command/interrupt.h"
 #include "intersect/intersect.h"
 #include "library/pscn.h"
+#include "render/threads.h"
 
 /* A standard stream that was closed gets a descriptor that refuses its use, so that no file of ours is opened in its
  * place and takes what is meant for it. */
@@ -36,6 +37,19 @@ static bool is_rendering(int argc, char **argv)
   return scene;
 }
 
+struct call {
+  const struct command *command;
+  int argc;
+  const char **argv;
+};
+
+static enum status run_call(void *context, size_t worker)
+{
+  const struct call *call = context;
+  (void)worker;
+  return call->command->run(call->command, call->argc, call->argv);
+}
+
 int main(int argc, char **argv)
 {
   hold_streams();
@@ -59,6 +73,7 @@ int main(int argc, char **argv)
   if (command == NULL) return (int)command_unknown(name);
   if (!intersector_kernel_here())
     return (int)command_usage(NULL, "PSCN_KERNEL='%s' is no instruction set of this processor", getenv("PSCN_KERNEL"));
-  const int code = (int)command->run(command, argc - words, (const char **)argv + words);
+  struct call call = {command, argc - words, (const char **)argv + words};
+  const int code = (int)threads_run_deep(run_call, &call);
   return code == STATUS_INTERRUPTED ? interrupt_exit_code() : code;
 }

@@ -104,17 +104,20 @@ void piece_destroy(struct piece *piece)
   *piece = (struct piece){0};
 }
 
-/* "0-17,19", the opposite of piece_done_text; false where it is no such list. */
+/* "0-17,19", the opposite of piece_done_text, so each number is larger than the one before; false where it is no such
+ * list. */
 static bool read_done(const char *text, size_t length, const struct tile_list *tiles)
 {
   const char *end = text + length;
-  while (text < end) {
+  for (size_t next = 0; text < end;) {
     size_t first, last;
     if (!take_integer(&text, end, tiles->count, &first)) return false;
     last = first;
     if (take_letter(&text, end, '-') && !take_integer(&text, end, tiles->count, &last)) return false;
-    if (last < first || last >= tiles->count || !(text == end || take_letter(&text, end, ','))) return false;
+    if (first < next || last < first || last >= tiles->count || !(text == end || take_letter(&text, end, ',')))
+      return false;
     for (size_t k = first; k <= last; k++) atomic_store(&tiles->done[k], true);
+    next = last + 1;
   }
   return true;
 }

@@ -22,8 +22,7 @@ enum { OPTION_CROP = 1, OPTION_CHANNELS, OPTION_BITS, OPTION_TILE };
 
 enum {
   MAX_SAMPLES = 256, /* a side: 65536 rays a pixel */
-  MAX_THREADS = 1024,
-  MAX_PIXELS = 1 << 28 /* of the part that is kept, 3 GiB of colours; larger ones are typing errors */
+  MAX_THREADS = 1024
 };
 
 /* What the command line asks for. */
@@ -138,9 +137,9 @@ static enum status check_crop(const struct command *command, struct render_optio
   if (crop->x + crop->width > options->width || crop->y + crop->height > options->height)
     return command_usage(command, "the crop %zu,%zu,%zu,%zu is not inside the picture of %zux%zu pixels", crop->x,
                          crop->y, crop->width, crop->height, options->width, options->height);
-  if (crop->height > MAX_PIXELS / crop->width)
+  if (crop->height > IMAGE_MAX_PIXELS / crop->width)
     return command_usage(command, "%zux%zu pixels are more than the %d that a picture may have", crop->width,
-                         crop->height, MAX_PIXELS);
+                         crop->height, IMAGE_MAX_PIXELS);
   return STATUS_OK;
 }
 

@@ -8,7 +8,7 @@
 enum status image_create(size_t width, size_t height, size_t channel_count, struct image *out)
 {
   *out = (struct image){0};
-  if (width != 0 && height > SIZE_MAX / width) return STATUS_LIMIT;
+  if (width != 0 && height > IMAGE_MAX_PIXELS / width) return STATUS_LIMIT;
   const size_t pixels = width * height;
   if (channel_count != 0 && pixels > SIZE_MAX / sizeof(float) / channel_count) return STATUS_LIMIT;
   const size_t values = pixels * channel_count;

@@ -11,8 +11,9 @@
 #include "base/status.h"
 
 enum {
-  IMAGE_NAME_SIZE = 64,    /* of a channel name, with its NUL */
-  IMAGE_MAX_CHANNELS = 256 /* of a picture read or written */
+  IMAGE_NAME_SIZE = 64,      /* of a channel name, with its NUL */
+  IMAGE_MAX_CHANNELS = 256,  /* of a picture read or written */
+  IMAGE_MAX_PIXELS = 1 << 28 /* 3 GiB of colours; more are a typing error, or a file that wants our memory */
 };
 
 struct image_channel {
@@ -29,8 +30,8 @@ struct image {
   char *metadata;
 };
 
-/* A black picture with unnamed channels, owned by the caller. STATUS_LIMIT where memory is short or the product
- * overflows; then *out is zero. */
+/* A black picture with unnamed channels, owned by the caller. STATUS_LIMIT where memory is short or they
+ * are more than IMAGE_MAX_PIXELS; then *out is zero. */
 enum status image_create(size_t width, size_t height, size_t channel_count, struct image *out) STATUS_MUST_CHECK;
 
 /* Frees what image_create made and zeroes *image; a zero image is allowed. */

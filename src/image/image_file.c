@@ -3,7 +3,10 @@
 #include "image/image_file.h"
 
 #include <dlfcn.h>
+#include <errno.h>
+#include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -54,17 +57,45 @@ bool image_format_has_bits(enum image_format format, int bits)
 
 int image_format_default_bits(enum image_format format) { return FORMATS[format].bits[0]; }
 
-/* Where address space runs out while they start, OpenImageIO and the libraries it brings along end the process instead of
- * saying so. So room is asked for first, that what they need is there: the libraries, and a stack and a heap for each of
- * OpenImageIO's threads, of which there are as many as processors. */
-static bool room_for_module(void)
+static void *wait_at(void *gate)
 {
-  const size_t libraries = (size_t)384 << 20, thread = (size_t)80 << 20;
-  const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-  const size_t size = libraries + (processors > 0 ? (size_t)processors : 1) * thread;
-  void *room = mmap(NULL, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  pthread_mutex_lock(gate);
+  pthread_mutex_unlock(gate);
+  return NULL;
+}
+
+/* Whether so many threads can be there at once. */
+static bool room_for_threads(size_t count)
+{
+  pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
+  pthread_t *threads = malloc(count * sizeof *threads);
+  size_t started = 0;
+  if (threads == NULL) return false;
+  pthread_mutex_lock(&gate);
+  while (started < count && pthread_create(&threads[started], NULL, wait_at, &gate) == 0) started++;
+  pthread_mutex_unlock(&gate);
+  for (size_t k = 0; k < started; k++) pthread_join(threads[k], NULL);
+  free(threads);
+  return started == count;
+}
+
+static bool room_for_bytes(size_t size, int protection)
+{
+  void *room = mmap(NULL, size, protection, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (room != MAP_FAILED) (void)munmap(room, size);
   return room != MAP_FAILED;
+}
+
+/* Where address space, memory or threads run out while they start, OpenImageIO and the libraries it brings along end the
+ * process instead of saying so. So room is asked for first, that what they need is there: the libraries, their data, four
+ * threads of a library's and one of OpenImageIO's for each processor, beside as many of ours, with a stack and a heap each. */
+static bool room_for_module(void)
+{
+  const size_t libraries = (size_t)384 << 20, data = (size_t)160 << 20, heap = (size_t)80 << 20;
+  const long here = sysconf(_SC_NPROCESSORS_ONLN);
+  const size_t processors = here > 0 ? (size_t)here : 1;
+  return room_for_bytes(libraries + processors * heap, PROT_NONE) && room_for_bytes(data, PROT_READ | PROT_WRITE) &&
+         room_for_threads(4 + 2 * processors);
 }
 
 /* Most of OpenImageIO's loading is looking for names of symbols in all libraries, one after the other. A library that is
@@ -83,7 +114,7 @@ static enum status load_module(const struct image_module **out, char *message)
   message[0] = '\0';
   void *handle = dlopen(IMAGE_MODULE_FILE, flags | RTLD_NOLOAD);
   if (handle == NULL && !room_for_module()) {
-    snprintf(message, IMAGE_MESSAGE_SIZE, "there is too little memory to load OpenImageIO");
+    snprintf(message, IMAGE_MESSAGE_SIZE, "there are too little memory or too few threads to load OpenImageIO");
     return STATUS_LIMIT;
   }
   if (handle == NULL) {
@@ -116,19 +147,44 @@ enum status image_encode(const struct image *image, const struct image_encoding 
   return status == STATUS_OK ? module->encode(image, encoding, out_bytes, out_size, message) : status;
 }
 
+/* How files of the formats that are read begin. OpenImageIO would offer a file to every reader it has, some of which
+ * believe whatever it says. */
+static const struct {
+  const char *begin;
+  size_t length;
+  const char *format; /* OpenImageIO's name */
+} READ[] = {{"\x89PNG\r\n\x1a\n", 8, "png"},
+            {"\x76\x2f\x31\x01", 4, "openexr"},
+            {"II*\0", 4, "tiff"},
+            {"MM\0*", 4, "tiff"},
+            {"\xff\xd8\xff", 3, "jpeg"}};
+
+/* OpenImageIO's name of the file's format; NULL where it has none of these. Closes the file. */
+static const char *format_of_content(int file)
+{
+  char begin[8] = {0};
+  ssize_t got;
+  do got = read(file, begin, sizeof begin);
+  while (got < 0 && errno == EINTR);
+  (void)close(file); /* OpenImageIO opens files itself */
+  for (size_t k = 0; got == (ssize_t)sizeof begin && k < sizeof READ / sizeof READ[0]; k++)
+    if (memcmp(begin, READ[k].begin, READ[k].length) == 0) return READ[k].format;
+  return NULL;
+}
+
 static enum status read_file(const char *path, bool pixels, struct image *out, char *message)
 {
   *out = (struct image){0};
   const char *reason;
   const int file = input_open(path, INPUT_FILE, &reason);
-  if (file < 0) {
-    snprintf(message, IMAGE_MESSAGE_SIZE, "%s", reason);
+  const char *format = file < 0 ? NULL : format_of_content(file);
+  if (format == NULL) {
+    snprintf(message, IMAGE_MESSAGE_SIZE, "%s", file < 0 ? reason : "it is no PNG, EXR, TIFF or JPEG");
     return STATUS_FILE;
   }
-  (void)close(file); /* OpenImageIO opens files itself, each format anew, and says nothing of why it cannot */
   const struct image_module *module;
   const enum status status = load_module(&module, message);
-  return status == STATUS_OK ? module->read(path, pixels, out, message) : status;
+  return status == STATUS_OK ? module->read(path, format, pixels, out, message) : status;
 }
 
 enum status image_read(const char *path, struct image *out, char *message)

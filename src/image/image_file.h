@@ -53,8 +53,9 @@ enum status image_file_ready(char *message) STATUS_MUST_CHECK;
 enum status image_encode(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
                          size_t *out_size, char *message) STATUS_MUST_CHECK;
 
-/* Reads the first picture of a file of any format OpenImageIO knows, values as they are stored (integers to [0,1]). The
- * picture is owned by the caller and has its window and its metadata. STATUS_FILE or STATUS_LIMIT; then *out is zero. */
+/* Reads the first picture of a file, which is known by how it begins: PNG, EXR, TIFF or JPEG. Values as they are stored
+ * (integers to [0,1]). The picture is owned by the caller and has its window and its metadata. STATUS_FILE or STATUS_LIMIT;
+ * then *out is zero. */
 enum status image_read(const char *path, struct image *out, char *message) STATUS_MUST_CHECK;
 
 /* The same of all but its pixels, whose value is NULL. */

@@ -11,17 +11,18 @@ static void *load_beside(void *argument)
   return NULL;
 }
 
-/* Where address space is limited the room for the module may be gone before it is taken, so it is taken at once. */
-static bool space_is_limited(void)
+/* Where memory is limited the room for the module may be gone before it is taken, so it is taken at once. */
+static bool is_limited(int resource)
 {
   struct rlimit limit;
-  return getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
+  return getrlimit(resource, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
 }
 
 void image_loading_begin(struct image_loading *loading)
 {
   atomic_init(&loading->failed, 0);
-  loading->running = !space_is_limited() && pthread_create(&loading->thread, NULL, load_beside, loading) == 0;
+  loading->running = !is_limited(RLIMIT_AS) && !is_limited(RLIMIT_DATA) &&
+                     pthread_create(&loading->thread, NULL, load_beside, loading) == 0;
   if (!loading->running) (void)load_beside(loading);
 }
 

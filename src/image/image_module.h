@@ -2,7 +2,8 @@
  *
  * OpenImageIO brings some 250 shared libraries along, which cost every start of a program a quarter of a second and 130
  * MB. So the code that uses it is a module of its own, IMAGE_MODULE_FILE, loaded when the first picture file is met; it
- * exports one object, `image_module`. The functions are those of image_file.h after the arguments have been checked.
+ * exports one object, `image_module`. The functions are those of image_file.h after the arguments have been checked; `format` is
+ * OpenImageIO's name of the file's.
  */
 #ifndef PSCN_IMAGE_IMAGE_MODULE_H
 #define PSCN_IMAGE_IMAGE_MODULE_H
@@ -15,7 +16,7 @@
 struct image_module {
   enum status (*encode)(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
                         size_t *out_size, char *message);
-  enum status (*read)(const char *path, bool pixels, struct image *out, char *message);
+  enum status (*read)(const char *path, const char *format, bool pixels, struct image *out, char *message);
 };
 
 extern const struct image_module image_module __attribute__((visibility("default")));

@@ -135,7 +135,7 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
 /* Where it stands in its picture; what lies outside is taken for a whole. */
 void read_window(const OIIO::ImageSpec &spec, image &out)
 {
-  const int x = spec.x - spec.full_x, y = spec.y - spec.full_y;
+  const long long x = static_cast<long long>(spec.x) - spec.full_x, y = static_cast<long long>(spec.y) - spec.full_y;
   if (x < 0 || y < 0 || x + spec.width > spec.full_width || y + spec.height > spec.full_height) return;
   out.x = static_cast<std::size_t>(x);
   out.y = static_cast<std::size_t>(y);
@@ -156,20 +156,18 @@ void read_metadata(const OIIO::ImageSpec &spec, image &out)
   if (out.metadata == nullptr) throw std::bad_alloc();
 }
 
-std::string read(const char *path, bool pixels, image &out, status &result)
+std::string read(const char *path, const char *format, bool pixels, image &out, status &result)
 {
-  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
-  if (!input) {
-    const std::string reason = OIIO::geterror();
-    return reason.empty() ? "not a picture that OpenImageIO can read" : reason;
-  }
-  const OIIO::ImageSpec spec = input->spec();
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
+  if (!input) return "OpenImageIO: " + OIIO::geterror();
+  OIIO::ImageSpec spec;
+  if (!input->open(path, spec)) return input->geterror();
   if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
       spec.nchannels > IMAGE_MAX_CHANNELS)
     return "not a flat picture of at most " + std::to_string(IMAGE_MAX_CHANNELS) + " channels";
   result = image_create(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
                         static_cast<std::size_t>(spec.nchannels), &out);
-  if (result != STATUS_OK) return "out of memory";
+  if (result != STATUS_OK) return "there is too little memory for its pixels, or they are too many";
   result = STATUS_FILE;
   if (!pixels) {
     std::free(out.value);
@@ -218,11 +216,11 @@ status module_encode(const image *picture, const image_encoding *encoding, unsig
     });
 }
 
-status module_read(const char *path, bool pixels, image *out, char *message)
+status module_read(const char *path, const char *format, bool pixels, image *out, char *message)
 {
   const status result = guarded(message, [&] {
     status reading = STATUS_FILE;
-    const std::string problem = read(path, pixels, *out, reading);
+    const std::string problem = read(path, format, pixels, *out, reading);
     if (!problem.empty()) say(message, problem);
     return reading;
   });

@@ -1,8 +1,10 @@
 /* Threads, started and waited for. */
 #include "render/threads.h"
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 
 static void *run(void *argument)
 {
@@ -38,6 +40,20 @@ enum status threads_join(struct thread threads[], size_t count)
     pthread_join(threads[k].id, NULL);
     if (status == STATUS_OK) status = threads[k].status;
   }
+  return status;
+}
+
+enum status threads_run_deep(team_work *work, void *context)
+{
+  struct rlimit limit;
+  struct thread thread;
+  sigset_t all, before;
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= LEAST_STACK) return work(context, 0);
+  if (threads_start(&thread, 0, 1, work, context) != 1) return STATUS_LIMIT;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const enum status status = threads_join(&thread, 1);
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
   return status;
 }
 

@@ -54,7 +54,7 @@ pscn render $scene --samples 2 --tile 2/4 --declare Unused=1 -o named.exr
 sed 's/Unused=1/\x1b[31m=1 /' named.exr >p2.exr
 try pscn merge p?.exr $'\x1b[31m\xc2\x9bé\xff.exr' -o no.png
 # What a piece says of itself and cannot be, in as many bytes; and one that stands outside its own picture.
-for text in 0-4:4-0 0-4:0-9 '0-4:0;4' 0-4:x-4 0-4:0-x 3/4:5/4 3/4:0/4 3/4:3/0 '3/4:3;4' 3/4:x/4 3/4:3/x; do
+for text in 0-4:4-0 0-4:3,1 0-4:0-9 '0-4:0;4' 0-4:x-4 0-4:0-x 3/4:5/4 3/4:0/4 3/4:3/0 '3/4:3;4' 3/4:x/4 3/4:3/x; do
   sed "s|${text%:*}|${text#*:}|" whole3.exr >said.exr
   pscn merge said.exr -o no.png 2>&1 | sed "s|^|$text: |"
 done

@@ -124,6 +124,26 @@ if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   for kilobytes in 50000 200000 300000 395000 410000 425000 440000; do
     (ulimit -v $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "in $kilobytes KB"
   done
+  # Little memory for data, few threads, little stack, which OpenImageIO would not come up with and a hard ray would not end
+  # with (likewise).
+  for kilobytes in 40000 70000 85000 100000; do
+    (ulimit -d $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "with $kilobytes KB of data"
+  done
+  chmod 755 "$folder" && chmod 644 copy.png
+  if setpriv --reuid 65534 --clear-groups "$PSCN" compare copy.png copy.png --quiet >"$said" 2>&1; then
+    for threads in 1 4; do
+      (ulimit -u $threads && expect 5 setpriv --reuid 65534 --clear-groups "$PSCN" compare copy.png copy.png && exit "$failed") ||
+        wrong "with $threads threads"
+    done
+  fi
+  for kilobytes in 64 200 1000; do
+    (ulimit -s $kilobytes && expect 0 "$PSCN" trace "$scene" <<<'0 0 -9 0 0 1' >/dev/null && exit "$failed") || wrong "with $kilobytes KB of stack"
+  done
+fi
+
+# A file that is said to be one, and waits for what never comes.
+if [ -r /proc/kmsg ]; then
+  expect 4 timeout 10 "$PSCN" dump /proc/kmsg
 fi
 
 # Stopped at any moment.

@@ -68,6 +68,14 @@ check b.png b16.png 0.001
 check negative.exr plain.exr 0.5
 check large.exr plain.exr 0.5
 check plain.exr b.exr 0.01
+# Formats that are read and never written here; the others are not looked into.
+oiiotool a.png -o a.tif
+oiiotool a.png -o a.jpg
+oiiotool a.png -o a.ppm
+check a.tif b.png 0.02
+check a.jpg b.png 0.02
+"$PSCN" compare a.ppm a.ppm 2>ours.err && { echo "a.ppm was read"; failed=1; }
+grep -q "'a.ppm': it is no PNG, EXR, TIFF or JPEG" ours.err || { echo "a.ppm: $(cat ours.err)"; failed=1; }
 # verdict CODE A B: pscn's answer; idiff's is named where it is another.
 verdict() {
   local code=0

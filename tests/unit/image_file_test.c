@@ -213,6 +213,25 @@ static void unreadable_files_are_told(void **state)
   }
 }
 
+/* A file of 65 bytes that asks for 60000 x 60000 pixels, as PNG's reader would give it. */
+static void pictures_without_bounds_are_refused(void **state)
+{
+  (void)state;
+  static const unsigned char large[] = {137, 80,  78, 71, 13, 10,  26, 10,  0,   0,  0,   13, 73,  72,  68, 82,  0,
+                                        0,   234, 96, 0,  0,  234, 96, 8,   0,   0,  0,   0,  165, 185, 42, 158, 0,
+                                        0,   0,   8,  73, 68, 65,  84, 120, 156, 3,  0,   0,  0,   0,   1,  72,  6,
+                                        137, 210, 0,  0,  0,  0,   73, 69,  78,  68, 174, 66, 96,  130};
+  char message[IMAGE_MESSAGE_SIZE];
+  struct image image;
+  FILE *file = fopen(path, "wb");
+  assert_non_null(file);
+  assert_int_equal(fwrite(large, 1, sizeof large, file), sizeof large);
+  fclose(file);
+  assert_int_equal(image_read(path, &image, message), STATUS_LIMIT);
+  assert_int_equal(image_read_header(path, &image, message), STATUS_LIMIT);
+  assert_null(image.value);
+}
+
 static void suffixes_choose_formats(void **state)
 {
   (void)state;
@@ -244,6 +263,7 @@ int main(void)
     WITH_FILE(encoding_is_told),
     cmocka_unit_test(png_refuses_five_channels),
     WITH_FILE(unreadable_files_are_told),
+    WITH_FILE(pictures_without_bounds_are_refused),
     cmocka_unit_test(suffixes_choose_formats),
     cmocka_unit_test(absurd_sizes_are_refused),
   };
