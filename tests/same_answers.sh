@@ -5,7 +5,10 @@
 # RAYS=N sets how many rays a scene (2000).
 set -euo pipefail
 [ $# -eq 2 ] || { echo "usage: $0 OLD NEW" >&2; exit 2; }
-old=$1 new=$2
+old=$(realpath "$1") new=$(realpath "$2") # not what PATH would find by such a name
+for program in "$old" "$new"; do
+  "$program" --version >/dev/null || { echo "$0: $program is no program 'pscn'" >&2; exit 2; }
+done
 folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
