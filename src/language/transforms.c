@@ -7,7 +7,7 @@ static struct double_double dd(double x) { return (struct double_double){x, 0}; 
 
 struct transform transform_identity(void)
 {
-  struct transform t = {.identity = true};
+  struct transform t = {.identity = true, .moves = true};
   for (int k = 0; k < 3; k++) t.A[k][k] = dd(1);
   return t;
 }
@@ -17,6 +17,14 @@ struct transform transform_then(const struct transform *first, const struct tran
   if (first->identity) return *second;
   if (second->identity) return *first;
   struct transform r = {.identity = false};
+  if (first->moves && second->moves) {
+    r = *first, r.identity = false;
+    for (int j = 0; j < 3; j++) {
+      r.b[j] = dd_add(second->b[j], first->b[j]);
+      r.moves &= r.b[j].lo == 0;
+    }
+    return r;
+  }
   for (int j = 0; j < 3; j++) {
     r.b[j] = second->b[j];
     for (int k = 0; k < 3; k++) {
@@ -41,9 +49,11 @@ bool transform_finite(const struct transform *transform)
 static void apply(const struct transform *transform, const struct double_double b[3], const double p[3], double out[3])
 {
   const double from[3] = {p[0], p[1], p[2]};
+  if (transform->moves) {
+    for (int j = 0; j < 3; j++) out[j] = transform->identity ? from[j] : b[j].hi + from[j];
+    return;
+  }
   for (int j = 0; j < 3; j++) {
-    out[j] = from[j];
-    if (transform->identity) continue;
     struct double_double q = b[j];
     for (int k = 0; k < 3; k++)
       if (transform->A[k][j].hi != 0) q = dd_add(q, dd_scale(transform->A[k][j], from[k]));
@@ -127,7 +137,7 @@ const struct transform *transform_rotate(struct language *language, const struct
     if (by[axis] == 0) continue;
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
     struct transform t = transform_identity();
-    t.identity = false;
+    t.identity = t.moves = false;
     turn(by[axis], &t.A[i][j], &t.A[i][i]);
     t.A[j][i] = dd_negate(t.A[i][j]);
     t.A[j][j] = t.A[i][i];
@@ -146,7 +156,7 @@ const struct transform *transform_scale(struct language *language, const struct 
   for (int k = 0; k < 3; k++) {
     if (by[k] == 0) zeros |= 1u << k;
     else t->A[k][k] = dd(by[k]);
-    t->identity &= by[k] == 1;
+    t->identity = t->moves &= by[k] == 1;
   }
   if (zeros)
     language_error(language, value->place, "scaling %s by 0 leaves nothing; POV-Ray would take 1 instead", axes[zeros]);
@@ -207,7 +217,7 @@ const struct transform *transform_matrix(struct language *language, const struct
   } else if (is_singular(matrix->number)) {
     language_error(language, place, "this matrix cannot be inverted: it makes everything flat");
   } else {
-    t->identity = false;
+    t->identity = t->moves = false;
     for (int i = 0; i < 9; i++) t->A[i / 3][i % 3] = dd(matrix->number[i]);
     for (int j = 0; j < 3; j++) t->b[j] = dd(matrix->number[9 + j]);
   }

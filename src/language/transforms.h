@@ -9,9 +9,10 @@
 #include "base/double_double.h"
 #include "language/values.h"
 
-/* p' = p A + b. `identity` where nothing has been applied, so that points stay as they are to the bit. */
+/* p' = p A + b. `identity` where nothing has been applied, so that points stay as they are to the bit; `moves` where A is
+ * the identity and b doubles. */
 struct transform {
-  bool identity;
+  bool identity, moves;
   struct double_double A[3][3], b[3];
 };
 
