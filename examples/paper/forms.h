@@ -2,7 +2,7 @@
  * are the same, values and counts (forms.c says how far); only the time differs.
  *
  * src/algebra has neither: its newton and laguerre are scalar as here, its aberth moves several roots of one polynomial
- * side by side, and aberth_lanes.h is an iteration of its own.
+ * side by side, and roots_lanes.h has iterations of its own.
  */
 #ifndef PSCN_EXAMPLES_FORMS_H
 #define PSCN_EXAMPLES_FORMS_H
