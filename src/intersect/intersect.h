@@ -8,7 +8,8 @@
  * means that the answer can be turned by a change of the input within the rounding bound of the evaluation (a
  * tangency, the border of an open surface, a coincident component): then a hit is reported where a hit cannot be
  * excluded, but for one that 113 bits cannot tell from t_min or t_max, which is left out. The answer to a ray does not
- * depend on the rays it shares a packet with.
+ * depend on the rays it shares a packet with, but for last places where another hit is so near that double precision cannot
+ * tell which comes first; and with `start previous`.
  */
 #ifndef PSCN_INTERSECT_INTERSECT_H
 #define PSCN_INTERSECT_INTERSECT_H

@@ -9,7 +9,8 @@
  *
  * A scene is built once, from a file, from text or from control points, and never changes. Any number of threads may
  * ask it at once; what each is answered depends on nothing but the ray: not on the other rays of the call, their order
- * or their number, nor on what other threads do. To change a scene build another, and free the old one when nobody
+ * or their number, nor on what other threads do. (Where another hit is so near that double precision cannot tell which
+ * comes first, the last places of t, u, v and the normal may.) To change a scene build another, and free the old one when nobody
  * asks it any more.
  *
  * Nothing is ever printed, no signal handled, no thread started, the process never ended. The locale means nothing.
@@ -192,7 +193,7 @@ struct pscn_hit {
   double point[3];     /* S(u,v), a little more exact than origin + t direction */
   double point_error;  /* no further from `point` than this is the exact surface */
   double clearance;    /* see pscn_leave */
-  double normal[3];    /* unit, facing the ray's origin; 0 where a degenerate surface has none */
+  double normal[3];    /* unit, facing the ray's origin; back along the ray where the surface has none */
   double du[3], dv[3]; /* dS/du, dS/dv */
   uint32_t patch;
   int32_t verdict;  /* enum pscn_verdict */
