@@ -13,9 +13,9 @@ enum { EXPLAIN_COEFFICIENTS = 19 };
 
 /* What the back-substitution makes of a root of r. */
 enum root_fate {
-  ROOT_COMPLEX, /* not real, as far as is told (section 2.2 of the paper) */
-  ROOT_OUTSIDE, /* its parameter is outside [0,1] */
-  ROOT_ELSEWHERE /* the other parameter, which follows from it, is far outside */,
+  ROOT_COMPLEX,     /* not real, as far as is told (section 2.2 of the paper) */
+  ROOT_OUTSIDE,     /* its parameter is outside [0,1] */
+  ROOT_ELSEWHERE,   /* the other parameter, which follows from it, is far outside */
   ROOT_NO_SOLUTION, /* `polish off`: the two do not solve eq 3 within `residual` */
   ROOT_OFFERED      /* a point; with polish a start for Newton's process */
 };

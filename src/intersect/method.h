@@ -2,8 +2,8 @@
  *
  * Internal to src/intersect. Everything a `solver` statement can choose happens here: the basis, the determinant, the
  * solver, its start, and how v follows from u. What comes out are starting points; with `polish on` the caller proves
- * them. `solver aberth` without items that change its numbers has a way of its own on all lanes at once
- * (lanes/all_roots.c).
+ * them. A solver without items that change its numbers has a way of its own on all lanes at once (lanes/resultant.c,
+ * lanes/all_roots.c).
  */
 #ifndef PSCN_INTERSECT_METHOD_H
 #define PSCN_INTERSECT_METHOD_H

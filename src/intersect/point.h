@@ -8,7 +8,7 @@
 #include "intersect/local_ray.h"
 #include "intersect/model.h"
 
-/* Subdivision gives up on a box where a plane polynomial stays within this many error bounds of zero, its own
+/* The last resort gives up on a box where a plane polynomial stays within this many error bounds of zero, its own
  * included. */
 #define UNDECIDED_ERRORS 5
 
@@ -21,7 +21,7 @@
   (2 * ((12 + 2 * (tangent)) * UNIT_ROUNDOFF * (scale) + UNIT_ROUNDOFF * (magnitude)))
 
 /* A ray that starts nearer to the surface than this and the point's own error cannot be told from one that starts on
- * it: the rounding of the new origin, and the distance within which subdivision cannot exclude a root:
+ * it: the rounding of the new origin, and the distance within which the last resort cannot exclude a root:
  * UNDECIDED_ERRORS error bounds of either plane, with moments of at most 2 as for all rays that start in the patch's
  * box, and what a copy is loose by; doubled for the planes' being oblique. */
 #define CLEARANCE(scale, loose, magnitude) \

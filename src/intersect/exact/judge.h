@@ -85,8 +85,7 @@ struct zoom *judge_zoom(struct judge *j);
 /* A proven root, anywhere on that patch or around it. */
 void judge_root(struct judge *j, struct exact_root *root);
 
-/* The ray meets a border of that patch that is one point, as far as wide arithmetic can tell. Returns whether it does.
- * */
+/* The ray meets a border of that patch that is one point, as far as wide arithmetic can tell: returns whether it does. */
 bool judge_pole(struct judge *j, int border);
 
 /* The point (u,v) of that patch, at t as nearly as t_error, is on the ray or not. */

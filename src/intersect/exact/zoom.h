@@ -56,12 +56,12 @@ enum zoom_pole {
 /* A pole that is met is no farther from the ray than this many of zoom's errors. */
 #define ZOOM_POLE_REACH 0x1p26
 
-#define ZOOM_POLE_MET 0x1p-20 /* ... no nearer to the border than this, of the box */
+#define ZOOM_POLE_MET 0x1p-20     /* ... no nearer to the border than this, of the box */
+#define ZOOM_POLE_NEAREST 0x1p-14 /* of the box: a root nearer to the border asks for a smaller box */
 
 /* The same for a box at a border that is one point (geometry/edges.h), where both polynomials are constant: in place of
  * the combination that is zero there, that one divided by the distance d to the border, so that away from it the roots
  * are the same, and simple ones however near the ray passes. Where the pole is met both are divided. */
-#define ZOOM_POLE_NEAREST 0x1p-14 /* of the box: a nearer root asks for a smaller box */
 bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2], int border, struct zoomed *out,
                    enum zoom_pole *out_pole);
 
@@ -80,8 +80,7 @@ wide zoom_t(struct zoom *zoom, wide u, wide v);
 double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2], double row[2][2], double out[2][3]);
 
 /* Makes a proven root of this ray and patch as good as wide arithmetic can. False where the certificate does not hold
- * there or what is found is not the same root: then its place may be better for it, and its bounds are what they were.
- * */
+ * there or what is found is not the same root: then its place may be better for it, its bounds are what they were. */
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root);
 
 #endif

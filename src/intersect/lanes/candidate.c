@@ -60,7 +60,7 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
 /* So few rays are on their own, or start where others do not: their leaf is hardly one that was tried lately. */
 enum { FEW = 2, CACHE_LINE = 64 };
 
-/* The second stage's coefficients are brought from memory while the first one works. */
+/* What stage_bilinear reads is brought from memory while stage_box works. */
 static void fetch_parts(const struct leaf *leaf)
 {
   const char *parts = (const char *)leaf->parts;

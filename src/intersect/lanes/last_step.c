@@ -102,8 +102,6 @@ LANES_INLINE void last_step_normal(struct last_step *l, const struct last_step_j
   l->done = surface_normal(normal, l->tangent, l->normal);
 }
 
-/* Improves the lanes that ask for it, and takes point and normal of all lanes. A lane whose steps do not end within
- * the patch's size keeps what it came with. */
 void last_step_take(struct last_step *l)
 {
   const struct model_patch *patch = l->patch;

@@ -111,8 +111,8 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
 }
 
 /* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where all
- * are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the patch, at an end of the ray or where another root
- * is, is left to the last resort. Returns the lanes that took theirs. */
+ * are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the patch, at
+ * an end of the ray or where another root is, is left to the last resort. Returns the lanes that took theirs. */
 LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w,
                              lanes at, lane_mask hits)
 {

@@ -24,7 +24,7 @@ struct newton_root {
   lanes radius_u, radius_v; /* the exact root is within */
   lane_mask exists;         /* exactly one root of the exact polynomials within the radii */
   lane_mask alone;          /* and no other in the leaf */
-  lanes size;               /* |M|, see refine() */
+  lanes size;               /* |M|, the longer row, see newton_row_length */
   lanes bend;               /* bend (step + off), half of how far M J is at most from 1 at the root */
   lanes off;                /* |M| error */
 };

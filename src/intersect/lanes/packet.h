@@ -45,8 +45,8 @@ struct line {
 
 /* What the lanes leave open, a list a lane. */
 struct postponed {
-  /* bit k: lane k has a list, some of it were merged, that left too little room to do it again, and there were more than
-   * there is room for */
+  /* bit k, of lane k: it has a list; some of that was merged; merging once more would make too little room; there were
+   * more than there is room for */
   unsigned open, merged, crowded, cut_off;
   unsigned count[LANES];
   struct exact_region region[LANES][EXACT_REGIONS_MAX];

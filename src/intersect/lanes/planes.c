@@ -1,10 +1,10 @@
-/* The first stages: the box along a leaf, and its plane polynomials (paper eq 2 and 3).
+/* Two stages: the box along a leaf, and its plane polynomials (paper eq 2 and 3).
  *
  * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
  */
 #include "intersect/lanes/candidate.h"
 
-/* Stage 1. Lanes whose ray may pass the box along the leaf. On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the
+/* Lanes whose ray may pass the box along the leaf. On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the
  * slabs' forms are A + B w; two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With
  * e the bound on a plane's error (local_ray.h), A is off by 2 |g| e and B by 4u |g|, where |A| u <= |g| e/4 and |B|
  * <= |g|: the products by 8 |g_q| |g_r| e in all, and the right side by less than that. */
@@ -35,7 +35,7 @@ static void set_nets(struct candidate *it)
   it->nets.error = it->line->error;
 }
 
-/* Stage 1 again, by the whole net. */
+/* Lanes on which neither polynomial keeps one sign on the whole net. */
 static lane_mask planes_hull(struct candidate *it, lane_mask active)
 {
   lanes a_low, a_high, b_low, b_high;
@@ -49,7 +49,7 @@ static lane_mask planes_hull(struct candidate *it, lane_mask active)
   return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
 }
 
-/* Stage 1 again, with the two combinations of a and b that aim along the leaf's parameters: near the middle they are
+/* The same of the two combinations of a and b that aim along the leaf's parameters: near the middle they are
  * like u - u0 and v - v0 for the point (u0,v0) where the ray meets the tangent plane, so they tell a ray that passes
  * the leaf by. */
 static lane_mask planes_aligned(const struct candidate *it, lane_mask active)
@@ -77,7 +77,6 @@ lane_mask stage_planes(struct candidate *it, lane_mask open)
   return it->patch->method->polish ? near : open;
 }
 
-/* x_k of the points (u,v). */
 lanes plane_depth(const struct candidate *it, lanes u, lanes v)
 {
   lanes wu[4], wv[4], unused[4], w = {0};

@@ -33,7 +33,7 @@ static void set_form(struct candidate *it)
   it->form_error = it->nets.error * form->size + 2 * form->excess;
 }
 
-/* Stage 2: r and the sign variations of its coefficients, at most: one that may have either sign is given the one that
+/* r and the sign variations of its coefficients, at most: one that may have either sign is given the one that
  * makes more of them. Lanes that may meet the leaf. */
 static lane_mask resultant_varies(struct candidate *it, lane_mask active)
 {
@@ -101,7 +101,6 @@ static lanes resultant_root(const struct candidate *it, bool first)
   return lanes_select(back, 1 - found, found);
 }
 
-/* The eliminated parameter at a root of r. */
 lanes resultant_eliminated(const struct candidate *it, lanes kept)
 {
   const int m = it->leaf->kept_degree, n = it->leaf->eliminated_degree;

@@ -145,8 +145,8 @@ enum { EXACT_LEAVES = 256, HEAD_BITS = 20 };
 static void cut_net(struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], double hi[3][4][4],
                     double lo[3][4][4])
 {
-  const double parts_u = patch->split[0],
-               parts_v = patch->split[1]; /* quotients: the last one is 1 whatever the split */
+  const double parts_u = patch->split[0], parts_v = patch->split[1];
+  /* quotients: the last one is 1 whatever the split */
   const double u0 = column[0] / parts_u, u1 = (column[0] + span[0]) / parts_u;
   const double v0 = column[1] / parts_v, v1 = (column[1] + span[1]) / parts_v;
   const double round = 0x1.8p52 / (1 << HEAD_BITS);
@@ -154,8 +154,8 @@ static void cut_net(struct model_patch *patch, const uint16_t column[2], const u
     double head[4][4], tail[4][4];
     for (int n = 0; n < 16; n++) {
       const double x = patch->x[k][n / 4][n % 4];
-      head[n / 4][n % 4] = (x + round) - round,
-                      tail[n / 4][n % 4] = (x - head[n / 4][n % 4]) + patch->rest[k][n / 4][n % 4];
+      head[n / 4][n % 4] = (x + round) - round;
+      tail[n / 4][n % 4] = (x - head[n / 4][n % 4]) + patch->rest[k][n / 4][n % 4];
     }
     patch_subnet(head, u0, u1, v0, v1, hi[k]);
     patch_subnet(tail, u0, u1, v0, v1, lo[k]);
