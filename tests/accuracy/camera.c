@@ -26,7 +26,7 @@ static const struct view views[] = {
 };
 enum { VIEWS = sizeof views / sizeof views[0], COMMAND_RAYS = 2000 };
 
-/* Issue 4: what a picture may have of each. */
+/* What a picture may have of each. */
 #define T_RELATIVE_MEDIAN 1e-15
 #define CERTAIN_SHARE 0.9999
 

@@ -60,7 +60,7 @@ struct tally {
  * of t; 100 times the square root of 2^-53 where roots are nearly double. */
 #define TRIAL_BARE_SAME 1e-6
 
-/* Bounds issue 4 sets. */
+/* What is asked: of certain hits, relative, and in floors. */
 #define TRIAL_T_RELATIVE 1e-12
 #define TRIAL_FLOORS 4
 

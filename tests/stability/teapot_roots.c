@@ -20,7 +20,7 @@ enum { TEAPOT_PATCHES = 32, PAIRS = 100000, LEAST_PAIRS = 20000 };
 /* Both parameters of a found root must be this near to the true one, absolute. */
 #define FOUND_WITHIN 1e-11
 
-/* The share of the true roots to be found without polish (issue 3). */
+/* The share of the true roots to be found without polish. */
 #define SHARE_UNPOLISHED 0.9998
 
 /* Relative error of T with polish. */
