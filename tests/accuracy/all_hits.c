@@ -193,4 +193,4 @@ static void test_class(void **state)
   if (!class_told_only(class)) assert_int_equal(bad, 0);
 }
 
-int main(void) { return class_tests_run("all hits", test_class, NULL); }
+int main(void) { return class_tests_run("all hits", test_class, NULL, 0); }

@@ -8,7 +8,7 @@
 #include "effort.h"
 #include "random.h"
 
-enum { LEAST_RAYS = 16, MOST_CLASSES = 64 };
+enum { LEAST_RAYS = 16, MOST_CLASSES = 64, MOST_OTHERS = 4 };
 
 const struct class_form class_forms[CLASS_FORMS] = {
   {"bernstein", 0},     {"newton", 0},    {"laguerre", 0},  {"aberth", 0},
@@ -70,15 +70,15 @@ void class_print_patches(const struct situation *s)
   }
 }
 
-int class_tests_run(const char *group, CMUnitTestFunction test, const struct CMUnitTest *last)
+int class_tests_run(const char *group, CMUnitTestFunction test, const struct CMUnitTest *others, size_t other_count)
 {
-  struct CMUnitTest tests[MOST_CLASSES + 1];
+  struct CMUnitTest tests[MOST_CLASSES + MOST_OTHERS];
   const size_t count = every_class_count();
-  assert_true(count <= MOST_CLASSES);
+  assert_true(count <= MOST_CLASSES && other_count <= MOST_OTHERS);
   for (size_t n = 0; n < count; n++) {
     void *class = (void *)(uintptr_t)every_class_at(n); /* cmocka's state is not const */
     tests[n] = (struct CMUnitTest){.name = every_class_at(n)->name, .test_func = test, .initial_state = class};
   }
-  if (last) tests[count] = *last;
-  return _cmocka_run_group_tests(group, tests, count + (last != NULL), NULL, NULL);
+  for (size_t n = 0; n < other_count; n++) tests[count + n] = others[n];
+  return _cmocka_run_group_tests(group, tests, count + other_count, NULL, NULL);
 }

@@ -39,7 +39,7 @@ void class_ask_rays(const struct situation_class *class, size_t full, uint64_t s
 /* The situation's patches, as a scene has them. */
 void class_print_patches(const struct situation *s);
 
-/* Runs `test` of every class, whose state is the const struct situation_class *, and then `last` where it is not NULL. */
-int class_tests_run(const char *group, CMUnitTestFunction test, const struct CMUnitTest *last);
+/* Runs `test` of every class, whose state is the const struct situation_class *, and then the others. */
+int class_tests_run(const char *group, CMUnitTestFunction test, const struct CMUnitTest *others, size_t other_count);
 
 #endif

@@ -434,6 +434,7 @@ static const struct situation_class classes[] = {
   {"points anywhere", 724, 0.5, threshold_random_nets},
   {"coincident, turned round", 725, 0.5, threshold_turned},
   {"large and small", 726, 0.5, threshold_large_and_small},
+  {"closed surfaces nobody would draw", 728, 0.5, threshold_cycles},
 };
 
 size_t every_class_count(void) { return situation_class_count() + sizeof classes / sizeof classes[0]; }

@@ -114,4 +114,4 @@ static void test_class(void **state)
   assert_int_equal(c.verdict + c.certainty + c.patch + c.place + c.company + c.occlusion, 0);
 }
 
-int main(void) { return class_tests_run("kernels", test_class, NULL); }
+int main(void) { return class_tests_run("kernels", test_class, NULL, 0); }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "accuracy/cycle_nets.h"
 #include "accuracy/generate.h"
 #include "accuracy/lattice.h"
 
@@ -11,13 +12,12 @@ enum { RAYS = SITUATION_RAYS };
 
 typedef const double (*net)[4][3];
 
-/* Through a point next to one of the patches, or exactly at a corner or border, from anywhere. */
-static void aim(struct random *random, const struct situation *s, double size, struct ray *ray)
+void threshold_aim(struct random *random, const double P[4][4][3], double size, struct ray *ray)
 {
   double at[3], d[3];
   const double u = choose(random, 4) ? random_unit(random) : (double)choose(random, 3) / 2;
   const double v = choose(random, 4) ? random_unit(random) : (double)choose(random, 3) / 2;
-  net_point((net)s->P[choose(random, s->count)], u, v, at);
+  net_point(P, u, v, at);
   random_direction(random, d);
   const double off = choose(random, 2) ? size * random_decade(random, 0, 17) : 0, back = random_between(random, 0.5, 8);
   for (int axis = 0; axis < 3; axis++) {
@@ -25,6 +25,11 @@ static void aim(struct random *random, const struct situation *s, double size, s
     ray->origin[axis] = at[axis] + off * random_between(random, -1, 1) - back * size * d[axis];
   }
   ray->t_min = 0, ray->t_max = INFINITY;
+}
+
+static void aim(struct random *random, const struct situation *s, double size, struct ray *ray)
+{
+  threshold_aim(random, (net)s->P[choose(random, s->count)], size, ray);
 }
 
 static void aim_all(struct random *random, double size, struct situation *s)
@@ -148,4 +153,16 @@ void threshold_large_and_small(struct random *random, size_t index, struct situa
         s->P[n][k / 4][k % 4][axis] += middle[axis] + (axis == 2 && choose(random, 2) ? 1 : 0);
   }
   for (int n = 0; n < RAYS; n++) aim(random, s, choose(random, 2) ? 1 : large, &s->rays[n]);
+}
+
+void threshold_cycles(struct random *random, size_t index, struct situation *s)
+{
+  struct cycle cycle;
+  cycle_make(index % cycle_shape_count(), random, &cycle);
+  s->count = cycle.count;
+  memcpy(s->P, cycle.P, cycle.count * sizeof cycle.P[0]);
+  double size = 0;
+  for (size_t k = 3; k < 48 * cycle.count; k++)
+    size = fmax(size, fabs(s->P[k / 48][k / 12 % 4][k / 3 % 4][k % 3] - s->P[0][0][0][k % 3]));
+  aim_all(random, size, s);
 }

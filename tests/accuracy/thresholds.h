@@ -12,5 +12,10 @@ void threshold_random_nets(struct random *random, size_t index, struct situation
 void threshold_turned(struct random *random, size_t index, struct situation *s);
 void threshold_scaled_lattice(struct random *random, size_t index, struct situation *s);
 void threshold_large_and_small(struct random *random, size_t index, struct situation *s);
+void threshold_cycles(struct random *random, size_t index, struct situation *s); /* of cycle_nets.h */
+
+/* A ray through a point of the patch or next to it by up to `size`, exactly at a corner or border or anywhere, from about
+ * `size` away. */
+void threshold_aim(struct random *random, const double P[4][4][3], double size, struct ray *ray);
 
 #endif
