@@ -1,4 +1,4 @@
-/* Speed against accuracy: every solver and the peers on the camera and shadow rays of a scene. */
+/* Speed against accuracy: solvers and peers on the camera and shadow rays of a scene. */
 #ifndef PSCN_CHART_CHART_H
 #define PSCN_CHART_CHART_H
 

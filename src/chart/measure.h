@@ -14,7 +14,7 @@
 #include "chart/judge.h"
 #include "chart/rays.h"
 
-enum { MEASURE_MAX_ROUNDS = 64, MEASURE_MAX_RUNNERS = 32 };
+enum { MEASURE_MAX_ROUNDS = 64 };
 
 /* Nanoseconds of CPU time a ray over the rounds: least, quartiles, most; and the median ratio to the yardstick. All NAN
  * where nothing was measured. */

@@ -32,7 +32,7 @@ struct chart_point {
   bool front;
 };
 
-/* The solvers to chart: every solver, basis, start, polish and tolerance that make a difference, and the paper's forms.
+/* The solvers to chart: every one but durand_kerner, basis, start, polish and tolerance that make a difference, and the paper's forms.
  * The first one is the default. Returns how many; out may be NULL. */
 struct sweep_point {
   enum family family;
