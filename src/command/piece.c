@@ -104,7 +104,7 @@ void piece_destroy(struct piece *piece)
   *piece = (struct piece){0};
 }
 
-/* "0-17,19", the opposite of piece_done_text, so each number is larger than the one before; false where it is no such
+/* "0-17,19", the opposite of done_text, so each number is larger than the one before; false where it is no such
  * list. */
 static bool read_done(const char *text, size_t length, const struct tile_list *tiles)
 {
@@ -191,7 +191,8 @@ bool piece_copy(const struct piece *from, struct image *to)
   return true;
 }
 
-char *piece_done_text(const struct tile_list *tiles)
+/* Which tiles a part has, by their place in its list, as "0-17,19"; to be freed, NULL where memory is short. */
+static char *done_text(const struct tile_list *tiles)
 {
   struct page text = {0};
   const char *comma = "";
@@ -243,7 +244,7 @@ enum status piece_encode(const struct piece *piece, const struct image_attribute
   *out_bytes = NULL;
   *out_size = 0;
   enum status status = copy_done(piece, &copy);
-  if (status == STATUS_OK) done = piece_done_text(&copy.tiles);
+  if (status == STATUS_OK) done = done_text(&copy.tiles);
   if (done == NULL) status = STATUS_LIMIT;
   snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
   snprintf(tile, sizeof tile, "%zu/%zu", piece->number, piece->count);

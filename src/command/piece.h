@@ -42,9 +42,6 @@ bool piece_belongs(const struct image *part, const struct image *picture, char *
  * is missing. */
 bool piece_copy(const struct piece *from, struct image *to);
 
-/* Which tiles a part has, by their place in its list, as "0-17,19"; to be freed, NULL where memory is short. */
-char *piece_done_text(const struct tile_list *tiles);
-
 /* The bytes of the file of a part that has `tiles` of `picture`, described by the attributes; to be freed. While tiles
  * are still rendered, only what is done when it begins is looked at. */
 enum status piece_encode(const struct piece *piece, const struct image_attribute *attributes, size_t attribute_count,
