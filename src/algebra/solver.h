@@ -41,7 +41,7 @@ enum start { START_COLD, START_PREVIOUS };
 /* Ways of the complex solvers that go beyond the paper. Each can be had alone; solver_options_form sets them all. */
 enum radii { RADII_CIRCLE, RADII_POLYGON };         /* start values on Aberth's circle, or by Newton's polygon (Bini) */
 enum stop { STOP_STEP, STOP_ROUNDING };             /* eq 10 alone, or also where |p| is below its own rounding bound */
-enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL }; /* aberth: the values of the last sweep, or the newest there are */
+enum update { UPDATE_JACOBI, UPDATE_GAUSS_SEIDEL }; /* all at once: the last sweep's values, or the newest there are */
 enum horner { HORNER_PLAIN, HORNER_CHARTS };        /* values in powers of z, or of 1/z where |z| > 1 */
 enum deflation { DEFLATION_FORWARD, DEFLATION_COMPOSITE };
 
@@ -66,7 +66,7 @@ struct solver_options {
   enum stop stop;
   enum horner horner;
   enum update update;
-  bool rest; /* aberth: a root that has converged is left alone while others still move */
+  bool rest; /* all at once: a root that has converged is left alone while others still move */
   enum deflation deflation;
   bool refine;                      /* newton, laguerre: last steps on the polynomial before deflation */
   const struct solver_watch *watch; /* borrowed; NULL, the default: nobody looks on */

@@ -17,7 +17,7 @@ enum { TURN_PERIOD = 5 };
 /* Whether stuck roots are looked for in this sweep, counted from 1. */
 static inline bool turn_due(int sweep) { return sweep % TURN_PERIOD == 0; }
 
-/* The step of root number `root`, |step|^2 in u being `square`, turned where that has not come down from *checked, the
+/* The step of root number `root`, |step|^2 in u being `square`, turned where that has not come down from `checked`, the
  * square at the last look (infinite at first). */
 static inline struct complex_number turn_if_stuck(int root, struct complex_number step, double square, double checked)
 {

@@ -1,9 +1,8 @@
 /* The reference: the closest hit of a ray and a list of bicubic Bezier patches, with a guarantee.
  *
  * For tests and the chart. Shares no code and no method with the renderer: no resultant, no roots of polynomials in one
- * variable. The ray is the line
- * common to two planes, so each patch becomes two bicubic functions a(u,v), b(u,v). Boxes of the (u,v) square are
- * halved; a box is
+ * variable. The ray is the line common to two planes, so each patch becomes two bicubic functions a(u,v), b(u,v). Boxes
+ * of the (u,v) square are halved; a box is
  * - dropped when the hull of its Bernstein coefficients (of a linear combination of a and b) excludes zero,
  * - settled when a preconditioned Jacobian stays within 1/2 of the identity (at most one root in the box: injectivity
  *   by diagonal dominance) and the root Newton's method finds is proven by Krawczyk's test in quadruple precision.

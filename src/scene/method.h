@@ -19,7 +19,7 @@ struct method {
   enum resultant resultant;
   enum back_substitution back_substitution;
   bool polish; /* on: 2-D Newton on the patch, and every answer certified; off: the solver's own roots are the answer */
-  double residual; /* polish off: how far an answer may be from solving eq 3, see candidate.c; 0 = auto */
+  double residual; /* polish off: how far an answer may be from solving eq 3, see intersect/method.c; 0 = auto */
   int split;       /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
   bool form_said;  /* some choice of iteration was set by name: otherwise they follow from the rest, see method.c */
 };

@@ -103,7 +103,7 @@ static void raised_degree(void **state)
   }
 }
 
-/* Random real roots and pairs: every solver finds every real root in [0,1]; all four agree. */
+/* Random real roots and pairs: every solver finds every real root in [0,1]; all agree. */
 static void random_roots(void **state)
 {
   (void)state;

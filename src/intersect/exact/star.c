@@ -7,7 +7,6 @@
  */
 #include <math.h>
 
-#include "geometry/patch.h"
 #include "intersect/exact/judge.h"
 
 /* Directions are differences of control points of size at most 1 in the frame of a patch, right to some units of
