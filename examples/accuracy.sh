@@ -93,7 +93,7 @@ Written by `examples/accuracy.sh`; the numbers are those of its last run. For an
 
     pscn chart scenes/teapot.pscn            # teapot-chart/chart.html, chart.svg, chart.csv; --quick: under a minute
 
-Camera rays of the scene, chosen evenly, and their shadow rays are answered by every solver but \`durand_kerner\`, basis, tolerance (1e-1 to
+Camera rays of the scene, chosen evenly, and their shadow rays are answered by every solver but `durand_kerner`, basis, tolerance (1e-1 to
 1e-15), with polish and without, cold and warm, on whole patches, in the paper's own form, and by the peers: plain 2-D
 Newton from the middle of each of 8 x 8 parts of a patch, one ray a lane, which guards nothing; Embree on triangles;
 POV-Ray. All take turns on one thread; the ratio is the median of the ratios to the default solver within a round, and
