@@ -2,7 +2,8 @@
 #include "measure.h"
 
 #include <math.h>
-#include <stdlib.h>
+
+#include "base/sort.h"
 
 double measure_random(uint64_t *state)
 {
@@ -17,15 +18,9 @@ void measure_random_polynomial(uint64_t *state, int degree, double c[])
   for (int k = 0; k <= degree; k++) c[k] = 2.0 * measure_random(state) - 1.0;
 }
 
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 double measure_median(size_t count, double x[])
 {
-  qsort(x, count, sizeof *x, ascending);
+  sort_numbers(x, count);
   return x[count / 2];
 }
 

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "accuracy/certificate.h"
 #include "accuracy/class_tests.h"
@@ -14,6 +13,7 @@
 #include "accuracy/generate.h"
 #include "accuracy/thresholds.h"
 #include "accuracy/trial.h"
+#include "base/clock.h"
 #include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
@@ -42,13 +42,6 @@ struct asking {
   struct random random;
   struct count counts[CLASS_FORMS];
 };
-
-static double seconds(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* With PSCN_SHOW set everything is shown, and the scene too. */
 static void show(const char *name, const struct class_form *form, const struct situation *s, const struct ray *ray,
@@ -79,9 +72,9 @@ static double trace(struct trial *trial, const struct ray *ray, struct hit *out)
 {
   double least = INFINITY;
   for (int n = 0; n < 2 && least > SLOW; n++) {
-    const double start = seconds();
+    const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
     tracer_closest(trial->tracer, 1, ray, out);
-    least = fmin(least, seconds() - start);
+    least = fmin(least, clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start);
   }
   return least;
 }

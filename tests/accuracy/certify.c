@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "accuracy/certificate.h"
 #include "accuracy/exact.h"
 #include "accuracy/trial.h"
+#include "base/clock.h"
 #include "base/diagnostics.h"
 #include "cmocka_test.h"
 #include "language/language.h"
@@ -36,13 +36,6 @@ static void show(size_t line, const struct ray *ray, const struct hit *hit, cons
   printf(" (%.3g floors, %zu boxes)\n", c->off, c->boxes);
 }
 
-static double seconds(clockid_t clock)
-{
-  struct timespec now;
-  clock_gettime(clock, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 int main(int argc, char **argv)
 {
   const bool all = argc > 2 && !strcmp(argv[argc - 1], "--all");
@@ -62,13 +55,13 @@ int main(int argc, char **argv)
   while (scanf("%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]) == 6) {
     struct hit hit;
     struct certificate certificate;
-    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    const double start = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     tracer_closest(trial.tracer, 1, &ray, &hit);
-    const double end = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    const double end = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     line++;
     if (end - start > slowest) slowest = end - start, slowest_line = line;
     certify(&certifier, &ray, &hit, &certificate);
-    judging += seconds(CLOCK_PROCESS_CPUTIME_ID) - end;
+    judging += clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - end;
     counts[hit.certainty != CERTAINTY_CERTAIN][certificate.finding]++;
     if (all || certificate.finding > FINDING_UNDECIDED) show(line, &ray, &hit, &certificate);
   }

@@ -11,12 +11,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "accuracy/class_tests.h"
 #include "accuracy/generate.h"
 #include "accuracy/trial.h"
+#include "base/clock.h"
 #include "base/diagnostics.h"
+#include "base/sort.h"
 #include "cmocka_test.h"
 #include "effort.h"
 #include "language/language.h"
@@ -31,21 +32,14 @@ struct cost {
   double slowest;
 };
 
-static double seconds(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static void time_ray(struct cost *cost, struct tracer *tracer, const struct ray *ray)
 {
   double least = INFINITY;
   struct hit hit;
   for (int n = 0; n < TURNS; n++) {
-    const double start = seconds();
+    const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
     tracer_closest(tracer, 1, ray, &hit);
-    least = fmin(least, seconds() - start);
+    least = fmin(least, clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start);
   }
   if (cost->count == cost->room) {
     cost->room = cost->room ? 2 * cost->room : 1024;
@@ -60,16 +54,10 @@ static void time_ray(struct cost *cost, struct tracer *tracer, const struct ray 
   if (least > cost->slowest) cost->slowest = least, cost->worst = *ray;
 }
 
-static int by_size(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return x < y ? -1 : x > y;
-}
-
 static void cost_print(struct cost *cost, const char *name, const char *kind)
 {
   if (cost->count == 0) return;
-  qsort(cost->times, cost->count, sizeof *cost->times, by_size);
+  sort_numbers(cost->times, cost->count);
   printf("%s, %s: %zu rays, median %.1f, 99 %% %.1f, worst %.1f us, %.1f %% grazing, %.1f %% of all hits\n", name, kind,
          cost->count, 1e6 * cost->times[cost->count / 2], 1e6 * cost->times[cost->count - 1 - cost->count / 100],
          1e6 * cost->times[cost->count - 1], 100 * (double)cost->grazing / (double)cost->count,

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "accuracy/models.h"
+#include "base/sort.h"
 #include "cmocka_test.h"
 
 enum { MOST_SHOWN = 10 };
@@ -353,12 +354,6 @@ void trial_rays(struct trial *trial, const struct ray *rays, size_t count, struc
   }
 }
 
-static int ascending(const void *x, const void *y)
-{
-  double a = *(const double *)x, b = *(const double *)y;
-  return (a > b) - (a < b);
-}
-
 static double quantile(struct tally *tally, double share)
 {
   if (tally->t_count == 0) return 0;
@@ -368,7 +363,7 @@ static double quantile(struct tally *tally, double share)
 
 void tally_print(struct tally *tally)
 {
-  if (tally->t_count) qsort(tally->t_errors, tally->t_count, sizeof *tally->t_errors, ascending);
+  if (tally->t_count) sort_numbers(tally->t_errors, tally->t_count);
   printf("%s: %zu rays, %zu hits, %zu misses, %zu undecided; lost %zu, invented %zu; said grazing %zu (extra hits "
          "%zu), certain where undecided %zu\n",
          tally->name, tally->rays, tally->hits, tally->misses, tally->undecided, tally->lost, tally->invented,
