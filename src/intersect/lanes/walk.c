@@ -100,7 +100,9 @@ __attribute__((noinline)) static void come_near(const struct packet *p, const st
     double at[3];
     for (int k = 0; k < 3; k++) ray.origin[k] = p->origin[k][l], ray.direction[k] = p->direction[k][l];
     (*start)[l] = local_ray_enter(&ray, tree->origin, tree->frame, at);
-    for (int k = 0; k < 3; k++) from[k][l] = at[k], slack[k][l] = 0;
+    /* the ray is where it should be, but the frame's origin is rounded */
+    for (int k = 0; k < 3; k++)
+      from[k][l] = at[k], slack[k][l] = 16 * UNIT_ROUNDOFF * fabs(tree->origin[k]) / tree->frame;
   }
 }
 
