@@ -7,10 +7,8 @@
 #include <string.h>
 
 #include "accuracy/trial.h"
-#include "base/diagnostics.h"
 #include "cmocka_test.h"
 #include "effort.h"
-#include "language/language.h"
 #include "random.h"
 
 struct view {
@@ -30,18 +28,10 @@ enum { VIEWS = sizeof views / sizeof views[0], COMMAND_RAYS = 2000 };
 #define T_RELATIVE_MEDIAN 1e-15
 #define CERTAIN_SHARE 0.9999
 
-static void tell(void *context, const char *text, size_t length)
-{
-  (void)context;
-  fwrite(text, 1, length, stderr);
-}
-
 static struct scene *load(const struct view *view)
 {
-  struct diagnostics diagnostics = {.tell = tell};
-  struct language_settings settings = {.image_width = view->width, .image_height = view->height, .tolerance = NAN};
-  struct scene *scene = NULL;
-  assert_int_equal(language_load(view->path, &settings, &diagnostics, &scene), STATUS_OK);
+  struct scene *scene = trial_load(view->path, NULL, view->width, view->height);
+  assert_non_null(scene);
   return scene;
 }
 

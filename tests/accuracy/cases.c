@@ -10,21 +10,13 @@
 #include "accuracy/certificate.h"
 #include "accuracy/exact.h"
 #include "accuracy/trial.h"
-#include "base/diagnostics.h"
 #include "cmocka_test.h"
-#include "language/language.h"
 
 #define FOLDER PSCN_SOURCE_DIR "/tests/accuracy/cases/"
 
 enum { LINE_SIZE = 512 };
 
 #define T_OFF 0x1p-50 /* a unit in the last place or two */
-
-static void tell(void *context, const char *text, size_t length)
-{
-  (void)context;
-  fwrite(text, 1, length, stderr);
-}
 
 /* The line that starts with `// KEY: `; its rest, or "". */
 static void header(const char *path, const char *key, char out[LINE_SIZE])
@@ -55,11 +47,8 @@ static bool judged_good(const char *path)
   struct ray ray = {.t_min = 0, .t_max = INFINITY};
   double *o = ray.origin, *d = ray.direction;
   assert_int_equal(sscanf(text, "%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]), 6);
-  struct diagnostics diagnostics = {.tell = tell};
-  struct language_settings settings = {.image_width = 800, .image_height = 600, .tolerance = NAN};
-  if (solver[0]) settings.solver_text = solver;
-  struct scene *scene = NULL;
-  assert_int_equal(language_load(path, &settings, &diagnostics, &scene), STATUS_OK);
+  struct scene *scene = trial_load(path, solver[0] ? solver : NULL, 800, 600);
+  assert_non_null(scene);
   struct trial trial;
   struct certifier certifier;
   struct hit hit;

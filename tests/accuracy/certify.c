@@ -12,15 +12,7 @@
 #include "accuracy/exact.h"
 #include "accuracy/trial.h"
 #include "base/clock.h"
-#include "base/diagnostics.h"
 #include "cmocka_test.h"
-#include "language/language.h"
-
-static void tell(void *context, const char *text, size_t length)
-{
-  (void)context;
-  fwrite(text, 1, length, stderr);
-}
 
 static void show(size_t line, const struct ray *ray, const struct hit *hit, const struct certificate *c)
 {
@@ -40,11 +32,8 @@ int main(int argc, char **argv)
 {
   const bool all = argc > 2 && !strcmp(argv[argc - 1], "--all");
   if (argc < 2) return 2;
-  struct diagnostics diagnostics = {.tell = tell};
-  struct language_settings settings = {.image_width = 800, .image_height = 600, .tolerance = NAN};
-  if (argc > 2 + all) settings.solver_text = argv[2];
-  struct scene *scene = NULL;
-  if (language_load(argv[1], &settings, &diagnostics, &scene) != STATUS_OK) return 3;
+  struct scene *scene = trial_load(argv[1], argc > 2 + all ? argv[2] : NULL, 800, 600);
+  if (!scene) return 3;
   struct trial trial;
   trial_of_scene(&trial, scene);
   struct certifier certifier;

@@ -16,11 +16,9 @@
 #include "accuracy/generate.h"
 #include "accuracy/trial.h"
 #include "base/clock.h"
-#include "base/diagnostics.h"
 #include "base/sort.h"
 #include "cmocka_test.h"
 #include "effort.h"
-#include "language/language.h"
 #include "random.h"
 
 enum { FULL_RAYS = 40000, TURNS = 3 };
@@ -116,19 +114,11 @@ static void aim(struct random *random, const struct scene *scene, enum kind kind
 
 static const char *scene_name;
 
-static void tell(void *context, const char *text, size_t length)
-{
-  (void)context;
-  fwrite(text, 1, length, stderr);
-}
-
 static void scene_rays(void **state)
 {
   (void)state;
-  struct diagnostics diagnostics = {.tell = tell};
-  struct language_settings settings = {.image_width = 800, .image_height = 600, .tolerance = NAN};
-  struct scene *scene = NULL;
-  assert_int_equal(language_load(scene_name, &settings, &diagnostics, &scene), STATUS_OK);
+  struct scene *scene = trial_load(scene_name, NULL, 800, 600);
+  assert_non_null(scene);
   struct trial trial;
   trial_of_scene(&trial, scene);
   struct random random = {.state = effort_seed(900)};

@@ -7,8 +7,10 @@
 #include <string.h>
 
 #include "accuracy/models.h"
+#include "base/diagnostics.h"
 #include "base/sort.h"
 #include "cmocka_test.h"
+#include "language/language.h"
 
 enum { MOST_SHOWN = 10 };
 
@@ -68,6 +70,21 @@ void trial_of_scene(struct trial *trial, const struct scene *scene)
   memset(trial, 0, sizeof *trial);
   trial->scene = *scene;
   trial_start(trial);
+}
+
+static void tell(void *context, const char *text, size_t length)
+{
+  (void)context;
+  fwrite(text, 1, length, stderr);
+}
+
+struct scene *trial_load(const char *path, const char *solver, int width, int height)
+{
+  struct diagnostics diagnostics = {.tell = tell};
+  const struct language_settings settings = {
+    .image_width = width, .image_height = height, .solver_text = solver, .tolerance = NAN};
+  struct scene *scene = NULL;
+  return language_load(path, &settings, &diagnostics, &scene) == STATUS_OK ? scene : NULL;
 }
 
 void trial_destroy(struct trial *trial)
