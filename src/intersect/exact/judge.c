@@ -137,6 +137,15 @@ static bool list_root(struct judge *j, const struct exact_root *root, enum exact
   return exact_list_add(j->list, &found);
 }
 
+static double least_t(const struct exact_root *root) { return (double)root->t - root->t_error; }
+
+/* Where it can be: each by itself, for one that stays as it is may still be told from the other. */
+static void sharpen(struct judge *j, struct exact_root *root)
+{
+  struct exact_root sharp = *root;
+  if (judge_sharpen(j, &sharp)) *root = sharp;
+}
+
 /* A root inside: the nearest, or of those that cannot be told apart the first. */
 static void keep_root(struct judge *j, struct exact_root *root)
 {
@@ -145,18 +154,18 @@ static void keep_root(struct judge *j, struct exact_root *root)
     return;
   }
   if (j->found && same_root(root, &j->nearest)) return;
-  bool tied = false;
-  if (j->found && judge_tie(root, &j->nearest)) {
-    struct exact_root other = j->nearest;
-    const bool sharp = judge_sharpen(j, root) && judge_sharpen(j, &other), tie = judge_tie(root, &other);
-    if (sharp) j->nearest = other;
+  struct exact_root *other = &j->nearest;
+  if (j->found && judge_tie(root, other)) {
+    sharpen(j, other), sharpen(j, root);
     judge_turn(j, root->patch); /* whose region is being searched */
-    tied = j->tied |= tie && !judge_tie_fine(j, root, &other);
-    if (tie ? judge_stands_before(&other, root) : root->t > other.t) return;
-  } else if (j->found && !(root->t < j->nearest.t)) {
+    const bool tie = judge_tie(root, other);
+    if (tie && !judge_tie_fine(j, root, other))
+      j->tied_from = real_min(j->tied_from, real_min(least_t(root), least_t(other)));
+    if (tie ? judge_stands_before(other, root) : root->t > other->t) return;
+  } else if (j->found && !(root->t < other->t)) {
     return;
   }
-  j->nearest = *root, j->found = true, j->tied = tied;
+  *other = *root, j->found = true;
   set_limit(j);
 }
 
@@ -411,7 +420,8 @@ static void search_nearest(struct judge *j, const struct exact_region regions[],
 
 void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct exact_list *list)
 {
-  *j = (struct judge){.asked = asked, .all = all, .list = list, .work = JUDGE_WORK, .patch = UINT32_MAX};
+  *j = (struct judge){
+    .asked = asked, .all = all, .list = list, .work = JUDGE_WORK, .tied_from = INFINITY, .patch = UINT32_MAX};
   if (!all) {
     j->doubt = asked->cut_off;
     if (asked->known) j->nearest = *asked->known, j->found = true;
@@ -441,7 +451,8 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
   if (j.doubtful && !(j.found && j.nearest.t <= j.maybe.t)) {
     *out = (struct exact_decision){.verdict = EXACT_MAYBE, .maybe = j.maybe};
   } else if (j.found) {
-    out->verdict = EXACT_ROOT, out->root = j.nearest, out->sure &= !j.tied;
+    out->verdict = EXACT_ROOT, out->root = j.nearest,
+    out->sure &= j.tied_from > (double)j.nearest.t + j.nearest.t_error;
     if (j.doubtful) out->sure &= j.maybe.t - j.maybe.t_error > j.nearest.t + j.nearest.t_error;
   }
 }

@@ -20,7 +20,8 @@ struct judge {
   struct exact_root nearest; /* of the certain roots inside patches, where `found` */
   struct exact_maybe maybe;  /* the nearest, where `doubtful` */
   bool found, doubtful;
-  bool tied;    /* `nearest` may be behind another one: see judge_tie_fine */
+  /* where a root may be that `nearest`, or one before it, could not be told from (judge_tie_fine); infinite for none */
+  double tied_from;
   bool doubt;   /* something could not be told from the ray's start, and was left out; of all hits, any doubt */
   double limit; /* nothing beyond this t matters */
   int work;     /* boxes that may still be looked at */
