@@ -68,8 +68,8 @@ struct source_position source_locate(const struct source *source, size_t offset)
 /* The length in bytes of the UTF-8 character at text[0 .. length-1], length >= 1; 0 where it is no well-formed one. */
 size_t source_character(const char *text, size_t length);
 
-/* Whether a terminal shows the character of so many bytes, and does not obey it: no control character, of Unicode's neither,
- * and well formed. */
+/* Whether a terminal shows the character of so many bytes, and does not obey it: no control character, of Unicode's
+ * neither, and well formed. */
 bool source_is_shown(const char *text, size_t bytes);
 
 /* NULL is allowed. */

@@ -32,8 +32,8 @@ struct chart_point {
   bool front;
 };
 
-/* The solvers to chart: every one but durand_kerner, basis, start, polish and tolerance that make a difference, and the paper's forms.
- * The first one is the default. Returns how many; out may be NULL. */
+/* The solvers to chart: every one but durand_kerner, basis, start, polish and tolerance that make a difference, and the
+ * paper's forms. The first one is the default. Returns how many; out may be NULL. */
 struct sweep_point {
   enum family family;
   struct method options;

@@ -40,7 +40,8 @@ struct request {
   char *scene_options;  /* owned */
 };
 
-/* Seconds between two looks at what is done so far that are kept: with the time that keeping takes, a minute is lost at most. */
+/* Seconds between two looks at what is done so far that are kept: with the time that keeping takes, a minute is lost at
+ * most. */
 static const double DEFAULT_CHECKPOINT = 30;
 
 static const struct command_option OPTIONS[] = {

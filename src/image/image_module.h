@@ -2,8 +2,8 @@
  *
  * OpenImageIO brings some 250 shared libraries along, which cost every start of a program an eighth of a second and 130
  * MB. So the code that uses it is a module of its own, IMAGE_MODULE_FILE, loaded when the first picture file is met; it
- * exports one object, `image_module`. The functions are those of image_file.h after the arguments have been checked; `format` is
- * OpenImageIO's name of the file's.
+ * exports one object, `image_module`. The functions are those of image_file.h after the arguments have been checked;
+ * `format` is OpenImageIO's name of the file's.
  */
 #ifndef PSCN_IMAGE_IMAGE_MODULE_H
 #define PSCN_IMAGE_IMAGE_MODULE_H

@@ -3,13 +3,13 @@
  * Build once from a scene, then share between threads; each thread owns one `tracer`, which holds its counters, its
  * scratch memory and its warm starts. No call on a tracer allocates or fails, but tracer_all.
  *
- * What an answer promises (with `polish on`, the default): of all points where the exact ray meets the exact
- * patches, a hit is the nearest with t in (t_min, t_max); a miss has none. `certain` means this is proven; `grazing`
- * means that the answer can be turned by a change of the input within the rounding bound of the evaluation (a
- * tangency, the border of an open surface, a coincident component): then a hit is reported where a hit cannot be
- * excluded, but for one that 113 bits cannot tell from t_min or t_max, which is left out. The answer to a ray does not
- * depend on the rays it shares a packet with, but for last places where another hit is so near that double precision cannot
- * tell which comes first; and with `start previous`.
+ * What an answer promises (with `polish on`, the default): of all points where the exact ray meets the exact patches, a
+ * hit is the nearest with t in (t_min, t_max); a miss has none. `certain` means this is proven; `grazing` means that
+ * the answer can be turned by a change of the input within the rounding bound of the evaluation (a tangency, the border
+ * of an open surface, a coincident component): then a hit is reported where a hit cannot be excluded, but for one that
+ * 113 bits cannot tell from t_min or t_max, which is left out. The answer to a ray does not depend on the rays it
+ * shares a packet with, but for last places where another hit is so near that double precision cannot tell which comes
+ * first; and with `start previous`.
  */
 #ifndef PSCN_INTERSECT_INTERSECT_H
 #define PSCN_INTERSECT_INTERSECT_H

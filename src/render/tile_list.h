@@ -1,8 +1,8 @@
 /* The tiles of a picture, or every N-th of them, in an order that keeps neighbours together.
  *
- * The order runs along D. Hilbert's curve ("Über die stetige Abbildung einer Linie auf ein Flächenstück", Math. Ann. 38,
- * 1891), so that any N tiles in a row are a small spot of the picture, and of each such spot each of N pieces gets one: what
- * is dear to render is shared out evenly, whatever N is.
+ * The order runs along D. Hilbert's curve ("Über die stetige Abbildung einer Linie auf ein Flächenstück", Math. Ann.
+ * 38, 1891), so that any N tiles in a row are a small spot of the picture, and of each such spot each of N pieces gets
+ * one: what is dear to render is shared out evenly, whatever N is.
  */
 #ifndef PSCN_RENDER_TILE_LIST_H
 #define PSCN_RENDER_TILE_LIST_H

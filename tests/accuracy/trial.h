@@ -86,8 +86,8 @@ void trial_create_beside(struct trial *trial, const struct trial *first, const s
 void trial_of_scene(struct trial *trial, const struct scene *scene);
 void trial_destroy(struct trial *trial);
 
-/* The scene of a file, every patch with `solver` where that is not NULL, as behind --solver; its errors are told on standard
- * error. NULL where it has some. The caller destroys it. */
+/* The scene of a file, every patch with `solver` where that is not NULL, as behind --solver; its errors are told on
+ * standard error. NULL where it has some. The caller destroys it. */
 struct scene *trial_load(const char *path, const char *solver, int width, int height);
 
 /* Asks both for `count` rays (any number) and adds what comes out to the tally; prints the first disagreements. */

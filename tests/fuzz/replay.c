@@ -1,5 +1,5 @@
-/* Runs a fuzz target on files and on all files of folders, named by whole paths, without libFuzzer. What it says goes nowhere; each input has
- * SECONDS_EACH, so that one that has become slow is seen. Without an input at all it fails. */
+/* Runs a fuzz target on files and on all files of folders, named by whole paths, without libFuzzer. What it says goes
+ * nowhere; each input has SECONDS_EACH, so that one that has become slow is seen. Without an input at all it fails. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <stdio.h>

@@ -15,8 +15,8 @@ struct bilinear_root {
   lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters; none of these where any hit will do */
 };
 
-/* A root on a leaf that has parts, on the lanes of `active`: by Newton's process to the last places, and the test. It starts
- * from start[0], start[1], values of u - 1/2 and v - 1/2. */
+/* A root on a leaf that has parts, on the lanes of `active`: by Newton's process to the last places, and the test. It
+ * starts from start[0], start[1], values of u - 1/2 and v - 1/2. */
 void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2],
                          lane_mask active, struct bilinear_root *out);
 

@@ -48,8 +48,8 @@ lane_mask stage_resultant(struct candidate *it, lane_mask open);
  * proven to be all. */
 lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask open);
 
-/* all_roots.c: the roots of r by the method that the scene asks for on all lanes at once; closed where they are proven to be
- * all. */
+/* all_roots.c: the roots of r by the method that the scene asks for on all lanes at once; closed where they are proven
+ * to be all. */
 lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open);
 
 /* all_roots.c: the real root of r0 + r1 s + r2 s^2 that is nearest to 0, or the real part of a pair, by that method; takes

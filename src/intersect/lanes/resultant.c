@@ -125,8 +125,8 @@ static struct newton_root resultant_refine(const struct candidate *it, bool firs
   return newton_refine(&it->nets, it->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, active);
 }
 
-/* Lanes of `open` where it is proven that the leaf has no roots on the ray but r, where that one is proven, and another one,
- * where there is one: those are offered. */
+/* Lanes of `open` where it is proven that the leaf has no roots on the ray but r, where that one is proven, and another
+ * one, where there is one: those are offered. */
 static lane_mask resultant_cover(struct packet *p, const struct candidate *it, const struct newton_root *r,
                                  lane_mask open)
 {
