@@ -1,6 +1,6 @@
-/* How much of space a closed model fills: a grid of N x N lines goes through it, and a point of a line is inside where the
- * line has met the surface an odd number of times before it. What the lengths inside add up to, times the area that each
- * line stands for, is the volume; no line may meet the surface an odd number of times altogether.
+/* How much of space a closed model fills: a grid of N x N lines goes through it, and a point of a line is inside where
+ * the line has met the surface an odd number of times before it. What the lengths inside add up to, times the area that
+ * each line stands for, is the volume; no line may meet the surface an odd number of times altogether.
  *
  *     cc inside.c $(pkg-config --cflags --libs pscn) -lm -o inside
  *     ./inside 100                  a ball of eight patches, made here of control points

@@ -4,9 +4,9 @@
  *
  * Writes NAME-iterations.png (iterations a root, 1 to 64, a step of colour for each factor), NAME-residual.png (eq 11's
  * ratio of the root that is the hit, 1e-2 to 1e6; 1, where accurate ends, is a quarter up) and NAME-deviation.png (from
- * the certified distance, relative, 1e-16 to 1; red: a hole or a phantom). White where there is nothing to tell. A row of
- * CSV on standard output: the means of iterations and roots a ray that has any, the share of the hits that meet eq 11, the
- * shares of the pixels that deviate by more than 1e-12, and that are holes or phantoms.
+ * the certified distance, relative, 1e-16 to 1; red: a hole or a phantom). White where there is nothing to tell. A row
+ * of CSV on standard output: the means of iterations and roots a ray that has any, the share of the hits that meet eq
+ * 11, the shares of the pixels that deviate by more than 1e-12, and that are holes or phantoms.
  */
 #include <math.h>
 #include <stdio.h>

@@ -208,7 +208,8 @@ struct line {
   double n, x, y, xx, xy;
 };
 
-/* Errors between these, relative to the root or 1, are near enough for the order to show and far enough from rounding. */
+/* Errors between these, relative to the root or 1, are near enough for the order to show and far enough from
+ * rounding. */
 #define NEAR 3e-2
 #define ROUNDED 1e-13
 

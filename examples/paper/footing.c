@@ -5,7 +5,8 @@
  *     footing patch SCENE WIDTH HEIGHT   Fig 14: the rays of a picture, against eps
  *
  * Each method scalar as printed and on lanes, one polynomial a lane (forms.h); CPU time, the median of rounds in which
- * all of them take turns, so that a busy machine slows all alike; and operations, counted, by our Table 1 and the paper's.
+ * all of them take turns, so that a busy machine slows all alike; and operations, counted, by our Table 1 and the
+ * paper's.
  */
 #include <math.h>
 #include <stdio.h>

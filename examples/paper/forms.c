@@ -23,9 +23,9 @@ const char *const form_names[FORMS] = {"scalar", "lanes"};
 #define STUCK 0.9
 enum { TURN_PERIOD = 7, TURN_PERIOD_AT_ONCE = 5 };
 
-/* Registers of polynomials that a deflating method has under way: Horner's scheme waits for every result before the next,
- * and two that take turns wait half as long (three are too many for 16 registers). Aberth's roots do not wait for each
- * other. */
+/* Registers of polynomials that a deflating method has under way: Horner's scheme waits for every result before the
+ * next, and two that take turns wait half as long (three are too many for 16 registers). Aberth's roots do not wait for
+ * each other. */
 enum { GROUPS = 2, PLACES = GROUPS * LANES };
 
 int form_lanes(enum paper_method method) { return method == PAPER_ABERTH ? LANES : PLACES; }

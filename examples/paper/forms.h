@@ -1,5 +1,5 @@
-/* The paper's methods in two forms, for measuring: scalar as printed, and on lanes, one polynomial a lane. The iterations
- * are the same, values and counts (forms.c says how far); only the time differs.
+/* The paper's methods in two forms, for measuring: scalar as printed, and on lanes, one polynomial a lane. The
+ * iterations are the same, values and counts (forms.c says how far); only the time differs.
  *
  * src/algebra has neither: its newton and laguerre are scalar as here, its aberth moves several roots of one polynomial
  * side by side, and roots_lanes.h has iterations of its own.

@@ -1,4 +1,5 @@
-/* The price of a certificate: time a ray and error against the distance to the nearest tangency. CSV on standard output.
+/* The price of a certificate: time a ray and error against the distance to the nearest tangency. CSV on standard
+ * output.
  *
  *     tangency SCENE
  *
@@ -22,7 +23,8 @@
 
 enum { RAYS = 400, ROUNDS = 3, LAST_DIGIT = 15, MOST_WAYS = 16 };
 
-/* Two distances nearer than this, relative, are one hit: rounding the input moves a tangent ray's hits by sqrt(1e-16). */
+/* Two distances nearer than this, relative, are one hit: rounding the input moves a tangent ray's hits by
+ * sqrt(1e-16). */
 #define SAME_HIT 1e-6
 
 /* How far before the tangency rays start. */

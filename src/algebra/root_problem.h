@@ -2,8 +2,8 @@
  *
  * solver_solve scales the polynomial (largest coefficient in [1/2, 1)), takes out the roots that zero coefficients at
  * its ends show, and leaves the rest as a polynomial q of degree 1 or more in x, with c[0] and c[degree] not zero. In
- * the power basis x = u, where solver_solve has chosen the unit of u; in scaled Bernstein form x = u/(1-u), and the same
- * numbers c are the scaled Bernstein coefficients in u.
+ * the power basis x = u, where solver_solve has chosen the unit of u; in scaled Bernstein form x = u/(1-u), and the
+ * same numbers c are the scaled Bernstein coefficients in u.
  *
  * A solver answers estimates of roots in u. What they are worth is judged afterwards, from the polynomial, in
  * validation.c.

@@ -1,5 +1,5 @@
-/* The methods that find all roots (eq 7 to 9 of the paper, and Weierstrass's) on several real polynomials at once, one a
- * lane: the roots near enough to the interval [0,1] of u for Newton's process on something else to start from.
+/* The methods that find all roots (eq 7 to 9 of the paper, and Weierstrass's) on several real polynomials at once, one
+ * a lane: the roots near enough to the interval [0,1] of u for Newton's process on something else to start from.
  *
  * For a caller who proves by himself what he makes of the roots (as with solver_roots): no radii, no error bounds. The
  * paper's iterations as printed, their items, and roots that are to be the answer, are aberth.c's, deflation.c's and
@@ -44,8 +44,8 @@ enum { ROOTS_LANES_DEGREE = 18 };
 /* p[k] is off by some roundings of C(n,k) sum |c|. Highest powers below this much of that are noise, and their roots,
  * far away, of nobody's interest. */
 #define ROOTS_NOISE 0x1p-48
-/* A real value can only move along the real axis: previous roots are taken off it by this much. And one that has come as
- * near to it by itself is real. */
+/* A real value can only move along the real axis: previous roots are taken off it by this much. And one that has come
+ * as near to it by itself is real. */
 #define ROOTS_LIFT 0x1p-10
 /* Of one root after the other no step is longer than this many times 1 + |z|: where P' nearly vanishes the way back
  * would take hundreds of steps. */
@@ -172,8 +172,8 @@ static void roots_lanes_start_lane(struct roots_lanes *a, unsigned lane)
   }
 }
 
-/* Of degree 2, on all lanes: where the corner of Newton's polygon is so sharp that both roots are real, the real roots of
- * its edges, otherwise on the one circle there is. */
+/* Of degree 2, on all lanes: where the corner of Newton's polygon is so sharp that both roots are real, the real roots
+ * of its edges, otherwise on the one circle there is. */
 static void roots_lanes_start_quadratic(struct roots_lanes *a)
 {
   const lanes *p = a->p, mean = lanes_sqrt(lanes_abs(p[0] / p[2]));
@@ -386,8 +386,8 @@ LANES_INLINE void roots_lanes_count(struct roots_lanes *a, int i, lane_mask foun
   a->enough -= lanes_select(inside, lanes_all(1), lanes_all(0));
 }
 
-/* All at once, in `most` sweeps at most. Takes lanes that are done out of those that seek. Inlined, for degree 2 has loops
- * of its own. */
+/* All at once, in `most` sweeps at most. Takes lanes that are done out of those that seek. Inlined, for degree 2 has
+ * loops of its own. */
 LANES_INLINE void roots_lanes_at_once(struct roots_lanes *a, int n, double settled, int most)
 {
   int active[ROOTS_LANES_DEGREE], count = n;
@@ -448,8 +448,8 @@ LANES_INLINE void roots_lanes_seek(struct roots_lanes *a, int i, bool curved, do
   }
 }
 
-/* One after the other, each with its conjugate, in `most` steps each at most. Lanes where one is sought in vain are what
- * is left of those that seek. */
+/* One after the other, each with its conjugate, in `most` steps each at most. Lanes where one is sought in vain are
+ * what is left of those that seek. */
 static void roots_lanes_in_turn(struct roots_lanes *a, double settled, int most)
 {
   const int n = a->degree;

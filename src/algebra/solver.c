@@ -84,9 +84,9 @@ static bool worth_solving(const struct polynomial *p, struct root_set *out)
   return finite && !zero;
 }
 
-/* The exponent of the unit in which roots are sought, of x with u = 2^unit x. In powers of u it is next to the roots' mean
- * modulus, so that no size of u makes values, their bounds or their squares over- or underflow. The paper's tolerance is
- * one in u, and [0,1] an interval of u: there the unit is 1, as in Bernstein form. */
+/* The exponent of the unit in which roots are sought, of x with u = 2^unit x. In powers of u it is next to the roots'
+ * mean modulus, so that no size of u makes values, their bounds or their squares over- or underflow. The paper's
+ * tolerance is one in u, and [0,1] an interval of u: there the unit is 1, as in Bernstein form. */
 static int unit_of(const struct root_problem *problem, const struct solver_options *options)
 {
   const double low = log2(fabs(problem->c[0])), high = log2(fabs(problem->c[problem->degree]));

@@ -1,6 +1,6 @@
 /* Fixed-point numbers: whole multiples of FIXED_UNIT, 2^-117, of a size below 512. Sums and differences are the
- * language's own, and exact; a product takes four multiplications of the processor. So where numbers are of one size, and
- * errors absolute, there are more digits than in `wide`, at an eighth of the time. Pure; the same on every machine.
+ * language's own, and exact; a product takes four multiplications of the processor. So where numbers are of one size,
+ * and errors absolute, there are more digits than in `wide`, at an eighth of the time. Pure; the same on every machine.
  */
 #ifndef PSCN_BASE_FIXED_H
 #define PSCN_BASE_FIXED_H

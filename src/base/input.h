@@ -1,7 +1,7 @@
 /* What is read, wherever it is read from: one place opens it.
  *
- * An input is a regular file or a pipe. Devices, sockets and folders are refused, because they have no end, or no bytes,
- * and what waits for them waits for ever. Safe on any thread.
+ * An input is a regular file or a pipe. Devices, sockets and folders are refused, because they have no end, or no
+ * bytes, and what waits for them waits for ever. Safe on any thread.
  */
 #ifndef PSCN_BASE_INPUT_H
 #define PSCN_BASE_INPUT_H

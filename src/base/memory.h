@@ -21,7 +21,8 @@ struct memory_hooks memory_use(struct memory_hooks hooks);
 /* Whether there are no hooks. */
 bool memory_is_libcs(void);
 
-/* `count` zeroed elements of `size` bytes, aligned for any type, or NULL where memory is short or the product overflows. */
+/* `count` zeroed elements of `size` bytes, aligned for any type, or NULL where memory is short or the product
+ * overflows. */
 void *memory_alloc(size_t count, size_t size);
 
 /* The block with room for `size` > 0 bytes, what is new in it not zeroed. NULL, the block as it was, where memory is

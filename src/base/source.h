@@ -1,7 +1,7 @@
 /* Source text: the bytes of one scene file, and where in them a byte offset lies.
  *
- * The bytes are kept as they are in the file (any bytes, NUL included). A source that was included knows the place
- * of its #include. Sources are read-only once made; they own what they point to, except `includer`. The memory of a long
+ * The bytes are kept as they are in the file (any bytes, NUL included). A source that was included knows the place of
+ * its #include. Sources are read-only once made; they own what they point to, except `includer`. The memory of a long
  * file's text may be given back as it is read, and is filled again where that text is looked at once more.
  */
 #ifndef PSCN_BASE_SOURCE_H
@@ -42,11 +42,12 @@ STATUS_MUST_CHECK enum status source_read(const char *path, enum input_kind kind
 STATUS_MUST_CHECK enum status source_read_open(const char *name, int file, struct source **out_source,
                                                const char **out_reason);
 
-/* Gives back the memory of what stands before byte `end`, but for some bytes, where it can be read from the file again. */
+/* Gives back the memory of what stands before byte `end`, but for some bytes, where it can be read from the file
+ * again. */
 void source_drop(const struct source *source, size_t end);
 
-/* Reads that again, and keeps it; what the file no longer has is NUL. Wanted before `text` is looked at where it may have
- * been dropped: source_locate does it. */
+/* Reads that again, and keeps it; what the file no longer has is NUL. Wanted before `text` is looked at where it may
+ * have been dropped: source_locate does it. */
 void source_recall(const struct source *source);
 
 /* What file `path` names now; false where there is none. */

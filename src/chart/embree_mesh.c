@@ -14,7 +14,8 @@ struct embree_mesh {
   unsigned side;
 };
 
-/* Rays together, 8 or 16, are columns of words: of the ray, then of the hit (Embree's accessors of RTCRayN and RTCHitN). */
+/* Rays together, 8 or 16, are columns of words: of the ray, then of the hit (Embree's accessors of RTCRayN and
+ * RTCHitN). */
 enum column {
   ORIGIN = 0,
   NEAR = 3,

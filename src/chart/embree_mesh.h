@@ -28,8 +28,8 @@ struct embree_peer {
   /* How many rays together this processor has the instructions for: 8 or 16. */
   unsigned (*widest)(const struct embree_mesh *mesh);
 
-  /* Traces all rays in order: one by one (width 1), or 8 or 16 together, said to be coherent or not; for the closest hit,
-   * or for any. Returns a number made of all answers, so that none can be left out. */
+  /* Traces all rays in order: one by one (width 1), or 8 or 16 together, said to be coherent or not; for the closest
+   * hit, or for any. Returns a number made of all answers, so that none can be left out. */
   double (*trace)(const struct embree_mesh *mesh, const struct embree_rays *rays, unsigned width, bool coherent,
                   bool any);
 

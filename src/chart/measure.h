@@ -33,9 +33,8 @@ struct runner {
 };
 
 /* Runs each runner once unmeasured, then gives it `rounds` turns (at most MEASURE_MAX_ROUNDS); in a turn of fast ones
- * the run is repeated until 1 ms is full, with warm caches. counts[kind] is the number of rays; where there are none all
- * is NAN. out[runner][kind].
- * STATUS_INTERRUPTED where *stop turns nonzero. */
+ * the run is repeated until 1 ms is full, with warm caches. counts[kind] is the number of rays; where there are none
+ * all is NAN. out[runner][kind]. STATUS_INTERRUPTED where *stop turns nonzero. */
 enum status measure_rounds(const struct runner *runners, size_t count, const size_t counts[RAY_KINDS], size_t rounds,
                            const atomic_int *stop, struct timing (*out)[RAY_KINDS]) STATUS_MUST_CHECK;
 

@@ -30,8 +30,8 @@ struct chart {
   size_t note_count;
 };
 
-/* Adds a point like `said`, measured and answered elsewhere: chart->answers are those to the camera rays. There is always
- * room. */
+/* Adds a point like `said`, measured and answered elsewhere: chart->answers are those to the camera rays. There is
+ * always room. */
 struct chart_point *chart_add(struct chart *chart, const struct chart_point *said, const struct timing time[RAY_KINDS]);
 
 /* Adds a point like said[k] for each of `count` <= CHART_BATCH runners, measured in turns with the yardstick, whose own

@@ -32,7 +32,8 @@ static int remove_one(const char *path, const struct stat *state, int kind, stru
 
 static void remove_all(const char *path) { (void)nftw(path, remove_one, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS); }
 
-/* Waits for the pipe to end, which is when nobody is left who could remove the folder. `path`: as far as it is known. */
+/* Waits for the pipe to end, which is when nobody is left who could remove the folder. `path`: as far as it is
+ * known. */
 static void keep(int alive, const char *path)
 {
   const struct timespec pause = {.tv_nsec = PAUSE_NANOSECONDS};

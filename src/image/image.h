@@ -26,7 +26,8 @@ struct image {
   size_t x, y, full_width, full_height; /* where it stands in a larger picture; full 0 x 0: it is the whole */
   struct image_channel *channel;        /* channel_count of them */
   float *value;
-  /* Of a picture that was read: its texts named "pscn:...", a line "NAME=TEXT" each, where a line end in it is a blank. */
+  /* Of a picture that was read: its texts named "pscn:...", a line "NAME=TEXT" each, where a line end in it is a
+   * blank. */
   char *metadata;
 };
 

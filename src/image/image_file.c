@@ -86,9 +86,10 @@ static bool room_for_bytes(size_t size, int protection)
   return room != MAP_FAILED;
 }
 
-/* Where address space, memory or threads run out while they start, OpenImageIO and the libraries it brings along end the
- * process instead of saying so. So room is asked for first, that what they need is there: the libraries, their data, four
- * threads of a library's and one of OpenImageIO's for each processor, beside as many of ours, with a stack and a heap each. */
+/* Where address space, memory or threads run out while they start, OpenImageIO and the libraries it brings along end
+ * the process instead of saying so. So room is asked for first, that what they need is there: the libraries, their
+ * data, four threads of a library's and one of OpenImageIO's for each processor, beside as many of ours, with a stack
+ * and a heap each. */
 static bool room_for_module(void)
 {
   const size_t libraries = (size_t)384 << 20, data = (size_t)160 << 20, heap = (size_t)80 << 20;
@@ -98,9 +99,9 @@ static bool room_for_module(void)
          room_for_threads(4 + 2 * processors);
 }
 
-/* Most of OpenImageIO's loading is looking for names of symbols in all libraries, one after the other. A library that is
- * opened before it looks in those that it needs itself only: these bring the most names along, and half of the time is
- * gone. The build knows what they are called (CMakeLists.txt); one that is not there costs nothing. */
+/* Most of OpenImageIO's loading is looking for names of symbols in all libraries, one after the other. A library that
+ * is opened before it looks in those that it needs itself only: these bring the most names along, and half of the time
+ * is gone. The build knows what they are called (CMakeLists.txt); one that is not there costs nothing. */
 static void load_first(int flags)
 {
   static const char *const first[] = {IMAGE_MODULE_FIRST NULL};

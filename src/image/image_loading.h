@@ -1,4 +1,5 @@
-/* OpenImageIO loaded beside other work, which need not wait for it: that takes longer than a small picture to render. */
+/* OpenImageIO loaded beside other work, which need not wait for it: that takes longer than a small picture to
+ * render. */
 #ifndef PSCN_IMAGE_IMAGE_LOADING_H
 #define PSCN_IMAGE_IMAGE_LOADING_H
 

@@ -47,14 +47,14 @@ struct hit {
 };
 
 /* Every hit of one ray, in order of t. A point of a border that patches share is one hit where the ray crosses the
- * surface there, and so is a pole, or a corner of several patches; its patch is the first of them in the scene. Surfaces
- * that lie on each other are a hit each, the first in the scene first.
+ * surface there, and so is a pole, or a corner of several patches; its patch is the first of them in the scene.
+ * Surfaces that lie on each other are a hit each, the first in the scene first.
  *
- * `certain`: it is proven that there are `count` hits, each of them listed, and that this is their order; so a ray whose
- * t_max is infinite starts inside a closed surface where `count` is odd, and outside where it is even. `grazing`: not
- * proven, for the ray touches a surface, an open border or a crease from outside, or starts or ends on a surface, nearer
- * than 113 bits can tell; then the list has what is proven, and what may be a hit as well: their own certainty tells
- * them apart. */
+ * `certain`: it is proven that there are `count` hits, each of them listed, and that this is their order; so a ray
+ * whose t_max is infinite starts inside a closed surface where `count` is odd, and outside where it is even. `grazing`:
+ * not proven, for the ray touches a surface, an open border or a crease from outside, or starts or ends on a surface,
+ * nearer than 113 bits can tell; then the list has what is proven, and what may be a hit as well: their own certainty
+ * tells them apart. */
 struct hit_list {
   enum certainty certainty;
   size_t count;
@@ -86,7 +86,8 @@ struct tracer;
  * best there is) is one that this processor has and the program was built with. */
 bool intersector_kernel_here(void);
 
-/* "fused" or "baseline": how that one rounds products that are added to. Those of one kind answer alike to the last bit. */
+/* "fused" or "baseline": how that one rounds products that are added to. Those of one kind answer alike to the last
+ * bit. */
 const char *intersector_arithmetic(void);
 
 /* Prepares the scene: degrees, leaves, bounding hierarchy. Borrows the scene, which must outlive it.

@@ -29,8 +29,8 @@ struct local_ray {
 #define PLANE_ERROR(m0, m1) (UNIT_ROUNDOFF * (36 + 16 * ((m0) + (m1))))
 
 /* What double-double leaves unknown of a moment m_i: of q_i d_k and q_k d_i, exact products of the leading parts of the
- * origin's coordinates q in the frame of the patch, the sum of the rests takes roundings of at most 8 UNIT_ROUNDOFF^2 of
- * the two. qi = |q_i|, qk = |q_k d_i/d_k|. */
+ * origin's coordinates q in the frame of the patch, the sum of the rests takes roundings of at most 8 UNIT_ROUNDOFF^2
+ * of the two. qi = |q_i|, qk = |q_k d_i/d_k|. */
 #define MOMENT_ERROR(qi, qk) (8 * UNIT_ROUNDOFF * UNIT_ROUNDOFF * ((qi) + (qk)))
 
 /* The axis along which d is longest. */
@@ -42,8 +42,8 @@ static inline int dominant_axis(const double d[3])
 
 void local_ray_make(const struct model_patch *patch, const struct ray *ray, struct local_ray *out);
 
-/* Where a ray that starts so far away that double precision loses it comes by: found in wide arithmetic, and by products
- * that are exact, so that no distance costs a digit.
+/* Where a ray that starts so far away that double precision loses it comes by: found in wide arithmetic, and by
+ * products that are exact, so that no distance costs a digit.
  *
  * Of what lies within 2 `frame` of `origin` along the ray's dominant axis: the point of the ray in front of it, or the
  * ray's start where that is later, as (point - origin)/frame, coordinates beyond 2^30 cut off there. Returns how far

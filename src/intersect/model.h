@@ -160,8 +160,8 @@ struct model {
   bool unproven; /* some patch has `polish off`: no answer is proven */
 };
 
-/* Prepares all patches of the scene, which is borrowed; a large one by a team, with the same outcome. STATUS_LIMIT where
- * memory is short, or threads are; then *out is NULL. */
+/* Prepares all patches of the scene, which is borrowed; a large one by a team, with the same outcome. STATUS_LIMIT
+ * where memory is short, or threads are; then *out is NULL. */
 enum status model_create(const struct scene *scene, const struct team *team, struct model **out) STATUS_MUST_CHECK;
 void model_destroy(struct model *model);
 

@@ -169,8 +169,8 @@ PSCN_API void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_came
  *
  * `count` rays are read, ray k at rays + k ray_stride, and as many answers written, strides in bytes: a ray or an
  * answer may be a member of a structure of the caller's. A stride of 0 or below is fine where that makes sense. A call
- * is fastest with many rays, those that lie near each other side by side, and takes up to 1.5 MB of stack: a hard ray, as
- * one that passes a pole at 1e-9, is searched within a search, up to twelve deep.
+ * is fastest with many rays, those that lie near each other side by side, and takes up to 1.5 MB of stack: a hard ray,
+ * as one that passes a pole at 1e-9, is searched within a search, up to twelve deep.
  *
  * PSCN_OK; or PSCN_INPUT where some ray is not as it should be: that one has the verdict PSCN_NO_ANSWER, the others are
  * answered. PSCN_USAGE where the scene was not built, or a pointer is NULL: whatever can be written then has no answer.

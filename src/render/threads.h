@@ -23,8 +23,8 @@ size_t threads_start(struct thread threads[], size_t first, size_t count, team_w
 /* Waits for them; the first status that is not STATUS_OK. */
 enum status threads_join(struct thread threads[], size_t count);
 
-/* Does the work as worker 0 with the stack that a hard ray takes: on the calling thread, or, where `ulimit -s` leaves that
- * less, on another one, which then gets the signals too. STATUS_LIMIT where there is no room for it. */
+/* Does the work as worker 0 with the stack that a hard ray takes: on the calling thread, or, where `ulimit -s` leaves
+ * that less, on another one, which then gets the signals too. STATUS_LIMIT where there is no room for it. */
 enum status threads_run_deep(team_work *work, void *context);
 
 /* A team of so many, the calling thread one of them. */

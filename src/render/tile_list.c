@@ -10,8 +10,8 @@ struct place {
   size_t column, row;
 };
 
-/* How far along the curve through a square of 2^32 tiles a side. Each step of the loop asks in which quarter of the square
- * the tile lies and turns that quarter so that its curve runs as the whole one does. */
+/* How far along the curve through a square of 2^32 tiles a side. Each step of the loop asks in which quarter of the
+ * square the tile lies and turns that quarter so that its curve runs as the whole one does. */
 static uint64_t hilbert(uint32_t x, uint32_t y)
 {
   uint64_t way = 0;

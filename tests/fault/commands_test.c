@@ -133,9 +133,9 @@ static bool fits(int code, enum call call)
   return code == STATUS_FILE || (call == OPEN && code == STATUS_INPUT); /* an error of the scene that includes */
 }
 
-/* Lets the calls of that kind fail one after the other; or, of a command that takes memory thousands of times and starts
- * programs, the first one of each place that takes memory. Answers how many there are. `old`: what the file to be written,
- * or the page of the folder, held before, or NULL. */
+/* Lets the calls of that kind fail one after the other; or, of a command that takes memory thousands of times and
+ * starts programs, the first one of each place that takes memory. Answers how many there are. `old`: what the file to
+ * be written, or the page of the folder, held before, or NULL. */
 static long fail_each(const char *const arguments[], enum call call, enum leaves leaves, const char *old)
 {
   prepare(leaves, NULL);

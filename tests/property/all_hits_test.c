@@ -241,8 +241,8 @@ static struct hit_list list_of(struct world *world, const struct ray *ray)
   return list;
 }
 
-/* What only touches a surface is not counted for certain: a bowl touched at its bottom, a sheet met along a line, a start
- * on a surface. Beside them it is. */
+/* What only touches a surface is not counted for certain: a bowl touched at its bottom, a sheet met along a line, a
+ * start on a surface. Beside them it is. */
 static void test_touching(void **state)
 {
   (void)state;
@@ -272,8 +272,8 @@ static void test_touching(void **state)
   world_close(&world);
 }
 
-/* Six patches that go twice round a point: a ray through it meets two sheets there, which is not one hit. A ray beside it
- * has two. */
+/* Six patches that go twice round a point: a ray through it meets two sheets there, which is not one hit. A ray beside
+ * it has two. */
 static void test_twice_round(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
-/* Rays, patches and lengths from one end of the doubles to the other, all against all: a ray through the middle of a patch
- * meets it, whatever their sizes are and wherever it starts. */
+/* Rays, patches and lengths from one end of the doubles to the other, all against all: a ray through the middle of a
+ * patch meets it, whatever their sizes are and wherever it starts. */
 #include <float.h>
 #include <math.h>
 
@@ -130,8 +130,8 @@ static void rays_and_patches_of_all_sizes(void **state)
 
 enum { ACROSS = 24, FAR_RAYS = 64, FEW_LEAVES = 40 };
 
-/* However far away a ray starts, it is tried on the leaves along it only: from 2^40 to 2^100 scenes away, exactly along a
- * diagonal over a floor of patches. */
+/* However far away a ray starts, it is tried on the leaves along it only: from 2^40 to 2^100 scenes away, exactly along
+ * a diagonal over a floor of patches. */
 static void far_rays_pass_by_what_is_not_on_their_way(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
-/* The methods on lanes (all_roots.c), whole patches and leaves: their answers are the default's, and a ray's answer does
- * not depend on the rays beside it. */
+/* The methods on lanes (all_roots.c), whole patches and leaves: their answers are the default's, and a ray's answer
+ * does not depend on the rays beside it. */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* What tests ask of a hit besides the reference's answer: its normal, how far rounding can move it, how far an answer is
- * from ray and surface. In quadruple precision, with nothing of the renderer's. Any thread.
+/* What tests ask of a hit besides the reference's answer: its normal, how far rounding can move it, how far an answer
+ * is from ray and surface. In quadruple precision, with nothing of the renderer's. Any thread.
  */
 #ifndef PSCN_REFERENCE_FACTS_H
 #define PSCN_REFERENCE_FACTS_H

@@ -326,8 +326,8 @@ static void channels_tell_of_the_hit(void **state)
   free(out);
 }
 
-/* What the solver did: iterations, roots, eq 11, the distance from the certified answer. The other channels are the same
- * bits whether they are asked for or not. Returns how many pixels deviate by more than `off`, or are wrong. */
+/* What the solver did: iterations, roots, eq 11, the distance from the certified answer. The other channels are the
+ * same bits whether they are asked for or not. Returns how many pixels deviate by more than `off`, or are wrong. */
 static size_t expect_measures(const struct scene *scene, double most_roots, double most_off)
 {
   const struct render_options plain = options_of("rgb,depth,u,v,patch,normal,status");

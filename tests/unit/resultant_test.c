@@ -176,9 +176,9 @@ static void strained_nets(struct random *random, int kind, int m, int n, double 
 }
 enum { KINDS = 8 };
 
-/* resultant_error.h: a Bernstein coefficient of r is at most RESULTANT_WEIGHT (alpha beta)^n, and is off by at most that
- * times the roundings and the nets' own error. Both must hold. How far from the truth they are is printed: a bound a
- * million times too large would be true and useless. */
+/* resultant_error.h: a Bernstein coefficient of r is at most RESULTANT_WEIGHT (alpha beta)^n, and is off by at most
+ * that times the roundings and the nets' own error. Both must hold. How far from the truth they are is printed: a bound
+ * a million times too large would be true and useless. */
 static void the_bound_of_r_holds(void **state)
 {
   (void)state;

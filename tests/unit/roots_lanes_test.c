@@ -92,8 +92,8 @@ static void known_roots_are_found(void **state)
   assert_true(undone <= ROUNDS * LANES / 1000);
 }
 
-/* Of degree 2 in powers of y, as leaves that are nearly bilinear have them: one root in [-1,1], the other one anywhere, or
- * at infinity. */
+/* Of degree 2 in powers of y, as leaves that are nearly bilinear have them: one root in [-1,1], the other one anywhere,
+ * or at infinity. */
 static void a_root_of_quadratics_is_found(void **state)
 {
   (void)state;

@@ -1,4 +1,5 @@
-/* The roots of r by the method that the scene asks for, on all lanes of a packet at once, and what can be proven of them.
+/* The roots of r by the method that the scene asks for, on all lanes of a packet at once, and what can be proven of
+ * them.
  *
  * Compiled once per instruction set. This is method.c's task for methods whose roots are only to start from
  * (prepare/patch.c).
@@ -116,7 +117,8 @@ static lane_mask all_roots_cover(const struct packet *p, const struct candidate 
   return cover_proves(p, it, count, known, COVER_HALVINGS, open);
 }
 
-/* The roots of the polynomial that is set, on the lanes of `active` where the method finds them: see roots_lanes_run. */
+/* The roots of the polynomial that is set, on the lanes of `active` where the method finds them: see
+ * roots_lanes_run. */
 static lane_mask all_roots_solve(struct packet *p, const struct candidate *it, lane_mask active, lanes enough,
                                  struct roots_lanes *out)
 {

@@ -52,11 +52,12 @@ lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask ope
  * to be all. */
 lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open);
 
-/* all_roots.c: the real root of r0 + r1 s + r2 s^2 that is nearest to 0, or the real part of a pair, by that method; takes
- * lanes out of *open where it finds none. */
+/* all_roots.c: the real root of r0 + r1 s + r2 s^2 that is nearest to 0, or the real part of a pair, by that method;
+ * takes lanes out of *open where it finds none. */
 lanes method_quadratic_root(struct packet *p, const struct candidate *it, const lanes r[3], lane_mask *open);
 
-/* one_by_one.c: the method that the scene asks for, in a form that is not for lanes, or without polish, lane by lane. */
+/* one_by_one.c: the method that the scene asks for, in a form that is not for lanes, or without polish, lane by
+ * lane. */
 lane_mask stage_method(struct packet *p, struct candidate *it, lane_mask open);
 
 LANES_INLINE void plane_values(const struct line *line, int axis, const double x[3][16], int at, lanes *a, lanes *b)

@@ -1,14 +1,14 @@
 /* A packet in the coordinates of an object, and back. Compiled once per instruction set and without contraction.
  *
- * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, before it is taken to
- * the object's coordinates, and all of that in about twice the precision, or more where it starts very far away: so it is
+ * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, before it is taken to the
+ * object's coordinates, and all of that in about twice the precision, or more where it starts very far away: so it is
  * right to its last places near the object. copies.c bounds what rounding is left, model_object.error.
  */
 #include "base/double_lanes.h"
 #include "intersect/lanes/nearest.h"
 
-/* Twice the precision leaves less unknown than an object's error counts, for a start up to this many of that away, in the
- * object's coordinates: 2^-104 of the way, by a map that may stretch errors by 2^10 (copies.c). */
+/* Twice the precision leaves less unknown than an object's error counts, for a start up to this many of that away, in
+ * the object's coordinates: 2^-104 of the way, by a map that may stretch errors by 2^10 (copies.c). */
 #define FARTHEST_WAY 0x1p88
 
 /* Out of line, for it is rare: as local_ray.h has it. */

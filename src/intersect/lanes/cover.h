@@ -2,8 +2,8 @@
  *
  * Internal to src/intersect/lanes. A box of parameters is cleared where a plane polynomial or one of the combinations
  * that aim along u and v keeps one sign on its net (as planes.c does with the leaf's), or where a proven root is alone
- * on the box and itself together, by the certificate, or where no root would be between the ends of the ray. Other boxes
- * are halved. What exact/search.c does for one ray in the last resort; this ends most cases before.
+ * on the box and itself together, by the certificate, or where no root would be between the ends of the ray. Other
+ * boxes are halved. What exact/search.c does for one ray in the last resort; this ends most cases before.
  */
 #ifndef PSCN_INTERSECT_LANES_COVER_H
 #define PSCN_INTERSECT_LANES_COVER_H

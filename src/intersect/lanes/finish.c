@@ -200,7 +200,8 @@ static unsigned decide_open(struct packet *p, struct hit out[])
   return written;
 }
 
-/* Writes that the rays of these lanes hit nothing, and on which of them that is in doubt. Returns how many those are. */
+/* Writes that the rays of these lanes hit nothing, and on which of them that is in doubt. Returns how many those
+ * are. */
 static unsigned write_misses(struct hit out[], unsigned misses, unsigned doubt)
 {
   if (misses == ALL_LANES && !doubt) { /* the same, and no loop */

@@ -1,8 +1,8 @@
 /* All roots of the rays of a packet. See gather.h.
  *
  * Compiled once per instruction set and without contraction. A root gets its answer where it is found, as the nearest
- * one's is made, together with those that other lanes find there. A lane that has left nothing open, and whose roots are
- * clearly one behind the other, is done then but for their order; the last resort decides the others (exact_all).
+ * one's is made, together with those that other lanes find there. A lane that has left nothing open, and whose roots
+ * are clearly one behind the other, is done then but for their order; the last resort decides the others (exact_all).
  */
 #include "intersect/lanes/gather.h"
 
@@ -122,8 +122,8 @@ static void collect_regions(struct gather *gather, unsigned lane)
   }
 }
 
-/* Has the last resort decide which hits the lane has, of whose roots the lanes have taken `count`: then gather->list has
- * them. Returns whether that is proven. */
+/* Has the last resort decide which hits the lane has, of whose roots the lanes have taken `count`: then gather->list
+ * has them. Returns whether that is proven. */
 static bool decide(struct packet *p, unsigned lane, const struct gathered *const roots[], size_t count)
 {
   struct gather *gather = p->gather;

@@ -25,8 +25,8 @@ struct gathered_region {
 /* The packet, which has just been started, gathers there from now on, beginning with nothing. */
 void gather_start(struct packet *p, struct gather *gather);
 
-/* Adds the packet's best roots, which are those just taken on the lanes of `taken`, with their answers; then there is no
- * best again. */
+/* Adds the packet's best roots, which are those just taken on the lanes of `taken`, with their answers; then there is
+ * no best again. */
 void gather_best(struct packet *p, lane_mask taken);
 
 /* Leaves a region to the last resort on these lanes, as bits. */

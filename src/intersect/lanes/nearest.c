@@ -55,7 +55,8 @@ LANES_INLINE lanes depth_to_t(const struct line *line, lanes w)
   return ((w + line->start[1]) + line->start[0]) * line->to_t;
 }
 
-/* The bound on the error of t of a root within these radii: how far they let x_k move, and the roundings of x_k and it. */
+/* The bound on the error of t of a root within these radii: how far they let x_k move, and the roundings of x_k and
+ * it. */
 LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *it, const struct newton_root *r,
                                 lanes w, lanes at)
 {
@@ -110,9 +111,10 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
          (lanes_abs(uv[1] - best->v) <= radius[1] + best->radius_v);
 }
 
-/* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where all
- * are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the patch, at
- * an end of the ray or where another root is, is left to the last resort. Returns the lanes that took theirs. */
+/* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where
+ * all are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the
+ * patch, at an end of the ray or where another root is, is left to the last resort. Returns the lanes that took
+ * theirs. */
 LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w,
                              lanes at, lane_mask hits)
 {

@@ -100,16 +100,16 @@ LANES_INLINE void packet_untried(struct packet *p)
   p->oriented = p->moved = false, p->patch = UINT32_MAX;
 }
 
-/* packet.c: where the rays look, from their directions, and no hit yet. Many packets never come near a leaf: this is done
- * for the first one. */
+/* packet.c: where the rays look, from their directions, and no hit yet. Many packets never come near a leaf: this is
+ * done for the first one. */
 void packet_orient(struct packet *p);
 
-/* packet.c: turns to the frame of a patch, as local_ray.c makes it for one ray; orients the packet first where no leaf was
- * tried before. */
+/* packet.c: turns to the frame of a patch, as local_ray.c makes it for one ray; orients the packet first where no leaf
+ * was tried before. */
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
-/* Lanes whose root at t, in units of the packet's directions, has all its digits as double precision leaves it: at least
- * the part `least` of the patch's frame away from the ray's start, and not too far. */
+/* Lanes whose root at t, in units of the packet's directions, has all its digits as double precision leaves it: at
+ * least the part `least` of the patch's frame away from the ray's start, and not too far. */
 LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, lanes t, double least)
 {
   const lanes away = lanes_abs(t) * p->longest;

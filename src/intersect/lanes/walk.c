@@ -15,8 +15,8 @@
 
 #define FLOAT_ROUNDOFF 0x1p-24f
 
-/* Growth of a depth that others are compared with: three roundings in each of the two (direction, reciprocal, sum), one in
- * the end of the ray, and those of growing. */
+/* Growth of a depth that others are compared with: three roundings in each of the two (direction, reciprocal, sum), one
+ * in the end of the ray, and those of growing. */
 #define DEPTH_GROWTH (1 + 16 * FLOAT_ROUNDOFF)
 
 /* A row of a node's planes, one for each child. */
@@ -32,8 +32,9 @@ enum { BVH_ROW = sizeof(float[BVH_WIDTH]) };
 #define FRAME_NEAR 16.0
 #define FRAME_FAR 0x1p30
 
-/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it and
- * its sum with the slack to float, its product with the reciprocal, and a box's, for the planes are that far off then. */
+/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it
+ * and its sum with the slack to float, its product with the reciprocal, and a box's, for the planes are that far off
+ * then. */
 #define ORIGIN_SLACK 0x1p-22
 
 /* A stand-in for the reciprocal of 0: so large that all that is beyond the slack ends up beyond the frame, finite so
@@ -45,8 +46,8 @@ struct sides {
   size_t first[3], last[3];
 };
 
-/* The rays as one tree's frame sees them. A ray passes the plane x_k = c at a depth from c inverse + early to c inverse +
- * late. */
+/* The rays as one tree's frame sees them. A ray passes the plane x_k = c at a depth from c inverse + early to c inverse
+ * + late. */
 struct view {
   float_lanes inverse[3], early[3], late[3], far;
   lanes start[2], unit[2]; /* of each packet: depth = t unit - start */
@@ -363,9 +364,9 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
 
 /* ---- the face ---- */
 
-/* Directions whose longest component is outside these are scaled by a power of two to one from 1 to 2, so that no product
- * over- or underflows and no t is larger than a distance: of a ray that starts at the end of the doubles any that is
- * shorter than 1. */
+/* Directions whose longest component is outside these are scaled by a power of two to one from 1 to 2, so that no
+ * product over- or underflows and no t is larger than a distance: of a ray that starts at the end of the doubles any
+ * that is shorter than 1. */
 #define DIRECTION_MIN 0x1p-16
 #define DIRECTION_MAX 0x1p16
 #define ORIGIN_MAX 0x1p1000

@@ -29,7 +29,8 @@ enum { TEAM_LEAST = 1024 };
 /* A frame no smaller than this: its reciprocal times a direction is finite. */
 #define LEAST_FRAME 0x1p-700
 
-/* Of a scene that reaches farther not even its own size is a number that can be squared, or doubled: nothing is proven. */
+/* Of a scene that reaches farther not even its own size is a number that can be squared, or doubled: nothing is
+ * proven. */
 #define LARGEST_SIZE 0x1p1000
 
 /* The frame of the hierarchy. */
