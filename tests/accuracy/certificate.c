@@ -163,12 +163,13 @@ static double floor_at_hit(const struct judging *j)
   return trial_floor(j->certifier->reference, j->ray, hit->patch, hit->t, hit->u, hit->v).t;
 }
 
-/* Whether a root is too near to an end of the ray to be told from it. */
-static bool at_an_end(const struct judging *j, const struct truth_root *root)
+/* Whether a root is too near to an end of the ray to be told from it, by what roundings of the input move either. */
+static bool at_an_end(const struct judging *j, struct truth_root *root)
 {
   const double *d = j->ray->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), t = root->at.t;
+  const double moved = TRIAL_SAME_FLOORS * floor_of(j->certifier, root)->t;
   const double near = AT_END * fmax(trial_size(j->ray, t), extent_of(j->certifier, root->patch) / length);
-  return t - j->ray->t_min <= near || j->ray->t_max - t <= near;
+  return t - j->ray->t_min <= fmax(near, moved) || j->ray->t_max - t <= fmax(near, moved);
 }
 
 /* What a root means to a hit. */
