@@ -7,6 +7,7 @@
  * evaluation. Parameters are s = u - 1/2 and t = v - 1/2.
  */
 #include "base/double_lanes.h"
+#include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
 #include "intersect/lanes/surface.h"
 
@@ -131,19 +132,14 @@ LANES_INLINE lanes near_middle(lanes t)
   return lanes_min(lanes_max(lanes_select(t == t, t, lanes_all(0)), lanes_all(-0.5)), lanes_all(0.5));
 }
 
-/* The root of the bilinear parts a = a0 + s a1 + t a2 + st a3, b alike, that is nearer to the middle: t eliminated by
+/* The root of the bilinear polynomials a = a0 + s a1 + t a2 + st a3, b alike, that is nearer to the middle: t eliminated by
  * Bezout's determinant (a0 + s a1)(b2 + s b3) - (a2 + s a3)(b0 + s b1) = r0 + r1 s + r2 s^2. A pair of complex roots
  * is replaced by its real part. By the default method in closed form; takes lanes out of *open where another one finds
  * none. */
-LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, lane_mask *open, lanes start[2])
+LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, const lanes a[4], const lanes b[4],
+                                lane_mask *open, lanes start[2])
 {
-  const int axis = it->axis;
-  lanes a[4], b[4], s;
-  for (int n = 0; n < 4; n++) {
-    a[n] = plane_of(it->line, axis, 0, it->leaf->parts->base, n);
-    b[n] = plane_of(it->line, axis, 1, it->leaf->parts->base, n);
-  }
-  a[0] -= it->line->moment[0], b[0] -= it->line->moment[1];
+  lanes s;
   const lanes r0 = a[0] * b[2] - a[2] * b[0], r2 = a[1] * b[3] - a[3] * b[1];
   const lanes r1 = (a[0] * b[3] - a[3] * b[0]) + (a[1] * b[2] - a[2] * b[1]);
   if (it->patch->lanes == SOLVER_LANES_SIGNS) {
@@ -157,6 +153,35 @@ LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, la
   const lane_mask steep = lanes_abs(slope_a) > lanes_abs(slope_b);
   const lanes value = lanes_select(steep, a[0] + s * a[1], b[0] + s * b[1]);
   start[0] = s, start[1] = near_middle(-value / lanes_select(steep, slope_a, slope_b));
+}
+
+/* Of the leaf's bilinear part. */
+LANES_INLINE void part_root(struct packet *p, const struct candidate *it, lane_mask *open, lanes start[2])
+{
+  lanes a[4], b[4];
+  for (int n = 0; n < 4; n++) {
+    a[n] = plane_of(it->line, it->axis, 0, it->leaf->parts->base, n);
+    b[n] = plane_of(it->line, it->axis, 1, it->leaf->parts->base, n);
+  }
+  a[0] -= it->line->moment[0], b[0] -= it->line->moment[1];
+  bilinear_root(p, it, a, b, open, start);
+}
+
+/* What is bilinear between the corners of a net. */
+LANES_INLINE void between_corners(const lanes net[16], lanes out[4])
+{
+  const lanes low = net[0] + net[12], high = net[3] + net[15], first = net[0] + net[3], last = net[12] + net[15];
+  out[0] = 0.25 * (low + high), out[1] = 0.5 * (last - first), out[2] = 0.5 * (high - low);
+  out[3] = (net[15] - net[12]) - (net[3] - net[0]);
+}
+
+/* What Newton's process finds from the root of the surface between the leaf's corners. */
+static struct newton_root corners_root(struct packet *p, const struct candidate *it, lane_mask open)
+{
+  lanes a[4], b[4], start[2];
+  between_corners(it->nets.a, a), between_corners(it->nets.b, b);
+  bilinear_root(p, it, a, b, &open, start);
+  return newton_refine(&it->nets, it->leaf, start[0] + 0.5, start[1] + 0.5, open);
 }
 
 /* Bounds on a row of M J: its own parameter's element is at least `least`, the other within `cross`. */
@@ -252,13 +277,28 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
 
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask active)
 {
-  struct bilinear_root root;
+  struct bilinear_root *root = &it->bend;
   lanes start[2];
   lane_mask tried = active;
-  bilinear_root(p, it, &tried, start);
+  part_root(p, it, &tried, start);
+  root->at.exists = (lane_mask){0};
   if (!lanes_any(tried)) return active;
-  bilinear_root_solve(p, it->leaf, it->axis, start, tried, &root);
-  if (it->patch->lanes == SOLVER_LANES_SIGNS) p->tracer->counts.roots_found += lanes_count(root.at.alone);
-  offer_bend_root(p, it, &root, (p->any ? root.at.exists : root.at.alone) & inside(&root.at));
-  return active & ~root.at.alone & p->live;
+  bilinear_root_solve(p, it->leaf, it->axis, start, tried, root);
+  if (it->patch->lanes == SOLVER_LANES_SIGNS) p->tracer->counts.roots_found += lanes_count(root->at.alone);
+  offer_bend_root(p, it, root, (p->any ? root->at.exists : root->at.alone) & inside(&root->at));
+  return active & ~root->at.alone & p->live;
+}
+
+lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
+{
+  const bool bent = it->leaf->parts;
+  if (!bent) it->bend.at = corners_root(p, it, open);
+  const struct newton_root *r = &it->bend.at;
+  const struct known_root known = {r->u, r->v, r->size, r->bend, r->off, open & r->exists};
+  lane_mask covered = known.proven & r->alone;
+  if (lanes_any(open & ~covered)) covered |= cover_proves(p, it, 1, &known, COVER_EARLY, open & ~covered);
+  const lane_mask hits = (p->any ? known.proven : covered & known.proven) & inside(r);
+  if (bent) offer_bend_root(p, it, &it->bend, hits);
+  else offer_root(p, it, r, hits);
+  return open & ~covered & p->live;
 }

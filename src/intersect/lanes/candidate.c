@@ -22,6 +22,10 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   entered[STAGE_PLANES] += lanes_count(open);
   open = stage_planes(it, open);
   if (!lanes_any(open)) return;
+  if (patch->lanes == SOLVER_LANES_SIGNS) {
+    open = stage_cover(p, it, open);
+    if (!lanes_any(open)) return;
+  }
   entered[STAGE_RESULTANT] += lanes_count(open);
   open = stage_resultant(it, open);
   if (!lanes_any(open)) return;

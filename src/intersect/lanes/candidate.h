@@ -8,8 +8,7 @@
 #ifndef PSCN_INTERSECT_LANES_CANDIDATE_H
 #define PSCN_INTERSECT_LANES_CANDIDATE_H
 
-#include "intersect/lanes/newton.h"
-#include "intersect/lanes/packet.h"
+#include "intersect/lanes/bilinear.h"
 
 enum { RESULTANT_MAX_DEGREE = 18 };
 
@@ -19,7 +18,8 @@ struct candidate {
   const struct model_patch *patch; /* the leaf's */
   int64_t number;                  /* the leaf's, in its model */
   int axis;
-  const struct line *line; /* the packet's for that axis */
+  const struct line *line;   /* the packet's for that axis */
+  struct bilinear_root bend; /* the root found first; only where it exists, and of a leaf without parts only `at` */
   struct plane_nets nets;
   lanes alpha, beta;            /* largest |a|, |b| of the nets, then of the form */
   lanes form_error;             /* of a coefficient of the form */
@@ -40,6 +40,10 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open)
 
 /* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net. */
 lane_mask stage_planes(struct candidate *it, lane_mask open);
+
+/* bilinear.c: by the default method, closed where boxes show that the leaf has no root but the one that stage_bilinear has found, or
+ * that is found now from the surface between the corners of a leaf that is not nearly bilinear. */
+lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
 /* resultant.c: Bezout's resultant r of a and b in Bernstein form: closed where it has no sign variation. */
 lane_mask stage_resultant(struct candidate *it, lane_mask open);

@@ -10,8 +10,9 @@
 
 #include "intersect/lanes/candidate.h"
 
-/* A choice of speed: a lane that needs more is better off by itself, for few others do. */
-enum { COVER_HALVINGS = 16 };
+/* How often a leaf is halved at most: before its resultant is formed, and when all is known that the lanes find. Choices of
+ * speed: a lane that needs more is better off by itself, for few others do. */
+enum { COVER_EARLY = 8, COVER_HALVINGS = 16 };
 
 /* A proven root of every lane, in the order they were found. */
 struct known_root {

@@ -20,6 +20,7 @@
 #define stage_box KERNEL(stage_box)
 #define stage_bilinear KERNEL(stage_bilinear)
 #define stage_planes KERNEL(stage_planes)
+#define stage_cover KERNEL(stage_cover)
 #define stage_resultant KERNEL(stage_resultant)
 #define stage_first_root KERNEL(stage_first_root)
 #define stage_all_roots KERNEL(stage_all_roots)

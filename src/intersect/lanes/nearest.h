@@ -6,7 +6,6 @@
 #ifndef PSCN_INTERSECT_LANES_NEAREST_H
 #define PSCN_INTERSECT_LANES_NEAREST_H
 
-#include "intersect/lanes/bilinear.h"
 #include "intersect/lanes/candidate.h"
 
 /* Lanes where a root at t comes before the best: nearer, or as near to the last bit and of a lower patch or leaf. That
