@@ -188,7 +188,7 @@ enum pscn_verdict { PSCN_MISS = 0, PSCN_HIT = 1, PSCN_NO_ANSWER = 2 };
 /* Every member is written, whatever the verdict. Where it is no hit, t is infinite, patch is PSCN_NO_PATCH and all
  * other numbers are 0. */
 struct pscn_hit {
-  double t;            /* in units of the direction's length */
+  double t;            /* in units of the direction's length; beyond the doubles the last of them, and grazing */
   double u, v;         /* of the whole patch, in [0,1] */
   double point[3];     /* S(u,v), a little more exact than origin + t direction */
   double point_error;  /* no further from `point` than this is the exact surface */
