@@ -22,7 +22,7 @@
 #define SLOW 2e-3
 
 /* So many rays, with 7 forms and in 4 ways, make a million answers. */
-enum { FULL_RAYS = 36000, FULL_SITUATIONS = 50, MOST_SHOWN = 6 };
+enum { FULL_RAYS = 36000, FULL_SITUATIONS = 5, MOST_SHOWN = 6 };
 
 /* So many crowds of each kind, and packets at each. */
 static const size_t FULL_CROWDS[] = {2000, 200};
@@ -314,8 +314,9 @@ static void judge_wrong(const char *name, const struct situation *s, struct cert
   struct certificate c;
   if (is_far(certifier, ray, &hit)) return;
   certify(certifier, ray, &hit, &c);
-  /* a root on a border and one next to it are one to the reference */
+  /* To the reference a root on a border and one next to it are one, and a border is as wide as REFERENCE_BORDER. */
   if (c.finding == FINDING_LATER && hit.t - c.t <= REFERENCE_SAME_POINT * hit.t) return;
+  if (c.finding > FINDING_UNDECIDED && truth.shared) return;
   found[RIGHT][c.finding]++;
   if (c.finding > FINDING_PROVEN) show_refuted(name, &(struct class_form){"reference", 0}, s, ray, &hit, &c);
   if (c.finding != FINDING_PROVEN) return;
