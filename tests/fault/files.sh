@@ -64,9 +64,16 @@ if [ "${1:-}" = inside ]; then
   exit "$failed"
 fi
 
-folder=$(mktemp -d)
-# A child that is killed before it has become a program would do what is trapped here, too.
-trap '[ $BASHPID != $$ ] || rm -rf "$folder" "$said"' EXIT
+# All else in a folder that is removed from outside: a child that is killed before it has become a program does what the
+# shell that it was has trapped.
+if [ "${1:-}" != within ]; then
+  folder=$(mktemp -d)
+  "$self" within "$folder"
+  code=$?
+  rm -rf "$folder" "$said"
+  exit "$code"
+fi
+folder=$2
 cd "$folder"
 mkdir disk
 if unshare -m true 2>/dev/null; then
@@ -198,4 +205,5 @@ for signal in KILL TERM; do
     done
   done
 done
+rm -f "$said"
 exit "$failed"

@@ -9,6 +9,7 @@
 
 #include "cmocka_test.h"
 #include "image/srgb.h"
+#include "random.h"
 
 enum { WIDTH = 5, HEIGHT = 3 };
 
@@ -232,6 +233,62 @@ static void pictures_without_bounds_are_refused(void **state)
   assert_null(image.value);
 }
 
+/* Whether a size of the picture stands there: one that is damaged may take long, and is tested above. */
+static bool is_size(const unsigned char *bytes, size_t size, size_t at)
+{
+  if (bytes[0] == 137) return at >= 16 && at < 24;
+  static const char *const windows[] = {"dataWindow", "displayWindow"};
+  for (size_t k = 0; k < 2; k++) {
+    const size_t length = strlen(windows[k]) + strlen("box2i") + 2 + 4; /* with NULs, and the length of what follows */
+    for (size_t n = 0; n + length + 16 <= size; n++)
+      if (memcmp(bytes + n, windows[k], strlen(windows[k])) == 0 && at >= n + length && at < n + length + 16)
+        return true;
+  }
+  return false;
+}
+
+static void damaged_pictures_are_read_or_refused(void **state)
+{
+  (void)state;
+  enum { SEED = 20261122, ROUNDS = 150, MOST = 3 };
+  struct random random = {SEED};
+  const char *const names[] = {"R", "G", "B"};
+  const struct image_attribute text = {"pscn:text", "what it is of"};
+  int read = 0, refused = 0;
+  for (int format = IMAGE_PNG; format <= IMAGE_EXR; format++) {
+    struct image image = picture(3, names), back;
+    const struct image_encoding encoding = {
+      .format = (enum image_format)format, .bits = 16, .attributes = &text, .attribute_count = 1};
+    unsigned char *bytes, *damaged;
+    size_t size;
+    char message[IMAGE_MESSAGE_SIZE];
+    assert_int_equal(image_encode(&image, &encoding, &bytes, &size, message), STATUS_OK);
+    damaged = malloc(size);
+    assert_non_null(damaged);
+    for (int round = 0; round < ROUNDS; round++) {
+      memcpy(damaged, bytes, size);
+      for (int k = 0; k <= round % MOST; k++) {
+        const size_t at = (size_t)(random_bits(&random) % size);
+        if (!is_size(bytes, size, at)) damaged[at] ^= (unsigned char)(1u << random_bits(&random) % 8);
+      }
+      FILE *file = fopen(path, "wb");
+      assert_non_null(file);
+      const size_t whole = round % 10 == 0 ? (size_t)(random_bits(&random) % size) : size;
+      assert_int_equal(fwrite(damaged, 1, whole, file), whole);
+      assert_int_equal(fclose(file), 0);
+      const enum status status = image_read(path, &back, message);
+      assert_true(status == STATUS_OK || (message[0] != '\0' && strchr(message, '\n') == NULL && back.value == NULL));
+      if (status == STATUS_OK) assert_true(back.width == WIDTH && back.height == HEIGHT && ++read);
+      else refused++;
+      image_destroy(&back);
+    }
+    free(damaged);
+    free(bytes);
+    image_destroy(&image);
+  }
+  assert_true(read > ROUNDS / 10 && refused > ROUNDS / 2);
+}
+
 static void suffixes_choose_formats(void **state)
 {
   (void)state;
@@ -264,6 +321,7 @@ int main(void)
     cmocka_unit_test(png_refuses_five_channels),
     WITH_FILE(unreadable_files_are_told),
     WITH_FILE(pictures_without_bounds_are_refused),
+    WITH_FILE(damaged_pictures_are_read_or_refused),
     cmocka_unit_test(suffixes_choose_formats),
     cmocka_unit_test(absurd_sizes_are_refused),
   };
