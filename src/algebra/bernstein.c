@@ -189,9 +189,9 @@ static void add_undecided(struct search *search, const struct interval *part)
 static bool examine(struct search *search, const struct interval *part)
 {
   const int n = search->degree;
-  const struct sign_variations all = polynomial_sign_variations(n, part->b, part->error);
+  const int variations = polynomial_sign_variations(n, part->b, part->error);
   const bool low_open = fabs(part->b[0]) <= part->error[0], high_open = fabs(part->b[n]) <= part->error[n];
-  if (all.most == 0 && !low_open && !high_open) return false;
+  if (variations == 0 && !low_open && !high_open) return false;
   bool any_sign = false;
   for (int k = 0; k <= n; k++) any_sign = any_sign || fabs(part->b[k]) > part->error[k];
   if (!any_sign || part->level >= DEEPEST) {
@@ -200,15 +200,15 @@ static bool examine(struct search *search, const struct interval *part)
   }
   const double high = part->low + part->width;
   if (!low_open && !high_open) {
-    if (all.most == 1) bracketed_newton(search, part->low, high, part->b[0] > 0.0 ? 1 : -1, polygon_crossing(part, n));
-    return all.most > 1;
+    if (variations == 1)
+      bracketed_newton(search, part->low, high, part->b[0] > 0.0 ? 1 : -1, polygon_crossing(part, n));
+    return variations > 1;
   }
   /* Undecided ends and one sign between them: at most a root at either. The interval on the other side sees it too. */
   const int first = low_open ? 1 : 0, last = high_open ? n - 1 : n;
   if (last <= first && n > 1) return true;
-  const struct sign_variations inner = polynomial_sign_variations(last - first, part->b + first, part->error + first);
-  if (inner.most != 0 || fabs(part->b[first]) <= part->error[first] || fabs(part->b[last]) <= part->error[last])
-    return true;
+  const int inner = polynomial_sign_variations(last - first, part->b + first, part->error + first);
+  if (inner != 0 || fabs(part->b[first]) <= part->error[first] || fabs(part->b[last]) <= part->error[last]) return true;
   if (low_open && search->joint != part->low && search->cluster_high != part->low)
     add_end_root(search, part->low, part->width);
   if (high_open) {
@@ -260,8 +260,7 @@ void bernstein_find(const struct root_problem *problem, const struct solver_opti
 {
   (void)warm; /* nothing to start from: the signs lead to every root */
   out->count = 0;
-  if (problem->basis == BASIS_BERNSTEIN &&
-      polynomial_sign_variations(problem->degree, problem->c, problem->error).most == 0)
+  if (problem->basis == BASIS_BERNSTEIN && polynomial_sign_variations(problem->degree, problem->c, problem->error) == 0)
     return; /* end coefficients are not zero here, and all have one sign */
   struct search search = {
     .options = options, .degree = problem->degree, .out = out, .joint = -1.0, .cluster_low = 1.0, .cluster_high = 0.0};

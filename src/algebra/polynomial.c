@@ -77,10 +77,9 @@ double polynomial_eq11(const struct polynomial *p, double re, double im)
 
 /* `gap` uncertain signs between two certain ones can hide at most gap + 1 changes: an even number of them where the two
  * are equal, an odd number where they differ. At either end of the sequence they can hide gap. */
-struct sign_variations polynomial_sign_variations(int degree, const double c[], const double error[])
+int polynomial_sign_variations(int degree, const double c[], const double error[])
 {
-  struct sign_variations out = {0, 0};
-  int last = 0, gap = 0;
+  int most = 0, last = 0, gap = 0;
   for (int k = 0; k <= degree; k++) {
     const double bound = error == NULL ? 0.0 : error[k];
     if (c[k] == 0.0 && bound == 0.0) continue; /* a true zero is no sign */
@@ -89,17 +88,11 @@ struct sign_variations polynomial_sign_variations(int degree, const double c[], 
       continue;
     }
     const int sign = c[k] > 0.0 ? 1 : -1;
-    if (last == 0) {
-      out.most += gap;
-    } else if (sign == last) {
-      out.most += gap + gap % 2;
-    } else {
-      out.fewest++;
-      out.most += gap % 2 == 0 ? gap + 1 : gap;
-    }
+    if (last == 0) most += gap;
+    else if (sign == last) most += gap + gap % 2;
+    else most += gap % 2 == 0 ? gap + 1 : gap;
     last = sign;
     gap = 0;
   }
-  out.most += last == 0 ? (gap > 0 ? gap - 1 : 0) : gap;
-  return out;
+  return most + (last == 0 ? (gap > 0 ? gap - 1 : 0) : gap);
 }

@@ -28,14 +28,10 @@ double polynomial_eq11(const struct polynomial *p, double re, double im);
  * plus all rounding); the arrays must not overlap p's. A polynomial already in that form is copied. */
 void polynomial_to_bernstein(const struct polynomial *p, double out_c[], double out_error[]);
 
-/* Sign changes in a sequence of n + 1 coefficients whose signs are known only where |c[k]| > error[k] (error may be
- * NULL): the fewest and the most there can be. By Descartes' rule on scaled Bernstein (or Bernstein) coefficients, most
- * = 0 proves that (0,1) holds no root, and fewest = most = 1 that it holds exactly one. */
-struct sign_variations {
-  int fewest, most;
-};
-
-struct sign_variations polynomial_sign_variations(int degree, const double c[], const double error[]);
+/* The most sign changes there can be in a sequence of n + 1 coefficients whose signs are known only where |c[k]| >
+ * error[k] (error may be NULL). By Descartes' rule on scaled Bernstein (or Bernstein) coefficients, 0 proves that (0,1)
+ * holds no root, and 1, where both ends have signs and these differ, that it holds exactly one. */
+int polynomial_sign_variations(int degree, const double c[], const double error[]);
 
 /* Newton's polygon, the upper convex hull of the points (k, height[k]), from left to right: adds point k to the corners
  * so far and returns how many there are then. An edge from k to l stands for l - k roots of about one modulus. */
