@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arena.h"
 #include "library/ball.h"
 #include "library/pscn.h"
 
@@ -226,14 +227,38 @@ static void *pool_resize(void *context, void *block, size_t size)
   return NULL;
 }
 
+/* An arena asks its hooks once for many calls: each of those fails as well, counted together with what the hooks give. */
+static struct pool *asked_too;
+void *__real_arena_alloc(struct arena *arena, size_t count, size_t size);
+void *__wrap_arena_alloc(struct arena *arena, size_t count, size_t size);
+void *__wrap_arena_alloc(struct arena *arena, size_t count, size_t size)
+{
+  return asked_too && asked_too->asked++ == asked_too->fails ? NULL : __real_arena_alloc(arena, count, size);
+}
+
+/* Copies of objects in unions, moved and turned, textures and solvers of their own, a light and a camera. */
+static const char MANY[] =
+  "#declare Gold = texture { pigment { rgb <1, Low, 0> } finish { phong 1 } }\n"
+  "#declare A = bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3\n"
+  "<0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,1> <3,1,0>\n"
+  "<0,2,0> <1,2,1> <2,2,1> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0.5> }\n"
+  "#declare B = union { object { A } object { A translate 3*x solver newton } texture { Gold } }\n"
+  "object { B } object { B rotate <10, 20, 30> } union { object { B scale 2 } object { A } }\n"
+  "light_source { <0, 9, -9>, 1 } camera { location -9*z look_at 0 }\n";
+
 static void test_memory(void **state)
 {
   (void)state;
   struct pool pool = {0, 0, -1};
   struct pscn_options options = PSCN_OPTIONS;
+  const struct pscn_number low = {"Low", 0.5};
   options.memory = (struct pscn_memory){pool_resize, &pool};
+  options.numbers = &low;
+  options.number_count = 1;
+  options.solver = "aberth { polish off }";
+  asked_too = &pool;
   const struct pscn_ray ray = {{1.5, 1.5, -5}, {0, 0, 1}, 0, INFINITY};
-  const char *const texts[] = {PATCH, "camera { loaction 0 }", "#declare A = union { object {", NULL};
+  const char *const texts[] = {PATCH, MANY, "camera { loaction 0 }", "#declare A = union { object {", NULL};
   for (const char *const *text = texts; *text; text++) {
     struct pscn_scene *scene;
     struct pscn_hit hit;
@@ -254,6 +279,60 @@ static void test_memory(void **state)
       assert_int_equal(pool.blocks, 0);
     }
   }
+  asked_too = NULL;
+}
+
+/* Patches of points: memory that fails or is limited, and a coordinate that is none. */
+static void test_points(void **state)
+{
+  (void)state;
+  struct pool pool = {0, 0, -1};
+  struct pscn_options options = PSCN_OPTIONS;
+  struct pscn_scene *scene;
+  double points[2][4][4][3] = {0};
+  for (int n = 0; n < 32; n++) points[n / 16][n / 4 % 4][n % 4][0] = n, points[n / 16][n / 4 % 4][n % 4][1] = n / 4 % 4;
+  options.memory = (struct pscn_memory){pool_resize, &pool};
+  asked_too = &pool;
+  enum pscn_status status = PSCN_LIMIT;
+  long fails = -1;
+  for (; status == PSCN_LIMIT; fails++) {
+    pool = (struct pool){0, 0, fails + 1};
+    status = pscn_scene_from_points(**points[0], 2, sizeof *points, sizeof ***points, &options, &scene);
+    pscn_scene_free(scene);
+    assert_int_equal(pool.blocks, 0);
+  }
+  assert_int_equal(status, PSCN_OK);
+  assert_true(fails > 3);
+  asked_too = NULL;
+  pool.fails = -1;
+  options.max_memory = 500;
+  assert_int_equal(pscn_scene_from_points(**points[0], 2, sizeof *points, sizeof ***points, &options, &scene),
+                   PSCN_LIMIT);
+  pscn_scene_free(scene);
+  options.max_memory = 0;
+  for (int c = 0; c < 3; c++) {
+    points[1][2][3][c] = c == 1 ? INFINITY : NAN;
+    assert_int_equal(pscn_scene_from_points(**points[0], 2, sizeof *points, sizeof ***points, &options, &scene),
+                     PSCN_INPUT);
+    pscn_scene_free(scene);
+    points[1][2][3][c] = 1;
+  }
+}
+
+/* Without a scene, and where nobody wants the answer. */
+static void test_nothing(void **state)
+{
+  (void)state;
+  struct pscn_message message = {.text = NULL, .file = NULL};
+  struct pscn_scene *scene;
+  assert_string_equal(pscn_scene_messages(NULL), "error: memory is short\n");
+  assert_int_equal(pscn_message_count(NULL), 0);
+  assert_int_equal(pscn_message(NULL, 0, &message), PSCN_USAGE);
+  assert_true(strcmp(message.text, "") == 0 && strcmp(message.file, "") == 0);
+  assert_int_equal(from_text("camera { }", NULL, &scene), PSCN_OK);
+  assert_int_equal(pscn_message(scene, 0, NULL), PSCN_USAGE);
+  pscn_scene_free(scene);
+  pscn_scene_free(NULL);
 }
 
 int main(void)
@@ -262,7 +341,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_version),   cmocka_unit_test(test_origins), cmocka_unit_test(test_messages),
     cmocka_unit_test(test_arguments), cmocka_unit_test(test_kernel),  cmocka_unit_test(test_options),
-    cmocka_unit_test(test_memory),
+    cmocka_unit_test(test_memory),    cmocka_unit_test(test_points),  cmocka_unit_test(test_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
