@@ -76,6 +76,7 @@ struct intersect_counts {
   uint64_t roots_found, roots_accepted;
   uint64_t stages[STAGE_COUNT]; /* ray-leaf pairs that came to each */
   uint64_t escalated;           /* ray-leaf pairs left to the last resort (exact/exact.h) */
+  uint64_t work;                /* of the last resort, in boxes that it might have looked at */
   uint64_t certain, grazing;    /* answers by certainty, not of any-hit rays */
 };
 

@@ -14,6 +14,10 @@
 /* Open places of one ray that are listed; there may be hundreds where a surface lies along the ray. */
 enum { LISTED_OPEN = 64, FIRST_ROOM = 32 };
 
+/* Work that telling apart, settling and ordering may take besides that of the search; to compare so many roots takes as
+ * long as to look at a box. What is left when there is none is a doubt. */
+enum { ALL_WORK = 2560, WORK_COMPARED = 64 };
+
 bool exact_list_add(struct exact_list *list, const struct exact_found *found)
 {
   if (list->count == list->room) {
@@ -45,14 +49,13 @@ static void list_close(struct exact_list *list)
 void judge_add_open(struct judge *j, const struct exact_maybe *maybe)
 {
   j->doubt = true;
-  size_t open = 0;
-  for (size_t k = 0; k < j->list->count; k++) open += j->list->at[k].kind == EXACT_OPEN;
   const struct exact_found found = {
     .root = {.patch = maybe->patch, .u = maybe->u, .v = maybe->v, .t = maybe->t, .t_error = maybe->t_error},
     .kind = EXACT_OPEN,
     .borders = maybe->borders,
     .taken = -1};
-  if (open < LISTED_OPEN) (void)exact_list_add(j->list, &found); /* or the list has failed */
+  if (j->open < LISTED_OPEN) (void)exact_list_add(j->list, &found); /* or the list has failed */
+  j->open++;
 }
 
 /* ---- the same root ---- */
@@ -99,11 +102,19 @@ static size_t run_end(const struct exact_list *list, size_t first)
   return end;
 }
 
+/* Whether no work is left for comparing `count` roots with one of them, a doubt; else it is taken. */
+static bool worn_out(struct judge *j, size_t count)
+{
+  judge_spend(j, 1 + (int)(count / WORK_COMPARED));
+  j->doubt |= j->work <= 0;
+  return j->work <= 0;
+}
+
 /* Of roots that are one the first stays, or the one of least t: that is the one which the nearest hit would be. */
 static void leave_out_same(struct judge *j, size_t first, size_t end)
 {
   struct exact_found *at = j->list->at;
-  for (size_t a = first; a < end; a++) {
+  for (size_t a = first; a < end && !worn_out(j, end - a); a++) {
     for (size_t b = a + 1; b < end && at[a].root.patch != LEFT_OUT; b++) {
       if (at[b].root.patch != at[a].root.patch || at[a].kind == EXACT_OPEN || at[b].kind == EXACT_OPEN) continue;
       if (!same_root(j, &at[a].root, &at[b].root)) continue;
@@ -146,8 +157,9 @@ static void count_once(struct judge *j, const size_t which[], size_t count)
 /* Roots on borders are hits where the ray crosses the surface there; the others may be. */
 static void settle_border(struct judge *j, size_t at, size_t first, size_t end)
 {
-  size_t which[STAR_MAX] = {at}, count = judge_star(j, at, first, end, which);
-  for (size_t b = first; b < end && count == 0; b++) {
+  const bool left = !worn_out(j, end - first);
+  size_t which[STAR_MAX] = {at}, count = left ? judge_star(j, at, first, end, which) : 0;
+  for (size_t b = first; b < end && count == 0 && left; b++) {
     const struct exact_found *other = &j->list->at[b];
     if (b == at || other->root.patch == LEFT_OUT || other->kind != EXACT_BORDER) continue;
     if (judge_across(j, &j->list->at[at], other)) which[0] = at, which[1] = b, count = 2;
@@ -207,11 +219,13 @@ static bool in_order(struct judge *j, struct exact_found *a, struct exact_found 
 static void order(struct judge *j, size_t first, size_t end)
 {
   struct exact_found *at = j->list->at;
-  for (size_t k = first + 1; k < end; k++)
+  size_t k = first + 1;
+  for (; k < end && !worn_out(j, 1); k++)
     for (size_t n = k; n > first && !in_order(j, &at[n - 1], &at[n]); n--) {
       const struct exact_found swap = at[n];
       at[n] = at[n - 1], at[n - 1] = swap;
     }
+  if (k < end) qsort(at + first, end - first, sizeof *at, by_t);
 }
 
 /* Does it for all runs of roots that cannot be told apart by t. */
@@ -227,6 +241,7 @@ bool exact_all(const struct exact_case *asked, struct exact_list *list)
 {
   struct judge j;
   judge_run(&j, asked, true, list);
+  j.work = ALL_WORK + WORK_HIT * (int)(list->count < HITS_MOST ? list->count : HITS_MOST);
   sort(list);
   for_runs(&j, leave_out_same);
   list_close(list);

@@ -87,7 +87,8 @@ struct exact_case {
   const struct exact_maybe *maybe; /* the same where it is not proven; NULL */
   struct exact_region *regions;    /* in any order; put into another one */
   size_t region_count;
-  bool cut_off; /* there were more: the answer is not certain */
+  bool cut_off;   /* there were more: the answer is not certain */
+  uint64_t *work; /* what it takes is added, in boxes looked at (judge.h) */
 };
 
 enum exact_verdict {

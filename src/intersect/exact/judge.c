@@ -15,15 +15,18 @@
 #include "geometry/patch.h"
 #include "geometry/vector.h"
 
-/* Boxes that may be looked at for one ray, by whichever regions ask for them: isolated roots and folds need some tens,
- * rays that pass a pole or start there some hundreds; only surfaces that lie along the ray over an area, and start where
- * it does, come there. About a millisecond. */
-enum { JUDGE_WORK = 2500 };
+/* Work that may be done for one ray, by whichever regions ask for it: isolated roots and folds need some tens, rays that
+ * pass a pole or start there some hundreds; only surfaces that lie along the ray over an area, and start where it does,
+ * come there. */
+enum { JUDGE_WORK = 2560 };
 
-/* Boxes that each region has for itself besides: so one that the ray lies in leaves the others decided. Where something
- * may be a hit this is all, and in the region where that is there are no more than so many others: most answers are
- * grazing then, whatever else is found. */
-enum { JUDGE_REGION_WORK = 512, JUDGE_MAYBE_WORK = 128 };
+/* Work that the regions have for themselves besides, one as much as another but no more than so much: so one that the ray
+ * lies in leaves others decided. Where something may be a hit this is all, and in the region where that is there is no more
+ * than so much: most answers are grazing then, whatever else is found. All in all that is less than a millisecond. */
+enum { JUDGE_APART_WORK = 1536, JUDGE_REGION_WORK = 512, JUDGE_MAYBE_WORK = 128 };
+
+/* With less than this a region is not begun: a root and what comes next to it at one t, made sharp. */
+enum { JUDGE_LEAST_WORK = 64 };
 
 void judge_turn(struct judge *j, uint32_t patch)
 {
@@ -36,7 +39,9 @@ void judge_turn(struct judge *j, uint32_t patch)
 struct zoom *judge_zoom(struct judge *j)
 {
   double(*P)[4][3] = j->asked->model->scene->patches[j->patch].P;
-  if (!j->zoomed) zoom_start(j->is, P, j->asked->ray, j->local.axis, &j->zoom);
+  if (j->zoomed) return &j->zoom;
+  zoom_start(j->is, P, j->asked->ray, j->local.axis, &j->zoom);
+  judge_spend(j, WORK_ZOOM_START);
   j->zoomed = true;
   return &j->zoom;
 }
@@ -87,6 +92,7 @@ bool judge_sharpen(struct judge *j, struct exact_root *root)
 {
   if (root->sharp) return true;
   judge_turn(j, root->patch);
+  judge_spend(j, WORK_SHARPEN);
   return zoom_sharpen(judge_zoom(j), root);
 }
 
@@ -395,14 +401,21 @@ static int by_distance(const void *a, const void *b)
   return a_column[1] < b_column[1] ? -1 : a_column[1] > b_column[1];
 }
 
-static void search(struct judge *j, const struct exact_region *region)
+/* left: how many regions there are from this one on. */
+static void search(struct judge *j, const struct exact_region *region, size_t left)
 {
+  const int part = (int)((size_t)j->apart / left), own = part < JUDGE_REGION_WORK ? part : JUDGE_REGION_WORK;
   const int shared = j->doubtful ? 0 : j->work;
+  const uint64_t before = *j->asked->work;
+  const size_t found = j->list->count;
   judge_turn(j, region->patch);
-  j->work = shared + JUDGE_REGION_WORK;
+  j->work = shared + own < JUDGE_LEAST_WORK ? 0 : shared + own;
+  judge_spend(j, WORK_REGION);
   search_region(j, region);
-  if (j->work > shared) j->work = shared;
-  if (j->work < 0) j->work = 0;
+  const int took = (int)(*j->asked->work - before);
+  j->apart -= took < own ? took : own;
+  j->work = took < own ? shared : took < shared + own ? shared + own - took : 0;
+  if (j->all && j->list->count <= HITS_MOST) j->work += WORK_HIT * (int)(j->list->count - found);
 }
 
 static void search_nearest(struct judge *j, const struct exact_region regions[], size_t count)
@@ -415,13 +428,19 @@ static void search_nearest(struct judge *j, const struct exact_region regions[],
     order[k].near = search_near(j, &regions[k]);
   }
   qsort(order, count, sizeof *order, by_distance);
-  for (size_t k = 0; k < count && order[k].near <= j->limit; k++) search(j, order[k].region);
+  for (size_t k = 0; k < count && order[k].near <= j->limit; k++) search(j, order[k].region, count - k);
 }
 
 void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct exact_list *list)
 {
-  *j = (struct judge){
-    .asked = asked, .all = all, .list = list, .work = JUDGE_WORK, .tied_from = INFINITY, .patch = UINT32_MAX};
+  *j = (struct judge){.asked = asked,
+                      .all = all,
+                      .list = list,
+                      .work = JUDGE_WORK,
+                      .apart = JUDGE_APART_WORK,
+                      .undecided = INFINITY,
+                      .tied_from = INFINITY,
+                      .patch = UINT32_MAX};
   if (!all) {
     j->doubt = asked->cut_off;
     if (asked->known) j->nearest = *asked->known, j->found = true;
@@ -431,7 +450,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct
   const size_t count = judge_regions(j, asked->regions, asked->region_count);
   if (!all) search_nearest(j, asked->regions, count);
   else
-    for (size_t k = 0; k < count; k++) search(j, &asked->regions[k]);
+    for (size_t k = 0; k < count; k++) search(j, &asked->regions[k], count - k);
 }
 
 /* The nearest hit. */
@@ -447,7 +466,9 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
 {
   struct judge j;
   nearest_run(&j, asked);
-  *out = (struct exact_decision){.verdict = EXACT_MISS, .sure = !j.doubt};
+  const double to = j.found ? (double)j.nearest.t + j.nearest.t_error : INFINITY;
+  *out = (struct exact_decision){.verdict = EXACT_MISS,
+                                 .sure = !j.doubt && (j.undecided > to || j.undecided == INFINITY)};
   if (j.doubtful && !(j.found && j.nearest.t <= j.maybe.t)) {
     *out = (struct exact_decision){.verdict = EXACT_MAYBE, .maybe = j.maybe};
   } else if (j.found) {

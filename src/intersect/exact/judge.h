@@ -13,6 +13,19 @@
  * some more. */
 enum { JUDGE_BORDERS_MAX = 16 };
 
+/* Work is counted in boxes looked at, some 1,300 instructions each; what else is done is worth so many: to take a patch or
+ * a part of it to the ray's frame, to start under the glass on a patch, to put a box there, to look for a fold, to sharpen a
+ * root. Where all hits are asked for each of the first that are found may take so much. */
+enum {
+  WORK_REGION = 8,
+  WORK_ZOOM_START = 16,
+  WORK_ZOOM = 16,
+  WORK_FOLD = 2,
+  WORK_SHARPEN = 16,
+  WORK_HIT = 32,
+  HITS_MOST = 512
+};
+
 struct judge {
   const struct exact_case *asked;
   bool all; /* all hits are asked for, and `list` has whatever is found; else roots on borders only */
@@ -22,9 +35,12 @@ struct judge {
   bool found, doubtful;
   /* where a root may be that `nearest`, or one before it, could not be told from (judge_tie_fine); infinite for none */
   double tied_from;
-  bool doubt;   /* something could not be told from the ray's start, and was left out; of all hits, any doubt */
-  double limit; /* nothing beyond this t matters */
-  int work;     /* boxes that may still be looked at */
+  bool doubt;       /* something could not be told from the ray's start, and was left out; of all hits, any doubt */
+  double undecided; /* nothing that is nearer was left undecided for want of work */
+  double limit;     /* nothing beyond this t matters */
+  int work;         /* that may still be done, see WORK_REGION */
+  int apart;        /* the same besides, see JUDGE_APART_WORK */
+  size_t open;      /* places in `list` that may be hits, where all hits are asked for */
   /* of the patch looked at last */
   uint32_t patch;
   struct model_patch *is;
@@ -33,6 +49,13 @@ struct judge {
   struct zoom zoom;
   struct local_ray local;
 };
+
+/* So much is done. */
+static inline void judge_spend(struct judge *j, int work)
+{
+  j->work -= work;
+  *j->asked->work += (uint64_t)work;
+}
 
 /* Starts the case, and has its regions searched. */
 void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct exact_list *list);
@@ -91,6 +114,13 @@ bool judge_pole(struct judge *j, int border);
 
 /* The point (u,v) of that patch, at t as nearly as t_error, is on the ray or not. */
 void judge_maybe(struct judge *j, double u, double v, double t, double t_error);
+
+/* What begins there is left undecided. */
+static inline void judge_undecided(struct judge *j, double near)
+{
+  j->doubt |= j->all;
+  if (!(near >= j->undecided)) j->undecided = near;
+}
 
 /* search.c: tells the judge of every root in the region that is nearer than `limit`, and of every place that cannot be
  * decided. Where no work is left, only of a place that may be one, and of a doubt. */

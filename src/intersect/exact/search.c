@@ -34,8 +34,8 @@ enum { SEARCH_HALVINGS = 104 };
  * than these wait only in the order of halving, and so no more than one box can be halved. */
 enum { SEARCH_AHEAD = 128, CLOSER_AHEAD = 64, SEARCH_STACK = SEARCH_HALVINGS + 2 };
 
-/* What looking at a box under the glass costs, in boxes; how often that may be done, one in the other. */
-enum { ZOOM_WORK = 8, ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
+/* How often a box may be put under the glass, one in the other. */
+enum { ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
 
 /* A box is put under the glass again where it is so small a part of what was. */
 #define ZOOM_AGAIN 0x1p-16
@@ -109,7 +109,8 @@ static struct exact_root box_root(const struct search *s, struct box *box, const
     root.u = s->low[0] + s->size[0] * ((wide)box->u + (wide)box->size_u * at[0]);
     root.v = s->low[1] + s->size[1] * ((wide)box->v + (wide)box->size_v * at[1]);
     root.t = zoom_t(judge_zoom(s->judge), root.u, root.v);
-    root.t_error = length_to_t(s, off + judge_zoom(s->judge)->depth_error);
+    root.t_error = length_to_t(s, off + judge_zoom(s->judge)->depth_error) +
+                   8 * (double)WIDE_ROUNDOFF * fabs((double)root.t);
   } else {
     root.u = (double)s->low[0] + (double)s->size[0] * (box->u + box->size_u * at[0]);
     root.v = (double)s->low[1] + (double)s->size[1] * (box->v + box->size_v * at[1]);
@@ -126,7 +127,7 @@ static void box_tell_maybe(struct search *s, struct box *box, bool small)
 {
   double u = 0.5, v = 0.5, error[2];
   box_error(s, box, error);
-  s->judge->doubt |= !small;
+  if (!small) judge_undecided(s->judge, box->near);
   if (!box_onto_ray(box, error, &u, &v) && !small) return;
   const double t = depth_to_t(s, patch_evaluate(box->net[2], u, v).value);
   judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u * u)),
@@ -211,7 +212,7 @@ static bool box_zoom(struct search *s, const struct box *box)
 {
   struct search closer = closer_search(s, box);
   struct zoomed zoomed;
-  s->judge->work -= ZOOM_WORK;
+  judge_spend(s->judge, WORK_ZOOM);
   if (!zoom_box(judge_zoom(s->judge), closer.low, closer.size, &zoomed)) {
     s->dependent = true;
     return false;
@@ -226,7 +227,7 @@ static bool box_zoom_pole(struct search *s, const struct box *box, int border)
   struct search closer = closer_search(s, box);
   struct zoomed zoomed;
   enum zoom_pole pole;
-  s->judge->work -= ZOOM_WORK;
+  judge_spend(s->judge, WORK_ZOOM);
   const bool done = zoom_pole_box(judge_zoom(s->judge), closer.low, closer.size, border, &zoomed, &pole);
   closer.met = pole == POLE_MET && !judge_pole(s->judge, border);
   s->dependent |= !done;
@@ -287,6 +288,7 @@ static bool fold_root(struct search *s, struct box *box, const struct fold *fold
   }
   *out = (struct exact_root){
     .u = fold_place(s, box, 0, x[0]), .v = fold_place(s, box, 1, x[1]), .radius_u = INFINITY, .radius_v = INFINITY};
+  judge_spend(s->judge, WORK_SHARPEN);
   if (!zoom_sharpen(judge_zoom(s->judge), out)) return false;
   for (int k = 0; k < 2; k++) {
     const wide at = k ? out->v : out->u;
@@ -332,6 +334,7 @@ static bool fold_maybe(struct search *s, struct box *box, const struct fold *fol
 static bool box_fold(struct search *s, struct box *box, const double error[2])
 {
   struct fold fold;
+  judge_spend(s->judge, WORK_FOLD);
   if (!fold_find(box, error, &fold)) return false;
   enum fold_verdict verdict = fold_weigh_box(&fold, box, error);
   if (verdict == FOLD_EMPTY || (verdict == FOLD_ROOTS && fold_roots(s, box, &fold, error))) return true;
@@ -411,7 +414,7 @@ static void search_run(struct search *s, const struct box *whole, struct box wai
     const int next = next_box(s, waiting, count);
     struct box box = waiting[next];
     waiting[next] = waiting[--count];
-    s->judge->work--;
+    judge_spend(s->judge, 1);
     const bool decided = box_decide(s, &box);
     if (decided) continue;
     if (s->judge->work <= 0) {

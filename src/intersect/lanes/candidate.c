@@ -84,6 +84,9 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
   it.number = index;
   if (lanes_count(active) <= FEW) fetch_parts(it.leaf);
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);
+  p->postponed->leaves += active; /* -1 each */
+  const lane_mask worn = active & (p->postponed->leaves < 0);
+  if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn)), active &= ~worn;
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {
     it.axis = __builtin_ctz(bits), it.line = &p->line[it.axis];
     const lane_mask at = active & p->on_axis[it.axis], blind = at & ~(it.line->error <= BLIND);

@@ -95,7 +95,8 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
   lanes size = {0};
   for (int n = 0; n < 16; n++) size = lanes_max(lanes_max(lanes_abs(it->nets.a[n]), lanes_abs(it->nets.b[n])), size);
   int top = 1;
-  lanes splits = lanes_all(COVER_SPLITS);
+  const lanes given = lanes_min(p->postponed->splits, lanes_all(COVER_SPLITS));
+  lanes splits = given;
   while (top > 0) {
     struct cover_box box = stack[--top];
     box.open &= open;
@@ -119,5 +120,6 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
       top++;
     }
   }
+  p->postponed->splits -= given - splits;
   return open;
 }

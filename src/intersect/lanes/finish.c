@@ -32,7 +32,8 @@ static struct exact_case lane_case(const struct packet *p, unsigned lane)
                              .ray = &p->rays[lane],
                              .regions = postponed->region[lane],
                              .region_count = postponed->count[lane],
-                             .cut_off = postponed->cut_off >> lane & 1};
+                             .cut_off = postponed->cut_off >> lane & 1,
+                             .work = &p->tracer->counts.work};
 }
 
 struct exact_root finish_root(const struct packet *p, unsigned lane)

@@ -13,7 +13,7 @@
 void gather_start(struct packet *p, struct gather *gather)
 {
   packet_orient(p);
-  p->gather = gather;
+  p->gather = gather, p->postponed->leaves = MOST_LEAVES_OF_ALL + (lane_mask){0};
   gather->roots.count = gather->open.count = 0;
   gather->failed = gather->list.failed = false;
 }
@@ -142,8 +142,11 @@ static bool decide(struct packet *p, unsigned lane, const struct gathered *const
                                       .taken = (int64_t)k};
     (void)exact_list_add(list, &found); /* or it has failed */
   }
-  const struct exact_case asked = {
-    .model = p->model, .ray = &p->rays[lane], .regions = gather->regions.at, .region_count = gather->regions.count};
+  const struct exact_case asked = {.model = p->model,
+                                   .ray = &p->rays[lane],
+                                   .regions = gather->regions.at,
+                                   .region_count = gather->regions.count,
+                                   .work = &p->tracer->counts.work};
   const bool sure = exact_all(&asked, list);
   gather->failed |= list->failed;
   return sure;

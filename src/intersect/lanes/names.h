@@ -9,6 +9,7 @@
 #define packet_start KERNEL(packet_start)
 #define packet_orient KERNEL(packet_orient)
 #define packet_set_patch KERNEL(packet_set_patch)
+#define packet_give_up KERNEL(packet_give_up)
 #define packet_postpone KERNEL(packet_postpone)
 #define packet_enter KERNEL(packet_enter)
 #define packet_leave KERNEL(packet_leave)

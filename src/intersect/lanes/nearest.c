@@ -15,6 +15,25 @@ static void merge_regions(struct postponed *to, unsigned lane)
   if (to->count[lane] > EXACT_REGIONS_MAX / 2) to->crowded |= bit;
 }
 
+void packet_give_up(struct packet *p, unsigned worn)
+{
+  p->postponed->cut_off |= worn;
+  for (struct packet *q = p; q; q = q->outer) {
+    q->live &= ~lanes_mask(worn), q->moved = true;
+    if (!q->outer) q->best.doubt |= lanes_mask(worn);
+  }
+}
+
+/* Counts the leaves left open. */
+static void count_open(struct packet *p, lane_mask open)
+{
+  const unsigned most = p->gather ? MOST_OPEN_OF_ALL : MOST_OPEN;
+  unsigned worn = 0;
+  for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1)
+    if (++p->postponed->left[__builtin_ctz(bits)] > most) worn |= bits & -bits;
+  if (worn) packet_give_up(p, worn);
+}
+
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
 {
   struct postponed *to = p->postponed;
@@ -23,6 +42,7 @@ void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
                                       {leaf->column_u, leaf->column_v},
                                       {1, 1}};
   p->tracer->counts.escalated += lanes_count(open);
+  count_open(p, open);
   if (p->gather) {
     gather_postpone(p->gather, &region, lanes_bits(open));
     return;

@@ -43,12 +43,21 @@ struct line {
   lanes error;
 };
 
+/* What a ray may cost here before it is told as it is known then, grazing: leaves that it is tried on, those of them that are
+ * left open (the last resort is worn out by then: judge.c JUDGE_WORK), and the splits of boxes that cover a leaf, after
+ * which the last resort has what comes. A millisecond at most; where hits are gathered, which take their time themselves,
+ * some more. */
+enum { MOST_LEAVES = 2048, MOST_LEAVES_OF_ALL = 8192, MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
+
 /* What the lanes leave open, a list a lane. */
 struct postponed {
   /* bit k, of lane k: it has a list; some of that was merged; merging once more would make too little room; there were
    * more than there is room for */
   unsigned open, merged, crowded, cut_off;
   unsigned count[LANES];
+  lane_mask leaves;     /* how many more a ray may be tried on */
+  unsigned left[LANES]; /* how many of them were left open */
+  lanes splits;         /* how many more there may be to cover leaves (cover.h) */
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
 
@@ -121,6 +130,9 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active);
 
 /* nearest.c: leaves what is open of the leaf, or of the same leaf of a copy, to the last resort (exact.h). */
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open);
+
+/* nearest.c: the rays on these lanes, as bits, go no further: there is more than is known of. */
+void packet_give_up(struct packet *p, unsigned worn);
 
 /* copy.c: the rays of `outer` on the lanes of `active`, in the coordinates of the copy's object. */
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner);

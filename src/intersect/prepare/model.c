@@ -27,11 +27,11 @@ enum { PARTS = 1024 };
 enum { TEAM_LEAST = 1024 };
 
 /* A frame no smaller than this: its reciprocal times a direction is finite. */
-#define LEAST_FRAME 0x1p-700
+#define LEAST_FRAME 0x1p-1000
 
 /* Of a scene that reaches farther not even its own size is a number that can be squared, or doubled: nothing is
  * proven. */
-#define LARGEST_SIZE 0x1p1000
+#define LARGEST_SIZE 0x1p1020
 
 /* The frame of the hierarchy. */
 static void set_frame(struct model *model)

@@ -1,0 +1,201 @@
+/* Scenes made so that a ray takes long: it is told what is known when its share of work is done, grazing, and what is
+ * certain still is.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "property/world.h"
+
+enum { SEED = 20261122, MOST_PATCHES = 1000, RAYS = 24 };
+
+/* What one ray may take: leaves tried, leaves left open, work of the last resort; where all hits are asked for, more. See
+ * lanes/packet.h and exact/judge.c. */
+enum { TRIED = 2048, TRIED_ALL = 8192, OPEN = 512 + 1, OPEN_ALL = 1024 + 1, WORK = 5632, WORK_ALL = 49152 };
+
+typedef void fill(struct random *random, size_t number, size_t count, world_net net);
+typedef void aim(struct random *random, struct ray *ray);
+
+static void towards(struct random *random, const double at[3], double off, struct ray *ray)
+{
+  for (int k = 0; k < 3; k++) {
+    ray->origin[k] = random_between(random, -6, 6);
+    ray->direction[k] = at[k] + off * random_between(random, -1, 1) - ray->origin[k];
+  }
+}
+
+/* Points on a line, in no order. */
+static const double way[3] = {0.3, 0.5, 0.7};
+
+static void collinear(struct random *random, size_t number, size_t count, world_net net)
+{
+  (void)count;
+  struct random same = {SEED + (number > 0)};
+  (void)random;
+  for (int n = 0; n < 16; n++) {
+    const double t = random_between(&same, -1, 1);
+    for (int k = 0; k < 3; k++) net[n / 4][n % 4][k] = t * way[k];
+  }
+}
+
+static void along_the_line(struct random *random, struct ray *ray)
+{
+  const double back = random_between(random, -1, 6);
+  towards(random, way, 0, ray);
+  for (int k = 0; k < 3; k++) ray->origin[k] = -back * way[k], ray->direction[k] = way[k];
+}
+
+/* One point and fifteen equal others. */
+static void one_point(struct random *random, size_t number, size_t count, world_net net)
+{
+  (void)random, (void)number, (void)count;
+  memset(net, 0, sizeof(world_net));
+  for (int k = 0; k < 3; k++) net[0][0][k] = 1;
+}
+
+static void end_on(struct random *random, struct ray *ray)
+{
+  const double off = pow(10, random_between(random, -18, -1));
+  for (int k = 0; k < 3; k++) ray->origin[k] = 5 + off * random_between(random, -1, 1), ray->direction[k] = -1;
+}
+
+/* Round one point, which is a corner of all of them. */
+static void fan(struct random *random, size_t number, size_t count, world_net net)
+{
+  (void)random;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double turn = j == 3 ? (double)((number + 1) % count) : (double)number + j / 3.0;
+      const double angle = 2 * acos(-1) * turn / (double)count;
+      net[i][j][0] = i * cos(angle), net[i][j][1] = i * sin(angle), net[i][j][2] = -i * i / 9.0;
+    }
+  }
+}
+
+static void past_the_pole(struct random *random, struct ray *ray)
+{
+  const double off = pow(10, random_between(random, -18, -2));
+  towards(random, (const double[3]){0}, off, ray);
+  if (random_bits(random) % 2)
+    for (int k = 0; k < 3; k++) ray->origin[k] = off * random_between(random, -1, 1);
+}
+
+/* The same bowl again and again, and rays next to its top. */
+static void bowls(struct random *random, size_t number, size_t count, world_net net)
+{
+  (void)random, (void)number, (void)count;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++)
+      net[i][j][0] = i - 1.5, net[i][j][1] = j - 1.5, net[i][j][2] = 0.3 * ((i % 3 != 0) + (j % 3 != 0));
+}
+
+static void over_the_top(struct random *random, struct ray *ray)
+{
+  const double off = pow(10, random_between(random, -18, -1)) * (random_bits(random) % 2 ? 1 : -1);
+  *ray = (struct ray){{-5, 0, 0.45 + off}, {1, random_between(random, -0.1, 0.1), 0}, 0, INFINITY};
+  if (random_bits(random) % 4 == 0) ray->origin[0] = 0;
+}
+
+/* Flat ones, in their plane. */
+static void floors(struct random *random, size_t number, size_t count, world_net net)
+{
+  (void)random, (void)number, (void)count;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) net[i][j][0] = i - 1.5, net[i][j][1] = j - 1.5, net[i][j][2] = 0;
+}
+
+static void in_the_plane(struct random *random, struct ray *ray)
+{
+  *ray = (struct ray){{random_between(random, -3, 1), 0.1, 0}, {1, random_between(random, -0.1, 0.1), 0}, 0, INFINITY};
+}
+
+/* The pages of a book, and rays along its spine. */
+static void pages(struct random *random, size_t number, size_t count, world_net net)
+{
+  (void)random;
+  const double angle = 2 * acos(-1) * (double)number / (double)count, x = cos(angle), z = sin(angle);
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double bend = i * i / 30.0;
+      net[i][j][0] = i * x - bend * z, net[i][j][1] = j - 1.5, net[i][j][2] = i * z + bend * x;
+    }
+  }
+}
+
+static void along_the_spine(struct random *random, struct ray *ray)
+{
+  const double off = pow(10, random_between(random, -18, -2));
+  *ray = (struct ray){
+    {off * random_between(random, -1, 1), random_between(random, -5, 1), off}, {0, 1, 0}, 0, INFINITY};
+  if (random_bits(random) % 3 == 0) towards(random, (const double[3]){0, 0.2, 0}, 0, ray);
+}
+
+static const struct made_up {
+  const char *name;
+  size_t count;
+  fill *fill;
+  aim *aim;
+} made_up[] = {{"collinear", 300, collinear, along_the_line},
+               {"one point", 100, one_point, end_on},
+               {"fan", 1000, fan, past_the_pole},
+               {"bowls", 1000, bowls, over_the_top},
+               {"floors", 1000, floors, in_the_plane},
+               {"book", 1000, pages, along_the_spine}};
+
+/* What was counted since `before`, which becomes what is counted now. */
+static struct intersect_counts counted(const struct world *world, struct intersect_counts *before)
+{
+  const struct intersect_counts *now = tracer_counts(world->tracer);
+  const struct intersect_counts since = {.patches_tested = now->patches_tested - before->patches_tested,
+                                         .escalated = now->escalated - before->escalated,
+                                         .work = now->work - before->work};
+  *before = *now;
+  return since;
+}
+
+static void within(struct intersect_counts took, size_t tried, size_t open, size_t work)
+{
+  assert_in_range(took.patches_tested, 0, tried);
+  assert_in_range(took.escalated, 0, open);
+  assert_in_range(took.work, 0, work);
+}
+
+static void a_ray_takes_no_more_than_its_share(void **state)
+{
+  (void)state;
+  static world_net nets[MOST_PATCHES];
+  for (size_t s = 0; s < sizeof made_up / sizeof *made_up; s++) {
+    const struct made_up *scene = &made_up[s];
+    struct random random = {SEED + s};
+    for (size_t n = 0; n < scene->count; n++) scene->fill(&random, n, scene->count, nets[n]);
+    struct world world;
+    world_open(&world, nets, scene->count, NULL);
+    struct intersect_counts before = {.work = 0}, most = {.work = 0};
+    for (int n = 0; n < RAYS; n++) {
+      struct ray ray = {.t_max = INFINITY};
+      struct hit_list list;
+      bool occluded;
+      scene->aim(&random, &ray);
+      const struct hit hit = world_closest(&world, &ray);
+      const struct intersect_counts took = counted(&world, &before);
+      within(took, TRIED, OPEN, WORK);
+      most.patches_tested = took.patches_tested > most.patches_tested ? took.patches_tested : most.patches_tested;
+      most.work = took.work > most.work ? took.work : most.work;
+      tracer_occluded(world.tracer, 1, &ray, &occluded);
+      within(counted(&world, &before), TRIED, OPEN, WORK);
+      assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
+      within(counted(&world, &before), TRIED_ALL, OPEN_ALL, WORK_ALL);
+      if (hit.certainty != CERTAINTY_CERTAIN) continue;
+      assert_int_equal(occluded, hit.patch != HIT_NONE);
+      if (list.certainty == CERTAINTY_CERTAIN) assert_int_equal(list.count > 0, hit.patch != HIT_NONE);
+    }
+    print_message("%s: at most %d leaves, work %d\n", scene->name, (int)most.patches_tested, (int)most.work);
+    world_close(&world);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_takes_no_more_than_its_share)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
