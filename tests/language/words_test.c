@@ -1,0 +1,83 @@
+/* The lists of words that the manual, the completions and the editors are told: whole, of the kind that they say, each word
+ * once; and which word a misspelt one was meant to be. */
+#include "language/words.h"
+
+#include <string.h>
+
+#include "cmocka_test.h"
+
+enum { KINDS = WORDS_FOREIGN + 1, LEAST = 5 };
+
+static void test_lists(void **state)
+{
+  (void)state;
+  const int plain = words_token("plainly_a_name", 14);
+  for (int kind = 0; kind < KINDS; kind++) {
+    size_t count = 0;
+    for (const char *word; (word = words_at((enum words_kind)kind, count)) != NULL; count++) {
+      char text[64] = "#";
+      strcat(text, word);
+      const int token = words_token(word, strlen(word));
+      if (kind == WORDS_DIRECTIVES) {
+        assert_int_not_equal(words_directive_token(text, strlen(text)), words_directive_token("#no_such", 8));
+        continue;
+      }
+      if (token == plain) fail_msg("'%s' is a name like any other", word);
+      assert_int_equal(words_begin_statement(token), kind == WORDS_STATEMENTS);
+      if (kind != WORDS_STATEMENTS) assert_int_equal(words_begin_item(token), kind == WORDS_ITEMS);
+      for (int other = 0; other <= kind; other++)
+        for (size_t k = 0; other != WORDS_DIRECTIVES && (other < kind || k < count); k++) {
+          const char *before = words_at((enum words_kind)other, k);
+          if (before == NULL) break;
+          if (strcmp(before, word) == 0) fail_msg("'%s' is there twice", word);
+        }
+    }
+    assert_true(count >= LEAST);
+  }
+}
+
+static void test_order(void **state)
+{
+  (void)state;
+  assert_true(words_compare("camera", 6, "camera") == 0 && words_compare("cam", 3, "camera") < 0);
+  assert_true(words_compare("cameras", 7, "camera") > 0 && words_compare("b", 1, "a") > 0 &&
+              words_compare("", 0, "a") < 0);
+  char text[32];
+  const char *const three[] = {"a", "bc", "d"};
+  words_list(three, 3, text, sizeof text);
+  assert_string_equal(text, "a, bc or d");
+  words_list(three, 1, text, sizeof text);
+  assert_string_equal(text, "a");
+  words_list(three, 3, text, 5);
+  assert_true(strlen(text) < 5);
+}
+
+static void test_guesses(void **state)
+{
+  (void)state;
+  const struct {
+    const char *word, *meant;
+  } words[] = {{"camrea", "camera"}, {"bicubic_pach", "bicubic_patch"}, {"Camera", "camera"}, {"qqqqqqq", NULL}};
+  for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
+    struct guess guess = guess_begin(words[k].word, strlen(words[k].word));
+    guess_keywords(&guess);
+    assert_int_equal(guess.best == NULL, words[k].meant == NULL);
+    if (guess.best) assert_true(guess.best_length == strlen(words[k].meant) && strcmp(guess.best, words[k].meant) == 0);
+  }
+  struct guess guess = guess_begin("inclde", 6);
+  guess_directives(&guess);
+  assert_string_equal(guess.best, "include");
+  /* What is longer than anybody types is compared with nothing. */
+  char large[5000];
+  memset(large, 'a', sizeof large);
+  guess = guess_begin(large, sizeof large);
+  guess_consider(&guess, large, sizeof large - 1);
+  assert_null(guess.best);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_lists), cmocka_unit_test(test_order),
+                                     cmocka_unit_test(test_guesses)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
