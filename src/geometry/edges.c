@@ -1,9 +1,11 @@
 /* Shared borders, by a table of all borders that is looked up by their control points: open addressing with linear
  * probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L). Each thread has a part of the table to itself,
- * and fills in the borders that belong there. */
+ * and fills in the borders that belong there. Places are by a hash with random keys, or a made-up scene could have all of
+ * its borders in one of them; which patches share which borders does not depend on it. */
 #include "geometry/edges.h"
 
 #include <string.h>
+#include <sys/random.h>
 
 #include "base/memory.h"
 
@@ -23,11 +25,15 @@ struct place {
 
 static const struct edge_neighbour alone = {EDGE_NONE, 0, false};
 
+/* Two for each number of a border, and one. */
+enum { KEYS = 2 * 12 + 1 };
+
 /* What the threads share: they write to places of their own and to what belongs to the borders in them. */
 struct matching {
   const char *nets;
   size_t stride, count;
   size_t workers;
+  uint64_t key[KEYS];
   uint64_t *hash; /* [4 * patch + border] */
   struct place *places;
   size_t place_count;
@@ -82,18 +88,26 @@ bool edge_is_point(double P[4][4][3], int border)
   return collapsed(&point[0][0]);
 }
 
-/* Of equal numbers the same, though there are two zeros. Multiplication takes bits up, the shift takes them down. */
-static uint64_t border_hash(const struct border *b)
+/* Of equal numbers the same, though there are two zeros. With keys that nobody knows the upper halves of any two borders'
+ * are the same once in 2^32 times (Lemire and Kaser, Strongly universal string hashing is fast, 2014: multilinear). */
+static uint64_t border_hash(const struct border *b, const uint64_t key[KEYS])
 {
-  uint64_t hash = 0;
+  uint64_t hash = key[KEYS - 1];
   for (int k = 0; k < 12; k++) {
     const double x = b->point[k / 3][k % 3] + 0.0; /* -0 becomes 0 */
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
-    hash = (hash ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
-    hash ^= hash >> 32;
+    hash += key[2 * k] * (uint32_t)bits + key[2 * k + 1] * (bits >> 32);
   }
   return hash;
+}
+
+/* Where there are no random numbers keys that are as good for scenes that nobody made to be slow. */
+static void choose_keys(uint64_t key[KEYS])
+{
+  const size_t size = KEYS * sizeof *key;
+  if (getrandom(key, size, 0) == (ssize_t)size) return;
+  for (uint64_t k = 0; k < KEYS; k++) key[k] = (2 * k + 1) * UINT64_C(0x9e3779b97f4a7c15);
 }
 
 /* The worker's share of `count` things, from its first one on. */
@@ -108,7 +122,7 @@ static enum status hash_borders(void *context, size_t worker)
   const size_t end = share(m, worker + 1, 4 * m->count);
   for (size_t k = share(m, worker, 4 * m->count); k < end; k++) {
     const struct border b = border_of(m, k);
-    m->hash[k] = border_hash(&b);
+    m->hash[k] = border_hash(&b, m->key);
     m->out[k] = alone;
   }
   return STATUS_OK;
@@ -171,6 +185,7 @@ enum status edges_match(const void *nets, size_t stride, size_t count, const str
   if (count >= MANY / 4) return STATUS_LIMIT;
   struct matching m = {
     .nets = nets, .stride = stride, .count = count, .workers = team_count(team), .place_count = 6 * count, .out = out};
+  choose_keys(m.key);
   m.hash = memory_alloc(count, 4 * sizeof *m.hash);
   m.places = memory_alloc(m.place_count, sizeof *m.places);
   enum status status = m.hash && m.places ? team_run(team, m.workers, hash_borders, &m) : STATUS_LIMIT;

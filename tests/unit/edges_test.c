@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "cmocka_test.h"
 #include "random.h"
@@ -262,11 +263,70 @@ static void points_run_with_the_parameter_and_none_is_fine(void **state)
   assert_int_equal(edges_match(NULL, sizeof P, 0, NULL, NULL), STATUS_OK);
 }
 
+/* What the hash of borders was before it had keys: each step can be undone. */
+#define STEP UINT64_C(0x9e3779b97f4a7c15)
+
+static uint64_t hash_step(uint64_t hash, double x)
+{
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  hash = (hash ^ bits) * STEP;
+  return hash ^ hash >> 32;
+}
+
+/* The net's border 0 becomes one with a hash whose upper half is 1. */
+static void make_collide(struct random *random, net P)
+{
+  uint64_t back = STEP; /* its inverse: each step doubles the digits that are right */
+  for (int n = 0; n < 5; n++) back *= 2 - STEP * back;
+  P[0][0][0] = -2, P[0][3][0] = 2; /* this way sorts first */
+  uint64_t hash = 0;
+  for (int k = 0; k < 11; k++) hash = hash_step(hash, P[0][k / 3][k % 3]);
+  double last = NAN;
+  while (!(fabs(last) < 1e300)) {
+    const uint64_t wanted = UINT64_C(1) << 32 | (random_bits(random) & UINT32_MAX);
+    const uint64_t bits = hash ^ (wanted ^ wanted >> 32) * back;
+    memcpy(&last, &bits, sizeof last);
+  }
+  P[0][3][2] = last;
+}
+
+/* Processor time of matching, in seconds. */
+static double time_of(net *nets, size_t count, struct edge_neighbour *out)
+{
+  const clock_t begin = clock();
+  assert_int_equal(edges_match(nets, sizeof *nets, count, NULL, out), STATUS_OK);
+  return (double)(clock() - begin) / CLOCKS_PER_SEC;
+}
+
+/* A scene made so that all borders would have one place takes no longer than another one, but for what a busy machine
+ * makes of it: that was a hundred times as long, and grew with the square. */
+static void made_up_scenes_are_no_slower(void **state)
+{
+  (void)state;
+  enum { COUNT = 40000, TIMES = 40 };
+  struct random random = {SEED};
+  net *nets = calloc(COUNT, sizeof *nets);
+  struct edge_neighbour *out = calloc(4 * COUNT, sizeof *out);
+  assert_non_null(nets);
+  assert_non_null(out);
+  for (size_t p = 0; p < COUNT; p++) random_net(&random, nets[p]);
+  const double plain = time_of(nets, COUNT, out);
+  for (size_t p = 0; p < COUNT; p++) make_collide(&random, nets[p]);
+  const double made_up = time_of(nets, COUNT, out);
+  print_message("%d patches: %.4f s, made up %.4f s\n", COUNT, plain, made_up);
+  for (size_t k = 0; k < 4 * COUNT; k++) assert_int_equal(out[k].patch, EDGE_NONE);
+  assert_true(made_up < TIMES * (plain + 0.001));
+  free(nets);
+  free(out);
+}
+
 int main(void)
 {
   print_message("seed %d\n", SEED);
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_pair_of_borders_both_ways),
+    cmocka_unit_test(made_up_scenes_are_no_slower),
     cmocka_unit_test(a_patch_may_meet_itself),
     cmocka_unit_test(three_at_one_border_are_none),
     cmocka_unit_test(collapsed_borders_are_none),
