@@ -12,6 +12,9 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   const struct model_patch *patch = it->patch;
   uint64_t *entered = p->tracer->counts.stages;
   open = stage_box(it, open);
+  p->postponed->leaves += open; /* -1 each */
+  const lane_mask worn = open & (p->postponed->leaves < 0);
+  if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn)), open &= ~worn;
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
   if (it->leaf->parts) {
@@ -84,9 +87,6 @@ void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
   it.number = index;
   if (lanes_count(active) <= FEW) fetch_parts(it.leaf);
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);
-  p->postponed->leaves += active; /* -1 each */
-  const lane_mask worn = active & (p->postponed->leaves < 0);
-  if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn)), active &= ~worn;
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {
     it.axis = __builtin_ctz(bits), it.line = &p->line[it.axis];
     const lane_mask at = active & p->on_axis[it.axis], blind = at & ~(it.line->error <= BLIND);

@@ -43,7 +43,7 @@ struct line {
   lanes error;
 };
 
-/* What a ray may cost here before it is told as it is known then, grazing: leaves that it is tried on, those of them that are
+/* What a ray may cost here before it is told as it is known then, grazing: leaves whose boxes it passes, those of them that are
  * left open (the last resort is worn out by then: judge.c JUDGE_WORK), and the splits of boxes that cover a leaf, after
  * which the last resort has what comes. A millisecond at most; where hits are gathered, which take their time themselves,
  * some more. */
