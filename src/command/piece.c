@@ -1,11 +1,13 @@
 /* Parts of a picture. */
 #include "command/piece.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "check/page.h"
+#include "language/table.h"
 
 /* What two parts of a picture have in common, and what a message calls it. */
 static const struct {
@@ -17,7 +19,10 @@ static const struct {
   {"pscn:version", "version"},   {"pscn:arithmetic", "processor's arithmetic"},
 };
 
-enum { MOST_PIECES = 1000000 };
+enum {
+  MOST_PIECES = 1000000,
+  SUM_SIZE = 17 /* of the text of a sum: 16 digits and a NUL */
+};
 
 /* Digits at *text, which is moved behind them. */
 static bool take_integer(const char **text, const char *end, size_t most, size_t *out)
@@ -140,14 +145,47 @@ static enum status read_tiles(struct piece *piece)
   return STATUS_OK;
 }
 
+/* What a part says of its own pixels, tiles and number, that a byte which has changed since is seen: as a text. The order of
+ * the channels, which a file does not keep, is of no account. */
+static void make_sum(const struct image *image, const char *tile, size_t tile_length, const char *done,
+                     size_t done_length, char out[SUM_SIZE])
+{
+  uint64_t sum = table_hash(tile, tile_length) + 2 * table_hash(done, done_length);
+  for (size_t c = 0; c < image->channel_count; c++) {
+    uint64_t hash = table_hash(image->channel[c].name, strlen(image->channel[c].name));
+    for (size_t k = c; k < image->width * image->height * image->channel_count; k += image->channel_count) {
+      uint32_t bits;
+      memcpy(&bits, &image->value[k], sizeof bits);
+      hash = (hash ^ bits) * UINT64_C(0x100000001b3); /* FNV-1a by words: no two values give one hash */
+    }
+    sum += hash ^ hash >> 32;
+  }
+  snprintf(out, SUM_SIZE, "%016" PRIx64, sum);
+}
+
+static bool is_as_written(const struct image *image)
+{
+  size_t tile_length = 0, done_length = 0, length = 0;
+  const char *tile = image_metadata(image, "pscn:tile", &tile_length);
+  const char *done = image_metadata(image, "pscn:done", &done_length); /* an empty text is not in the file */
+  const char *said = image_metadata(image, "pscn:sum", &length);
+  char sum[SUM_SIZE];
+  make_sum(image, tile, tile_length, done == NULL ? "" : done, done_length, sum);
+  return length == SUM_SIZE - 1 && memcmp(said, sum, length) == 0;
+}
+
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message)
 {
   *out = (struct piece){0};
   enum status status = pixels ? image_read(path, &out->image, message) : image_read_header(path, &out->image, message);
   if (status != STATUS_OK) return status;
   status = read_tiles(out);
-  if (status == STATUS_OK) return STATUS_OK;
   snprintf(message, IMAGE_MESSAGE_SIZE, "%s", status == STATUS_INPUT ? "no piece of a picture" : "out of memory");
+  if (status == STATUS_OK && pixels && !is_as_written(&out->image)) {
+    snprintf(message, IMAGE_MESSAGE_SIZE, "it is damaged: it is not what was written");
+    status = STATUS_INPUT;
+  }
+  if (status == STATUS_OK) return STATUS_OK;
   piece_destroy(out);
   return status;
 }
@@ -240,7 +278,7 @@ enum status piece_encode(const struct piece *piece, const struct image_attribute
   enum { MOST = 32 };
   struct image_attribute all[MOST];
   struct piece copy;
-  char tile[48], *done = NULL;
+  char tile[48], sum[SUM_SIZE], *done = NULL;
   *out_bytes = NULL;
   *out_size = 0;
   enum status status = copy_done(piece, &copy);
@@ -248,11 +286,13 @@ enum status piece_encode(const struct piece *piece, const struct image_attribute
   if (done == NULL) status = STATUS_LIMIT;
   snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
   snprintf(tile, sizeof tile, "%zu/%zu", piece->number, piece->count);
+  if (done != NULL) make_sum(&copy.image, tile, strlen(tile), done, strlen(done), sum);
   for (size_t k = 0; k < attribute_count; k++) all[k] = attributes[k];
   all[attribute_count] = (struct image_attribute){"pscn:tile", tile};
   all[attribute_count + 1] = (struct image_attribute){"pscn:done", done};
+  all[attribute_count + 2] = (struct image_attribute){"pscn:sum", sum};
   const struct image_encoding encoding = {
-    .format = IMAGE_EXR, .bits = 32, .quick = true, .attributes = all, .attribute_count = attribute_count + 2};
+    .format = IMAGE_EXR, .bits = 32, .quick = true, .attributes = all, .attribute_count = attribute_count + 3};
   if (status == STATUS_OK) status = image_encode(&copy.image, &encoding, out_bytes, out_size, message);
   free(done);
   piece_destroy(&copy);

@@ -1,7 +1,7 @@
 /* Parts of a picture, which say of themselves what they are part of.
  *
  * A part is an EXR of floats with the window of the picture it belongs to, the pixels of the tiles it has, 0 elsewhere,
- * and texts that say what was rendered, how, and which tiles these are. There is no other form: pieces of a farm
+ * and texts that say what was rendered, how, which tiles these are, and a sum of it all. There is no other form: pieces of a farm
  * (`render --tile`), what an interrupted rendering leaves behind and `--resume` goes on with, and what `merge` reads.
  */
 #ifndef PSCN_COMMAND_PIECE_H

@@ -58,6 +58,10 @@ for text in 0-4:4-0 0-4:3,1 0-4:0-9 '0-4:0;4' 0-4:x-4 0-4:0-x 3/4:5/4 3/4:0/4 3/
   sed "s|${text%:*}|${text#*:}|" whole3.exr >said.exr
   pscn merge said.exr -o no.png 2>&1 | sed "s|^|$text: |"
 done
+# A byte of its pixels that has changed since.
+last=$(tail -c 1 p1.exr | od -An -tu1)
+(head -c -1 p1.exr && printf "\\x$(printf %x $(((last + 1) % 256)))") >changed.exr
+try pscn merge changed.exr -o no.png
 cp whole3.exr outside.exr
 at=$(grep -abo displayWindow outside.exr | head -n 1 | cut -d: -f1)
 printf '\5' | dd of=outside.exr bs=1 seek=$((at + 24)) conv=notrunc status=none
