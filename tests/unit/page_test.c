@@ -80,9 +80,48 @@ static void test_failed(void **state)
   page_free(&page);
 }
 
+/* Every block that a page asks for fails once: the page says so, and holds no more than it had. */
+static long left = -1;
+void *__real_realloc(void *block, size_t size);
+void *__wrap_realloc(void *block, size_t size);
+void *__wrap_realloc(void *block, size_t size) { return left >= 0 && left-- == 0 ? NULL : __real_realloc(block, size); }
+
+static void test_memory(void **state)
+{
+  (void)state;
+  static const char template[] =
+    "{{t}} {{n:5d}} {{x:.3g}} {{x}} {{#rows}}<{{a}}>{{/rows}} {{&t}} and much more text than there was before, "
+    "so that the page has to grow where nothing is filled in";
+  json_t *values = json_loads("{\"t\":\"<&>\",\"n\":42,\"x\":0.5,\"rows\":[{\"a\":1},{\"a\":2}]}", 0, NULL);
+  assert_non_null(values);
+  struct page whole = {0};
+  page_fill(&whole, template, values);
+  assert_false(whole.failed);
+  for (long n = 0;; n++) {
+    struct page page = {0};
+    left = n;
+    page_fill(&page, template, values);
+    page_bytes(&page, "", 0);
+    page_format(&page, "%s", "");
+    const bool failed = left < 0;
+    left = -1;
+    assert_true(failed || !page.failed);
+    if (page.failed) assert_true(page.length < whole.length);
+    else assert_string_equal(page.text, whole.text);
+    page_free(&page);
+    if (!failed) {
+      assert_true(n > 2);
+      break;
+    }
+  }
+  page_free(&whole);
+  json_decref(values);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_sections),
-                                     cmocka_unit_test(test_printable), cmocka_unit_test(test_failed)};
+                                     cmocka_unit_test(test_printable), cmocka_unit_test(test_failed),
+                                     cmocka_unit_test(test_memory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
