@@ -40,7 +40,7 @@ printf '"%s"\n' '0 ' '-1 ' '1e-11 ' '1.999 ' '1e308 ' '1e-320 ' '1e-17 ' '.5 ' '
   '\x00\x00\x00\x00\x00\x00\xf0\x7f' '\x00\x00\x00\x00\x00\x00\xf8\x7f' '\x01\x00\x00\x00\x00\x00\x00\x00' >"$numbers"
 
 # The number behind the last NAME of libFuzzer's log.
-last() { grep -o "$1 *[0-9]*" "$2" | tail -n 1 | grep -o '[0-9]*$' || echo 0; }
+last() { grep -ao "$1 *[0-9]*" "$2" | tail -n 1 | grep -o '[0-9]*$' || echo 0; }
 
 # fuzz TARGET: until its CPU time is spent, which is looked at every two seconds.
 fuzz() {
