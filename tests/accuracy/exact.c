@@ -118,8 +118,8 @@ static bool accept(struct search *s, const struct box *box, const arb_t at_u, co
   return true;
 }
 
-/* Whether x is within NET_OVERHANG of [0,1]. */
-static bool near_box(const arb_t x)
+/* Whether x is within NET_OVERHANG of [0,1]. Out of line, or GCC 12 takes a ball's radius for smaller than it is. */
+__attribute__((noinline)) static bool near_box(const arb_t x)
 {
   const double m = double_of(x);
   return m > -NET_OVERHANG / 2 && m < 1 + NET_OVERHANG / 2 && mag_cmp_2exp_si(arb_radref(x), -42) < 0;
