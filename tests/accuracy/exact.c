@@ -3,6 +3,7 @@
 #include "accuracy/exact.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "accuracy/exact_net.h"
@@ -334,15 +335,23 @@ static void look(struct search *s, struct view *view)
   for (size_t n = 0; n < hidden; n++) zoom(s, view, &parts[n], view->base + hidden);
 }
 
+static void *nearer_room(size_t size)
+{
+  void *room = malloc(size);
+  if (!room) abort();
+  return room;
+}
+
 /* The box in doubles of its own. */
 static void look_nearer(struct search *s, const struct box *box, size_t base, int zooms)
 {
-  fmpz F[2][16];
+  fmpz(*F)[16] = nearer_room(2 * sizeof *F);
   nets_init(&F[0][0], 32);
   box_combinations(box, F);
   struct view view = {.box = box, .F = (const fmpz(*)[16])F, .base = base, .zooms = zooms};
   look(s, &view);
   nets_clear(&F[0][0], 32);
+  free(F);
 }
 
 /* What rounding hides in a part: its exact nets, in new doubles. Where it is all of a box that is halved exactly. */
@@ -356,7 +365,7 @@ static void zoom(struct search *s, const struct view *view, const struct quick *
   }
   const bool all = halved[0] + halved[1] == 0;
   if (all && settle(s, box)) return;
-  struct box half[2];
+  struct box *half = nearer_room(2 * sizeof *half); /* not on the stack, for these calls lie within each other */
   box_init(&half[0]), box_init(&half[1]);
   if (all) {
     box_split(box, box_changes_along_v(box), &half[0], &half[1]);
@@ -367,6 +376,7 @@ static void zoom(struct search *s, const struct view *view, const struct quick *
     look_nearer(s, &half[0], base, hopeless ? HOPELESS_ZOOMS : view->zooms - 1);
   }
   box_clear(&half[0]), box_clear(&half[1]);
+  free(half);
 }
 
 void exact_patch_roots(const double P[4][4][3], const double origin[3], const double direction[3], double t_min,
