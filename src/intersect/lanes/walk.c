@@ -32,6 +32,9 @@ enum { BVH_ROW = sizeof(float[BVH_WIDTH]) };
 #define FRAME_NEAR 16.0
 #define FRAME_FAR 0x1p30
 
+/* What rounding may do to the start of a ray, or to the frame's origin, on the way into the frame: of its coordinates. */
+#define START_ROUNDOFF (16 * UNIT_ROUNDOFF)
+
 /* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it
  * and its sum with the slack to float, its product with the reciprocal, and a box's, for the planes are that far off
  * then. */
@@ -102,8 +105,7 @@ __attribute__((noinline)) static void come_near(const struct packet *p, const st
     for (int k = 0; k < 3; k++) ray.origin[k] = p->origin[k][l], ray.direction[k] = p->direction[k][l];
     (*start)[l] = local_ray_enter(&ray, tree->origin, tree->frame, at);
     /* the ray is where it should be, but the frame's origin is rounded */
-    for (int k = 0; k < 3; k++)
-      from[k][l] = at[k], slack[k][l] = 16 * UNIT_ROUNDOFF * fabs(tree->origin[k]) / tree->frame;
+    for (int k = 0; k < 3; k++) from[k][l] = at[k], slack[k][l] = START_ROUNDOFF * fabs(tree->origin[k]) / tree->frame;
   }
 }
 
@@ -120,7 +122,7 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
     for (int k = 0; k < 3; k++) {
       along[k][h] = direction[k] = p->direction[k] * shrink;
       from[k] = (p->origin[k] - tree->origin[k]) * to_frame;
-      slack[k] = 16 * UNIT_ROUNDOFF * (lanes_abs(p->origin[k]) + fabs(tree->origin[k])) * to_frame;
+      slack[k] = START_ROUNDOFF * (lanes_abs(p->origin[k]) + fabs(tree->origin[k])) * to_frame;
       farthest = lanes_max(lanes_abs(from[k]), farthest);
     }
     b->view.unit[h] = p->longest * to_frame;
