@@ -2,6 +2,7 @@
 #ifndef TESTS_RANDOM_H
 #define TESTS_RANDOM_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 struct random {
@@ -23,6 +24,15 @@ static inline double random_unit(struct random *random) { return (double)(random
 static inline double random_between(struct random *random, double low, double high)
 {
   return low + (high - low) * random_unit(random);
+}
+
+/* Any order of them is as likely (R. Durstenfeld, Algorithm 235, 1964). */
+static inline void random_shuffle(struct random *random, size_t count, size_t order[])
+{
+  for (size_t n = count; n-- > 1;) {
+    const size_t other = random_bits(random) % (n + 1), swap = order[n];
+    order[n] = order[other], order[other] = swap;
+  }
 }
 
 #endif

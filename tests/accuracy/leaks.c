@@ -103,9 +103,9 @@ static void pull(struct random *random, const double target[3], double origin[3]
   for (int axis = 0; axis < 3; axis++) origin[axis] = target[axis] + way * (origin[axis] - target[axis]);
 }
 
-static void random_ray(const struct model *model, const struct placement *placement, const struct model *placed,
-                       int kind, struct random *random, struct ray *ray)
+static void random_ray(const struct placed_model *at, int kind, struct random *random, struct ray *ray)
 {
+  const struct model *model = &at->model;
   double u, v, target[3], origin[3];
   size_t patch;
   do patch = (size_t)(random_bits(random) % model->count);
@@ -115,12 +115,10 @@ static void random_ray(const struct model *model, const struct placement *placem
     while (at_open_border(model, patch, u, v));
     net_point(model->P[patch], u, v, target);
     model_inside(model, random, origin);
-    if (!placement && random_bits(random) % 2) align(random, target, origin);
+    if (!at->moved && random_bits(random) % 2) align(random, target, origin);
   } while (!inside(model, origin));
-  if (placement) {
-    net_point(placed->P[patch], u, v, target);
-    placement_apply(placement, origin, origin);
-  }
+  net_point(at->placed.P[patch], u, v, target);
+  placed_point(at, origin);
   pull(random, target, origin);
   *ray = (struct ray){.t_min = 0, .t_max = INFINITY};
   for (int axis = 0; axis < 3; axis++) {
@@ -168,8 +166,7 @@ static size_t count_leaks(struct trial *trial, const char *name, const char *sol
   return leaks;
 }
 
-/* Placement 0 leaves the model where it is (and then rays are axis-aligned too); the others turn, scale and shift it.
- * */
+/* Place 0 is where the model is made (and then rays are axis-aligned too); the others turn, scale and shift it. */
 static size_t leaks_of(const struct method *options, size_t rays_wanted, uint64_t seed)
 {
   static const double scales[PLACEMENTS] = {1, 1, 1e6, 1e-6, 1}, shifts[PLACEMENTS] = {0, 1, 1e6, 1e-6, 1e6};
@@ -178,22 +175,17 @@ static size_t leaks_of(const struct method *options, size_t rays_wanted, uint64_
   size_t leaks = 0, rays = 0;
   for (int which = 0; which < MODELS; which++) {
     for (int place = 0; place < PLACEMENTS; place++) {
-      struct model model, placed;
-      struct placement placement;
-      models[which](&model);
-      placed = model;
-      placement_random(&random, scales[place], shifts[place], &placement);
-      if (place > 0) model_place(&placed, &placement);
+      struct placed_model at;
       struct trial trial;
-      trial_create(&trial, (const double(*)[4][4][3])placed.P, placed.count, options);
+      model_placed(models[which], &random, scales[place], shifts[place], place > 0, &at);
+      trial_create(&trial, (const double(*)[4][4][3])at.placed.P, at.placed.count, options);
       size_t each = (size_t)(share * (place > 0 ? 1 : EXACT_SHARE)) + 1;
       for (int kind = 0; kind < AIMS; kind++) {
         for (size_t first = 0; first < each; first += PACKET_SIZE) {
           struct ray packet[PACKET_SIZE];
           size_t count = each - first < PACKET_SIZE ? each - first : PACKET_SIZE;
-          for (size_t n = 0; n < count; n++)
-            random_ray(&model, place > 0 ? &placement : NULL, &placed, kind, &random, &packet[n]);
-          leaks += count_leaks(&trial, model.name, options->roots.solver->name, kind, count, packet);
+          for (size_t n = 0; n < count; n++) random_ray(&at, kind, &random, &packet[n]);
+          leaks += count_leaks(&trial, at.model.name, options->roots.solver->name, kind, count, packet);
           rays += count;
         }
       }
@@ -250,19 +242,15 @@ static void test_leave(void **state)
   static const double scales[] = {1, 1e6, 1e-6, 1}, shifts[] = {0, 1e6, 1e-6, 1e4};
   struct random random = {.state = effort_seed(403)};
   for (int place = 0; place < 4; place++) {
-    struct model model, placed;
-    struct placement placement;
-    model_ball(&model);
-    placed = model;
-    placement_random(&random, scales[place], shifts[place], &placement);
-    model_place(&placed, &placement);
+    struct placed_model at;
     struct trial trial;
-    trial_create(&trial, (const double(*)[4][4][3])placed.P, placed.count, NULL);
+    model_placed(model_ball, &random, scales[place], shifts[place], true, &at);
+    trial_create(&trial, (const double(*)[4][4][3])at.placed.P, at.placed.count, NULL);
     for (size_t n = 0; n < wanted / 4; n++) {
       struct ray ray, next = {.t_min = 0, .t_max = INFINITY}, goal;
       struct hit hit, second;
-      random_ray(&model, &placement, &placed, (int)(n % AIMS), &random, &ray);
-      random_ray(&model, &placement, &placed, (int)(n / AIMS % AIMS), &random, &goal);
+      random_ray(&at, (int)(n % AIMS), &random, &ray);
+      random_ray(&at, (int)(n / AIMS % AIMS), &random, &goal);
       tracer_closest(trial.tracer, 1, &ray, &hit);
       if (hit.patch == HIT_NONE) continue; /* whether that is a leak, the others tell */
       double cosine = 0, length = 0;

@@ -162,6 +162,20 @@ void model_place(struct model *model, const struct placement *placement)
     for (int k = 0; k < 16; k++) placement_apply(placement, model->P[n][k / 4][k % 4], model->P[n][k / 4][k % 4]);
 }
 
+void model_placed(void (*make)(struct model *out), struct random *random, double scale, double shift, bool moved,
+                  struct placed_model *out)
+{
+  make(&out->model);
+  out->placed = out->model, out->moved = moved;
+  placement_random(random, scale, shift, &out->placement);
+  if (moved) model_place(&out->placed, &out->placement);
+}
+
+void placed_point(const struct placed_model *at, double point[3])
+{
+  if (at->moved) placement_apply(&at->placement, point, point);
+}
+
 static double cubic(const double c[4], double t, double *derivative)
 {
   double s = 1 - t;

@@ -46,6 +46,18 @@ void placement_random(struct random *random, double scale, double shift, struct 
 void placement_apply(const struct placement *placement, const double p[3], double out[3]);
 void model_place(struct model *model, const struct placement *placement);
 
+/* A model as it is made, and where a placement takes it: nowhere unless `moved`. */
+struct placed_model {
+  struct model model, placed;
+  struct placement placement;
+  bool moved;
+};
+void model_placed(void (*make)(struct model *out), struct random *random, double scale, double shift, bool moved,
+                  struct placed_model *out);
+
+/* A point next to the model, taken along. */
+void placed_point(const struct placed_model *at, double point[3]);
+
 /* S(u,v) in double. */
 void net_point(const double P[4][4][3], double u, double v, double out_point[3]);
 

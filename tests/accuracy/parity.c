@@ -94,30 +94,29 @@ static void choose_direction(int kind, const struct model *model, const struct c
 }
 
 /* A ray through a point of the model that starts outside, or, where the point is seen from inside, there. */
-static bool make_ray(const struct model *model, const struct placement *placement, const struct model *placed, int kind,
-                     const struct common *common, struct random *random, struct ray *ray)
+static bool make_ray(const struct placed_model *in, int kind, const struct common *common, struct random *random,
+                     struct ray *ray)
 {
+  const struct model *model = &in->model;
   const struct aimed at = aim(kind, model, common, random);
   double target[3], direction[3], origin[3];
   bool inside = random_bits(random) % 2 && kind != AIM_TANGENT;
   net_point((const double(*)[4][3])model->P[at.patch], at.u, at.v, target);
   choose_direction(kind, model, common, &at, target, random, direction);
-  if (!inside && !placement && random_bits(random) % 2) align(random, direction);
+  if (!inside && !in->moved && random_bits(random) % 2) align(random, direction);
   double size = 0;
   for (int k = 0; k < 3; k++) size = fmax(size, fabs(direction[k]));
   if (!(size > 0)) direction[0] = size = 1;
   for (int k = 0; k < 3; k++) origin[k] = target[k] - direction[k] * (inside ? 1 : OUTSIDE / size);
-  if (placement) {
-    net_point((const double(*)[4][3])placed->P[at.patch], at.u, at.v, target);
-    placement_apply(placement, origin, origin);
-  }
+  net_point((const double(*)[4][3])in->placed.P[at.patch], at.u, at.v, target);
+  placed_point(in, origin);
   *ray = (struct ray){.t_max = INFINITY};
   for (int k = 0; k < 3; k++) {
     ray->origin[k] = origin[k];
     ray->direction[k] = target[k] - origin[k];
   }
   /* On a line whose digits say little of the axes the start may have to be moved: exactly along them. */
-  if (!placement && !inside)
+  if (!in->moved && !inside)
     for (int k = 0; k < 3; k++) ray->direction[k] = direction[k];
   return inside;
 }
@@ -149,7 +148,7 @@ static void count_packet(struct trial *trial, const char *name, int kind, size_t
   }
 }
 
-/* Placement 0 leaves the model where it is: only there are rays exactly along axes, and through what they aim at. */
+/* Place 0 is where the model is made: only there are rays exactly along axes, and through what they aim at. */
 static size_t wrong_of(const struct method *options, size_t wanted, uint64_t seed)
 {
   static const double scales[PLACEMENTS] = {1, 1, 1e6, 1e-6, 1}, shifts[PLACEMENTS] = {0, 1, 1e6, 1e-6, 1e3};
@@ -157,14 +156,10 @@ static size_t wrong_of(const struct method *options, size_t wanted, uint64_t see
   struct count count = {0};
   for (int which = 0; which < MODELS; which++) {
     for (int place = 0; place < PLACEMENTS; place++) {
-      struct model model, placed;
-      struct placement placement;
-      models[which](&model);
-      placed = model;
-      placement_random(&random, scales[place], shifts[place], &placement);
-      if (place > 0) model_place(&placed, &placement);
+      struct placed_model in;
       struct trial trial;
-      trial_create(&trial, (const double(*)[4][4][3])placed.P, placed.count, options);
+      model_placed(models[which], &random, scales[place], shifts[place], place > 0, &in);
+      trial_create(&trial, (const double(*)[4][4][3])in.placed.P, in.placed.count, options);
       const double share = (double)wanted / (MODELS * (PLACEMENTS - 1 + EXACT_SHARE));
       for (int kind = 0; kind < AIMS; kind++) {
         const size_t each = (size_t)((place > 0 ? 1 : EXACT_SHARE) * aim_shares[kind] * share) + 1;
@@ -175,10 +170,10 @@ static size_t wrong_of(const struct method *options, size_t wanted, uint64_t see
           const bool coherent = random_bits(&random) % 4 < COHERENT_OF_4;
           struct common common;
           for (size_t n = 0; n < most; n++) {
-            if (n == 0 || !coherent) common_choose(&model, &random, &common);
-            inside[n] = make_ray(&model, place > 0 ? &placement : NULL, &placed, kind, &common, &random, &rays[n]);
+            if (n == 0 || !coherent) common_choose(&in.model, &random, &common);
+            inside[n] = make_ray(&in, kind, &common, &random, &rays[n]);
           }
-          count_packet(&trial, model.name, kind, most, rays, inside, &count);
+          count_packet(&trial, in.model.name, kind, most, rays, inside, &count);
         }
       }
       trial_destroy(&trial);

@@ -148,10 +148,7 @@ static void companions(struct set_up *s)
         if (!same_list(&alone[order[first + n]], &lists[n]) && wrong++ < 2)
           print_lists("companions", s->kind, &rays[n], &alone[order[first + n]]);
     }
-    for (size_t n = STAGE_RAYS - 1; n > 0; n--) {
-      const size_t other = random_bits(s->random) % (n + 1), swap = order[n];
-      order[n] = order[other], order[other] = swap;
-    }
+    random_shuffle(s->random, STAGE_RAYS, order);
   }
   assert_int_equal(wrong, 0);
 }

@@ -35,10 +35,7 @@ static void companions(struct set_up *s)
         if (wrong++ < 2) world_print_case("companions", s->kind, &rays[n], &alone[order[first + n]], &hits[n]);
       }
     }
-    for (size_t n = STAGE_RAYS - 1; n > 0; n--) {
-      const size_t other = random_bits(s->random) % (n + 1), swap = order[n];
-      order[n] = order[other], order[other] = swap;
-    }
+    random_shuffle(s->random, STAGE_RAYS, order);
   }
   assert_int_equal(wrong, 0);
 }
@@ -123,10 +120,7 @@ static void shuffled(struct set_up *s)
   static world_net nets[WORLD_MAX];
   size_t place[WORLD_MAX];
   for (size_t p = 0; p < s->count; p++) place[p] = p;
-  for (size_t p = s->count - 1; p > 0; p--) {
-    const size_t other = random_bits(s->random) % (p + 1), swap = place[p];
-    place[p] = place[other], place[other] = swap;
-  }
+  random_shuffle(s->random, s->count, place);
   for (size_t p = 0; p < s->count; p++) memcpy(nets[place[p]], s->nets[p], sizeof nets[0]);
   struct world world;
   world_open(&world, nets, s->count, NULL);
