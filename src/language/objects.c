@@ -180,6 +180,7 @@ void copy_object(struct language *language, struct place place, const struct nod
   node->block = block;
   node->stage = STAGE_BODY;
   node->has_object = true;
+  node->own_transform = false;
 }
 
 void copy_named(struct language *language, const struct token *name)
@@ -222,14 +223,14 @@ void node_transform(struct language *language, const struct transform *transform
 {
   struct node *node = language->objects->open;
   if (transform->identity) return;
-  const struct transform *all = transform;
-  if (node->transform) {
-    struct transform *both = language_alloc(language, sizeof *both);
-    *both = transform_then(node->transform, transform);
-    all = both;
+  const struct transform all = node->transform ? transform_then(node->transform, transform) : *transform;
+  if (!transform_finite(&all)) {
+    language_error(language, place, "the transforms up to here are too large for numbers");
+    return;
   }
-  if (transform_finite(all)) node->transform = all;
-  else language_error(language, place, "the transforms up to here are too large for numbers");
+  if (!node->own_transform) node->transform = language_alloc(language, sizeof *node->transform);
+  node->own_transform = true;
+  *node->transform = all;
 }
 
 void node_texture(struct language *language, const struct texture *texture)

@@ -25,17 +25,17 @@ struct node {
   struct block block;
   double (*P)[4][3]; /* NULL: a union */
   double setting[PATCH_SETTINGS];
-  const struct transform *transform; /* NULL: none */
-  const struct texture *texture;     /* NULL: none of its own */
-  const struct method *method;       /* NULL: none of its own */
-  struct sharing *sharing;           /* of the declared object that it is or copies; NULL: neither */
-  size_t patch_count;                /* in it and below */
-  int height;                        /* unions below it within each other */
+  struct transform *transform;   /* NULL: none */
+  const struct texture *texture; /* NULL: none of its own */
+  const struct method *method;   /* NULL: none of its own */
+  struct sharing *sharing;       /* of the declared object that it is or copies; NULL: neither */
+  size_t patch_count;            /* in it and below */
+  int height;                    /* unions below it within each other */
 
   /* While it is open. */
   enum stage stage;
   int points;
-  bool has_type, has_object, after_comma;
+  bool has_type, has_object, after_comma, own_transform;
 };
 
 /* Zeroed: no objects. */

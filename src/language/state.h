@@ -77,6 +77,7 @@ struct language {
   struct tokens *tokens;
   struct texture *texture;               /* the innermost that is open */
   const struct texture *texture_default; /* NULL: POV-Ray's */
+  struct transform *transform;           /* the last statement's */
   struct method *method;                 /* of the last solver statement */
   struct objects *objects;
   struct camera_items *camera;

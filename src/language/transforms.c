@@ -12,6 +12,12 @@ struct transform transform_identity(void)
   return t;
 }
 
+/* Most of what transforms are made of is 0. */
+static void add_product(struct double_double *sum, struct double_double a, struct double_double b)
+{
+  if (a.hi != 0) *sum = dd_add(*sum, dd_multiply(a, b));
+}
+
 struct transform transform_then(const struct transform *first, const struct transform *second)
 {
   if (first->identity) return *second;
@@ -28,8 +34,9 @@ struct transform transform_then(const struct transform *first, const struct tran
   for (int j = 0; j < 3; j++) {
     r.b[j] = second->b[j];
     for (int k = 0; k < 3; k++) {
-      r.b[j] = dd_add(r.b[j], dd_multiply(first->b[k], second->A[k][j]));
-      for (int i = 0; i < 3; i++) r.A[i][j] = dd_add(r.A[i][j], dd_multiply(first->A[i][k], second->A[k][j]));
+      if (second->A[k][j].hi == 0) continue;
+      add_product(&r.b[j], first->b[k], second->A[k][j]);
+      for (int i = 0; i < 3; i++) add_product(&r.A[i][j], first->A[i][k], second->A[k][j]);
     }
   }
   return r;
@@ -74,9 +81,9 @@ void transform_direction(const struct transform *transform, const double p[3], d
 
 static struct transform *new_identity(struct language *language)
 {
-  struct transform *t = language_alloc(language, sizeof *t);
-  *t = transform_identity();
-  return t;
+  if (!language->transform) language->transform = language_alloc(language, sizeof *language->transform);
+  *language->transform = transform_identity();
+  return language->transform;
 }
 
 const struct transform *transform_translate(struct language *language, const struct value *value)
@@ -91,26 +98,41 @@ const struct transform *transform_translate(struct language *language, const str
   return t;
 }
 
-/* a / b to about 104 bits. */
-static struct double_double divide(struct double_double a, double b)
+/* (a + error) / b to about 104 bits, for an error no larger than the rounding of a. */
+static struct double_double divide(double a, double error, double b)
 {
-  const double q = a.hi / b;
-  const struct double_double left = dd_add(a, dd_negate(dd_two_product(q, b)));
-  return dd_normal(q, left.hi / b);
+  const double q = a / b;
+  const struct double_double back = dd_two_product(q, b);
+  return dd_normal(q, ((a - back.hi) - back.lo + error) / b);
 }
 
-/* Sum of x^n / n! with alternating signs over n = first, first + 2, ..., up to a term that is less than what rounds the
- * sum; for |x| <= pi/4 the 15th term is below 2^-106. */
-static struct double_double alternating(struct double_double x, int first)
+/* The sum of (-1)^n x^(2n+1) / (2n+1)! for |x| <= pi/4, up to a term that is less than what rounds the sum. From the
+ * first term below 2^-53 of the sum on they are doubles, whose own rounding is below 2^-106 of it. */
+static struct double_double sine(struct double_double x)
 {
-  enum { TERMS = 15 };
-  struct double_double term = first == 0 ? dd(1) : x, sum = term;
   const struct double_double square = dd_negate(dd_multiply(x, x));
-  for (int n = first + 1; n < 2 * TERMS && fabs(term.hi) > 0x1p-108 * fabs(sum.hi); n += 2) {
-    term = divide(dd_multiply(term, square), (double)(n * (n + 1)));
+  struct double_double term = x, sum = x;
+  int n = 2;
+  for (; fabs(term.hi) > 0x1p-53 * fabs(sum.hi); n += 2) {
+    term = dd_multiply(term, square);
+    term = divide(term.hi, term.lo, (double)(n * (n + 1)));
     sum = dd_add(sum, term);
   }
-  return sum;
+  double small = term.hi, tail = 0;
+  for (; fabs(small) > 0x1p-108 * fabs(sum.hi); n += 2) {
+    small *= square.hi / (double)(n * (n + 1));
+    tail += small;
+  }
+  return dd_normal(sum.hi, sum.lo + tail);
+}
+
+/* The cosine to that sine, which is at least sqrt(1/2): 1 - s^2 by one step of Newton's iteration. */
+static struct double_double cosine(struct double_double s)
+{
+  const struct double_double square = dd_add(dd(1), dd_negate(dd_multiply(s, s)));
+  const double root = sqrt(square.hi);
+  const struct double_double back = dd_two_product(root, root);
+  return dd_normal(root, ((square.hi - back.hi) - back.lo + square.lo) / (2 * root));
 }
 
 /* Sine and cosine of an angle in degrees; exact at multiples of 90. */
@@ -119,7 +141,7 @@ static void turn(double degrees, struct double_double *out_sin, struct double_do
   static const struct double_double radians_a_degree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
   int quarters;
   const double rest = remquo(degrees, 90, &quarters); /* exact, |rest| <= 45 */
-  const struct double_double x = dd_scale(radians_a_degree, rest), s = alternating(x, 1), c = alternating(x, 0);
+  const struct double_double s = sine(dd_scale(radians_a_degree, rest)), c = cosine(s);
   switch (quarters & 3) {
   case 0: *out_sin = s, *out_cos = c; break;
   case 1: *out_sin = c, *out_cos = dd_negate(s); break;

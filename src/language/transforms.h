@@ -24,7 +24,7 @@ bool transform_finite(const struct transform *transform);
 void transform_point(const struct transform *transform, const double p[3], double out[3]);
 void transform_direction(const struct transform *transform, const double p[3], double out[3]);
 
-/* The statements, in the reading's memory; the identity where an error has been told. */
+/* The statements, each until the next one; the identity where an error has been told. */
 const struct transform *transform_translate(struct language *language, const struct value *by);
 const struct transform *transform_rotate(struct language *language, const struct value *by);
 const struct transform *transform_scale(struct language *language, const struct value *by);
