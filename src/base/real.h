@@ -2,6 +2,7 @@
 #ifndef PSCN_BASE_REAL_H
 #define PSCN_BASE_REAL_H
 
+#include <float.h>
 #include <math.h>
 
 /* The unit roundoff of double: one operation is off by at most so much of its result. */
@@ -10,6 +11,12 @@
 /* The smaller and the larger of two doubles, as one instruction each. Unlike fmin and fmax: b where either is NaN. */
 static inline double real_min(double a, double b) { return a < b ? a : b; }
 static inline double real_max(double a, double b) { return a > b ? a : b; }
+
+/* 2^exponent, or the largest power of two that is a double. */
+static inline double real_power_of_two(int exponent)
+{
+  return ldexp(1, exponent < DBL_MAX_EXP ? exponent : DBL_MAX_EXP - 1);
+}
 
 /* x rounded to a multiple of the power of two `grain`. */
 static inline double real_coarse(double x, double grain) { return rint(x / grain) * grain; }

@@ -53,7 +53,7 @@ static void set_frame(struct model *model)
     model->origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
   int exponent;
   frexp(extent, &exponent); /* extent < 2^exponent */
-  model->frame = ldexp(1, exponent);
+  model->frame = real_power_of_two(exponent);
 }
 
 /* Patches and their leaves while they are made, by several threads where there are many. */

@@ -44,10 +44,10 @@ static double patch_frame(double P[4][4][3], double scene_size, struct model_pat
     largest = real_max(largest, real_max(fabs(lo[k]), fabs(hi[k])));
   }
   *rounded = false;
-  int exponent = 0;                         /* all of the scene is the origin: any scale will do */
-  if (extent > 0) frexp(extent, &exponent); /* extent < 2^exponent */
-  out->scale = ldexp(1, exponent + 1);      /* the center may be a grain off the middle */
-  const double unit = 1 / out->scale;       /* a power of two: so are products quotients */
+  int exponent = 0;                             /* all of the scene is the origin: any scale will do */
+  if (extent > 0) frexp(extent, &exponent);     /* extent < 2^exponent */
+  out->scale = real_power_of_two(exponent + 1); /* the center may be a grain off the middle */
+  const double unit = 1 / out->scale;           /* a power of two: so are products quotients */
   for (int k = 0; k < 3; k++) {
     const double middle = lo[k] / 2 + hi[k] / 2, grain = out->scale / 4;
     out->center[k] = fabs(middle) < grain * 0x1p50 ? real_coarse(middle, grain) : middle;
