@@ -93,7 +93,8 @@ struct camera_frame {
 static bool turn_frame(struct language *language, const struct camera_items *items, struct camera_frame *frame)
 {
   double across[3], sky[3], ahead[3], hand[3];
-  vector_subtract(items->item[CAMERA_LOOK_AT], items->item[CAMERA_LOCATION], ahead);
+  for (int k = 0; k < 3; k++) /* halves, for the difference may be no number */
+    ahead[k] = items->item[CAMERA_LOOK_AT][k] / 2 - items->item[CAMERA_LOCATION][k] / 2;
   if (!(unit(ahead, ahead) > 0)) {
     language_error(language, items->look_at_place, "the camera looks at its own location");
     return false;

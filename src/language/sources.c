@@ -230,7 +230,7 @@ static struct source *read_included(struct language *language, struct place plac
   if (known) source = source_share(known, path);
   else status = source_read(path, INPUT_FILE, &source, &reason);
   if (status == STATUS_FILE) {
-    language_tell(language, place, "cannot include '%s': %s", path, reason);
+    language_tell(language, place, "cannot include '%.300s': %s", path, reason);
     return NULL;
   }
   if (!source) {
