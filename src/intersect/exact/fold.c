@@ -123,17 +123,60 @@ static bool find(const struct powers *f, const struct powers *g, double m[2][2],
   return step <= FOLD_STEP && fabs(at[0]) <= FOLD_REACH && fabs(at[1]) <= FOLD_REACH;
 }
 
+/* The two combinations of a box: F, whose first derivatives vanish in the middle, as nearly as they can, and G across it.
+ * Sets row[k], F's and G's, of length 1; false where all of them vanish. */
+static bool combinations(struct box *box, double row[2][2], struct powers *f, struct powers *g)
+{
+  struct powers a, b;
+  powers_of(box->net[0], &a), powers_of(box->net[1], &b);
+  const bool by_y = fabs(b.c[0][1]) + fabs(a.c[0][1]) > fabs(b.c[1][0]) + fabs(a.c[1][0]);
+  const double p = by_y ? b.c[0][1] : b.c[1][0], q = by_y ? -a.c[0][1] : -a.c[1][0], length = sqrt(p * p + q * q);
+  if (!(length > 0)) return false;
+  row[0][0] = row[1][1] = p / length, row[0][1] = q / length, row[1][0] = -row[0][1];
+  combine(&a, &b, row[0][0], row[0][1], f), combine(&a, &b, row[1][0], row[1][1], g);
+  return true;
+}
+
+/* Roundings in the powers of F and G and in what is made of them, of the largest coefficient of a and b: 8 in each of the
+ * powers that sum up to 25, 3 in the combination, 6 in F - m G, 25 in a sum of all. */
+#define BENT_ROUNDINGS 2048
+
+/* The polynomial m, of degree 1, by which F - m G has as little of first and second derivatives in the middle as can be: all
+ * but those along G = 0. */
+static void bent_factor(const struct powers *f, const struct powers *g, double m[3])
+{
+  const double(*F)[4] = f->c, (*G)[4] = g->c;
+  const double x = G[1][0], y = G[0][1], square = x * x + y * y, start = (F[1][0] * x + F[0][1] * y) / square;
+  const double xx = F[2][0] - start * G[2][0], xy = F[1][1] - start * G[1][1], yy = F[0][2] - start * G[0][2];
+  const double across = (xx * x * x + xy * x * y + yy * y * y) / square;
+  const double twist = (2 * (yy - xx) * x * y + xy * (x * x - y * y)) / square;
+  m[1] = (across * x - twist * y) / square, m[2] = (across * y + twist * x) / square;
+  m[0] = start - G[0][0] * (m[1] * x + m[2] * y) / square;
+}
+
+bool fold_bent_apart(struct box *box, const double error[2])
+{
+  struct powers f, g;
+  double row[2][2], m[3], largest = 0, sum = 0, wider_f[5][5] = {{0}}, wider_g[6][6] = {{0}};
+  if (!combinations(box, row, &f, &g)) return false;
+  bent_factor(&f, &g, m);
+  for (int n = 0; n < 16; n++) {
+    wider_f[n / 4][n % 4] = f.c[n / 4][n % 4], wider_g[1 + n / 4][1 + n % 4] = g.c[n / 4][n % 4];
+    largest = real_max(largest, real_max(fabs(box->net[0][n / 4][n % 4]), fabs(box->net[1][n / 4][n % 4])));
+  }
+  for (int i = 0; i < 5; i++)
+    for (int j = 0; j < 5; j++)
+      sum += fabs(wider_f[i][j] - m[0] * wider_g[i + 1][j + 1] - m[1] * wider_g[i][j + 1] - m[2] * wider_g[i + 1][j]);
+  const double middle = fabs(f.c[0][0] - m[0] * g.c[0][0]), most = 1 + fabs(m[0]) + fabs(m[1]) + fabs(m[2]);
+  return 2 * middle > sum + most * (error[0] + error[1] + BENT_ROUNDINGS * UNIT_ROUNDOFF * largest);
+}
+
 bool fold_find(struct box *box, const double error[2], struct fold *out)
 {
-  struct powers a, b, f, g;
-  powers_of(box->net[0], &a), powers_of(box->net[1], &b);
-  /* F: the combination whose first derivatives vanish, as nearly as they can, in the middle. */
-  const bool by_y = fabs(b.c[0][1]) + fabs(a.c[0][1]) > fabs(b.c[1][0]) + fabs(a.c[1][0]);
-  double p = by_y ? b.c[0][1] : b.c[1][0], q = by_y ? -a.c[0][1] : -a.c[1][0];
-  const double length = sqrt(p * p + q * q);
-  if (!(length > 0)) return false;
-  p /= length, q /= length;
-  combine(&a, &b, p, q, &f), combine(&a, &b, -q, p, &g);
+  struct powers f, g;
+  double row[2][2];
+  if (!combinations(box, row, &f, &g)) return false;
+  const double p = row[0][0], q = row[0][1];
   out->at[0] = out->at[1] = 0;
   if (!find(&f, &g, out->m, out->at)) return false;
   struct derivatives most[2], here[2];

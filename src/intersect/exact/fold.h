@@ -44,6 +44,11 @@ struct fold {
   double uncertain; /* how far the fold may be from `at` */
 };
 
+/* Whether the box has no root, by a combination whose factor is not a number but a polynomial of degree 1: where the ray
+ * touches the surface along a direction in which that does not bend, no other one is far enough from 0. error: see
+ * box_test. */
+bool fold_bent_apart(struct box *box, const double error[2]);
+
 /* The fold of the box; false where the theorem does not hold, or none is in the box. error: see box_test. */
 bool fold_find(struct box *box, const double error[2], struct fold *out);
 

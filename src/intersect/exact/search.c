@@ -386,6 +386,7 @@ static bool box_decide(struct search *s, struct box *box)
     judge_root(s->judge, &found);
     return true;
   }
+  if (!s->dependent && fold_bent_apart(box, error)) return true;
   if (s->depth == 0 && border == NO_BORDER && !s->dependent && box_fold(s, box, error)) return true;
   const bool small = verdict != VERDICT_OPEN && box_small(s, box, verdict);
   if (verdict != VERDICT_OPEN && box_asks_zoom(s, box) && border == NO_BORDER && box_zoom(s, box)) return true;
