@@ -368,13 +368,28 @@ static double second_bound(fixed c[4][4])
   return sum;
 }
 
+/* What rounding may do in a row of M. */
+static double row_size(const struct zoom *zoom, const wide m[2])
+{
+  return (double)(wide_abs(m[0]) + wide_abs(m[1])) * zoom->error;
+}
+
+/* A bound on the second derivatives of the row's combination: that is much less than of a and b where these are nearly one. */
+static double row_bend(struct zoom *zoom, const wide m[2])
+{
+  const wide most = wide_max(wide_abs(m[0]), wide_abs(m[1]));
+  fixed row[4][4];
+  combine(zoom->power[0], zoom->power[1], fixed_from_wide(m[0] / most), fixed_from_wide(m[1] / most), row);
+  return (double)most * second_bound(row) + CERTIFICATE_SECOND * row_size(zoom, m);
+}
+
 /* Newton's process ends when a step is what rounding makes, or no shorter than half the one before. It starts within the
  * root's radius, where it converges quadratically but for the first few steps next to a pole. */
 enum { SHARPEN_STEPS = 24 };
 
 /* The process from (x,y): where it ends, its last step, and the rows of the inverse Jacobian there. These are wide: next
  * to a pole all of the determinant is small, and each row is right to its own last places. */
-static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, double m[2][2])
+static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide m[2][2])
 {
   static const fixed most = (fixed)((1 + 2 * LEAF_MARGIN) / FIXED_UNIT);
   double before = INFINITY;
@@ -391,11 +406,8 @@ static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, doub
     if (!(*out_step <= 4)) return false;
     *x -= fixed_from_wide(step_x), *y -= fixed_from_wide(step_y);
     if (!(fixed_size(*x) <= most && fixed_size(*y) <= most)) return false;
-    m[0][0] = (double)(b[2] * inverse), m[0][1] = (double)(-a[2] * inverse);
-    m[1][0] = (double)(-b[1] * inverse), m[1][1] = (double)(a[1] * inverse);
-    const double size_x = (fabs(m[0][0]) + fabs(m[0][1])) * zoom->error;
-    const double size_y = (fabs(m[1][0]) + fabs(m[1][1])) * zoom->error;
-    if (wide_abs(step_x) <= size_x && wide_abs(step_y) <= size_y) return true;
+    m[0][0] = b[2] * inverse, m[0][1] = -a[2] * inverse, m[1][0] = -b[1] * inverse, m[1][1] = a[1] * inverse;
+    if (wide_abs(step_x) <= row_size(zoom, m[0]) && wide_abs(step_y) <= row_size(zoom, m[1])) return true;
     if (n > 4 && *out_step > before / 2) return true;
     before = *out_step;
   }
@@ -405,26 +417,18 @@ static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, doub
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
 {
   fixed x = fixed_from_wide(2 * root->u - 1), y = fixed_from_wide(2 * root->v - 1);
-  double step, m[2][2], radius[2];
+  double step, radius[2];
+  wide m[2][2];
   if (!newton(zoom, &x, &y, &step, m)) return false;
-  const double second[2] = {second_bound(zoom->power[0]), second_bound(zoom->power[1])};
-  const double error = zoom->error;
-  double size = 0, bend = 0;
-  for (int k = 0; k < 2; k++) {
-    size = fmax(size, fabs(m[k][0]) + fabs(m[k][1]));
-    bend = fmax(bend, fabs(m[k][0]) * second[0] + fabs(m[k][1]) * second[1]);
-  }
+  const double sizes[2] = {row_size(zoom, m[0]), row_size(zoom, m[1])}, size = fmax(sizes[0], sizes[1]);
+  const double bends[2] = {row_bend(zoom, m[0]), row_bend(zoom, m[1])}, bend = fmax(bends[0], bends[1]);
   const wide u = (1 + fixed_wide(x)) / 2, v = (1 + fixed_wide(y)) / 2;
-  if (!certificate_holds(bend, step, size * error)) {
+  if (!certificate_holds(bend, step, size)) {
     if (wide_abs(u - root->u) <= root->radius_u && wide_abs(v - root->v) <= root->radius_v)
       root->u = u, root->v = v, root->t = zoom_t(zoom, u, v);
     return false;
   }
-  for (int k = 0; k < 2; k++)
-    radius[k] = certificate_radius(fabs(m[k][0]) * second[0] + fabs(m[k][1]) * second[1], step,
-                                   (fabs(m[k][0]) + fabs(m[k][1])) * error) /
-                  2 +
-                (double)WIDE_ROUNDOFF;
+  for (int k = 0; k < 2; k++) radius[k] = certificate_radius(bends[k], step, sizes[k]) / 2 + (double)WIDE_ROUNDOFF;
   /* Both enclosures hold one root each: it is the same where one holds the other. */
   if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
         (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))
