@@ -59,8 +59,9 @@ static fixed local(const struct model_patch *patch, double p, int c, double unit
   return fixed_from(x.hi / patch->scale * unit) + fixed_from(x.lo / patch->scale * unit);
 }
 
-/* Units go no farther either way. A ray with a larger moment passes any patch by, and so it does with MOST_MOMENT. */
-#define LARGEST_UNIT 0x1p300
+/* Units go no farther either way: the last places of the least doubles, so multiplied, are still less than FIXED_UNIT. A
+ * ray with a larger moment passes any patch by, and so it does with MOST_MOMENT. */
+#define LARGEST_UNIT 0x1p900
 
 /* The largest power of two that leaves none of x_i on the patch, the slope and the moment above 1. */
 static double unit_for(const struct model_patch *patch, double (*P)[4][3], int i, wide slope, wide moment)
