@@ -1,6 +1,7 @@
 /* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver, the
- * ray, `certain: yes` where the answer must be that too, `t: T` where it must be there, and `all: N` where there must be N
- * hits in all, certainly; judged by the exact judge. Every file is a scene that pscn and POV-Ray read. */
+ * ray, `from: T` where it begins there, `certain: yes` where the answer must be that too, `t: T` where it must be there, and
+ * `all: N` where there must be N hits in all, certainly; judged by the exact judge. Every file is a scene that pscn and
+ * POV-Ray read. */
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -41,10 +42,10 @@ static bool all_good(struct tracer *tracer, const struct ray *ray, const char *c
 
 static bool judged_good(const char *path)
 {
-  char solver[LINE_SIZE], text[LINE_SIZE], certain[LINE_SIZE], count[LINE_SIZE], t[LINE_SIZE];
-  header(path, "solver", solver), header(path, "ray", text), header(path, "certain", certain);
-  header(path, "all", count), header(path, "t", t);
-  struct ray ray = {.t_min = 0, .t_max = INFINITY};
+  char solver[LINE_SIZE], text[LINE_SIZE], from[LINE_SIZE], certain[LINE_SIZE], count[LINE_SIZE], t[LINE_SIZE];
+  header(path, "solver", solver), header(path, "ray", text), header(path, "from", from);
+  header(path, "certain", certain), header(path, "all", count), header(path, "t", t);
+  struct ray ray = {.t_min = from[0] ? strtod(from, NULL) : 0, .t_max = INFINITY};
   double *o = ray.origin, *d = ray.direction;
   assert_int_equal(sscanf(text, "%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]), 6);
   struct scene *scene = trial_load(path, solver[0] ? solver : NULL, 800, 600);
