@@ -15,6 +15,7 @@ top=$(cd "$here/../.." && pwd)
 build=$top/build-fuzz
 [ $# -gt 0 ] || set -- scene render solver rays polynomials options pictures
 
+export ASAN_OPTIONS=${ASAN_OPTIONS-intercept_tls_get_addr=0} # ../CMakeLists.txt says why
 cd "$top"
 cmake --preset fuzz >/dev/null
 nice cmake --build --preset fuzz --parallel 1 >/dev/null

@@ -19,7 +19,8 @@ done
 [ "$(env -i root/usr/bin/pscn --version)" = "pscn $(dpkg-deb -f pscn_*.deb Version)" ]
 
 cp "$PSCN_SOURCE_DIR/scenes/bent.pscn" .
-env -i ${LSAN_OPTIONS:+"LSAN_OPTIONS=$LSAN_OPTIONS"} LD_DEBUG=libs LD_DEBUG_OUTPUT=libs root/usr/bin/pscn render bent.pscn --size 40x30 -q
+env -i ${LSAN_OPTIONS:+"LSAN_OPTIONS=$LSAN_OPTIONS"} ${ASAN_OPTIONS:+"ASAN_OPTIONS=$ASAN_OPTIONS"} \
+  LD_DEBUG=libs LD_DEBUG_OUTPUT=libs root/usr/bin/pscn render bent.pscn --size 40x30 -q
 [ -s bent.png ] || { echo "there is no picture"; exit 1; }
 loaded=$(grep -ho 'calling init: .*pscn_openimageio.so' libs.*)
 [[ $loaded == *"$folder"/root/usr/* ]] || { echo "the module is another one: $loaded"; exit 1; }
