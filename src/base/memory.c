@@ -1,8 +1,13 @@
 /* Memory from the hooks of this thread. */
+#define _DEFAULT_SOURCE /* madvise */
 #include "base/memory.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+
+enum { HUGE_PAGE_BYTES = 1 << 21 };
 
 static _Thread_local struct memory_hooks hooks_now;
 
@@ -35,6 +40,18 @@ char *memory_copy_text(const char *text)
   const size_t size = strlen(text) + 1;
   char *copy = memory_resize(NULL, size);
   return copy ? memcpy(copy, text, size) : NULL;
+}
+
+void memory_used_anywhere(void *block, size_t size)
+{
+#if defined(MADV_HUGEPAGE)
+  const size_t before = -(uintptr_t)block % HUGE_PAGE_BYTES;
+  if (hooks_now.resize || size < before + HUGE_PAGE_BYTES) return;
+  const size_t whole = (size - before) / HUGE_PAGE_BYTES * HUGE_PAGE_BYTES;
+  (void)madvise((char *)block + before, whole, MADV_HUGEPAGE); /* where there are none, nothing comes of it */
+#else
+  (void)block, (void)size;
+#endif
 }
 
 void memory_free(void *block)

@@ -32,6 +32,10 @@ void *memory_resize(void *block, size_t size);
 /* A copy of the text, or NULL. */
 char *memory_copy_text(const char *text);
 
+/* Says of a block, or of a part of one, that it will be read here and there: that waits for the tables of where pages
+ * are, and of huge pages, which the system is asked for, there are fewer. What hooks gave is left alone. */
+void memory_used_anywhere(void *block, size_t size);
+
 /* What the same hooks gave. NULL is allowed. */
 void memory_free(void *block);
 

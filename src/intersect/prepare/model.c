@@ -66,7 +66,8 @@ struct making {
   size_t part, part_count; /* patches in a part */
   size_t *leaves;          /* in each part; then before it */
   struct bvh_box *boxes;
-  atomic_size_t taken; /* parts */
+  struct leaf_parts *parts; /* one for each leaf that is kept, if it has any */
+  atomic_size_t taken;      /* parts */
 };
 
 /* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
@@ -107,18 +108,16 @@ static enum status make_patches(void *context, size_t worker)
 }
 
 /* Leaves that are kept: from number l on those of patch p. */
-static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, size_t l, void *room[2])
+static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, size_t l, void **form)
 {
   struct model *model = m->model;
   struct model_patch *patch = &model->patches[p];
   for (int k = 0; k < patch->split[0] * patch->split[1]; k++, l++) {
     struct leaf *leaf = &model->leaves[l];
-    if (!next_room(arena, &room[0], sizeof *leaf->parts) || !next_room(arena, &room[1], sizeof *leaf->form))
-      return STATUS_LIMIT;
+    if (!next_room(arena, form, sizeof *leaf->form)) return STATUS_LIMIT;
     const struct leaf_place place = {(uint32_t)p, (uint16_t)(k / patch->split[1]), (uint16_t)(k % patch->split[1])};
-    leaf_make(patch, &place, leaf, room[0], room[1]);
-    if (leaf->parts) room[0] = NULL;
-    if (leaf->form) room[1] = NULL;
+    leaf_make(patch, &place, leaf, &m->parts[l], *form);
+    if (leaf->form) *form = NULL;
     leaf_box(model, patch, leaf->x, &m->boxes[l]);
   }
   return STATUS_OK;
@@ -143,13 +142,13 @@ static void place_leaves(struct making *m, size_t p, size_t l)
 static enum status make_leaves(void *context, size_t worker)
 {
   struct making *m = context;
-  void *room[2] = {NULL, NULL};
+  void *form = NULL;
   for (size_t part, p, end; take_part(m, &part, &p, &end);) {
     for (size_t l = m->leaves[part]; p < end; p++) {
       const struct model_cut *cut = &m->model->cuts[p];
       if (cut->copied) continue;
       if (!m->keep) place_leaves(m, p, l);
-      else if (keep_leaves(m, m->arenas[worker], p, l, room) != STATUS_OK) return STATUS_LIMIT;
+      else if (keep_leaves(m, m->arenas[worker], p, l, &form) != STATUS_OK) return STATUS_LIMIT;
       l += (size_t)cut->split[0] * cut->split[1];
     }
   }
@@ -195,6 +194,14 @@ static void end_making(struct making *m)
   memory_free(m->boxes);
 }
 
+/* Room for what rays come to in any order. */
+static void *alloc_for_rays(struct arena *arena, size_t count, size_t size)
+{
+  void *block = arena_alloc(arena, count, size);
+  if (block) memory_used_anywhere(block, count * size);
+  return block;
+}
+
 /* The leaves of patches and, behind them, the copies, in one hierarchy. Leaves are kept where that is wanted and they
  * are not too many; it makes rays a quarter faster, at 1.5 KB a patch of one leaf. */
 static enum status make_hierarchy(struct model *model, const struct team *team, int most, bool keep, size_t keep_most)
@@ -205,11 +212,16 @@ static enum status make_hierarchy(struct model *model, const struct team *team, 
   if (model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
   const size_t count = model->leaf_count + model->copy_count;
   m.boxes = memory_alloc(count + 1, sizeof *m.boxes);
-  if (m.keep) model->leaves = arena_alloc(model->arena, model->leaf_count + 1, sizeof *model->leaves);
-  else model->places = arena_alloc(model->arena, model->leaf_count, sizeof *model->places);
-  status = m.boxes && (m.keep ? (void *)model->leaves : (void *)model->places)
-             ? do_parts(&m, make_leaves, model->leaf_count)
-             : STATUS_LIMIT;
+  bool room = m.boxes;
+  if (m.keep) {
+    model->leaves = alloc_for_rays(model->arena, model->leaf_count + 1, sizeof *model->leaves);
+    m.parts = alloc_for_rays(model->arena, model->leaf_count + 1, sizeof *m.parts);
+    room = room && model->leaves && m.parts;
+  } else {
+    model->places = arena_alloc(model->arena, model->leaf_count, sizeof *model->places);
+    room = room && model->places;
+  }
+  status = room ? do_parts(&m, make_leaves, model->leaf_count) : STATUS_LIMIT;
   if (status != STATUS_OK) goto done;
   for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m.boxes[model->leaf_count + c]);
   status = tree_build(model->arena, m.boxes, count, model->origin, model->frame, team, &model->tree);
