@@ -157,6 +157,13 @@ text() {
     text["declared textures"] = "#declare Texture@ = texture { pigment { color rgb <0.3, 0.5, 0.@> } }\n"
     text["unions, 100 deep"] = opened patch " } " closed "\n"
     text["copies, moved"] = "object { Patch translate <@, 2, 3> }\n"
+    text["copies, turned"] = "object { Patch rotate <@, 2, 3> }\n"
+    for (k = 0; k < 30; k++) moved = moved " rotate <@, 2, 3> scale <1, 2, 3> translate <1, 2, 3>"
+    text["copies, 90 transforms each"] = "object { Patch" moved " }\n"
+    for (k = 0; k < 40; k++) sum = sum "+1*2-3/4"
+    text["expressions, a token a byte"] = "#declare Sum = " sum ";\n"
+    for (k = 0; k < 100; k++) { asked = asked "#ifdef (Patch) "; ended = ended "#end " }
+    text["conditions, 100 deep"] = asked ended "\n"
     text["comments"] = "// what this is about, in a line or two\n"
     text["blanks"] = "                                       \n"
     printf "#version 3.7;\n#declare Patch = %s }\n", patch
@@ -193,7 +200,8 @@ reading() {
   "$pscn" dump "$folder/field.pscn" >"$folder/text.pscn"
   reading canonical "$folder/text.pscn"
   for kind in 'patches, one line' 'patches, a number a line' 'declared numbers' 'declared textures' 'unions, 100 deep' \
-    'copies, moved' comments blanks; do
+    'copies, moved' 'copies, turned' 'copies, 90 transforms each' 'expressions, a token a byte' 'conditions, 100 deep' \
+    comments blanks; do
     text "$kind" >"$folder/text.pscn"
     reading "$kind" "$folder/text.pscn"
   done
