@@ -180,7 +180,7 @@ static enum status make_home(const struct povray *povray)
 enum status povray_open(struct povray *povray)
 {
   if (scratch_create(&povray->folder) != STATUS_OK)
-    return listener_fail(povray->listener, STATUS_FILE, "cannot make a temporary folder: %s", strerror(errno));
+    return listener_fail(povray->listener, STATUS_FILE, "cannot make a folder in $TMPDIR or /tmp: %s", strerror(errno));
   if (strchr(povray->program, '/') != NULL && povray->program[0] != '/') { /* it runs in another folder than ours */
     char here[SCRATCH_PATH_SIZE];
     const int length = getcwd(here, sizeof here) == NULL

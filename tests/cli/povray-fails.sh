@@ -48,3 +48,5 @@ for MODE in mute fails empty killed slow answers timeless talks; do
   grep -o 'POV-Ray failed[^<]*\|POV-Ray 3.7.0: errors' chart/chart.html
   ls -A tmp
 done
+echo "no room:"
+(export TMPDIR=$PWD/none MODE=answers; try pscn check "$scene" $small --povray ./povray -o out 2>&1)
