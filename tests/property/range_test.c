@@ -165,9 +165,31 @@ static void far_rays_pass_by_what_is_not_on_their_way(void **state)
   world_close(&world);
 }
 
+/* Where all points are the origin, which has no size to go by, rays beside it are not tried on any patch. */
+static void rays_pass_by_a_scene_of_one_point(void **state)
+{
+  (void)state;
+  static world_net nets[ACROSS];
+  struct random random = {SEED + 2};
+  struct world world;
+  world_open(&world, nets, ACROSS, NULL);
+  for (int n = 0; n < FAR_RAYS; n++) {
+    struct ray ray = {.t_max = INFINITY};
+    for (int k = 0; k < 3; k++)
+      ray.origin[k] = random_between(&random, -9, 9), ray.direction[k] = random_between(&random, -1, 1);
+    const struct hit hit = world_closest(&world, &ray);
+    assert_int_equal(hit.patch, HIT_NONE);
+    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+  }
+  assert_int_equal(tracer_counts(world.tracer)->escalated, 0);
+  assert_int_equal(tracer_counts(world.tracer)->patches_tested, 0);
+  world_close(&world);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(rays_and_patches_of_all_sizes),
-                                     cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way)};
+                                     cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way),
+                                     cmocka_unit_test(rays_pass_by_a_scene_of_one_point)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

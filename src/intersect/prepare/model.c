@@ -48,7 +48,7 @@ static void set_frame(struct model *model)
   }
   for (int k = 0; k < 3; k++) model->size = real_max(model->size, real_max(fabs(lo[k]), fabs(hi[k])));
   model->unproven |= model->size > LARGEST_SIZE;
-  double extent = real_max(LEAST_EXTENT * model->size, LEAST_FRAME);
+  double extent = model->size > 0 ? real_max(LEAST_EXTENT * model->size, LEAST_FRAME) : 1;
   for (int k = 0; k < 3; k++)
     model->origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
   int exponent;
