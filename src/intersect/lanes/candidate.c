@@ -15,6 +15,10 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   p->postponed->leaves += open; /* -1 each */
   const lane_mask worn = open & (p->postponed->leaves < 0);
   if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn)), open &= ~worn;
+  if (p->postponed->full) {
+    const lane_mask full = open & lanes_mask(p->postponed->full);
+    packet_postpone(p, it->leaf, full), open &= ~full;
+  }
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
   if (it->leaf->parts) {

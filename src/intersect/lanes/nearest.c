@@ -24,14 +24,15 @@ void packet_give_up(struct packet *p, unsigned worn)
   }
 }
 
-/* Counts the leaves left open. */
+/* Counts the leaves left open. All hits are not gathered any more after too many; else what comes then is left open too. */
 static void count_open(struct packet *p, lane_mask open)
 {
   const unsigned most = p->gather ? MOST_OPEN_OF_ALL : MOST_OPEN;
   unsigned worn = 0;
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1)
     if (++p->postponed->left[__builtin_ctz(bits)] > most) worn |= bits & -bits;
-  if (worn) packet_give_up(p, worn);
+  if (p->gather && worn) packet_give_up(p, worn);
+  else p->postponed->full |= worn;
 }
 
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)

@@ -19,7 +19,7 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
                   struct postponed *postponed)
 {
   p->postponed = postponed;
-  postponed->open = postponed->merged = postponed->crowded = postponed->cut_off = 0;
+  postponed->open = postponed->full = postponed->merged = postponed->crowded = postponed->cut_off = 0;
   memset(postponed->count, 0, sizeof postponed->count), memset(postponed->left, 0, sizeof postponed->left);
   postponed->splits = lanes_all(MOST_SPLITS), postponed->leaves = MOST_LEAVES + (lane_mask){0};
   p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;

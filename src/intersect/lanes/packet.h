@@ -43,17 +43,17 @@ struct line {
   lanes error;
 };
 
-/* What a ray may cost here before it is told as it is known then, grazing: leaves whose boxes it passes, those of them that are
- * left open (the last resort is worn out by then: judge.c JUDGE_WORK), and the splits of boxes that cover a leaf, after
- * which the last resort has what comes. A millisecond at most; where hits are gathered, which take their time themselves,
- * some more. */
+/* What a ray may cost here: leaves whose boxes it passes before it is told as it is known then, grazing; those of them that
+ * are left open, after which the others are left open as they are, for the last resort looks at all of a patch's at once
+ * (where hits are gathered they are told as known then); and the splits of boxes that cover a leaf, after which the last
+ * resort has what comes. A millisecond at most; where hits are gathered, which take their time themselves, some more. */
 enum { MOST_LEAVES = 2048, MOST_LEAVES_OF_ALL = 8192, MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
 
 /* What the lanes leave open, a list a lane. */
 struct postponed {
-  /* bit k, of lane k: it has a list; some of that was merged; merging once more would make too little room; there were
-   * more than there is room for */
-  unsigned open, merged, crowded, cut_off;
+  /* bit k, of lane k: it has a list; that has MOST_OPEN leaves; some of it was merged; merging once more would make too
+   * little room; there were more than there is room for */
+  unsigned open, full, merged, crowded, cut_off;
   unsigned count[LANES];
   lane_mask leaves;     /* how many more a ray may be tried on */
   unsigned left[LANES]; /* how many of them were left open */
