@@ -56,11 +56,17 @@ bool symbol_known(const struct language *language, const char *name, size_t leng
 
 /* ---- what is told of names ---- */
 
-void guess_symbols(struct guess *guess, const struct language *language)
+/* One reading looks for guesses among so many names and no more: half a second's work, where all of them are long. */
+enum { MOST_CONSIDERED = 100000 };
+
+void guess_symbols(struct guess *guess, struct language *language)
 {
-  const struct table *table = &language->symbols->table;
+  struct symbols *symbols = language->symbols;
+  const struct table *table = &symbols->table;
   for (size_t k = 0; k < table->size; k++) {
     for (const struct table_entry *entry = table->slots[k].newest; entry; entry = entry->older) {
+      if (symbols->considered == MOST_CONSIDERED) return;
+      symbols->considered++;
       const struct symbol *s = (const struct symbol *)entry;
       if (s->kind != SYMBOL_BEGUN && s->kind != SYMBOL_UNKNOWN) guess_consider(guess, s->name, s->length);
     }

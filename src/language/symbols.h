@@ -69,6 +69,7 @@ struct symbols {
   struct symbol *locals;     /* of the files being read, the newest first */
   struct missed *missed;     /* names that were unknown */
   struct declaration *ended; /* of values: for the next ones */
+  size_t considered;         /* for guesses */
   int depth;                 /* files that include the one being read */
 };
 
@@ -81,8 +82,8 @@ const struct symbol *symbol_find(const struct language *language, const char *na
 /* Whether #ifdef takes it for declared: from the = of its declaration on, as in POV-Ray. */
 bool symbol_known(const struct language *language, const char *name, size_t length);
 
-/* Considers all declared names. */
-void guess_symbols(struct guess *guess, const struct language *language);
+/* Considers all declared names, as long as there are not too many of them. */
+void guess_symbols(struct guess *guess, struct language *language);
 
 /* What a name that should stand for `wanted` does, if that is `kind`; else NULL, and that has been told. */
 const struct symbol *symbol_wanted(struct language *language, const struct token *name, enum symbol_kind kind,

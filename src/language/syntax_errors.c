@@ -62,7 +62,7 @@ static void list_expected(const char *const expected[], int count, char *out, si
 }
 
 /* The nearest of what the grammar could have gone on with, or else of all words and names. */
-static struct guess guess_meant(const struct language *language, const char *word, size_t length,
+static struct guess guess_meant(struct language *language, const char *word, size_t length,
                                 const char *const expected[], int count)
 {
   struct guess guess = guess_begin(word, length);

@@ -30,3 +30,11 @@ within pscn dump nuls
 truncate -s 4G empty.exr
 within pscn compare empty.exr empty.exr
 within pscn merge empty.exr -o merged.png
+# Of many names only so many are looked at for what an unknown one may have meant.
+many_names() {
+  awk 'BEGIN {
+    for (k = 0; k < 400000; k++) printf "#declare Name%034d = 1;\n", k
+    for (k = 0; k < 20; k++) printf "#declare Z = %c%036d;\n", 65 + k, 0
+  }'
+}
+many_names | within pscn dump - 2>&1 | grep -c 'is not declared\|exit 3'
