@@ -46,6 +46,39 @@ static void answers_do_not_depend_on_companions(void **state)
   on_all_stages(SEED, SCENES, companions);
 }
 
+/* Rays in all directions at so many leaves that they go through the hierarchy apart. */
+static void rays_apart_do_not_depend_on_companions(void **state)
+{
+  static world_net nets[WORLD_MAX];
+  struct random random = {SEED + 4};
+  struct world world;
+  struct method options;
+  int wrong = 0, hits = 0;
+  (void)state;
+  method_default(solver_find("bernstein", 9), &options);
+  options.split = 64;
+  const size_t count = world_fill(WORLD_GRID, &random, nets);
+  world_open(&world, nets, count, &options);
+  assert_true(world.tracer->model->leaf_count >= 1 << 14);
+  for (int n = 0; n < 60; n++) {
+    struct ray rays[PACKET_SIZE];
+    struct hit together[PACKET_SIZE];
+    bool occluded[PACKET_SIZE];
+    for (int k = 0; k < PACKET_SIZE; k++) rays[k] = world_ray(&random, nets, count, k % RAY_KINDS);
+    tracer_closest(world.tracer, PACKET_SIZE, rays, together);
+    tracer_occluded(world.tracer, PACKET_SIZE, rays, occluded);
+    for (int k = 0; k < PACKET_SIZE; k++) {
+      const struct hit alone = world_closest(&world, &rays[k]);
+      hits += alone.patch != HIT_NONE;
+      if (same_hit(&alone, &together[k]) && occluded[k] == (alone.patch != HIT_NONE)) continue;
+      if (wrong++ < 2) world_print_case("apart", WORLD_GRID, &rays[k], &alone, &together[k]);
+    }
+  }
+  world_close(&world);
+  assert_int_equal(wrong, 0);
+  assert_true(hits > 100);
+}
+
 /* Any hit is found exactly where a closest one is, alone and in company. */
 static void occlusion(struct set_up *s)
 {
@@ -156,6 +189,7 @@ int main(void)
   print_message("\n");
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(answers_do_not_depend_on_companions),
+    cmocka_unit_test(rays_apart_do_not_depend_on_companions),
     cmocka_unit_test(occluded_is_whether_there_is_a_hit),
     cmocka_unit_test(kernels_agree),
     cmocka_unit_test(answers_do_not_depend_on_the_order_of_patches),

@@ -227,7 +227,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
 {
   struct ray rays[LANES];
   struct packet p;
-  struct postponed postponed;
+  struct ready ready;
   struct bilinear_root root;
   if (!s->leaf->parts) return;
   static const double slants[] = {0.5, 0.2, 0.1, 0.05};
@@ -235,7 +235,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
   local_ray_make(&s->model->patches[s->leaf->patch], &s->ray, &s->local);
   truth_make(s->model, s->leaf, &s->ray, s->local.axis, &s->truth);
   for (int l = 0; l < LANES; l++) rays[l] = s->ray;
-  packet_start(&p, s->world.tracer, rays, LANES, false, &postponed);
+  packet_begin(&p, &ready, s->world.tracer, LANES, rays, false);
   packet_set_patch(&p, &s->model->patches[s->leaf->patch], s->leaf->patch);
   const int k = s->local.axis;
   assert_int_equal(packet_axis(&p, 0), k);

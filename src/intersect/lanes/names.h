@@ -6,7 +6,7 @@
 
 #include "base/kernel.h"
 
-#define packet_start KERNEL(packet_start)
+#define packet_begin KERNEL(packet_begin)
 #define packet_orient KERNEL(packet_orient)
 #define packet_set_patch KERNEL(packet_set_patch)
 #define packet_give_up KERNEL(packet_give_up)

@@ -15,8 +15,10 @@ static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(d
                 offsetof(struct ray, t_min) == 6 * sizeof(double),
               "read as two fours");
 
-void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
-                  struct postponed *postponed)
+/* The rays, of which there are LANES, those from `count` on as the first; of a single one there may be one. *postponed,
+ * which the packet borrows, is emptied. */
+static void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
+                         struct postponed *postponed)
 {
   p->postponed = postponed;
   postponed->open = postponed->full = postponed->merged = postponed->crowded = postponed->cut_off = 0;
@@ -31,6 +33,50 @@ void packet_start(struct packet *p, struct tracer *tracer, const struct ray *ray
   lanes_load4(&rays->direction[1], stride, &d[1], &d[2], &p->t_min, &p->t_max);
   p->t_far = p->t_max;
   packet_untried(p);
+}
+
+/* Directions whose longest component is outside these are scaled by a power of two to one from 1 to 2, so that no
+ * product over- or underflows and no t is larger than a distance: of a ray that starts at the end of the doubles any
+ * that is shorter than 1. */
+#define DIRECTION_MIN 0x1p-16
+#define DIRECTION_MAX 0x1p16
+#define ORIGIN_MAX 0x1p1000
+
+static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
+{
+  const double *d = ray->direction, *o = ray->origin, largest = fabs(d[dominant_axis(d)]);
+  const double least = fabs(o[dominant_axis(o)]) <= ORIGIN_MAX ? DIRECTION_MIN : 1;
+  struct ray r = *ray;
+  *out_exponent = 0;
+  if (largest >= least && largest <= DIRECTION_MAX) return r;
+  frexp(largest, out_exponent);
+  --*out_exponent;
+  for (int k = 0; k < 3; k++) r.direction[k] = ldexp(d[k], -*out_exponent);
+  r.t_min = ldexp(r.t_min, *out_exponent), r.t_max = ldexp(r.t_max, *out_exponent);
+  return r;
+}
+
+/* Out of line, for it is rare: the packet from copies of its rays. */
+__attribute__((noinline)) static void packet_copied(struct packet *p, struct ready *ready, struct tracer *tracer,
+                                                    size_t count, const struct ray rays[], bool any)
+{
+  ready->copied = true;
+  for (size_t l = 0; l < count; l++) ready->copy[l] = ray_scaled(&rays[l], &ready->exponent[l]);
+  for (size_t l = count; l < LANES; l++) ready->copy[l] = ready->copy[0];
+  packet_start(p, tracer, ready->copy, count, any, &ready->postponed);
+}
+
+void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[],
+                  bool any)
+{
+  ready->copied = false;
+  if (count == 1 || count == LANES) {
+    packet_start(p, tracer, rays, count, any, &ready->postponed);
+    lane_mask scaled = (p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX);
+    for (int k = 0; k < 3; k++) scaled |= lanes_abs(p->origin[k]) > ORIGIN_MAX;
+    if (!lanes_any(scaled)) return;
+  }
+  packet_copied(p, ready, tracer, count, rays, any);
 }
 
 void packet_orient(struct packet *p)

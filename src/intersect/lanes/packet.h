@@ -96,10 +96,18 @@ static inline int packet_axis(const struct packet *p, unsigned lane)
   return p->on_axis[0][lane] ? 0 : p->on_axis[1][lane] ? 1 : 2;
 }
 
-/* packet.c: the rays, of which there are LANES, those from `count` on as the first; of a single one there may be one.
- * *postponed, which the packet borrows, is emptied. */
-void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
-                  struct postponed *postponed);
+/* What a packet borrows: copies of its rays where some need scaling, or there are too few and not one; what it leaves
+ * open. */
+struct ready {
+  struct postponed postponed;
+  bool copied;
+  struct ray copy[LANES];
+  int exponent[LANES];
+};
+
+/* packet.c: up to LANES rays, none of which has hit anything yet. The packet borrows *ready. */
+void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[],
+                  bool any);
 
 /* No leaf has been tried on the rays, whose directions and ends are set. */
 LANES_INLINE void packet_untried(struct packet *p)

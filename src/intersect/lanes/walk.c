@@ -54,6 +54,7 @@ struct sides {
 struct view {
   float_lanes inverse[3], early[3], late[3], far;
   lanes start[2], unit[2]; /* of each packet: depth = t unit - start */
+  bool apart;              /* along each axis some rays go up and some down */
   bool alike;              /* all rays enter boxes by the same sides: */
   struct sides sides;
 };
@@ -111,7 +112,7 @@ __attribute__((noinline)) static void come_near(const struct packet *p, const st
 
 static void bundle_start(struct bundle *b, const struct model_tree *tree)
 {
-  b->view.alike = true;
+  b->view.alike = b->view.apart = true;
   const double to_frame = 1 / tree->frame; /* a power of two */
   lanes low[3][2], high[3][2], along[3][2];
   const int last = b->packets - 1;
@@ -147,7 +148,8 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
     const unsigned down = float_lanes_bits(d < 0);
     b->view.inverse[k] = inverse;
     b->view.early[k] = float_lanes_min(to_low, to_high), b->view.late[k] = float_lanes_max(to_low, to_high);
-    b->view.alike &= down == 0 || down == ALL_RAYS;
+    const bool same = down == 0 || down == ALL_RAYS;
+    b->view.alike &= same, b->view.apart &= !same;
     sides_set(&b->view.sides, k, down != 0);
   }
   bundle_update(b);
@@ -285,41 +287,83 @@ LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, 
   }
 }
 
-/* One ray through what is below `child`: four boxes at a time instead of all rays. */
-static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t child, unsigned lane)
-{
-  const struct ray_view ray = ray_view_of(&b->view, lane);
+/* One ray on its way through what is below some node. */
+struct ray_way {
+  struct ray_view ray;
+  unsigned lane;
+  uint32_t child; /* where it is */
+  size_t top;
   struct {
     float near;
     uint32_t child;
   } stack[BVH_STACK];
-  size_t top = 0;
-  for (;;) {
-    if (child & (uint32_t)BVH_LEAF) {
-      bundle_leaf(b, tree, child & ~(uint32_t)BVH_LEAF, 1u << lane);
-      if (!(b->live >> lane & 1)) return;
-    } else {
-      const struct bvh_node *node = &tree->bvh.nodes[child];
-      const size_t first = top;
-      float near[BVH_WIDTH];
-      for (unsigned bits = ray_boxes(&ray, b->view.far[lane], node, near); bits; bits &= bits - 1) {
-        const int side = __builtin_ctz(bits);
-        size_t n = top++; /* the nearest on top */
-        for (; n > first && stack[n - 1].near < near[side]; n--) stack[n] = stack[n - 1];
-        stack[n].near = near[side], stack[n].child = node->child[side];
-        fetch_child(b->packet[0].model, &tree->bvh, node->child[side]);
-      }
+};
+
+/* Four boxes at a time instead of all rays. Returns whether the ray goes on. */
+LANES_INLINE bool ray_step(struct bundle *b, const struct model_tree *tree, struct ray_way *way)
+{
+  if (way->child & (uint32_t)BVH_LEAF) {
+    bundle_leaf(b, tree, way->child & ~(uint32_t)BVH_LEAF, 1u << way->lane);
+    if (!(b->live >> way->lane & 1)) return false;
+  } else {
+    const struct bvh_node *node = &tree->bvh.nodes[way->child];
+    const size_t first = way->top;
+    float near[BVH_WIDTH];
+    for (unsigned bits = ray_boxes(&way->ray, b->view.far[way->lane], node, near); bits; bits &= bits - 1) {
+      const int side = __builtin_ctz(bits);
+      size_t n = way->top++; /* the nearest on top */
+      for (; n > first && way->stack[n - 1].near < near[side]; n--) way->stack[n] = way->stack[n - 1];
+      way->stack[n].near = near[side], way->stack[n].child = node->child[side];
+      fetch_child(b->packet[0].model, &tree->bvh, node->child[side]);
     }
-    do {
-      if (top == 0) return;
-      top--;
-    } while (stack[top].near > b->view.far[lane]);
-    child = stack[top].child;
   }
+  do {
+    if (way->top == 0) return false;
+    way->top--;
+  } while (way->stack[way->top].near > b->view.far[way->lane]);
+  way->child = way->stack[way->top].child;
+  return true;
+}
+
+LANES_INLINE void ray_begin(const struct bundle *b, uint32_t child, unsigned lane, struct ray_way *way)
+{
+  way->ray = ray_view_of(&b->view, lane), way->lane = lane, way->child = child, way->top = 0;
+}
+
+/* One ray through what is below `child`. */
+static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t child, unsigned lane)
+{
+  struct ray_way way;
+  ray_begin(b, child, lane, &way);
+  while (ray_step(b, tree, &way)) continue;
+}
+
+/* The rays through all of the tree, a step of each in turn: where one goes next is brought from memory while the others
+ * take their steps. Out of line for the room it takes. */
+__attribute__((noinline)) static void rays_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
+{
+  struct ray_way ways[FLOAT_LANES];
+  for (unsigned bits = rays; bits; bits &= bits - 1) {
+    const unsigned lane = (unsigned)__builtin_ctz(bits);
+    ray_begin(b, 0, lane, &ways[lane]);
+  }
+  while (rays)
+    for (unsigned bits = rays; bits; bits &= bits - 1)
+      if (!ray_step(b, tree, &ways[__builtin_ctz(bits)])) rays &= ~(bits & -bits);
 }
 
 /* So few rays go their ways one by one: four boxes for one of them are a third of the work of four boxes for all. */
 enum { FEW_TOGETHER = 3 };
+
+/* So many leaves, of some 1.1 KB each, are in no processor's own caches. Where the rays have nothing in common there,
+ * waiting for memory is more than what they could share. */
+enum { MANY_LEAVES = 1 << 14 };
+
+static bool rays_apart(const struct bundle *b)
+{
+  const struct model *model = b->packet[0].model;
+  return b->view.apart && model->leaves && model->leaf_count >= MANY_LEAVES && !b->packet[0].tracer->warm;
+}
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
@@ -334,6 +378,10 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   if (bvh->node_count == 0) return;
   const int few = b->packet[0].tracer->warm ? 1 : FEW_TOGETHER; /* warm starts go from ray to ray, all together */
   uint32_t child = 0;
+  if (rays_apart(b)) {
+    rays_walk(b, tree, rays);
+    return;
+  }
   for (;;) {
     if (child & (uint32_t)BVH_LEAF) {
       bundle_leaf(b, tree, child & ~(uint32_t)BVH_LEAF, rays);
@@ -365,59 +413,6 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
 }
 
 /* ---- the face ---- */
-
-/* Directions whose longest component is outside these are scaled by a power of two to one from 1 to 2, so that no
- * product over- or underflows and no t is larger than a distance: of a ray that starts at the end of the doubles any
- * that is shorter than 1. */
-#define DIRECTION_MIN 0x1p-16
-#define DIRECTION_MAX 0x1p16
-#define ORIGIN_MAX 0x1p1000
-
-static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
-{
-  const double *d = ray->direction, *o = ray->origin, largest = fabs(d[dominant_axis(d)]);
-  const double least = fabs(o[dominant_axis(o)]) <= ORIGIN_MAX ? DIRECTION_MIN : 1;
-  struct ray r = *ray;
-  *out_exponent = 0;
-  if (largest >= least && largest <= DIRECTION_MAX) return r;
-  frexp(largest, out_exponent);
-  --*out_exponent;
-  for (int k = 0; k < 3; k++) r.direction[k] = ldexp(d[k], -*out_exponent);
-  r.t_min = ldexp(r.t_min, *out_exponent), r.t_max = ldexp(r.t_max, *out_exponent);
-  return r;
-}
-
-/* What a packet borrows: copies of its rays where some need scaling, or there are too few and not one; what it leaves
- * open. */
-struct ready {
-  struct postponed postponed;
-  bool copied;
-  struct ray copy[LANES];
-  int exponent[LANES];
-};
-
-/* Out of line, for it is rare: the packet from copies of its rays. */
-__attribute__((noinline)) static void packet_copied(struct packet *p, struct ready *ready, struct tracer *tracer,
-                                                    size_t count, const struct ray rays[], bool any)
-{
-  ready->copied = true;
-  for (size_t l = 0; l < count; l++) ready->copy[l] = ray_scaled(&rays[l], &ready->exponent[l]);
-  for (size_t l = count; l < LANES; l++) ready->copy[l] = ready->copy[0];
-  packet_start(p, tracer, ready->copy, count, any, &ready->postponed);
-}
-
-static void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count,
-                         const struct ray rays[], bool any)
-{
-  ready->copied = false;
-  if (count == 1 || count == LANES) {
-    packet_start(p, tracer, rays, count, any, &ready->postponed);
-    lane_mask scaled = (p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX);
-    for (int k = 0; k < 3; k++) scaled |= lanes_abs(p->origin[k]) > ORIGIN_MAX;
-    if (!lanes_any(scaled)) return;
-  }
-  packet_copied(p, ready, tracer, count, rays, any);
-}
 
 static void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count,
                          const struct ray rays[], bool any)
