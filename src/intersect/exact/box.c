@@ -81,16 +81,16 @@ static bool box_prove(struct box *box, double m[2][2], const double error[2], bo
   if (!(out_u < BOX_MARGIN && out_v < BOX_MARGIN)) return false;
   const double growth = out_u > 0 || out_v > 0 ? BOX_MARGIN_GROWTH : 1;
   const double reach_u = 0.5 + fabs(root[0] - 0.5), reach_v = 0.5 + fabs(root[1] - 0.5);
-  double bend = 0, q = 0, size = 0;
+  double bends[2], sizes[2], q = 0;
   for (int k = 0; k < 2; k++) {
     double s[3];
     row_bends(box, m[k], s);
-    const double row_bend = growth * (s[0] + 2 * s[1] + s[2]);
-    const double row_size = fabs(m[k][0]) * error[0] + fabs(m[k][1]) * error[1];
-    bend = real_max(bend, row_bend), size = real_max(size, row_size);
+    bends[k] = growth * (s[0] + 2 * s[1] + s[2]);
+    sizes[k] = fabs(m[k][0]) * error[0] + fabs(m[k][1]) * error[1];
     q = real_max(q, growth * ((s[0] + s[1]) * reach_u + (s[1] + s[2]) * reach_v));
-    radius[k] = certificate_radius(row_bend, step, row_size);
   }
+  const double bend = real_max(bends[0], bends[1]), size = real_max(sizes[0], sizes[1]);
+  for (int k = 0; k < 2; k++) radius[k] = certificate_radius(bends[k], step + size, sizes[k]);
   return certificate_holds(bend, step, size) && (!alone || certificate_alone(q, size));
 }
 

@@ -429,7 +429,8 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
       root->u = u, root->v = v, root->t = zoom_t(zoom, u, v);
     return false;
   }
-  for (int k = 0; k < 2; k++) radius[k] = certificate_radius(bends[k], step, sizes[k]) / 2 + (double)WIDE_ROUNDOFF;
+  for (int k = 0; k < 2; k++)
+    radius[k] = certificate_radius(bends[k], step + size, sizes[k]) / 2 + (double)WIDE_ROUNDOFF;
   /* Both enclosures hold one root each: it is the same where one holds the other. */
   if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
         (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))

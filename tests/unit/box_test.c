@@ -1,0 +1,94 @@
+/* Boxes of the last resort: a root that is proven is within its radii, whatever the coefficients are off by. */
+#include "intersect/exact/box.h"
+
+#include <math.h>
+
+#include "base/real.h"
+#include "cmocka_test.h"
+#include "random.h"
+#include "reference/quad.h"
+
+enum { SEED = 20261122, CASES = 200000 };
+
+/* The two polynomials as they are, and in a box, off by up to error[k]. */
+struct subject {
+  struct quad_net truth[2];
+  double error[2];
+  struct box box;
+};
+
+/* With a second derivative by v and little else about v = c: there a surface that is seen edge-on along v is as good as
+ * parallel to the ray. */
+static double curved(int i, int j, double c, double bend)
+{
+  const double square[4] = {c * c, c * c - 2 * c / 3, c * c - 4 * c / 3 + 1.0 / 3, (1 - c) * (1 - c)};
+  return i / 3.0 + bend * square[j];
+}
+
+/* b is a small part of what it could be where the box is seen edge-on. */
+static void make(struct random *random, struct subject *s)
+{
+  const double bend = random_between(random, -1, 1), c = random_between(random, 0.1, 0.9);
+  const double tilt = pow(10, -random_between(random, 0, 12)), wild = pow(10, -random_between(random, 0, 12));
+  const int signs = (int)(random_bits(random) % 3); /* up, down, each its own way */
+  s->box = (struct box){.size_u = 1, .size_v = 1};
+  for (int k = 0; k < 2; k++) {
+    s->error[k] = pow(2, random_between(random, -52, -40));
+    for (int n = 0; n < 16; n++) {
+      const int i = n / 4, j = n % 4;
+      const double off = signs == 0 ? 1 : signs == 1 ? -1 : random_between(random, -1, 1);
+      double x = k ? tilt * (j / 3.0 - c) : curved(i, j, c, bend) - 0.5;
+      x += (k ? tilt : 1) * wild * random_between(random, -1, 1);
+      s->truth[k].c[i][j] = x;
+      s->box.net[k][i][j] = x + 0.99 * off * s->error[k];
+    }
+  }
+}
+
+/* Newton's process in quadruple precision. */
+static bool true_root(const struct subject *s, quad root[2])
+{
+  for (int n = 0; n < 30; n++) {
+    const struct quad_jet a = quad_net_jet(&s->truth[0], root[0], root[1]);
+    const struct quad_jet b = quad_net_jet(&s->truth[1], root[0], root[1]);
+    const quad determinant = a.du * b.dv - a.dv * b.du;
+    if (determinant == 0) return false;
+    const quad du = (a.value * b.dv - b.value * a.dv) / determinant;
+    const quad dv = (b.value * a.du - a.value * b.du) / determinant;
+    root[0] -= du, root[1] -= dv;
+    if (!(quad_abs(root[0]) < 2 && quad_abs(root[1]) < 2)) return false;
+    if (quad_abs(du) + quad_abs(dv) < 1e-30) return true;
+  }
+  return false;
+}
+
+static void a_proven_root_is_within_its_radii(void **state)
+{
+  (void)state;
+  struct random random = {SEED};
+  int proven = 0, edge_on = 0, wrong = 0;
+  for (int n = 0; n < CASES; n++) {
+    struct subject s;
+    double root[2] = {0.5, 0.5}, radius[2];
+    make(&random, &s);
+    if (!box_solve(&s.box, s.error, false, root, radius)) continue;
+    quad truth[2] = {root[0], root[1]};
+    const bool found = true_root(&s, truth);
+    proven++, edge_on += radius[1] > 1e-6;
+    for (int k = 0; k < 2; k++) {
+      const double off = (double)quad_abs(truth[k] - root[k]);
+      if (found && off <= radius[k] + 4 * UNIT_ROUNDOFF) continue;
+      if (wrong++ < 4)
+        print_message("case %d, parameter %d: off by %g, radius %g beside %g\n", n, k, off, radius[k], radius[!k]);
+    }
+  }
+  print_message("%d proven, %d of them edge-on\n", proven, edge_on);
+  assert_true(proven > CASES / 8 && edge_on > CASES / 100);
+  assert_int_equal(wrong, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_proven_root_is_within_its_radii)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
