@@ -52,6 +52,9 @@ enum { ROOTS_LANES_DEGREE = 18 };
 #define ROOTS_LONGEST 2.0
 /* And one that has not come to rest after so many steps goes round in a circle: it is turned about 0 by one radian. */
 enum { ROOTS_PATIENCE = 24 };
+/* All at once are mostly there after some ten sweeps; after so many some are multiple, and boxes and the last resort are
+ * sooner done. */
+enum { ROOTS_SWEEPS = 48 };
 
 struct roots_lanes {
   enum solver_lanes method;
@@ -61,6 +64,7 @@ struct roots_lanes {
   lane_mask moving[ROOTS_LANES_DEGREE];                 /* not found */
   lane_mask seeking;                                    /* lanes that are not done */
   lanes enough;                                         /* real roots in [-1,1] that are not found, at most */
+  lanes sweeps;                                         /* of all at once, each as dear as the degree squared */
 };
 
 /* 1/x to about 20 bits; 0 where x is above 1e38. */
@@ -396,6 +400,7 @@ LANES_INLINE void roots_lanes_at_once(struct roots_lanes *a, int n, double settl
     struct roots_lanes_value value[ROOTS_LANES_DEGREE + 1];
     struct roots_lanes_complex by[ROOTS_LANES_DEGREE];
     lane_mask any = {0};
+    a->sweeps += lanes_select(a->seeking, lanes_all(n * n), lanes_all(0));
     for (int k = 0; k < count; k += 2) {
       const int at[2] = {active[k], active[k + 1 < count ? k + 1 : k]};
       roots_lanes_evaluate(a, n, at, 2, false, value + k);
@@ -475,11 +480,12 @@ static void roots_lanes_in_turn(struct roots_lanes *a, double settled, int most)
  * `enough` real ones in [-1,1]: these are not `moving` any more. Returns the lanes where it has come to that. */
 static lane_mask roots_lanes_run(struct roots_lanes *a, lane_mask wanted, lanes enough, double settled, int most)
 {
-  a->seeking = wanted, a->enough = enough;
+  const int sweeps = most < ROOTS_SWEEPS ? most : ROOTS_SWEEPS;
+  a->seeking = wanted, a->enough = enough, a->sweeps = lanes_all(0);
   for (int i = 0; i < a->degree; i++) a->moving[i] = wanted;
   if (a->method == SOLVER_LANES_NEWTON || a->method == SOLVER_LANES_LAGUERRE) roots_lanes_in_turn(a, settled, most);
-  else if (a->degree == 2) roots_lanes_at_once(a, 2, settled, most);
-  else roots_lanes_at_once(a, a->degree, settled, most);
+  else if (a->degree == 2) roots_lanes_at_once(a, 2, settled, sweeps);
+  else roots_lanes_at_once(a, a->degree, settled, sweeps);
   return wanted & ~a->seeking;
 }
 
