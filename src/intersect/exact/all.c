@@ -201,19 +201,16 @@ static void sort(struct exact_list *list)
 }
 
 /* Whether a, which comes before b by t as it is known, is to stay before it. Of two roots that cannot be told
- * apart both are made sharp, as they are where the nearest of them is asked for. */
+ * apart each is made sharp where it can be, as they are where the nearest of them is asked for. */
 static bool in_order(struct judge *j, struct exact_found *a, struct exact_found *b)
 {
   if (a->kind == EXACT_OPEN || b->kind == EXACT_OPEN || !judge_tie(&a->root, &b->root)) return !(b->root.t < a->root.t);
   struct exact_root one = a->root, two = b->root;
-  if (!judge_sharpen(j, &one) || !judge_sharpen(j, &two)) {
-    j->doubt = true;
-    return by_t(a, b) <= 0;
-  }
-  a->root = one, b->root = two;
-  if (!judge_tie(&one, &two)) return one.t < two.t;
-  j->doubt |= !judge_tie_fine(j, &one, &two);
-  return !judge_stands_before(&two, &one);
+  if (judge_sharpen(j, &one)) a->root = one;
+  if (judge_sharpen(j, &two)) b->root = two;
+  if (!judge_tie(&a->root, &b->root)) return a->root.t < b->root.t;
+  j->doubt |= !judge_tie_fine(j, &a->root, &b->root);
+  return !judge_stands_before(&b->root, &a->root);
 }
 
 static void order(struct judge *j, size_t first, size_t end)
