@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "check/page.h"
-#include "language/table.h"
 
 /* What two parts of a picture have in common, and what a message calls it. */
 static const struct {
@@ -145,14 +144,23 @@ static enum status read_tiles(struct piece *piece)
   return STATUS_OK;
 }
 
+/* FNV-1a (Fowler, Noll, Vo; RFC 9923); the upper bits, which are the better ones, are folded down. */
+static uint64_t text_hash(const char *text, size_t length)
+{
+  uint64_t hash = UINT64_C(0xcbf29ce484222325);
+  for (size_t k = 0; k < length; k++) hash = (hash ^ (unsigned char)text[k]) * UINT64_C(0x100000001b3);
+  hash ^= hash >> 32;
+  return hash ? hash : 1;
+}
+
 /* What a part says of its own pixels, tiles and number, that a byte which has changed since is seen: as a text. The order of
  * the channels, which a file does not keep, is of no account. */
 static void make_sum(const struct image *image, const char *tile, size_t tile_length, const char *done,
                      size_t done_length, char out[SUM_SIZE])
 {
-  uint64_t sum = table_hash(tile, tile_length) + 2 * table_hash(done, done_length);
+  uint64_t sum = text_hash(tile, tile_length) + 2 * text_hash(done, done_length);
   for (size_t c = 0; c < image->channel_count; c++) {
-    uint64_t hash = table_hash(image->channel[c].name, strlen(image->channel[c].name));
+    uint64_t hash = text_hash(image->channel[c].name, strlen(image->channel[c].name));
     for (size_t k = c; k < image->width * image->height * image->channel_count; k += image->channel_count) {
       uint32_t bits;
       memcpy(&bits, &image->value[k], sizeof bits);

@@ -58,15 +58,14 @@ static bool intern(struct expansion *e, struct list *list, const void *item, uin
     *out = list->last_index;
     return true;
   }
-  const uint64_t hash = table_hash(item, list->size);
-  const struct table_entry *entry = table_find(&list->known, hash);
+  const struct table_entry *entry = table_find(&list->known, item, list->size);
   while (entry &&
          memcmp((char *)*list->items + ((const struct known *)entry)->index * list->size, item, list->size) != 0)
     entry = entry->older;
   if (!entry) {
     struct known *known = arena_alloc(e->language->arena, 1, sizeof *known);
     void *added = append(e->scene->arena, list);
-    if (!known || !added || !table_add(&list->known, e->language->arena, &known->entry, hash)) return false;
+    if (!known || !added || !table_add(&list->known, e->language->arena, &known->entry, item, list->size)) return false;
     memcpy(added, item, list->size);
     known->index = (uint32_t)(*list->count - 1);
     entry = &known->entry;

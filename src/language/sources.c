@@ -52,11 +52,6 @@ static hash_type hash_text(const struct source *source)
   return hash;
 }
 
-static uint64_t hash_of_file(uint64_t device, uint64_t inode)
-{
-  return table_hash((const uint64_t[]){device, inode}, 2 * sizeof(uint64_t));
-}
-
 /* So that it is found when it is included again, and destroyed at the end. */
 static bool remember(struct language *language, struct source *source)
 {
@@ -64,7 +59,8 @@ static bool remember(struct language *language, struct source *source)
   struct source_list *entry = language_alloc(language, sizeof *entry);
   if (language->ended_early || !language_afford(language, source->shared ? 0 : source->length)) return false;
   if (!source->shared && source->inode != 0 &&
-      !table_add(&sources->files, language->arena, &entry->entry, hash_of_file(source->device, source->inode)))
+      !table_add(&sources->files, language->arena, &entry->entry, (uint64_t[]){source->device, source->inode},
+                 2 * sizeof(uint64_t)))
     return false;
   entry->next = sources->all;
   entry->source = source;
@@ -194,7 +190,8 @@ static void tell_cycle(struct language *language, struct place place, const stru
 /* The first source of that file, if it has been read already. */
 static const struct source *known_file(const struct language *language, uint64_t device, uint64_t inode)
 {
-  const struct table_entry *entry = table_find(&language->sources->files, hash_of_file(device, inode));
+  const struct table_entry *entry = table_find(&language->sources->files, (uint64_t[]){device, inode},
+                                               2 * sizeof(uint64_t));
   for (; entry; entry = entry->older) {
     const struct source *source = ((const struct source_list *)entry)->source;
     if (source->device == device && source->inode == inode) return source;

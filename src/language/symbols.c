@@ -7,7 +7,7 @@
 static struct symbol *find(const struct symbols *symbols, const char *name, size_t length, int depth)
 {
   struct symbol *best = NULL;
-  struct table_entry *entry = table_find(&symbols->table, table_hash(name, length));
+  struct table_entry *entry = table_find(&symbols->table, name, length);
   for (; entry; entry = entry->older) {
     struct symbol *s = (struct symbol *)entry;
     if (s->length != length || memcmp(s->name, name, length) != 0) continue;
@@ -25,11 +25,14 @@ static struct symbol *add(struct language *language, const char *name, size_t le
   char *kept = language_afford(language, length) ? arena_alloc(language->arena, length, 1) : NULL;
   language->ended_early |= !kept;
   if (language->ended_early) return symbol;
-  *symbol = (struct symbol){
-    .name = memcpy(kept, name, length), .length = length, .depth = depth, .older = symbols->locals};
-  if (!table_add(&symbols->table, language->arena, &symbol->entry, table_hash(name, length)))
-    language->ended_early = true;
+  *symbol = (struct symbol){.name = memcpy(kept, name, length),
+                            .length = length,
+                            .depth = depth,
+                            .before = symbols->last,
+                            .older = symbols->locals};
+  if (!table_add(&symbols->table, language->arena, &symbol->entry, name, length)) language->ended_early = true;
   else if (depth > 0) symbols->locals = symbol;
+  symbols->last = symbol;
   return symbol;
 }
 
@@ -38,7 +41,7 @@ void symbols_enter(struct symbols *symbols) { symbols->depth++; }
 void symbols_leave(struct symbols *symbols)
 {
   for (; symbols->locals && symbols->locals->depth >= symbols->depth; symbols->locals = symbols->locals->older)
-    table_remove(&symbols->table, &symbols->locals->entry);
+    symbols->locals->kind = SYMBOL_UNKNOWN, table_remove(&symbols->table, &symbols->locals->entry);
   symbols->depth--;
 }
 
@@ -62,15 +65,9 @@ enum { MOST_CONSIDERED = 100000 };
 void guess_symbols(struct guess *guess, struct language *language)
 {
   struct symbols *symbols = language->symbols;
-  const struct table *table = &symbols->table;
-  for (size_t k = 0; k < table->size; k++) {
-    for (const struct table_entry *entry = table->slots[k].newest; entry; entry = entry->older) {
-      if (symbols->considered == MOST_CONSIDERED) return;
-      symbols->considered++;
-      const struct symbol *s = (const struct symbol *)entry;
-      if (s->kind != SYMBOL_BEGUN && s->kind != SYMBOL_UNKNOWN) guess_consider(guess, s->name, s->length);
-    }
-  }
+  const struct symbol *s = symbols->last;
+  for (; s && symbols->considered < MOST_CONSIDERED; s = s->before, symbols->considered++)
+    if (s->kind != SYMBOL_BEGUN && s->kind != SYMBOL_UNKNOWN) guess_consider(guess, s->name, s->length);
 }
 
 /* A name that is missing in many places is told once; how often is told at the end. */

@@ -46,7 +46,8 @@ struct missed {
 
 struct symbol {
   struct table_entry entry;
-  struct symbol *older; /* local before it */
+  struct symbol *before; /* of all names */
+  struct symbol *older;  /* local before it */
   const char *name;
   size_t length;
   int depth; /* 0: belongs to all; otherwise the include depth of its #local */
@@ -66,6 +67,7 @@ struct symbol {
 /* Zeroed: no names. */
 struct symbols {
   struct table table;
+  struct symbol *last;       /* of all names */
   struct symbol *locals;     /* of the files being read, the newest first */
   struct missed *missed;     /* names that were unknown */
   struct declaration *ended; /* of values: for the next ones */
@@ -82,7 +84,7 @@ const struct symbol *symbol_find(const struct language *language, const char *na
 /* Whether #ifdef takes it for declared: from the = of its declaration on, as in POV-Ray. */
 bool symbol_known(const struct language *language, const char *name, size_t length);
 
-/* Considers all declared names, as long as there are not too many of them. */
+/* Considers the declared names, the last one first, as long as there are not too many. */
 void guess_symbols(struct guess *guess, struct language *language);
 
 /* What a name that should stand for `wanted` does, if that is `kind`; else NULL, and that has been told. */

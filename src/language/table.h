@@ -1,7 +1,8 @@
-/* A hash table of things that begin with a table_entry: names, files, textures, solvers.
+/* A hash table of things that begin with a table_entry and are found by some bytes: names, files, textures, solvers.
  *
  * It lies in an arena, owns nothing, and grows with what is in it. Several entries may be equal; the newest is met
- * first.
+ * first. The hash has a random key, or a text could be made whose names all have one place: nothing may depend on the order in
+ * which entries lie in the table.
  */
 #ifndef PSCN_LANGUAGE_TABLE_H
 #define PSCN_LANGUAGE_TABLE_H
@@ -26,16 +27,14 @@ struct table_slot {
 struct table {
   struct table_slot *slots;
   size_t size, used; /* slots: a power of two, or 0; those that are not free */
+  uint64_t key;      /* of its hash, since there are slots */
 };
 
-/* Never 0. */
-uint64_t table_hash(const void *bytes, size_t length);
-
-/* The newest entry of that hash, or NULL. What else is equal the caller sees. */
-struct table_entry *table_find(const struct table *table, uint64_t hash);
+/* The newest entry whose bytes have the same hash, or NULL. What else is equal the caller sees. */
+struct table_entry *table_find(const struct table *table, const void *bytes, size_t length);
 
 /* False, and nothing added, where memory is short. */
-bool table_add(struct table *table, struct arena *arena, struct table_entry *entry, uint64_t hash);
+bool table_add(struct table *table, struct arena *arena, struct table_entry *entry, const void *bytes, size_t length);
 void table_remove(struct table *table, const struct table_entry *entry);
 
 #endif

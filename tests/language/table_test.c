@@ -1,0 +1,72 @@
+/* The table of names: what is put in is found, the newest first, whatever its bytes are; and where it lies nobody can tell
+ * beforehand, or a text could be made that takes the square of its length to read. */
+#include "language/table.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+
+enum { NAMES = 5000, LONGEST = 40 };
+
+struct item {
+  struct table_entry entry;
+  char name[LONGEST];
+  size_t length;
+};
+
+static struct item *find(const struct table *table, const char *name, size_t length)
+{
+  struct table_entry *entry = table_find(table, name, length);
+  while (entry && (((struct item *)entry)->length != length || memcmp(((struct item *)entry)->name, name, length) != 0))
+    entry = entry->older;
+  return (struct item *)entry;
+}
+
+static void test_found_again(void **state)
+{
+  (void)state;
+  static struct item items[NAMES], again[NAMES];
+  struct arena *arena = arena_create();
+  struct table table = {0};
+  assert_null(find(&table, "", 0));
+  for (int n = 0; n < NAMES; n++) { /* of all lengths, some nothing but NULs */
+    struct item *item = &items[n];
+    item->length = (size_t)(n % LONGEST);
+    if (n >= LONGEST) snprintf(item->name, LONGEST, "%0*d", (int)item->length, n);
+    if (item->length >= 7 || n < LONGEST) assert_null(find(&table, item->name, item->length));
+    assert_true(table_add(&table, arena, &item->entry, item->name, item->length));
+    assert_ptr_equal(find(&table, item->name, item->length), item);
+  }
+  for (int n = NAMES - 1; n >= 0; n--) {
+    struct item *item = &again[n];
+    *item = items[n];
+    assert_true(table_add(&table, arena, &item->entry, item->name, item->length));
+    assert_ptr_equal(find(&table, item->name, item->length), item);
+    table_remove(&table, &item->entry);
+    const struct item *found = find(&table, item->name, item->length);
+    assert_non_null(found);
+    assert_memory_equal(found->name, item->name, item->length);
+    if (item->length >= 7) assert_ptr_equal(found, &items[n]);
+  }
+  arena_destroy(arena);
+}
+
+static void test_no_two_tables_are_alike(void **state)
+{
+  (void)state;
+  struct arena *arena = arena_create();
+  struct table one = {0}, other = {0};
+  struct item a = {.name = "Name", .length = 4}, b = a;
+  assert_true(table_add(&one, arena, &a.entry, a.name, a.length));
+  assert_true(table_add(&other, arena, &b.entry, b.name, b.length));
+  assert_true(a.entry.hash != b.entry.hash);
+  arena_destroy(arena);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_found_again),
+                                     cmocka_unit_test(test_no_two_tables_are_alike)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
