@@ -75,7 +75,7 @@ static double depth_to_t(const struct search *s, double w)
 }
 
 /* What dw on x_k is on the ray. */
-static double length_to_t(const struct search *s, double dw) { return fabs(s->to_t) * (s->unit * dw); }
+static double length_to_t(const struct search *s, double dw) { return error_to_t(s->to_t, s->unit * dw); }
 
 /* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the
  * whole box's size. */

@@ -80,7 +80,9 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
   const double *d = ray->direction, rounding = 2 * FIXED_UNIT * ZOOM_ROUNDINGS * POWER_GROWTH * (MOST_MOMENT + 2);
   double *unit = out->unit;
   unit[2] = unit_for(patch, P, k, 0, 0);
-  out->error = 0, out->depth_error = rounding / unit[2];
+  bool still = true;
+  for (int n = 0; n < 16; n++) still &= P[n / 4][n % 4][k] == patch->center[k];
+  out->error = 0, out->depth_error = still ? 0 : rounding / unit[2];
   for (int n = 0; n < 16; n++) out->power[2][n / 4][n % 4] = local(patch, P[n / 4][n % 4][k], k, unit[2]);
   for (int s = 0; s < 2; s++) {
     const int i = (k + 1 + s) % 3;
@@ -445,7 +447,7 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
   /* The certificate's map contracts as far as bend |w - z| and rounding make less than 1, where bend holds. */
   const double here = fixed_double(fixed_max(fixed_size(x), fixed_size(y)));
   root->alone = fmax(fmin(0.5 / bend, 1 + 2 * LEAF_MARGIN - here) / 2 - step, 0);
-  root->t_error = fabs((double)zoom->to_t) * (off / zoom->unit[2] + zoom->depth_error) +
+  root->t_error = error_to_t((double)zoom->to_t, off / zoom->unit[2] + zoom->depth_error) +
                   8 * (double)(WIDE_ROUNDOFF * wide_abs(root->t));
   root->sharp = true;
   return true;

@@ -10,6 +10,9 @@
 #ifndef PSCN_INTERSECT_EXACT_ZOOM_H
 #define PSCN_INTERSECT_EXACT_ZOOM_H
 
+#include <float.h>
+#include <math.h>
+
 #include "base/fixed.h"
 #include "intersect/exact/exact.h"
 
@@ -21,8 +24,15 @@ struct zoom {
   wide origin;    /* (origin_k - center_k)/scale */
   wide to_t;      /* t = (x_k - origin) to_t */
   double error; /* bound on the rounding of a or b, so multiplied, on the patch, or of their coefficients over a box */
-  double depth_error; /* the same of x_k, as it is */
+  double depth_error; /* the same of x_k, as it is; 0 where that is known exactly */
 };
+
+/* What an error of x_k is of t: 0 only where it is. */
+static inline double error_to_t(double to_t, double error)
+{
+  const double of_t = fabs(to_t) * error;
+  return error > 0 && !(of_t > 0) ? DBL_TRUE_MIN : of_t;
+}
 
 /* What rounding may do in the frame of the patch. */
 static inline double zoom_error(const struct zoom *zoom)
