@@ -20,9 +20,9 @@ static uint64_t choose_key(void)
   return key % (PRIME - 1) + 1;
 }
 
-/* The bytes, seven at once, and their number are the coefficients of a polynomial, whose value at the key is the hash (Carter
- * and Wegman, Universal classes of hash functions, 1979): any two texts of up to n bytes have one hash for n / 7 + 1 of the 2^61
- * keys at most. Never 0. */
+/* The bytes, seven at once, and their number are the coefficients of a polynomial, whose value at the key is the hash
+ * (Carter and Wegman, Universal classes of hash functions, 1979): any two texts of up to n bytes have one hash for
+ * n / 7 + 1 of the 2^61 keys at most. Never 0. */
 static uint64_t hash_of(uint64_t key, const void *bytes, size_t length)
 {
   const unsigned char *byte = bytes;

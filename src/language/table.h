@@ -1,8 +1,8 @@
 /* A hash table of things that begin with a table_entry and are found by some bytes: names, files, textures, solvers.
  *
  * It lies in an arena, owns nothing, and grows with what is in it. Several entries may be equal; the newest is met
- * first. The hash has a random key, or a text could be made whose names all have one place: nothing may depend on the order in
- * which entries lie in the table.
+ * first. The hash has a random key, or a text could be made whose names all have one place: nothing may depend on the
+ * order in which entries lie in the table.
  */
 #ifndef PSCN_LANGUAGE_TABLE_H
 #define PSCN_LANGUAGE_TABLE_H
