@@ -83,7 +83,11 @@ static void block_add_line(struct block *block, struct place place, struct sourc
   size_t place_begin = place.begin < at.line_end ? place.begin : at.line_end;
   size_t place_end = place.end < at.line_end ? place.end : at.line_end;
   size_t begin = at.line_begin, column = at.column;
-  for (; column > SHOWN_BEFORE; column--) begin = step_forward(text, begin, at.line_end);
+  while (column > SHOWN_BEFORE) {
+    const size_t skipped = column - SHOWN_BEFORE < 8 ? 0 : source_skip(text + begin, at.line_end - begin);
+    begin = skipped ? begin + skipped : step_forward(text, begin, at.line_end);
+    column -= skipped ? skipped : 1;
+  }
   size_t end = begin;
   for (int shown = 0; end < at.line_end && shown < SHOWN_CHARACTERS; shown++)
     end = step_forward(text, end, at.line_end);

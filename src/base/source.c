@@ -193,24 +193,39 @@ bool source_is_shown(const char *text, size_t bytes)
 /* Whether a line ends with that byte: LF, or a CR that no LF follows. */
 static bool ends_line(const char *byte) { return *byte == '\n' || (*byte == '\r' && byte[1] != '\n'); }
 
+size_t source_skip(const char *text, size_t length)
+{
+  uint64_t eight;
+  if (length < sizeof eight) return 0;
+  memcpy(&eight, text, sizeof eight);
+  return eight & UINT64_C(0x8080808080808080) ? 0 : sizeof eight;
+}
+
+/* Line ends are counted in blocks of so many bytes, without a look at where they are; so many bytes of a line are looked at
+ * behind the place, more than are shown. */
+enum { COUNTED = 4096, LINE_AFTER = 4096 };
+
 struct source_position source_locate(const struct source *source, size_t offset)
 {
   const char *text = source->text;
   source_recall(source);
   if (offset > source->length) offset = source->length;
   struct source_position at = {.line = 1, .column = 1};
-  for (size_t i = 0; i < offset; i++) {
-    if (!ends_line(text + i)) continue;
-    at.line++;
-    at.line_begin = i + 1;
+  for (size_t begin = 0, end; begin < offset; begin = end) {
+    const size_t before = at.line;
+    end = offset - begin < COUNTED ? offset : begin + COUNTED;
+    for (size_t i = begin; i < end; i++) at.line += ends_line(text + i);
+    if (at.line > before) at.line_begin = end;
   }
+  while (at.line_begin > 0 && !ends_line(text + at.line_begin - 1)) at.line_begin--;
   at.line_end = offset;
-  while (at.line_end < source->length && !ends_line(text + at.line_end)) at.line_end++;
+  const size_t farthest = source->length - offset < LINE_AFTER ? source->length : offset + LINE_AFTER;
+  while (at.line_end < farthest && !ends_line(text + at.line_end)) at.line_end++;
   if (at.line_end > at.line_begin && text[at.line_end - 1] == '\r') at.line_end--;
   for (size_t i = at.line_begin; i < offset;) {
-    size_t bytes = source_character(text + i, source->length - i);
-    i += bytes ? bytes : 1;
-    at.column++;
+    const size_t skipped = source_skip(text + i, offset - i), bytes = source_character(text + i, source->length - i);
+    i += skipped ? skipped : bytes ? bytes : 1;
+    at.column += skipped ? skipped : 1;
   }
   return at;
 }

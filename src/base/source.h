@@ -62,9 +62,12 @@ struct source *source_from_text(const char *name, const char *text, size_t lengt
 /* Line and column of a byte, both from 1. Columns count characters: a UTF-8 sequence is one, so is a tab. */
 struct source_position {
   size_t line, column;
-  size_t line_begin, line_end; /* bytes of the line, without its line end */
+  size_t line_begin, line_end; /* bytes of the line, without its line end; of one that goes on for long, some */
 };
 struct source_position source_locate(const struct source *source, size_t offset);
+
+/* How many bytes may be passed at once that are as many characters: eight, or 0. */
+size_t source_skip(const char *text, size_t length);
 
 /* The length in bytes of the UTF-8 character at text[0 .. length-1], length >= 1; 0 where it is no well-formed one. */
 size_t source_character(const char *text, size_t length);
