@@ -80,9 +80,7 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
   const double *d = ray->direction, rounding = 2 * FIXED_UNIT * ZOOM_ROUNDINGS * POWER_GROWTH * (MOST_MOMENT + 2);
   double *unit = out->unit;
   unit[2] = unit_for(patch, P, k, 0, 0);
-  bool still = true;
-  for (int n = 0; n < 16; n++) still &= P[n / 4][n % 4][k] == patch->center[k];
-  out->error = 0, out->depth_error = still ? 0 : rounding / unit[2];
+  out->error = 0, out->depth_error = rounding / unit[2];
   for (int n = 0; n < 16; n++) out->power[2][n / 4][n % 4] = local(patch, P[n / 4][n % 4][k], k, unit[2]);
   for (int s = 0; s < 2; s++) {
     const int i = (k + 1 + s) % 3;

@@ -24,7 +24,7 @@ struct zoom {
   wide origin;    /* (origin_k - center_k)/scale */
   wide to_t;      /* t = (x_k - origin) to_t */
   double error; /* bound on the rounding of a or b, so multiplied, on the patch, or of their coefficients over a box */
-  double depth_error; /* the same of x_k, as it is; 0 where that is known exactly */
+  double depth_error; /* the same of x_k, as it is */
 };
 
 /* What an error of x_k is of t: 0 only where it is. */
