@@ -208,6 +208,49 @@ static void tangent_rings(struct random *random, size_t index, struct situation 
                  random_decade(random, 1, 18) * random_between(random, -1, 1), s, &s->rays[n]);
 }
 
+/* In the tangent plane at (u,v): what the surface bends there along du, along both and along dv, but for a factor. */
+static void bends(const struct situation *s, double u, double v, double du[3], double dv[3], double out[3])
+{
+  static const double h = 0x1p-16;
+  double before[2][3], behind[2][3], n[3], unused[3];
+  const double(*P)[4][3] = (const double(*)[4][3])s->P[0];
+  net_tangents(P, u, v, du, dv);
+  for (int axis = 0; axis < 3; axis++) {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    n[axis] = du[i] * dv[j] - du[j] * dv[i];
+  }
+  net_tangents(P, u - h, v, before[0], before[1]), net_tangents(P, u + h, v, behind[0], behind[1]);
+  out[0] = out[1] = out[2] = 0;
+  for (int k = 0; k < 2; k++)
+    for (int axis = 0; axis < 3; axis++) out[k] += (behind[k][axis] - before[k][axis]) * n[axis];
+  net_tangents(P, u, v - h, unused, before[1]), net_tangents(P, u, v + h, unused, behind[1]);
+  for (int axis = 0; axis < 3; axis++) out[2] += (behind[1][axis] - before[1][axis]) * n[axis];
+}
+
+/* The same, along a direction in which the surface does not bend, where it has one; half of the rays where that is the
+ * only one. They meet it as a cubic does 0, or a quartic. */
+static void unbent_tangents(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1;
+  gentle(random, index % 2 ? 1 : 0.1, s->P[0]);
+  for (int n = 0; n < RAYS; n++) {
+    double at[2], to[2], du[3], dv[3], b[3], d[3], point[3];
+    for (int k = 0; k < 2; k++) at[k] = random_unit(random), to[k] = random_unit(random);
+    bends(s, at[0], at[1], du, dv, b);
+    const bool saddle = b[1] * b[1] > b[0] * b[2];
+    for (int halving = 0; halving < 40 && n % 2; halving++) {
+      const double middle[2] = {(at[0] + to[0]) / 2, (at[1] + to[1]) / 2};
+      bends(s, middle[0], middle[1], du, dv, b);
+      memcpy((b[1] * b[1] > b[0] * b[2]) == saddle ? at : to, middle, sizeof at);
+    }
+    bends(s, at[0], at[1], du, dv, b);
+    const double along = -b[1] + sqrt(fmax(b[1] * b[1] - b[0] * b[2], 0));
+    net_point((const double(*)[4][3])s->P[0], at[0], at[1], point);
+    for (int axis = 0; axis < 3; axis++) d[axis] = (along * du[axis] + b[0] * dv[axis]) / (fabs(along) + fabs(b[0]));
+    ray_past(random, point, ring(random, size_of(s)), 1, d, &s->rays[n]);
+  }
+}
+
 /* Two patches with a row in common, and rays that touch one of them, or both, next to it. */
 static void creases(struct random *random, size_t index, struct situation *s)
 {
@@ -414,6 +457,7 @@ static const struct situation_class classes[] = {
   {"rings round cusps", 705, 0.3, cusp_rings},
   {"rings round rulings", 706, 0.1, ruling_rings},
   {"rings round tangencies", 707, 1, tangent_rings},
+  {"tangent where nothing bends", 729, 0.5, unbent_tangents},
   {"tangent at creases", 708, 1, creases},
   {"open borders", 709, 1, open_borders},
   {"nearly degenerate nets", 710, 0.3, degenerate},
@@ -445,4 +489,4 @@ const struct situation_class *every_class_at(size_t index)
   return index < first ? situation_class_at(index) : &classes[index - first];
 }
 
-bool class_told_only(const struct situation_class *class) { return class->generate == extreme_wild_sizes; }
+bool class_told_only(const struct situation_class *class) { return class->generate == unbent_tangents; }

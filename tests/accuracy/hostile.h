@@ -11,8 +11,8 @@
 size_t every_class_count(void);
 const struct situation_class *every_class_at(size_t index); /* index < the count */
 
-/* Coordinates of one patch spread over more decades than wide arithmetic has digits: what the exact judge finds of
- * grazing answers there is counted and printed, and proves no fault. */
+/* Tangencies of the third order and higher, where what one ray may cost ends before the roots are told apart: what the exact
+ * judge finds of grazing answers there is counted and printed, and proves no fault. */
 bool class_told_only(const struct situation_class *class);
 
 #endif
