@@ -48,13 +48,13 @@ static enum status grow_text(struct source *source, size_t *capacity, size_t wan
   return STATUS_OK;
 }
 
-/* Reads to the end of the file; the size known beforehand is only a guess. */
+/* Reads to the end of the file; the size known beforehand is only a guess, but if it is too large so is the file. */
 static enum status read_all(struct source *source, int file, size_t guess, const char **out_reason)
 {
   size_t capacity;
   if (grow_text(source, &capacity, guess) != STATUS_OK) return STATUS_LIMIT;
   for (;;) {
-    if (source->length > SOURCE_MAX_BYTES) {
+    if (source->length > SOURCE_MAX_BYTES || guess > SOURCE_MAX_BYTES + 1) {
       *out_reason = "it is longer than 1 GiB";
       return STATUS_LIMIT;
     }

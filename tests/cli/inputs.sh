@@ -30,6 +30,9 @@ within pscn dump nuls
 truncate -s 4G empty.exr
 within pscn compare empty.exr empty.exr
 within pscn merge empty.exr -o merged.png
+mv empty.exr long.pscn
+within pscn dump long.pscn
+echo '#include "long.pscn"' | within pscn dump -
 # Of many names only so many are looked at for what an unknown one may have meant.
 many_names() {
   awk 'BEGIN {
