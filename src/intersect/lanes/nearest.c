@@ -174,17 +174,31 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
   if (p->gather) gather_best(p, taken);
 }
 
+/* Lanes whose root, which the process on a nearly bilinear leaf ended at, is where it should be on the ray to 4 roundings
+ * of t. It is off by what its inverse Jacobian M makes of the roundings in the bend, 3 u of its second derivatives, and of
+ * what the last step leaves (LAST_STEP_CURVE); its radius is no less than 72 u |M| (PLANE_ERROR). Seen edge-on that can be
+ * far more than rounding the input makes, where the patch is thin. */
+LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candidate *it,
+                                     const struct bilinear_root *root)
+{
+  const struct leaf *leaf = it->leaf;
+  const double left = (leaf->second[0] + leaf->second[2]) / 16 + 0x1p-12;
+  const lanes reach = leaf->first[0] * root->at.radius_u + leaf->first[1] * root->at.radius_v;
+  return packet_has_digits(p, it->patch, root->t, NEAR_START_FINAL) &
+         (left * it->patch->scale * reach <= 4 * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
+}
+
 /* Keeps what a leaf's root says of the surface. */
-LANES_INLINE void packet_keep(struct packet *p, const struct model_patch *patch, const struct bilinear_root *root,
+LANES_INLINE void packet_keep(struct packet *p, const struct candidate *it, const struct bilinear_root *root,
                               lane_mask taken)
 {
+  const struct model_patch *patch = it->patch;
   struct best *best = &p->best;
   lanes normal[3];
   surface_cross(root->su, root->sv, normal);
   const lanes tangent = surface_tangent(root->su, root->sv);
   const int most = patch->split[0] > patch->split[1] ? patch->split[0] : patch->split[1];
   const struct surface_point point = surface_point(patch, root->point, most * tangent);
-  const lane_mask final = packet_has_digits(p, patch, root->t, NEAR_START_FINAL);
   for (int c = 0; c < 3; c++) {
     best->point.at[c] = lanes_select(taken, point.at[c], best->point.at[c]);
     best->normal[c] = lanes_select(taken, normal[c], best->normal[c]);
@@ -192,7 +206,7 @@ LANES_INLINE void packet_keep(struct packet *p, const struct model_patch *patch,
   best->tangent = lanes_select(taken, tangent, best->tangent);
   best->point.error = lanes_select(taken, point.error, best->point.error);
   best->point.clearance = lanes_select(taken, point.clearance, best->point.clearance);
-  best->final |= taken & final;
+  best->final |= taken & root_is_final(p, it, root);
 }
 
 void offer_bend_root(struct packet *p, const struct candidate *it, const struct bilinear_root *root, lane_mask hits)
@@ -200,6 +214,6 @@ void offer_bend_root(struct packet *p, const struct candidate *it, const struct 
   if (!lanes_any(hits)) return;
   const lane_mask taken = offer(p, it, &root->at, root->w, root->t, hits);
   if (!lanes_any(taken)) return;
-  if (it->leaf->parts->exact && !p->any && !p->outer) packet_keep(p, it->patch, root, taken);
+  if (it->leaf->parts->exact && !p->any && !p->outer) packet_keep(p, it, root, taken);
   if (p->gather) gather_best(p, taken);
 }
