@@ -260,7 +260,8 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
     /* A lane that is done stays where it is: what it gets then must not depend on the others. */
     s = lanes_select(moving, s - step_s, s), t = lanes_select(moving, t - step_t, t);
   }
-  out->at.u = (s - step_s) + 0.5, out->at.v = (t - step_t) + 0.5;
+  /* In this order nothing of a small parameter is lost. */
+  out->at.u = (s + 0.5) - step_s, out->at.v = (t + 0.5) - step_t;
   newton_prove(leaf, &m, line->slope, line->error, step, settled, &out->at);
   const lane_mask open = out->at.exists & ~out->at.alone;
   if (lanes_any(open)) out->at.alone |= open & alone_at(line, k, leaf, &m, &out->at, step, s, t);
