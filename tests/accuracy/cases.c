@@ -1,6 +1,6 @@
 /* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver, the
- * ray, `from: T` where it begins there, `certain: yes` where the answer must be that too, `t: T` where it must be there, and
- * `all: N` where there must be N hits in all, certainly; judged by the exact judge. Every file is a scene that pscn and
+ * ray, `from: T` where it begins there, `certain: yes` where the answer must be that too, `t: T` and `uv: U V` where it must be there,
+ * to the last places, and `all: N` where there must be N hits in all, certainly; judged by the exact judge. Every file is a scene that pscn and
  * POV-Ray read. */
 #include <dirent.h>
 #include <math.h>
@@ -17,7 +17,7 @@
 
 enum { LINE_SIZE = 512 };
 
-#define T_OFF 0x1p-50 /* a unit in the last place or two */
+#define OFF 0x1p-50 /* relative: a unit in the last place or two */
 
 /* The line that starts with `// KEY: `; its rest, or "". */
 static void header(const char *path, const char *key, char out[LINE_SIZE])
@@ -33,6 +33,15 @@ static void header(const char *path, const char *key, char out[LINE_SIZE])
   out[strcspn(out, "\n")] = 0;
 }
 
+/* Whether the numbers of `text`, if any, are these. */
+static bool numbers_are(const char *text, size_t count, const double x[])
+{
+  char *rest;
+  for (size_t k = 0; k < count && text[0]; k++, text = rest)
+    if (!(fabs(x[k] - strtod(text, &rest)) <= OFF * fabs(x[k]))) return false;
+  return true;
+}
+
 static bool all_good(struct tracer *tracer, const struct ray *ray, const char *count)
 {
   struct hit_list list;
@@ -42,9 +51,10 @@ static bool all_good(struct tracer *tracer, const struct ray *ray, const char *c
 
 static bool judged_good(const char *path)
 {
-  char solver[LINE_SIZE], text[LINE_SIZE], from[LINE_SIZE], certain[LINE_SIZE], count[LINE_SIZE], t[LINE_SIZE];
+  char solver[LINE_SIZE], text[LINE_SIZE], from[LINE_SIZE], certain[LINE_SIZE], count[LINE_SIZE], t[LINE_SIZE],
+    uv[LINE_SIZE];
   header(path, "solver", solver), header(path, "ray", text), header(path, "from", from);
-  header(path, "certain", certain), header(path, "all", count), header(path, "t", t);
+  header(path, "certain", certain), header(path, "all", count), header(path, "t", t), header(path, "uv", uv);
   struct ray ray = {.t_min = from[0] ? strtod(from, NULL) : 0, .t_max = INFINITY};
   double *o = ray.origin, *d = ray.direction;
   assert_int_equal(sscanf(text, "%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]), 6);
@@ -60,8 +70,8 @@ static bool judged_good(const char *path)
   certify(&certifier, &ray, &hit, &certificate);
   const bool all = all_good(trial.tracer, &ray, count);
   const bool good = all && certificate.finding <= FINDING_UNDECIDED &&
-                    (!certain[0] || hit.certainty == CERTAINTY_CERTAIN) &&
-                    (!t[0] || fabs(hit.t - strtod(t, NULL)) <= T_OFF * hit.t);
+                    (!certain[0] || hit.certainty == CERTAINTY_CERTAIN) && numbers_are(t, 1, &hit.t) &&
+                    numbers_are(uv, 2, (double[]){hit.u, hit.v});
   if (!good)
     printf("%s:%s %s, %s\n", strrchr(path, '/') + 1, all ? "" : " not all, or grazing;",
            hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[certificate.finding]);
