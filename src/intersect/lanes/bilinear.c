@@ -236,6 +236,13 @@ LANES_INLINE lane_mask alone_at(const struct line *line, int axis, const struct 
   return (u.least > 0) & (v.least > 0) & (u.least * v.least > (1 + 8 * UNIT_ROUNDOFF) * (u.cross * v.cross));
 }
 
+/* 1/2 + s - step to one rounding, so that nothing of a small parameter is lost. */
+LANES_INLINE lanes from_middle(lanes s, lanes step)
+{
+  const lanes moved = 0.5 + s;
+  return moved + ((s - (moved - 0.5)) - step);
+}
+
 void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2],
                          lane_mask active, struct bilinear_root *out)
 {
@@ -260,8 +267,7 @@ void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int ax
     /* A lane that is done stays where it is: what it gets then must not depend on the others. */
     s = lanes_select(moving, s - step_s, s), t = lanes_select(moving, t - step_t, t);
   }
-  /* In this order nothing of a small parameter is lost. */
-  out->at.u = (s + 0.5) - step_s, out->at.v = (t + 0.5) - step_t;
+  out->at.u = from_middle(s, step_s), out->at.v = from_middle(t, step_t);
   newton_prove(leaf, &m, line->slope, line->error, step, settled, &out->at);
   const lane_mask open = out->at.exists & ~out->at.alone;
   if (lanes_any(open)) out->at.alone |= open & alone_at(line, k, leaf, &m, &out->at, step, s, t);
