@@ -144,13 +144,17 @@ static enum status read_tiles(struct piece *piece)
   return STATUS_OK;
 }
 
-/* FNV-1a (Fowler, Noll, Vo; RFC 9923); the upper bits, which are the better ones, are folded down. */
-static uint64_t text_hash(const char *text, size_t length)
+/* FNV-1a (Fowler, Noll, Vo; RFC 9923), a word at a time too: no two words give one hash. */
+static uint64_t hash_add(uint64_t hash, uint32_t word) { return (hash ^ word) * UINT64_C(0x100000001b3); }
+
+/* The upper bits are the better ones. */
+static uint64_t hash_fold(uint64_t hash) { return hash ^ hash >> 32; }
+
+static uint64_t hash_text(const char *text, size_t length)
 {
   uint64_t hash = UINT64_C(0xcbf29ce484222325);
-  for (size_t k = 0; k < length; k++) hash = (hash ^ (unsigned char)text[k]) * UINT64_C(0x100000001b3);
-  hash ^= hash >> 32;
-  return hash ? hash : 1;
+  for (size_t k = 0; k < length; k++) hash = hash_add(hash, (unsigned char)text[k]);
+  return hash_fold(hash);
 }
 
 /* What a part says of its own pixels, tiles and number, that a byte which has changed since is seen: as a text. The order of
@@ -158,15 +162,15 @@ static uint64_t text_hash(const char *text, size_t length)
 static void make_sum(const struct image *image, const char *tile, size_t tile_length, const char *done,
                      size_t done_length, char out[SUM_SIZE])
 {
-  uint64_t sum = text_hash(tile, tile_length) + 2 * text_hash(done, done_length);
+  uint64_t sum = hash_text(tile, tile_length) + 2 * hash_text(done, done_length);
   for (size_t c = 0; c < image->channel_count; c++) {
-    uint64_t hash = text_hash(image->channel[c].name, strlen(image->channel[c].name));
+    uint64_t hash = hash_text(image->channel[c].name, strlen(image->channel[c].name));
     for (size_t k = c; k < image->width * image->height * image->channel_count; k += image->channel_count) {
       uint32_t bits;
       memcpy(&bits, &image->value[k], sizeof bits);
-      hash = (hash ^ bits) * UINT64_C(0x100000001b3); /* FNV-1a by words: no two values give one hash */
+      hash = hash_add(hash, bits);
     }
-    sum += hash ^ hash >> 32;
+    sum += hash_fold(hash);
   }
   snprintf(out, SUM_SIZE, "%016" PRIx64, sum);
 }

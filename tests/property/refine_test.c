@@ -4,7 +4,7 @@
 #include "cmocka_test.h"
 #include "intersect/lanes/bilinear.h"
 #include "property/world.h"
-#include "reference/quad.h"
+#include "quad_root.h"
 
 enum { SEED = 20240513, CASES = 12000 };
 
@@ -37,22 +37,6 @@ static void truth_make(const struct model *model, const struct leaf *leaf, const
     for (int n = 0; n < 16; n++)
       out->net[s].c[n / 4][n % 4] = x[i].c[n / 4][n % 4] - slope * x[k].c[n / 4][n % 4] - out->moment[s];
   }
-}
-
-/* Newton in quadruple precision; returns whether it came to rest. */
-static bool quad_newton(const struct truth *truth, quad *u, quad *v)
-{
-  for (int n = 0; n < 40; n++) {
-    const struct quad_jet a = quad_net_jet(&truth->net[0], *u, *v), b = quad_net_jet(&truth->net[1], *u, *v);
-    const quad determinant = a.du * b.dv - a.dv * b.du;
-    if (determinant == 0) return false;
-    const quad du = (a.value * b.dv - b.value * a.dv) / determinant,
-               dv = (b.value * a.du - a.value * b.du) / determinant;
-    *u -= du, *v -= dv;
-    if (!(quad_abs(*u) < 3 && quad_abs(*v) < 3)) return false;
-    if (quad_abs(du) + quad_abs(dv) < 1e-28) return true;
-  }
-  return false;
 }
 
 struct subject {
@@ -151,7 +135,7 @@ static bool check_root(const struct truth *truth, const struct newton_root *r, s
   if (!(lanes_bits(r->exists) & 1)) return false;
   tally->exist++;
   *u = r->u[0], *v = r->v[0];
-  if (!quad_newton(truth, u, v)) {
+  if (!quad_root(truth->net, u, v)) {
     tally->outside_radius++;
     return false;
   }
@@ -162,7 +146,7 @@ static bool check_root(const struct truth *truth, const struct newton_root *r, s
   tally->alone++;
   for (int n = 0; n < 25; n++) { /* no second root, from wherever it is looked for */
     quad x = (n % 5 + random_unit(random)) / 5, y = (n / 5 + random_unit(random)) / 5;
-    if (!quad_newton(truth, &x, &y)) continue;
+    if (!quad_root(truth->net, &x, &y)) continue;
     if (x < 0 || x > 1 || y < 0 || y > 1) continue;
     if (quad_abs(x - *u) > 1e-20 || quad_abs(y - *v) > 1e-20) tally->not_alone++;
   }

@@ -5,8 +5,8 @@
 
 #include "base/real.h"
 #include "cmocka_test.h"
+#include "quad_root.h"
 #include "random.h"
-#include "reference/quad.h"
 
 enum { SEED = 20261122, CASES = 200000 };
 
@@ -45,23 +45,6 @@ static void make(struct random *random, struct subject *s)
   }
 }
 
-/* Newton's process in quadruple precision. */
-static bool true_root(const struct subject *s, quad root[2])
-{
-  for (int n = 0; n < 30; n++) {
-    const struct quad_jet a = quad_net_jet(&s->truth[0], root[0], root[1]);
-    const struct quad_jet b = quad_net_jet(&s->truth[1], root[0], root[1]);
-    const quad determinant = a.du * b.dv - a.dv * b.du;
-    if (determinant == 0) return false;
-    const quad du = (a.value * b.dv - b.value * a.dv) / determinant;
-    const quad dv = (b.value * a.du - a.value * b.du) / determinant;
-    root[0] -= du, root[1] -= dv;
-    if (!(quad_abs(root[0]) < 2 && quad_abs(root[1]) < 2)) return false;
-    if (quad_abs(du) + quad_abs(dv) < 1e-30) return true;
-  }
-  return false;
-}
-
 static void a_proven_root_is_within_its_radii(void **state)
 {
   (void)state;
@@ -73,7 +56,7 @@ static void a_proven_root_is_within_its_radii(void **state)
     make(&random, &s);
     if (!box_solve(&s.box, s.error, false, root, radius)) continue;
     quad truth[2] = {root[0], root[1]};
-    const bool found = true_root(&s, truth);
+    const bool found = quad_root(s.truth, &truth[0], &truth[1]);
     proven++, edge_on += radius[1] > 1e-6;
     for (int k = 0; k < 2; k++) {
       const double off = (double)quad_abs(truth[k] - root[k]);

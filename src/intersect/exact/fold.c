@@ -6,12 +6,7 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 
-/* A polynomial as powers of x and y in [-1,1], the box. */
-struct powers {
-  double c[4][4];
-};
-
-/* Its derivatives, or bounds on them: out[i][j], i times by x and j times by y. */
+/* A polynomial's derivatives, or bounds on them: out[i][j], i times by x and j times by y. */
 struct derivatives {
   double d[4][4];
 };
@@ -23,14 +18,15 @@ static void to_powers(double *b, int stride)
   b[2 * stride] = 0.375 * ((b0 + b3) - (b1 + b2)), b[3 * stride] = 0.125 * ((b3 - b0) - 3 * (b2 - b1));
 }
 
-static void powers_of(double net[4][4], struct powers *out)
+static void powers_of(double net[4][4], struct fold_powers *out)
 {
   for (int n = 0; n < 16; n++) out->c[n / 4][n % 4] = net[n / 4][n % 4];
   for (int n = 0; n < 4; n++) to_powers(out->c[n], 1);
   for (int n = 0; n < 4; n++) to_powers(&out->c[0][n], 4);
 }
 
-static void combine(const struct powers *a, const struct powers *b, double p, double q, struct powers *out)
+static void combine(const struct fold_powers *a, const struct fold_powers *b, double p, double q,
+                    struct fold_powers *out)
 {
   for (int n = 0; n < 16; n++) out->c[n / 4][n % 4] = p * a->c[n / 4][n % 4] + q * b->c[n / 4][n % 4];
 }
@@ -42,7 +38,7 @@ static void cubic_derivatives(const double c[4], double x, double out[4])
   out[2] = 6 * c[3] * x + 2 * c[2], out[3] = 6 * c[3];
 }
 
-static void derive(const struct powers *p, double x, double y, struct derivatives *out)
+static void derive(const struct fold_powers *p, double x, double y, struct derivatives *out)
 {
   double rows[4][4], column[4], values[4];
   for (int i = 0; i < 4; i++) cubic_derivatives(p->c[i], y, rows[i]);
@@ -54,9 +50,9 @@ static void derive(const struct powers *p, double x, double y, struct derivative
 }
 
 /* Bounds on the larger box. */
-static void bound(const struct powers *p, struct derivatives *out)
+static void bound(const struct fold_powers *p, struct derivatives *out)
 {
-  struct powers sizes;
+  struct fold_powers sizes;
   for (int n = 0; n < 16; n++) sizes.c[n / 4][n % 4] = fabs(p->c[n / 4][n % 4]);
   derive(&sizes, 2, 2, out);
 }
@@ -105,7 +101,7 @@ static bool invert(const double g[3], const double d[3], double m[2][2])
 #define FOLD_STEP 0x1p-27
 enum { FOLD_STEPS = 8 };
 
-static bool find(const struct powers *f, const struct powers *g, double m[2][2], double at[2])
+static bool find(const struct fold_powers *f, const struct fold_powers *g, double m[2][2], double at[2])
 {
   double step = 1;
   for (int n = 0; n < FOLD_STEPS && step > FOLD_STEP; n++) {
@@ -123,18 +119,17 @@ static bool find(const struct powers *f, const struct powers *g, double m[2][2],
   return step <= FOLD_STEP && fabs(at[0]) <= FOLD_REACH && fabs(at[1]) <= FOLD_REACH;
 }
 
-/* The two combinations of a box: F, whose first derivatives vanish in the middle, as nearly as they can, and G across it.
- * Sets row[k], F's and G's, of length 1; false where all of them vanish. */
-static bool combinations(struct box *box, double row[2][2], struct powers *f, struct powers *g)
+void fold_combine(struct box *box, struct fold_pair *out)
 {
-  struct powers a, b;
+  struct fold_powers a, b;
   powers_of(box->net[0], &a), powers_of(box->net[1], &b);
   const bool by_y = fabs(b.c[0][1]) + fabs(a.c[0][1]) > fabs(b.c[1][0]) + fabs(a.c[1][0]);
   const double p = by_y ? b.c[0][1] : b.c[1][0], q = by_y ? -a.c[0][1] : -a.c[1][0], length = sqrt(p * p + q * q);
-  if (!(length > 0)) return false;
+  out->any = length > 0;
+  if (!out->any) return;
+  double(*row)[2] = out->row;
   row[0][0] = row[1][1] = p / length, row[0][1] = q / length, row[1][0] = -row[0][1];
-  combine(&a, &b, row[0][0], row[0][1], f), combine(&a, &b, row[1][0], row[1][1], g);
-  return true;
+  combine(&a, &b, row[0][0], row[0][1], &out->f), combine(&a, &b, row[1][0], row[1][1], &out->g);
 }
 
 /* Roundings in the powers of F and G and in what is made of them, of the largest coefficient of a and b: 8 in each of the
@@ -143,7 +138,7 @@ static bool combinations(struct box *box, double row[2][2], struct powers *f, st
 
 /* The polynomial m, of degree 1, by which F - m G has as little of first and second derivatives in the middle as can be: all
  * but those along G = 0. */
-static void bent_factor(const struct powers *f, const struct powers *g, double m[3])
+static void bent_factor(const struct fold_powers *f, const struct fold_powers *g, double m[3])
 {
   const double(*F)[4] = f->c, (*G)[4] = g->c;
   const double x = G[1][0], y = G[0][1], square = x * x + y * y, start = (F[1][0] * x + F[0][1] * y) / square;
@@ -154,33 +149,32 @@ static void bent_factor(const struct powers *f, const struct powers *g, double m
   m[0] = start - G[0][0] * (m[1] * x + m[2] * y) / square;
 }
 
-bool fold_bent_apart(struct box *box, const double error[2])
+bool fold_bent_apart(const struct fold_pair *pair, struct box *box, const double error[2])
 {
-  struct powers f, g;
-  double row[2][2], m[3], largest = 0, sum = 0, wider_f[5][5] = {{0}}, wider_g[6][6] = {{0}};
-  if (!combinations(box, row, &f, &g)) return false;
-  bent_factor(&f, &g, m);
+  const double(*f)[4] = pair->f.c, (*g)[4] = pair->g.c;
+  double m[3], largest = 0, sum = 0, wider_f[5][5] = {{0}}, wider_g[6][6] = {{0}};
+  if (!pair->any) return false;
+  bent_factor(&pair->f, &pair->g, m);
   for (int n = 0; n < 16; n++) {
-    wider_f[n / 4][n % 4] = f.c[n / 4][n % 4], wider_g[1 + n / 4][1 + n % 4] = g.c[n / 4][n % 4];
+    wider_f[n / 4][n % 4] = f[n / 4][n % 4], wider_g[1 + n / 4][1 + n % 4] = g[n / 4][n % 4];
     largest = real_max(largest, real_max(fabs(box->net[0][n / 4][n % 4]), fabs(box->net[1][n / 4][n % 4])));
   }
   for (int i = 0; i < 5; i++)
     for (int j = 0; j < 5; j++)
       sum += fabs(wider_f[i][j] - m[0] * wider_g[i + 1][j + 1] - m[1] * wider_g[i][j + 1] - m[2] * wider_g[i + 1][j]);
-  const double middle = fabs(f.c[0][0] - m[0] * g.c[0][0]), most = 1 + fabs(m[0]) + fabs(m[1]) + fabs(m[2]);
+  const double middle = fabs(f[0][0] - m[0] * g[0][0]), most = 1 + fabs(m[0]) + fabs(m[1]) + fabs(m[2]);
   return 2 * middle > sum + most * (error[0] + error[1] + BENT_ROUNDINGS * UNIT_ROUNDOFF * largest);
 }
 
-bool fold_find(struct box *box, const double error[2], struct fold *out)
+bool fold_find(const struct fold_pair *pair, const double error[2], struct fold *out)
 {
-  struct powers f, g;
-  double row[2][2];
-  if (!combinations(box, row, &f, &g)) return false;
-  const double p = row[0][0], q = row[0][1];
+  const struct fold_powers *f = &pair->f, *g = &pair->g;
+  if (!pair->any) return false;
+  const double p = pair->row[0][0], q = pair->row[0][1];
   out->at[0] = out->at[1] = 0;
-  if (!find(&f, &g, out->m, out->at)) return false;
+  if (!find(f, g, out->m, out->at)) return false;
   struct derivatives most[2], here[2];
-  bound(&f, &most[0]), bound(&g, &most[1]);
+  bound(f, &most[0]), bound(g, &most[1]);
   const double bend_d = determinant_bend(&most[0], &most[1]), bend_g = second_sum(&most[1]);
   const double off = FOLD_ROUNDINGS * (error[0] + error[1]);
   const double off_d = off * (first_most(&most[0]) + first_most(&most[1]) + second_sum(&most[0]) + bend_g);
@@ -188,7 +182,7 @@ bool fold_find(struct box *box, const double error[2], struct fold *out)
     if (!(row_size(out->m[k], bend_g, bend_d) <= FOLD_BEND - 2 * FOLD_ROUNDING)) return false;
     if (!(row_size(out->m[k], off, off_d) <= FOLD_ROUNDING)) return false;
   }
-  derive(&f, out->at[0], out->at[1], &here[0]), derive(&g, out->at[0], out->at[1], &here[1]);
+  derive(f, out->at[0], out->at[1], &here[0]), derive(g, out->at[0], out->at[1], &here[1]);
   const double gx = here[1].d[1][0], gy = here[1].d[0][1];
   const double share = (here[0].d[1][0] * gx + here[0].d[0][1] * gy) / (gx * gx + gy * gy);
   double d[3];

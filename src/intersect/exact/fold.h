@@ -31,6 +31,19 @@ enum fold_verdict {
   FOLD_OPEN   /* none, two, or one double root, as far as can be told */
 };
 
+/* A polynomial as powers of x and y in [-1,1], the box. */
+struct fold_powers {
+  double c[4][4];
+};
+
+/* Two combinations of a and b, of length 1: F, whose first derivatives vanish in the middle of the box as nearly as they
+ * can, and G across it. */
+struct fold_pair {
+  bool any; /* false where those of a and b all vanish there: then nothing else is set */
+  double row[2][2];
+  struct fold_powers f, g;
+};
+
 /* A fold, in parameters of the box from -1 to 1. */
 struct fold {
   double row[2][2]; /* combinations of a and b: H, whose gradient vanishes at the fold as nearly as can be, and G */
@@ -44,13 +57,16 @@ struct fold {
   double uncertain; /* how far the fold may be from `at` */
 };
 
+/* Those two of the box. */
+void fold_combine(struct box *box, struct fold_pair *out);
+
 /* Whether the box has no root, by a combination whose factor is not a number but a polynomial of degree 1: where the ray
  * touches the surface along a direction in which that does not bend, no other one is far enough from 0. error: see
  * box_test. */
-bool fold_bent_apart(struct box *box, const double error[2]);
+bool fold_bent_apart(const struct fold_pair *pair, struct box *box, const double error[2]);
 
-/* The fold of the box; false where the theorem does not hold, or none is in the box. error: see box_test. */
-bool fold_find(struct box *box, const double error[2], struct fold *out);
+/* The fold of that box; false where the theorem does not hold, or none is in the box. error: see box_test. */
+bool fold_find(const struct fold_pair *pair, const double error[2], struct fold *out);
 
 /* What values and derivatives of H and G at fold->at say, by the fold's parameters; each value is off by at most `error`.
  * Sets fold->half and fold->uncertain. */

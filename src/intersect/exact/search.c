@@ -331,11 +331,11 @@ static bool fold_maybe(struct search *s, struct box *box, const struct fold *fol
 }
 
 /* Decides the box where it has a fold. */
-static bool box_fold(struct search *s, struct box *box, const double error[2])
+static bool box_fold(struct search *s, struct box *box, const struct fold_pair *pair, const double error[2])
 {
   struct fold fold;
   judge_spend(s->judge, WORK_FOLD);
-  if (!fold_find(box, error, &fold)) return false;
+  if (!fold_find(pair, error, &fold)) return false;
   enum fold_verdict verdict = fold_weigh_box(&fold, box, error);
   if (verdict == FOLD_EMPTY || (verdict == FOLD_ROOTS && fold_roots(s, box, &fold, error))) return true;
   double values[2][3];
@@ -345,6 +345,14 @@ static bool box_fold(struct search *s, struct box *box, const double error[2])
   verdict = fold_weigh(&fold, values[0], values[1], off);
   if (verdict == FOLD_EMPTY || (verdict == FOLD_ROOTS && fold_roots(s, box, &fold, NULL))) return true;
   return fold_maybe(s, box, &fold);
+}
+
+/* Decides the box where the ray touches the surface, or nearly; `folds`: and by its fold. */
+static bool box_touched(struct search *s, struct box *box, const double error[2], bool folds)
+{
+  struct fold_pair pair;
+  fold_combine(box, &pair);
+  return fold_bent_apart(&pair, box, error) || (folds && box_fold(s, box, &pair, error));
 }
 
 /* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as
@@ -386,8 +394,7 @@ static bool box_decide(struct search *s, struct box *box)
     judge_root(s->judge, &found);
     return true;
   }
-  if (!s->dependent && fold_bent_apart(box, error)) return true;
-  if (s->depth == 0 && border == NO_BORDER && !s->dependent && box_fold(s, box, error)) return true;
+  if (!s->dependent && box_touched(s, box, error, s->depth == 0 && border == NO_BORDER)) return true;
   const bool small = verdict != VERDICT_OPEN && box_small(s, box, verdict);
   if (verdict != VERDICT_OPEN && box_asks_zoom(s, box) && border == NO_BORDER && box_zoom(s, box)) return true;
   if (!small && box->halvings < SEARCH_HALVINGS) return false;

@@ -174,18 +174,24 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
   if (p->gather) gather_best(p, taken);
 }
 
-/* Lanes whose root, which the process on a nearly bilinear leaf ended at, is where it should be on the ray to 4 roundings
- * of t. It is off by what its inverse Jacobian M makes of the roundings in the bend, 3 u of its second derivatives, and of
- * what the last step leaves (LAST_STEP_CURVE); its radius is no less than 72 u |M| (PLANE_ERROR). Seen edge-on that can be
- * far more than rounding the input makes, where the patch is thin. */
+/* What a root is off by that Newton's process on a nearly bilinear leaf ends at, of its radius, which is no less than 72 u |M|
+ * for the inverse Jacobian M (PLANE_ERROR): what M makes of the roundings in the bend, 3 u of its second derivatives, and
+ * of what the last step leaves, u/64 (LAST_STEP_CURVE). */
+#define BEND_LEFT (1.0 / 16)
+#define STEP_LEFT 0x1p-12
+
+/* Such a root is final where that is no more than so many roundings of t. */
+#define FINAL_ROUNDINGS 4
+
+/* Lanes whose root is. Seen edge-on it may be off by far more than rounding the input makes, where the patch is thin. */
 LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candidate *it,
                                      const struct bilinear_root *root)
 {
   const struct leaf *leaf = it->leaf;
-  const double left = (leaf->second[0] + leaf->second[2]) / 16 + 0x1p-12;
+  const double left = (leaf->second[0] + leaf->second[2]) * BEND_LEFT + STEP_LEFT;
   const lanes reach = leaf->first[0] * root->at.radius_u + leaf->first[1] * root->at.radius_v;
   return packet_has_digits(p, it->patch, root->t, NEAR_START_FINAL) &
-         (left * it->patch->scale * reach <= 4 * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
+         (left * it->patch->scale * reach <= FINAL_ROUNDINGS * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
 }
 
 /* Keeps what a leaf's root says of the surface. */

@@ -376,12 +376,12 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   } stack[BVH_STACK];
   size_t top = 0;
   if (bvh->node_count == 0) return;
-  const int few = b->packet[0].tracer->warm ? 1 : FEW_TOGETHER; /* warm starts go from ray to ray, all together */
-  uint32_t child = 0;
   if (rays_apart(b)) {
     rays_walk(b, tree, rays);
     return;
   }
+  const int few = b->packet[0].tracer->warm ? 1 : FEW_TOGETHER; /* warm starts go from ray to ray, all together */
+  uint32_t child = 0;
   for (;;) {
     if (child & (uint32_t)BVH_LEAF) {
       bundle_leaf(b, tree, child & ~(uint32_t)BVH_LEAF, rays);
