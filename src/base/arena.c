@@ -8,7 +8,7 @@
 
 enum {
   FIRST_CHUNK_BYTES = 4096,
-  LAST_CHUNK_BYTES = 1 << 20, /* chunks double up to this size, so that small scenes stay small */
+  LAST_CHUNK_BYTES = 1 << 22, /* chunks double up to this size, so that small scenes stay small */
   BLOCK_ALIGNMENT = alignof(max_align_t)
 };
 
@@ -33,7 +33,9 @@ struct arena *arena_create(void)
 static struct chunk *chunk_create(size_t bytes)
 {
   if (bytes > SIZE_MAX - sizeof(struct chunk)) return NULL;
-  return memory_alloc(1, sizeof(struct chunk) + bytes);
+  struct chunk *chunk = memory_alloc(1, sizeof(struct chunk) + bytes);
+  if (chunk) memory_used_anywhere(chunk, sizeof(struct chunk) + bytes);
+  return chunk;
 }
 
 void *arena_alloc(struct arena *arena, size_t count, size_t size)
