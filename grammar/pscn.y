@@ -11,7 +11,8 @@
 %define api.token.prefix {PSCN_TOKEN_}
 %define api.location.type {struct place}
 %define parse.error custom
-%define parse.lac full
+%define lr.type canonical-lr
+%define lr.default-reduction consistent
 %locations
 %param {struct language *language}
 
