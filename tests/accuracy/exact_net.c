@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/wide.h"
+
 /* Bits of the entries of a preconditioner (enough for a patch that is a line but for rounding), and see net_dominates. */
 enum { PRECONDITIONER_BITS = 192, MARGIN = 30 };
 
@@ -59,15 +61,34 @@ static void t_scaled(double t, const fmpz_t square, int shift, fmpz_t out)
   if (m != 0) fmpz_mul_2exp(out, out, (ulong)(own - 53 + shift));
 }
 
+/* The axis along which the ray is longest beside the patch. Any one that it moves along would do, but for a patch that is
+ * a line to 192 bits the two planes along it would be one to so many. */
+static int crossed_axis(const double P[4][4][3], const double d[3])
+{
+  int k = 0;
+  wide size[3];
+  for (int axis = 0; axis < 3; axis++) {
+    wide low = P[0][0][axis], high = low;
+    for (int n = 1; n < 16; n++) {
+      const wide x = P[n / 4][n % 4][axis];
+      low = x < low ? x : low, high = x > high ? x : high;
+    }
+    size[axis] = high - low;
+    const wide here = d[axis] * size[k], there = d[k] * size[axis];
+    if ((here < 0 ? -here : here) > (there < 0 ? -there : there)) k = axis;
+  }
+  return k;
+}
+
 void box_of_patch(const double P[4][4][3], const double o[3], const double d[3], double t_min, double t_max,
                   struct box *out, struct interval *interval)
 {
   const double ends[2] = {t_min, t_max};
-  int places = 1 << 20, slopes = 1 << 20, k = 0;
+  const int k = crossed_axis(P, d);
+  int places = 1 << 20, slopes = 1 << 20;
   for (int axis = 0; axis < 3; axis++) {
     places = last_bit(o[axis], places), slopes = last_bit(d[axis], slopes);
     for (int n = 0; n < 16; n++) places = last_bit(P[n / 4][n % 4][axis], places);
-    if (fabs(d[axis]) > fabs(d[k])) k = axis;
   }
   if (places == 1 << 20) places = 0;
   int times = slopes - places; /* of t's integer unit */

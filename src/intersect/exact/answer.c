@@ -76,7 +76,7 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
     struct zoom zoom;
     struct patch_room room;
     const struct model_patch *patch = model_patch_at(model, root->patch, &room);
-    zoom_start(patch, P, ray, dominant_axis(ray->direction), &zoom);
+    zoom_start(patch, P, ray, &zoom);
     (void)zoom_sharpen(&zoom, root); /* or it stays what it is */
   }
   if (root->t_error > UNIT_ROUNDOFF / 4 * fabs((double)root->t)) {

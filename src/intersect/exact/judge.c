@@ -40,7 +40,7 @@ struct zoom *judge_zoom(struct judge *j)
 {
   double(*P)[4][3] = j->asked->model->scene->patches[j->patch].P;
   if (j->zoomed) return &j->zoom;
-  zoom_start(j->is, P, j->asked->ray, j->local.axis, &j->zoom);
+  zoom_start(j->is, P, j->asked->ray, &j->zoom);
   judge_spend(j, WORK_ZOOM_START);
   j->zoomed = true;
   return &j->zoom;
@@ -244,16 +244,12 @@ bool judge_pole(struct judge *j, int border)
   const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
   const double u = border == 0 ? 0 : border == 1 ? 1 : 0.5, v = border == 2 ? 0 : border == 3 ? 1 : 0.5;
   if (tell_point(j, row, column, u, v, border)) return true;
-  const double w = j->is->x[j->local.axis][row][column];
-  const wide t = (w - judge_zoom(j)->origin) * judge_zoom(j)->to_t;
-  const struct exact_maybe maybe = {j->patch,
-                                    1u << border,
-                                    u,
-                                    v,
-                                    (double)t,
-                                    16 * UNIT_ROUNDOFF * fabs((double)t) + ZOOM_POLE_REACH *
-                                                                             judge_zoom(j)->depth_error *
-                                                                             fabs(j->local.unit * j->local.to_t)};
+  const struct zoom *zoom = judge_zoom(j);
+  const wide t = (j->is->x[zoom->axis][row][column] - zoom->origin) * zoom->to_t;
+  const struct exact_maybe maybe = {
+    j->patch,  1u << border,
+    u,         v,
+    (double)t, 16 * UNIT_ROUNDOFF * fabs((double)t) + ZOOM_POLE_REACH * zoom->depth_error * fabs((double)zoom->to_t)};
   keep_maybe(j, &maybe);
   return false;
 }

@@ -184,7 +184,7 @@ static struct search closer_search(const struct search *s, const struct box *box
                           .ahead = s->judge->all ? 0 : CLOSER_AHEAD,
                           .divided = NO_BORDER,
                           .unit = s->unit,
-                          .to_t = s->to_t,
+                          .to_t = (double)(judge_zoom(s->judge)->to_t / s->unit),
                           .resolution = s->resolution};
   closer.size[0] = s->size[0] * box->size_u, closer.size[1] = s->size[1] * box->size_v;
   closer.low[0] = s->low[0] + s->size[0] * box->u, closer.low[1] = s->low[1] + s->size[1] * box->v;
@@ -338,6 +338,7 @@ static bool box_fold(struct search *s, struct box *box, const struct fold_pair *
   if (!fold_find(pair, error, &fold)) return false;
   enum fold_verdict verdict = fold_weigh_box(&fold, box, error);
   if (verdict == FOLD_EMPTY || (verdict == FOLD_ROOTS && fold_roots(s, box, &fold, error))) return true;
+  if (judge_zoom(s->judge)->axis != s->judge->local.axis) return false; /* of other planes */
   double values[2][3];
   const double size[2] = {box->size_u * (double)s->size[0], box->size_v * (double)s->size[1]};
   const double off = zoom_combinations(judge_zoom(s->judge), fold_place(s, box, 0, fold.at[0]),

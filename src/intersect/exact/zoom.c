@@ -6,6 +6,7 @@
 
 #include "base/double_double.h"
 #include "intersect/certificate.h"
+#include "intersect/local_ray.h"
 
 /* A value of a or b passes at most this many roundings on the way from the control points to a combination's
  * coefficient over a box: local net 3, slope 2, moment and plane 4, to powers 2 x 4, to the box 2 x 12, combination 3;
@@ -63,11 +64,9 @@ static fixed local(const struct model_patch *patch, double p, int c, double unit
  * ray with a larger moment passes any patch by, and so it does with MOST_MOMENT. */
 #define LARGEST_UNIT 0x1p900
 
-/* The largest power of two that leaves none of x_i on the patch, the slope and the moment above 1. */
-static double unit_for(const struct model_patch *patch, double (*P)[4][3], int i, wide slope, wide moment)
+/* The largest power of two by which what is so large, at most, is no more than 1. */
+static double unit_for(double largest)
 {
-  double largest = fmax(fabs((double)slope), fabs((double)moment));
-  for (int n = 0; n < 16; n++) largest = fmax(largest, fabs(P[n / 4][n % 4][i] - patch->center[i]) / patch->scale);
   int exponent;
   frexp(largest, &exponent);
   return !(largest > 1 / LARGEST_UNIT) ? LARGEST_UNIT
@@ -75,18 +74,40 @@ static double unit_for(const struct model_patch *patch, double (*P)[4][3], int i
                                        : ldexp(1, -exponent);
 }
 
-void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out)
+/* The plane of x_i and x_k loses as many digits as the ray is longer along k than along i, each beside how far the patch
+ * reaches that way: two such planes along a needle are one. Where it is longer by so much, which still leaves all the
+ * digits of a double, another k is taken. */
+#define THIN 0x1p40
+
+/* k for a ray and a patch that reaches so far from its center. */
+static int axis_across(const struct ray *ray, const double reach[3], double scale)
+{
+  const double *d = ray->direction;
+  const int longest = dominant_axis(d);
+  int k = longest;
+  for (int c = 0; c < 3; c++) {
+    const double way = fabs(d[c]);
+    const bool finite = way * LARGEST_UNIT > scale; /* what x_c is of t */
+    if (c != longest && finite && way * reach[k] > fabs(d[k]) * reach[c] * (k == longest ? THIN : 1)) k = c;
+  }
+  return k;
+}
+
+void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, struct zoom *out)
 {
   const double *d = ray->direction, rounding = 2 * FIXED_UNIT * ZOOM_ROUNDINGS * POWER_GROWTH * (MOST_MOMENT + 2);
-  double *unit = out->unit;
-  unit[2] = unit_for(patch, P, k, 0, 0);
+  double *unit = out->unit, reach[3] = {0, 0, 0};
+  for (int n = 0; n < 48; n++)
+    reach[n % 3] = fmax(reach[n % 3], fabs(P[n / 12][n / 3 % 4][n % 3] - patch->center[n % 3]) / patch->scale);
+  const int k = out->axis = axis_across(ray, reach, patch->scale);
+  unit[2] = unit_for(reach[k]);
   out->error = 0, out->depth_error = rounding / unit[2];
   for (int n = 0; n < 16; n++) out->power[2][n / 4][n % 4] = local(patch, P[n / 4][n % 4][k], k, unit[2]);
   for (int s = 0; s < 2; s++) {
     const int i = (k + 1 + s) % 3;
     const wide slope = (wide)d[i] / d[k];
     wide size, m = wide_moment(patch, ray, i, k, slope, &size);
-    unit[s] = unit_for(patch, P, i, slope / unit[2], m), m *= unit[s];
+    unit[s] = unit_for(fmax(reach[i], fmax(fabs((double)(slope / unit[2])), fabs((double)m)))), m *= unit[s];
     const fixed unit_slope = fixed_from_wide(slope / unit[2] * unit[s]);
     m = m > MOST_MOMENT ? MOST_MOMENT : m < -MOST_MOMENT ? -MOST_MOMENT : m;
     const fixed moment = fixed_from_wide(m);

@@ -19,6 +19,7 @@
 /* A ray through a whole patch: a, b and x_k as powers of 2u - 1 and 2v - 1, each times a power of two, as large as the
  * patch is thin that way. */
 struct zoom {
+  int axis; /* k: the one along which the ray is longest, or where the patch is very thin the ray beside the patch is */
   fixed power[3][4][4];
   double unit[3]; /* those powers of two */
   wide origin;    /* (origin_k - center_k)/scale */
@@ -50,8 +51,8 @@ struct zoomed {
   wide start;      /* t = (w + start) scale/d_k for w of net[2] */
 };
 
-/* P: the patch's control points in the scene. k: the axis along which the ray is longest. */
-void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, int k, struct zoom *out);
+/* P: the patch's control points in the scene. */
+void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, struct zoom *out);
 
 /* The box of the patch with its low corner at low[0], low[1]. False where a combination is zero as far as wide
  * arithmetic can tell: then *out means nothing. */
