@@ -34,23 +34,30 @@ struct decimal {
   int64_t exponent;                /* the value is the digits as one integer, times 10^exponent */
 };
 
+/* Digits from text[i] on; returns where they end. */
+static size_t add_digits(const char *text, size_t length, size_t i, struct decimal *out)
+{
+  uint64_t mantissa = out->mantissa;
+  if (mantissa == 0)
+    while (i < length && text[i] == '0') i++;
+  const size_t begin = i, room = out->significant < EXACT_DIGITS ? (size_t)(EXACT_DIGITS - out->significant) : 0;
+  for (; i < length && is_digit(text[i]); i++)
+    if (i - begin < room) mantissa = 10 * mantissa + (uint64_t)(text[i] - '0');
+  out->mantissa = mantissa;
+  out->significant += (int64_t)(i - begin);
+  return i;
+}
+
 static size_t read_digits(const char *text, size_t length, struct decimal *out)
 {
-  size_t i = out->digits_begin;
-  bool point = false, any = false;
-  for (; i < length; i++) {
-    if (text[i] == '.' && !point) {
-      point = true;
-      continue;
-    }
-    if (!is_digit(text[i])) break;
-    any = true;
-    if (point) out->exponent--;
-    if (out->significant == 0 && text[i] == '0') continue;
-    if (out->significant++ < EXACT_DIGITS) out->mantissa = 10 * out->mantissa + (uint64_t)(text[i] - '0');
+  const size_t begin = out->digits_begin, point = add_digits(text, length, begin, out);
+  size_t end = point;
+  if (point < length && text[point] == '.') {
+    end = add_digits(text, length, point + 1, out);
+    out->exponent = -(int64_t)(end - point - 1);
   }
-  out->digits_end = i;
-  return any ? i : 0;
+  out->digits_end = end;
+  return end - begin > (end > point) ? end : 0;
 }
 
 static size_t read_exponent(const char *text, size_t length, size_t i, struct decimal *out)
@@ -68,13 +75,13 @@ static size_t read_exponent(const char *text, size_t length, size_t i, struct de
 }
 
 /* Correct for any digits: strtod is given at most DECISIVE_DIGITS of them, and a last 1 for what was left out. */
-static double convert_slowly(const char *text, const struct decimal *decimal)
+static double convert_slowly(const char *text, struct decimal decimal)
 {
   char digits[DECISIVE_DIGITS + 40];
   size_t count = 0;
   int64_t left_out = 0;
   bool nonzero_left_out = false;
-  for (size_t i = decimal->digits_begin; i < decimal->digits_end; i++) {
+  for (size_t i = decimal.digits_begin; i < decimal.digits_end; i++) {
     if (text[i] == '.' || (count == 0 && text[i] == '0')) continue;
     if (count < DECISIVE_DIGITS) {
       digits[count++] = text[i];
@@ -83,7 +90,7 @@ static double convert_slowly(const char *text, const struct decimal *decimal)
       nonzero_left_out |= text[i] != '0';
     }
   }
-  int64_t exponent = decimal->exponent + left_out;
+  int64_t exponent = decimal.exponent + left_out;
   if (nonzero_left_out) {
     digits[count++] = '1';
     exponent--;
@@ -110,12 +117,12 @@ enum number_kind number_read(const char *text, size_t length, double *out_value,
     value = 0.0;
   } else if (decimal.significant <= EXACT_DIGITS && decimal.mantissa <= exact && decimal.exponent >= -EXACT_POWER &&
              decimal.exponent <= EXACT_POWER) {
-    value = (double)decimal.mantissa;
+    value = (double)(int64_t)decimal.mantissa;
     if (decimal.exponent < 0) value /= POWERS_OF_TEN[-decimal.exponent];
     else value *= POWERS_OF_TEN[decimal.exponent];
   } else if (decimal.significant > EXACT_DIGITS || llabs(decimal.exponent) > EXPONENT_LIMIT ||
              !decimal_to_double(decimal.mantissa, (int)decimal.exponent, &value)) {
-    value = convert_slowly(text, &decimal);
+    value = convert_slowly(text, decimal);
   }
   *out_value = negative ? -value : value;
   *out_used = i;
