@@ -106,11 +106,6 @@ static void block_add_line(struct block *block, struct place place, struct sourc
   block_add_text(block, "\n");
 }
 
-bool diagnostics_full(const struct diagnostics *diagnostics)
-{
-  return diagnostics->error_count >= DIAGNOSTICS_MAX_ERRORS;
-}
-
 static void tell_closing_line(struct diagnostics *diagnostics)
 {
   char text[64];

@@ -44,6 +44,9 @@ void diagnostics_warning(struct diagnostics *diagnostics, struct place place, co
   __attribute__((format(printf, 3, 4)));
 
 /* Whether further errors would only be counted. */
-bool diagnostics_full(const struct diagnostics *diagnostics);
+static inline bool diagnostics_full(const struct diagnostics *diagnostics)
+{
+  return diagnostics->error_count >= DIAGNOSTICS_MAX_ERRORS;
+}
 
 #endif

@@ -20,7 +20,7 @@ void camera_default(struct camera_items *out)
   memcpy(out->item, item, sizeof item);
 }
 
-void camera_begin(struct language *language, struct place place)
+void camera_begin(struct language *language, struct span place)
 {
   struct camera_items *camera = language->camera;
   if (camera->said) language_error(language, place, "the scene has a camera already");
@@ -29,7 +29,7 @@ void camera_begin(struct language *language, struct place place)
   camera->block = language_block(language, place);
 }
 
-void camera_perspective(struct language *language, struct place place)
+void camera_perspective(struct language *language, struct span place)
 {
   if (language->camera->begun) language_error(language, place, "perspective stands first in a camera");
   language->camera->begun = true;

@@ -16,12 +16,12 @@ struct camera_items {
   double angle;               /* degrees, 0 where not given */
   struct transform transform; /* of what all items but it make */
   struct block block;
-  struct place look_at_place;
+  struct span look_at_place;
 };
 
 void camera_default(struct camera_items *out);
-void camera_begin(struct language *language, struct place place);
-void camera_perspective(struct language *language, struct place place);
+void camera_begin(struct language *language, struct span place);
+void camera_perspective(struct language *language, struct span place);
 void camera_vector(struct language *language, int which, const struct value *value);
 void camera_angle(struct language *language, const struct value *value);
 void camera_transform(struct language *language, const struct transform *transform);

@@ -69,7 +69,7 @@ static void tell_end(struct language *language)
 static enum status parse(struct reading *r, struct source *source)
 {
   const size_t before = r->language.diagnostics->error_count;
-  if (!source || !sources_open(&r->language, source)) return STATUS_LIMIT;
+  if (setjmp(r->sources.broken) || !source || !sources_open(&r->language, source)) return STATUS_LIMIT;
   const int result = pscn_parse(&r->language);
   symbols_tell_missed(&r->language);
   if (result == 1 && r->language.diagnostics->error_count == before && !r->language.ended_early) tell_end(&r->language);

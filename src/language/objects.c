@@ -19,7 +19,7 @@ enum {
   MAX_STEPS = 16 /* POV-Ray halves a patch so many times in each direction */
 };
 
-static struct node *open_node(struct language *language, struct place place)
+static struct node *open_node(struct language *language, struct span place)
 {
   struct node *node = language_alloc(language, sizeof *node);
   node->block = language_block(language, place);
@@ -27,9 +27,10 @@ static struct node *open_node(struct language *language, struct place place)
   return language->objects->open = node;
 }
 
-struct node *node_end(struct language *language)
+struct node *node_end(struct language *language, struct span brace)
 {
   struct node *node = language->objects->open;
+  node->whole = span_join(node->block.place, brace);
   language->objects->open = node->outer;
   node->outer = NULL;
   return node;
@@ -37,14 +38,14 @@ struct node *node_end(struct language *language)
 
 /* ---- patches ---- */
 
-void patch_begin(struct language *language, struct place place)
+void patch_begin(struct language *language, struct span place)
 {
   struct node *node = open_node(language, place);
   node->P = language_alloc(language, 4 * sizeof *node->P);
   node->patch_count = 1;
 }
 
-void patch_number(struct language *language, int which, struct place item, const struct value *value)
+void patch_number(struct language *language, int which, struct span item, const struct value *value)
 {
   static const struct {
     const char *name;
@@ -78,7 +79,7 @@ void patch_point(struct language *language, const struct value *value)
   node->points++;
 }
 
-void patch_comma(struct language *language, struct place place)
+void patch_comma(struct language *language, struct span place)
 {
   struct node *node = language->objects->open;
   if (node->stage == STAGE_MODIFIERS || node->after_comma)
@@ -120,7 +121,7 @@ void patch_end(struct language *language)
 /* ---- unions ---- */
 
 /* Patches are counted, never built, until all text has been read. */
-static void count_patches(struct language *language, struct node *parent, struct place place)
+static void count_patches(struct language *language, struct node *parent, struct span place)
 {
   char text[100];
   const size_t affordable = language->max_memory / PATCH_BYTES;
@@ -132,40 +133,41 @@ static void count_patches(struct language *language, struct node *parent, struct
   parent->patch_count = most;
 }
 
-static void add_child(struct language *language, struct node *parent, struct node *child, struct place place)
+static void add_child(struct language *language, struct node *parent, struct node *child)
 {
   if (parent->last) parent->last->next = child;
   else parent->first = child;
   parent->last = child;
   parent->patch_count += child->patch_count;
-  count_patches(language, parent, place);
+  count_patches(language, parent, child->whole);
   if (child->height >= parent->height) parent->height = child->height + 1;
-  if (parent->height == MAX_NESTING) language_limit(language, place, "objects are nested more than 200 deep");
+  if (parent->height == MAX_NESTING) language_limit(language, child->whole, "objects are nested more than 200 deep");
 }
 
-void union_begin(struct language *language, struct place place) { open_node(language, place); }
+void union_begin(struct language *language, struct span place) { open_node(language, place); }
 
-void union_add(struct language *language, struct place place, struct node *object)
+void union_add(struct language *language, struct node *object)
 {
   struct node *node = language->objects->open;
   if (node->stage == STAGE_MODIFIERS)
-    language_error_in(language, &node->block, place, "the objects of a union stand before its texture and transforms");
-  add_child(language, node, object, place);
+    language_error_in(language, &node->block, object->whole,
+                      "the objects of a union stand before its texture and transforms");
+  add_child(language, node, object);
 }
 
 void union_modified(struct language *language) { language->objects->open->stage = STAGE_MODIFIERS; }
 
-void scene_add(struct language *language, struct place place, struct node *object)
+void scene_add(struct language *language, struct node *object)
 {
   if (!object->texture) object->texture = language->texture_default;
-  add_child(language, &language->objects->scene, object, place);
+  add_child(language, &language->objects->scene, object);
 }
 
 /* ---- copies ---- */
 
-void copy_begin(struct language *language, struct place place) { open_node(language, place); }
+void copy_begin(struct language *language, struct span place) { open_node(language, place); }
 
-void copy_object(struct language *language, struct place place, const struct node *object)
+static void take_object(struct language *language, struct span place, const struct node *object)
 {
   struct node *node = language->objects->open;
   if (node->has_object || node->stage == STAGE_MODIFIERS) {
@@ -183,17 +185,20 @@ void copy_object(struct language *language, struct place place, const struct nod
   node->own_transform = false;
 }
 
-void copy_named(struct language *language, const struct token *name)
+void copy_object(struct language *language, const struct node *object) { take_object(language, object->whole, object); }
+
+void copy_named(struct language *language, struct span place)
 {
-  const struct symbol *symbol = symbol_wanted(language, name, SYMBOL_OBJECT, "an object");
+  const struct name name = sources_name(language, place);
+  const struct symbol *symbol = symbol_wanted(language, &name, SYMBOL_OBJECT, "an object");
   if (symbol) {
     symbol->object->sharing->uses++;
-    copy_object(language, name->place, symbol->object);
+    take_object(language, place, symbol->object);
   }
   language->objects->open->has_object = true; /* it was meant to be */
 }
 
-void copy_modified(struct language *language, struct place place)
+void copy_modified(struct language *language, struct span place)
 {
   struct node *node = language->objects->open;
   if (!node->has_object) language_error_in(language, &node->block, place, "object wants its object first");
@@ -219,13 +224,13 @@ void declare_object(struct language *language, struct declaration *declaration, 
 /* ---- modifiers ---- */
 
 /* Copies share transforms and textures, so a changed one is a new one. */
-void node_transform(struct language *language, const struct transform *transform, struct place place)
+void node_transform(struct language *language, const struct transform *transform)
 {
   struct node *node = language->objects->open;
   if (transform->identity) return;
   const struct transform all = node->transform ? transform_then(node->transform, transform) : *transform;
   if (!transform_finite(&all)) {
-    language_error(language, place, "the transforms up to here are too large for numbers");
+    language_error(language, transform->place, "the transforms up to here are too large for numbers");
     return;
   }
   if (!node->own_transform) node->transform = language_alloc(language, sizeof *node->transform);

@@ -23,6 +23,7 @@ struct node {
   struct node *next, *first, *last; /* the list it stands in; its own children */
   struct node *outer;               /* while its block is open */
   struct block block;
+  struct span whole; /* once it is closed */
   double (*P)[4][3]; /* NULL: a union */
   double setting[PATCH_SETTINGS];
   struct transform *transform;   /* NULL: none */
@@ -44,25 +45,25 @@ struct objects {
   struct node scene; /* the union of all objects */
 };
 
-void patch_begin(struct language *language, struct place place);
-void patch_number(struct language *language, int which, struct place item, const struct value *value);
+void patch_begin(struct language *language, struct span place);
+void patch_number(struct language *language, int which, struct span item, const struct value *value);
 void patch_point(struct language *language, const struct value *value);
-void patch_comma(struct language *language, struct place place);
+void patch_comma(struct language *language, struct span place);
 void patch_modified(struct language *language);
 void patch_solver(struct language *language);
 void patch_end(struct language *language);
-void union_begin(struct language *language, struct place place);
-void union_add(struct language *language, struct place place, struct node *object);
+void union_begin(struct language *language, struct span place);
+void union_add(struct language *language, struct node *object);
 void union_modified(struct language *language);
-void copy_begin(struct language *language, struct place place);
-void copy_named(struct language *language, const struct token *name);
-void copy_object(struct language *language, struct place place, const struct node *object);
-void copy_modified(struct language *language, struct place place);
+void copy_begin(struct language *language, struct span place);
+void copy_named(struct language *language, struct span name);
+void copy_object(struct language *language, const struct node *object);
+void copy_modified(struct language *language, struct span place);
 void copy_end(struct language *language);
-struct node *node_end(struct language *language);
-void node_transform(struct language *language, const struct transform *transform, struct place place);
+struct node *node_end(struct language *language, struct span brace);
+void node_transform(struct language *language, const struct transform *transform);
 void node_texture(struct language *language, const struct texture *texture);
 void declare_object(struct language *language, struct declaration *declaration, struct node *object);
-void scene_add(struct language *language, struct place place, struct node *object);
+void scene_add(struct language *language, struct node *object);
 
 #endif

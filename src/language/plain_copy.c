@@ -24,6 +24,7 @@ struct copy {
   struct copies *all;
   const struct source *source;
   struct scan scan;
+  jmp_buf broken; /* for the scanner */
   FILE *file;
   size_t done;
   enum status status;
@@ -115,13 +116,11 @@ static int drop_solver(struct copy *copy)
 {
   const size_t begin = copy->scan.begin;
   int token = pscn_scan_next(&copy->scan);
-  if (token <= 255 || token >= TOKEN_FIRST_PRIVATE || token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT ||
-      token == PSCN_TOKEN_STRING)
-    return token; /* no solver statement */
+  if (!scan_is_word(token)) return token; /* no solver statement */
   size_t end = copy->scan.end;
   token = pscn_scan_next(&copy->scan);
   if (token == '{') {
-    while (token != '}' && token != 0 && token != TOKEN_NO_MEMORY) token = pscn_scan_next(&copy->scan);
+    while (token != '}' && token != 0) token = pscn_scan_next(&copy->scan);
     end = copy->scan.end;
     token = pscn_scan_next(&copy->scan);
   }
@@ -132,11 +131,13 @@ static int drop_solver(struct copy *copy)
 
 static void copy_text(struct copy *copy)
 {
+  if (setjmp(copy->broken) || !pscn_scan_open(&copy->scan, copy->source->text, copy->source->length, &copy->broken)) {
+    copy->status = STATUS_LIMIT;
+    return;
+  }
   int token = pscn_scan_next(&copy->scan);
   while (token != 0 && copy->status == STATUS_OK) {
-    if (token == TOKEN_NO_MEMORY) {
-      copy->status = STATUS_LIMIT;
-    } else if (token == PSCN_TOKEN_SOLVER) {
+    if (token == PSCN_TOKEN_SOLVER) {
       token = drop_solver(copy);
     } else if (token == TOKEN_INCLUDE) {
       token = pscn_scan_next(&copy->scan);
@@ -146,6 +147,7 @@ static void copy_text(struct copy *copy)
     }
   }
   put_until(copy, copy->source->length);
+  pscn_scan_close(&copy->scan);
 }
 
 static enum status copy_file(struct copies *copies, size_t index)
@@ -154,7 +156,6 @@ static enum status copy_file(struct copies *copies, size_t index)
   struct copy copy = {.all = copies, .source = copies->source[index], .status = STATUS_OK};
   copy_name(copies, index, name);
   snprintf(path, sizeof path, "%s/%s", copies->folder, name);
-  if (!pscn_scan_open(&copy.scan, copies->source[index]->text, copy.source->length)) return STATUS_LIMIT;
   copy.file = fopen(path, "wb");
   if (copy.file == NULL) {
     copies->reason = strerror(errno);
@@ -166,7 +167,6 @@ static enum status copy_file(struct copies *copies, size_t index)
       copy.status = STATUS_FILE;
     }
   }
-  pscn_scan_close(&copy.scan);
   return copy.status;
 }
 

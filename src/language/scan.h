@@ -14,7 +14,6 @@ enum {
   TOKEN_OPEN_COMMENT,
   TOKEN_OPEN_STRING,
   TOKEN_BAD_CHARACTER,
-  TOKEN_NO_MEMORY,
   TOKEN_INCLUDE,
   TOKEN_IFDEF,
   TOKEN_IFNDEF,
@@ -37,17 +36,24 @@ struct scan {
   double number[3]; /* of PSCN_TOKEN_NUMBER ([0]) and PSCN_TOKEN_POINT */
   bool too_large;   /* one of them is too large for a double: which bytes */
   size_t too_large_begin, too_large_end;
-  jmp_buf broken;
+  jmp_buf *broken;
   _Alignas(max_align_t) char pool[512]; /* the scanner's memory */
   size_t pool_used;
 };
 
 /* Scans text[0 .. length-1], behind which stand two NULs. The text must outlive the scanner; it is written to during
- * pscn_scan_next, and is what it was afterwards. False where it cannot be scanned. */
-bool pscn_scan_open(struct scan *scan, char *text, size_t length);
+ * pscn_scan_next, and is what it was afterwards. Should the scanner ever break, *broken is jumped to, which must be set.
+ * False where the text cannot be scanned. */
+bool pscn_scan_open(struct scan *scan, char *text, size_t length, jmp_buf *broken);
 
 /* The next token: a grammar token, 0 at the end, or one of the above. */
 int pscn_scan_next(struct scan *scan);
 void pscn_scan_close(struct scan *scan);
+
+/* Reads `count` numbers out of the last token's text into scan->number. One that is too large becomes the whole token. */
+void scan_numbers(struct scan *scan, const char *text, size_t length, int count);
+
+/* Whether a token is a word, be it a name or one of the language's or of POV-Ray's. */
+bool scan_is_word(int token);
 
 #endif

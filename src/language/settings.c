@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "language/sources.h"
+
 /* The versions of POV-Ray's language that a scene may ask for; it is read as the one whose gamma is ours. */
 #define VERSION_LOW 1.0
 #define VERSION_READ 3.7
@@ -23,7 +25,7 @@ void language_version(struct language *language, const struct value *value)
   double *version = &language->settings->version;
   const bool said = value_in_range(language, value, "the version", VERSION_LOW, VERSION_HIGH, false, version);
   if (said && *version < VERSION_READ && language->symbols->depth == 0) {
-    diagnostics_warning(language->diagnostics, value->place,
+    diagnostics_warning(language->diagnostics, sources_place(language, value->place),
                         "this is read as version 3.7: colours are linear, whatever gamma the older one had");
   }
 }
@@ -50,7 +52,7 @@ void global_solver(struct language *language) { language->settings->method = *la
 
 /* ---- background ---- */
 
-void background_begin(struct language *language, struct place place)
+void background_begin(struct language *language, struct span place)
 {
   language->settings->block = language_block(language, place);
   language->settings->background_values = 0;
@@ -74,7 +76,7 @@ void background_end(struct language *language)
 /* ---- light sources ---- */
 
 /* A light whose colour is not said is black, as in POV-Ray. */
-void light_begin(struct language *language, struct place place)
+void light_begin(struct language *language, struct span place)
 {
   struct settings *settings = language->settings;
   struct light_node *light = language_alloc(language, sizeof *light);
@@ -102,7 +104,7 @@ void light_value(struct language *language, const struct value *value)
   }
 }
 
-void light_comma(struct language *language, struct place place)
+void light_comma(struct language *language, struct span place)
 {
   struct light_node *light = language->settings->light;
   if (light->values != 1 || light->after_comma)
@@ -110,7 +112,7 @@ void light_comma(struct language *language, struct place place)
   light->after_comma = true;
 }
 
-static struct light_node *modified_light(struct language *language, struct place place)
+static struct light_node *modified_light(struct language *language, struct span place)
 {
   struct light_node *light = language->settings->light;
   if (light->values == 0 && !light->modified)
@@ -119,14 +121,14 @@ static struct light_node *modified_light(struct language *language, struct place
   return light;
 }
 
-void light_shadowless(struct language *language, struct place place)
+void light_shadowless(struct language *language, struct span place)
 {
   modified_light(language, place)->light.shadowless = true;
 }
 
-void light_transform(struct language *language, const struct transform *transform, struct place place)
+void light_transform(struct language *language, const struct transform *transform)
 {
-  struct light_node *light = modified_light(language, place);
+  struct light_node *light = modified_light(language, transform->place);
   light->transform = transform_then(&light->transform, transform);
 }
 

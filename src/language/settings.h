@@ -32,14 +32,14 @@ void global_gamma(struct language *language, const struct value *value);
 void global_trace_level(struct language *language, const struct value *value);
 void global_ambient(struct language *language, const struct value *value);
 void global_solver(struct language *language);
-void background_begin(struct language *language, struct place place);
+void background_begin(struct language *language, struct span place);
 void background_value(struct language *language, const struct value *value);
 void background_end(struct language *language);
-void light_begin(struct language *language, struct place place);
+void light_begin(struct language *language, struct span place);
 void light_value(struct language *language, const struct value *value);
-void light_comma(struct language *language, struct place place);
-void light_shadowless(struct language *language, struct place place);
-void light_transform(struct language *language, const struct transform *transform, struct place place);
+void light_comma(struct language *language, struct span place);
+void light_shadowless(struct language *language, struct span place);
+void light_transform(struct language *language, const struct transform *transform);
 void light_end(struct language *language);
 
 #endif

@@ -5,10 +5,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "language/sources.h"
+
 enum { MOST_NAMES = 64, MOST_LISTED = 8 };
 
 /* Ends the message on an unknown word with a guess, or with what there is, unless that is much. */
-static void tell_unknown(struct language *language, const char *what, const struct token *word,
+static void tell_unknown(struct language *language, const char *what, const struct name *word,
                          const char *const names[], size_t count)
 {
   struct guess guess = guess_begin(word->text, word->length);
@@ -24,33 +26,35 @@ static void tell_unknown(struct language *language, const char *what, const stru
   }
 }
 
-void solver_begin(struct language *language, const struct token *name)
+void solver_begin(struct language *language, struct span place)
 {
-  const struct solver *solver = solver_find(name->text, name->length);
+  const struct name name = sources_name(language, place);
+  const struct solver *solver = solver_find(name.text, name.length);
   if (!solver) {
     const char *names[MOST_NAMES];
     size_t count = 0;
     for (; count < solver_count() && count < MOST_NAMES; count++) names[count] = solver_at(count)->name;
-    tell_unknown(language, "solver", name, names, count);
+    tell_unknown(language, "solver", &name, names, count);
     solver = solver_at(0);
   }
   language->method = language_alloc(language, sizeof *language->method);
   method_default(solver, language->method);
 }
 
-static const struct method_item *item_named(struct language *language, const struct token *name)
+static const struct method_item *item_named(struct language *language, struct span place)
 {
+  const struct name name = sources_name(language, place);
   const char *names[MOST_NAMES];
   size_t count = 0;
   for (const struct method_item *item; (item = method_item_at(count)) != NULL && count < MOST_NAMES; count++) {
-    if (words_compare(name->text, name->length, item->name) == 0) return item;
+    if (words_compare(name.text, name.length, item->name) == 0) return item;
     names[count] = item->name;
   }
-  tell_unknown(language, "solver item", name, names, count);
+  tell_unknown(language, "solver item", &name, names, count);
   return NULL;
 }
 
-static void tell_wanted(struct language *language, struct place place, const struct method_item *item)
+static void tell_wanted(struct language *language, struct span place, const struct method_item *item)
 {
   char words[200], range[RANGE_TEXT_SIZE] = "";
   size_t count = 0;
@@ -61,7 +65,7 @@ static void tell_wanted(struct language *language, struct place place, const str
   language_error(language, place, "%s is %s%s%s", item->name, words, words[0] && range[0] ? " or " : "", range);
 }
 
-static void set_number(struct language *language, const struct method_item *item, struct place place, double value)
+static void set_number(struct language *language, const struct method_item *item, struct span place, double value)
 {
   const bool whole = item->kind != METHOD_ITEM_INTEGER || value == floor(value);
   if (item->kind == METHOD_ITEM_KEYWORD || !whole || !(value >= item->minimum && value <= item->maximum))
@@ -69,29 +73,30 @@ static void set_number(struct language *language, const struct method_item *item
   else item->set(language->method, value);
 }
 
-void solver_quantity(struct language *language, const struct token *name, const struct value *value)
+void solver_quantity(struct language *language, struct span name, const struct value *value)
 {
   const struct method_item *item = item_named(language, name);
   double number;
   if (item && value_to_number(language, value, &number)) set_number(language, item, value->place, number);
 }
 
-void solver_word(struct language *language, const struct token *name, const struct token *value)
+void solver_word(struct language *language, struct span name, struct span place)
 {
+  const struct name value = sources_name(language, place);
   const struct method_item *item = item_named(language, name);
   if (!item) return;
   for (size_t k = 0; item->keywords && item->keywords[k]; k++) {
-    if (words_compare(value->text, value->length, item->keywords[k]) != 0) continue;
+    if (words_compare(value.text, value.length, item->keywords[k]) != 0) continue;
     item->set(language->method, (double)k);
     return;
   }
-  const struct symbol *symbol = symbol_find(language, value->text, value->length);
+  const struct symbol *symbol = symbol_find(language, value.text, value.length);
   if (symbol && symbol->kind == SYMBOL_VALUE && symbol->value.kind == VALUE_NUMBER)
-    set_number(language, item, value->place, symbol->value.x[0]);
-  else if (!symbol || symbol->kind != SYMBOL_BROKEN) tell_wanted(language, value->place, item);
+    set_number(language, item, place, symbol->value.x[0]);
+  else if (!symbol || symbol->kind != SYMBOL_BROKEN) tell_wanted(language, place, item);
 }
 
-void solver_misplaced(struct language *language, struct place place)
+void solver_misplaced(struct language *language, struct span place)
 {
   language_error(language, place, "solver stands in global_settings or in a bicubic_patch");
 }

@@ -6,10 +6,10 @@
 #include "language/values.h"
 #include "scene/method.h"
 
-void solver_begin(struct language *language, const struct token *name);
-void solver_misplaced(struct language *language, struct place place);
-void solver_quantity(struct language *language, const struct token *item, const struct value *value);
+void solver_begin(struct language *language, struct span name);
+void solver_misplaced(struct language *language, struct span place);
+void solver_quantity(struct language *language, struct span item, const struct value *value);
 /* A word of the item's, or else the name of a number. */
-void solver_word(struct language *language, const struct token *item, const struct token *value);
+void solver_word(struct language *language, struct span item, struct span value);
 
 #endif

@@ -12,9 +12,6 @@ enum {
   MAX_SOURCES = 10000 /* files that include each other without a cycle can still ask for any number of reads */
 };
 
-/* Likewise of the bytes in them: a minute's reading. */
-#define MAX_TEXT_BYTES ((size_t)4 << 30)
-
 __extension__ typedef unsigned __int128 hash_type;
 
 /* Every source read stays until the end: places point into their texts. */
@@ -22,6 +19,7 @@ struct source_list {
   struct table_entry entry; /* of the first source of its file */
   struct source_list *next;
   struct source *source;
+  uint32_t base;  /* of the spans in it */
   hash_type hash; /* of its text */
 };
 
@@ -64,10 +62,11 @@ static bool remember(struct language *language, struct source *source)
     return false;
   entry->next = sources->all;
   entry->source = source;
+  entry->base = sources->end + 1;
   entry->hash = source->shared ? 0 : hash_text(source);
   sources->all = entry;
   sources->count++;
-  sources->bytes += source->length;
+  sources->end = entry->base + (uint32_t)source->length;
   return true;
 }
 
@@ -78,13 +77,15 @@ bool sources_open(struct language *language, struct source *source)
     return false;
   }
   struct frame *frame = memory_alloc(1, sizeof *frame);
-  if (!frame || !pscn_scan_open(&frame->scan, source->text, source->length)) {
+  if (!frame || !pscn_scan_open(&frame->scan, source->text, source->length, &language->sources->broken)) {
     memory_free(frame);
     return false;
   }
   frame->source = source;
+  frame->base = language->sources->all->base;
   frame->outer = language->sources->frame;
   language->sources->frame = frame;
+  language->number = frame->scan.number;
   return true;
 }
 
@@ -112,6 +113,26 @@ bool sources_list(const struct language *language, struct scene *scene)
   return scene->files != NULL;
 }
 
+struct place sources_place(const struct language *language, struct span span)
+{
+  const struct source_list *entry = language->sources->all;
+  while (entry && entry->base > span_begin(span)) entry = entry->next;
+  if (!entry) return (struct place){NULL, 0, 0};
+  return (struct place){entry->source, span_begin(span) - entry->base, span_end(span) - entry->base};
+}
+
+struct name sources_name(const struct language *language, struct span span)
+{
+  const struct frame *frame = language->sources->frame;
+  const struct source *source = frame->source;
+  size_t begin = span_begin(span) - frame->base;
+  if (span_begin(span) < frame->base || begin > source->length) { /* the last one of an included file */
+    const struct place place = sources_place(language, span);
+    source = place.source, begin = place.begin;
+  }
+  return (struct name){.place = span, .text = source->text + begin, .length = span_end(span) - span_begin(span)};
+}
+
 void sources_pass(struct language *language)
 {
   const struct frame *frame = language->sources->frame;
@@ -123,6 +144,7 @@ void sources_leave(struct language *language)
   struct frame *frame = language->sources->frame;
   if (frame->outer) symbols_leave(language->symbols);
   language->sources->frame = frame->outer;
+  if (frame->outer) language->number = frame->outer->scan.number;
   pscn_scan_close(&frame->scan);
   memory_free(frame);
 }
@@ -171,7 +193,7 @@ static bool same_file(const struct source *a, const struct source *b)
 }
 
 /* The names from the outermost reading of the file to the one that includes it again, as "a.pscn -> b.inc -> ". */
-static void tell_cycle(struct language *language, struct place place, const struct source *again)
+static void tell_cycle(struct language *language, struct span place, const struct source *again)
 {
   const struct frame *chain[MAX_INCLUDE_DEPTH + 1];
   int count = 0;
@@ -207,10 +229,11 @@ static bool is_open(const struct language *language, const struct source *source
 }
 
 /* Reads the file named at `place`, quotes included, or tells an error and answers NULL. */
-static struct source *read_included(struct language *language, struct place place)
+static struct source *read_included(struct language *language, struct span place)
 {
-  const char *name = place.source->text + place.begin + 1, *reason;
-  const size_t length = place.end - place.begin - 2;
+  const struct name quoted = sources_name(language, place);
+  const char *name = quoted.text + 1, *reason;
+  const size_t length = quoted.length - 2;
   if (memchr(name, '\0', length)) {
     language_tell(language, place, "a file name holds no NUL");
     return NULL;
@@ -245,7 +268,7 @@ static struct source *read_included(struct language *language, struct place plac
 void sources_include(struct language *language)
 {
   const int token = pscn_scan_next(&language->sources->frame->scan);
-  const struct place place = sources_here(language);
+  const struct span place = sources_here(language);
   if (token != PSCN_TOKEN_STRING) {
     language_tell(language, place, "#include wants a file name in quotes");
     return;
@@ -258,15 +281,16 @@ void sources_include(struct language *language)
     language_limit(language, place, "more than 10000 files are included");
     return;
   }
-  if (language->sources->bytes > MAX_TEXT_BYTES) {
-    language_limit(language, place, "more than 4 GiB of text are included");
-    return;
-  }
   struct source *source = read_included(language, place);
   if (!source) return;
-  source->includer = place.source;
-  source->include_begin = place.begin;
-  source->include_end = place.end;
+  if (source->length >= UINT32_MAX - language->sources->end) { /* a minute's reading, and all that a span can say */
+    language_limit(language, place, "more than 4 GiB of text are included");
+    source_destroy(source);
+    return;
+  }
+  source->includer = language->sources->frame->source;
+  source->include_begin = language->sources->frame->scan.begin;
+  source->include_end = language->sources->frame->scan.end;
   if (!sources_open(language, source)) language->ended_early = true;
   else symbols_enter(language->symbols);
 }

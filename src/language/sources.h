@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 
 struct condition {
-  struct place place; /* of the #ifdef */
+  struct span place; /* of the #ifdef */
   bool seen_else;
 };
 
@@ -17,6 +17,7 @@ enum { MAX_CONDITIONS = 200 }; /* open in one source */
 struct frame {
   struct frame *outer;
   const struct source *source;
+  uint32_t base; /* of the spans in it */
   struct scan scan;
   struct condition condition[MAX_CONDITIONS];
   int conditions;
@@ -28,7 +29,8 @@ struct sources {
   struct source_list *all; /* that have been read */
   struct table files;      /* the first source of each file */
   int count;
-  size_t bytes;               /* of all sources together */
+  uint32_t end;               /* of the spans in all of them */
+  jmp_buf broken;             /* for the scanners */
   const char *const *folders; /* where to look besides the includer's, or NULL */
 };
 
@@ -48,11 +50,23 @@ void sources_pass(struct language *language);
 void sources_leave(struct language *language);
 void sources_close(struct language *language);
 
-/* The bytes of the last token of the source being read. */
-static inline struct place sources_here(const struct language *language)
+/* Bytes begin .. end-1 of that source. */
+static inline struct span sources_span(const struct frame *frame, size_t begin, size_t end)
+{
+  return span_of(frame->base + begin, frame->base + end);
+}
+
+/* Those of the last token of the source being read. */
+static inline struct span sources_here(const struct language *language)
 {
   const struct frame *frame = language->sources->frame;
-  return (struct place){frame->source, frame->scan.begin, frame->scan.end};
+  return sources_span(frame, frame->scan.begin, frame->scan.end);
 }
+
+/* Where that is, for an error; nowhere where the span is zeroed. */
+struct place sources_place(const struct language *language, struct span span);
+
+/* The word that stands there, which has been read just now. */
+struct name sources_name(const struct language *language, struct span span);
 
 #endif

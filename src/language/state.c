@@ -6,10 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "language/sources.h"
+
 /* More than these of one declaration are not told. */
 enum { MOST_HELD = 20 };
 
-static struct held *hold(struct language *language, struct place place)
+static struct held *hold(struct language *language, struct span place)
 {
   struct declaration *declaration = language->declaration;
   language->held_count++;
@@ -20,18 +22,18 @@ static struct held *hold(struct language *language, struct place place)
   return held;
 }
 
-void language_hold(struct language *language, struct place place, struct held *of)
+void language_hold(struct language *language, struct span place, struct held *of)
 {
   struct held *held = hold(language, place);
   if (held) held->of = of;
 }
 
-static void tell(struct language *language, struct place place, bool holds, const char *format, va_list arguments)
+static void tell(struct language *language, struct span place, bool holds, const char *format, va_list arguments)
 {
   char message[400];
   const size_t size = 1 + (size_t)vsnprintf(message, sizeof message, format, arguments);
   if (!holds) {
-    diagnostics_error(language->diagnostics, place, "%s", message);
+    diagnostics_error(language->diagnostics, sources_place(language, place), "%s", message);
     return;
   }
   struct held *held = hold(language, place);
@@ -39,7 +41,7 @@ static void tell(struct language *language, struct place place, bool holds, cons
   if (held) held->text = memcpy(language_alloc(language, kept), message, kept);
 }
 
-void language_tell(struct language *language, struct place place, const char *format, ...)
+void language_tell(struct language *language, struct span place, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
@@ -47,7 +49,7 @@ void language_tell(struct language *language, struct place place, const char *fo
   va_end(arguments);
 }
 
-void language_error(struct language *language, struct place place, const char *format, ...)
+void language_error(struct language *language, struct span place, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
@@ -55,7 +57,7 @@ void language_error(struct language *language, struct place place, const char *f
   va_end(arguments);
 }
 
-void language_foreign(struct language *language, struct place place, const char *format, ...)
+void language_foreign(struct language *language, struct span place, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
@@ -63,7 +65,7 @@ void language_foreign(struct language *language, struct place place, const char 
   va_end(arguments);
 }
 
-struct block language_block(const struct language *language, struct place place)
+struct block language_block(const struct language *language, struct span place)
 {
   return (struct block){place, language->diagnostics->error_count + language->held_count};
 }
@@ -73,14 +75,14 @@ bool language_sound(const struct language *language, const struct block *block)
   return language->diagnostics->error_count + language->held_count == block->errors;
 }
 
-void language_error_in(struct language *language, const struct block *block, struct place place, const char *text)
+void language_error_in(struct language *language, const struct block *block, struct span place, const char *text)
 {
   if (language_sound(language, block)) language_error(language, place, "%s", text);
 }
 
-void language_limit(struct language *language, struct place place, const char *text)
+void language_limit(struct language *language, struct span place, const char *text)
 {
-  if (!language->ended_early) diagnostics_error(language->diagnostics, place, "%s", text);
+  if (!language->ended_early) diagnostics_error(language->diagnostics, sources_place(language, place), "%s", text);
   language->ended_early = true;
 }
 

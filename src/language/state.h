@@ -9,31 +9,41 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/arena.h"
 #include "base/diagnostics.h"
-#include "base/source.h"
 
 /* Blocks open within each other, and declared objects within declared objects. */
 enum { MAX_NESTING = 200 };
 
-/* What a token is beside its kind. The text is not terminated and lives as long as its source. */
-struct token {
-  struct place place;
-  union {
-    struct {
-      const char *text;
-      size_t length;
-    };
-    double number[3]; /* of a number or a vector, whose text is not told */
-    int index;
-  };
+/* Bytes begin .. end-1 of the text: of all sources, one behind the other as their reading begins; byte 0 is none. One
+ * number, begin x 2^32 + end, for the parser takes one along with each token. */
+struct span {
+  uint64_t ends;
+};
+
+static inline struct span span_of(uint64_t begin, uint64_t end) { return (struct span){begin << 32 | end}; }
+static inline uint32_t span_begin(struct span span) { return (uint32_t)(span.ends >> 32); }
+static inline uint32_t span_end(struct span span) { return (uint32_t)span.ends; }
+
+/* From the beginning of one to the end of the other. */
+static inline struct span span_join(struct span first, struct span last)
+{
+  return span_end(last) < span_begin(first) ? first : span_of(span_begin(first), span_end(last));
+}
+
+/* A word that names something. The text is not terminated and lives as long as its source. */
+struct name {
+  struct span place;
+  const char *text;
+  size_t length;
 };
 
 /* A block in braces, or what else is read piece by piece. */
 struct block {
-  struct place place; /* of the word it begins with */
-  size_t errors;      /* told or held before it began */
+  struct span place; /* of the word it begins with */
+  size_t errors;     /* told or held before it began */
 };
 
 /* How far a block has come: what may follow. */
@@ -44,7 +54,7 @@ struct symbol;
 /* What pscn has not, within a declaration: told where its name is used. */
 struct held {
   struct held *next;
-  struct place place;
+  struct span place;
   const char *text; /* or, where that is NULL, */
   struct held *of;  /* all of a name that was used there */
   bool told;
@@ -65,10 +75,12 @@ struct language {
   size_t memory_bytes, max_memory;        /* held while reading; allowed */
   bool unaffordable;                      /* more was wanted */
   bool ended_early;                       /* memory, or a stated limit: STATUS_LIMIT */
-  struct place unknown;                   /* the last word told to be unknown */
+  struct span unknown;                    /* the last word told to be unknown */
   struct declaration *declaration;        /* the innermost that is open, or NULL */
   struct declaration *declared;           /* the last of a texture */
   size_t held_count;                      /* in all declarations */
+  struct value *unused;                   /* values that are needed no more */
+  const double *number;                   /* of the last token, if it is a number or a vector; until the next one */
   _Alignas(max_align_t) char spare[4096]; /* stands in for memory that there is not */
   size_t spare_used;
 
@@ -84,38 +96,30 @@ struct language {
   struct settings *settings;
 };
 
-/* From the beginning of one to the end of the other, if both stand in one source. Here, because the parser wants it with
- * every rule. */
-static inline struct place language_span(const struct place *first, const struct place *last)
-{
-  if (first->source != last->source || last->end < first->begin) return *first;
-  return (struct place){first->source, first->begin, last->end};
-}
-
 /* An error in how files are put together: in whole comments, quotes, conditions, blocks. */
-void language_tell(struct language *language, struct place place, const char *format, ...)
+void language_tell(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
 /* An error in what the text means. */
-void language_error(struct language *language, struct place place, const char *format, ...)
+void language_error(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
 /* What pscn has not, though POV-Ray may. Where a declaration is being read this is held, and so is what language_error
  * gets in it from there on: libraries declare more than a scene uses. */
-void language_foreign(struct language *language, struct place place, const char *format, ...)
+void language_foreign(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
 /* The same of a name that was declared so. */
-void language_hold(struct language *language, struct place place, struct held *of);
+void language_hold(struct language *language, struct span place, struct held *of);
 
-struct block language_block(const struct language *language, struct place place);
+struct block language_block(const struct language *language, struct span place);
 /* Whether no error has been told since the block began: what is missing in it may be the consequence of one. */
 bool language_sound(const struct language *language, const struct block *block);
 /* An error about a block, told only where it is sound. */
-void language_error_in(struct language *language, const struct block *block, struct place place, const char *text);
+void language_error_in(struct language *language, const struct block *block, struct span place, const char *text);
 
 /* A stated limit: reading ends at the next token, with STATUS_LIMIT. */
-void language_limit(struct language *language, struct place place, const char *text);
+void language_limit(struct language *language, struct span place, const char *text);
 
 /* Whether so many more bytes are within what settings.max_memory allows; if so they are counted. */
 bool language_afford(struct language *language, size_t bytes);

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "language/sources.h"
+
 /* The innermost of that name; with `depth` at least 0, only that of that depth. */
 static struct symbol *find(const struct symbols *symbols, const char *name, size_t length, int depth)
 {
@@ -71,7 +73,7 @@ void guess_symbols(struct guess *guess, struct language *language)
 }
 
 /* A name that is missing in many places is told once; how often is told at the end. */
-static void tell_unknown(struct language *language, const struct token *name, const char *wanted)
+static void tell_unknown(struct language *language, const struct name *name, const char *wanted)
 {
   struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
   if (!symbol) {
@@ -110,7 +112,7 @@ void symbols_tell_missed(struct language *language)
 }
 
 /* All that its declarations held is told at the first use; other declarations hold it with what they are of. */
-static void tell_foreign(struct language *language, const struct token *name, struct symbol *symbol)
+static void tell_foreign(struct language *language, const struct name *name, struct symbol *symbol)
 {
   if (language->declaration) {
     language_hold(language, name->place, symbol->held);
@@ -121,14 +123,15 @@ static void tell_foreign(struct language *language, const struct token *name, st
     next = NULL;
     for (struct held *held = list; held; held = held->next) {
       if (held->of && !next) next = held->of;
-      if (held->text && !held->told) diagnostics_error(language->diagnostics, held->place, "%s", held->text);
+      if (held->text && !held->told)
+        diagnostics_error(language->diagnostics, sources_place(language, held->place), "%s", held->text);
       held->told = true;
     }
   }
   symbol->kind = SYMBOL_BROKEN;
 }
 
-void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted)
+void symbol_mistaken(struct language *language, struct span place, const struct symbol *symbol, const char *wanted)
 {
   const char *is = symbol->kind == SYMBOL_OBJECT    ? "an object"
                    : symbol->kind == SYMBOL_TEXTURE ? symbol->texture_kind
@@ -138,7 +141,7 @@ void symbol_mistaken(struct language *language, struct place place, const struct
                                                                      (int)symbol->length, symbol->name, is, wanted);
 }
 
-const struct symbol *symbol_wanted(struct language *language, const struct token *name, enum symbol_kind kind,
+const struct symbol *symbol_wanted(struct language *language, const struct name *name, enum symbol_kind kind,
                                    const char *wanted)
 {
   struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
@@ -154,7 +157,7 @@ const struct symbol *symbol_wanted(struct language *language, const struct token
 /* As in POV-Ray: #local writes to a name of this file, #declare to the innermost there is, or else to one that belongs
  * to all. Which one is settled before the value is read: a declaration within the first one of its own name hides
  * that, within a later one the outer one is the last to write. */
-static struct symbol *symbol_begin(struct language *language, const struct token *name, bool local)
+static struct symbol *symbol_begin(struct language *language, const struct name *name, bool local)
 {
   const int depth = local ? language->symbols->depth : -1;
   struct symbol *symbol = find(language->symbols, name->text, name->length, depth);
@@ -163,13 +166,14 @@ static struct symbol *symbol_begin(struct language *language, const struct token
   return add(language, name->text, name->length, local ? depth : 0);
 }
 
-struct declaration *declare_begin(struct language *language, const struct token *name, bool local)
+struct declaration *declare_begin(struct language *language, struct span place, bool local)
 {
+  const struct name name = sources_name(language, place);
   struct declaration *declaration = language->symbols->ended;
   if (declaration) language->symbols->ended = declaration->outer;
   else declaration = language_alloc(language, sizeof *declaration);
   *declaration = (struct declaration){
-    .symbol = symbol_begin(language, name, local), .outer = language->declaration, .held_end = &declaration->held};
+    .symbol = symbol_begin(language, &name, local), .outer = language->declaration, .held_end = &declaration->held};
   return language->declaration = declaration;
 }
 
@@ -210,12 +214,12 @@ void declare_broken(struct language *language, struct declaration *declaration)
   if (symbol) symbol->kind = SYMBOL_BROKEN;
 }
 
-void declare_macro(struct language *language, const struct token *name)
+void declare_macro(struct language *language, const struct name *name)
 {
   symbol_begin(language, name, false)->kind = SYMBOL_MACRO;
 }
 
-void declare_gone(struct language *language, const struct token *name)
+void declare_gone(struct language *language, const struct name *name)
 {
   struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
   if (symbol && symbol->kind != SYMBOL_BEGUN) symbol->kind = SYMBOL_UNKNOWN;
@@ -223,6 +227,6 @@ void declare_gone(struct language *language, const struct token *name)
 
 void declare_number(struct language *language, const char *name, size_t length, double number)
 {
-  const struct token token = {.text = name, .length = length};
-  symbol_set(symbol_begin(language, &token, false), &(struct value){.x = {number, number, number}});
+  const struct name word = {.text = name, .length = length};
+  symbol_set(symbol_begin(language, &word, false), &(struct value){.x = {number, number, number}});
 }

@@ -22,7 +22,8 @@ struct value {
   unsigned transparent; /* a colour that POV-Ray gives transparency: why, or 0 */
   double x[3];
   const struct symbol *symbol;
-  struct place place;
+  struct span place;
+  struct value *next; /* of language->unused */
 };
 
 enum symbol_kind {
@@ -40,7 +41,7 @@ enum symbol_kind {
 struct missed {
   const struct symbol *symbol;
   size_t times;
-  struct place last;
+  struct span last;
   struct missed *next; /* the one that was unknown before it */
 };
 
@@ -88,21 +89,21 @@ bool symbol_known(const struct language *language, const char *name, size_t leng
 void guess_symbols(struct guess *guess, struct language *language);
 
 /* What a name that should stand for `wanted` does, if that is `kind`; else NULL, and that has been told. */
-const struct symbol *symbol_wanted(struct language *language, const struct token *name, enum symbol_kind kind,
+const struct symbol *symbol_wanted(struct language *language, const struct name *name, enum symbol_kind kind,
                                    const char *wanted);
 /* Tells at the end of the names that have been unknown more than once. */
 void symbols_tell_missed(struct language *language);
 /* Tells that a name is something else than what is wanted. */
-void symbol_mistaken(struct language *language, struct place place, const struct symbol *symbol, const char *wanted);
+void symbol_mistaken(struct language *language, struct span place, const struct symbol *symbol, const char *wanted);
 
 /* A declaration begins; declarations may stand within each other. */
-struct declaration *declare_begin(struct language *language, const struct token *name, bool local);
+struct declaration *declare_begin(struct language *language, struct span name, bool local);
 /* It ends. Returns the symbol to write to, or NULL where something was held: then it is foreign. */
 struct symbol *declare_end(struct language *language, struct declaration *declaration);
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value);
 void declare_broken(struct language *language, struct declaration *declaration); /* it has an error */
-void declare_macro(struct language *language, const struct token *name); /* it can be declared, but not called */
-void declare_gone(struct language *language, const struct token *name);  /* #undef */
+void declare_macro(struct language *language, const struct name *name); /* it can be declared, but not called */
+void declare_gone(struct language *language, const struct name *name);  /* #undef */
 
 /* Declares a number, such as the one that tells this program from POV-Ray. The name is kept. */
 void declare_number(struct language *language, const char *name, size_t length, double number);

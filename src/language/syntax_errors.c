@@ -76,22 +76,21 @@ static struct guess guess_meant(struct language *language, const char *word, siz
   return guess;
 }
 
-static bool same_place(struct place a, struct place b)
-{
-  return a.source && a.source == b.source && a.begin == b.begin;
-}
+static bool same_place(struct span a, struct span b) { return span_begin(a) > 0 && span_begin(a) == span_begin(b); }
 
-void syntax_error(struct language *language, struct place place, bool is_word, const char *const expected[], int count)
+void syntax_error(struct language *language, bool is_word, const char *const expected[], int count)
 {
   enum { LONGEST_SHOWN = 40 };
   struct tokens *tokens = language->tokens;
+  const struct span place = tokens->last.place;
   /* What follows a word just told to be unknown fits the word that was meant. */
   const bool follows = same_place(tokens->previous, language->unknown);
   if (same_place(place, tokens->told) || follows || language->ended_early) return;
   tokens->told = place;
-  const size_t length = place.end - place.begin;
+  const struct name name = sources_name(language, place);
+  const char *text = name.text;
+  const size_t length = name.length;
   const int shown = length < LONGEST_SHOWN ? (int)length : LONGEST_SHOWN;
-  const char *text = place.source->text + place.begin;
   if (length == 0 && tokens->depth > 0) {
     language_tell(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
     return;
@@ -103,7 +102,7 @@ void syntax_error(struct language *language, struct place place, bool is_word, c
     return;
   }
   const int token = tokens->last.token;
-  const bool value_begins = tokens->previous.source && tokens->previous.source->text[tokens->previous.begin] == '=';
+  const bool value_begins = span_begin(tokens->previous) > 0 && sources_name(language, tokens->previous).text[0] == '=';
   if (language->declaration && (token == PSCN_TOKEN_CAMERA || token == PSCN_TOKEN_LIGHT_SOURCE ||
                                 (token == PSCN_TOKEN_STRING && value_begins))) {
     language_foreign(language, place, "%.*s cannot be declared in pscn; it stands where it is meant", shown, text);

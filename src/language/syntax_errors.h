@@ -4,7 +4,7 @@
 
 #include "language/state.h"
 
-/* Tells of a token that is none of `count` expected ones; `is_word`: nor a word of the language. */
-void syntax_error(struct language *language, struct place place, bool is_word, const char *const expected[], int count);
+/* Tells of the last token, which is none of `count` expected ones; `is_word`: nor a word of the language. */
+void syntax_error(struct language *language, bool is_word, const char *const expected[], int count);
 
 #endif

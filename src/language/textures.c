@@ -3,6 +3,8 @@
 
 #include <assert.h>
 
+#include "language/sources.h"
+
 static_assert(sizeof(struct scene_texture) == PARTS * sizeof(double), "a texture is PARTS doubles");
 
 struct texture texture_default(const struct language *language)
@@ -27,20 +29,22 @@ void texture_apply(struct texture *to, const struct texture *from)
   to->set |= from->set;
 }
 
-void texture_begin(struct language *language, enum texture_block block)
+void texture_begin(struct language *language, struct span place, enum texture_block block)
 {
   struct texture *texture = language_alloc(language, sizeof *texture);
   *texture = texture_default(language);
   texture->stage = STAGE_SETTINGS;
+  texture->place = place;
   texture->block = block;
   if (block != TEXTURE_ALL) texture->set = 0;
   texture->outer = language->texture;
   language->texture = texture;
 }
 
-struct texture *texture_end(struct language *language)
+struct texture *texture_end(struct language *language, struct span brace)
 {
   struct texture *texture = language->texture;
+  texture->place = span_join(texture->place, brace);
   language->texture = texture->outer;
   return texture;
 }
@@ -58,7 +62,7 @@ static const char *block_name(enum texture_block block)
   return block == TEXTURE_ALL ? "a texture" : block == TEXTURE_FINISH ? "a finish" : "a pigment";
 }
 
-static void apply_named(struct language *language, struct place place, const struct symbol *symbol, bool first)
+static void apply_named(struct language *language, struct span place, const struct symbol *symbol, bool first)
 {
   struct texture *texture = language->texture;
   if (!first) language_error(language, place, "a declared name stands first in %s", block_name(texture->block));
@@ -66,16 +70,17 @@ static void apply_named(struct language *language, struct place place, const str
 }
 
 /* A texture may begin with a declared texture, pigment or finish; a pigment and a finish with one of their own. */
-void texture_named(struct language *language, const struct token *name)
+void texture_named(struct language *language, struct span place)
 {
+  const struct name name = sources_name(language, place);
   struct texture *texture = language->texture;
   const bool first = texture->stage == STAGE_SETTINGS;
   texture->stage = STAGE_BODY;
   const char *wanted = block_name(texture->block);
-  const struct symbol *symbol = symbol_wanted(language, name, SYMBOL_TEXTURE, wanted);
+  const struct symbol *symbol = symbol_wanted(language, &name, SYMBOL_TEXTURE, wanted);
   if (!symbol) return;
-  if ((symbol->texture->block & ~texture->block) == 0) apply_named(language, name->place, symbol, first);
-  else symbol_mistaken(language, name->place, symbol, wanted);
+  if ((symbol->texture->block & ~texture->block) == 0) apply_named(language, place, symbol, first);
+  else symbol_mistaken(language, place, symbol, wanted);
 }
 
 void pigment_value(struct language *language, const struct value *value)
@@ -138,19 +143,19 @@ void declare_texture(struct language *language, struct declaration *declaration,
   symbol->texture = whole;
 }
 
-void layer_begin(struct language *language, struct place place)
+void layer_begin(struct language *language, struct span place)
 {
   struct declaration *declaration = language->declared;
   declaration->outer = language->declaration;
   language->declaration = declaration;
   language_foreign(language, place, "a texture of several layers is POV-Ray, but pscn has one; leave out all but one");
-  texture_begin(language, TEXTURE_ALL);
+  texture_begin(language, place, TEXTURE_ALL);
 }
 
 void layer_end(struct language *language)
 {
   struct declaration *declaration = language->declaration;
-  texture_end(language);
+  language->texture = language->texture->outer;
   declare_end(language, declaration);
   language->declared = declaration;
 }

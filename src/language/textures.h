@@ -20,7 +20,8 @@ enum {
 enum texture_block { TEXTURE_PIGMENT = 0x007, TEXTURE_FINISH = 0xff8, TEXTURE_ALL = 0xfff };
 
 struct texture {
-  struct texture *outer;    /* while its block is open */
+  struct texture *outer; /* while its block is open */
+  struct span place;
   enum texture_block block; /* the statement it comes from */
   unsigned set;
   enum stage stage;        /* of the open block: its declared name or colour, then the rest */
@@ -37,15 +38,15 @@ void texture_set_default(struct language *language, const struct texture *textur
 /* What is set in `from` replaces what is in `to`. */
 void texture_apply(struct texture *to, const struct texture *from);
 
-void texture_begin(struct language *language, enum texture_block block);
-struct texture *texture_end(struct language *language);
-void texture_named(struct language *language, const struct token *name);
+void texture_begin(struct language *language, struct span place, enum texture_block block);
+struct texture *texture_end(struct language *language, struct span brace);
+void texture_named(struct language *language, struct span name);
 void texture_merge(struct language *language, const struct texture *texture);
 void texture_moved(struct language *language); /* a transform, which changes nothing of one colour */
 void pigment_value(struct language *language, const struct value *value);
 void finish_ambient(struct language *language, const struct value *value);
 void finish_number(struct language *language, int part, const struct value *value);
-void layer_begin(struct language *language, struct place place); /* of the texture declared last, one more */
+void layer_begin(struct language *language, struct span place); /* of the texture declared last, one more */
 void layer_end(struct language *language);
 void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture);
 

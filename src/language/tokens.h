@@ -7,7 +7,7 @@
 /* The last token handed to the parser, and what it takes to hand it out again. */
 struct delivered {
   int token;
-  struct place place;
+  struct span place;
   int depth;  /* of braces, before it */
   bool again; /* it comes next once more */
 };
@@ -18,15 +18,15 @@ struct tokens {
   int made_up;      /* tokens handed out before those of the text */
   int raw_words;    /* in a solver statement all words are plain: 1 before the name, 2 after it, 3 in its block */
   int depth;        /* braces open */
-  struct place braces[MAX_NESTING];
+  struct span braces[MAX_NESTING];
   struct delivered last;
-  struct place previous;        /* of the token before the last */
-  bool skipping;                /* in tokens_recover */
-  struct place recovered, told; /* where the last recovery began, what the last syntax error was about */
+  struct span previous;        /* of the token before the last */
+  bool skipping;               /* in tokens_recover */
+  struct span recovered, told; /* where the last recovery began, what the last syntax error was about */
 };
 
-/* The next token of the grammar. 0 also where reading must end early. */
-int tokens_next(struct language *language, struct token *out_token);
+/* The next token of the grammar, which tokens->last tells of. 0 also where reading must end early. */
+int tokens_next(struct language *language);
 
 /* After a syntax error: skips to where the next item of the block begins in which the error stands, counting braces,
  * or to its closing brace. The token at which the error was found is taken into account. False where the text has

@@ -79,18 +79,19 @@ void transform_direction(const struct transform *transform, const double p[3], d
   apply(transform, nowhere, p, out);
 }
 
-static struct transform *new_identity(struct language *language)
+static struct transform *new_identity(struct language *language, struct span place)
 {
   if (!language->transform) language->transform = language_alloc(language, sizeof *language->transform);
   *language->transform = transform_identity();
+  language->transform->place = place;
   return language->transform;
 }
 
-const struct transform *transform_translate(struct language *language, const struct value *value)
+const struct transform *transform_translate(struct language *language, struct span place, const struct value *value)
 {
   double by[3] = {0, 0, 0};
   value_to_vector(language, value, by);
-  struct transform *t = new_identity(language);
+  struct transform *t = new_identity(language, span_join(place, value->place));
   for (int k = 0; k < 3; k++) {
     t->b[k] = dd(by[k]);
     t->identity &= by[k] == 0;
@@ -150,11 +151,11 @@ static void turn(double degrees, struct double_double *out_sin, struct double_do
   }
 }
 
-const struct transform *transform_rotate(struct language *language, const struct value *value)
+const struct transform *transform_rotate(struct language *language, struct span place, const struct value *value)
 {
   double by[3] = {0, 0, 0};
   value_to_vector(language, value, by);
-  struct transform *all = new_identity(language);
+  struct transform *all = new_identity(language, span_join(place, value->place));
   for (int axis = 0; axis < 3; axis++) {
     if (by[axis] == 0) continue;
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
@@ -165,16 +166,17 @@ const struct transform *transform_rotate(struct language *language, const struct
     t.A[j][j] = t.A[i][i];
     *all = transform_then(all, &t);
   }
+  all->place = span_join(place, value->place);
   return all;
 }
 
-const struct transform *transform_scale(struct language *language, const struct value *value)
+const struct transform *transform_scale(struct language *language, struct span place, const struct value *value)
 {
   static const char *const axes[8] = {"", "x", "y", "x and y", "z", "x and z", "y and z", "x, y and z"};
   double by[3] = {1, 1, 1};
   unsigned zeros = 0;
   value_to_vector(language, value, by);
-  struct transform *t = new_identity(language);
+  struct transform *t = new_identity(language, span_join(place, value->place));
   for (int k = 0; k < 3; k++) {
     if (by[k] == 0) zeros |= 1u << k;
     else t->A[k][k] = dd(by[k]);
@@ -230,9 +232,9 @@ static bool is_singular(const double matrix[12])
   return fabs(determinant.hi) <= 0x1p-100 * size;
 }
 
-const struct transform *transform_matrix(struct language *language, const struct matrix *matrix, struct place place)
+const struct transform *transform_matrix(struct language *language, struct span place, const struct matrix *matrix)
 {
-  struct transform *t = new_identity(language);
+  struct transform *t = new_identity(language, place);
   const int count = matrix ? matrix->count : 3;
   if (count != MATRIX_NUMBERS) {
     language_error(language, place, "matrix needs %d numbers, found %d", MATRIX_NUMBERS, count);

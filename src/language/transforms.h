@@ -13,6 +13,7 @@
  * the identity and b doubles. */
 struct transform {
   bool identity, moves;
+  struct span place; /* of the statement */
   struct double_double A[3][3], b[3];
 };
 
@@ -25,17 +26,17 @@ void transform_point(const struct transform *transform, const double p[3], doubl
 void transform_direction(const struct transform *transform, const double p[3], double out[3]);
 
 /* The statements, each until the next one; the identity where an error has been told. */
-const struct transform *transform_translate(struct language *language, const struct value *by);
-const struct transform *transform_rotate(struct language *language, const struct value *by);
-const struct transform *transform_scale(struct language *language, const struct value *by);
+const struct transform *transform_translate(struct language *language, struct span place, const struct value *by);
+const struct transform *transform_rotate(struct language *language, struct span place, const struct value *by);
+const struct transform *transform_scale(struct language *language, struct span place, const struct value *by);
 
-/* The numbers of a matrix statement; NULL and a place: it has but three, as one vector. */
+/* The numbers of a matrix statement; NULL: it has but three, as one vector. */
 struct matrix {
   double number[12];
   int count;
 };
 struct matrix *matrix_begin(struct language *language, const struct value *first);
 void matrix_add(struct language *language, struct matrix *matrix, const struct value *value);
-const struct transform *transform_matrix(struct language *language, const struct matrix *matrix, struct place place);
+const struct transform *transform_matrix(struct language *language, struct span place, const struct matrix *matrix);
 
 #endif

@@ -6,44 +6,73 @@
 #include <stdio.h>
 
 #include "base/number.h"
+#include "language/sources.h"
 
-struct value value_of_number(double x, struct place place)
+static struct value *make(struct language *language, enum value_kind kind, struct span place)
 {
-  return (struct value){.kind = VALUE_NUMBER, .x = {x, x, x}, .place = place};
-}
-
-struct value value_of_vector(const double x[3], struct place place)
-{
-  return (struct value){.kind = VALUE_VECTOR, .x = {x[0], x[1], x[2]}, .place = place};
-}
-
-struct value value_axis(int axis, struct place place)
-{
-  struct value value = {.kind = VALUE_VECTOR, .place = place};
-  value.x[axis] = 1;
+  struct value *value = language->unused;
+  if (value) language->unused = value->next;
+  else value = language_alloc(language, sizeof *value);
+  *value = (struct value){.kind = kind, .place = place};
   return value;
 }
 
-struct value value_placed(struct value value, struct place place)
+/* Its memory is the next one's; not that which stands in for memory that there is not. */
+struct value *value_last(struct language *language, struct value *value)
 {
-  value.place = place;
+  if (language->ended_early) return value;
+  value->next = language->unused;
+  return language->unused = value;
+}
+
+static struct value *set(struct value *value, double x, double y, double z)
+{
+  value->x[0] = x, value->x[1] = y, value->x[2] = z;
   return value;
 }
 
-static struct value unknown(struct place place)
+struct value *value_of_number(struct language *language, double x, struct span place)
 {
-  return (struct value){.kind = VALUE_UNKNOWN, .x = {1, 1, 1}, .place = place};
+  return set(make(language, VALUE_NUMBER, place), x, x, x);
+}
+
+struct value *value_of_vector(struct language *language, const double x[3], struct span place)
+{
+  return set(make(language, VALUE_VECTOR, place), x[0], x[1], x[2]);
+}
+
+struct value *value_axis(struct language *language, int axis, struct span place)
+{
+  return set(make(language, VALUE_VECTOR, place), axis == 0, axis == 1, axis == 2);
+}
+
+struct value *value_placed(struct value *value, struct span place)
+{
+  value->place = place;
+  return value;
+}
+
+static struct value *become_unknown(struct value *value, struct span place)
+{
+  *value = (struct value){.kind = VALUE_UNKNOWN, .x = {1, 1, 1}, .place = place};
+  return value;
 }
 
 /* Names of objects and textures are told apart where the value is used: a pigment may be named where a colour may
  * stand. */
-struct value value_named(struct language *language, const struct token *name)
+struct value *value_named(struct language *language, struct span place)
 {
-  const struct symbol *symbol = symbol_find(language, name->text, name->length);
-  if (symbol && (symbol->kind == SYMBOL_OBJECT || symbol->kind == SYMBOL_TEXTURE))
-    return (struct value){.kind = VALUE_NAMED, .x = {1, 1, 1}, .symbol = symbol, .place = name->place};
-  symbol = symbol_wanted(language, name, SYMBOL_VALUE, "a value");
-  return symbol ? value_placed(symbol->value, name->place) : unknown(name->place);
+  const struct name name = sources_name(language, place);
+  struct value *value = make(language, VALUE_NAMED, place);
+  const struct symbol *symbol = symbol_find(language, name.text, name.length);
+  if (!symbol || (symbol->kind != SYMBOL_OBJECT && symbol->kind != SYMBOL_TEXTURE)) {
+    symbol = symbol_wanted(language, &name, SYMBOL_VALUE, "a value");
+    if (!symbol) return become_unknown(value, place);
+    *value = symbol->value;
+    return value_placed(value, place);
+  }
+  value->symbol = symbol;
+  return set(value, 1, 1, 1);
 }
 
 /* Whether it can be reckoned with; if not, that has been told. */
@@ -69,12 +98,12 @@ static bool stays_opaque(struct language *language, char op, const struct value 
   const bool number = a->kind == VALUE_NUMBER || b->kind == VALUE_NUMBER;
   const bool colour = a->kind == VALUE_COLOUR || b->kind == VALUE_COLOUR;
   if (colour && number && (op == '+' || op == '-')) {
-    language_error(language, language_span(&a->place, &b->place),
+    language_error(language, span_join(a->place, b->place),
                    "a number added to a colour makes it transparent in POV-Ray; add a vector of three");
     return false;
   }
   if (op == '/' && colour && b->kind != VALUE_NUMBER) {
-    language_error(language, language_span(&a->place, &b->place),
+    language_error(language, span_join(a->place, b->place),
                    "this makes a colour infinitely transparent in POV-Ray; divide by a number");
     return false;
   }
@@ -89,102 +118,109 @@ static unsigned result_transparent(char op, const struct value *a, const struct 
   return a->transparent | b->transparent;
 }
 
-struct value value_binary(struct language *language, char op, const struct value *a, const struct value *b)
+struct value *value_binary(struct language *language, char op, struct value *a, struct value *b)
 {
-  const struct place place = language_span(&a->place, &b->place);
+  const struct span place = span_join(a->place, b->place);
+  value_last(language, b);
   const bool a_usable = usable(language, a, "a value");
-  if (!usable(language, b, "a value") || !a_usable) return unknown(place);
-  if (!stays_opaque(language, op, a, b)) return unknown(place);
-  struct value r = {
-    .kind = a->kind > b->kind ? a->kind : b->kind, .transparent = result_transparent(op, a, b), .place = place};
+  if (!usable(language, b, "a value") || !a_usable || !stays_opaque(language, op, a, b))
+    return become_unknown(a, place);
+  const bool numbers = a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER;
+  a->transparent = result_transparent(op, a, b);
+  if (b->kind > a->kind) a->kind = b->kind;
   for (int k = 0; k < 3; k++) {
     if (op == '/' && b->x[k] == 0) {
       language_error(language, b->place, "division by zero");
-      return unknown(place);
+      return become_unknown(a, place);
     }
-    r.x[k] = operate(op, a->x[k], b->x[k]);
-    if (!isfinite(r.x[k])) {
+    a->x[k] = operate(op, a->x[k], b->x[k]);
+    if (!isfinite(a->x[k])) {
       language_error(language, place, "the result is too large for a number");
-      return unknown(place);
+      return become_unknown(a, place);
     }
+    if (numbers) return value_placed(set(a, a->x[0], a->x[0], a->x[0]), place);
   }
-  return r;
+  return value_placed(a, place);
 }
 
-struct value value_negative(struct language *language, const struct value *a, struct place place)
+struct value *value_negative(struct language *language, struct value *a, struct span place)
 {
-  if (!usable(language, a, "a value")) return unknown(place);
-  struct value r = value_placed(*a, place);
-  for (int k = 0; k < 3; k++) r.x[k] = -a->x[k];
-  return r;
+  if (!usable(language, a, "a value")) return become_unknown(a, place);
+  return value_placed(set(a, -a->x[0], -a->x[1], -a->x[2]), place);
 }
 
 /* A number's components are itself, as in POV-Ray. */
-struct value value_component(struct language *language, const struct value *a, int index, struct place place)
+struct value *value_component(struct language *language, struct value *a, int index, struct span name)
 {
-  return usable(language, a, "a vector") ? value_of_number(a->x[index], place) : unknown(place);
+  const struct span place = span_join(a->place, name);
+  if (!usable(language, a, "a vector")) return become_unknown(a, place);
+  a->kind = VALUE_NUMBER;
+  a->transparent = 0;
+  return value_placed(set(a, a->x[index], a->x[index], a->x[index]), place);
 }
 
 /* A number after rgb is three, and after color five. */
-struct value value_rgb(struct language *language, const struct value *a, struct place place)
+struct value *value_rgb(struct language *language, struct value *a, struct span place)
 {
-  struct value colour = value_placed(*a, place);
-  if (!usable(language, a, "a colour")) return unknown(place);
-  colour.kind = VALUE_COLOUR;
-  return colour;
+  if (!usable(language, a, "a colour")) return become_unknown(a, place);
+  a->kind = VALUE_COLOUR;
+  return value_placed(a, place);
 }
 
-struct value value_color(struct language *language, const struct value *a, struct place place)
+struct value *value_color(struct language *language, struct value *a, struct span place)
 {
-  struct value colour = value_rgb(language, a, place);
-  if (a->kind == VALUE_NUMBER && a->x[0] != 0) colour.transparent |= TRANSPARENT_NUMBER;
-  return colour;
+  if (a->kind == VALUE_NUMBER && a->x[0] != 0) a->transparent |= TRANSPARENT_NUMBER;
+  return value_rgb(language, a, place);
 }
 
-struct value value_rgbft(struct language *language, const struct value *a, int parts, struct place place)
+struct value *value_rgbft(struct language *language, struct value *a, int parts, struct span place)
 {
-  struct value colour = value_rgb(language, a, place);
-  if (a->kind == VALUE_NUMBER && parts > 3 && a->x[0] != 0) colour.transparent |= TRANSPARENT_SAID;
-  if (a->kind == VALUE_VECTOR && parts > 3)
+  if (a->kind == VALUE_NUMBER && a->x[0] != 0) a->transparent |= TRANSPARENT_SAID;
+  if (a->kind == VALUE_VECTOR)
     language_error(language, a->place, "a colour of %d parts is wanted here, this has 3", parts);
+  return value_rgb(language, a, place);
+}
+
+struct value *value_part(struct language *language, struct value *colour, int part, struct value *value,
+                         struct span place)
+{
+  double x;
+  if (!colour) colour = make(language, VALUE_COLOUR, place);
+  value_last(language, value);
+  value_rgb(language, colour, place);
+  if (!value_to_number(language, value, &x)) return become_unknown(colour, place);
+  if (part < 3) colour->x[part] = x;
+  else if (x != 0) colour->transparent |= TRANSPARENT_SAID;
   return colour;
 }
 
-struct value value_part(struct language *language, const struct value *colour, int part, const struct value *value,
-                        struct place place)
+struct value *value_wide(struct language *language, struct value *red, struct value *green, struct value *blue,
+                         struct value *filter, struct value *transmit, struct span place)
 {
-  const struct value black = {.kind = VALUE_COLOUR};
-  double x;
-  struct value r = value_rgb(language, colour ? colour : &black, place);
-  if (!value_to_number(language, value, &x)) return unknown(place);
-  if (part < 3) r.x[part] = x;
-  else if (x != 0) r.transparent |= TRANSPARENT_SAID;
-  return r;
+  struct value *value = value_of_parts(language, red, green, blue, place);
+  value = value_part(language, value, 3, filter, place);
+  return transmit ? value_part(language, value, 3, transmit, place) : value;
 }
 
-struct value value_wide(struct language *language, const struct value *red, const struct value *green,
-                        const struct value *blue, const struct value *filter, const struct value *transmit,
-                        struct place place)
+struct value *value_of_parts(struct language *language, struct value *x, struct value *y, struct value *z,
+                             struct span place)
 {
-  struct value r = value_of_parts(language, red, green, blue, place);
-  r = value_part(language, &r, 3, filter, place);
-  return transmit ? value_part(language, &r, 3, transmit, place) : r;
+  bool known = value_to_number(language, x, &x->x[0]);
+  known &= value_to_number(language, y, &x->x[1]);
+  known &= value_to_number(language, z, &x->x[2]);
+  value_last(language, y);
+  value_last(language, z);
+  if (!known) return become_unknown(x, place);
+  x->kind = VALUE_VECTOR;
+  x->transparent = 0;
+  return value_placed(x, place);
 }
 
-struct value value_of_parts(struct language *language, const struct value *x, const struct value *y,
-                            const struct value *z, struct place place)
-{
-  struct value r = {.kind = VALUE_VECTOR, .place = place};
-  bool known = value_to_number(language, x, &r.x[0]);
-  known &= value_to_number(language, y, &r.x[1]);
-  known &= value_to_number(language, z, &r.x[2]);
-  return known ? r : unknown(place);
-}
-
-struct value value_flat(struct language *language, struct place place)
+struct value *value_flat(struct language *language, struct value *x, struct value *y, struct span place)
 {
   language_foreign(language, place, "vectors of two parts are POV-Ray, but pscn has those of three");
-  return unknown(place);
+  value_last(language, y);
+  return become_unknown(x, place);
 }
 
 void value_to_vector(struct language *language, const struct value *a, double out[3])

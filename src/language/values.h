@@ -5,28 +5,32 @@
 
 #include "language/symbols.h"
 
-struct value value_of_number(double x, struct place place);
-struct value value_of_vector(const double x[3], struct place place);
+/* They are made in the order in which the grammar meets them, and what is made of some takes the place of the first in
+ * memory; the others are of no more use then. */
+struct value *value_of_number(struct language *language, double x, struct span place);
+struct value *value_of_vector(struct language *language, const double x[3], struct span place);
+struct value *value_axis(struct language *language, int axis, struct span place);
+struct value *value_named(struct language *language, struct span name);
 /* A vector of two parts, which is refused. */
-struct value value_flat(struct language *language, struct place place);
-struct value value_of_parts(struct language *language, const struct value *x, const struct value *y,
-                            const struct value *z, struct place place);
-struct value value_axis(int axis, struct place place);
-struct value value_placed(struct value value, struct place place);
-struct value value_named(struct language *language, const struct token *name);
-struct value value_binary(struct language *language, char op, const struct value *a, const struct value *b);
-struct value value_negative(struct language *language, const struct value *a, struct place place);
-struct value value_component(struct language *language, const struct value *a, int index, struct place place);
-struct value value_rgb(struct language *language, const struct value *a, struct place place);
-struct value value_color(struct language *language, const struct value *a, struct place place);
+struct value *value_flat(struct language *language, struct value *x, struct value *y, struct span place);
+struct value *value_of_parts(struct language *language, struct value *x, struct value *y, struct value *z,
+                             struct span place);
+struct value *value_placed(struct value *value, struct span place);
+struct value *value_binary(struct language *language, char op, struct value *a, struct value *b);
+struct value *value_negative(struct language *language, struct value *a, struct span place);
+/* `name`: the component's */
+struct value *value_component(struct language *language, struct value *a, int index, struct span name);
+struct value *value_rgb(struct language *language, struct value *a, struct span place);
+struct value *value_color(struct language *language, struct value *a, struct span place);
 /* After rgbf, rgbt (4 parts) and rgbft (5): a number or a colour; or each part, transmit NULL where there are 4. */
-struct value value_rgbft(struct language *language, const struct value *a, int parts, struct place place);
-struct value value_wide(struct language *language, const struct value *red, const struct value *green,
-                        const struct value *blue, const struct value *filter, const struct value *transmit,
-                        struct place place);
+struct value *value_rgbft(struct language *language, struct value *a, int parts, struct span place);
+struct value *value_wide(struct language *language, struct value *red, struct value *green, struct value *blue,
+                         struct value *filter, struct value *transmit, struct span place);
 /* A colour, black where NULL, with one part said by name: 0 red, 1 green, 2 blue, 3 filter or transmit. */
-struct value value_part(struct language *language, const struct value *colour, int part, const struct value *value,
-                        struct place place);
+struct value *value_part(struct language *language, struct value *colour, int part, struct value *value,
+                         struct span place);
+/* A whole one, about to be used: it can be read until the next one is made. */
+struct value *value_last(struct language *language, struct value *value);
 
 /* What is wanted, or an error. Nothing is written to `out` then; value_to_number answers false. */
 void value_to_vector(struct language *language, const struct value *a, double out[3]);

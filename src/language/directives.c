@@ -1,0 +1,187 @@
+/* Directives, and whatever else is not the grammar's. */
+#include "language/directives.h"
+
+#include <stdio.h>
+
+#include "language/hints.h"
+#include "language/tokens.h"
+
+/* The last token of the source being read, whatever it is. */
+static struct name here(const struct language *language) { return sources_name(language, sources_here(language)); }
+
+static void tell_open_comment(struct language *language)
+{
+  const struct frame *frame = language->sources->frame;
+  const size_t begin = frame->scan.comment_begin;
+  language_tell(language, sources_span(frame, begin, begin + 2), "this comment is not closed");
+}
+
+/* ---- conditions ---- */
+
+/* Skips to the #end of a condition, or if `to_else` to its #else; what is skipped may hold conditions of its own,
+ * also those that only POV-Ray has. Answers the token it stopped at; 0 is the end of the source. */
+static int skip_branch(struct language *language, bool to_else)
+{
+  for (int depth = 0;;) {
+    const int token = pscn_scan_next(&language->sources->frame->scan);
+    switch (token) {
+    case 0: return token;
+    case TOKEN_OPEN_COMMENT: tell_open_comment(language); break;
+    case TOKEN_IFDEF:
+    case TOKEN_IFNDEF:
+    case TOKEN_MACRO:
+    case TOKEN_FOREIGN_OPENER: depth++; break;
+    case TOKEN_ELSE:
+      if (depth == 0 && to_else) return token;
+      break;
+    case TOKEN_ENDIF:
+      if (depth-- == 0) return token;
+      break;
+    default: break;
+    }
+  }
+}
+
+/* "(NAME)": whether the name is declared. The words of the language never are, as in POV-Ray. */
+static bool condition_holds(struct language *language, const char *directive)
+{
+  struct scan *scan = &language->sources->frame->scan;
+  int token = pscn_scan_next(scan);
+  const bool opened = token == '(';
+  bool declared = true;
+  if (opened) {
+    token = pscn_scan_next(scan);
+    const struct name name = here(language);
+    if (scan_is_word(token)) {
+      declared = symbol_known(language, name.text, name.length);
+      token = pscn_scan_next(scan);
+      if (token == ')') return declared;
+    }
+  }
+  language_tell(language, sources_here(language), "%s wants a name in parentheses", directive);
+  while (opened && (token == '.' || scan_is_word(token))) token = pscn_scan_next(scan);
+  return declared;
+}
+
+static void begin_condition(struct language *language, bool wanted)
+{
+  struct frame *frame = language->sources->frame;
+  const struct span place = sources_here(language);
+  const bool holds = condition_holds(language, wanted ? "#ifdef" : "#ifndef") == wanted;
+  if (frame->conditions == MAX_CONDITIONS) {
+    language_limit(language, place, "conditions are nested more than 200 deep");
+    return;
+  }
+  frame->condition[frame->conditions++] = (struct condition){place, false};
+  if (holds) return;
+  const int stopped = skip_branch(language, true);
+  if (stopped == TOKEN_ELSE) frame->condition[frame->conditions - 1].seen_else = true;
+  if (stopped == TOKEN_ENDIF) frame->conditions--;
+}
+
+/* At an #else, whose branch is skipped for the one before it has been read, or at an #end. */
+static void end_condition(struct language *language, int token)
+{
+  struct frame *frame = language->sources->frame;
+  if (frame->conditions == 0) {
+    language_tell(language, sources_here(language), "%s without #ifdef", token == TOKEN_ELSE ? "#else" : "#end");
+    return;
+  }
+  struct condition *condition = &frame->condition[frame->conditions - 1];
+  if (token == TOKEN_ELSE) {
+    if (condition->seen_else) language_tell(language, sources_here(language), "a second #else for the same #ifdef");
+    condition->seen_else = true;
+    if (skip_branch(language, false) != TOKEN_ENDIF) return;
+  }
+  frame->conditions--;
+}
+
+/* ---- what is not the grammar's ---- */
+
+/* A macro may be defined; what is in it nobody reads. */
+static void skip_macro(struct language *language)
+{
+  const struct span place = sources_here(language);
+  const int token = pscn_scan_next(&language->sources->frame->scan);
+  const struct name name = here(language);
+  if (scan_is_word(token)) declare_macro(language, &name);
+  else language_tell(language, name.place, "#macro wants a name");
+  if (skip_branch(language, false) != TOKEN_ENDIF) language_tell(language, place, "#macro without #end");
+}
+
+static void undeclare(struct language *language)
+{
+  const int token = pscn_scan_next(&language->sources->frame->scan);
+  const struct name name = here(language);
+  if (scan_is_word(token)) declare_gone(language, &name);
+  else language_tell(language, name.place, "#undef wants a name");
+}
+
+void directives_tell(struct language *language, int token)
+{
+  const struct name whole = here(language);
+  const struct span place = whole.place;
+  size_t length = whole.length;
+  const char *name = words_directive(whole.text, &length);
+  if (token != TOKEN_UNKNOWN_DIRECTIVE) {
+    char directive[HINT_SIZE], hint[HINT_SIZE];
+    const int size = snprintf(directive, sizeof directive, "#%.*s", (int)length, name);
+    hint_write(directive, (size_t)size, hint, sizeof hint);
+    if (!language->tokens->skipping) language_foreign(language, place, "%s is POV-Ray, but pscn %s", directive, hint);
+    return;
+  }
+  struct guess guess = guess_begin(name, length);
+  guess_directives(&guess);
+  if (guess.best)
+    language_tell(language, place, "unknown directive '#%.*s'; did you mean '#%s'?", (int)length, name, guess.best);
+  else language_tell(language, place, "unknown directive '#%.*s'", (int)length, name);
+}
+
+/* The end of a source: false where it was the last. */
+static bool end_of_source(struct language *language)
+{
+  struct frame *frame = language->sources->frame;
+  while (frame->conditions > 0) {
+    source_recall(frame->source);
+    const struct name name = sources_name(language, frame->condition[--frame->conditions].place);
+    language_tell(language, name.place, "%.*s without #end", (int)name.length, name.text);
+  }
+  if (!frame->outer) return false;
+  sources_leave(language);
+  return true;
+}
+
+/* Text from a command line names no files and asks nothing. */
+static bool refused_directive(struct language *language, int token)
+{
+  const bool directive = (token >= TOKEN_INCLUDE && token <= TOKEN_UNKNOWN_DIRECTIVE) ||
+                         (token >= PSCN_TOKEN_VERSION && token <= PSCN_TOKEN_DEFAULT);
+  if (!directive || !language->tokens->solver_only) return false;
+  language_tell(language, sources_here(language), "the text of a solver has no directives");
+  return true;
+}
+
+bool directives_pass(struct language *language, int token)
+{
+  if (refused_directive(language, token)) return true;
+  switch (token) {
+  case 0: return end_of_source(language);
+  case TOKEN_INCLUDE: sources_include(language); return true;
+  case TOKEN_IFDEF: begin_condition(language, true); return true;
+  case TOKEN_IFNDEF: begin_condition(language, false); return true;
+  case TOKEN_ELSE:
+  case TOKEN_ENDIF: end_condition(language, token); return true;
+  case TOKEN_OPEN_COMMENT: tell_open_comment(language); return true;
+  case TOKEN_OPEN_STRING: language_tell(language, sources_here(language), "this quote is not closed"); return true;
+  case TOKEN_BAD_CHARACTER:
+    if (!language->tokens->skipping) language_error(language, sources_here(language), "this means nothing here");
+    return true;
+  case TOKEN_FOREIGN_OPENER:
+    directives_tell(language, token);
+    skip_branch(language, false);
+    return true;
+  case TOKEN_MACRO: skip_macro(language); return true;
+  case TOKEN_UNDEF: undeclare(language); return true;
+  default: return false;
+  }
+}
