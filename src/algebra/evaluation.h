@@ -60,20 +60,18 @@ static inline struct evaluation_real evaluation_at_real(const struct evaluation 
   return out;
 }
 
-/* q of the chart polynomial at the chart point z of x, 1/x where |x|^2 > reversed_above, and a bound on its error, that
- * of 1/x included: 8 U relative, which is (8 k) U in the term of z^k, twice its weight in the bound at most. */
+/* q of the chart polynomial at a chart point z known to 8 U relative, and a bound on its error, that of z included: (8 k) U
+ * in the term of z^k, twice its weight in the bound at most. */
 struct evaluation_complex {
   struct complex_number z, value;
   double error;
   bool reversed;
 };
 
-static inline struct evaluation_complex evaluation_at_complex(const struct evaluation *p, struct complex_number x,
-                                                              double reversed_above)
+static inline struct evaluation_complex evaluation_in_chart(const struct evaluation *p, struct complex_number z,
+                                                            bool reversed)
 {
-  const struct complex_number one = {1.0, 0.0};
-  struct evaluation_complex out = {.reversed = !(complex_norm(x) <= reversed_above)};
-  out.z = out.reversed ? complex_divide(one, x) : x;
+  struct evaluation_complex out = {.z = z, .reversed = reversed};
   const double *c = out.reversed ? p->reverse : p->forward;
   const double *weight = out.reversed ? p->reverse_bound : p->forward_bound;
   const double modulus = hypot(out.z.re, out.z.im) * (1.0 + 4 * UNIT_ROUNDOFF);
@@ -86,6 +84,15 @@ static inline struct evaluation_complex evaluation_at_complex(const struct evalu
   }
   out.error = 3.0 * (out.error + UNDERFLOW_ERROR);
   return out;
+}
+
+/* The same at the chart point of x: x, or 1/x where |x|^2 > reversed_above. */
+static inline struct evaluation_complex evaluation_at_complex(const struct evaluation *p, struct complex_number x,
+                                                              double reversed_above)
+{
+  const struct complex_number one = {1.0, 0.0};
+  const bool reversed = !(complex_norm(x) <= reversed_above);
+  return evaluation_in_chart(p, reversed ? complex_divide(one, x) : x, reversed);
 }
 
 #endif

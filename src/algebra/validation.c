@@ -11,12 +11,13 @@
  * >= 1.
  *
  * That a disc holds a root does not say that no root is left over. For that, where there are n values x_i, all
- * different (x as in root_problem.h): the discs of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) about
- * them cover all roots, and a group of k of them that is apart from the rest holds exactly k (B. T. Smith, "Error
- * bounds for zeros of a polynomial based upon Gerschgorin's theorems", 1970). So in every group, values are taken in
- * the order of their own bounds: one whose disc is apart from those taken before has a root of its own; the roots left
- * over are somewhere in the group, and the other values get radii that reach all of it. Then roots and values can be
- * paired, each root within the radius of its value. Without n values only those with discs of their own are known.
+ * different: the discs of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) about them cover all roots, and
+ * a group of k of them that is apart from the rest holds exactly k (B. T. Smith, "Error bounds for zeros of a polynomial
+ * based upon Gerschgorin's theorems", 1970). Here x is that of root_problem.h, or u itself, with p for q. So in every
+ * group, values are taken in the order of their own bounds: one whose disc is apart from those taken before has a root
+ * of its own; the roots left over are somewhere in the group, and the other values get radii that reach all of it. Then
+ * roots and values can be paired, each root within the radius of its value. Without n values only those with discs of
+ * their own are known.
  */
 #include <float.h>
 #include <math.h>
@@ -41,6 +42,25 @@ static double modulus(struct complex_number a)
   return complex_modulus(complex_scale(lift, a)) * (1.0 / lift);
 }
 
+/* The chart point z = top/low of u, low = w, and whether it is 1/x. */
+struct chart {
+  struct complex_number z;
+  double width_square; /* |w|^2 */
+  bool reversed;
+};
+
+static struct chart chart_of(enum basis basis, struct complex_number u)
+{
+  const struct complex_number v = basis == BASIS_POWER ? (struct complex_number){1.0, 0.0}
+                                                       : (struct complex_number){1.0 - u.re, -u.im};
+  struct chart out = {.reversed = complex_norm(u) > complex_norm(v)};
+  const struct complex_number top = out.reversed ? v : u, low = out.reversed ? u : v;
+  out.width_square = complex_norm(low);
+  out.z.re = (top.re * low.re + top.im * low.im) / out.width_square;
+  out.z.im = (top.im * low.re - top.re * low.im) / out.width_square;
+  return out;
+}
+
 /* What the first-order bound says of one value. */
 struct inclusion {
   struct complex_number z;    /* chart point */
@@ -53,13 +73,8 @@ struct inclusion {
 static struct inclusion include(const struct evaluation *p, struct complex_number u)
 {
   const bool power = p->basis == BASIS_POWER;
-  const struct complex_number v = power ? (struct complex_number){1.0, 0.0}
-                                        : (struct complex_number){1.0 - u.re, -u.im};
-  struct inclusion out = {.reversed = complex_norm(u) > complex_norm(v)};
-  const struct complex_number top = out.reversed ? v : u, low = out.reversed ? u : v;
-  out.width_square = complex_norm(low);
-  out.z.re = (top.re * low.re + top.im * low.im) / out.width_square;
-  out.z.im = (top.im * low.re - top.re * low.im) / out.width_square;
+  const struct chart chart = chart_of(p->basis, u);
+  struct inclusion out = {.z = chart.z, .width_square = chart.width_square, .reversed = chart.reversed};
 
   const double *c = out.reversed ? p->reverse : p->forward;
   const double *bound = out.reversed ? p->reverse_bound : p->forward_bound;
@@ -120,14 +135,14 @@ static double radius_in_u(double bound, double width, double width_square)
   return room > 0.0 && radius >= 0.0 ? radius : INFINITY; /* NaN ends here too */
 }
 
-/* One value and what is known of it; lengths in the plane of x but where it says so. */
+/* One value and what is known of it; lengths in the plane of the discs but where it says so. */
 struct judged {
   struct complex_number x; /* the value, or where two are equal a point beside it */
   double shift;            /* how far beside */
   double own;              /* some root is within it */
   double shared;           /* Smith's disc; INFINITY where there is none */
   double own_in_u;
-  double width, width_square; /* |w| and |w|^2 of x as a chart of u; 0 and 1 where x is u */
+  double width, width_square; /* |w| and |w|^2 of the plane as a chart of u; 0 and 1 where it is that of u */
   int group;                  /* the least index of its group */
   bool taken;                 /* the root within `own` is nobody else's */
 };
@@ -142,25 +157,26 @@ static void set_apart(struct judged *later, const struct judged *earlier)
   later->own += shift * BOUND_ROOM;
 }
 
-static void find_own(const struct evaluation *p, int count, const struct root root[], struct judged all[])
+static void find_own(const struct evaluation *p, bool in_u, int count, const struct root root[], struct judged all[])
 {
   for (int i = 0; i < count; i++) {
     const struct complex_number u = {root[i].re, root[i].im};
     const struct inclusion at = include(p, u);
-    double bound = at.bound, x_width = 0.0;
+    double bound = at.bound;
     if (at.doubtful) {
       const double rounding = at.width == 0.0 ? 0.0 : CHART_ROUNDING * hypot(at.z.re, at.z.im);
       bound = fmin(bound, all_orders_bound(p, at.z, at.reversed) + rounding);
     }
-    all[i] = (struct judged){.x = u, .shared = INFINITY, .width_square = 1.0, .group = i};
-    root_problem_x_from_u(p->basis, &all[i].x.re, &all[i].x.im);
-    if (p->basis == BASIS_BERNSTEIN) {
+    const double own_in_u = radius_in_u(bound, at.width, at.width_square);
+    all[i] = (struct judged){
+      .x = u, .own = own_in_u, .own_in_u = own_in_u, .shared = INFINITY, .width_square = 1.0, .group = i};
+    if (!in_u) {
+      root_problem_x_from_u(p->basis, &all[i].x.re, &all[i].x.im);
       all[i].width = hypot(1.0 - u.re, u.im);
       all[i].width_square = all[i].width * all[i].width;
+      const double x_width = at.reversed ? complex_modulus(all[i].x) : 0.0;
+      all[i].own = radius_in_u(bound, x_width, at.reversed ? x_width * x_width : 1.0);
     }
-    if (at.reversed) x_width = complex_modulus(all[i].x);
-    all[i].own = radius_in_u(bound, x_width, at.reversed ? x_width * x_width : 1.0);
-    all[i].own_in_u = radius_in_u(bound, at.width, at.width_square);
     for (int j = 0; j < i; j++) set_apart(&all[i], &all[j]);
   }
 }
@@ -168,11 +184,32 @@ static void find_own(const struct evaluation *p, int count, const struct root ro
 /* Room for the rounding of a sum of 200 logarithms to base 2, each below 2^17. */
 #define LOG_ROOM 0x1p-20
 
-/* log2 of a bound on |q(x)|. */
-static double log_value(const struct evaluation *p, struct complex_number x)
+/* log2 of a bound on |q(x)|, or on |p(u)|. A chart point of u has a difference and a quotient behind it: 7 roundings. */
+static double log_value(const struct evaluation *p, bool in_u, struct complex_number x)
 {
+  if (in_u && p->basis == BASIS_BERNSTEIN) {
+    const struct chart chart = chart_of(p->basis, x);
+    const struct evaluation_complex q = evaluation_in_chart(p, chart.z, chart.reversed);
+    return log2(hypot(q.value.re, q.value.im) + q.error) + 0.5 * p->degree * log2(chart.width_square);
+  }
   const struct evaluation_complex q = evaluation_at_complex(p, x, 1.0);
   return log2(hypot(q.value.re, q.value.im) + q.error) + (q.reversed ? p->degree * log2(hypot(x.re, x.im)) : 0.0);
+}
+
+/* The leading coefficient, and a bound on its error: in powers of x it is the last of q, in powers of u, where p is in
+ * Bernstein form, the value of q at x = -1. */
+static struct evaluation_real leading_of(const struct evaluation *p, bool in_u)
+{
+  if (in_u && p->basis == BASIS_BERNSTEIN) return evaluation_at_real(p, -1.0, false);
+  return (struct evaluation_real){.value = p->forward[p->degree], .error = p->forward_bound[p->degree]};
+}
+
+/* Whether to draw the discs in the plane of u. That of x has its point at infinity at u = 1: near a root no disc is
+ * known there, and the leading coefficient is hardly told from zero. */
+static bool better_in_u(const struct evaluation *p)
+{
+  const struct evaluation_real u = leading_of(p, true), x = leading_of(p, false);
+  return p->basis == BASIS_POWER || fabs(u.value) * x.error > fabs(x.value) * u.error;
 }
 
 /* Half the distance, which does not overflow. */
@@ -187,13 +224,14 @@ static bool discs_meet(const struct judged *a, double a_radius, const struct jud
 }
 
 /* Smith's discs, and the groups they form. */
-static void find_groups(const struct evaluation *p, int count, struct judged all[])
+static void find_groups(const struct evaluation *p, bool in_u, int count, struct judged all[])
 {
-  const double leading = fabs(p->forward[p->degree]) * (2.0 - BOUND_ROOM) - p->forward_bound[p->degree];
+  const struct evaluation_real last = leading_of(p, in_u);
+  const double leading = fabs(last.value) * (2.0 - BOUND_ROOM) - last.error;
   bool able = count == p->degree && leading > 0.0;
   for (int i = 0; i < count; i++) able = able && isfinite(all[i].x.re) && isfinite(all[i].x.im);
   for (int i = 0; able && i < count; i++) {
-    double size = log2(count) + log_value(p, all[i].x) - log2(leading) + LOG_ROOM;
+    double size = log2(count) + log_value(p, in_u, all[i].x) - log2(leading) + LOG_ROOM;
     for (int j = 0; j < count; j++) size -= j == i ? 0.0 : log2(half_distance(&all[i], &all[j])) + 1.0;
     all[i].shared = isnan(size) ? INFINITY : exp2(size) + DBL_MIN;
   }
@@ -246,9 +284,10 @@ static double final_radius(int i, int count, const struct judged all[])
 static void set_radii(const struct evaluation *p, bool all_sought, int count, struct root root[])
 {
   struct judged all[POLYNOMIAL_MAX_DEGREE];
-  find_own(p, count, root, all);
+  const bool in_u = better_in_u(p);
+  find_own(p, in_u, count, root, all);
   if (all_sought) {
-    find_groups(p, count, all);
+    find_groups(p, in_u, count, all);
     take_own(count, all);
   }
   for (int i = 0; i < count; i++) {

@@ -110,8 +110,8 @@ static int by_place(const void *a, const void *b)
 /* One polynomial's answer. */
 struct answer {
   size_t line;
-  int degree;
-  const double *c; /* powers */
+  int degree;              /* as it was written */
+  struct polynomial power; /* without the zeros that it begins with */
   struct root_set roots;
 };
 
@@ -125,8 +125,7 @@ static const char *status_word(const struct root *root)
 
 static double eq11_of(const struct answer *answer, const struct root *root)
 {
-  const struct polynomial power = {answer->degree, BASIS_POWER, answer->c, NULL};
-  return polynomial_eq11(&power, root->re, root->im);
+  return polynomial_eq11(&answer->power, root->re, root->im);
 }
 
 static void write_plain(const struct root_set *roots)
@@ -228,17 +227,18 @@ static void to_bernstein(int degree, const double c[], double out_c[], double ou
 }
 
 /* `basis bernstein` solves the same polynomial in scaled Bernstein form, the rounding of the change of basis known to
- * the solver. */
+ * the solver: zeros that it begins with would not be known for what they are behind it. */
 static void answer(struct session *session, int degree, const double c[])
 {
-  struct polynomial p = {degree, BASIS_POWER, c, NULL};
-  double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
-  struct answer answer = {.line = ++session->polynomials, .degree = degree, .c = c};
+  struct answer answer = {.line = ++session->polynomials, .degree = degree, .power = {degree, BASIS_POWER, c, NULL}};
   struct root_set *roots = &answer.roots;
   const double start = clock_seconds(CLOCK_MONOTONIC);
-  if (session->method.basis == BASIS_BERNSTEIN) {
-    to_bernstein(degree, c, bernstein, error);
-    p = (struct polynomial){degree, BASIS_BERNSTEIN, bernstein, error};
+  while (answer.power.degree > 1 && c[answer.power.degree] == 0) answer.power.degree--;
+  struct polynomial p = answer.power;
+  double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
+  if (session->method.basis == BASIS_BERNSTEIN && c[p.degree] != 0) {
+    to_bernstein(p.degree, c, bernstein, error);
+    p = (struct polynomial){p.degree, BASIS_BERNSTEIN, bernstein, error};
   }
   solver_solve(&p, &session->method.roots, &session->warm, roots);
   session->solve += clock_seconds(CLOCK_MONOTONIC) - start;

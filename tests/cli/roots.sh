@@ -20,3 +20,7 @@ echo "$answer"
 for format in table json; do
   printf '%s\n' '4 -1' '1 0 0 0' '1e-320 1 -1' | try pscn roots --format "$format"
 done
+# Zeros that a polynomial begins with are not missing in the other basis either, where a root at 1 is known as well; and
+# they do not count as degrees in eq 11.
+printf '%s\n' '1 -1' '0 4 -4' '0 0 5' '0 0 2 -1' '1 -2 1' | try pscn roots --solver 'aberth { basis bernstein }'
+printf '%s\n' '3 -0.1' '0 0 3 -0.1' | pscn roots --format json | sed 's/.*"eq11":\([^}]*\)}.*/\1/' | uniq | wc -l

@@ -103,6 +103,27 @@ static void raised_degree(void **state)
   }
 }
 
+/* A root at u = 1, where the plane of u/(1-u) ends, is known as well as any other; the change of basis leaves the last
+ * coefficient in doubt. */
+static void roots_at_one(void **state)
+{
+  (void)state;
+  const double power[][4] = {{-1.0, 1.0},         {2.0, -3.0, 1.0}, {1.0, -2.0, 1.0},
+                             {-0.25, 1.25, -1.0}, {0.3, -0.4, 0.1}, {-1.0, 1.0, -1.0, 1.0}};
+  const int degrees[] = {1, 2, 2, 2, 2, 3};
+  for (size_t k = 0; k < sizeof degrees / sizeof degrees[0]; k++) {
+    const struct polynomial p = {degrees[k], BASIS_POWER, power[k], NULL};
+    double c[4], error[4];
+    polynomial_to_bernstein(&p, c, error);
+    for (size_t i = 0; i < solver_count(); i++) {
+      const struct root_set roots = solve(solver_at(i)->name, p.degree, BASIS_BERNSTEIN, c, error);
+      assert_true(found(&roots, 1.0) || solver_at(i)->real_only);
+      assert_int_equal(roots.missing, 0);
+      for (int j = 0; j < roots.count; j++) assert_true(roots.root[j].radius < 1e-6);
+    }
+  }
+}
+
 /* Random real roots and pairs: every solver finds every real root in [0,1]; all agree. */
 static void random_roots(void **state)
 {
@@ -185,7 +206,6 @@ static void warm_start(void **state)
   }
 }
 
-/* Whatever the iteration limit, an answer comes, and its radii hold. */
 /* The unknown measured in units of 2^size: the same roots, in those units, with the same statuses, as long as the
  * coefficients are doubles. */
 static void sizes(void **state)
@@ -212,6 +232,7 @@ static void sizes(void **state)
   }
 }
 
+/* Whatever the iteration limit, an answer comes, and its radii hold. */
 static void limits(void **state)
 {
   (void)state;
@@ -250,6 +271,7 @@ int main(void)
     cmocka_unit_test(table),         cmocka_unit_test(hopeless_input), cmocka_unit_test(exact_ends),
     cmocka_unit_test(raised_degree), cmocka_unit_test(random_roots),   cmocka_unit_test(warm_start),
     cmocka_unit_test(limits),        cmocka_unit_test(division),       cmocka_unit_test(sizes),
+    cmocka_unit_test(roots_at_one),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
