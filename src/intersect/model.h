@@ -56,14 +56,15 @@ struct leaf_form {
   double excess;
 };
 
-/* A nearly bilinear leaf as x = c + s A + t B + st C + rest(s,t), s = u - 1/2 and t = v - 1/2: the Taylor polynomial
- * about its middle, the first four coefficients taken out with few bits, as multiples of LEAF_GRAIN. So s A and the
- * like are exact where s has few bits as well, and what is rounded is of the size of the rest, which is how far the
- * leaf bends and what the four have beyond the grain. */
+/* A leaf as x = c + s A + t B + st C + rest(s,t), s = u - 1/2 and t = v - 1/2: the Taylor polynomial about its middle,
+ * the first four coefficients taken out with few bits, as multiples of LEAF_GRAIN. So s A and the like are exact where s
+ * has few bits as well, and what is rounded is of the size of the rest, which is how far the leaf bends and what the
+ * four have beyond the grain. */
 struct leaf_parts {
   double base[3][4];  /* c, A, B, C of each coordinate */
   double rest[3][16]; /* coefficient of s^i t^j at rest[coordinate][4 * i + j] */
-  bool exact;         /* but for rounding the rest: cut without rounding */
+  double error;       /* bound on what rounding the rest adds to local_ray.error in either plane's polynomial */
+  bool final;         /* rounded so little that its roots need no last step */
   /* steps up to these, in leaf parameters, leave the root right to the rounding of its coordinates, and derivatives
    * right to their own */
   double last_step, slope_step;
@@ -83,7 +84,6 @@ struct leaf {
   struct leaf_slabs slabs;
   double x[3][16];              /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
-  /* not NULL where it is nearly bilinear, and tried on lanes */
   const struct leaf_parts *parts;
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
@@ -92,6 +92,7 @@ struct leaf {
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split[0] in u, and so on */
   uint8_t kept_degree, eliminated_degree;
   bool v_kept;      /* the form keeps v and eliminates u */
+  bool bent;        /* so much that the root of its bilinear part is far from its own */
   uint8_t zeros[2]; /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
 };
 

@@ -59,14 +59,14 @@ static void cubic_cut(quad c[4], quad t, int high)
 }
 
 /* The coefficients over [t0, t0 + w]. 1 - t0 and w / (1 - t0) round in quadruple precision only. */
-static void cubic_restrict(quad c[4], double t0, double w)
+static void cubic_restrict(quad c[4], quad t0, quad w)
 {
   if (t0 > 0) cubic_cut(c, t0, 1);
-  quad end = (quad)w / (1 - (quad)t0);
+  const quad end = w / (1 - t0);
   if (end < 1) cubic_cut(c, end, 0);
 }
 
-void quad_net_restrict(const struct quad_net *net, double u0, double wu, double v0, double wv, struct quad_net *out)
+void quad_net_restrict(const struct quad_net *net, quad u0, quad wu, quad v0, quad wv, struct quad_net *out)
 {
   *out = *net;
   for (int i = 0; i < 4; i++) cubic_restrict(out->c[i], v0, wv);

@@ -48,6 +48,6 @@ struct quad_jet quad_net_jet(const struct quad_net *net, quad u, quad v);
 /* The net of the part over [u0, u0 + wu] x [v0, v0 + wv]. Each point is off by at most QUAD_RESTRICT_ROUNDOFFS
  * QUAD_UNIT M: two splits of 3 levels of 4 roundings in each direction. */
 #define QUAD_RESTRICT_ROUNDOFFS 48
-void quad_net_restrict(const struct quad_net *net, double u0, double wu, double v0, double wv, struct quad_net *out);
+void quad_net_restrict(const struct quad_net *net, quad u0, quad wu, quad v0, quad wv, struct quad_net *out);
 
 #endif

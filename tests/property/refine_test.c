@@ -1,8 +1,10 @@
 /* What is proven of one ray and one leaf: the plane polynomials' error bound, and the Newton-Kantorovich test. */
 #include <math.h>
+#include <string.h>
 
 #include "cmocka_test.h"
-#include "intersect/lanes/bilinear.h"
+#include "intersect/certificate.h"
+#include "intersect/lanes/newton.h"
 #include "property/world.h"
 #include "quad_root.h"
 
@@ -26,7 +28,7 @@ static void truth_make(const struct model *model, const struct leaf *leaf, const
   for (int c = 0; c < 3; c++) {
     struct quad_net whole;
     for (int n = 0; n < 16; n++) whole.c[n / 4][n % 4] = ((quad)P[n / 4][n % 4][c] - patch->center[c]) / patch->scale;
-    const double step[2] = {1.0 / patch->split[0], 1.0 / patch->split[1]}; /* splits are powers of two here: exact */
+    const quad step[2] = {(quad)1 / patch->split[0], (quad)1 / patch->split[1]};
     quad_net_restrict(&whole, leaf->column_u * step[0], step[0], leaf->column_v * step[1], step[1], &x[c]);
     q[c] = ((quad)ray->origin[c] - patch->center[c]) / patch->scale;
   }
@@ -49,9 +51,13 @@ struct subject {
   double a[16], b[16];
 };
 
-/* Calls `body` for rays at leaves of scenes near and far, with directions of all sizes the tracer passes on. */
-static void on_all_leaves(uint64_t seed, void (*body)(struct subject *s, struct random *random))
+/* Calls `body` for so many rays at leaves of scenes near and far, cut into split x split of them (0: as it is best), with
+ * directions of all sizes the tracer passes on. */
+static void on_all_leaves(uint64_t seed, int split, int cases, void (*body)(struct subject *s, struct random *random))
 {
+  struct method method;
+  method_default(solver_find("bernstein", strlen("bernstein")), &method);
+  method.split = split;
   static const double offsets[] = {0, 0, 1e6, -3e7};
   struct random random = {seed};
   world_net nets[WORLD_MAX];
@@ -61,9 +67,9 @@ static void on_all_leaves(uint64_t seed, void (*body)(struct subject *s, struct 
       const size_t count = world_fill((enum world_kind)kind, &random, nets);
       for (size_t p = 0; p < count; p++)
         for (int n = 0; n < 48; n++) nets[p][n / 12][n / 3 % 4][n % 3] += offsets[place];
-      world_open(&s.world, nets, count, NULL);
+      world_open(&s.world, nets, count, &method);
       s.model = s.world.tracer->model;
-      for (int n = 0; n < CASES / 12; n++) {
+      for (int n = 0; n < cases / 12; n++) {
         s.ray = world_ray(&random, nets, count, n % RAY_KINDS);
         const int exponent = n % 3 == 0 ? 0 : n % 3 == 1 ? 199 : -199;
         for (int k = 0; k < 3; k++) s.ray.direction[k] = ldexp(s.ray.direction[k], exponent);
@@ -81,25 +87,17 @@ static void on_all_leaves(uint64_t seed, void (*body)(struct subject *s, struct 
   }
 }
 
-static double worst_moment, worst_net, worst_value, worst_t;
+static double worst_moment, worst_net, worst_t;
 
 static void check_planes(struct subject *s, struct random *random)
 {
-  const quad u = random_unit(random), v = random_unit(random);
+  (void)random;
   for (int p = 0; p < 2; p++) {
     const double *net = p ? s->b : s->a;
     const double off = (double)quad_abs((quad)s->local.moment[p] - s->truth.moment[p]);
     worst_moment = fmax(worst_moment, off / (UNIT_ROUNDOFF * (double)(quad_abs(s->truth.moment[p]) + 0x1p-60)));
     for (int n = 0; n < 16; n++)
       worst_net = fmax(worst_net, (double)quad_abs((quad)net[n] - s->truth.net[p].c[n / 4][n % 4]) / s->local.error);
-    /* And a value by the kernel's own arithmetic. */
-    lanes spread[16], wu[4], du[4], wv[4], dv[4];
-    for (int n = 0; n < 16; n++) spread[n] = lanes_all(net[n]);
-    newton_weights(lanes_all((double)u), wu, du);
-    newton_weights(lanes_all((double)v), wv, dv);
-    const quad value = newton_evaluate(spread, wu, du, wv, dv).value[0];
-    worst_value = fmax(worst_value,
-                       (double)quad_abs(value - quad_net_jet(&s->truth.net[p], u, v).value) / s->local.error);
   }
   /* start and to_t: t of the local place 0. */
   const struct model_patch *patch = &s->model->patches[s->leaf->patch];
@@ -112,12 +110,11 @@ static void check_planes(struct subject *s, struct random *random)
 static void the_plane_polynomials_are_within_their_error(void **state)
 {
   (void)state;
-  on_all_leaves(SEED, check_planes);
-  print_message(
-    "moments off by %.3g last places; coefficients %.3g, values %.3g of the bound; t of a place %.3g roundings\n",
-    worst_moment, worst_net, worst_value, worst_t);
+  on_all_leaves(SEED, 0, CASES, check_planes);
+  print_message("moments off by %.3g last places; coefficients %.3g of the bound; t of a place %.3g roundings\n",
+                worst_moment, worst_net, worst_t);
   assert_true(worst_moment <= 4);
-  assert_true(worst_net <= 1 && worst_value <= 1);
+  assert_true(worst_net <= 1);
   assert_true(worst_net > 1e-3); /* not vacuous */
   assert_true(worst_t <= 2);
 }
@@ -153,34 +150,6 @@ static bool check_root(const struct truth *truth, const struct newton_root *r, s
   return true;
 }
 
-static struct tally refined;
-
-static void check_refine(struct subject *s, struct random *random)
-{
-  struct plane_nets nets;
-  for (int n = 0; n < 16; n++) nets.a[n] = lanes_all(s->a[n]), nets.b[n] = lanes_all(s->b[n]);
-  for (int p = 0; p < 2; p++) nets.slope[p] = lanes_all(s->local.slope[p]);
-  nets.error = lanes_all(s->local.error);
-  for (int start = 0; start < 4; start++) {
-    const double u0 = random_between(random, -0.1, 1.1), v0 = random_between(random, -0.1, 1.1);
-    const struct newton_root r = newton_refine(&nets, s->leaf, lanes_all(u0), lanes_all(v0),
-                                               lanes_all(0) == lanes_all(0));
-    quad u, v;
-    check_root(&s->truth, &r, random, &refined, &u, &v);
-  }
-}
-
-static void proven_roots_are_where_they_are_said_to_be(void **state)
-{
-  (void)state;
-  on_all_leaves(SEED + 1, check_refine);
-  print_message("%d proven, %d of them alone; at most %.3g of the radius away\n", refined.exist, refined.alone,
-                refined.worst_radius);
-  assert_true(refined.exist > 100 && refined.alone > 50);
-  assert_int_equal(refined.outside_radius, 0);
-  assert_int_equal(refined.not_alone, 0);
-}
-
 /* Turns the ray to a point of the leaf, from some of its sizes away; the smaller `slant` is, the flatter, and the
  * more likely to meet the leaf twice. */
 static void aim(struct subject *s, struct random *random, double slant)
@@ -203,30 +172,77 @@ static void aim(struct subject *s, struct random *random, double slant)
   }
 }
 
-static struct tally leaf_roots;
-static int closer_look; /* alone, though newton_prove would not say so */
-static double worst_residual, worst_place, worst_point, worst_tangent;
-
-static void check_leaf_root(struct subject *s, struct random *random)
+/* The root that the kernel's process ends at from there, on all lanes alike. */
+static void solve(struct subject *s, const double start[2], struct leaf_root *out)
 {
   struct ray rays[LANES];
   struct packet p;
   struct ready ready;
-  struct bilinear_root root;
-  if (!s->leaf->parts) return;
-  static const double slants[] = {0.5, 0.2, 0.1, 0.05};
-  aim(s, random, slants[random_bits(random) % 4]);
+  for (int l = 0; l < LANES; l++) rays[l] = s->ray;
   local_ray_make(&s->model->patches[s->leaf->patch], &s->ray, &s->local);
   truth_make(s->model, s->leaf, &s->ray, s->local.axis, &s->truth);
-  for (int l = 0; l < LANES; l++) rays[l] = s->ray;
   packet_begin(&p, &ready, s->world.tracer, LANES, rays, false);
   packet_set_patch(&p, &s->model->patches[s->leaf->patch], s->leaf->patch);
+  assert_int_equal(packet_axis(&p, 0), s->local.axis);
+  const lanes at[2] = {lanes_all(start[0]), lanes_all(start[1])};
+  newton_solve(&p, s->leaf, s->local.axis, at, lanes_all(0) == lanes_all(0), out);
+}
+
+static struct tally refined;
+static double worst_inside; /* the point, of leaf_parts.error and ten roundings */
+
+static void check_refine(struct subject *s, struct random *random)
+{
+  static const double slants[] = {0.5, 0.2, 0.1, 0.05};
+  if (random_bits(random) % 2) aim(s, random, slants[random_bits(random) % 4]);
+  for (int n = 0; n < 4; n++) {
+    const double start[2] = {random_between(random, -0.6, 0.6), random_between(random, -0.6, 0.6)};
+    struct leaf_root root;
+    quad u, v;
+    solve(s, start, &root);
+    if (!check_root(&s->truth, &root.at, random, &refined, &u, &v)) continue;
+    for (int c = 0; c < 3; c++) {
+      const quad x = quad_net_jet(&s->truth.x[c], root.at.u[0], root.at.v[0]).value;
+      const double off = (double)quad_abs(root.point[c][0] - x);
+      worst_inside = fmax(worst_inside, off / (s->leaf->parts->error + 10 * UNIT_ROUNDOFF));
+    }
+  }
+}
+
+/* However bent the leaves are, and whether they are cut exactly or not. */
+static void proven_roots_are_where_they_are_said_to_be(void **state)
+{
+  (void)state;
+  static const int splits[] = {0, 1, 2, 3, 7, 32};
+  int alone = 0;
+  for (size_t k = 0; k < sizeof splits / sizeof *splits; k++) {
+    refined = (struct tally){0}, worst_inside = 0;
+    on_all_leaves(SEED + 1 + k, splits[k], CASES / 6, check_refine);
+    print_message(
+      "split %d: %d proven, %d of them alone; at most %.3g of the radius away, points %.3g of their error\n", splits[k],
+      refined.exist, refined.alone, refined.worst_radius, worst_inside);
+    assert_true(refined.exist > 100);
+    alone += refined.alone;
+    assert_int_equal(refined.outside_radius, 0);
+    assert_int_equal(refined.not_alone, 0);
+    assert_true(worst_inside <= 1);
+  }
+  assert_true(alone > 50);
+}
+
+static struct tally leaf_roots;
+static int closer_look; /* alone, though the root's derivatives alone do not say so */
+static double worst_residual, worst_place, worst_point, worst_tangent;
+
+static void check_leaf_root(struct subject *s, struct random *random)
+{
+  static const double slants[] = {0.5, 0.2, 0.1, 0.05}, middle[2] = {0, 0};
+  struct leaf_root root;
+  aim(s, random, slants[random_bits(random) % 4]);
+  solve(s, middle, &root);
   const int k = s->local.axis;
-  assert_int_equal(packet_axis(&p, 0), k);
-  const lanes middle[2] = {{0}, {0}};
-  bilinear_root_solve(&p, s->leaf, k, middle, lanes_all(0) == lanes_all(0), &root);
   quad u, v;
-  if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts->exact) return;
+  if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts->final) return;
   const double second = s->leaf->second[0] + 2 * s->leaf->second[1] + s->leaf->second[2];
   if ((lanes_bits(root.at.alone) & 1) && root.at.size[0] * second > 2 * CERTIFICATE_ALONE) closer_look++;
   /* Off the ray by: one rounding of a coordinate of the patch, of size 1, of the surface's way under the rounding of
@@ -250,10 +266,10 @@ static void check_leaf_root(struct subject *s, struct random *random)
   }
 }
 
-static void roots_of_nearly_bilinear_leaves_are_right_to_the_last_places(void **state)
+static void roots_of_leaves_that_bend_little_are_right_to_the_last_places(void **state)
 {
   (void)state;
-  on_all_leaves(SEED + 2, check_leaf_root);
+  on_all_leaves(SEED + 2, 0, CASES, check_leaf_root);
   print_message("%d proven, %d of them alone, %d by a closer look; at most %.3g of the radius away\n", leaf_roots.exist,
                 leaf_roots.alone, closer_look, leaf_roots.worst_radius);
   print_message("in roundings: off the ray %.3g, places %.3g, points %.3g, derivatives %.3g\n", worst_residual,
@@ -270,7 +286,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_plane_polynomials_are_within_their_error),
     cmocka_unit_test(proven_roots_are_where_they_are_said_to_be),
-    cmocka_unit_test(roots_of_nearly_bilinear_leaves_are_right_to_the_last_places),
+    cmocka_unit_test(roots_of_leaves_that_bend_little_are_right_to_the_last_places),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

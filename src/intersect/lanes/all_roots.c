@@ -1,8 +1,7 @@
-/* The roots of r by the method that the scene asks for, on all lanes of a packet at once, and what can be proven of
- * them.
+/* The roots of r by the method that the scene asks for, on all lanes of a packet at once or one by one, and what can be
+ * proven of them.
  *
- * Compiled once per instruction set. This is method.c's task for methods whose roots are only to start from
- * (prepare/patch.c).
+ * Compiled once per instruction set.
  */
 #include <math.h>
 
@@ -10,15 +9,14 @@
 #include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
 
-/* How many roots near [0,1] a lane may try: of 18, more are real in [0,1] next to never. How often the leaf is halved
- * to see that the ray passes it by before any root is sought. Choices of speed. */
-enum { TRIED_ROOTS = 8, MISS_HALVINGS = 3 };
+/* How often the leaf is halved to see that the ray passes it by before any root is sought. A choice of speed. */
+enum { MISS_HALVINGS = 3 };
 
 /* The roots tried, k-th of every lane. */
 struct all_roots {
   int count;
-  struct bilinear_root root[TRIED_ROOTS]; /* where the leaf has no parts, only `at` */
-  lane_mask proven[TRIED_ROOTS];          /* a root that none before it is */
+  struct leaf_root root[TRIED_ROOTS];
+  lane_mask proven[TRIED_ROOTS]; /* a root that none before it is */
 };
 
 /* Start values on the lanes of `active`: the roots kept, taken off the real axis, or cold. */
@@ -45,45 +43,47 @@ static void all_roots_keep(const struct roots_lanes *a, lane_mask done, struct s
   for (int k = 0; k < a->degree; k++) warm->re[k] = 0.5 + 0.5 * a->zr[k][lane], warm->im[k] = 0.5 * a->zi[k][lane];
 }
 
-/* The roots near [0,1], collected lane by lane: kept[k] the k-th of every lane, has[k] where there is one. */
-static int all_roots_near(const struct roots_lanes *a, lane_mask done, lanes kept[TRIED_ROOTS],
-                          lane_mask has[TRIED_ROOTS])
+/* The roots near [0,1], collected lane by lane. */
+static void all_roots_near(const struct candidate *it, const struct roots_lanes *a, lane_mask done,
+                           struct root_starts *out)
 {
-  int counts[LANES] = {0}, most = 0;
-  for (int k = 0; k < TRIED_ROOTS; k++) kept[k] = lanes_all(0.5), has[k] = (lane_mask){0};
+  int counts[LANES] = {0};
+  lanes kept[TRIED_ROOTS];
+  for (int k = 0; k < TRIED_ROOTS; k++) kept[k] = lanes_all(0.5);
   for (int i = 0; i < a->degree; i++) {
     const lane_mask near = (lanes_abs(a->zi[i]) <= ROOTS_MARGIN) & (lanes_abs(a->zr[i]) <= 1 + ROOTS_MARGIN);
     for (unsigned bits = lanes_bits(done & near & ~a->moving[i]); bits; bits &= bits - 1) {
       const unsigned lane = (unsigned)__builtin_ctz(bits);
       if (counts[lane] == TRIED_ROOTS) continue;
       const int k = counts[lane]++;
-      kept[k][lane] = 0.5 + 0.5 * a->zr[i][lane], has[k][lane] = -1;
-      most = most > counts[lane] ? most : counts[lane];
+      kept[k][lane] = 0.5 + 0.5 * a->zr[i][lane], out->has[k][lane] = -1;
+      out->count = out->count > counts[lane] ? out->count : counts[lane];
     }
   }
-  return most;
+  for (int k = 0; k < out->count; k++) {
+    const lanes at = start_within(kept[k]), other = start_within(resultant_eliminated(it, at));
+    out->u[k] = it->leaf->v_kept ? other : at, out->v[k] = it->leaf->v_kept ? at : other;
+  }
 }
 
 /* Makes the roots exact and proven. Returns the lanes that are decided: one root is alone in the leaf, or there are
  * as many as r has sign variations. */
-static lane_mask all_roots_prove(const struct packet *p, const struct candidate *it, int count, const lanes kept[],
-                                 const lane_mask has[], struct all_roots *all)
+static lane_mask all_roots_prove(const struct packet *p, const struct candidate *it, const struct root_starts *starts,
+                                 struct all_roots *all)
 {
   const bool v_kept = it->leaf->v_kept;
   lane_mask alone = {0};
   lanes found = {0}, within = {0};
-  all->count = count;
-  for (int k = 0; k < count; k++) {
+  all->count = starts->count;
+  for (int k = 0; k < starts->count; k++) {
     struct newton_root *r = &all->root[k].at;
     lane_mask *proven = &all->proven[k];
     *proven = (lane_mask){0};
-    const lane_mask open = has[k] & ~alone;
+    const lane_mask open = starts->has[k] & ~alone;
     *r = (struct newton_root){.exists = {0}};
     if (!lanes_any(open)) continue;
-    const lanes at = start_within(kept[k]), other = start_within(resultant_eliminated(it, at));
-    const lanes u = v_kept ? other : at, v = v_kept ? at : other;
-    if (it->leaf->parts) bilinear_root_solve(p, it->leaf, it->axis, (lanes[2]){u - 0.5, v - 0.5}, open, &all->root[k]);
-    else *r = newton_refine(&it->nets, it->leaf, u, v, open);
+    const lanes start[2] = {starts->u[k] - 0.5, starts->v[k] - 0.5};
+    newton_solve(p, it->leaf, it->axis, start, open, &all->root[k]);
     *proven = open & r->exists;
     for (int j = 0; j < k; j++) {
       const struct newton_root *old = &all->root[j].at;
@@ -148,13 +148,10 @@ lanes method_quadratic_root(struct packet *p, const struct candidate *it, const 
   return 0.5 * lanes_select(second, a.zr[1], a.zr[0]);
 }
 
-/* The roots, and the lanes of `active` that are decided by them. */
-static lane_mask all_roots_find(struct packet *p, const struct candidate *it, lane_mask active, struct all_roots *all)
+/* The roots by a method for lanes, and the lanes of `active` that are missed. */
+static lane_mask all_roots_find(struct packet *p, const struct candidate *it, lane_mask active, struct root_starts *out)
 {
   struct roots_lanes a;
-  lanes kept[TRIED_ROOTS];
-  lane_mask has[TRIED_ROOTS];
-  all->count = 0;
   if (it->degree < 1) return (lane_mask){0};
   /* One sign variation is a root, which mostly is a hit. */
   const lane_mask doubtful = active & (it->variations != 1);
@@ -163,23 +160,24 @@ static lane_mask all_roots_find(struct packet *p, const struct candidate *it, la
   if (!lanes_any(active & ~missed)) return missed;
   const lane_mask able = roots_lanes_set(&a, it->degree, it->c);
   const lane_mask done = all_roots_solve(p, it, active & ~missed & able, it->variations, &a);
-  const int count = all_roots_near(&a, done, kept, has);
-  return missed | all_roots_prove(p, it, count, kept, has, all);
+  all_roots_near(it, &a, done, out);
+  return missed;
 }
 
 static void all_roots_offer(struct packet *p, const struct candidate *it, const struct all_roots *all, lane_mask where)
 {
-  for (int k = 0; k < all->count; k++) {
-    const lane_mask hits = where & all->proven[k] & inside(&all->root[k].at);
-    if (it->leaf->parts) offer_bend_root(p, it, &all->root[k], hits);
-    else offer_root(p, it, &all->root[k].at, hits);
-  }
+  for (int k = 0; k < all->count; k++)
+    offer_root(p, it, &all->root[k], where & all->proven[k] & inside(&all->root[k].at));
 }
 
 lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask active)
 {
+  struct root_starts starts = {0};
   struct all_roots all;
-  const lane_mask decided = all_roots_find(p, it, active, &all);
+  lane_mask decided = {0};
+  if (it->patch->lanes != SOLVER_LANES_NONE) decided = all_roots_find(p, it, active, &starts);
+  else method_starts(p, it, active, &starts);
+  decided |= all_roots_prove(p, it, &starts, &all);
   all_roots_offer(p, it, &all, p->any ? active : decided);
   const lane_mask open = active & ~decided & p->live;
   if (!lanes_any(open)) return open;

@@ -1,125 +1,9 @@
-/* The root of a ray on a nearly bilinear leaf, from the resultant to the last places of the answer.
+/* The root that a candidate is tried for first, from the bilinear part of its leaf, and what boxes prove of it.
  *
- * Compiled once per instruction set, without contraction. The start is a root of the bilinear part alone, or given;
- * Newton's process on the planes' polynomials follows, as in newton.h. But the surface is evaluated as the sum of the
- * leaf's parts (model.h), and the planes' residuals keep what their leading terms round away, so the root that it ends
- * at needs no other look: it is right to the rounding of the bend of its leaf. Point and normal come from the last
- * evaluation. Parameters are s = u - 1/2 and t = v - 1/2.
+ * Compiled once per instruction set, without contraction. Parameters are s = u - 1/2 and t = v - 1/2.
  */
-#include "base/double_lanes.h"
 #include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
-#include "intersect/lanes/surface.h"
-
-/* ---- the surface ---- */
-
-/* One coordinate of the leaf: its value as hi + lo, |lo| of the size of the leaf's bend, and derivatives. */
-struct coordinate {
-  lanes hi, lo, ds, dt;
-};
-
-/* The products of heads of size at most 4 with multiples of LEAF_GRAIN, and their sums of size at most 8, are exact. */
-struct split_point {
-  lanes s, t;
-  struct split_lanes split_s, split_t, split_st;
-};
-
-LANES_INLINE struct coordinate coordinate_at(const double base[4], const double rest[16], const struct split_point *at)
-{
-  const lanes A = lanes_all(base[1]), B = lanes_all(base[2]), C = lanes_all(base[3]), s = at->s, t = at->t;
-  struct coordinate x;
-  x.hi = lanes_multiply_add(at->split_s.head, A, lanes_all(base[0]));
-  x.hi = lanes_multiply_add(at->split_st.head, C, lanes_multiply_add(at->split_t.head, B, x.hi));
-  x.lo = lanes_multiply_add(at->split_t.tail, B, at->split_s.tail * A);
-  x.lo = lanes_multiply_add(at->split_st.tail, C, x.lo);
-  x.ds = lanes_multiply_add(t, C, A), x.dt = lanes_multiply_add(s, C, B);
-  /* Horner's scheme, of each row and of the rows, and its derivative. */
-  lanes bend = {0}, bend_ds = {0}, bend_dt = {0};
-#pragma GCC unroll 4
-  for (int i = 3; i >= 0; i--) {
-    const double *r = rest + 4 * i;
-    lanes row_dt = lanes_all(r[3]), row = lanes_multiply_add(row_dt, t, lanes_all(r[2]));
-    row_dt = lanes_multiply_add(row_dt, t, row), row = lanes_multiply_add(row, t, lanes_all(r[1]));
-    row_dt = lanes_multiply_add(row_dt, t, row), row = lanes_multiply_add(row, t, lanes_all(r[0]));
-    bend_ds = i == 3 ? bend_ds : lanes_multiply_add(bend_ds, s, bend);
-    bend = i == 3 ? row : lanes_multiply_add(bend, s, row);
-    bend_dt = i == 3 ? row_dt : lanes_multiply_add(bend_dt, s, row_dt);
-  }
-  x.lo += bend, x.ds += bend_ds, x.dt += bend_dt;
-  return x;
-}
-
-/* Out of line: inlined into a loop, its coefficients are all copied to the stack first. */
-__attribute__((noinline)) static void surface_at(const struct leaf_parts *parts, lanes s, lanes t,
-                                                 struct coordinate out[3])
-{
-  const lanes st = s * t;
-  struct split_point at = {s, t, split_lanes_of(s), split_lanes_of(t), split_lanes_of(st)};
-  at.split_st.tail += lanes_product_error(s, t, st);
-  for (int c = 0; c < 3; c++) out[c] = coordinate_at(parts->base[c], parts->rest[c], &at);
-}
-
-/* Second derivatives of a coordinate. */
-struct curvature {
-  lanes ss, st, tt;
-};
-
-LANES_INLINE struct curvature curvature_at(const double base[4], const double rest[16], lanes s, lanes t)
-{
-  struct curvature x = {{0}, {0}, {0}};
-#pragma GCC unroll 4
-  for (int i = 3; i >= 0; i--) {
-    const double *r = rest + 4 * i;
-    const lanes cubic = lanes_all(3 * r[3]), square = lanes_all(r[2]), cubic_t = cubic * t;
-    if (i >= 2) {
-      lanes row = lanes_multiply_add(lanes_all(r[3]), t, square);
-      row = lanes_multiply_add(lanes_multiply_add(row, t, lanes_all(r[1])), t, lanes_all(r[0]));
-      x.ss = lanes_multiply_add(x.ss, s, i * (i - 1) * row);
-    }
-    if (i >= 1) x.st = lanes_multiply_add(x.st, s, i * lanes_multiply_add(cubic_t + 2 * square, t, lanes_all(r[1])));
-    x.tt = lanes_multiply_add(x.tt, s, cubic_t + square);
-  }
-  x.st += base[3], x.tt *= 2;
-  return x;
-}
-
-/* Out of line for the same reason. */
-__attribute__((noinline)) static void curvatures_at(const struct leaf_parts *parts, lanes s, lanes t,
-                                                    struct curvature out[3])
-{
-  for (int c = 0; c < 3; c++) out[c] = curvature_at(parts->base[c], parts->rest[c], s, t);
-}
-
-/* Moves the derivatives from (s,t) on by (to_s,to_t), by second derivatives. */
-LANES_INLINE void surface_turn(const struct leaf_parts *parts, lanes s, lanes t, lanes to_s, lanes to_t,
-                               lane_mask where, struct coordinate x[3])
-{
-  struct curvature h[3];
-  curvatures_at(parts, s, t, h);
-  for (int c = 0; c < 3; c++) {
-    x[c].ds = lanes_select(where, x[c].ds + (h[c].ss * to_s + h[c].st * to_t), x[c].ds);
-    x[c].dt = lanes_select(where, x[c].dt + (h[c].st * to_s + h[c].tt * to_t), x[c].dt);
-  }
-}
-
-/* ---- the planes ---- */
-
-/* Of the plane x_i - slope x_k = moment: its polynomial's value and derivatives. */
-struct plane {
-  lanes value, ds, dt;
-};
-
-LANES_INLINE struct plane plane_at(const struct line *line, int number, const struct coordinate *i,
-                                   const struct coordinate *k)
-{
-  const lanes slope = line->slope[number];
-  const lanes along = slope * k->hi, along_error = lanes_product_error(slope, k->hi, along);
-  const struct double_lanes side = double_lanes_sum(i->hi, -line->moment[number]);
-  const lanes rest = (i->lo - line->moment_rest[number]) -
-                     lanes_multiply_add(slope, k->lo, line->slope_rest[number] * k->hi);
-  return (struct plane){(side.hi - along) + (rest + (side.lo - along_error)), i->ds - slope * k->ds,
-                        i->dt - slope * k->dt};
-}
 
 LANES_INLINE lanes plane_of(const struct line *line, int axis, int number, const double base[3][4], int n)
 {
@@ -132,14 +16,18 @@ LANES_INLINE lanes near_middle(lanes t)
   return lanes_min(lanes_max(lanes_select(t == t, t, lanes_all(0)), lanes_all(-0.5)), lanes_all(0.5));
 }
 
-/* The root of the bilinear polynomials a = a0 + s a1 + t a2 + st a3, b alike, that is nearer to the middle: t eliminated by
+/* The root of the bilinear parts a = a0 + s a1 + t a2 + st a3, b alike, that is nearer to the middle: t eliminated by
  * Bezout's determinant (a0 + s a1)(b2 + s b3) - (a2 + s a3)(b0 + s b1) = r0 + r1 s + r2 s^2. A pair of complex roots
  * is replaced by its real part. By the default method in closed form; takes lanes out of *open where another one finds
  * none. */
-LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, const lanes a[4], const lanes b[4],
-                                lane_mask *open, lanes start[2])
+LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, lane_mask *open, lanes start[2])
 {
-  lanes s;
+  lanes a[4], b[4], s;
+  for (int n = 0; n < 4; n++) {
+    a[n] = plane_of(it->line, it->axis, 0, it->leaf->parts->base, n);
+    b[n] = plane_of(it->line, it->axis, 1, it->leaf->parts->base, n);
+  }
+  a[0] -= it->line->moment[0], b[0] -= it->line->moment[1];
   const lanes r0 = a[0] * b[2] - a[2] * b[0], r2 = a[1] * b[3] - a[3] * b[1];
   const lanes r1 = (a[0] * b[3] - a[3] * b[0]) + (a[1] * b[2] - a[2] * b[1]);
   if (it->patch->lanes == SOLVER_LANES_SIGNS) {
@@ -155,157 +43,27 @@ LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, co
   start[0] = s, start[1] = near_middle(-value / lanes_select(steep, slope_a, slope_b));
 }
 
-/* Of the leaf's bilinear part. */
-LANES_INLINE void part_root(struct packet *p, const struct candidate *it, lane_mask *open, lanes start[2])
-{
-  lanes a[4], b[4];
-  for (int n = 0; n < 4; n++) {
-    a[n] = plane_of(it->line, it->axis, 0, it->leaf->parts->base, n);
-    b[n] = plane_of(it->line, it->axis, 1, it->leaf->parts->base, n);
-  }
-  a[0] -= it->line->moment[0], b[0] -= it->line->moment[1];
-  bilinear_root(p, it, a, b, open, start);
-}
-
-/* What is bilinear between the corners of a net. */
-LANES_INLINE void between_corners(const lanes net[16], lanes out[4])
-{
-  const lanes low = net[0] + net[12], high = net[3] + net[15], first = net[0] + net[3], last = net[12] + net[15];
-  out[0] = 0.25 * (low + high), out[1] = 0.5 * (last - first), out[2] = 0.5 * (high - low);
-  out[3] = (net[15] - net[12]) - (net[3] - net[0]);
-}
-
-/* What Newton's process finds from the root of the surface between the leaf's corners. */
-static struct newton_root corners_root(struct packet *p, const struct candidate *it, lane_mask open)
-{
-  lanes a[4], b[4], start[2];
-  between_corners(it->nets.a, a), between_corners(it->nets.b, b);
-  bilinear_root(p, it, a, b, &open, start);
-  return newton_refine(&it->nets, it->leaf, start[0] + 0.5, start[1] + 0.5, open);
-}
-
-/* Bounds on a row of M J: its own parameter's element is at least `least`, the other within `cross`. */
-struct row {
-  lanes least, cross;
-};
-
-/* How far that of J(c + d), |d| up to `reach`, may be from J(c) + H d, all rounding included, is `rest`. */
-struct halfway {
-  struct coordinate x[3]; /* at c */
-  struct curvature h[3];
-  lanes reach, rest;
-};
-
-LANES_INLINE struct row row_bounds(const struct line *line, int axis, const struct halfway *at, lanes ma, lanes mb,
-                                   bool second)
-{
-  const struct coordinate *xk = &at->x[axis], *xi = &at->x[(axis + 1) % 3], *xj = &at->x[(axis + 2) % 3];
-  const struct curvature *hk = &at->h[axis], *hi = &at->h[(axis + 1) % 3], *hj = &at->h[(axis + 2) % 3];
-  const lanes mk = -(ma * line->slope[0] + mb * line->slope[1]);
-  const lanes ds = ma * xi->ds + mb * xj->ds + mk * xk->ds, dt = ma * xi->dt + mb * xj->dt + mk * xk->dt;
-  const lanes ss = lanes_abs(ma * hi->ss + mb * hj->ss + mk * hk->ss);
-  const lanes st = lanes_abs(ma * hi->st + mb * hj->st + mk * hk->st);
-  const lanes tt = lanes_abs(ma * hi->tt + mb * hj->tt + mk * hk->tt);
-  const lanes off_s = at->reach * (ss + st) + at->rest, off_t = at->reach * (st + tt) + at->rest;
-  return second ? (struct row){dt - off_t, lanes_abs(ds) + off_s} : (struct row){ds - off_s, lanes_abs(dt) + off_t};
-}
-
-/* Rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size 1:
- * the net, and some twenty operations. */
-#define DERIVATIVE_ROUNDINGS 64
-
-/* Lanes whose proven root, near (s,t), is alone in the leaf, by a closer look than newton_prove's.
- *
- * On the way from the root to a point of the leaf the Jacobian is on average what it is halfway, but for |T|/24 of
- * third derivatives times the way squared, which is at most 1 + LEAF_MARGIN long. Halfways are within 1/4 of the one to
- * the middle of the leaf, c: there the Jacobian is J(c) + H(c) d but for |T|/32. Where no such matrix can be singular,
- * because M times it has a positive diagonal whose product is larger than that of the other elements, no other point
- * of the leaf has the root's values. */
-LANES_INLINE lane_mask alone_at(const struct line *line, int axis, const struct leaf *leaf,
-                                const struct newton_inverse *m, const struct newton_root *r, lanes step, lanes s,
-                                lanes t)
-{
-  struct halfway at;
-  surface_at(leaf->parts, 0.5 * s, 0.5 * t, at.x);
-  curvatures_at(leaf->parts, 0.5 * s, 0.5 * t, at.h);
-  const double way = 1 + LEAF_MARGIN, third = leaf->parts->third * (way * way / 24 + 1.0 / 32);
-  at.reach = 0.25 + (step + lanes_max(r->radius_u, r->radius_v)); /* (s,t) is not the root itself */
-  at.rest = r->size * (third + DERIVATIVE_ROUNDINGS * UNIT_ROUNDOFF * (1 + leaf->first[0] + leaf->first[1]));
-  const struct row u = row_bounds(line, axis, &at, m->ua, m->ub, false);
-  const struct row v = row_bounds(line, axis, &at, m->va, m->vb, true);
-  return (u.least > 0) & (v.least > 0) & (u.least * v.least > (1 + 8 * UNIT_ROUNDOFF) * (u.cross * v.cross));
-}
-
-/* 1/2 + s - step to one rounding, so that nothing of a small parameter is lost. */
-LANES_INLINE lanes from_middle(lanes s, lanes step)
-{
-  const lanes moved = 0.5 + s;
-  return moved + ((s - (moved - 0.5)) - step);
-}
-
-void bilinear_root_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2],
-                         lane_mask active, struct bilinear_root *out)
-{
-  const struct leaf_parts *parts = leaf->parts;
-  const struct line *line = &p->line[axis];
-  const int k = axis;
-  struct coordinate x[3];
-  struct newton_inverse m;
-  lanes s = start[0], t = start[1], step_s, step_t, step;
-  lane_mask settled, moving = active;
-  for (int n = 1;; n++) {
-    surface_at(parts, s, t, x);
-    const struct plane a = plane_at(line, 0, &x[(k + 1) % 3], &x[k]), b = plane_at(line, 1, &x[(k + 2) % 3], &x[k]);
-    const lanes inverse = 1 / (a.ds * b.dt - a.dt * b.ds);
-    m = (struct newton_inverse){b.dt * inverse, -a.dt * inverse, -b.ds * inverse, a.ds * inverse};
-    step_s = m.ua * a.value + m.ub * b.value, step_t = m.va * a.value + m.vb * b.value;
-    step = lanes_max(lanes_abs(step_s), lanes_abs(step_t));
-    settled = active & (step <= parts->last_step);
-    /* A root far outside the leaf, or no progress (NaN compares false), is no concern of this process. */
-    moving &= ~settled & (lanes_abs(s - step_s) < 2) & (lanes_abs(t - step_t) < 2);
-    if (n == NEWTON_MAX_STEPS || !lanes_any(moving)) break;
-    /* A lane that is done stays where it is: what it gets then must not depend on the others. */
-    s = lanes_select(moving, s - step_s, s), t = lanes_select(moving, t - step_t, t);
-  }
-  out->at.u = from_middle(s, step_s), out->at.v = from_middle(t, step_t);
-  newton_prove(leaf, &m, line->slope, line->error, step, settled, &out->at);
-  const lane_mask open = out->at.exists & ~out->at.alone;
-  if (lanes_any(open)) out->at.alone |= open & alone_at(line, k, leaf, &m, &out->at, step, s, t);
-  const struct double_lanes way = double_lanes_sum(x[k].hi, line->start[0]);
-  const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
-  out->w = x[k].hi + rest;
-  out->t = (way.hi + (rest + (way.lo + line->start[1]))) * line->to_t;
-  if (p->any) return;
-  for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo - (x[c].ds * step_s + x[c].dt * step_t));
-  const lane_mask turned = settled & (step > parts->slope_step);
-  if (lanes_any(turned)) surface_turn(parts, s, t, -step_s, -step_t, turned, x);
-  for (int c = 0; c < 3; c++) out->su[c] = x[c].ds, out->sv[c] = x[c].dt;
-}
-
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask active)
 {
-  struct bilinear_root *root = &it->bend;
+  struct leaf_root *root = &it->first;
   lanes start[2];
   lane_mask tried = active;
-  part_root(p, it, &tried, start);
+  bilinear_root(p, it, &tried, start);
   root->at.exists = (lane_mask){0};
   if (!lanes_any(tried)) return active;
-  bilinear_root_solve(p, it->leaf, it->axis, start, tried, root);
+  newton_solve(p, it->leaf, it->axis, start, tried, root);
   if (it->patch->lanes == SOLVER_LANES_SIGNS) p->tracer->counts.roots_found += lanes_count(root->at.alone);
-  offer_bend_root(p, it, root, (p->any ? root->at.exists : root->at.alone) & inside(&root->at));
+  offer_root(p, it, root, (p->any ? root->at.exists : root->at.alone) & inside(&root->at));
   return active & ~root->at.alone & p->live;
 }
 
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
 {
-  const bool bent = it->leaf->parts;
-  if (!bent) it->bend.at = corners_root(p, it, open);
-  const struct newton_root *r = &it->bend.at;
+  if (it->leaf->bent) open = stage_bilinear(p, it, open);
+  if (!lanes_any(open)) return open;
+  const struct newton_root *r = &it->first.at;
   const struct known_root known = {r->u, r->v, r->size, r->bend, r->off, open & r->exists};
-  lane_mask covered = known.proven & r->alone;
-  if (lanes_any(open & ~covered)) covered |= cover_proves(p, it, 1, &known, COVER_EARLY, open & ~covered);
-  const lane_mask hits = (p->any ? known.proven : covered & known.proven) & inside(r);
-  if (bent) offer_bend_root(p, it, &it->bend, hits);
-  else offer_root(p, it, r, hits);
+  const lane_mask covered = cover_proves(p, it, 1, &known, COVER_EARLY, open);
+  offer_root(p, it, &it->first, (p->any ? known.proven : covered & known.proven) & inside(r));
   return open & ~covered & p->live;
 }

@@ -21,7 +21,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   }
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
-  if (it->leaf->parts) {
+  if (patch->lanes != SOLVER_LANES_NONE && !it->leaf->bent) {
     entered[STAGE_BILINEAR] += lanes_count(open);
     open = stage_bilinear(p, it, open);
     if (!lanes_any(open)) return;
@@ -38,8 +38,8 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (!lanes_any(open)) return;
   entered[STAGE_ROOTS] += lanes_count(open);
   if (patch->lanes == SOLVER_LANES_SIGNS) open = stage_first_root(p, it, open);
-  else if (patch->lanes != SOLVER_LANES_NONE) open = stage_all_roots(p, it, open);
-  else open = stage_method(p, it, open);
+  else if (patch->method->polish) open = stage_all_roots(p, it, open);
+  else open = stage_bare_roots(p, it, open);
   if (lanes_any(open)) packet_postpone(p, it->leaf, open);
 }
 
@@ -75,7 +75,7 @@ enum { FEW = 2, CACHE_LINE = 64 };
 static void fetch_parts(const struct leaf *leaf)
 {
   const char *parts = (const char *)leaf->parts;
-  for (size_t at = 0; parts && at < sizeof *leaf->parts; at += CACHE_LINE) __builtin_prefetch(parts + at);
+  for (size_t at = 0; at < sizeof *leaf->parts; at += CACHE_LINE) __builtin_prefetch(parts + at);
 }
 
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active)

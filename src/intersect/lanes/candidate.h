@@ -8,9 +8,16 @@
 #ifndef PSCN_INTERSECT_LANES_CANDIDATE_H
 #define PSCN_INTERSECT_LANES_CANDIDATE_H
 
-#include "intersect/lanes/bilinear.h"
+#include "intersect/lanes/newton.h"
 
 enum { RESULTANT_MAX_DEGREE = 18 };
+
+/* The two plane polynomials of every lane over a leaf. */
+struct plane_nets {
+  lanes a[16], b[16]; /* a[4 * i + j] */
+  lanes slope[2];
+  lanes error; /* bound on the error of any coefficient, and of a value inside the leaf */
+};
 
 /* What the stages tell each other. */
 struct candidate {
@@ -18,8 +25,8 @@ struct candidate {
   const struct model_patch *patch; /* the leaf's */
   int64_t number;                  /* the leaf's, in its model */
   int axis;
-  const struct line *line;   /* the packet's for that axis */
-  struct bilinear_root bend; /* the root found first; only where it exists, and of a leaf without parts only `at` */
+  const struct line *line; /* the packet's for that axis */
+  struct leaf_root first;  /* the root found first; only where it exists */
   struct plane_nets nets;
   lanes alpha, beta;            /* largest |a|, |b| of the nets, then of the form */
   lanes form_error;             /* of a coefficient of the form */
@@ -34,15 +41,16 @@ struct candidate {
 /* planes.c: the box along the leaf. */
 lane_mask stage_box(struct candidate *it, lane_mask open);
 
-/* bilinear.c: of a nearly bilinear leaf the root of its bilinear part, of degree 2, made good by Newton's process on
- * the leaf. Open stays where the ray is so slanted that the leaf's bend matters. */
+/* bilinear.c: the root of the leaf's bilinear part, from a resultant of degree 2, made good by Newton's process on the
+ * leaf. Open stays where the ray is so slanted that it is not proven to be the only one. Leaves that are bent are not
+ * tried at once. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
 /* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net. */
 lane_mask stage_planes(struct candidate *it, lane_mask open);
 
-/* bilinear.c: by the default method, closed where boxes show that the leaf has no root but the one that stage_bilinear has found, or
- * that is found now from the surface between the corners of a leaf that is not nearly bilinear. */
+/* bilinear.c: by the default method, closed where boxes show that the leaf has no root but the one that stage_bilinear
+ * has found; of a bent leaf that is done now. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
 /* resultant.c: Bezout's resultant r of a and b in Bernstein form: closed where it has no sign variation. */
@@ -52,17 +60,28 @@ lane_mask stage_resultant(struct candidate *it, lane_mask open);
  * proven to be all. */
 lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask open);
 
-/* all_roots.c: the roots of r by the method that the scene asks for on all lanes at once; closed where they are proven
- * to be all. */
+/* all_roots.c: the roots of r by the method that the scene asks for; closed where they are proven to be all. */
 lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open);
 
 /* all_roots.c: the real root of r0 + r1 s + r2 s^2 that is nearest to 0, or the real part of a pair, by that method;
  * takes lanes out of *open where it finds none. */
 lanes method_quadratic_root(struct packet *p, const struct candidate *it, const lanes r[3], lane_mask *open);
 
-/* one_by_one.c: the method that the scene asks for, in a form that is not for lanes, or without polish, lane by
- * lane. */
-lane_mask stage_method(struct packet *p, struct candidate *it, lane_mask open);
+/* How many roots near [0,1] a lane may try: of 18, more are real in [0,1] next to never. A choice of speed. */
+enum { TRIED_ROOTS = 8 };
+
+/* Where to start from: the k-th of every lane, in leaf parameters, where it has so many. */
+struct root_starts {
+  int count;
+  lanes u[TRIED_ROOTS], v[TRIED_ROOTS];
+  lane_mask has[TRIED_ROOTS];
+};
+
+/* one_by_one.c: from the roots of r by a method that is not for lanes. *out has none. */
+void method_starts(const struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out);
+
+/* one_by_one.c: without polish the roots of r are the answer, proven or not. */
+lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);
 
 LANES_INLINE void plane_values(const struct line *line, int axis, const double x[3][16], int at, lanes *a, lanes *b)
 {

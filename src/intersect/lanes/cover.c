@@ -4,6 +4,7 @@
  */
 #include <string.h>
 
+#include "intersect/certificate.h"
 #include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
 
@@ -17,7 +18,7 @@ struct cover_box {
   lane_mask open;
 };
 
-/* The lanes of `open` on which the root is not alone on the box and itself together. As in newton_prove, but where the
+/* The lanes of `open` on which the root is not alone on the box and itself together. As in newton.c, but where the
  * box is small q does not outweigh the rest: M J at the root is off from 1 by 2 bend, which counts twice against a
  * bound on q, and the root by 2 (|step| + e) from where q takes it, which may make q larger by 2 bend. */
 LANES_INLINE lane_mask cover_unknown(const struct leaf *leaf, const struct cover_box *box,

@@ -82,7 +82,8 @@ LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *
                                 lanes w, lanes at)
 {
   const lanes size = lanes_abs(it->line->to_t);
-  return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + it->line->error) +
+  return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + it->line->error +
+                 it->leaf->parts->error) +
          8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
 }
 
@@ -153,14 +154,6 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   return taken;
 }
 
-void offer_root(struct packet *p, const struct candidate *it, const struct newton_root *r, lane_mask hits)
-{
-  if (!lanes_any(hits)) return;
-  const lanes w = plane_depth(it, r->u, r->v);
-  const lane_mask taken = offer(p, it, r, w, depth_to_t(it->line, w), hits);
-  if (p->gather && lanes_any(taken)) gather_best(p, taken);
-}
-
 void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits)
 {
   const struct newton_root r = {.u = u, .v = v};
@@ -174,28 +167,26 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
   if (p->gather) gather_best(p, taken);
 }
 
-/* What a root is off by that Newton's process on a nearly bilinear leaf ends at, of its radius, which is no less than 72 u |M|
- * for the inverse Jacobian M (PLANE_ERROR): what M makes of the roundings in the bend, 3 u of its second derivatives, and
- * of what the last step leaves, u/64 (LAST_STEP_CURVE). */
-#define BEND_LEFT (1.0 / 16)
+/* What a root is off by that Newton's process ends at, of its radius, which is no less than 72 u |M| for the inverse Jacobian M
+ * (PLANE_ERROR): what M makes of the rest's rounding, and of what the last step leaves, u/64 (LAST_STEP_CURVE). */
+#define REST_LEFT (1 / (72 * UNIT_ROUNDOFF))
 #define STEP_LEFT 0x1p-12
 
 /* Such a root is final where that is no more than so many roundings of t. */
 #define FINAL_ROUNDINGS 4
 
 /* Lanes whose root is. Seen edge-on it may be off by far more than rounding the input makes, where the patch is thin. */
-LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candidate *it,
-                                     const struct bilinear_root *root)
+LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candidate *it, const struct leaf_root *root)
 {
   const struct leaf *leaf = it->leaf;
-  const double left = (leaf->second[0] + leaf->second[2]) * BEND_LEFT + STEP_LEFT;
+  const double left = leaf->parts->error * REST_LEFT + STEP_LEFT;
   const lanes reach = leaf->first[0] * root->at.radius_u + leaf->first[1] * root->at.radius_v;
   return packet_has_digits(p, it->patch, root->t, NEAR_START_FINAL) &
          (left * it->patch->scale * reach <= FINAL_ROUNDINGS * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
 }
 
 /* Keeps what a leaf's root says of the surface. */
-LANES_INLINE void packet_keep(struct packet *p, const struct candidate *it, const struct bilinear_root *root,
+LANES_INLINE void packet_keep(struct packet *p, const struct candidate *it, const struct leaf_root *root,
                               lane_mask taken)
 {
   const struct model_patch *patch = it->patch;
@@ -215,11 +206,11 @@ LANES_INLINE void packet_keep(struct packet *p, const struct candidate *it, cons
   best->final |= taken & root_is_final(p, it, root);
 }
 
-void offer_bend_root(struct packet *p, const struct candidate *it, const struct bilinear_root *root, lane_mask hits)
+void offer_root(struct packet *p, const struct candidate *it, const struct leaf_root *root, lane_mask hits)
 {
   if (!lanes_any(hits)) return;
   const lane_mask taken = offer(p, it, &root->at, root->w, root->t, hits);
   if (!lanes_any(taken)) return;
-  if (it->leaf->parts->exact && !p->any && !p->outer) packet_keep(p, it, root, taken);
+  if (it->leaf->parts->final && !p->any && !p->outer) packet_keep(p, it, root, taken);
   if (p->gather) gather_best(p, taken);
 }

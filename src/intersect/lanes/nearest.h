@@ -41,10 +41,7 @@ lane_mask box_out_of_range(const struct packet *p, const struct candidate *it, c
                            const double half[2]);
 
 /* Proven roots of several lanes. */
-void offer_root(struct packet *p, const struct candidate *it, const struct newton_root *r, lane_mask hits);
-
-/* The same of a nearly bilinear leaf, with what is known of the surface there. */
-void offer_bend_root(struct packet *p, const struct candidate *it, const struct bilinear_root *root, lane_mask hits);
+void offer_root(struct packet *p, const struct candidate *it, const struct leaf_root *root, lane_mask hits);
 
 /* Points in the leaf that nobody has proven anything of. */
 void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits);

@@ -77,11 +77,16 @@ lane_mask stage_planes(struct candidate *it, lane_mask open)
   return it->patch->method->polish ? near : open;
 }
 
+LANES_INLINE void weights_at(lanes t, lanes w[4])
+{
+  const lanes s = 1 - t, ss = s * s, tt = t * t, st = s * t;
+  w[0] = ss * s, w[1] = 3 * (ss * t), w[2] = 3 * (st * t), w[3] = tt * t;
+}
+
 lanes plane_depth(const struct candidate *it, lanes u, lanes v)
 {
-  lanes wu[4], wv[4], unused[4], w = {0};
-  newton_weights(u, wu, unused);
-  newton_weights(v, wv, unused);
+  lanes wu[4], wv[4], w = {0};
+  weights_at(u, wu), weights_at(v, wv);
   const double *x = it->leaf->x[it->axis];
   for (int i = 0; i < 4; i++)
     w += wu[i] * (x[4 * i] * wv[0] + x[4 * i + 1] * wv[1] + x[4 * i + 2] * wv[2] + x[4 * i + 3] * wv[3]);

@@ -118,31 +118,37 @@ lanes resultant_eliminated(const struct candidate *it, lanes kept)
 }
 
 /* What Newton's process finds from there. */
-static struct newton_root resultant_refine(const struct candidate *it, bool first, lane_mask active)
+static void resultant_refine(const struct packet *p, const struct candidate *it, bool first, lane_mask active,
+                             struct leaf_root *out)
 {
   const lanes kept = start_within(resultant_root(it, first)), eliminated = start_within(resultant_eliminated(it, kept));
   const bool v_kept = it->leaf->v_kept;
-  return newton_refine(&it->nets, it->leaf, v_kept ? eliminated : kept, v_kept ? kept : eliminated, active);
+  const lanes start[2] = {(v_kept ? eliminated : kept) - 0.5, (v_kept ? kept : eliminated) - 0.5};
+  newton_solve(p, it->leaf, it->axis, start, active, out);
 }
 
-/* Lanes of `open` where it is proven that the leaf has no roots on the ray but r, where that one is proven, and another
+/* Lanes of `open` where it is proven that the leaf has no roots on the ray but this one, where it is proven, and another
  * one, where there is one: those are offered. */
-static lane_mask resultant_cover(struct packet *p, const struct candidate *it, const struct newton_root *r,
+static lane_mask resultant_cover(struct packet *p, const struct candidate *it, const struct leaf_root *root,
                                  lane_mask open)
 {
+  const struct newton_root *r = &root->at;
   const lane_mask proven = open & r->exists, more = open & (it->variations >= 2);
   struct known_root known[2] = {{r->u, r->v, r->size, r->bend, r->off, proven}};
-  struct newton_root other = {.exists = {0}};
+  struct leaf_root second;
+  struct newton_root *other = &second.at;
+  other->exists = (lane_mask){0};
   if (lanes_any(more)) {
-    other = resultant_refine(it, true, more);
-    const lane_mask apart = ~proven | (lanes_abs(r->u - other.u) > r->radius_u + other.radius_u + UNIT_ROUNDOFF) |
-                            (lanes_abs(r->v - other.v) > r->radius_v + other.radius_v + UNIT_ROUNDOFF);
-    other.exists &= more & apart;
-    known[1] = (struct known_root){other.u, other.v, other.size, other.bend, other.off, other.exists};
+    resultant_refine(p, it, true, more, &second);
+    const lane_mask apart = ~proven | (lanes_abs(r->u - other->u) > r->radius_u + other->radius_u + UNIT_ROUNDOFF) |
+                            (lanes_abs(r->v - other->v) > r->radius_v + other->radius_v + UNIT_ROUNDOFF);
+    other->exists &= more & apart;
+    known[1] = (struct known_root){other->u, other->v, other->size, other->bend, other->off, other->exists};
   }
-  const lane_mask covered = cover_proves(p, it, lanes_any(other.exists) ? 2 : 1, known, COVER_HALVINGS, open);
-  offer_root(p, it, r, covered & proven & inside(r));
-  offer_root(p, it, &other, covered & other.exists & inside(&other));
+  const bool two = lanes_any(other->exists);
+  const lane_mask covered = cover_proves(p, it, two ? 2 : 1, known, COVER_HALVINGS, open);
+  offer_root(p, it, root, covered & proven & inside(r));
+  if (two) offer_root(p, it, &second, covered & other->exists & inside(other));
   return covered;
 }
 
@@ -151,12 +157,14 @@ static lane_mask resultant_cover(struct packet *p, const struct candidate *it, c
 lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask active)
 {
   p->tracer->counts.roots_found += lanes_count(active);
-  const struct newton_root r = resultant_refine(it, false, active);
-  const lanes k = it->leaf->v_kept ? r.v : r.u, radius = it->leaf->v_kept ? r.radius_v : r.radius_u;
+  struct leaf_root root;
+  const struct newton_root *r = &root.at;
+  resultant_refine(p, it, false, active, &root);
+  const lanes k = it->leaf->v_kept ? r->v : r->u, radius = it->leaf->v_kept ? r->radius_v : r->radius_u;
   /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
-  const lane_mask single = (it->variations == 1) & r.exists & (k > radius) & (1 - k > radius);
-  const lane_mask decided = active & (r.alone | single);
-  offer_root(p, it, &r, (p->any ? active & r.exists : decided) & inside(&r));
+  const lane_mask single = (it->variations == 1) & r->exists & (k > radius) & (1 - k > radius);
+  const lane_mask decided = active & (r->alone | single);
+  offer_root(p, it, &root, (p->any ? active & r->exists : decided) & inside(r));
   const lane_mask open = active & ~decided & p->live;
-  return lanes_any(open) ? open & ~resultant_cover(p, it, &r, open) : open;
+  return lanes_any(open) ? open & ~resultant_cover(p, it, &root, open) : open;
 }

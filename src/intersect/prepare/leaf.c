@@ -96,14 +96,14 @@ static void set_form(const struct model_patch *patch, struct leaf *leaf, struct 
 /* |Su x Sv| relative to the squared derivatives below which a box along the leaf is not worth its rounding. */
 #define LEAST_AREA 0x1p-30
 
-/* A leaf whose derivatives turn by no more than this fraction of their size is tried as a bilinear one first: the
- * root of that is off by an eighth of it at most. A choice of speed: what comes of it is proven. */
-#define BILINEAR_TURN 1.0
+/* A leaf whose derivatives turn by more than this fraction of their size is bent: the root of its bilinear part is off by a
+ * quarter of that at most. A choice of speed: what comes of it is proven. */
+#define BENT_TURN 2.0
 
-static bool nearly_bilinear(const struct leaf *leaf)
+static bool is_bent(const struct leaf *leaf)
 {
   const double turn = (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]) / 2;
-  return turn <= BILINEAR_TURN * real_min(leaf->first[0], leaf->first[1]);
+  return !(turn <= BENT_TURN * real_min(leaf->first[0], leaf->first[1]));
 }
 
 /* A net whose middle has no normal gets a box that tells nothing. */
@@ -187,21 +187,49 @@ static void taylor_net(double x[4][4], double out[16])
   }
 }
 
+/* The largest powers of s and t over the leaf widened by LEAF_MARGIN. */
+#define REACH (0.5 + LEAF_MARGIN)
+static const double REACH_POWER[4] = {1, REACH, REACH *REACH, REACH *REACH *REACH};
+
 /* A bound on what third derivatives make of parameter vectors of maximum norm 1, over the leaf widened by LEAF_MARGIN:
  * that of the sum of each coordinate's terms. */
 static double third_bound(const struct leaf_parts *parts)
 {
   static const double falling[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 2, 0}, {1, 3, 6, 6}}; /* n!/(n-k)! */
-  const double reach = 0.5 + LEAF_MARGIN, power[4] = {1, reach, reach * reach, reach * reach * reach};
   double sum[3] = {0, 0, 0};
   for (int k = 0; k < 3; k++)
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++)
         for (int a = 0; a <= 3; a++)
           if (i >= a && j >= 3 - a)
-            sum[k] += (a == 0 || a == 3 ? 1 : 3) * falling[i][a] * falling[j][3 - a] * power[i - a] *
-                      power[j - (3 - a)] * fabs(parts->rest[k][4 * i + j]);
+            sum[k] += (a == 0 || a == 3 ? 1 : 3) * falling[i][a] * falling[j][3 - a] * REACH_POWER[i - a] *
+                      REACH_POWER[j - (3 - a)] * fabs(parts->rest[k][4 * i + j]);
   return vector_length(sum);
+}
+
+/* What rounding adds to the value of a plane's polynomial, of the sum of the rest's terms: in each of two coordinates one
+ * rounding of the coefficients, twelve of Horner's scheme without fused multiply-add and one of the sum, and eight of the
+ * plane. Where the cut rounds the net, and the Taylor coefficients are rounded when they are made: their differences lose
+ * some fifteen roundings of the sum of all terms but the constant one, and of the net's size 1, in either coordinate. First
+ * derivatives are off by no more than 3/REACH times that, well below what the certificate has. */
+#define REST_ROUNDINGS 40
+#define CUT_ROUNDINGS 32
+
+/* Points on a leaf whose rest adds no more than this to a plane are as good as POINT_ERROR has them: half of it is a
+ * coordinate's. */
+#define FINAL_ERROR (16 * UNIT_ROUNDOFF)
+
+static double error_bound(const struct leaf_parts *parts, bool rounded)
+{
+  double rest = 0, whole = 0;
+  for (int k = 0; k < 3; k++) {
+    const double *base = parts->base[k];
+    double sum = 0;
+    for (int n = 0; n < 16; n++) sum += REACH_POWER[n / 4] * REACH_POWER[n % 4] * fabs(parts->rest[k][n]);
+    rest = real_max(rest, sum);
+    whole = real_max(whole, sum + REACH * (fabs(base[1]) + fabs(base[2]) + REACH * fabs(base[3])));
+  }
+  return UNIT_ROUNDOFF * (REST_ROUNDINGS * rest + (rounded ? CUT_ROUNDINGS * (1 + whole) : 0));
 }
 
 /* Twice what a root may be off by, in the patch's frame, after the last step of Newton's process: well below what
@@ -229,7 +257,9 @@ static void set_parts(const struct model_patch *patch, const struct leaf *leaf, 
   out->slope_step = second > UNIT_ROUNDOFF * first ? 2 * UNIT_ROUNDOFF * first / second : 2;
   out->third = third_bound(out);
   const int leaves = patch->split[0] * patch->split[1];
-  out->exact = leaves <= EXACT_LEAVES && (leaves & (leaves - 1)) == 0;
+  const bool exact = leaves <= EXACT_LEAVES && (leaves & (leaves - 1)) == 0;
+  out->error = error_bound(out, !exact);
+  out->final = exact && out->error <= FINAL_ERROR;
 }
 
 void leaf_bounds(double x[3][16], double first[2], double second[3])
@@ -255,8 +285,9 @@ void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct
   for (int k = 0; k < 3; k++)
     for (int n = 0; n < 16; n++) leaf->x[k][n] = hi[k][n / 4][n % 4] + lo[k][n / 4][n % 4];
   leaf_bounds(leaf->x, leaf->first, leaf->second);
-  leaf->parts = patch->lanes != SOLVER_LANES_NONE && nearly_bilinear(leaf) ? parts : NULL;
-  if (leaf->parts) set_parts(patch, leaf, hi, lo, parts);
+  leaf->bent = is_bent(leaf);
+  leaf->parts = parts;
+  set_parts(patch, leaf, hi, lo, parts);
   leaf_set_slabs(leaf);
   leaf->patch = place->patch, leaf->column_u = place->column_u, leaf->column_v = place->column_v;
   set_form(patch, leaf, form);

@@ -20,8 +20,8 @@ void leaf_first_bounds(double x[3][16], double out[2]);
 /* Bounds on |Su|, |Sv| and |Suu|, |Suv|, |Svv| over a leaf with that net widened by LEAF_MARGIN, in its parameters. */
 void leaf_bounds(double x[3][16], double first[2], double second[3]);
 
-/* The leaf at that place of the patch. What it has of parts and form is written to *parts and *form, which stay the
- * caller's. */
+/* The leaf at that place of the patch. Its parts, and its form where it has one, are written to *parts and *form, which
+ * stay the caller's. */
 void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct leaf *leaf, struct leaf_parts *parts,
                struct leaf_form *form);
 

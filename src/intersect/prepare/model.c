@@ -66,7 +66,7 @@ struct making {
   size_t part, part_count; /* patches in a part */
   size_t *leaves;          /* in each part; then before it */
   struct bvh_box *boxes;
-  struct leaf_parts *parts; /* one for each leaf that is kept, if it has any */
+  struct leaf_parts *parts; /* one for each leaf that is kept */
   atomic_size_t taken;      /* parts */
 };
 
