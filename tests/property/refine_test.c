@@ -189,7 +189,7 @@ static void solve(struct subject *s, const double start[2], struct leaf_root *ou
 }
 
 static struct tally refined;
-static double worst_inside; /* the point, of leaf_parts.error and ten roundings */
+static double worst_inside; /* the point, of leaf_parts.error and a rounding */
 
 static void check_refine(struct subject *s, struct random *random)
 {
@@ -204,7 +204,7 @@ static void check_refine(struct subject *s, struct random *random)
     for (int c = 0; c < 3; c++) {
       const quad x = quad_net_jet(&s->truth.x[c], root.at.u[0], root.at.v[0]).value;
       const double off = (double)quad_abs(root.point[c][0] - x);
-      worst_inside = fmax(worst_inside, off / (s->leaf->parts->error + 10 * UNIT_ROUNDOFF));
+      worst_inside = fmax(worst_inside, off / (s->leaf->parts->error + UNIT_ROUNDOFF));
     }
   }
 }
