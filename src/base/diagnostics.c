@@ -106,11 +106,12 @@ static void block_add_line(struct block *block, struct place place, struct sourc
   block_add_text(block, "\n");
 }
 
-static void tell_closing_line(struct diagnostics *diagnostics)
+static void tell_closing_line(struct diagnostics *diagnostics, bool warnings)
 {
   char text[64];
-  const int length = snprintf(text, sizeof text, "%d errors: no more are shown\n", DIAGNOSTICS_MAX_ERRORS);
-  diagnostics->parts = (struct diagnostics_parts){.said_end = (size_t)length - 1};
+  const int length = snprintf(text, sizeof text, "%d %s: no more are shown\n", DIAGNOSTICS_MAX_ERRORS,
+                              warnings ? "warnings" : "errors");
+  diagnostics->parts = (struct diagnostics_parts){.said_end = (size_t)length - 1, .warning = warnings};
   diagnostics->tell(diagnostics->context, text, (size_t)length);
 }
 
@@ -145,15 +146,18 @@ static void tell(struct diagnostics *diagnostics, struct place place, const char
   memory_free(block.text);
 }
 
+/* Whether to tell one more, of which there were `before`; the first that is too much is told by the closing line. */
+static bool room_for(struct diagnostics *diagnostics, size_t before, bool warning)
+{
+  if (!diagnostics->tell || before > DIAGNOSTICS_MAX_ERRORS) return false;
+  if (before == DIAGNOSTICS_MAX_ERRORS) tell_closing_line(diagnostics, warning);
+  return before < DIAGNOSTICS_MAX_ERRORS;
+}
+
 void diagnostics_error(struct diagnostics *diagnostics, struct place place, const char *format, ...)
 {
-  size_t before = diagnostics->error_count++;
-  if (!diagnostics->tell || before > DIAGNOSTICS_MAX_ERRORS) return;
-  if (before == DIAGNOSTICS_MAX_ERRORS) {
-    tell_closing_line(diagnostics);
-    return;
-  }
   va_list arguments;
+  if (!room_for(diagnostics, diagnostics->error_count++, false)) return;
   va_start(arguments, format);
   tell(diagnostics, place, "error: ", format, arguments);
   va_end(arguments);
@@ -162,7 +166,7 @@ void diagnostics_error(struct diagnostics *diagnostics, struct place place, cons
 void diagnostics_warning(struct diagnostics *diagnostics, struct place place, const char *format, ...)
 {
   va_list arguments;
-  if (!diagnostics->tell || diagnostics->quiet) return;
+  if (diagnostics->quiet || !room_for(diagnostics, diagnostics->warning_count++, true)) return;
   va_start(arguments, format);
   tell(diagnostics, place, "warning: ", format, arguments);
   va_end(arguments);

@@ -8,7 +8,7 @@
  *                ^~~~~~~~
  *
  * The library never prints: the command's sink does. After DIAGNOSTICS_MAX_ERRORS errors a closing line is told,
- * once, and the rest are only counted. Initialise with { .tell = f, .context = c }. One thread at a time.
+ * once, and the rest are only counted; so it is with warnings. Initialise with { .tell = f, .context = c }. One thread at a time.
  */
 #ifndef PSCN_BASE_DIAGNOSTICS_H
 #define PSCN_BASE_DIAGNOSTICS_H
@@ -30,7 +30,7 @@ struct diagnostics_parts {
 struct diagnostics {
   void (*tell)(void *context, const char *text, size_t length); /* text ends with a newline; NULL: only counted */
   void *context;
-  size_t error_count;
+  size_t error_count, warning_count;
   bool quiet;                     /* warnings are not told */
   struct diagnostics_parts parts; /* of the text, while it is told */
 };
@@ -39,7 +39,7 @@ struct diagnostics {
 void diagnostics_error(struct diagnostics *diagnostics, struct place place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* Likewise a warning, "warning: text"; it is no error and is not counted. */
+/* Likewise a warning, "warning: text"; it is no error and is not counted as one. */
 void diagnostics_warning(struct diagnostics *diagnostics, struct place place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 

@@ -41,3 +41,5 @@ many_names() {
   }'
 }
 many_names | within pscn dump - 2>&1 | grep -c 'is not declared\|exit 3'
+# Warnings end as errors do: a million would each be looked for from the beginning of the text.
+yes '#version 3.5;' | head -n 1000000 | within pscn dump - 2>&1 | grep -n 'warnings\|exit'
