@@ -132,7 +132,7 @@ static void write_list(struct call *call, size_t number, const struct pscn_hits 
   struct pscn_hit rest = NO_HIT;
   if (counts->verdict == PSCN_NO_ANSWER) rest.verdict = PSCN_NO_ANSWER;
   else rest.certain = counts->certain;
-  memcpy(answer_at(call, number), counts, sizeof *counts);
+  if (call->answers) memcpy(answer_at(call, number), counts, sizeof *counts);
   if (call->most == 0) return;
   char *row = call->hits + (ptrdiff_t)number * call->row_stride;
   for (size_t k = 0; k < written; k++) {
@@ -201,8 +201,8 @@ static void answer_rays(struct call *call, const struct asked *asked, size_t cou
 static enum pscn_status ask(const struct pscn_scene *scene, const struct asked *asked, size_t count, struct call *call)
 {
   if (count == 0) return pscn_scene_status(scene) == PSCN_OK ? PSCN_OK : PSCN_USAGE;
-  if (!call->answers) return PSCN_USAGE;
-  if (pscn_scene_status(scene) != PSCN_OK || !call->rays) {
+  if (!call->answers && !call->hits) return PSCN_USAGE;
+  if (pscn_scene_status(scene) != PSCN_OK || !call->rays || !call->answers) {
     for (size_t k = 0; k < count; k++) asked->write(call, k, PSCN_NO_ANSWER);
     return PSCN_USAGE;
   }

@@ -89,7 +89,10 @@ static void test_arguments(void **state)
   struct pscn_hit hit;
   assert_int_equal(pscn_all(scene, 1, &ray, 0, &count, 0, NULL, 0, 1), PSCN_USAGE);
   assert_int_equal(count.verdict, PSCN_NO_ANSWER);
+  hit.verdict = PSCN_HIT;
   assert_int_equal(pscn_all(scene, 1, &ray, 0, NULL, 0, &hit, 0, 1), PSCN_USAGE);
+  assert_int_equal(hit.verdict, PSCN_NO_ANSWER);
+  hit.verdict = PSCN_HIT;
   assert_int_equal(pscn_all(NULL, 1, &ray, 0, &count, 0, &hit, 0, 1), PSCN_USAGE);
   assert_int_equal(count.verdict, PSCN_NO_ANSWER);
   assert_int_equal(hit.verdict, PSCN_NO_ANSWER);
