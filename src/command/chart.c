@@ -25,6 +25,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_HELP_OPTION,
   COMMAND_TEXT("output", 'o', folder.path, "folder of the results; default: SCENE's name and -chart", "DIR"),
   SCENE_SIZE_OPTION("of the picture in pixels; default 800x600"),
+  SCENE_READING_OPTIONS,
   COMMAND_INTEGER("rays", chart.rays, 1, MAX_RAYS, "number of rays",
                   "about so many camera rays; default 2048, 1024 with --quick", "N"),
   COMMAND_INTEGER("rounds", chart.rounds, 1, MEASURE_MAX_ROUNDS, "number of rounds",

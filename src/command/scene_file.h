@@ -36,13 +36,14 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_MAX_MEMORY, OPTION_INCLUDE, OPTION_
 #define SCENE_SIZE_OPTION(text) COMMAND_OPTION("size", 0, OPTION_SIZE, text, "WxH")
 #define SCENE_SOLVER_OPTION(text) COMMAND_TEXT("solver", 0, scene.solver_text, text, "TEXT")
 #define SCENE_TOLERANCE_OPTION(text) COMMAND_POSITIVE("tolerance", scene.tolerance, "tolerance", text, "E")
-#define SCENE_OPTIONS                                                                                            \
-  SCENE_SOLVER_OPTION("instead of every solver statement of the scene"),                                         \
-    SCENE_TOLERANCE_OPTION("instead of every solver's tolerance"),                                               \
-    COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY,                                                           \
-                   "that the scene may take; default a quarter of all, at most 8G", "SIZE"),                     \
-    COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "where files that the scene includes are looked for", "DIR"), \
+#define SCENE_READING_OPTIONS                                                                                         \
+  COMMAND_OPTION("max-memory", 0, OPTION_MAX_MEMORY, "that the scene may take; default a quarter of all, at most 8G", \
+                 "SIZE"),                                                                                             \
+    COMMAND_OPTION("include", 'I', OPTION_INCLUDE, "where files that the scene includes are looked for", "DIR"),      \
     COMMAND_OPTION("declare", 0, OPTION_DECLARE, "a number that the scene finds declared", "NAME=X")
+#define SCENE_OPTIONS                                                    \
+  SCENE_SOLVER_OPTION("instead of every solver statement of the scene"), \
+    SCENE_TOLERANCE_OPTION("instead of every solver's tolerance"), SCENE_READING_OPTIONS
 enum status scene_request_take(const struct command *command, void *scene_request, int val,
                                const char *argument) STATUS_MUST_CHECK;
 

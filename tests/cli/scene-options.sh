@@ -28,3 +28,13 @@ background { rgb 1 }
 END
 try pscn render scene.pscn -o a.png --size 4x3 2>&1 | grep 'warning\|exit'
 try pscn render scene.pscn -o a.png --size 4x3 --quiet
+try pscn dump scene.pscn --quiet >/dev/null
+
+# Wherever a scene is read.
+echo '#include "where.inc" background { rgb Where * Level }' >scene.pscn
+rm where.inc
+for command in 'render -o a.png --size 4x3' trace dump 'check --povray nowhere' 'chart --no-peers --quiet --size 2x2 --rays 1 --rounds 1'; do
+  echo "$command"
+  try pscn $command scene.pscn -I first --declare Level=1 --max-memory 1 </dev/null 2>&1 | grep 'more memory\|unknown\|exit'
+  try pscn $command scene.pscn -I first --declare Level=1 </dev/null 2>&1 | grep 'error\|exit'
+done
