@@ -79,10 +79,10 @@ static void expand_points(struct expansion *e, const struct node *node, const st
                           struct scene_patch *patch)
 {
   bool finite = true;
-  for (int n = 0; n < 16; n++) {
-    double *p = patch->P[n / 4][n % 4];
-    transform_point(transform, node->P[n / 4][n % 4], p);
-    finite &= isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+  for (int i = 0; i < 4; i++) {
+    transform_points(transform, node->P[i], patch->P[i]);
+    for (int j = 0; j < 4; j++)
+      for (int k = 0; k < 3; k++) finite &= isfinite(patch->P[i][j][k]) != 0;
   }
   if (finite || e->told) return;
   e->told = true;
@@ -107,7 +107,7 @@ static double (*collect_nets(const struct node *node, const struct transform *tr
                              double (*out)[4][4][3]))[4][4][3]
 {
   if (node->P) {
-    for (int n = 0; n < 16; n++) transform_point(transform, node->P[n / 4][n % 4], (*out)[n / 4][n % 4]);
+    for (int i = 0; i < 4; i++) transform_points(transform, node->P[i], (*out)[i]);
     return out + 1;
   }
   for (const struct node *child = node->first; child; child = child->next) {
@@ -137,7 +137,7 @@ static bool begin_copy(struct expansion *e, const struct node *node, const struc
   copy->first_patch = scene->patch_count;
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) copy->A[i][j] = transform->A[i][j].hi;
-    copy->b[i] = transform->b[i].hi;
+    copy->b[i] = transform->A[3][i].hi;
   }
   return true;
 }

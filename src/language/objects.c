@@ -230,7 +230,7 @@ void node_transform(struct language *language, const struct transform *transform
   if (transform->identity) return;
   const struct transform all = node->transform ? transform_then(node->transform, transform) : *transform;
   if (!transform_finite(&all)) {
-    language_error(language, transform->place, "the transforms up to here are too large for numbers");
+    language_error(language, language->transform_place, "the transforms up to here are too large for numbers");
     return;
   }
   if (!node->own_transform) node->transform = language_alloc(language, sizeof *node->transform);

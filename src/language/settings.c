@@ -128,7 +128,7 @@ void light_shadowless(struct language *language, struct span place)
 
 void light_transform(struct language *language, const struct transform *transform)
 {
-  struct light_node *light = modified_light(language, transform->place);
+  struct light_node *light = modified_light(language, language->transform_place);
   light->transform = transform_then(&light->transform, transform);
 }
 

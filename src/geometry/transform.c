@@ -1,0 +1,72 @@
+/* Affine transforms. */
+#include "geometry/transform.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/kernel.h"
+#include "geometry/transform_kernel.h"
+
+struct transform transform_identity(void)
+{
+  struct transform t = {.identity = true, .moves = true};
+  for (int k = 0; k < 3; k++) t.A[k][k].hi = 1;
+  return t;
+}
+
+static const struct transform_kernel *best(void)
+{
+#if defined(PSCN_HAS_AVX2)
+  if (KERNEL_RUNS_AVX2) return &transform_kernel_avx2;
+#endif
+  return &transform_kernel_baseline;
+}
+
+struct transform transform_then(const struct transform *first, const struct transform *second)
+{
+  if (first->identity) return *second;
+  if (second->identity) return *first;
+  struct transform r = *first;
+  if (!first->moves || !second->moves) {
+    best()->compose(first, second, &r);
+    return r;
+  }
+  for (int j = 0; j < 3; j++) {
+    r.A[3][j] = dd_add(second->A[3][j], first->A[3][j]);
+    r.moves &= r.A[3][j].lo == 0;
+  }
+  return r;
+}
+
+bool transform_finite(const struct transform *transform)
+{
+  bool finite = true;
+  for (int i = 0; i < 12; i++) finite &= isfinite(transform->A[i / 3][i % 3].hi) != 0;
+  return finite;
+}
+
+void transform_points(const struct transform *transform, const transform_row p, transform_row out)
+{
+  if (!transform->moves) {
+    best()->apply(transform, p, out);
+    return;
+  }
+  for (int n = 0; n < 4; n++)
+    for (int j = 0; j < 3; j++) out[n][j] = transform->identity ? p[n][j] : transform->A[3][j].hi + p[n][j];
+}
+
+void transform_point(const struct transform *transform, const double p[3], double out[3])
+{
+  transform_row all = {{p[0], p[1], p[2]}};
+  transform_points(transform, all, all);
+  memcpy(out, all[0], sizeof all[0]);
+}
+
+void transform_direction(const struct transform *transform, const double p[3], double out[3])
+{
+  struct transform fixed = *transform;
+  memset(fixed.A[3], 0, sizeof fixed.A[3]);
+  transform_point(&fixed, p, out);
+}
+
+void transform_rotation(const double degrees[3], struct transform *out) { best()->rotation(degrees, out); }

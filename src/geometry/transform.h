@@ -1,0 +1,36 @@
+/* Affine transforms of points, which are row vectors.
+ *
+ * They are composed in double-double, and a point is rounded once at the end: what comes out is the nearest double of
+ * what was said, the same on every machine. Pure; safe on any thread.
+ */
+#ifndef PSCN_GEOMETRY_TRANSFORM_H
+#define PSCN_GEOMETRY_TRANSFORM_H
+
+#include <stdbool.h>
+
+#include "base/double_double.h"
+
+/* p' = (p, 1) A. `identity` where nothing has been applied, so that points stay as they are to the bit; `moves` where the
+ * first three rows are the identity and the last one is of doubles. */
+struct transform {
+  bool identity, moves;
+  struct double_double A[4][3];
+};
+
+struct transform transform_identity(void);
+/* first, then second. */
+struct transform transform_then(const struct transform *first, const struct transform *second);
+bool transform_finite(const struct transform *transform);
+
+/* Four points, a row of a control net. */
+typedef double transform_row[4][3];
+
+/* out may be p; a direction is not moved. */
+void transform_points(const struct transform *transform, const transform_row p, transform_row out);
+void transform_point(const struct transform *transform, const double p[3], double out[3]);
+void transform_direction(const struct transform *transform, const double p[3], double out[3]);
+
+/* About x, then y, then z; exact at multiples of 90 degrees. */
+void transform_rotation(const double degrees[3], struct transform *out);
+
+#endif

@@ -1,0 +1,174 @@
+/* The arithmetic of transforms. Compiled once per instruction set. */
+#include "geometry/transform_kernel.h"
+
+#include "base/double_lanes.h"
+#include "base/kernel.h"
+
+/* Of a transform, and of points: as many are done at once as there are lanes. */
+enum { ROWS = 4 };
+
+static const struct double_lanes ZERO = {{0}, {0}};
+
+/* As in double_double.h, in several lanes. */
+static struct double_lanes normal(lanes hi, lanes lo)
+{
+  const lanes s = hi + lo;
+  return (struct double_lanes){s, lo - (s - hi)};
+}
+
+static struct double_lanes add(struct double_lanes a, struct double_lanes b)
+{
+  const struct double_lanes s = double_lanes_sum(a.hi, b.hi), t = double_lanes_sum(a.lo, b.lo);
+  const struct double_lanes r = normal(s.hi, s.lo + t.hi);
+  return normal(r.hi, r.lo + t.lo);
+}
+
+/* sum + a b. Most of what transforms are made of is 0, which is left out. */
+static struct double_lanes add_product(struct double_lanes sum, struct double_lanes a, struct double_double b)
+{
+  if (b.hi == 0) return sum;
+  const struct double_lanes p = double_lanes_product(a.hi, lanes_all(b.hi));
+  const struct double_lanes more = add(sum, normal(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi)));
+  const lane_mask zero = a.hi == 0;
+  return (struct double_lanes){lanes_select(zero, sum.hi, more.hi), lanes_select(zero, sum.lo, more.lo)};
+}
+
+/* The columns of so many rows, from `row` on. */
+static void load_columns(const struct transform *transform, size_t row, struct double_lanes out[3])
+{
+  const double *from = &transform->A[row][0].hi;
+  struct double_lanes x, y, z;
+  lanes_load4(from, 6, &x.hi, &x.lo, &y.hi, &y.lo);
+  lanes_load4(from + 2, 6, &y.hi, &y.lo, &z.hi, &z.lo);
+  out[0] = x, out[1] = y, out[2] = z;
+}
+
+static void store_columns(const struct double_lanes column[3], size_t row, struct transform *out)
+{
+  double *to = &out->A[row][0].hi;
+  lanes_store4(column[0].hi, column[0].lo, column[1].hi, column[1].lo, to, 6);
+  lanes_store4(column[1].hi, column[1].lo, column[2].hi, column[2].lo, to + 2, 6);
+}
+
+static void compose(const struct transform *first, const struct transform *second, struct transform *out)
+{
+  out->identity = out->moves = false;
+  for (size_t row = 0; row < ROWS; row += LANES) {
+    struct double_lanes a[3], sum[3] = {ZERO, ZERO, ZERO};
+    load_columns(first, row, a);
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; j++) {
+      if (row + LANES == ROWS) sum[j].hi[LANES - 1] = second->A[3][j].hi, sum[j].lo[LANES - 1] = second->A[3][j].lo;
+#pragma GCC unroll 3
+      for (int k = 0; k < 3; k++) sum[j] = add_product(sum[j], a[k], second->A[k][j]);
+    }
+    store_columns(sum, row, out);
+  }
+}
+
+/* Of as many points as there are lanes. */
+static lanes coordinate(const double (*p)[3], int k)
+{
+  lanes x = {0};
+  for (size_t n = 0; n < LANES; n++) x[n] = p[n][k];
+  return x;
+}
+
+static void apply(const struct transform *transform, const transform_row p, transform_row out)
+{
+  for (size_t row = 0; row < ROWS; row += LANES) {
+    lanes to[3];
+    const lanes from[3] = {coordinate(&p[row], 0), coordinate(&p[row], 1), coordinate(&p[row], 2)};
+    for (int j = 0; j < 3; j++) {
+      const struct double_double *b = &transform->A[3][j];
+      struct double_lanes q = {lanes_all(b->hi), lanes_all(b->lo)};
+      for (int k = 0; k < 3; k++) {
+        const struct double_double a = transform->A[k][j];
+        if (a.hi == 0) continue;
+        const struct double_lanes product = double_lanes_product(lanes_all(a.hi), from[k]);
+        q = add(q, normal(product.hi, product.lo + a.lo * from[k]));
+      }
+      to[j] = q.hi + q.lo;
+    }
+    for (int j = 0; j < 3; j++)
+      for (size_t n = 0; n < LANES; n++) out[row + n][j] = to[j][n];
+  }
+}
+
+/* (a + error) / b to about 104 bits, for an error no larger than the rounding of a. */
+static struct double_double divide(double a, double error, double b)
+{
+  const double q = a / b;
+  const struct double_double back = dd_two_product(q, b);
+  return dd_normal(q, ((a - back.hi) - back.lo + error) / b);
+}
+
+/* The sum of (-1)^n x^(2n+1) / (2n+1)! for |x| <= pi/4, up to a term that is less than what rounds the sum. From the
+ * first term below 2^-53 of the sum on they are doubles, whose own rounding is below 2^-106 of it. */
+static struct double_double sine(struct double_double x)
+{
+  const struct double_double square = dd_negate(dd_multiply(x, x));
+  struct double_double term = x, sum = x;
+  int n = 2;
+  for (; fabs(term.hi) > 0x1p-53 * fabs(sum.hi); n += 2) {
+    term = dd_multiply(term, divide(square.hi, square.lo, (double)(n * (n + 1))));
+    sum = dd_add(sum, term);
+  }
+  double small = term.hi, tail = 0;
+  for (; fabs(small) > 0x1p-108 * fabs(sum.hi); n += 2) {
+    small *= square.hi / (double)(n * (n + 1));
+    tail += small;
+  }
+  return dd_normal(sum.hi, sum.lo + tail);
+}
+
+/* The cosine to that sine, which is at least sqrt(1/2): 1 - s^2 by one step of Newton's iteration. */
+static struct double_double cosine(struct double_double s)
+{
+  const struct double_double square = dd_add((struct double_double){1, 0}, dd_negate(dd_multiply(s, s)));
+  const double root = sqrt(square.hi);
+  const struct double_double back = dd_two_product(root, root);
+  return dd_normal(root, ((square.hi - back.hi) - back.lo + square.lo) / (2 * root));
+}
+
+/* Sine and cosine of an angle in degrees; exact at multiples of 90. */
+static void sine_cosine(double degrees, struct double_double *out_sin, struct double_double *out_cos)
+{
+  static const struct double_double radians_a_degree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
+  int quarters;
+  const double rest = remquo(degrees, 90, &quarters); /* exact, |rest| <= 45 */
+  const struct double_double s = sine(dd_scale(radians_a_degree, rest)), c = cosine(s);
+  switch (quarters & 3) {
+  case 0: *out_sin = s, *out_cos = c; break;
+  case 1: *out_sin = c, *out_cos = dd_negate(s); break;
+  case 2: *out_sin = dd_negate(s), *out_cos = dd_negate(c); break;
+  default: *out_sin = dd_negate(c), *out_cos = s; break;
+  }
+}
+
+/* Turns the plane of the axes i and j, which are columns. */
+static void turn(struct transform *transform, int i, int j, double degrees)
+{
+  struct double_double s, c;
+  sine_cosine(degrees, &s, &c);
+  for (size_t row = 0; row < ROWS; row += LANES) {
+    struct double_lanes a[3];
+    load_columns(transform, row, a);
+    const struct double_lanes x = a[i], y = a[j];
+    a[i] = add_product(add_product(ZERO, x, c), y, dd_negate(s));
+    a[j] = add_product(add_product(ZERO, x, s), y, c);
+    store_columns(a, row, transform);
+  }
+}
+
+static void rotation(const double degrees[3], struct transform *out)
+{
+  *out = transform_identity();
+  for (int axis = 0; axis < 3; axis++) {
+    if (degrees[axis] == 0) continue;
+    out->identity = out->moves = false;
+    turn(out, (axis + 1) % 3, (axis + 2) % 3, degrees[axis]);
+  }
+}
+
+const struct transform_kernel KERNEL(transform_kernel) = {compose, apply, rotation};
