@@ -31,31 +31,30 @@ LANES_INLINE lane_mask cover_unknown(const struct leaf *leaf, const struct cover
   return open & ~(root->proven & certificate_alone(q + 6 * root->bend, root->off));
 }
 
-/* The cubic at c[0], c[stride] ... into its halves. */
-LANES_INLINE void cover_halve(const lanes *c, int stride, lanes *low, lanes *high)
+/* The cubic at c[0], c[stride] ... becomes its lower half. */
+LANES_INLINE void cover_halve(lanes *c, int stride, lanes *high)
 {
   const lanes c0 = c[0], c1 = c[stride], c2 = c[2 * stride], c3 = c[3 * stride];
   const lanes q0 = 0.5 * (c0 + c1), q1 = 0.5 * (c1 + c2), q2 = 0.5 * (c2 + c3);
   const lanes r0 = 0.5 * (q0 + q1), r1 = 0.5 * (q1 + q2), s = 0.5 * (r0 + r1);
-  low[0] = c0, low[stride] = q0, low[2 * stride] = r0, low[3 * stride] = s;
+  c[stride] = q0, c[2 * stride] = r0, c[3 * stride] = s;
   high[0] = s, high[stride] = r1, high[2 * stride] = q2, high[3 * stride] = c3;
 }
 
 /* Halves the box across the parameter along which it is longer: not as seen along the ray, so that a lane's boxes do
- * not depend on its neighbours. */
-static void cover_split(const struct leaf *leaf, const struct cover_box *box, struct cover_box out[2])
+ * not depend on its neighbours. It becomes its own lower half. */
+static void cover_split(const struct leaf *leaf, struct cover_box *box, struct cover_box *high)
 {
   const bool across_u = leaf->first[0] * box->size_u >= leaf->first[1] * box->size_v;
-  for (int h = 0; h < 2; h++) {
-    out[h].u = box->u, out[h].v = box->v, out[h].size_u = box->size_u, out[h].size_v = box->size_v;
-    if (across_u) out[h].size_u /= 2, out[h].u += h * out[h].size_u;
-    else out[h].size_v /= 2, out[h].v += h * out[h].size_v;
-    out[h].halvings = box->halvings + 1, out[h].open = box->open;
-  }
+  if (across_u) box->size_u /= 2;
+  else box->size_v /= 2;
+  box->halvings++;
+  high->u = across_u ? box->u + box->size_u : box->u, high->v = across_u ? box->v : box->v + box->size_v;
+  high->size_u = box->size_u, high->size_v = box->size_v, high->halvings = box->halvings, high->open = box->open;
   for (int n = 0; n < 4; n++) {
     const int at = across_u ? n : 4 * n, stride = across_u ? 4 : 1;
-    cover_halve(box->a + at, stride, out[0].a + at, out[1].a + at);
-    cover_halve(box->b + at, stride, out[0].b + at, out[1].b + at);
+    cover_halve(box->a + at, stride, high->a + at);
+    cover_halve(box->b + at, stride, high->b + at);
   }
 }
 
@@ -99,25 +98,26 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
   const lanes given = lanes_min(p->postponed->splits, lanes_all(COVER_SPLITS));
   lanes splits = given;
   while (top > 0) {
-    struct cover_box box = stack[--top];
-    box.open &= open;
-    if (!lanes_any(box.open)) continue;
-    splits -= lanes_select(box.open, lanes_all(1), lanes_all(0));
-    open &= ~(box.open & (splits < 0));
-    if (box.halvings == halvings) open &= ~box.open;
-    box.open &= open;
-    if (!lanes_any(box.open)) continue;
-    cover_split(it->leaf, &box, &stack[top]);
+    struct cover_box *box = &stack[top - 1];
+    box->open &= open;
+    if (lanes_any(box->open)) {
+      splits -= lanes_select(box->open, lanes_all(1), lanes_all(0));
+      open &= ~(box->open & (splits < 0));
+      if (box->halvings == halvings) open &= ~box->open;
+      box->open &= open;
+    }
+    top--;
+    if (!lanes_any(box->open)) continue;
+    cover_split(it->leaf, box, box + 1);
     /* each halving adds three roundings, of values of the leaf's size */
-    const lanes error = it->nets.error + (box.halvings + 1) * 4 * UNIT_ROUNDOFF * size;
-    const int first = top;
+    const lanes error = it->nets.error + box->halvings * 4 * UNIT_ROUNDOFF * size;
     for (int h = 0; h < 2; h++) {
-      struct cover_box *half = &stack[first + h];
+      struct cover_box *half = box + h;
       for (int k = 0; k < count; k++) half->open = cover_unknown(it->leaf, half, &roots[k], half->open);
       if (lanes_any(half->open)) half->open = cover_full(half, size, error, half->open);
       if (lanes_any(half->open)) half->open = cover_seen(p, it, half, half->open);
       if (!lanes_any(half->open)) continue;
-      if (top != first + h) stack[top] = *half;
+      if (half != &stack[top]) stack[top] = *half;
       top++;
     }
   }
