@@ -207,12 +207,13 @@ static double third_bound(const struct leaf_parts *parts)
   return vector_length(sum);
 }
 
-/* What rounding adds to the value of a plane's polynomial, of the sum of the rest's terms: in each of two coordinates one
- * rounding of the coefficients, twelve of Horner's scheme without fused multiply-add and one of the sum, and eight of the
- * plane. Where the cut rounds the net, and the Taylor coefficients are rounded when they are made: their differences lose
- * some fifteen roundings of the sum of all terms but the constant one, and of the net's size 1, in either coordinate. First
- * derivatives are off by no more than 3/REACH times that, well below what the certificate has. */
-#define REST_ROUNDINGS 40
+/* What rounding adds to the value of a plane's polynomial. Of each term of the rest, in either of two coordinates: one
+ * rounding of the coefficient, without fused multiply-add two for each of its powers and two more in Horner's scheme, and
+ * one of the sum; and eight in the plane. Where the cut rounds the net, and the Taylor coefficients are rounded when they
+ * are made: their differences lose some fifteen roundings of the sum of all terms but the constant one, and of the net's
+ * size 1, in either coordinate. First derivatives are off by no more than 3/REACH times that, well below what the
+ * certificate has. */
+#define TERM_ROUNDINGS(powers) (16 + 4 * (powers))
 #define CUT_ROUNDINGS 32
 
 /* Points on a leaf whose rest adds no more than this to a plane are as good as POINT_ERROR has them: half of it is a
@@ -224,12 +225,15 @@ static double error_bound(const struct leaf_parts *parts, bool rounded)
   double rest = 0, whole = 0;
   for (int k = 0; k < 3; k++) {
     const double *base = parts->base[k];
-    double sum = 0;
-    for (int n = 0; n < 16; n++) sum += REACH_POWER[n / 4] * REACH_POWER[n % 4] * fabs(parts->rest[k][n]);
-    rest = real_max(rest, sum);
+    double sum = 0, roundings = 0;
+    for (int n = 0; n < 16; n++) {
+      const double term = REACH_POWER[n / 4] * REACH_POWER[n % 4] * fabs(parts->rest[k][n]);
+      sum += term, roundings += TERM_ROUNDINGS(n / 4 + n % 4) * term;
+    }
+    rest = real_max(rest, roundings);
     whole = real_max(whole, sum + REACH * (fabs(base[1]) + fabs(base[2]) + REACH * fabs(base[3])));
   }
-  return UNIT_ROUNDOFF * (REST_ROUNDINGS * rest + (rounded ? CUT_ROUNDINGS * (1 + whole) : 0));
+  return UNIT_ROUNDOFF * (rest + (rounded ? CUT_ROUNDINGS * (1 + whole) : 0));
 }
 
 /* Twice what a root may be off by, in the patch's frame, after the last step of Newton's process: well below what
