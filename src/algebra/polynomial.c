@@ -48,8 +48,9 @@ double polynomial_eq11(const struct polynomial *p, double re, double im)
 {
   /* As in evaluation.h: the variable of the terms is z = top/low, or low/top where that is smaller; the common factor
    * of all terms cancels. */
-  const int n = p->degree;
   const bool power = p->basis == BASIS_POWER;
+  int n = p->degree;
+  while (power && n > 1 && p->c[n] == 0) n--;
   const bool reversed = hypot(re, im) > (power ? 1.0 : hypot(1.0 - re, im));
   const double size = exp2(-ilogb(fmax(1.0, fmax(fabs(re), fabs(im))))); /* keeps the squares in range */
   const wide top_r = (wide)re * size, top_i = (wide)im * size;

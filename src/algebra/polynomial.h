@@ -20,8 +20,9 @@ struct polynomial {
   const double *error; /* n + 1 absolute bounds on how far each c[k] is from the true one, or NULL where c is exact */
 };
 
-/* |P(z)| / delta(z) of the paper's eq 11 at a finite z = re + i im, where delta = n 2^-52 max |a_k z^k|: below 1 the
- * paper calls z accurate. In scaled Bernstein form P and the terms are those of the plain polynomial in z/(1-z). */
+/* |P(z)| / delta(z) of the paper's eq 11 at a finite z = re + i im, where delta = n 2^-52 max |a_k z^k| and a_n is not
+ * 0: below 1 the paper calls z accurate. In scaled Bernstein form P and the terms are those of the plain polynomial in
+ * z/(1-z). */
 double polynomial_eq11(const struct polynomial *p, double re, double im);
 
 /* The same polynomial in scaled Bernstein form. Writes degree + 1 coefficients and bounds (the old bounds carried over

@@ -110,8 +110,7 @@ static int by_place(const void *a, const void *b)
 /* One polynomial's answer. */
 struct answer {
   size_t line;
-  int degree;              /* as it was written */
-  struct polynomial power; /* without the zeros that it begins with */
+  struct polynomial power; /* as it was written */
   struct root_set roots;
 };
 
@@ -172,8 +171,8 @@ static void write_json(const struct answer *answer)
                                            finite_or_null(root->radius), "status", status_word(root), "iterations",
                                            root->iterations, "eq11", finite_or_null(eq11_of(answer, root))));
   }
-  json_t *whole = json_pack("{s:I, s:i, s:o, s:i}", "line", (json_int_t)answer->line, "degree", answer->degree, "roots",
-                            roots, "missing", answer->roots.missing);
+  json_t *whole = json_pack("{s:I, s:i, s:o, s:i}", "line", (json_int_t)answer->line, "degree", answer->power.degree,
+                            "roots", roots, "missing", answer->roots.missing);
   char *text = json_dumps(whole, JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
   puts(text == NULL ? "null" : text);
   free(text);
@@ -230,11 +229,11 @@ static void to_bernstein(int degree, const double c[], double out_c[], double ou
  * the solver: zeros that it begins with would not be known for what they are behind it. */
 static void answer(struct session *session, int degree, const double c[])
 {
-  struct answer answer = {.line = ++session->polynomials, .degree = degree, .power = {degree, BASIS_POWER, c, NULL}};
+  struct answer answer = {.line = ++session->polynomials, .power = {degree, BASIS_POWER, c, NULL}};
   struct root_set *roots = &answer.roots;
   const double start = clock_seconds(CLOCK_MONOTONIC);
-  while (answer.power.degree > 1 && c[answer.power.degree] == 0) answer.power.degree--;
   struct polynomial p = answer.power;
+  while (p.degree > 1 && c[p.degree] == 0) p.degree--;
   double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
   if (session->method.basis == BASIS_BERNSTEIN && c[p.degree] != 0) {
     to_bernstein(p.degree, c, bernstein, error);
