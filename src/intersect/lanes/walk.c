@@ -110,12 +110,13 @@ __attribute__((noinline)) static void come_near(const struct packet *p, const st
   }
 }
 
-static void bundle_start(struct bundle *b, const struct model_tree *tree)
+/* `packets`: the bundle's. */
+LANES_INLINE void view_set(struct bundle *b, const struct model_tree *tree, int packets)
 {
   b->view.alike = b->view.apart = true;
   const double to_frame = 1 / tree->frame; /* a power of two */
   lanes low[3][2], high[3][2], along[3][2];
-  const int last = b->packets - 1;
+  const int last = packets - 1;
   for (int h = 0; h <= last; h++) {
     const struct packet *p = &b->packet[h];
     const lanes shrink = 1 / p->longest;
@@ -152,6 +153,13 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
     b->view.alike &= same, b->view.apart &= !same;
     sides_set(&b->view.sides, k, down != 0);
   }
+}
+
+/* Twice in the code, so that one packet costs no second one. */
+static void bundle_start(struct bundle *b, const struct model_tree *tree)
+{
+  if (b->packets == 1) view_set(b, tree, 1);
+  else view_set(b, tree, 2);
   bundle_update(b);
 }
 
