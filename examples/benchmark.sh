@@ -4,7 +4,7 @@
 #
 #   examples/benchmark.sh [--page] [RUNS]     RUNS of each, default 5; --page: the table goes into docs/performance.md
 #
-# The teapot at 800x600, one thread, default solver unless it says otherwise; some six minutes where it is alone. Times
+# The teapot at 800x600, one thread, default solver unless it says otherwise; some ten minutes where it is alone. Times
 # are CPU times, as others may use the machine too; still, an idle one gives steadier numbers.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -73,6 +73,25 @@ every_scene() {
     END { printf "| **worst** | | **%.2f** | **%.2f** | **%.2f** |\n", worst[3], worst[4], worst[5] }'
 }
 
+# every_scene_avx2: a table of all scenes and kinds of rays, both with AVX2 and no more.
+every_scene_avx2() {
+  printf '| scene | camera rays, to Embree one by one | to its packets | shadow rays, one by one | to its packets | scattered rays, one by one | to its packets |\n'
+  printf '|---|---|---|---|---|---|---|\n'
+  scenes | while read -r name side file; do
+    say "rays of $name with AVX2"
+    line=$name
+    for kind in camera shadow scattered; do
+      if PSCN_KERNEL=avx2 contest "$kind" "$file" "$side" 2>/dev/null; then
+        line+=$(printf ' %.2f %.2f' "$(cell pscn 5)" "$(cell pscn 6)")
+      else
+        line+=' - -'
+      fi
+    done
+    echo "$line"
+  done | awk '{ for (k = 1; k <= 7; k++) { printf "| %s ", $k; if (k > 1 && $k > worst[k]) worst[k] = $k } print "|" }
+    END { printf "| **worst** "; for (k = 2; k <= 7; k++) printf "| **%.2f** ", worst[k]; print "|" }'
+}
+
 if cmake --build build --target beside_embree >/dev/null 2>&1; then
   say "camera rays, beside Embree"
   contest camera "$SCENE" 128 'aberth { start previous split 1 }' 'aberth { start cold split 1 }'
@@ -88,6 +107,10 @@ if cmake --build build --target beside_embree >/dev/null 2>&1; then
     printf '\n### %s rays\n\n' "${kind^}"
     every_scene "$kind"
   done >"$folder/every"
+  if [ -n "$(cell rtcIntersect16 2)" ]; then
+    printf '\n### With AVX2\n\nOn the same processor, whose wider registers neither pscn (`PSCN_KERNEL=avx2`) nor Embree uses here.\n\n' >>"$folder/every"
+    every_scene_avx2 >>"$folder/every"
+  fi
 else
   say "Embree is not installed (libembree-dev): what is measured beside it is left out"
 fi

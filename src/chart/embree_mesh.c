@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "geometry/patch.h"
 
@@ -82,12 +83,22 @@ static void mesh_destroy(struct embree_mesh *mesh)
   free(mesh);
 }
 
+/* With the instructions that PSCN_KERNEL leaves pscn, where it takes some away. */
+static RTCDevice device_open(void)
+{
+  const char *kernel = getenv("PSCN_KERNEL");
+  if (kernel == NULL) kernel = "";
+  return rtcNewDevice(strcmp(kernel, "avx2") == 0       ? "threads=1,set_affinity=0,isa=avx2"
+                      : strcmp(kernel, "baseline") == 0 ? "threads=1,set_affinity=0,isa=sse2"
+                                                        : "threads=1,set_affinity=0");
+}
+
 static struct embree_mesh *mesh_create(const double (*P)[4][4][3], size_t patch_count, unsigned side)
 {
   struct embree_mesh *mesh = calloc(1, sizeof *mesh);
   if (mesh == NULL) return NULL;
   mesh->side = side;
-  mesh->device = rtcNewDevice("threads=1,set_affinity=0");
+  mesh->device = device_open();
   if (mesh->device != NULL) mesh->scene = rtcNewScene(mesh->device);
   if (mesh->scene == NULL || !mesh_fill(mesh, P, patch_count)) {
     mesh_destroy(mesh);

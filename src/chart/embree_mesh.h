@@ -19,13 +19,14 @@ struct embree_rays; /* rays as Embree wants them, rounded to float */
 
 struct embree_peer {
   /* `side` x `side` squares of two triangles a patch, corners on the patch, one thread, best quality of the hierarchy.
-   * P[patch][i][j][xyz]. NULL where memory is short or Embree fails. */
+   * P[patch][i][j][xyz]. Of the processor's instructions it uses those that PSCN_KERNEL leaves pscn. NULL where memory is
+   * short or Embree fails. */
   struct embree_mesh *(*mesh_create)(const double (*P)[4][4][3], size_t patch_count, unsigned side);
   void (*mesh_destroy)(struct embree_mesh *mesh);
   struct embree_rays *(*rays_create)(const struct ray *rays, size_t count);
   void (*rays_destroy)(struct embree_rays *rays);
 
-  /* How many rays together this processor has the instructions for: 8 or 16. */
+  /* How many rays together it has the instructions for: 8 or 16. */
   unsigned (*widest)(const struct embree_mesh *mesh);
 
   /* Traces all rays in order: one by one (width 1), or 8 or 16 together, said to be coherent or not; for the closest
