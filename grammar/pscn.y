@@ -308,8 +308,9 @@ transform:
   | MATRIX POINT                               { $$ = transform_matrix(language, $2, NULL); }
   ;
 matrix_numbers:
-    value                                      { $$ = matrix_begin(language, $1); }
-  | matrix_numbers comma value                 { matrix_add(language, $$ = $1, $3); }
+    expression %prec ITEM                      { $$ = matrix_begin(language, value_last(language, $1)); }
+  | matrix_numbers expression %prec ITEM       { matrix_add(language, $$ = $1, value_last(language, $2)); }
+  | matrix_numbers ',' expression %prec ITEM   { matrix_add(language, $$ = $1, value_last(language, $3)); }
   ;
 
 /* ---- textures ---- */

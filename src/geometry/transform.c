@@ -26,11 +26,12 @@ struct transform transform_then(const struct transform *first, const struct tran
 {
   if (first->identity) return *second;
   if (second->identity) return *first;
-  struct transform r = *first;
+  struct transform r;
   if (!first->moves || !second->moves) {
     best()->compose(first, second, &r);
     return r;
   }
+  r = *first;
   for (int j = 0; j < 3; j++) {
     r.A[3][j] = dd_add(second->A[3][j], first->A[3][j]);
     r.moves &= r.A[3][j].lo == 0;
@@ -69,4 +70,7 @@ void transform_direction(const struct transform *transform, const double p[3], d
   transform_point(&fixed, p, out);
 }
 
-void transform_rotation(const double degrees[3], struct transform *out) { best()->rotation(degrees, out); }
+void transform_rotation(const double degrees[3], struct transform_angles *angles, struct transform *out)
+{
+  best()->rotation(degrees, angles, out);
+}

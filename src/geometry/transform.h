@@ -30,7 +30,16 @@ void transform_points(const struct transform *transform, const transform_row p, 
 void transform_point(const struct transform *transform, const double p[3], double out[3]);
 void transform_direction(const struct transform *transform, const double p[3], double out[3]);
 
+/* Angles whose sines and cosines are known: most scenes have few. Zeroed: none. */
+enum { TRANSFORM_ANGLE_BITS = 8 };
+struct transform_angles {
+  struct transform_angle {
+    double degrees; /* 0: none */
+    struct double_double sine, cosine;
+  } known[1 << TRANSFORM_ANGLE_BITS];
+};
+
 /* About x, then y, then z; exact at multiples of 90 degrees. */
-void transform_rotation(const double degrees[3], struct transform *out);
+void transform_rotation(const double degrees[3], struct transform_angles *angles, struct transform *out);
 
 #endif

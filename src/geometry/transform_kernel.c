@@ -1,6 +1,8 @@
 /* The arithmetic of transforms. Compiled once per instruction set. */
 #include "geometry/transform_kernel.h"
 
+#include <string.h>
+
 #include "base/double_lanes.h"
 #include "base/kernel.h"
 
@@ -131,43 +133,52 @@ static struct double_double cosine(struct double_double s)
   return dd_normal(root, ((square.hi - back.hi) - back.lo + square.lo) / (2 * root));
 }
 
-/* Sine and cosine of an angle in degrees; exact at multiples of 90. */
-static void sine_cosine(double degrees, struct double_double *out_sin, struct double_double *out_cos)
+/* Exact at multiples of 90 degrees. */
+static void sine_cosine(double degrees, struct transform_angle *out)
 {
   static const struct double_double radians_a_degree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
   int quarters;
   const double rest = remquo(degrees, 90, &quarters); /* exact, |rest| <= 45 */
   const struct double_double s = sine(dd_scale(radians_a_degree, rest)), c = cosine(s);
+  out->degrees = degrees;
   switch (quarters & 3) {
-  case 0: *out_sin = s, *out_cos = c; break;
-  case 1: *out_sin = c, *out_cos = dd_negate(s); break;
-  case 2: *out_sin = dd_negate(s), *out_cos = dd_negate(c); break;
-  default: *out_sin = dd_negate(c), *out_cos = s; break;
+  case 0: out->sine = s, out->cosine = c; break;
+  case 1: out->sine = c, out->cosine = dd_negate(s); break;
+  case 2: out->sine = dd_negate(s), out->cosine = dd_negate(c); break;
+  default: out->sine = dd_negate(c), out->cosine = s; break;
   }
 }
 
-/* Turns the plane of the axes i and j, which are columns. */
-static void turn(struct transform *transform, int i, int j, double degrees)
+/* An angle has one place, by its bits (Knuth, The Art of Computer Programming 3, 6.4, multiplicative hashing). */
+static struct transform_angle known_angle(double degrees, struct transform_angles *angles)
 {
-  struct double_double s, c;
-  sine_cosine(degrees, &s, &c);
+  uint64_t bits;
+  memcpy(&bits, &degrees, sizeof bits);
+  struct transform_angle *angle = &angles->known[bits * UINT64_C(0x9e3779b97f4a7c15) >> (64 - TRANSFORM_ANGLE_BITS)];
+  if (angle->degrees != degrees) sine_cosine(degrees, angle);
+  return *angle;
+}
+
+static void rotation(const double degrees[3], struct transform_angles *angles, struct transform *out)
+{
+  static const struct transform unit = {.A = {{{1, 0}}, {{0, 0}, {1, 0}}, {{0, 0}, {0, 0}, {1, 0}}}};
+  struct transform_angle angle[3];
+  out->identity = out->moves = degrees[0] == 0 && degrees[1] == 0 && degrees[2] == 0;
+  for (int axis = 0; axis < 3; axis++)
+    if (degrees[axis] != 0) angle[axis] = known_angle(degrees[axis], angles);
   for (size_t row = 0; row < ROWS; row += LANES) {
     struct double_lanes a[3];
-    load_columns(transform, row, a);
-    const struct double_lanes x = a[i], y = a[j];
-    a[i] = add_product(add_product(ZERO, x, c), y, dd_negate(s));
-    a[j] = add_product(add_product(ZERO, x, s), y, c);
-    store_columns(a, row, transform);
-  }
-}
-
-static void rotation(const double degrees[3], struct transform *out)
-{
-  *out = transform_identity();
-  for (int axis = 0; axis < 3; axis++) {
-    if (degrees[axis] == 0) continue;
-    out->identity = out->moves = false;
-    turn(out, (axis + 1) % 3, (axis + 2) % 3, degrees[axis]);
+    load_columns(&unit, row, a);
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; axis++) {
+      if (degrees[axis] == 0) continue;
+      const int i = (axis + 1) % 3, j = (axis + 2) % 3; /* the columns that turn */
+      const struct double_lanes x = a[i], y = a[j];
+      const struct double_double s = angle[axis].sine, c = angle[axis].cosine;
+      a[i] = add_product(add_product(ZERO, x, c), y, dd_negate(s));
+      a[j] = add_product(add_product(ZERO, x, s), y, c);
+    }
+    store_columns(a, row, out);
   }
 }
 

@@ -12,7 +12,7 @@ struct transform_kernel {
   /* First, then second; neither is the identity. `out` is none of them. */
   void (*compose)(const struct transform *first, const struct transform *second, struct transform *out);
   void (*apply)(const struct transform *transform, const transform_row p, transform_row out);
-  void (*rotation)(const double degrees[3], struct transform *out);
+  void (*rotation)(const double degrees[3], struct transform_angles *angles, struct transform *out);
 };
 
 extern const struct transform_kernel transform_kernel_baseline, transform_kernel_avx2;

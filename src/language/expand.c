@@ -11,6 +11,7 @@ enum { COPIED_MOST = 1024 };
 struct list {
   void **items;
   size_t *count, capacity, size; /* size: of an element */
+  size_t expected;               /* how many there may be: room for so many at first, or for 16 */
   struct table known;            /* its elements, where they are all different */
   const void *last;              /* what was asked for last */
   uint32_t last_index;
@@ -41,7 +42,7 @@ struct inherited {
 static void *append(struct arena *arena, struct list *list)
 {
   if (*list->count == list->capacity) {
-    const size_t wanted = list->capacity ? 2 * list->capacity : 16;
+    const size_t wanted = list->capacity ? 2 * list->capacity : list->expected > 16 ? list->expected : 16;
     void *grown = arena_alloc(arena, wanted, list->size);
     if (!grown) return NULL;
     if (*list->count) memcpy(grown, *list->items, *list->count * list->size);
@@ -169,7 +170,10 @@ enum status objects_expand(struct language *language, const struct method *metho
     .textures = {.items = (void **)&scene->textures, .count = &scene->texture_count, .size = sizeof *scene->textures},
     .methods = {.items = (void **)&scene->solvers, .count = &scene->solver_count, .size = sizeof *scene->solvers},
     .objects = {.items = (void **)&scene->objects, .count = &scene->object_count, .size = sizeof *scene->objects},
-    .copies = {.items = (void **)&scene->copies, .count = &scene->copy_count, .size = sizeof *scene->copies}};
+    .copies = {.items = (void **)&scene->copies,
+               .count = &scene->copy_count,
+               .size = sizeof *scene->copies,
+               .expected = language->objects->copies}};
   const struct node *all = &language->objects->scene;
   const struct inherited nothing = {transform_identity(), NULL, method};
   uint32_t first;

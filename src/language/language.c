@@ -20,6 +20,7 @@ struct reading {
   struct objects objects;
   struct camera_items camera;
   struct settings settings;
+  struct transform_angles angles;
 };
 
 static enum status reading_create(struct reading *r, const struct language_settings *settings,
@@ -38,7 +39,8 @@ static enum status reading_create(struct reading *r, const struct language_setti
                                 .tokens = &r->tokens,
                                 .objects = &r->objects,
                                 .camera = &r->camera,
-                                .settings = &r->settings};
+                                .settings = &r->settings,
+                                .angles = &r->angles};
   camera_default(&r->camera);
   settings_default(&r->settings);
   r->sources.folders = settings->folders;

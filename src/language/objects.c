@@ -193,6 +193,7 @@ void copy_named(struct language *language, struct span place)
   const struct symbol *symbol = symbol_wanted(language, &name, SYMBOL_OBJECT, "an object");
   if (symbol) {
     symbol->object->sharing->uses++;
+    language->objects->copies++;
     take_object(language, place, symbol->object);
   }
   language->objects->open->has_object = true; /* it was meant to be */

@@ -43,6 +43,7 @@ struct node {
 struct objects {
   struct node *open; /* the innermost */
   struct node scene; /* the union of all objects */
+  size_t copies;     /* how often declared ones are named */
 };
 
 void patch_begin(struct language *language, struct span place);

@@ -90,8 +90,8 @@ struct language {
   struct texture *texture;               /* the innermost that is open */
   const struct texture *texture_default; /* NULL: POV-Ray's */
   struct transform *transform;           /* the last statement's */
-  struct rotation *rotation;             /* the last rotation, likewise */
-  struct span transform_place;           /* where the last of them stands */
+  struct span transform_place;           /* and where it stands */
+  struct transform_angles *angles;       /* of rotations */
   struct method *method;                 /* of the last solver statement */
   struct objects *objects;
   struct camera_items *camera;

@@ -2,23 +2,29 @@
 #include "language/transforms.h"
 
 #include <math.h>
-#include <string.h>
 
 static struct double_double dd(double x) { return (struct double_double){x, 0}; }
 
-static struct transform *new_identity(struct language *language, struct span place)
+/* The statement's, as the last one has left it. */
+static struct transform *begin(struct language *language, struct span place)
 {
   if (!language->transform) language->transform = language_alloc(language, sizeof *language->transform);
-  *language->transform = transform_identity();
   language->transform_place = place;
   return language->transform;
+}
+
+static struct transform *begin_identity(struct language *language, struct span place)
+{
+  struct transform *t = begin(language, place);
+  *t = transform_identity();
+  return t;
 }
 
 const struct transform *transform_translate(struct language *language, struct span place, const struct value *value)
 {
   double by[3] = {0, 0, 0};
   value_to_vector(language, value, by);
-  struct transform *t = new_identity(language, span_join(place, value->place));
+  struct transform *t = begin_identity(language, span_join(place, value->place));
   for (int k = 0; k < 3; k++) {
     t->A[3][k] = dd(by[k]);
     t->identity &= by[k] == 0;
@@ -26,26 +32,13 @@ const struct transform *transform_translate(struct language *language, struct sp
   return t;
 }
 
-/* Many are the same as the last one. */
-struct rotation {
-  double degrees[3];
-  struct transform transform;
-};
-
 const struct transform *transform_rotate(struct language *language, struct span place, const struct value *value)
 {
   double by[3] = {0, 0, 0};
   value_to_vector(language, value, by);
-  language->transform_place = span_join(place, value->place);
-  struct rotation *last = language->rotation;
-  if (!last) {
-    last = language->rotation = language_alloc(language, sizeof *last);
-    last->transform = transform_identity();
-  }
-  if (memcmp(last->degrees, by, sizeof by) == 0) return &last->transform;
-  memcpy(last->degrees, by, sizeof by);
-  transform_rotation(by, &last->transform);
-  return &last->transform;
+  struct transform *t = begin(language, span_join(place, value->place));
+  transform_rotation(by, language->angles, t);
+  return t;
 }
 
 const struct transform *transform_scale(struct language *language, struct span place, const struct value *value)
@@ -54,7 +47,7 @@ const struct transform *transform_scale(struct language *language, struct span p
   double by[3] = {1, 1, 1};
   unsigned zeros = 0;
   value_to_vector(language, value, by);
-  struct transform *t = new_identity(language, span_join(place, value->place));
+  struct transform *t = begin_identity(language, span_join(place, value->place));
   for (int k = 0; k < 3; k++) {
     if (by[k] == 0) zeros |= 1u << k;
     else t->A[k][k] = dd(by[k]);
@@ -112,7 +105,7 @@ static bool is_singular(const double matrix[12])
 
 const struct transform *transform_matrix(struct language *language, struct span place, const struct matrix *matrix)
 {
-  struct transform *t = new_identity(language, place);
+  struct transform *t = begin_identity(language, place);
   const int count = matrix ? matrix->count : 3;
   if (count != MATRIX_NUMBERS) {
     language_error(language, place, "matrix needs %d numbers, found %d", MATRIX_NUMBERS, count);

@@ -65,14 +65,16 @@ struct value *value_named(struct language *language, struct span place)
   const struct name name = sources_name(language, place);
   struct value *value = make(language, VALUE_NAMED, place);
   const struct symbol *symbol = symbol_find(language, name.text, name.length);
-  if (!symbol || (symbol->kind != SYMBOL_OBJECT && symbol->kind != SYMBOL_TEXTURE)) {
-    symbol = symbol_wanted(language, &name, SYMBOL_VALUE, "a value");
-    if (!symbol) return become_unknown(value, place);
-    *value = symbol->value;
-    return value_placed(value, place);
+  if (symbol && (symbol->kind == SYMBOL_OBJECT || symbol->kind == SYMBOL_TEXTURE)) {
+    value->symbol = symbol;
+    return set(value, 1, 1, 1);
   }
-  value->symbol = symbol;
-  return set(value, 1, 1, 1);
+  if (!symbol || symbol->kind != SYMBOL_VALUE) {
+    symbol_wanted(language, &name, SYMBOL_VALUE, "a value");
+    return become_unknown(value, place);
+  }
+  *value = symbol->value;
+  return value_placed(value, place);
 }
 
 /* Whether it can be reckoned with; if not, that has been told. */

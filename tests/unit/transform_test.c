@@ -11,6 +11,8 @@
 
 enum { CASES = 20000, SEED = 20240607 };
 
+static struct transform_angles angles; /* known to all tests */
+
 /* Relative error of a sine or a cosine: a few units of double-double. */
 #define MOST_ERROR 0x1p-102
 
@@ -45,7 +47,7 @@ static void sines_and_cosines_are_right_to_their_bound(void **state)
     const double degrees = some_angle(&random), rest = 90 - fabs(degrees);
     if (degrees == 0) continue;
     struct transform t;
-    transform_rotation((double[]){0, 0, degrees}, &t);
+    transform_rotation((double[]){0, 0, degrees}, &angles, &t);
     const double error = (double)quad_abs(value(t.A[0][1]) / sine(degrees) - 1);
     if (error > worst) worst = error;
     assert_true(value(t.A[1][0]) == -value(t.A[0][1]) && value(t.A[0][0]) == value(t.A[1][1]));
@@ -62,7 +64,7 @@ static void quarters_are_exact(void **state)
   (void)state;
   for (int quarters = -8; quarters <= 8; quarters++) {
     struct transform t;
-    transform_rotation((double[]){90.0 * quarters, 0, 0}, &t);
+    transform_rotation((double[]){90.0 * quarters, 0, 0}, &angles, &t);
     const int sines[4] = {0, 1, 0, -1}, turned = quarters & 3;
     assert_true(value(t.A[1][2]) == sines[turned] && value(t.A[1][1]) == sines[(turned + 1) & 3]);
   }
@@ -72,7 +74,8 @@ static void quarters_are_exact(void **state)
 static struct transform some(struct random *random)
 {
   struct transform t;
-  transform_rotation((double[]){some_angle(random), some_angle(random), 90.0 * (double)(random_bits(random) % 4)}, &t);
+  transform_rotation((double[]){some_angle(random), some_angle(random), 90.0 * (double)(random_bits(random) % 4)},
+                     &angles, &t);
   for (int j = 0; j < 3; j++)
     if (random_bits(random) % 3)
       t.A[3][j] = dd_two_sum(random_between(random, -9, 9), random_between(random, -0x1p-55, 0x1p-55));
@@ -90,9 +93,10 @@ static void all_instruction_sets_round_alike(void **state)
     struct transform same;
     plain->compose(&a, &b, &same);
     assert_memory_equal(both.A, same.A, sizeof same.A);
-    const double angles[3] = {some_angle(&random), some_angle(&random), some_angle(&random)};
+    const double turns[3] = {some_angle(&random), some_angle(&random), some_angle(&random)};
+    struct transform_angles none = {0};
     struct transform turned;
-    plain->rotation(angles, &same), transform_rotation(angles, &turned);
+    plain->rotation(turns, &none, &same), transform_rotation(turns, &angles, &turned);
     assert_memory_equal(turned.A, same.A, sizeof same.A);
     transform_row p, q, r;
     for (int k = 0; k < 12; k++) p[k / 3][k % 3] = random_between(&random, -9, 9);
