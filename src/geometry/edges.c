@@ -32,6 +32,7 @@ enum { KEYS = 2 * 12 + 1 };
 struct matching {
   const char *nets;
   size_t stride, count;
+  const bool *left_out;
   size_t workers;
   uint64_t key[KEYS];
   uint64_t *hash; /* [4 * patch + border] */
@@ -172,19 +173,24 @@ static enum status match_borders(void *context, size_t worker)
   const size_t begin = share(m, worker, m->place_count), end = share(m, worker + 1, m->place_count);
   for (size_t k = 0; k < 4 * m->count; k++) {
     const size_t home = (size_t)((m->hash[k] >> 32) * m->place_count >> 32);
-    if (home < begin || home >= end) continue;
+    if (home < begin || home >= end || (m->left_out && m->left_out[k / 4])) continue;
     if (!place_border(m, k, m->places + begin, end - begin, home - begin)) return STATUS_DIFFERENT;
   }
   return STATUS_OK;
 }
 
-enum status edges_match(const void *nets, size_t stride, size_t count, const struct team *team,
+enum status edges_match(const void *nets, size_t stride, size_t count, const bool left_out[], const struct team *team,
                         struct edge_neighbour *out)
 {
   if (count == 0) return STATUS_OK;
   if (count >= MANY / 4) return STATUS_LIMIT;
-  struct matching m = {
-    .nets = nets, .stride = stride, .count = count, .workers = team_count(team), .place_count = 6 * count, .out = out};
+  struct matching m = {.nets = nets,
+                       .stride = stride,
+                       .count = count,
+                       .left_out = left_out,
+                       .workers = team_count(team),
+                       .place_count = 6 * count,
+                       .out = out};
   choose_keys(m.key);
   m.hash = memory_alloc(count, 4 * sizeof *m.hash);
   m.places = memory_alloc(m.place_count, sizeof *m.places);

@@ -28,9 +28,9 @@ void edge_points(double P[4][4][3], int border, double out[4][3]);
 /* Whether the border is one point: its control points are equal numbers. */
 bool edge_is_point(double P[4][4][3], int border);
 
-/* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes, the same by any team. STATUS_LIMIT
- * where memory is short, or threads are. */
-enum status edges_match(const void *nets, size_t stride, size_t count, const struct team *team,
+/* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes, the same by any team. Those that
+ * are left_out, where that is not NULL, are nobody's neighbours. STATUS_LIMIT where memory is short, or threads are. */
+enum status edges_match(const void *nets, size_t stride, size_t count, const bool left_out[], const struct team *team,
                         struct edge_neighbour *out) STATUS_MUST_CHECK;
 
 #endif

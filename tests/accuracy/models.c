@@ -94,7 +94,7 @@ void model_teapot(struct model *out)
   memset(out, 0, sizeof *out);
   out->name = "teapot";
   read_teapot(out);
-  assert_int_equal(edges_match(out->P, sizeof out->P[0], out->count, NULL, neighbour), 0);
+  assert_int_equal(edges_match(out->P, sizeof out->P[0], out->count, NULL, NULL, neighbour), 0);
   for (size_t n = 0; n < out->count; n++) {
     out->other[n] = n >= WALL && n < BOTTOM;
     for (int border = 0; border < 4; border++) {

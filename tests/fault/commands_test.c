@@ -213,12 +213,14 @@ static void test_others(void **state)
   const char *const dump[] = {"dump", PSCN_SOURCE_DIR "/scenes/nested.pscn", NULL};
   const char *const trace[] = {"trace", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", "--stats", stats, NULL};
   const char *const all[] = {"trace", "--all", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", NULL};
+  const char *const twice[] = {"trace", "--all", PSCN_SOURCE_DIR "/tests/fault/twice.pscn", "--quiet", NULL};
   const char *const roots[] = {"roots", "--quiet", "--stats", stats, NULL};
   assert_true(fail_each(dump, ALLOCATE, NOTHING, NULL) > LEAST);
   feed("0 3 -9 0 -0.25 1\n0 3 -9 1 0 0\n");
   assert_true(fail_each(trace, ALLOCATE, NOTHING, NULL) > LEAST);
   feed("0 3 -9 0 -0.25 1\n0 3 -9 1 0 0\n0 1 0 0 1 0\n"); /* the last one meets the pole: the last resort's lists too */
   assert_true(fail_each(all, ALLOCATE, NOTHING, NULL) > LEAST);
+  assert_true(fail_each(twice, ALLOCATE, NOTHING, NULL) > LEAST);
   fail_files(trace, NOTHING);
   fail_files(dump, NOTHING);
   feed("1 0 -1\n1 -6 11 -6\n");

@@ -171,7 +171,7 @@ static void shuffled(struct set_up *s)
   }
   world_close(&world);
   assert_int_equal(wrong, 0);
-  assert_true(tied < STAGE_RAYS / 2);
+  assert_true(tied < STAGE_RAYS * 2 / 3); /* of flat patches, which meet at borders and lie on each other */
 }
 
 static void answers_do_not_depend_on_the_order_of_patches(void **state)

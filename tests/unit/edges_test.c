@@ -46,10 +46,10 @@ static void match(net *nets, size_t count, struct edge_neighbour *out)
   struct edge_neighbour *other = calloc(4 * count, sizeof *other);
   assert_non_null(other);
   memset(out, 0x5a, 4 * count * sizeof *out);
-  assert_int_equal(edges_match(nets, sizeof *nets, count, NULL, out), STATUS_OK);
+  assert_int_equal(edges_match(nets, sizeof *nets, count, NULL, NULL, out), STATUS_OK);
   for (int t = 0; t < 2; t++) {
     memset(other, 0xa5, 4 * count * sizeof *other);
-    assert_int_equal(edges_match(nets, sizeof *nets, count, &teams[t], other), STATUS_OK);
+    assert_int_equal(edges_match(nets, sizeof *nets, count, NULL, &teams[t], other), STATUS_OK);
     for (size_t k = 0; k < 4 * count; k++)
       assert_true(out[k].patch == other[k].patch && out[k].border == other[k].border &&
                   out[k].reversed == other[k].reversed);
@@ -235,7 +235,7 @@ static void a_grid_with_a_stride(void **state)
     }
   }
   static struct edge_neighbour n[4 * COUNT];
-  assert_int_equal(edges_match(records, sizeof *records, COUNT, NULL, n), STATUS_OK);
+  assert_int_equal(edges_match(records, sizeof *records, COUNT, NULL, NULL, n), STATUS_OK);
   for (int a = 0; a < SIDE; a++) {
     for (int b = 0; b < SIDE; b++) {
       const struct edge_neighbour *here = &n[4 * place[a * SIDE + b]];
@@ -260,7 +260,7 @@ static void points_run_with_the_parameter_and_none_is_fine(void **state)
     edge_points(P, border, out);
     for (int k = 0; k < 4; k++) assert_memory_equal(out[k], border_point(P, border, k), sizeof out[k]);
   }
-  assert_int_equal(edges_match(NULL, sizeof P, 0, NULL, NULL), STATUS_OK);
+  assert_int_equal(edges_match(NULL, sizeof P, 0, NULL, NULL, NULL), STATUS_OK);
 }
 
 /* What the hash of borders was before it had keys: each step can be undone. */
@@ -295,7 +295,7 @@ static void make_collide(struct random *random, net P)
 static double time_of(net *nets, size_t count, struct edge_neighbour *out)
 {
   const clock_t begin = clock();
-  assert_int_equal(edges_match(nets, sizeof *nets, count, NULL, out), STATUS_OK);
+  assert_int_equal(edges_match(nets, sizeof *nets, count, NULL, NULL, out), STATUS_OK);
   return (double)(clock() - begin) / CLOCKS_PER_SEC;
 }
 

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "geometry/twins.h"
 #include "intersect/exact/judge.h"
 
 /* Open places of one ray that are listed; there may be hundreds where a surface lies along the ray. */
@@ -200,14 +201,33 @@ static void sort(struct exact_list *list)
   }
 }
 
+/* Whether they are of patches that lie exactly on each other. */
+static bool are_twins(const struct judge *j, const struct exact_root *a, const struct exact_root *b)
+{
+  const struct model *model = j->asked->model;
+  struct scene_patch *patches = model->scene->patches;
+  return model->again && (model->again[a->patch] || model->again[b->patch]) && a->patch != b->patch &&
+         net_twins(patches[a->patch].P, patches[b->patch].P);
+}
+
+/* Whether the two, of twins, are one root for certain: in the same order a net has the same parameters. */
+static bool one_of_equal(const struct judge *j, const struct exact_root *a, const struct exact_root *b)
+{
+  struct scene_patch *patches = j->asked->model->scene->patches;
+  return (holds(a, b) || holds(b, a)) && net_equal(patches[a->patch].P, patches[b->patch].P);
+}
+
 /* Whether a, which comes before b by t as it is known, is to stay before it. Of two roots that cannot be told
  * apart each is made sharp where it can be, as they are where the nearest of them is asked for. */
 static bool in_order(struct judge *j, struct exact_found *a, struct exact_found *b)
 {
   if (a->kind == EXACT_OPEN || b->kind == EXACT_OPEN || !judge_tie(&a->root, &b->root)) return !(b->root.t < a->root.t);
+  const bool twins = are_twins(j, &a->root, &b->root);
+  if (twins && one_of_equal(j, &a->root, &b->root)) return a->root.patch < b->root.patch;
   struct exact_root one = a->root, two = b->root;
   if (judge_sharpen(j, &one)) a->root = one;
   if (judge_sharpen(j, &two)) b->root = two;
+  if (!twins) a->tied = b->tied = true;
   if (!judge_tie(&a->root, &b->root)) return a->root.t < b->root.t;
   j->doubt |= !judge_tie_fine(j, &a->root, &b->root);
   return !judge_stands_before(&b->root, &a->root);

@@ -69,6 +69,7 @@ struct exact_found {
   enum exact_kind kind;
   unsigned borders; /* bits as of geometry/edges.h */
   int64_t taken;    /* the number of the lanes' root that it is; negative: of none */
+  bool tied;        /* it was made sharp to be told from another surface's, and its answer is to be */
   wide least;       /* of a sorted list: where this one and all behind it begin, by t and its error */
 };
 

@@ -201,7 +201,7 @@ static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathe
   for (size_t k = 0; k < out->count && hits; k++) {
     const struct exact_found *found = decided ? &gather->list.at[k] : NULL;
     if (!found) hits[k] = roots[k]->hit;
-    else if (found->taken >= 0 && !found->root.sharp) hits[k] = roots[found->taken]->hit;
+    else if (found->taken >= 0 && !(found->tied && found->root.sharp)) hits[k] = roots[found->taken]->hit;
     else hits[k] = answer_found(p, lane, found);
   }
   return hits;

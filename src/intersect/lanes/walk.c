@@ -208,14 +208,21 @@ __attribute__((noinline)) static void bundle_boxes_any(const struct view *view, 
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
 
+/* The hierarchy that the packet's rays go through. */
+static const struct model_tree *tree_for(const struct packet *p)
+{
+  return p->gather && p->model->every ? p->model->every : &p->model->tree;
+}
+
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
   struct bundle inner;
   inner.packets = b->packets;
   for (int h = 0; h < b->packets; h++)
     packet_enter(&b->packet[h], copy, lanes_mask(active >> h * LANES), &inner.packet[h]);
-  bundle_start(&inner, &copy->object->model->tree);
-  bundle_walk(&inner, &copy->object->model->tree, inner.live);
+  const struct model_tree *tree = tree_for(&inner.packet[0]);
+  bundle_start(&inner, tree);
+  bundle_walk(&inner, tree, inner.live);
   for (int h = 0; h < b->packets; h++) packet_leave(&inner.packet[h]);
 }
 
@@ -478,7 +485,7 @@ static bool all(struct tracer *tracer, size_t count, const struct ray rays[], st
     struct bundle bundle;
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, false);
     for (int h = 0; h < bundle.packets; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
-    bundle_walk(&bundle, &tracer->model->tree, bundle.live);
+    bundle_walk(&bundle, tree_for(&bundle.packet[0]), bundle.live);
     for (size_t h = 0; h < (size_t)bundle.packets; h++) {
       struct packet *packet = &bundle.packet[h];
       done &= gather_finish(packet, ready[h].copied ? ready[h].exponent : NULL, out + first + h * LANES);

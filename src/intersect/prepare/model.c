@@ -3,9 +3,11 @@
 
 #include <math.h>
 #include <stdatomic.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "base/real.h"
+#include "geometry/twins.h"
 #include "intersect/prepare/copies.h"
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/patch.h"
@@ -202,9 +204,31 @@ static void *alloc_for_rays(struct arena *arena, size_t count, size_t size)
   return block;
 }
 
+/* The hierarchies over the boxes of leaves and copies. */
+static enum status make_trees(struct model *model, const struct bvh_box boxes[], const bool again[],
+                              const struct team *team)
+{
+  const size_t count = model->leaf_count + model->copy_count;
+  if (!again) return tree_build(model->arena, boxes, count, NULL, model->origin, model->frame, team, &model->tree);
+  bool *left_out = memory_alloc(count + 1, sizeof *left_out);
+  model->every = arena_alloc(model->arena, 1, sizeof *model->every);
+  enum status status = left_out && model->every ? STATUS_OK : STATUS_LIMIT;
+  if (status != STATUS_OK) goto done;
+  for (size_t l = 0; l < model->leaf_count; l++)
+    left_out[l] = again[model->leaves ? model->leaves[l].patch : model->places[l].patch];
+  for (size_t c = 0; c < model->copy_count; c++) left_out[model->leaf_count + c] = model->copies[c].again;
+  status = tree_build(model->arena, boxes, count, left_out, model->origin, model->frame, team, &model->tree);
+  if (status == STATUS_OK)
+    status = tree_build(model->arena, boxes, count, NULL, model->origin, model->frame, team, model->every);
+done:
+  memory_free(left_out);
+  return status;
+}
+
 /* The leaves of patches and, behind them, the copies, in one hierarchy. Leaves are kept where that is wanted and they
  * are not too many; it makes rays a quarter faster, at 1.5 KB a patch of one leaf. */
-static enum status make_hierarchy(struct model *model, const struct team *team, int most, bool keep, size_t keep_most)
+static enum status make_hierarchy(struct model *model, const struct team *team, int most, bool keep, size_t keep_most,
+                                  const bool again[])
 {
   struct making m = {.model = model, .team = team, .most = most, .keep = keep};
   enum status status = cut_patches(&m);
@@ -224,7 +248,7 @@ static enum status make_hierarchy(struct model *model, const struct team *team, 
   status = room ? do_parts(&m, make_leaves, model->leaf_count) : STATUS_LIMIT;
   if (status != STATUS_OK) goto done;
   for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m.boxes[model->leaf_count + c]);
-  status = tree_build(model->arena, m.boxes, count, model->origin, model->frame, team, &model->tree);
+  status = make_trees(model, m.boxes, again, team);
 done:
   end_making(&m);
   return status;
@@ -254,16 +278,28 @@ static struct model *model_begin(const struct scene *scene)
 }
 
 enum status model_create_object(const struct scene *nets, const struct team *team, int most, double error,
-                                struct model **out)
+                                const bool again[], struct model **out)
 {
   *out = NULL;
   struct model *model = model_begin(nets);
   if (!model) return STATUS_LIMIT;
   model->error = error;
-  const enum status status = make_hierarchy(model, team, most, true, SIZE_MAX);
+  const enum status status = make_hierarchy(model, team, most, true, SIZE_MAX, again);
   model->scene = NULL;
   if (status == STATUS_OK) *out = model;
   else model_destroy(model);
+  return status;
+}
+
+/* Finds patches that lie on earlier ones; not where roots as their solvers find them are the answers. */
+static enum status find_again(struct model *model)
+{
+  const struct scene *scene = model->scene;
+  if (model->unproven) return STATUS_OK;
+  bool *again = arena_alloc(model->arena, scene->patch_count + 1, sizeof *again);
+  if (!again) return STATUS_LIMIT;
+  const enum status status = twins_find(scene->patches, sizeof *scene->patches, scene->patch_count, again);
+  if (memchr(again, true, scene->patch_count)) model->again = again;
   return status;
 }
 
@@ -272,8 +308,10 @@ static enum status prepare(struct model *model, const struct team *team)
   const struct scene *scene = model->scene;
   model->neighbours = arena_alloc(model->arena, scene->patch_count + 1, 4 * sizeof *model->neighbours);
   if (!model->neighbours) return STATUS_LIMIT;
-  enum status status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count,
-                                   scene->patch_count < TEAM_LEAST ? NULL : team, model->neighbours);
+  enum status status = find_again(model);
+  if (status == STATUS_OK)
+    status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->again,
+                         scene->patch_count < TEAM_LEAST ? NULL : team, model->neighbours);
   if (status != STATUS_OK) return status;
   size_t own = scene->patch_count; /* patches that need leaves */
   if (most_split(own, AUTO_LEAVES_MAX) < AUTO_SPLIT_MAX) {
@@ -284,7 +322,7 @@ static enum status prepare(struct model *model, const struct team *team)
   const bool keep = most > 1;
   if (!keep) most = most_split(own, AUTO_BOXES_MAX);
   status = copies_prepare(model, team, most);
-  return status == STATUS_OK ? make_hierarchy(model, team, most, keep, AUTO_LEAVES_MAX) : status;
+  return status == STATUS_OK ? make_hierarchy(model, team, most, keep, AUTO_LEAVES_MAX, model->again) : status;
 }
 
 enum status model_create(const struct scene *scene, const struct team *team, struct model **out)
@@ -317,6 +355,7 @@ void model_destroy(struct model *model)
   if (!model) return;
   for (size_t k = 0; k < model->object_count; k++) model_destroy(model->objects[k].model);
   tree_free(&model->tree);
+  tree_free(model->every);
   arena_destroy(model->arena);
   memory_free(model);
 }

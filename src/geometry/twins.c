@@ -1,0 +1,113 @@
+/* Nets that are the same, by a table of all nets that is looked up by their four inner control points, which stay
+ * where they are, together, in whatever order the net is read: open addressing with linear probing (Knuth, The Art of
+ * Computer Programming 3, 6.4, algorithm L). */
+#include "geometry/twins.h"
+
+#include <stdint.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* So many places of the table are looked at for one net: with half of them free it takes a few, but for a made-up
+ * scene, which is not to take long either. */
+enum { MOST_PLACES = 64 };
+
+/* So many nets are looked up behind those whose places are being brought from memory. */
+enum { AHEAD = 16 };
+
+/* A place of the table. */
+struct place {
+  uint32_t net; /* counted from 1; 0 for a free place */
+  uint32_t tag; /* bits of the hash */
+};
+
+/* The eight orders: a net, or its transpose, and of that one parameter or both reversed. */
+enum { TRANSPOSED = 1, U_REVERSED = 2, V_REVERSED = 4, ORDERS = 8 };
+
+static bool equal_as(const double P[48], const double Q[48], int order)
+{
+  for (int n = 0; n < 16; n++) {
+    int i = n / 4, j = n % 4;
+    if (order & TRANSPOSED) i = n % 4, j = n / 4;
+    if (order & U_REVERSED) i = 3 - i;
+    if (order & V_REVERSED) j = 3 - j;
+    const double *p = P + 12 * i + 3 * j, *q = Q + 3 * n;
+    if (p[0] != q[0] || p[1] != q[1] || p[2] != q[2]) return false;
+  }
+  return true;
+}
+
+bool net_equal(double P[4][4][3], double Q[4][4][3]) { return equal_as((const double *)P, (const double *)Q, 0); }
+
+static bool are_twins(const double P[48], const double Q[48])
+{
+  for (int order = 0; order < ORDERS; order++)
+    if (equal_as(P, Q, order)) return true;
+  return false;
+}
+
+bool net_twins(double P[4][4][3], double Q[4][4][3]) { return are_twins((const double *)P, (const double *)Q); }
+
+static uint64_t mixed(uint64_t x)
+{
+  x = (x ^ x >> 32) * UINT64_C(0x9e3779b97f4a7c15);
+  return x ^ x >> 29;
+}
+
+/* The same in whatever order they are read: a sum over the points. */
+static uint64_t inner_hash(const double P[48])
+{
+  uint64_t hash = 0;
+  for (int n = 0; n < 4; n++) {
+    uint64_t point = 0;
+    for (int c = 0; c < 3; c++) {
+      const double x = P[12 * (1 + n / 2) + 3 * (1 + n % 2) + c] + 0.0; /* -0 becomes 0 */
+      uint64_t bits;
+      memcpy(&bits, &x, sizeof bits);
+      point = mixed(point + bits);
+    }
+    hash += point;
+  }
+  return mixed(hash);
+}
+
+static const double *net_at(const void *nets, size_t stride, size_t number)
+{
+  return (const double *)(const void *)((const char *)nets + number * stride);
+}
+
+/* Where a net's search begins. */
+static size_t home(uint64_t hash, size_t places) { return (size_t)((hash >> 32) * places >> 32); }
+
+/* Whether there is an earlier twin of net p; else it is placed. */
+static bool meets_twin(const void *nets, size_t stride, size_t p, uint64_t hash, struct place table[], size_t places)
+{
+  size_t at = home(hash, places);
+  for (int n = 0; n < MOST_PLACES; n++, at = at + 1 < places ? at + 1 : 0) {
+    struct place *place = &table[at];
+    if (place->net == 0) {
+      *place = (struct place){(uint32_t)p + 1, (uint32_t)hash};
+      return false;
+    }
+    if (place->tag == (uint32_t)hash && are_twins(net_at(nets, stride, place->net - 1), net_at(nets, stride, p)))
+      return true;
+  }
+  return false;
+}
+
+enum status twins_find(const void *nets, size_t stride, size_t count, bool out[])
+{
+  if (count >= UINT32_MAX / 4) return STATUS_LIMIT;
+  const size_t places = 2 * count + 1;
+  struct place *table = memory_alloc(places, sizeof *table);
+  if (!table) return STATUS_LIMIT;
+  uint64_t hash[AHEAD];
+  for (size_t p = 0; p < count + AHEAD; p++) {
+    if (p >= AHEAD) out[p - AHEAD] = meets_twin(nets, stride, p - AHEAD, hash[p % AHEAD], table, places);
+    if (p >= count) continue;
+    hash[p % AHEAD] = inner_hash(net_at(nets, stride, p));
+    __builtin_prefetch(&table[home(hash[p % AHEAD], places)]);
+  }
+  memory_free(table);
+  return STATUS_OK;
+}

@@ -1,0 +1,273 @@
+/* Patches that lie exactly on earlier ones: the nearest hit is what it is without them, to the last bit, and all hits
+ * are those and as many more. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "geometry/twins.h"
+#include "intersect/intersect.h"
+#include "property/world.h"
+
+enum { SEED = 20261122, RAYS = 768, PACKET = 8, TIMES = 4, MOST = TIMES * WORLD_MAX, FAR = 70000, COPIES = 300 };
+
+/* The net in one of its eight orders. */
+static void in_order(world_net P, int order, world_net out)
+{
+  for (int n = 0; n < 16; n++) {
+    int i = n / 4, j = n % 4;
+    if (order & 1) i = n % 4, j = n / 4;
+    if (order & 2) i = 3 - i;
+    if (order & 4) j = 3 - j;
+    memcpy(out[n / 4][n % 4], P[i][j], sizeof out[0][0]);
+  }
+}
+
+static bool equal(world_net P, world_net Q)
+{
+  bool same = true;
+  for (int n = 0; n < 48; n++) same &= P[n / 12][n / 3 % 4][n % 3] == Q[n / 12][n / 3 % 4][n % 3];
+  return same;
+}
+
+static bool same_surface(world_net P, world_net Q)
+{
+  world_net other;
+  bool same = false;
+  for (int order = 0; order < 8; order++) in_order(P, order, other), same |= equal(other, Q);
+  return same;
+}
+
+/* Patches that lie on each other, and the same without those that lie on earlier ones. */
+struct pair {
+  struct scene scene[2];
+  struct intersector *intersector[2];
+  struct tracer *tracer[2];
+  uint32_t first[MOST];   /* which patch of the first scene each of the second one's is, ... */
+  size_t times[MOST];     /* ... how many of the first one are the same surface, ... */
+  uint32_t surface[MOST]; /* ... and which of the second one's each of the first one's is */
+};
+
+static void twins_fill(struct pair *pair, struct random *random, world_net nets[], size_t count, size_t solver_count)
+{
+  size_t order[MOST], most = 0;
+  for (size_t p = 0; p < count; p++)
+    for (size_t n = 1 + random_bits(random) % TIMES; n > 0; n--) order[most++] = p;
+  random_shuffle(random, most, order);
+  for (size_t k = 0; k < most; k++) {
+    struct scene_patch *patch = &pair->scene[0].patches[k];
+    in_order(nets[order[k]], (int)(random_bits(random) % 8), patch->P);
+    for (int n = 0; n < 48; n++)
+      if (patch->P[n / 12][n / 3 % 4][n % 3] == 0 && random_bits(random) % 2) patch->P[n / 12][n / 3 % 4][n % 3] = -0.0;
+    patch->solver = (uint32_t)(random_bits(random) % solver_count);
+  }
+  pair->scene[0].patch_count = most;
+}
+
+/* Leaves the earlier patches' twins out of the second scene. */
+static void twins_leave(struct pair *pair)
+{
+  struct scene *all = &pair->scene[0], *few = &pair->scene[1];
+  bool again[MOST];
+  assert_int_equal(twins_find(all->patches, sizeof *all->patches, all->patch_count, again), STATUS_OK);
+  for (size_t k = 0; k < all->patch_count; k++) {
+    size_t n = 0;
+    while (n < few->patch_count && !same_surface(few->patches[n].P, all->patches[k].P)) n++;
+    assert_int_equal(again[k], n < few->patch_count);
+    pair->surface[k] = (uint32_t)n, pair->times[n] = n < few->patch_count ? pair->times[n] + 1 : 1;
+    if (n < few->patch_count) continue;
+    pair->first[n] = (uint32_t)k, few->patches[few->patch_count++] = all->patches[k];
+  }
+}
+
+static void pair_prepare(struct pair *pair)
+{
+  for (int k = 0; k < 2; k++) {
+    assert_int_equal(intersector_create(&pair->scene[k], &pair->intersector[k]), STATUS_OK);
+    assert_int_equal(tracer_create(pair->intersector[k], &pair->tracer[k]), STATUS_OK);
+  }
+}
+
+/* far: so many small patches besides. */
+static void pair_open(struct pair *pair, struct random *random, world_net nets[], size_t count, size_t far,
+                      struct method solvers[], size_t solver_count)
+{
+  memset(pair, 0, sizeof *pair);
+  for (int k = 0; k < 2; k++) {
+    pair->scene[k] = (struct scene){.solvers = solvers, .solver_count = solver_count};
+    pair->scene[k].patches = calloc(MOST + far, sizeof *pair->scene[k].patches);
+    assert_non_null(pair->scene[k].patches);
+  }
+  twins_fill(pair, random, nets, count, solver_count);
+  twins_leave(pair);
+  for (size_t p = 0; p < far; p++) {
+    struct scene_patch patch = {0};
+    for (int n = 0; n < 48; n++) patch.P[n / 12][n / 3 % 4][n % 3] = 1000 + random_between(random, 0, 0.01);
+    for (int k = 0; k < 2; k++) pair->scene[k].patches[pair->scene[k].patch_count++] = patch;
+  }
+  pair_prepare(pair);
+}
+
+static void pair_close(struct pair *pair)
+{
+  for (int k = 0; k < 2; k++) {
+    tracer_destroy(pair->tracer[k]), intersector_destroy(pair->intersector[k]);
+    free(pair->scene[k].patches);
+  }
+}
+
+/* Every hit of the scene without twins is there as often as its surface is. */
+static void assert_all_there(const struct pair *pair, const struct hit_list *all, const struct hit_list *few)
+{
+  size_t left[MOST] = {0}, sum = 0;
+  for (size_t k = 0; k < few->count; k++) sum += pair->times[few->hits[k].patch];
+  assert_int_equal(all->count, sum);
+  for (size_t k = 0; k < few->count; k++) left[few->hits[k].patch] += pair->times[few->hits[k].patch];
+  for (size_t k = 0; k < all->count; k++) left[pair->surface[all->hits[k].patch]]--;
+  for (size_t n = 0; n < MOST; n++) assert_int_equal(left[n], 0);
+  for (size_t k = 1; k < all->count; k++) { /* twins' in the order of their patches */
+    const struct hit *before = &all->hits[k - 1], *here = &all->hits[k];
+    assert_true(before->t <= here->t);
+    if (before->t == here->t && pair->surface[before->patch] == pair->surface[here->patch])
+      assert_true(before->patch <= here->patch);
+  }
+}
+
+static void compare(const struct pair *pair, int kind, struct random *random, world_net nets[], size_t count)
+{
+  size_t hits = 0, certain = 0;
+  for (int n = 0; n < RAYS; n += PACKET) {
+    struct ray rays[PACKET];
+    struct hit hit[2][PACKET];
+    struct hit_list list[2][PACKET];
+    bool occluded[2][PACKET];
+    for (int l = 0; l < PACKET; l++) rays[l] = world_ray(random, nets, count, (n + l) % RAY_KINDS);
+    for (int k = 0; k < 2; k++) {
+      tracer_closest(pair->tracer[k], PACKET, rays, hit[k]);
+      tracer_occluded(pair->tracer[k], PACKET, rays, occluded[k]);
+      assert_int_equal(tracer_all(pair->tracer[k], PACKET, rays, list[k]), STATUS_OK);
+    }
+    for (int l = 0; l < PACKET; l++) {
+      if (hit[1][l].patch != HIT_NONE) hits++, hit[1][l].patch = pair->first[hit[1][l].patch];
+      if (!same_hit(&hit[0][l], &hit[1][l])) world_print_case("twins or not", kind, &rays[l], &hit[0][l], &hit[1][l]);
+      assert_true(same_hit(&hit[0][l], &hit[1][l]));
+      assert_int_equal(occluded[0][l], occluded[1][l]);
+      if (list[0][l].certainty != CERTAINTY_CERTAIN || list[1][l].certainty != CERTAINTY_CERTAIN) continue;
+      assert_all_there(pair, &list[0][l], &list[1][l]), certain++;
+    }
+  }
+  print_message("kind %d: %zu patches of %zu, %zu hits, %zu of %d certain of all\n", kind, pair->scene[1].patch_count,
+                pair->scene[0].patch_count, hits, certain, RAYS);
+  assert_true(hits > RAYS / 16 && certain > RAYS / 4);
+}
+
+static void on_each_kind(size_t far, struct method solvers[], size_t solver_count)
+{
+  static struct pair pair;
+  static world_net nets[WORLD_MAX];
+  struct random random = {SEED};
+  for (int kind = 0; kind < WORLD_KINDS; kind++) {
+    const size_t count = world_fill((enum world_kind)kind, &random, nets);
+    pair_open(&pair, &random, nets, count, far, solvers, solver_count);
+    compare(&pair, kind, &random, nets, count);
+    pair_close(&pair);
+  }
+}
+
+static void of_one_solver(void **state)
+{
+  struct method solver;
+  (void)state;
+  method_default(solver_at(0), &solver);
+  on_each_kind(0, &solver, 1);
+}
+
+static void of_several(void **state)
+{
+  static const char *const names[] = {"bernstein", "newton", "aberth", "bernstein"};
+  struct method solvers[4];
+  (void)state;
+  for (int k = 0; k < 4; k++) method_default(solver_find(names[k], strlen(names[k])), &solvers[k]);
+  solvers[1].split = 3, solvers[3].split = 1;
+  on_each_kind(0, solvers, 4);
+}
+
+static void that_are_not_kept(void **state)
+{
+  struct method solver;
+  (void)state;
+  method_default(solver_at(0), &solver);
+  solver.split = 1; /* in either scene */
+  on_each_kind(FAR, &solver, 1);
+}
+
+/* Copies of an object, one of whose patches lies on another; half of them lie on other copies. */
+struct copies {
+  struct scene_object object;
+  struct scene scene;
+};
+
+static void copies_fill(struct copies *copies, world_net nets[], size_t count, bool twice, struct method *solver)
+{
+  struct random random = {SEED};
+  struct scene *scene = &copies->scene;
+  const size_t patches = count + twice;
+  copies->object = (struct scene_object){nets, patches};
+  *scene = (struct scene){
+    .solvers = solver, .solver_count = 1, .objects = &copies->object, .object_count = 1, .patch_count = 0};
+  scene->copies = calloc(2 * COPIES, sizeof *scene->copies);
+  scene->patches = calloc(2 * COPIES * patches, sizeof *scene->patches);
+  assert_non_null(scene->copies), assert_non_null(scene->patches);
+  for (size_t c = 0; c < COPIES; c++) {
+    double at[3];
+    for (int k = 0; k < 3; k++) at[k] = (double)(random_bits(&random) % 20) * 0.5;
+    for (size_t n = 0; n <= (size_t)(twice && c % 2); n++) {
+      struct scene_copy *copy = &scene->copies[scene->copy_count++];
+      *copy = (struct scene_copy){.first_patch = scene->patch_count, .A = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+      memcpy(copy->b, at, sizeof at);
+      for (size_t p = 0; p < patches; p++, scene->patch_count++)
+        for (int e = 0; e < 48; e++)
+          scene->patches[scene->patch_count].P[e / 12][e / 3 % 4][e % 3] = nets[p][e / 12][e / 3 % 4][e % 3] +
+                                                                           at[e % 3];
+    }
+  }
+}
+
+static void that_are_copies(void **state)
+{
+  static world_net nets[WORLD_MAX];
+  struct random random = {SEED};
+  struct copies copies[2];
+  struct pair pair;
+  struct method solver;
+  (void)state;
+  method_default(solver_at(0), &solver);
+  const size_t count = world_fill(WORLD_DOME, &random, nets);
+  in_order(nets[1], 5, nets[count]);
+  for (int k = 0; k < 2; k++) copies_fill(&copies[k], nets, count, k == 0, &solver), pair.scene[k] = copies[k].scene;
+  pair_prepare(&pair);
+  for (int k = 0; k < 2; k++) assert_true(pair.tracer[k]->model->copy_count > COPIES / 2);
+  size_t hits = 0;
+  for (int n = 0; n < RAYS; n++) {
+    struct ray ray = world_ray(&random, nets, count, n % RAY_KINDS);
+    struct hit hit[2];
+    const struct scene_copy *copy = &copies[0].scene.copies[random_bits(&random) % copies[0].scene.copy_count];
+    for (int k = 0; k < 3; k++) ray.origin[k] += copy->b[k];
+    for (int k = 0; k < 2; k++) tracer_closest(pair.tracer[k], 1, &ray, &hit[k]);
+    if (hit[0].patch != HIT_NONE) hits++, hit[0].patch %= (uint32_t)count + 1;
+    if (hit[1].patch != HIT_NONE) hit[1].patch %= (uint32_t)count;
+    if (!same_hit(&hit[0], &hit[1])) world_print_case("copies", WORLD_DOME, &ray, &hit[0], &hit[1]);
+    assert_true(same_hit(&hit[0], &hit[1]));
+  }
+  print_message("%zu hits\n", hits);
+  assert_true(hits > RAYS / 2);
+  for (int k = 0; k < 2; k++) free(copies[k].scene.copies);
+  pair_close(&pair);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(of_one_solver), cmocka_unit_test(of_several),
+                                     cmocka_unit_test(that_are_not_kept), cmocka_unit_test(that_are_copies)};
+  return cmocka_run_group_tests_name("twins", tests, NULL, NULL);
+}
