@@ -75,7 +75,7 @@ static int crossed_axis(const double P[4][4][3], const double d[3])
     }
     size[axis] = high - low;
     const wide here = d[axis] * size[k], there = d[k] * size[axis];
-    if ((here < 0 ? -here : here) > (there < 0 ? -there : there)) k = axis;
+    if (d[k] == 0 || (here < 0 ? -here : here) > (there < 0 ? -there : there)) k = axis;
   }
   return k;
 }
