@@ -214,17 +214,17 @@ static double cubic_at(const double c[4], double x, double *slope)
   return y * y * (y * c[0] + 3 * x * c[1]) + x * x * (3 * y * c[2] + x * c[3]);
 }
 
-/* The root of a cubic that rises from below 0 to above: by Newton's process where it stays next to it, else by halving. */
-static double cubic_root(const double c[4])
+/* The root of a cubic that rises from below 0 to above, and whose coefficients are no larger than `most`: by Newton's
+ * process where it stays next to it, else by halving. It ends where a value is what rounding makes. */
+static double cubic_root(const double c[4], double most)
 {
   double low = 0, high = 1, x = 0.5, slope;
   for (int n = 0; n < 64; n++) {
     const double value = cubic_at(c, x, &slope), next = x - value / slope;
     if (value < 0) low = x;
     else high = x;
-    const double to = next > low && next < high ? next : 0.5 * (low + high);
-    if (fabs(to - x) <= UNIT_ROUNDOFF) return to;
-    x = to;
+    if (fabs(value) <= 4 * UNIT_ROUNDOFF * most) return real_min(real_max(next, low), high);
+    x = next > low && next < high ? next : 0.5 * (low + high);
   }
   return x;
 }
@@ -250,7 +250,7 @@ static int side_places(const double c[4], double error, double out[2], double *o
   double up[4];
   for (int n = 0; n < 4; n++) up[n] = rise > fall ? c[n] : -c[n];
   if (up[0] > error || up[3] < -error) return 0;
-  out[0] = up[0] >= 0 ? 0 : up[3] <= 0 ? 1 : cubic_root(up);
+  out[0] = up[0] >= 0 ? 0 : up[3] <= 0 ? 1 : cubic_root(up, most);
   return 1;
 }
 
@@ -302,4 +302,18 @@ enum box_curves box_curves_begin(struct box *box, const double error[2], double 
     }
   }
   return first < INFINITY ? BOX_CURVES_BEGIN : BOX_CURVES_NONE;
+}
+
+bool box_curves_at(struct box *box, const double error[2], double depth, double *u, double *v)
+{
+  const int larger = one_of_two(box, error);
+  *u = *v = 0.5;
+  for (int n = 0; n < ONTO_STEPS && larger >= 0; n++) {
+    const struct patch_jet c = patch_evaluate(box->net[larger], *u, *v), w = patch_evaluate(box->net[2], *u, *v);
+    const double off = w.value - depth, inverse = 1 / (c.du * w.dv - c.dv * w.du);
+    if (fabs(c.value) <= ONTO_ERRORS * error[larger] && fabs(off) <= ONTO_ERRORS * UNIT_ROUNDOFF) return true;
+    *u -= (w.dv * c.value - c.dv * off) * inverse, *v -= (c.du * off - w.du * c.value) * inverse;
+    if (!(*u >= 0 && *u <= 1 && *v >= 0 && *v <= 1)) return false;
+  }
+  return false;
 }

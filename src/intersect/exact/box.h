@@ -63,6 +63,10 @@ enum box_curves {
  * point's w may be larger than the first one's. */
 enum box_curves box_curves_begin(struct box *box, const double error[2], double way, double *u, double *v, double *off);
 
+/* The point of such curves where w is `depth`, by Newton's process from the middle of the box on. Returns whether it is
+ * found, in the box. */
+bool box_curves_at(struct box *box, const double error[2], double depth, double *u, double *v);
+
 /* The two halves, but for their hulls of t. */
 void box_cut(struct box *box, bool across_u, struct box out[2]);
 

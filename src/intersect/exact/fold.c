@@ -49,6 +49,13 @@ static void derive(const struct fold_powers *p, double x, double y, struct deriv
   }
 }
 
+/* The same in the middle, where they are the powers; up to second ones. */
+static void derive_middle(const struct fold_powers *p, struct derivatives *out)
+{
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; i + j < 3; j++) out->d[i][j] = p->c[i][j] * (i == 2 || j == 2 ? 2 : 1);
+}
+
 /* Bounds on the larger box. */
 static void bound(const struct fold_powers *p, struct derivatives *out)
 {
@@ -101,20 +108,26 @@ static bool invert(const double g[3], const double d[3], double m[2][2])
 #define FOLD_STEP 0x1p-27
 enum { FOLD_STEPS = 8 };
 
-static bool find(const struct fold_powers *f, const struct fold_powers *g, double m[2][2], double at[2])
+/* A step of it from `at`, where the map's first row is g, its second one d, and the inverse Jacobian m; how long it is,
+ * or NaN where it leads too far. */
+static double step_on(const double g[3], const double d[3], double m[2][2], double at[2])
 {
-  double step = 1;
-  for (int n = 0; n < FOLD_STEPS && step > FOLD_STEP; n++) {
+  const double x = m[0][0] * g[0] + m[0][1] * d[0], y = m[1][0] * g[0] + m[1][1] * d[0];
+  at[0] -= x, at[1] -= y;
+  return fabs(at[0]) <= 2 && fabs(at[1]) <= 2 ? real_max(fabs(x), fabs(y)) : NAN;
+}
+
+/* The rest of the process, from the second step on. */
+static bool find(const struct fold_powers *f, const struct fold_powers *g, double step, double at[2])
+{
+  for (int n = 1; n < FOLD_STEPS && step > FOLD_STEP; n++) {
     struct derivatives here[2];
-    double d[3], inverse[2][2];
+    double d[3], m[2][2];
     derive(f, at[0], at[1], &here[0]), derive(g, at[0], at[1], &here[1]);
     const double values[3] = {here[1].d[0][0], here[1].d[1][0], here[1].d[0][1]};
     determinant(&here[0], &here[1], d);
-    if (!invert(values, d, n == 0 ? m : inverse)) return false;
-    double(*use)[2] = n == 0 ? m : inverse;
-    const double x = use[0][0] * values[0] + use[0][1] * d[0], y = use[1][0] * values[0] + use[1][1] * d[0];
-    at[0] -= x, at[1] -= y, step = real_max(fabs(x), fabs(y));
-    if (!(fabs(at[0]) <= 2 && fabs(at[1]) <= 2)) return false;
+    if (!invert(values, d, m)) return false;
+    step = step_on(values, d, m, at);
   }
   return step <= FOLD_STEP && fabs(at[0]) <= FOLD_REACH && fabs(at[1]) <= FOLD_REACH;
 }
@@ -171,9 +184,15 @@ bool fold_find(const struct fold_pair *pair, const double error[2], struct fold 
   const struct fold_powers *f = &pair->f, *g = &pair->g;
   if (!pair->any) return false;
   const double p = pair->row[0][0], q = pair->row[0][1];
-  out->at[0] = out->at[1] = 0;
-  if (!find(f, g, out->m, out->at)) return false;
   struct derivatives most[2], here[2];
+  double d[3];
+  derive_middle(f, &here[0]), derive_middle(g, &here[1]);
+  const double middle[3] = {here[1].d[0][0], here[1].d[1][0], here[1].d[0][1]};
+  determinant(&here[0], &here[1], d);
+  out->at[0] = out->at[1] = 0;
+  if (!invert(middle, d, out->m)) return false;
+  const double step = step_on(middle, d, out->m, out->at);
+  if (!(step >= 0)) return false;
   bound(f, &most[0]), bound(g, &most[1]);
   const double bend_d = determinant_bend(&most[0], &most[1]), bend_g = second_sum(&most[1]);
   const double off = FOLD_ROUNDINGS * (error[0] + error[1]);
@@ -182,10 +201,10 @@ bool fold_find(const struct fold_pair *pair, const double error[2], struct fold 
     if (!(row_size(out->m[k], bend_g, bend_d) <= FOLD_BEND - 2 * FOLD_ROUNDING)) return false;
     if (!(row_size(out->m[k], off, off_d) <= FOLD_ROUNDING)) return false;
   }
+  if (!find(f, g, step, out->at)) return false;
   derive(f, out->at[0], out->at[1], &here[0]), derive(g, out->at[0], out->at[1], &here[1]);
   const double gx = here[1].d[1][0], gy = here[1].d[0][1];
   const double share = (here[0].d[1][0] * gx + here[0].d[0][1] * gy) / (gx * gx + gy * gy);
-  double d[3];
   determinant(&here[0], &here[1], d);
   out->row[0][0] = p + share * q, out->row[0][1] = q - share * p, out->row[1][0] = -q, out->row[1][1] = p;
   out->way[0] = -gy, out->way[1] = gx;

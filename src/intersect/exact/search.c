@@ -365,14 +365,21 @@ static bool box_small(const struct search *s, const struct box *box, enum verdic
 }
 
 /* Decides the box where the two polynomials are one, and the ray meets curves, if that can be told: what comes first on
- * them may be a hit. Where that is before the ray's start halving finds what is next to it. */
+ * them may be a hit. Where that is before the ray's start it is what comes next to that, or halving finds it. */
 static bool box_flat(struct search *s, struct box *box, const double error[2])
 {
   double u = 0, v = 0, off = 0;
   const enum box_curves curves = box_curves_begin(box, error, s->to_t < 0 ? -1 : 1, &u, &v, &off);
   if (curves != BOX_CURVES_BEGIN) return curves == BOX_CURVES_NONE;
-  const double t = depth_to_t(s, patch_evaluate(box->net[2], u, v).value);
-  if (!(t > s->judge->asked->ray->t_min + s->resolution && length_to_t(s, off) <= s->resolution)) return false;
+  if (!(length_to_t(s, off) <= s->resolution)) return false;
+  const double begin = s->judge->asked->ray->t_min + s->resolution;
+  double t = depth_to_t(s, patch_evaluate(box->net[2], u, v).value);
+  if (!(t > begin)) {
+    const double next = (((begin + s->resolution) / s->to_t - s->start[0]) - s->start[1]) / s->unit;
+    if (!box_curves_at(box, error, next, &u, &v)) return false;
+    t = depth_to_t(s, patch_evaluate(box->net[2], u, v).value);
+    if (!(t > begin && t < s->judge->asked->ray->t_max)) return false;
+  }
   judge_maybe(s->judge, (double)(s->low[0] + s->size[0] * (box->u + box->size_u * u)),
               (double)(s->low[1] + s->size[1] * (box->v + box->size_v * v)), t, s->resolution);
   return true;

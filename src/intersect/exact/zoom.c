@@ -44,13 +44,14 @@ static void to_powers(fixed *b, int stride)
 static wide wide_moment(const struct model_patch *patch, const struct ray *ray, int i, int k, wide slope, wide *size)
 {
   const double *d = ray->direction, *o = ray->origin;
-  const wide to_local = 1 / (wide)patch->scale; /* a power of two */
-  const wide qi = ((wide)o[i] - patch->center[i]) * to_local, qk = slope * (((wide)o[k] - patch->center[k]) * to_local);
-  const wide line = ((wide)o[i] * d[k] - (wide)o[k] * d[i]) / d[k] * to_local;
-  const wide ci = patch->center[i] * to_local, ck = slope * (patch->center[k] * to_local);
+  const wide to_local = 1 / (wide)patch->scale; /* a power of two: it does not matter when it comes in */
+  const wide qi = (wide)o[i] - patch->center[i], qk = slope * ((wide)o[k] - patch->center[k]);
+  const wide line = ((wide)o[i] * d[k] - (wide)o[k] * d[i]) / d[k];
+  const wide ci = patch->center[i], ck = slope * patch->center[k];
   const wide by_start = wide_abs(qi) + wide_abs(qk), by_line = wide_abs(line) + wide_abs(ci) + wide_abs(ck);
-  *size = by_line < by_start ? by_line : by_start;
-  return by_line < by_start ? line - (ci - ck) : qi - qk;
+  const bool nearly = by_line < by_start;
+  *size = (nearly ? by_line : by_start) * to_local;
+  return (nearly ? line - (ci - ck) : qi - qk) * to_local;
 }
 
 /* The coordinate in the frame of the patch, times a power of two. */
@@ -107,8 +108,9 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
     const int i = (k + 1 + s) % 3;
     const wide slope = (wide)d[i] / d[k];
     wide size, m = wide_moment(patch, ray, i, k, slope, &size);
-    unit[s] = unit_for(fmax(reach[i], fmax(fabs((double)(slope / unit[2])), fabs((double)m)))), m *= unit[s];
-    const fixed unit_slope = fixed_from_wide(slope / unit[2] * unit[s]);
+    const wide slope_of_unit = slope / unit[2];
+    unit[s] = unit_for(fmax(reach[i], fmax(fabs((double)slope_of_unit), fabs((double)m)))), m *= unit[s];
+    const fixed unit_slope = fixed_from_wide(slope_of_unit * unit[s]);
     m = m > MOST_MOMENT ? MOST_MOMENT : m < -MOST_MOMENT ? -MOST_MOMENT : m;
     const fixed moment = fixed_from_wide(m);
     for (int n = 0; n < 16; n++)
@@ -419,17 +421,18 @@ static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide
     fixed f[2][3];
     wide a[3], b[3];
     for (int k = 0; k < 2; k++) evaluate(zoom->power[k], *x, *y, &f[k][0], &f[k][1], &f[k][2]);
-    for (int k = 0; k < 3; k++) a[k] = fixed_wide(f[0][k]), b[k] = fixed_wide(f[1][k]);
+    for (int k = 0; k < 3; k++) a[k] = (wide)f[0][k], b[k] = (wide)f[1][k]; /* in units of FIXED_UNIT, as the steps */
     const wide determinant = a[1] * b[2] - a[2] * b[1];
     if (determinant == 0) return false;
-    const wide inverse = 1 / determinant;
+    const wide inverse = (wide)(1 / FIXED_UNIT) / determinant;
     const wide step_x = (b[2] * a[0] - a[2] * b[0]) * inverse, step_y = (a[1] * b[0] - b[1] * a[0]) * inverse;
-    *out_step = (double)wide_max(wide_abs(step_x), wide_abs(step_y));
+    *out_step = (double)wide_max(wide_abs(step_x), wide_abs(step_y)) * FIXED_UNIT;
     if (!(*out_step <= 4)) return false;
-    *x -= fixed_from_wide(step_x), *y -= fixed_from_wide(step_y);
+    *x -= (fixed)step_x, *y -= (fixed)step_y;
     if (!(fixed_size(*x) <= most && fixed_size(*y) <= most)) return false;
     m[0][0] = b[2] * inverse, m[0][1] = -a[2] * inverse, m[1][0] = -b[1] * inverse, m[1][1] = a[1] * inverse;
-    if (wide_abs(step_x) <= row_size(zoom, m[0]) && wide_abs(step_y) <= row_size(zoom, m[1])) return true;
+    const double size[2] = {row_size(zoom, m[0]) / FIXED_UNIT, row_size(zoom, m[1]) / FIXED_UNIT};
+    if (wide_abs(step_x) <= size[0] && wide_abs(step_y) <= size[1]) return true;
     if (n > 4 && *out_step > before / 2) return true;
     before = *out_step;
   }

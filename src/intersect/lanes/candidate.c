@@ -28,6 +28,8 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   }
   entered[STAGE_PLANES] += lanes_count(open);
   open = stage_planes(it, open);
+  if (lanes_any(open & it->along)) /* nothing that follows could decide that */
+    packet_postpone(p, it->leaf, open & it->along), open &= ~it->along;
   if (!lanes_any(open)) return;
   if (patch->lanes == SOLVER_LANES_SIGNS) {
     open = stage_cover(p, it, open);

@@ -28,6 +28,7 @@ struct candidate {
   const struct line *line; /* the packet's for that axis */
   struct leaf_root first;  /* the root found first; only where it exists */
   struct plane_nets nets;
+  lane_mask along;              /* the ray meets a curve on the leaf, as far as double precision can tell */
   lanes alpha, beta;            /* largest |a|, |b| of the nets, then of the form */
   lanes form_error;             /* of a coefficient of the form */
   lanes form_a[16], form_b[16]; /* where the form is not the leaf's own net */
@@ -46,7 +47,8 @@ lane_mask stage_box(struct candidate *it, lane_mask open);
  * tried at once. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
-/* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net. */
+/* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net.
+ * Where these are one polynomial `along` is set: no stage behind can decide that. */
 lane_mask stage_planes(struct candidate *it, lane_mask open);
 
 /* bilinear.c: by the default method, closed where boxes show that the leaf has no root but the one that stage_bilinear

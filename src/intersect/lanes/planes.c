@@ -49,10 +49,18 @@ static lane_mask planes_hull(struct candidate *it, lane_mask active)
   return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
 }
 
-/* The same of the two combinations of a and b that aim along the leaf's parameters: near the middle they are
- * like u - u0 and v - v0 for the point (u0,v0) where the ray meets the tangent plane, so they tell a ray that passes
- * the leaf by. */
-static lane_mask planes_aligned(const struct candidate *it, lane_mask active)
+/* The lanes on which a or b has a value above 0 in one corner and one below in another. */
+LANES_INLINE lane_mask corners_differ(const lanes net[16], lanes e)
+{
+  const lanes low = lanes_min(lanes_min(net[0], net[3]), lanes_min(net[12], net[15]));
+  const lanes high = lanes_max(lanes_max(net[0], net[3]), lanes_max(net[12], net[15]));
+  return (low < -e) & (high > e);
+}
+
+/* The same of the two combinations of a and b that aim along the leaf's parameters: near the middle they are like u -
+ * u0 and v - v0 for the point (u0,v0) where the ray meets the tangent plane, so they tell a ray that passes the leaf
+ * by. Where both are nothing but rounding all over the leaf a and b are one polynomial, and the ray meets curves. */
+static lane_mask planes_aligned(struct candidate *it, lane_mask active)
 {
   const lanes *a = it->nets.a, *b = it->nets.b;
   const lanes au = (a[13] + a[14]) - (a[1] + a[2]), av = (a[7] + a[11]) - (a[4] + a[8]);
@@ -66,15 +74,20 @@ static lane_mask planes_aligned(const struct candidate *it, lane_mask active)
   /* The combination's own three roundings, on top of the coefficients' error. */
   const lanes e = it->nets.error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta);
   const lanes u_error = e * (lanes_abs(bv) + lanes_abs(av)), v_error = e * (lanes_abs(au) + lanes_abs(bu));
+  it->along = active & (u_low >= -u_error) & (u_high <= u_error) & (v_low >= -v_error) & (v_high <= v_error);
+  if (lanes_any(it->along)) it->along &= corners_differ(a, e) | corners_differ(b, e);
   return active & (u_low <= u_error) & (u_high >= -u_error) & (v_low <= v_error) & (v_high >= -v_error);
 }
 
 lane_mask stage_planes(struct candidate *it, lane_mask open)
 {
   set_nets(it);
+  it->along = (lane_mask){0};
   lane_mask near = planes_hull(it, open);
   if (lanes_any(near)) near = planes_aligned(it, near);
-  return it->patch->method->polish ? near : open;
+  if (it->patch->method->polish) return near;
+  it->along = (lane_mask){0};
+  return open;
 }
 
 LANES_INLINE void weights_at(lanes t, lanes w[4])
