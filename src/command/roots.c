@@ -297,25 +297,13 @@ static void print_summary(const struct session *session)
           share(session->accurate, session->roots), share(session->iterations, session->roots), session->solve);
 }
 
-/* Whether the block says something of an item: the word stands in it. */
-static bool mentions(const char *text, const char *word)
-{
-  const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
-  while (*(text += strcspn(text, letters)) != '\0') {
-    const size_t length = strspn(text, letters);
-    if (length == strlen(word) && memcmp(text, word, length) == 0) return true;
-    text += length;
-  }
-  return false;
-}
-
 static enum status choose_solver(const struct command *command, const struct request *request, struct method *out)
 {
   const char *text = request->scene.solver_text == NULL ? DEFAULT_SOLVER : request->scene.solver_text;
   struct diagnostics diagnostics = stderr_diagnostics(command);
   const enum status status = language_parse_solver(text, &diagnostics, out);
   if (status != STATUS_OK) return status;
-  if (!mentions(text, "basis")) out->basis = BASIS_POWER;
+  if (!out->basis_said) out->basis = BASIS_POWER;
   if (!isnan(request->scene.tolerance)) out->roots.tolerance = request->scene.tolerance;
   return STATUS_OK;
 }

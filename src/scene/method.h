@@ -22,6 +22,7 @@ struct method {
   double residual; /* polish off: how far an answer may be from solving eq 3, see intersect/method.c; 0 = auto */
   int split;       /* N: each patch is cut into N x N leaves; 0 = auto; 1 = whole patches as in the paper */
   bool form_said;  /* some choice of iteration was set by name: otherwise they follow from the rest, see method.c */
+  bool basis_said; /* the basis was: otherwise it is what suits who asks */
 };
 
 /* What a bare `solver NAME` means. */

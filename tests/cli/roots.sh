@@ -24,3 +24,7 @@ done
 # they do not count as degrees in eq 11.
 printf '%s\n' '1 -1' '0 4 -4' '0 0 5' '0 0 2 -1' '1 -2 1' | try pscn roots --solver 'aberth { basis bernstein }'
 printf '%s\n' '3 -0.1' '0 0 3 -0.1' | pscn roots --format json | sed 's/.*"eq11":\([^}]*\)}.*/\1/' | uniq | wc -l
+# A basis is said by its item, not by a word of a comment.
+for text in 'aberth' 'aberth /* no basis */' 'aberth { basis bernstein }' 'aberth { form paper }' 'aberth { form paper basis bernstein }'; do
+  echo '2 -1' | pscn roots --solver "$text" --stats - | grep '"solver"'
+done
