@@ -115,7 +115,7 @@ static enum status load_module(const struct image_module **out, char *message)
   message[0] = '\0';
   void *handle = dlopen(IMAGE_MODULE_FILE, flags | RTLD_NOLOAD);
   if (handle == NULL && !room_for_module()) {
-    snprintf(message, IMAGE_MESSAGE_SIZE, "there are too little memory or too few threads to load OpenImageIO");
+    snprintf(message, IMAGE_MESSAGE_SIZE, "there is too little memory, or too few threads, to load OpenImageIO");
     return STATUS_LIMIT;
   }
   if (handle == NULL) {
