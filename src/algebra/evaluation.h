@@ -60,8 +60,8 @@ static inline struct evaluation_real evaluation_at_real(const struct evaluation 
   return out;
 }
 
-/* q of the chart polynomial at a chart point z known to 8 U relative, and a bound on its error, that of z included: (8 k) U
- * in the term of z^k, twice its weight in the bound at most. */
+/* q of the chart polynomial at a chart point z known to 8 U relative, and a bound on its error, that of z included:
+ * (8 k) U in the term of z^k, twice its weight in the bound at most. */
 struct evaluation_complex {
   struct complex_number z, value;
   double error;

@@ -11,13 +11,13 @@
  * >= 1.
  *
  * That a disc holds a root does not say that no root is left over. For that, where there are n values x_i, all
- * different: the discs of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) about them cover all roots, and
- * a group of k of them that is apart from the rest holds exactly k (B. T. Smith, "Error bounds for zeros of a polynomial
- * based upon Gerschgorin's theorems", 1970). Here x is that of root_problem.h, or u itself, with p for q. So in every
- * group, values are taken in the order of their own bounds: one whose disc is apart from those taken before has a root
- * of its own; the roots left over are somewhere in the group, and the other values get radii that reach all of it. Then
- * roots and values can be paired, each root within the radius of its value. Without n values only those with discs of
- * their own are known.
+ * different: the discs of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) about them cover all roots,
+ * and a group of k of them that is apart from the rest holds exactly k (B. T. Smith, "Error bounds for zeros of a
+ * polynomial based upon Gerschgorin's theorems", 1970). Here x is that of root_problem.h, or u itself, with p for q. So
+ * in every group, values are taken in the order of their own bounds: one whose disc is apart from those taken before
+ * has a root of its own; the roots left over are somewhere in the group, and the other values get radii that reach all
+ * of it. Then roots and values can be paired, each root within the radius of its value. Without n values only those
+ * with discs of their own are known.
  */
 #include <float.h>
 #include <math.h>
@@ -184,7 +184,7 @@ static void find_own(const struct evaluation *p, bool in_u, int count, const str
 /* Room for the rounding of a sum of 200 logarithms to base 2, each below 2^17. */
 #define LOG_ROOM 0x1p-20
 
-/* log2 of a bound on |q(x)|, or on |p(u)|. A chart point of u has a difference and a quotient behind it: 7 roundings. */
+/* log2 of a bound on |q(x)|, or on |p(u)|. Behind a chart point of u are a difference and a quotient: 7 roundings. */
 static double log_value(const struct evaluation *p, bool in_u, struct complex_number x)
 {
   if (in_u && p->basis == BASIS_BERNSTEIN) {
