@@ -82,18 +82,18 @@ struct leaf_slabs {
 
 struct leaf {
   struct leaf_slabs slabs;
-  double x[3][16];              /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
-  const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
-  const struct leaf_parts *parts;
-  /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
-  double second[3];
-  double first[2]; /* bounds on |Su|, |Sv| there */
   uint32_t patch;
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split[0] in u, and so on */
   uint8_t kept_degree, eliminated_degree;
   bool v_kept;      /* the form keeps v and eliminates u */
   bool bent;        /* so much that the root of its bilinear part is far from its own */
   uint8_t zeros[2]; /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
+  /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
+  double second[3];
+  double first[2]; /* bounds on |Su|, |Sv| there */
+  struct leaf_parts parts;
+  double x[3][16];              /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
+  const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
 };
 
 /* Which part of which patch a leaf is. */
@@ -111,7 +111,6 @@ struct patch_room {
 struct leaf_room {
   struct patch_room of;
   struct leaf leaf;
-  struct leaf_parts parts;
   struct leaf_form form;
 };
 

@@ -204,7 +204,7 @@ static void check_refine(struct subject *s, struct random *random)
     for (int c = 0; c < 3; c++) {
       const quad x = quad_net_jet(&s->truth.x[c], root.at.u[0], root.at.v[0]).value;
       const double off = (double)quad_abs(root.point[c][0] - x);
-      worst_inside = fmax(worst_inside, off / (s->leaf->parts->error + UNIT_ROUNDOFF));
+      worst_inside = fmax(worst_inside, off / (s->leaf->parts.error + UNIT_ROUNDOFF));
     }
   }
 }
@@ -242,7 +242,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
   solve(s, middle, &root);
   const int k = s->local.axis;
   quad u, v;
-  if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts->final) return;
+  if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts.final) return;
   const double second = s->leaf->second[0] + 2 * s->leaf->second[1] + s->leaf->second[2];
   if ((lanes_bits(root.at.alone) & 1) && root.at.size[0] * second > 2 * CERTIFICATE_ALONE) closer_look++;
   /* Off the ray by: one rounding of a coordinate of the patch, of size 1, of the surface's way under the rounding of

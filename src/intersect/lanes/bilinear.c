@@ -24,8 +24,8 @@ LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, la
 {
   lanes a[4], b[4], s;
   for (int n = 0; n < 4; n++) {
-    a[n] = plane_of(it->line, it->axis, 0, it->leaf->parts->base, n);
-    b[n] = plane_of(it->line, it->axis, 1, it->leaf->parts->base, n);
+    a[n] = plane_of(it->line, it->axis, 0, it->leaf->parts.base, n);
+    b[n] = plane_of(it->line, it->axis, 1, it->leaf->parts.base, n);
   }
   a[0] -= it->line->moment[0], b[0] -= it->line->moment[1];
   const lanes r0 = a[0] * b[2] - a[2] * b[0], r2 = a[1] * b[3] - a[3] * b[1];

@@ -76,8 +76,8 @@ enum { FEW = 2, CACHE_LINE = 64 };
 /* What stage_bilinear reads is brought from memory while stage_box works. */
 static void fetch_parts(const struct leaf *leaf)
 {
-  const char *parts = (const char *)leaf->parts;
-  for (size_t at = 0; at < sizeof *leaf->parts; at += CACHE_LINE) __builtin_prefetch(parts + at);
+  const char *parts = (const char *)&leaf->parts;
+  for (size_t at = 0; at < sizeof leaf->parts; at += CACHE_LINE) __builtin_prefetch(parts + at);
 }
 
 void packet_leaf(struct packet *p, uint32_t index, lane_mask active)

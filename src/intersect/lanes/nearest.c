@@ -83,7 +83,7 @@ LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *
 {
   const lanes size = lanes_abs(it->line->to_t);
   return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + it->line->error +
-                 it->leaf->parts->error) +
+                 it->leaf->parts.error) +
          8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
 }
 
@@ -179,7 +179,7 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
 LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candidate *it, const struct leaf_root *root)
 {
   const struct leaf *leaf = it->leaf;
-  const double left = leaf->parts->error * REST_LEFT + STEP_LEFT;
+  const double left = leaf->parts.error * REST_LEFT + STEP_LEFT;
   const lanes reach = leaf->first[0] * root->at.radius_u + leaf->first[1] * root->at.radius_v;
   return packet_has_digits(p, it->patch, root->t, NEAR_START_FINAL) &
          (left * it->patch->scale * reach <= FINAL_ROUNDINGS * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
@@ -211,6 +211,6 @@ void offer_root(struct packet *p, const struct candidate *it, const struct leaf_
   if (!lanes_any(hits)) return;
   const lane_mask taken = offer(p, it, &root->at, root->w, root->t, hits);
   if (!lanes_any(taken)) return;
-  if (it->leaf->parts->final && !p->any && !p->outer) packet_keep(p, it, root, taken);
+  if (it->leaf->parts.final && !p->any && !p->outer) packet_keep(p, it, root, taken);
   if (p->gather) gather_best(p, taken);
 }

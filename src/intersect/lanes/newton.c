@@ -199,12 +199,12 @@ LANES_INLINE lane_mask alone_at(const struct line *line, int axis, const struct 
                                 const struct newton_root *r, lanes step, lanes s, lanes t)
 {
   struct halfway at;
-  surface_at(leaf->parts, 0.5 * s, 0.5 * t, at.x);
-  curvatures_at(leaf->parts, 0.5 * s, 0.5 * t, at.h);
-  const double way = 1 + LEAF_MARGIN, third = leaf->parts->third * (way * way / 24 + 1.0 / 32);
+  surface_at(&leaf->parts, 0.5 * s, 0.5 * t, at.x);
+  curvatures_at(&leaf->parts, 0.5 * s, 0.5 * t, at.h);
+  const double way = 1 + LEAF_MARGIN, third = leaf->parts.third * (way * way / 24 + 1.0 / 32);
   at.reach = 0.25 + (step + lanes_max(r->radius_u, r->radius_v)); /* (s,t) is not the root itself */
   const double rounding = DERIVATIVE_ROUNDINGS * UNIT_ROUNDOFF * (1 + leaf->first[0] + leaf->first[1]);
-  at.rest = r->size * (third + rounding + DERIVATIVE_ERRORS * leaf->parts->error);
+  at.rest = r->size * (third + rounding + DERIVATIVE_ERRORS * leaf->parts.error);
   const struct row u = row_bounds(line, axis, &at, m->ua, m->ub, false);
   const struct row v = row_bounds(line, axis, &at, m->va, m->vb, true);
   return (u.least > 0) & (v.least > 0) & (u.least * v.least > (1 + 8 * UNIT_ROUNDOFF) * (u.cross * v.cross));
@@ -224,7 +224,7 @@ LANES_INLINE lanes from_middle(lanes s, lanes step)
 void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
                   struct leaf_root *out)
 {
-  const struct leaf_parts *parts = leaf->parts;
+  const struct leaf_parts *parts = &leaf->parts;
   const struct line *line = &p->line[axis];
   const int k = axis;
   struct coordinate x[3];

@@ -281,8 +281,7 @@ void leaf_bounds(double x[3][16], double first[2], double second[3])
   for (int k = 0; k < 2; k++) first[k] *= shrink;
 }
 
-void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct leaf *leaf, struct leaf_parts *parts,
-               struct leaf_form *form)
+void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct leaf *leaf, struct leaf_form *form)
 {
   double hi[3][4][4], lo[3][4][4];
   cut_net(patch, (uint16_t[2]){place->column_u, place->column_v}, (uint16_t[2]){1, 1}, hi, lo);
@@ -290,8 +289,7 @@ void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct
     for (int n = 0; n < 16; n++) leaf->x[k][n] = hi[k][n / 4][n % 4] + lo[k][n / 4][n % 4];
   leaf_bounds(leaf->x, leaf->first, leaf->second);
   leaf->bent = is_bent(leaf);
-  leaf->parts = parts;
-  set_parts(patch, leaf, hi, lo, parts);
+  set_parts(patch, leaf, hi, lo, &leaf->parts);
   leaf_set_slabs(leaf);
   leaf->patch = place->patch, leaf->column_u = place->column_u, leaf->column_v = place->column_v;
   set_form(patch, leaf, form);

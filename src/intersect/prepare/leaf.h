@@ -20,10 +20,8 @@ void leaf_first_bounds(double x[3][16], double out[2]);
 /* Bounds on |Su|, |Sv| and |Suu|, |Suv|, |Svv| over a leaf with that net widened by LEAF_MARGIN, in its parameters. */
 void leaf_bounds(double x[3][16], double first[2], double second[3]);
 
-/* The leaf at that place of the patch. Its parts, and its form where it has one, are written to *parts and *form, which
- * stay the caller's. */
-void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct leaf *leaf, struct leaf_parts *parts,
-               struct leaf_form *form);
+/* The leaf at that place of the patch. Its form, where it has one, is written to *form, which stays the caller's. */
+void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct leaf *leaf, struct leaf_form *form);
 
 /* The box of a leaf's net in the frame of the model's hierarchy. */
 void leaf_box(const struct model *model, const struct model_patch *patch, double x[3][16], struct bvh_box *box);

@@ -68,8 +68,7 @@ struct making {
   size_t part, part_count; /* patches in a part */
   size_t *leaves;          /* in each part; then before it */
   struct bvh_box *boxes;
-  struct leaf_parts *parts; /* one for each leaf that is kept */
-  atomic_size_t taken;      /* parts */
+  atomic_size_t taken; /* parts */
 };
 
 /* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
@@ -118,7 +117,7 @@ static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, 
     struct leaf *leaf = &model->leaves[l];
     if (!next_room(arena, form, sizeof *leaf->form)) return STATUS_LIMIT;
     const struct leaf_place place = {(uint32_t)p, (uint16_t)(k / patch->split[1]), (uint16_t)(k % patch->split[1])};
-    leaf_make(patch, &place, leaf, &m->parts[l], *form);
+    leaf_make(patch, &place, leaf, *form);
     if (leaf->form) *form = NULL;
     leaf_box(model, patch, leaf->x, &m->boxes[l]);
   }
@@ -196,14 +195,6 @@ static void end_making(struct making *m)
   memory_free(m->boxes);
 }
 
-/* Room for what rays come to in any order. */
-static void *alloc_for_rays(struct arena *arena, size_t count, size_t size)
-{
-  void *block = arena_alloc(arena, count, size);
-  if (block) memory_used_anywhere(block, count * size);
-  return block;
-}
-
 /* The hierarchies over the boxes of leaves and copies. */
 static enum status make_trees(struct model *model, const struct bvh_box boxes[], const bool again[],
                               const struct team *team)
@@ -238,9 +229,10 @@ static enum status make_hierarchy(struct model *model, const struct team *team, 
   m.boxes = memory_alloc(count + 1, sizeof *m.boxes);
   bool room = m.boxes;
   if (m.keep) {
-    model->leaves = alloc_for_rays(model->arena, model->leaf_count + 1, sizeof *model->leaves);
-    m.parts = alloc_for_rays(model->arena, model->leaf_count + 1, sizeof *m.parts);
-    room = room && model->leaves && m.parts;
+    const size_t leaves = model->leaf_count + 1;
+    model->leaves = arena_alloc(model->arena, leaves, sizeof *model->leaves);
+    if (model->leaves) memory_used_anywhere(model->leaves, leaves * sizeof *model->leaves);
+    room = room && model->leaves;
   } else {
     model->places = arena_alloc(model->arena, model->leaf_count, sizeof *model->places);
     room = room && model->places;
@@ -347,7 +339,7 @@ void model_make_leaf(const struct model *model, uint32_t number, struct leaf_roo
 {
   const struct leaf_place *place = &model->places[number];
   patch_make(model, place->patch, &out->of.patch, out->of.rest);
-  leaf_make(&out->of.patch, place, &out->leaf, &out->parts, &out->form);
+  leaf_make(&out->of.patch, place, &out->leaf, &out->form);
 }
 
 void model_destroy(struct model *model)
