@@ -297,7 +297,7 @@ copy_item:
 
 modifier:
     transform                                  { node_transform(language, $1), $$ = language->transform_place; }
-  | surface                                    { node_texture(language, $1), $$ = $1->place; }
+  | surface                                    { $$ = $1->place, node_texture(language, $1); }
   ;
 
 transform:

@@ -239,11 +239,11 @@ void node_transform(struct language *language, const struct transform *transform
   *node->transform = all;
 }
 
-void node_texture(struct language *language, const struct texture *texture)
+void node_texture(struct language *language, struct texture *texture)
 {
   struct node *node = language->objects->open;
-  struct texture *all = language_alloc(language, sizeof *all);
-  *all = node->texture ? *node->texture : texture_default(language);
-  texture_apply(all, texture);
-  node->texture = all;
+  struct texture all = node->texture ? *node->texture : texture_default(language);
+  texture_apply(&all, texture);
+  *texture = all; /* it is nobody else's */
+  node->texture = texture;
 }

@@ -63,7 +63,7 @@ void copy_modified(struct language *language, struct span place);
 void copy_end(struct language *language);
 struct node *node_end(struct language *language, struct span brace);
 void node_transform(struct language *language, const struct transform *transform);
-void node_texture(struct language *language, const struct texture *texture);
+void node_texture(struct language *language, struct texture *texture); /* keeps it */
 void declare_object(struct language *language, struct declaration *declaration, struct node *object);
 void scene_add(struct language *language, struct node *object);
 
