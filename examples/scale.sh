@@ -155,18 +155,33 @@ text() {
     text["patches, a number a line"] = apart " }\n"
     text["declared numbers"] = "#declare Number@ = @;\n"
     text["declared textures"] = "#declare Texture@ = texture { pigment { color rgb <0.3, 0.5, 0.@> } }\n"
+    for (k = 0; k < 16; k++) long = long sprintf(" <%.16e, %.16e, %.16e>", k / 7, 1e9 * k, 1e-9 / (k + 1))
+    text["patches, 17 digits and exponents"] = "bicubic_patch { type 1" long " }\r\n"
+    for (k = 0; k < 16; k++) made = made " Corner*2+x"
+    text["patches of sums"] = "bicubic_patch { type 1" made " }\n"
     text["unions, 100 deep"] = opened patch " } " closed "\n"
+    text["copies"] = "object{Patch}"
+    text["copies of a union"] = "object{Pair}"
+    text["copies with a texture"] = "object{Patch pigment{rgb @}}"
     text["copies, moved"] = "object { Patch translate <@, 2, 3> }\n"
     text["copies, turned"] = "object { Patch rotate <@, 2, 3> }\n"
     for (k = 0; k < 30; k++) moved = moved " rotate <@, 2, 3> scale <1, 2, 3> translate <1, 2, 3>"
     text["copies, 90 transforms each"] = "object { Patch" moved " }\n"
-    for (k = 0; k < 40; k++) sum = sum "+1*2-3/4"
+    for (k = 0; k < 90; k++) turned = turned " rotate 1"
+    text["copies, nothing but rotate 1"] = "object { Patch" turned " }\n"
+    text["copies, a matrix each"] = "object { Patch matrix <1,0,@,0,1,0,0,0,1,1,2,3> }\n"
+    text["lights"] = "light_source{<@,2,3>,rgb 1}\n"
+    for (k = 0; k < 40; k++) { sum = sum "+1*2-3/4"; names = names "+A*A" }
     text["expressions, a token a byte"] = "#declare Sum = " sum ";\n"
+    text["expressions of names"] = "#declare Sum = A" names ";\n"
+    for (k = 0; k < 100; k++) { left = left "("; right = right ")" }
+    text["expressions in parentheses"] = "#declare Sum = " left "1" right ";\n"
     for (k = 0; k < 100; k++) { asked = asked "#ifdef (Patch) "; ended = ended "#end " }
     text["conditions, 100 deep"] = asked ended "\n"
     text["comments"] = "// what this is about, in a line or two\n"
     text["blanks"] = "                                       \n"
-    printf "#version 3.7;\n#declare Patch = %s }\n", patch
+    printf "#version 3.7;\n#declare Patch = %s }\n#declare Pair = union { object { Patch } object { Patch } }\n", patch
+    printf "#declare Corner = <1, 2, 3>;\n#declare A = 2;\n"
     count = split(text[kind], part, "@")
     for (n = 0; bytes < 8e6; n++) {
       piece = part[1]
@@ -199,8 +214,10 @@ reading() {
   examples/field.sh "$TEXT_TEAPOTS" >"$folder/field.pscn"
   "$pscn" dump "$folder/field.pscn" >"$folder/text.pscn"
   reading canonical "$folder/text.pscn"
-  for kind in 'patches, one line' 'patches, a number a line' 'declared numbers' 'declared textures' 'unions, 100 deep' \
-    'copies, moved' 'copies, turned' 'copies, 90 transforms each' 'expressions, a token a byte' 'conditions, 100 deep' \
+  for kind in 'patches, one line' 'patches, a number a line' 'patches, 17 digits and exponents' 'patches of sums' \
+    'declared numbers' 'declared textures' 'unions, 100 deep' copies 'copies of a union' 'copies with a texture' \
+    'copies, moved' 'copies, turned' 'copies, a matrix each' 'copies, 90 transforms each' 'copies, nothing but rotate 1' \
+    lights 'expressions, a token a byte' 'expressions of names' 'expressions in parentheses' 'conditions, 100 deep' \
     comments blanks; do
     text "$kind" >"$folder/text.pscn"
     reading "$kind" "$folder/text.pscn"
