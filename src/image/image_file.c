@@ -122,8 +122,12 @@ static enum status load_module(const struct image_module **out, char *message)
     load_first(flags);
     handle = dlopen(IMAGE_MODULE_FILE, flags);
   }
-  *out = handle == NULL ? NULL : dlsym(handle, IMAGE_MODULE_SYMBOL);
-  if (*out == NULL) snprintf(message, IMAGE_MESSAGE_SIZE, "%s", dlerror());
+  const struct image_module *module = handle == NULL ? NULL : dlsym(handle, IMAGE_MODULE_SYMBOL);
+  *out = NULL;
+  if (module == NULL) snprintf(message, IMAGE_MESSAGE_SIZE, "%s", dlerror());
+  else if (module->image_size != sizeof(struct image) || module->encoding_size != sizeof(struct image_encoding))
+    snprintf(message, IMAGE_MESSAGE_SIZE, IMAGE_MODULE_FILE " is of another build");
+  else *out = module;
   if (handle != NULL) dlclose(handle);
   return *out == NULL ? STATUS_FILE : STATUS_OK;
 }

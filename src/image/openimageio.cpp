@@ -230,4 +230,5 @@ status module_read(const char *path, const char *format, bool pixels, image *out
 
 } // namespace
 
-extern "C" const struct image_module image_module = {module_encode, module_read};
+extern "C" const struct image_module image_module = {sizeof(struct image), sizeof(struct image_encoding), module_encode,
+                                                     module_read};

@@ -1,6 +1,6 @@
 #!/bin/bash
 # folders.sh: libraries and headers that are installed in folders given whole, beside the prefix: pscn.pc names them as they
-# are, and the program looks for its module there.
+# are, and the program looks for its module there. A module of another build is no crash.
 set -euo pipefail
 command -v pkg-config >/dev/null || { echo "skipped: pkg-config is not installed" >&2; exit 77; }
 folder=$(mktemp -d)
@@ -10,3 +10,10 @@ cmake -S "$PSCN_SOURCE_DIR" -B "$folder/build" -DCMAKE_INSTALL_PREFIX="$folder/p
 said=$(PKG_CONFIG_PATH=$folder/build/src/packaging pkg-config --cflags --libs pscn | sed 's/ *$//')
 [ "$said" = "-I$folder/headers -L$folder/lib64 -lpscn" ] || { echo "pscn.pc says: $said"; exit 1; }
 grep -rqF "ORIGIN/../lib/pscn:$folder/lib64/pscn" "$folder/build" || { echo "the program does not look in $folder/lib64"; exit 1; }
+
+mkdir -p "$folder/moved/bin" "$folder/moved/lib/pscn"
+cp "$PSCN" "$folder/moved/bin/pscn"
+echo 'char image_module[64] = {1};' | cc -shared -fPIC -x c - -o "$folder/moved/lib/pscn/pscn_openimageio.so"
+status=0
+"$folder/moved/bin/pscn" render "$PSCN_SOURCE_DIR/scenes/dome.pscn" --size 4x3 -o "$folder/a.png" 2>"$folder/said" || status=$?
+[ "$status" = 4 ] && grep -q "is of another build" "$folder/said" || { echo "another module: exit $status, $(cat "$folder/said")"; exit 1; }
