@@ -150,7 +150,8 @@ struct model {
   struct leaf *leaves;               /* nor are the leaves then, */
   struct leaf_place *places;         /* but where they are; else NULL */
   struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h; none of those that are `again` */
-  bool *again;                       /* patches that lie exactly on an earlier one; NULL where there are none */
+  /* patches that lie exactly on an earlier one, an object's wherever it is copied: never the nearest; NULL for none */
+  bool *again;
   size_t leaf_count;
   struct model_object *objects;
   size_t object_count;
@@ -158,9 +159,7 @@ struct model {
   size_t copy_count;
   double origin[3], frame; /* of the whole hierarchy */
   double error;            /* widens the boxes; an object's, or 0 */
-  /* without patches that lie on earlier ones, for these are never the nearest; and with them, which all hits asks for:
-   * NULL where there are none */
-  struct model_tree tree, *every;
+  struct model_tree tree;
   bool unproven; /* some patch has `polish off`: no answer is proven */
 };
 
@@ -175,9 +174,9 @@ struct model_patch *model_patch_at(const struct model *model, uint32_t index, st
 /* A leaf that is not kept. */
 void model_make_leaf(const struct model *model, uint32_t number, struct leaf_room *out);
 
-/* The model of an object: the patches of `nets`, which is borrowed for the call, cut into at most `most` leaves a side,
- * their boxes wider by `error`. again[patch]: it lies on an earlier one wherever the object is copied; or NULL. */
+/* The model of an object: the patches of `nets`, which is borrowed for the call, cut into at most `most` leaves a
+ * side, their boxes wider by `error`. */
 enum status model_create_object(const struct scene *nets, const struct team *team, int most, double error,
-                                const bool again[], struct model **out) STATUS_MUST_CHECK;
+                                struct model **out) STATUS_MUST_CHECK;
 
 #endif

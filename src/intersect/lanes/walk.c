@@ -208,21 +208,14 @@ __attribute__((noinline)) static void bundle_boxes_any(const struct view *view, 
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
 
-/* The hierarchy that the packet's rays go through. */
-static const struct model_tree *tree_for(const struct packet *p)
-{
-  return p->gather && p->model->every ? p->model->every : &p->model->tree;
-}
-
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
   struct bundle inner;
   inner.packets = b->packets;
   for (int h = 0; h < b->packets; h++)
     packet_enter(&b->packet[h], copy, lanes_mask(active >> h * LANES), &inner.packet[h]);
-  const struct model_tree *tree = tree_for(&inner.packet[0]);
-  bundle_start(&inner, tree);
-  bundle_walk(&inner, tree, inner.live);
+  bundle_start(&inner, &copy->object->model->tree);
+  bundle_walk(&inner, &copy->object->model->tree, inner.live);
   for (int h = 0; h < b->packets; h++) packet_leave(&inner.packet[h]);
 }
 
@@ -236,6 +229,15 @@ static void bundle_inner(struct bundle *b, const struct model_tree *inner, unsig
   bundle_update(b);
 }
 
+/* Whether all in that box lies exactly on what stands before it in the scene, whose hit is the nearest then. */
+LANES_INLINE bool lies_again(const struct packet *p, uint32_t index)
+{
+  const struct model *model = p->model;
+  if (!model->again || p->gather) return false;
+  if (index >= model->leaf_count) return model->copies[index - model->leaf_count].again;
+  return model->again[model->leaves ? model->leaves[index].patch : model->places[index].patch];
+}
+
 /* Tries what box `index` of the tree stands for. */
 static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_t index, unsigned active)
 {
@@ -243,6 +245,8 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
   const unsigned all = (1u << LANES) - 1;
   if (index == MODEL_INNER) {
     bundle_inner(b, tree->inner, active);
+  } else if (lies_again(&b->packet[0], index)) {
+    return;
   } else if (index >= model->leaf_count) {
     bundle_copy(b, &model->copies[index - model->leaf_count], active);
   } else {
@@ -485,7 +489,7 @@ static bool all(struct tracer *tracer, size_t count, const struct ray rays[], st
     struct bundle bundle;
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, false);
     for (int h = 0; h < bundle.packets; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
-    bundle_walk(&bundle, tree_for(&bundle.packet[0]), bundle.live);
+    bundle_walk(&bundle, &tracer->model->tree, bundle.live);
     for (size_t h = 0; h < (size_t)bundle.packets; h++) {
       struct packet *packet = &bundle.packet[h];
       done &= gather_finish(packet, ready[h].copied ? ready[h].exponent : NULL, out + first + h * LANES);

@@ -164,60 +164,49 @@ enum status copies_choose(struct model *model, size_t *own)
   return STATUS_OK;
 }
 
-/* Copies that lie on earlier patches, all of them. */
-static void find_again(struct model *model)
+/* What of a copy lies on earlier patches: all of it, or those of the object's that do wherever it is copied. */
+static enum status find_again(const struct model *model, struct model_copy *copy)
 {
-  for (size_t k = 0; k < model->copy_count && model->again; k++) {
-    struct model_copy *copy = &model->copies[k];
-    copy->again = !memchr(model->again + copy->first_patch, false, copy->object->declared->patch_count);
-  }
+  struct model *of = copy->object->model;
+  const size_t count = copy->object->declared->patch_count;
+  const bool first = !of->again, *here = model->again + copy->first_patch;
+  if (first) of->again = arena_alloc(of->arena, count, sizeof *of->again);
+  if (!of->again) return STATUS_LIMIT;
+  for (size_t p = 0; p < count; p++) of->again[p] = (first || of->again[p]) && here[p];
+  copy->again = !memchr(here, false, count);
+  return STATUS_OK;
 }
 
-/* Whether the patch of the object lies on an earlier one wherever it is copied. `copy`: its first one. */
-static bool again_everywhere(const struct model *model, const struct model_copy *copy, size_t patch)
-{
-  const struct model_copy *end = model->copies + model->copy_count;
-  bool again = model->again;
-  for (const struct model_copy *c = copy; c < end && c->object == copy->object && again; c++)
-    again = model->again[c->first_patch + patch];
-  return again;
-}
-
-/* The model of an object, from its nets about their middle; the solver is that of its first copy. */
+/* The model of an object, from its nets about their middle; the solver is that of a copy. */
 static enum status prepare_object(const struct model *model, const struct team *team, const struct model_copy *copy,
                                   int most, struct model_object *object)
 {
   const struct scene_object *declared = object->declared;
   const struct middle middle = object_middle(declared);
   struct scene_patch *patches = memory_alloc(declared->patch_count, sizeof *patches);
-  bool *again = memory_alloc(declared->patch_count, sizeof *again);
-  enum status status = patches && again ? STATUS_OK : STATUS_LIMIT;
-  if (status != STATUS_OK) goto done;
+  if (!patches) return STATUS_LIMIT;
   for (size_t p = 0; p < declared->patch_count; p++) {
-    patches[p] = model->scene->patches[copy->first_patch + p], again[p] = again_everywhere(model, copy, p);
+    patches[p] = model->scene->patches[copy->first_patch + p];
     for (int n = 0; n < 16; n++)
       for (int k = 0; k < 3; k++) patches[p].P[n / 4][n % 4][k] = declared->P[p][n / 4][n % 4][k] - middle.center[k];
   }
   const struct scene nets = {
     .patches = patches, .patch_count = declared->patch_count, .solvers = model->scene->solvers};
-  const bool any = memchr(again, true, declared->patch_count);
-  status = model_create_object(&nets, team, most, object->error, any ? again : NULL, &object->model);
-done:
+  const enum status status = model_create_object(&nets, team, most, object->error, &object->model);
   memory_free(patches);
-  memory_free(again);
   return status;
 }
 
 enum status copies_prepare(struct model *model, const struct team *team, int most)
 {
-  find_again(model);
   for (size_t k = 0; k < model->copy_count; k++) {
-    const struct model_copy *copy = &model->copies[k];
+    struct model_copy *copy = &model->copies[k];
     struct model_object *object = copy->object;
     if (!object->model) {
       const enum status status = prepare_object(model, team, copy, most, object);
       if (status != STATUS_OK) return status;
     }
+    if (model->again && find_again(model, copy) != STATUS_OK) return STATUS_LIMIT;
     for (size_t p = 0; p < object->declared->patch_count; p++)
       memcpy(model->cuts[copy->first_patch + p].split, object->model->cuts[p].split, sizeof(uint16_t[2]));
   }

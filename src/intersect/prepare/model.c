@@ -195,31 +195,9 @@ static void end_making(struct making *m)
   memory_free(m->boxes);
 }
 
-/* The hierarchies over the boxes of leaves and copies. */
-static enum status make_trees(struct model *model, const struct bvh_box boxes[], const bool again[],
-                              const struct team *team)
-{
-  const size_t count = model->leaf_count + model->copy_count;
-  if (!again) return tree_build(model->arena, boxes, count, NULL, model->origin, model->frame, team, &model->tree);
-  bool *left_out = memory_alloc(count + 1, sizeof *left_out);
-  model->every = arena_alloc(model->arena, 1, sizeof *model->every);
-  enum status status = left_out && model->every ? STATUS_OK : STATUS_LIMIT;
-  if (status != STATUS_OK) goto done;
-  for (size_t l = 0; l < model->leaf_count; l++)
-    left_out[l] = again[model->leaves ? model->leaves[l].patch : model->places[l].patch];
-  for (size_t c = 0; c < model->copy_count; c++) left_out[model->leaf_count + c] = model->copies[c].again;
-  status = tree_build(model->arena, boxes, count, left_out, model->origin, model->frame, team, &model->tree);
-  if (status == STATUS_OK)
-    status = tree_build(model->arena, boxes, count, NULL, model->origin, model->frame, team, model->every);
-done:
-  memory_free(left_out);
-  return status;
-}
-
 /* The leaves of patches and, behind them, the copies, in one hierarchy. Leaves are kept where that is wanted and they
  * are not too many; it makes rays a quarter faster, at 1.5 KB a patch of one leaf. */
-static enum status make_hierarchy(struct model *model, const struct team *team, int most, bool keep, size_t keep_most,
-                                  const bool again[])
+static enum status make_hierarchy(struct model *model, const struct team *team, int most, bool keep, size_t keep_most)
 {
   struct making m = {.model = model, .team = team, .most = most, .keep = keep};
   enum status status = cut_patches(&m);
@@ -240,7 +218,7 @@ static enum status make_hierarchy(struct model *model, const struct team *team, 
   status = room ? do_parts(&m, make_leaves, model->leaf_count) : STATUS_LIMIT;
   if (status != STATUS_OK) goto done;
   for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m.boxes[model->leaf_count + c]);
-  status = make_trees(model, m.boxes, again, team);
+  status = tree_build(model->arena, m.boxes, count, model->origin, model->frame, team, &model->tree);
 done:
   end_making(&m);
   return status;
@@ -270,13 +248,13 @@ static struct model *model_begin(const struct scene *scene)
 }
 
 enum status model_create_object(const struct scene *nets, const struct team *team, int most, double error,
-                                const bool again[], struct model **out)
+                                struct model **out)
 {
   *out = NULL;
   struct model *model = model_begin(nets);
   if (!model) return STATUS_LIMIT;
   model->error = error;
-  const enum status status = make_hierarchy(model, team, most, true, SIZE_MAX, again);
+  const enum status status = make_hierarchy(model, team, most, true, SIZE_MAX);
   model->scene = NULL;
   if (status == STATUS_OK) *out = model;
   else model_destroy(model);
@@ -314,7 +292,7 @@ static enum status prepare(struct model *model, const struct team *team)
   const bool keep = most > 1;
   if (!keep) most = most_split(own, AUTO_BOXES_MAX);
   status = copies_prepare(model, team, most);
-  return status == STATUS_OK ? make_hierarchy(model, team, most, keep, AUTO_LEAVES_MAX, model->again) : status;
+  return status == STATUS_OK ? make_hierarchy(model, team, most, keep, AUTO_LEAVES_MAX) : status;
 }
 
 enum status model_create(const struct scene *scene, const struct team *team, struct model **out)
@@ -347,7 +325,6 @@ void model_destroy(struct model *model)
   if (!model) return;
   for (size_t k = 0; k < model->object_count; k++) model_destroy(model->objects[k].model);
   tree_free(&model->tree);
-  tree_free(model->every);
   arena_destroy(model->arena);
   memory_free(model);
 }

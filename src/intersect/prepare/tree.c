@@ -84,18 +84,16 @@ static enum status build(struct arena *arena, const struct bvh_box boxes[], uint
   return build(arena, boxes, index + stay, count - stay, center, ldexp(1, exponent), whole, team, out->inner);
 }
 
-enum status tree_build(struct arena *arena, const struct bvh_box boxes[], size_t count, const bool left_out[],
-                       const double origin[3], double frame, const struct team *team, struct model_tree *out)
+enum status tree_build(struct arena *arena, const struct bvh_box boxes[], size_t count, const double origin[3],
+                       double frame, const struct team *team, struct model_tree *out)
 {
   static const double middle[3] = {0, 0, 0};
   const struct model_tree whole = {.origin = {origin[0], origin[1], origin[2]}, .frame = frame};
   *out = (struct model_tree){.frame = frame};
   uint32_t *index = memory_alloc(count + 1, sizeof *index);
   if (!index) return STATUS_LIMIT;
-  size_t stay = 0;
-  for (size_t k = 0; k < count; k++)
-    if (!left_out || !left_out[k]) index[stay++] = (uint32_t)k;
-  const enum status status = build(arena, boxes, index, stay, middle, 1, &whole, team, out);
+  for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
+  const enum status status = build(arena, boxes, index, count, middle, 1, &whole, team, out);
   memory_free(index);
   return status;
 }

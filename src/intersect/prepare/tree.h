@@ -8,11 +8,10 @@
 #include "base/arena.h"
 #include "intersect/model.h"
 
-/* Builds over boxes[0..count), which are given in the frame (world - origin)/frame, but for those that are left_out,
- * where that is not NULL. STATUS_LIMIT where memory is short, or threads are. */
-enum status tree_build(struct arena *arena, const struct bvh_box boxes[], size_t count, const bool left_out[],
-                       const double origin[3], double frame, const struct team *team,
-                       struct model_tree *out) STATUS_MUST_CHECK;
+/* Builds over boxes[0..count), which are given in the frame (world - origin)/frame. STATUS_LIMIT where memory is
+ * short, or threads are. */
+enum status tree_build(struct arena *arena, const struct bvh_box boxes[], size_t count, const double origin[3],
+                       double frame, const struct team *team, struct model_tree *out) STATUS_MUST_CHECK;
 
 /* Frees the nodes of this tree and of those in it. */
 void tree_free(struct model_tree *tree);
