@@ -8,7 +8,7 @@
 
 enum {
   FIRST_CHUNK_BYTES = 4096,
-  LAST_CHUNK_BYTES = 1 << 22, /* chunks double up to this size, so that small scenes stay small */
+  LAST_CHUNK_BYTES = 1 << 24, /* chunks double up to this size, so that small scenes stay small */
   BLOCK_ALIGNMENT = alignof(max_align_t)
 };
 

@@ -52,8 +52,12 @@ void transform_points(const struct transform *transform, const transform_row p, 
     best()->apply(transform, p, out);
     return;
   }
+  if (transform->identity) {
+    memmove(out, p, sizeof(transform_row));
+    return;
+  }
   for (int n = 0; n < 4; n++)
-    for (int j = 0; j < 3; j++) out[n][j] = transform->identity ? p[n][j] : transform->A[3][j].hi + p[n][j];
+    for (int j = 0; j < 3; j++) out[n][j] = transform->A[3][j].hi + p[n][j];
 }
 
 void transform_point(const struct transform *transform, const double p[3], double out[3])

@@ -1,7 +1,6 @@
 /* The list of patches. */
 #include "language/expand.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Of objects within objects, the outermost that has no more patches than this is the one whose copies are told. */
@@ -33,7 +32,7 @@ struct expansion {
 
 /* What a node passes down to those below it. */
 struct inherited {
-  struct transform transform;
+  const struct transform *transform;
   const struct texture *texture; /* of the nearest node that has one, or NULL */
   const struct method *method;   /* likewise */
 };
@@ -76,16 +75,22 @@ static bool intern(struct expansion *e, struct list *list, const void *item, uin
   return true;
 }
 
+/* An exponent of ones, which only infinities and NaN have, runs over into the sign. */
+static bool all_finite(const double *x, size_t count)
+{
+  uint64_t bits, over = 0;
+  for (size_t n = 0; n < count; n++) {
+    memcpy(&bits, &x[n], sizeof bits);
+    over |= (bits & INT64_MAX) + (UINT64_C(1) << 52);
+  }
+  return over >> 63 == 0;
+}
+
 static void expand_points(struct expansion *e, const struct node *node, const struct transform *transform,
                           struct scene_patch *patch)
 {
-  bool finite = true;
-  for (int i = 0; i < 4; i++) {
-    transform_points(transform, node->P[i], patch->P[i]);
-    for (int j = 0; j < 4; j++)
-      for (int k = 0; k < 3; k++) finite &= isfinite(patch->P[i][j][k]) != 0;
-  }
-  if (finite || e->told) return;
+  for (int i = 0; i < 4; i++) transform_points(transform, node->P[i], patch->P[i]);
+  if (all_finite((const double *)patch->P, sizeof patch->P / sizeof(double)) || e->told) return;
   e->told = true;
   language_error(e->language, node->block.place,
                  "with its transforms applied, a control point is too large for numbers");
@@ -94,7 +99,7 @@ static void expand_points(struct expansion *e, const struct node *node, const st
 static bool expand_patch(struct expansion *e, const struct node *node, const struct inherited *with)
 {
   struct scene_patch *patch = &e->scene->patches[e->scene->patch_count++];
-  expand_points(e, node, &with->transform, patch);
+  expand_points(e, node, with->transform, patch);
   patch->type = (int)node->setting[PATCH_TYPE];
   patch->flatness = node->setting[PATCH_FLATNESS];
   patch->u_steps = (int)node->setting[PATCH_U_STEPS];
@@ -148,11 +153,12 @@ static bool expand(struct expansion *e, const struct node *node, const struct in
 {
   if (node->patch_count == 0) return true;
   struct inherited with = *above;
-  if (node->transform) with.transform = transform_then(node->transform, &above->transform);
+  struct transform all;
+  if (node->transform) all = transform_then(node->transform, above->transform), with.transform = &all;
   if (node->texture) with.texture = node->texture;
   if (node->method) with.method = node->method;
   const bool is_copy = !e->in_copy && node->sharing && node->sharing->uses > 1 && node->patch_count <= COPIED_MOST;
-  if (is_copy && !begin_copy(e, node, &with.transform)) return false;
+  if (is_copy && !begin_copy(e, node, with.transform)) return false;
   e->in_copy |= is_copy;
   bool whole = true;
   if (node->P) whole = expand_patch(e, node, &with);
@@ -175,7 +181,8 @@ enum status objects_expand(struct language *language, const struct method *metho
                .size = sizeof *scene->copies,
                .expected = language->objects->copies}};
   const struct node *all = &language->objects->scene;
-  const struct inherited nothing = {transform_identity(), NULL, method};
+  const struct transform identity = transform_identity();
+  const struct inherited nothing = {&identity, NULL, method};
   uint32_t first;
   scene->patches = arena_alloc(scene->arena, all->patch_count, sizeof *scene->patches);
   if (!scene->patches || !intern(&e, &e.methods, method, &first) || !expand(&e, all, &nothing)) return STATUS_LIMIT;
