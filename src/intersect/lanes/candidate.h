@@ -12,13 +12,6 @@
 
 enum { RESULTANT_MAX_DEGREE = 18 };
 
-/* The two plane polynomials of every lane over a leaf. */
-struct plane_nets {
-  lanes a[16], b[16]; /* a[4 * i + j] */
-  lanes slope[2];
-  lanes error; /* bound on the error of any coefficient, and of a value inside the leaf */
-};
-
 /* What the stages tell each other. */
 struct candidate {
   const struct leaf *leaf;
@@ -27,10 +20,10 @@ struct candidate {
   int axis;
   const struct line *line; /* the packet's for that axis */
   struct leaf_root first;  /* the root found first; only where it exists */
-  struct plane_nets nets;
-  lane_mask along;              /* the ray meets a curve on the leaf, as far as double precision can tell */
-  lanes alpha, beta;            /* largest |a|, |b| of the nets, then of the form */
-  lanes form_error;             /* of a coefficient of the form */
+  lanes a[16], b[16];      /* the nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
+  lane_mask along;         /* the ray meets a curve on the leaf, as far as double precision can tell */
+  lanes alpha, beta;       /* largest |a|, |b| of the nets, then of the form */
+  lanes form_error;        /* of a coefficient of the form */
   lanes form_a[16], form_b[16]; /* where the form is not the leaf's own net */
   const lanes *fa, *fb;
   int degree; /* of r, exact roots at the ends taken off */

@@ -90,10 +90,10 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
 {
   struct cover_box stack[COVER_HALVINGS + 2];
   struct cover_box *whole = &stack[0];
-  memcpy(whole->a, it->nets.a, sizeof whole->a), memcpy(whole->b, it->nets.b, sizeof whole->b);
+  memcpy(whole->a, it->a, sizeof whole->a), memcpy(whole->b, it->b, sizeof whole->b);
   whole->u = whole->v = 0, whole->size_u = whole->size_v = 1, whole->halvings = 0, whole->open = open;
   lanes size = {0};
-  for (int n = 0; n < 16; n++) size = lanes_max(lanes_max(lanes_abs(it->nets.a[n]), lanes_abs(it->nets.b[n])), size);
+  for (int n = 0; n < 16; n++) size = lanes_max(lanes_max(lanes_abs(it->a[n]), lanes_abs(it->b[n])), size);
   int top = 1;
   const lanes given = lanes_min(p->postponed->splits, lanes_all(COVER_SPLITS));
   lanes splits = given;
@@ -110,7 +110,7 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
     if (!lanes_any(box->open)) continue;
     cover_split(it->leaf, box, box + 1);
     /* each halving adds three roundings, of values of the leaf's size */
-    const lanes error = it->nets.error + box->halvings * 4 * UNIT_ROUNDOFF * size;
+    const lanes error = it->line->error + box->halvings * 4 * UNIT_ROUNDOFF * size;
     for (int h = 0; h < 2; h++) {
       struct cover_box *half = box + h;
       for (int k = 0; k < count; k++) half->open = cover_unknown(it->leaf, half, &roots[k], half->open);

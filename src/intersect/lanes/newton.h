@@ -8,7 +8,8 @@
 
 #include "intersect/lanes/packet.h"
 
-/* What is known after Newton's process. The fields mean something only where `exists`. */
+/* What is known after Newton's process, M being the inverse Jacobian where it ended (certificate.h). The fields mean
+ * something only where `exists`. */
 struct newton_root {
   lanes u, v;
   lanes radius_u, radius_v; /* the exact root is within */

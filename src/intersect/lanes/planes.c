@@ -28,23 +28,16 @@ lane_mask stage_box(struct candidate *it, lane_mask active)
   return active;
 }
 
-static void set_nets(struct candidate *it)
-{
-  for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->nets.a[n], &it->nets.b[n]);
-  it->nets.slope[0] = it->line->slope[0], it->nets.slope[1] = it->line->slope[1];
-  it->nets.error = it->line->error;
-}
-
 /* Lanes on which neither polynomial keeps one sign on the whole net. */
 static lane_mask planes_hull(struct candidate *it, lane_mask active)
 {
   lanes a_low, a_high, b_low, b_high;
   for (int n = 0; n < 16; n++) {
-    const lanes a = it->nets.a[n], b = it->nets.b[n];
+    const lanes a = it->a[n], b = it->b[n];
     a_low = n ? lanes_min(a, a_low) : a, a_high = n ? lanes_max(a, a_high) : a;
     b_low = n ? lanes_min(b, b_low) : b, b_high = n ? lanes_max(b, b_high) : b;
   }
-  const lanes e = it->nets.error;
+  const lanes e = it->line->error;
   it->alpha = lanes_max(-a_low, a_high), it->beta = lanes_max(-b_low, b_high);
   return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
 }
@@ -62,7 +55,7 @@ LANES_INLINE lane_mask corners_differ(const lanes net[16], lanes e)
  * by. Where both are nothing but rounding all over the leaf a and b are one polynomial, and the ray meets curves. */
 static lane_mask planes_aligned(struct candidate *it, lane_mask active)
 {
-  const lanes *a = it->nets.a, *b = it->nets.b;
+  const lanes *a = it->a, *b = it->b;
   const lanes au = (a[13] + a[14]) - (a[1] + a[2]), av = (a[7] + a[11]) - (a[4] + a[8]);
   const lanes bu = (b[13] + b[14]) - (b[1] + b[2]), bv = (b[7] + b[11]) - (b[4] + b[8]);
   lanes u_low = bv * a[0] - av * b[0], v_low = au * b[0] - bu * a[0], u_high = u_low, v_high = v_low;
@@ -72,7 +65,7 @@ static lane_mask planes_aligned(struct candidate *it, lane_mask active)
     v_low = lanes_min(v, v_low), v_high = lanes_max(v, v_high);
   }
   /* The combination's own three roundings, on top of the coefficients' error. */
-  const lanes e = it->nets.error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta);
+  const lanes e = it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta);
   const lanes u_error = e * (lanes_abs(bv) + lanes_abs(av)), v_error = e * (lanes_abs(au) + lanes_abs(bu));
   it->along = active & (u_low >= -u_error) & (u_high <= u_error) & (v_low >= -v_error) & (v_high <= v_error);
   if (lanes_any(it->along)) it->along &= corners_differ(a, e) | corners_differ(b, e);
@@ -81,7 +74,7 @@ static lane_mask planes_aligned(struct candidate *it, lane_mask active)
 
 lane_mask stage_planes(struct candidate *it, lane_mask open)
 {
-  set_nets(it);
+  for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->a[n], &it->b[n]);
   it->along = (lane_mask){0};
   lane_mask near = planes_hull(it, open);
   if (lanes_any(near)) near = planes_aligned(it, near);

@@ -15,7 +15,7 @@ enum { RESULTANT_NEWTON_STEPS = 3 };
 static void set_form(struct candidate *it)
 {
   const struct leaf_form *form = it->leaf->form;
-  it->fa = it->nets.a, it->fb = it->nets.b, it->form_error = it->nets.error;
+  it->fa = it->a, it->fb = it->b, it->form_error = it->line->error;
   if (!form) return;
   it->alpha = it->beta = lanes_all(0);
   for (int i = 0; i <= it->leaf->kept_degree; i++) {
@@ -30,7 +30,7 @@ static void set_form(struct candidate *it)
   /* Where the ray meets the leaf the form's polynomials are off by their excess, twice for a plane of slope 1. Both
    * moved by a constant, which moves every coefficient by it, have their common root there: so it counts as an error
    * of coefficients. */
-  it->form_error = it->nets.error * form->size + 2 * form->excess;
+  it->form_error = it->line->error * form->size + 2 * form->excess;
 }
 
 /* r and the sign variations of its coefficients, at most: one that may have either sign is given the one that
