@@ -116,7 +116,7 @@ precision, which shares nothing with the renderer.
 - **What is polished is exact.** Every point with polish, which is the default, whatever its solver, basis, tolerance,
   start and split, stands at one place on the axis of errors, the rounding of doubles, without a bad answer: 2-D Newton
   and its certificate decide, and what they do not accept goes to the last resort. The tolerance then changes hardly even
-  the time. Certainty costs little: plain Newton, which proves nothing and forms no resultant, takes 1.3
+  the time. Certainty costs little: plain Newton, which proves nothing and forms no resultant, takes 1.6
   times the default's time on the wild patches and 1.4 on the teapot, and answers up to one hit in twenty with a farther
   one or none.
 - **Without polish the answer is the solver's.** Tolerances of 1e-1 and 1e-2 give bad answers with any solver. From 1e-4
