@@ -98,15 +98,13 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
   const lanes given = lanes_min(p->postponed->splits, lanes_all(COVER_SPLITS));
   lanes splits = given;
   while (top > 0) {
-    struct cover_box *box = &stack[top - 1];
+    struct cover_box *box = &stack[--top];
     box->open &= open;
-    if (lanes_any(box->open)) {
-      splits -= lanes_select(box->open, lanes_all(1), lanes_all(0));
-      open &= ~(box->open & (splits < 0));
-      if (box->halvings == halvings) open &= ~box->open;
-      box->open &= open;
-    }
-    top--;
+    if (!lanes_any(box->open)) continue;
+    splits -= lanes_select(box->open, lanes_all(1), lanes_all(0));
+    open &= ~(box->open & (splits < 0));
+    if (box->halvings == halvings) open &= ~box->open;
+    box->open &= open;
     if (!lanes_any(box->open)) continue;
     cover_split(it->leaf, box, box + 1);
     /* each halving adds three roundings, of values of the leaf's size */

@@ -75,12 +75,10 @@ static lane_mask planes_aligned(struct candidate *it, lane_mask active)
 lane_mask stage_planes(struct candidate *it, lane_mask open)
 {
   for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->a[n], &it->b[n]);
+  const lane_mask near = planes_hull(it, open);
   it->along = (lane_mask){0};
-  lane_mask near = planes_hull(it, open);
-  if (lanes_any(near)) near = planes_aligned(it, near);
-  if (it->patch->method->polish) return near;
-  it->along = (lane_mask){0};
-  return open;
+  if (!it->patch->method->polish) return open;
+  return lanes_any(near) ? planes_aligned(it, near) : near;
 }
 
 LANES_INLINE void weights_at(lanes t, lanes w[4])

@@ -189,7 +189,7 @@ static void taylor_net(double x[4][4], double out[16])
 
 /* The largest powers of s and t over the leaf widened by LEAF_MARGIN. */
 #define REACH (0.5 + LEAF_MARGIN)
-static const double REACH_POWER[4] = {1, REACH, REACH *REACH, REACH *REACH *REACH};
+static const double REACH_POWER[4] = {1, REACH, (REACH) * (REACH), (REACH) * (REACH) * (REACH)};
 
 /* A bound on what third derivatives make of parameter vectors of maximum norm 1, over the leaf widened by LEAF_MARGIN:
  * that of the sum of each coordinate's terms. */
