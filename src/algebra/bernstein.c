@@ -9,7 +9,7 @@
  */
 #include <string.h>
 
-#include "algebra/root_kernel.h"
+#include "algebra/root_problem.h"
 
 /* Halving ends at 2^-48: below, an interval near 1 has too few doubles in it to be halved. */
 enum { DEEPEST = 48 };

@@ -13,7 +13,6 @@
 
 #include <string.h>
 
-#include "algebra/root_kernel.h"
 #include "algebra/start.h"
 
 /* No step is longer than this many times |x| + the mean modulus of the roots: where p' nearly vanishes the way back

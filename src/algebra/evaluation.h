@@ -14,6 +14,7 @@
 #define PSCN_ALGEBRA_EVALUATION_H
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "algebra/complex_number.h"
 #include "algebra/polynomial.h"

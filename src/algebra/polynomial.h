@@ -3,8 +3,6 @@
 #ifndef PSCN_ALGEBRA_POLYNOMIAL_H
 #define PSCN_ALGEBRA_POLYNOMIAL_H
 
-#include <stdbool.h>
-
 enum { POLYNOMIAL_MAX_DEGREE = 64 };
 
 enum basis {

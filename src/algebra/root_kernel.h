@@ -8,11 +8,6 @@
 
 #include "algebra/root_problem.h"
 
-/* `stop rounding`: where |p| is below its rounding bound, which is never sharp, steps go on while they shrink. One not
- * shorter than the last is noise; after one that has shrunk by this much (its square against the last one's),
- * the next would be noise. */
-#define STEEP_FALL 1e-4
-
 /* All values of one solve by Aberth's method, in x. */
 struct aberth {
   struct evaluation p;

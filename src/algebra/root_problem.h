@@ -30,6 +30,11 @@ struct root_estimates {
   double reach[POLYNOMIAL_MAX_DEGREE];   /* the roots it stands for may be as far away, in u */
 };
 
+/* `stop rounding`: where |p| is below its rounding bound, which is never sharp, steps go on while they shrink. One not
+ * shorter than the last is noise; after one that has shrunk by this much (its square against the last one's),
+ * the next would be noise. */
+#define STEEP_FALL 1e-4
+
 /* |x|^2 above which values are computed in powers of 1/x: 1, or with plain Horner as far as |x|^n does not overflow. */
 static inline double root_problem_reversed_above(const struct solver_options *options, int degree)
 {

@@ -4,7 +4,8 @@
 #include <assert.h>
 #include <float.h>
 #include <math.h>
-#include <string.h>
+
+#include "base/real.h"
 
 typedef unsigned __int128 wide; /* of gcc and clang on every 64-bit machine */
 
@@ -69,8 +70,7 @@ static uint64_t scale(uint64_t mantissa, int power, int shift)
 bool decimal_from_double(double value, int count, uint64_t *out_digits, int *out_exponent)
 {
   if (count < 1 || count > MAX_DIGITS || !(value >= DBL_MIN && value <= 1e16)) return false;
-  uint64_t bits;
-  memcpy(&bits, &value, sizeof bits);
+  const uint64_t bits = real_bits(value);
   const uint64_t mantissa = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52;
   const int binary = (int)(bits >> 52) - 1075; /* value = mantissa x 2^binary */
   /* The decimal exponent of the first digit, by value >= 2^(binary + 52): right or one too small. */

@@ -1,11 +1,11 @@
-/* Diagnostics: one error becomes one block of lines. */
+/* Diagnostics: one error becomes one block of lines. Where memory is short, what fits of it is told. */
 #include "base/diagnostics.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/memory.h"
+#include "base/text_buffer.h"
 
 enum {
   MESSAGE_BYTES = 2000,   /* longer messages are cut */
@@ -14,59 +14,36 @@ enum {
   MAX_INCLUDE_LINES = 64  /* the language allows fewer levels */
 };
 
-/* Text that grows; after a failed allocation it stays as it was. */
-struct block {
-  char *text;
-  size_t length, capacity;
-};
-
-static void block_add(struct block *block, const char *text, size_t length)
-{
-  if (length > block->capacity - block->length) {
-    size_t capacity = 2 * block->capacity + length + 256;
-    char *grown = memory_resize(block->text, capacity);
-    if (!grown) return;
-    block->text = grown;
-    block->capacity = capacity;
-  }
-  memcpy(block->text + block->length, text, length);
-  block->length += length;
-}
-
-static void block_add_text(struct block *block, const char *text) { block_add(block, text, strlen(text)); }
-
 /* Adds text whose control characters and malformed UTF-8 become '?', so that a scene cannot steer a terminal. */
-static void block_add_clean(struct block *block, const char *text, size_t length)
+static void add_clean(struct text_buffer *block, const char *text, size_t length)
 {
   for (size_t i = 0; i < length;) {
     size_t bytes = source_character(text + i, length - i);
-    if (source_is_shown(text + i, bytes) || text[i] == '\t') block_add(block, text + i, bytes);
-    else block_add(block, "?", 1);
+    if (source_is_shown(text + i, bytes) || text[i] == '\t') text_buffer_add(block, text + i, bytes);
+    else text_buffer_add(block, "?", 1);
     i += bytes ? bytes : 1;
   }
 }
 
 /* Returns where the name ends. */
-static size_t block_add_position(struct block *block, const struct source *source, struct source_position at)
+static size_t add_position(struct text_buffer *block, const struct source *source, struct source_position at)
 {
-  char numbers[64];
-  block_add_clean(block, source->name, strlen(source->name));
+  add_clean(block, source->name, strlen(source->name));
   const size_t name_end = block->length;
-  snprintf(numbers, sizeof numbers, ":%zu:%zu:", at.line, at.column);
-  block_add_text(block, numbers);
+  text_buffer_format(block, ":%zu:%zu:", at.line, at.column);
   return name_end;
 }
 
-static void block_add_include_chain(struct block *block, const struct source *source)
+static void add_include_chain(struct text_buffer *block, const struct source *source)
 {
   const struct source *chain[MAX_INCLUDE_LINES];
   int levels = 0;
   for (; source->includer && levels < MAX_INCLUDE_LINES; source = source->includer) chain[levels++] = source;
   while (levels-- > 0) {
     const struct source *includer = chain[levels]->includer;
-    block_add_text(block, "included from ");
-    (void)block_add_position(block, includer, source_locate(includer, chain[levels]->include_begin));
-    block_add_text(block, "\n");
+    text_buffer_add_text(block, "included from ");
+    (void)add_position(block, includer, source_locate(includer, chain[levels]->include_begin));
+    text_buffer_add_text(block, "\n");
   }
 }
 
@@ -77,7 +54,7 @@ static size_t step_forward(const char *text, size_t i, size_t end)
 }
 
 /* The source line and the line of the caret. The caret line repeats the tabs, so both stand in the same columns. */
-static void block_add_line(struct block *block, struct place place, struct source_position at)
+static void add_line(struct text_buffer *block, struct place place, struct source_position at)
 {
   const char *text = place.source->text;
   size_t place_begin = place.begin < at.line_end ? place.begin : at.line_end;
@@ -93,17 +70,17 @@ static void block_add_line(struct block *block, struct place place, struct sourc
     end = step_forward(text, end, at.line_end);
   if (place_end > end) place_end = end;
 
-  block_add_text(block, begin > at.line_begin ? "  ..." : "  ");
-  block_add_clean(block, text + begin, end - begin);
-  block_add_text(block, end < at.line_end ? "...\n" : "\n");
-  block_add_text(block, begin > at.line_begin ? "     " : "  ");
+  text_buffer_add_text(block, begin > at.line_begin ? "  ..." : "  ");
+  add_clean(block, text + begin, end - begin);
+  text_buffer_add_text(block, end < at.line_end ? "...\n" : "\n");
+  text_buffer_add_text(block, begin > at.line_begin ? "     " : "  ");
   for (size_t i = begin; i < place_begin; i = step_forward(text, i, at.line_end))
-    block_add_text(block, text[i] == '\t' ? "\t" : " ");
-  block_add_text(block, "^");
+    text_buffer_add_text(block, text[i] == '\t' ? "\t" : " ");
+  text_buffer_add_text(block, "^");
   if (place_begin < place_end)
     for (size_t i = step_forward(text, place_begin, at.line_end); i < place_end; i = step_forward(text, i, at.line_end))
-      block_add_text(block, "~");
-  block_add_text(block, "\n");
+      text_buffer_add_text(block, "~");
+  text_buffer_add_text(block, "\n");
 }
 
 static void tell_closing_line(struct diagnostics *diagnostics, bool warnings)
@@ -121,29 +98,29 @@ static void tell(struct diagnostics *diagnostics, struct place place, const char
 {
   char message[MESSAGE_BYTES];
   if (vsnprintf(message, sizeof message, format, arguments) < 0) message[0] = '\0';
-  struct block block = {0};
+  struct text_buffer block = {0};
   struct source_position at = {0};
   struct diagnostics_parts parts = {.warning = kind[0] == 'w'};
   if (place.source) {
     at = source_locate(place.source, place.begin);
     parts.line = at.line;
     parts.column = at.column;
-    block_add_include_chain(&block, place.source);
+    add_include_chain(&block, place.source);
     parts.name_begin = block.length;
-    parts.name_end = block_add_position(&block, place.source, at);
-    block_add_text(&block, " ");
+    parts.name_end = add_position(&block, place.source, at);
+    text_buffer_add_text(&block, " ");
   }
-  block_add_text(&block, kind);
+  text_buffer_add_text(&block, kind);
   parts.said_begin = block.length;
-  block_add_clean(&block, message, strlen(message));
+  add_clean(&block, message, strlen(message));
   parts.said_end = block.length;
-  block_add_text(&block, "\n");
-  if (place.source) block_add_line(&block, place, at);
+  text_buffer_add_text(&block, "\n");
+  if (place.source) add_line(&block, place, at);
   if (block.length > 0 && block.text[block.length - 1] == '\n') {
     diagnostics->parts = parts;
     diagnostics->tell(diagnostics->context, block.text, block.length);
   }
-  memory_free(block.text);
+  text_buffer_free(&block);
 }
 
 /* Whether to tell one more, of which there were `before`; the first that is too much is told by the closing line. */

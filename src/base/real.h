@@ -4,6 +4,8 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 /* The unit roundoff of double: one operation is off by at most so much of its result. */
 #define UNIT_ROUNDOFF 0x1p-53
@@ -16,6 +18,14 @@ static inline double real_max(double a, double b) { return a > b ? a : b; }
 static inline double real_power_of_two(int exponent)
 {
   return ldexp(1, exponent < DBL_MAX_EXP ? exponent : DBL_MAX_EXP - 1);
+}
+
+/* x as it is stored, IEEE 754's binary64: sign, exponent, fraction from the top bit down. */
+static inline uint64_t real_bits(double x)
+{
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits;
 }
 
 /* x rounded to a multiple of the power of two `grain`. */

@@ -2,7 +2,6 @@
 #include "chart/chart.h"
 
 #include <assert.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -175,9 +174,9 @@ static enum status measure(struct chart *chart)
 }
 
 enum status chart_scene(const struct chart_request *request, struct scene *scene, const struct listener *listener,
-                        struct page *out_text)
+                        struct text_buffer *out_text)
 {
-  *out_text = (struct page){0};
+  *out_text = (struct text_buffer){0};
   if (!judge_available())
     return listener_fail(listener, STATUS_LIMIT,
                          "this build has no reference: its compiler has no quadruple "

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "base/listener.h"
-#include "check/page.h"
+#include "base/text_buffer.h"
 #include "scene/scene.h"
 
 struct chart_request {
@@ -25,6 +25,6 @@ struct chart_request {
  * listener stops it. `scene` gets the default solver; the steps of its patches are changed. *out_text, to be freed in
  * any case, receives the front as a table. A peer that is missing or fails is told, no error. */
 enum status chart_scene(const struct chart_request *request, struct scene *scene, const struct listener *listener,
-                        struct page *out_text) STATUS_MUST_CHECK;
+                        struct text_buffer *out_text) STATUS_MUST_CHECK;
 
 #endif

@@ -7,7 +7,6 @@
 #define PSCN_CHART_MEASURE_H
 
 #include <stdatomic.h>
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/status.h"

@@ -6,6 +6,8 @@
 
 #include "chart/templates.h"
 #include "chart/work.h"
+#include "check/fill.h"
+#include "check/page.h"
 #include "check/plot.h"
 
 /* ---- the figure ---- */
@@ -199,10 +201,10 @@ static json_t *make_values(const struct chart *chart)
 enum { CSV, SVG, PAGE, FILES };
 
 /* A figure of an earlier chart goes where this one has none. */
-enum status chart_write(const struct chart *chart, struct page *out_text)
+enum status chart_write(const struct chart *chart, struct text_buffer *out_text)
 {
   static const char *const NAMES[FILES] = {"chart.csv", "chart.svg", "chart.html"};
-  struct page content[FILES] = {{0}};
+  struct text_buffer content[FILES] = {{0}};
   char path[FILES][PAGE_PATH_SIZE];
   json_t *values = make_values(chart);
   enum status status = STATUS_OK;
@@ -210,13 +212,13 @@ enum status chart_write(const struct chart *chart, struct page *out_text)
     status = plot_draw(chart->listener, TEMPLATE_CHART_FIGURE, values, &content[SVG]);
   if (values != NULL && content[SVG].length > 0)
     (void)json_object_set_new(values, "figure", json_stringn(content[SVG].text, content[SVG].length));
-  page_fill(&content[CSV], TEMPLATE_CHART_CSV, values);
-  page_fill(&content[PAGE], TEMPLATE_CHART_PAGE, values);
-  page_fill(out_text, TEMPLATE_CHART_TABLE, values);
+  fill_template(&content[CSV], TEMPLATE_CHART_CSV, values);
+  fill_template(&content[PAGE], TEMPLATE_CHART_PAGE, values);
+  fill_template(out_text, TEMPLATE_CHART_TABLE, values);
   for (int k = 0; k < FILES; k++) snprintf(path[k], sizeof path[k], "%s/%s", chart->request->folder, NAMES[k]);
   content[PAGE].failed = content[PAGE].failed || out_text->failed;
   if (status == STATUS_OK) status = page_write(chart->listener, FILES, path, content);
-  for (int k = 0; k < FILES; k++) page_free(&content[k]);
+  for (int k = 0; k < FILES; k++) text_buffer_free(&content[k]);
   json_decref(values);
   return status;
 }

@@ -53,6 +53,6 @@ enum status chart_peers(struct chart *chart) STATUS_MUST_CHECK;
 /* ---- results.c ---- */
 
 /* Writes the files. *out_text receives the front, and the default, as a table. Errors are told. */
-enum status chart_write(const struct chart *chart, struct page *out_text) STATUS_MUST_CHECK;
+enum status chart_write(const struct chart *chart, struct text_buffer *out_text) STATUS_MUST_CHECK;
 
 #endif

@@ -47,7 +47,7 @@ static enum status measure(struct check *check)
   return status == STATUS_OK ? check_find_worst(check) : status;
 }
 
-static enum status judge(const struct check *check, struct page *out_text)
+static enum status judge(const struct check *check, struct text_buffer *out_text)
 {
   char beyond[256], verdict[512];
   const bool within = check_within_limits(check, beyond, sizeof beyond);
@@ -63,9 +63,9 @@ static enum status judge(const struct check *check, struct page *out_text)
 }
 
 enum status check_scene(const struct check_request *request, struct scene *scene, const struct listener *listener,
-                        struct page *out_text)
+                        struct text_buffer *out_text)
 {
-  *out_text = (struct page){0};
+  *out_text = (struct text_buffer){0};
   struct check *check = calloc(1, sizeof *check);
   if (check == NULL) return listener_out_of_memory(listener);
   *check = (struct check){.request = request,
@@ -84,7 +84,7 @@ enum status check_scene(const struct check_request *request, struct scene *scene
   povray_close(&check->povray);
   for (size_t k = 0; k < check->row_count; k++) check_row_free(&check->row[k]);
   check_ours_free(&check->ours);
-  page_free(&check->warnings);
+  text_buffer_free(&check->warnings);
   free(check);
   return status;
 }

@@ -12,7 +12,7 @@
 
 #include "base/clock.h"
 #include "base/listener.h"
-#include "check/page.h"
+#include "base/text_buffer.h"
 #include "image/compare.h"
 #include "scene/scene.h"
 
@@ -41,6 +41,6 @@ struct check_request {
  * be freed in any case, receives the numbers as a table. STATUS_DIFFERENT, told, where the last row is beyond the
  * limits. */
 enum status check_scene(const struct check_request *request, struct scene *scene, const struct listener *listener,
-                        struct page *out_text) STATUS_MUST_CHECK;
+                        struct text_buffer *out_text) STATUS_MUST_CHECK;
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef PSCN_CHECK_MEASURE_H
 #define PSCN_CHECK_MEASURE_H
 
+#include <jansson.h>
 #include <stdint.h>
 
 #include "check/check.h"
@@ -64,7 +65,7 @@ struct check {
   size_t row_count;
   struct check_worst worst[CHECK_WORST]; /* of the last row */
   size_t worst_count;
-  struct page warnings; /* POV-Ray's, of the scene as written */
+  struct text_buffer warnings; /* POV-Ray's, of the scene as written */
 };
 
 /* ---- measure.c ---- */
@@ -109,6 +110,6 @@ json_t *check_json(const struct check *check);
 /* ---- results.c ---- */
 
 /* Writes all results; `verdict` is one sentence. *out_text receives the numbers as a table. Errors are told. */
-enum status check_write(const struct check *check, const char *verdict, struct page *out_text) STATUS_MUST_CHECK;
+enum status check_write(const struct check *check, const char *verdict, struct text_buffer *out_text) STATUS_MUST_CHECK;
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "check/fill.h"
 #include "check/process.h"
 #include "check/scratch.h"
 
@@ -13,21 +14,21 @@ static const char SCRIPT[] = "figure.gp", FIGURE[] = "figure.svg", LOG[] = "gnup
 #define TIMEOUT 120.0 /* seconds; a figure takes less than one */
 
 /* gnuplot has its texts beside points shown by a script of its own; HTML and SVG have titles for that. */
-static void copy_with_titles(const char *svg, struct page *out)
+static void copy_with_titles(const char *svg, struct text_buffer *out)
 {
   static const char BEGIN[] = " onmousemove=\"gnuplot_svg.showHypertext(evt,'", END[] = "</title>";
   for (const char *at; (at = strstr(svg, BEGIN)) != NULL;) {
     const char *text = at + sizeof BEGIN - 1, *close = strstr(text, "')\""), *end = strstr(text, END);
     if (close == NULL || end == NULL) break;
-    page_bytes(out, svg, (size_t)(at - svg));
-    page_format(out, "><title>%.*s", (int)(close - text), text);
+    text_buffer_add(out, svg, (size_t)(at - svg));
+    text_buffer_format(out, "><title>%.*s", (int)(close - text), text);
     svg = end;
   }
-  page_bytes(out, svg, strlen(svg));
+  text_buffer_add_text(out, svg);
 }
 
 /* What gnuplot wrote, if it is whole. */
-static void read_figure(const struct scratch *folder, struct page *out)
+static void read_figure(const struct scratch *folder, struct text_buffer *out)
 {
   static const char LAST[] = "</svg>";
   char *svg;
@@ -40,7 +41,7 @@ static void read_figure(const struct scratch *folder, struct page *out)
   free(svg);
 }
 
-static enum status run_gnuplot(const struct listener *listener, const struct scratch *folder, struct page *out)
+static enum status run_gnuplot(const struct listener *listener, const struct scratch *folder, struct text_buffer *out)
 {
   char log[SCRATCH_PATH_SIZE];
   scratch_path(folder, LOG, log);
@@ -59,27 +60,28 @@ static enum status run_gnuplot(const struct listener *listener, const struct scr
   } else if (out->length == 0) {
     char *text;
     size_t length;
-    struct page said = {0};
+    struct text_buffer said = {0};
     out->failed = scratch_read(folder, LOG, &text, &length) == STATUS_LIMIT || out->failed;
-    if (status == STATUS_LIMIT) page_format(&said, "it took more than %g seconds", TIMEOUT);
-    else if (status != STATUS_OK) page_format(&said, "%s", strerror(result.reason));
-    else page_printable(&said, text == NULL ? "" : text, length < 400 ? length : 400);
+    if (status == STATUS_LIMIT) text_buffer_format(&said, "it took more than %g seconds", TIMEOUT);
+    else if (status != STATUS_OK) text_buffer_add_text(&said, strerror(result.reason));
+    else text_buffer_add_printable(&said, text == NULL ? "" : text, length < 400 ? length : 400);
     listener_tell(listener, TOLD_WARNING, "gnuplot made no figure: %s",
                   said.text == NULL ? "its file cannot be read" : said.text);
-    page_free(&said);
+    text_buffer_free(&said);
     free(text);
   }
   return out->failed ? listener_out_of_memory(listener) : STATUS_OK;
 }
 
-enum status plot_draw(const struct listener *listener, const char *template, const json_t *values, struct page *out)
+enum status plot_draw(const struct listener *listener, const char *template, const json_t *values,
+                      struct text_buffer *out)
 {
   struct scratch folder;
-  struct page script = {0};
-  *out = (struct page){0};
-  page_fill(&script, template, values);
+  struct text_buffer script = {0};
+  *out = (struct text_buffer){0};
+  fill_template(&script, template, values);
   if (script.failed) {
-    page_free(&script);
+    text_buffer_free(&script);
     return listener_out_of_memory(listener);
   }
   enum status status = scratch_create(&folder);
@@ -92,6 +94,6 @@ enum status plot_draw(const struct listener *listener, const char *template, con
     status = listener_fail(listener, STATUS_FILE, "cannot write a temporary file: %s", strerror(errno));
   else status = run_gnuplot(listener, &folder, out);
   scratch_remove(&folder);
-  page_free(&script);
+  text_buffer_free(&script);
   return status;
 }

@@ -40,19 +40,19 @@ static void run_path(const struct povray *povray, const char *name, char out[SCR
 /* ---- what it says ---- */
 
 /* All it said, printable; `failed` where memory is short for it. */
-static struct page read_log(const struct povray *povray)
+static struct text_buffer read_log(const struct povray *povray)
 {
-  struct page log = {0};
+  struct text_buffer log = {0};
   char *text;
   size_t length;
   log.failed = scratch_read(&povray->folder, LOG, &text, &length) == STATUS_LIMIT;
   for (size_t k = 0; text != NULL && k < length; k++) text[k] = text[k] == '\r' ? '\n' : text[k];
-  if (text != NULL) page_printable(&log, text, length);
+  if (text != NULL) text_buffer_add_printable(&log, text, length);
   free(text);
   return log;
 }
 
-static void note_version(struct povray *povray, const struct page *log)
+static void note_version(struct povray *povray, const struct text_buffer *log)
 {
   static const char BEFORE[] = "POV-Ray ";
   const char *at = log->text == NULL ? NULL : strstr(log->text, BEFORE);
@@ -62,7 +62,7 @@ static void note_version(struct povray *povray, const struct page *log)
 }
 
 /* Shows the end of what it said, which begins where it reads the scene if it got so far. */
-static void show_log(const struct povray *povray, const struct page *log)
+static void show_log(const struct povray *povray, const struct text_buffer *log)
 {
   enum { SHOWN = 4000 };
   if (log->text == NULL) return;
@@ -81,19 +81,19 @@ static bool holds(const char *line, size_t length, const char *words)
 }
 
 /* It breaks its messages into lines, which begin with a blank but for the first. */
-void povray_warnings(const struct povray *povray, struct page *out)
+void povray_warnings(const struct povray *povray, struct text_buffer *out)
 {
-  struct page log = read_log(povray);
+  struct text_buffer log = read_log(povray);
   bool within = false;
   for (const char *line = log.text; line != NULL && *line != '\0';) {
     const size_t part = strcspn(line, "\n");
     const bool begins = holds(line, part, "Warning: ") || holds(line, part, "Possible Parse Error: ");
     within = begins || (within && *line == ' ');
-    if (within && begins && out->length > 0) page_bytes(out, "\n", 1);
-    if (within) page_bytes(out, line, part);
+    if (within && begins && out->length > 0) text_buffer_add_text(out, "\n");
+    if (within) text_buffer_add(out, line, part);
     line += part + strspn(line + part, "\n");
   }
-  page_free(&log);
+  text_buffer_free(&log);
 }
 
 /* ---- running it ---- */
@@ -136,7 +136,7 @@ static enum status run_program(struct povray *povray, const char *const *argumen
     listener_tell(povray->listener, TOLD_DETAIL,
                   "POV-Ray 3.7 is what scenes are checked against; on Debian 'apt-get install povray' installs it.");
   if (status != STATUS_OK) return status;
-  struct page log = read_log(povray);
+  struct text_buffer log = read_log(povray);
   const bool failed = log.failed;
   note_version(povray, &log);
   if (out->exit_code != 0) {
@@ -144,7 +144,7 @@ static enum status run_program(struct povray *povray, const char *const *argumen
                   what);
     show_log(povray, &log);
   }
-  page_free(&log);
+  text_buffer_free(&log);
   if (failed) return listener_out_of_memory(povray->listener);
   return out->exit_code == 0 ? STATUS_OK : STATUS_INPUT;
 }
@@ -246,7 +246,7 @@ static enum status render_text(struct povray *povray, const char *what, struct p
   return status == STATUS_OK ? read_picture(povray, &out->image) : status;
 }
 
-/* Writes TEXT: by `write`, which answers as scene_dump does. */
+/* What it is given to read: a scene, and rays to ask its trace() about, or none. */
 struct question {
   const struct scene *scene;
   size_t count;
@@ -254,6 +254,7 @@ struct question {
 };
 typedef enum status text_writer(const struct question *question, FILE *file);
 
+/* Writes TEXT: by `write`, which answers as scene_dump does. */
 static enum status write_text(const struct povray *povray, text_writer *write, const struct question *question)
 {
   char path[SCRATCH_PATH_SIZE];
@@ -406,13 +407,13 @@ enum status povray_time(struct povray *povray, const struct scene *scene, double
   enum status status = write_text(povray, write_scene, &(struct question){.scene = &flat});
   if (status == STATUS_OK) status = run_on_text(povray, "the scene in white", true, &result);
   free(flat.textures);
-  struct page log = read_log(povray);
+  struct text_buffer log = read_log(povray);
   const char *at = log.text == NULL ? NULL : strstr(log.text, "Trace Time:");
   size_t used;
   at = at == NULL ? NULL : strstr(at, BEFORE);
   *out = NAN;
   if (at != NULL && number_read(at + sizeof BEFORE - 1, strlen(at + sizeof BEFORE - 1), out, &used) != NUMBER_FINITE)
     *out = NAN;
-  page_free(&log);
+  text_buffer_free(&log);
   return status;
 }

@@ -12,7 +12,7 @@
 
 #include "base/clock.h"
 #include "base/listener.h"
-#include "check/page.h"
+#include "base/text_buffer.h"
 #include "check/scratch.h"
 #include "image/image.h"
 #include "intersect/intersect.h"
@@ -65,6 +65,6 @@ enum status povray_ask(struct povray *povray, const struct scene *scene, size_t 
 enum status povray_time(struct povray *povray, const struct scene *scene, double *out) STATUS_MUST_CHECK;
 
 /* Adds the warnings of the last run, one a line. */
-void povray_warnings(const struct povray *povray, struct page *out);
+void povray_warnings(const struct povray *povray, struct text_buffer *out);
 
 #endif

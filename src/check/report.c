@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "check/page.h"
 #include "library/pscn.h"
 
 static void row_name(const struct check_row *row, char *out, size_t size)

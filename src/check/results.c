@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "check/fill.h"
 #include "check/measure.h"
+#include "check/page.h"
 #include "check/plot.h"
 #include "check/templates.h"
 
@@ -19,7 +21,7 @@ enum { ROWS = CHECK_MAX_STEPS + 1, FILE_JSON = 1 + 2 * ROWS, FILE_PAGE, FILES };
 
 struct results {
   const struct check *check;
-  struct page content[FILES]; /* what there is not is not to be there */
+  struct text_buffer content[FILES]; /* what there is not is not to be there */
   char path[FILES][PAGE_PATH_SIZE];
   bool failed; /* memory was short */
 };
@@ -67,10 +69,10 @@ static void name_files(struct results *results)
 /* A picture as a value, and nothing left of it. */
 static json_t *take_picture(struct image *image)
 {
-  struct page png;
+  struct text_buffer png;
   page_png(image, &png);
   json_t *value = page_of_png(&png);
-  page_free(&png);
+  text_buffer_free(&png);
   image_destroy(image);
   return value;
 }
@@ -169,7 +171,7 @@ static void add_worst(struct results *results, json_t *list)
 static enum status add_figure(struct results *results, json_t *root)
 {
   const struct check *check = results->check;
-  struct page figure;
+  struct text_buffer figure;
   bool pixels = false, distances = false;
   for (size_t k = 1; k < check->row_count; k++) {
     pixels = pixels || check->row[k].over[0] > 0;
@@ -180,15 +182,15 @@ static enum status add_figure(struct results *results, json_t *root)
   if (results->failed || !(pixels || distances)) return STATUS_OK;
   const enum status status = plot_draw(check->listener, TEMPLATE_CHECK_FIGURE, root, &figure);
   if (figure.length > 0) set(results, root, "figure", json_stringn(figure.text, figure.length));
-  page_free(&figure);
+  text_buffer_free(&figure);
   return status;
 }
 
-static enum status make_page(struct results *results, const char *verdict, struct page *out_text)
+static enum status make_page(struct results *results, const char *verdict, struct text_buffer *out_text)
 {
   const struct check *check = results->check;
   const struct check_request *request = check->request;
-  const struct page *theirs = &results->content[1 + 2 * (check->row_count - 1)];
+  const struct text_buffer *theirs = &results->content[1 + 2 * (check->row_count - 1)];
   json_t *root = check_json(check), *head = page_of_head(request->command_line);
   results->failed = results->failed || json_object_update(root, head) != 0;
   json_decref(head);
@@ -207,8 +209,8 @@ static enum status make_page(struct results *results, const char *verdict, struc
   add_places(results, root);
   add_worst(results, json_object_get(root, "worst"));
   const enum status status = add_figure(results, root);
-  page_fill(out_text, TEMPLATE_CHECK_TABLE, root);
-  page_fill(&results->content[FILE_PAGE], TEMPLATE_CHECK_PAGE, root);
+  fill_template(out_text, TEMPLATE_CHECK_TABLE, root);
+  fill_template(&results->content[FILE_PAGE], TEMPLATE_CHECK_PAGE, root);
   json_decref(root);
   return status;
 }
@@ -219,11 +221,11 @@ static void make_json(struct results *results)
   char *text = root == NULL ? NULL : json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
   json_decref(root);
   results->failed = results->failed || text == NULL;
-  page_format(&results->content[FILE_JSON], "%s\n", text == NULL ? "" : text);
+  text_buffer_format(&results->content[FILE_JSON], "%s\n", text == NULL ? "" : text);
   free(text);
 }
 
-enum status check_write(const struct check *check, const char *verdict, struct page *out_text)
+enum status check_write(const struct check *check, const char *verdict, struct text_buffer *out_text)
 {
   struct results *results = calloc(1, sizeof *results);
   if (results == NULL) return listener_out_of_memory(check->listener);
@@ -234,7 +236,7 @@ enum status check_write(const struct check *check, const char *verdict, struct p
   enum status status = results->failed ? STATUS_OK : make_page(results, verdict, out_text);
   results->content[FILE_PAGE].failed = results->content[FILE_PAGE].failed || results->failed || out_text->failed;
   if (status == STATUS_OK) status = page_write(check->listener, FILES, results->path, results->content);
-  for (size_t k = 0; k < FILES; k++) page_free(&results->content[k]);
+  for (size_t k = 0; k < FILES; k++) text_buffer_free(&results->content[k]);
   free(results);
   return status;
 }

@@ -39,7 +39,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_OPTIONS_END,
 };
 
-static enum status work(void *context, const char *folder, struct page *out_text)
+static enum status work(void *context, const char *folder, struct text_buffer *out_text)
 {
   struct request *request = context;
   const struct listener listener = command_listener(&request->ear);

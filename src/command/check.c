@@ -88,7 +88,7 @@ static enum status prepare(const struct command *command, const struct check_req
   return status;
 }
 
-static enum status work(void *context, const char *folder, struct page *out_text)
+static enum status work(void *context, const char *folder, struct text_buffer *out_text)
 {
   struct request *request = context;
   struct check_request *check = &request->check;

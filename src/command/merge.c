@@ -206,6 +206,15 @@ static bool print_missing(const struct merge *merge)
 
 enum { MOST_TEXTS = 40 };
 
+/* Whether a text tells of its piece alone. */
+static bool is_own(const char *name)
+{
+  static const char *const own[] = {"pscn:tile", "pscn:done", "pscn:sum", "pscn:render_seconds"};
+  bool is = false;
+  for (size_t k = 0; k < sizeof own / sizeof *own; k++) is |= strcmp(name, own[k]) == 0;
+  return is;
+}
+
 /* The texts of the picture: those of the pieces, but for what is a piece's own, and today's. `lines` is cut up. */
 static size_t list_texts(char *lines, const char *date, const char *seconds, struct image_attribute out[MOST_TEXTS])
 {
@@ -216,8 +225,7 @@ static size_t list_texts(char *lines, const char *date, const char *seconds, str
   for (char *name = strtok(lines, "\n"); name != NULL && count < MOST_TEXTS; name = strtok(NULL, "\n")) {
     char *text = strchr(name, '=');
     *text++ = '\0';
-    if (strcmp(name, "pscn:tile") != 0 && strcmp(name, "pscn:done") != 0 && strcmp(name, "pscn:render_seconds") != 0)
-      out[count++] = (struct image_attribute){name, text};
+    if (!is_own(name)) out[count++] = (struct image_attribute){name, text};
   }
   return count;
 }
@@ -294,7 +302,7 @@ static enum status run(const struct command *command, int argc, const char **arg
   merge.file = calloc(merge.count, sizeof *merge.file);
   if (merge.file == NULL) {
     command_error(command, "out of memory");
-    return (int)STATUS_LIMIT;
+    return STATUS_LIMIT;
   }
   for (size_t k = 0; k < merge.count; k++) merge.file[k].path = line.positional[k];
   status = put_together(&merge);

@@ -111,7 +111,7 @@ enum status output_folder_fill(const struct command *command, const struct outpu
   char *owned;
   const char *path;
   bool made;
-  struct page text = {0};
+  struct text_buffer text = {0};
   enum status status = make_folder(command, folder, &owned, &path, &made);
   if (status == STATUS_OK) {
     interrupt_defer();
@@ -121,14 +121,14 @@ enum status output_folder_fill(const struct command *command, const struct outpu
     if (!done && made) (void)rmdir(path); /* stays where something is in it after all */
     interrupt_resume();
     if (done && !folder->quiet) {
-      page_bytes(&text, "\n", 1);
-      page_printable(&text, path, strlen(path));
+      text_buffer_add_text(&text, "\n");
+      text_buffer_add_printable(&text, path, strlen(path));
       printf("%s/%s shows it\n", text.text, folder->page);
       const enum status written = command_finish_output(command);
       status = written == STATUS_OK ? status : written;
     }
   }
-  page_free(&text);
+  text_buffer_free(&text);
   free(owned);
   return status;
 }

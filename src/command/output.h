@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "base/atomic_file.h"
-#include "check/page.h"
+#include "base/text_buffer.h"
 #include "command/command.h"
 #include "image/image_file.h"
 
@@ -41,7 +41,7 @@ struct output_folder {
 
 /* Makes the folder where there is none, has `work` fill it, signals being deferred, and tells its text on standard
  * output; takes a folder it has made away where the work fails. Answers the status of the work. */
-typedef enum status output_folder_work(void *context, const char *folder, struct page *out_text);
+typedef enum status output_folder_work(void *context, const char *folder, struct text_buffer *out_text);
 enum status output_folder_fill(const struct command *command, const struct output_folder *folder,
                                output_folder_work *work, void *context) STATUS_MUST_CHECK;
 

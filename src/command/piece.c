@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "check/page.h"
+#include "base/text_buffer.h"
+#include "command/values.h"
 
 /* What two parts of a picture have in common, and what a message calls it. */
 static const struct {
@@ -23,30 +24,12 @@ enum {
   SUM_SIZE = 17 /* of the text of a sum: 16 digits and a NUL */
 };
 
-/* Digits at *text, which is moved behind them. */
-static bool take_integer(const char **text, const char *end, size_t most, size_t *out)
-{
-  size_t value = 0;
-  const char *begin = *text;
-  for (; *text < end && **text >= '0' && **text <= '9' && value <= most; ++*text)
-    value = 10 * value + (size_t)(**text - '0');
-  *out = value;
-  return *text > begin && value <= most;
-}
-
-static bool take_letter(const char **text, const char *end, char letter)
-{
-  if (*text >= end || **text != letter) return false;
-  ++*text;
-  return true;
-}
-
 bool piece_number(const char *text, size_t length, size_t *out_number, size_t *out_count)
 {
   const char *end = text + length;
   size_t number, count;
-  if (!take_integer(&text, end, MOST_PIECES, &number) || !take_letter(&text, end, '/') ||
-      !take_integer(&text, end, MOST_PIECES, &count) || text != end || number < 1 || number > count)
+  if (!value_digits(&text, end, MOST_PIECES, &number) || !value_sign(&text, end, '/') ||
+      !value_digits(&text, end, MOST_PIECES, &count) || text != end || number < 1 || number > count)
     return false;
   *out_number = number;
   *out_count = count;
@@ -115,10 +98,10 @@ static bool read_done(const char *text, size_t length, const struct tile_list *t
   const char *end = text + length;
   for (size_t next = 0; text < end;) {
     size_t first, last;
-    if (!take_integer(&text, end, tiles->count, &first)) return false;
+    if (!value_digits(&text, end, tiles->count, &first)) return false;
     last = first;
-    if (take_letter(&text, end, '-') && !take_integer(&text, end, tiles->count, &last)) return false;
-    if (first < next || last < first || last >= tiles->count || !(text == end || take_letter(&text, end, ',')))
+    if (value_sign(&text, end, '-') && !value_digits(&text, end, tiles->count, &last)) return false;
+    if (first < next || last < first || last >= tiles->count || !(text == end || value_sign(&text, end, ',')))
       return false;
     for (size_t k = first; k <= last; k++) atomic_store(&tiles->done[k], true);
     next = last + 1;
@@ -244,19 +227,19 @@ bool piece_copy(const struct piece *from, struct image *to)
 /* Which tiles a part has, by their place in its list, as "0-17,19"; to be freed, NULL where memory is short. */
 static char *done_text(const struct tile_list *tiles)
 {
-  struct page text = {0};
+  struct text_buffer text = {0};
   const char *comma = "";
   for (size_t k = 0; k < tiles->count; k++) {
     const size_t first = k;
     while (k < tiles->count && atomic_load(&tiles->done[k])) k++;
     if (k == first) continue;
-    page_format(&text, "%s%zu", comma, first);
-    if (k - 1 > first) page_format(&text, "-%zu", k - 1);
+    text_buffer_format(&text, "%s%zu", comma, first);
+    if (k - 1 > first) text_buffer_format(&text, "-%zu", k - 1);
     comma = ",";
   }
-  page_bytes(&text, "", 1); /* so that there is a text */
+  text_buffer_add(&text, "", 1); /* so that there is a text */
   if (!text.failed) return text.text;
-  page_free(&text);
+  text_buffer_free(&text);
   return NULL;
 }
 

@@ -227,45 +227,58 @@ static void to_bernstein(int degree, const double c[], double out_c[], double ou
 
 /* `basis bernstein` solves the same polynomial in scaled Bernstein form, the rounding of the change of basis known to
  * the solver: zeros that it begins with would not be known for what they are behind it. */
-static void answer(struct session *session, int degree, const double c[])
+static void solve(struct session *session, struct answer *answer)
 {
-  struct answer answer = {.line = ++session->polynomials, .power = {degree, BASIS_POWER, c, NULL}};
-  struct root_set *roots = &answer.roots;
-  const double start = clock_seconds(CLOCK_MONOTONIC);
-  struct polynomial p = answer.power;
+  const double start = clock_seconds(CLOCK_MONOTONIC), *c = answer->power.c;
+  struct polynomial p = answer->power;
   while (p.degree > 1 && c[p.degree] == 0) p.degree--;
   double bernstein[MAX_COEFFICIENTS], error[MAX_COEFFICIENTS];
   if (session->method.basis == BASIS_BERNSTEIN && c[p.degree] != 0) {
     to_bernstein(p.degree, c, bernstein, error);
     p = (struct polynomial){p.degree, BASIS_BERNSTEIN, bernstein, error};
   }
-  solver_solve(&p, &session->method.roots, &session->warm, roots);
+  solver_solve(&p, &session->method.roots, &session->warm, &answer->roots);
   session->solve += clock_seconds(CLOCK_MONOTONIC) - start;
+}
+
+static void count_roots(struct session *session, const struct answer *answer)
+{
+  const struct root_set *roots = &answer->roots;
   session->roots += (size_t)roots->count;
   for (int k = 0; k < roots->count; k++) {
     const struct root *root = &roots->root[k];
     session->iterations += (size_t)root->iterations;
-    session->accurate += eq11_of(&answer, root) < 1;
+    session->accurate += eq11_of(answer, root) < 1;
     session->statuses[root->status]++;
   }
   session->missing += (size_t)roots->missing;
-  qsort(roots->root, (size_t)roots->count, sizeof roots->root[0], by_place);
-  if (session->format == FORMAT_PLAIN) {
-    write_plain(roots);
-    tell_unknown(session, &answer);
-  } else if (session->format == FORMAT_TABLE) {
-    write_table(&answer);
-  } else if (session->format == FORMAT_JSON) {
-    write_json(&answer);
+}
+
+static void write_answer(struct session *session, const struct answer *answer)
+{
+  switch (session->format) {
+  case FORMAT_PLAIN:
+    write_plain(&answer->roots);
+    tell_unknown(session, answer);
+    break;
+  case FORMAT_TABLE: write_table(answer); break;
+  case FORMAT_JSON: write_json(answer); break;
+  case FORMAT_ITERATES: break; /* written on the way */
   }
 }
 
 static struct stream_fault take(void *context, const struct stream_line *line)
 {
+  struct session *session = context;
   double c[MAX_COEFFICIENTS];
   int degree = 0;
   const struct stream_fault fault = parse_line(line, c, &degree);
-  if (fault.text == NULL) answer(context, degree, c);
+  if (fault.text != NULL) return fault;
+  struct answer answer = {.line = ++session->polynomials, .power = {degree, BASIS_POWER, c, NULL}};
+  solve(session, &answer);
+  count_roots(session, &answer);
+  qsort(answer.roots.root, (size_t)answer.roots.count, sizeof answer.roots.root[0], by_place);
+  write_answer(session, &answer);
   return fault;
 }
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "base/text_buffer.h"
 #include "command/output.h"
 #include "command/values.h"
 
@@ -119,19 +120,19 @@ enum status scene_file_load(const struct command *command, const struct scene_re
 
 char *scene_request_text(const struct scene_request *request)
 {
-  struct page text = {0};
+  struct text_buffer text = {0};
   char number[NUMBER_TEXT_SIZE];
-  if (request->solver_text != NULL) page_format(&text, " --solver '%s'", request->solver_text);
+  if (request->solver_text != NULL) text_buffer_format(&text, " --solver '%s'", request->solver_text);
   number_write(request->tolerance, number);
-  if (!isnan(request->tolerance)) page_format(&text, " --tolerance %s", number);
+  if (!isnan(request->tolerance)) text_buffer_format(&text, " --tolerance %s", number);
   for (size_t k = 0; k < request->number_count; k++) {
     const struct language_number *given = &request->numbers[k];
     number_write(given->value, number);
-    page_format(&text, " --declare %.*s=%s", (int)given->name_length, given->name, number);
+    text_buffer_format(&text, " --declare %.*s=%s", (int)given->name_length, given->name, number);
   }
-  page_bytes(&text, "", 1); /* so that there is a text */
+  text_buffer_add(&text, "", 1); /* so that there is a text */
   if (!text.failed) return text.text;
-  page_free(&text);
+  text_buffer_free(&text);
   return NULL;
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "base/real.h"
 #include "command/command.h"
 #include "command/explain.h"
 #include "command/output.h"
@@ -91,8 +92,7 @@ static char *append_end(bool tells, enum certainty certainty, char *to)
 
 static char *append_double(double value, char *to)
 {
-  uint64_t bits;
-  memcpy(&bits, &value, sizeof bits);
+  const uint64_t bits = real_bits(value);
   for (size_t b = 0; b < 8; b++) *to++ = (char)(bits >> (8 * b) & 0xff);
   return to;
 }

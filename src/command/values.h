@@ -10,6 +10,10 @@
 
 #include "render/tile.h"
 
+/* Decimal digits at *text, up to `end`, that are at most `maximum`; and one character. Steps over what it has read. */
+bool value_digits(const char **text, const char *end, size_t maximum, size_t *out);
+bool value_sign(const char **text, const char *end, char sign);
+
 /* Decimal digits, minimum to maximum. */
 bool value_integer(const char *text, size_t minimum, size_t maximum, size_t *out);
 

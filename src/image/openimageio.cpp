@@ -82,8 +82,8 @@ Bytes native_rows(const image &picture, const image_encoding &encoding, const sr
   for (std::size_t k = 0; k < pixels * picture.channel_count; k++) {
     const float value = picture.value[begin + k];
     switch (types[k % picture.channel_count].basetype) {
-    case OIIO::TypeDesc::UINT8: put(at, encoding.encoded ? code8(value) : srgb_encode8(&table, value)); break;
-    case OIIO::TypeDesc::UINT16: put(at, encoding.encoded ? code16(value) : srgb_encode16(value)); break;
+    case OIIO::TypeDesc::UINT8: put(at, encoding.encoded ? srgb_code8(value) : srgb_encode8(&table, value)); break;
+    case OIIO::TypeDesc::UINT16: put(at, encoding.encoded ? srgb_code16(value) : srgb_encode16(value)); break;
     case OIIO::TypeDesc::HALF: {
       unsigned short half = 0;
       OIIO::convert_types(OIIO::TypeDesc::FLOAT, &value, OIIO::TypeDesc::HALF, &half, 1);

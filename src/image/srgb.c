@@ -47,6 +47,6 @@ uint8_t srgb_encode8(const struct srgb_table *table, float linear)
 
 uint16_t srgb_encode16(float linear) { return (uint16_t)(srgb_encode((double)linear) * 65535 + 0.5); }
 
-uint8_t code8(float encoded) { return (uint8_t)(clip((double)encoded) * 255 + 0.5); }
+uint8_t srgb_code8(float encoded) { return (uint8_t)(clip((double)encoded) * 255 + 0.5); }
 
-uint16_t code16(float encoded) { return (uint16_t)(clip((double)encoded) * 65535 + 0.5); }
+uint16_t srgb_code16(float encoded) { return (uint16_t)(clip((double)encoded) * 65535 + 0.5); }

@@ -22,7 +22,7 @@ uint8_t srgb_encode8(const struct srgb_table *table, float linear);
 uint16_t srgb_encode16(float linear);
 
 /* A value that is encoded already, to the nearest code. */
-uint8_t code8(float encoded);
-uint16_t code16(float encoded);
+uint8_t srgb_code8(float encoded);
+uint16_t srgb_code16(float encoded);
 
 #endif

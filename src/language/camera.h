@@ -20,6 +20,7 @@ struct camera_items {
 };
 
 void camera_default(struct camera_items *out);
+/* Actions of the grammar, in the order of the text. `place`: of the word. */
 void camera_begin(struct language *language, struct span place);
 void camera_perspective(struct language *language, struct span place);
 void camera_vector(struct language *language, int which, const struct value *value);

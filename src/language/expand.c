@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "base/real.h"
+
 /* Of objects within objects, the outermost that has no more patches than this is the one whose copies are told. */
 enum { COPIED_MOST = 1024 };
 
@@ -78,11 +80,8 @@ static bool intern(struct expansion *e, struct list *list, const void *item, uin
 /* An exponent of ones, which only infinities and NaN have, runs over into the sign. */
 static bool all_finite(const double *x, size_t count)
 {
-  uint64_t bits, over = 0;
-  for (size_t n = 0; n < count; n++) {
-    memcpy(&bits, &x[n], sizeof bits);
-    over |= (bits & INT64_MAX) + (UINT64_C(1) << 52);
-  }
+  uint64_t over = 0;
+  for (size_t n = 0; n < count; n++) over |= (real_bits(x[n]) & INT64_MAX) + (UINT64_C(1) << 52);
   return over >> 63 == 0;
 }
 

@@ -46,6 +46,8 @@ struct objects {
   size_t copies;     /* how often declared ones are named */
 };
 
+/* Actions of the grammar, in the order of the text: what begins is open until its end, which node_end follows, and what is
+ * said in between is of the innermost that is open. `place`: of the word, of the name or of the comma. */
 void patch_begin(struct language *language, struct span place);
 void patch_number(struct language *language, int which, struct span item, const struct value *value);
 void patch_point(struct language *language, const struct value *value);

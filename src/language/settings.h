@@ -27,6 +27,7 @@ struct settings {
 };
 
 void settings_default(struct settings *out);
+/* Actions of the grammar, in the order of the text; what stands between a begin and its end is of that block. */
 void language_version(struct language *language, const struct value *value);
 void global_gamma(struct language *language, const struct value *value);
 void global_trace_level(struct language *language, const struct value *value);

@@ -2,7 +2,6 @@
 #include "language/solver_statement.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "language/sources.h"

@@ -6,6 +6,7 @@
 #include "language/values.h"
 #include "scene/method.h"
 
+/* Actions of the grammar: the name, which makes the method as it is by default, then each item. `place`: of the word. */
 void solver_begin(struct language *language, struct span name);
 void solver_misplaced(struct language *language, struct span place);
 void solver_quantity(struct language *language, struct span item, const struct value *value);

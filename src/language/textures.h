@@ -38,6 +38,7 @@ void texture_set_default(struct language *language, const struct texture *textur
 /* What is set in `from` replaces what is in `to`. */
 void texture_apply(struct texture *to, const struct texture *from);
 
+/* Actions of the grammar, in the order of the text: what stands between a begin and its end is of the innermost block. */
 void texture_begin(struct language *language, struct span place, enum texture_block block);
 struct texture *texture_end(struct language *language, struct span brace);
 void texture_named(struct language *language, struct span name);

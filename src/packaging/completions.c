@@ -188,8 +188,7 @@ void write_fish(FILE *file)
         put_fish_argument(file, &argument);
       }
       fputs(" -d '", file);
-      for (const char *c = option->text; *c != '\0'; c++)
-        fprintf(file, "%s%c", *c == '\'' || *c == '\\' ? "\\" : "", *c);
+      put_quoted(file, option->text, "\\");
       fputs("'\n", file);
     }
   }

@@ -103,22 +103,12 @@ static void judge_parameter(quad x, double radius, bool *border, bool *inside)
   if (within < -(quad)radius) *inside = false;
 }
 
-/* The nearest candidate inside its patch and away from the border; -1 for none. */
-static int nearest_inner(const struct candidates *all)
+/* The nearest candidate at a border of its patch, or inside and away from them all; -1 for none. */
+static int nearest(const struct candidates *all, bool border)
 {
   int best = -1;
   for (int n = 0; n < all->count; n++) {
-    if (all->list[n].border) continue;
-    if (best < 0 || all->list[n].root.t < all->list[best].root.t) best = n;
-  }
-  return best;
-}
-
-static int nearest_border(const struct candidates *all)
-{
-  int best = -1;
-  for (int n = 0; n < all->count; n++) {
-    if (!all->list[n].border) continue;
+    if (all->list[n].border != border) continue;
     if (best < 0 || all->list[n].root.t < all->list[best].root.t) best = n;
   }
   return best;
@@ -174,7 +164,7 @@ void reference_closest(const struct reference *reference, const double origin[3]
   collect(reference, origin, direction, &all);
   *out = (struct reference_answer){.verdict = REFERENCE_MISS, .t_first = INFINITY, .patch = REFERENCE_NONE};
 
-  int answer = nearest_inner(&all), border = nearest_border(&all);
+  int answer = nearest(&all, false), border = nearest(&all, true);
   if (answer >= 0) {
     out->verdict = REFERENCE_HIT;
     out->t_first = (double)all.list[answer].root.t;

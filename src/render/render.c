@@ -166,8 +166,31 @@ static void add_counts(struct intersect_counts *sum, const struct intersect_coun
   sum->roots_accepted += counts->roots_accepted;
   for (int k = 0; k < STAGE_COUNT; k++) sum->stages[k] += counts->stages[k];
   sum->escalated += counts->escalated;
+  sum->work += counts->work;
   sum->certain += counts->certain;
   sum->grazing += counts->grazing;
+}
+
+/* A tracer for each worker, and one of the certified scene where there is one. */
+static enum status workers_create(struct worker workers[], size_t count, const struct intersector *intersector,
+                                  const struct intersector *certified)
+{
+  enum status status = STATUS_OK;
+  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
+    status = tracer_create(intersector, &workers[k].tracer);
+    if (status == STATUS_OK && certified != NULL) status = tracer_create(certified, &workers[k].certified);
+  }
+  return status;
+}
+
+/* Adds up what they have done, too. */
+static void workers_destroy(struct worker workers[], size_t count, struct intersect_counts *sum)
+{
+  for (size_t k = 0; k < count && workers[k].tracer != NULL; k++) {
+    add_counts(sum, tracer_counts(workers[k].tracer));
+    tracer_destroy(workers[k].tracer);
+    tracer_destroy(workers[k].certified);
+  }
 }
 
 enum status render_scene(const struct scene *scene, const struct intersector *intersector,
@@ -196,23 +219,14 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   if (workers == NULL) status = STATUS_LIMIT;
   if (status == STATUS_OK && channel_list_has(&options->channels, CHANNEL_DEVIATION))
     status = certified_create(scene, &team, &certified);
-  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
-    status = tracer_create(intersector, &workers[k].tracer);
-    if (status == STATUS_OK && certified.intersector != NULL)
-      status = tracer_create(certified.intersector, &workers[k].certified);
-  }
+  if (status == STATUS_OK) status = workers_create(workers, count, intersector, certified.intersector);
   if (status == STATUS_OK) status = crew_synchronise(&crew);
   if (status == STATUS_OK) {
     status = run_crew(&crew, count, watch, start);
     pthread_cond_destroy(&crew.ended);
     pthread_mutex_destroy(&crew.mutex);
   }
-  for (size_t k = 0; k < count && workers != NULL; k++) {
-    if (workers[k].tracer == NULL) continue;
-    add_counts(&out_stats->counts, tracer_counts(workers[k].tracer));
-    tracer_destroy(workers[k].tracer);
-    tracer_destroy(workers[k].certified);
-  }
+  if (workers != NULL) workers_destroy(workers, count, &out_stats->counts);
   free(workers);
   certified_destroy(&certified);
   tile_list_destroy(&all);

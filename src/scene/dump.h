@@ -8,7 +8,6 @@
 #ifndef PSCN_SCENE_DUMP_H
 #define PSCN_SCENE_DUMP_H
 
-#include <stddef.h>
 #include <stdio.h>
 
 #include "base/status.h"

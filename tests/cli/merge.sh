@@ -15,6 +15,7 @@ try pscn merge all3.exr all1.exr all4.exr all2.exr -o all.exr --bits 32 --quiet
 try pscn merge p?.exr -o p.png --quiet
 try pscn merge p?.exr -o p16.png --bits 16
 same one.exr all.exr
+grep -ao 'pscn:\(tile\|done\|sum\)' all.exr # what is a piece's own is not the picture's
 same one.png p.png
 same one16.png p16.png
 pscn render $scene --crop 37,5,66,80 -o crop.exr

@@ -3,6 +3,7 @@
 #include "corpus/families.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 const char *family_name(enum family family)

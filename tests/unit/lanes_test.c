@@ -10,6 +10,7 @@
 #include "base/double_double.h"
 #include "base/double_lanes.h"
 #include "base/float_lanes.h"
+#include "base/lane_points.h"
 #include "cmocka_test.h"
 #include "lanes_main.h"
 
@@ -228,6 +229,27 @@ static void double_lanes_are_double_doubles(void **state)
   }
 }
 
+/* Whichever lanes they belong to. */
+static void points_come_and_go(void **state)
+{
+  (void)state;
+#if LANE_POINTS > 0
+  static const double coordinates[4] = {1.5, 2.5, 3.5, 4.5};
+  lanes s;
+  for (int l = 0; l < LANES; l++) s[l] = 10.0 * (l + 1);
+  for (unsigned bits = 1; bits < 1u << LANES; bits++) {
+    if (__builtin_popcount(bits) > LANE_POINTS) continue;
+    const struct lane_points points = lane_points_of(bits);
+    const lanes at = lane_points_spread(&points, s) + lane_points_load(coordinates);
+    for (int c = 0; c < 3; c++) {
+      const lanes x = lane_points_collect(&points, at, c);
+      for (unsigned l = 0; l < LANES; l++)
+        if (bits >> l & 1) assert_true(x[l] == s[l] + coordinates[c]);
+    }
+  }
+#endif
+}
+
 /* Called only where the processor has the instructions, and not part of main, which must run on all. */
 __attribute__((noinline)) static int run(void)
 {
@@ -239,6 +261,7 @@ __attribute__((noinline)) static int run(void)
     cmocka_unit_test(float_choices_are_scalar),
     cmocka_unit_test(products_keep_their_error),
     cmocka_unit_test(double_lanes_are_double_doubles),
+    cmocka_unit_test(points_come_and_go),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,14 +24,14 @@ static void outside_is_clipped(void **state)
   for (size_t k = 0; k < sizeof low / sizeof low[0]; k++) {
     assert_int_equal(srgb_encode8(&table, low[k]), 0);
     assert_int_equal(srgb_encode16(low[k]), 0);
-    assert_int_equal(code8(low[k]), 0);
-    assert_int_equal(code16(low[k]), 0);
+    assert_int_equal(srgb_code8(low[k]), 0);
+    assert_int_equal(srgb_code16(low[k]), 0);
   }
   for (size_t k = 0; k < sizeof high / sizeof high[0]; k++) {
     assert_int_equal(srgb_encode8(&table, high[k]), 255);
     assert_int_equal(srgb_encode16(high[k]), 65535);
-    assert_int_equal(code8(high[k]), 255);
-    assert_int_equal(code16(high[k]), 65535);
+    assert_int_equal(srgb_code8(high[k]), 255);
+    assert_int_equal(srgb_code16(high[k]), 65535);
   }
 }
 
@@ -42,11 +42,11 @@ static void every_code_survives(void **state)
   srgb_table_fill(&table);
   for (int k = 0; k <= 255; k++) {
     assert_int_equal(srgb_encode8(&table, (float)srgb_decode(k / 255.0)), k);
-    assert_int_equal(code8((float)(k / 255.0)), k);
+    assert_int_equal(srgb_code8((float)(k / 255.0)), k);
   }
   for (int k = 0; k <= 65535; k++) {
     assert_int_equal(srgb_encode16((float)srgb_decode(k / 65535.0)), k);
-    assert_int_equal(code16((float)(k / 65535.0)), k);
+    assert_int_equal(srgb_code16((float)(k / 65535.0)), k);
   }
 }
 

@@ -1,0 +1,25 @@
+/* Text that grows. What cannot be kept for lack of memory is dropped and remembered in `failed`. */
+#ifndef PSCN_BASE_TEXT_BUFFER_H
+#define PSCN_BASE_TEXT_BUFFER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* One of zeros is empty and may be freed. */
+struct text_buffer {
+  char *text; /* owned, base/memory.h's; length bytes, then a NUL; NULL while nothing was added */
+  size_t length, size;
+  bool failed;
+};
+
+void text_buffer_free(struct text_buffer *buffer);
+
+/* Adds bytes, a text, and text formatted as by printf. */
+void text_buffer_add(struct text_buffer *buffer, const void *bytes, size_t length);
+void text_buffer_add_text(struct text_buffer *buffer, const char *text);
+void text_buffer_format(struct text_buffer *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Adds foreign text that no terminal obeys: control characters but for the newline, and what is no UTF-8, as \xNN. */
+void text_buffer_add_printable(struct text_buffer *buffer, const char *text, size_t length);
+
+#endif

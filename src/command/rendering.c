@@ -1,0 +1,262 @@
+/* A picture on its way into its file. See rendering.h. */
+#include "command/rendering.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "command/interrupt.h"
+#include "command/output.h"
+#include "command/piece.h"
+#include "command/progress.h"
+#include "command/report.h"
+#include "image/image_loading.h"
+#include "render/threads.h"
+
+enum status rendering_check_outputs(const struct command *command, const struct rendering_request *request,
+                                    const struct scene *scene)
+{
+  enum status status = output_spare(command, request->stats, request->output);
+  if (status == STATUS_OK) status = output_spare(command, request->stats, request->part);
+  if (status == STATUS_OK) status = scene_file_spare(command, request->scene, scene, request->part);
+  if (status == STATUS_OK) status = scene_file_spare(command, request->scene, scene, request->output);
+  return status == STATUS_OK ? scene_file_spare(command, request->scene, scene, request->stats) : status;
+}
+
+/* ---- what is done so far ---- */
+
+/* A rendering that is under way. */
+struct rendering {
+  const struct command *command;
+  const struct rendering_request *request;
+  struct report *report;
+  struct piece piece;
+  struct progress progress;
+  double kept;   /* when it was last kept, in seconds since the rendering began */
+  bool has_part; /* there is a file of what is done */
+};
+
+/* Writes what is done into its file. Whether that could be done: it is told where not. */
+static bool keep(struct rendering *rendering)
+{
+  struct report_metadata metadata;
+  char message[IMAGE_MESSAGE_SIZE];
+  unsigned char *bytes;
+  size_t size, which;
+  int reason = 0;
+  report_metadata_fill(rendering->report, &metadata);
+  enum status status = piece_encode(&rendering->piece, metadata.attribute, metadata.count, &bytes, &size, message);
+  if (status == STATUS_OK) {
+    const struct atomic_file file = {rendering->request->part, bytes, size};
+    status = atomic_files_write(&file, 1, NULL, &which, &reason);
+    snprintf(message, sizeof message, "%s", strerror(reason));
+  }
+  free(bytes);
+  if (status == STATUS_OK) rendering->has_part = true;
+  else command_error(rendering->command, "cannot keep what is done in '%s': %s", rendering->request->part, message);
+  return status == STATUS_OK;
+}
+
+/* About ten times a second. */
+static void look(void *context, const struct render_progress *progress)
+{
+  struct rendering *rendering = context;
+  const struct rendering_request *request = rendering->request;
+  if (!request->scene->quiet) progress_tell(&rendering->progress, progress);
+  if (request->part == NULL || !(request->checkpoint > 0) || progress->seconds - rendering->kept < request->checkpoint)
+    return;
+  const struct seconds start = seconds_now();
+  (void)keep(rendering);
+  rendering->kept = progress->seconds + seconds_since(start).wall;
+}
+
+/* What is done when a signal ends the rendering. */
+static void keep_interrupted(struct rendering *rendering)
+{
+  const size_t done = tile_list_pixels(&rendering->piece.tiles, true),
+               all = tile_list_pixels(&rendering->piece.tiles, false);
+  if (rendering->request->part == NULL || done == 0 || !keep(rendering) || rendering->request->scene->quiet) return;
+  fprintf(stderr, "pscn %s: interrupted; the %.0f %% that are done are in '%s', and --resume goes on from there\n",
+          rendering->command->name, floor(100 * (double)done / (double)all), rendering->request->part);
+}
+
+/* Takes what an earlier run has left. */
+static enum status resume(struct rendering *rendering)
+{
+  const struct command *command = rendering->command;
+  const char *path = rendering->request->part;
+  struct piece part;
+  char message[IMAGE_MESSAGE_SIZE];
+  if (path == NULL || access(path, F_OK) != 0) return STATUS_OK;
+  if (!rendering->request->resume) {
+    if (!rendering->request->scene->quiet)
+      fprintf(stderr, "pscn %s: warning: '%s' is left by an earlier run; --resume goes on from there\n", command->name,
+              path);
+    return STATUS_OK;
+  }
+  enum status status = piece_read(path, true, &part, message);
+  if (status != STATUS_OK) {
+    command_error(command, "cannot go on from '%s': %s", path, message);
+    return status;
+  }
+  const bool same_piece = part.number == rendering->piece.number && part.count == rendering->piece.count;
+  if (!same_piece)
+    snprintf(message, sizeof message, "its piece: %zu/%zu, not %zu/%zu", part.number, part.count,
+             rendering->piece.number, rendering->piece.count);
+  if (same_piece && piece_belongs(&part.image, &rendering->piece.image, message, sizeof message) &&
+      piece_copy(&part, &rendering->piece.image)) {
+    for (size_t k = 0; k < part.tiles.count; k++)
+      atomic_store(&rendering->piece.tiles.done[k], atomic_load(&part.tiles.done[k]));
+    rendering->has_part = true;
+  } else {
+    command_error(command, "'%s' is of another picture; %s. Without --resume it begins anew", path, message);
+    status = STATUS_INPUT;
+  }
+  piece_destroy(&part);
+  return status;
+}
+
+/* The picture as it is before anything is rendered now. */
+static enum status begin(struct rendering *rendering)
+{
+  const struct rendering_request *request = rendering->request;
+  const size_t piece = request->pieces == 0 ? 1 : request->piece, pieces = request->pieces == 0 ? 1 : request->pieces;
+  struct report_metadata metadata;
+  report_metadata_fill(rendering->report, &metadata);
+  const enum status status = piece_create(&request->options, piece, pieces, metadata.attribute, metadata.count,
+                                          &rendering->piece);
+  if (status == STATUS_OK) return resume(rendering);
+  command_error(rendering->command, "out of memory");
+  return status;
+}
+
+/* ---- the picture ---- */
+
+/* Waits until pictures can be written; tells it where they cannot. */
+static enum status loaded(const struct command *command, struct image_loading *loading)
+{
+  const char *message;
+  const enum status status = image_loading_end(loading, &message);
+  if (status != STATUS_OK) command_error(command, "cannot write pictures: %s", message);
+  return status;
+}
+
+/* Renders what is not done, and no further where it could not be written. */
+static enum status make_picture(struct rendering *rendering, struct image_loading *loading)
+{
+  struct report *report = rendering->report;
+  struct intersector *intersector = NULL;
+  struct render_options options = rendering->request->options;
+  const struct render_watch watch = {
+    .progress = look, .context = rendering, .stop = &interrupt_signal, .failed = &loading->failed};
+  struct render_stats stats = {0};
+  struct seconds start = seconds_now();
+  options.tiles = &rendering->piece.tiles;
+  rendering->progress = progress_start();
+  const struct team team = threads_team(options.threads);
+  enum status status = intersector_create_by(report->scene, &team, &intersector);
+  report->build = seconds_since(start);
+  if (status == STATUS_OK) {
+    interrupt_defer();
+    start = seconds_now();
+    status = render_scene(report->scene, intersector, &options, &watch, rendering->piece.image.value, &stats);
+    report->render = seconds_since(start);
+    progress_end(&rendering->progress);
+    if (atomic_load(&interrupt_signal) != 0) {
+      keep_interrupted(rendering);
+      status = STATUS_INTERRUPTED;
+    }
+    interrupt_resume();
+    report->counts = stats.counts;
+    report->threads = stats.threads;
+  }
+  if (status == STATUS_LIMIT) command_error(rendering->command, "out of memory or threads");
+  else if (atomic_load(&interrupt_signal) == 0) status = loaded(rendering->command, loading);
+  intersector_destroy(intersector);
+  return status;
+}
+
+static enum status encode(struct rendering *rendering, unsigned char **out_bytes, size_t *out_size, char *message)
+{
+  const struct rendering_request *request = rendering->request;
+  struct report_metadata metadata;
+  report_metadata_fill(rendering->report, &metadata);
+  if (request->pieces != 0)
+    return piece_encode(&rendering->piece, metadata.attribute, metadata.count, out_bytes, out_size, message);
+  rendering->progress = progress_start();
+  const struct image_encoding encoding = {.format = request->format,
+                                          .bits = (int)request->bits,
+                                          .attributes = metadata.attribute,
+                                          .attribute_count = metadata.count,
+                                          .progress = request->scene->quiet ? NULL : progress_write,
+                                          .context = &rendering->progress};
+  const enum status status = image_encode(&rendering->piece.image, &encoding, out_bytes, out_size, message);
+  progress_end(&rendering->progress);
+  return status;
+}
+
+/* The picture, and the statistics where they are asked for; what was kept of it on the way goes. */
+static enum status write_results(struct rendering *rendering)
+{
+  const struct command *command = rendering->command;
+  const struct rendering_request *request = rendering->request;
+  const struct seconds start = seconds_now();
+  unsigned char *bytes;
+  char *statistics = NULL;
+  size_t size;
+  char message[IMAGE_MESSAGE_SIZE];
+  enum status status = encode(rendering, &bytes, &size, message);
+  if (status != STATUS_OK) {
+    command_error(command, "cannot make '%s': %s", request->output, message);
+    return status;
+  }
+  rendering->report->write = seconds_since(start);
+  if (request->stats != NULL) status = report_text(command, report_statistics(rendering->report), &statistics);
+  const size_t length = statistics == NULL ? 0 : strlen(statistics);
+  const struct atomic_file files[] = {{request->output, bytes, size},
+                                      {request->stats, statistics, length},
+                                      {rendering->has_part ? request->part : NULL, NULL, 0}};
+  if (status == STATUS_OK) status = output_write(command, files, 3);
+  free(statistics);
+  free(bytes);
+  return status;
+}
+
+static enum status render(const struct command *command, const struct rendering_request *request,
+                          struct image_loading *loading)
+{
+  struct scene *scene = NULL;
+  const struct seconds start = seconds_now();
+  enum status status = scene_file_load(command, request->scene, &scene);
+  if (status == STATUS_OK && !request->scene->quiet) scene_file_warn(command, scene);
+  struct report report = {.scene_path = request->scene->path,
+                          .picture_path = request->output,
+                          .scene = scene,
+                          .width = request->options.width,
+                          .height = request->options.height,
+                          .crop = request->options.crop,
+                          .channels = request->channels,
+                          .options = request->how,
+                          .samples = request->options.samples,
+                          .parse = seconds_since(start)};
+  struct rendering rendering = {.command = command, .request = request, .report = &report};
+  if (status == STATUS_OK) status = rendering_check_outputs(command, request, scene);
+  if (status == STATUS_OK) status = begin(&rendering);
+  if (status == STATUS_OK) status = make_picture(&rendering, loading);
+  if (status == STATUS_OK) status = write_results(&rendering);
+  if (status == STATUS_OK && !request->scene->quiet) report_print(&report);
+  piece_destroy(&rendering.piece);
+  scene_destroy(scene);
+  return status;
+}
+
+enum status rendering_make(const struct command *command, const struct rendering_request *request)
+{
+  struct image_loading loading;
+  const char *unused;
+  image_loading_begin(&loading);
+  const enum status status = render(command, request, &loading);
+  (void)!image_loading_end(&loading, &unused);
+  return status;
+}
