@@ -13,4 +13,7 @@ typedef long double wide;
 #define WIDE_ROUNDOFF (LDBL_EPSILON / 2)
 #endif
 
+static inline wide wide_abs(wide a) { return a < 0 ? -a : a; }
+static inline wide wide_max(wide a, wide b) { return a > b ? a : b; }
+
 #endif

@@ -2,12 +2,10 @@
  * round, those of a round by all threads; where nodes lie depends on the boxes only. */
 #include "geometry/bvh.h"
 
-#include <math.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 
 #include "base/memory.h"
-#include "base/real.h"
 
 enum {
   BIN_COUNT = 16,
@@ -34,16 +32,6 @@ struct round {
   atomic_size_t taken;
 };
 
-static const struct bvh_box empty_box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-
-static void box_add(struct bvh_box *a, const struct bvh_box *b)
-{
-  for (int k = 0; k < 3; k++) {
-    a->lo[k] = real_min(a->lo[k], b->lo[k]);
-    a->hi[k] = real_max(a->hi[k], b->hi[k]);
-  }
-}
-
 static double box_area(const struct bvh_box *b)
 {
   const double x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
@@ -66,8 +54,8 @@ static float float_above(double x)
 
 static struct bvh_box range_box(const struct builder *b, uint32_t first, uint32_t count)
 {
-  struct bvh_box box = empty_box;
-  for (uint32_t k = 0; k < count; k++) box_add(&box, &b->boxes[b->order[first + k]]);
+  struct bvh_box box = BVH_EMPTY;
+  for (uint32_t k = 0; k < count; k++) bvh_box_add(&box, &b->boxes[b->order[first + k]]);
   return box;
 }
 
@@ -89,16 +77,16 @@ struct bins {
 static bool best_plane(const struct bins *bins, uint32_t count, double *cost, int *plane)
 {
   double right_area[BIN_COUNT];
-  struct bvh_box sum = empty_box;
+  struct bvh_box sum = BVH_EMPTY;
   for (int k = BIN_COUNT - 1; k > 0; k--) {
-    box_add(&sum, &bins->box[k]);
+    bvh_box_add(&sum, &bins->box[k]);
     right_area[k] = box_area(&sum);
   }
   bool found = false;
   uint32_t left = 0;
-  sum = empty_box;
+  sum = BVH_EMPTY;
   for (int k = 1; k < BIN_COUNT; k++) {
-    box_add(&sum, &bins->box[k - 1]);
+    bvh_box_add(&sum, &bins->box[k - 1]);
     left += bins->count[k - 1];
     if (left == 0 || left == count) continue;
     const double c = box_area(&sum) * left + right_area[k] * (count - left);
@@ -111,12 +99,12 @@ static bool best_plane(const struct bins *bins, uint32_t count, double *cost, in
 static int best_axis(const struct builder *b, const struct range *r, struct bins bins[3], int *plane)
 {
   for (int a = 0; a < 3; a++)
-    for (int k = 0; k < BIN_COUNT; k++) bins[a].box[k] = empty_box, bins[a].count[k] = 0;
+    for (int k = 0; k < BIN_COUNT; k++) bins[a].box[k] = BVH_EMPTY, bins[a].count[k] = 0;
   for (uint32_t k = 0; k < r->count; k++) {
     const struct bvh_box *box = &b->boxes[b->order[r->first + k]];
     for (int a = 0; a < 3; a++) {
       const int at = bin_of(box_center(box, a), bins[a].lo, bins[a].scale);
-      box_add(&bins[a].box[at], box);
+      bvh_box_add(&bins[a].box[at], box);
       bins[a].count[at]++;
     }
   }

@@ -8,15 +8,27 @@
 #ifndef PSCN_GEOMETRY_BVH_H
 #define PSCN_GEOMETRY_BVH_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/real.h"
 #include "base/status.h"
 #include "base/team.h"
 
 struct bvh_box {
   double lo[3], hi[3];
 };
+
+/* The box of nothing: any other one added to it is what comes out. */
+static const struct bvh_box BVH_EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+
+/* Makes `sum` the least box that holds both. */
+static inline void bvh_box_add(struct bvh_box *sum, const struct bvh_box *box)
+{
+  for (int k = 0; k < 3; k++)
+    sum->lo[k] = real_min(sum->lo[k], box->lo[k]), sum->hi[k] = real_max(sum->hi[k], box->hi[k]);
+}
 
 enum { BVH_WIDTH = 4 };
 

@@ -8,6 +8,7 @@
 #include <sys/random.h>
 
 #include "base/memory.h"
+#include "base/real.h"
 
 struct border {
   double point[4][3]; /* in the direction that sorts first */
@@ -95,9 +96,7 @@ static uint64_t border_hash(const struct border *b, const uint64_t key[KEYS])
 {
   uint64_t hash = key[KEYS - 1];
   for (int k = 0; k < 12; k++) {
-    const double x = b->point[k / 3][k % 3] + 0.0; /* -0 becomes 0 */
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
+    const uint64_t bits = real_bits(b->point[k / 3][k % 3] + 0.0); /* of -0 those of 0 */
     hash += key[2 * k] * (uint32_t)bits + key[2 * k + 1] * (bits >> 32);
   }
   return hash;

@@ -1,10 +1,9 @@
 /* The arithmetic of transforms. Compiled once per instruction set. */
 #include "geometry/transform_kernel.h"
 
-#include <string.h>
-
 #include "base/double_lanes.h"
 #include "base/kernel.h"
+#include "base/real.h"
 
 /* Of a transform, and of points: as many are done at once as there are lanes. */
 enum { ROWS = 4 };
@@ -152,9 +151,8 @@ static void sine_cosine(double degrees, struct transform_angle *out)
 /* An angle has one place, by its bits (Knuth, The Art of Computer Programming 3, 6.4, multiplicative hashing). */
 static struct transform_angle known_angle(double degrees, struct transform_angles *angles)
 {
-  uint64_t bits;
-  memcpy(&bits, &degrees, sizeof bits);
-  struct transform_angle *angle = &angles->known[bits * UINT64_C(0x9e3779b97f4a7c15) >> (64 - TRANSFORM_ANGLE_BITS)];
+  const uint64_t place = real_bits(degrees) * UINT64_C(0x9e3779b97f4a7c15) >> (64 - TRANSFORM_ANGLE_BITS);
+  struct transform_angle *angle = &angles->known[place];
   if (angle->degrees != degrees) sine_cosine(degrees, angle);
   return *angle;
 }

@@ -4,9 +4,9 @@
 #include "geometry/twins.h"
 
 #include <stdint.h>
-#include <string.h>
 
 #include "base/memory.h"
+#include "base/real.h"
 
 /* So many places of the table are looked at for one net: with half of them free it takes a few, but for a made-up
  * scene, which is not to take long either. */
@@ -60,12 +60,8 @@ static uint64_t inner_hash(const double P[48])
   uint64_t hash = 0;
   for (int n = 0; n < 4; n++) {
     uint64_t point = 0;
-    for (int c = 0; c < 3; c++) {
-      const double x = P[12 * (1 + n / 2) + 3 * (1 + n % 2) + c] + 0.0; /* -0 becomes 0 */
-      uint64_t bits;
-      memcpy(&bits, &x, sizeof bits);
-      point = mixed(point + bits);
-    }
+    for (int c = 0; c < 3; c++) /* of -0 the bits of 0 */
+      point = mixed(point + real_bits(P[12 * (1 + n / 2) + 3 * (1 + n % 2) + c] + 0.0));
     hash += point;
   }
   return mixed(hash);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "geometry/patch.h"
 #include "intersect/local_ray.h"
 #include "intersect/method.h"
 
@@ -43,15 +44,13 @@ void explain_before(struct tracer *tracer, const struct model *model, const stru
 static void place_points(const struct local_ray *local, const double w[16], const struct explained_ray *ray,
                          struct explained_candidate *story)
 {
+  double depths[4][4];
+  memcpy(depths, w, sizeof depths);
   for (int k = 0; k < story->found.roots.count; k++) {
     if (story->found.fate[k] != ROOT_OFFERED) continue;
     const double kept = story->found.roots.root[k].re, other = story->found.other[k];
     const double u = story->v_kept ? other : kept, v = story->v_kept ? kept : other;
-    const double wu[4] = {(1 - u) * (1 - u) * (1 - u), 3 * u * (1 - u) * (1 - u), 3 * u * u * (1 - u), u * u * u};
-    const double wv[4] = {(1 - v) * (1 - v) * (1 - v), 3 * v * (1 - v) * (1 - v), 3 * v * v * (1 - v), v * v * v};
-    double depth = 0;
-    for (int n = 0; n < 16; n++) depth += wu[n / 4] * wv[n % 4] * w[n];
-    story->t[k] = ray->shift + (depth + local->start[1] + local->start[0]) * local->to_t;
+    story->t[k] = ray->shift + t_of_depth(&local->depth, patch_evaluate(depths, u, v).value);
   }
 }
 

@@ -1,7 +1,6 @@
 /* The face of the intersector: the prepared scene, the tracers, and which instruction set they use. */
 #include "intersect/intersect.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -157,12 +156,16 @@ static void ask_alone(struct tracer *tracer, size_t count, const struct ray rays
   tracer->counts = counts;
 }
 
+static bool doubtful(const struct tracer *tracer, size_t count, uint64_t grazing)
+{
+  return count > 1 && tracer->counts.grazing > grazing && !tracer->warm && !tracer->model->unproven;
+}
+
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
   const uint64_t grazing = tracer->counts.grazing;
   kernel_for(tracer, count)->closest(tracer, count, rays, out_hits);
-  if (count > 1 && tracer->counts.grazing > grazing && !tracer->warm && !tracer->model->unproven)
-    ask_alone(tracer, count, rays, out_hits);
+  if (doubtful(tracer, count, grazing)) ask_alone(tracer, count, rays, out_hits);
 }
 
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
@@ -185,9 +188,32 @@ void *growing_add(struct growing *list, size_t more, size_t size)
   return (char *)list->at + size * (list->count - more);
 }
 
+/* As ask_alone; list k's hits begin at first[k] of the tracer's. Returns whether there was memory. */
+static bool ask_all_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list lists[],
+                          size_t first[])
+{
+  const struct intersect_counts counts = tracer->counts;
+  const struct kernel *kernel = kernel_for(tracer, 1);
+  bool done = true;
+  for (size_t k = 0; k < count && done; k++) {
+    if (lists[k].certainty != CERTAINTY_GRAZING) continue;
+    first[k] = tracer->hits.count;
+    done = kernel->all(tracer, 1, &rays[k], &lists[k]);
+  }
+  tracer->counts = counts;
+  return done;
+}
+
 enum status tracer_all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])
 {
-  return kernel_for(tracer, count)->all(tracer, count, rays, out) ? STATUS_OK : STATUS_LIMIT;
+  const uint64_t grazing = tracer->counts.grazing;
+  size_t first[PACKET_SIZE], hits = 0;
+  tracer->hits.count = 0;
+  if (!kernel_for(tracer, count)->all(tracer, count, rays, out)) return STATUS_LIMIT;
+  for (size_t k = 0; k < count; k++) first[k] = hits, hits += out[k].count;
+  if (doubtful(tracer, count, grazing) && !ask_all_alone(tracer, count, rays, out, first)) return STATUS_LIMIT;
+  for (size_t k = 0; k < count; k++) out[k].hits = (const struct hit *)tracer->hits.at + first[k];
+  return STATUS_OK;
 }
 
 void hit_leave(const struct hit *hit, const double direction[3], double out_origin[3])

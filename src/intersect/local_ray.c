@@ -37,11 +37,10 @@ void local_ray_make(const struct model_patch *patch, const struct ray *ray, stru
   }
   const double unit = unit_for(largest, patch->scale), inverse = unit / patch->scale;
   for (int c = 0; c < 3; c++) q[c].hi *= inverse, q[c].lo *= inverse;
-  out->axis = k, out->unit = unit;
+  out->axis = k;
   out->slope[0] = d[i] / d[k], out->slope[1] = d[j] / d[k];
   out->moment[0] = moment(q[i], q[k], d[i], d[k]) / unit, out->moment[1] = moment(q[j], q[k], d[j], d[k]) / unit;
-  out->start[0] = -q[k].hi, out->start[1] = -q[k].lo;
-  out->to_t = patch->scale / d[k] / unit;
+  out->depth = (struct depth_map){unit, {-q[k].hi, -q[k].lo}, patch->scale / d[k] / unit};
   const double far[2] = {MOMENT_ERROR(fabs(q[i].hi), fabs(q[k].hi * out->slope[0])),
                          MOMENT_ERROR(fabs(q[j].hi), fabs(q[k].hi * out->slope[1]))};
   out->error = PLANE_ERROR(fabs(out->moment[0]), fabs(out->moment[1])) + real_max(far[0], far[1]) / unit;
@@ -73,7 +72,7 @@ double local_ray_enter(const struct ray *ray, const double origin[3], double fra
   const double longest = fabs(ray->direction[dominant_axis(ray->direction)]);
   wide at[3];
   const wide unit = (wide)longest / frame, ahead = line_at(ray, origin, at) * unit, begin = ray->t_min * unit;
-  const wide off = 4 * WIDE_ROUNDOFF * ((ahead < 0 ? -ahead : ahead) + begin), start = begin - ahead - off;
+  const wide off = 4 * WIDE_ROUNDOFF * (wide_abs(ahead) + begin), start = begin - ahead - off;
   const wide past = start > -2 ? start : -2; /* the middle */
   for (int c = 0; c < 3; c++)
     out_at[c] = cut_off(at[c] / frame + past * (ray->direction[c] / (wide)longest), FARTHEST_AT);

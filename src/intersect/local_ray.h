@@ -13,18 +13,34 @@
 #include "intersect/intersect.h"
 #include "intersect/model.h"
 
+/* From places on x_k to places along the ray: t = ((unit w + start[1]) + start[0]) to_t at x_k = w. */
+struct depth_map {
+  double unit;     /* 1, or the power of two that keeps a start beyond the range of double in it */
+  double start[2]; /* unit (center_k - origin_k)/scale as a double-double */
+  double to_t;     /* scale/d_k/unit */
+};
+
+static inline double t_of_depth(const struct depth_map *map, double w)
+{
+  return ((map->unit * w + map->start[1]) + map->start[0]) * map->to_t;
+}
+
+/* The place where t is that, as nearly as doubles have it. */
+static inline double depth_of_t(const struct depth_map *map, double t)
+{
+  return ((t / map->to_t - map->start[0]) - map->start[1]) / map->unit;
+}
+
 struct local_ray {
   int axis;         /* k; i = k + 1, j = k + 2 modulo 3 */
   double slope[2];  /* d_i/d_k, d_j/d_k, rounded; at most 1 in size */
   double moment[2]; /* m */
-  double unit;      /* 1, or the power of two that keeps a start beyond the range of double in it */
-  double start[2];  /* unit (center_k - origin_k)/scale as a double-double */
-  double to_t;      /* scale/d_k/unit: t = (unit x_k + start) to_t */
-  double error;     /* bound on the error of a coefficient or a value (inside [0,1]^2) of either plane's polynomial */
+  struct depth_map depth;
+  double error; /* bound on the error of a coefficient or a value (inside [0,1]^2) of either plane's polynomial */
 };
 
 /* Rounding errors, in units of UNIT_ROUNDOFF, of a = (x_i - m) - slope x_k and of its value in Bernstein form, for
- * |x| <= 1: net 8 (see model.c), slope 2 (packet.c multiplies by the reciprocal), moment 4|m|, the two operations
+ * |x| <= 1: net 8 (leaf.c), slope 2 (packet.c multiplies by the reciprocal), moment 4|m|, the two operations
  * 2 + |m|, and for the value ten products and sums on coefficients of at most 2 + |m|. */
 #define PLANE_ERROR(m0, m1) (UNIT_ROUNDOFF * (36 + 16 * ((m0) + (m1))))
 
@@ -52,12 +68,6 @@ double local_ray_enter(const struct ray *ray, const double origin[3], double fra
 
 /* In the coordinates of a copy's object, where it passes the middle of the copy. Returns t there. */
 double local_ray_enter_copy(const struct ray *ray, const struct model_copy *copy, double out_at[3]);
-
-/* Where along the ray x_k is w. */
-static inline double local_ray_place(const struct local_ray *ray, double w)
-{
-  return ((ray->unit * w + ray->start[1]) + ray->start[0]) * ray->to_t;
-}
 
 /* The plane polynomials' nets a, b and the net w of x_k for a local net x. */
 void local_ray_nets(const struct local_ray *ray, const double x[3][16], double a[16], double b[16], double w[16]);

@@ -16,7 +16,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/real.h"
 #include "base/team.h"
 #include "geometry/bvh.h"
 #include "geometry/edges.h"
@@ -61,8 +60,8 @@ struct leaf_form {
  * has few bits as well, and what is rounded is of the size of the rest, which is how far the leaf bends and what the
  * four have beyond the grain. */
 struct leaf_parts {
-  double base[3][4];  /* c, A, B, C of each coordinate */
-  double rest[3][16]; /* coefficient of s^i t^j at rest[coordinate][4 * i + j] */
+  double base[4][3];  /* c, A, B, C; a coordinate behind the other, for they are also read side by side */
+  double rest[16][3]; /* coefficient of s^i t^j at rest[4 * i + j] */
   double error;       /* bound on what rounding the rest adds to local_ray.error in either plane's polynomial */
   bool final;         /* rounded so little that its roots need no last step */
   /* steps up to these, in leaf parameters, leave the root right to the rounding of its coordinates, and derivatives
@@ -157,8 +156,7 @@ struct model {
   size_t object_count;
   struct model_copy *copies; /* box leaf_count + k of the hierarchy is copy k */
   size_t copy_count;
-  double origin[3], frame; /* of the whole hierarchy */
-  double error;            /* widens the boxes; an object's, or 0 */
+  double error; /* widens the boxes of the hierarchy; an object's, or 0 */
   struct model_tree tree;
   bool unproven; /* some patch has `polish off`: no answer is proven */
 };
@@ -174,9 +172,13 @@ struct model_patch *model_patch_at(const struct model *model, uint32_t index, st
 /* A leaf that is not kept. */
 void model_make_leaf(const struct model *model, uint32_t number, struct leaf_room *out);
 
-/* The model of an object: the patches of `nets`, which is borrowed for the call, cut into at most `most` leaves a
- * side, their boxes wider by `error`. */
-enum status model_create_object(const struct scene *nets, const struct team *team, int most, double error,
-                                struct model **out) STATUS_MUST_CHECK;
+/* How many leaves a side there are at most where `split` is auto: of any patch, and of one that is bent all over. */
+struct split_limit {
+  int any, bent;
+};
+
+/* The model of an object: the patches of `nets`, which is borrowed for the call, their boxes wider by `error`. */
+enum status model_create_object(const struct scene *nets, const struct team *team, const struct split_limit *limit,
+                                double error, struct model **out) STATUS_MUST_CHECK;
 
 #endif

@@ -129,28 +129,27 @@ static void parts_of_a_ray_have_theirs(void **state)
   on_all_stages(SEED + 1, SCENES, parts);
 }
 
-/* In packets of every size, shuffled, with companions of other kinds: the same bits. */
+struct alone {
+  const struct kept *lists; /* of each ray by itself */
+  int wrong;
+};
+
+static void compare_with_alone(const struct set_up *s, size_t size, const size_t number[], const struct ray rays[],
+                               void *context)
+{
+  struct alone *alone = context;
+  struct hit_list lists[PACKET_SIZE];
+  assert_int_equal(tracer_all(s->world->tracer, size, rays, lists), STATUS_OK);
+  for (size_t n = 0; n < size; n++)
+    if (!same_list(&alone->lists[number[n]], &lists[n]) && alone->wrong++ < 2)
+      print_lists("companions", s->kind, &rays[n], &alone->lists[number[n]]);
+}
+
 static void companions(struct set_up *s)
 {
-  const struct kept *alone = lists_alone(s);
-  size_t order[STAGE_RAYS];
-  for (size_t n = 0; n < STAGE_RAYS; n++) order[n] = n;
-  int wrong = 0;
-  for (int round = 0; round < 3; round++) {
-    for (size_t first = 0, size; first < STAGE_RAYS; first += size) {
-      size = round == 2 ? 1 + random_bits(s->random) % PACKET_SIZE : PACKET_SIZE;
-      if (size > STAGE_RAYS - first) size = STAGE_RAYS - first;
-      struct ray rays[PACKET_SIZE];
-      struct hit_list lists[PACKET_SIZE];
-      for (size_t n = 0; n < size; n++) rays[n] = s->rays[order[first + n]];
-      assert_int_equal(tracer_all(s->world->tracer, size, rays, lists), STATUS_OK);
-      for (size_t n = 0; n < size; n++)
-        if (!same_list(&alone[order[first + n]], &lists[n]) && wrong++ < 2)
-          print_lists("companions", s->kind, &rays[n], &alone[order[first + n]]);
-    }
-    random_shuffle(s->random, STAGE_RAYS, order);
-  }
-  assert_int_equal(wrong, 0);
+  struct alone alone = {lists_alone(s), 0};
+  in_all_companies(s, compare_with_alone, &alone);
+  assert_int_equal(alone.wrong, 0);
 }
 
 static void lists_do_not_depend_on_companions(void **state)
@@ -291,6 +290,45 @@ static void test_twice_round(void **state)
   world_close(&world);
 }
 
+/* Patches along one line: rays along it cost more than they may. What is told of them then is told of each alone, too. */
+static void test_worn(void **state)
+{
+  enum { PATCHES = 5, PACKETS = 12 };
+  static world_net nets[PATCHES];
+  static struct kept alone;
+  struct random random = {SEED + 7};
+  struct world world;
+  struct method options;
+  int grazing = 0, wrong = 0;
+  (void)state;
+  method_default(solver_find("bernstein", 9), &options);
+  options.split = 16;
+  for (int p = 0; p < PATCHES; p++)
+    for (int n = 0; n < 16; n++) nets[p][n / 4][n % 4][1] = (n / 4 - 1.5) * 0.1 * p + (n % 4 - 1) * 0.1;
+  world_open(&world, nets, PATCHES, &options);
+  for (int packet = 0; packet < PACKETS; packet++) {
+    struct ray rays[PACKET_SIZE];
+    struct hit_list lists[PACKET_SIZE];
+    for (int n = 0; n < PACKET_SIZE; n++) {
+      const double off = n % 2 ? 0 : ldexp(1, -(int)(random_bits(&random) % 70));
+      const double way = random_between(&random, -0.5, 0.5);
+      rays[n] = (struct ray){{off, random_between(&random, -0.3, 0.6), 0}, {0, way, n % 3 ? 0 : off}, 0, INFINITY};
+    }
+    assert_int_equal(tracer_all(world.tracer, PACKET_SIZE, rays, lists), STATUS_OK);
+    struct kept together[PACKET_SIZE];
+    for (int n = 0; n < PACKET_SIZE; n++) keep(&lists[n], &together[n]);
+    for (int n = 0; n < PACKET_SIZE; n++) {
+      all_of(&world, &rays[n], &alone);
+      const struct hit_list list = {together[n].certainty, together[n].count, together[n].hits};
+      grazing += alone.certainty == CERTAINTY_GRAZING, wrong += !same_list(&alone, &list);
+    }
+  }
+  print_message("%d of %d rays are grazing, %d told otherwise together\n", grazing, PACKETS * PACKET_SIZE, wrong);
+  assert_true(grazing > PACKETS * PACKET_SIZE / 8);
+  assert_int_equal(wrong, 0);
+  world_close(&world);
+}
+
 int main(void)
 {
   print_message("seed %d\n", SEED);
@@ -302,6 +340,7 @@ int main(void)
     cmocka_unit_test(test_stack),
     cmocka_unit_test(test_touching),
     cmocka_unit_test(test_twice_round),
+    cmocka_unit_test(test_worn),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

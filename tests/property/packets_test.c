@@ -15,29 +15,29 @@ static const struct hit *answers_alone(const struct set_up *s)
   return alone;
 }
 
-/* In packets of every size, in the order they come and shuffled, with companions of other kinds. */
+struct alone {
+  const struct hit *hits; /* of each ray by itself */
+  int wrong;
+};
+
+static void compare_with_alone(const struct set_up *s, size_t size, const size_t number[], const struct ray rays[],
+                               void *context)
+{
+  struct alone *alone = context;
+  struct hit hits[PACKET_SIZE];
+  tracer_closest(s->world->tracer, size, rays, hits);
+  for (size_t n = 0; n < size; n++) {
+    const struct hit *want = &alone->hits[number[n]];
+    if (!same_hit(&hits[n], want) && alone->wrong++ < 2)
+      world_print_case("companions", s->kind, &rays[n], want, &hits[n]);
+  }
+}
+
 static void companions(struct set_up *s)
 {
-  const struct hit *alone = answers_alone(s);
-  size_t order[STAGE_RAYS];
-  for (size_t n = 0; n < STAGE_RAYS; n++) order[n] = n;
-  int wrong = 0;
-  for (int round = 0; round < 3; round++) {
-    for (size_t first = 0, size; first < STAGE_RAYS; first += size) {
-      size = round == 2 ? 1 + random_bits(s->random) % PACKET_SIZE : PACKET_SIZE;
-      if (size > STAGE_RAYS - first) size = STAGE_RAYS - first;
-      struct ray rays[PACKET_SIZE];
-      struct hit hits[PACKET_SIZE];
-      for (size_t n = 0; n < size; n++) rays[n] = s->rays[order[first + n]];
-      tracer_closest(s->world->tracer, size, rays, hits);
-      for (size_t n = 0; n < size; n++) {
-        if (same_hit(&hits[n], &alone[order[first + n]])) continue;
-        if (wrong++ < 2) world_print_case("companions", s->kind, &rays[n], &alone[order[first + n]], &hits[n]);
-      }
-    }
-    random_shuffle(s->random, STAGE_RAYS, order);
-  }
-  assert_int_equal(wrong, 0);
+  struct alone alone = {answers_alone(s), 0};
+  in_all_companies(s, compare_with_alone, &alone);
+  assert_int_equal(alone.wrong, 0);
 }
 
 static void answers_do_not_depend_on_companions(void **state)

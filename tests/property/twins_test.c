@@ -9,7 +9,7 @@
 #include "intersect/intersect.h"
 #include "property/world.h"
 
-enum { SEED = 20261122, RAYS = 768, PACKET = 8, TIMES = 4, MOST = TIMES * WORLD_MAX, FAR = 70000, COPIES = 300 };
+enum { SEED = 20261122, RAYS = 768, TIMES = 4, MOST = TIMES * WORLD_MAX, FAR = 70000, COPIES = 300 };
 
 /* The net in one of its eight orders. */
 static void in_order(world_net P, int order, world_net out)
@@ -136,24 +136,17 @@ static void assert_all_there(const struct pair *pair, const struct hit_list *all
 static void compare(const struct pair *pair, int kind, struct random *random, world_net nets[], size_t count)
 {
   size_t hits = 0, certain = 0;
-  for (int n = 0; n < RAYS; n += PACKET) {
-    struct ray rays[PACKET];
-    struct hit hit[2][PACKET];
-    struct hit_list list[2][PACKET];
-    bool occluded[2][PACKET];
-    for (int l = 0; l < PACKET; l++) rays[l] = world_ray(random, nets, count, (n + l) % RAY_KINDS);
-    for (int k = 0; k < 2; k++) {
-      tracer_closest(pair->tracer[k], PACKET, rays, hit[k]);
-      tracer_occluded(pair->tracer[k], PACKET, rays, occluded[k]);
-      assert_int_equal(tracer_all(pair->tracer[k], PACKET, rays, list[k]), STATUS_OK);
-    }
-    for (int l = 0; l < PACKET; l++) {
-      if (hit[1][l].patch != HIT_NONE) hits++, hit[1][l].patch = pair->first[hit[1][l].patch];
-      if (!same_hit(&hit[0][l], &hit[1][l])) world_print_case("twins or not", kind, &rays[l], &hit[0][l], &hit[1][l]);
-      assert_true(same_hit(&hit[0][l], &hit[1][l]));
-      assert_int_equal(occluded[0][l], occluded[1][l]);
-      if (list[0][l].certainty != CERTAINTY_CERTAIN || list[1][l].certainty != CERTAINTY_CERTAIN) continue;
-      assert_all_there(pair, &list[0][l], &list[1][l]), certain++;
+  struct asked asked;
+  for (int n = 0; n < RAYS; n += ASKED_RAYS) {
+    world_ask_both(pair->tracer, random, nets, count, n, &asked);
+    for (int l = 0; l < ASKED_RAYS; l++) {
+      const struct hit_list *all = &asked.list[0][l], *few = &asked.list[1][l];
+      struct hit *hit = &asked.hit[1][l];
+      if (hit->patch != HIT_NONE) hits++, hit->patch = pair->first[hit->patch];
+      assert_same_hit("twins or not", kind, &asked.rays[l], &asked.hit[0][l], hit);
+      assert_int_equal(asked.occluded[0][l], asked.occluded[1][l]);
+      if (all->certainty == CERTAINTY_CERTAIN && few->certainty == CERTAINTY_CERTAIN)
+        assert_all_there(pair, all, few), certain++;
     }
   }
   print_message("kind %d: %zu patches of %zu, %zu hits, %zu of %d certain of all\n", kind, pair->scene[1].patch_count,
@@ -256,8 +249,7 @@ static void that_are_copies(void **state)
     for (int k = 0; k < 2; k++) tracer_closest(pair.tracer[k], 1, &ray, &hit[k]);
     if (hit[0].patch != HIT_NONE) hits++, hit[0].patch %= (uint32_t)count + 1;
     if (hit[1].patch != HIT_NONE) hit[1].patch %= (uint32_t)count;
-    if (!same_hit(&hit[0], &hit[1])) world_print_case("copies", WORLD_DOME, &ray, &hit[0], &hit[1]);
-    assert_true(same_hit(&hit[0], &hit[1]));
+    assert_same_hit("copies", WORLD_DOME, &ray, &hit[0], &hit[1]);
   }
   print_message("%zu hits\n", hits);
   assert_true(hits > RAYS / 2);

@@ -12,7 +12,7 @@
 #include "language/language.h"
 #include "property/world.h"
 
-enum { SEED = 20261122, RAYS = 400, PACKET = 8, MANY = 70000 };
+enum { SEED = 20261122, RAYS = 400, MANY = 70000 };
 
 /* The nets alone, or with small patches far away besides: one leaf each in either case. */
 struct side {
@@ -43,31 +43,21 @@ static void side_close(struct side *side)
   free(side->scene.patches);
 }
 
-/* Which of the two tracers of the large scene answers: one that remembers leaves, or one that makes each anew. */
-static int compare(int kind, const struct side sides[2], struct tracer *other, struct random *random, world_net nets[],
-                   size_t count)
+static int compare(int kind, struct tracer *const tracers[2], struct random *random, world_net nets[], size_t count)
 {
   int hits = 0;
-  for (int n = 0; n < RAYS; n += PACKET) {
-    struct ray rays[PACKET];
-    struct hit hit[2][PACKET];
-    struct hit_list list[2][PACKET];
-    bool occluded[2][PACKET];
-    for (int l = 0; l < PACKET; l++) rays[l] = world_ray(random, nets, count, (n + l) % RAY_KINDS);
-    for (int k = 0; k < 2; k++) {
-      struct tracer *tracer = k == 0 ? sides[0].tracer : other;
-      tracer_closest(tracer, PACKET, rays, hit[k]);
-      tracer_occluded(tracer, PACKET, rays, occluded[k]);
-      assert_int_equal(tracer_all(tracer, PACKET, rays, list[k]), STATUS_OK);
-    }
-    for (int l = 0; l < PACKET; l++) {
-      hits += hit[0][l].patch != HIT_NONE;
-      if (!same_hit(&hit[0][l], &hit[1][l])) world_print_case("kept or not", kind, &rays[l], &hit[0][l], &hit[1][l]);
-      assert_true(same_hit(&hit[0][l], &hit[1][l]));
-      assert_int_equal(occluded[0][l], occluded[1][l]);
-      assert_int_equal(list[0][l].count, list[1][l].count);
-      assert_int_equal(list[0][l].certainty, list[1][l].certainty);
-      for (size_t h = 0; h < list[0][l].count; h++) assert_true(same_hit(&list[0][l].hits[h], &list[1][l].hits[h]));
+  struct asked asked;
+  for (int n = 0; n < RAYS; n += ASKED_RAYS) {
+    world_ask_both(tracers, random, nets, count, n, &asked);
+    for (int l = 0; l < ASKED_RAYS; l++) {
+      const struct hit_list *kept = &asked.list[0][l], *unkept = &asked.list[1][l];
+      hits += asked.hit[0][l].patch != HIT_NONE;
+      assert_same_hit("kept or not", kind, &asked.rays[l], &asked.hit[0][l], &asked.hit[1][l]);
+      assert_int_equal(asked.occluded[0][l], asked.occluded[1][l]);
+      assert_int_equal(kept->count, unkept->count);
+      assert_int_equal(kept->certainty, unkept->certainty);
+      for (size_t h = 0; h < kept->count; h++)
+        assert_same_hit("kept or not, of all", kind, &asked.rays[l], &kept->hits[h], &unkept->hits[h]);
     }
   }
   return hits;
@@ -86,10 +76,10 @@ static void answers_are_the_same(void **state)
     method_default(solver_find(solvers[kind % 3], strlen(solvers[kind % 3])), &solver);
     solver.split = 1;
     for (int k = 0; k < 2; k++) side_open(&sides[k], &solver, nets, count, k == 0 ? 0 : MANY);
-    struct tracer anew;
+    struct tracer anew; /* unlike the other one it remembers no leaves, and makes each anew */
     tracer_begin(sides[1].intersector, &anew);
-    const int hits = compare(kind, sides, sides[1].tracer, &random, nets, count) +
-                     compare(kind, sides, &anew, &random, nets, count);
+    const int hits = compare(kind, (struct tracer *[]){sides[0].tracer, sides[1].tracer}, &random, nets, count) +
+                     compare(kind, (struct tracer *[]){sides[0].tracer, &anew}, &random, nets, count);
     tracer_end(&anew);
     print_message("kind %d: %d rays, %d hits\n", kind, 2 * RAYS, hits);
     assert_true(hits > RAYS / 16);

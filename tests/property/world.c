@@ -206,6 +206,33 @@ void on_all_stages(uint64_t seed, int scenes, void (*body)(struct set_up *stage)
   }
 }
 
+void in_all_companies(struct set_up *s, ask_packet *ask, void *context)
+{
+  size_t order[STAGE_RAYS];
+  for (size_t n = 0; n < STAGE_RAYS; n++) order[n] = n;
+  for (int round = 0; round < 3; round++) {
+    for (size_t first = 0, size; first < STAGE_RAYS; first += size) {
+      size = round == 2 ? 1 + random_bits(s->random) % PACKET_SIZE : PACKET_SIZE;
+      if (size > STAGE_RAYS - first) size = STAGE_RAYS - first;
+      struct ray rays[PACKET_SIZE];
+      for (size_t n = 0; n < size; n++) rays[n] = s->rays[order[first + n]];
+      ask(s, size, order + first, rays, context);
+    }
+    random_shuffle(s->random, STAGE_RAYS, order);
+  }
+}
+
+void world_ask_both(struct tracer *const tracers[2], struct random *random, world_net *nets, size_t count, int first,
+                    struct asked *out)
+{
+  for (int l = 0; l < ASKED_RAYS; l++) out->rays[l] = world_ray(random, nets, count, (first + l) % RAY_KINDS);
+  for (int k = 0; k < 2; k++) {
+    tracer_closest(tracers[k], ASKED_RAYS, out->rays, out->hit[k]);
+    tracer_occluded(tracers[k], ASKED_RAYS, out->rays, out->occluded[k]);
+    assert_int_equal(tracer_all(tracers[k], ASKED_RAYS, out->rays, out->list[k]), STATUS_OK);
+  }
+}
+
 bool same_hit(const struct hit *a, const struct hit *b)
 {
   if (a->patch != b->patch || a->certainty != b->certainty) return false;
@@ -225,6 +252,13 @@ void world_print_case(const char *what, int kind, const struct ray *r, const str
     if (h->patch == HIT_NONE) print_message("  miss %d\n", h->certainty);
     else print_message("  patch %u t %.17g u %.17g v %.17g certainty %d\n", h->patch, h->t, h->u, h->v, h->certainty);
   }
+}
+
+void assert_same_hit(const char *what, int kind, const struct ray *ray, const struct hit *a, const struct hit *b)
+{
+  if (same_hit(a, b)) return;
+  world_print_case(what, kind, ray, a, b);
+  fail();
 }
 
 struct hit world_closest(const struct world *world, const struct ray *ray)

@@ -57,6 +57,25 @@ struct set_up {
 /* Calls `body` on so many scenes of each kind, one after the other. */
 void on_all_stages(uint64_t seed, int scenes, void (*body)(struct set_up *stage));
 
+/* Hands the rays of the stage to `ask` in packets, `number` saying which they are: in the order they come, shuffled,
+ * and shuffled in packets of every size. */
+typedef void ask_packet(const struct set_up *stage, size_t size, const size_t number[], const struct ray rays[],
+                        void *context);
+void in_all_companies(struct set_up *stage, ask_packet *ask, void *context);
+
+/* A packet of rays and the answers of two tracers to them, of each in three ways. */
+enum { ASKED_RAYS = 8 };
+struct asked {
+  struct ray rays[ASKED_RAYS];
+  struct hit hit[2][ASKED_RAYS];
+  bool occluded[2][ASKED_RAYS];
+  struct hit_list list[2][ASKED_RAYS]; /* of tracer_all: gone when the tracer is asked again */
+};
+
+/* Asks both of rays at the nets, ray n of kind `first` + n and so on round. */
+void world_ask_both(struct tracer *const tracers[2], struct random *random, world_net *nets, size_t count, int first,
+                    struct asked *out);
+
 /* Whether two hits are the same to the last bit (only the certainty counts for misses). */
 bool same_hit(const struct hit *a, const struct hit *b);
 
@@ -65,6 +84,9 @@ struct hit world_closest(const struct world *world, const struct ray *ray);
 
 /* Prints a ray and two answers that should agree; `kind` is that of the scene. */
 void world_print_case(const char *what, int kind, const struct ray *ray, const struct hit *a, const struct hit *b);
+
+/* Asserts that the two are the same to the last bit, and prints the case where they are not. */
+void assert_same_hit(const char *what, int kind, const struct ray *ray, const struct hit *a, const struct hit *b);
 
 /* Every coordinate times a factor, then moved by the offset. */
 void world_scale_net(world_net net, double factor, double offset, world_net out);

@@ -11,7 +11,7 @@ enum { SEED = 20261122, MOST_PATCHES = 1000, RAYS = 24 };
 
 /* What one ray may take: leaves tried, leaves left open (after some of them all), work of the last resort; where all hits
  * are asked for, more. See lanes/packet.h and exact/judge.c. */
-enum { TRIED = 2048, TRIED_ALL = 8192, OPEN = TRIED, OPEN_ALL = 1024 + 1, WORK = 5632, WORK_ALL = 49152 };
+enum { TRIED = 4096, TRIED_ALL = 16384, OPEN = TRIED, OPEN_ALL = 1024 + 1, WORK = 5632, WORK_ALL = 49152 };
 
 typedef void fill(struct random *random, size_t number, size_t count, world_net net);
 typedef void aim(struct random *random, struct ray *ray);

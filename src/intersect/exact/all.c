@@ -69,19 +69,14 @@ static bool holds(const struct exact_root *a, const struct exact_root *b)
   return apart(a->u, b->u) + b->radius_u <= a->radius_u && apart(a->v, b->v) + b->radius_v <= a->radius_v;
 }
 
-static bool enclosures_meet(const struct exact_root *a, const struct exact_root *b)
-{
-  return apart(a->u, b->u) <= a->radius_u + b->radius_u && apart(a->v, b->v) <= a->radius_v + b->radius_v;
-}
-
 /* Whether two roots of one patch are one; true and a doubt where that cannot be told. */
 static bool same_root(struct judge *j, const struct exact_root *a, const struct exact_root *b)
 {
-  if (!enclosures_meet(a, b)) return false;
+  if (!exact_roots_meet(a, b)) return false;
   if (holds(a, b) || holds(b, a)) return true;
   struct exact_root one = *a, two = *b;
   if (judge_sharpen(j, &one) && judge_sharpen(j, &two)) {
-    if (!enclosures_meet(&one, &two)) return false;
+    if (!exact_roots_meet(&one, &two)) return false;
     const double off = fmax(apart(one.u, two.u) + one.radius_u + two.radius_u,
                             apart(one.v, two.v) + one.radius_v + two.radius_v);
     if (off <= fmax(one.alone, two.alone) || holds(&one, &two) || holds(&two, &one)) return true;

@@ -18,6 +18,11 @@
 /* A combination whose computed values are within this many of its error bounds all over a box says nothing about it. */
 #define FLAT_ERRORS (UNDECIDED_ERRORS - 1)
 
+/* How many steps take a point of a box onto the ray, where they can: it converges quadratically, or halves what is left
+ * where there is a double root; and how far off it may be then, in error bounds. A choice of words: what is told is
+ * grazing. */
+enum { ONTO_STEPS = 8, ONTO_ERRORS = 16 };
+
 enum verdict {
   VERDICT_EMPTY, /* no root in the box */
   VERDICT_FLAT,  /* some combination, but not all, is indistinguishable from zero on it */
@@ -27,7 +32,7 @@ enum verdict {
 
 struct box {
   double net[3][4][4];   /* a, b, w */
-  double u, v;           /* low corner, of the search's whole box */
+  double u, v;           /* low corner, of the search's window */
   double size_u, size_v; /* as parts of it, no smaller than LEAST_SIZE: so all four are exact */
   double near, far;      /* hull of t */
   int halvings;
@@ -50,22 +55,6 @@ bool box_onto_ray(struct box *box, const double error[2], double *u, double *v);
 
 /* The largest change of the nets first..last from one coefficient to the next, along u and along v. */
 void box_variation(const struct box *box, int first, int last, double *along_u, double *along_v);
-
-enum box_curves {
-  BOX_CURVES_NONE,   /* no point of the box is on the ray */
-  BOX_CURVES_BEGIN,  /* of all that are the one at (u,v), on a border of the box, comes first */
-  BOX_CURVES_UNKNOWN /* that is not known */
-};
-
-/* Of a box on which a and b are one polynomial but for a factor, as they are where a ray lies in the plane of a flat patch:
- * what is on the ray are curves. Where that polynomial and w are coordinates of the box, along each of them w only grows
- * or only falls, and it begins on a border. way: 1 where t grows with w, -1 where it falls. *off: a bound on what that
- * point's w may be larger than the first one's. */
-enum box_curves box_curves_begin(struct box *box, const double error[2], double way, double *u, double *v, double *off);
-
-/* The point of such curves where w is `depth`, by Newton's process from the middle of the box on. Returns whether it is
- * found, in the box. */
-bool box_curves_at(struct box *box, const double error[2], double depth, double *u, double *v);
 
 /* The two halves, but for their hulls of t. */
 void box_cut(struct box *box, bool across_u, struct box out[2]);

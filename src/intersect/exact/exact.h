@@ -12,6 +12,7 @@
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H
 #define PSCN_INTERSECT_EXACT_EXACT_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "base/wide.h"
@@ -35,6 +36,13 @@ struct exact_root {
   double t_error;            /* absolute */
   double alone; /* of a sharp one: no other root of the patch has parameters that are both within this of its */
 };
+
+/* Whether two of one patch may be the same. */
+static inline bool exact_roots_meet(const struct exact_root *a, const struct exact_root *b)
+{
+  return fabs((double)(a->u - b->u)) <= a->radius_u + b->radius_u &&
+         fabs((double)(a->v - b->v)) <= a->radius_v + b->radius_v;
+}
 
 static inline bool exact_region_equal(const struct exact_region *a, const struct exact_region *b)
 {

@@ -108,6 +108,9 @@ static bool invert(const double g[3], const double d[3], double m[2][2])
 #define FOLD_STEP 0x1p-27
 enum { FOLD_STEPS = 8 };
 
+/* How far from the middle a fold may be: as far as BOX_MARGIN. */
+#define FOLD_REACH (1 + 2 * BOX_MARGIN)
+
 /* A step of it from `at`, where the map's first row is g, its second one d, and the inverse Jacobian m; how long it is,
  * or NaN where it leads too far. */
 static double step_on(const double g[3], const double d[3], double m[2][2], double at[2])

@@ -22,9 +22,6 @@
 
 #define FOLD_BEND 0.3125
 
-/* How far from the middle a fold, and its roots, may be: as far as BOX_MARGIN. */
-#define FOLD_REACH (1 + 2 * BOX_MARGIN)
-
 enum fold_verdict {
   FOLD_EMPTY, /* no root in the box */
   FOLD_ROOTS, /* two on the arc */

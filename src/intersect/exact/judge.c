@@ -8,9 +8,7 @@
 #include "intersect/exact/judge.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-#include "base/double_double.h"
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
@@ -20,13 +18,9 @@
  * come there. */
 enum { JUDGE_WORK = 2560 };
 
-/* Work that the regions have for themselves besides, one as much as another but no more than so much: so one that the ray
- * lies in leaves others decided. Where something may be a hit this is all, and in the region where that is there is no more
- * than so much: most answers are grazing then, whatever else is found. All in all that is less than a millisecond. */
-enum { JUDGE_APART_WORK = 1536, JUDGE_REGION_WORK = 512, JUDGE_MAYBE_WORK = 128 };
-
-/* With less than this a region is not begun: a root and what comes next to it at one t, made sharp. */
-enum { JUDGE_LEAST_WORK = 64 };
+/* Where something may be a hit no more than so much is done in its region, and in the others what they have for themselves
+ * (regions.c): most answers are grazing then, whatever else is found. */
+enum { JUDGE_MAYBE_WORK = 128 };
 
 void judge_turn(struct judge *j, uint32_t patch)
 {
@@ -102,22 +96,15 @@ bool judge_sharpen(struct judge *j, struct exact_root *root)
 
 bool judge_tie(const struct exact_root *a, const struct exact_root *b)
 {
-  const wide apart = a->t < b->t ? b->t - a->t : a->t - b->t;
-  return apart <= a->t_error + b->t_error;
+  return wide_abs(a->t - b->t) <= a->t_error + b->t_error;
 }
 
 bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct exact_root *b)
 {
   judge_turn(j, a->patch);
   const struct zoom *zoom = judge_zoom(j);
-  const double well = TIE_ERRORS * (double)(zoom_error(zoom) * (zoom->to_t < 0 ? -zoom->to_t : zoom->to_t));
+  const double well = TIE_ERRORS * (double)(zoom_error(zoom) * wide_abs(zoom->to_t));
   return a->t_error + b->t_error <= UNIT_ROUNDOFF * fabs((double)a->t) + well;
-}
-
-static bool same_root(const struct exact_root *a, const struct exact_root *b)
-{
-  return a->patch == b->patch && fabs((double)(a->u - b->u)) <= a->radius_u + b->radius_u &&
-         fabs((double)(a->v - b->v)) <= a->radius_v + b->radius_v;
 }
 
 bool judge_stands_before(const struct exact_root *a, const struct exact_root *b)
@@ -159,7 +146,7 @@ static void keep_root(struct judge *j, struct exact_root *root)
     (void)list_root(j, root, EXACT_INSIDE, 0); /* or the list has failed */
     return;
   }
-  if (j->found && same_root(root, &j->nearest)) return;
+  if (j->found && root->patch == j->nearest.patch && exact_roots_meet(root, &j->nearest)) return;
   struct exact_root *other = &j->nearest;
   if (j->found && judge_tie(root, other)) {
     sharpen(j, other), sharpen(j, root);
@@ -201,8 +188,8 @@ static void tell_maybe(struct judge *j, unsigned borders, const struct exact_roo
   const double w = patch_evaluate(j->is->x[j->local.axis], u, v).value;
   double t = (double)root->t;
   if (!root->sharp) {
-    t = local_ray_place(&j->local, w);
-    t_error += 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.unit * j->local.to_t));
+    t = t_of_depth(&j->local.depth, w);
+    t_error += 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.depth.unit * j->local.depth.to_t));
   }
   const struct exact_maybe maybe = {j->patch, borders, u, v, t, t_error};
   keep_maybe(j, &maybe);
@@ -223,7 +210,7 @@ static bool point_root(const struct judge *j, int row, int column, double u, dou
   const int k = j->local.axis;
   *out = (struct exact_root){
     .patch = j->patch, .sharp = true, .u = u, .v = v, .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
-  out->t_error = 4 * (double)(WIDE_ROUNDOFF * (out->t < 0 ? -out->t : out->t));
+  out->t_error = 4 * (double)(WIDE_ROUNDOFF * wide_abs(out->t));
   return true;
 }
 
@@ -382,58 +369,12 @@ static void settle_borders(struct judge *j)
 
 /* ---- the case ---- */
 
-struct ordered {
-  double near;
-  const struct exact_region *region;
-};
-
-static int by_distance(const void *a, const void *b)
-{
-  const struct ordered *x = a, *y = b;
-  if (x->near != y->near) return x->near < y->near ? -1 : 1;
-  if (x->region->patch != y->region->patch) return x->region->patch < y->region->patch ? -1 : 1;
-  const uint16_t *a_column = x->region->column, *b_column = y->region->column;
-  if (a_column[0] != b_column[0]) return a_column[0] < b_column[0] ? -1 : 1;
-  return a_column[1] < b_column[1] ? -1 : a_column[1] > b_column[1];
-}
-
-/* left: how many regions there are from this one on. */
-static void search(struct judge *j, const struct exact_region *region, size_t left)
-{
-  const int part = (int)((size_t)j->apart / left), own = part < JUDGE_REGION_WORK ? part : JUDGE_REGION_WORK;
-  const int shared = j->doubtful ? 0 : j->work;
-  const uint64_t before = *j->asked->work;
-  const size_t found = j->list->count;
-  judge_turn(j, region->patch);
-  j->work = shared + own < JUDGE_LEAST_WORK ? 0 : shared + own;
-  judge_spend(j, WORK_REGION);
-  search_region(j, region);
-  const int took = (int)(*j->asked->work - before);
-  j->apart -= took < own ? took : own;
-  j->work = took < own ? shared : took < shared + own ? shared + own - took : 0;
-  if (j->all && j->list->count <= HITS_MOST) j->work += WORK_HIT * (int)(j->list->count - found);
-}
-
-static void search_nearest(struct judge *j, const struct exact_region regions[], size_t count)
-{
-  struct ordered order[EXACT_REGIONS_MAX];
-  for (size_t k = 0; k < count; k++) {
-    order[k] = (struct ordered){-INFINITY, &regions[k]};
-    if (count == 1) break;
-    judge_turn(j, regions[k].patch);
-    order[k].near = search_near(j, &regions[k]);
-  }
-  qsort(order, count, sizeof *order, by_distance);
-  for (size_t k = 0; k < count && order[k].near <= j->limit; k++) search(j, order[k].region, count - k);
-}
-
 void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct exact_list *list)
 {
   *j = (struct judge){.asked = asked,
                       .all = all,
                       .list = list,
                       .work = JUDGE_WORK,
-                      .apart = JUDGE_APART_WORK,
                       .undecided = INFINITY,
                       .tied_from = INFINITY,
                       .patch = UINT32_MAX};
@@ -443,10 +384,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct
   }
   set_limit(j);
   if (!all && asked->maybe) keep_maybe(j, asked->maybe);
-  const size_t count = judge_regions(j, asked->regions, asked->region_count);
-  if (!all) search_nearest(j, asked->regions, count);
-  else
-    for (size_t k = 0; k < count; k++) search(j, &asked->regions[k], count - k);
+  judge_search(j);
 }
 
 /* The nearest hit. */

@@ -39,7 +39,7 @@ struct judge {
   double undecided; /* nothing that is nearer was left undecided for want of work */
   double limit;     /* nothing beyond this t matters */
   int work;         /* that may still be done, see WORK_REGION */
-  int apart;        /* the same besides, see JUDGE_APART_WORK */
+  int apart;        /* the same besides, for regions by themselves (regions.c) */
   size_t open;      /* places in `list` that may be hits, where all hits are asked for */
   /* of the patch looked at last */
   uint32_t patch;
@@ -97,8 +97,9 @@ size_t judge_star(struct judge *j, size_t at, size_t first, size_t end, size_t o
  * that. */
 bool judge_passes(const struct ray *ray, const double point[3]);
 
-/* regions.c: widens the regions to what is to be searched, sorts them, and leaves each there once. Returns how many. */
-size_t judge_regions(struct judge *j, struct exact_region regions[], size_t count);
+/* regions.c: has the case's regions searched, which are put into another order: those that the ray meets first come first
+ * where the nearest hit is asked for. */
+void judge_search(struct judge *j);
 
 /* Turns to the patch. */
 void judge_turn(struct judge *j, uint32_t patch);

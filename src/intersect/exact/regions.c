@@ -1,5 +1,5 @@
-/* The regions that a ray leaves open, before they are searched: each once, along poles all of the strip, and many of one
- * patch as one. */
+/* The regions that a ray leaves open: each is searched once, along poles all of the strip, and many of one patch as one;
+ * in what order, and with how much work. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -86,8 +86,68 @@ size_t exact_regions_merge(struct exact_region regions[], size_t count, size_t m
  * double precision tells nothing of it. A choice of speed. */
 enum { REGIONS_APART = 8 };
 
-size_t judge_regions(struct judge *j, struct exact_region regions[], size_t count)
+/* Work that the regions have for themselves besides what is shared, one as much as another but no more than so much: so
+ * one that the ray lies in leaves others decided. All in all that is less than a millisecond. */
+enum { APART_WORK = 1536, REGION_WORK = 512 };
+
+/* With less than this a region is not begun: a root and what comes next to it at one t, made sharp. */
+enum { LEAST_WORK = 64 };
+
+/* A region and where the ray comes to it. */
+struct ordered {
+  double near;
+  const struct exact_region *region;
+};
+
+static int by_distance(const void *a, const void *b)
 {
+  const struct ordered *x = a, *y = b;
+  if (x->near != y->near) return x->near < y->near ? -1 : 1;
+  if (x->region->patch != y->region->patch) return x->region->patch < y->region->patch ? -1 : 1;
+  const uint16_t *a_column = x->region->column, *b_column = y->region->column;
+  if (a_column[0] != b_column[0]) return a_column[0] < b_column[0] ? -1 : 1;
+  return a_column[1] < b_column[1] ? -1 : a_column[1] > b_column[1];
+}
+
+/* With its share of the work that is apart, and with all that is shared unless something may be a hit; what it leaves of
+ * its share is the next ones'. left: how many regions there are from this one on. */
+static void search(struct judge *j, const struct exact_region *region, size_t left)
+{
+  const int part = (int)((size_t)j->apart / left), own = part < REGION_WORK ? part : REGION_WORK;
+  const int shared = j->doubtful ? 0 : j->work;
+  const uint64_t before = *j->asked->work;
+  const size_t found = j->list->count;
+  judge_turn(j, region->patch);
+  j->work = shared + own < LEAST_WORK ? 0 : shared + own;
+  judge_spend(j, WORK_REGION);
+  search_region(j, region);
+  const int took = (int)(*j->asked->work - before);
+  j->apart -= took < own ? took : own;
+  j->work = took < own ? shared : took < shared + own ? shared + own - took : 0;
+  if (j->all && j->list->count <= HITS_MOST) j->work += WORK_HIT * (int)(j->list->count - found);
+}
+
+static void search_nearest(struct judge *j, const struct exact_region regions[], size_t count)
+{
+  struct ordered order[EXACT_REGIONS_MAX];
+  for (size_t k = 0; k < count; k++) {
+    order[k] = (struct ordered){-INFINITY, &regions[k]};
+    if (count == 1) break;
+    judge_turn(j, regions[k].patch);
+    order[k].near = search_near(j, &regions[k]);
+  }
+  qsort(order, count, sizeof *order, by_distance);
+  for (size_t k = 0; k < count && order[k].near <= j->limit; k++) search(j, order[k].region, count - k);
+}
+
+void judge_search(struct judge *j)
+{
+  struct exact_region *regions = j->asked->regions;
+  size_t count = j->asked->region_count;
   for (size_t k = 0; k < count; k++) region_widen(j, &regions[k]);
-  return exact_regions_merge(regions, count, REGIONS_APART);
+  count = exact_regions_merge(regions, count, REGIONS_APART);
+  j->apart = APART_WORK;
+  if (!j->all) search_nearest(j, regions, count);
+  else
+    for (size_t k = 0; k < count; k++) search(j, &regions[k], count - k);
 }

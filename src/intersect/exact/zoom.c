@@ -23,9 +23,6 @@
  * 2 x 4. */
 #define ZOOMED_ROUNDINGS 12
 
-static wide wide_abs(wide a) { return a < 0 ? -a : a; }
-static wide wide_max(wide a, wide b) { return a > b ? a : b; }
-
 /* Bernstein coefficients with the stride to powers of s = 2t - 1. */
 static void to_powers(fixed *b, int stride)
 {
@@ -297,60 +294,6 @@ static void evaluate(fixed c[4][4], fixed x, fixed y, fixed *value, fixed *dx, f
     *dx = fixed_product(*dx, x) + *value, *value = fixed_product(*value, x) + row;
     *dy = fixed_product(*dy, x) + row_dy;
   }
-}
-
-/* The weights of a cubic's control values, and of their differences in the derivative. */
-static void wide_weights(wide t, wide w[4], wide dw[3])
-{
-  const wide s = 1 - t;
-  w[0] = s * s * s, w[1] = 3 * s * s * t, w[2] = 3 * s * t * t, w[3] = t * t * t;
-  dw[0] = 3 * s * s, dw[1] = 6 * s * t, dw[2] = 3 * t * t;
-}
-
-/* Su x Sv, over its largest coordinate; false where it vanishes. */
-static bool wide_across(double (*P)[4][3], wide u, wide v, wide n[3])
-{
-  wide wu[4], du[3], wv[4], dv[3], su[3] = {0}, sv[3] = {0}, size = 0;
-  wide_weights(u, wu, du);
-  wide_weights(v, wv, dv);
-  for (int c = 0; c < 3; c++) {
-    for (int i = 0; i < 3; i++) {
-      for (int j = 0; j < 4; j++) {
-        su[c] += du[i] * wv[j] * ((wide)P[i + 1][j][c] - P[i][j][c]);
-        sv[c] += wu[j] * dv[i] * ((wide)P[j][i + 1][c] - P[j][i][c]);
-      }
-    }
-  }
-  for (int c = 0; c < 3; c++) {
-    n[c] = su[(c + 1) % 3] * sv[(c + 2) % 3] - su[(c + 2) % 3] * sv[(c + 1) % 3];
-    size = wide_max(size, wide_abs(n[c]));
-  }
-  for (int c = 0; c < 3; c++) n[c] /= size;
-  return size > 0;
-}
-
-wide wide_t(double (*P)[4][3], const struct ray *ray, wide u, wide v)
-{
-  wide wu[4], wv[4], unused[3], n[3], above = 0, along = 0;
-  if (!wide_across(P, u, v, n)) return 0;
-  wide_weights(u, wu, unused);
-  wide_weights(v, wv, unused);
-  for (int c = 0; c < 3; c++) {
-    wide from_start = 0;
-    for (int k = 0; k < 16; k++) from_start += wu[k / 4] * wv[k % 4] * ((wide)P[k / 4][k % 4][c] - ray->origin[c]);
-    above += n[c] * from_start, along += n[c] * ray->direction[c];
-  }
-  return along != 0 ? above / along : 0;
-}
-
-bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3])
-{
-  wide n[3];
-  if (!wide_across(P, u, v, n)) return false;
-  for (int c = 0; c < 3; c++) out[c] = (double)n[c];
-  const double length = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
-  for (int c = 0; c < 3; c++) out[c] /= length;
-  return true;
 }
 
 wide zoom_t(struct zoom *zoom, wide u, wide v)

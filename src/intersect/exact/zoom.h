@@ -76,13 +76,6 @@ enum zoom_pole {
 bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2], int border, struct zoomed *out,
                    enum zoom_pole *out_pole);
 
-/* Su x Sv of the patch with the control points P at (u,v), of unit length; false where it vanishes. */
-bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3]);
-
-/* t where the ray comes through the tangent plane at (u,v), next to which its root is: right to the last places of the
- * point's distance from the ray's start, however small that is beside the patch. 0 where there is none. */
-wide wide_t(double (*P)[4][3], const struct ray *ray, wide u, wide v);
-
 /* t of the point (u,v). */
 wide zoom_t(struct zoom *zoom, wide u, wide v);
 

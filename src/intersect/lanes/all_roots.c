@@ -100,7 +100,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
     *proven |= only;
     alone |= only;
   }
-  return alone | ((found > 0) & (within == it->variations));
+  return resultant_counts(it) ? alone | ((found > 0) & (within == it->variations)) : alone;
 }
 
 /* The lanes of `open` where these are all that the leaf has, by boxes. */

@@ -5,9 +5,9 @@
 #include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
 
-LANES_INLINE lanes plane_of(const struct line *line, int axis, int number, const double base[3][4], int n)
+LANES_INLINE lanes plane_of(const struct line *line, int axis, int number, const double base[4][3], int n)
 {
-  return base[(axis + 1 + number) % 3][n] - line->slope[number] * base[axis][n];
+  return base[n][(axis + 1 + number) % 3] - line->slope[number] * base[n][axis];
 }
 
 /* 0 where t is not a number, and within the leaf. */

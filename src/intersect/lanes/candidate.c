@@ -11,7 +11,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
 {
   const struct model_patch *patch = it->patch;
   uint64_t *entered = p->tracer->counts.stages;
-  open = stage_box(it, open);
+  open = stage_box(p, it, open);
   p->postponed->leaves += open; /* -1 each */
   const lane_mask worn = open & (p->postponed->leaves < 0);
   if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn)), open &= ~worn;

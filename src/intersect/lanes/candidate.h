@@ -32,8 +32,9 @@ struct candidate {
   lanes variations; /* sign variations of c, at most; -1 where they are not counted */
 };
 
-/* planes.c: the box along the leaf. */
-lane_mask stage_box(struct candidate *it, lane_mask open);
+/* planes.c: the box along the leaf; closed where the ray passes it by, or it lies before the ray's start or behind its end or
+ * nearest hit. */
+lane_mask stage_box(const struct packet *p, struct candidate *it, lane_mask open);
 
 /* bilinear.c: the root of the leaf's bilinear part, from a resultant of degree 2, made good by Newton's process on the
  * leaf. Open stays where the ray is so slanted that it is not proven to be the only one. Leaves that are bent are not
@@ -90,6 +91,14 @@ lanes plane_depth(const struct candidate *it, lanes u, lanes v);
 
 /* resultant.c: the eliminated parameter at a root of r. */
 lanes resultant_eliminated(const struct candidate *it, lanes kept);
+
+/* Whether r is of the leaf's own polynomials, so that it has a root for each of the leaf's. Of polynomials of a lower degree,
+ * which are off by form->excess, each of those is a root when both are moved so that it is one: no two need be roots of the
+ * same r, whose sign variations tell that there is none, but not how many there are. */
+LANES_INLINE bool resultant_counts(const struct candidate *it)
+{
+  return !it->leaf->form || it->leaf->form->excess == 0;
+}
 
 /* t within [0,1], or the middle where it is not a number. */
 LANES_INLINE lanes start_within(lanes t)

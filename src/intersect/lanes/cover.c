@@ -58,6 +58,18 @@ static void cover_split(const struct leaf *leaf, struct cover_box *box, struct c
   }
 }
 
+/* The lanes of `open` where p a + q b does not keep one sign on the net. */
+LANES_INLINE lane_mask cover_changes(const lanes a[16], const lanes b[16], lanes p, lanes q, lanes error,
+                                     lane_mask open)
+{
+  lanes low = p * a[0] + q * b[0], high = low;
+  for (int n = 1; n < 16; n++) {
+    const lanes value = p * a[n] + q * b[n];
+    low = lanes_min(value, low), high = lanes_max(value, high);
+  }
+  return open & (low <= error) & (high >= -error);
+}
+
 /* The lanes of `open` where neither a nor b nor a combination of them keeps one sign on the box. `size` bounds the
  * coefficients, `error` what they are off by; a combination has three roundings of its own. */
 LANES_INLINE lane_mask cover_full(const struct cover_box *box, lanes size, lanes error, lane_mask open)
@@ -65,15 +77,11 @@ LANES_INLINE lane_mask cover_full(const struct cover_box *box, lanes size, lanes
   const lanes *a = box->a, *b = box->b;
   const lanes au = (a[13] + a[14]) - (a[1] + a[2]), av = (a[7] + a[11]) - (a[4] + a[8]);
   const lanes bu = (b[13] + b[14]) - (b[1] + b[2]), bv = (b[7] + b[11]) - (b[4] + b[8]);
-  lanes low[4], high[4];
-  for (int n = 0; n < 16; n++) {
-    const lanes value[4] = {a[n], b[n], bv * a[n] - av * b[n], au * b[n] - bu * a[n]};
-    for (int k = 0; k < 4; k++)
-      low[k] = n ? lanes_min(value[k], low[k]) : value[k], high[k] = n ? lanes_max(value[k], high[k]) : value[k];
-  }
-  const lanes e = error + 8 * UNIT_ROUNDOFF * size;
-  const lanes errors[4] = {error, error, e * (lanes_abs(bv) + lanes_abs(av)), e * (lanes_abs(au) + lanes_abs(bu))};
-  for (int k = 0; k < 4; k++) open &= (low[k] <= errors[k]) & (high[k] >= -errors[k]);
+  const lanes e = error + 8 * UNIT_ROUNDOFF * size, one = lanes_all(1), none = lanes_all(0);
+  open = cover_changes(a, b, bv, -av, e * (lanes_abs(bv) + lanes_abs(av)), open);
+  if (lanes_any(open)) open = cover_changes(a, b, -bu, au, e * (lanes_abs(au) + lanes_abs(bu)), open);
+  if (lanes_any(open)) open = cover_changes(a, b, one, none, error, open);
+  if (lanes_any(open)) open = cover_changes(a, b, none, one, error, open);
   return open;
 }
 

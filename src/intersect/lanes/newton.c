@@ -6,6 +6,7 @@
  * s = u - 1/2 and t = v - 1/2.
  */
 #include "base/double_lanes.h"
+#include "base/lane_points.h"
 #include "intersect/certificate.h"
 #include "intersect/lanes/newton.h"
 
@@ -22,11 +23,23 @@ struct split_point {
   struct split_lanes split_s, split_t, split_st;
 };
 
-LANES_INLINE struct coordinate coordinate_at(const double base[4], const double rest[16], const struct split_point *at)
+/* A term of coordinate c; of all three, side by side, where c is SIDE_BY_SIDE. */
+enum { SIDE_BY_SIDE = 3 };
+
+LANES_INLINE lanes term(const double of[3], int c)
 {
-  const lanes A = lanes_all(base[1]), B = lanes_all(base[2]), C = lanes_all(base[3]), s = at->s, t = at->t;
+#if LANE_POINTS > 0
+  if (c == SIDE_BY_SIDE) return lane_points_load(of);
+#endif
+  return lanes_all(of[c]);
+}
+
+LANES_INLINE struct coordinate coordinate_at(const struct leaf_parts *parts, int c, const struct split_point *at)
+{
+  const double(*base)[3] = parts->base, (*r)[3] = parts->rest;
+  const lanes A = term(base[1], c), B = term(base[2], c), C = term(base[3], c), s = at->s, t = at->t;
   struct coordinate x;
-  x.hi = lanes_multiply_add(at->split_s.head, A, lanes_all(base[0]));
+  x.hi = lanes_multiply_add(at->split_s.head, A, term(base[0], c));
   x.hi = lanes_multiply_add(at->split_st.head, C, lanes_multiply_add(at->split_t.head, B, x.hi));
   x.lo = lanes_multiply_add(at->split_t.tail, B, at->split_s.tail * A);
   x.lo = lanes_multiply_add(at->split_st.tail, C, x.lo);
@@ -35,10 +48,10 @@ LANES_INLINE struct coordinate coordinate_at(const double base[4], const double 
   lanes bend = {0}, bend_ds = {0}, bend_dt = {0};
 #pragma GCC unroll 4
   for (int i = 3; i >= 0; i--) {
-    const double *r = rest + 4 * i;
-    lanes row_dt = lanes_all(r[3]), row = lanes_multiply_add(row_dt, t, lanes_all(r[2]));
-    row_dt = lanes_multiply_add(row_dt, t, row), row = lanes_multiply_add(row, t, lanes_all(r[1]));
-    row_dt = lanes_multiply_add(row_dt, t, row), row = lanes_multiply_add(row, t, lanes_all(r[0]));
+    const int n = 4 * i;
+    lanes row_dt = term(r[n + 3], c), row = lanes_multiply_add(row_dt, t, term(r[n + 2], c));
+    row_dt = lanes_multiply_add(row_dt, t, row), row = lanes_multiply_add(row, t, term(r[n + 1], c));
+    row_dt = lanes_multiply_add(row_dt, t, row), row = lanes_multiply_add(row, t, term(r[n], c));
     bend_ds = i == 3 ? bend_ds : lanes_multiply_add(bend_ds, s, bend);
     bend = i == 3 ? row : lanes_multiply_add(bend, s, row);
     bend_dt = i == 3 ? row_dt : lanes_multiply_add(bend_dt, s, row_dt);
@@ -47,14 +60,20 @@ LANES_INLINE struct coordinate coordinate_at(const double base[4], const double 
   return x;
 }
 
-/* Out of line: inlined into a loop, its coefficients are all copied to the stack first. */
-__attribute__((noinline)) static void surface_at(const struct leaf_parts *parts, lanes s, lanes t,
-                                                 struct coordinate out[3])
+LANES_INLINE struct split_point split_point_of(lanes s, lanes t)
 {
   const lanes st = s * t;
   struct split_point at = {s, t, split_lanes_of(s), split_lanes_of(t), split_lanes_of(st)};
   at.split_st.tail += lanes_product_error(s, t, st);
-  for (int c = 0; c < 3; c++) out[c] = coordinate_at(parts->base[c], parts->rest[c], &at);
+  return at;
+}
+
+/* Out of line: inlined into a loop, its coefficients are all copied to the stack first. */
+__attribute__((noinline)) static void surface_of_many(const struct leaf_parts *parts, lanes s, lanes t,
+                                                      struct coordinate out[3])
+{
+  const struct split_point at = split_point_of(s, t);
+  for (int c = 0; c < 3; c++) out[c] = coordinate_at(parts, c, &at);
 }
 
 /* Second derivatives of a coordinate. */
@@ -62,30 +81,77 @@ struct curvature {
   lanes ss, st, tt;
 };
 
-LANES_INLINE struct curvature curvature_at(const double base[4], const double rest[16], lanes s, lanes t)
+LANES_INLINE struct curvature curvature_at(const struct leaf_parts *parts, int c, lanes s, lanes t)
 {
   struct curvature x = {{0}, {0}, {0}};
 #pragma GCC unroll 4
   for (int i = 3; i >= 0; i--) {
-    const double *r = rest + 4 * i;
-    const lanes cubic = lanes_all(3 * r[3]), square = lanes_all(r[2]), cubic_t = cubic * t;
+    const double(*r)[3] = parts->rest + 4 * i;
+    const lanes last = term(r[3], c), square = term(r[2], c), linear = term(r[1], c);
+    const lanes cubic = 3 * last, cubic_t = cubic * t;
     if (i >= 2) {
-      lanes row = lanes_multiply_add(lanes_all(r[3]), t, square);
-      row = lanes_multiply_add(lanes_multiply_add(row, t, lanes_all(r[1])), t, lanes_all(r[0]));
+      lanes row = lanes_multiply_add(last, t, square);
+      row = lanes_multiply_add(lanes_multiply_add(row, t, linear), t, term(r[0], c));
       x.ss = lanes_multiply_add(x.ss, s, i * (i - 1) * row);
     }
-    if (i >= 1) x.st = lanes_multiply_add(x.st, s, i * lanes_multiply_add(cubic_t + 2 * square, t, lanes_all(r[1])));
+    if (i >= 1) x.st = lanes_multiply_add(x.st, s, i * lanes_multiply_add(cubic_t + 2 * square, t, linear));
     x.tt = lanes_multiply_add(x.tt, s, cubic_t + square);
   }
-  x.st += base[3], x.tt *= 2;
+  x.st += term(parts->base[3], c), x.tt *= 2;
   return x;
 }
 
 /* Out of line for the same reason. */
-__attribute__((noinline)) static void curvatures_at(const struct leaf_parts *parts, lanes s, lanes t,
-                                                    struct curvature out[3])
+__attribute__((noinline)) static void curvatures_of_many(const struct leaf_parts *parts, lanes s, lanes t,
+                                                         struct curvature out[3])
 {
-  for (int c = 0; c < 3; c++) out[c] = curvature_at(parts->base[c], parts->rest[c], s, t);
+  for (int c = 0; c < 3; c++) out[c] = curvature_at(parts, c, s, t);
+}
+
+/* The lanes that points are wanted of, as bits, where they are so few that a point's coordinates go side by side; 0: lane by
+ * lane. The same operations for each coordinate, and the same bits. */
+LANES_INLINE unsigned few_lanes(lane_mask active)
+{
+  const unsigned bits = lanes_bits(active);
+  return __builtin_popcount(bits) <= LANE_POINTS ? bits : 0;
+}
+
+LANES_INLINE void surface_at(const struct leaf_parts *parts, lanes s, lanes t, unsigned few, struct coordinate out[3])
+{
+#if LANE_POINTS > 0
+  if (few) {
+    const struct lane_points points = lane_points_of(few);
+    const struct split_point at = split_point_of(lane_points_spread(&points, s), lane_points_spread(&points, t));
+    const struct coordinate all = coordinate_at(parts, SIDE_BY_SIDE, &at);
+    for (int c = 0; c < 3; c++) {
+      out[c].hi = lane_points_collect(&points, all.hi, c), out[c].lo = lane_points_collect(&points, all.lo, c);
+      out[c].ds = lane_points_collect(&points, all.ds, c), out[c].dt = lane_points_collect(&points, all.dt, c);
+    }
+    return;
+  }
+#else
+  (void)few;
+#endif
+  surface_of_many(parts, s, t, out);
+}
+
+LANES_INLINE void curvatures_at(const struct leaf_parts *parts, lanes s, lanes t, unsigned few, struct curvature out[3])
+{
+#if LANE_POINTS > 0
+  if (few) {
+    const struct lane_points points = lane_points_of(few);
+    const struct curvature all = curvature_at(parts, SIDE_BY_SIDE, lane_points_spread(&points, s),
+                                              lane_points_spread(&points, t));
+    for (int c = 0; c < 3; c++) {
+      out[c].ss = lane_points_collect(&points, all.ss, c), out[c].st = lane_points_collect(&points, all.st, c);
+      out[c].tt = lane_points_collect(&points, all.tt, c);
+    }
+    return;
+  }
+#else
+  (void)few;
+#endif
+  curvatures_of_many(parts, s, t, out);
 }
 
 /* Moves the derivatives from (s,t) on by (to_s,to_t), by second derivatives. */
@@ -93,7 +159,7 @@ LANES_INLINE void surface_turn(const struct leaf_parts *parts, lanes s, lanes t,
                                lane_mask where, struct coordinate x[3])
 {
   struct curvature h[3];
-  curvatures_at(parts, s, t, h);
+  curvatures_at(parts, s, t, few_lanes(where), h);
   for (int c = 0; c < 3; c++) {
     x[c].ds = lanes_select(where, x[c].ds + (h[c].ss * to_s + h[c].st * to_t), x[c].ds);
     x[c].dt = lanes_select(where, x[c].dt + (h[c].st * to_s + h[c].tt * to_t), x[c].dt);
@@ -196,11 +262,11 @@ LANES_INLINE struct row row_bounds(const struct line *line, int axis, const stru
  * because M times it has a positive diagonal whose product is larger than that of the other elements, no other point
  * of the leaf has the root's values. */
 LANES_INLINE lane_mask alone_at(const struct line *line, int axis, const struct leaf *leaf, const struct inverse *m,
-                                const struct newton_root *r, lanes step, lanes s, lanes t)
+                                const struct newton_root *r, lanes step, lanes s, lanes t, unsigned few)
 {
   struct halfway at;
-  surface_at(&leaf->parts, 0.5 * s, 0.5 * t, at.x);
-  curvatures_at(&leaf->parts, 0.5 * s, 0.5 * t, at.h);
+  surface_at(&leaf->parts, 0.5 * s, 0.5 * t, few, at.x);
+  curvatures_at(&leaf->parts, 0.5 * s, 0.5 * t, few, at.h);
   const double way = 1 + LEAF_MARGIN, third = leaf->parts.third * (way * way / 24 + 1.0 / 32);
   at.reach = 0.25 + (step + lanes_max(r->radius_u, r->radius_v)); /* (s,t) is not the root itself */
   const double rounding = DERIVATIVE_ROUNDINGS * UNIT_ROUNDOFF * (1 + leaf->first[0] + leaf->first[1]);
@@ -231,8 +297,9 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
   struct inverse m;
   lanes s = start[0], t = start[1], step_s, step_t, step;
   lane_mask settled, moving = active;
+  const unsigned few = few_lanes(active);
   for (int n = 1;; n++) {
-    surface_at(parts, s, t, x);
+    surface_at(parts, s, t, few, x);
     const struct plane a = plane_at(line, 0, &x[(k + 1) % 3], &x[k]), b = plane_at(line, 1, &x[(k + 2) % 3], &x[k]);
     const lanes inverse = 1 / (a.ds * b.dt - a.dt * b.ds);
     m = (struct inverse){b.dt * inverse, -a.dt * inverse, -b.ds * inverse, a.ds * inverse};
@@ -248,7 +315,7 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
   out->at.u = from_middle(s, step_s), out->at.v = from_middle(t, step_t);
   prove(leaf, &m, line->slope, line->error + parts->error, step, settled, &out->at);
   const lane_mask open = out->at.exists & ~out->at.alone;
-  if (lanes_any(open)) out->at.alone |= open & alone_at(line, k, leaf, &m, &out->at, step, s, t);
+  if (lanes_any(open)) out->at.alone |= open & alone_at(line, k, leaf, &m, &out->at, step, s, t, few_lanes(open));
   const struct double_lanes way = double_lanes_sum(x[k].hi, line->start[0]);
   const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
   out->w = x[k].hi + rest;

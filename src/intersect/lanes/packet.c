@@ -29,9 +29,13 @@ static void packet_start(struct packet *p, struct tracer *tracer, const struct r
   p->outer = NULL, p->gather = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);
   lanes *o = p->origin, *d = p->direction;
-  const size_t stride = count == 1 ? 0 : RAY_STRIDE;
-  lanes_load4(rays->origin, stride, &o[0], &o[1], &o[2], &d[0]);
-  lanes_load4(&rays->direction[1], stride, &d[1], &d[2], &p->t_min, &p->t_max);
+  if (count == 1) {
+    for (int k = 0; k < 3; k++) o[k] = lanes_all(rays->origin[k]), d[k] = lanes_all(rays->direction[k]);
+    p->t_min = lanes_all(rays->t_min), p->t_max = lanes_all(rays->t_max);
+  } else {
+    lanes_load4(rays->origin, RAY_STRIDE, &o[0], &o[1], &o[2], &d[0]);
+    lanes_load4(&rays->direction[1], RAY_STRIDE, &d[1], &d[2], &p->t_min, &p->t_max);
+  }
   p->t_far = p->t_max;
   packet_untried(p);
 }

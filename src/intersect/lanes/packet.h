@@ -48,7 +48,7 @@ struct line {
  * (where hits are gathered they are told as known then); the splits of boxes that cover a leaf, after which the last
  * resort has what comes; and the sweeps of methods that move all roots at once, each as dear as the degree squared, after
  * which boxes have it. A millisecond at most; where hits are gathered, which take their time themselves, some more. */
-enum { MOST_LEAVES = 2048, MOST_LEAVES_OF_ALL = 8192, MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
+enum { MOST_LEAVES = 4096, MOST_LEAVES_OF_ALL = 16384, MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
 enum { MOST_SWEEPS = 384 * 18 * 18, MOST_SWEEPS_OF_ALL = 4 * MOST_SWEEPS };
 
 /* What the lanes leave open, a list a lane. */

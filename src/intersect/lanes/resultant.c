@@ -165,7 +165,8 @@ lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask act
   resultant_refine(p, it, false, active, &root);
   const lanes k = it->leaf->v_kept ? r->v : r->u, radius = it->leaf->v_kept ? r->radius_v : r->radius_u;
   /* One sign variation: r has one root in the open range, so a root of (a, b) strictly within it is the only one. */
-  const lane_mask single = (it->variations == 1) & r->exists & (k > radius) & (1 - k > radius);
+  lane_mask single = {0};
+  if (resultant_counts(it)) single = (it->variations == 1) & r->exists & (k > radius) & (1 - k > radius);
   const lane_mask decided = active & (r->alone | single);
   offer_root(p, it, &root, (p->any ? active & r->exists : decided) & inside(r));
   const lane_mask open = active & ~decided & p->live;

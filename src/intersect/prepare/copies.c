@@ -13,11 +13,11 @@
 #define MOST_STRETCH 0x1p10
 
 /* A map whose numbers, or whose inverse's, are larger than this could overflow with the rays that are let in
- * (walk.c). */
+ * (packet.c). */
 #define MOST_SIZE 0x1p100
 
-/* One copy while its object is looked at. */
-struct candidate {
+/* How one copy may share the object's leaves, while its object is looked at. */
+struct copy_map {
   const struct scene_copy *copy;
   double W[3][3], b[3];
   double error;  /* of its patches and rays in the object's coordinates */
@@ -65,11 +65,29 @@ static bool invert(double A[3][3], double W[3][3])
   return finite;
 }
 
+/* How far the copy's control points are carried past the object's. */
+static double copy_map_excess(const struct copy_map *c, const struct model *model, const struct scene_object *object,
+                              const struct middle *m)
+{
+  double off = 0;
+  for (size_t p = 0; p < object->patch_count; p++) {
+    double(*P)[4][3] = model->scene->patches[c->copy->first_patch + p].P;
+    for (int n = 0; n < 16; n++) {
+      for (int j = 0; j < 3; j++) {
+        double x = m->center[j] - object->P[p][n / 4][n % 4][j];
+        for (int k = 0; k < 3; k++) x += (P[n / 4][n % 4][k] - c->b[k]) * c->W[k][j];
+        off = real_max(off, fabs(x));
+      }
+    }
+  }
+  return off;
+}
+
 /* The map of a copy, and its error in the object's coordinates: how far the copy's control points are carried past
  * the object's, the rounding of finding that out, and that of a ray near the object (copy.c): of its origin, which
  * is moved to where the ray passes the middle of the copy, and of its direction on the way from there through the
  * object. */
-static void candidate_map(struct candidate *c, const struct model *model, const struct scene_object *object,
+static void copy_map_make(struct copy_map *c, const struct model *model, const struct scene_object *object,
                           const struct middle *m)
 {
   double A[3][3];
@@ -88,16 +106,8 @@ static void candidate_map(struct candidate *c, const struct model *model, const 
     for (int k = 0; k < 3; k++) sum += columns[k] * fabs(c->W[k][j]), bare += fabs(c->W[k][j]);
     stretch = real_max(stretch, sum), back = real_max(back, bare);
   }
-  double off = 0;
+  const double off = copy_map_excess(c, model, object, m);
   for (size_t p = 0; p < object->patch_count; p++) {
-    double(*P)[4][3] = model->scene->patches[c->copy->first_patch + p].P;
-    for (int n = 0; n < 16; n++) {
-      for (int j = 0; j < 3; j++) {
-        double x = m->center[j] - object->P[p][n / 4][n % 4][j];
-        for (int k = 0; k < 3; k++) x += (P[n / 4][n % 4][k] - c->b[k]) * c->W[k][j];
-        off = real_max(off, fabs(x));
-      }
-    }
     const struct method *method = &model->scene->solvers[model->scene->patches[c->copy->first_patch + p].solver];
     c->good &= patch_on_lanes(method) && method->split == 0;
   }
@@ -107,18 +117,17 @@ static void candidate_map(struct candidate *c, const struct model *model, const 
 }
 
 /* Takes the good ones of the object's copies, where they are two or more. */
-static bool take(struct model *model, const struct scene_object *object, size_t count,
-                 const struct candidate candidates[])
+static bool take(struct model *model, const struct scene_object *object, size_t count, const struct copy_map maps[])
 {
   size_t good = 0;
   double error = 0;
   for (size_t k = 0; k < count; k++)
-    if (candidates[k].good) good++, error = real_max(error, candidates[k].error);
+    if (maps[k].good) good++, error = real_max(error, maps[k].error);
   if (good < 2) return false;
   struct model_object *shared = &model->objects[model->object_count++];
   shared->declared = object, shared->error = error;
   for (size_t k = 0; k < count; k++) {
-    const struct candidate *c = &candidates[k];
+    const struct copy_map *c = &maps[k];
     if (!c->good) continue;
     struct model_copy *copy = &model->copies[model->copy_count++];
     copy->object = shared, copy->first_patch = (uint32_t)c->copy->first_patch;
@@ -133,7 +142,7 @@ static bool take(struct model *model, const struct scene_object *object, size_t 
 
 static int by_object(const void *a, const void *b)
 {
-  const struct candidate *x = a, *y = b;
+  const struct copy_map *x = a, *y = b;
   if (x->copy->object != y->copy->object) return x->copy->object < y->copy->object ? -1 : 1;
   return x->copy->first_patch < y->copy->first_patch ? -1 : x->copy->first_patch > y->copy->first_patch;
 }
@@ -143,7 +152,7 @@ enum status copies_choose(struct model *model, size_t *own)
   const struct scene *scene = model->scene;
   const size_t count = scene->copy_count;
   if (count == 0) return STATUS_OK;
-  struct candidate *all = memory_alloc(count, sizeof *all);
+  struct copy_map *all = memory_alloc(count, sizeof *all);
   model->objects = arena_alloc(model->arena, scene->object_count, sizeof *model->objects);
   model->copies = arena_alloc(model->arena, count, sizeof *model->copies);
   if (!all || !model->objects || !model->copies) {
@@ -156,7 +165,7 @@ enum status copies_choose(struct model *model, size_t *own)
     const struct scene_object *object = &scene->objects[all[first].copy->object];
     const struct middle middle = object_middle(object);
     for (end = first; end < count && all[end].copy->object == all[first].copy->object; end++)
-      candidate_map(&all[end], model, object, &middle);
+      copy_map_make(&all[end], model, object, &middle);
     const size_t before = model->copy_count;
     if (take(model, object, end - first, all + first)) *own -= (model->copy_count - before - 1) * object->patch_count;
   }
@@ -164,8 +173,8 @@ enum status copies_choose(struct model *model, size_t *own)
   return STATUS_OK;
 }
 
-/* What of a copy lies on earlier patches: all of it, or those of the object's that do wherever it is copied. */
-static enum status find_again(const struct model *model, struct model_copy *copy)
+/* Marks what of a copy lies on earlier patches: all of it, or those of the object's that do wherever it is copied. */
+static enum status mark_twins_of_copy(const struct model *model, struct model_copy *copy)
 {
   struct model *of = copy->object->model;
   const size_t count = copy->object->declared->patch_count;
@@ -179,7 +188,7 @@ static enum status find_again(const struct model *model, struct model_copy *copy
 
 /* The model of an object, from its nets about their middle; the solver is that of a copy. */
 static enum status prepare_object(const struct model *model, const struct team *team, const struct model_copy *copy,
-                                  int most, struct model_object *object)
+                                  const struct split_limit *limit, struct model_object *object)
 {
   const struct scene_object *declared = object->declared;
   const struct middle middle = object_middle(declared);
@@ -192,21 +201,21 @@ static enum status prepare_object(const struct model *model, const struct team *
   }
   const struct scene nets = {
     .patches = patches, .patch_count = declared->patch_count, .solvers = model->scene->solvers};
-  const enum status status = model_create_object(&nets, team, most, object->error, &object->model);
+  const enum status status = model_create_object(&nets, team, limit, object->error, &object->model);
   memory_free(patches);
   return status;
 }
 
-enum status copies_prepare(struct model *model, const struct team *team, int most)
+enum status copies_prepare(struct model *model, const struct team *team, const struct split_limit *limit)
 {
   for (size_t k = 0; k < model->copy_count; k++) {
     struct model_copy *copy = &model->copies[k];
     struct model_object *object = copy->object;
     if (!object->model) {
-      const enum status status = prepare_object(model, team, copy, most, object);
+      const enum status status = prepare_object(model, team, copy, limit, object);
       if (status != STATUS_OK) return status;
     }
-    if (model->again && find_again(model, copy) != STATUS_OK) return STATUS_LIMIT;
+    if (model->again && mark_twins_of_copy(model, copy) != STATUS_OK) return STATUS_LIMIT;
     for (size_t p = 0; p < object->declared->patch_count; p++)
       memcpy(model->cuts[copy->first_patch + p].split, object->model->cuts[p].split, sizeof(uint16_t[2]));
   }
@@ -221,8 +230,8 @@ void copy_box(const struct model *model, const struct model_copy *copy, struct b
       double(*P)[4][3] = model->scene->patches[copy->first_patch + p].P;
       for (int n = 0; n < 16; n++) lo = real_min(lo, P[n / 4][n % 4][k]), hi = real_max(hi, P[n / 4][n % 4][k]);
     }
-    const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo), fabs(hi)) + fabs(model->origin[k]));
-    out->lo[k] = (lo - model->origin[k] - slack) / model->frame;
-    out->hi[k] = (hi - model->origin[k] + slack) / model->frame;
+    const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo), fabs(hi)) + fabs(model->tree.origin[k]));
+    out->lo[k] = (lo - model->tree.origin[k] - slack) / model->tree.frame;
+    out->hi[k] = (hi - model->tree.origin[k] + slack) / model->tree.frame;
   }
 }

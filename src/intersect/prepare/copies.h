@@ -6,8 +6,8 @@
  * so do the roundings of the ray on its way. What that makes undecidable in the object is decided in the scene, on a
  * leaf cut for it.
  */
-#ifndef PSCN_INTERSECT_COPIES_H
-#define PSCN_INTERSECT_COPIES_H
+#ifndef PSCN_INTERSECT_PREPARE_COPIES_H
+#define PSCN_INTERSECT_PREPARE_COPIES_H
 
 #include "intersect/model.h"
 
@@ -15,8 +15,9 @@
  * the number of patches that need leaves, accordingly. */
 enum status copies_choose(struct model *model, size_t *own) STATUS_MUST_CHECK;
 
-/* Makes the objects' models, with at most `most` leaves a side. */
-enum status copies_prepare(struct model *model, const struct team *team, int most) STATUS_MUST_CHECK;
+/* Makes the objects' models. */
+enum status copies_prepare(struct model *model, const struct team *team,
+                           const struct split_limit *limit) STATUS_MUST_CHECK;
 
 /* The copy's box in the frame of the model's hierarchy. */
 void copy_box(const struct model *model, const struct model_copy *copy, struct bvh_box *out);

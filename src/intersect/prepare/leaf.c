@@ -136,12 +136,16 @@ static void leaf_set_slabs(struct leaf *leaf)
   slabs->slack = flat ? INFINITY : 16 * largest * largest;
 }
 
-/* With parameters that have eight bits behind the point between them and coordinates of HEAD_BITS, three halfway values
- * in either direction are multiples of 2^-44, and their Taylor coefficients of 2^-50: nothing is rounded. */
-enum { EXACT_LEAVES = 256, HEAD_BITS = 20 };
+/* Where parameters have k bits behind the point between them, for 2^k leaves, and coordinates h, three halfway values in
+ * either direction are multiples of 2^-(3k + h), and their Taylor coefficients of 2^-(3k + h + 6): nothing is rounded up
+ * to these. */
+enum { EXACT_LEAVES = 1024 };
 
-/* The leaf's net as hi + lo. hi is cut from the coordinates' first HEAD_BITS bits: exactly where the leaves are a
- * power of two up to EXACT_LEAVES. lo, which is smaller by as many bits and has what x is rounded by, is rounded. */
+static int head_bits(const struct model_patch *patch) { return patch->split[0] * patch->split[1] <= 256 ? 20 : 16; }
+
+/* The leaf's net as hi + lo. hi is cut from the coordinates' first bits: exactly where the leaves are a power of two up to
+ * EXACT_LEAVES. lo, which is smaller by as many bits and has what x is rounded by, is rounded: by less than the planes'
+ * own errors by about as many. */
 static void cut_net(struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], double hi[3][4][4],
                     double lo[3][4][4])
 {
@@ -149,7 +153,7 @@ static void cut_net(struct model_patch *patch, const uint16_t column[2], const u
   /* quotients: the last one is 1 whatever the split */
   const double u0 = column[0] / parts_u, u1 = (column[0] + span[0]) / parts_u;
   const double v0 = column[1] / parts_v, v1 = (column[1] + span[1]) / parts_v;
-  const double round = 0x1.8p52 / (1 << HEAD_BITS);
+  const double round = 0x1.8p52 / (1 << head_bits(patch));
   for (int k = 0; k < 3; k++) {
     double head[4][4], tail[4][4];
     for (int n = 0; n < 16; n++) {
@@ -203,7 +207,7 @@ static double third_bound(const struct leaf_parts *parts)
         for (int a = 0; a <= 3; a++)
           if (i >= a && j >= 3 - a)
             sum[k] += (a == 0 || a == 3 ? 1 : 3) * falling[i][a] * falling[j][3 - a] * REACH_POWER[i - a] *
-                      REACH_POWER[j - (3 - a)] * fabs(parts->rest[k][4 * i + j]);
+                      REACH_POWER[j - (3 - a)] * fabs(parts->rest[4 * i + j][k]);
   return vector_length(sum);
 }
 
@@ -224,14 +228,14 @@ static double error_bound(const struct leaf_parts *parts, bool rounded)
 {
   double rest = 0, whole = 0;
   for (int k = 0; k < 3; k++) {
-    const double *base = parts->base[k];
+    const double(*base)[3] = parts->base;
     double sum = 0, roundings = 0;
     for (int n = 0; n < 16; n++) {
-      const double term = REACH_POWER[n / 4] * REACH_POWER[n % 4] * fabs(parts->rest[k][n]);
+      const double term = REACH_POWER[n / 4] * REACH_POWER[n % 4] * fabs(parts->rest[n][k]);
       sum += term, roundings += TERM_ROUNDINGS(n / 4 + n % 4) * term;
     }
     rest = real_max(rest, roundings);
-    whole = real_max(whole, sum + REACH * (fabs(base[1]) + fabs(base[2]) + REACH * fabs(base[3])));
+    whole = real_max(whole, sum + REACH * (fabs(base[1][k]) + fabs(base[2][k]) + REACH * fabs(base[3][k])));
   }
   return UNIT_ROUNDOFF * (rest + (rounded ? CUT_ROUNDINGS * (1 + whole) : 0));
 }
@@ -245,15 +249,15 @@ static void set_parts(const struct model_patch *patch, const struct leaf *leaf, 
 {
   static const int bilinear[4] = {0, 4, 1, 5};
   for (int k = 0; k < 3; k++) {
-    double head[16], tail[16], *rest = out->rest[k];
+    double head[16], tail[16];
     taylor_net(hi[k], head);
     taylor_net(lo[k], tail);
     for (int n = 0; n < 4; n++) {
       const int at = bilinear[n];
-      out->base[k][n] = real_coarse(head[at], LEAF_GRAIN);
-      head[at] -= out->base[k][n];
+      out->base[n][k] = real_coarse(head[at], LEAF_GRAIN);
+      head[at] -= out->base[n][k];
     }
-    for (int n = 0; n < 16; n++) rest[n] = head[n] + tail[n];
+    for (int n = 0; n < 16; n++) out->rest[n][k] = head[n] + tail[n];
   }
   const double second = leaf->second[0] + 2 * leaf->second[1] + leaf->second[2];
   const double first = real_min(leaf->first[0], leaf->first[1]);
@@ -300,10 +304,10 @@ void leaf_box(const struct model *model, const struct model_patch *patch, double
   for (int k = 0; k < 3; k++) {
     double lo = INFINITY, hi = -INFINITY;
     for (int i = 0; i < 16; i++) lo = real_min(lo, x[k][i]), hi = real_max(hi, x[k][i]);
-    const double shift = patch->center[k] - model->origin[k];
+    const double shift = patch->center[k] - model->tree.origin[k];
     const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale) +
                          model->error;
-    box->lo[k] = (shift + patch->scale * lo - slack) / model->frame;
-    box->hi[k] = (shift + patch->scale * hi + slack) / model->frame;
+    box->lo[k] = (shift + patch->scale * lo - slack) / model->tree.frame;
+    box->hi[k] = (shift + patch->scale * hi + slack) / model->tree.frame;
   }
 }

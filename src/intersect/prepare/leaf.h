@@ -2,8 +2,8 @@
  *
  * Internal to src/intersect. Pure; safe on any thread.
  */
-#ifndef PSCN_INTERSECT_LEAF_H
-#define PSCN_INTERSECT_LEAF_H
+#ifndef PSCN_INTERSECT_PREPARE_LEAF_H
+#define PSCN_INTERSECT_PREPARE_LEAF_H
 
 #include "intersect/model.h"
 

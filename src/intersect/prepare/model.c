@@ -13,11 +13,11 @@
 #include "intersect/prepare/patch.h"
 #include "intersect/prepare/tree.h"
 
-enum { AUTO_SPLIT_MAX = 16 };
+enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
 
 /* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory
- * and time to make. The limit on the split is halved until they fit. */
-enum { AUTO_LEAVES_MAX = 1 << 18 };
+ * and time to make. The limit on the split is halved until they fit. Of patches that are bent all over there may be more. */
+enum { AUTO_LEAVES_MAX = 1 << 18, BENT_LEAVES_MAX = 1 << 19 };
 
 /* The same where leaves are not kept, and are no more than their boxes, an eighth of a leaf. */
 enum { AUTO_BOXES_MAX = 1 << 20 };
@@ -35,7 +35,7 @@ enum { TEAM_LEAST = 1024 };
  * proven. */
 #define LARGEST_SIZE 0x1p1020
 
-/* The frame of the hierarchy. */
+/* The frame of the hierarchy, whose boxes are not made yet. */
 static void set_frame(struct model *model)
 {
   const struct scene *scene = model->scene;
@@ -52,17 +52,17 @@ static void set_frame(struct model *model)
   model->unproven |= model->size > LARGEST_SIZE;
   double extent = model->size > 0 ? real_max(LEAST_EXTENT * model->size, LEAST_FRAME) : 1;
   for (int k = 0; k < 3; k++)
-    model->origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
+    model->tree.origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
   int exponent;
   frexp(extent, &exponent); /* extent < 2^exponent */
-  model->frame = real_power_of_two(exponent);
+  model->tree.frame = real_power_of_two(exponent);
 }
 
 /* Patches and their leaves while they are made, by several threads where there are many. */
 struct making {
   struct model *model;
   const struct team *team;
-  int most;                /* leaves a side */
+  struct split_limit limit;
   bool keep;               /* patches, and leaves; else they are only looked at */
   struct arena **arenas;   /* one a thread: of what is kept */
   size_t part, part_count; /* patches in a part */
@@ -100,7 +100,7 @@ static enum status make_patches(void *context, size_t worker)
       const struct model_cut *cut = &model->cuts[p];
       if (cut->copied && !m->keep) continue;
       if (m->keep && !next_room(m->arenas[worker], &rest, sizeof room.rest)) return STATUS_LIMIT;
-      patch_make_first(model, (uint32_t)p, m->most, patch, m->keep ? rest : room.rest);
+      patch_make_first(model, (uint32_t)p, &m->limit, patch, m->keep ? rest : room.rest);
       if ((const void *)patch->rest == rest) rest = NULL;
       if (!cut->copied) m->leaves[part] += (size_t)cut->split[0] * cut->split[1];
     }
@@ -197,9 +197,10 @@ static void end_making(struct making *m)
 
 /* The leaves of patches and, behind them, the copies, in one hierarchy. Leaves are kept where that is wanted and they
  * are not too many; it makes rays a quarter faster, at 1.5 KB a patch of one leaf. */
-static enum status make_hierarchy(struct model *model, const struct team *team, int most, bool keep, size_t keep_most)
+static enum status make_hierarchy(struct model *model, const struct team *team, const struct split_limit *limit,
+                                  bool keep, size_t keep_most)
 {
-  struct making m = {.model = model, .team = team, .most = most, .keep = keep};
+  struct making m = {.model = model, .team = team, .limit = *limit, .keep = keep};
   enum status status = cut_patches(&m);
   if (status != STATUS_OK) goto done;
   if (model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
@@ -218,15 +219,14 @@ static enum status make_hierarchy(struct model *model, const struct team *team, 
   status = room ? do_parts(&m, make_leaves, model->leaf_count) : STATUS_LIMIT;
   if (status != STATUS_OK) goto done;
   for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m.boxes[model->leaf_count + c]);
-  status = tree_build(model->arena, m.boxes, count, model->origin, model->frame, team, &model->tree);
+  status = tree_build(model->arena, m.boxes, count, team, &model->tree);
 done:
   end_making(&m);
   return status;
 }
 
-static int most_split(size_t patch_count, size_t leaves_max)
+static int most_split(int most, size_t patch_count, size_t leaves_max)
 {
-  int most = AUTO_SPLIT_MAX;
   while (most > 1 && patch_count * (size_t)(most * most) > leaves_max) most /= 2;
   return most;
 }
@@ -247,22 +247,22 @@ static struct model *model_begin(const struct scene *scene)
   return model;
 }
 
-enum status model_create_object(const struct scene *nets, const struct team *team, int most, double error,
-                                struct model **out)
+enum status model_create_object(const struct scene *nets, const struct team *team, const struct split_limit *limit,
+                                double error, struct model **out)
 {
   *out = NULL;
   struct model *model = model_begin(nets);
   if (!model) return STATUS_LIMIT;
   model->error = error;
-  const enum status status = make_hierarchy(model, team, most, true, SIZE_MAX);
+  const enum status status = make_hierarchy(model, team, limit, true, SIZE_MAX);
   model->scene = NULL;
   if (status == STATUS_OK) *out = model;
   else model_destroy(model);
   return status;
 }
 
-/* Finds patches that lie on earlier ones; not where roots as their solvers find them are the answers. */
-static enum status find_again(struct model *model)
+/* Marks patches that lie on earlier ones; not where roots as their solvers find them are the answers. */
+static enum status mark_twins(struct model *model)
 {
   const struct scene *scene = model->scene;
   if (model->unproven) return STATUS_OK;
@@ -278,21 +278,22 @@ static enum status prepare(struct model *model, const struct team *team)
   const struct scene *scene = model->scene;
   model->neighbours = arena_alloc(model->arena, scene->patch_count + 1, 4 * sizeof *model->neighbours);
   if (!model->neighbours) return STATUS_LIMIT;
-  enum status status = find_again(model);
+  enum status status = mark_twins(model);
   if (status == STATUS_OK)
     status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->again,
                          scene->patch_count < TEAM_LEAST ? NULL : team, model->neighbours);
   if (status != STATUS_OK) return status;
   size_t own = scene->patch_count; /* patches that need leaves */
-  if (most_split(own, AUTO_LEAVES_MAX) < AUTO_SPLIT_MAX) {
+  if (most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX) < AUTO_SPLIT_MAX) {
     status = copies_choose(model, &own);
     if (status != STATUS_OK) return status;
   }
-  int most = most_split(own, AUTO_LEAVES_MAX);
-  const bool keep = most > 1;
-  if (!keep) most = most_split(own, AUTO_BOXES_MAX);
-  status = copies_prepare(model, team, most);
-  return status == STATUS_OK ? make_hierarchy(model, team, most, keep, AUTO_LEAVES_MAX) : status;
+  struct split_limit limit = {most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
+                              most_split(BENT_SPLIT_MAX, own, BENT_LEAVES_MAX)};
+  const bool keep = limit.any > 1;
+  if (!keep) limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, AUTO_BOXES_MAX);
+  status = copies_prepare(model, team, &limit);
+  return status == STATUS_OK ? make_hierarchy(model, team, &limit, keep, BENT_LEAVES_MAX) : status;
 }
 
 enum status model_create(const struct scene *scene, const struct team *team, struct model **out)

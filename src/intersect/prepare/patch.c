@@ -60,10 +60,33 @@ static double patch_frame(double P[4][4][3], double scene_size, struct model_pat
   return largest;
 }
 
+/* Whether nearly all leaves of a patch that is cut so far turn by more than AUTO_TURN, as parts of it tell. Where only some
+ * do, still more leaves cost all rays more than they save those. Choices of speed. */
+enum { PARTS_MOST = 8 };
+#define NEARLY_ALL 0.84
+
+static bool turns_far(struct model_patch *patch, int split)
+{
+  const int parts = split < PARTS_MOST ? split : PARTS_MOST;
+  const double part = 1.0 / parts;
+  int far = 0;
+  for (int n = 0; n < parts * parts; n++) {
+    const double u = n / parts * part, v = n % parts * part;
+    double x[3][4][4], net[3][16], first[2], second[3];
+    for (int k = 0; k < 3; k++) patch_subnet(patch->x[k], u, u + part, v, v + part, x[k]);
+    patch_second_derivative_bounds(x, second);
+    memcpy(net, x, sizeof net);
+    leaf_first_bounds(net, first);
+    const double turn = (second[0] + 2 * second[1] + second[2]) / 2;
+    far += turn * parts > AUTO_TURN * split * real_max(first[0], first[1]);
+  }
+  return far > NEARLY_ALL * (parts * parts);
+}
+
 /* How many leaves make every leaf nearly flat: second derivatives fall with the square, first ones with one over it. A
  * slender patch is cut along its long side only, for only that bends, until its leaves turn as little as the short side
  * wants or are no longer slender. */
-static void auto_split(struct model_patch *patch, int most, uint16_t split[2])
+static void auto_split(struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
 {
   double second[3], first[2], net[3][16];
   patch_second_derivative_bounds(patch->x, second);
@@ -75,12 +98,16 @@ static void auto_split(struct model_patch *patch, int most, uint16_t split[2])
   split[0] = split[1] = 1;
   if (along > SLENDER * across && along <= SLENDER_MOST * across) {
     uint16_t *cut = &split[side];
-    while (2 * *cut <= most * most && 2 * *cut <= SLENDER_SPLIT_MAX && along > 2 * *cut * across &&
+    while (2 * *cut <= limit->any * limit->any && 2 * *cut <= SLENDER_SPLIT_MAX && along > 2 * *cut * across &&
            bend / *cut + 2 * second[1] > 2 * AUTO_TURN * *cut * across)
       *cut = (uint16_t)(2 * *cut);
     return;
   }
-  while (split[0] < most && turn > AUTO_TURN * split[0] * along) split[0] = (uint16_t)(2 * split[0]);
+  int most = limit->any;
+  while (split[0] < most && turn > AUTO_TURN * split[0] * along) {
+    split[0] = (uint16_t)(2 * split[0]);
+    if (split[0] == limit->any && limit->bent > limit->any && turns_far(patch, split[0])) most = limit->bent;
+  }
   split[1] = split[0];
 }
 
@@ -121,8 +148,8 @@ void patch_make(const struct model *model, uint32_t index, struct model_patch *o
   patch_end(&model->cuts[index], out);
 }
 
-void patch_make_first(const struct model *model, uint32_t index, int most, struct model_patch *out,
-                      double rest[3][4][4])
+void patch_make_first(const struct model *model, uint32_t index, const struct split_limit *limit,
+                      struct model_patch *out, double rest[3][4][4])
 {
   struct model_cut *cut = &model->cuts[index];
   const double largest = patch_begin(model, index, out, rest);
@@ -131,7 +158,7 @@ void patch_make_first(const struct model *model, uint32_t index, int most, struc
     patch_bidegree(out->x, DEGREE_SLACK * real_max(1, largest / out->scale), &m, &n);
     cut->m = (uint8_t)m, cut->n = (uint8_t)n;
     if (out->method->split > 0) cut->split[0] = cut->split[1] = (uint16_t)out->method->split;
-    else auto_split(out, most, cut->split);
+    else auto_split(out, limit, cut->split);
   }
   patch_end(cut, out);
 }

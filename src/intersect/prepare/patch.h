@@ -2,8 +2,8 @@
  *
  * Internal to src/intersect. Pure; safe on any thread for different patches.
  */
-#ifndef PSCN_INTERSECT_PATCH_H
-#define PSCN_INTERSECT_PATCH_H
+#ifndef PSCN_INTERSECT_PREPARE_PATCH_H
+#define PSCN_INTERSECT_PREPARE_PATCH_H
 
 #include "intersect/model.h"
 
@@ -17,9 +17,8 @@ bool patch_on_lanes(const struct method *method);
 /* The patch of the scene; its rest, where it has one, in `rest`. */
 void patch_make(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4]);
 
-/* The same the first time: unless it is copied, finds out degree and split, which is at most `most` a side, and sets
- * its cut. */
-void patch_make_first(const struct model *model, uint32_t index, int most, struct model_patch *out,
-                      double rest[3][4][4]);
+/* The same the first time: unless it is copied, finds out degree and split, and sets its cut. */
+void patch_make_first(const struct model *model, uint32_t index, const struct split_limit *limit,
+                      struct model_patch *out, double rest[3][4][4]);
 
 #endif

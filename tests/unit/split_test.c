@@ -1,0 +1,84 @@
+/* How far patches are cut where `split` is auto. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "cmocka_test.h"
+#include "intersect/model.h"
+#include "random.h"
+
+enum { SEED = 20261122 };
+
+/* z of a net over the unit square. */
+typedef double height(struct random *random, int i, int j);
+
+static double flat(struct random *random, int i, int j)
+{
+  (void)random;
+  return 0.1 * i + 0.2 * j;
+}
+
+static double bowl(struct random *random, int i, int j)
+{
+  (void)random;
+  return 0.05 * ((i == 1 || i == 2) + (j == 1 || j == 2));
+}
+
+/* A peak that only the leaves near one corner feel. */
+static double peak(struct random *random, int i, int j)
+{
+  (void)random;
+  return i == 3 && j == 3 ? 20 : 0;
+}
+
+/* The split of the first of `count` patches, all of that height; NULL: of random points in a cube. All are cut alike. */
+static int split_of(height *z, size_t count)
+{
+  struct random random = {SEED};
+  struct scene scene = {.patch_count = count, .solver_count = 1};
+  struct method method;
+  struct model *model;
+  method_default(solver_at(0), &method);
+  scene.solvers = &method, scene.patches = calloc(count, sizeof *scene.patches);
+  assert_non_null(scene.patches);
+  for (size_t p = 0; p < count; p++) {
+    for (int n = 0; n < 16; n++) {
+      double *x = scene.patches[p].P[n / 4][n % 4];
+      x[0] = z ? n / 4 / 3.0 + 2 * (double)p : random_between(&random, -1, 1);
+      x[1] = z ? n % 4 / 3.0 : random_between(&random, -1, 1);
+      x[2] = z ? z(&random, n / 4, n % 4) : random_between(&random, -1, 1);
+    }
+  }
+  assert_int_equal(model_create(&scene, NULL, &model), STATUS_OK);
+  const int split = model->cuts[0].split[0];
+  assert_int_equal(model->cuts[0].split[1], split);
+  assert_non_null(model->leaves);
+  model_destroy(model);
+  free(scene.patches);
+  return split;
+}
+
+static void patches_are_cut_as_far_as_they_bend(void **state)
+{
+  (void)state;
+  assert_int_equal(split_of(flat, 1), 1);
+  const int few = split_of(bowl, 1);
+  assert_true(few > 1 && few < 16);
+  assert_int_equal(split_of(peak, 1), 16);
+  assert_int_equal(split_of(NULL, 1), 32);
+}
+
+/* Leaves have their price in memory: half a million at most. */
+static void many_patches_are_cut_less(void **state)
+{
+  (void)state;
+  enum { MANY = 20000 };
+  assert_int_equal(split_of(NULL, MANY), 4);
+  assert_int_equal(split_of(NULL, 2 * MANY), 2);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_cut_as_far_as_they_bend),
+                                     cmocka_unit_test(many_patches_are_cut_less)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
