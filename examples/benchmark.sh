@@ -57,7 +57,11 @@ scenes() {
   examples/generate.sh ribbons 1000 >"$folder/ribbons.pscn"
   examples/generate.sh creature 3570 >"$folder/creature.pscn"
   examples/generate.sh creature 11532 >"$folder/animal.pscn"
-  for name in hair ribbons creature animal; do echo "$name 8 $folder/$name.pscn"; done
+  examples/generate.sh confetti 20000 >"$folder/confetti.pscn"
+  examples/generate.sh knots 200 >"$folder/knots.pscn"
+  examples/generate.sh shells 320 >"$folder/shells.pscn"
+  for name in knots shells; do echo "$name 64 $folder/$name.pscn"; done
+  for name in hair ribbons creature animal confetti; do echo "$name 8 $folder/$name.pscn"; done
 }
 
 # every_scene KIND: a table of all scenes, the worst last.
@@ -191,12 +195,14 @@ cat "$folder/table"
 if [ -n "$page" ] && [ -e "$folder/every" ]; then
   {
     echo "Written by \`examples/benchmark.sh --page\`, by \`beside_embree KIND SCENE\` for each: CPU time of one thread at 800x600,"
-    echo "default solver, medians of $runs turns. Embree has 64 x 64 x 2 triangles a patch, and 8 x 8 x 2 in the last four scenes,"
+    echo "default solver, medians of $runs turns. Embree has 64 x 64 x 2 triangles a patch, and 8 x 8 x 2 in the last five scenes,"
     echo "of which it would otherwise have millions; its packets are of 8 rays and, where the processor has the instructions, 16,"
     echo "said to be coherent but for scattered rays. Shadow rays: \`rtcOccluded\`. Scattered rays: random places and directions."
-    echo "hair: 10,000 patches of 1 : 200, ribbons: 1,000 of 1 : 1000, creature: 3,570 patches, animal: 11,532 (examples/generate.sh)."
+    echo "hair: 10,000 patches of 1 : 200, ribbons: 1,000 of 1 : 1000, creature: 3,570 patches, animal: 11,532;"
+    echo "knots: 200 patches of sixteen random points each, through one another, shells: 40 balls of eight patches through one another,"
+    echo "confetti: 20,000 small patches, each bent another way (examples/generate.sh)."
     echo "\`inside\` is made of rays exactly along shared edges, \`nested\` of parts that ask for other solvers. Up to four rays are"
-    echo "answered in registers of AVX2; one by itself still costs the start of a packet of four."
+    echo "answered in registers of AVX2."
     cat "$folder/every"
   } >"$folder/section"
   replace_section "$page" 'Every scene' "$folder/section"

@@ -5,22 +5,27 @@
 #   examples/generate.sh ribbons N     N loose ribbons, each one patch, 1 : 1000
 #   examples/generate.sh creature N    about N patches of one smooth closed skin, a knotted body with bumps on it, no two
 #                                      alike
+#   examples/generate.sh knots N       N patches through one another, of sixteen random points each
+#   examples/generate.sh confetti N    N small patches, each bent another way
+#   examples/generate.sh shells N      N / 8 balls of eight patches through one another
 #
-# The light stands at the camera: every hit of a camera ray sends one shadow ray, so that counting those counts hits.
+# Of the first three the light stands at the camera: every hit of a camera ray sends one shadow ray, so that counting those
+# counts hits.
 set -euo pipefail
 export LC_ALL=C
 
-kind=${1:?hair, ribbons or creature?}
+kind=${1:?hair, ribbons, creature, knots, confetti or shells?}
 count=${2:?how many patches?}
-case $kind in hair | ribbons | creature) ;; *) echo "$0: there is no '$kind'" >&2 && exit 2 ;; esac
+case $kind in hair | ribbons | creature | knots | confetti | shells) ;; *) echo "$0: there is no '$kind'" >&2 && exit 2 ;; esac
 awk -v kind="$kind" -v n="$count" '
   # A generator of its own: the same scene wherever awk runs.
   function random() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
   function between(a, b) { return a + (b - a) * random() }
-  function head(x, y, z) {
+  function head(x, y, z) { begin(x, y, z, x, y, z) }
+  function begin(x, y, z, light_x, light_y, light_z) {
     printf "#version 3.7;\nglobal_settings { assumed_gamma 1.0 }\n"
     printf "camera { location <%g, %g, %g> look_at 0 angle 40 }\n", x, y, z
-    printf "light_source { <%g, %g, %g>, rgb 1 }\nbackground { rgb <0.74, 0.80, 0.88> }\n", x, y, z
+    printf "light_source { <%g, %g, %g>, rgb 1 }\nbackground { rgb <0.74, 0.80, 0.88> }\n", light_x, light_y, light_z
     printf "#default { pigment { color rgb <0.8, 0.6, 0.5> } finish { ambient 0.1 diffuse 0.9 } }\n"
   }
   # P[k, c], k = 4 i + j, as a patch.
@@ -119,7 +124,41 @@ awk -v kind="$kind" -v n="$count" '
       }
     }
   }
+  function knots(k, i, c) {
+    begin(0, 0, -4, 2, 3, -4)
+    for (k = 0; k < n; k++) {
+      for (i = 0; i < 16; i++) for (c = 0; c < 3; c++) P[i, c] = between(-1.5, 1.5)
+      patch()
+    }
+  }
+  function confetti(k, i, c) {
+    begin(0, 1, -6, 4, 6, -5)
+    for (k = 0; k < n; k++) {
+      for (c = 0; c < 3; c++) { at[c] = between(-2, 2); V[c] = between(-1, 1); W[c] = between(-1, 1) }
+      for (i = 0; i < 16; i++)
+        for (c = 0; c < 3; c++)
+          P[i, c] = at[c] + 0.08 * ((int(i / 4) / 3 - 0.5) * V[c] + (i % 4 / 3 - 0.5) * W[c] + between(-0.2, 0.2))
+      patch()
+    }
+  }
+  # An eighth of a ball as (ring, height) of two quarters of a circle, turned round; u goes up to the pole.
+  function shells(k, i, s, c) {
+    begin(0, 0, -4, 2, 3, -4)
+    split("1 1 0.5522847498 0", along, " "); split("0 0.5522847498 1 1", up, " ")
+    for (k = 0; k < int(n / 8); k++) {
+      for (c = 0; c < 3; c++) { at[c] = between(-0.3, 0.3); R[c] = between(0.9, 1.1) }
+      for (s = 0; s < 8; s++) {
+        for (i = 0; i < 16; i++) {
+          P[i, 0] = at[0] + (s % 2 ? -1 : 1) * R[0] * along[int(i / 4) + 1] * along[i % 4 + 1]
+          P[i, 1] = at[1] + (s % 4 > 1 ? -1 : 1) * R[1] * up[int(i / 4) + 1]
+          P[i, 2] = at[2] + (s > 3 ? -1 : 1) * R[2] * along[int(i / 4) + 1] * up[i % 4 + 1]
+        }
+        patch()
+      }
+    }
+  }
   BEGIN {
     seed = 20240511
-    if (kind == "hair") hair(); else if (kind == "ribbons") ribbons(); else creature()
+    if (kind == "hair") hair(); else if (kind == "ribbons") ribbons(); else if (kind == "creature") creature()
+    else if (kind == "knots") knots(); else if (kind == "confetti") confetti(); else shells()
   }'
