@@ -44,7 +44,7 @@ for MODE in talks warns timeless; do
 done
 for MODE in mute fails empty killed slow answers timeless talks; do
   echo "$MODE:"
-  try pscn chart "$scene" --size 1x1 --rays 1 --rounds 1 --quick --quiet --povray ./povray --timeout 1 -o chart 2>&1 | grep -v -i embree | sed "s|$PWD|HERE|g"
+  try pscn chart "$scene" --size 1x1 --rays 1 --rounds 1 --quick --quiet --povray ./povray --timeout 1 -o chart 2>&1 | grep -v -i 'embree\|gnuplot' | sed "s|$PWD|HERE|g"
   grep -o 'POV-Ray failed[^<]*\|POV-Ray 3.7.0: errors' chart/chart.html
   ls -A tmp
 done

@@ -22,6 +22,7 @@ for scene in "$SCENES"/flat.pscn "$SCENES"/bent.pscn; do
         for (k = 1; k <= reals; k++) {
           near = 1
           for (n = 1; n <= roots; n++) {
+            if (!power && re[n] == -1) continue # at infinity
             u = power ? re[n] : re[n] / (1 + re[n])
             if (line[n] == of[k] && abs(u - real[k]) < near) near = abs(u - real[k])
           }
