@@ -35,6 +35,20 @@ void *memory_resize(void *block, size_t size)
   return hooks_now.resize ? hooks_now.resize(hooks_now.context, block, size) : realloc(block, size);
 }
 
+enum { A_FEW = 32 };
+
+void *memory_grow(void *block, size_t *room, size_t needed, size_t size)
+{
+  size_t larger, bytes;
+  if (block && needed <= *room) return block;
+  if (__builtin_mul_overflow(needed, 2, &larger) || __builtin_add_overflow(larger, A_FEW, &larger) ||
+      __builtin_mul_overflow(larger, size, &bytes))
+    return NULL;
+  void *grown = memory_resize(block, bytes);
+  if (grown) *room = larger;
+  return grown;
+}
+
 char *memory_copy_text(const char *text)
 {
   const size_t size = strlen(text) + 1;

@@ -29,6 +29,11 @@ void *memory_alloc(size_t count, size_t size);
  * short. A NULL block is a new one. */
 void *memory_resize(void *block, size_t size);
 
+/* The block with room for `needed` elements of `size` bytes, where it has not got it for twice as many and a few more:
+ * most lists are allocated once or twice. *room: how many it has room for, 0 of a NULL block. NULL, the block and *room
+ * as they were, where memory is short or the product overflows. */
+void *memory_grow(void *block, size_t *room, size_t needed, size_t size);
+
 /* A copy of the text, or NULL. */
 char *memory_copy_text(const char *text);
 

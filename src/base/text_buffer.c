@@ -1,4 +1,4 @@
-/* Text that grows, to twice what is needed and a little more: most texts are allocated once. */
+/* Text that grows. */
 #include "base/text_buffer.h"
 
 #include <stdarg.h>
@@ -9,20 +9,15 @@
 #include "base/memory.h"
 #include "base/source.h"
 
-enum { LITTLE = 256 };
-
 /* Room for `more` bytes and a NUL at the end. */
 static bool reserve(struct text_buffer *buffer, size_t more)
 {
-  if (more < buffer->size - buffer->length) return true;
-  char *text = NULL;
-  const size_t size = more > SIZE_MAX / 4 - buffer->length ? 0 : 2 * (buffer->length + more) + LITTLE;
-  if (size > 0) text = memory_resize(buffer->text, size);
-  if (text == NULL) buffer->failed = true;
-  if (text == NULL) return false;
-  buffer->text = text;
-  buffer->size = size;
-  return true;
+  if (more < buffer->room - buffer->length) return true;
+  const bool countable = more < SIZE_MAX - buffer->length;
+  char *text = countable ? memory_grow(buffer->text, &buffer->room, buffer->length + more + 1, 1) : NULL;
+  if (text) buffer->text = text;
+  else buffer->failed = true;
+  return text != NULL;
 }
 
 void text_buffer_free(struct text_buffer *buffer)

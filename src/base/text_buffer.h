@@ -8,7 +8,7 @@
 /* One of zeros is empty and may be freed. */
 struct text_buffer {
   char *text; /* owned, base/memory.h's; length bytes, then a NUL; NULL while nothing was added */
-  size_t length, size;
+  size_t length, room;
   bool failed;
 };
 

@@ -173,19 +173,12 @@ void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[
   kernel_for(tracer, count)->occluded(tracer, count, rays, out_occluded);
 }
 
-enum { FIRST_ROOM = 64 };
-
 void *growing_add(struct growing *list, size_t more, size_t size)
 {
-  if (!list->at || more > list->room - list->count) {
-    size_t room = list->room ? list->room : FIRST_ROOM;
-    while (room - list->count < more && room <= SIZE_MAX / size) room *= 2;
-    void *larger = room > SIZE_MAX / size ? NULL : memory_resize(list->at, room * size);
-    if (!larger) return NULL;
-    list->at = larger, list->room = room;
-  }
-  list->count += more;
-  return (char *)list->at + size * (list->count - more);
+  void *at = memory_grow(list->at, &list->room, list->count + more, size);
+  if (!at) return NULL;
+  list->at = at, list->count += more;
+  return (char *)at + size * (list->count - more);
 }
 
 /* As ask_alone; list k's hits begin at first[k] of the tracer's. Returns whether there was memory. */

@@ -50,16 +50,14 @@ static size_t add_source(struct copies *copies, struct source *source)
       return k;
     }
   }
-  if (copies->count == copies->room) {
-    const size_t room = 2 * copies->room + 8;
-    struct source **list = copies->count < MAX_FILES ? memory_resize(copies->source, room * sizeof *list) : NULL;
-    if (list == NULL) {
-      source_destroy(source);
-      return MAX_FILES;
-    }
-    copies->source = list;
-    copies->room = room;
+  struct source **list = copies->count == MAX_FILES
+                           ? NULL
+                           : memory_grow(copies->source, &copies->room, copies->count + 1, sizeof *list);
+  if (list == NULL) {
+    source_destroy(source);
+    return MAX_FILES;
   }
+  copies->source = list;
   copies->source[copies->count] = source;
   return copies->count++;
 }

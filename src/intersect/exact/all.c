@@ -13,7 +13,7 @@
 #include "intersect/exact/judge.h"
 
 /* Open places of one ray that are listed; there may be hundreds where a surface lies along the ray. */
-enum { LISTED_OPEN = 64, FIRST_ROOM = 32 };
+enum { LISTED_OPEN = 64 };
 
 /* Work that telling apart, settling and ordering may take besides that of the search; to compare so many roots takes as
  * long as to look at a box. What is left when there is none is a doubt. */
@@ -21,14 +21,12 @@ enum { ALL_WORK = 2560, WORK_COMPARED = 64 };
 
 bool exact_list_add(struct exact_list *list, const struct exact_found *found)
 {
-  if (list->count == list->room) {
-    const size_t room = list->room ? 2 * list->room : FIRST_ROOM;
-    struct exact_found *larger = list->fixed || room > SIZE_MAX / sizeof *larger
-                                   ? NULL
-                                   : memory_resize(list->at, room * sizeof *larger);
-    list->failed |= !larger && !list->fixed;
-    if (!larger) return false;
-    list->at = larger, list->room = room;
+  if (list->fixed && list->count == list->room) return false;
+  if (!list->fixed) {
+    struct exact_found *at = memory_grow(list->at, &list->room, list->count + 1, sizeof *at);
+    list->failed |= !at;
+    if (!at) return false;
+    list->at = at;
   }
   struct exact_found *added = &list->at[list->count++];
   *added = *found;

@@ -81,7 +81,7 @@ struct exact_found {
   wide least;       /* of a sorted list: where this one and all behind it begin, by t and its error */
 };
 
-/* A list that grows by memory_resize, but where it is fixed. Zero-initialise; memory_free `at`. */
+/* A list that grows by memory_grow, but where it is fixed. Zero-initialise; memory_free `at`. */
 struct exact_list {
   struct exact_found *at;
   size_t count, room;
