@@ -4,8 +4,7 @@
  * For a caller who proves by himself what he makes of the roots (as with solver_roots): no radii, no error bounds. The
  * paper's iterations as printed, their items, and roots that are to be the answer, are aberth.c's, deflation.c's and
  * durand_kerner.c's. Against those:
- * - Polynomials in scaled Bernstein form are taken to powers of y = 2u - 1: all that matters has |y| <= 1, and what
- *   rounding does there (1e-11 of a root mostly, 1e-6 at worst) is little for a start.
+ * - Powers of y, and start values, are those of roots_lanes_start.h.
  * - The polynomials are real: P, P' and P'' by division by a real quadratic, half the products of Horner's scheme.
  * - A sweep moves all roots from the same values, so every difference of two roots serves both.
  * - A root is done when it is a good start, or, where all move at once, plainly none for [0,1]; then it stays, and
@@ -20,16 +19,8 @@
 #ifndef PSCN_ALGEBRA_ROOTS_LANES_H
 #define PSCN_ALGEBRA_ROOTS_LANES_H
 
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
-
 #include "algebra/complex_number.h"
-#include "algebra/polynomial.h"
-#include "algebra/solver.h"
-#include "base/lanes.h"
-
-enum { ROOTS_LANES_DEGREE = 18 };
+#include "algebra/roots_lanes_start.h"
 
 /* All lengths here are choices of speed, in y. A step shorter than this leaves a root, after it, off by about its
  * square: near enough for Newton. */
@@ -39,11 +30,6 @@ enum { ROOTS_LANES_DEGREE = 18 };
 #define ROOTS_AWAY 4.0
 /* ... where a step is less than this much of the way: in the first sweeps values are anywhere. */
 #define ROOTS_CALM 0.0625
-/* Values are kept within this; roots beyond are as good as at infinity. */
-#define ROOTS_FAR 0x1p20
-/* p[k] is off by some roundings of C(n,k) sum |c|. Highest powers below this much of that are noise, and their roots,
- * far away, of nobody's interest. */
-#define ROOTS_NOISE 0x1p-48
 /* A real value can only move along the real axis: previous roots are taken off it by this much. And one that has come
  * as near to it by itself is real. */
 #define ROOTS_LIFT 0x1p-10
@@ -56,17 +42,6 @@ enum { ROOTS_PATIENCE = 24 };
  * sooner done. */
 enum { ROOTS_SWEEPS = 48 };
 
-struct roots_lanes {
-  enum solver_lanes method;
-  int degree;
-  lanes p[ROOTS_LANES_DEGREE + 1];                      /* powers of y; the largest is 1 */
-  lanes zr[ROOTS_LANES_DEGREE], zi[ROOTS_LANES_DEGREE]; /* the values */
-  lane_mask moving[ROOTS_LANES_DEGREE];                 /* not found */
-  lane_mask seeking;                                    /* lanes that are not done */
-  lanes enough;                                         /* real roots in [-1,1] that are not found, at most */
-  lanes sweeps;                                         /* of all at once, each as dear as the degree squared */
-};
-
 /* 1/x to about 20 bits; 0 where x is above 1e38. */
 LANES_INLINE lanes roots_lanes_inverse(lanes x)
 {
@@ -77,129 +52,6 @@ LANES_INLINE lanes roots_lanes_inverse(lanes x)
 #else
   return 1 / x;
 #endif
-}
-
-/* p = sum over k of c[k] (1+y)^k (1-y)^(n-k) in powers of y, and choose[j] = C(n,j). Terms k and n-k are together
- * (1-y^2)^k sum over j of C(n-2k,j) y^j (c[n-k] + c[k]), the difference where j is odd; and 1-y^2 is taken out as in
- * Horner's scheme. */
-LANES_INLINE void roots_lanes_powers(int n, const lanes c[], lanes p[], double choose[])
-{
-  for (int j = 0; j <= n; j++) p[j] = lanes_all(0), choose[j] = 0;
-  choose[0] = 1;
-  if (n % 2 == 0) p[0] = c[n / 2];
-#pragma GCC unroll 10
-  for (int k = (n - 1) / 2; k >= 0; k--) {
-    const int m = n - 2 * k;
-    const lanes even = c[n - k] + c[k], odd = c[n - k] - c[k];
-#pragma GCC unroll 20
-    for (int j = m; j > 0; j--) choose[j] += (m > 1 ? 2 : 1) * choose[j - 1] + (m > 1 && j > 1 ? choose[j - 2] : 0);
-#pragma GCC unroll 20
-    for (int j = m; j > 1; j--) p[j] -= p[j - 2];
-#pragma GCC unroll 20
-    for (int j = 0; j <= m; j++) p[j] += choose[j] * (j % 2 ? odd : even);
-  }
-}
-
-/* Scales p[0..n], each of which is off by some roundings of choose[k] sum. Lanes where that can be done. */
-LANES_INLINE lane_mask roots_lanes_scale(struct roots_lanes *a, int n, const double choose[], lanes sum)
-{
-  lanes *p = a->p, largest = {0};
-  lane_mask noise = ~(lane_mask){0};
-  a->degree = n;
-  for (int k = 0; k <= n; k++) largest = lanes_max(lanes_abs(p[k]), largest);
-  for (int k = n; k > 0 && lanes_any(noise); k--) {
-    noise &= lanes_abs(p[k]) <= ROOTS_NOISE * choose[k] * sum;
-    p[k] = lanes_select(noise, lanes_all(0), p[k]);
-  }
-  const lane_mask able = (largest > 0x1p-500) & (largest < 0x1p500);
-  const lanes scale = 1 / lanes_select(able, largest, lanes_all(1));
-  for (int k = 0; k <= n; k++) p[k] *= scale;
-  return able;
-}
-
-/* sum c[k] u^k (1-u)^(n-k) times 2^n in powers of y, scaled. Lanes where that can be done. */
-static lane_mask roots_lanes_set(struct roots_lanes *a, int n, const lanes c[])
-{
-  lanes sum = {0};
-  double choose[ROOTS_LANES_DEGREE + 1];
-  if (n == ROOTS_LANES_DEGREE) roots_lanes_powers(ROOTS_LANES_DEGREE, c, a->p, choose); /* constants then */
-  else roots_lanes_powers(n, c, a->p, choose);
-  for (int k = 0; k <= n; k++) sum += lanes_abs(c[k]);
-  return roots_lanes_scale(a, n, choose, sum);
-}
-
-/* q0 + q1 y + q2 y^2, scaled. Lanes where that can be done. */
-static lane_mask roots_lanes_set_quadratic(struct roots_lanes *a, lanes q0, lanes q1, lanes q2)
-{
-  a->p[0] = q0, a->p[1] = q1, a->p[2] = q2;
-  return roots_lanes_scale(a, 2, (double[3]){1, 1, 1}, lanes_abs(q0) + (lanes_abs(q1) + lanes_abs(q2)));
-}
-
-/* Directions of the start values, turned by the golden angle from one to the next: no two are conjugate, and any few
- * in a row are well spread. */
-static const double ROOTS_DIRECTION[ROOTS_LANES_DEGREE][2] = {
-  {0.82534080538904664, 0.56463488641755022},   {-0.98998600927849123, 0.14116551077670156},
-  {0.63462894056078134, -0.77281699502708934},  {0.054074749483818782, 0.99853689038926463},
-  {-0.71437501527928071, -0.69976305814520356}, {0.99944105760351309, 0.033430111821099527},
-  {-0.75953844742174226, 0.65046241005008842},  {0.12067896806192339, -0.99269158688260739},
-  {0.58156861684679995, 0.81349735334474205},   {-0.97834016512169597, -0.20700367462838129},
-  {0.86122656302268608, -0.50822121870710124},  {-0.29174316397287403, 0.95649669433568707},
-  {-0.43098190401129188, -0.90236057006875114}, {0.92732845003860065, 0.37424850801173076},
-  {-0.93658437361885116, 0.35044216511856013},  {0.45388788756343207, -0.89105880026135498},
-  {0.2672187687668745, 0.96363589058249366},    {-0.84796549501763319, -0.53005143076827954},
-};
-
-/* Start values on one lane: on circles by Newton's polygon (start.c), with log2 to a tenth. */
-static void roots_lanes_start_lane(struct roots_lanes *a, unsigned lane)
-{
-  const int n = a->degree;
-  double height[ROOTS_LANES_DEGREE + 1];
-  int corner[ROOTS_LANES_DEGREE + 1], corners = 0, i = 0;
-  for (int k = 0; k <= n; k++) {
-    const double size = fabs(a->p[k][lane]);
-    if (!(size > 0x1p-900)) continue;
-    uint64_t bits;
-    memcpy(&bits, &size, sizeof bits);
-    height[k] = (double)bits * 0x1p-52;
-    corners = polynomial_add_corner(height, corner, corners, k);
-  }
-  for (int edge = -1; edge < corners; edge++) {
-    const int low = edge < 0 ? 0 : corner[edge], high = edge + 1 < corners ? corner[edge + 1] : n;
-    /* roots at 0, and at infinity, where coefficients at the ends vanish */
-    double radius = edge < 0 ? 1 / ROOTS_FAR : ROOTS_FAR;
-    if (edge >= 0 && edge + 1 < corners) radius = exp2((height[low] - height[high]) / (high - low));
-    radius = fmin(fmax(radius, 1 / ROOTS_FAR), ROOTS_FAR);
-    for (; i < high; i++) {
-      a->zr[i][lane] = radius * ROOTS_DIRECTION[i][0];
-      a->zi[i][lane] = radius * ROOTS_DIRECTION[i][1];
-    }
-  }
-}
-
-/* Of degree 2, on all lanes: where the corner of Newton's polygon is so sharp that both roots are real, the real roots
- * of its edges, otherwise on the one circle there is. */
-static void roots_lanes_start_quadratic(struct roots_lanes *a)
-{
-  const lanes *p = a->p, mean = lanes_sqrt(lanes_abs(p[0] / p[2]));
-  const lane_mask real = p[1] * p[1] > 4 * lanes_abs(p[0] * p[2]);
-  for (int k = 0; k < 2; k++) {
-    const lanes edge = lanes_min(lanes_max(-p[k] / p[k + 1], lanes_all(-ROOTS_FAR)), lanes_all(ROOTS_FAR));
-    const lanes radius = lanes_min(lanes_max(mean, lanes_all(1 / ROOTS_FAR)), lanes_all(ROOTS_FAR));
-    a->zr[k] = lanes_select(real, edge, radius * ROOTS_DIRECTION[k][0]);
-    a->zi[k] = lanes_select(real, lanes_all(0), radius * ROOTS_DIRECTION[k][1]);
-  }
-}
-
-/* Start values on the lanes of `wanted`. */
-static void roots_lanes_start(struct roots_lanes *a, lane_mask wanted)
-{
-  if (a->degree == 2) {
-    roots_lanes_start_quadratic(a);
-    return;
-  }
-  for (int k = 0; k < a->degree; k++) a->zr[k] = a->zi[k] = lanes_all(1);
-  for (unsigned bits = lanes_bits(wanted); bits; bits &= bits - 1)
-    roots_lanes_start_lane(a, (unsigned)__builtin_ctz(bits));
 }
 
 struct roots_lanes_value {
