@@ -7,17 +7,18 @@
  * 1e-7: a fold is looked for (touch.c), and else the box is searched by itself, with polynomials made for it in wide
  * arithmetic (zoom.h), which scales what is too small to tell. Where some combination is zero in wide arithmetic, all over
  * the patch, the ray lies in the plane of a flat patch, or as good as that, and meets curves: what comes first on them lies
- * on borders of boxes (curves.h). What even that leaves (a double root, a ray in the surface), and poles met exactly, are
- * told to the judge as undecided.
+ * on borders of boxes (curves.h). What even that leaves (a double root, a ray in the surface), and poles met exactly
+ * (pole.c), are told to the judge as undecided. docs/method.md says how the constants here, there and under the glass fit
+ * together.
  */
-#include "intersect/exact/curves.h"
-#include "intersect/exact/window.h"
+#include "intersect/exact/search.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/real.h"
 #include "geometry/patch.h"
+#include "intersect/exact/curves.h"
 #include "intersect/prepare/leaf.h"
 #include "intersect/point.h"
 
@@ -33,73 +34,26 @@ enum { SEARCH_HALVINGS = 104 };
  * than these wait only in the order of halving, and so no more than one box can be halved. */
 enum { SEARCH_AHEAD = 128, CLOSER_AHEAD = 64, SEARCH_STACK = SEARCH_HALVINGS + 2 };
 
-/* How often a box may be put under the glass, one in the other. */
-enum { ZOOM_DEPTH = 12, TANGENT_DEPTH = 4 };
-
-/* A box is put under the glass again where it is so small a part of what was. */
+/* A box is put under the glass again where it is so small a part of what was, and so often, one in the other. Poles have
+ * their own numbers (pole.c). */
 #define ZOOM_AGAIN 0x1p-16
-
-/* A box at a border that is one point is put under the glass where it reaches no farther from it, of the patch. A
- * choice of speed. */
-#define ZOOM_POLE 0x1p-10
-
-/* A box at a border that is one point is put under the glass again where it is so small a part, away from the border,
- * of what was: see ZOOM_POLE_NEAREST. */
-#define ZOOM_AGAIN_POLE 0x1p-10
-
-enum { NO_BORDER = -1, TWO_BORDERS = -2 };
-
-struct search {
-  struct window window; /* what the whole box is of the patch */
-  int ahead;            /* boxes that may wait in the order of the ray */
-  int divided;          /* the border by the distance to which the first net is divided (zoom_pole_box), or NO_BORDER */
-  bool dependent;       /* some combination is zero, which it then is everywhere: there is nothing to see of it */
-  bool met;             /* the pole there may be met: nothing is said of what is nearer to it than ZOOM_POLE_MET, ... */
-  double met_error[2];  /* ... and this is what it adds to the errors of the first two nets that far away */
-  double error[2];      /* bounds on the errors of coefficients of the first two nets before any halving */
-  double extent[2];     /* bounds on the derivatives by the whole box's parameters */
-  double resolution;    /* of t */
-  bool pole[4];         /* borders of the whole box (geometry/edges.h) that are one point */
-};
+enum { TANGENT_DEPTH = 4 };
 
 /* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the
  * whole box's size. */
-static void box_error(const struct search *s, const struct box *box, double out[2])
+void search_box_error(const struct search *s, const struct box *box, double out[2])
 {
   for (int k = 0; k < 2; k++) out[k] = s->error[k] + box->halvings * 4 * UNIT_ROUNDOFF;
 }
 
-/* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray, which stands for all of
- * a small one. A box that is not small is a doubt, whether or not it has such a point. */
-static void box_tell_maybe(struct search *s, struct box *box, bool small)
+void search_tell_maybe(struct search *s, struct box *box, bool small)
 {
   double u = 0.5, v = 0.5, error[2];
-  box_error(s, box, error);
+  search_box_error(s, box, error);
   if (!small) judge_undecided(s->window.judge, box->near);
   if (!box_onto_ray(box, error, &u, &v) && !small) return;
   const double t = t_of_depth(&s->window.depth, patch_evaluate(box->net[2], u, v).value);
   window_tell_maybe(&s->window, box, u, v, t, real_min(box->far - box->near, s->resolution));
-}
-
-/* The border that is one point and that the box lies at. */
-static int box_pole(const struct search *s, const struct box *box)
-{
-  const bool at[4] = {box->u == 0, box->u + box->size_u == 1, box->v == 0, box->v + box->size_v == 1};
-  int pole = NO_BORDER;
-  for (int k = 0; k < 4; k++)
-    if (s->pole[k] && at[k]) pole = pole == NO_BORDER ? k : TWO_BORDERS;
-  return pole;
-}
-
-/* A box at a pole no wider than this along the border, of the patch, is made smaller towards the
- * pole only: the place along the border is known no better than the direction in which the ray passes the pole. A
- * choice of speed. */
-#define NARROW_AT_POLE 0x1p-5
-
-static bool narrow_at_pole(const struct search *s, const struct box *box)
-{
-  if (s->divided == NO_BORDER || box_pole(s, box) != s->divided) return false;
-  return (double)(s->divided < 2 ? s->window.size[1] * box->size_v : s->window.size[0] * box->size_u) <= NARROW_AT_POLE;
 }
 
 /* Halves across the parameter along which the box is longer as seen along the ray, for that is what hull tests and
@@ -109,11 +63,11 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
 {
   double along_u, along_v, error[2];
   box_variation(box, 0, 1, &along_u, &along_v);
-  box_error(s, box, error);
+  search_box_error(s, box, error);
   if (real_max(along_u, along_v) <= FLAT_ERRORS * real_max(error[0], error[1]))
     box_variation(box, 2, 2, &along_u, &along_v);
   bool across_u = along_u == along_v ? box->size_u >= box->size_v : along_u > along_v;
-  if (narrow_at_pole(s, box)) across_u = s->divided < 2;
+  if (pole_narrow(s, box)) across_u = s->divided < 2;
   if (s->dependent) across_u = s->extent[0] * box->size_u >= s->extent[1] * box->size_v;
   if (across_u ? box->size_u <= LEAST_SIZE : box->size_v <= LEAST_SIZE) across_u = !across_u;
   box_cut(box, across_u, out);
@@ -122,8 +76,7 @@ static void box_halve(const struct search *s, struct box *box, struct box out[2]
 
 static void search_run(struct search *s, const struct box *whole, struct box waiting[]);
 
-/* The search of the box alone. */
-static struct search closer_search(const struct search *s, const struct box *box)
+struct search search_closer(const struct search *s, const struct box *box)
 {
   struct search closer = {.window = window_closer(&s->window, box),
                           .ahead = s->window.judge->all ? 0 : CLOSER_AHEAD,
@@ -135,7 +88,7 @@ static struct search closer_search(const struct search *s, const struct box *box
   return closer;
 }
 
-static void closer_run(struct search *closer, const struct zoomed *zoomed)
+void search_run_closer(struct search *closer, const struct zoomed *zoomed)
 {
   window_set_depths(&closer->window, zoomed);
   for (int k = 0; k < 2; k++) closer->error[k] = zoomed->error[k];
@@ -147,32 +100,14 @@ static void closer_run(struct search *closer, const struct zoomed *zoomed)
 /* Searches the box by itself under the glass. Returns whether that could be done. */
 static bool box_zoom(struct search *s, const struct box *box)
 {
-  struct search closer = closer_search(s, box);
+  struct search closer = search_closer(s, box);
   struct zoomed zoomed;
   judge_spend(s->window.judge, WORK_ZOOM);
   if (!zoom_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, &zoomed)) {
     s->dependent = true;
     return false;
   }
-  closer_run(&closer, &zoomed);
-  return true;
-}
-
-/* The same at a border that is one point. */
-static bool box_zoom_pole(struct search *s, const struct box *box, int border)
-{
-  struct search closer = closer_search(s, box);
-  struct zoomed zoomed;
-  enum zoom_pole pole;
-  judge_spend(s->window.judge, WORK_ZOOM);
-  const bool done = zoom_pole_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, border, &zoomed,
-                                  &pole);
-  closer.met = pole == POLE_MET && !judge_pole(s->window.judge, border);
-  s->dependent |= !done;
-  if (!done) return false;
-  closer.divided = border;
-  for (int k = 0; k < 2 && closer.met; k++) zoomed.error[k] += closer.met_error[k] = zoomed.met[k];
-  closer_run(&closer, &zoomed);
+  search_run_closer(&closer, &zoomed);
   return true;
 }
 
@@ -184,62 +119,6 @@ static bool box_asks_zoom(const struct search *s, const struct box *box)
   if (s->dependent) return false;
   if (s->divided != NO_BORDER) return s->window.zooms == 1;
   return s->window.zooms == 0 || (s->window.zooms < TANGENT_DEPTH && box->size_u * box->size_v <= ZOOM_AGAIN);
-}
-
-/* Whether the box is to be put under the glass for the pole it lies at: as soon as it is not most of the patch, and
- * whenever it has become small. */
-static bool box_asks_pole(const struct search *s, const struct box *box, int border)
-{
-  if (border < 0 || s->met || s->dependent || s->window.zooms >= ZOOM_DEPTH) return false;
-  const double size = border < 2 ? box->size_u : box->size_v;
-  if (s->divided != border) return size * (double)s->window.size[border / 2] <= ZOOM_POLE;
-  return size <= ZOOM_AGAIN_POLE;
-}
-
-/* How far beyond an end of the ray the pole at t is, for certain: not more than 0 where it may be at that end. */
-static double pole_gap(const struct search *s, double t)
-{
-  const struct ray *ray = s->window.judge->asked->ray;
-  const double gap = t <= ray->t_min ? ray->t_min - t : t - ray->t_max;
-  return gap - window_length(&s->window, s->window.depth_error) - 8 * UNIT_ROUNDOFF * real_max(fabs(t), gap);
-}
-
-/* Of a box at a pole that may be met and is beyond an end of the ray by the gap: whether it has no root on this side of
- * that end. Such a root is farther from the border than `least`, of the box, and the farther that is the less the nets
- * are off by. */
-static bool pole_alone(const struct search *s, struct box *box, double pole, double gap, double size)
-{
-  double rise = 0, error[2];
-  for (int n = 0; n < 16; n++) rise = real_max(rise, fabs(box->net[2][n / 4][n % 4] - pole));
-  const double least = real_min(gap / window_length(&s->window, 3 * rise), 1);
-  if (!(least > 0)) return false;
-  box_error(s, box, error);
-  for (int k = 0; k < 2; k++) error[k] += s->met_error[k] * (ZOOM_POLE_MET / (least * size));
-  return box_test(box, error) == VERDICT_EMPTY;
-}
-
-/* Decides a box at a pole that may be met, as far as that is to be done: where the pole has been told, nothing is said of
- * what is next to it; where it may be at an end of the ray what is next to it is a doubt, and no more is said of it;
- * where it is beyond that end what is next to it is halved towards it. */
-static bool box_met(struct search *s, struct box *box, int border, bool *decided)
-{
-  const struct ray *ray = s->window.judge->asked->ray;
-  const double pole = box->net[2][border == 1 ? 3 : 0][border == 3 ? 3 : 0], t = t_of_depth(&s->window.depth, pole);
-  const double size = border < 2 ? box->size_u : box->size_v, gap = pole_gap(s, t);
-  const bool told = t > ray->t_min && t < ray->t_max, smallest = size <= ZOOM_POLE_MET, at_end = !(gap > 0);
-  const bool alone = !told && pole_alone(s, box, pole, gap, size);
-  if (smallest && !told && !alone) box_tell_maybe(s, box, false);
-  else if (at_end && !told) judge_undecided(s->window.judge, box->near);
-  *decided = smallest || alone;
-  return smallest || !(told || at_end);
-}
-
-/* Whether the root, in the box's parameters, is far enough from the border that the first net is divided by. */
-static bool far_from_pole(const struct search *s, const struct box *box, const double root[2])
-{
-  const double u = box->u + box->size_u * root[0], v = box->v + box->size_v * root[1];
-  const double distance[4] = {u, 1 - u, v, 1 - v};
-  return s->divided < 0 || distance[s->divided] >= ZOOM_POLE_NEAREST;
 }
 
 /* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as
@@ -274,16 +153,18 @@ static bool box_flat(struct search *s, struct box *box, const double error[2])
 static bool box_decide(struct search *s, struct box *box)
 {
   if (box->near > s->window.judge->limit || box->far < s->window.judge->asked->ray->t_min) return true;
-  const int border = box_pole(s, box);
-  bool decided;
-  if (s->met && border == s->divided && box_met(s, box, border, &decided)) return decided;
-  if (box_asks_pole(s, box, border) && box_zoom_pole(s, box, border)) return true;
+  const int border = pole_of_box(s, box);
+  if (s->met && border == s->divided) {
+    const enum pole_box pole = pole_decide(s, box);
+    if (pole != POLE_BOX_OPEN) return pole == POLE_BOX_DECIDED;
+  }
+  if (pole_zoom(s, box, border)) return true;
   double error[2];
-  box_error(s, box, error);
+  search_box_error(s, box, error);
   const enum verdict verdict = box_test(box, error);
   if (verdict == VERDICT_EMPTY || (s->dependent && s->window.zooms == 0 && box_flat(s, box, error))) return true;
   double root[2] = {0.5, 0.5}, radius[2];
-  if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius) && far_from_pole(s, box, root)) {
+  if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius) && pole_far(s, box, root)) {
     struct exact_root found = window_root(&s->window, box, root, radius);
     judge_root(s->window.judge, &found);
     return true;
@@ -292,7 +173,7 @@ static bool box_decide(struct search *s, struct box *box)
   const bool small = verdict != VERDICT_OPEN && box_small(s, box, verdict);
   if (verdict != VERDICT_OPEN && box_asks_zoom(s, box) && border == NO_BORDER && box_zoom(s, box)) return true;
   if (!small && box->halvings < SEARCH_HALVINGS) return false;
-  box_tell_maybe(s, box, small);
+  search_tell_maybe(s, box, small);
   return true;
 }
 
@@ -320,9 +201,9 @@ static void search_run(struct search *s, const struct box *whole, struct box wai
     const bool decided = box_decide(s, &box);
     if (decided) continue;
     if (s->window.judge->work <= 0) {
-      box_tell_maybe(s, &box, false);
+      search_tell_maybe(s, &box, false);
       while (count-- > 0)
-        if (waiting[count].near <= s->window.judge->limit) box_tell_maybe(s, &waiting[count], false);
+        if (waiting[count].near <= s->window.judge->limit) search_tell_maybe(s, &waiting[count], false);
       return;
     }
     box_halve(s, &box, &waiting[count]);
@@ -376,5 +257,5 @@ void search_region(struct judge *j, const struct exact_region *region)
   struct box whole, waiting[SEARCH_AHEAD + SEARCH_STACK];
   search_begin(j, region, &search, &whole);
   if (j->work > 0) search_run(&search, &whole, waiting);
-  else box_tell_maybe(&search, &whole, false);
+  else search_tell_maybe(&search, &whole, false);
 }

@@ -1,0 +1,112 @@
+/* Boxes of a search at a border that is one point, a pole: put under the glass, divided by the distance to the border
+ * (zoom_pole_box), again and again towards it; and what is told where the ray meets the pole.
+ *
+ * Along such a border both polynomials are constant, so that a ray that passes the pole closely is tangent, as it were,
+ * wherever on the border it comes by. How far that goes, and where it ends, is said in docs/method.md.
+ */
+#include "intersect/exact/search.h"
+
+#include <math.h>
+
+#include "base/real.h"
+
+/* A box is put under the glass where it reaches no farther from the pole, of the patch. A choice of speed. */
+#define ZOOM_POLE 0x1p-10
+
+/* It is put there again where it is so small a part, away from the border, of what was; and so often, one in the other. */
+#define ZOOM_AGAIN_POLE 0x1p-10
+enum { ZOOM_DEPTH = 12 };
+
+/* A box no wider than this along the border, of the patch, is made smaller towards the pole only: the place along the
+ * border is known no better than the direction in which the ray passes the pole. A choice of speed. */
+#define NARROW_AT_POLE 0x1p-5
+
+int pole_of_box(const struct search *s, const struct box *box)
+{
+  const bool at[4] = {box->u == 0, box->u + box->size_u == 1, box->v == 0, box->v + box->size_v == 1};
+  int pole = NO_BORDER;
+  for (int k = 0; k < 4; k++)
+    if (s->pole[k] && at[k]) pole = pole == NO_BORDER ? k : TWO_BORDERS;
+  return pole;
+}
+
+bool pole_narrow(const struct search *s, const struct box *box)
+{
+  if (s->divided == NO_BORDER || pole_of_box(s, box) != s->divided) return false;
+  return (double)(s->divided < 2 ? s->window.size[1] * box->size_v : s->window.size[0] * box->size_u) <= NARROW_AT_POLE;
+}
+
+/* How far the box reaches from the border, of the search's whole box. */
+static double reach_from(const struct box *box, int border) { return border < 2 ? box->size_u : box->size_v; }
+
+/* Whether it is to be put under the glass: as soon as it is not most of the patch, and whenever it has become small. */
+static bool asks_zoom(const struct search *s, const struct box *box, int border)
+{
+  if (border < 0 || s->met || s->dependent || s->window.zooms >= ZOOM_DEPTH) return false;
+  const double reach = reach_from(box, border);
+  if (s->divided != border) return reach * (double)s->window.size[border / 2] <= ZOOM_POLE;
+  return reach <= ZOOM_AGAIN_POLE;
+}
+
+bool pole_zoom(struct search *s, const struct box *box, int border)
+{
+  if (!asks_zoom(s, box, border)) return false;
+  struct search closer = search_closer(s, box);
+  struct zoomed zoomed;
+  enum zoom_pole pole;
+  judge_spend(s->window.judge, WORK_ZOOM);
+  const bool done = zoom_pole_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, border, &zoomed,
+                                  &pole);
+  closer.met = pole == POLE_MET && !judge_pole(s->window.judge, border);
+  s->dependent |= !done;
+  if (!done) return false;
+  closer.divided = border;
+  for (int k = 0; k < 2 && closer.met; k++) zoomed.error[k] += closer.met_error[k] = zoomed.met[k];
+  search_run_closer(&closer, &zoomed);
+  return true;
+}
+
+/* How far beyond an end of the ray the pole at t is, for certain: not more than 0 where it may be at that end. */
+static double pole_gap(const struct search *s, double t)
+{
+  const struct ray *ray = s->window.judge->asked->ray;
+  const double gap = t <= ray->t_min ? ray->t_min - t : t - ray->t_max;
+  return gap - window_length(&s->window, s->window.depth_error) - 8 * UNIT_ROUNDOFF * real_max(fabs(t), gap);
+}
+
+/* Of a box at a pole at `depth` that may be met and is beyond an end of the ray by the gap: whether it has no root on
+ * this side of that end. Such a root is farther from the border than `least`, of the box, and the farther that is the
+ * less the nets are off by. */
+static bool pole_alone(const struct search *s, struct box *box, double depth, double gap)
+{
+  double rise = 0, error[2];
+  for (int n = 0; n < 16; n++) rise = real_max(rise, fabs(box->net[2][n / 4][n % 4] - depth));
+  const double least = real_min(gap / window_length(&s->window, 3 * rise), 1);
+  if (!(least > 0)) return false;
+  search_box_error(s, box, error);
+  for (int k = 0; k < 2; k++) error[k] += s->met_error[k] * (ZOOM_POLE_MET / (least * reach_from(box, s->divided)));
+  return box_test(box, error) == VERDICT_EMPTY;
+}
+
+/* Where the pole has been told, nothing is said of what is next to it; where it may be at an end of the ray what is next
+ * to it is a doubt, and no more is said of it; where it is beyond that end what is next to it is halved towards it. */
+enum pole_box pole_decide(struct search *s, struct box *box)
+{
+  const struct ray *ray = s->window.judge->asked->ray;
+  const int border = s->divided;
+  const double depth = box->net[2][border == 1 ? 3 : 0][border == 3 ? 3 : 0], t = t_of_depth(&s->window.depth, depth);
+  const double gap = pole_gap(s, t);
+  const bool told = t > ray->t_min && t < ray->t_max, at_end = !told && !(gap > 0);
+  const bool smallest = reach_from(box, border) <= ZOOM_POLE_MET, alone = !told && pole_alone(s, box, depth, gap);
+  if (smallest && !told && !alone) search_tell_maybe(s, box, false);
+  else if (at_end) judge_undecided(s->window.judge, box->near);
+  if (smallest || alone) return POLE_BOX_DECIDED;
+  return told || at_end ? POLE_BOX_OPEN : POLE_BOX_HALVED;
+}
+
+bool pole_far(const struct search *s, const struct box *box, const double root[2])
+{
+  const double u = box->u + box->size_u * root[0], v = box->v + box->size_v * root[1];
+  const double distance[4] = {u, 1 - u, v, 1 - v};
+  return s->divided < 0 || distance[s->divided] >= ZOOM_POLE_NEAREST;
+}
