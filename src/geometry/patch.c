@@ -41,23 +41,6 @@ void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, 
   }
 }
 
-void patch_second_derivative_bounds(double x[3][4][4], double out[3])
-{
-  double uu[8][3], uv[9][3], vv[8][3];
-  for (int k = 0; k < 3; k++) {
-    for (int n = 0; n < 8; n++) {
-      const int i = n / 4, j = n % 4;
-      uu[n][k] = 6 * (x[k][i + 2][j] - 2 * x[k][i + 1][j] + x[k][i][j]);
-      vv[n][k] = 6 * (x[k][j][i + 2] - 2 * x[k][j][i + 1] + x[k][j][i]);
-    }
-    for (int n = 0; n < 9; n++) {
-      const int i = n / 3, j = n % 3;
-      uv[n][k] = 9 * (x[k][i + 1][j + 1] - x[k][i + 1][j] - x[k][i][j + 1] + x[k][i][j]);
-    }
-  }
-  out[0] = vector_longest(uu, 8), out[1] = vector_longest(uv, 9), out[2] = vector_longest(vv, 8);
-}
-
 /* Takes a cubic whose true degree is `degree` to that degree's Bezier form. */
 static void cubic_reduce(const double c[4], int degree, double out[4])
 {

@@ -14,10 +14,6 @@
  * largest |net| where the range lies in [0,1]; u0 = 0, u1 = 1 copy exactly. out may be net. */
 void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, double out[4][4]);
 
-/* Bounds on the length of the second partial derivatives over the net's own domain, for the surface with coordinate
- * nets x[0..2]: out[0] = |Suu|, out[1] = |Suv|, out[2] = |Svv|. */
-void patch_second_derivative_bounds(double x[3][4][4], double out[3]);
-
 /* Whether a border (numbered as in geometry/edges.h) is one point, its control points equal numbers. */
 bool patch_border_is_point(const double x[3][4][4], int border);
 

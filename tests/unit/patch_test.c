@@ -1,4 +1,4 @@
-/* The bicubic patch: subdivision, evaluation and derivative bounds against quadruple precision; degrees. */
+/* The bicubic patch: subdivision and evaluation against quadruple precision; degrees. */
 #include "geometry/patch.h"
 
 #include <math.h>
@@ -151,48 +151,6 @@ static void parameters_beyond_the_range_extrapolate(void **state)
   }
 }
 
-/* Second differences in quadruple precision. */
-static quad second(const struct quad_net *net, quad u, quad v, int kind)
-{
-  const quad h = 0x1p-30;
-  const struct quad_jet low = quad_net_jet(net, kind == 2 ? u : u - h, kind == 2 ? v - h : v);
-  const struct quad_jet high = quad_net_jet(net, kind == 2 ? u : u + h, kind == 2 ? v + h : v);
-  return (kind == 0 ? high.du - low.du : high.dv - low.dv) / (2 * h);
-}
-
-static void second_derivative_bounds_hold_and_are_near(void **state)
-{
-  (void)state;
-  struct random random = {SEED + 6};
-  double worst = 0, best = INFINITY;
-  for (int n = 0; n < 40; n++) {
-    double x[3][4][4], bound[3];
-    for (int k = 0; k < 3; k++) random_net(&random, x[k]);
-    if (n % 4 == 1)
-      for (int i = 0; i < 16; i++) x[0][i / 4][i % 4] = i / 4, x[1][i / 4][i % 4] = i % 4; /* a height field */
-    patch_second_derivative_bounds(x, bound);
-    struct quad_net net[3];
-    for (int k = 0; k < 3; k++) to_quad(x[k], &net[k]);
-    for (int kind = 0; kind < 3; kind++) {
-      double most = 0;
-      for (int a = 0; a <= 10; a++) {
-        for (int b = 0; b <= 10; b++) {
-          double sum = 0;
-          for (int k = 0; k < 3; k++) {
-            const double s = (double)second(&net[k], a / (quad)10, b / (quad)10, kind);
-            sum += s * s;
-          }
-          most = fmax(most, sqrt(sum));
-        }
-      }
-      worst = fmax(worst, most / bound[kind]), best = fmin(best, most / bound[kind]);
-    }
-  }
-  print_message("largest second derivative / bound: %.6g at most, %.3g at least\n", worst, best);
-  assert_true(worst <= 1 + 1e-12); /* of the differences above */
-  assert_true(best > 0.2);
-}
-
 /* ---- degrees ---- */
 
 /* The net of bidegree (m,n) raised to (3,3), rounded once at the end, scaled and moved. */
@@ -300,7 +258,6 @@ int main(void)
     cmocka_unit_test(subnets_are_right_to_their_roundings),
     cmocka_unit_test(the_whole_is_copied_and_cuts_agree),
     cmocka_unit_test(parameters_beyond_the_range_extrapolate),
-    cmocka_unit_test(second_derivative_bounds_hold_and_are_near),
     cmocka_unit_test(true_bidegrees_are_found),
     cmocka_unit_test(a_change_beyond_the_slack_is_seen),
     cmocka_unit_test(reduced_nets_are_the_nets_that_were_raised),

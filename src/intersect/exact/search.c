@@ -222,19 +222,23 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
 {
   struct model_patch *patch = j->is;
   const struct local_ray *ray = &j->local;
-  double x[3][16];
-  if (region->leaf) memcpy(x, region->leaf->x, sizeof x);
-  else leaf_net(patch, region->column, region->span, x);
+  struct patch_part part;
+  if (region->leaf) {
+    memcpy(part.x, region->leaf->x, sizeof part.x), memcpy(part.first, region->leaf->first, sizeof part.first);
+  } else {
+    const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]},
+                                   {region->span[0], region->span[1]},
+                                   is_leaf(j->asked->model, region) ? LEAF_MARGIN : 0};
+    patch_parts(patch, &grid, 1, (const uint16_t(*)[2])region->column, &part);
+  }
   *s = (struct search){.window = window_of_region(j, region),
+                       .extent = {part.first[0], part.first[1]},
                        .ahead = j->all ? 0 : SEARCH_AHEAD,
                        .divided = NO_BORDER,
                        .error = {ray->error, ray->error}};
   for (int k = 0; k < 4; k++) s->pole[k] = leaf_border_is_point(patch, region->column, region->span, k);
-  if (region->leaf) memcpy(s->extent, region->leaf->first, sizeof s->extent);
-  else if (is_leaf(j->asked->model, region)) leaf_bounds(x, s->extent, (double[3]){0});
-  else leaf_first_bounds(x, s->extent);
   double nets[3][16];
-  local_ray_nets(ray, x, nets[0], nets[1], nets[2]);
+  local_ray_nets(ray, part.x, nets[0], nets[1], nets[2]);
   *whole = (struct box){.u = 0, .v = 0, .size_u = 1, .size_v = 1, .halvings = 0};
   memcpy(whole->net, nets, sizeof nets);
   window_set_reach(&s->window, whole);

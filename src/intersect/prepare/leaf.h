@@ -1,29 +1,42 @@
-/* Cutting a leaf out of its patch, and all that is known of it beforehand.
+/* Cutting parts and leaves out of a patch, and all that is known of them beforehand.
  *
- * Internal to src/intersect. Pure; safe on any thread.
+ * Internal to src/intersect. Pure; safe on any thread. What comes out are the same bits on every processor, and however many
+ * are asked for at once.
  */
 #ifndef PSCN_INTERSECT_PREPARE_LEAF_H
 #define PSCN_INTERSECT_PREPARE_LEAF_H
 
 #include "intersect/model.h"
 
-/* The local net of the part of the patch that has `span` columns of leaves from `column` on, along u and v. */
-void leaf_net(struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], double out[3][16]);
+/* How parts of a patch lie: each is span[0] x span[1] of split[0] x split[1] columns, and the bounds are for one that is
+ * wider by so much of itself on all sides. */
+struct part_grid {
+  uint16_t split[2], span[2];
+  double margin;
+};
 
-/* Whether a border (geometry/edges.h) of that part lies on a pole of the patch. */
+/* A part: its net in the frame of the patch, as of struct leaf, and bounds on derivatives by its own parameters. */
+struct patch_part {
+  double x[3][16];
+  double first[2], second[3]; /* |Su|, |Sv|; |Suu|, |Suv|, |Svv| */
+};
+
+/* The parts from these columns on. Of the patch only net and rest are asked for. */
+void patch_parts(const struct model_patch *patch, const struct part_grid *grid, size_t count,
+                 const uint16_t column[][2], struct patch_part out[]);
+
+/* Whether a border (geometry/edges.h) of the part of the patch that has `span` columns of leaves from `column` on lies on a
+ * pole. */
 bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2],
                           int border);
 
-/* Bounds on |Su|, |Sv| of a net over its own domain. */
-void leaf_first_bounds(double x[3][16], double out[2]);
+/* Leaves of patch number `index`, from its leaf `first` on in the order of columns, u first; all but their forms. */
+void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[]);
 
-/* Bounds on |Su|, |Sv| and |Suu|, |Suv|, |Svv| over a leaf with that net widened by LEAF_MARGIN, in its parameters. */
-void leaf_bounds(double x[3][16], double first[2], double second[3]);
-
-/* The leaf at that place of the patch. Its form, where it has one, is written to *form, which stays the caller's. */
-void leaf_make(struct model_patch *patch, const struct leaf_place *place, struct leaf *leaf, struct leaf_form *form);
+/* What resultants of the leaf are formed of; its form, where it has one, is written to *form, which stays the caller's. */
+void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct leaf_form *form);
 
 /* The box of a leaf's net in the frame of the model's hierarchy. */
-void leaf_box(const struct model *model, const struct model_patch *patch, double x[3][16], struct bvh_box *box);
+void leaf_box(const struct model *model, const struct model_patch *patch, const double x[3][16], struct bvh_box *box);
 
 #endif

@@ -108,18 +108,27 @@ static enum status make_patches(void *context, size_t worker)
   return STATUS_OK;
 }
 
+/* Leaves that are made one after the other without a look at anything else. */
+enum { LEAVES_AT_ONCE = 32 };
+
+static size_t leaves_of(const struct model_patch *patch) { return (size_t)patch->split[0] * (size_t)patch->split[1]; }
+
 /* Leaves that are kept: from number l on those of patch p. */
 static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, size_t l, void **form)
 {
   struct model *model = m->model;
-  struct model_patch *patch = &model->patches[p];
-  for (int k = 0; k < patch->split[0] * patch->split[1]; k++, l++) {
-    struct leaf *leaf = &model->leaves[l];
-    if (!next_room(arena, form, sizeof *leaf->form)) return STATUS_LIMIT;
-    const struct leaf_place place = {(uint32_t)p, (uint16_t)(k / patch->split[1]), (uint16_t)(k % patch->split[1])};
-    leaf_make(patch, &place, leaf, *form);
-    if (leaf->form) *form = NULL;
-    leaf_box(model, patch, leaf->x, &m->boxes[l]);
+  const struct model_patch *patch = &model->patches[p];
+  const size_t all = leaves_of(patch);
+  for (size_t first = 0; first < all; first += LEAVES_AT_ONCE) {
+    const size_t here = all - first < LEAVES_AT_ONCE ? all - first : LEAVES_AT_ONCE;
+    leaves_make(patch, (uint32_t)p, (uint32_t)first, here, &model->leaves[l]);
+    for (size_t k = 0; k < here; k++, l++) {
+      struct leaf *leaf = &model->leaves[l];
+      if (!next_room(arena, form, sizeof *leaf->form)) return STATUS_LIMIT;
+      leaf_set_form(patch, leaf, *form);
+      if (leaf->form) *form = NULL;
+      leaf_box(model, patch, leaf->x, &m->boxes[l]);
+    }
   }
   return STATUS_OK;
 }
@@ -129,14 +138,21 @@ static void place_leaves(struct making *m, size_t p, size_t l)
 {
   struct model *model = m->model;
   struct patch_room room;
-  struct model_patch *patch = &room.patch;
-  patch_make(model, (uint32_t)p, patch, room.rest);
-  for (int k = 0; k < patch->split[0] * patch->split[1]; k++, l++) {
-    const uint16_t column[2] = {(uint16_t)(k / patch->split[1]), (uint16_t)(k % patch->split[1])};
-    double x[3][16];
-    model->places[l] = (struct leaf_place){(uint32_t)p, column[0], column[1]};
-    leaf_net(patch, column, (uint16_t[2]){1, 1}, x);
-    leaf_box(model, patch, x, &m->boxes[l]);
+  const struct model_patch *patch = &room.patch;
+  patch_make(model, (uint32_t)p, &room.patch, room.rest);
+  const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, 0};
+  const size_t all = leaves_of(patch), row = (size_t)patch->split[1];
+  for (size_t first = 0; first < all; first += LEAVES_AT_ONCE) {
+    const size_t here = all - first < LEAVES_AT_ONCE ? all - first : LEAVES_AT_ONCE;
+    uint16_t column[LEAVES_AT_ONCE][2];
+    struct patch_part part[LEAVES_AT_ONCE];
+    for (size_t k = 0; k < here; k++)
+      column[k][0] = (uint16_t)((first + k) / row), column[k][1] = (uint16_t)((first + k) % row);
+    patch_parts(patch, &grid, here, (const uint16_t(*)[2])column, part);
+    for (size_t k = 0; k < here; k++, l++) {
+      model->places[l] = (struct leaf_place){(uint32_t)p, column[k][0], column[k][1]};
+      leaf_box(model, patch, part[k].x, &m->boxes[l]);
+    }
   }
 }
 
@@ -318,7 +334,9 @@ void model_make_leaf(const struct model *model, uint32_t number, struct leaf_roo
 {
   const struct leaf_place *place = &model->places[number];
   patch_make(model, place->patch, &out->of.patch, out->of.rest);
-  leaf_make(&out->of.patch, place, &out->leaf, &out->form);
+  const uint32_t row = (uint32_t)out->of.patch.split[1];
+  leaves_make(&out->of.patch, place->patch, place->column_u * row + place->column_v, 1, &out->leaf);
+  leaf_set_form(&out->of.patch, &out->leaf, &out->form);
 }
 
 void model_destroy(struct model *model)

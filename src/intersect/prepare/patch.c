@@ -65,41 +65,42 @@ static double patch_frame(double P[4][4][3], double scene_size, struct model_pat
 enum { PARTS_MOST = 8 };
 #define NEARLY_ALL 0.84
 
-static bool turns_far(struct model_patch *patch, int split)
+/* Half of how much its derivatives turn, of the size of the bounds. */
+static double turn_of(const struct patch_part *part)
 {
-  const int parts = split < PARTS_MOST ? split : PARTS_MOST;
-  const double part = 1.0 / parts;
+  return (part->second[0] + 2 * part->second[1] + part->second[2]) / 2;
+}
+
+static bool turns_far(const struct model_patch *patch, int split)
+{
+  const int parts = split < PARTS_MOST ? split : PARTS_MOST, all = parts * parts;
+  const struct part_grid grid = {{(uint16_t)parts, (uint16_t)parts}, {1, 1}, 0};
+  uint16_t column[PARTS_MOST * PARTS_MOST][2];
+  struct patch_part part[PARTS_MOST * PARTS_MOST];
+  for (int n = 0; n < all; n++) column[n][0] = (uint16_t)(n / parts), column[n][1] = (uint16_t)(n % parts);
+  patch_parts(patch, &grid, (size_t)all, (const uint16_t(*)[2])column, part);
   int far = 0;
-  for (int n = 0; n < parts * parts; n++) {
-    const double u = n / parts * part, v = n % parts * part;
-    double x[3][4][4], net[3][16], first[2], second[3];
-    for (int k = 0; k < 3; k++) patch_subnet(patch->x[k], u, u + part, v, v + part, x[k]);
-    patch_second_derivative_bounds(x, second);
-    memcpy(net, x, sizeof net);
-    leaf_first_bounds(net, first);
-    const double turn = (second[0] + 2 * second[1] + second[2]) / 2;
-    far += turn * parts > AUTO_TURN * split * real_max(first[0], first[1]);
-  }
-  return far > NEARLY_ALL * (parts * parts);
+  for (int n = 0; n < all; n++)
+    far += turn_of(&part[n]) * parts > AUTO_TURN * split * real_max(part[n].first[0], part[n].first[1]);
+  return far > NEARLY_ALL * all;
 }
 
 /* How many leaves make every leaf nearly flat: second derivatives fall with the square, first ones with one over it. A
  * slender patch is cut along its long side only, for only that bends, until its leaves turn as little as the short side
  * wants or are no longer slender. */
-static void auto_split(struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
+static void auto_split(const struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
 {
-  double second[3], first[2], net[3][16];
-  patch_second_derivative_bounds(patch->x, second);
-  memcpy(net, patch->x, sizeof net);
-  leaf_first_bounds(net, first);
-  const double turn = (second[0] + 2 * second[1] + second[2]) / 2;
-  const int side = first[1] > first[0];
-  const double along = first[side], across = first[1 - side], bend = second[2 * side];
+  const struct part_grid grid = {{1, 1}, {1, 1}, 0};
+  struct patch_part whole;
+  patch_parts(patch, &grid, 1, (const uint16_t[1][2]){{0, 0}}, &whole);
+  const double turn = turn_of(&whole);
+  const int side = whole.first[1] > whole.first[0];
+  const double along = whole.first[side], across = whole.first[1 - side], bend = whole.second[2 * side];
   split[0] = split[1] = 1;
   if (along > SLENDER * across && along <= SLENDER_MOST * across) {
     uint16_t *cut = &split[side];
     while (2 * *cut <= limit->any * limit->any && 2 * *cut <= SLENDER_SPLIT_MAX && along > 2 * *cut * across &&
-           bend / *cut + 2 * second[1] > 2 * AUTO_TURN * *cut * across)
+           bend / *cut + 2 * whole.second[1] > 2 * AUTO_TURN * *cut * across)
       *cut = (uint16_t)(2 * *cut);
     return;
   }

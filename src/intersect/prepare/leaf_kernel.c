@@ -1,0 +1,435 @@
+/* The numbers of leaves: nets, bounds, Taylor polynomials, boxes along them. A leaf a lane.
+ *
+ * Compiled once per instruction set, without contraction and without fused multiply-add, so that every leaf has the same bits.
+ */
+#include "intersect/prepare/leaf_kernel.h"
+
+#include <assert.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "base/kernel.h"
+#include "base/lanes.h"
+#include "base/real.h"
+#include "geometry/vector.h"
+
+/* One of three coordinates, or of any other function of the surface: net[i][j], as in geometry/patch.h. */
+typedef lanes lane_net[4][4];
+
+/* ---- subdivision ---- */
+
+/* A range of a parameter; the whole of [0,1], for all lanes, copies. */
+struct lane_range {
+  lanes from, to;
+  bool whole;
+};
+
+/* From here on as geometry/patch.c does it for one net, to the last bit. */
+LANES_INLINE lanes mix(lanes a, lanes b, lanes t) { return lanes_select(t == 1, b, a + t * (b - a)); }
+
+LANES_INLINE lanes blossom(const lanes c[4], lanes r, lanes s, lanes t)
+{
+  const lanes q0 = mix(c[0], c[1], r), q1 = mix(c[1], c[2], r), q2 = mix(c[2], c[3], r);
+  return mix(mix(q0, q1, s), mix(q1, q2, s), t);
+}
+
+LANES_INLINE void cubic_range(const lanes c[4], const struct lane_range *range, lanes out[4])
+{
+  const lanes from = range->from, to = range->to;
+  const lanes q[4] = {blossom(c, from, from, from), blossom(c, from, from, to), blossom(c, from, to, to),
+                      blossom(c, to, to, to)};
+  for (int i = 0; i < 4; i++) out[i] = q[i];
+}
+
+/* Out of line: it is large, and half of its time are its own registers. */
+__attribute__((noinline)) static void subnet(const lane_net net, const struct lane_range *u, const struct lane_range *v,
+                                             lane_net out)
+{
+  lane_net rows;
+  for (int i = 0; i < 4; i++)
+    if (v->whole) memcpy(rows[i], net[i], sizeof rows[i]);
+    else cubic_range(net[i], v, rows[i]);
+  for (int j = 0; j < 4; j++) {
+    const lanes column[4] = {rows[0][j], rows[1][j], rows[2][j], rows[3][j]};
+    lanes cut[4];
+    if (u->whole) memcpy(cut, column, sizeof cut);
+    else cubic_range(column, u, cut);
+    for (int i = 0; i < 4; i++) out[i][j] = cut[i];
+  }
+}
+
+/* ---- cutting ---- */
+
+/* Where parameters have k bits behind the point between them, for 2^k leaves, and coordinates h, three halfway values in
+ * either direction are multiples of 2^-(3k + h), and their Taylor coefficients of 2^-(3k + h + 6): nothing is rounded up
+ * to these. */
+enum { EXACT_LEAVES = 1024 };
+
+static int head_bits(int leaves) { return leaves <= 256 ? 20 : 16; }
+
+/* The patch's net as head + tail. The head is a coordinate's first bits, which are cut exactly where the leaves are a power of
+ * two up to EXACT_LEAVES; the tail, which is smaller by as many bits and has what x is rounded by, is rounded: by less than
+ * the planes' own errors by about as many. */
+struct patch_halves {
+  double head[3][16], tail[3][16];
+};
+
+static void patch_halve(const struct model_patch *patch, int leaves, struct patch_halves *out)
+{
+  const double round = 0x1.8p52 / (1 << head_bits(leaves));
+  for (int k = 0; k < 3; k++) {
+    for (int n = 0; n < 16; n++) {
+      const double x = patch->x[k][n / 4][n % 4], head = (x + round) - round;
+      out->head[k][n] = head, out->tail[k][n] = (x - head) + patch->rest[k][n / 4][n % 4];
+    }
+  }
+}
+
+/* Parts, and what is known of them. */
+struct cut {
+  lane_net head[3], tail[3], x[3]; /* x: their sum */
+  lanes first[2], second[3];
+};
+
+static struct lane_range range_of(lanes column, int span, int split)
+{
+  const double parts = split;
+  /* quotients: the last one is 1 whatever the split */
+  return (struct lane_range){column / parts, (column + span) / parts, span == split};
+}
+
+static void cut_nets(const struct patch_halves *patch, const lanes column[2], const struct part_grid *grid,
+                     struct cut *out)
+{
+  const struct lane_range u = range_of(column[0], grid->span[0], grid->split[0]);
+  const struct lane_range v = range_of(column[1], grid->span[1], grid->split[1]);
+  for (int k = 0; k < 3; k++) {
+    lane_net head, tail;
+    for (int n = 0; n < 16; n++)
+      head[n / 4][n % 4] = lanes_all(patch->head[k][n]), tail[n / 4][n % 4] = lanes_all(patch->tail[k][n]);
+    subnet(head, &u, &v, out->head[k]);
+    subnet(tail, &u, &v, out->tail[k]);
+    for (int n = 0; n < 16; n++) out->x[k][n / 4][n % 4] = out->head[k][n / 4][n % 4] + out->tail[k][n / 4][n % 4];
+  }
+}
+
+/* ---- bounds ---- */
+
+LANES_INLINE lanes square_of(const lanes v[3]) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
+/* vector_longest of the lanes of `odd`, whose squares over- or underflow or are 0. */
+__attribute__((noinline)) static lanes odd_longest(const lanes v[][3], int count, lane_mask odd, lanes length)
+{
+  lanes largest = {0};
+  for (int n = 0; n < count; n++)
+    for (int k = 0; k < 3; k++) largest = lanes_max(lanes_abs(v[n][k]), largest);
+  length = lanes_select(odd, largest, length);
+  for (unsigned bits = lanes_bits(odd & (largest != 0)); bits; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    double one[1][3];
+    length[lane] = 0;
+    for (int n = 0; n < count; n++) {
+      for (int k = 0; k < 3; k++) one[0][k] = v[n][k][lane];
+      length[lane] = real_max(vector_longest(one, 1), length[lane]);
+    }
+  }
+  return length;
+}
+
+LANES_INLINE lanes longest(const lanes v[][3], int count)
+{
+  lanes square = {0};
+  for (int n = 0; n < count; n++) square = lanes_max(square_of(v[n]), square);
+  const lane_mask odd = ~((square >= VECTOR_SQUARE_MIN) & (square <= VECTOR_SQUARE_MAX));
+  const lanes length = lanes_sqrt(square);
+  return lanes_any(odd) ? odd_longest(v, count, odd, length) : length;
+}
+
+static void first_bounds(lane_net x[3], lanes out[2])
+{
+  lanes du[12][3], dv[12][3];
+  for (int k = 0; k < 3; k++) {
+    for (int n = 0; n < 12; n++) {
+      const int i = n / 3, j = n % 3;
+      dv[n][k] = 3 * (x[k][i][j + 1] - x[k][i][j]), du[n][k] = 3 * (x[k][j + 1][i] - x[k][j][i]);
+    }
+  }
+  out[0] = longest(du, 12), out[1] = longest(dv, 12);
+}
+
+static void second_bounds(lane_net x[3], lanes out[3])
+{
+  lanes uu[8][3], uv[9][3], vv[8][3];
+  for (int k = 0; k < 3; k++) {
+    for (int n = 0; n < 8; n++) {
+      const int i = n / 4, j = n % 4;
+      uu[n][k] = 6 * (x[k][i + 2][j] - 2 * x[k][i + 1][j] + x[k][i][j]);
+      vv[n][k] = 6 * (x[k][j][i + 2] - 2 * x[k][j][i + 1] + x[k][j][i]);
+    }
+    for (int n = 0; n < 9; n++) {
+      const int i = n / 3, j = n % 3;
+      uv[n][k] = 9 * (x[k][i + 1][j + 1] - x[k][i + 1][j] - x[k][i][j + 1] + x[k][i][j]);
+    }
+  }
+  out[0] = longest(uu, 8), out[1] = longest(uv, 9), out[2] = longest(vv, 8);
+}
+
+/* Of the parts widened by `margin`, in their own parameters. */
+static void bounds(double margin, struct cut *cut)
+{
+  if (!(margin > 0)) {
+    first_bounds(cut->x, cut->first), second_bounds(cut->x, cut->second);
+    return;
+  }
+  const struct lane_range range = {lanes_all(-margin), lanes_all(1 + margin), false};
+  lane_net wide[3];
+  for (int k = 0; k < 3; k++) subnet((const lanes(*)[4])cut->x[k], &range, &range, wide[k]);
+  first_bounds(wide, cut->first), second_bounds(wide, cut->second);
+  const double shrink = 1 / (1 + 2 * margin);
+  for (int k = 0; k < 3; k++) cut->second[k] *= shrink * shrink;
+  for (int k = 0; k < 2; k++) cut->first[k] *= shrink;
+}
+
+/* ---- Taylor's polynomial ---- */
+
+/* Coefficients about the middle, of a cubic in Bernstein form. */
+LANES_INLINE void taylor(lanes b0, lanes b1, lanes b2, lanes b3, lanes out[4])
+{
+  out[0] = ((b0 + b3) + 3 * (b1 + b2)) / 8, out[1] = 0.75 * ((b3 - b0) + (b2 - b1));
+  out[2] = 1.5 * ((b0 + b3) - (b1 + b2)), out[3] = (b3 - b0) - 3 * (b2 - b1);
+}
+
+static void taylor_net(const lane_net x, lanes out[16])
+{
+  lanes rows[4][4], column[4];
+  for (int i = 0; i < 4; i++) taylor(x[i][0], x[i][1], x[i][2], x[i][3], rows[i]);
+  for (int j = 0; j < 4; j++) {
+    taylor(rows[0][j], rows[1][j], rows[2][j], rows[3][j], column);
+    for (int i = 0; i < 4; i++) out[4 * i + j] = column[i];
+  }
+}
+
+/* The largest powers of s and t over the leaf widened by LEAF_MARGIN. */
+#define REACH (0.5 + LEAF_MARGIN)
+static const double REACH_POWER[4] = {1, REACH, (REACH) * (REACH), (REACH) * (REACH) * (REACH)};
+
+/* As struct leaf_parts has them. */
+struct lane_parts {
+  lanes base[12], rest[48];
+  lanes error, last_step, slope_step, third;
+};
+
+/* A bound on what third derivatives make of parameter vectors of maximum norm 1, over the leaf widened by LEAF_MARGIN:
+ * that of the sum of each coordinate's terms. */
+static lanes third_bound(const struct lane_parts *parts)
+{
+  static const double falling[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 2, 0}, {1, 3, 6, 6}}; /* n!/(n-k)! */
+  lanes sum[1][3] = {{{0}, {0}, {0}}};
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++)
+      for (int a = 0; a <= 3; a++) {
+        if (i < a || j < 3 - a) continue;
+        const double weight = (a == 0 || a == 3 ? 1 : 3) * falling[i][a] * falling[j][3 - a] * REACH_POWER[i - a] *
+                              REACH_POWER[j - (3 - a)];
+        for (int k = 0; k < 3; k++) sum[0][k] += weight * lanes_abs(parts->rest[3 * (4 * i + j) + k]);
+      }
+  return longest((const lanes(*)[3])sum, 1);
+}
+
+/* What rounding adds to the value of a plane's polynomial. Of each term of the rest, in either of two coordinates: one
+ * rounding of the coefficient, without fused multiply-add two for each of its powers and two more in Horner's scheme, and
+ * one of the sum; and eight in the plane. Where the cut rounds the net, and the Taylor coefficients are rounded when they
+ * are made: their differences lose some fifteen roundings of the sum of all terms but the constant one, and of the net's
+ * size 1, in either coordinate. First derivatives are off by no more than 3/REACH times that, well below what the
+ * certificate has. */
+#define TERM_ROUNDINGS(powers) (16 + 4 * (powers))
+#define CUT_ROUNDINGS 32
+
+/* Points on a leaf whose rest adds no more than this to a plane are as good as POINT_ERROR has them: half of it is a
+ * coordinate's. */
+#define FINAL_ERROR (16 * UNIT_ROUNDOFF)
+
+static lanes error_bound(const struct lane_parts *parts, bool rounded)
+{
+  lanes rest = {0}, whole = {0};
+  for (int k = 0; k < 3; k++) {
+    const lanes *base = parts->base + k;
+    lanes sum = {0}, roundings = {0};
+    for (int n = 0; n < 16; n++) {
+      const lanes term = REACH_POWER[n / 4] * REACH_POWER[n % 4] * lanes_abs(parts->rest[3 * n + k]);
+      sum += term, roundings += TERM_ROUNDINGS(n / 4 + n % 4) * term;
+    }
+    rest = lanes_max(rest, roundings);
+    whole = lanes_max(whole, sum + REACH * (lanes_abs(base[3]) + lanes_abs(base[6]) + REACH * lanes_abs(base[9])));
+  }
+  if (!rounded) return UNIT_ROUNDOFF * rest;
+  return UNIT_ROUNDOFF * (rest + CUT_ROUNDINGS * (1 + whole));
+}
+
+/* Twice what a root may be off by, in the patch's frame, after the last step of Newton's process: well below what
+ * rounds it. */
+#define LAST_STEP_CURVE (UNIT_ROUNDOFF / 32)
+
+static void set_parts(const struct cut *cut, bool exact, struct lane_parts *out)
+{
+  static const int bilinear[4] = {0, 4, 1, 5};
+  for (int k = 0; k < 3; k++) {
+    lanes head[16], tail[16];
+    taylor_net((const lanes(*)[4])cut->head[k], head);
+    taylor_net((const lanes(*)[4])cut->tail[k], tail);
+    for (int n = 0; n < 4; n++) {
+      lanes *of = &head[bilinear[n]];
+      out->base[3 * n + k] = lanes_rint(*of / LEAF_GRAIN) * LEAF_GRAIN;
+      *of -= out->base[3 * n + k];
+    }
+    for (int n = 0; n < 16; n++) out->rest[3 * n + k] = head[n] + tail[n];
+  }
+  const lanes second = cut->second[0] + 2 * cut->second[1] + cut->second[2];
+  const lanes first = lanes_min(cut->first[0], cut->first[1]), least = lanes_all(LAST_STEP_CURVE);
+  out->last_step = lanes_min(lanes_all(NEWTON_LAST_STEP), lanes_sqrt(least / lanes_max(second, least)));
+  out->slope_step = lanes_select(second > UNIT_ROUNDOFF * first, 2 * UNIT_ROUNDOFF * first / second, lanes_all(2));
+  out->third = third_bound(out);
+  out->error = error_bound(out, !exact);
+}
+
+/* ---- the box along a leaf ---- */
+
+/* |Su x Sv| relative to the squared derivatives below which a box along the leaf is not worth its rounding. */
+#define LEAST_AREA 0x1p-30
+
+LANES_INLINE void cross(const lanes a[3], const lanes b[3], lanes out[3])
+{
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* As struct leaf_slabs has them. */
+struct lane_slabs {
+  lanes g[3][3], offset[3], half[3], slack;
+};
+
+/* A net whose middle has no normal gets a box that tells nothing. */
+static void set_slabs(lane_net x[3], struct lane_slabs *out)
+{
+  lanes along_u[3], along_v[3], normal[1][3];
+  for (int k = 0; k < 3; k++) {
+    const lanes *corner = x[k][0], *other = x[k][3];
+    along_u[k] = 0.5 * ((other[0] - corner[0]) + (other[3] - corner[3]));
+    along_v[k] = 0.5 * ((corner[3] - corner[0]) + (other[3] - other[0]));
+  }
+  cross(along_u, along_v, normal[0]);
+  const lanes area = longest((const lanes(*)[3])normal, 1);
+  const lane_mask flat = ~(area > LEAST_AREA * (square_of(along_u) + square_of(along_v)));
+  const lanes inverse = lanes_select(flat, lanes_all(0), 1 / area);
+  for (int k = 0; k < 3; k++) out->g[0][k] = inverse * normal[0][k];
+  cross(along_v, out->g[0], out->g[1]);
+  cross(out->g[0], along_u, out->g[2]);
+  lanes largest = {0};
+  for (int q = 0; q < 3; q++) {
+    lanes *g = out->g[q], lo = lanes_all(INFINITY), hi = lanes_all(-INFINITY);
+    for (int k = 0; k < 3 && q > 0; k++) g[k] = inverse * g[k];
+    for (int n = 0; n < 16; n++) {
+      const int i = n / 4, j = n % 4;
+      const lanes value = g[0] * x[0][i][j] + g[1] * x[1][i][j] + g[2] * x[2][i][j];
+      lo = lanes_min(lo, value), hi = lanes_max(hi, value);
+    }
+    const lanes size = lanes_abs(g[0]) + lanes_abs(g[1]) + lanes_abs(g[2]);
+    out->offset[q] = 0.5 * (lo + hi);
+    out->half[q] = 0.5 * (hi - lo) + 8 * UNIT_ROUNDOFF * size; /* |x| <= 1 */
+    largest = lanes_max(largest, size);
+  }
+  out->slack = lanes_select(flat, lanes_all(INFINITY), 16 * largest * largest);
+}
+
+/* ---- the face ---- */
+
+/* Writes value[k] of every lane to to[k], and `stride` doubles on for each lane; count is at least 4. */
+static void store(const lanes value[], int count, double *to, size_t stride)
+{
+  for (int k = 0; k < count; k += 4) {
+    const int at = k + 4 <= count ? k : count - 4; /* the last four, some of them twice */
+    lanes_store4(value[at], value[at + 1], value[at + 2], value[at + 3], to + at, stride);
+  }
+}
+
+/* The columns of up to LANES parts, `stride` numbers from one to the next; lanes without a part have the first's. */
+static void load_columns(const uint16_t *column, size_t stride, size_t count, lanes out[2])
+{
+  for (size_t lane = 0; lane < LANES; lane++)
+    for (int side = 0; side < 2; side++) out[side][lane] = column[(lane < count ? lane : 0) * stride + (size_t)side];
+}
+
+static void parts(const struct model_patch *patch, const struct part_grid *grid, size_t count,
+                  const uint16_t column[][2], struct patch_part out[])
+{
+  enum { PART = sizeof *out / sizeof(double) };
+  static_assert(sizeof *out == PART * sizeof(double) && PART == 48 + 2 + 3, "nothing but doubles");
+  struct patch_halves halves;
+  patch_halve(patch, grid->split[0] * grid->split[1], &halves);
+  while (count > 0) {
+    const size_t here = count < LANES ? count : LANES;
+    struct patch_part room[LANES], *to = here < LANES ? room : out;
+    struct cut cut;
+    lanes at[2], derivatives[5];
+    load_columns(column[0], 2, here, at);
+    cut_nets(&halves, at, grid, &cut);
+    bounds(grid->margin, &cut);
+    memcpy(derivatives, cut.first, sizeof cut.first), memcpy(derivatives + 2, cut.second, sizeof cut.second);
+    store(cut.x[0][0], 48, to->x[0], PART);
+    store(derivatives, 5, to->first, PART);
+    if (to == room) memcpy(out, room, here * sizeof *out);
+    out += here, column += here, count -= here;
+  }
+}
+
+enum { LEAF = sizeof(struct leaf) / sizeof(double) };
+static_assert(sizeof(struct leaf) == LEAF * sizeof(double), "leaves are so many doubles apart");
+static_assert(sizeof(struct leaf_slabs) == sizeof(double[16]) &&
+                offsetof(struct leaf_parts, error) == sizeof(double[60]),
+              "stored in a row");
+
+/* As many as there are lanes. */
+static void leaves_store(const struct cut *cut, const struct lane_slabs *slabs, const struct lane_parts *parts,
+                         bool exact, struct leaf leaves[])
+{
+  store(cut->x[0][0], 48, leaves->x[0], LEAF);
+  store(slabs->g[0], 16, leaves->slabs.g[0], LEAF);
+  store(parts->base, 60, leaves->parts.base[0], LEAF);
+  for (int lane = 0; lane < LANES; lane++) {
+    struct leaf *leaf = &leaves[lane];
+    for (int k = 0; k < 2; k++) leaf->first[k] = cut->first[k][lane];
+    for (int k = 0; k < 3; k++) leaf->second[k] = cut->second[k][lane];
+    leaf->parts.error = parts->error[lane], leaf->parts.third = parts->third[lane];
+    leaf->parts.final = exact && leaf->parts.error <= FINAL_ERROR;
+    leaf->parts.last_step = parts->last_step[lane], leaf->parts.slope_step = parts->slope_step[lane];
+  }
+}
+
+static void leaves(const struct model_patch *patch, size_t count, struct leaf leaves[])
+{
+  const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, LEAF_MARGIN};
+  const int all = grid.split[0] * grid.split[1];
+  const bool exact = all <= EXACT_LEAVES && (all & (all - 1)) == 0;
+  struct patch_halves halves;
+  patch_halve(patch, all, &halves);
+  while (count > 0) {
+    const size_t here = count < LANES ? count : LANES;
+    struct leaf room[LANES], *to = here < LANES ? room : leaves;
+    struct cut cut;
+    struct lane_slabs slabs;
+    struct lane_parts parts;
+    lanes at[2];
+    load_columns(&leaves->column_u, sizeof *leaves / sizeof leaves->column_u, here, at);
+    cut_nets(&halves, at, &grid, &cut);
+    bounds(grid.margin, &cut);
+    set_parts(&cut, exact, &parts);
+    set_slabs(cut.x, &slabs);
+    if (to == room) memcpy(room, leaves, here * sizeof *leaves);
+    leaves_store(&cut, &slabs, &parts, exact, to);
+    if (to == room) memcpy(leaves, room, here * sizeof *leaves);
+    leaves += here, count -= here;
+  }
+}
+
+const struct leaf_kernel KERNEL(leaf_kernel) = {parts, leaves};

@@ -1,0 +1,21 @@
+/* The numbers of leaves, several at once: a leaf a lane.
+ *
+ * Internal to src/intersect/prepare; leaf.h is the face. leaf_kernel.c is compiled once per instruction set, and all of them
+ * make the same bits, of whatever leaves are made together.
+ */
+#ifndef PSCN_INTERSECT_PREPARE_LEAF_KERNEL_H
+#define PSCN_INTERSECT_PREPARE_LEAF_KERNEL_H
+
+#include "intersect/prepare/leaf.h"
+
+struct leaf_kernel {
+  /* leaf_parts_cut, leaf.h. */
+  void (*parts)(const struct model_patch *patch, const struct part_grid *grid, size_t count, const uint16_t column[][2],
+                struct patch_part out[]);
+  /* All of a leaf that is doubles, and `final`, of leaves of one patch whose columns are set. */
+  void (*leaves)(const struct model_patch *patch, size_t count, struct leaf leaves[]);
+};
+
+extern const struct leaf_kernel leaf_kernel_baseline, leaf_kernel_avx2, leaf_kernel_avx512;
+
+#endif

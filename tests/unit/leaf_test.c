@@ -1,0 +1,240 @@
+/* Parts and leaves of patches: the same bits however many are made at once, their bounds, polynomials and boxes. */
+#include "intersect/prepare/leaf.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "geometry/patch.h"
+#include "random.h"
+#include "reference/quad.h"
+
+enum { SEED = 20261123, MOST_LEAVES = 32 * 32 };
+
+static const int splits[][2] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {16, 16}, {32, 32}, {1, 64}, {64, 1}};
+enum { SPLITS = sizeof splits / sizeof *splits, KINDS = 6 };
+
+/* Of any shape; flat, so that second derivatives are 0; so thin that squares underflow; a border that is a point; all one
+ * point; of few bits, so that cutting into a power of two is exact. */
+static void make_patch(struct random *random, int kind, struct model_patch *patch, double rest[3][4][4])
+{
+  *patch = (struct model_patch){.scale = 1, .m = 3, .n = 3, .rest = (const double(*)[4][4])rest};
+  for (int k = 0; k < 3; k++) {
+    for (int n = 0; n < 16; n++) {
+      double x = random_between(random, -1, 1);
+      if (kind == 1) x = k == 0 ? n / 4 / 4.0 : k == 1 ? n % 4 / 4.0 : 0;
+      if (kind == 2) x *= k == 0 ? 1 : 0x1p-500;
+      if (kind == 3 && n % 4 == 0) x = k / 4.0;
+      if (kind == 4) x = 0.25;
+      if (kind == 5) x = rint(x * 0x1p12) * 0x1p-12;
+      patch->x[k][n / 4][n % 4] = x;
+      rest[k][n / 4][n % 4] = kind == 0 ? random_between(random, -1, 1) * fabs(x) * 0x1p-54 : 0;
+    }
+  }
+}
+
+/* Calls the test with patches of every kind, split in every way. */
+typedef void patch_test(struct random *random, int kind, const struct model_patch *patch);
+
+static void for_patches(unsigned long seed, patch_test *test)
+{
+  struct random random = {SEED + seed};
+  for (int kind = 0; kind < KINDS; kind++) {
+    for (int n = 0; n < SPLITS; n++) {
+      struct model_patch patch;
+      double rest[3][4][4];
+      make_patch(&random, kind, &patch, rest);
+      patch.split[0] = splits[n][0], patch.split[1] = splits[n][1];
+      test(&random, kind, &patch);
+    }
+  }
+}
+
+static struct leaf *no_leaves(void)
+{
+  struct leaf *leaves = calloc(MOST_LEAVES, sizeof *leaves);
+  assert_non_null(leaves);
+  return leaves;
+}
+
+static void leaves_of_any_company(struct random *random, int kind, const struct model_patch *patch)
+{
+  (void)kind;
+  const size_t count = (size_t)(patch->split[0] * patch->split[1]);
+  struct leaf *together = no_leaves(), *apart = no_leaves();
+  leaves_make(patch, 7, 0, count, together);
+  for (size_t first = 0, here; first < count; first += here) {
+    here = 1 + random_bits(random) % 20;
+    if (here > count - first) here = count - first;
+    leaves_make(patch, 7, (uint32_t)first, here, apart + first);
+  }
+  assert_memory_equal(together, apart, count * sizeof *together);
+  for (size_t k = 0; k < count; k++) {
+    leaves_make(patch, 7, (uint32_t)k, 1, &apart[0]);
+    assert_memory_equal(&together[k], &apart[0], sizeof *together);
+    assert_int_equal(together[k].column_u * patch->split[1] + together[k].column_v, k);
+    assert_int_equal(together[k].patch, 7);
+  }
+  free(together);
+  free(apart);
+}
+
+static void leaves_do_not_depend_on_their_neighbours(void **state)
+{
+  (void)state;
+  for_patches(0, leaves_of_any_company);
+}
+
+/* Of few bits nothing is left behind a coordinate's first bits, and both cut alike. */
+static void parts_as_cut_one_by_one(struct random *random, int kind, const struct model_patch *patch)
+{
+  if (kind != 5) return;
+  const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, 0};
+  enum { PARTS = 13 };
+  uint16_t column[PARTS][2];
+  struct patch_part part[PARTS];
+  for (int n = 0; n < PARTS; n++)
+    for (int side = 0; side < 2; side++) column[n][side] = (uint16_t)(random_bits(random) % grid.split[side]);
+  patch_parts(patch, &grid, PARTS, (const uint16_t(*)[2])column, part);
+  for (int n = 0; n < PARTS; n++) {
+    double range[4];
+    for (int k = 0; k < 4; k++) range[k] = (column[n][k / 2] + k % 2) / (double)grid.split[k / 2];
+    for (int k = 0; k < 3; k++) {
+      double net[4][4], cut[4][4];
+      memcpy(net, patch->x[k], sizeof net);
+      patch_subnet(net, range[0], range[1], range[2], range[3], cut);
+      assert_memory_equal(cut, part[n].x[k], sizeof cut);
+    }
+  }
+}
+
+static void parts_are_subnets(void **state)
+{
+  (void)state;
+  for_patches(1, parts_as_cut_one_by_one);
+}
+
+/* ---- what is known of a leaf ---- */
+
+/* The patch as it is, with its rest. */
+static void exact_nets(const struct model_patch *patch, struct quad_net out[3])
+{
+  for (int k = 0; k < 3; k++)
+    for (int n = 0; n < 16; n++)
+      out[k].c[n / 4][n % 4] = (quad)patch->x[k][n / 4][n % 4] + patch->rest[k][n / 4][n % 4];
+}
+
+static quad parts_value(const struct leaf_parts *parts, int k, quad s, quad t)
+{
+  quad sum = parts->base[0][k] + s * parts->base[1][k] + t * parts->base[2][k] + s * t * parts->base[3][k], power = 1;
+  for (int i = 0; i < 4; i++, power *= s)
+    sum += power * (parts->rest[4 * i][k] +
+                    t * (parts->rest[4 * i + 1][k] + t * (parts->rest[4 * i + 2][k] + t * parts->rest[4 * i + 3][k])));
+  return sum;
+}
+
+static double worst_value, worst_slab, worst_slope;
+
+static void leaf_is_its_part(struct random *random, int kind, const struct model_patch *patch)
+{
+  (void)kind;
+  struct quad_net exact[3];
+  exact_nets(patch, exact);
+  for (int n = 0; n < 30; n++) {
+    const uint32_t number = (uint32_t)(random_bits(random) % (uint64_t)(patch->split[0] * patch->split[1]));
+    struct leaf leaf;
+    leaves_make(patch, 0, number, 1, &leaf);
+    const double u = random_between(random, -LEAF_MARGIN, 1 + LEAF_MARGIN);
+    const double v = random_between(random, -LEAF_MARGIN, 1 + LEAF_MARGIN);
+    const quad at[2] = {(leaf.column_u + (quad)u) / patch->split[0], (leaf.column_v + (quad)v) / patch->split[1]};
+    double x[3], slope[2] = {0, 0};
+    for (int k = 0; k < 3; k++) {
+      const struct quad_jet jet = quad_net_jet(&exact[k], at[0], at[1]);
+      x[k] = (double)jet.value;
+      const double off = (double)quad_abs(parts_value(&leaf.parts, k, (quad)u - 0.5, (quad)v - 0.5) - jet.value);
+      worst_value = fmax(worst_value, off / UNIT_ROUNDOFF);
+      const double su = (double)jet.du / patch->split[0], sv = (double)jet.dv / patch->split[1];
+      slope[0] += su * su, slope[1] += sv * sv;
+    }
+    for (int side = 0; side < 2 && leaf.first[side] > 0x1p-400; side++)
+      worst_slope = fmax(worst_slope, sqrt(slope[side]) / leaf.first[side]);
+    const bool within = u >= 0 && u <= 1 && v >= 0 && v <= 1;
+    for (int q = 0; q < 3 && within; q++) {
+      const double *g = leaf.slabs.g[q];
+      const double off = fabs(g[0] * x[0] + g[1] * x[1] + g[2] * x[2] - leaf.slabs.offset[q]);
+      worst_slab = fmax(worst_slab, off / leaf.slabs.half[q]);
+    }
+  }
+}
+
+static void leaves_are_their_parts_of_the_patch(void **state)
+{
+  (void)state;
+  for_patches(2, leaf_is_its_part);
+  print_message(
+    "Taylor's polynomial off by %.3g roundings; of its box a point reaches %.17g, of its bounds a derivative %.17g\n",
+    worst_value, worst_slab, worst_slope);
+  assert_true(worst_value <= 4);
+  assert_true(worst_slab <= 1);
+  assert_true(worst_slope <= 1 + 0x1p-40 && worst_slope > 0.5);
+}
+
+/* Second differences in quadruple precision. */
+static quad second(const struct quad_net *net, quad u, quad v, int kind)
+{
+  const quad h = 0x1p-30;
+  const struct quad_jet low = quad_net_jet(net, kind == 2 ? u : u - h, kind == 2 ? v - h : v);
+  const struct quad_jet high = quad_net_jet(net, kind == 2 ? u : u + h, kind == 2 ? v + h : v);
+  return (kind == 0 ? high.du - low.du : high.dv - low.dv) / (2 * h);
+}
+
+static void second_derivative_bounds_hold_and_are_near(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 6};
+  double worst = 0, best = INFINITY;
+  const struct part_grid whole = {{1, 1}, {1, 1}, 0};
+  for (int n = 0; n < 40; n++) {
+    struct model_patch patch;
+    struct patch_part part;
+    double rest[3][4][4];
+    make_patch(&random, 0, &patch, rest);
+    if (n % 4 == 1)
+      for (int i = 0; i < 16; i++)
+        patch.x[0][i / 4][i % 4] = i / 4, patch.x[1][i / 4][i % 4] = i % 4; /* a height field */
+    patch_parts(&patch, &whole, 1, (const uint16_t[1][2]){{0, 0}}, &part);
+    const double *bound = part.second;
+    struct quad_net net[3];
+    exact_nets(&patch, net);
+    for (int kind = 0; kind < 3; kind++) {
+      double most = 0;
+      for (int a = 0; a <= 10; a++) {
+        for (int b = 0; b <= 10; b++) {
+          double sum = 0;
+          for (int k = 0; k < 3; k++) {
+            const double s = (double)second(&net[k], a / (quad)10, b / (quad)10, kind);
+            sum += s * s;
+          }
+          most = fmax(most, sqrt(sum));
+        }
+      }
+      worst = fmax(worst, most / bound[kind]), best = fmin(best, most / bound[kind]);
+    }
+  }
+  print_message("largest second derivative / bound: %.6g at most, %.3g at least\n", worst, best);
+  assert_true(worst <= 1 + 1e-12); /* of the differences above */
+  assert_true(best > 0.2);
+}
+
+int main(void)
+{
+  print_message("seed %d\n", SEED);
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(leaves_do_not_depend_on_their_neighbours),
+    cmocka_unit_test(parts_are_subnets),
+    cmocka_unit_test(leaves_are_their_parts_of_the_patch),
+    cmocka_unit_test(second_derivative_bounds_hold_and_are_near),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
