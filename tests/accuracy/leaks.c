@@ -8,20 +8,18 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "accuracy/models.h"
-#include "accuracy/trial.h"
+#include "accuracy/placed_rays.h"
 #include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
 
-enum { FULL_RAYS = 10000000, PLACEMENTS = 5, MOST_SHOWN = 12 };
+enum { FULL_RAYS = 10000000, MOST_SHOWN = 12 };
 
 /* A target is evaluated in double, so t = 1 is off by some roundings of the largest coordinate over the distance: 1e-7
  * covers a shift of 1e6 seen from 0.1 away. */
 #define AT_TARGET 1e-7
 
-/* Unplaced models have rays along the axes, exactly through poles and edges: these are left to the slowest stage of the
- * intersector, so they get this share of the rays. */
+/* See struct placed_shares. */
 #define EXACT_SHARE 0.02
 
 /* The default solver gets all rays, the others this share. */
@@ -166,35 +164,31 @@ static size_t count_leaks(struct trial *trial, const char *name, const char *sol
   return leaks;
 }
 
-/* Place 0 is where the model is made (and then rays are axis-aligned too); the others turn, scale and shift it. */
-static size_t leaks_of(const struct method *options, size_t rays_wanted, uint64_t seed)
+struct leaks {
+  const char *solver;
+  size_t rays, leaks;
+};
+
+static void try_packet(void *context, struct trial *trial, const struct placed_model *at, int kind, size_t count,
+                       struct random *random)
 {
-  static const double scales[PLACEMENTS] = {1, 1, 1e6, 1e-6, 1}, shifts[PLACEMENTS] = {0, 1, 1e6, 1e-6, 1e6};
+  struct leaks *leaks = context;
+  struct ray rays[PACKET_SIZE] = {{.t_min = 0}}; /* gcc does not know that there is one */
+  for (size_t n = 0; n < count; n++) random_ray(at, kind, random, &rays[n]);
+  leaks->leaks += count_leaks(trial, at->model.name, leaks->solver, kind, count, rays);
+  leaks->rays += count;
+}
+
+static size_t leaks_of(const struct method *options, size_t wanted, uint64_t seed)
+{
+  const struct placed_shares shares = {
+    .models = models, .model_count = MODELS, .kind_count = AIMS, .exact = EXACT_SHARE, .shift = 1e6};
   struct random random = {.state = seed = effort_seed(seed)};
-  double share = (double)rays_wanted / (MODELS * (PLACEMENTS - 1 + EXACT_SHARE) * AIMS);
-  size_t leaks = 0, rays = 0;
-  for (int which = 0; which < MODELS; which++) {
-    for (int place = 0; place < PLACEMENTS; place++) {
-      struct placed_model at;
-      struct trial trial;
-      model_placed(models[which], &random, scales[place], shifts[place], place > 0, &at);
-      trial_create(&trial, (const double(*)[4][4][3])at.placed.P, at.placed.count, options);
-      size_t each = (size_t)(share * (place > 0 ? 1 : EXACT_SHARE)) + 1;
-      for (int kind = 0; kind < AIMS; kind++) {
-        for (size_t first = 0; first < each; first += PACKET_SIZE) {
-          struct ray packet[PACKET_SIZE];
-          size_t count = each - first < PACKET_SIZE ? each - first : PACKET_SIZE;
-          for (size_t n = 0; n < count; n++) random_ray(&at, kind, &random, &packet[n]);
-          leaks += count_leaks(&trial, at.model.name, options->roots.solver->name, kind, count, packet);
-          rays += count;
-        }
-      }
-      trial_destroy(&trial);
-    }
-  }
-  printf("seed %llu, solver %s, split %d: %zu rays, %zu leaks\n", (unsigned long long)seed, options->roots.solver->name,
-         options->split, rays, leaks);
-  return leaks;
+  struct leaks leaks = {.solver = options->roots.solver->name};
+  placed_rays(&shares, options, wanted, &random, try_packet, &leaks);
+  printf("seed %llu, solver %s, split %d: %zu rays, %zu leaks\n", (unsigned long long)seed, leaks.solver,
+         options->split, leaks.rays, leaks.leaks);
+  return leaks.leaks;
 }
 
 static void test_default(void **state)

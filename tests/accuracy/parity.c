@@ -6,15 +6,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "accuracy/models.h"
-#include "accuracy/trial.h"
+#include "accuracy/placed_rays.h"
 #include "cmocka_test.h"
 #include "effort.h"
 #include "random.h"
 
-enum { FULL_RAYS = 20000000, LEAST_RAYS = 4000, PLACEMENTS = 5, MOST_SHOWN = 12 };
+enum { FULL_RAYS = 20000000, LEAST_RAYS = 4000, MOST_SHOWN = 12 };
 
-/* Rays that meet edges and poles exactly are left to the slowest stage of the intersector, so they get this share. */
+/* See struct placed_shares. */
 #define EXACT_SHARE 0.1
 
 /* Each solver and form but the default gets this share of the rays. */
@@ -148,37 +147,33 @@ static void count_packet(struct trial *trial, const char *name, int kind, size_t
   }
 }
 
-/* Place 0 is where the model is made: only there are rays exactly along axes, and through what they aim at. */
+/* Makes a packet and counts it. Exactly along axes, and through what they aim at, are only rays at models that are not
+ * moved. */
+static void try_packet(void *context, struct trial *trial, const struct placed_model *at, int kind, size_t count,
+                       struct random *random)
+{
+  struct ray rays[PACKET_SIZE];
+  bool inside[PACKET_SIZE];
+  const bool coherent = random_bits(random) % 4 < COHERENT_OF_4;
+  struct common common;
+  for (size_t n = 0; n < count; n++) {
+    if (n == 0 || !coherent) common_choose(&at->model, random, &common);
+    inside[n] = make_ray(at, kind, &common, random, &rays[n]);
+  }
+  count_packet(trial, at->model.name, kind, count, rays, inside, context);
+}
+
 static size_t wrong_of(const struct method *options, size_t wanted, uint64_t seed)
 {
-  static const double scales[PLACEMENTS] = {1, 1, 1e6, 1e-6, 1}, shifts[PLACEMENTS] = {0, 1, 1e6, 1e-6, 1e3};
+  const struct placed_shares shares = {.models = models,
+                                       .model_count = MODELS,
+                                       .kind_count = AIMS,
+                                       .kinds = aim_shares,
+                                       .exact = EXACT_SHARE,
+                                       .shift = 1e3};
   struct random random = {.state = seed = effort_seed(seed)};
   struct count count = {0};
-  for (int which = 0; which < MODELS; which++) {
-    for (int place = 0; place < PLACEMENTS; place++) {
-      struct placed_model in;
-      struct trial trial;
-      model_placed(models[which], &random, scales[place], shifts[place], place > 0, &in);
-      trial_create(&trial, (const double(*)[4][4][3])in.placed.P, in.placed.count, options);
-      const double share = (double)wanted / (MODELS * (PLACEMENTS - 1 + EXACT_SHARE));
-      for (int kind = 0; kind < AIMS; kind++) {
-        const size_t each = (size_t)((place > 0 ? 1 : EXACT_SHARE) * aim_shares[kind] * share) + 1;
-        for (size_t first = 0; first < each; first += PACKET_SIZE) {
-          struct ray rays[PACKET_SIZE];
-          bool inside[PACKET_SIZE];
-          const size_t most = each - first < PACKET_SIZE ? each - first : PACKET_SIZE;
-          const bool coherent = random_bits(&random) % 4 < COHERENT_OF_4;
-          struct common common;
-          for (size_t n = 0; n < most; n++) {
-            if (n == 0 || !coherent) common_choose(&in.model, &random, &common);
-            inside[n] = make_ray(&in, kind, &common, &random, &rays[n]);
-          }
-          count_packet(&trial, in.model.name, kind, most, rays, inside, &count);
-        }
-      }
-      trial_destroy(&trial);
-    }
-  }
+  placed_rays(&shares, options, wanted, &random, try_packet, &count);
   printf("seed %llu, solver %s, split %d: %zu rays, %zu hits, %zu of wrong parity; grazing:", (unsigned long long)seed,
          options->roots.solver->name, options->split, count.rays, count.hits, count.wrong);
   for (int kind = 0; kind < AIMS; kind++)
