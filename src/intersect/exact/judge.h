@@ -15,7 +15,8 @@ enum { JUDGE_BORDERS_MAX = 16 };
 
 /* Work is counted in boxes looked at, some 1,300 instructions each; what else is done is worth so many: to take a patch or
  * a part of it to the ray's frame, to start under the glass on a patch, to put a box there, to look for a fold, to sharpen a
- * root. Where all hits are asked for each of the first that are found may take so much. */
+ * root. Where all hits are asked for each of the first HITS_MOST that are found brings WORK_HIT. What a ray may take in all
+ * is summed up in docs/method.md, "The numbers of the last resort". */
 enum {
   WORK_REGION = 8,
   WORK_ZOOM_START = 16,

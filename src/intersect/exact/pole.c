@@ -2,7 +2,8 @@
  * (zoom_pole_box), again and again towards it; and what is told where the ray meets the pole.
  *
  * Along such a border both polynomials are constant, so that a ray that passes the pole closely is tangent, as it were,
- * wherever on the border it comes by. How far that goes, and where it ends, is said in docs/method.md.
+ * wherever on the border it comes by. How far that goes, and where it ends: docs/method.md, "The numbers of the last
+ * resort".
  */
 #include "intersect/exact/search.h"
 

@@ -8,8 +8,8 @@
  * arithmetic (zoom.h), which scales what is too small to tell. Where some combination is zero in wide arithmetic, all over
  * the patch, the ray lies in the plane of a flat patch, or as good as that, and meets curves: what comes first on them lies
  * on borders of boxes (curves.h). What even that leaves (a double root, a ray in the surface), and poles met exactly
- * (pole.c), are told to the judge as undecided. docs/method.md says how the constants here, there and under the glass fit
- * together.
+ * (pole.c), are told to the judge as undecided. docs/method.md, "The numbers of the last resort", says how the constants
+ * here, there and under the glass fit together.
  */
 #include "intersect/exact/search.h"
 

@@ -5,7 +5,8 @@
  * Where a ray is nearly tangent, some combination of the two plane polynomials is so small all over a box that
  * double precision can not tell it from zero. Its coefficients over just that box, formed in wide arithmetic from
  * the untouched control points and only then rounded to double, are right to their own last places: what was below
- * all rounding is a polynomial like any other.
+ * all rounding is a polynomial like any other. How many bits that has, and what they are enough for: docs/method.md, "The
+ * numbers of the last resort".
  */
 #ifndef PSCN_INTERSECT_EXACT_ZOOM_H
 #define PSCN_INTERSECT_EXACT_ZOOM_H
