@@ -1,7 +1,6 @@
 /* pscn chart SCENE: speed against accuracy. */
 #include "chart/chart.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "chart/measure.h"
@@ -56,7 +55,7 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
 
 static enum status run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN},
+  struct request request = {.scene = SCENE_REQUEST_DEFAULT,
                             .chart = {.program = "povray", .timeout = POVRAY_TIMEOUT},
                             .folder = {.suffix = "-chart", .page = "chart.html"},
                             .ear = {.command = command}};

@@ -51,10 +51,7 @@ static const struct command_option OPTIONS[] = {
 static enum status take_povray_option(const struct command *command, struct request *request, const char *text)
 {
   const char **options = realloc(request->options, (request->check.option_count + 1) * sizeof *options);
-  if (options == NULL) {
-    command_error(command, "out of memory");
-    return STATUS_LIMIT;
-  }
+  if (options == NULL) return command_out_of_memory(command);
   options[request->check.option_count++] = text;
   request->check.options = request->options = options;
   return STATUS_OK;

@@ -116,6 +116,12 @@ enum status command_usage(const struct command *command, const char *format, ...
   return STATUS_USAGE;
 }
 
+enum status command_out_of_memory(const struct command *command)
+{
+  command_error(command, "out of memory");
+  return STATUS_LIMIT;
+}
+
 static void hear(void *context, enum told what, const char *text)
 {
   const struct command_ear *ear = context;

@@ -65,6 +65,9 @@ void command_print(FILE *file, const char *text);
 void command_error(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 enum status command_usage(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Tells that memory is short; answers STATUS_LIMIT. */
+enum status command_out_of_memory(const struct command *command);
+
 /* A listener that tells on stderr: progress unless it is to be quiet, warnings and errors as "pscn NAME: ...". Stopped
  * by signals (interrupt.h). `ear` stays where it is. */
 struct command_ear {

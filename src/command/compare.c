@@ -88,10 +88,7 @@ static enum status pair_channels(const struct command *command, const struct req
 {
   for (int k = 0; k < 2; k++) {
     subject->channel[k] = malloc(IMAGE_MAX_CHANNELS * sizeof *subject->channel[k]);
-    if (subject->channel[k] == NULL) {
-      command_error(command, "out of memory");
-      return STATUS_LIMIT;
-    }
+    if (subject->channel[k] == NULL) return command_out_of_memory(command);
   }
   if (request->channels != NULL) return add_listed(command, request, subject);
   const struct image *first = &subject->image[0], *second = &subject->image[1];
@@ -216,7 +213,7 @@ static enum status compare(const struct command *command, const struct request *
     }
     status = image_create(pair.first->width, pair.first->height, pair.channel_count, &difference);
     if (status != STATUS_OK) {
-      command_error(command, "out of memory");
+      status = command_out_of_memory(command);
       goto done;
     }
     for (size_t k = 0; k < pair.channel_count; k++) difference.channel[k] = pair.first->channel[pair.first_channel[k]];

@@ -1,6 +1,4 @@
 /* pscn dump SCENE: the scene as canonical text. */
-#include <math.h>
-
 #include "command/command.h"
 #include "command/scene_file.h"
 #include "scene/dump.h"
@@ -20,7 +18,7 @@ static const struct command_option OPTIONS[] = {
 static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct command_line line;
-  struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN}};
+  struct request request = {.scene = SCENE_REQUEST_DEFAULT};
   struct scene *scene = NULL;
   enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
   if (status == STATUS_OK && !line.help) {

@@ -240,10 +240,7 @@ static enum status write_picture(const struct merge *merge)
   report_date(date);
   snprintf(seconds, sizeof seconds, "%.3f", merge->seconds);
   lines = strdup(merge->first->piece.image.metadata);
-  if (lines == NULL) {
-    command_error(merge->command, "out of memory");
-    return STATUS_LIMIT;
-  }
+  if (lines == NULL) return command_out_of_memory(merge->command);
   const struct image_encoding encoding = {.format = request->format,
                                           .bits = (int)request->bits,
                                           .attributes = texts,
@@ -264,7 +261,7 @@ static enum status put_together(struct merge *merge)
   if (status == STATUS_OK) status = create_picture(merge);
   if (status == STATUS_OK) judge_files(merge);
   if (status == STATUS_OK) status = read_pixels(merge);
-  if (status == STATUS_LIMIT) command_error(merge->command, "out of memory");
+  if (status == STATUS_LIMIT) (void)command_out_of_memory(merge->command);
   if (status != STATUS_OK) return status;
   if (print_missing(merge) || merge->strange) {
     status = command_finish_output(merge->command);
@@ -300,10 +297,7 @@ static enum status run(const struct command *command, int argc, const char **arg
   if (status != STATUS_OK || line.help) return status;
   struct merge merge = {.command = command, .request = &request, .count = line.positional_count};
   merge.file = calloc(merge.count, sizeof *merge.file);
-  if (merge.file == NULL) {
-    command_error(command, "out of memory");
-    return STATUS_LIMIT;
-  }
+  if (merge.file == NULL) return command_out_of_memory(command);
   for (size_t k = 0; k < merge.count; k++) merge.file[k].path = line.positional[k];
   status = put_together(&merge);
   for (size_t k = 0; k < merge.count; k++) piece_destroy(&merge.file[k].piece);
@@ -317,18 +311,14 @@ const struct command command_merge = {
   .arguments = "PIECE...",
   .summary = "Puts the pieces of a picture together",
   .description =
-    "Pieces are what 'pscn render --tile K/N' writes, K = 1 to N, on any machines and in any order; what an "
-    "interrupted\n"
-    "rendering has kept (*.part.exr) is one too. The picture is, pixel by pixel and bit by bit, the one that a single\n"
-    "rendering without --tile makes.\n"
+    "Pieces are what 'pscn render --tile K/N' writes, K = 1 to N, on any machines and in any order; what an\n"
+    "interrupted rendering has kept (*.part.exr) is one too. The picture is, pixel by pixel and bit by bit, the one\n"
+    "that a single rendering without --tile makes.\n"
     "\n"
-    "Each piece says what it is of: the text of the scene and of all it includes, the options, the version and the "
-    "kind of\n"
-    "processor. Where a piece is missing, cannot be read, is of another picture than most or has what another one has "
-    "as\n"
-    "well, no picture is written, the exit code is 1, and standard output has the numbers of the pieces that are still "
-    "to be\n"
-    "rendered, such as 2,5-7: what sbatch --array takes.\n",
+    "Each piece says what it is of: the text of the scene and of all it includes, the options, the version and the\n"
+    "kind of processor. Where a piece is missing, cannot be read, is of another picture than most or has what another\n"
+    "one has as well, no picture is written, the exit code is 1, and standard output has the numbers of the pieces\n"
+    "that are still to be rendered, such as 2,5-7: what sbatch --array takes.\n",
   .options = OPTIONS,
   .run = run,
 };

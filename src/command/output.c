@@ -95,10 +95,7 @@ static enum status make_folder(const struct command *command, const struct outpu
   const char *scene = output_is_standard(folder->scene) ? "stdin" : base_of(folder->scene);
   *owned = folder->path == NULL ? output_name(scene, folder->suffix) : NULL;
   *out_path = folder->path == NULL ? *owned : folder->path;
-  if (*out_path == NULL) {
-    command_error(command, "out of memory");
-    return STATUS_LIMIT;
-  }
+  if (*out_path == NULL) return command_out_of_memory(command);
   *out_made = mkdir(*out_path, 0777) == 0;
   if (*out_made || (errno == EEXIST && stat(*out_path, &state) == 0 && S_ISDIR(state.st_mode))) return STATUS_OK;
   command_error(command, "cannot make the folder '%s': %s", *out_path, strerror(errno));
@@ -110,7 +107,7 @@ enum status output_folder_fill(const struct command *command, const struct outpu
 {
   char *owned;
   const char *path;
-  bool made;
+  bool made = false;
   struct text_buffer text = {0};
   enum status status = make_folder(command, folder, &owned, &path, &made);
   if (status == STATUS_OK) {

@@ -1,5 +1,4 @@
 /* pscn render SCENE: a picture. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -146,8 +145,7 @@ static enum status complete(const struct command *command, struct request *reque
     enough = request->part != NULL;
     if (enough) snprintf(request->part, size, "%s.part.exr", picture->output);
   }
-  if (!enough) command_error(command, "out of memory");
-  return enough ? STATUS_OK : STATUS_LIMIT;
+  return enough ? STATUS_OK : command_out_of_memory(command);
 }
 
 /* Whatever can be known to be wrong before the work starts. */
@@ -167,7 +165,7 @@ static enum status check(const struct command *command, struct rendering_request
 
 static enum status run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN},
+  struct request request = {.scene = SCENE_REQUEST_DEFAULT,
                             .picture = {.options = {.samples = 1,
                                                     .threads = render_processors(),
                                                     .channels = {.count = 1, .width = 3, .kind = {CHANNEL_RGB}}},
@@ -199,9 +197,8 @@ const struct command command_render = {
     "the rendering, or the process is killed: --resume goes on with it, pscn merge and viewers read it. It goes when\n"
     "FILE is complete.\n"
     "\n"
-    "Channels (all but rgb need EXR and are stored with 32 bits; depth and all below are those of one sample, the "
-    "middle\n"
-    "one, which is the pixel's centre when the number of samples is odd):\n"
+    "Channels (all but rgb need EXR and are stored with 32 bits; depth and all below are those of one sample, the\n"
+    "middle one, which is the pixel's centre when the number of samples is odd):\n"
     "  rgb       R G B: linear colour, the mean of the samples\n"
     "  coverage  share of the samples that hit a patch\n"
     "  depth     distance from the camera in scene units; infinity on a miss\n"

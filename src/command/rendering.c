@@ -126,9 +126,7 @@ static enum status begin(struct rendering *rendering)
   report_metadata_fill(rendering->report, &metadata);
   const enum status status = piece_create(&request->options, piece, pieces, metadata.attribute, metadata.count,
                                           &rendering->piece);
-  if (status == STATUS_OK) return resume(rendering);
-  command_error(rendering->command, "out of memory");
-  return status;
+  return status == STATUS_OK ? resume(rendering) : command_out_of_memory(rendering->command);
 }
 
 /* ---- the picture ---- */

@@ -376,10 +376,9 @@ const struct command command_roots = {
     "and answers a multiple one once or twice.\n"
     "With 'start previous' each polynomial starts from the roots of the one before.\n"
     "\n"
-    "--iterates: a row for every value that the solver's iteration passes, in the order in which it comes to be: "
-    "number\n"
-    "of the line, step (0: the start), number of the root as the solver counts them, re, im. Nothing is said of roots\n"
-    "that need no iteration. For plots of the ways to the roots.\n",
+    "--iterates: a row for every value that the solver's iteration passes, in the order in which it comes to be:\n"
+    "number of the line, step (0: the start), number of the root as the solver counts them, re, im. Nothing is said\n"
+    "of roots that need no iteration. For plots of the ways to the roots.\n",
   .options = OPTIONS,
   .run = run,
 };

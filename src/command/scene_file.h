@@ -2,6 +2,7 @@
 #ifndef PSCN_COMMAND_SCENE_FILE_H
 #define PSCN_COMMAND_SCENE_FILE_H
 
+#include <math.h>
 #include <stddef.h>
 
 #include "base/diagnostics.h"
@@ -28,6 +29,12 @@ struct scene_request {
 
 /* The size of a picture unless --size says another, and the largest. */
 enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600, MAX_SIDE = 1000000 };
+
+/* What the options leave unsaid. */
+#define SCENE_REQUEST_DEFAULT                                          \
+  {                                                                    \
+    .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN \
+  }
 
 /* The options of a scene_request that is the member `scene` of the file's struct request: rows of the table for reading
  * a scene, and the taking of those that are not stored at once, whose vals are the same in all commands. `text` is what

@@ -140,7 +140,7 @@ enum status stream_read(const struct command *command, const struct stream_reade
   }
   if (status == STATUS_OK) status = write_answers(command, reader);
   if (status == STATUS_OK && fault.text != NULL) status = explain(command, &stream, &line, reader->record, fault);
-  if (status == STATUS_LIMIT) command_error(command, "out of memory");
+  if (status == STATUS_LIMIT) (void)command_out_of_memory(command);
   free(stream.buffer);
   return status;
 }

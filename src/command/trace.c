@@ -243,7 +243,7 @@ static enum status trace(const struct command *command, struct request *request)
   start = seconds_now();
   status = intersector_create(scene, &intersector);
   if (status == STATUS_OK) status = tracer_create(intersector, &session.tracer);
-  if (status == STATUS_LIMIT) command_error(command, "out of memory");
+  if (status == STATUS_LIMIT) (void)command_out_of_memory(command);
   report.build = seconds_since(start);
   if (status == STATUS_OK) {
     start = seconds_now();
@@ -266,7 +266,7 @@ done:
 
 static enum status run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = {.scene = {.width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN}};
+  struct request request = {.scene = SCENE_REQUEST_DEFAULT};
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
   if (status == STATUS_OK && !line.help) {
