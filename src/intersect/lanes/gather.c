@@ -12,7 +12,7 @@
 
 void gather_start(struct packet *p, struct gather *gather)
 {
-  packet_orient(p);
+  if (!p->oriented) packet_orient(p);
   p->gather = gather, p->postponed->leaves = MOST_LEAVES_OF_ALL + (lane_mask){0};
   p->postponed->sweeps = lanes_all(MOST_SWEEPS_OF_ALL);
   gather->roots.count = gather->open.count = 0;

@@ -61,14 +61,29 @@ static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
   return r;
 }
 
+/* Whether that has taken digits at an end of the doubles: what is found is another ray's then. An end beyond them is as good as
+ * none. */
+static bool scaling_lost(const struct ray *ray, const struct ray *scaled, int exponent)
+{
+  bool same = ldexp(scaled->t_min, -exponent) == ray->t_min;
+  same &= isinf(scaled->t_max) || ldexp(scaled->t_max, -exponent) == ray->t_max;
+  for (int k = 0; k < 3; k++) same &= ldexp(scaled->direction[k], exponent) == ray->direction[k];
+  return !same;
+}
+
 /* Out of line, for it is rare: the packet from copies of its rays. */
 __attribute__((noinline)) static void packet_copied(struct packet *p, struct ready *ready, struct tracer *tracer,
                                                     size_t count, const struct ray rays[], bool any)
 {
+  unsigned lost = 0;
   ready->copied = true;
-  for (size_t l = 0; l < count; l++) ready->copy[l] = ray_scaled(&rays[l], &ready->exponent[l]);
+  for (size_t l = 0; l < count; l++) {
+    ready->copy[l] = ray_scaled(&rays[l], &ready->exponent[l]);
+    if (scaling_lost(&rays[l], &ready->copy[l], ready->exponent[l])) lost |= 1u << l;
+  }
   for (size_t l = count; l < LANES; l++) ready->copy[l] = ready->copy[0];
   packet_start(p, tracer, ready->copy, count, any, &ready->postponed);
+  if (lost) packet_orient(p), p->best.doubt = lanes_mask(lost);
 }
 
 void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[],
