@@ -110,7 +110,8 @@ bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct ex
 bool judge_stands_before(const struct exact_root *a, const struct exact_root *b)
 {
   if (a->patch != b->patch) return a->patch < b->patch;
-  return a->u != b->u ? a->u < b->u : a->v < b->v;
+  const bool beside = fabs((double)(a->u - b->u)) > a->radius_u + b->radius_u;
+  return beside ? a->u < b->u : a->v < b->v;
 }
 
 /* ---- what is found ---- */
