@@ -9,7 +9,8 @@
  * of an open surface, a coincident component): then a hit is reported where a hit cannot be excluded, but for one that
  * 113 bits cannot tell from t_min or t_max, which is left out. The answer to a ray does not depend on the rays it
  * shares a packet with, but for last places where another hit is so near that double precision cannot tell which comes
- * first; and with `start previous`.
+ * first; for whether its share of work is enough to be certain, where nearly all of it is needed; and with `start
+ * previous`.
  */
 #ifndef PSCN_INTERSECT_INTERSECT_H
 #define PSCN_INTERSECT_INTERSECT_H
@@ -111,7 +112,7 @@ void tracer_forget(struct tracer *tracer);
 /* The nearest hit of each of `count` <= PACKET_SIZE rays. */
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
 
-/* Whether anything is hit by each of `count` <= PACKET_SIZE rays. */
+/* Whether anything is hit by each of `count` <= PACKET_SIZE rays, or may be hit beyond its share of work. */
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
 
 /* All hits of each of `count` <= PACKET_SIZE rays. The first hit of a certain list is the nearest hit, which may

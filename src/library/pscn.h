@@ -10,8 +10,9 @@
  * A scene is built once, from a file, from text or from control points, and never changes. Any number of threads may
  * ask it at once; what each is answered depends on nothing but the ray: not on the other rays of the call, their order
  * or their number, nor on what other threads do. (Where another hit is so near that double precision cannot tell which
- * comes first, the last places of t, u, v and the normal may.) To change a scene build another, and free the old one
- * when nobody asks it any more.
+ * comes first, the last places of t, u, v and the normal may; and of a ray that needs nearly all that one may cost,
+ * whether that is enough, and its answer certain.) To change a scene build another, and free the old one when nobody
+ * asks it any more.
  *
  * Nothing is ever printed, no signal handled, no thread started, the process never ended. The locale means nothing.
  * The caller's rounding mode, flush-to-zero and floating-point traps mean nothing either, and are as before after each
@@ -205,15 +206,15 @@ struct pscn_hit {
 PSCN_API enum pscn_status pscn_nearest(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                        ptrdiff_t ray_stride, struct pscn_hit *hits, ptrdiff_t hit_stride);
 
-/* Whether each ray hits anything, which is faster: an enum pscn_verdict in one byte. Grazing counts as a hit. */
+/* Whether each ray hits anything, which is faster: an enum pscn_verdict in one byte. Grazing counts as a hit, and so does
+ * what may be hit by a ray that comes to the end of what one may cost. */
 PSCN_API enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t count, const struct pscn_ray *rays,
                                         ptrdiff_t ray_stride, uint8_t *verdicts, ptrdiff_t verdict_stride);
 
 /* How many hits a ray has. `certain`: it is proven that these are all, and that their order is right. A point of an
  * edge that patches share is one hit where the ray crosses the surface there, and so is a pole; a ray with t_max
  * infinite starts inside a closed surface where `count` is odd, outside where it is even. Grazing: what may be a hit
- * is counted as well, and its own `certain` is 0. The first of proven hits is pscn_nearest's, but for the last bit of
- * the normal. */
+ * is counted as well, and its own `certain` is 0. The first of proven hits is pscn_nearest's, but for last places. */
 struct pscn_hits {
   size_t count;
   int32_t verdict; /* PSCN_HIT where count > 0 */

@@ -199,8 +199,50 @@ static void a_ray_takes_no_more_than_its_share(void **state)
   }
 }
 
+/* A tunnel of arches, longer than a ray's share of leaves, and a wall behind it. */
+enum { ARCHES = 5000 };
+
+static void tunnel(world_net nets[])
+{
+  static const double arch[4][2] = {{-1, -1}, {-1, 2}, {1, 2}, {1, -1}};
+  for (size_t p = 0; p <= ARCHES; p++) {
+    for (int n = 0; n < 16; n++) {
+      double *at = nets[p][n / 4][n % 4];
+      at[0] = arch[n / 4][0], at[1] = arch[n / 4][1], at[2] = (double)p + n % 4 / 3.0;
+      if (p == ARCHES) at[0] = 2 * (n / 4) - 3, at[1] = 2 * (n % 4) - 3, at[2] = ARCHES + 3;
+    }
+  }
+}
+
+/* A ray that is let go on its way through the tunnel is hidden, be it alone or together with one that comes by the wall
+ * first and has the others do so too. */
+static void what_is_not_looked_at_hides(void **state)
+{
+  (void)state;
+  static world_net nets[ARCHES + 1];
+  struct world world;
+  struct method whole;
+  struct ray rays[PACKET_SIZE];
+  bool occluded[PACKET_SIZE], alone;
+  tunnel(nets);
+  method_default(solver_at(0), &whole);
+  whole.split = 1;
+  world_open(&world, nets, ARCHES + 1, &whole);
+  for (int n = 0; n < PACKET_SIZE; n++) rays[n] = (struct ray){{1e-3 * n, 0.1, -2}, {1e-6, 1e-6, 1}, 0, INFINITY};
+  rays[0] = (struct ray){{0, 0.1, ARCHES + 5}, {-1e-6, -1e-6, -1}, 0, INFINITY};
+  tracer_occluded(world.tracer, PACKET_SIZE, rays, occluded);
+  for (int n = 0; n < PACKET_SIZE; n++) {
+    tracer_occluded(world.tracer, 1, &rays[n], &alone);
+    assert_true(occluded[n] && alone);
+    const struct hit hit = world_closest(&world, &rays[n]);
+    assert_int_equal(hit.certainty, n == 0 ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING);
+  }
+  world_close(&world);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_takes_no_more_than_its_share)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_takes_no_more_than_its_share),
+                                     cmocka_unit_test(what_is_not_looked_at_hides)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

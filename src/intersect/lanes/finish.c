@@ -104,10 +104,12 @@ static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct
   else exact_maybe_hit(p->model, &p->rays[lane], &maybe, out);
 }
 
+/* A ray that was let go, or left more open than there is room for, may hit what was not looked at. To say so of every one,
+ * whatever else it meets, is to say the same in any company. */
 unsigned finish_occluded(const struct packet *p)
 {
   if (!p->oriented) return 0;
-  unsigned hit = lanes_bits(p->best.patch != NO_PATCH);
+  unsigned hit = lanes_bits(p->best.patch != NO_PATCH) | p->postponed->cut_off;
   for (unsigned bits = p->postponed->open & ~hit; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     const struct exact_case asked = lane_case(p, lane);
