@@ -37,7 +37,7 @@ struct judge {
   /* where a root may be that `nearest`, or one before it, could not be told from (judge_tie_fine); infinite for none */
   double tied_from;
   bool doubt;       /* something could not be told from the ray's start, and was left out; of all hits, any doubt */
-  double undecided; /* nothing that is nearer was left undecided for want of work */
+  double undecided; /* what was left undecided for want of work begins here, or behind; infinite for none */
   double limit;     /* nothing beyond this t matters */
   int work;         /* that may still be done, see WORK_REGION */
   int apart;        /* the same besides, for regions by themselves (regions.c) */
@@ -61,7 +61,47 @@ static inline void judge_spend(struct judge *j, int work)
 /* Starts the case, and has its regions searched. */
 void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct exact_list *list);
 
-/* Makes the root as good as wide arithmetic can; returns whether it is. */
+/* ---- the search of its regions ---- */
+
+/* regions.c: has the case's regions searched, which are put into another order: those that the ray meets first come first
+ * where the nearest hit is asked for. */
+void judge_search(struct judge *j);
+
+/* search.c: tells the judge of every root in the region that is nearer than `limit`, and of every place that cannot be
+ * decided. Where no work is left, only of a place that may be one, and of a doubt. The judge has turned to the region's
+ * patch. */
+void search_region(struct judge *j, const struct exact_region *region);
+
+/* search.c: where along the ray the region begins, or less. */
+double search_near(struct judge *j, const struct exact_region *region);
+
+/* Turns to the patch: is, room and local are of it from here on. */
+void judge_turn(struct judge *j, uint32_t patch);
+
+/* The ray through the patch that it has turned to, under the glass. */
+struct zoom *judge_zoom(struct judge *j);
+
+/* ---- what a search tells, of the patch that the judge has turned to ---- */
+
+/* A proven root, anywhere on the patch or around it. */
+void judge_root(struct judge *j, struct exact_root *root);
+
+/* The ray meets a border of the patch that is one point, as far as wide arithmetic can tell: returns whether it does. */
+bool judge_pole(struct judge *j, int border);
+
+/* The point (u,v), at t as nearly as t_error, is on the ray or not. */
+void judge_maybe(struct judge *j, double u, double v, double t, double t_error);
+
+/* What begins there is left undecided. */
+static inline void judge_undecided(struct judge *j, double near)
+{
+  j->doubt |= j->all;
+  if (!(near >= j->undecided)) j->undecided = near;
+}
+
+/* ---- roots beside each other ---- */
+
+/* Makes the root as good as wide arithmetic can; returns whether it is. Turns to its patch. */
 bool judge_sharpen(struct judge *j, struct exact_root *root);
 
 /* Whether the two cannot be told apart by t. */
@@ -75,18 +115,11 @@ bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct ex
  * itself. */
 bool judge_stands_before(const struct exact_root *a, const struct exact_root *b);
 
+/* ---- roots on borders, of j->list ---- */
+
 /* Whether the two roots, each on one border of its patch, are on the same border, and the patches lie on either side of
  * it as the ray sees them: then it crosses the surface there. */
 bool judge_across(const struct judge *j, const struct exact_found *a, const struct exact_found *b);
-
-/* Takes the root to where it is on its patch's borders, and to the control point in a corner that the ray meets. */
-void judge_to_border(struct judge *j, struct exact_found *found);
-
-/* Tells of the border's root as of what may be a hit. */
-void judge_open(struct judge *j, const struct exact_found *border);
-
-/* all.c: what may be a hit, where all hits are asked for. */
-void judge_add_open(struct judge *j, const struct exact_maybe *maybe);
 
 /* star.c: the roots of j->list[first..end-1] that lie in one corner of patches, or at one pole, together with `at`, as
  * out[..], where the ray crosses the surface there: these are all that the patches have next to that point, and are one
@@ -98,37 +131,14 @@ size_t judge_star(struct judge *j, size_t at, size_t first, size_t end, size_t o
  * that. */
 bool judge_passes(const struct ray *ray, const double point[3]);
 
-/* regions.c: has the case's regions searched, which are put into another order: those that the ray meets first come first
- * where the nearest hit is asked for. */
-void judge_search(struct judge *j);
+/* Takes the root to where it is on its patch's borders, and to the control point in a corner that the ray meets. Turns to
+ * that patch. */
+void judge_to_border(struct judge *j, struct exact_found *found);
 
-/* Turns to the patch. */
-void judge_turn(struct judge *j, uint32_t patch);
+/* Tells of the border's root as of what may be a hit. Turns to its patch. */
+void judge_open(struct judge *j, const struct exact_found *border);
 
-/* The ray through that patch under the glass. */
-struct zoom *judge_zoom(struct judge *j);
-
-/* A proven root, anywhere on that patch or around it. */
-void judge_root(struct judge *j, struct exact_root *root);
-
-/* The ray meets a border of that patch that is one point, as far as wide arithmetic can tell: returns whether it does. */
-bool judge_pole(struct judge *j, int border);
-
-/* The point (u,v) of that patch, at t as nearly as t_error, is on the ray or not. */
-void judge_maybe(struct judge *j, double u, double v, double t, double t_error);
-
-/* What begins there is left undecided. */
-static inline void judge_undecided(struct judge *j, double near)
-{
-  j->doubt |= j->all;
-  if (!(near >= j->undecided)) j->undecided = near;
-}
-
-/* search.c: tells the judge of every root in the region that is nearer than `limit`, and of every place that cannot be
- * decided. Where no work is left, only of a place that may be one, and of a doubt. */
-void search_region(struct judge *j, const struct exact_region *region);
-
-/* search.c: where along the ray the region begins, or less. */
-double search_near(struct judge *j, const struct exact_region *region);
+/* all.c: what may be a hit, where all hits are asked for. */
+void judge_add_open(struct judge *j, const struct exact_maybe *maybe);
 
 #endif

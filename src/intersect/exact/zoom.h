@@ -48,7 +48,8 @@ struct zoomed {
   /* two combinations of a and b with the same common roots, at most 1 in size; x_k less the middle's */
   double net[3][4][4];
   double error[2]; /* bounds on the errors of coefficients of the first two */
-  double met[2];   /* of zoom_pole_box: what they are off by besides where the pole is met, but not exactly, ... */
+  double met[2];   /* of zoom_pole_box, where the pole is met but not exactly: what they are off by besides, from
+                    * ZOOM_POLE_MET on */
   wide start;      /* t = (w + start) scale/d_k for w of net[2] */
 };
 
@@ -68,8 +69,10 @@ enum zoom_pole {
 /* A pole that is met is no farther from the ray than this many of zoom's errors. */
 #define ZOOM_POLE_REACH 0x1p26
 
-#define ZOOM_POLE_MET 0x1p-20     /* ... no nearer to the border than this, of the box */
-#define ZOOM_POLE_NEAREST 0x1p-14 /* of the box: a root nearer to the border asks for a smaller box */
+/* As parts of the box, from such a border on: how near to it `met` bounds the errors, and how near derivatives are good
+ * enough for a certificate. A root that is nearer asks for a smaller box. */
+#define ZOOM_POLE_MET 0x1p-20
+#define ZOOM_POLE_NEAREST 0x1p-14
 
 /* The same for a box at a border that is one point (geometry/edges.h), where both polynomials are constant: in place of
  * the combination that is zero there, that one divided by the distance d to the border, so that away from it the roots
@@ -80,8 +83,8 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
 /* t of the point (u,v). */
 wide zoom_t(struct zoom *zoom, wide u, wide v);
 
-/* Two combinations of a and b at (u,v), with their derivatives by parameters of which 2 `size` is 2 of u, of v: out[k] is
- * row[k][0] a + row[k][1] b. Returns a bound on the errors of the values. */
+/* Two combinations of a and b at (u,v), out[k] = row[k][0] a + row[k][1] b: value and derivatives by the parameters, from -1
+ * to 1, of a box that is size[0] long in u and size[1] in v. Returns a bound on the errors of the values. */
 double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2], double row[2][2], double out[2][3]);
 
 /* Makes a proven root of this ray and patch as good as wide arithmetic can. False where the certificate does not hold
