@@ -13,44 +13,51 @@ const char *family_name(enum family family)
 
 static double tolerance_at(int power) { return pow(10, -power); }
 
-/* Every combination of one solver. `bernstein` works in its own basis from its own start values. */
-static size_t sweep_solver(const struct solver *solver, enum family family, bool quick, struct sweep_point *out)
+/* Points that are written one after the other, or only counted. */
+struct sweep {
+  struct sweep_point *out; /* or NULL */
+  size_t count;
+  struct sweep_point unused;
+};
+
+/* The next one: the solver as it is by default, which the caller changes. */
+static struct method *add(struct sweep *sweep, const struct solver *solver, enum family family)
+{
+  struct sweep_point *point = sweep->out == NULL ? &sweep->unused : &sweep->out[sweep->count];
+  sweep->count++;
+  point->family = family;
+  method_default(solver, &point->options);
+  return &point->options;
+}
+
+static enum start start_at(int number) { return number == 0 ? START_PREVIOUS : START_COLD; }
+
+/* Every combination of one solver. One that finds the real roots only works in its own basis from its own start values. */
+static void sweep_solver(struct sweep *sweep, const struct solver *solver, enum family family, bool quick)
 {
   enum { FIRST = 1, LAST = 15, QUICK_STEP = 7 };
   const int starts = solver->real_only ? 1 : 2, bases = starts;
-  size_t count = 0;
   for (int power = FIRST; power <= LAST; power += quick ? QUICK_STEP : 1) {
-    for (int way = 0; way < 2 * starts * bases; way++) {
-      if (out != NULL) {
-        struct sweep_point *point = &out[count];
-        point->family = family;
-        method_default(solver, &point->options);
-        point->options.roots.tolerance = tolerance_at(power);
-        point->options.polish = way % 2 == 0;
-        if (starts > 1) {
-          point->options.roots.start = way / 2 % 2 == 0 ? START_PREVIOUS : START_COLD;
-          point->options.basis = way / 4 == 0 ? BASIS_BERNSTEIN : BASIS_POWER;
-        }
-      }
-      count++;
+    for (int way = 0; way < bases * starts * 2; way++) {
+      struct method *method = add(sweep, solver, family);
+      method->roots.tolerance = tolerance_at(power);
+      method->polish = way % 2 == 0;
+      if (solver->real_only) continue;
+      method->roots.start = start_at(way / 2 % 2);
+      method->basis = way / 4 == 0 ? BASIS_BERNSTEIN : BASIS_POWER;
     }
-    for (int start = 0; start < 2 && !solver->real_only; start++, count++) {
-      if (out == NULL) continue;
-      out[count].family = FAMILY_PAPER;
-      method_default(solver, &out[count].options);
-      out[count].options.roots.tolerance = tolerance_at(power);
-      out[count].options.roots.start = start == 0 ? START_PREVIOUS : START_COLD;
-      method_item_find("form")->set(&out[count].options, 0);
+    for (int start = 0; start < 2 && !solver->real_only; start++) {
+      struct method *method = add(sweep, solver, FAMILY_PAPER);
+      method->roots.tolerance = tolerance_at(power);
+      method->roots.start = start_at(start);
+      method_item_find("form")->set(method, 0);
     }
   }
-  for (int start = 0; start < starts; start++, count++) { /* whole patches, otherwise as by default */
-    if (out == NULL) continue;
-    out[count].family = family;
-    method_default(solver, &out[count].options);
-    out[count].options.split = 1;
-    if (starts > 1) out[count].options.roots.start = start == 0 ? START_PREVIOUS : START_COLD;
+  for (int start = 0; start < starts; start++) { /* whole patches, otherwise as by default */
+    struct method *method = add(sweep, solver, family);
+    method->split = 1;
+    if (!solver->real_only) method->roots.start = start_at(start);
   }
-  return count;
 }
 
 size_t point_sweep(bool quick, struct sweep_point *out)
@@ -60,16 +67,13 @@ size_t point_sweep(bool quick, struct sweep_point *out)
     enum family family;
   } SOLVERS[] = {
     {"bernstein", FAMILY_DEFAULT}, {"newton", FAMILY_NEWTON}, {"laguerre", FAMILY_LAGUERRE}, {"aberth", FAMILY_ABERTH}};
-  if (out != NULL) {
-    out[0].family = FAMILY_DEFAULT;
-    method_default(solver_at(0), &out[0].options);
-  }
-  size_t count = 1;
+  struct sweep sweep = {.out = out};
+  (void)add(&sweep, solver_at(0), FAMILY_DEFAULT);
   for (size_t k = 0; k < sizeof SOLVERS / sizeof SOLVERS[0]; k++) {
     const struct solver *solver = solver_find(SOLVERS[k].name, strlen(SOLVERS[k].name));
-    if (solver != NULL) count += sweep_solver(solver, SOLVERS[k].family, quick, out == NULL ? NULL : out + count);
+    if (solver != NULL) sweep_solver(&sweep, solver, SOLVERS[k].family, quick);
   }
-  return count;
+  return sweep.count;
 }
 
 void point_level(struct chart_point *points, size_t count, const double yard[RAY_KINDS])

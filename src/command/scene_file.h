@@ -27,8 +27,8 @@ struct scene_request {
   bool quiet; /* no warnings */
 };
 
-/* The size of a picture unless --size says another, and the largest. */
-enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600, MAX_SIDE = 1000000 };
+/* The largest size of a picture. */
+enum { MAX_SIDE = 1000000 };
 
 /* What the options leave unsaid. */
 #define SCENE_REQUEST_DEFAULT                                          \

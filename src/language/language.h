@@ -20,6 +20,9 @@ struct language_number {
   double value;
 };
 
+/* The size of a picture where nobody says another. */
+enum { DEFAULT_WIDTH = 800, DEFAULT_HEIGHT = 600 };
+
 struct language_settings {
   int image_width, image_height; /* pixels, >= 1: what image_width and image_height mean in the scene */
   const char *solver_text;       /* --solver TEXT: overrides every solver statement of the scene; or NULL */

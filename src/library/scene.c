@@ -141,8 +141,8 @@ static enum pscn_status language_options(struct pscn_scene *scene, const struct 
     numbers[k] = (struct language_number){number->name, length, number->value};
   }
   if (isnan(options->tolerance)) return wrong(scene, "the tolerance is no number");
-  *out = (struct language_settings){.image_width = options->image_width ? options->image_width : 800,
-                                    .image_height = options->image_height ? options->image_height : 600,
+  *out = (struct language_settings){.image_width = options->image_width ? options->image_width : DEFAULT_WIDTH,
+                                    .image_height = options->image_height ? options->image_height : DEFAULT_HEIGHT,
                                     .solver_text = options->solver,
                                     .tolerance = options->tolerance == 0 ? NAN : options->tolerance,
                                     .folders = options->folders,

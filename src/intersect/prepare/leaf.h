@@ -30,7 +30,8 @@ void patch_parts(const struct model_patch *patch, const struct part_grid *grid, 
 bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2],
                           int border);
 
-/* Leaves of patch number `index`, from its leaf `first` on in the order of columns, u first; all but their forms. */
+/* Leaves of patch number `index`, from its leaf `first` on; all but their forms. Leaf column_u split[1] + column_v is the
+ * one at these columns. */
 void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[]);
 
 /* What resultants of the leaf are formed of; its form, where it has one, is written to *form, which stays the caller's. */

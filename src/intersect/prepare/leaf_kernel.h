@@ -9,7 +9,7 @@
 #include "intersect/prepare/leaf.h"
 
 struct leaf_kernel {
-  /* leaf_parts_cut, leaf.h. */
+  /* patch_parts, leaf.h. */
   void (*parts)(const struct model_patch *patch, const struct part_grid *grid, size_t count, const uint16_t column[][2],
                 struct patch_part out[]);
   /* All of a leaf that is doubles, and `final`, of leaves of one patch whose columns are set. */
