@@ -87,15 +87,15 @@ void judge_answers(size_t count, const struct truth *truths, const struct answer
   sort_numbers(errors, both);
   sort_numbers(all, asked);
   out->median = both == 0 ? NAN : sorted_quantile(errors, both, 0.5);
-  out->most = both == 0 ? NAN : sorted_quantile(errors, both, 0.99);
+  out->p99 = both == 0 ? NAN : sorted_quantile(errors, both, 0.99);
   out->max = both == 0 ? NAN : errors[both - 1];
-  out->most_of_all = out->hits == 0 ? NAN : sorted_quantile(all, asked, 0.99);
+  out->p99_of_all = out->hits == 0 ? NAN : sorted_quantile(all, asked, 0.99);
 }
 
 void judge_occluded(size_t count, const struct ray *rays, const struct truth *truths, const struct answer *answers,
                     struct judgement *out)
 {
-  *out = (struct judgement){.rays = count, .median = NAN, .most = NAN, .max = NAN, .most_of_all = NAN};
+  *out = (struct judgement){.rays = count, .median = NAN, .p99 = NAN, .max = NAN, .p99_of_all = NAN};
   for (size_t k = 0; k < count; k++) {
     if (truths[k].kind == TRUTH_UNDECIDED) {
       out->undecided++;

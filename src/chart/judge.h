@@ -41,9 +41,10 @@ struct judgement {
   size_t invented;              /* a miss answered by a hit */
   size_t wrong;                 /* a hit answered by one farther off than JUDGE_WRONG */
   size_t other_patch;           /* the right place, but said to be of a patch it is not of */
-  double median, most, max;     /* relative error of T of the rays both hit; `most`: 99 %; NAN where there are none */
-  double most_of_all;           /* 99 %, every answer that is lost, invented or wrong counting as an error of 1; NAN
-                                 * where nothing is there to be hit */
+  /* relative errors of T of the rays that both hit; p99: of 99 % no more; NAN where there are none */
+  double median, p99, max;
+  /* the same, every answer that is lost, invented or wrong counting as an error of 1; NAN where nothing is to be hit */
+  double p99_of_all;
 };
 
 bool judge_available(void);

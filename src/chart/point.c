@@ -91,7 +91,7 @@ void point_level(struct chart_point *points, size_t count, const double yard[RAY
 static bool beats(const struct chart_point *a, const struct chart_point *b)
 {
   const double ta = a->time[RAYS_CAMERA].median, tb = b->time[RAYS_CAMERA].median;
-  const double ea = a->camera.most_of_all, eb = b->camera.most_of_all;
+  const double ea = a->camera.p99_of_all, eb = b->camera.p99_of_all;
   return ta <= tb && ea <= eb && (ta < tb || ea < eb);
 }
 
@@ -99,14 +99,14 @@ static bool beats(const struct chart_point *a, const struct chart_point *b)
 static bool ties(const struct chart_point *a, const struct chart_point *b)
 {
   const struct timing *p = &a->time[RAYS_CAMERA], *q = &b->time[RAYS_CAMERA];
-  return a->camera.most_of_all <= b->camera.most_of_all && p->lower <= q->upper && q->lower <= p->upper;
+  return a->camera.p99_of_all <= b->camera.p99_of_all && p->lower <= q->upper && q->lower <= p->upper;
 }
 
 /* Whether another one is no less exact, and faster by more than the noise. */
 static bool clearly_beaten(const struct chart_point *points, size_t count, const struct chart_point *point)
 {
   for (size_t k = 0; k < count; k++)
-    if (points[k].camera.most_of_all <= point->camera.most_of_all &&
+    if (points[k].camera.p99_of_all <= point->camera.p99_of_all &&
         points[k].time[RAYS_CAMERA].upper < point->time[RAYS_CAMERA].lower)
       return true;
   return false;
@@ -115,7 +115,7 @@ static bool clearly_beaten(const struct chart_point *points, size_t count, const
 void point_front(struct chart_point *points, size_t count)
 {
   for (size_t k = 0; k < count; k++) {
-    points[k].front = isfinite(points[k].time[RAYS_CAMERA].median) && isfinite(points[k].camera.most_of_all);
+    points[k].front = isfinite(points[k].time[RAYS_CAMERA].median) && isfinite(points[k].camera.p99_of_all);
     for (size_t other = 0; points[k].front && other < count; other++)
       points[k].front = !beats(&points[other], &points[k]);
   }

@@ -46,7 +46,7 @@ size_t point_sweep(bool quick, struct sweep_point *out);
 void point_level(struct chart_point *points, size_t count, const double yard[RAY_KINDS]);
 
 /* Marks the points that no other beats: another one that is no slower and no less exact, and one of both better.
- * Exactness is camera.most_of_all. Points without both numbers are never on the front. Where noise alone decides, that
+ * Exactness is camera.p99_of_all. Points without both numbers are never on the front. Where noise alone decides, that
  * is, where an earlier point is no less exact and the quartiles of the times overlap, the earliest such point has the
  * place, unless another one beats it by more than that. */
 void point_front(struct chart_point *points, size_t count);

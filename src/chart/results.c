@@ -36,7 +36,7 @@ static const struct look {
 
 static bool drawn(const struct chart_point *point)
 {
-  return isfinite(point->time[RAYS_CAMERA].median) && isfinite(point->camera.most_of_all);
+  return isfinite(point->time[RAYS_CAMERA].median) && isfinite(point->camera.p99_of_all);
 }
 
 static bool all_right(const struct chart_point *point)
@@ -44,7 +44,7 @@ static bool all_right(const struct chart_point *point)
   return point->camera.lost + point->camera.invented + point->camera.wrong == 0;
 }
 
-static double error_of(const struct chart_point *point) { return fmax(point->camera.most_of_all, LEAST_ERROR); }
+static double error_of(const struct chart_point *point) { return fmax(point->camera.p99_of_all, LEAST_ERROR); }
 
 /* Where a point's label stands: at the point, or right of those before it that are there already. */
 static double label_place(const struct chart *chart, size_t index)
@@ -93,8 +93,8 @@ static json_t *point_value(const struct chart *chart, size_t index)
     "{s:s,s:s,s:s,s:b,s:o,s:[O,o],s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "family",
     family_name(point->family), "name", point->name, "label", point->label, "front", point->front, "time", time,
     "times", time, shadow_time, "shadow_ns", page_of_number(point->time[RAYS_SHADOW].median), "t_median",
-    page_of_number(camera->median), "t_99", page_of_number(camera->most), "t_max", page_of_number(camera->max),
-    "t_99_of_all", page_of_number(camera->most_of_all), "rays", page_of_count(camera->rays), "hits",
+    page_of_number(camera->median), "t_99", page_of_number(camera->p99), "t_max", page_of_number(camera->max),
+    "t_99_of_all", page_of_number(camera->p99_of_all), "rays", page_of_count(camera->rays), "hits",
     page_of_count(camera->hits), "undecided", page_of_count(camera->undecided), "lost", page_of_count(camera->lost),
     "invented", page_of_count(camera->invented), "wrong", page_of_count(camera->wrong), "other_patch",
     page_of_count(camera->other_patch), "shadow", point->has_shadow ? shadow_value(&point->shadow) : json_null(),
@@ -140,7 +140,7 @@ static bool add_sets(const struct chart *chart, json_t *root, const json_t *poin
 static int by_error(const void *a, const void *b)
 {
   const struct chart_point *const *p = a, *const *q = b;
-  const double x = (*p)->camera.most_of_all, y = (*q)->camera.most_of_all;
+  const double x = (*p)->camera.p99_of_all, y = (*q)->camera.p99_of_all;
   return (x > y) - (x < y);
 }
 

@@ -168,11 +168,11 @@ static void compare_distances(size_t count, double ours[], const double theirs[]
     out->only_theirs += !hit && theirs_hit;
     if (hit && theirs_hit) ours[out->both++] = fabs(theirs[k] - ours[k]) / ours[k];
   }
-  out->median = out->most = out->max = NAN;
+  out->median = out->p99 = out->max = NAN;
   if (out->both == 0) return;
   sort_numbers(ours, out->both);
   out->median = sorted_quantile(ours, out->both, 0.5);
-  out->most = sorted_quantile(ours, out->both, 0.99);
+  out->p99 = sorted_quantile(ours, out->both, 0.99);
   out->max = ours[out->both - 1];
 }
 

@@ -34,7 +34,7 @@ struct check_ours {
 /* Differences of distances, relative to ours, over the rays that both say hit; NaN where there are none. */
 struct check_distances {
   size_t rays, both, only_ours, only_theirs;
-  double median, most, max; /* most: 99 of 100 are at most this */
+  double median, p99, max; /* p99: of 99 % no more */
 };
 
 struct check_row {

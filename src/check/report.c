@@ -16,7 +16,7 @@ static json_t *distances_json(const struct check_distances *d)
 {
   return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "rays", page_of_count(d->rays), "both", page_of_count(d->both),
                    "only_here", page_of_count(d->only_ours), "only_there", page_of_count(d->only_theirs), "median",
-                   page_of_number(d->median), "percent_99", page_of_number(d->most), "max", page_of_number(d->max));
+                   page_of_number(d->median), "percent_99", page_of_number(d->p99), "max", page_of_number(d->max));
 }
 
 static json_t *row_json(const struct check *check, const struct check_row *row)

@@ -175,7 +175,7 @@ static enum status add_figure(struct results *results, json_t *root)
   bool pixels = false, distances = false;
   for (size_t k = 1; k < check->row_count; k++) {
     pixels = pixels || check->row[k].over[0] > 0;
-    distances = distances || check->row[k].distances.most > 0;
+    distances = distances || check->row[k].distances.p99 > 0;
   }
   set(results, root, "pixels", json_boolean(pixels));
   set(results, root, "converging", json_boolean(distances));

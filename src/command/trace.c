@@ -212,8 +212,8 @@ static struct stream_fault parse_record(const struct stream_line *record, struct
 static struct stream_fault take(void *context, const struct stream_line *line)
 {
   struct session *session = context;
-  const struct stream_fault fault = (session->request->binary ? parse_record
-                                                              : parse_line)(line, &session->rays[session->count]);
+  struct ray *ray = &session->rays[session->count];
+  const struct stream_fault fault = session->request->binary ? parse_record(line, ray) : parse_line(line, ray);
   if (fault.text == NULL && ++session->count == PACKET_SIZE) (void)answer(session); /* which fails again at the end */
   return fault;
 }

@@ -9,7 +9,7 @@
 
 static struct chart_point point(double ns, double error)
 {
-  struct chart_point p = {.camera.most_of_all = error};
+  struct chart_point p = {.camera.p99_of_all = error};
   p.time[RAYS_CAMERA].lower = p.time[RAYS_CAMERA].median = p.time[RAYS_CAMERA].upper = ns;
   return p;
 }
@@ -141,11 +141,11 @@ static void test_judge(void **state)
   assert_int_equal(j.wrong, 1);
   assert_int_equal(j.other_patch, 1);
   assert_true(j.median == 0x1p-55);
-  assert_true(j.max == 0.5 && j.most == 0.5);
-  assert_true(j.most_of_all == 1);
+  assert_true(j.max == 0.5 && j.p99 == 0.5);
+  assert_true(j.p99_of_all == 1);
   /* Where nothing is there to be hit, who invents a hit has no error, and no place on the front. */
   judge_answers(2, truths + 5, answers + 5, errors, &j);
-  assert_true(j.hits == 0 && j.invented == 1 && isnan(j.most_of_all));
+  assert_true(j.hits == 0 && j.invented == 1 && isnan(j.p99_of_all));
 }
 
 static void test_judge_occluded(void **state)
