@@ -158,6 +158,17 @@ static double seconds_of(const struct image *image)
   return seconds;
 }
 
+/* Whether a piece is still what its header said: somebody may have written it anew. */
+static bool is_same(const struct piece *header, const struct piece *whole)
+{
+  char message[IMAGE_MESSAGE_SIZE];
+  bool same = header->number == whole->number && header->count == whole->count &&
+              piece_belongs(&whole->image, &header->image, message, sizeof message);
+  for (size_t t = 0; t < header->tiles.count && same; t++)
+    same = atomic_load(&header->tiles.done[t]) == atomic_load(&whole->tiles.done[t]);
+  return same;
+}
+
 static enum status read_pixels(struct merge *merge)
 {
   char message[IMAGE_MESSAGE_SIZE];
@@ -168,6 +179,7 @@ static enum status read_pixels(struct merge *merge)
     const enum status status = piece_read(file->path, true, &whole, message);
     if (status == STATUS_LIMIT) return status;
     if (status != STATUS_OK) refuse(merge, file, "%s", message);
+    else if (!is_same(&file->piece, &whole)) refuse(merge, file, "%s", "it was written anew meanwhile");
     else if (!piece_copy(&whole, &merge->picture.image)) refuse(merge, file, "%s", "it lacks a channel");
     merge->seconds += seconds_of(&whole.image);
     piece_destroy(&whole);

@@ -1,0 +1,78 @@
+/* A piece of a picture that is written anew while `pscn merge` is under way, between its header and its pixels: no picture
+ * is made of it. */
+#define _DEFAULT_SOURCE /* mkdtemp */
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "cmocka_test.h"
+#include "command/command.h"
+#include "command/piece.h"
+
+enum { MOST_ARGUMENTS = 16 };
+
+static int run(const char *const arguments[])
+{
+  const char *argv[MOST_ARGUMENTS] = {NULL};
+  int argc = 0;
+  while (arguments[argc]) argv[argc] = arguments[argc], argc++;
+  const struct command *command = command_find(argv[0]);
+  assert_non_null(command);
+  const int code = (int)command->run(command, argc, argv);
+  fflush(stdout);
+  return code;
+}
+
+/* The linker hands calls of piece_read to this one: before pixels are read the first time "other" becomes "one". */
+static bool change;
+enum status __real_piece_read(const char *path, bool pixels, struct piece *out, char *message);
+enum status __wrap_piece_read(const char *path, bool pixels, struct piece *out, char *message);
+enum status __wrap_piece_read(const char *path, bool pixels, struct piece *out, char *message)
+{
+  if (pixels && change) assert_int_equal(rename("other.exr", "one.exr"), 0);
+  change &= !pixels;
+  return __real_piece_read(path, pixels, out, message);
+}
+
+static void render(const char *tile, const char *output, const char *samples)
+{
+  assert_int_equal(run((const char *const[]){"render", "scene.pscn", "--size", "64x48", "--tile", tile, "-o", output,
+                                             "--samples", samples, "--quiet", NULL}),
+                   STATUS_OK);
+}
+
+static void test_changed(void **state)
+{
+  static const char *const again[][3] = {
+    {"1/2", "2", "another picture's"}, {"2/2", "1", "another number"}, {"1/2", "1", "nothing else"}};
+  (void)state;
+  for (size_t k = 0; k < sizeof again / sizeof *again; k++) {
+    render("1/2", "one.exr", "1"), render("2/2", "two.exr", "1"), render(again[k][0], "other.exr", again[k][1]);
+    change = true;
+    const int code = run((const char *const[]){"merge", "one.exr", "two.exr", "-o", "picture.png", "--quiet", NULL});
+    assert_false(change);
+    print_message("%s: exit code %d\n", again[k][2], code);
+    assert_int_equal(code, k == 2 ? STATUS_OK : STATUS_DIFFERENT);
+    assert_int_equal(access("picture.png", F_OK) == 0, k == 2);
+  }
+}
+
+int main(void)
+{
+  static const char scene[] = "camera { location <0, 0, -3> }\n"
+                              "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3\n"
+                              "  <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,1> <3,1,0>\n"
+                              "  <0,2,0> <1,2,1> <2,2,1> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0>\n"
+                              "  pigment { rgb 1 } translate <-1.5, -1.5, 0> }\n";
+  static const char *const files[] = {"scene.pscn", "one.exr", "two.exr", "other.exr", "picture.png"};
+  char folder[] = "/tmp/pscn-changing-XXXXXX";
+  if (!mkdtemp(folder) || chdir(folder) != 0) return 1;
+  FILE *file = fopen("scene.pscn", "w");
+  if (!file || fputs(scene, file) < 0 || fclose(file) != 0) return 1;
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_changed)};
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  for (size_t k = 0; k < sizeof files / sizeof *files; k++) unlink(files[k]);
+  if (rmdir(folder) != 0) return 1;
+  return failed;
+}
