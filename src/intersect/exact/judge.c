@@ -202,26 +202,51 @@ void judge_maybe(struct judge *j, double u, double v, double t, double t_error)
   keep_maybe(j, &maybe);
 }
 
-/* The point (u,v) of the patch, a control point, where the ray meets it: whether it does. */
-static bool point_root(const struct judge *j, int row, int column, double u, double v, struct exact_root *out)
+/* A control point that is a point of the patch: where it stands in the net, and its parameters. */
+struct net_point {
+  int row, column;
+  double u, v;
+};
+
+/* Of a border that is one point, the middle standing for all of it. */
+static struct net_point pole_point(int border)
+{
+  const double u = border == 0 ? 0 : border == 1 ? 1 : 0.5, v = border == 2 ? 0 : border == 3 ? 1 : 0.5;
+  return (struct net_point){border == 1 ? 3 : 0, border == 3 ? 3 : 0, u, v};
+}
+
+/* The corner next to the root. */
+static struct net_point corner_point(const struct exact_root *root)
+{
+  const int u = root->u < 0.5 ? 0 : 1, v = root->v < 0.5 ? 0 : 1;
+  return (struct net_point){3 * u, 3 * v, u, v};
+}
+
+static bool in_corner(unsigned borders) { return borders & 3 && borders & 12; }
+
+/* The root at that point, where the ray meets it exactly: whether it does. */
+static bool point_root(const struct judge *j, const struct net_point *at, struct exact_root *out)
 {
   const struct ray *ray = j->asked->ray;
-  const double *point = j->asked->model->scene->patches[j->patch].P[row][column];
+  const double *point = j->asked->model->scene->patches[j->patch].P[at->row][at->column];
   if (!judge_passes(ray, point)) return false;
   const int k = j->local.axis;
-  *out = (struct exact_root){
-    .patch = j->patch, .sharp = true, .u = u, .v = v, .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
+  *out = (struct exact_root){.patch = j->patch,
+                             .sharp = true,
+                             .u = at->u,
+                             .v = at->v,
+                             .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
   out->t_error = 4 * (double)(WIDE_ROUNDOFF * wide_abs(out->t));
   return true;
 }
 
-/* The same, which is told; `border` is the pole that it is, or negative. */
-static bool tell_point(struct judge *j, int row, int column, double u, double v, int border)
+/* The same, which is told: it lies on those borders. */
+static bool tell_point(struct judge *j, const struct net_point *at, unsigned borders)
 {
   struct exact_root root;
-  if (!point_root(j, row, column, u, v, &root)) return false;
+  if (!point_root(j, at, &root)) return false;
   const enum side in_range = root_in_range(j, &root);
-  if (in_range == SIDE_INSIDE && j->all) (void)list_root(j, &root, EXACT_BORDER, 1u << border);
+  if (in_range == SIDE_INSIDE && j->all) (void)list_root(j, &root, EXACT_BORDER, borders);
   else if (in_range == SIDE_INSIDE) keep_root(j, &root);
   if (in_range == SIDE_UNKNOWN) j->doubt = true;
   return true;
@@ -229,15 +254,12 @@ static bool tell_point(struct judge *j, int row, int column, double u, double v,
 
 bool judge_pole(struct judge *j, int border)
 {
-  const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
-  const double u = border == 0 ? 0 : border == 1 ? 1 : 0.5, v = border == 2 ? 0 : border == 3 ? 1 : 0.5;
-  if (tell_point(j, row, column, u, v, border)) return true;
+  const struct net_point at = pole_point(border);
+  if (tell_point(j, &at, 1u << border)) return true;
   const struct zoom *zoom = judge_zoom(j);
-  const wide t = (j->is->x[zoom->axis][row][column] - zoom->origin) * zoom->to_t;
-  const struct exact_maybe maybe = {
-    j->patch,  1u << border,
-    u,         v,
-    (double)t, 16 * UNIT_ROUNDOFF * fabs((double)t) + ZOOM_POLE_REACH * zoom->depth_error * fabs((double)zoom->to_t)};
+  const double t = (double)((j->is->x[zoom->axis][at.row][at.column] - zoom->origin) * zoom->to_t);
+  const double t_error = 16 * UNIT_ROUNDOFF * fabs(t) + ZOOM_POLE_REACH * zoom->depth_error * fabs((double)zoom->to_t);
+  const struct exact_maybe maybe = {j->patch, 1u << border, at.u, at.v, t, t_error};
   keep_maybe(j, &maybe);
   return false;
 }
@@ -246,9 +268,8 @@ bool judge_pole(struct judge *j, int border)
 static bool starts_in_corner(const struct judge *j, unsigned borders, const struct exact_root *root)
 {
   struct exact_root corner;
-  if (!(borders & 3 && borders & 12)) return false;
-  const int row = root->u < 0.5 ? 0 : 3, column = root->v < 0.5 ? 0 : 3;
-  return point_root(j, row, column, row / 3, column / 3, &corner) && root_in_range(j, &corner) == SIDE_OUTSIDE;
+  const struct net_point at = corner_point(root);
+  return in_corner(borders) && point_root(j, &at, &corner) && root_in_range(j, &corner) == SIDE_OUTSIDE;
 }
 
 void judge_root(struct judge *j, struct exact_root *root)
@@ -320,21 +341,12 @@ bool judge_across(const struct judge *j, const struct exact_found *a, const stru
 
 static wide within(wide t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
 
-static bool in_corner(const struct exact_found *found) { return found->borders & 3 && found->borders & 12; }
-
-/* Where the corner is that a root is in. */
-static void corner_of(const struct exact_found *found, double *u, double *v)
-{
-  *u = found->root.u < 0.5 ? 0 : 1, *v = found->root.v < 0.5 ? 0 : 1;
-}
-
 void judge_to_border(struct judge *j, struct exact_found *found)
 {
   struct exact_root *root = &found->root;
-  double u, v;
+  const struct net_point corner = corner_point(root);
   judge_turn(j, root->patch);
-  corner_of(found, &u, &v);
-  if (in_corner(found) && point_root(j, u > 0 ? 3 : 0, v > 0 ? 3 : 0, u, v, root)) return;
+  if (in_corner(found->borders) && point_root(j, &corner, root)) return;
   root->u = within(root->u), root->v = within(root->v);
 }
 
@@ -361,9 +373,8 @@ static void settle_borders(struct judge *j)
     }
     if (certain) continue;
     judge_turn(j, root->patch);
-    double u, v;
-    corner_of(found, &u, &v);
-    if (in_corner(found) && tell_point(j, u > 0 ? 3 : 0, v > 0 ? 3 : 0, u, v, -1)) continue;
+    const struct net_point corner = corner_point(root);
+    if (in_corner(found->borders) && tell_point(j, &corner, found->borders)) continue;
     judge_open(j, found);
   }
 }
