@@ -1,11 +1,10 @@
-/* A ray through a patch under the glass. See zoom.h. */
+/* A ray through a patch under the glass: over the patch, and over boxes of it. See zoom.h. */
 #include "intersect/exact/zoom.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/double_double.h"
-#include "intersect/certificate.h"
 #include "intersect/local_ray.h"
 
 /* A value of a or b passes at most this many roundings on the way from the control points to a combination's
@@ -145,16 +144,11 @@ static void net_of(fixed power[4][4], double factor, double out[4][4])
   for (int n = 0; n < 4; n++) to_bernstein(&out[0][n], 4);
 }
 
-/* The combination p a + q b as powers; returns the sum of their sizes. */
-static double combine(fixed a[4][4], fixed b[4][4], fixed p, fixed q, fixed out[4][4])
+/* The sum of their sizes. */
+static double size_sum(fixed power[4][4])
 {
   double sum = 0;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      out[i][j] = fixed_product(p, a[i][j]) + fixed_product(q, b[i][j]);
-      sum += fabs(fixed_double(out[i][j]));
-    }
-  }
+  for (int n = 0; n < 16; n++) sum += fabs(fixed_double(power[n / 4][n % 4]));
   return sum;
 }
 
@@ -196,7 +190,8 @@ bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], st
   const fixed rows[2][2] = {{fixed_from(p), fixed_from(q)}, {-fixed_from(q), fixed_from(p)}};
   for (int s = 0; s < 2; s++) {
     fixed combination[4][4];
-    const double sum = combine(c[0], c[1], rows[s][0], rows[s][1], combination), error = 2 * zoom->error;
+    zoom_combine(c[0], c[1], rows[s][0], rows[s][1], combination);
+    const double sum = size_sum(combination), error = 2 * zoom->error;
     if (!(sum > error)) return false;
     net_of(combination, 1 / sum, out->net[s]);
     out->error[s] = error / sum + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
@@ -281,139 +276,5 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
   if (!scaled_net(net[0], 6 * error + away, distance, 0, out) || !scaled_net(net[1], 6 * error, distance, 1, out))
     return false;
   set_depth(zoom, c[2], out);
-  return true;
-}
-
-/* Value and derivatives of a polynomial of (x, y) by its powers. */
-static void evaluate(fixed c[4][4], fixed x, fixed y, fixed *value, fixed *dx, fixed *dy)
-{
-  *value = *dx = *dy = 0;
-  for (int i = 3; i >= 0; i--) {
-    fixed row = 0, row_dy = 0;
-    for (int j = 3; j >= 0; j--) row_dy = fixed_product(row_dy, y) + row, row = fixed_product(row, y) + c[i][j];
-    *dx = fixed_product(*dx, x) + *value, *value = fixed_product(*value, x) + row;
-    *dy = fixed_product(*dy, x) + row_dy;
-  }
-}
-
-wide zoom_t(struct zoom *zoom, wide u, wide v)
-{
-  fixed depth, unused[2];
-  evaluate(zoom->power[2], fixed_from_wide(2 * u - 1), fixed_from_wide(2 * v - 1), &depth, &unused[0], &unused[1]);
-  return (fixed_wide(depth) / zoom->unit[2] - zoom->origin) * zoom->to_t;
-}
-
-double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2], double row[2][2], double out[2][3])
-{
-  fixed f[2][3];
-  double sum = 0;
-  const double unit = fmin(zoom->unit[0], zoom->unit[1]), to[3] = {1 / unit, size[0] / unit, size[1] / unit};
-  for (int k = 0; k < 2; k++)
-    evaluate(zoom->power[k], fixed_from_wide(2 * u - 1), fixed_from_wide(2 * v - 1), &f[k][0], &f[k][1], &f[k][2]);
-  for (int k = 0; k < 2; k++) {
-    const fixed p = fixed_from(row[k][0] * (unit / zoom->unit[0])), q = fixed_from(row[k][1] * (unit / zoom->unit[1]));
-    for (int n = 0; n < 3; n++) out[k][n] = fixed_double(fixed_product(p, f[0][n]) + fixed_product(q, f[1][n])) * to[n];
-    sum = fmax(sum, fabs(row[k][0]) + fabs(row[k][1]));
-  }
-  return (sum + 1) * zoom->error / unit;
-}
-
-/* A bound on |f_xx| + 2 |f_xy| + |f_yy| of the polynomial with these powers, where x and y reach LEAF_MARGIN beyond the
- * patch. */
-static double second_bound(fixed c[4][4])
-{
-  const double r = 1 + 2 * LEAF_MARGIN, power[4] = {1, r, r * r, r * r * r};
-  double sum = 0;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      const double size = fabs(fixed_double(c[i][j]));
-      if (i > 1) sum += i * (i - 1) * power[i - 2] * power[j] * size;
-      if (i > 0 && j > 0) sum += 2 * i * j * power[i - 1] * power[j - 1] * size;
-      if (j > 1) sum += j * (j - 1) * power[i] * power[j - 2] * size;
-    }
-  }
-  return sum;
-}
-
-/* What rounding may do in a row of M. */
-static double row_size(const struct zoom *zoom, const wide m[2])
-{
-  return (double)(wide_abs(m[0]) + wide_abs(m[1])) * zoom->error;
-}
-
-/* A bound on the second derivatives of the row's combination: that is much less than of a and b where these are nearly one. */
-static double row_bend(struct zoom *zoom, const wide m[2])
-{
-  const wide most = wide_max(wide_abs(m[0]), wide_abs(m[1]));
-  fixed row[4][4];
-  combine(zoom->power[0], zoom->power[1], fixed_from_wide(m[0] / most), fixed_from_wide(m[1] / most), row);
-  return (double)most * second_bound(row) + CERTIFICATE_SECOND * row_size(zoom, m);
-}
-
-/* Newton's process ends when a step is what rounding makes, or no shorter than half the one before. It starts within the
- * root's radius, where it converges quadratically but for the first few steps next to a pole. */
-enum { SHARPEN_STEPS = 24 };
-
-/* The process from (x,y): where it ends, its last step, and the rows of the inverse Jacobian there. These are wide: next
- * to a pole all of the determinant is small, and each row is right to its own last places. */
-static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide m[2][2])
-{
-  static const fixed most = (fixed)((1 + 2 * LEAF_MARGIN) / FIXED_UNIT);
-  double before = INFINITY;
-  for (int n = 0; n < SHARPEN_STEPS; n++) {
-    fixed f[2][3];
-    wide a[3], b[3];
-    for (int k = 0; k < 2; k++) evaluate(zoom->power[k], *x, *y, &f[k][0], &f[k][1], &f[k][2]);
-    for (int k = 0; k < 3; k++) a[k] = (wide)f[0][k], b[k] = (wide)f[1][k]; /* in units of FIXED_UNIT, as the steps */
-    const wide determinant = a[1] * b[2] - a[2] * b[1];
-    if (determinant == 0) return false;
-    const wide inverse = (wide)(1 / FIXED_UNIT) / determinant;
-    const wide step_x = (b[2] * a[0] - a[2] * b[0]) * inverse, step_y = (a[1] * b[0] - b[1] * a[0]) * inverse;
-    *out_step = (double)wide_max(wide_abs(step_x), wide_abs(step_y)) * FIXED_UNIT;
-    if (!(*out_step <= 4)) return false;
-    *x -= (fixed)step_x, *y -= (fixed)step_y;
-    if (!(fixed_size(*x) <= most && fixed_size(*y) <= most)) return false;
-    m[0][0] = b[2] * inverse, m[0][1] = -a[2] * inverse, m[1][0] = -b[1] * inverse, m[1][1] = a[1] * inverse;
-    const double size[2] = {row_size(zoom, m[0]) / FIXED_UNIT, row_size(zoom, m[1]) / FIXED_UNIT};
-    if (wide_abs(step_x) <= size[0] && wide_abs(step_y) <= size[1]) return true;
-    if (n > 4 && *out_step > before / 2) return true;
-    before = *out_step;
-  }
-  return true;
-}
-
-bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
-{
-  fixed x = fixed_from_wide(2 * root->u - 1), y = fixed_from_wide(2 * root->v - 1);
-  double step, radius[2];
-  wide m[2][2];
-  if (!newton(zoom, &x, &y, &step, m)) return false;
-  const double sizes[2] = {row_size(zoom, m[0]), row_size(zoom, m[1])}, size = fmax(sizes[0], sizes[1]);
-  const double bends[2] = {row_bend(zoom, m[0]), row_bend(zoom, m[1])}, bend = fmax(bends[0], bends[1]);
-  const wide u = (1 + fixed_wide(x)) / 2, v = (1 + fixed_wide(y)) / 2;
-  if (!certificate_holds(bend, step, size)) {
-    if (wide_abs(u - root->u) <= root->radius_u && wide_abs(v - root->v) <= root->radius_v)
-      root->u = u, root->v = v, root->t = zoom_t(zoom, u, v);
-    return false;
-  }
-  for (int k = 0; k < 2; k++)
-    radius[k] = certificate_radius(bends[k], step + size, sizes[k]) / 2 + (double)WIDE_ROUNDOFF;
-  /* Both enclosures hold one root each: it is the same where one holds the other. */
-  if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
-        (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))
-    return false;
-  fixed depth, dx, dy;
-  evaluate(zoom->power[2], x, y, &depth, &dx, &dy);
-  const double rx = 2 * radius[0], ry = 2 * radius[1], reach = rx + ry;
-  const double off = fabs(fixed_double(dx)) * rx + fabs(fixed_double(dy)) * ry +
-                     second_bound(zoom->power[2]) * reach * reach;
-  root->u = u, root->v = v, root->t = (fixed_wide(depth) / zoom->unit[2] - zoom->origin) * zoom->to_t;
-  root->radius_u = radius[0], root->radius_v = radius[1];
-  /* The certificate's map contracts as far as bend |w - z| and rounding make less than 1, where bend holds. */
-  const double here = fixed_double(fixed_max(fixed_size(x), fixed_size(y)));
-  root->alone = fmax(fmin(0.5 / bend, 1 + 2 * LEAF_MARGIN - here) / 2 - step, 0);
-  root->t_error = error_to_t((double)zoom->to_t, off / zoom->unit[2] + zoom->depth_error) +
-                  8 * (double)(WIDE_ROUNDOFF * wide_abs(root->t));
-  root->sharp = true;
   return true;
 }

@@ -80,6 +80,15 @@ enum zoom_pole {
 bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2], int border, struct zoomed *out,
                    enum zoom_pole *out_pole);
 
+/* p a + q b, as powers. */
+static inline void zoom_combine(fixed a[4][4], fixed b[4][4], fixed p, fixed q, fixed out[4][4])
+{
+  for (int n = 0; n < 16; n++)
+    out[n / 4][n % 4] = fixed_product(p, a[n / 4][n % 4]) + fixed_product(q, b[n / 4][n % 4]);
+}
+
+/* ---- sharpen.c ---- */
+
 /* t of the point (u,v). */
 wide zoom_t(struct zoom *zoom, wide u, wide v);
 
