@@ -124,6 +124,53 @@ static void folded_patches_too(void **state)
   assert_true(twice > FOLDED_RAYS / 8);
 }
 
+/* Six bent sides of a box, which share edges and corners. */
+static void fill_box(world_net nets[6])
+{
+  for (int p = 0; p < 6; p++) {
+    for (int n = 0; n < 16; n++) {
+      int at[3];
+      at[p / 2] = 3 * (p % 2), at[(p / 2 + 1) % 3] = n / 4, at[(p / 2 + 2) % 3] = n % 4;
+      struct random bend = {SEED + (uint64_t)(16 * at[0] + 4 * at[1] + at[2])};
+      for (int k = 0; k < 3; k++) nets[p][n / 4][n % 4][k] = at[k] - 1.5 + (double)(random_bits(&bend) % 5) / 8 - 0.25;
+    }
+  }
+}
+
+enum { CORNER_RAYS = 1000 };
+
+/* And of rays through a corner: it belongs to the first of its patches, whichever of them the ray comes
+ * by first. */
+static void corners_too(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 10};
+  world_net nets[6];
+  struct world world;
+  int wrong = 0, certain = 0;
+  fill_box(nets);
+  world_open(&world, nets, 6, NULL);
+  for (int n = 0; n < CORNER_RAYS; n++) {
+    struct ray ray = {.t_max = INFINITY};
+    const double *corner = nets[random_bits(&random) % 6][random_bits(&random) % 2 * 3][random_bits(&random) % 2 * 3];
+    for (int k = 0; k < 3; k++) {
+      ray.direction[k] = (double)(random_bits(&random) % 17) / 4 - 2;
+      ray.origin[k] = corner[k] - 2 * ray.direction[k];
+    }
+    if (!(ray.direction[0] || ray.direction[1] || ray.direction[2])) continue;
+    const struct hit nearest = world_closest(&world, &ray);
+    struct kept all;
+    all_of(&world, &ray, &all);
+    if (all.certainty != CERTAINTY_CERTAIN || all.count == 0 || nearest.certainty != CERTAINTY_CERTAIN) continue;
+    certain++;
+    if (!same_but_for_rounding(&nearest, &all.hits[0]) && wrong++ < 2) print_lists("corner", 0, &ray, &all);
+  }
+  world_close(&world);
+  assert_int_equal(wrong, 0);
+  print_message("%d of %d rays through corners are certain\n", certain, CORNER_RAYS);
+  assert_true(certain > CORNER_RAYS / 20);
+}
+
 /* Those of a part of the ray are those of the whole that are in it. */
 static void parts(struct set_up *s)
 {
@@ -361,6 +408,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(they_are_the_nearest_one_by_one),
     cmocka_unit_test(folded_patches_too),
+    cmocka_unit_test(corners_too),
     cmocka_unit_test(parts_of_a_ray_have_theirs),
     cmocka_unit_test(lists_do_not_depend_on_companions),
     cmocka_unit_test(kernels_agree),

@@ -356,9 +356,22 @@ void judge_open(struct judge *j, const struct exact_found *border)
   tell_maybe(j, border->borders, &border->root);
 }
 
-/* Roots on borders that something certain is next to are hits; the others may be. */
+/* Puts the roots, a few, in the order of their patches. */
+static void sort_by_patch(struct exact_list *list)
+{
+  for (size_t k = 1; k < list->count; k++) {
+    const struct exact_found here = list->at[k];
+    size_t n = k;
+    for (; n > 0 && list->at[n - 1].root.patch > here.root.patch; n--) list->at[n] = list->at[n - 1];
+    list->at[n] = here;
+  }
+}
+
+/* Roots on borders that something certain is next to are hits; the others may be. A corner belongs to the first of its
+ * patches. */
 static void settle_borders(struct judge *j)
 {
+  sort_by_patch(j->list);
   for (size_t a = 0; a < j->list->count; a++) {
     struct exact_found *found = &j->list->at[a];
     struct exact_root *root = &found->root;
