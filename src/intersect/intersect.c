@@ -173,14 +173,6 @@ void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[
   kernel_for(tracer, count)->occluded(tracer, count, rays, out_occluded);
 }
 
-void *growing_add(struct growing *list, size_t more, size_t size)
-{
-  void *at = memory_grow(list->at, &list->room, list->count + more, size);
-  if (!at) return NULL;
-  list->at = at, list->count += more;
-  return (char *)at + size * (list->count - more);
-}
-
 /* As ask_alone; list k's hits begin at first[k] of the tracer's. Returns whether there was memory. */
 static bool ask_all_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list lists[],
                           size_t first[])

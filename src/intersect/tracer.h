@@ -6,6 +6,7 @@
 #define PSCN_INTERSECT_TRACER_H
 
 #include "algebra/solver.h"
+#include "base/growing.h"
 #include "intersect/exact/exact.h"
 #include "intersect/intersect.h"
 #include "intersect/local_ray.h"
@@ -38,15 +39,6 @@ struct made_leaf {
   uint32_t number;
   struct leaf_room is;
 };
-
-/* A list of anything that grows and is used again. Zero-initialise; memory_free `at`. */
-struct growing {
-  void *at;
-  size_t count, room;
-};
-
-/* intersect.c: room for `more` elements of `size` bytes at the end, which are counted; NULL where memory is short. */
-void *growing_add(struct growing *list, size_t more, size_t size);
 
 /* All that is found on the rays of a packet, where all hits are asked for (lanes/gather.h). */
 struct gather {
