@@ -49,7 +49,7 @@ struct quad_jet quad_net_jet(const struct quad_net *net, quad u, quad v)
 /* The coefficients of the cubic over [0,t] (high == 0) or [t,1] (high == 1), in place. */
 static void cubic_cut(quad c[4], quad t, int high)
 {
-  quad s = 1 - t;
+  const quad s = 1 - t;
   for (int level = 1; level < 4; level++) {
     if (high)
       for (int k = 0; k < 4 - level; k++) c[k] = s * c[k] + t * c[k + 1];

@@ -77,14 +77,14 @@ static bool patch_box_met(const struct patch *patch, const double origin[3], con
 {
   double enter = 0, leave = INFINITY;
   for (int axis = 0; axis < 3; axis++) {
-    double low = patch->low[axis] - origin[axis], high = patch->high[axis] - origin[axis];
+    const double low = patch->low[axis] - origin[axis], high = patch->high[axis] - origin[axis];
     if (direction[axis] == 0) {
       if (low > 0 || high < 0) return false; /* the sign of a rounded difference is exact */
       continue;
     }
     double near = low / direction[axis], far = high / direction[axis];
     if (near > far) {
-      double swap = near;
+      const double swap = near;
       near = far;
       far = swap;
     }
@@ -98,7 +98,7 @@ static bool patch_box_met(const struct patch *patch, const double origin[3], con
 /* Where x lies beside [0,1], known to `radius`. */
 static void judge_parameter(quad x, double radius, bool *border, bool *inside)
 {
-  quad within = x < (quad)0.5 ? x : 1 - x; /* distance to the nearer end, negative outside */
+  const quad within = x < (quad)0.5 ? x : 1 - x; /* distance to the nearer end, negative outside */
   if (within < REFERENCE_BORDER) *border = true;
   if (within < -(quad)radius) *inside = false;
 }
@@ -139,8 +139,8 @@ static void collect(const struct reference *reference, const double origin[3], c
     double size = 0; /* for REFERENCE_ORIGIN */
     for (int axis = 0; axis < 3; axis++)
       size = fmax(size, fmax(fabs(origin[axis]), fmax(fabs(patch->low[axis]), fabs(patch->high[axis]))));
-    double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
-    double at_origin = REFERENCE_ORIGIN * size / length;
+    const double length = sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+    const double at_origin = REFERENCE_ORIGIN * size / length;
     for (int k = 0; k < found.count; k++) {
       struct candidate c = {.root = found.root[k], .patch = (uint32_t)n, .inside = true};
       judge_parameter(c.root.u, c.root.radius, &c.border, &c.inside);
@@ -171,7 +171,7 @@ void reference_closest(const struct reference *reference, const double origin[3]
   }
   if (border >= 0) {
     const struct candidate *first = &all.list[border];
-    bool sooner = answer < 0 || first->root.t < all.list[answer].root.t;
+    const bool sooner = answer < 0 || first->root.t < all.list[answer].root.t;
     if (sooner && !(answer >= 0 && same_point(first, &all.list[answer]))) {
       int members = 0, inside = -1;
       for (int n = 0; n < all.count; n++) {

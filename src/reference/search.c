@@ -54,8 +54,8 @@ static int longest_axis(const double d[3])
 static void box_whole(const struct search *s, struct box *box)
 {
   const double *d = s->direction;
-  int k = longest_axis(d), i = (k + 1) % 3, j = (k + 2) % 3;
-  double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  const int k = longest_axis(d), i = (k + 1) % 3, j = (k + 2) % 3;
+  const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
   double size[FUNCTIONS] = {0};
   for (int row = 0; row < 4; row++) {
     for (int column = 0; column < 4; column++) {
@@ -81,7 +81,7 @@ static void search_need_quad(struct search *s)
 {
   if (s->has_quad) return;
   const double *d = s->direction;
-  int k = longest_axis(d), i = (k + 1) % 3, j = (k + 2) % 3;
+  const int k = longest_axis(d), i = (k + 1) % 3, j = (k + 2) % 3;
   quad square = 0, size[FUNCTIONS] = {0};
   for (int axis = 0; axis < 3; axis++) square += (quad)d[axis] * d[axis];
   for (int row = 0; row < 4; row++) {
@@ -116,7 +116,7 @@ static void box_refresh(struct search *s, struct box *box)
         size = fmax(size, fabs(box->c[f][i][j]));
       }
     }
-    double whole = (double)quad_net_magnitude(&s->net[f]);
+    const double whole = (double)quad_net_magnitude(&s->net[f]);
     box->slack[f] = 1.01 * (DOUBLE_UNIT * size + s->net_error[f] + QUAD_RESTRICT_ROUNDOFFS * QUAD_UNIT * whole);
   }
 }
@@ -124,8 +124,8 @@ static void box_refresh(struct search *s, struct box *box)
 /* A cubic cut in the middle: each level is one rounded sum and an exact halving, 3 levels. */
 static void halve(const double c[4], double low[4], double high[4])
 {
-  double p01 = 0.5 * (c[0] + c[1]), p12 = 0.5 * (c[1] + c[2]), p23 = 0.5 * (c[2] + c[3]);
-  double p012 = 0.5 * (p01 + p12), p123 = 0.5 * (p12 + p23), middle = 0.5 * (p012 + p123);
+  const double p01 = 0.5 * (c[0] + c[1]), p12 = 0.5 * (c[1] + c[2]), p23 = 0.5 * (c[2] + c[3]);
+  const double p012 = 0.5 * (p01 + p12), p123 = 0.5 * (p12 + p23), middle = 0.5 * (p012 + p123);
   low[0] = c[0], low[1] = p01, low[2] = p012, low[3] = middle;
   high[0] = middle, high[1] = p123, high[2] = p23, high[3] = c[3];
 }
@@ -221,7 +221,7 @@ static void mean_jacobian(const struct box *box, double J[2][2])
 
 static bool invert(double J[2][2], double Y[2][2])
 {
-  double determinant = J[0][0] * J[1][1] - J[0][1] * J[1][0];
+  const double determinant = J[0][0] * J[1][1] - J[0][1] * J[1][0];
   if (!(fabs(determinant) > 0)) return false;
   Y[0][0] = J[1][1] / determinant;
   Y[0][1] = -J[0][1] / determinant;
@@ -245,9 +245,9 @@ static double row_distance(const double F[4][4], double slack, double x, double 
 
 static double cubic_value(const double c[4], double t, double *derivative)
 {
-  double s = 1 - t;
-  double p0 = s * c[0] + t * c[1], p1 = s * c[1] + t * c[2], p2 = s * c[2] + t * c[3];
-  double q0 = s * p0 + t * p1, q1 = s * p1 + t * p2;
+  const double s = 1 - t;
+  const double p0 = s * c[0] + t * c[1], p1 = s * c[1] + t * c[2], p2 = s * c[2] + t * c[3];
+  const double q0 = s * p0 + t * p1, q1 = s * p1 + t * p2;
   *derivative = 3 * (q1 - q0);
   return s * q0 + t * q1;
 }
@@ -268,9 +268,9 @@ static bool newton(const double F[2][4][4], double *out_s, double *out_t)
       value[f] = cubic_value(row, s, &du[f]);
       dv[f] = cubic_value(row_dv, s, &ignored);
     }
-    double determinant = du[0] * dv[1] - dv[0] * du[1];
-    double ds = (value[0] * dv[1] - value[1] * dv[0]) / determinant;
-    double dt = (value[1] * du[0] - value[0] * du[1]) / determinant;
+    const double determinant = du[0] * dv[1] - dv[0] * du[1];
+    const double ds = (value[0] * dv[1] - value[1] * dv[0]) / determinant;
+    const double dt = (value[1] * du[0] - value[0] * du[1]) / determinant;
     if (!isfinite(ds) || !isfinite(dt)) return false;
     s -= ds;
     t -= dt;
@@ -296,9 +296,10 @@ static bool prove_root(struct search *s, quad u, quad v, struct search_root *roo
   double reach = 0.5; /* what is still to be expected of the next step */
   for (int step = 0; step < QUAD_STEPS; step++) {
     struct quad_jet a = quad_net_jet(&s->net[A], u, v), b = quad_net_jet(&s->net[B], u, v);
-    quad determinant = a.du * b.dv - a.dv * b.du;
+    const quad determinant = a.du * b.dv - a.dv * b.du;
     if (determinant == 0) return false;
-    quad du = (a.value * b.dv - b.value * a.dv) / determinant, dv = (b.value * a.du - a.value * b.du) / determinant;
+    const quad du = (a.value * b.dv - b.value * a.dv) / determinant,
+               dv = (b.value * a.du - a.value * b.du) / determinant;
     double Y[2][2] = {{(double)(b.dv / determinant), (double)(-a.dv / determinant)},
                       {(double)(-b.du / determinant), (double)(a.du / determinant)}};
     double rounding = 0, variation = 0;
@@ -306,12 +307,12 @@ static bool prove_root(struct search *s, quad u, quad v, struct search_root *roo
       rounding = fmax(rounding, fabs(Y[row][0]) * error[A] + fabs(Y[row][1]) * error[B]);
       variation = fmax(variation, fabs(Y[row][0]) * size[A] + fabs(Y[row][1]) * size[B]);
     }
-    double change = fmax(fabs((double)du), fabs((double)dv));
+    const double change = fmax(fabs((double)du), fabs((double)dv));
     double radius = 2.02 * (change + rounding);
-    bool contracts = 6 * rounding + 2 * VARIATION * variation * radius <= CONTRACTION && radius <= OVERHANG;
+    const bool contracts = 6 * rounding + 2 * VARIATION * variation * radius <= CONTRACTION && radius <= OVERHANG;
     if (contracts && (change <= 4 * rounding || step == QUAD_STEPS - 1)) {
       struct quad_jet t = quad_net_jet(&s->net[T], u, v);
-      double whole = (double)quad_net_magnitude(&s->net[T]);
+      const double whole = (double)quad_net_magnitude(&s->net[T]);
       *root = (struct search_root){.u = u, .v = v, .t = t.value, .radius = radius};
       root->t_radius = 1.01 * ((fabs((double)t.du) + fabs((double)t.dv)) * radius + s->net_error[T] +
                                (QUAD_JET_ROUNDOFFS * QUAD_UNIT + VARIATION * radius * radius) * whole);
@@ -328,7 +329,7 @@ static bool prove_root(struct search *s, quad u, quad v, struct search_root *roo
 
 static bool outside(quad x, double low, double width)
 {
-  double overhang = fmin(REFERENCE_BORDER, OVERHANG * width);
+  const double overhang = fmin(REFERENCE_BORDER, OVERHANG * width);
   return x < (quad)low - overhang || x > (quad)low + width + overhang;
 }
 
@@ -337,7 +338,7 @@ static void add_root(struct search_result *out, const struct search_root *root)
 {
   for (int k = 0; k < out->count; k++) {
     const struct search_root *known = &out->root[k];
-    double reach = 4 * (known->radius + root->radius);
+    const double reach = 4 * (known->radius + root->radius);
     if (quad_abs(known->u - root->u) <= reach && quad_abs(known->v - root->v) <= reach) return;
   }
   if (out->count == SEARCH_MAX_ROOTS) { /* more than the 18 there can be without a curve in common */
@@ -371,9 +372,9 @@ static bool settle(struct search *s, const struct box *box, bool *blurred)
   double J[2][2], Y[2][2], F[2][4][4], slack[2];
   mean_jacobian(box, J);
   /* The combinations along the left singular vectors of J: near a tangency one of them varies only quadratically. */
-  double angle = 0.5 * atan2(2 * (J[0][0] * J[1][0] + J[0][1] * J[1][1]),
-                             J[0][0] * J[0][0] + J[0][1] * J[0][1] - J[1][0] * J[1][0] - J[1][1] * J[1][1]);
-  double cosine = cos(angle), sine = sin(angle);
+  const double angle = 0.5 * atan2(2 * (J[0][0] * J[1][0] + J[0][1] * J[1][1]),
+                                   J[0][0] * J[0][0] + J[0][1] * J[0][1] - J[1][0] * J[1][0] - J[1][1] * J[1][1]);
+  const double cosine = cos(angle), sine = sin(angle);
   slack[0] = combine(box, cosine, sine, F[0]);
   slack[1] = combine(box, -sine, cosine, F[1]);
   if (excludes_zero(F[0], slack[0], blurred) || excludes_zero(F[1], slack[1], blurred)) return true;
@@ -413,12 +414,12 @@ void search_patch(const double P[4][4][3], const double origin[3], const double 
     }
     double variation[2];
     box_variation(&box, variation);
-    bool small_u = box.wu <= REFERENCE_SMALLEST_BOX, small_v = box.wv <= REFERENCE_SMALLEST_BOX;
+    const bool small_u = box.wu <= REFERENCE_SMALLEST_BOX, small_v = box.wv <= REFERENCE_SMALLEST_BOX;
     if ((small_u && small_v) || ++visited > SEARCH_BUDGET || depth + 2 > STACK_SIZE) {
       give_up(&s, &box);
       continue;
     }
-    bool in_u = small_v || (!small_u && variation[0] >= variation[1]);
+    const bool in_u = small_v || (!small_u && variation[0] >= variation[1]);
     struct box low, high;
     box_split(&box, in_u, &low, &high);
     stack[depth++] = high;

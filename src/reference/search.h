@@ -12,6 +12,8 @@ struct search_root {
   double radius, t_radius; /* the only zero within `radius` of (u,v) is at most so far off; the same for t */
 };
 
+/* Room for roots, of which there are 18 at most where a and b have no curve in common; and how many boxes are halved before
+ * the rest is given up. */
 enum { SEARCH_MAX_ROOTS = 32, SEARCH_BUDGET = 800 };
 
 struct search_result {

@@ -38,8 +38,8 @@ static struct scene *load(const struct view *view)
 /* The ray of pixel number `index`, through its middle. */
 static void pixel_ray(const struct scene *scene, const struct view *view, size_t index, struct ray *ray)
 {
-  size_t width = (size_t)view->width;
-  double s = ((double)(index % width) + 0.5) / view->width, t = ((double)(index / width) + 0.5) / view->height;
+  const size_t width = (size_t)view->width;
+  const double s = ((double)(index % width) + 0.5) / view->width, t = ((double)(index / width) + 0.5) / view->height;
   const struct scene_camera *camera = &scene->camera;
   *ray = (struct ray){.t_min = 0, .t_max = INFINITY};
   for (int axis = 0; axis < 3; axis++) {
@@ -56,14 +56,14 @@ static void test_view(void **state)
   trial_of_scene(&trial, scene);
   struct tally tally = {.name = strrchr(view->path, '/') + 1};
   struct random random = {.state = 601};
-  size_t pixels = (size_t)view->width * (size_t)view->height, wanted = effort_count(pixels, 400);
+  const size_t pixels = (size_t)view->width * (size_t)view->height, wanted = effort_count(pixels, 400);
   while (tally.rays < wanted) {
     struct ray rays[PACKET_SIZE];
     for (size_t n = 0; n < PACKET_SIZE; n++) {
-      size_t index = wanted == pixels ? tally.rays + n : (size_t)(random_bits(&random) % pixels);
+      const size_t index = wanted == pixels ? tally.rays + n : (size_t)(random_bits(&random) % pixels);
       pixel_ray(scene, view, index, &rays[n]);
     }
-    size_t left = wanted - tally.rays;
+    const size_t left = wanted - tally.rays;
     trial_rays(&trial, rays, left < PACKET_SIZE ? left : PACKET_SIZE, &tally);
   }
   tally_print(&tally);
@@ -87,10 +87,11 @@ static void compare_line(const char *line, const struct ray *ray, const struct h
   }
   double T, u, v, normal[3];
   unsigned patch;
-  int read = sscanf(line, "hit %lf %lf %lf %u %lf %lf %lf", &T, &u, &v, &patch, &normal[0], &normal[1], &normal[2]);
+  const int read = sscanf(line, "hit %lf %lf %lf %u %lf %lf %lf", &T, &u, &v, &patch, &normal[0], &normal[1],
+                          &normal[2]);
   assert_int_equal(read, 7);
   const double *d = ray->direction;
-  double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   assert_true(fabs(T - hit->t * length) <= 4 * DOUBLE_UNIT * T);
   assert_true(u == hit->u && v == hit->v && patch == hit->patch);
   for (int axis = 0; axis < 3; axis++) assert_true(normal[axis] == hit->normal[axis]); /* the text has no -0 */
@@ -108,7 +109,7 @@ static void test_command(void **state)
   struct random random = {.state = 602};
   static struct ray rays[COMMAND_RAYS];
   char input[] = "/tmp/pscn-rays-XXXXXX";
-  int descriptor = mkstemp(input);
+  const int descriptor = mkstemp(input);
   assert_true(descriptor >= 0);
   FILE *file = fdopen(descriptor, "w");
   assert_non_null(file);

@@ -33,8 +33,8 @@ enum { AIM_EDGE, AIM_CORNER, AIM_EIGHTH, AIM_MIDDLE, AIM_ANYWHERE, AIM_NEAR_EDGE
 
 static void aim(int kind, struct random *random, double *u, double *v)
 {
-  uint64_t bits = random_bits(random);
-  double tiny = ldexp(1, -(int)(bits % 56) - 4), end = (double)(bits >> 8 & 1);
+  const uint64_t bits = random_bits(random);
+  const double tiny = ldexp(1, -(int)(bits % 56) - 4), end = (double)(bits >> 8 & 1);
   *u = random_unit(random);
   *v = random_unit(random);
   double *fixed = bits >> 9 & 1 ? u : v;
@@ -55,8 +55,8 @@ static void aim(int kind, struct random *random, double *u, double *v)
 /* One axis of the direction, or two, made zero: the ray starts straight before the target if that is still inside. */
 static void align(struct random *random, const double target[3], double origin[3])
 {
-  uint64_t bits = random_bits(random);
-  int axis = (int)(bits % 3);
+  const uint64_t bits = random_bits(random);
+  const int axis = (int)(bits % 3);
   if (bits >> 8 & 1) {
     origin[axis] = target[axis];
   } else {
@@ -68,7 +68,7 @@ static void align(struct random *random, const double target[3], double origin[3
 /* Well inside, by distance from the middle as in model_inside: an aligned origin may have left the model. */
 static bool inside(const struct model *model, const double p[3])
 {
-  double r = sqrt(p[0] * p[0] + p[2] * p[2]);
+  const double r = sqrt(p[0] * p[0] + p[2] * p[2]);
   if (!strcmp(model->name, "torus")) return (r - 1) * (r - 1) + p[1] * p[1] < 0.35 * 0.35;
   if (!strcmp(model->name, "dome") && p[1] < 0.05) return false;
   if (!strcmp(model->name, "teapot")) return r < 0.5 && p[1] > 0.2 && p[1] < 0.8;

@@ -173,7 +173,7 @@ static void height_field(struct random *random, size_t index, struct situation *
     }
   }
   for (int n = 0; n < RAYS; n++) {
-    double tilt = n % 4 ? decade(index, 1, 17) : 0;
+    const double tilt = n % 4 ? decade(index, 1, 17) : 0;
     double target[3] = {random_between(random, -1.6, 1.6), random_between(random, -1.6, 1.6), 0};
     double origin[3] = {target[0] + tilt * random_between(random, -1, 1), target[1], n % 2 ? 4 : -4};
     ray_between(origin, target, &s->rays[n]);
@@ -190,11 +190,11 @@ static void tangent(struct random *random, size_t index, struct situation *s)
     net_point((const double(*)[4][3])s->P[0], u, v, target);
     net_tangents((const double(*)[4][3])s->P[0], u, v, du, dv);
     for (int axis = 0; axis < 3; axis++) {
-      int i = (axis + 1) % 3, j = (axis + 2) % 3;
+      const int i = (axis + 1) % 3, j = (axis + 2) % 3;
       normal[axis] = du[i] * dv[j] - du[j] * dv[i];
     }
-    double along = random_between(random, -1, 1), across = random_between(random, -1, 1);
-    double off = decade(index, 1, 9) * (n % 2 ? 1 : -1);
+    const double along = random_between(random, -1, 1), across = random_between(random, -1, 1);
+    const double off = decade(index, 1, 9) * (n % 2 ? 1 : -1);
     for (int axis = 0; axis < 3; axis++)
       origin[axis] = target[axis] - along * du[axis] - across * dv[axis] - off * normal[axis];
     ray_between(origin, target, &s->rays[n]);
@@ -325,8 +325,9 @@ static void repeated(struct random *random, size_t index, struct situation *s)
   s->count = 1;
   gentle(random, 1, s->P[0]);
   for (size_t k = 0; k < 1 + index % 6; k++) {
-    uint64_t bits = random_bits(random);
-    int i = (int)(bits % 4), j = (int)(bits / 4 % 4), other_i = (int)(bits / 16 % 4), other_j = (int)(bits / 64 % 4);
+    const uint64_t bits = random_bits(random);
+    const int i = (int)(bits % 4), j = (int)(bits / 4 % 4), other_i = (int)(bits / 16 % 4),
+              other_j = (int)(bits / 64 % 4);
     memcpy(point(s, i, j), point(s, other_i, other_j), sizeof(double[3]));
   }
   rays_at_patch(random, s);
@@ -342,7 +343,7 @@ static void resize(struct situation *s, double scale, double shift)
 static void sized(struct random *random, size_t index, struct situation *s)
 {
   static const double scales[] = {1e6, 1e-6, 1, 1e-6}, shifts[] = {0, 0, 1e6, 1};
-  double scale = scales[index % 4], shift = shifts[index % 4];
+  const double scale = scales[index % 4], shift = shifts[index % 4];
   s->count = 1;
   gentle(random, 1, s->P[0]);
   resize(s, scale, shift);
@@ -394,10 +395,10 @@ static void silhouette(struct random *random, double width, struct situation *s)
   s->count = 1;
   gentle(random, 1.5, s->P[0]);
   double target[3], du[3], dv[3], origin[3];
-  double u = random_between(random, 0.1, 0.9), v = random_between(random, 0.1, 0.9);
+  const double u = random_between(random, 0.1, 0.9), v = random_between(random, 0.1, 0.9);
   net_point((const double(*)[4][3])s->P[0], u, v, target);
   net_tangents((const double(*)[4][3])s->P[0], u, v, du, dv);
-  double along = random_between(random, -1, 1), across = random_between(random, -1, 1);
+  const double along = random_between(random, -1, 1), across = random_between(random, -1, 1);
   for (int axis = 0; axis < 3; axis++) origin[axis] = target[axis] - 2 * along * du[axis] - 2 * across * dv[axis];
   for (int n = 0; n < RAYS; n++) {
     double aim[3];

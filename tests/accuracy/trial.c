@@ -31,7 +31,7 @@ static void start_intersector(struct trial *trial)
 
 static void trial_start(struct trial *trial)
 {
-  size_t count = trial->scene.patch_count;
+  const size_t count = trial->scene.patch_count;
   double(*P)[4][4][3] = malloc((count ? count : 1) * sizeof *P);
   assert_non_null(P);
   for (size_t n = 0; n < count; n++) memcpy(P[n], trial->scene.patches[n].P, sizeof P[n]);
@@ -163,8 +163,8 @@ static double same_within(const struct trial *trial, const struct ray *ray, cons
 static bool excused(const struct trial *trial, const struct ray *ray, const struct hit *hit)
 {
   if (hit->certainty != CERTAINTY_GRAZING) return false;
-  double off = facts_residual(reference_net(trial->reference, hit->patch), ray->origin, ray->direction, hit->t, hit->u,
-                              hit->v);
+  const double off = facts_residual(reference_net(trial->reference, hit->patch), ray->origin, ray->direction, hit->t,
+                                    hit->u, hit->v);
   return off <= TRIAL_NEAR * largest_coordinate(trial, ray, hit);
 }
 
@@ -173,10 +173,10 @@ static bool excused(const struct trial *trial, const struct ray *ray, const stru
 static bool other_sheet(const struct trial *trial, const struct ray *ray, const struct hit *hit,
                         const struct reference_answer *truth)
 {
-  double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
+  const double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
   if (hit->patch != truth->patch || fmax(du, dv) < OTHER_SHEET) return false;
-  double off = facts_residual(reference_net(trial->reference, hit->patch), ray->origin, ray->direction, hit->t, hit->u,
-                              hit->v);
+  const double off = facts_residual(reference_net(trial->reference, hit->patch), ray->origin, ray->direction, hit->t,
+                                    hit->u, hit->v);
   return off <= OTHER_SHEET_NEAR * largest_coordinate(trial, ray, hit);
 }
 
@@ -258,7 +258,7 @@ static void measure(const struct trial *trial, const struct ray *ray, const stru
 {
   double reach = 0;
   for (int axis = 0; axis < 3; axis++) reach = fmax(reach, fabs(ray->origin[axis]));
-  double dt = (double)quad_abs(hit->t - truth->t), origin_rounding = DOUBLE_UNIT * reach / direction_length(ray);
+  const double dt = (double)quad_abs(hit->t - truth->t), origin_rounding = DOUBLE_UNIT * reach / direction_length(ray);
   if (hit->certainty == CERTAINTY_GRAZING) { /* a root that rounding can split or remove: no first-order floor holds */
     tally->worst_t_grazing = fmax(tally->worst_t_grazing, dt / (double)truth->t);
     return;
@@ -269,7 +269,7 @@ static void measure(const struct trial *trial, const struct ray *ray, const stru
   bool beyond = dt > TRIAL_FLOORS * facts->data.t;
   const bool other = other_sheet(trial, ray, hit, truth);
   if (hit->patch == truth->patch && !truth->shared && !other) {
-    double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
+    const double du = (double)quad_abs(hit->u - truth->u), dv = (double)quad_abs(hit->v - truth->v);
     tally->worst_u_floor = fmax(tally->worst_u_floor, du / facts->data.u);
     tally->worst_v_floor = fmax(tally->worst_v_floor, dv / facts->data.v);
     tally->worst_u_local = fmax(tally->worst_u_local, du / facts->local.u);
@@ -284,7 +284,7 @@ static void measure(const struct trial *trial, const struct ray *ray, const stru
 static void judge_hit(const struct trial *trial, const struct ray *ray, const struct hit *hit,
                       const struct reference_answer *truth, const struct facts *facts, struct tally *tally)
 {
-  double difference = (double)((quad)hit->t - truth->t);
+  const double difference = (double)((quad)hit->t - truth->t);
   if (fabs(difference) <= same_within(trial, ray, hit, (double)truth->t, facts->data.t)) {
     measure(trial, ray, hit, truth, facts, tally);
   } else if (difference > 0) {
@@ -304,7 +304,7 @@ static void judge_grazing(const struct trial *trial, const struct ray *ray, cons
 {
   tally->undecided++;
   if (hit->certainty == CERTAINTY_CERTAIN) tally->bold++;
-  bool proven = truth->patch != REFERENCE_NONE;
+  const bool proven = truth->patch != REFERENCE_NONE;
   if (proven && (hit->patch == HIT_NONE ||
                  hit->t > (double)truth->t + same_within(trial, ray, hit, (double)truth->t, facts->data.t))) {
     tally->lost++;
@@ -364,7 +364,7 @@ void trial_judge(const struct trial *trial, const struct ray *ray, const struct 
 void trial_rays(struct trial *trial, const struct ray *rays, size_t count, struct tally *tally)
 {
   for (size_t first = 0; first < count; first += PACKET_SIZE) {
-    size_t size = count - first < PACKET_SIZE ? count - first : PACKET_SIZE;
+    const size_t size = count - first < PACKET_SIZE ? count - first : PACKET_SIZE;
     struct hit hits[PACKET_SIZE];
     tracer_closest(trial->tracer, size, rays + first, hits);
     for (size_t n = 0; n < size; n++) trial_judge(trial, &rays[first + n], &hits[n], tally);
@@ -374,7 +374,7 @@ void trial_rays(struct trial *trial, const struct ray *rays, size_t count, struc
 static double quantile(struct tally *tally, double share)
 {
   if (tally->t_count == 0) return 0;
-  size_t index = (size_t)(share * (double)(tally->t_count - 1));
+  const size_t index = (size_t)(share * (double)(tally->t_count - 1));
   return tally->t_errors[index];
 }
 

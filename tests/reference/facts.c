@@ -21,8 +21,8 @@ static void floor_bound(quad M[3][3], const double terms[3], double t, double u,
   double moved[3] = {0};
   for (int row = 0; row < 3; row++) {
     for (int column = 0; column < 3; column++) {
-      int r1 = (column + 1) % 3, r2 = (column + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;
-      quad cofactor = M[r1][c1] * M[r2][c2] - M[r1][c2] * M[r2][c1];
+      const int r1 = (column + 1) % 3, r2 = (column + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;
+      const quad cofactor = M[r1][c1] * M[r2][c2] - M[r1][c2] * M[r2][c1];
       moved[row] += fabs((double)(cofactor / determinant)) * terms[column];
     }
   }
@@ -57,14 +57,14 @@ void facts_find(const double P[4][4][3], const double origin[3], const double di
 
   quad square = 0, along = 0, length = 0, tangents[2] = {0};
   for (int axis = 0; axis < 3; axis++) {
-    int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
     normal[axis] = M[i][0] * M[j][1] - M[j][0] * M[i][1];
     square += normal[axis] * normal[axis];
     along += normal[axis] * direction[axis];
     length += (quad)direction[axis] * direction[axis];
     for (int k = 0; k < 2; k++) tangents[k] += M[axis][k] * M[axis][k];
   }
-  quad norm = quad_sqrt(square);
+  const quad norm = quad_sqrt(square);
   out->has_normal = norm > (quad)0x1p-60 * quad_max(tangents[0], tangents[1]);
   out->incidence = out->has_normal ? (double)(quad_abs(along) / (norm * quad_sqrt(length))) : 0;
   for (int axis = 0; axis < 3; axis++)
@@ -77,7 +77,7 @@ double facts_residual(const double P[4][4][3], const double origin[3], const dou
   quad square = 0;
   for (int axis = 0; axis < 3; axis++) {
     const struct quad_net net = net_of(P, axis);
-    quad difference = quad_net_jet(&net, u, v).value - ((quad)origin[axis] + (quad)t * direction[axis]);
+    const quad difference = quad_net_jet(&net, u, v).value - ((quad)origin[axis] + (quad)t * direction[axis]);
     square += difference * difference;
   }
   return (double)quad_sqrt(square);

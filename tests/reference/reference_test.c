@@ -83,11 +83,11 @@ static void test_tangent(void **state)
   const double direction[3] = {2, 0, 0};
   int decided = 0;
   for (int k = 0; k <= 120; k++) {
-    double height = ldexp(1, -k);
+    const double height = ldexp(1, -k);
     const double above[3] = {-10, 1.4, height}, below[3] = {-10, 1.4, -height};
     struct reference_answer hit = ask(P, 1, above, direction), miss = ask(P, 1, below, direction);
     if (hit.verdict == REFERENCE_HIT) {
-      quad t = (10 - 3 * quad_sqrt((quad)height / 3)) / 2;
+      const quad t = (10 - 3 * quad_sqrt((quad)height / 3)) / 2;
       assert_true(quad_abs(hit.t - t) <= hit.t_radius + 1e-32);
       decided++;
     } else {
@@ -192,7 +192,7 @@ static double newton_hit(const double P[4][4][3], const double o[3], const doubl
     for (int row = 0; row < 3; row++) {
       step_of[row] = 0;
       for (int column = 0; column < 3; column++) {
-        int r1 = (column + 1) % 3, r2 = (column + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;
+        const int r1 = (column + 1) % 3, r2 = (column + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;
         step_of[row] += (M[r1][c1] * M[r2][c2] - M[r1][c2] * M[r2][c1]) / determinant * F[column];
       }
     }
@@ -202,7 +202,7 @@ static double newton_hit(const double P[4][4][3], const double o[3], const doubl
     if (!isfinite(u) || !isfinite(v) || fabs(u) > 3 || fabs(v) > 3) return INFINITY;
     if (fabs(step_of[0]) + fabs(step_of[1]) + fabs(step_of[2]) < 1e-12) {
       const double margin = 1e-9;
-      bool well_inside = u > margin && u < 1 - margin && v > margin && v < 1 - margin && t > margin;
+      const bool well_inside = u > margin && u < 1 - margin && v > margin && v < 1 - margin && t > margin;
       return well_inside ? t : INFINITY;
     }
   }
@@ -270,7 +270,8 @@ static void test_floor(void **state)
     if (b.verdict != REFERENCE_HIT) continue;
     hits++;
     /* The moves are up to two units: 1.5 units of the number rounded to a neighbour. */
-    double t = (double)quad_abs(a.t - b.t) / (2 * facts.data.t), u = (double)quad_abs(a.u - b.u) / (2 * facts.data.u);
+    const double t = (double)quad_abs(a.t - b.t) / (2 * facts.data.t),
+                 u = (double)quad_abs(a.u - b.u) / (2 * facts.data.u);
     assert_true(t <= 1.01 && u <= 1.01 && (double)quad_abs(a.v - b.v) <= 2.02 * facts.data.v);
     share = fmax(share, fmax(t, u));
   }
