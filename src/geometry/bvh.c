@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
+#include "base/float_lanes.h"
 #include "base/memory.h"
 
 enum {
@@ -17,9 +18,16 @@ struct range {
   uint32_t first, count, depth, node;
 };
 
+/* Corners as nodes have them, rounded outwards; the fourth number is 0. */
+struct float_box {
+  four_floats lo, hi;
+};
+
+static const struct float_box NOTHING = {{INFINITY, INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, -INFINITY, 0}};
+
 struct builder {
-  const struct bvh_box *boxes;
-  uint32_t *order; /* box indices; a range of it is a subtree */
+  struct float_box *boxes; /* a range of them is a subtree */
+  uint32_t *numbers;       /* which of the caller's boxes each is */
   struct bvh_node *nodes;
 };
 
@@ -31,14 +39,6 @@ struct round {
   struct range *next;
   atomic_size_t taken;
 };
-
-static double box_area(const struct bvh_box *b)
-{
-  const double x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
-  return x < 0 ? 0 : x * y + y * z + z * x;
-}
-
-static double box_center(const struct bvh_box *b, int axis) { return 0.5 * b->lo[axis] + 0.5 * b->hi[axis]; }
 
 static float float_below(double x)
 {
@@ -52,42 +52,63 @@ static float float_above(double x)
   return (double)f < x ? nextafterf(f, INFINITY) : f;
 }
 
-static struct bvh_box range_box(const struct builder *b, uint32_t first, uint32_t count)
+static struct float_box float_box(const struct bvh_box *box)
 {
-  struct bvh_box box = BVH_EMPTY;
-  for (uint32_t k = 0; k < count; k++) bvh_box_add(&box, &b->boxes[b->order[first + k]]);
+  return (struct float_box){{float_below(box->lo[0]), float_below(box->lo[1]), float_below(box->lo[2])},
+                            {float_above(box->hi[0]), float_above(box->hi[1]), float_above(box->hi[2])}};
+}
+
+static void box_add(struct float_box *sum, const struct float_box *box)
+{
+  sum->lo = four_floats_min(sum->lo, box->lo), sum->hi = four_floats_max(sum->hi, box->hi);
+}
+
+static double box_area(const struct float_box *b)
+{
+  const four_floats size = b->hi - b->lo;
+  const double x = size[0], y = size[1], z = size[2];
+  return x < 0 ? 0 : x * y + y * z + z * x;
+}
+
+static four_floats box_center(const struct float_box *b) { return 0.5f * b->lo + 0.5f * b->hi; }
+
+static struct float_box range_box(const struct builder *b, const struct range *r)
+{
+  struct float_box box = NOTHING;
+  for (uint32_t k = 0; k < r->count; k++) box_add(&box, &b->boxes[r->first + k]);
   return box;
 }
 
-/* The scale may be infinite where all centres are within a subnormal distance. */
-static int bin_of(double center, double lo, double scale)
-{
-  const double bin = (center - lo) * scale;
-  return !(bin > 0) ? 0 : bin >= BIN_COUNT ? BIN_COUNT - 1 : (int)bin;
-}
-
-/* The boxes of a range by where their centres lie along an axis. */
+/* Where centres lie, along each axis in equal parts. */
 struct bins {
-  double lo, scale;
-  struct bvh_box box[BIN_COUNT];
-  uint32_t count[BIN_COUNT];
+  four_floats lo, scale;
+  int count; /* of the parts: few for few boxes */
+  struct float_box box[3][BIN_COUNT];
+  uint32_t boxes[3][BIN_COUNT];
 };
 
-/* The cheapest of the BIN_COUNT - 1 planes; *cost is lowered where one beats it. Returns whether one did. */
-static bool best_plane(const struct bins *bins, uint32_t count, double *cost, int *plane)
+/* The scale may be infinite where all centres are within a subnormal distance. */
+static four_mask bins_of(const struct bins *bins, const struct float_box *box)
+{
+  const four_floats at = (box_center(box) - bins->lo) * bins->scale, last = four_floats_all((float)(bins->count - 1));
+  return __builtin_convertvector(four_floats_min(four_floats_max(at, four_floats_all(0)), last), four_mask);
+}
+
+/* The cheapest plane between an axis' bins; *cost is lowered where one beats it. Returns whether one did. */
+static bool best_plane(const struct bins *bins, int axis, uint32_t count, double *cost, int *plane)
 {
   double right_area[BIN_COUNT];
-  struct bvh_box sum = BVH_EMPTY;
-  for (int k = BIN_COUNT - 1; k > 0; k--) {
-    bvh_box_add(&sum, &bins->box[k]);
+  struct float_box sum = NOTHING;
+  for (int k = bins->count - 1; k > 0; k--) {
+    box_add(&sum, &bins->box[axis][k]);
     right_area[k] = box_area(&sum);
   }
   bool found = false;
   uint32_t left = 0;
-  sum = BVH_EMPTY;
-  for (int k = 1; k < BIN_COUNT; k++) {
-    bvh_box_add(&sum, &bins->box[k - 1]);
-    left += bins->count[k - 1];
+  sum = NOTHING;
+  for (int k = 1; k < bins->count; k++) {
+    box_add(&sum, &bins->box[axis][k - 1]);
+    left += bins->boxes[axis][k - 1];
     if (left == 0 || left == count) continue;
     const double c = box_area(&sum) * left + right_area[k] * (count - left);
     if (c < *cost) *cost = c, *plane = k, found = true;
@@ -96,79 +117,72 @@ static bool best_plane(const struct bins *bins, uint32_t count, double *cost, in
 }
 
 /* The axis of the cheapest plane of all, or -1. */
-static int best_axis(const struct builder *b, const struct range *r, struct bins bins[3], int *plane)
+static int best_axis(const struct builder *b, const struct range *r, struct bins *bins, int *plane)
 {
   for (int a = 0; a < 3; a++)
-    for (int k = 0; k < BIN_COUNT; k++) bins[a].box[k] = BVH_EMPTY, bins[a].count[k] = 0;
+    for (int k = 0; k < bins->count; k++) bins->box[a][k] = NOTHING, bins->boxes[a][k] = 0;
   for (uint32_t k = 0; k < r->count; k++) {
-    const struct bvh_box *box = &b->boxes[b->order[r->first + k]];
-    for (int a = 0; a < 3; a++) {
-      const int at = bin_of(box_center(box, a), bins[a].lo, bins[a].scale);
-      bvh_box_add(&bins[a].box[at], box);
-      bins[a].count[at]++;
-    }
+    const struct float_box *box = &b->boxes[r->first + k];
+    const four_mask at = bins_of(bins, box);
+    for (int a = 0; a < 3; a++) box_add(&bins->box[a][at[a]], box), bins->boxes[a][at[a]]++;
   }
   double cost = INFINITY;
   int axis = -1;
   for (int a = 0; a < 3; a++)
-    if (bins[a].scale > 0 && best_plane(&bins[a], r->count, &cost, plane)) axis = a;
+    if (bins->scale[a] > 0 && best_plane(bins, a, r->count, &cost, plane)) axis = a;
   return axis;
 }
 
-static void swap(uint32_t *a, uint32_t *b)
+static void swap(const struct builder *b, uint32_t i, uint32_t j)
 {
-  const uint32_t c = *a;
-  *a = *b, *b = c;
+  const struct float_box box = b->boxes[i];
+  const uint32_t number = b->numbers[i];
+  b->boxes[i] = b->boxes[j], b->numbers[i] = b->numbers[j];
+  b->boxes[j] = box, b->numbers[j] = number;
 }
 
 /* Splits the range; returns how many of its boxes go left, at least one on either side. */
 static uint32_t split(const struct builder *b, const struct range *r)
 {
-  double lo[3], hi[3];
-  uint32_t *order = b->order + r->first;
-  for (int a = 0; a < 3; a++) lo[a] = INFINITY, hi[a] = -INFINITY;
+  four_floats lo = NOTHING.lo, hi = NOTHING.hi;
   for (uint32_t k = 0; k < r->count; k++) {
-    for (int a = 0; a < 3; a++) {
-      const double c = box_center(&b->boxes[order[k]], a);
-      lo[a] = real_min(lo[a], c), hi[a] = real_max(hi[a], c);
-    }
+    const four_floats c = box_center(&b->boxes[r->first + k]);
+    lo = four_floats_min(lo, c), hi = four_floats_max(hi, c);
   }
-  int axis = -1, plane = 0;
-  struct bins bins[3];
-  for (int a = 2; a >= 0; a--) {
-    bins[a].lo = lo[a], bins[a].scale = hi[a] > lo[a] ? BIN_COUNT / (hi[a] - lo[a]) : 0;
-    if (hi[a] > lo[a]) axis = a;
+  struct bins bins = {.lo = lo, .count = r->count < BIN_COUNT / 2 ? 2 * (int)r->count : BIN_COUNT};
+  int plane = 0;
+  bool apart = false;
+  for (int a = 0; a < 3; a++) {
+    if (!(hi[a] > lo[a])) continue;
+    bins.scale[a] = (float)bins.count / (hi[a] - lo[a]), apart = true;
   }
   /* all centres in one place, or the tree grows too deep: halve, which bounds the depth */
-  if (axis < 0 || r->depth >= BVH_MAX_DEPTH / 2) return r->count / 2;
-  if (r->count == 2) { /* all planes between the two are one */
-    if (box_center(&b->boxes[order[0]], axis) > box_center(&b->boxes[order[1]], axis)) swap(&order[0], &order[1]);
-    return 1;
-  }
-  axis = best_axis(b, r, bins, &plane);
+  if (!apart || r->depth >= BVH_MAX_DEPTH / 2) return r->count / 2;
+  const int axis = best_axis(b, r, &bins, &plane);
   if (axis < 0) return r->count / 2;
   uint32_t left = 0;
   for (uint32_t k = 0; k < r->count; k++)
-    if (bin_of(box_center(&b->boxes[order[k]], axis), bins[axis].lo, bins[axis].scale) < plane)
-      swap(&order[k], &order[left++]);
+    if (bins_of(&bins, &b->boxes[r->first + k])[axis] < plane) swap(b, r->first + k, r->first + left++);
   return left;
 }
 
-static void set_child(struct bvh_node *node, int side, const struct bvh_box *box)
+static void set_child(struct bvh_node *node, int side, const struct float_box *box)
 {
-  for (int k = 0; k < 3; k++) {
-    node->lo[k][side] = float_below(box->lo[k]);
-    node->hi[k][side] = float_above(box->hi[k]);
-  }
+  for (int k = 0; k < 3; k++) node->lo[k][side] = box->lo[k], node->hi[k][side] = box->hi[k];
 }
 
-/* A node's children: the range, halved until they are BVH_WIDTH, each time the one with the largest box. Returns how
- * many there are. */
+/* A node's children: each box by itself where they are no more than BVH_WIDTH; else the range, halved until they are
+ * so many, each time the one with the largest box. Returns how many there are. */
 static int divide(const struct builder *b, const struct range *r, struct range out[BVH_WIDTH],
-                  struct bvh_box box[BVH_WIDTH])
+                  struct float_box box[BVH_WIDTH])
 {
+  if (r->count <= BVH_WIDTH) {
+    for (uint32_t k = 0; k < r->count; k++)
+      out[k] = (struct range){r->first + k, 1, r->depth + 1, 0}, box[k] = b->boxes[r->first + k];
+    return (int)r->count;
+  }
   int count = 1;
-  out[0] = *r, box[0] = range_box(b, r->first, r->count);
+  out[0] = *r, box[0] = range_box(b, r);
   while (count < BVH_WIDTH) {
     int largest = -1;
     for (int k = 0; k < count; k++)
@@ -178,7 +192,7 @@ static int divide(const struct builder *b, const struct range *r, struct range o
     const uint32_t left = split(b, whole);
     *right = (struct range){whole->first + left, whole->count - left, whole->depth + 1, 0};
     whole->count = left, whole->depth++;
-    box[largest] = range_box(b, whole->first, whole->count), box[count] = range_box(b, right->first, right->count);
+    box[largest] = range_box(b, whole), box[count] = range_box(b, right);
     count++;
   }
   return count;
@@ -193,13 +207,13 @@ static int make_node(const struct builder *b, const struct range *r, bool sparse
                      struct range out[BVH_WIDTH])
 {
   struct range part[BVH_WIDTH];
-  struct bvh_box box[BVH_WIDTH];
+  struct float_box box[BVH_WIDTH];
   struct bvh_node *node = &b->nodes[r->node];
   const int children = divide(b, r, part, box);
   int inner = 0;
   for (int side = 0; side < children; side++) {
     set_child(node, side, &box[side]);
-    node->child[side] = part[side].count > 1 ? *next : (uint32_t)BVH_LEAF | b->order[part[side].first];
+    node->child[side] = part[side].count > 1 ? *next : (uint32_t)BVH_LEAF | b->numbers[part[side].first];
     if (part[side].count == 1) continue;
     part[side].node = *next;
     *next += sparse ? node_limit(part[side].count) : 1;
@@ -258,13 +272,14 @@ enum status bvh_build(const struct bvh_box *boxes, size_t count, const struct te
   *out = (struct bvh){NULL, 0};
   if (count == 0) return STATUS_OK;
   if (count > INT32_MAX) return STATUS_LIMIT;
-  struct builder b = {boxes, NULL, NULL};
+  struct builder b = {NULL, NULL, NULL};
   enum status status = STATUS_LIMIT;
-  b.order = memory_alloc(count, sizeof *b.order);
+  b.boxes = memory_alloc(count, sizeof *b.boxes);
+  b.numbers = memory_alloc(count, sizeof *b.numbers);
   size_t node_count = node_limit((uint32_t)count);
   b.nodes = memory_alloc(node_count, sizeof *b.nodes);
-  if (!b.order || !b.nodes) goto done;
-  for (size_t k = 0; k < count; k++) b.order[k] = (uint32_t)k;
+  if (!b.boxes || !b.numbers || !b.nodes) goto done;
+  for (size_t k = 0; k < count; k++) b.boxes[k] = float_box(&boxes[k]), b.numbers[k] = (uint32_t)k;
   status = build(&b, (uint32_t)count, team);
   if (status != STATUS_OK) goto done;
   while (node_count > 1 && b.nodes[node_count - 1].child[0] == 0) node_count--;
@@ -272,7 +287,8 @@ enum status bvh_build(const struct bvh_box *boxes, size_t count, const struct te
   *out = (struct bvh){fewer ? fewer : b.nodes, node_count};
   b.nodes = NULL;
 done:
-  memory_free(b.order);
+  memory_free(b.boxes);
+  memory_free(b.numbers);
   memory_free(b.nodes);
   return status;
 }
