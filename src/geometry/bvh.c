@@ -2,8 +2,10 @@
  * round, those of a round by all threads; where nodes lie depends on the boxes only. */
 #include "geometry/bvh.h"
 
+#include <assert.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <string.h>
 
 #include "base/float_lanes.h"
 #include "base/memory.h"
@@ -267,30 +269,38 @@ static enum status build(const struct builder *b, uint32_t count, const struct t
   return status;
 }
 
-enum status bvh_build(const struct bvh_box *boxes, size_t count, const struct team *team, struct bvh *out)
+/* The boxes as floats, in the same memory, and their numbers behind them. */
+static void take_boxes(struct bvh_box *boxes, size_t count, struct builder *out)
+{
+  static_assert(sizeof *out->boxes + sizeof *out->numbers <= sizeof *boxes, "there is room");
+  out->boxes = (void *)boxes, out->numbers = (void *)(out->boxes + count);
+  for (size_t k = 0; k < count; k++) {
+    struct bvh_box box;
+    memcpy(&box, &boxes[k], sizeof box); /* for the compiler, which may take it that doubles are no floats */
+    const struct float_box rounded = float_box(&box);
+    memcpy(&out->boxes[k], &rounded, sizeof rounded);
+  }
+  for (size_t k = 0; k < count; k++) out->numbers[k] = (uint32_t)k;
+}
+
+enum status bvh_build(struct bvh_box *boxes, size_t count, const struct team *team, struct bvh *out)
 {
   *out = (struct bvh){NULL, 0};
   if (count == 0) return STATUS_OK;
   if (count > INT32_MAX) return STATUS_LIMIT;
-  struct builder b = {NULL, NULL, NULL};
-  enum status status = STATUS_LIMIT;
-  b.boxes = memory_alloc(count, sizeof *b.boxes);
-  b.numbers = memory_alloc(count, sizeof *b.numbers);
   size_t node_count = node_limit((uint32_t)count);
-  b.nodes = memory_alloc(node_count, sizeof *b.nodes);
-  if (!b.boxes || !b.numbers || !b.nodes) goto done;
-  for (size_t k = 0; k < count; k++) b.boxes[k] = float_box(&boxes[k]), b.numbers[k] = (uint32_t)k;
-  status = build(&b, (uint32_t)count, team);
-  if (status != STATUS_OK) goto done;
+  struct builder b = {.nodes = memory_alloc(node_count, sizeof *b.nodes)};
+  if (!b.nodes) return STATUS_LIMIT;
+  take_boxes(boxes, count, &b);
+  const enum status status = build(&b, (uint32_t)count, team);
+  if (status != STATUS_OK) {
+    memory_free(b.nodes);
+    return status;
+  }
   while (node_count > 1 && b.nodes[node_count - 1].child[0] == 0) node_count--;
   struct bvh_node *fewer = memory_resize(b.nodes, node_count * sizeof *b.nodes);
   *out = (struct bvh){fewer ? fewer : b.nodes, node_count};
-  b.nodes = NULL;
-done:
-  memory_free(b.boxes);
-  memory_free(b.numbers);
-  memory_free(b.nodes);
-  return status;
+  return STATUS_OK;
 }
 
 void bvh_free(struct bvh *bvh)

@@ -9,6 +9,7 @@
 #define PSCN_GEOMETRY_BVH_H
 
 #include <math.h>
+#include <stdalign.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -16,8 +17,10 @@
 #include "base/status.h"
 #include "base/team.h"
 
+/* Aligned as what becomes of it in a builder's hands. */
 struct bvh_box {
-  double lo[3], hi[3];
+  alignas(16) double lo[3];
+  double hi[3];
 };
 
 /* The box of nothing: any other one added to it is what comes out. */
@@ -52,10 +55,9 @@ struct bvh {
   size_t node_count;      /* 0 for no boxes; some of them, all zero, are nobody's child */
 };
 
-/* Builds over boxes[0..count), count < 2^31, the same tree by any team. A single box gives one node with one child.
+/* Builds over boxes[0..count), count < 2^31, which are used up: nothing can be read there any more. The same tree by any team. A single box gives one node with one child.
  * STATUS_LIMIT where memory is short, or threads are; then *out is empty. */
-enum status bvh_build(const struct bvh_box *boxes, size_t count, const struct team *team,
-                      struct bvh *out) STATUS_MUST_CHECK;
+enum status bvh_build(struct bvh_box *boxes, size_t count, const struct team *team, struct bvh *out) STATUS_MUST_CHECK;
 
 /* Frees the nodes. */
 void bvh_free(struct bvh *bvh);

@@ -152,7 +152,7 @@ static void count_packet(struct trial *trial, const char *name, int kind, size_t
 static void try_packet(void *context, struct trial *trial, const struct placed_model *at, int kind, size_t count,
                        struct random *random)
 {
-  struct ray rays[PACKET_SIZE];
+  struct ray rays[PACKET_SIZE] = {{{0}, {0}, 0, 0}};
   bool inside[PACKET_SIZE];
   const bool coherent = random_bits(random) % 4 < COHERENT_OF_4;
   struct common common;

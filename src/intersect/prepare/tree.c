@@ -58,7 +58,7 @@ static void number_leaves(struct bvh *bvh, const uint32_t index[], size_t stay)
 /* What the trees are built from: all boxes, in the frame of the whole. */
 struct building {
   struct arena *arena;
-  const struct bvh_box *boxes;
+  struct bvh_box *boxes;
   struct model_tree whole;
   const struct team *team;
 };
@@ -68,7 +68,7 @@ static enum status build(const struct building *b, uint32_t index[], size_t coun
                          struct model_tree *out)
 {
   struct bvh_box hull;
-  const struct bvh_box *boxes = b->boxes;
+  struct bvh_box *boxes = b->boxes;
   const size_t stay = set_apart(boxes, index, count, frame, &hull), inner = stay < count;
   const bool first = frame == 1;
   bool given = first && !inner; /* the boxes as they are: no copies of them */
@@ -92,7 +92,7 @@ static enum status build(const struct building *b, uint32_t index[], size_t coun
   return build(b, index + stay, count - stay, center, ldexp(1, exponent), out->inner);
 }
 
-enum status tree_build(struct arena *arena, const struct bvh_box boxes[], size_t count, const struct team *team,
+enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree)
 {
   static const double middle[3] = {0, 0, 0};
