@@ -291,7 +291,21 @@ static void open_borders(struct random *random, size_t index, struct situation *
 
 /* ---- nets degenerate but for some roundings ---- */
 
-static void degenerate_net(struct random *random, size_t kind, double P[4][4][3])
+enum degeneracy {
+  ROW_IS_POINT,
+  ALL_IS_LINE,
+  FLAT,
+  GRADED,
+  NARROW,
+  TWO_ROWS_ARE_ONE,
+  SOME_POINTS_ARE_ONE,
+  ALL_IS_POINT,
+  LAST_ROW_FAR,
+  ALL_ROWS_ARE_ONE,
+  DEGENERACIES
+};
+
+static void degenerate_net(struct random *random, enum degeneracy kind, double P[4][4][3])
 {
   gentle(random, 1, P);
   double line[3];
@@ -300,39 +314,37 @@ static void degenerate_net(struct random *random, size_t kind, double P[4][4][3]
     for (int j = 0; j < 4; j++) {
       double *p = P[i][j];
       switch (kind) {
-      case 0: /* one row is a point */
+      case ROW_IS_POINT:
         if (i == 3) memcpy(p, P[3][0], sizeof P[3][0]);
         break;
-      case 1: /* a line */
+      case ALL_IS_LINE:
         for (int axis = 0; axis < 3; axis++) p[axis] = line[axis] * p[0];
         break;
-      case 2: p[2] = line[0] * p[0] + line[1] * p[1]; break; /* flat */
-      case 3:
+      case FLAT: p[2] = line[0] * p[0] + line[1] * p[1]; break;
+      case GRADED: /* each point a thousand times as far out as the one before it, along either parameter */
         for (int axis = 0; axis < 3; axis++) p[axis] *= pow(10, -3 * (6 - i - j));
-        break;                      /* graded */
-      case 4: p[1] *= 1e-12; break; /* narrow */
-      case 5:                       /* two rows are one */
+        break;
+      case NARROW: p[1] *= 1e-12; break;
+      case TWO_ROWS_ARE_ONE:
         if (i == 2) memcpy(p, P[1][j], sizeof P[1][j]);
         break;
-      case 6: /* some points are one */
+      case SOME_POINTS_ARE_ONE:
         if (choose(random, 3) == 0) memcpy(p, P[0][0], sizeof P[0][0]);
         break;
-      case 7: memcpy(p, P[0][0], sizeof P[0][0]); break; /* a point */
-      case 8: p[0] = i == 3 ? 1 : p[0] * 1e-9; break;    /* graded along one parameter */
-      default: /* all rows are one: a curve */ memcpy(p, P[0][j], sizeof P[0][j]); break;
+      case ALL_IS_POINT: memcpy(p, P[0][0], sizeof P[0][0]); break;
+      case LAST_ROW_FAR: p[0] = i == 3 ? 1 : p[0] * 1e-9; break;
+      default: memcpy(p, P[0][j], sizeof P[0][j]); break; /* ALL_ROWS_ARE_ONE: a curve */
       }
     }
   }
 }
-
-enum { DEGENERATE_KINDS = 10 };
 
 static void degenerate(struct random *random, size_t index, struct situation *s)
 {
   static const double roundings[] = {0, 1, 10, 1e3, 1e6};
   s->count = 1 + index % 2;
   for (size_t n = 0; n < s->count; n++) {
-    degenerate_net(random, (index / 2) % DEGENERATE_KINDS, s->P[n]);
+    degenerate_net(random, (enum degeneracy)(index / 2 % DEGENERACIES), s->P[n]);
     const double off = roundings[choose(random, 5)] * ROUNDING;
     for (int k = 0; k < 16; k++)
       for (int axis = 0; axis < 3; axis++) {
