@@ -18,42 +18,51 @@ typedef lanes lane_net[4][4];
 
 /* ---- subdivision ---- */
 
-/* A range of a parameter; the whole of [0,1], for all lanes, copies. */
+/* A range of a parameter, from < 1; the whole of [0,1], for all lanes, copies. */
 struct lane_range {
   lanes from, to;
   bool whole;
+  bool ends; /* on some lane at 1 */
 };
 
-/* From here on as geometry/patch.c does it for one net, to the last bit. */
-LANES_INLINE lanes mix(lanes a, lanes b, lanes t) { return lanes_select(t == 1, b, a + t * (b - a)); }
-
-LANES_INLINE lanes blossom(const lanes c[4], lanes r, lanes s, lanes t)
+/* From here on as geometry/patch.c does it for one net, to the last bit. `ends`: t may be 1. */
+LANES_INLINE lanes mix(lanes a, lanes b, lanes t, bool ends)
 {
-  const lanes q0 = mix(c[0], c[1], r), q1 = mix(c[1], c[2], r), q2 = mix(c[2], c[3], r);
-  return mix(mix(q0, q1, s), mix(q1, q2, s), t);
+  const lanes mixed = a + t * (b - a);
+  return ends ? lanes_select(t == 1, b, mixed) : mixed;
 }
 
-LANES_INLINE void cubic_range(const lanes c[4], const struct lane_range *range, lanes out[4])
+/* The control points: the cubic's blossom at from, from, from; from, from, to; and so on. */
+LANES_INLINE void cubic_range(const lanes c[4], const struct lane_range *range, bool ends, lanes out[4])
 {
   const lanes from = range->from, to = range->to;
-  const lanes q[4] = {blossom(c, from, from, from), blossom(c, from, from, to), blossom(c, from, to, to),
-                      blossom(c, to, to, to)};
-  for (int i = 0; i < 4; i++) out[i] = q[i];
+  lanes low[3], high[3], lower[2], between[2], higher[2];
+  for (int k = 0; k < 3; k++) low[k] = mix(c[k], c[k + 1], from, false), high[k] = mix(c[k], c[k + 1], to, ends);
+  for (int k = 0; k < 2; k++) {
+    lower[k] = mix(low[k], low[k + 1], from, false), between[k] = mix(low[k], low[k + 1], to, ends);
+    higher[k] = mix(high[k], high[k + 1], to, ends);
+  }
+  out[0] = mix(lower[0], lower[1], from, false), out[1] = mix(lower[0], lower[1], to, ends);
+  out[2] = mix(between[0], between[1], to, ends), out[3] = mix(higher[0], higher[1], to, ends);
 }
 
-/* Out of line: it is large, and half of its time are its own registers. */
+LANES_INLINE void cubic_part(const lanes c[4], const struct lane_range *range, lanes out[4])
+{
+  if (range->whole) memcpy(out, c, 4 * sizeof *out);
+  else if (range->ends) cubic_range(c, range, true, out);
+  else cubic_range(c, range, false, out);
+}
+
+/* Out of line, for it is large. */
 __attribute__((noinline)) static void subnet(const lane_net net, const struct lane_range *u, const struct lane_range *v,
                                              lane_net out)
 {
   lane_net rows;
-  for (int i = 0; i < 4; i++)
-    if (v->whole) memcpy(rows[i], net[i], sizeof rows[i]);
-    else cubic_range(net[i], v, rows[i]);
+  for (int i = 0; i < 4; i++) cubic_part(net[i], v, rows[i]);
   for (int j = 0; j < 4; j++) {
     const lanes column[4] = {rows[0][j], rows[1][j], rows[2][j], rows[3][j]};
     lanes cut[4];
-    if (u->whole) memcpy(cut, column, sizeof cut);
-    else cubic_range(column, u, cut);
+    cubic_part(column, u, cut);
     for (int i = 0; i < 4; i++) out[i][j] = cut[i];
   }
 }
@@ -95,7 +104,8 @@ static struct lane_range range_of(lanes column, int span, int split)
 {
   const double parts = split;
   /* quotients: the last one is 1 whatever the split */
-  return (struct lane_range){column / parts, (column + span) / parts, span == split};
+  const lanes to = (column + span) / parts;
+  return (struct lane_range){column / parts, to, span == split, lanes_any(to == 1)};
 }
 
 static void cut_nets(const struct patch_halves *patch, const lanes column[2], const struct part_grid *grid,
@@ -181,7 +191,7 @@ static void bounds(double margin, struct cut *cut)
     first_bounds(cut->x, cut->first), second_bounds(cut->x, cut->second);
     return;
   }
-  const struct lane_range range = {lanes_all(-margin), lanes_all(1 + margin), false};
+  const struct lane_range range = {lanes_all(-margin), lanes_all(1 + margin), false, false};
   lane_net wide[3];
   for (int k = 0; k < 3; k++) subnet((const lanes(*)[4])cut->x[k], &range, &range, wide[k]);
   first_bounds(wide, cut->first), second_bounds(wide, cut->second);
@@ -344,13 +354,15 @@ static void set_slabs(lane_net x[3], struct lane_slabs *out)
 
 /* ---- the face ---- */
 
-/* Writes value[k] of every lane to to[k], and `stride` doubles on for each lane; count is at least 4. */
-static void store(const lanes value[], int count, double *to, size_t stride)
+/* Writes value[k] of the first lanes, `here` of them, to to[k], and `stride` doubles on for each lane; count is at least 4. */
+LANES_INLINE void store(const lanes value[], int count, size_t here, double *to, size_t stride)
 {
-  for (int k = 0; k < count; k += 4) {
+  for (int k = 0; k < count && here == LANES; k += 4) {
     const int at = k + 4 <= count ? k : count - 4; /* the last four, some of them twice */
     lanes_store4(value[at], value[at + 1], value[at + 2], value[at + 3], to + at, stride);
   }
+  for (size_t lane = 0; lane < here && here < LANES; lane++)
+    for (int k = 0; k < count; k++) to[lane * stride + (size_t)k] = value[k][lane];
 }
 
 /* The columns of up to LANES parts, `stride` numbers from one to the next; lanes without a part have the first's. */
@@ -369,16 +381,14 @@ static void parts(const struct model_patch *patch, const struct part_grid *grid,
   patch_halve(patch, grid->split[0] * grid->split[1], &halves);
   while (count > 0) {
     const size_t here = count < LANES ? count : LANES;
-    struct patch_part room[LANES], *to = here < LANES ? room : out;
     struct cut cut;
     lanes at[2], derivatives[5];
     load_columns(column[0], 2, here, at);
     cut_nets(&halves, at, grid, &cut);
     bounds(grid->margin, &cut);
     memcpy(derivatives, cut.first, sizeof cut.first), memcpy(derivatives + 2, cut.second, sizeof cut.second);
-    store(cut.x[0][0], 48, to->x[0], PART);
-    store(derivatives, 5, to->first, PART);
-    if (to == room) memcpy(out, room, here * sizeof *out);
+    store(cut.x[0][0], 48, here, out->x[0], PART);
+    store(derivatives, 5, here, out->first, PART);
     out += here, column += here, count -= here;
   }
 }
@@ -389,14 +399,13 @@ static_assert(sizeof(struct leaf_slabs) == sizeof(double[16]) &&
                 offsetof(struct leaf_parts, error) == sizeof(double[60]),
               "stored in a row");
 
-/* As many as there are lanes. */
 static void leaves_store(const struct cut *cut, const struct lane_slabs *slabs, const struct lane_parts *parts,
-                         bool exact, struct leaf leaves[])
+                         bool exact, size_t here, struct leaf leaves[])
 {
-  store(cut->x[0][0], 48, leaves->x[0], LEAF);
-  store(slabs->g[0], 16, leaves->slabs.g[0], LEAF);
-  store(parts->base, 60, leaves->parts.base[0], LEAF);
-  for (int lane = 0; lane < LANES; lane++) {
+  store(cut->x[0][0], 48, here, leaves->x[0], LEAF);
+  store(slabs->g[0], 16, here, leaves->slabs.g[0], LEAF);
+  store(parts->base, 60, here, leaves->parts.base[0], LEAF);
+  for (size_t lane = 0; lane < here; lane++) {
     struct leaf *leaf = &leaves[lane];
     for (int k = 0; k < 2; k++) leaf->first[k] = cut->first[k][lane];
     for (int k = 0; k < 3; k++) leaf->second[k] = cut->second[k][lane];
@@ -415,7 +424,6 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
   patch_halve(patch, all, &halves);
   while (count > 0) {
     const size_t here = count < LANES ? count : LANES;
-    struct leaf room[LANES], *to = here < LANES ? room : leaves;
     struct cut cut;
     struct lane_slabs slabs;
     struct lane_parts parts;
@@ -425,9 +433,7 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
     bounds(grid.margin, &cut);
     set_parts(&cut, exact, &parts);
     set_slabs(cut.x, &slabs);
-    if (to == room) memcpy(room, leaves, here * sizeof *leaves);
-    leaves_store(&cut, &slabs, &parts, exact, to);
-    if (to == room) memcpy(leaves, room, here * sizeof *leaves);
+    leaves_store(&cut, &slabs, &parts, exact, here, leaves);
     leaves += here, count -= here;
   }
 }
