@@ -9,8 +9,8 @@
  * of an open surface, a coincident component): then a hit is reported where a hit cannot be excluded, but for one that
  * 113 bits cannot tell from t_min or t_max, which is left out. The answer to a ray does not depend on the rays it
  * shares a packet with, but for last places where another hit is so near that double precision cannot tell which comes
- * first; for these, and whether it is certain, where it needs nearly all of its share of work; and with `start
- * previous`.
+ * first; for these, and whether it is certain, where what it passes before its hit or behind it takes all of its share
+ * of work; and with `start previous`.
  */
 #ifndef PSCN_INTERSECT_INTERSECT_H
 #define PSCN_INTERSECT_INTERSECT_H
