@@ -13,6 +13,9 @@
 /* Of balls: what most roots take, and what the next ones take, from step to step 4 times as much. */
 enum { FIRST_PRECISION = 128, SECOND_PRECISION = 768 };
 
+/* t is told to twice the digits of a double where so many bits of it are known. */
+enum { T_BITS = 100 };
+
 /* Where the two nets are multiples of one, or vanish on one line, there is a curve in common, and little to be proven by
  * more boxes than these; it is looked for where so many have not been enough. */
 enum { CURVE_BOXES = 400, SUSPICIOUS_BOXES = 64 };
@@ -110,6 +113,10 @@ static bool accept(struct search *s, const struct box *box, const arb_t at_u, co
   arb_t t;
   arb_init(t);
   t_of(s, box, jet.value, t);
+  if (!last && arb_rel_accuracy_bits(t) < T_BITS) { /* next to the ray's start less is known of t than of u and v */
+    arb_clear(t), ball_jet_clear(&jet);
+    return false;
+  }
   const double near = double_of(t), u = whole(&box->u, box->halved[0], at_u), v = whole(&box->v, box->halved[1], at_v);
   struct exact_root *root = sure ? add_root(s) : NULL;
   arb_set_d(jet.ds, near), arb_sub(t, t, jet.ds, UNIT_PRECISION);
