@@ -323,6 +323,15 @@ static double along_border(const struct exact_root *root, unsigned border)
   return (double)(border < 2 ? root->v : root->u);
 }
 
+/* Ties that may be one hit have one t: next to the ray's start what wide arithmetic leaves open may be more than its last
+ * places. */
+#define ONE_T (4 * UNIT_ROUNDOFF)
+
+static bool one_t(const struct exact_root *a, const struct exact_root *b)
+{
+  return judge_tie(a, b) && wide_abs(a->t - b->t) <= ONE_T * wide_abs(a->t);
+}
+
 bool judge_across(const struct judge *j, const struct exact_found *a, const struct exact_found *b)
 {
   const struct model *model = j->asked->model;
@@ -330,7 +339,7 @@ bool judge_across(const struct judge *j, const struct exact_found *a, const stru
   if (a->borders & (a->borders - 1) || b->borders & (b->borders - 1)) return false; /* a corner */
   const unsigned here = (unsigned)__builtin_ctz(a->borders), there = (unsigned)__builtin_ctz(b->borders);
   const struct edge_neighbour *other = &model->neighbours[4 * (size_t)one->patch + here];
-  if (other->patch != two->patch || other->border != there || !judge_tie(one, two)) return false;
+  if (other->patch != two->patch || other->border != there || !one_t(one, two)) return false;
   const double along = along_border(one, here), along_two = along_border(two, there);
   const double *d = j->asked->ray->direction;
   struct patch_room room[2];
@@ -376,7 +385,7 @@ static void settle_borders(struct judge *j)
     struct exact_found *found = &j->list->at[a];
     struct exact_root *root = &found->root;
     bool certain = j->found && judge_tie(root, &j->nearest);
-    if (certain && judge_sharpen(j, &j->nearest)) certain = judge_tie(root, &j->nearest);
+    if (certain) certain = judge_sharpen(j, &j->nearest) ? one_t(root, &j->nearest) : judge_tie(root, &j->nearest);
     for (size_t b = 0; b < j->list->count && !certain; b++) {
       if (a == b || !judge_across(j, found, &j->list->at[b])) continue;
       certain = true;
