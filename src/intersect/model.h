@@ -125,7 +125,7 @@ struct model_object {
 struct model_copy {
   struct model_object *object;
   uint32_t first_patch;
-  bool again; /* all of its patches are */
+  bool twin; /* all of its patches are */
   double W[3][3], b[3];
 };
 
@@ -148,9 +148,10 @@ struct model {
   struct model_patch *patches;       /* NULL where they are not kept, */
   struct leaf *leaves;               /* nor are the leaves then, */
   struct leaf_place *places;         /* but where they are; else NULL */
-  struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h; none of those that are `again` */
-  /* patches that lie exactly on an earlier one, an object's wherever it is copied: never the nearest; NULL for none */
-  bool *again;
+  struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h; none of `twin` ones */
+  /* patches that lie exactly on an earlier one (geometry/twins.h), an object's wherever it is copied: never the nearest;
+   * NULL for none */
+  bool *twin;
   size_t leaf_count;
   struct model_object *objects;
   size_t object_count;

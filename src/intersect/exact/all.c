@@ -199,7 +199,7 @@ static bool are_twins(const struct judge *j, const struct exact_root *a, const s
 {
   const struct model *model = j->asked->model;
   struct scene_patch *patches = model->scene->patches;
-  return model->again && (model->again[a->patch] || model->again[b->patch]) && a->patch != b->patch &&
+  return model->twin && (model->twin[a->patch] || model->twin[b->patch]) && a->patch != b->patch &&
          net_twins(patches[a->patch].P, patches[b->patch].P);
 }
 

@@ -51,12 +51,12 @@ static void bundle_inner(struct bundle *b, const struct model_tree *inner, unsig
 }
 
 /* Whether all in that box lies exactly on what stands before it in the scene, whose hit is the nearest then. */
-LANES_INLINE bool lies_again(const struct packet *p, uint32_t index)
+LANES_INLINE bool is_twin(const struct packet *p, uint32_t index)
 {
   const struct model *model = p->model;
-  if (!model->again || p->gather) return false;
-  if (index >= model->leaf_count) return model->copies[index - model->leaf_count].again;
-  return model->again[model->leaves ? model->leaves[index].patch : model->places[index].patch];
+  if (!model->twin || p->gather) return false;
+  if (index >= model->leaf_count) return model->copies[index - model->leaf_count].twin;
+  return model->twin[model->leaves ? model->leaves[index].patch : model->places[index].patch];
 }
 
 /* Tries what box `index` of the tree stands for. */
@@ -66,7 +66,7 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
   const unsigned all = (1u << LANES) - 1;
   if (index == MODEL_INNER) {
     bundle_inner(b, tree->inner, active);
-  } else if (lies_again(&b->packet[0], index)) {
+  } else if (is_twin(&b->packet[0], index)) {
     return;
   } else if (index >= model->leaf_count) {
     bundle_copy(b, &model->copies[index - model->leaf_count], active);

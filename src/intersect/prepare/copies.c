@@ -178,11 +178,11 @@ static enum status mark_twins_of_copy(const struct model *model, struct model_co
 {
   struct model *of = copy->object->model;
   const size_t count = copy->object->declared->patch_count;
-  const bool first = !of->again, *here = model->again + copy->first_patch;
-  if (first) of->again = arena_alloc(of->arena, count, sizeof *of->again);
-  if (!of->again) return STATUS_LIMIT;
-  for (size_t p = 0; p < count; p++) of->again[p] = (first || of->again[p]) && here[p];
-  copy->again = !memchr(here, false, count);
+  const bool first = !of->twin, *here = model->twin + copy->first_patch;
+  if (first) of->twin = arena_alloc(of->arena, count, sizeof *of->twin);
+  if (!of->twin) return STATUS_LIMIT;
+  for (size_t p = 0; p < count; p++) of->twin[p] = (first || of->twin[p]) && here[p];
+  copy->twin = !memchr(here, false, count);
   return STATUS_OK;
 }
 
@@ -215,7 +215,7 @@ enum status copies_prepare(struct model *model, const struct team *team, const s
       const enum status status = prepare_object(model, team, copy, limit, object);
       if (status != STATUS_OK) return status;
     }
-    if (model->again && mark_twins_of_copy(model, copy) != STATUS_OK) return STATUS_LIMIT;
+    if (model->twin && mark_twins_of_copy(model, copy) != STATUS_OK) return STATUS_LIMIT;
     for (size_t p = 0; p < object->declared->patch_count; p++)
       memcpy(model->cuts[copy->first_patch + p].split, object->model->cuts[p].split, sizeof(uint16_t[2]));
   }

@@ -282,10 +282,10 @@ static enum status mark_twins(struct model *model)
 {
   const struct scene *scene = model->scene;
   if (model->unproven) return STATUS_OK;
-  bool *again = arena_alloc(model->arena, scene->patch_count + 1, sizeof *again);
-  if (!again) return STATUS_LIMIT;
-  const enum status status = twins_find(scene->patches, sizeof *scene->patches, scene->patch_count, again);
-  if (memchr(again, true, scene->patch_count)) model->again = again;
+  bool *twin = arena_alloc(model->arena, scene->patch_count + 1, sizeof *twin);
+  if (!twin) return STATUS_LIMIT;
+  const enum status status = twins_find(scene->patches, sizeof *scene->patches, scene->patch_count, twin);
+  if (memchr(twin, true, scene->patch_count)) model->twin = twin;
   return status;
 }
 
@@ -296,7 +296,7 @@ static enum status prepare(struct model *model, const struct team *team)
   if (!model->neighbours) return STATUS_LIMIT;
   enum status status = mark_twins(model);
   if (status == STATUS_OK)
-    status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->again,
+    status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->twin,
                          scene->patch_count < TEAM_LEAST ? NULL : team, model->neighbours);
   if (status != STATUS_OK) return status;
   size_t own = scene->patch_count; /* patches that need leaves */
