@@ -18,6 +18,11 @@
 #define ZOOM_AGAIN_POLE 0x1p-10
 enum { ZOOM_DEPTH = 12 };
 
+/* The certificate has derivatives off by no more than this many times what values are off by (certificate.h, kappa). The
+ * quotient is off by e/d, its derivatives by e/d^2, or between the root and another point at d' by e/(d d'): no more than
+ * that in a box that reaches no farther than so many times the root's distance d. */
+#define CERTIFICATE_SLOPES 16
+
 /* A box no wider than this along the border, of the patch, is made smaller towards the pole only: the place along the
  * border is known no better than the direction in which the ray passes the pole. A choice of speed. */
 #define NARROW_AT_POLE 0x1p-5
@@ -107,7 +112,8 @@ enum pole_box pole_decide(struct search *s, struct box *box)
 
 bool pole_far(const struct search *s, const struct box *box, const double root[2])
 {
+  if (s->divided < 0) return true;
   const double u = box->u + box->size_u * root[0], v = box->v + box->size_v * root[1];
   const double distance[4] = {u, 1 - u, v, 1 - v};
-  return s->divided < 0 || distance[s->divided] >= ZOOM_POLE_NEAREST;
+  return CERTIFICATE_SLOPES * distance[s->divided] >= reach_from(box, s->divided);
 }

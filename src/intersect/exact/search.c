@@ -231,11 +231,12 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
                                    is_leaf(j->asked->model, region) ? LEAF_MARGIN : 0};
     patch_parts(patch, &grid, 1, (const uint16_t(*)[2])region->column, &part);
   }
+  const double cut = split_is_exact(patch->split[0] * patch->split[1]) ? 0 : 2 * CUT_ERROR; /* in x_i and slope x_k */
   *s = (struct search){.window = window_of_region(j, region),
                        .extent = {part.first[0], part.first[1]},
                        .ahead = j->all ? 0 : SEARCH_AHEAD,
                        .divided = NO_BORDER,
-                       .error = {ray->error, ray->error}};
+                       .error = {ray->error + cut, ray->error + cut}};
   for (int k = 0; k < 4; k++) s->pole[k] = leaf_border_is_point(patch, region->column, region->span, k);
   double nets[3][16];
   local_ray_nets(ray, part.x, nets[0], nets[1], nets[2]);

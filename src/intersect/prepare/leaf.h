@@ -8,6 +8,18 @@
 
 #include "intersect/model.h"
 
+/* Where parameters have k bits behind the point between them, for 2^k leaves, and coordinates h, three halfway values in
+ * either direction are multiples of 2^-(3k + h), and their Taylor coefficients of 2^-(3k + h + 6): nothing is rounded up
+ * to these. */
+enum { EXACT_LEAVES = 1024 };
+
+/* Whether a patch is cut into so many leaves exactly, but for the last rounding of each coordinate. */
+static inline bool split_is_exact(int leaves) { return leaves <= EXACT_LEAVES && (leaves & (leaves - 1)) == 0; }
+
+/* What cutting a patch otherwise rounds of its coordinates: six mixtures, of two roundings and one of a difference each, of
+ * numbers of size 1. */
+#define CUT_ERROR (30 * UNIT_ROUNDOFF)
+
 /* How parts of a patch lie: each is span[0] x span[1] of split[0] x split[1] columns, and the bounds are for one that is
  * wider by so much of itself on all sides. */
 struct part_grid {

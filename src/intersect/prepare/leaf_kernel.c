@@ -69,15 +69,10 @@ __attribute__((noinline)) static void subnet(const lane_net net, const struct la
 
 /* ---- cutting ---- */
 
-/* Where parameters have k bits behind the point between them, for 2^k leaves, and coordinates h, three halfway values in
- * either direction are multiples of 2^-(3k + h), and their Taylor coefficients of 2^-(3k + h + 6): nothing is rounded up
- * to these. */
-enum { EXACT_LEAVES = 1024 };
-
 static int head_bits(int leaves) { return leaves <= 256 ? 20 : 16; }
 
 /* The patch's net as head + tail. The head is a coordinate's first bits, which are cut exactly where the leaves are a power of
- * two up to EXACT_LEAVES; the tail, which is smaller by as many bits and has what x is rounded by, is rounded: by less than
+ * two up to EXACT_LEAVES (leaf.h); the tail, which is smaller by as many bits and has what x is rounded by, is rounded: by less than
  * the planes' own errors by about as many. */
 struct patch_halves {
   double head[3][16], tail[3][16];
@@ -419,7 +414,7 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
 {
   const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, LEAF_MARGIN};
   const int all = grid.split[0] * grid.split[1];
-  const bool exact = all <= EXACT_LEAVES && (all & (all - 1)) == 0;
+  const bool exact = split_is_exact(all);
   struct patch_halves halves;
   patch_halve(patch, all, &halves);
   while (count > 0) {
