@@ -55,8 +55,9 @@ struct bvh {
   size_t node_count;      /* 0 for no boxes; some of them, all zero, are nobody's child */
 };
 
-/* Builds over boxes[0..count), count < 2^31, which are used up: nothing can be read there any more. The same tree by any team. A single box gives one node with one child.
- * STATUS_LIMIT where memory is short, or threads are; then *out is empty. */
+/* Builds over boxes[0..count), count < 2^31, which are used up: nothing can be read there any more. The same tree by any
+ * team. A single box gives one node with one child. STATUS_LIMIT where memory is short, or threads are; then *out is
+ * empty. */
 enum status bvh_build(struct bvh_box *boxes, size_t count, const struct team *team, struct bvh *out) STATUS_MUST_CHECK;
 
 /* Frees the nodes. */

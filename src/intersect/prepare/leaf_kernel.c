@@ -71,9 +71,9 @@ __attribute__((noinline)) static void subnet(const lane_net net, const struct la
 
 static int head_bits(int leaves) { return leaves <= 256 ? 20 : 16; }
 
-/* The patch's net as head + tail. The head is a coordinate's first bits, which are cut exactly where the leaves are a power of
- * two up to EXACT_LEAVES (leaf.h); the tail, which is smaller by as many bits and has what x is rounded by, is rounded: by less than
- * the planes' own errors by about as many. */
+/* The patch's net as head + tail. The head is a coordinate's first bits, which are cut exactly where split_is_exact; the
+ * tail, which is smaller by as many bits and has what x is rounded by, is rounded: by less than the planes' own errors
+ * by about as many. */
 struct patch_halves {
   double head[3][16], tail[3][16];
 };
