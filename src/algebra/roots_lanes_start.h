@@ -11,11 +11,11 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <string.h>
 
 #include "algebra/polynomial.h"
 #include "algebra/solver.h"
 #include "base/lanes.h"
+#include "base/real.h"
 
 enum { ROOTS_LANES_DEGREE = 18 };
 
@@ -115,9 +115,7 @@ static void roots_lanes_start_lane(struct roots_lanes *a, unsigned lane)
   for (int k = 0; k <= n; k++) {
     const double size = fabs(a->p[k][lane]);
     if (!(size > 0x1p-900)) continue;
-    uint64_t bits;
-    memcpy(&bits, &size, sizeof bits);
-    height[k] = (double)bits * 0x1p-52;
+    height[k] = (double)real_bits(size) * 0x1p-52;
     corners = polynomial_add_corner(height, corner, corners, k);
   }
   for (int edge = -1; edge < corners; edge++) {

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/real.h"
 #include "cmocka_test.h"
 #include "random.h"
 
@@ -268,9 +269,7 @@ static void points_run_with_the_parameter_and_none_is_fine(void **state)
 
 static uint64_t hash_step(uint64_t hash, double x)
 {
-  uint64_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  hash = (hash ^ bits) * STEP;
+  hash = (hash ^ real_bits(x)) * STEP;
   return hash ^ hash >> 32;
 }
 
