@@ -15,6 +15,7 @@
 
 enum {
   EXACT_DIGITS = 19,      /* an integer of so many decimal digits fits in 64 bits */
+  WHOLE_DIGITS = 15,      /* and one of so many is a double */
   EXACT_POWER = 22,       /* 10^22 is the largest power of ten that is a double */
   DECISIVE_DIGITS = 770,  /* no double lies nearer to a tie than 768 digits can say; what follows only breaks ties */
   EXPONENT_LIMIT = 100000 /* beyond it only the sign of the exponent matters, whatever the digits */
@@ -101,11 +102,32 @@ static double convert_slowly(const char *text, struct decimal decimal)
   return strtod(digits, NULL);
 }
 
+/* A whole number of few digits from text[i] on, without point or exponent; most are. Returns where it ends, or i. */
+static size_t read_whole(const char *text, size_t length, size_t i, double *out_value)
+{
+  uint64_t value = 0;
+  size_t end = i;
+  for (; end < length && is_digit(text[end]); end++) {
+    if (end - i == WHOLE_DIGITS) return i;
+    value = 10 * value + (uint64_t)(text[end] - '0');
+  }
+  if (end < length && (text[end] == '.' || text[end] == 'e' || text[end] == 'E')) return i;
+  *out_value = (double)(int64_t)value;
+  return end;
+}
+
 enum number_kind number_read(const char *text, size_t length, double *out_value, size_t *out_used)
 {
   size_t i = 0;
   bool negative = false;
+  double whole;
   if (i < length && (text[i] == '+' || text[i] == '-')) negative = text[i++] == '-';
+  const size_t end = read_whole(text, length, i, &whole);
+  if (end > i) {
+    *out_value = negative ? -whole : whole;
+    *out_used = end;
+    return NUMBER_FINITE;
+  }
   struct decimal decimal = {.digits_begin = i};
   i = read_digits(text, length, &decimal);
   if (i == 0) return NUMBER_NONE;

@@ -28,6 +28,10 @@ static inline uint64_t real_bits(double x)
   return bits;
 }
 
+/* 0 where x is finite: an exponent of ones, which only infinities and NaN have, runs over into the sign. Of many numbers
+ * what they give may be joined by |. */
+static inline uint64_t real_infinite(double x) { return ((real_bits(x) & INT64_MAX) + (UINT64_C(1) << 52)) >> 63; }
+
 /* x rounded to a multiple of the power of two `grain`. */
 static inline double real_coarse(double x, double grain) { return rint(x / grain) * grain; }
 

@@ -1,10 +1,10 @@
 /* Affine transforms. */
 #include "geometry/transform.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/kernel.h"
+#include "base/real.h"
 #include "geometry/transform_kernel.h"
 
 struct transform transform_identity(void)
@@ -41,9 +41,9 @@ struct transform transform_then(const struct transform *first, const struct tran
 
 bool transform_finite(const struct transform *transform)
 {
-  bool finite = true;
-  for (int i = 0; i < 12; i++) finite &= isfinite(transform->A[i / 3][i % 3].hi) != 0;
-  return finite;
+  uint64_t over = 0;
+  for (int i = 0; i < 12; i++) over |= real_infinite(transform->A[i / 3][i % 3].hi);
+  return over == 0;
 }
 
 void transform_points(const struct transform *transform, const transform_row p, transform_row out)
@@ -74,7 +74,21 @@ void transform_direction(const struct transform *transform, const double p[3], d
   transform_point(&fixed, p, out);
 }
 
+/* One place by the bits of all three. */
+static struct transform_turn *place_of(const double degrees[3], struct transform_angles *angles)
+{
+  uint64_t hash = 0;
+  for (int axis = 0; axis < 3; axis++) hash = (hash + real_bits(degrees[axis])) * UINT64_C(0x9e3779b97f4a7c15);
+  return &angles->turns[hash >> (64 - TRANSFORM_TURN_BITS)];
+}
+
 void transform_rotation(const double degrees[3], struct transform_angles *angles, struct transform *out)
 {
-  best()->rotation(degrees, angles, out);
+  struct transform_turn *turn = place_of(degrees, angles);
+  if (!turn->known || memcmp(turn->degrees, degrees, sizeof turn->degrees) != 0) {
+    turn->known = true;
+    memcpy(turn->degrees, degrees, sizeof turn->degrees);
+    best()->rotation(degrees, angles, &turn->turned);
+  }
+  *out = turn->turned;
 }

@@ -30,9 +30,14 @@ void transform_points(const struct transform *transform, const transform_row p, 
 void transform_point(const struct transform *transform, const double p[3], double out[3]);
 void transform_direction(const struct transform *transform, const double p[3], double out[3]);
 
-/* Angles whose sines and cosines are known: most scenes have few. Zeroed: none. */
-enum { TRANSFORM_ANGLE_BITS = 8 };
+/* Angles whose sines and cosines are known, and rotations: most scenes have few. Zeroed: none. */
+enum { TRANSFORM_ANGLE_BITS = 8, TRANSFORM_TURN_BITS = 4 };
 struct transform_angles {
+  struct transform_turn {
+    bool known;
+    double degrees[3];
+    struct transform turned;
+  } turns[1 << TRANSFORM_TURN_BITS];
   struct transform_angle {
     double degrees; /* 0: none */
     struct double_double sine, cosine;

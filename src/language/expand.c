@@ -77,12 +77,11 @@ static bool intern(struct expansion *e, struct list *list, const void *item, uin
   return true;
 }
 
-/* An exponent of ones, which only infinities and NaN have, runs over into the sign. */
 static bool all_finite(const double *x, size_t count)
 {
   uint64_t over = 0;
-  for (size_t n = 0; n < count; n++) over |= (real_bits(x[n]) & INT64_MAX) + (UINT64_C(1) << 52);
-  return over >> 63 == 0;
+  for (size_t n = 0; n < count; n++) over |= real_infinite(x[n]);
+  return over == 0;
 }
 
 static void expand_points(struct expansion *e, const struct node *node, const struct transform *transform,

@@ -3,6 +3,12 @@
 
 #include "base/number.h"
 
+void scan_digit(struct scan *scan, char digit)
+{
+  scan->too_large = false;
+  scan->number[0] = digit - '0';
+}
+
 void scan_numbers(struct scan *scan, const char *text, size_t length, int count)
 {
   size_t at = 0;

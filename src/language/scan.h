@@ -50,6 +50,9 @@ bool pscn_scan_open(struct scan *scan, char *text, size_t length, jmp_buf *broke
 int pscn_scan_next(struct scan *scan);
 void pscn_scan_close(struct scan *scan);
 
+/* The number that a digit by itself is, as many are. */
+void scan_digit(struct scan *scan, char digit);
+
 /* Reads `count` numbers out of the last token's text into scan->number. One that is too large becomes the whole token. */
 void scan_numbers(struct scan *scan, const char *text, size_t length, int count);
 

@@ -11,6 +11,7 @@
 /* More than these of one declaration are not told. */
 enum { MOST_HELD = 20 };
 
+/* Where to hold one more, or NULL where it is only counted. */
 static struct held *hold(struct language *language, struct span place)
 {
   struct declaration *declaration = language->declaration;
@@ -31,14 +32,12 @@ void language_hold(struct language *language, struct span place, struct held *of
 static void tell(struct language *language, struct span place, bool holds, const char *format, va_list arguments)
 {
   char message[400];
+  struct held *held = holds ? hold(language, place) : NULL;
+  if (holds && !held) return;
   const size_t size = 1 + (size_t)vsnprintf(message, sizeof message, format, arguments);
-  if (!holds) {
-    diagnostics_error(language->diagnostics, sources_place(language, place), "%s", message);
-    return;
-  }
-  struct held *held = hold(language, place);
   const size_t kept = size < sizeof message ? size : sizeof message;
   if (held) held->text = memcpy(language_alloc(language, kept), message, kept);
+  else diagnostics_error(language->diagnostics, sources_place(language, place), "%s", message);
 }
 
 void language_tell(struct language *language, struct span place, const char *format, ...)

@@ -61,8 +61,9 @@ bool symbol_known(const struct language *language, const char *name, size_t leng
 
 /* ---- what is told of names ---- */
 
-/* One reading looks for guesses among so many names and no more: half a second's work, where all of them are long. */
-enum { MOST_CONSIDERED = 100000 };
+/* One reading looks for guesses among so many names and no more: half a second's work, where all of them are long. And
+ * it guesses for so many unknown words: of what is told there is less, but what a declaration holds is mostly never told. */
+enum { MOST_CONSIDERED = 100000, MOST_GUESSED = 1000 };
 
 void guess_symbols(struct guess *guess, struct language *language)
 {
@@ -89,7 +90,8 @@ static void tell_unknown(struct language *language, const struct name *name, con
   symbol->missed->last = name->place;
   if (symbol->missed->times++ > 0) return;
   struct guess guess = guess_begin(name->text, name->length);
-  if (!diagnostics_full(language->diagnostics)) { /* else nobody would read the guess */
+  if (!diagnostics_full(language->diagnostics) &&
+      language->symbols->guessed++ < MOST_GUESSED) { /* else nobody reads it */
     guess_symbols(&guess, language);
     guess_keywords(&guess);
   }

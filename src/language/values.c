@@ -124,10 +124,13 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
 {
   const struct span place = span_join(a->place, b->place);
   value_last(language, b);
+  if (a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER && !(op == '/' && b->x[0] == 0)) { /* as most are */
+    const double x = operate(op, a->x[0], b->x[0]);
+    if (isfinite(x)) return value_placed(set(a, x, x, x), place);
+  }
   const bool a_usable = usable(language, a, "a value");
   if (!usable(language, b, "a value") || !a_usable || !stays_opaque(language, op, a, b))
     return become_unknown(a, place);
-  const bool numbers = a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER;
   a->transparent = result_transparent(op, a, b);
   if (b->kind > a->kind) a->kind = b->kind;
   for (int k = 0; k < 3; k++) {
@@ -140,7 +143,6 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
       language_error(language, place, "the result is too large for a number");
       return become_unknown(a, place);
     }
-    if (numbers) return value_placed(set(a, a->x[0], a->x[0], a->x[0]), place);
   }
   return value_placed(a, place);
 }

@@ -2,6 +2,7 @@
  * swapped once). */
 #include "language/words.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,13 +14,15 @@ struct keyword {
   int token;
 };
 
-/* Made by CMake: KEYWORDS, the tokens of the grammar that are a word, and FOREIGN, what else POV-Ray 3.7 reserves
- * (grammar/povray.txt), both sorted. */
-#include "language/word_tables.h"
+/* Words that begin with one letter. */
+struct initial {
+  uint16_t begin;   /* in WORDS; they end where the next one's begin */
+  uint32_t lengths; /* bit n: some have n letters; none has more than 31 */
+};
 
-/* Other spellings, and words that stand where another one does. */
-static const struct keyword SYNONYMS[] = {
-  {"colour", PSCN_TOKEN_COLOR}, {"rgbt", PSCN_TOKEN_RGBF}, {"transmit", PSCN_TOKEN_FILTER}};
+/* Made by CMake: WORDS, sorted, are the tokens of the grammar that are a word, other spellings of them, and what else
+ * POV-Ray 3.7 reserves (grammar/povray.txt), which is FOREIGN. INITIALS has the letters, and an end. */
+#include "language/word_tables.h"
 
 static const struct keyword DIRECTIVES[] = {{"declare", PSCN_TOKEN_DECLARE},
                                             {"default", PSCN_TOKEN_DEFAULT},
@@ -68,13 +71,21 @@ static int compare_row(const void *sought, const void *row)
 #define FIND(word, length, table) \
   bsearch(&(struct sought){word, length}, table, COUNT(table), sizeof *(table), compare_row)
 
+/* Most names are told from the words by initial and length. */
 int words_token(const char *word, size_t length)
 {
   if (word[0] < 'a') return PSCN_TOKEN_WORD; /* no word of a language begins with a capital */
-  const struct keyword *found = FIND(word, length, KEYWORDS);
-  if (!found) found = FIND(word, length, SYNONYMS);
-  if (found) return found->token;
-  return FIND(word, length, FOREIGN) ? PSCN_TOKEN_FOREIGN : PSCN_TOKEN_WORD;
+  const struct initial *initial = &INITIALS[word[0] - 'a'];
+  if (length > 31 || (initial->lengths >> length & 1) == 0) return PSCN_TOKEN_WORD;
+  size_t begin = initial[0].begin, end = initial[1].begin;
+  while (begin < end) {
+    const size_t middle = (begin + end) / 2;
+    const int order = words_compare(word, length, WORDS[middle].name);
+    if (order == 0) return WORDS[middle].token;
+    if (order < 0) end = middle;
+    else begin = middle + 1;
+  }
+  return PSCN_TOKEN_WORD;
 }
 
 const char *words_directive(const char *text, size_t *length)
@@ -121,6 +132,7 @@ bool words_begin_item(int token)
 
 static enum words_kind kind_of(int token)
 {
+  if (token == PSCN_TOKEN_FOREIGN) return WORDS_FOREIGN;
   if (words_begin_statement(token)) return WORDS_STATEMENTS;
   return words_begin_item(token) ? WORDS_ITEMS : WORDS_VALUES;
 }
@@ -128,11 +140,8 @@ static enum words_kind kind_of(int token)
 const char *words_at(enum words_kind kind, size_t index)
 {
   if (kind == WORDS_DIRECTIVES) return index < COUNT(DIRECTIVES) ? DIRECTIVES[index].name : NULL;
-  if (kind == WORDS_FOREIGN) return index < COUNT(FOREIGN) ? FOREIGN[index] : NULL;
-  for (size_t k = 0; k < COUNT(KEYWORDS) + COUNT(SYNONYMS); k++) {
-    const struct keyword *word = k < COUNT(KEYWORDS) ? &KEYWORDS[k] : &SYNONYMS[k - COUNT(KEYWORDS)];
-    if (kind_of(word->token) == kind && index-- == 0) return word->name;
-  }
+  for (size_t k = 0; k < COUNT(WORDS); k++)
+    if (kind_of(WORDS[k].token) == kind && index-- == 0) return WORDS[k].name;
   return NULL;
 }
 
@@ -191,8 +200,8 @@ void guess_consider(struct guess *guess, const char *candidate, size_t length)
 
 void guess_keywords(struct guess *guess)
 {
-  for (size_t k = 0; k < COUNT(KEYWORDS); k++) guess_consider(guess, KEYWORDS[k].name, strlen(KEYWORDS[k].name));
-  for (size_t k = 0; k < COUNT(SYNONYMS); k++) guess_consider(guess, SYNONYMS[k].name, strlen(SYNONYMS[k].name));
+  for (size_t k = 0; k < COUNT(WORDS); k++)
+    if (WORDS[k].token != PSCN_TOKEN_FOREIGN) guess_consider(guess, WORDS[k].name, strlen(WORDS[k].name));
 }
 
 void guess_directives(struct guess *guess)

@@ -98,6 +98,9 @@ static void all_instruction_sets_round_alike(void **state)
     struct transform turned;
     plain->rotation(turns, &none, &same), transform_rotation(turns, &angles, &turned);
     assert_memory_equal(turned.A, same.A, sizeof same.A);
+    transform_rotation((double[]){turns[1], turns[0], turns[2]}, &angles, &turned);
+    transform_rotation(turns, &angles, &turned); /* known by now */
+    assert_memory_equal(turned.A, same.A, sizeof same.A);
     transform_row p, q, r;
     for (int k = 0; k < 12; k++) p[k / 3][k % 3] = random_between(&random, -9, 9);
     plain->apply(&both, p, q), transform_points(&both, p, r);
