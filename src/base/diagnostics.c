@@ -1,4 +1,5 @@
-/* Diagnostics: one error becomes one block of lines. Where memory is short, what fits of it is told. */
+/* Diagnostics: one error becomes one block of lines. Where memory is too short for them, what is wrong is told without its
+ * place. */
 #include "base/diagnostics.h"
 
 #include <stdarg.h>
@@ -9,6 +10,7 @@
 
 enum {
   MESSAGE_BYTES = 2000,   /* longer messages are cut */
+  KIND_BYTES = 16,        /* before them, and the end of the line behind them */
   SHOWN_CHARACTERS = 110, /* of the source line; longer lines are shown around the place */
   SHOWN_BEFORE = 60,      /* of those, at most so many before the place */
   MAX_INCLUDE_LINES = 64  /* the language allows fewer levels */
@@ -92,31 +94,46 @@ static void tell_closing_line(struct diagnostics *diagnostics, bool warnings)
   diagnostics->tell(diagnostics->context, text, (size_t)length);
 }
 
+/* The error without its place, which needs no memory. */
+static void tell_bare(struct diagnostics *diagnostics, const char *kind, const char *message)
+{
+  char memory[MESSAGE_BYTES + KIND_BYTES];
+  struct text_buffer block = {.text = memory, .room = sizeof memory}; /* has room for all: nothing is allocated */
+  text_buffer_add_text(&block, kind);
+  const size_t begin = block.length;
+  add_clean(&block, message, strlen(message));
+  diagnostics->parts = (struct diagnostics_parts){
+    .said_begin = begin, .said_end = block.length, .warning = kind[0] == 'w'};
+  text_buffer_add_text(&block, "\n");
+  diagnostics->tell(diagnostics->context, block.text, block.length);
+}
+
 /* Tells a block of lines; `kind` is "error: " or "warning: ". */
 static void tell(struct diagnostics *diagnostics, struct place place, const char *kind, const char *format,
                  va_list arguments)
 {
   char message[MESSAGE_BYTES];
   if (vsnprintf(message, sizeof message, format, arguments) < 0) message[0] = '\0';
-  struct text_buffer block = {0};
-  struct source_position at = {0};
-  struct diagnostics_parts parts = {.warning = kind[0] == 'w'};
-  if (place.source) {
-    at = source_locate(place.source, place.begin);
-    parts.line = at.line;
-    parts.column = at.column;
-    add_include_chain(&block, place.source);
-    parts.name_begin = block.length;
-    parts.name_end = add_position(&block, place.source, at);
-    text_buffer_add_text(&block, " ");
+  if (!place.source) {
+    tell_bare(diagnostics, kind, message);
+    return;
   }
+  struct text_buffer block = {0};
+  const struct source_position at = source_locate(place.source, place.begin);
+  struct diagnostics_parts parts = {.warning = kind[0] == 'w', .line = at.line, .column = at.column};
+  add_include_chain(&block, place.source);
+  parts.name_begin = block.length;
+  parts.name_end = add_position(&block, place.source, at);
+  text_buffer_add_text(&block, " ");
   text_buffer_add_text(&block, kind);
   parts.said_begin = block.length;
   add_clean(&block, message, strlen(message));
   parts.said_end = block.length;
   text_buffer_add_text(&block, "\n");
-  if (place.source) add_line(&block, place, at);
-  if (block.length > 0 && block.text[block.length - 1] == '\n') {
+  add_line(&block, place, at);
+  if (block.failed) {
+    tell_bare(diagnostics, kind, message);
+  } else {
     diagnostics->parts = parts;
     diagnostics->tell(diagnostics->context, block.text, block.length);
   }

@@ -1,0 +1,98 @@
+/* Errors told while memory runs short: whole, or without their place; nothing said is lost. */
+#include "base/diagnostics.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "cmocka_test.h"
+
+enum { LONG_NAME = 300 };
+
+static const char SAID[] = "'loaction' is what a message begins with, which takes more than is left of the room that a "
+                           "long name has made, and it goes on so that it is asked for again and again and again";
+
+static long left; /* blocks that are given before there are no more; negative: all are */
+
+static void *resize(void *context, void *block, size_t size)
+{
+  (void)context;
+  if (size == 0) {
+    free(block);
+    return NULL;
+  }
+  return left >= 0 && left-- == 0 ? NULL : realloc(block, size);
+}
+
+static void *resize_until(void *context, void *block, size_t size)
+{
+  return left == 0 && size > 0 ? NULL : resize(context, block, size);
+}
+
+struct told {
+  char text[4000];
+  struct diagnostics diagnostics;
+};
+
+static void keep(void *context, const char *text, size_t length)
+{
+  struct told *told = context;
+  assert_true(length < sizeof told->text);
+  memcpy(told->text, text, length);
+  told->text[length] = '\0';
+}
+
+/* Whether it was told with its place. */
+static bool told_whole(const struct told *told, const char *name)
+{
+  const struct diagnostics_parts *parts = &told->diagnostics.parts;
+  assert_int_equal(parts->said_end - parts->said_begin, strlen(SAID));
+  assert_memory_equal(told->text + parts->said_begin, SAID, strlen(SAID));
+  if (parts->line == 0) {
+    assert_int_equal(strlen(told->text), strlen("error: ") + strlen(SAID) + 1);
+    return false;
+  }
+  assert_int_equal(parts->line, 2);
+  assert_int_equal(parts->name_end - parts->name_begin, strlen(name));
+  assert_memory_equal(told->text + parts->name_begin, name, strlen(name));
+  assert_non_null(strstr(told->text, "  camera { loaction 1 }\n           ^~~~~~~~\n"));
+  return true;
+}
+
+static void told_with_the_nth_block_missing(void *(*hook)(void *context, void *block, size_t size), size_t name_length)
+{
+  static const char text[] = "// a scene\ncamera { loaction 1 }\n";
+  char name[LONG_NAME + 1];
+  memset(name, 'n', name_length);
+  name[name_length] = '\0';
+  struct source *source = source_from_text(name, text, sizeof text - 1);
+  const struct place place = {source, 20, 28};
+  bool whole = false;
+  for (long n = 0; !whole; n++) {
+    struct told told = {.diagnostics = {.tell = keep}};
+    told.diagnostics.context = &told;
+    left = n;
+    const struct memory_hooks before = memory_use((struct memory_hooks){.resize = hook});
+    diagnostics_error(&told.diagnostics, place, "%s", SAID);
+    (void)memory_use(before);
+    whole = told_whole(&told, name) && left != 0;
+    assert_true(n < 100);
+  }
+  source_destroy(source);
+}
+
+static void nothing_said_is_lost(void **state)
+{
+  (void)state;
+  for (size_t length = 1; length <= LONG_NAME; length++) {
+    told_with_the_nth_block_missing(resize, length);
+    told_with_the_nth_block_missing(resize_until, length);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_said_is_lost)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
