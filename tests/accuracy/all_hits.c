@@ -47,14 +47,6 @@ struct count {
 
 static bool on_border(double parameter) { return parameter <= AT_BORDER || parameter >= 1; }
 
-/* A root on a line where the judge has halved a box is found in both halves: its parameters are the nearest doubles. */
-static bool known(const struct truths *truths, uint32_t patch, const struct exact_root *r)
-{
-  for (size_t k = truths->count; k-- > 0 && truths->root[k].patch == patch;)
-    if (truths->root[k].u == r->u && truths->root[k].v == r->v) return true;
-  return false;
-}
-
 static void find_truths(const struct trial *trial, const struct ray *ray, struct truths *out)
 {
   out->count = 0, out->doubt = false;
@@ -66,7 +58,7 @@ static void find_truths(const struct trial *trial, const struct ray *ray, struct
     for (size_t k = 0; k < roots.count; k++) {
       const struct exact_root *r = &roots.root[k];
       out->doubt |= !r->proven;
-      if (!r->proven || out->count == MOST_ROOTS || known(out, (uint32_t)n, r)) continue;
+      if (!r->proven || out->count == MOST_ROOTS) continue;
       const bool border = on_border(r->u) || on_border(r->v);
       const double floor = trial_floor(trial->reference, ray, (uint32_t)n, r->t, r->u, r->v).t;
       out->root[out->count++] = (struct truth){(uint32_t)n, r->t, r->u, r->v, floor, border, false};

@@ -31,7 +31,9 @@ enum { MOST_HALVINGS = 1200, PARTS = 4 * EXACT_BOXES };
 struct search {
   struct exact_roots *out;
   struct interval interval;
-  struct box whole;          /* the patch */
+  struct box whole; /* the patch */
+  size_t known;     /* proven roots that have a ball: */
+  arb_t at[EXACT_MOST_ROOTS][2];
   struct quick parts[PARTS]; /* those of the boxes that are being looked at, one box after the other */
 };
 
@@ -39,7 +41,19 @@ struct search {
 
 static double double_of(const arb_t x) { return arf_get_d(arb_midref(x), ARF_RND_NEAR); }
 
-/* A parameter of the whole patch. */
+/* A parameter of the whole patch, and back. */
+static void to_whole(const fmpz *corner, int halved, const arb_t at, arb_t out)
+{
+  arb_add_fmpz(out, at, corner, ARF_PREC_EXACT);
+  arb_mul_2exp_si(out, out, -halved);
+}
+
+static void to_own(const fmpz *corner, int halved, const arb_t at, arb_t out)
+{
+  arb_mul_2exp_si(out, at, halved);
+  arb_sub_fmpz(out, out, corner, ARF_PREC_EXACT);
+}
+
 static double whole(const fmpz *corner, int halved, const arb_t at)
 {
   arb_t x;
@@ -120,8 +134,12 @@ static bool accept(struct search *s, const struct box *box, const arb_t at_u, co
   const double near = double_of(t), u = whole(&box->u, box->halved[0], at_u), v = whole(&box->v, box->halved[1], at_v);
   struct exact_root *root = sure ? add_root(s) : NULL;
   arb_set_d(jet.ds, near), arb_sub(t, t, jet.ds, UNIT_PRECISION);
-  if (root) *root = (struct exact_root){u, v, near, double_of(t), true, near};
-  else add_unknown(s, u, v, near, near);
+  if (root) {
+    *root = (struct exact_root){u, v, near, double_of(t), true, near};
+    to_whole(&box->u, box->halved[0], at_u, s->at[s->known][0]);
+    to_whole(&box->v, box->halved[1], at_v, s->at[s->known][1]);
+    s->known++;
+  } else add_unknown(s, u, v, near, near);
   arb_clear(t), ball_jet_clear(&jet);
   return true;
 }
@@ -145,6 +163,28 @@ static bool near_place(const struct place *place, int axis, const arb_t x)
   return near;
 }
 
+/* Whether balls u and v lie in the box, or in `place` of it, or next to it. */
+static bool near_part(const struct place *place, const arb_t u, const arb_t v)
+{
+  return place ? near_place(place, 0, u) && near_place(place, 1, v) : near_box(u) && near_box(v);
+}
+
+/* Whether the root that the box, or `place`, has in it or next to it, of which there is but one, is listed: that of another
+ * part, on the line where both meet or next to that. Not seen of parts that are as small as what is unknown of it. */
+static bool is_known(const struct search *s, const struct box *box, const struct place *place)
+{
+  bool found = false;
+  arb_t u, v;
+  arb_init(u), arb_init(v);
+  for (size_t k = 0; k < s->known && !found; k++) {
+    to_own(&box->u, box->halved[0], s->at[k][0], u);
+    to_own(&box->v, box->halved[1], s->at[k][1], v);
+    found = near_part(place, u, v);
+  }
+  arb_clear(u), arb_clear(v);
+  return found;
+}
+
 /* From the point (u,v) of the box, which has at most one root in it or next to it, or has so in `place`: whether that is
  * done with. F: two independent combinations of the box's nets. */
 static bool settle_one(struct search *s, const struct box *box, const fmpz (*F)[16], const struct place *place, arb_t u,
@@ -158,8 +198,8 @@ static bool settle_one(struct search *s, const struct box *box, const fmpz (*F)[
       if (bits == FIRST_PRECISION) continue;
       break;
     }
-    if (place ? !near_place(place, 0, u) || !near_place(place, 1, v) : !near_box(u) || !near_box(v)) break;
-    done = accept(s, box, u, v, bits, 4 * bits > EXACT_PRECISION);
+    if (!near_part(place, u, v)) break;
+    done = is_known(s, box, place) || accept(s, box, u, v, bits, 4 * bits > EXACT_PRECISION);
   }
   return done;
 }
@@ -391,13 +431,15 @@ void exact_patch_roots(const double P[4][4][3], const double origin[3], const do
 {
   struct search s; /* too large to be cleared each time */
   s.out = out;
-  out->count = out->boxes = 0;
+  out->count = out->boxes = s.known = 0;
+  for (size_t k = 0; k < EXACT_MOST_ROOTS; k++) arb_init(s.at[k][0]), arb_init(s.at[k][1]);
   fmpz_init(s.interval.low), fmpz_init(s.interval.high), arb_init(s.interval.unit);
   box_init(&s.whole);
   box_of_patch(P, origin, direction, t_min, t_max, &s.whole, &s.interval);
   strip_edges(&s);
   struct view view = {.box = &s.whole, .F = (const fmpz(*)[16])s.whole.c, .zooms = MOST_HALVINGS};
   look(&s, &view);
+  for (size_t k = 0; k < EXACT_MOST_ROOTS; k++) arb_clear(s.at[k][0]), arb_clear(s.at[k][1]);
   box_clear(&s.whole);
   fmpz_clear(s.interval.low), fmpz_clear(s.interval.high), arb_clear(s.interval.unit);
 }

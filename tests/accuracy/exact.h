@@ -8,6 +8,7 @@
  * - holds at most one where the combinations that aim along u and v have derivatives that dominate (exactly compared);
  *   Newton's and Krawczyk's method in ball arithmetic (arb) find and prove that one, with precision raised until it is
  *   known on which side of the patch's border it lies, or it is proven to lie on it.
+ * A root where boxes meet is found in both, and listed once.
  * Edges on which both polynomials vanish (a collapsed edge met exactly) are roots and are divided out.
  * What can not be decided that way (a double root met exactly, a curve in common) is listed as undecided.
  */

@@ -1,0 +1,75 @@
+/* The exact judge judged: it lists each root once, on the lines where it halves boxes and next to them too. */
+#include "accuracy/exact.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "cmocka_test.h"
+
+/* 3 (x - 1/4) (x - 1/2) (x - 3/4) in Bernstein form. */
+static const double cubic[4] = {-9.0 / 32, 13.0 / 32, -13.0 / 32, 9.0 / 32};
+
+/* The net of (cubic(u), cubic(v), bend u v): a ray along z meets it nine times. */
+static void make_net(double bend, double P[4][4][3])
+{
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) P[i][j][0] = cubic[i], P[i][j][1] = cubic[j], P[i][j][2] = bend * (i * j);
+}
+
+static void expect_nine(const double P[4][4][3], double aside_u, double aside_v)
+{
+  const double origin[3] = {aside_u, aside_v, -5}, direction[3] = {0, 0, 1};
+  struct exact_roots roots;
+  exact_patch_roots(P, origin, direction, 0, INFINITY, &roots);
+  bool seen[3][3] = {{false}};
+  for (size_t k = 0; k < roots.count; k++) {
+    const struct exact_root *root = &roots.root[k];
+    assert_true(root->proven);
+    const int i = (int)lround(4 * root->u) - 1, j = (int)lround(4 * root->v) - 1;
+    assert_true(i >= 0 && i < 3 && j >= 0 && j < 3 && !seen[i][j]);
+    seen[i][j] = true;
+  }
+  assert_int_equal(roots.count, 9);
+}
+
+static void roots_are_listed_once(void **state)
+{
+  (void)state;
+  for (int bent = 0; bent < 2; bent++) {
+    double P[4][4][3];
+    make_net(bent / 16.0, P);
+    expect_nine(P, 0, 0);
+    for (int k = 8; k < 120; k++) {
+      const double aside = ldexp(1, -k);
+      expect_nine(P, aside, 0);
+      expect_nine(P, 0, -aside);
+      expect_nine(P, aside, -aside);
+    }
+  }
+}
+
+/* Two roots that are nearer than doubles can say are two. */
+static void near_roots_are_two(void **state)
+{
+  (void)state;
+  double P[4][4][3];
+  for (int i = 0; i < 4; i++) /* x = (u - 1/2)^2 less a little, y = v - 1/2 */
+    for (int j = 0; j < 4; j++)
+      P[i][j][0] = (i % 3 == 0 ? 0.75 : -0.25), P[i][j][1] = (2 * j - 3), P[i][j][2] = (i % 2 ? 0.5 : 0);
+  for (int k = 20; k < 200; k += 4) {
+    const double origin[3] = {ldexp(1, -k), 0, -5}, direction[3] = {0, 0, 1};
+    struct exact_roots roots;
+    exact_patch_roots((const double(*)[4][3])P, origin, direction, 0, INFINITY, &roots);
+    assert_int_equal(roots.count, 2);
+    assert_true(roots.root[0].proven && roots.root[1].proven);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(roots_are_listed_once), cmocka_unit_test(near_roots_are_two)};
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  exact_cleanup();
+  return failed;
+}
