@@ -116,7 +116,7 @@ static double (*collect_nets(const struct node *node, const struct transform *tr
   }
   for (const struct node *child = node->first; child; child = child->next) {
     const struct transform all = child->transform ? transform_then(child->transform, transform) : *transform;
-    if (child->patch_count > 0) out = collect_nets(child, &all, out);
+    out = collect_nets(child, &all, out);
   }
   return out;
 }
@@ -146,10 +146,9 @@ static bool begin_copy(struct expansion *e, const struct node *node, const struc
   return true;
 }
 
-/* As deep as unions are nested: MAX_NESTING at most. What holds no patch is passed by, for copies of it may be many. */
+/* As deep as unions are nested: MAX_NESTING at most. Each child has a patch. */
 static bool expand(struct expansion *e, const struct node *node, const struct inherited *above)
 {
-  if (node->patch_count == 0) return true;
   struct inherited with = *above;
   struct transform all;
   if (node->transform) all = transform_then(node->transform, above->transform), with.transform = &all;

@@ -133,11 +133,14 @@ static void count_patches(struct language *language, struct node *parent, struct
   parent->patch_count = most;
 }
 
+/* What holds no patch is not listed: copies of the parent, which may be many, would each be looked through for nothing. */
 static void add_child(struct language *language, struct node *parent, struct node *child)
 {
-  if (parent->last) parent->last->next = child;
-  else parent->first = child;
-  parent->last = child;
+  if (child->patch_count > 0) {
+    if (parent->last) parent->last->next = child;
+    else parent->first = child;
+    parent->last = child;
+  }
   parent->patch_count += child->patch_count;
   count_patches(language, parent, child->whole);
   if (child->height >= parent->height) parent->height = child->height + 1;

@@ -43,3 +43,11 @@ many_names() {
 many_names | within pscn dump - 2>&1 | grep -c 'is not declared\|exit 3'
 # Warnings end as errors do: a million would each be looked for from the beginning of the text.
 yes '#version 3.5;' | head -n 1000000 | within pscn dump - 2>&1 | grep -n 'warnings\|exit'
+# An object in which most is empty is not looked through for each of its copies.
+empty_unions() {
+  echo '#declare Hollow = union { bicubic_patch { type 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 }'
+  yes 'union {}' | head -n 400000
+  echo '}'
+  yes 'object { Hollow }' | head -n 20000
+}
+empty_unions | within pscn dump - 2>&1 | grep -c 'bicubic_patch\|exit'
