@@ -175,6 +175,12 @@ text() {
     for (k = 0; k < 40; k++) { sum = sum "+1*2-3/4"; names = names "+A*A" }
     text["expressions, a token a byte"] = "#declare Sum = " sum ";\n"
     text["expressions of names"] = "#declare Sum = A" names ";\n"
+    text["expressions of lower-case names"] = "#declare Sum = a" tolower(names) ";\n"
+    for (k = 0; k < 16; k++) corners = corners " a"
+    text["patches of names"] = "bicubic_patch { type 1" corners " }\n"
+    for (k = 0; k < 90; k++) shapes = shapes "sphere{0 1}"
+    text["declared shapes"] = "#declare Shape@ = union{" shapes "}\n"
+    text["declared shapes of unknown names"] = "#declare Shape = union{sphere{0 1}object{Name@}}\n"
     for (k = 0; k < 100; k++) { left = left "("; right = right ")" }
     text["expressions in parentheses"] = "#declare Sum = " left "1" right ";\n"
     for (k = 0; k < 100; k++) { asked = asked "#ifdef (Patch) "; ended = ended "#end " }
@@ -182,7 +188,7 @@ text() {
     text["comments"] = "// what this is about, in a line or two\n"
     text["blanks"] = "                                       \n"
     printf "#version 3.7;\n#declare Patch = %s }\n#declare Pair = union { object { Patch } object { Patch } }\n", patch
-    printf "#declare Corner = <1, 2, 3>;\n#declare A = 2;\n"
+    printf "#declare Corner = <1, 2, 3>;\n#declare A = 2;\n#declare a = 2;\n"
     count = split(text[kind], part, "@")
     for (n = 0; bytes < 8e6; n++) {
       piece = part[1]
@@ -216,10 +222,11 @@ reading() {
   "$pscn" dump "$folder/field.pscn" >"$folder/text.pscn"
   reading canonical "$folder/text.pscn"
   for kind in 'patches, one line' 'patches, a number a line' 'patches, 17 digits and exponents' 'patches of sums' \
-    'declared numbers' 'declared textures' 'unions, 100 deep' copies 'copies of a union' 'copies with a texture' \
+    'patches of names' 'declared numbers' 'declared textures' 'declared shapes' 'declared shapes of unknown names' \
+    'unions, 100 deep' copies 'copies of a union' 'copies with a texture' \
     'copies, moved' 'copies, turned' 'copies, a matrix each' 'copies, 90 transforms each' 'copies, nothing but rotate 1' \
-    lights 'expressions, a token a byte' 'expressions of names' 'expressions in parentheses' 'conditions, 100 deep' \
-    comments blanks; do
+    lights 'expressions, a token a byte' 'expressions of names' 'expressions of lower-case names' \
+    'expressions in parentheses' 'conditions, 100 deep' comments blanks; do
     text "$kind" >"$folder/text.pscn"
     reading "$kind" "$folder/text.pscn"
   done
