@@ -215,7 +215,8 @@ static enum status place(const struct atomic_file *file, bool alone, const atomi
     return file->bytes == NULL ? STATUS_OK : write_through(target, file->bytes, file->size, stop, out_errno);
   if (target->exists && !alone)
     staged->old = temporary_name(target, target->path, NULL); /* a file system without links keeps none */
-  staged->placed = file->bytes != NULL ? replace(staged) : !target->exists || unlink(target->path) == 0;
+  if (file->bytes != NULL) staged->placed = replace(staged);
+  else staged->placed = !target->exists || unlink(target->path) == 0 || errno == ENOENT; /* it has gone by itself */
   if (staged->placed) return STATUS_OK;
   *out_errno = errno;
   return STATUS_FILE;

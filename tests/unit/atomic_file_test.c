@@ -273,6 +273,20 @@ static void several_files_appear_together(void **state)
   assert_int_equal(count_entries(), 3);
 }
 
+/* What is to go and has gone meanwhile, by another process, is no failure: here the file before it has taken it away. */
+static void a_file_may_go_twice(void **state)
+{
+  (void)state;
+  const struct atomic_file files[] = {{"first", "new", 3}, {"gone", NULL, 0}, {"gone", NULL, 0}};
+  size_t failed;
+  int reason;
+  put("first", "old");
+  put("gone", "old");
+  assert_int_equal(atomic_files_write(files, 3, NULL, &failed, &reason), STATUS_OK);
+  assert_int_equal(count_entries(), 1);
+  expect_text("first", "new");
+}
+
 /* The same where a name cannot be given in the end. */
 static void a_failing_name_undoes_those_before(void **state)
 {
@@ -302,7 +316,8 @@ int main(void)
     IN_FOLDER(symbolic_link_is_followed),           IN_FOLDER(impossible_names_have_their_reasons),
     IN_FOLDER(device_is_written_to_not_replaced),   IN_FOLDER(stopped_write_leaves_the_old_file),
     IN_FOLDER(a_signal_ends_the_wait_for_a_reader), IN_FOLDER(unfinished_files_are_private),
-    IN_FOLDER(several_files_appear_together),       IN_FOLDER(a_failing_name_undoes_those_before),
+    IN_FOLDER(several_files_appear_together),       IN_FOLDER(a_file_may_go_twice),
+    IN_FOLDER(a_failing_name_undoes_those_before),
   };
   const int failed = cmocka_run_group_tests_name("files without a name", tests, NULL, NULL);
   no_unnamed = true;
