@@ -11,6 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export LC_ALL=C
 
 count=${1:?how many teapots?}
+case $count in *[!0-9]*) echo "$0: '$count' is no number of teapots" >&2 && exit 2 ;; esac
 awk -v n="$count" '
   function teapots(k) {
     for (k = 0; k < n; k++)

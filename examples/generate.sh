@@ -16,6 +16,7 @@ export LC_ALL=C
 
 kind=${1:?hair, ribbons, creature, knots, confetti or shells?}
 count=${2:?how many patches?}
+case $count in *[!0-9]*) echo "$0: '$count' is no number of patches" >&2 && exit 2 ;; esac
 case $kind in hair | ribbons | creature | knots | confetti | shells) ;; *) echo "$0: there is no '$kind'" >&2 && exit 2 ;; esac
 awk -v kind="$kind" -v n="$count" '
   # A generator of its own: the same scene wherever awk runs.
