@@ -116,23 +116,38 @@ static bool turn_frame(struct language *language, const struct camera_items *ite
   return false;
 }
 
-static bool fold_frame(struct language *language, const struct camera_items *items, struct camera_frame *frame)
+/* The vectors as a frame; false, told, where one is zero. */
+static bool make_frame(struct language *language, struct span place, const double direction[3], const double right[3],
+                       const double up[3], struct camera_frame *out)
 {
-  frame->direction_length = unit(items->item[CAMERA_DIRECTION], frame->direction);
-  frame->right_length = unit(items->item[CAMERA_RIGHT], frame->right);
-  frame->up_length = unit(items->item[CAMERA_UP], frame->up);
-  if (!(frame->direction_length > 0 && frame->right_length > 0 && frame->up_length > 0)) {
-    language_error(language, items->block.place, "the camera's direction, right and up must not be zero");
-    return false;
-  }
-  if (items->angle > 0)
-    frame->direction_length = 0.5 * frame->right_length / tan(0.5 * items->angle * RADIANS_A_DEGREE);
-  if (items->look_at && !turn_frame(language, items, frame)) return false;
+  out->direction_length = unit(direction, out->direction);
+  out->right_length = unit(right, out->right);
+  out->up_length = unit(up, out->up);
+  if (out->direction_length > 0 && out->right_length > 0 && out->up_length > 0) return true;
+  language_error(language, place, "the camera's direction, right and up must not be zero");
+  return false;
+}
+
+/* Whether the frame spans the space; told where not. */
+static bool spans(struct language *language, struct span place, const struct camera_frame *frame)
+{
   double cross[3];
   vector_cross(frame->right, frame->up, cross);
   if (fabs(vector_dot(cross, frame->direction)) > FLAT) return true;
-  language_error(language, items->block.place, "the camera's direction, right and up lie in one plane");
+  language_error(language, place, "the camera's direction, right and up lie in one plane");
   return false;
+}
+
+static bool fold_frame(struct language *language, const struct camera_items *items, struct camera_frame *frame)
+{
+  const struct span place = items->block.place;
+  if (!make_frame(language, place, items->item[CAMERA_DIRECTION], items->item[CAMERA_RIGHT], items->item[CAMERA_UP],
+                  frame))
+    return false;
+  if (items->angle > 0)
+    frame->direction_length = 0.5 * frame->right_length / tan(0.5 * items->angle * RADIANS_A_DEGREE);
+  if (items->look_at && !turn_frame(language, items, frame)) return false;
+  return spans(language, place, frame);
 }
 
 bool camera_fold(struct language *language, const struct camera_items *items, struct scene_camera *out)
@@ -157,6 +172,11 @@ bool camera_fold(struct language *language, const struct camera_items *items, st
   for (int k = 0; k < 3; k++)
     finite &= isfinite(out->location[k]) && isfinite(out->direction[k]) && isfinite(out->right[k]) &&
               isfinite(out->up[k]);
-  if (!finite) language_error(language, items->block.place, "the camera's vectors are too large for numbers");
-  return finite;
+  if (!finite) {
+    language_error(language, items->block.place, "the camera's vectors are too large for numbers");
+    return false;
+  }
+  /* What a number is too small for is 0 by now, and a transform may have left nothing but what all three share. */
+  return make_frame(language, items->block.place, out->direction, out->right, out->up, &frame) &&
+         spans(language, items->block.place, &frame);
 }
