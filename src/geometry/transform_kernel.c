@@ -132,28 +132,40 @@ static struct double_double cosine(struct double_double s)
   return dd_normal(root, ((square.hi - back.hi) - back.lo + square.lo) / (2 * root));
 }
 
-/* Exact at multiples of 90 degrees. */
-static void sine_cosine(double degrees, struct transform_angle *out)
+/* An angle has one place, by its bits (Knuth, The Art of Computer Programming 3, 6.4, multiplicative hashing). */
+static struct transform_angle *place_of(double degrees, struct transform_angles *angles)
 {
-  static const struct double_double radians_a_degree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
-  int quarters;
-  const double rest = remquo(degrees, 90, &quarters); /* exact, |rest| <= 45 */
-  const struct double_double s = sine(dd_scale(radians_a_degree, rest)), c = cosine(s);
-  out->degrees = degrees;
-  switch (quarters & 3) {
-  case 0: out->sine = s, out->cosine = c; break;
-  case 1: out->sine = c, out->cosine = dd_negate(s); break;
-  case 2: out->sine = dd_negate(s), out->cosine = dd_negate(c); break;
-  default: out->sine = dd_negate(c), out->cosine = s; break;
-  }
+  return &angles->known[real_bits(degrees) * UINT64_C(0x9e3779b97f4a7c15) >> (64 - TRANSFORM_ANGLE_BITS)];
 }
 
-/* An angle has one place, by its bits (Knuth, The Art of Computer Programming 3, 6.4, multiplicative hashing). */
+/* Of at most 45 degrees. */
+static struct transform_angle small_angle(double degrees, struct transform_angles *angles)
+{
+  static const struct double_double radians_a_degree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
+  struct transform_angle *angle = place_of(degrees, angles);
+  if (angle->degrees != degrees || degrees == 0) {
+    angle->degrees = degrees;
+    angle->sine = sine(dd_scale(radians_a_degree, degrees));
+    angle->cosine = cosine(angle->sine);
+  }
+  return *angle;
+}
+
+/* Exact at multiples of 90 degrees. Of many angles, as those of whole degrees, few are left when quarters are taken off. */
 static struct transform_angle known_angle(double degrees, struct transform_angles *angles)
 {
-  const uint64_t place = real_bits(degrees) * UINT64_C(0x9e3779b97f4a7c15) >> (64 - TRANSFORM_ANGLE_BITS);
-  struct transform_angle *angle = &angles->known[place];
-  if (angle->degrees != degrees) sine_cosine(degrees, angle);
+  struct transform_angle *angle = place_of(degrees, angles);
+  if (angle->degrees == degrees) return *angle;
+  int quarters;
+  const struct transform_angle rest = small_angle(remquo(degrees, 90, &quarters), angles); /* exact */
+  const struct double_double s = rest.sine, c = rest.cosine;
+  angle->degrees = degrees;
+  switch (quarters & 3) {
+  case 0: angle->sine = s, angle->cosine = c; break;
+  case 1: angle->sine = c, angle->cosine = dd_negate(s); break;
+  case 2: angle->sine = dd_negate(s), angle->cosine = dd_negate(c); break;
+  default: angle->sine = dd_negate(c), angle->cosine = s; break;
+  }
   return *angle;
 }
 

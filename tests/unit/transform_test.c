@@ -70,6 +70,19 @@ static void quarters_are_exact(void **state)
   }
 }
 
+/* What is kept of other angles, a quarter more or less, changes nothing. */
+static void whole_degrees_are_what_they_are_alone(void **state)
+{
+  (void)state;
+  for (int degrees = -1000; degrees <= 1000; degrees++) {
+    struct transform_angles none = {0};
+    struct transform kept, alone;
+    transform_rotation((double[]){degrees, 0, 0}, &angles, &kept);
+    transform_rotation((double[]){degrees, 0, 0}, &none, &alone);
+    assert_memory_equal(kept.A, alone.A, sizeof kept.A);
+  }
+}
+
 /* Rotations, now and then by a quarter only, and moves. */
 static struct transform some(struct random *random)
 {
@@ -132,6 +145,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(sines_and_cosines_are_right_to_their_bound),
     cmocka_unit_test(quarters_are_exact),
+    cmocka_unit_test(whole_degrees_are_what_they_are_alone),
     cmocka_unit_test(all_instruction_sets_round_alike),
     cmocka_unit_test(points_are_rounded_once),
   };
