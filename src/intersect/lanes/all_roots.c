@@ -112,7 +112,7 @@ static lane_mask all_roots_cover(const struct packet *p, const struct candidate 
   for (int k = 0; k < all->count; k++) {
     const struct newton_root *r = &all->root[k].at;
     const lane_mask proven = all->proven[k] & open;
-    if (lanes_any(proven)) known[count++] = (struct known_root){r->u, r->v, r->size, r->bend, r->off, proven};
+    if (lanes_any(proven)) known[count++] = (struct known_root){r, proven};
   }
   return cover_proves(p, it, count, known, COVER_HALVINGS, open);
 }

@@ -62,7 +62,7 @@ lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
   if (it->leaf->bent) open = stage_bilinear(p, it, open);
   if (!lanes_any(open)) return open;
   const struct newton_root *r = &it->first.at;
-  const struct known_root known = {r->u, r->v, r->size, r->bend, r->off, open & r->exists};
+  const struct known_root known = {r, open & r->exists};
   const lane_mask covered = cover_proves(p, it, 1, &known, COVER_EARLY, open);
   offer_root(p, it, &it->first, (p->any ? known.proven : covered & known.proven) & inside(r));
   return open & ~covered & p->live;

@@ -2,6 +2,7 @@
  *
  * Compiled once per instruction set.
  */
+#include <math.h>
 #include <string.h>
 
 #include "intersect/certificate.h"
@@ -22,13 +23,14 @@ struct cover_box {
  * box is small q does not outweigh the rest: M J at the root is off from 1 by 2 bend, which counts twice against a
  * bound on q, and the root by 2 (|step| + e) from where q takes it, which may make q larger by 2 bend. */
 LANES_INLINE lane_mask cover_unknown(const struct leaf *leaf, const struct cover_box *box,
-                                     const struct known_root *root, lane_mask open)
+                                     const struct known_root *known, lane_mask open)
 {
+  const struct newton_root *root = known->at;
   const lanes reach_u = lanes_max(root->u - box->u, (box->u + box->size_u) - root->u);
   const lanes reach_v = lanes_max(root->v - box->v, (box->v + box->size_v) - root->v);
   const lanes q = root->size *
                   ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
-  return open & ~(root->proven & certificate_alone(q + 6 * root->bend, root->off));
+  return open & ~(known->proven & certificate_alone(q + 6 * root->bend, root->off));
 }
 
 /* The cubic at c[0], c[stride] ... becomes its lower half. */
@@ -58,30 +60,79 @@ static void cover_split(const struct leaf *leaf, struct cover_box *box, struct c
   }
 }
 
-/* The lanes of `open` where p a + q b does not keep one sign on the net. */
-LANES_INLINE lane_mask cover_changes(const lanes a[16], const lanes b[16], lanes p, lanes q, lanes error,
-                                     lane_mask open)
+/* A polynomial on the box, and what each of its coefficients is off by. */
+struct cover_net {
+  lanes c[16], error;
+};
+
+/* p a + q b; `size` bounds the coefficients of a and b, `error` what they are off by. Three roundings of its own. */
+LANES_INLINE void cover_combine(const struct cover_box *box, lanes p, lanes q, lanes size, lanes error,
+                                struct cover_net *out)
 {
-  lanes low = p * a[0] + q * b[0], high = low;
-  for (int n = 1; n < 16; n++) {
-    const lanes value = p * a[n] + q * b[n];
-    low = lanes_min(value, low), high = lanes_max(value, high);
-  }
+  for (int n = 0; n < 16; n++) out->c[n] = p * box->a[n] + q * box->b[n];
+  out->error = (error + 8 * UNIT_ROUNDOFF * size) * (lanes_abs(p) + lanes_abs(q));
+}
+
+/* The lanes of `open` where it does not keep one sign. */
+LANES_INLINE lane_mask cover_changes(const lanes c[16], lanes error, lane_mask open)
+{
+  lanes low = c[0], high = low;
+  for (int n = 1; n < 16; n++) low = lanes_min(c[n], low), high = lanes_max(c[n], high);
   return open & (low <= error) & (high >= -error);
 }
 
-/* The lanes of `open` where neither a nor b nor a combination of them keeps one sign on the box. `size` bounds the
- * coefficients, `error` what they are off by; a combination has three roundings of its own. */
-LANES_INLINE lane_mask cover_full(const struct cover_box *box, lanes size, lanes error, lane_mask open)
+/* How it grows along its own parameter at least, and changes along the other at most, as differences of neighbours. */
+LANES_INLINE void cover_slopes(const struct cover_net *net, int own, lanes *least, lanes *most)
+{
+  const int other = 5 - own;
+  lanes grows = lanes_all(INFINITY), moves = lanes_all(0);
+  for (int n = 0; n < 12; n++) {
+    const int at = n / 3, k = n % 3;
+    grows = lanes_min(net->c[other * at + own * (k + 1)] - net->c[other * at + own * k], grows);
+    moves = lanes_max(lanes_abs(net->c[own * at + other * (k + 1)] - net->c[own * at + other * k]), moves);
+  }
+  *least = grows - 2 * net->error, *most = moves + 2 * net->error;
+}
+
+/* The lanes where two polynomials, that aim along u and v, take no pair of values twice: from one point to another they
+ * change by their derivatives, averaged on the way, times it; those are within their differences, three times over, and
+ * so no singular matrix, its diagonal's product being larger than that of the other elements. */
+LANES_INLINE lane_mask cover_one_to_one(const struct cover_net *along_u, const struct cover_net *along_v)
+{
+  lanes least_u, least_v, most_u, most_v;
+  cover_slopes(along_u, 4, &least_u, &most_u);
+  cover_slopes(along_v, 1, &least_v, &most_v);
+  return (least_u > 0) & (least_v > 0) & (least_u * least_v > (1 + 8 * UNIT_ROUNDOFF) * (most_u * most_v));
+}
+
+/* The lanes where a proven root is in the box. */
+LANES_INLINE lane_mask cover_holds(const struct cover_box *box, const struct known_root *known)
+{
+  const struct newton_root *root = known->at;
+  return known->proven & (root->u - root->radius_u >= box->u) & (root->u + root->radius_u <= box->u + box->size_u) &
+         (root->v - root->radius_v >= box->v) & (root->v + root->radius_v <= box->v + box->size_v);
+}
+
+/* The lanes of `open` where neither a nor b nor one of two combinations, which aim along the box's parameters, keeps one sign
+ * on the box, nor both together have no value twice while one of the roots is there. */
+LANES_INLINE lane_mask cover_full(const struct cover_box *box, int count, const struct known_root roots[], lanes size,
+                                  lanes error, lane_mask open)
 {
   const lanes *a = box->a, *b = box->b;
-  const lanes au = (a[13] + a[14]) - (a[1] + a[2]), av = (a[7] + a[11]) - (a[4] + a[8]);
-  const lanes bu = (b[13] + b[14]) - (b[1] + b[2]), bv = (b[7] + b[11]) - (b[4] + b[8]);
-  const lanes e = error + 8 * UNIT_ROUNDOFF * size, one = lanes_all(1), none = lanes_all(0);
-  open = cover_changes(a, b, bv, -av, e * (lanes_abs(bv) + lanes_abs(av)), open);
-  if (lanes_any(open)) open = cover_changes(a, b, -bu, au, e * (lanes_abs(au) + lanes_abs(bu)), open);
-  if (lanes_any(open)) open = cover_changes(a, b, one, none, error, open);
-  if (lanes_any(open)) open = cover_changes(a, b, none, one, error, open);
+  lanes au = (a[13] + a[14]) - (a[1] + a[2]), av = (a[7] + a[11]) - (a[4] + a[8]);
+  lanes bu = (b[13] + b[14]) - (b[1] + b[2]), bv = (b[7] + b[11]) - (b[4] + b[8]);
+  const lane_mask turned = au * bv < av * bu;
+  struct cover_net along_u, along_v;
+  cover_combine(box, lanes_select(turned, -bv, bv), lanes_select(turned, av, -av), size, error, &along_u);
+  open = cover_changes(along_u.c, along_u.error, open);
+  if (!lanes_any(open)) return open;
+  cover_combine(box, lanes_select(turned, bu, -bu), lanes_select(turned, -au, au), size, error, &along_v);
+  open = cover_changes(along_v.c, along_v.error, open);
+  lane_mask holds = {0};
+  for (int k = 0; k < count; k++) holds |= cover_holds(box, &roots[k]);
+  if (lanes_any(open & holds)) open &= ~(holds & cover_one_to_one(&along_u, &along_v));
+  if (lanes_any(open)) open = cover_changes(a, error, open);
+  if (lanes_any(open)) open = cover_changes(b, error, open);
   return open;
 }
 
@@ -108,6 +159,11 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
   while (top > 0) {
     struct cover_box *box = &stack[--top];
     box->open &= open;
+    for (int k = 0; k < count; k++) box->open = cover_unknown(it->leaf, box, &roots[k], box->open);
+    /* each halving adds three roundings, of values of the leaf's size */
+    const lanes error = it->line->error + box->halvings * 4 * UNIT_ROUNDOFF * size;
+    if (lanes_any(box->open)) box->open = cover_full(box, count, roots, size, error, box->open);
+    if (lanes_any(box->open)) box->open = cover_seen(p, it, box, box->open);
     if (!lanes_any(box->open)) continue;
     splits -= lanes_select(box->open, lanes_all(1), lanes_all(0));
     open &= ~(box->open & (splits < 0));
@@ -115,17 +171,7 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
     box->open &= open;
     if (!lanes_any(box->open)) continue;
     cover_split(it->leaf, box, box + 1);
-    /* each halving adds three roundings, of values of the leaf's size */
-    const lanes error = it->line->error + box->halvings * 4 * UNIT_ROUNDOFF * size;
-    for (int h = 0; h < 2; h++) {
-      struct cover_box *half = box + h;
-      for (int k = 0; k < count; k++) half->open = cover_unknown(it->leaf, half, &roots[k], half->open);
-      if (lanes_any(half->open)) half->open = cover_full(half, size, error, half->open);
-      if (lanes_any(half->open)) half->open = cover_seen(p, it, half, half->open);
-      if (!lanes_any(half->open)) continue;
-      if (half != &stack[top]) stack[top] = *half;
-      top++;
-    }
+    top += 2;
   }
   p->postponed->splits -= given - splits;
   return open;

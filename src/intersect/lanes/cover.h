@@ -1,9 +1,10 @@
 /* Whether known roots are all that a leaf has: on all lanes at once, by boxes that cover it.
  *
  * Internal to src/intersect/lanes. A box of parameters is cleared where a plane polynomial or one of the combinations
- * that aim along u and v keeps one sign on its net (as planes.c does with the leaf's), or where a proven root is alone
- * on the box and itself together, by the certificate, or where no root would be between the ends of the ray. Other
- * boxes are halved. What exact/search.c does for one ray in the last resort; this ends most cases before.
+ * that aim along u and v keeps one sign on its net (as planes.c does with the leaf's), or where a proven root is alone:
+ * on the box and itself together, by the certificate, or, where it is in the box, by the differences of those nets; or
+ * where no root would be between the ends of the ray. Other boxes are halved. What exact/search.c does for one ray in
+ * the last resort; this ends most cases before.
  */
 #ifndef PSCN_INTERSECT_LANES_COVER_H
 #define PSCN_INTERSECT_LANES_COVER_H
@@ -16,7 +17,7 @@ enum { COVER_EARLY = 8, COVER_HALVINGS = 16 };
 
 /* A proven root of every lane, in the order they were found. */
 struct known_root {
-  lanes u, v, size, bend, off; /* newton.h */
+  const struct newton_root *at;
   lane_mask proven;
 };
 

@@ -134,7 +134,7 @@ static lane_mask resultant_cover(struct packet *p, const struct candidate *it, c
 {
   const struct newton_root *r = &root->at;
   const lane_mask proven = open & r->exists, more = open & (it->variations >= 2);
-  struct known_root known[2] = {{r->u, r->v, r->size, r->bend, r->off, proven}};
+  struct known_root known[2] = {{r, proven}};
   struct leaf_root second;
   struct newton_root *other = &second.at;
   other->exists = (lane_mask){0};
@@ -143,7 +143,7 @@ static lane_mask resultant_cover(struct packet *p, const struct candidate *it, c
     const lane_mask apart = ~proven | (lanes_abs(r->u - other->u) > r->radius_u + other->radius_u + UNIT_ROUNDOFF) |
                             (lanes_abs(r->v - other->v) > r->radius_v + other->radius_v + UNIT_ROUNDOFF);
     other->exists &= more & apart;
-    known[1] = (struct known_root){other->u, other->v, other->size, other->bend, other->off, other->exists};
+    known[1] = (struct known_root){other, other->exists};
   }
   /* Where neither is proven the ray nearly touches the leaf, and boxes would do one time in ten. A choice of speed. */
   open &= proven | other->exists;
