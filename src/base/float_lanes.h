@@ -102,6 +102,9 @@ LANES_INLINE four_floats four_floats_abs(four_floats a)
   return (four_floats)((four_mask)a & (INT32_MAX - (four_mask){0}));
 }
 
+/* Lanes 1, 2, 0 of x, in this order; the last one is its own. */
+LANES_INLINE four_floats four_floats_next(four_floats x) { return __builtin_shufflevector(x, x, 1, 2, 0, 3); }
+
 LANES_INLINE unsigned four_mask_bits(four_mask mask)
 {
 #if defined(LANES_OP)

@@ -72,15 +72,15 @@ struct leaf_parts {
 
 #define LEAF_GRAIN 0x1p-24
 
-/* The leaf's net lies where |g_q x - offset_q| <= half_q for three covectors g_q (the normal in its middle, and the
- * two that run with its parameters): a box along the leaf. */
-struct leaf_slabs {
-  double g[3][3], offset[3], half[3];
-  double slack; /* 16 times the largest product of the covectors' sizes |g_x| + |g_y| + |g_z| */
+/* The leaf's net lies where |g x - offset| <= half; |g_x| + |g_y| + |g_z| = 1, but for rounding. Of a leaf whose middle has no
+ * normal g is 0 and half infinite. */
+struct leaf_slab {
+  double g[3], offset, half;
 };
 
 struct leaf {
-  struct leaf_slabs slabs;
+  /* a box along the leaf: across the normal in its middle, and the two that run with its parameters */
+  struct leaf_slab slab[3];
   uint32_t patch;
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split[0] in u, and so on */
   uint8_t kept_degree, eliminated_degree;
@@ -93,6 +93,14 @@ struct leaf {
   struct leaf_parts parts;
   double x[3][16];              /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
+};
+
+/* A leaf's slabs in the frame of its tree, for a walk to look at before the leaf: as floats, a line of the processor's caches.
+ * What rounding moves is for the ray's side to allow (lanes/view.h). */
+struct oriented_box {
+  float g[3][3]; /* g[k][q]: component k of slab q's */
+  float offset[3], half[3];
+  float unused;
 };
 
 /* Which part of which patch a leaf is. */
@@ -147,6 +155,7 @@ struct model {
   struct model_cut *cuts;
   struct model_patch *patches;       /* NULL where they are not kept, */
   struct leaf *leaves;               /* nor are the leaves then, */
+  struct oriented_box *oriented;     /* and their boxes, */
   struct leaf_place *places;         /* but where they are; else NULL */
   struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h; none of `twin` ones */
   /* patches that lie exactly on an earlier one (geometry/twins.h), an object's wherever it is copied: never the nearest;

@@ -77,7 +77,7 @@ static void trial_close(struct trial *trial)
 
 static void assert_same_leaf(const struct leaf *a, const struct leaf *b)
 {
-  SAME(a, b, slabs);
+  SAME(a, b, slab);
   SAME(a, b, x);
   SAME(a, b, second);
   SAME(a, b, first);
@@ -106,6 +106,8 @@ static void assert_same(const struct model *a, const struct model *b)
     if (a->patches) SAME(&a->patches[p], &b->patches[p], x);
     if (a->patches) assert_memory_equal(a->patches[p].rest, b->patches[p].rest, sizeof(double[3][4][4]));
   }
+  assert_true(!a->oriented == !b->oriented);
+  for (size_t l = 0; a->oriented && l < a->leaf_count; l++) SAME(a, b, oriented[l].g), SAME(a, b, oriented[l].half);
   for (size_t k = 0; k < 4 * count; k++) {
     const struct edge_neighbour *m = &a->neighbours[k], *n = &b->neighbours[k];
     assert_true(m->patch == n->patch && m->border == n->border && m->reversed == n->reversed);

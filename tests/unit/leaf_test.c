@@ -161,9 +161,9 @@ static void leaf_is_its_part(struct random *random, int kind, const struct model
       worst_slope = fmax(worst_slope, sqrt(slope[side]) / leaf.first[side]);
     const bool within = u >= 0 && u <= 1 && v >= 0 && v <= 1;
     for (int q = 0; q < 3 && within; q++) {
-      const double *g = leaf.slabs.g[q];
-      const double off = fabs(g[0] * x[0] + g[1] * x[1] + g[2] * x[2] - leaf.slabs.offset[q]);
-      worst_slab = fmax(worst_slab, off / leaf.slabs.half[q]);
+      const double *g = leaf.slab[q].g;
+      const double off = fabs(g[0] * x[0] + g[1] * x[1] + g[2] * x[2] - leaf.slab[q].offset);
+      worst_slab = fmax(worst_slab, off / leaf.slab[q].half);
     }
   }
 }

@@ -11,7 +11,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
 {
   const struct model_patch *patch = it->patch;
   uint64_t *entered = p->tracer->counts.stages;
-  open = stage_box(p, it, open);
+  open = stage_slab(p, it, open);
   p->postponed->leaves += open; /* -1 each */
   const lane_mask worn = open & (p->postponed->leaves < 0);
   if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn)), open &= ~worn;
@@ -70,28 +70,11 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
  * proves no root, and the last resort looks at most of the patch in any case. */
 #define BLIND 0x1p-5
 
-/* So few rays are on their own, or start where others do not: their leaf is hardly one that was tried lately. */
-enum { FEW = 2, CACHE_LINE = 64 };
-
-/* What stage_bilinear reads is brought from memory while stage_box works. */
-static void fetch_parts(const struct leaf *leaf)
-{
-  const char *parts = (const char *)&leaf->parts;
-  for (size_t at = 0; at < sizeof leaf->parts; at += CACHE_LINE) __builtin_prefetch(parts + at);
-}
-
-void packet_leaf(struct packet *p, uint32_t index, lane_mask active)
+void packet_leaf(struct packet *p, const struct leaf *leaf, const struct model_patch *patch, uint32_t number,
+                 lane_mask active)
 {
   struct candidate it;
-  struct leaf_room room;
-  if (p->model->leaves) {
-    it.leaf = &p->model->leaves[index], it.patch = &p->model->patches[it.leaf->patch];
-  } else {
-    const struct leaf_room *made = tracer_leaf(p->tracer, index, &room);
-    it.leaf = &made->leaf, it.patch = &made->of.patch;
-  }
-  it.number = index;
-  if (lanes_count(active) <= FEW) fetch_parts(it.leaf);
+  it.leaf = leaf, it.patch = patch, it.number = number;
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {
     it.axis = __builtin_ctz(bits), it.line = &p->line[it.axis];

@@ -1,4 +1,4 @@
-/* One candidate: a leaf and the rays of a packet whose boxes it passes, on the lanes that share a dominant axis.
+/* One candidate: a leaf and the rays of a packet that may pass its boxes, on the lanes that share a dominant axis.
  *
  * Internal to src/intersect/lanes. A candidate passes a line of stages, which candidate.c shows. All stages have one
  * shape: they take the lanes that are still open, may offer roots (nearest.h), and return the lanes that are open
@@ -32,9 +32,9 @@ struct candidate {
   lanes variations; /* sign variations of c, at most; -1 where they are not counted */
 };
 
-/* planes.c: the box along the leaf; closed where the ray passes it by, or it lies before the ray's start or behind its end or
+/* planes.c: the slab across the leaf, to the last places; closed where it lies before the ray's start or behind its end or
  * nearest hit. */
-lane_mask stage_box(const struct packet *p, struct candidate *it, lane_mask open);
+lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open);
 
 /* bilinear.c: the root of the leaf's bilinear part, from a resultant of degree 2, made good by Newton's process on the
  * leaf. Open stays where the ray is so slanted that it is not proven to be the only one. Leaves that are bent are not

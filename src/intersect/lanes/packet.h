@@ -136,8 +136,9 @@ LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct mo
   return (away >= least * patch->scale) & (away <= FAR_START * patch->scale);
 }
 
-/* candidate.c: tries the leaf on the lanes of `active`, and keeps what is nearer than the best. */
-void packet_leaf(struct packet *p, uint32_t index, lane_mask active);
+/* candidate.c: tries the leaf, of that patch and number, on the lanes of `active`, and keeps what is nearer than the best. */
+void packet_leaf(struct packet *p, const struct leaf *leaf, const struct model_patch *patch, uint32_t number,
+                 lane_mask active);
 
 /* nearest.c: leaves what is open of the leaf, or of the same leaf of a copy, to the last resort (exact.h). */
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open);

@@ -1,4 +1,4 @@
-/* Two stages: the box along a leaf, and its plane polynomials (paper eq 2 and 3).
+/* Two stages: the slab across a leaf, and its plane polynomials (paper eq 2 and 3).
  *
  * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
  */
@@ -7,45 +7,25 @@
 /* All of a patch is within |w| < 1 in its frame: a ray is not looked at beyond this. */
 #define FRAME_END 2.0
 
-/* Lanes whose ray may be in the slab across the leaf's normal, |a + b w| <= half, between its ends, the nearest hit being one
- * of them. With |g| < 2: a is off by less than 4.5 e, b w by 16u, w by its two roundings and that of the start, what is made
- * of them by 1.5 e + 12u, the net by 64u; u < e/72. */
-LANES_INLINE lane_mask slab_met(const struct packet *p, const struct candidate *it, lanes a, lanes b)
+/* On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the slab's form is a + b w. With e the bound on a plane's error
+ * (local_ray.h), u < e/72: a is off by less than 2.5 e, b w by 8u, w by its two roundings and that of the start, what is made
+ * of them by e + 6u, the net by 32u. */
+lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open)
 {
+  const struct leaf_slab *slab = &it->leaf->slab[0];
+  const int k = it->axis, i = (k + 1) % 3, j = (k + 2) % 3;
   const struct line *line = it->line;
-  const lanes along = p->direction[it->axis] * (1 / it->patch->scale), start = line->start[0];
-  const lanes out = it->leaf->slabs.half[0] + 10 * line->error +
+  const lanes a = slab->g[i] * line->moment[0] + (slab->g[j] * line->moment[1] - slab->offset);
+  const lanes b = slab->g[i] * line->slope[0] + (slab->g[j] * line->slope[1] + slab->g[k]);
+  const lanes along = p->direction[k] * (1 / it->patch->scale), start = line->start[0];
+  const lanes out = slab->half + 10 * line->error +
                     2 * (p->t_error * lanes_abs(along) + 16 * UNIT_ROUNDOFF * lanes_abs(start));
   lanes at[2];
   for (int end = 0; end < 2; end++) {
     const lanes w = (end ? p->t_far : p->t_min) * along - start;
     at[end] = a + b * lanes_min(lanes_max(w, lanes_all(-FRAME_END)), lanes_all(FRAME_END));
   }
-  return ~((lanes_min(at[0], at[1]) > out) | (lanes_max(at[0], at[1]) < -out));
-}
-
-/* Lanes whose ray may pass the box along the leaf. On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the
- * slabs' forms are A + B w; two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With
- * e the bound on a plane's error (local_ray.h), A is off by 2 |g| e and B by 4u |g|, where |A| u <= |g| e/4 and |B|
- * <= |g|: the products by 8 |g_q| |g_r| e in all, and the right side by less than that. */
-lane_mask stage_box(const struct packet *p, struct candidate *it, lane_mask active)
-{
-  const struct leaf_slabs *slabs = &it->leaf->slabs;
-  const int k = it->axis, i = (k + 1) % 3, j = (k + 2) % 3;
-  const struct line *line = it->line;
-  lanes a[3], b[3], size[3];
-  for (int q = 0; q < 3; q++) {
-    const double *g = slabs->g[q];
-    a[q] = g[i] * line->moment[0] + (g[j] * line->moment[1] - slabs->offset[q]);
-    b[q] = g[i] * line->slope[0] + (g[j] * line->slope[1] + g[k]);
-    size[q] = lanes_abs(b[q]);
-  }
-  const lanes error = slabs->slack * line->error;
-  for (int q = 0; q < 3; q++) {
-    const int r = (q + 1) % 3;
-    active &= ~(lanes_abs(a[q] * b[r] - a[r] * b[q]) > slabs->half[q] * size[r] + (slabs->half[r] * size[q] + error));
-  }
-  return lanes_any(active) ? active & slab_met(p, it, a[0], b[0]) : active;
+  return open & ~((lanes_min(at[0], at[1]) > out) | (lanes_max(at[0], at[1]) < -out));
 }
 
 /* Lanes on which neither polynomial keeps one sign on the whole net. */

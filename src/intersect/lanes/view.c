@@ -60,29 +60,31 @@ LANES_INLINE void set(struct view *view, const struct packet packet[], int packe
 {
   view->alike = view->apart = true;
   const double to_frame = 1 / tree->frame; /* a power of two */
-  lanes low[3][2], high[3][2], along[3][2];
+  lanes low[3][2], high[3][2], along[3][2], from[3][2], widen[2];
   const int last = packets - 1;
   for (int h = 0; h <= last; h++) {
     const struct packet *p = &packet[h];
     const lanes shrink = 1 / p->longest;
-    lanes from[3], slack[3], direction[3], farthest = {0};
+    lanes at[3], slack[3], direction[3], farthest = {0};
     for (int k = 0; k < 3; k++) {
       along[k][h] = direction[k] = p->direction[k] * shrink;
-      from[k] = (p->origin[k] - tree->origin[k]) * to_frame;
+      at[k] = (p->origin[k] - tree->origin[k]) * to_frame;
       slack[k] = START_ROUNDOFF * (lanes_abs(p->origin[k]) + fabs(tree->origin[k])) * to_frame;
-      farthest = lanes_max(lanes_abs(from[k]), farthest);
+      farthest = lanes_max(lanes_abs(at[k]), farthest);
     }
     view->unit[h] = p->longest * to_frame;
     /* No ray is in the frame before this depth: its dominant coordinate is outside. */
     lanes start = lanes_max(p->t_min * view->unit[h], -(farthest + 2));
-    if (lanes_any(farthest > FRAME_NEAR)) start = lanes_max(frame_entry(from, slack, direction), start);
-    for (int k = 0; k < 3; k++) from[k] += start * direction[k], slack[k] += 8 * UNIT_ROUNDOFF * lanes_abs(start);
+    if (lanes_any(farthest > FRAME_NEAR)) start = lanes_max(frame_entry(at, slack, direction), start);
+    for (int k = 0; k < 3; k++) at[k] += start * direction[k], slack[k] += 8 * UNIT_ROUNDOFF * lanes_abs(start);
     const lane_mask far = ~(farthest <= FRAME_FAR);
-    if (lanes_any(far)) come_near(p, tree, far, from, slack, &start);
+    if (lanes_any(far)) come_near(p, tree, far, at, slack, &start);
     view->start[h] = start;
+    widen[h] = lanes_all(0);
     for (int k = 0; k < 3; k++) {
-      slack[k] += ORIGIN_SLACK * (1 + lanes_abs(from[k]));
-      low[k][h] = from[k] + slack[k], high[k][h] = from[k] - slack[k];
+      slack[k] += ORIGIN_SLACK * (1 + lanes_abs(at[k]));
+      low[k][h] = at[k] + slack[k], high[k][h] = at[k] - slack[k], from[k][h] = at[k];
+      widen[h] = lanes_max(slack[k], widen[h]);
     }
   }
   for (int k = 0; k < 3; k++) {
@@ -92,12 +94,13 @@ LANES_INLINE void set(struct view *view, const struct packet packet[], int packe
     const float_lanes to_low = float_lanes_join(low[k][0], low[k][last]) * -inverse;
     const float_lanes to_high = float_lanes_join(high[k][0], high[k][last]) * -inverse;
     const unsigned down = float_lanes_bits(d < 0);
-    view->inverse[k] = inverse;
+    view->inverse[k] = inverse, view->from[k] = float_lanes_join(from[k][0], from[k][last]), view->along[k] = d;
     view->early[k] = float_lanes_min(to_low, to_high), view->late[k] = float_lanes_max(to_low, to_high);
     const bool same = down == 0 || down == ALL_RAYS;
     view->alike &= same, view->apart &= !same;
     sides_set(&view->sides, k, down != 0);
   }
+  view->widen = WIDE_SLACKS * float_lanes_join(widen[0], widen[last]);
 }
 
 #if LANES == 4
@@ -124,8 +127,12 @@ static bool set_one(struct view *view, const struct packet *p, const struct mode
   const four_floats inverse = four_floats_select(four_floats_abs(way) > 1 / HUGE_INVERSE, 1 / way, huge);
   const four_floats to_low = low * -inverse, to_high = high * -inverse;
   const four_floats early = four_floats_min(to_low, to_high), late = four_floats_max(to_low, to_high);
-  for (int k = 0; k < 3; k++)
+  const four_floats at = __builtin_convertvector(from, four_floats);
+  for (int k = 0; k < 3; k++) {
     view->inverse[k][0] = inverse[k], view->early[k][0] = early[k], view->late[k][0] = late[k];
+    view->from[k][0] = at[k], view->along[k][0] = way[k];
+  }
+  view->widen[0] = WIDE_SLACKS * (float)real_max(real_max(slack[0], slack[1]), slack[2]);
   view->start[0][0] = start, view->unit[0][0] = unit;
   view->apart = view->alike = false;
   return true;

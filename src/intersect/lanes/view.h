@@ -30,10 +30,12 @@ struct sides {
  * + early to c inverse + late. */
 struct view {
   float_lanes inverse[3], early[3], late[3];
-  float_lanes far;         /* where the rays end, by view_set_ends */
-  lanes start[2], unit[2]; /* of each packet: depth = t unit - start */
-  bool apart;              /* along each axis some rays go up and some down */
-  bool alike;              /* all rays enter boxes by the same sides: */
+  float_lanes far;               /* where the rays end, by view_set_ends */
+  lanes start[2], unit[2];       /* of each packet: depth = t unit - start */
+  float_lanes from[3], along[3]; /* a ray's point at a depth: from + along depth */
+  float_lanes widen;             /* oriented boxes are wider by so much for it */
+  bool apart;                    /* along each axis some rays go up and some down */
+  bool alike;                    /* all rays enter boxes by the same sides: */
   struct sides sides;
 };
 
@@ -102,6 +104,66 @@ LANES_INLINE void view_boxes(const struct view *view, const struct bvh_node *nod
 {
   if (view->alike) view_boxes_as(view, node, true, out);
   else view_boxes_unlike(view, node, out);
+}
+
+/* ---- oriented boxes ---- */
+
+/* For a box's slab |g x - offset| <= half a ray has A + B depth, A = g from - offset and B = g along. With |g| at most 1 in sum
+ * and R the largest coordinate of `from`, which is the frame's size away from all boxes at most, roundings to floats and of
+ * sums, fused or not, move A by less than 2^-21 (R + 1) and B by 2^-21: A + B depth where the ray is in the frame, its depth
+ * no more than R + 2, by 2^-20 (R + 2) in all. What is made of them is off by an eighth of that, and half is rounded as
+ * leaf_orient has it. The ray's slack (view.c) is at least 2^-22 (1 + R), and has what else `from` is off by. */
+#define WIDE_SLACKS 8
+
+/* No less than R + 2. */
+#define WIDE_REACH 0x1p19f
+
+/* More than what floats below the normal ones lose. */
+#define WIDE_LEAST 0x1p-110f
+
+/* The rays that may be in the box before their ends, as bits: two slabs have a depth in common where |A_q B_r - A_r B_q| <=
+ * half_q |B_r| + half_r |B_q|; and the slab across the leaf is met between the ray's ends. */
+LANES_INLINE unsigned view_oriented(const struct view *view, const struct oriented_box *box)
+{
+  float_lanes a[3], b[3], size[3], half[3];
+  for (int q = 0; q < 3; q++) {
+    a[q] = view->from[0] * box->g[0][q] +
+           (view->from[1] * box->g[1][q] + (view->from[2] * box->g[2][q] - box->offset[q]));
+    b[q] = view->along[0] * box->g[0][q] + (view->along[1] * box->g[1][q] + view->along[2] * box->g[2][q]);
+    size[q] = float_lanes_abs(b[q]), half[q] = view->widen + box->half[q];
+  }
+  const float_lanes end = a[0] + b[0] * float_lanes_min(view->far, view->widen * WIDE_REACH + 1);
+  float_mask out = (float_lanes_min(a[0], end) > half[0]) | (float_lanes_max(a[0], end) < -half[0]);
+  for (int q = 0; q < 3; q++) {
+    const int r = (q + 1) % 3;
+    out |= float_lanes_abs(a[q] * b[r] - a[r] * b[q]) > half[q] * size[r] + (half[r] * size[q] + WIDE_LEAST);
+  }
+  return ~float_lanes_bits(out);
+}
+
+LANES_INLINE four_floats four_floats_load(const float *from)
+{
+  four_floats x;
+  memcpy(&x, from, sizeof x);
+  return x;
+}
+
+/* The same of one of the rays, the three slabs side by side. */
+LANES_INLINE bool view_oriented_one(const struct view *view, unsigned lane, const struct oriented_box *box)
+{
+  const four_floats g0 = four_floats_load(box->g[0]), g1 = four_floats_load(box->g[1]),
+                    g2 = four_floats_load(box->g[2]);
+  const four_floats half = view->widen[lane] + four_floats_load(box->half);
+  const four_floats a = g0 * view->from[0][lane] +
+                        (g1 * view->from[1][lane] + (g2 * view->from[2][lane] - four_floats_load(box->offset)));
+  const four_floats b = g0 * view->along[0][lane] + (g1 * view->along[1][lane] + g2 * view->along[2][lane]);
+  const four_floats size = four_floats_abs(b);
+  const float reach = view->widen[lane] * WIDE_REACH + 1;
+  const four_floats end = a + b * (view->far[lane] < reach ? view->far[lane] : reach);
+  const four_mask beyond = (four_floats_min(a, end) > half) | (four_floats_max(a, end) < -half);
+  const four_floats apart = four_floats_abs(a * four_floats_next(b) - four_floats_next(a) * b);
+  const four_mask out = beyond | (apart > half * four_floats_next(size) + (four_floats_next(half) * size + WIDE_LEAST));
+  return (four_mask_bits(out) & 7) == 0;
 }
 
 LANES_INLINE struct ray_view ray_view_of(const struct view *view, unsigned lane)

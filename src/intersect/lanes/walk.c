@@ -4,6 +4,7 @@
  */
 #include "intersect/lanes/gather.h"
 #include "intersect/lanes/view.h"
+#include "intersect/prepare/leaf.h"
 
 struct bundle {
   struct packet packet[2];
@@ -59,20 +60,55 @@ LANES_INLINE bool is_twin(const struct packet *p, uint32_t index)
   return model->twin[model->leaves ? model->leaves[index].patch : model->places[index].patch];
 }
 
-/* Tries what box `index` of the tree stands for. */
+/* Those of the rays that may be in the box along a leaf. */
+LANES_INLINE unsigned leaf_passed(const struct bundle *b, const struct oriented_box *box, unsigned rays)
+{
+  if (rays & (rays - 1)) return rays & view_oriented(&b->view, box);
+  return view_oriented_one(&b->view, (unsigned)__builtin_ctz(rays), box) ? rays : 0;
+}
+
+/* The same of box `index` of the tree, where that is a leaf that is kept. */
+LANES_INLINE unsigned box_passed(const struct bundle *b, uint32_t index, unsigned rays)
+{
+  const struct model *model = b->packet[0].model;
+  return index < model->leaf_count && model->oriented ? leaf_passed(b, &model->oriented[index], rays) : rays;
+}
+
+static void bundle_try(struct bundle *b, uint32_t index, const struct leaf *leaf, const struct model_patch *patch,
+                       unsigned active)
+{
+  const unsigned all = (1u << LANES) - 1;
+  if (active & all) packet_leaf(&b->packet[0], leaf, patch, index, lanes_mask(active & all));
+  if (active >> LANES) packet_leaf(&b->packet[1], leaf, patch, index, lanes_mask(active >> LANES));
+}
+
+/* A leaf that is not kept, box and all. Out of line for the room it takes. */
+__attribute__((noinline)) static void bundle_make(struct bundle *b, const struct model_tree *tree, uint32_t index,
+                                                  unsigned active)
+{
+  struct leaf_room room;
+  struct oriented_box box;
+  const struct leaf_room *made = tracer_leaf(b->packet[0].tracer, index, &room);
+  leaf_orient(tree, b->packet[0].model->error, &made->of.patch, &made->leaf, &box);
+  active = leaf_passed(b, &box, active);
+  if (active) bundle_try(b, index, &made->leaf, &made->of.patch, active);
+}
+
+/* Tries what box `index` of the tree stands for, which is passed. */
 static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_t index, unsigned active)
 {
   const struct model *model = b->packet[0].model;
-  const unsigned all = (1u << LANES) - 1;
   if (index == MODEL_INNER) {
     bundle_inner(b, tree->inner, active);
   } else if (is_twin(&b->packet[0], index)) {
     return;
   } else if (index >= model->leaf_count) {
     bundle_copy(b, &model->copies[index - model->leaf_count], active);
+  } else if (model->leaves) {
+    const struct leaf *leaf = &model->leaves[index];
+    bundle_try(b, index, leaf, &model->patches[leaf->patch], active);
   } else {
-    if (active & all) packet_leaf(&b->packet[0], index, lanes_mask(active & all));
-    if (active >> LANES) packet_leaf(&b->packet[1], index, lanes_mask(active >> LANES));
+    bundle_make(b, tree, index, active);
   }
   bool moved = false;
   for (int h = 0; h < b->packets; h++) moved |= b->packet[h].moved, b->packet[h].moved = false;
@@ -80,19 +116,23 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
 }
 
 /* What is on the stack is wanted soon, and the rays of a large scene come by other boxes than those before them: it is
- * brought from memory meanwhile, of a leaf what its first stage reads. */
+ * brought from memory meanwhile. */
 LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, uint32_t child)
 {
   const uint32_t box = child & ~(uint32_t)BVH_LEAF;
   if (child == box) {
     __builtin_prefetch(&bvh->nodes[child]);
     __builtin_prefetch(&bvh->nodes[child].child);
-  } else if (model->leaves && box < model->leaf_count) {
-    const struct leaf *leaf = &model->leaves[box];
-    __builtin_prefetch(&leaf->slabs);
-    __builtin_prefetch(&leaf->slabs.offset);
-    __builtin_prefetch(&leaf->patch);
+  } else if (model->oriented && box < model->leaf_count) {
+    __builtin_prefetch(&model->oriented[box]);
   }
+}
+
+/* What a leaf's first stages read. */
+LANES_INLINE void fetch_leaf(const struct leaf *leaf)
+{
+  enum { CACHE_LINE = 64 };
+  for (size_t at = 0; at < offsetof(struct leaf, x); at += CACHE_LINE) __builtin_prefetch((const char *)leaf + at);
 }
 
 /* One ray on its way through what is below some node. */
@@ -100,6 +140,7 @@ struct ray_way {
   struct ray_view ray;
   unsigned lane;
   uint32_t child; /* where it is */
+  bool passed;    /* it is known that it passes that leaf's box, and the leaf has been sent for */
   size_t top;
   struct {
     float near;
@@ -110,8 +151,16 @@ struct ray_way {
 /* Four boxes at a time instead of all rays. Returns whether the ray goes on. */
 LANES_INLINE bool ray_step(struct bundle *b, const struct model_tree *tree, struct ray_way *way)
 {
-  if (way->child & (uint32_t)BVH_LEAF) {
-    bundle_leaf(b, tree, way->child & ~(uint32_t)BVH_LEAF, 1u << way->lane);
+  const uint32_t box = way->child & ~(uint32_t)BVH_LEAF;
+  if (way->child != box) {
+    const struct model *model = b->packet[0].model;
+    if (!way->passed && box_passed(b, box, 1u << way->lane)) {
+      way->passed = true;
+      if (model->leaves && box < model->leaf_count) fetch_leaf(&model->leaves[box]);
+      return true;
+    }
+    if (way->passed) bundle_leaf(b, tree, box, 1u << way->lane);
+    way->passed = false;
     if (!(b->live >> way->lane & 1)) return false;
   } else {
     const struct bvh_node *node = &tree->bvh.nodes[way->child];
@@ -135,7 +184,7 @@ LANES_INLINE bool ray_step(struct bundle *b, const struct model_tree *tree, stru
 
 LANES_INLINE void ray_begin(const struct bundle *b, uint32_t child, unsigned lane, struct ray_way *way)
 {
-  way->ray = ray_view_of(&b->view, lane), way->lane = lane, way->child = child, way->top = 0;
+  way->ray = ray_view_of(&b->view, lane), way->lane = lane, way->child = child, way->passed = false, way->top = 0;
 }
 
 /* One ray through what is below `child`. */
@@ -195,7 +244,9 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
   uint32_t child = 0;
   for (;;) {
     if (child & (uint32_t)BVH_LEAF) {
-      bundle_leaf(b, tree, child & ~(uint32_t)BVH_LEAF, rays);
+      const uint32_t box = child & ~(uint32_t)BVH_LEAF;
+      rays = box_passed(b, box, rays);
+      if (rays) bundle_leaf(b, tree, box, rays);
     } else if (__builtin_popcount(rays) <= few) {
       for (unsigned bits = rays; bits; bits &= bits - 1) ray_walk(b, tree, child, (unsigned)__builtin_ctz(bits));
     } else {

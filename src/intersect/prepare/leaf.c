@@ -122,6 +122,24 @@ void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first
   for (size_t k = 0; k < count; k++) leaves[k].bent = is_bent(&leaves[k]);
 }
 
+/* Rounded to floats, and as what they are compared with is: see view.h. */
+#define HALF_GROWTH (1 + 0x1p-20)
+
+void leaf_orient(const struct model_tree *tree, double error, const struct model_patch *patch, const struct leaf *leaf,
+                 struct oriented_box *box)
+{
+  double shift[3], most = 0;
+  for (int k = 0; k < 3; k++) shift[k] = patch->center[k] - tree->origin[k], most = real_max(most, fabs(shift[k]));
+  const double slack = LEAF_NET_ERROR * patch->scale + 8 * UNIT_ROUNDOFF * (most + patch->scale) + error;
+  for (int q = 0; q < 3; q++) {
+    const struct leaf_slab *slab = &leaf->slab[q];
+    double offset = patch->scale * slab->offset;
+    for (int k = 0; k < 3; k++) offset += slab->g[k] * shift[k], box->g[k][q] = (float)slab->g[k];
+    box->offset[q] = (float)(offset / tree->frame);
+    box->half[q] = (float)((patch->scale * slab->half + slack) / tree->frame * HALF_GROWTH);
+  }
+}
+
 void leaf_box(const struct model *model, const struct model_patch *patch, const double x[3][16], struct bvh_box *box)
 {
   for (int k = 0; k < 3; k++) {

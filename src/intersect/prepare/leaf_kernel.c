@@ -309,13 +309,13 @@ LANES_INLINE void cross(const lanes a[3], const lanes b[3], lanes out[3])
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* As struct leaf_slabs has them. */
-struct lane_slabs {
-  lanes g[3][3], offset[3], half[3], slack;
+/* As struct leaf_slab has it. */
+struct lane_slab {
+  lanes g[3], offset, half;
 };
 
-/* A net whose middle has no normal gets a box that tells nothing. */
-static void set_slabs(lane_net x[3], struct lane_slabs *out)
+/* A net whose middle has no normal gets slabs that tell nothing. */
+static void set_slabs(lane_net x[3], struct lane_slab out[3])
 {
   lanes along_u[3], along_v[3], normal[1][3];
   for (int k = 0; k < 3; k++) {
@@ -326,25 +326,21 @@ static void set_slabs(lane_net x[3], struct lane_slabs *out)
   cross(along_u, along_v, normal[0]);
   const lanes area = longest((const lanes(*)[3])normal, 1);
   const lane_mask flat = ~(area > LEAST_AREA * (square_of(along_u) + square_of(along_v)));
-  const lanes inverse = lanes_select(flat, lanes_all(0), 1 / area);
-  for (int k = 0; k < 3; k++) out->g[0][k] = inverse * normal[0][k];
-  cross(along_v, out->g[0], out->g[1]);
-  cross(out->g[0], along_u, out->g[2]);
-  lanes largest = {0};
   for (int q = 0; q < 3; q++) {
-    lanes *g = out->g[q], lo = lanes_all(INFINITY), hi = lanes_all(-INFINITY);
-    for (int k = 0; k < 3 && q > 0; k++) g[k] = inverse * g[k];
+    lanes *g = out[q].g, lo = lanes_all(INFINITY), hi = lanes_all(-INFINITY), of[3];
+    if (q == 0) memcpy(of, normal[0], sizeof of);
+    else if (q == 1) cross(along_v, out[0].g, of);
+    else cross(out[0].g, along_u, of);
+    const lanes inverse = 1 / (lanes_abs(of[0]) + lanes_abs(of[1]) + lanes_abs(of[2]));
+    for (int k = 0; k < 3; k++) g[k] = lanes_select(flat, lanes_all(0), inverse * of[k]);
     for (int n = 0; n < 16; n++) {
       const int i = n / 4, j = n % 4;
       const lanes value = g[0] * x[0][i][j] + g[1] * x[1][i][j] + g[2] * x[2][i][j];
       lo = lanes_min(lo, value), hi = lanes_max(hi, value);
     }
-    const lanes size = lanes_abs(g[0]) + lanes_abs(g[1]) + lanes_abs(g[2]);
-    out->offset[q] = 0.5 * (lo + hi);
-    out->half[q] = 0.5 * (hi - lo) + 8 * UNIT_ROUNDOFF * size; /* |x| <= 1 */
-    largest = lanes_max(largest, size);
+    out[q].offset = 0.5 * (lo + hi);
+    out[q].half = lanes_select(flat, lanes_all(INFINITY), 0.5 * (hi - lo) + 8 * UNIT_ROUNDOFF); /* |x| <= 1 */
   }
-  out->slack = lanes_select(flat, lanes_all(INFINITY), 16 * largest * largest);
 }
 
 /* ---- the face ---- */
@@ -390,15 +386,14 @@ static void parts(const struct model_patch *patch, const struct part_grid *grid,
 
 enum { LEAF = sizeof(struct leaf) / sizeof(double) };
 static_assert(sizeof(struct leaf) == LEAF * sizeof(double), "leaves are so many doubles apart");
-static_assert(sizeof(struct leaf_slabs) == sizeof(double[16]) &&
-                offsetof(struct leaf_parts, error) == sizeof(double[60]),
+static_assert(sizeof(struct leaf_slab) == sizeof(double[5]) && offsetof(struct leaf_parts, error) == sizeof(double[60]),
               "stored in a row");
 
-static void leaves_store(const struct cut *cut, const struct lane_slabs *slabs, const struct lane_parts *parts,
+static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], const struct lane_parts *parts,
                          bool exact, size_t here, struct leaf leaves[])
 {
   store(cut->x[0][0], 48, here, leaves->x[0], LEAF);
-  store(slabs->g[0], 16, here, leaves->slabs.g[0], LEAF);
+  store(slab->g, 15, here, leaves->slab->g, LEAF);
   store(parts->base, 60, here, leaves->parts.base[0], LEAF);
   for (size_t lane = 0; lane < here; lane++) {
     struct leaf *leaf = &leaves[lane];
@@ -420,15 +415,15 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
   while (count > 0) {
     const size_t here = count < LANES ? count : LANES;
     struct cut cut;
-    struct lane_slabs slabs;
+    struct lane_slab slab[3];
     struct lane_parts parts;
     lanes at[2];
     load_columns(&leaves->column_u, sizeof *leaves / sizeof leaves->column_u, here, at);
     cut_nets(&halves, at, &grid, &cut);
     bounds(grid.margin, &cut);
     set_parts(&cut, exact, &parts);
-    set_slabs(cut.x, &slabs);
-    leaves_store(&cut, &slabs, &parts, exact, here, leaves);
+    set_slabs(cut.x, slab);
+    leaves_store(&cut, slab, &parts, exact, here, leaves);
     leaves += here, count -= here;
   }
 }
