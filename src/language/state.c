@@ -48,11 +48,16 @@ void language_tell(struct language *language, struct span place, const char *for
   va_end(arguments);
 }
 
+bool language_holds(const struct language *language)
+{
+  return language->declaration && language->declaration->held_count > 0;
+}
+
 void language_error(struct language *language, struct span place, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
-  tell(language, place, language->declaration && language->declaration->held_count > 0, format, arguments);
+  tell(language, place, language_holds(language), format, arguments);
   va_end(arguments);
 }
 

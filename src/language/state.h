@@ -111,6 +111,9 @@ void language_error(struct language *language, struct span place, const char *fo
 void language_foreign(struct language *language, struct span place, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
+/* Whether language_error holds what it gets now. */
+bool language_holds(const struct language *language);
+
 /* The same of a name that was declared so. */
 void language_hold(struct language *language, struct span place, struct held *of);
 

@@ -62,7 +62,7 @@ bool symbol_known(const struct language *language, const char *name, size_t leng
 /* ---- what is told of names ---- */
 
 /* One reading looks for guesses among so many names and no more: half a second's work, where all of them are long. And
- * it guesses for so many unknown words: of what is told there is less, but what a declaration holds is mostly never told. */
+ * it guesses for so many unknown words that a declaration holds, which are mostly never told. */
 enum { MOST_CONSIDERED = 100000, MOST_GUESSED = 1000 };
 
 void guess_symbols(struct guess *guess, struct language *language)
@@ -73,8 +73,8 @@ void guess_symbols(struct guess *guess, struct language *language)
     if (s->kind != SYMBOL_BEGUN && s->kind != SYMBOL_UNKNOWN) guess_consider(guess, s->name, s->length);
 }
 
-/* A name that is missing in many places is told once; how often is told at the end. */
-static void tell_unknown(struct language *language, const struct name *name, const char *wanted)
+/* Counts a name that is missing, and answers how often it was before. */
+static size_t count_missed(struct language *language, const struct name *name)
 {
   struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
   if (!symbol) {
@@ -86,12 +86,20 @@ static void tell_unknown(struct language *language, const struct name *name, con
     *symbol->missed = (struct missed){.symbol = symbol, .next = language->symbols->missed};
     language->symbols->missed = symbol->missed;
   }
-  language->unknown = name->place;
   symbol->missed->last = name->place;
-  if (symbol->missed->times++ > 0) return;
+  return symbol->missed->times++;
+}
+
+/* A name that is missing in many places is told once; how often is told at the end. What a declaration holds is not
+ * counted: it may never be told. */
+static void tell_unknown(struct language *language, const struct name *name, const char *wanted)
+{
+  const bool held = language_holds(language);
+  language->unknown = name->place;
+  if (!held && count_missed(language, name) > 0) return;
   struct guess guess = guess_begin(name->text, name->length);
-  if (!diagnostics_full(language->diagnostics) &&
-      language->symbols->guessed++ < MOST_GUESSED) { /* else nobody reads it */
+  if (!diagnostics_full(language->diagnostics) && /* else nobody would read the guess */
+      !(held && language->symbols->guessed++ >= MOST_GUESSED)) {
     guess_symbols(&guess, language);
     guess_keywords(&guess);
   }

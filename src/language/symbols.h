@@ -73,7 +73,7 @@ struct symbols {
   struct missed *missed;     /* names that were unknown */
   struct declaration *ended; /* of values: for the next ones */
   size_t considered;         /* for guesses */
-  size_t guessed;            /* how many */
+  size_t guessed;            /* for what is held: how many */
   int depth;                 /* files that include the one being read */
 };
 
