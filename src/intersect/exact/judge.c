@@ -131,9 +131,20 @@ static bool list_root(struct judge *j, const struct exact_root *root, enum exact
   return exact_list_add(j->list, &found);
 }
 
-static double least_t(const struct exact_root *root) { return (double)root->t - root->t_error; }
+/* Where it can be, at least and at most. */
+static double least_t(const struct exact_root *root)
+{
+  const wide t = root->t - root->t_error;
+  return (double)t > t ? nextafter((double)t, -INFINITY) : (double)t;
+}
 
-/* Where it can be: each by itself, for one that stays as it is may still be told from the other. */
+static double most_t(const struct exact_root *root)
+{
+  const wide t = root->t + root->t_error;
+  return (double)t < t ? nextafter((double)t, INFINITY) : (double)t;
+}
+
+/* Each by itself where it can be, for one that stays as it is may still be told from the other. */
 static void sharpen(struct judge *j, struct exact_root *root)
 {
   struct exact_root sharp = *root;
@@ -163,14 +174,13 @@ static void keep_root(struct judge *j, struct exact_root *root)
   set_limit(j);
 }
 
-static void keep_maybe(struct judge *j, const struct exact_maybe *maybe)
+/* `from`: where along the ray what may be a hit begins. */
+static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double from)
 {
   const struct ray *ray = j->asked->ray;
   if (maybe->t < ray->t_min - maybe->t_error || maybe->t > ray->t_max + maybe->t_error) return;
-  if (!(maybe->t > ray->t_min + maybe->t_error && maybe->t < ray->t_max)) {
-    j->doubt = true;
-    return;
-  }
+  judge_undecided(j, from);
+  if (!(maybe->t > ray->t_min + maybe->t_error && maybe->t < ray->t_max)) return;
   if (j->all) {
     judge_add_open(j, maybe);
     return;
@@ -193,13 +203,13 @@ static void tell_maybe(struct judge *j, unsigned borders, const struct exact_roo
     t_error += 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.depth.unit * j->local.depth.to_t));
   }
   const struct exact_maybe maybe = {j->patch, borders, u, v, t, t_error};
-  keep_maybe(j, &maybe);
+  keep_maybe(j, &maybe, root->sharp ? least_t(root) : t - t_error);
 }
 
-void judge_maybe(struct judge *j, double u, double v, double t, double t_error)
+void judge_maybe(struct judge *j, double u, double v, double t, double t_error, double from)
 {
   const struct exact_maybe maybe = {j->patch, 0, u, v, t, t_error};
-  keep_maybe(j, &maybe);
+  keep_maybe(j, &maybe, from);
 }
 
 /* A control point that is a point of the patch: where it stands in the net, and its parameters. */
@@ -248,11 +258,11 @@ static bool tell_point(struct judge *j, const struct net_point *at, unsigned bor
   const enum side in_range = root_in_range(j, &root);
   if (in_range == SIDE_INSIDE && j->all) (void)list_root(j, &root, EXACT_BORDER, borders);
   else if (in_range == SIDE_INSIDE) keep_root(j, &root);
-  if (in_range == SIDE_UNKNOWN) j->doubt = true;
+  if (in_range == SIDE_UNKNOWN) judge_undecided(j, least_t(&root));
   return true;
 }
 
-bool judge_pole(struct judge *j, int border)
+bool judge_pole(struct judge *j, int border, double reach)
 {
   const struct net_point at = pole_point(border);
   if (tell_point(j, &at, 1u << border)) return true;
@@ -260,7 +270,7 @@ bool judge_pole(struct judge *j, int border)
   const double t = (double)((j->is->x[zoom->axis][at.row][at.column] - zoom->origin) * zoom->to_t);
   const double t_error = 16 * UNIT_ROUNDOFF * fabs(t) + ZOOM_POLE_REACH * zoom->depth_error * fabs((double)zoom->to_t);
   const struct exact_maybe maybe = {j->patch, 1u << border, at.u, at.v, t, t_error};
-  keep_maybe(j, &maybe);
+  keep_maybe(j, &maybe, t - t_error - reach);
   return false;
 }
 
@@ -288,7 +298,7 @@ void judge_root(struct judge *j, struct exact_root *root)
   }
   if (in_range == SIDE_UNKNOWN) {
     /* Nobody can tell whether a ray that starts on the surface meets it, but at a control point. */
-    j->doubt |= !starts_in_corner(j, borders, root);
+    if (!starts_in_corner(j, borders, root)) judge_undecided(j, least_t(root));
   } else if (in_patch == SIDE_INSIDE) {
     keep_root(j, root);
   } else if (!list_root(j, root, EXACT_BORDER, borders)) {
@@ -417,7 +427,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct
     if (asked->known) j->nearest = *asked->known, j->found = true;
   }
   set_limit(j);
-  if (!all && asked->maybe) keep_maybe(j, asked->maybe);
+  if (!all && asked->maybe) keep_maybe(j, asked->maybe, asked->maybe->t);
   judge_search(j);
 }
 
@@ -434,16 +444,14 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
 {
   struct judge j;
   nearest_run(&j, asked);
-  const double to = j.found ? (double)j.nearest.t + j.nearest.t_error : INFINITY;
+  /* How well the nearest is known depends on what it was found beside. */
+  if (j.found && !(j.undecided > most_t(&j.nearest))) sharpen(&j, &j.nearest);
+  const double to = j.found ? most_t(&j.nearest) : INFINITY;
   *out = (struct exact_decision){.verdict = EXACT_MISS,
                                  .sure = !j.doubt && (j.undecided > to || j.undecided == INFINITY)};
-  if (j.doubtful && !(j.found && j.nearest.t <= j.maybe.t)) {
+  if (j.doubtful && !(j.found && j.nearest.t <= j.maybe.t))
     *out = (struct exact_decision){.verdict = EXACT_MAYBE, .maybe = j.maybe};
-  } else if (j.found) {
-    out->verdict = EXACT_ROOT, out->root = j.nearest,
-    out->sure &= j.tied_from > (double)j.nearest.t + j.nearest.t_error;
-    if (j.doubtful) out->sure &= j.maybe.t - j.maybe.t_error > j.nearest.t + j.nearest.t_error;
-  }
+  else if (j.found) out->verdict = EXACT_ROOT, out->root = j.nearest, out->sure &= j.tied_from > to;
 }
 
 bool exact_occluded(const struct exact_case *asked)

@@ -36,12 +36,14 @@ struct judge {
   bool found, doubtful;
   /* where a root may be that `nearest`, or one before it, could not be told from (judge_tie_fine); infinite for none */
   double tied_from;
-  bool doubt;       /* something could not be told from the ray's start, and was left out; of all hits, any doubt */
-  double undecided; /* what was left undecided for want of work begins here, or behind; infinite for none */
-  double limit;     /* nothing beyond this t matters */
-  int work;         /* that may still be done, see WORK_REGION */
-  int apart;        /* the same besides, for regions by themselves (regions.c) */
-  size_t open;      /* places in `list` that may be hits, where all hits are asked for */
+  bool doubt; /* of all hits, any doubt; else there were more regions */
+  /* what may be a hit begins here or behind, known as such, left out at an end of the ray, or undecided for want of work;
+   * infinite for none */
+  double undecided;
+  double limit; /* nothing beyond this t matters */
+  int work;     /* that may still be done, see WORK_REGION */
+  int apart;    /* the same besides, for regions by themselves (regions.c) */
+  size_t open;  /* places in `list` that may be hits, where all hits are asked for */
   /* of the patch looked at last */
   uint32_t patch;
   struct model_patch *is;
@@ -86,11 +88,12 @@ struct zoom *judge_zoom(struct judge *j);
 /* A proven root, anywhere on the patch or around it. */
 void judge_root(struct judge *j, struct exact_root *root);
 
-/* The ray meets a border of the patch that is one point, as far as wide arithmetic can tell: returns whether it does. */
-bool judge_pole(struct judge *j, int border);
+/* The ray meets a border of the patch that is one point, as far as wide arithmetic can tell: returns whether it does. If that
+ * is not known nothing is told of what is next to the point, which begins by `reach` before it. */
+bool judge_pole(struct judge *j, int border, double reach);
 
-/* The point (u,v), at t as nearly as t_error, is on the ray or not. */
-void judge_maybe(struct judge *j, double u, double v, double t, double t_error);
+/* The point (u,v), at t as nearly as t_error, is on the ray or not; what it stands for begins no earlier than `from`. */
+void judge_maybe(struct judge *j, double u, double v, double t, double t_error, double from);
 
 /* What begins there is left undecided. */
 static inline void judge_undecided(struct judge *j, double near)

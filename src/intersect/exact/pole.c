@@ -54,6 +54,23 @@ static bool asks_zoom(const struct search *s, const struct box *box, int border)
   return reach <= ZOOM_AGAIN_POLE;
 }
 
+/* A net of depths is the pole's at a border: a bound on how far others are from it, over their distance from the border. */
+static double slope_at_pole(double net[4][4], double depth)
+{
+  double rise = 0;
+  for (int n = 0; n < 16; n++) rise = real_max(rise, fabs(net[n / 4][n % 4] - depth));
+  return 3 * rise;
+}
+
+static double depth_of_pole(double net[4][4], int border) { return net[border == 1 ? 3 : 0][border == 3 ? 3 : 0]; }
+
+/* How far along the ray what is nearer to the pole than ZOOM_POLE_MET, of the window, may be from it. */
+static double met_reach(const struct window *closer, struct zoomed *zoomed, int border)
+{
+  double(*net)[4] = zoomed->net[2];
+  return window_length(closer, ZOOM_POLE_MET * slope_at_pole(net, depth_of_pole(net, border)));
+}
+
 bool pole_zoom(struct search *s, const struct box *box, int border)
 {
   if (!asks_zoom(s, box, border)) return false;
@@ -63,7 +80,8 @@ bool pole_zoom(struct search *s, const struct box *box, int border)
   judge_spend(s->window.judge, WORK_ZOOM);
   const bool done = zoom_pole_box(judge_zoom(s->window.judge), closer.window.low, closer.window.size, border, &zoomed,
                                   &pole);
-  closer.met = pole == POLE_MET && !judge_pole(s->window.judge, border);
+  const double reach = done ? met_reach(&closer.window, &zoomed, border) : 0;
+  closer.met = pole == POLE_MET && !judge_pole(s->window.judge, border, reach);
   s->dependent |= !done;
   if (!done) return false;
   closer.divided = border;
@@ -85,9 +103,8 @@ static double pole_gap(const struct search *s, double t)
  * less the nets are off by. */
 static bool pole_alone(const struct search *s, struct box *box, double depth, double gap)
 {
-  double rise = 0, error[2];
-  for (int n = 0; n < 16; n++) rise = real_max(rise, fabs(box->net[2][n / 4][n % 4] - depth));
-  const double least = real_min(gap / window_length(&s->window, 3 * rise), 1);
+  double error[2];
+  const double least = real_min(gap / window_length(&s->window, slope_at_pole(box->net[2], depth)), 1);
   if (!(least > 0)) return false;
   search_box_error(s, box, error);
   for (int k = 0; k < 2; k++) error[k] += s->met_error[k] * (ZOOM_POLE_MET / (least * reach_from(box, s->divided)));
@@ -100,7 +117,7 @@ enum pole_box pole_decide(struct search *s, struct box *box)
 {
   const struct ray *ray = s->window.judge->asked->ray;
   const int border = s->divided;
-  const double depth = box->net[2][border == 1 ? 3 : 0][border == 3 ? 3 : 0], t = t_of_depth(&s->window.depth, depth);
+  const double depth = depth_of_pole(box->net[2], border), t = t_of_depth(&s->window.depth, depth);
   const double gap = pole_gap(s, t);
   const bool told = t > ray->t_min && t < ray->t_max, at_end = !told && !(gap > 0);
   const bool smallest = reach_from(box, border) <= ZOOM_POLE_MET, alone = !told && pole_alone(s, box, depth, gap);

@@ -64,7 +64,7 @@ static bool fold_maybe(const struct window *window, struct box *box, const struc
   const double t_error = window_length(window, off + window->depth_error) +
                          8 * UNIT_ROUNDOFF * (fabs(t) + window_length(window, fabs(w.value)));
   judge_maybe(window->judge, (double)window_place(window, box, 0, at[0]), (double)window_place(window, box, 1, at[1]),
-              t, t_error);
+              t, t_error, t - t_error);
   return true;
 }
 

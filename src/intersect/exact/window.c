@@ -82,5 +82,6 @@ struct exact_root window_root(const struct window *window, struct box *box, cons
 void window_tell_maybe(const struct window *window, const struct box *box, double u, double v, double t, double t_error)
 {
   judge_maybe(window->judge, (double)(window->low[0] + window->size[0] * (box->u + box->size_u * u)),
-              (double)(window->low[1] + window->size[1] * (box->v + box->size_v * v)), t, t_error);
+              (double)(window->low[1] + window->size[1] * (box->v + box->size_v * v)), t, t_error,
+              real_max(box->near, t - t_error));
 }
