@@ -28,7 +28,9 @@ enum { PACKET_SIZE = 16 };
 struct ray {
   double origin[3];
   double direction[3]; /* any length > 0, finite */
-  double t_min, t_max; /* in units of |direction|: points origin + t direction, 0 <= t_min < t < t_max */
+  /* in units of |direction|: points origin + t direction, 0 <= t_min < t < t_max. Where no double lies between the two t of
+   * a hit is t_max */
+  double t_min, t_max;
 };
 
 enum certainty { CERTAINTY_CERTAIN, CERTAINTY_GRAZING };

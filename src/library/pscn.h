@@ -179,7 +179,9 @@ PSCN_API void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_came
 struct pscn_ray {
   double origin[3];
   double direction[3]; /* any length but 0: points origin + t direction */
-  double t_min, t_max; /* 0 <= t_min; points with t_min < t < t_max are met, so none where t_max <= t_min */
+  /* 0 <= t_min; points with t_min < t < t_max are met, so none where t_max <= t_min. Where no double lies between the two t
+   * of a hit is t_max. */
+  double t_min, t_max;
 };
 
 enum pscn_verdict { PSCN_MISS = 0, PSCN_HIT = 1, PSCN_NO_ANSWER = 2 };

@@ -159,11 +159,68 @@ static void test_tangent(void **state)
   trial_destroy(&trial);
 }
 
+/* A ray that comes by a pole of a ball nearer than 113 bits tell, and nearly along the tangent plane there, meets the ball
+ * once more 1e-10 of it before: where nothing is looked for, since the pole is taken for met. So a wall between the two
+ * is not proven to be hit first, but a wall before them is. */
+static void test_beside_met_pole(void **state)
+{
+  (void)state;
+  static const double k = 0.55228474983079356, origin[3] = {-0x1.753eap-30, -0x1.ffffp-64, -0x1.934f82p-31};
+  static const double direction[3] = {0x1.753eap+0, 0x1p-33, 0x1.934f82p-1};
+  const double profile[4][2] = {{0, 0}, {k, 0}, {1, k - 1}, {1, -1}}, turn[4][2] = {{1, 0}, {1, k}, {k, 1}, {0, 1}};
+  for (int n = 0; n < 2; n++) {
+    net P[3];
+    for (int i = 0; i < 4; i++) {
+      for (int j = 0; j < 4; j++) {
+        const double x = -profile[i][0] * turn[j][0], z = profile[i][0] * turn[j][1], wall = n ? -0x1p-20 : -0x1.9p-43;
+        const double octants[2][3] = {{x, profile[i][1], z}, {x, profile[i][1], -z}};
+        const double across[3] = {0x1p-18 * (i - 1.25), 0x1p-18 * (j - 1.75), wall};
+        memcpy(P[0][i][j], octants[0], sizeof across), memcpy(P[1][i][j], octants[1], sizeof across);
+        memcpy(P[2][i][j], across, sizeof across);
+      }
+    }
+    struct trial trial;
+    trial_create(&trial, (const double(*)[4][4][3])P, 3, NULL);
+    const double before[3] = {origin[0] - direction[0], origin[1] - direction[1], origin[2] - direction[2]};
+    const struct hit hit = closest(&trial, n ? before : origin, direction);
+    assert_int_equal(hit.patch, 2);
+    assert_int_equal(hit.certainty, n ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING);
+    trial_destroy(&trial);
+  }
+}
+
+/* The ray meets the surface between its start and its end, and no double lies there: t is the end, or who asks for what comes
+ * behind would get the same again. */
+static void test_between_doubles(void **state)
+{
+  (void)state;
+  net P;
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double p[3] = {i - 1.25, j - 1.75, 0};
+      memcpy(P[i][j], p, sizeof p);
+    }
+  }
+  struct trial trial;
+  trial_create(&trial, (const double(*)[4][4][3]) & P, 1, NULL);
+  const struct ray ray = {{0, 0, -4}, {0, 0, 1 - DOUBLE_UNIT}, 4, nextafter(4, INFINITY)};
+  struct hit hit;
+  tracer_closest(trial.tracer, 1, &ray, &hit);
+  assert_int_equal(hit.patch, 0);
+  assert_true(hit.t == ray.t_max);
+  trial_destroy(&trial);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_start),          cmocka_unit_test(test_small_parameter), cmocka_unit_test(test_line),
-    cmocka_unit_test(test_corner_of_line), cmocka_unit_test(test_tangent),
+    cmocka_unit_test(test_start),
+    cmocka_unit_test(test_small_parameter),
+    cmocka_unit_test(test_line),
+    cmocka_unit_test(test_corner_of_line),
+    cmocka_unit_test(test_tangent),
+    cmocka_unit_test(test_beside_met_pole),
+    cmocka_unit_test(test_between_doubles),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

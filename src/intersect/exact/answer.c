@@ -109,10 +109,12 @@ static double clearance(const struct model *model, uint32_t patch, unsigned bord
   return hit->point_error + CLEARANCE(scale, loose, magnitude);
 }
 
-/* The double next to t in the ray's range: rounding may have taken its last bits to the end of that. */
+/* The double next to t in the ray's range: rounding may have taken its last bits to the end of that. Where no double lies
+ * between the ends it is t_max, so that a ray that goes on from there comes to an end. */
 static double t_within(double t, double t_min, double t_max)
 {
-  return !(t > t_min) ? nextafter(t_min, INFINITY) : !(t < t_max) ? nextafter(t_max, -INFINITY) : t;
+  const double first = nextafter(t_min, INFINITY);
+  return !(t > t_min) ? first : !(t < t_max) ? real_max(nextafter(t_max, -INFINITY), first) : t;
 }
 
 /* The hit at (u,v) of a patch and t of the ray. `borders`: those of the patch that the point lies on. */
