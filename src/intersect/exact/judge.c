@@ -333,6 +333,11 @@ static double along_border(const struct exact_root *root, unsigned border)
   return (double)(border < 2 ? root->v : root->u);
 }
 
+/* Places on a border that are no farther apart than this are one. A border may come back to a point of its own, where other
+ * parts of the patches meet; but if it does so within 2^-50 its tangent there is no longer than second derivatives, 24 a
+ * coordinate, times that, and with |inward| at most 6 a coordinate no side of it is sure. */
+#define ONE_PLACE 0x1p-50
+
 /* Ties that may be one hit have one t: next to the ray's start what wide arithmetic leaves open may be more than its last
  * places. */
 #define ONE_T (4 * UNIT_ROUNDOFF)
@@ -351,6 +356,7 @@ bool judge_across(const struct judge *j, const struct exact_found *a, const stru
   const struct edge_neighbour *other = &model->neighbours[4 * (size_t)one->patch + here];
   if (other->patch != two->patch || other->border != there || !one_t(one, two)) return false;
   const double along = along_border(one, here), along_two = along_border(two, there);
+  if (!(fabs(along - (other->reversed ? 1 - along_two : along_two)) <= ONE_PLACE)) return false;
   const double *d = j->asked->ray->direction;
   struct patch_room room[2];
   const int inner = inner_side(model_patch_at(model, one->patch, &room[0]), here, along, d);
