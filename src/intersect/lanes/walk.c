@@ -209,9 +209,9 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
       if (!ray_step(b, tree, &ways[__builtin_ctz(bits)])) rays &= ~(bits & -bits);
 }
 
-/* So few rays go their ways one by one: four boxes for one of them are a third of the work of four boxes for all; and those
- * that go different ways come to what is nearest to them first. */
-enum { FEW_TOGETHER = 3, FEW_APART = FLOAT_LANES / 2 };
+/* So few rays go their ways one by one: four boxes, or a leaf's, are a third of the work for one of them; and those that go
+ * different ways come to what is nearest to them first. */
+enum { FEW_TOGETHER = 2, FEW_APART = FLOAT_LANES / 2 };
 
 /* Warm starts go from ray to ray, all together. */
 LANES_INLINE int most_alone(const struct bundle *b)
