@@ -6,6 +6,18 @@
 
 #include "intersect/explain.h"
 
+/* Out of line, for it is rare: a ray that comes by so many leaves runs along something thin, of which the walk's floats tell
+ * little. What it passes by to the last places does not count; after so many others it is let go. Returns the lanes that are
+ * done with the leaf. */
+__attribute__((noinline)) static lane_mask candidate_worn(struct packet *p, const struct candidate *it, lane_mask many)
+{
+  const lane_mask passed = many & ~stage_box(it, many);
+  p->postponed->leaves -= passed;
+  const lane_mask worn = many & ~passed & (p->postponed->leaves < 0);
+  if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn));
+  return passed | worn;
+}
+
 /* A scene with `polish off` asks for the roots as its solver finds them: nothing is closed before that. */
 static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
 {
@@ -13,8 +25,8 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   uint64_t *entered = p->tracer->counts.stages;
   open = stage_slab(p, it, open);
   p->postponed->leaves += open; /* -1 each */
-  const lane_mask worn = open & (p->postponed->leaves < 0);
-  if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn)), open &= ~worn;
+  const lane_mask many = open & (p->postponed->leaves < MOST_LEAVES / 2);
+  if (lanes_any(many)) open &= ~candidate_worn(p, it, many);
   if (p->postponed->full) {
     const lane_mask full = open & lanes_mask(p->postponed->full);
     packet_postpone(p, it->leaf, full), open &= ~full;

@@ -36,6 +36,10 @@ struct candidate {
  * nearest hit. */
 lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open);
 
+/* planes.c: the box along the leaf, to the last places; closed where the ray passes it by. The walk has looked at it in floats,
+ * which is enough for all rays but those that come by many leaves. */
+lane_mask stage_box(const struct candidate *it, lane_mask open);
+
 /* bilinear.c: the root of the leaf's bilinear part, from a resultant of degree 2, made good by Newton's process on the
  * leaf. Open stays where the ray is so slanted that it is not proven to be the only one. Leaves that are bent are not
  * tried at once. */

@@ -20,6 +20,7 @@
 #define box_out_of_range KERNEL(box_out_of_range)
 #define offer_root KERNEL(offer_root)
 #define offer_unproven KERNEL(offer_unproven)
+#define stage_box KERNEL(stage_box)
 #define stage_slab KERNEL(stage_slab)
 #define stage_bilinear KERNEL(stage_bilinear)
 #define stage_planes KERNEL(stage_planes)

@@ -28,6 +28,28 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
   return open & ~((lanes_min(at[0], at[1]) > out) | (lanes_max(at[0], at[1]) < -out));
 }
 
+/* Two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With e as above A is off by 2 e and B
+ * by 4u, where |A| u <= e/4 and |B| <= 1: the products by 8 e in all, and the right side by less than that. */
+lane_mask stage_box(const struct candidate *it, lane_mask open)
+{
+  const int k = it->axis, i = (k + 1) % 3, j = (k + 2) % 3;
+  const struct leaf_slab *slab = it->leaf->slab;
+  const struct line *line = it->line;
+  lanes a[3], b[3], size[3];
+  for (int q = 0; q < 3; q++) {
+    const double *g = slab[q].g;
+    a[q] = g[i] * line->moment[0] + (g[j] * line->moment[1] - slab[q].offset);
+    b[q] = g[i] * line->slope[0] + (g[j] * line->slope[1] + g[k]);
+    size[q] = lanes_abs(b[q]);
+  }
+  for (int q = 0; q < 3; q++) {
+    const int r = (q + 1) % 3;
+    open &= ~(lanes_abs(a[q] * b[r] - a[r] * b[q]) >
+              slab[q].half * size[r] + (slab[r].half * size[q] + 16 * line->error));
+  }
+  return open;
+}
+
 /* Lanes on which neither polynomial keeps one sign on the whole net. */
 static lane_mask planes_hull(struct candidate *it, lane_mask active)
 {
