@@ -158,8 +158,8 @@ LANES_INLINE bool view_oriented_one(const struct view *view, unsigned lane, cons
                         (g1 * view->from[1][lane] + (g2 * view->from[2][lane] - four_floats_load(box->offset)));
   const four_floats b = g0 * view->along[0][lane] + (g1 * view->along[1][lane] + g2 * view->along[2][lane]);
   const four_floats size = four_floats_abs(b);
-  const float reach = view->widen[lane] * WIDE_REACH + 1;
-  const four_floats end = a + b * (view->far[lane] < reach ? view->far[lane] : reach);
+  const float far = view->far[lane], reach = view->widen[lane] * WIDE_REACH + 1;
+  const four_floats end = a + b * (far < reach ? far : reach);
   const four_mask beyond = (four_floats_min(a, end) > half) | (four_floats_max(a, end) < -half);
   const four_floats apart = four_floats_abs(a * four_floats_next(b) - four_floats_next(a) * b);
   const four_mask out = beyond | (apart > half * four_floats_next(size) + (four_floats_next(half) * size + WIDE_LEAST));
