@@ -7,8 +7,9 @@
  *       camera { loaction <0,0,-5> }
  *                ^~~~~~~~
  *
- * Where memory is too short for that it is told without its place, and nothing else is lost. The library never prints: the command's sink does. After DIAGNOSTICS_MAX_ERRORS errors a closing line is told,
- * once, and the rest are only counted; so it is with warnings. Initialise with { .tell = f, .context = c }. One thread at a time.
+ * Where memory is too short for that it is told without its place, and nothing else is lost. The library never prints:
+ * the command's sink does. After DIAGNOSTICS_MAX_ERRORS errors a closing line is told, once, and the rest are only
+ * counted; so it is with warnings. Initialise with { .tell = f, .context = c }. One thread at a time.
  */
 #ifndef PSCN_BASE_DIAGNOSTICS_H
 #define PSCN_BASE_DIAGNOSTICS_H

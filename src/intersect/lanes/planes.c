@@ -7,17 +7,23 @@
 /* All of a patch is within |w| < 1 in its frame: a ray is not looked at beyond this. */
 #define FRAME_END 2.0
 
-/* On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the slab's form is a + b w. With e the bound on a plane's error
- * (local_ray.h), u < e/72: a is off by less than 2.5 e, b w by 8u, w by its two roundings and that of the start, what is made
- * of them by e + 6u, the net by 32u. */
+/* On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the slab's form is a + b w. */
+LANES_INLINE void slab_values(const struct line *line, int k, const struct leaf_slab *slab, lanes *a, lanes *b)
+{
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  *a = slab->g[i] * line->moment[0] + (slab->g[j] * line->moment[1] - slab->offset);
+  *b = slab->g[i] * line->slope[0] + (slab->g[j] * line->slope[1] + slab->g[k]);
+}
+
+/* With e the bound on a plane's error (local_ray.h), u < e/72: a is off by less than 2.5 e, b w by 8u, w by its two roundings
+ * and that of the start, what is made of them by e + 6u, the net by 32u. */
 lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open)
 {
   const struct leaf_slab *slab = &it->leaf->slab[0];
-  const int k = it->axis, i = (k + 1) % 3, j = (k + 2) % 3;
   const struct line *line = it->line;
-  const lanes a = slab->g[i] * line->moment[0] + (slab->g[j] * line->moment[1] - slab->offset);
-  const lanes b = slab->g[i] * line->slope[0] + (slab->g[j] * line->slope[1] + slab->g[k]);
-  const lanes along = p->direction[k] * (1 / it->patch->scale), start = line->start[0];
+  lanes a, b;
+  slab_values(line, it->axis, slab, &a, &b);
+  const lanes along = p->direction[it->axis] * (1 / it->patch->scale), start = line->start[0];
   const lanes out = slab->half + 10 * line->error +
                     2 * (p->t_error * lanes_abs(along) + 16 * UNIT_ROUNDOFF * lanes_abs(start));
   lanes at[2];
@@ -32,14 +38,11 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
  * by 4u, where |A| u <= e/4 and |B| <= 1: the products by 8 e in all, and the right side by less than that. */
 lane_mask stage_box(const struct candidate *it, lane_mask open)
 {
-  const int k = it->axis, i = (k + 1) % 3, j = (k + 2) % 3;
   const struct leaf_slab *slab = it->leaf->slab;
   const struct line *line = it->line;
   lanes a[3], b[3], size[3];
   for (int q = 0; q < 3; q++) {
-    const double *g = slab[q].g;
-    a[q] = g[i] * line->moment[0] + (g[j] * line->moment[1] - slab[q].offset);
-    b[q] = g[i] * line->slope[0] + (g[j] * line->slope[1] + g[k]);
+    slab_values(line, it->axis, &slab[q], &a[q], &b[q]);
     size[q] = lanes_abs(b[q]);
   }
   for (int q = 0; q < 3; q++) {
