@@ -47,7 +47,7 @@ __attribute__((noinline)) static void come_near(const struct packet *p, const st
 {
   for (unsigned bits = lanes_bits(far); bits; bits &= bits - 1) {
     const int l = __builtin_ctz(bits);
-    struct ray ray = {.t_min = p->t_min[l]};
+    struct ray ray = {.t_min = p->t_min[l] - p->t_error[l]};
     double at[3];
     for (int k = 0; k < 3; k++) ray.origin[k] = p->origin[k][l], ray.direction[k] = p->direction[k][l];
     (*start)[l] = local_ray_enter(&ray, tree->origin, tree->frame, at);
@@ -73,8 +73,9 @@ LANES_INLINE void set(struct view *view, const struct packet packet[], int packe
       farthest = lanes_max(lanes_abs(at[k]), farthest);
     }
     view->unit[h] = p->longest * to_frame;
-    /* No ray is in the frame before this depth: its dominant coordinate is outside. */
-    lanes start = lanes_max(p->t_min * view->unit[h], -(farthest + 2));
+    /* No ray is in the frame before this depth: its dominant coordinate is outside. In the coordinates of a copy's
+     * object its start is known to t_error only, which from far away is many times the object's size. */
+    lanes start = lanes_max((p->t_min - p->t_error) * view->unit[h], -(farthest + 2));
     if (lanes_any(farthest > FRAME_NEAR)) start = lanes_max(frame_entry(at, slack, direction), start);
     for (int k = 0; k < 3; k++) at[k] += start * direction[k], slack[k] += 8 * UNIT_ROUNDOFF * lanes_abs(start);
     const lane_mask far = ~(farthest <= FRAME_FAR);
