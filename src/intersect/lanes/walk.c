@@ -166,7 +166,13 @@ LANES_INLINE bool ray_step(struct bundle *b, const struct model_tree *tree, stru
     const struct bvh_node *node = &tree->bvh.nodes[way->child];
     const size_t first = way->top;
     float near[BVH_WIDTH];
-    for (unsigned bits = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near); bits; bits &= bits - 1) {
+    unsigned bits = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near);
+    if (bits && (bits & (bits - 1)) == 0) { /* the next, by no way over the stack */
+      way->child = node->child[__builtin_ctz(bits)];
+      fetch_child(b->packet[0].model, &tree->bvh, way->child);
+      return true;
+    }
+    for (; bits; bits &= bits - 1) {
       const int side = __builtin_ctz(bits);
       size_t n = way->top++; /* the nearest on top */
       for (; n > first && way->stack[n - 1].near < near[side]; n--) way->stack[n] = way->stack[n - 1];
