@@ -303,6 +303,52 @@ static void test_stack(void **state)
   free(nets);
 }
 
+/* Two patches that bend at a border, and one through all of that: of hits that nothing tells apart the first in the scene is
+ * the nearest, as it is the first of all; whatever it is that stands there. */
+static void test_standing_on(void **state)
+{
+  enum { WALLS = 2, FLOOR = 2, ORDERS = 6, PACKETS = 8 };
+  static const size_t order[ORDERS][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  world_net nets[3];
+  struct random random = {SEED + 8};
+  (void)state;
+  for (int o = 0; o < ORDERS; o++) {
+    for (int n = 0; n < 16; n++) {
+      const double away = n / 4, along = 2 * (n % 4) - 3;
+      for (int wall = 0; wall < WALLS; wall++) {
+        double *p = nets[order[o][wall]][n / 4][n % 4];
+        p[0] = wall ? away : -away, p[1] = along, p[2] = wall ? -2 * away : away;
+      }
+      double *p = nets[order[o][FLOOR]][n / 4][n % 4];
+      p[0] = 3 * away - 4, p[1] = 3 * along, p[2] = 0;
+    }
+    struct world world;
+    world_open(&world, nets, 3, NULL);
+    for (int packet = 0; packet < PACKETS; packet++) {
+      struct ray rays[PACKET_SIZE];
+      struct hit hits[PACKET_SIZE];
+      struct hit_list lists[PACKET_SIZE];
+      for (int n = 0; n < PACKET_SIZE; n++) {
+        const double sideways = (double)(random_bits(&random) % 9) / 4 - 1,
+                     slope = (double)(random_bits(&random) % 4) / 8;
+        rays[n] = (struct ray){{-4 * slope, random_between(&random, -2, 2), 4}, {slope, sideways, -1}, 0, INFINITY};
+        rays[n].origin[1] = rint(rays[n].origin[1] * 0x1p40) * 0x1p-40 - 4 * sideways;
+      }
+      tracer_closest(world.tracer, PACKET_SIZE, rays, hits);
+      assert_int_equal(tracer_all(world.tracer, PACKET_SIZE, rays, lists), STATUS_OK);
+      for (int n = 0; n < PACKET_SIZE; n++) {
+        assert_int_equal(hits[n].certainty, CERTAINTY_CERTAIN);
+        assert_int_equal(lists[n].certainty, CERTAINTY_CERTAIN);
+        assert_int_equal(lists[n].count, 2);
+        assert_int_equal(hits[n].patch, 0);
+        assert_int_equal(lists[n].hits[0].patch, 0);
+        assert_true(hits[n].t == 4 && lists[n].hits[0].t == 4 && lists[n].hits[1].t == 4);
+      }
+    }
+    world_close(&world);
+  }
+}
+
 static struct hit_list list_of(struct world *world, const struct ray *ray)
 {
   struct hit_list list;
@@ -413,6 +459,7 @@ int main(void)
     cmocka_unit_test(lists_do_not_depend_on_companions),
     cmocka_unit_test(kernels_agree),
     cmocka_unit_test(test_stack),
+    cmocka_unit_test(test_standing_on),
     cmocka_unit_test(test_touching),
     cmocka_unit_test(test_twice_round),
     cmocka_unit_test(test_worn),

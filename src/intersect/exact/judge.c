@@ -392,28 +392,41 @@ static void sort_by_patch(struct exact_list *list)
   }
 }
 
+/* Whether the border's root is at one t with the nearest hit, which is certain. */
+static bool at_nearest(struct judge *j, const struct exact_root *root)
+{
+  if (!j->found || !judge_tie(root, &j->nearest)) return false;
+  return judge_sharpen(j, &j->nearest) ? one_t(root, &j->nearest) : judge_tie(root, &j->nearest);
+}
+
+/* Whether the ray crosses the surface at the root of j->list[at], on a border: then of the patches that meet there the one
+ * that stands first in the scene has it. */
+static bool keep_border(struct judge *j, size_t at)
+{
+  struct exact_found *found = &j->list->at[at];
+  struct exact_root *root = &found->root;
+  for (size_t b = 0; b < j->list->count; b++) {
+    if (b == at || !judge_across(j, found, &j->list->at[b])) continue;
+    if (root->patch > j->list->at[b].root.patch) return true;
+    root->u = within(root->u), root->v = within(root->v);
+    keep_root(j, root);
+    return true;
+  }
+  judge_turn(j, root->patch);
+  const struct net_point corner = corner_point(root);
+  return in_corner(found->borders) && tell_point(j, &corner, found->borders);
+}
+
 /* Roots on borders that something certain is next to are hits; the others may be. A corner belongs to the first of its
- * patches. */
+ * patches, and so does a border that lies on another surface. */
 static void settle_borders(struct judge *j)
 {
   sort_by_patch(j->list);
   for (size_t a = 0; a < j->list->count; a++) {
-    struct exact_found *found = &j->list->at[a];
-    struct exact_root *root = &found->root;
-    bool certain = j->found && judge_tie(root, &j->nearest);
-    if (certain) certain = judge_sharpen(j, &j->nearest) ? one_t(root, &j->nearest) : judge_tie(root, &j->nearest);
-    for (size_t b = 0; b < j->list->count && !certain; b++) {
-      if (a == b || !judge_across(j, found, &j->list->at[b])) continue;
-      certain = true;
-      if (root->patch > j->list->at[b].root.patch) continue; /* the patch that stands first in the scene has it */
-      root->u = within(root->u), root->v = within(root->v);
-      keep_root(j, root);
-    }
-    if (certain) continue;
-    judge_turn(j, root->patch);
-    const struct net_point corner = corner_point(root);
-    if (in_corner(found->borders) && tell_point(j, &corner, found->borders)) continue;
-    judge_open(j, found);
+    struct exact_root *root = &j->list->at[a].root;
+    const bool beside = at_nearest(j, root);
+    if (beside && !(judge_stands_before(root, &j->nearest) && judge_tie_fine(j, root, &j->nearest))) continue;
+    if (!keep_border(j, a) && !beside) judge_open(j, &j->list->at[a]);
   }
 }
 
