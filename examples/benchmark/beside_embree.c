@@ -9,7 +9,9 @@
  * of the nearest); beside Embree's rtcIntersect1 and its packets of 8 and, where the processor has the instructions,
  * 16, which are told whether the rays are coherent; or rtcOccluded. SIDE x SIDE x 2 triangles a patch (64). CPU time of
  * the thread. A line a contestant, tabs between: name, ns a ray (median over runs, smallest, largest), and the medians
- * of the ratios in the same run to Embree's rays one by one, to its fastest packets, to pscn's packets.
+ * of the ratios in the same run to Embree's rays one by one, to its fastest packets, to pscn's packets. Then what had to be
+ * done before the first ray, in CPU seconds of one thread: pscn's preparing of the patches; Embree's triangles and their
+ * hierarchy, of its default quality and of the best one, which its rays are traced with.
  */
 #include <math.h>
 #include <stdio.h>
@@ -38,6 +40,7 @@ struct contestant {
   struct intersector *intersector;
   struct tracer *tracer;
   double seconds[MAX_RUNS];
+  double preparing; /* seconds */
 };
 
 static void tell(void *context, const char *text, size_t length)
@@ -62,7 +65,9 @@ static void contestant_load(struct contestant *c, const char *path, const char *
   const struct language_settings settings = {
     .image_width = WIDTH, .image_height = HEIGHT, .solver_text = solver, .tolerance = NAN};
   if (language_load(path, &settings, &diagnostics, &c->scene) != STATUS_OK) exit(EXIT_FAILURE);
+  const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   if (intersector_create(c->scene, &c->intersector) != STATUS_OK) fail("out of memory");
+  c->preparing = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
   if (tracer_create(c->intersector, &c->tracer) != STATUS_OK) fail("out of memory");
 }
 
@@ -177,12 +182,17 @@ static void report(struct contestant *list, size_t count, size_t pscn, size_t ru
   }
 }
 
-static struct embree_mesh *make_mesh(const struct scene *scene, unsigned side, struct arena *arena)
+/* Embree's triangles; *seconds is what making them took. */
+static struct embree_mesh *make_mesh(const struct scene *scene, unsigned side, bool best, struct arena *arena,
+                                     double *seconds)
 {
   double(*P)[4][4][3] = arena_alloc(arena, scene->patch_count, sizeof *P);
   if (P == NULL) fail("out of memory");
   for (size_t n = 0; n < scene->patch_count; n++) memcpy(P[n], scene->patches[n].P, sizeof P[n]);
-  struct embree_mesh *mesh = pscn_embree_peer.mesh_create((const double(*)[4][4][3])P, scene->patch_count, side);
+  const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
+  struct embree_mesh *mesh =
+    pscn_embree_peer.mesh_create((const double(*)[4][4][3])P, scene->patch_count, side, best);
+  *seconds = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
   if (mesh == NULL) fail("Embree failed");
   return mesh;
 }
@@ -205,7 +215,9 @@ int main(int argc, char **argv)
   struct arena *arena = arena_create();
   if (arena == NULL) fail("out of memory");
   const struct ray_list rays = make_rays(kind, &own, arena);
-  struct embree_mesh *mesh = make_mesh(own.scene, side, arena);
+  double default_seconds, best_seconds;
+  pscn_embree_peer.mesh_destroy(make_mesh(own.scene, side, false, arena, &default_seconds));
+  struct embree_mesh *mesh = make_mesh(own.scene, side, true, arena, &best_seconds);
   struct embree_rays *embree = pscn_embree_peer.rays_create(rays.rays, rays.count);
   if (embree == NULL) fail("out of memory");
 
@@ -229,6 +241,7 @@ int main(int argc, char **argv)
   fprintf(stderr, "%s, %zu %s rays, %zu triangles, %zu runs (Embree's answers add up to %.6g)\n", argv[2], rays.count,
           KIND_NAMES[kind], own.scene->patch_count * side * side * 2, runs, sum);
   report(list, count, pscn, runs, rays.count);
+  printf("preparing, pscn\t%.4f\npreparing, Embree\t%.4f\t%.4f\n", own.preparing, default_seconds, best_seconds);
   pscn_embree_peer.rays_destroy(embree);
   pscn_embree_peer.mesh_destroy(mesh);
   arena_destroy(arena);

@@ -46,7 +46,8 @@ static void mesh_point(const double P[4][4][3], double u, double v, float out[3]
   }
 }
 
-static bool mesh_fill(struct embree_mesh *mesh, const double (*P)[4][4][3], size_t patch_count)
+static bool mesh_fill(struct embree_mesh *mesh, const double (*P)[4][4][3], size_t patch_count,
+                      enum RTCBuildQuality quality)
 {
   const size_t side = mesh->side, row = side + 1;
   RTCGeometry geometry = rtcNewGeometry(mesh->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -68,7 +69,7 @@ static bool mesh_fill(struct embree_mesh *mesh, const double (*P)[4][4][3], size
       for (int c = 0; c < 6; c++) index[c] = corners[c];
     }
   }
-  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+  rtcSetGeometryBuildQuality(geometry, quality);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(mesh->scene, geometry);
   rtcReleaseGeometry(geometry);
@@ -93,18 +94,19 @@ static RTCDevice device_open(void)
                                                         : "threads=1,set_affinity=0");
 }
 
-static struct embree_mesh *mesh_create(const double (*P)[4][4][3], size_t patch_count, unsigned side)
+static struct embree_mesh *mesh_create(const double (*P)[4][4][3], size_t patch_count, unsigned side, bool best)
 {
+  const enum RTCBuildQuality quality = best ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
   struct embree_mesh *mesh = calloc(1, sizeof *mesh);
   if (mesh == NULL) return NULL;
   mesh->side = side;
   mesh->device = device_open();
   if (mesh->device != NULL) mesh->scene = rtcNewScene(mesh->device);
-  if (mesh->scene == NULL || !mesh_fill(mesh, P, patch_count)) {
+  if (mesh->scene == NULL || !mesh_fill(mesh, P, patch_count, quality)) {
     mesh_destroy(mesh);
     return NULL;
   }
-  rtcSetSceneBuildQuality(mesh->scene, RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneBuildQuality(mesh->scene, quality);
   rtcCommitScene(mesh->scene);
   if (rtcGetDeviceError(mesh->device) != RTC_ERROR_NONE) {
     mesh_destroy(mesh);

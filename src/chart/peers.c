@@ -62,7 +62,7 @@ static void run_embree(void *context, enum ray_kind kind, struct answer *answers
 static enum status measure_side(struct chart *chart, const struct embree *embree, const double (*nets)[4][4][3],
                                 size_t side)
 {
-  struct embree_mesh *mesh = embree->peer->mesh_create(nets, chart->scene->patch_count, (unsigned)side);
+  struct embree_mesh *mesh = embree->peer->mesh_create(nets, chart->scene->patch_count, (unsigned)side, true);
   if (mesh == NULL) return STATUS_FILE;
   struct embree_runner own[WIDTH_COUNT];
   struct runner runners[WIDTH_COUNT];
