@@ -190,8 +190,7 @@ static struct embree_mesh *make_mesh(const struct scene *scene, unsigned side, b
   if (P == NULL) fail("out of memory");
   for (size_t n = 0; n < scene->patch_count; n++) memcpy(P[n], scene->patches[n].P, sizeof P[n]);
   const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-  struct embree_mesh *mesh =
-    pscn_embree_peer.mesh_create((const double(*)[4][4][3])P, scene->patch_count, side, best);
+  struct embree_mesh *mesh = pscn_embree_peer.mesh_create((const double(*)[4][4][3])P, scene->patch_count, side, best);
   *seconds = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
   if (mesh == NULL) fail("Embree failed");
   return mesh;
