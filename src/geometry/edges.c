@@ -43,11 +43,7 @@ struct matching {
 };
 
 /* A point of a border of the net that begins there. */
-static const double *border_point(const double *net, int border, int k)
-{
-  const int i = border == 0 ? 0 : border == 1 ? 3 : k, j = border == 2 ? 0 : border == 3 ? 3 : k;
-  return net + 12 * i + 3 * j;
-}
+static const double *border_point(const double *net, int border, int k) { return net + 3 * edge_at(border, k); }
 
 void edge_points(double P[4][4][3], int border, double out[4][3])
 {

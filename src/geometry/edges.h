@@ -22,6 +22,16 @@ struct edge_neighbour {
   bool reversed;
 };
 
+/* Where control point k of a border, 0..3 in the order of the running parameter, stands in a net of 16, row after row. */
+static inline int edge_at(int border, int k)
+{
+  const int first = border == 1 ? 12 : border == 3 ? 3 : 0;
+  return first + (border < 2 ? k : 4 * k);
+}
+
+/* From there to the one next to it, away from the border. */
+static inline int edge_inward(int border) { return (border < 2 ? 4 : 1) * (border & 1 ? -1 : 1); }
+
 /* The four control points of border `border` of the net P[i][j], in the order of the running parameter. */
 void edge_points(double P[4][4][3], int border, double out[4][3]);
 

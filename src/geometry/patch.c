@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/real.h"
+#include "geometry/edges.h"
 #include "geometry/vector.h"
 
 /* (1-t) a + t b; exact at t = 0 and t = 1, and where a = b. */
@@ -67,10 +68,9 @@ static double cubic_excess(const double c[4], int degree)
 
 bool patch_border_is_point(const double x[3][4][4], int border)
 {
-  const int first = border == 1 ? 12 : border == 3 ? 3 : 0, stride = border < 2 ? 1 : 4;
   for (int c = 0; c < 3; c++)
     for (int n = 1; n < 4; n++)
-      if ((&x[c][0][0])[first + n * stride] != (&x[c][0][0])[first]) return false;
+      if ((&x[c][0][0])[edge_at(border, n)] != (&x[c][0][0])[edge_at(border, 0)]) return false;
   return true;
 }
 

@@ -222,7 +222,7 @@ struct net_point {
 static struct net_point pole_point(int border)
 {
   const double u = border == 0 ? 0 : border == 1 ? 1 : 0.5, v = border == 2 ? 0 : border == 3 ? 1 : 0.5;
-  return (struct net_point){border == 1 ? 3 : 0, border == 3 ? 3 : 0, u, v};
+  return (struct net_point){edge_at(border, 0) / 4, edge_at(border, 0) % 4, u, v};
 }
 
 /* The corner next to the root. */

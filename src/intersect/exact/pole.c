@@ -62,7 +62,11 @@ static double slope_at_pole(double net[4][4], double depth)
   return 3 * rise;
 }
 
-static double depth_of_pole(double net[4][4], int border) { return net[border == 1 ? 3 : 0][border == 3 ? 3 : 0]; }
+static double depth_of_pole(double net[4][4], int border)
+{
+  const int at = edge_at(border, 0);
+  return net[at / 4][at % 4];
+}
 
 /* How far along the ray what is nearer to the pole than ZOOM_POLE_MET, of the window, may be from it. */
 static double met_reach(const struct window *closer, struct zoomed *zoomed, int border)

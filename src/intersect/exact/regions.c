@@ -15,7 +15,7 @@ static bool passes_near(struct judge *j, uint32_t patch, int border)
   judge_turn(j, patch);
   const struct local_ray *ray = &j->local;
   double(*x)[4][4] = j->is->x;
-  const int row = border == 1 ? 3 : 0, column = border == 3 ? 3 : 0;
+  const int row = edge_at(border, 0) / 4, column = edge_at(border, 0) % 4;
   for (int s = 0; s < 2; s++) {
     const double side = x[(ray->axis + 1 + s) % 3][row][column] - ray->moment[s];
     if (!(fabs(side - ray->slope[s] * x[ray->axis][row][column]) <= POLE_NEAR)) return false;

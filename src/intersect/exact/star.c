@@ -76,12 +76,12 @@ static bool same_wedge(const struct wedge *a, const struct wedge *b)
 
 /* ---- how it is seen ---- */
 
-/* From control point (i,j) to (k,l) of the patch. */
-static struct direction seen(const struct judge *j, uint32_t patch, const int from[2], const int to[2])
+/* From one control point of the patch to another, numbered as edge_at does. */
+static struct direction seen(const struct judge *j, uint32_t patch, int from, int to)
 {
   struct patch_room room;
   double(*x)[4][4] = model_patch_at(j->asked->model, patch, &room)->x, t[3];
-  for (int c = 0; c < 3; c++) t[c] = x[c][to[0]][to[1]] - x[c][from[0]][from[1]];
+  for (int c = 0; c < 3; c++) t[c] = x[c][to / 4][to % 4] - x[c][from / 4][from % 4];
   const double *d = j->asked->ray->direction;
   const int k = dominant_axis(d), one = (k + 1) % 3, two = (k + 2) % 3;
   return (struct direction){t[one] - d[one] / d[k] * t[k], t[two] - d[two] / d[k] * t[k]};
@@ -90,10 +90,7 @@ static struct direction seen(const struct judge *j, uint32_t patch, const int fr
 /* Of a border away from its end. */
 static struct direction border_direction(const struct judge *j, uint32_t patch, int border, int end)
 {
-  const int side = border & 1 ? 3 : 0, last = end ? 3 : 0, before = end ? 2 : 1;
-  const int from[2] = {border < 2 ? side : last, border < 2 ? last : side};
-  const int to[2] = {border < 2 ? side : before, border < 2 ? before : side};
-  return seen(j, patch, from, to);
+  return seen(j, patch, edge_at(border, end ? 3 : 0), edge_at(border, end ? 2 : 1));
 }
 
 /* 1 or -1: how one turns from a to b; 0 where that is not sure. */
@@ -145,13 +142,10 @@ static bool go_along(struct round *round, const struct direction c[4], int halvi
 static bool go_through(const struct judge *j, const struct wedge *w, struct round *round)
 {
   if (w->pole < 0) return go_to(round, border_direction(j, w->patch, w->out, out_end(w)));
-  const int row = w->pole & 1 ? 3 : 0, next = w->pole & 1 ? 2 : 1;
   struct direction c[4];
   for (int n = 0; n < 4; n++) {
-    const int k = w->in & 1 ? 3 - n : n; /* the pole runs from one of the two borders to the other */
-    const int from[2] = {w->pole < 2 ? row : k, w->pole < 2 ? k : row};
-    const int to[2] = {w->pole < 2 ? next : k, w->pole < 2 ? k : next};
-    c[n] = seen(j, w->patch, from, to);
+    const int at = edge_at(w->pole, w->in & 1 ? 3 - n : n); /* the pole runs from one of the two borders to the other */
+    c[n] = seen(j, w->patch, at, at + edge_inward(w->pole));
   }
   return go_along(round, c, TURN_HALVINGS);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/double_double.h"
+#include "geometry/edges.h"
 #include "intersect/local_ray.h"
 
 /* A value of a or b passes at most this many roundings on the way from the control points to a combination's
@@ -219,12 +220,11 @@ static void fixed_net(fixed c[4][4])
 static void divide_by_distance(fixed net[4][4], int border)
 {
   const fixed third = fixed_from_wide((wide)1 / 3);
+  const int step = edge_inward(border);
   for (int n = 0; n < 4; n++) {
-    fixed *b = border < 2 ? &net[0][n] : net[n];
-    const int stride = border < 2 ? 4 : 1, first = border & 1 ? 3 * stride : 0, step = border & 1 ? -stride : stride;
-    const fixed b1 = b[first + step], b2 = b[first + 2 * step], b3 = b[first + 3 * step];
-    b[first] = 3 * b1, b[first + step] = b1 + b2;
-    b[first + 2 * step] = b2 + fixed_product(third, b3), b[first + 3 * step] = b3;
+    fixed *b = &net[0][0] + edge_at(border, n);
+    const fixed b1 = b[step], b2 = b[2 * step], b3 = b[3 * step];
+    b[0] = 3 * b1, b[step] = b1 + b2, b[2 * step] = b2 + fixed_product(third, b3), b[3 * step] = b3;
   }
 }
 
@@ -252,7 +252,7 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
   fixed c[3][4][4], net[2][4][4];
   box_powers(zoom, low, size, c);
   fixed_net(c[0]), fixed_net(c[1]);
-  const int at = border == 1 ? 12 : border == 3 ? 3 : 0;
+  const int at = edge_at(border, 0);
   const fixed a0 = c[0][at / 4][at % 4], b0 = c[1][at / 4][at % 4], far = fixed_max(fixed_size(a0), fixed_size(b0));
   const double error = 4 * zoom->error, distance = fixed_double(far);
   *out_pole = distance > POLE_PRECISION * error ? POLE_PASSED : POLE_MET;
