@@ -6,7 +6,12 @@
  * until it can, or until nothing in it has a sign (the polynomial is not told from zero there): a tangency, a multiple
  * root, or no root at all by less than the error. Such intervals are not lost but answered as clusters, by the local
  * parabola.
+ *
+ * Every real root in [0,1] is within the reach of an answer: of a bracketed one what lies between points where p surely
+ * has the signs of the ends, of a cluster its stretch, and of what is next to an end without a sign what
+ * `open_end_reach` says.
  */
+#include <float.h>
 #include <string.h>
 
 #include "algebra/root_problem.h"
@@ -26,11 +31,13 @@ struct interval {
 
 struct search {
   const struct solver_options *options;
-  struct evaluation p;
+  struct evaluation p, sure; /* with the bounds of rounding alone, and of the coefficients as well */
   int degree;
   struct root_estimates *out;
-  double joint; /* where the interval to the left ended in a root not told from its end; -1 where it did not */
+  double joint;      /* where the interval to the left ended in a root not told from its end; -1 where it did not */
+  double joint_from; /* that root is no farther left */
   double cluster_low, cluster_high; /* pending undecided intervals, joined; none while low > high */
+  double cluster_from, cluster_to;  /* its roots may lie a little outside */
 };
 
 /* p in a chart of its own: z = u/(1-u), (1-u)/u, or u itself in the power basis. */
@@ -83,11 +90,41 @@ static void tell_step(const struct search *search, int step, double u)
   root_problem_tell(search->options, BASIS_POWER, search->out->count, step, u, 0.0); /* u already */
 }
 
+static struct evaluation_real look(const struct search *search, double u)
+{
+  const struct chart chart = chart_at(search, u);
+  return evaluation_at_real(&search->sure, chart_from_u(chart, u), chart.reversed);
+}
+
+/* How far from u, on its way to `end`, p surely has the sign that it has there: in steps that double, from `first`. A chart
+ * point has some roundings. */
+static double sure_sign(const struct search *search, double u, double end, double first, int sign)
+{
+  const double most = fabs(end - u);
+  for (double step = first; step < most; step *= 2.0) {
+    const double at = end > u ? u + step : u - step;
+    const struct evaluation_real q = look(search, at);
+    if (sign * q.value > q.error) return fmin(most, fabs(at - u) * BOUND_ROOM + 4 * DBL_EPSILON * at);
+  }
+  return most;
+}
+
+/* How far from u the one root between low and high may be, where p has the signs `low_sign` and its opposite. */
+static double bracket_reach(const struct search *search, double low, double high, int low_sign, double u)
+{
+  const double first = 2.0 * DBL_EPSILON * u + DBL_TRUE_MIN;
+  const struct probe probe = probe_at(search, u);
+  const struct evaluation_real q = look(search, u);
+  const double noise = fabs(probe.newton * (2.5 * q.error / q.value));           /* of a step, and room */
+  const double step = fmin(fmax(first, fabs(probe.newton) + noise), high - low); /* a NaN becomes `first` */
+  return fmax(sure_sign(search, u, low, step, low_sign), sure_sign(search, u, high, step, -low_sign));
+}
+
 /* The one root between low and high, where p has the signs `low_sign` and its opposite. A Newton step is taken where it
  * stays in the bracket and is at most half the step before the last; otherwise the bracket is halved. */
-static void bracketed_newton(struct search *search, double low, double high, int low_sign, double start)
+static void bracketed_newton(struct search *search, const struct interval *part, int low_sign, double start)
 {
-  double u = start, last_step = high - low, step_before = high - low;
+  double low = part->low, high = low + part->width, u = start, last_step = high - low, step_before = high - low;
   int spent = 0;
   bool converged = false;
   tell_step(search, 0, u);
@@ -112,6 +149,7 @@ static void bracketed_newton(struct search *search, double low, double high, int
     u = next;
   }
   root_estimates_add(search->out, u, 0.0, spent, converged, false);
+  search->out->reach[search->out->count - 1] = bracket_reach(search, part->low, part->low + part->width, low_sign, u);
 }
 
 /* Where the control polygon of the interval crosses zero, given that it does so once. */
@@ -124,8 +162,32 @@ static double polygon_crossing(const struct interval *part, int n)
   return part->low + part->width * (k - 1 + inside) / n;
 }
 
-/* A root within the error of the point u, an end of an interval on which p is monotone there. */
-static void add_end_root(struct search *search, double u, double width)
+/* How far from an end without a sign the interval may have a root, where the coefficients `near` to `far`, seen from that
+ * end, have one sign, and none has the other but those of the ends. With e the most by which the end's has it, p is
+ * (1-t)^n times -e + sum C(n,k) b[k] (t/(1-t))^k there, and any term of the sum ends that; the other end may ask for one
+ * half of it. */
+static double open_end_reach(const struct interval *part, int n, bool at_high, int near, int far)
+{
+  const int end = at_high ? n : 0, inwards = at_high ? -1 : 1;
+  const double most = fabs(part->b[end]) + part->error[end];
+  double ratio = INFINITY;
+  for (int k = near; k <= far; k++) {
+    const double least = fabs(part->b[end + inwards * k]) - part->error[end + inwards * k];
+    if (least > 0.0) ratio = fmin(ratio, pow(2.0 * most / (polynomial_binomial(n, k) * least), 1.0 / k));
+  }
+  return ratio < INFINITY ? part->width * (ratio / (1.0 + ratio)) * BOUND_ROOM : part->width;
+}
+
+/* What root `index` stands for may be at u too. */
+static void reach_out(struct search *search, int index, double u)
+{
+  double *reach = &search->out->reach[index];
+  *reach = fmax(*reach, fabs(u - search->out->re[index]) * BOUND_ROOM);
+}
+
+/* A root within the error of the point u, an end of an interval on which p is monotone there, or no farther from it than
+ * `reach`, which is negative to the left. */
+static void add_end_root(struct search *search, double u, double width, double reach)
 {
   int spent = 0;
   double at = u;
@@ -141,6 +203,8 @@ static void add_end_root(struct search *search, double u, double width)
     tell_step(search, spent, at);
   }
   root_estimates_add(search->out, at, 0.0, spent, !moving, false);
+  reach_out(search, search->out->count - 1, u);
+  reach_out(search, search->out->count - 1, u + reach);
 }
 
 /* Answers the pending undecided stretch: the two roots of the parabola that p is like there, or its vertex. */
@@ -166,23 +230,31 @@ static void flush_cluster(struct search *search)
   const double at[2] = {inside ? left : middle, right};
   for (int k = 0; k < (inside && right != left ? 2 : 1); k++) {
     root_estimates_add(search->out, at[k], 0.0, 1, true, true);
-    search->out->reach[search->out->count - 1] = fmax(at[k] - low, high - at[k]);
+    reach_out(search, search->out->count - 1, search->cluster_from);
+    reach_out(search, search->out->count - 1, search->cluster_to);
   }
+}
+
+static bool cluster_ends_at(const struct search *search, double u)
+{
+  return search->cluster_high == u && search->cluster_low <= search->cluster_high;
 }
 
 static void add_undecided(struct search *search, const struct interval *part)
 {
-  if (search->cluster_high == part->low && search->cluster_low <= search->cluster_high) {
-    search->cluster_high = part->low + part->width;
+  if (cluster_ends_at(search, part->low)) {
+    search->cluster_high = search->cluster_to = part->low + part->width;
     return;
   }
-  if (search->joint == part->low) {
+  const bool joined = search->joint == part->low;
+  if (joined) {
     search->out->count--; /* the root at the joint, the last one added, belongs to this stretch */
     search->joint = -1.0;
   }
   flush_cluster(search);
   search->cluster_low = part->low;
-  search->cluster_high = part->low + part->width;
+  search->cluster_from = joined ? search->joint_from : part->low;
+  search->cluster_high = search->cluster_to = part->low + part->width;
 }
 
 /* Tells what the signs over an interval say; true where it has to be halved. */
@@ -200,8 +272,7 @@ static bool examine(struct search *search, const struct interval *part)
   }
   const double high = part->low + part->width;
   if (!low_open && !high_open) {
-    if (variations == 1)
-      bracketed_newton(search, part->low, high, part->b[0] > 0.0 ? 1 : -1, polygon_crossing(part, n));
+    if (variations == 1) bracketed_newton(search, part, part->b[0] > 0.0 ? 1 : -1, polygon_crossing(part, n));
     return variations > 1;
   }
   /* Undecided ends and one sign between them: at most a root at either. The interval on the other side sees it too. */
@@ -209,16 +280,22 @@ static bool examine(struct search *search, const struct interval *part)
   if (last <= first && n > 1) return true;
   const int inner = polynomial_sign_variations(last - first, part->b + first, part->error + first);
   if (inner != 0 || fabs(part->b[first]) <= part->error[first] || fabs(part->b[last]) <= part->error[last]) return true;
-  if (low_open && search->joint != part->low && search->cluster_high != part->low)
-    add_end_root(search, part->low, part->width);
+  if (low_open) {
+    const double reach = open_end_reach(part, n, false, first, last);
+    if (cluster_ends_at(search, part->low)) search->cluster_to = part->low + reach;
+    else if (search->joint == part->low) reach_out(search, search->out->count - 1, part->low + reach);
+    else add_end_root(search, part->low, part->width, reach);
+  }
   if (high_open) {
-    add_end_root(search, high, part->width);
+    const double reach = open_end_reach(part, n, true, n - last, n - first);
+    add_end_root(search, high, part->width, -reach);
     search->joint = high;
+    search->joint_from = high - reach;
   }
   return false;
 }
 
-/* De Casteljau at the middle. The errors go the same way, and each mean of two adds a rounding. */
+/* De Casteljau at the middle. The errors go the same way, and each mean of two adds a rounding, or what underflows. */
 static void halve(struct interval *part, int n, struct interval *out_right)
 {
   out_right->width = part->width = 0.5 * part->width;
@@ -235,7 +312,8 @@ static void halve(struct interval *part, int n, struct interval *out_right)
     out_right->error[n - k] = error[n - k];
     for (int i = 0; i < n - k; i++) {
       b[i] = 0.5 * (b[i] + b[i + 1]);
-      error[i] = (0.5 * (error[i] + error[i + 1]) + fabs(b[i]) * UNIT_ROUNDOFF) * (1.0 + 4 * UNIT_ROUNDOFF);
+      error[i] = (0.5 * (error[i] + error[i + 1]) + fabs(b[i]) * UNIT_ROUNDOFF) * (1.0 + 4 * UNIT_ROUNDOFF) +
+                 DBL_TRUE_MIN;
     }
   }
 }
@@ -265,6 +343,7 @@ void bernstein_find(const struct root_problem *problem, const struct solver_opti
   struct search search = {
     .options = options, .degree = problem->degree, .out = out, .joint = -1.0, .cluster_low = 1.0, .cluster_high = 0.0};
   evaluation_prepare(problem->degree, problem->basis, problem->c, NULL, &search.p);
+  evaluation_prepare(problem->degree, problem->basis, problem->c, problem->error, &search.sure);
 
   /* Depth first from the left: stack[top] is the leftmost interval not yet examined. */
   struct interval stack[DEEPEST + 2];

@@ -84,14 +84,30 @@ static bool worth_solving(const struct polynomial *p, struct root_set *out)
   return finite && !zero;
 }
 
-/* The exponent of the unit in which roots are sought, of x with u = 2^unit x. In powers of u it is next to the roots'
- * mean modulus, so that no size of u makes values, their bounds or their squares over- or underflow. The paper's
- * tolerance is one in u, and [0,1] an interval of u: there the unit is 1, as in Bernstein form. */
+/* Whether the coefficients stand for a root whose modulus is beyond 2^exponent at the end `from`, near 0 or near infinity
+ * (Newton's polygon): |c[from]| is less than that of another one k steps inwards by more than 2^(k exponent). */
+static bool end_is_beyond(double exponent, const double c[], int from, int inwards, int count)
+{
+  for (int k = 1; k <= count; k++)
+    if (log2(fabs(c[from + inwards * k])) - log2(fabs(c[from])) > k * exponent) return true;
+  return false;
+}
+
+/* A root whose modulus is beyond 2^FARTHEST, either way, is no double. */
+#define FARTHEST 1075.0
+
+/* The exponent of the unit in which roots are sought, of x with u = 2^unit x. In powers of u it is next to the mean
+ * modulus of the roots that are doubles, so that no size of u makes values, their bounds or their squares over- or
+ * underflow. The paper's tolerance is one in u, and [0,1] an interval of u: there the unit is 1, as in Bernstein form. */
 static int unit_of(const struct root_problem *problem, const struct solver_options *options)
 {
-  const double low = log2(fabs(problem->c[0])), high = log2(fabs(problem->c[problem->degree]));
-  const bool fixed = problem->basis != BASIS_POWER || options->stop == STOP_STEP || options->solver->real_only;
-  return fixed || problem->degree == 0 || !isfinite(low - high) ? 0 : (int)lrint((low - high) / problem->degree);
+  const double *c = problem->c;
+  if (problem->basis != BASIS_POWER || options->stop == STOP_STEP || options->solver->real_only) return 0;
+  int low = 0, high = problem->degree;
+  while (low < high && end_is_beyond(FARTHEST, c, low, 1, high - low)) low++;
+  while (high > low && end_is_beyond(FARTHEST, c, high, -1, high - low)) high--;
+  const double mean = high == low ? 0.0 : (log2(fabs(c[low])) - log2(fabs(c[high]))) / (high - low);
+  return isfinite(mean) ? (int)lrint(mean) : 0;
 }
 
 /* The same polynomial in x with u = 2^unit x, times a power of two so that its largest coefficient lies in [1/2, 1). */
@@ -145,24 +161,15 @@ static int strip_ends(struct root_problem *problem, struct root_set *out)
  * underflow. */
 #define EXTREME 500.0
 
-/* Whether the coefficients stand for a root of such a modulus at the end `from` (Newton's polygon): |c[from]| is less
- * than that of another one k steps inwards by more than 2^(k EXTREME). */
-static bool end_is_extreme(const double c[], int from, int inwards, int count)
-{
-  for (int k = 1; k <= count; k++)
-    if (log2(fabs(c[from + inwards * k])) - log2(fabs(c[from])) > k * EXTREME) return true;
-  return false;
-}
-
 /* Takes out coefficients at the ends that vanish within their errors or against the others, with first guesses of their
  * roots: near 0, and near 1 or infinity. */
 static void strip_extremes(struct root_problem *problem, struct root_set *out)
 {
   const double *c = problem->c;
   int low = 0, high = problem->degree;
-  for (; low < high && end_is_extreme(c, low, 1, high - low); low++)
+  for (; low < high && end_is_beyond(EXTREME, c, low, 1, high - low); low++)
     add_root(out, c[low + 1] == 0.0 ? 0.0 : -c[low] / c[low + 1], 0.0, 0, ROOT_CONVERGED);
-  for (; high > low && end_is_extreme(c, high, -1, high - low); high--) {
+  for (; high > low && end_is_beyond(EXTREME, c, high, -1, high - low); high--) {
     const double u = problem->basis == BASIS_BERNSTEIN ? 1.0 : -c[high - 1] / c[high];
     if (isfinite(u)) add_root(out, u, 0.0, 0, ROOT_CONVERGED);
   }
@@ -240,7 +247,8 @@ static bool find_roots(const struct polynomial *p, const struct solver_options *
   task->unit = unit_of(rest, options);
   scale_problem(rest, task->unit);
   struct root_problem problem = *rest;
-  strip_extremes(&problem, out);
+  /* not of a solver of [0,1], whose answer is every root there and no other, while a guess is what it is */
+  if (!options->solver->real_only) strip_extremes(&problem, out);
   if (problem.degree > 0) {
     struct root_estimates estimates;
     ask_solver(&problem, task->unit, options, warm, &estimates);

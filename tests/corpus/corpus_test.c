@@ -212,6 +212,80 @@ static void wild_coefficients(void **state)
   assert_int_equal(wrong, 0);
 }
 
+/* c of degree n times u - root, in its basis; returns the new degree. */
+static int times_linear(enum basis basis, int n, double c[], double root)
+{
+  const double slope = basis == BASIS_POWER ? 1.0 : 1.0 - root;
+  c[n + 1] = slope * c[n];
+  for (int k = n; k > 0; k--) c[k] = slope * c[k - 1] - root * c[k];
+  c[0] *= -root;
+  return n + 1;
+}
+
+/* Roots of [0,1] next to each other, next to the ends and to halves of intervals, of a polynomial with bounds. */
+static int draw_bounded(struct random *random, int trial, enum basis basis, double c[], double error[])
+{
+  const int degree = 1 + (int)(random_bits(random) % (trial % 3 == 0 ? 18 : 6));
+  const double site = (double)(random_bits(random) % 17) / 16, spread = exp2(-(double)(random_bits(random) % 30));
+  double largest = 0.0;
+  c[0] = 1.0;
+  for (int n = 0; n < degree;) {
+    const double beside = random_bits(random) % 2 == 0 ? 0.0 : spread * random_between(random, -1.0, 1.0);
+    const double root = random_bits(random) % 3 != 0 ? site + beside : random_between(random, -0.2, 1.2);
+    n = times_linear(basis, n, c, root);
+  }
+  for (int k = 0; k <= degree; k++) largest = fmax(largest, fabs(c[k]));
+  const double size = exp2(-10.0 - (double)(random_bits(random) % 45));
+  const uint64_t kind = random_bits(random) % 3;
+  for (int k = 0; k <= degree; k++)
+    error[k] = size * (kind == 0 ? fabs(c[k]) : kind == 1 || random_bits(random) % 2 == 0 ? largest : 0.0);
+  return degree;
+}
+
+/* The real roots in [0,1] that no answer has within its radius. */
+static int count_lost(const struct exact_roots *exact, const struct root_set *roots)
+{
+  int lost = 0;
+  for (int k = 0; k < exact_roots_count(exact) && !roots->identically_zero; k++) {
+    const struct exact_root at = exact_roots_at(exact, k);
+    bool held = !at.real || at.re < 0.0 || at.re > 1.0;
+    for (int r = 0; r < roots->count; r++)
+      held |= exact_roots_distance_below(exact, k, roots->root[r].re, roots->root[r].im) <= roots->root[r].radius;
+    lost += !held;
+  }
+  return lost;
+}
+
+/* Of a polynomial known within bounds the true one is any of them: none loses a root in [0,1]. */
+static void no_root_within_bounds_is_lost(void **state)
+{
+  (void)state;
+  enum { TRIALS = 1000 };
+  struct random random = {7};
+  int lost = 0;
+  for (int trial = 0; trial < TRIALS; trial++) {
+    const enum basis basis = (enum basis)(trial % 2);
+    double c[POLYNOMIAL_MAX_DEGREE + 1], error[POLYNOMIAL_MAX_DEGREE + 1], truth[POLYNOMIAL_MAX_DEGREE + 1];
+    const int degree = draw_bounded(&random, trial, basis, c, error);
+    for (int k = 0; k <= degree; k++) {
+      const double part = fmin(fmax(random_between(&random, -2.0, 2.0), -1.0), 1.0);
+      truth[k] = c[k] + part * error[k];
+      if (fabs(truth[k] - c[k]) > error[k]) truth[k] = c[k];
+    }
+    const struct polynomial p = {degree, basis, c, error}, true_p = {degree, basis, truth, NULL};
+    struct exact_roots *exact = exact_roots_find(&true_p);
+    struct solver_options options;
+    struct root_set roots;
+    solver_options_default(solver_find("bernstein", 9), &options);
+    solver_solve(&p, &options, NULL, &roots);
+    const int here = count_lost(exact, &roots);
+    if (here > 0) print_error("trial %d, degree %d, basis %d: %d lost\n", trial, degree, (int)basis, here);
+    lost += here;
+    exact_roots_destroy(exact);
+  }
+  assert_int_equal(lost, 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -219,6 +293,7 @@ int main(void)
     cmocka_unit_test(no_real_root_is_lost),
     cmocka_unit_test(aberth_finds_all),
     cmocka_unit_test(wild_coefficients),
+    cmocka_unit_test(no_root_within_bounds_is_lost),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }

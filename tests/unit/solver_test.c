@@ -26,6 +26,17 @@ static bool found(const struct root_set *roots, double at)
   return false;
 }
 
+/* Whether every solver finds it. */
+static bool found_all(int degree, enum basis basis, const double c[], const double error[], double at)
+{
+  bool all = true;
+  for (size_t i = 0; i < solver_count(); i++) {
+    const struct root_set roots = solve(solver_at(i)->name, degree, basis, c, error);
+    all = all && found(&roots, at);
+  }
+  return all;
+}
+
 static void table(void **state)
 {
   (void)state;
@@ -122,6 +133,48 @@ static void roots_at_one(void **state)
       for (int j = 0; j < roots.count; j++) assert_true(roots.root[j].radius < 1e-6);
     }
   }
+}
+
+/* Coefficients that vanish beside the next one stand for roots near 0 and near infinity. A solver of [0,1] answers
+ * those that lie there, and no other. */
+static void extremes_beside_the_interval(void **state)
+{
+  (void)state;
+  const double outside[][3] = {{0.0, 0x1p-500, 0x1p532},       /* u (u + 2^-1032) */
+                               {0x1p-70, 0x1p-500, 0x1p-1074}, /* roots next to -2^430 and -2^574 */
+                               {1.0, 0x1p-600, 0x1p-1000},     /* a pair of 2^500 */
+                               {1.0, -0x1p-1000, 0.0}};
+  const double inside[] = {0x1p-1000, -1.0, 0x1p-1000}; /* roots next to 2^-1000 and 2^1000 */
+  for (size_t i = 0; i < solver_count(); i++) {
+    if (!solver_at(i)->real_only) continue;
+    for (size_t k = 0; k < sizeof outside / sizeof outside[0]; k++) {
+      const struct root_set roots = solve(solver_at(i)->name, 2, BASIS_POWER, outside[k], NULL);
+      assert_int_equal(roots.count, k == 0);
+    }
+    const struct root_set roots = solve(solver_at(i)->name, 2, BASIS_POWER, inside, NULL);
+    assert_int_equal(roots.count, 1);
+    assert_true(found(&roots, 0x1p-1000));
+    const double pair[] = {0x1p-1000, 0x1p-460, 1.0}; /* next to -2^-540 and -2^-460 */
+    const struct root_set near = solve(solver_at(i)->name, 2, BASIS_BERNSTEIN, pair, NULL);
+    assert_int_equal(near.count, 0);
+  }
+}
+
+/* A root of [0,1] that lies next to where an interval ends in a coefficient without a sign. */
+static void roots_next_to_open_ends(void **state)
+{
+  (void)state;
+  /* c[0] may be -5e-12 as well */
+  const double end[] = {1e-12, 1.0, 1.0}, end_error[] = {1e-11, 0.0, 0.0};
+  assert_true(found_all(2, BASIS_BERNSTEIN, end, end_error, 5e-12));
+  /* c[1] may be -2.53e-11, the others as small as can be: the pair at 0 is as far apart as it gets */
+  const double pair[] = {0.0, 0.0, 1.0}, pair_error[] = {0x1p-35, 0x1p-35, 0x1p-35};
+  assert_true(found_all(2, BASIS_BERNSTEIN, pair, pair_error, 5.3948092348877005e-06));
+  /* product of (u - 1/2 - 16^-k), k = 1 ... 11, rounded: the largest root is behind a stretch that is not decided */
+  const double tower[] = {-0.0005538962869768103, 0.012053466000110459, -0.11921418234380377, 0.707374498982631,
+                          -2.7979046910829592,    7.745809270436902,    -15.31524554494498,   21.62735319655019,
+                          -21.376176534431394,    14.083594771241811,   -5.566666666666663,   1.0};
+  assert_true(found_all(11, BASIS_POWER, tower, NULL, 0.56255857303151413));
 }
 
 /* Random real roots and pairs: every solver finds every real root in [0,1]; all agree. */
@@ -232,6 +285,21 @@ static void sizes(void **state)
   }
 }
 
+/* A root that is no double is missing, and takes nothing from the others. */
+static void beyond_doubles(void **state)
+{
+  (void)state;
+  const double c[] = {-0x1p-100, 0.0, 0x1p900, 0x1p-1070}; /* next to -2^-500, 2^-500 and -2^1970 */
+  for (size_t i = 0; i < solver_count(); i++) {
+    if (solver_at(i)->real_only) continue;
+    const struct root_set roots = solve(solver_at(i)->name, 3, BASIS_POWER, c, NULL);
+    assert_int_equal(roots.count, 2);
+    assert_int_equal(roots.missing, 1);
+    assert_true(found(&roots, -0x1p-500) && found(&roots, 0x1p-500));
+    for (int k = 0; k < 2; k++) assert_true(roots.root[k].radius < 0x1p-540);
+  }
+}
+
 /* Whatever the iteration limit, an answer comes, and its radii hold. */
 static void limits(void **state)
 {
@@ -268,10 +336,19 @@ static void division(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(table),         cmocka_unit_test(hopeless_input), cmocka_unit_test(exact_ends),
-    cmocka_unit_test(raised_degree), cmocka_unit_test(random_roots),   cmocka_unit_test(warm_start),
-    cmocka_unit_test(limits),        cmocka_unit_test(division),       cmocka_unit_test(sizes),
+    cmocka_unit_test(table),
+    cmocka_unit_test(hopeless_input),
+    cmocka_unit_test(exact_ends),
+    cmocka_unit_test(raised_degree),
+    cmocka_unit_test(random_roots),
+    cmocka_unit_test(warm_start),
+    cmocka_unit_test(limits),
+    cmocka_unit_test(division),
+    cmocka_unit_test(sizes),
     cmocka_unit_test(roots_at_one),
+    cmocka_unit_test(extremes_beside_the_interval),
+    cmocka_unit_test(roots_next_to_open_ends),
+    cmocka_unit_test(beyond_doubles),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
