@@ -44,6 +44,36 @@ static void uneven(struct random *random, size_t index, size_t thinnest, int far
 void extreme_uneven_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 1, 12, s); }
 void extreme_wild_sizes(struct random *random, size_t index, struct situation *s) { uneven(random, index, 0, 29, s); }
 
+/* Past a pole that is the origin by 2^-50 ... 2^-150 of its patch, from before it, next to it or behind, in any direction or
+ * along the surface there; and through it. */
+void extreme_met_poles(struct random *random, size_t index, struct situation *s)
+{
+  s->count = 1 + index % 2;
+  for (size_t n = 0; n < s->count; n++) {
+    double pole[3];
+    gentle(random, 1, s->P[n]);
+    memcpy(pole, s->P[n][0][0], sizeof pole);
+    for (int k = 0; k < 48; k++)
+      s->P[n][k / 12][k / 3 % 4][k % 3] = k < 12 ? 0 : s->P[n][k / 12][k / 3 % 4][k % 3] - pole[k % 3];
+  }
+  for (int n = 0; n < RAYS; n++) {
+    double d[3], along[3];
+    random_vector(random, 1, d);
+    net_point((const double(*)[4][3])s->P[n % (int)s->count], 1e-9, random_unit(random), along);
+    if (choose(random, 3) == 0)
+      for (int axis = 0; axis < 3; axis++)
+        d[axis] = 1e9 * along[axis] + (choose(random, 2) ? random_decade(random, 3, 30) * d[axis] : 0);
+    if (choose(random, 2)) d[choose(random, 3)] = 0;
+    const double back = ldexp(choose(random, 4) ? 1 : -1, choose(random, 2) ? 1 : -(int)choose(random, 100));
+    const double off = choose(random, 3) ? ldexp(1, -50 - (int)choose(random, 100)) : 0;
+    s->rays[n] = (struct ray){.t_min = 0, .t_max = INFINITY};
+    for (int axis = 0; axis < 3; axis++) {
+      s->rays[n].direction[axis] = d[axis];
+      s->rays[n].origin[axis] = off * random_between(random, -1, 1) - back * d[axis];
+    }
+  }
+}
+
 /* From the ends of what a double holds. */
 void extreme_far_origins(struct random *random, size_t index, struct situation *s)
 {

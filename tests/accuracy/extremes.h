@@ -8,6 +8,7 @@
 
 void extreme_uneven_sizes(struct random *random, size_t index, struct situation *s);
 void extreme_wild_sizes(struct random *random, size_t index, struct situation *s); /* beyond wide arithmetic's digits */
+void extreme_met_poles(struct random *random, size_t index, struct situation *s);
 void extreme_far_origins(struct random *random, size_t index, struct situation *s);
 void extreme_far_diagonal(struct random *random, size_t index, struct situation *s);
 void extreme_far_oblique(struct random *random, size_t index, struct situation *s);

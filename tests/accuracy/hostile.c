@@ -475,6 +475,7 @@ static const struct situation_class classes[] = {
   {"nearly degenerate nets", 710, 0.3, degenerate},
   {"thin patches", 711, 1, thin},
   {"starts next to poles", 712, 1, pole_starts},
+  {"poles met but for nothing", 730, 0.5, extreme_met_poles},
   {"starts next to surfaces", 713, 1, surface_starts},
   {"uneven sizes", 718, 0.5, extreme_uneven_sizes},
   {"sizes beyond all digits", 714, 0.5, extreme_wild_sizes},
@@ -501,4 +502,7 @@ const struct situation_class *every_class_at(size_t index)
   return index < first ? situation_class_at(index) : &classes[index - first];
 }
 
-bool class_told_only(const struct situation_class *class) { return class->generate == unbent_tangents; }
+bool class_told_only(const struct situation_class *class)
+{
+  return class->generate == unbent_tangents || class->generate == extreme_met_poles;
+}

@@ -159,34 +159,67 @@ static void test_tangent(void **state)
   trial_destroy(&trial);
 }
 
-/* A ray that comes by a pole of a ball nearer than 113 bits tell, and nearly along the tangent plane there, meets the ball
- * once more 1e-10 of it before: where nothing is looked for, since the pole is taken for met. So a wall between the two
- * is not proven to be hit first, but a wall before them is. */
+/* Two octants of a ball whose pole is the origin. */
+static void ball_top(net P[2])
+{
+  static const double k = 0.55228474983079356;
+  const double profile[4][2] = {{0, 0}, {k, 0}, {1, k - 1}, {1, -1}}, turn[4][2] = {{1, 0}, {1, k}, {k, 1}, {0, 1}};
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double x = -profile[i][0] * turn[j][0], z = profile[i][0] * turn[j][1];
+      const double octants[2][3] = {{x, profile[i][1], z}, {x, profile[i][1], -z}};
+      memcpy(P[0][i][j], octants[0], sizeof octants[0]), memcpy(P[1][i][j], octants[1], sizeof octants[1]);
+    }
+  }
+}
+
+/* Rays that come by a pole of a ball nearer than 113 bits tell, and nearly along the tangent plane there, meet the ball once
+ * more before it: by 1e-10 of the ball, which is hit first although a wall stands between the two, or by 1e-16, where nothing
+ * is looked for, since the pole is taken for met. So that such a wall is hit first is not proven then, but a wall before
+ * them is. */
 static void test_beside_met_pole(void **state)
 {
   (void)state;
-  static const double k = 0.55228474983079356, origin[3] = {-0x1.753eap-30, -0x1.ffffp-64, -0x1.934f82p-31};
-  static const double direction[3] = {0x1.753eap+0, 0x1p-33, 0x1.934f82p-1};
-  const double profile[4][2] = {{0, 0}, {k, 0}, {1, k - 1}, {1, -1}}, turn[4][2] = {{1, 0}, {1, k}, {k, 1}, {0, 1}};
-  for (int n = 0; n < 2; n++) {
+  static const struct {
+    double slope, aside, back, wall;
+    uint32_t patch;
+    enum certainty certainty;
+  } cases[] = {{0x1p-33, 0x1p-80, 0x1p-30, -0x1.9p-43, 1, CERTAINTY_CERTAIN},
+               {0x1p-53, 0x1p-112, 0x1p-30, -0x1.9p-63, 2, CERTAINTY_GRAZING},
+               {0x1p-33, 0x1p-80, 1, -0x1p-20, 2, CERTAINTY_CERTAIN}};
+  for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
     net P[3];
+    ball_top(P);
     for (int i = 0; i < 4; i++) {
       for (int j = 0; j < 4; j++) {
-        const double x = -profile[i][0] * turn[j][0], z = profile[i][0] * turn[j][1], wall = n ? -0x1p-20 : -0x1.9p-43;
-        const double octants[2][3] = {{x, profile[i][1], z}, {x, profile[i][1], -z}};
-        const double across[3] = {0x1p-18 * (i - 1.25), 0x1p-18 * (j - 1.75), wall};
-        memcpy(P[0][i][j], octants[0], sizeof across), memcpy(P[1][i][j], octants[1], sizeof across);
+        const double across[3] = {0x1p-18 * (i - 1.25), 0x1p-18 * (j - 1.75), cases[n].wall};
         memcpy(P[2][i][j], across, sizeof across);
       }
     }
     struct trial trial;
     trial_create(&trial, (const double(*)[4][4][3])P, 3, NULL);
-    const double before[3] = {origin[0] - direction[0], origin[1] - direction[1], origin[2] - direction[2]};
-    const struct hit hit = closest(&trial, n ? before : origin, direction);
-    assert_int_equal(hit.patch, 2);
-    assert_int_equal(hit.certainty, n ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING);
+    const double direction[3] = {0x1.753eap+0, cases[n].slope, 0x1.934f82p-1}, back = cases[n].back;
+    const double origin[3] = {-back * direction[0], cases[n].aside - back * direction[1], -back * direction[2]};
+    const struct hit hit = closest(&trial, origin, direction);
+    assert_int_equal(hit.patch, cases[n].patch);
+    assert_int_equal(hit.certainty, cases[n].certainty);
     trial_destroy(&trial);
   }
+}
+
+/* A ray that starts next to the pole, nearer than 113 bits tell, and meets the ball 4e-15 of it away: that is not lost. */
+static void test_from_met_pole(void **state)
+{
+  (void)state;
+  static const double origin[3] = {-0x1p-81, 0x1p-84, -0x1p-82}, direction[3] = {-1, -0x1p-36, -0.5};
+  net P[2];
+  struct trial trial;
+  ball_top(P);
+  trial_create(&trial, (const double(*)[4][4][3])P, 2, NULL);
+  const struct hit hit = closest(&trial, origin, direction);
+  assert_int_equal(hit.patch, 1);
+  assert_true(hit.t > 3.5e-15 && hit.t < 3.6e-15);
+  trial_destroy(&trial);
 }
 
 /* The ray meets the surface between its start and its end, and no double lies there: t is the end, or who asks for what comes
@@ -214,13 +247,10 @@ static void test_between_doubles(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_start),
-    cmocka_unit_test(test_small_parameter),
-    cmocka_unit_test(test_line),
-    cmocka_unit_test(test_corner_of_line),
-    cmocka_unit_test(test_tangent),
-    cmocka_unit_test(test_beside_met_pole),
-    cmocka_unit_test(test_between_doubles),
+    cmocka_unit_test(test_start),         cmocka_unit_test(test_small_parameter),
+    cmocka_unit_test(test_line),          cmocka_unit_test(test_corner_of_line),
+    cmocka_unit_test(test_tangent),       cmocka_unit_test(test_beside_met_pole),
+    cmocka_unit_test(test_from_met_pole), cmocka_unit_test(test_between_doubles),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,7 +89,7 @@ bool pole_zoom(struct search *s, const struct box *box, int border)
   s->dependent |= !done;
   if (!done) return false;
   closer.divided = border;
-  for (int k = 0; k < 2 && closer.met; k++) zoomed.error[k] += closer.met_error[k] = zoomed.met[k];
+  for (int k = 0; k < 2; k++) closer.met_error[k] = zoomed.met[k];
   search_run_closer(&closer, &zoomed);
   return true;
 }
@@ -110,8 +110,8 @@ static bool pole_alone(const struct search *s, struct box *box, double depth, do
   double error[2];
   const double least = real_min(gap / window_length(&s->window, slope_at_pole(box->net[2], depth)), 1);
   if (!(least > 0)) return false;
-  search_box_error(s, box, error);
-  for (int k = 0; k < 2; k++) error[k] += s->met_error[k] * (ZOOM_POLE_MET / (least * reach_from(box, s->divided)));
+  search_rounding(s, box, error);
+  pole_add_error(s, least * reach_from(box, s->divided), error);
   return box_test(box, error) == VERDICT_EMPTY;
 }
 
@@ -129,6 +129,19 @@ enum pole_box pole_decide(struct search *s, struct box *box)
   else if (at_end) judge_undecided(s->window.judge, box->near);
   if (smallest || alone) return POLE_BOX_DECIDED;
   return told || at_end ? POLE_BOX_OPEN : POLE_BOX_HALVED;
+}
+
+void pole_add_error(const struct search *s, double distance, double error[2])
+{
+  for (int k = 0; k < 2; k++) error[k] += s->met_error[k] / distance;
+}
+
+/* Of a box at the pole a root counts from a sixteenth of its reach on (pole_far), and it is no smaller than ZOOM_POLE_MET. Any
+ * other reaches no farther than it is away, and a root beside it is not half as near (BOX_MARGIN). */
+double pole_told_from(const struct search *s, const struct box *box)
+{
+  const double distance[4] = {box->u, 1 - (box->u + box->size_u), box->v, 1 - (box->v + box->size_v)};
+  return real_max(distance[s->divided] / 2, ZOOM_POLE_MET / CERTIFICATE_SLOPES);
 }
 
 bool pole_far(const struct search *s, const struct box *box, const double root[2])

@@ -41,9 +41,15 @@ enum { TANGENT_DEPTH = 4 };
 
 /* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the
  * whole box's size. */
-void search_box_error(const struct search *s, const struct box *box, double out[2])
+void search_rounding(const struct search *s, const struct box *box, double out[2])
 {
   for (int k = 0; k < 2; k++) out[k] = s->error[k] + box->halvings * 4 * UNIT_ROUNDOFF;
+}
+
+void search_box_error(const struct search *s, const struct box *box, double out[2])
+{
+  search_rounding(s, box, out);
+  if (s->met) pole_add_error(s, pole_told_from(s, box), out);
 }
 
 void search_tell_maybe(struct search *s, struct box *box, bool small)

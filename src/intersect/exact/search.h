@@ -15,15 +15,18 @@ struct search {
   int divided;          /* the border by the distance to which the first net is divided (zoom_pole_box), or NO_BORDER */
   bool dependent;       /* some combination is zero, which it then is everywhere: there is nothing to see of it */
   bool met;             /* the pole there may be met: nothing is said of what is nearer to it than ZOOM_POLE_MET, ... */
-  double met_error[2];  /* ... and this is what it adds to the errors of the first two nets that far away */
+  double met_error[2];  /* ... and this over the distance from it is what it adds to the errors of the first two nets */
   double error[2];      /* bounds on the errors of coefficients of the first two nets before any halving */
   double extent[2];     /* bounds on the derivatives by the whole box's parameters */
   double resolution;    /* of t */
   bool pole[4];         /* borders of the whole box (geometry/edges.h) that are one point */
 };
 
-/* The bounds on the errors of coefficients of the box's first two nets. */
+/* The bounds on the errors of coefficients of the box's first two nets, at a pole that is met from where roots are told. */
 void search_box_error(const struct search *s, const struct box *box, double out[2]);
+
+/* The same without what the pole adds. */
+void search_rounding(const struct search *s, const struct box *box, double out[2]);
 
 /* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray, which stands for all of
  * a small one. A box that is not small is a doubt, whether or not it has such a point. */
@@ -52,6 +55,12 @@ enum pole_box {
   POLE_BOX_OPEN     /* what is done with all boxes */
 };
 enum pole_box pole_decide(struct search *s, struct box *box);
+
+/* What a pole that is met adds to the errors of the first two nets at that distance from it and farther, of the whole box. */
+void pole_add_error(const struct search *s, double distance, double error[2]);
+
+/* From where on roots in the box are told, of the whole box: those outside it, but proven there, included. */
+double pole_told_from(const struct search *s, const struct box *box);
 
 /* Whether the root, in the box's parameters, is so far from the pole of the search that the certificate speaks of the
  * ray's own polynomials. */

@@ -242,7 +242,7 @@ static bool scaled_net(fixed net[4][4], double error, double met, int k, struct 
   if (!(size > error)) return false;
   for (int n = 0; n < 16; n++) out->net[k][n / 4][n % 4] = fixed_double(net[n / 4][n % 4]) * scale;
   out->error[k] = error / size + ZOOMED_ROUNDINGS * UNIT_ROUNDOFF;
-  out->met[k] = met / size / ZOOM_POLE_MET;
+  out->met[k] = met / size;
   return true;
 }
 
@@ -273,8 +273,8 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
   divide_by_distance(net[0], border);
   if (!passed) divide_by_distance(net[1], border);
   const double away = passed ? error * 4 * slope / distance : 0;
-  if (!scaled_net(net[0], 6 * error + away, distance, 0, out) || !scaled_net(net[1], 6 * error, distance, 1, out))
-    return false;
+  const double met = distance + error;
+  if (!scaled_net(net[0], 6 * error + away, met, 0, out) || !scaled_net(net[1], 6 * error, met, 1, out)) return false;
   set_depth(zoom, c[2], out);
   return true;
 }

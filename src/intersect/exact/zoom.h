@@ -48,8 +48,8 @@ struct zoomed {
   /* two combinations of a and b with the same common roots, at most 1 in size; x_k less the middle's */
   double net[3][4][4];
   double error[2]; /* bounds on the errors of coefficients of the first two */
-  double met[2];   /* of zoom_pole_box, where the pole is met but not exactly: what they are off by besides, from
-                    * ZOOM_POLE_MET on */
+  double met[2];   /* of zoom_pole_box, where the pole is met but not exactly: what they are off by besides, over the
+                    * distance from the border, of the box */
   wide start;      /* t = (w + start) scale/d_k for w of net[2] */
 };
 
@@ -69,9 +69,9 @@ enum zoom_pole {
 /* A pole that is met is no farther from the ray than this many of zoom's errors. */
 #define ZOOM_POLE_REACH 0x1p26
 
-/* As parts of the box, from such a border on: how near to it `met` bounds the errors, and how near derivatives are good
- * enough for a certificate. A root that is nearer asks for a smaller box. */
-#define ZOOM_POLE_MET 0x1p-20
+/* As parts of the box, from such a border on: how near to it anything is told where the pole is met, and how near
+ * derivatives are good enough for a certificate where it is passed. A root that is nearer asks for a smaller box then. */
+#define ZOOM_POLE_MET 0x1p-40
 #define ZOOM_POLE_NEAREST 0x1p-14
 
 /* The same for a box at a border that is one point (geometry/edges.h), where both polynomials are constant: in place of
