@@ -141,6 +141,14 @@ static void write_plain(const struct root_set *roots)
   putc('\n', stdout);
 }
 
+/* What three digits say that is no less than the radius: rounded to nearest, the disc might lose its root. */
+static double radius_told(double radius)
+{
+  char text[NUMBER_TEXT_SIZE];
+  snprintf(text, sizeof text, "%.3g", radius);
+  return strtod(text, NULL) < radius ? radius + 0.501 * pow(10, floor(log10(radius)) - 2) : radius;
+}
+
 /* A row a root, and one for those that are missing. */
 static void write_table(const struct answer *answer)
 {
@@ -151,8 +159,8 @@ static void write_table(const struct answer *answer)
     char re[NUMBER_TEXT_SIZE], im[NUMBER_TEXT_SIZE];
     number_write_17(root->re, re);
     number_write_17(root->im, im);
-    printf("%6zu %24s %24s %10.3g %-9s %10d %10.3g\n", answer->line, re, im, root->radius, status_word(root),
-           root->iterations, eq11_of(answer, root));
+    printf("%6zu %24s %24s %10.3g %-9s %10d %10.3g\n", answer->line, re, im, radius_told(root->radius),
+           status_word(root), root->iterations, eq11_of(answer, root));
   }
   if (answer->roots.missing > 0)
     printf("%6zu %24s %24s %10s %-9s %10s %10s\n", answer->line, "-", "-", "-", "missing", "-", "-");

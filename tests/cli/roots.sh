@@ -20,6 +20,9 @@ echo "$answer"
 for format in table json; do
   printf '%s\n' '4 -1' '1 0 0 0' '1e-320 1 -1' | try pscn roots --format "$format"
 done
+# A radius is rounded up: the root of the second row is at 3.3404e-152.
+echo '1e300 -6.680801335744067e148 0.0011158276623035757' |
+  try pscn roots --solver 'aberth { basis bernstein }' --format table
 # Zeros that a polynomial begins with are not missing in the other basis either, where a root at 1 is known as well; and
 # they do not count as degrees in eq 11.
 printf '%s\n' '1 -1' '0 4 -4' '0 0 5' '0 0 2 -1' '1 -2 1' | try pscn roots --solver 'aberth { basis bernstein }'
