@@ -112,7 +112,7 @@ static void aim(struct random *random, const struct situation *s, struct ray *ra
   ray_between(at, to, ray);
   if (choose(random, 4))
     for (int axis = 0; axis < 3; axis++) ray->direction[axis] = whole(random, 2);
-  if (!ray->direction[0] && !ray->direction[1] && !ray->direction[2]) ray->direction[2] = 1;
+  if (ray->direction[0] == 0 && ray->direction[1] == 0 && ray->direction[2] == 0) ray->direction[2] = 1;
   const double way = back[choose(random, sizeof back / sizeof back[0])];
   for (int axis = 0; axis < 3; axis++) {
     ray->origin[axis] -= way * ray->direction[axis];

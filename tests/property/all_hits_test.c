@@ -157,7 +157,7 @@ static void corners_too(void **state)
       ray.direction[k] = (double)(random_bits(&random) % 17) / 4 - 2;
       ray.origin[k] = corner[k] - 2 * ray.direction[k];
     }
-    if (!(ray.direction[0] || ray.direction[1] || ray.direction[2])) continue;
+    if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0) continue;
     const struct hit nearest = world_closest(&world, &ray);
     struct kept all;
     all_of(&world, &ray, &all);

@@ -4,26 +4,23 @@
 #include <math.h>
 
 #include "algebra/evaluation.h"
+#include "base/wide.h"
 #include "cmocka_test.h"
 #include "random.h"
-
-typedef _Float128 quad;
 
 enum { TRIALS = 3000, LARGEST_COUNTED = 9 };
 
 /* A bound is worth something if it is not larger than this many unit roundoffs of the sum of moduli, per degree. */
 #define BOUND_LOOSENESS 40.0
 
-static quad quad_abs(quad x) { return x < 0 ? -x : x; }
-
 /* sum c[k] u^k v^(n-k), with v = 1 - u or 1, and its derivative in u. */
-static void quad_values(const struct polynomial *p, double u, quad *value, quad *slope, quad *size)
+static void wide_values(const struct polynomial *p, double u, wide *value, wide *slope, wide *size)
 {
   const bool bernstein = p->basis == BASIS_BERNSTEIN;
-  const quad x = u, v = bernstein ? 1 - x : 1;
+  const wide x = u, v = bernstein ? 1 - x : 1;
   *value = *slope = *size = 0;
   for (int k = 0; k <= p->degree; k++) {
-    quad low = 1, high = 1, low_slope = 0, high_slope = 0; /* u^k and v^(n-k) with derivatives */
+    wide low = 1, high = 1, low_slope = 0, high_slope = 0; /* u^k and v^(n-k) with derivatives */
     for (int i = 0; i < k; i++) {
       low_slope = low_slope * x + low;
       low *= x;
@@ -34,7 +31,7 @@ static void quad_values(const struct polynomial *p, double u, quad *value, quad 
     }
     *value += p->c[k] * low * high;
     *slope += p->c[k] * (low_slope * high + low * high_slope);
-    *size += quad_abs(p->c[k] * low * high);
+    *size += wide_abs(p->c[k] * low * high);
   }
 }
 
@@ -62,10 +59,10 @@ static void check_value(struct random *random, const struct polynomial *p, const
   const struct evaluation_real found = evaluation_at_real(&e, z, reversed);
   for (int k = 0; k <= p->degree; k++) c[k] = moved[reversed ? p->degree - k : k];
   const struct polynomial powers = {p->degree, BASIS_POWER, c, NULL};
-  quad value, slope, size;
-  quad_values(&powers, z, &value, &slope, &size);
-  assert_true(quad_abs(found.value - value) <= found.error);
-  assert_true(quad_abs(found.slope - slope) <= found.slope_error);
+  wide value, slope, size;
+  wide_values(&powers, z, &value, &slope, &size);
+  assert_true(wide_abs(found.value - value) <= found.error);
+  assert_true(wide_abs(found.slope - slope) <= found.slope_error);
   if (moved == p->c) assert_true(found.error <= BOUND_LOOSENESS * p->degree * 0x1p-53 * (double)size + 0x1p-1000);
 }
 
@@ -111,13 +108,13 @@ static void bernstein_form_within_bounds(void **state)
     /* The two agree at a point up to what the bounds of the coefficients allow there. */
     const struct polynomial other = {p.degree, BASIS_BERNSTEIN, other_c, NULL};
     const double u = random_unit(&random);
-    quad value, other_value, slope, size, allowed = 0;
-    quad_values(&p, u, &value, &slope, &size);
-    quad_values(&other, u, &other_value, &slope, &size);
+    wide value, other_value, slope, size, allowed = 0;
+    wide_values(&p, u, &value, &slope, &size);
+    wide_values(&other, u, &other_value, &slope, &size);
     struct polynomial bounds = other;
     bounds.c = other_error;
-    quad_values(&bounds, u, &allowed, &slope, &size);
-    assert_true(quad_abs(value - other_value) <= allowed);
+    wide_values(&bounds, u, &allowed, &slope, &size);
+    assert_true(wide_abs(value - other_value) <= allowed);
   }
 }
 
@@ -181,9 +178,9 @@ static void binomials(void **state)
 {
   (void)state;
   for (int n = 0; n <= POLYNOMIAL_MAX_DEGREE; n++) {
-    quad row = 0;
+    wide row = 0;
     for (int k = 0; k <= n; k++) row += polynomial_binomial(n, k);
-    assert_true(quad_abs(row - exp2(n)) <= exp2(n - 52));
+    assert_true(wide_abs(row - exp2(n)) <= exp2(n - 52));
   }
   assert_true(polynomial_binomial(18, 9) == 48620.0);
   assert_true(polynomial_binomial(5, 6) == 0.0);

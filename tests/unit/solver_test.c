@@ -297,6 +297,10 @@ static void beyond_doubles(void **state)
     assert_int_equal(roots.missing, 1);
     assert_true(found(&roots, -0x1p-500) && found(&roots, 0x1p-500));
     for (int k = 0; k < 2; k++) assert_true(roots.root[k].radius < 0x1p-540);
+    const double small[] = {-0x1.8000000000001p-600, 0x1p470}; /* 2^-1122 from the next double */
+    const struct root_set one = solve(solver_at(i)->name, 1, BASIS_POWER, small, NULL);
+    assert_true(one.count == 1 && one.root[0].re == 0x1.8p-1070);
+    assert_true(one.root[0].radius > 0.0 && one.root[0].radius < 0x1p-1070);
   }
 }
 
