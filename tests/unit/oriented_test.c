@@ -18,6 +18,7 @@ struct subject {
   struct model_patch patch;
   struct model_tree tree;
   struct leaf leaf;
+  double error; /* how far what the leaf stands for may be from it */
   struct oriented_box box;
   struct packet packet[2];
   struct view view;
@@ -44,8 +45,8 @@ static double leaf_size(const struct subject *s)
   return size;
 }
 
-/* Of any shape, or flat, or slender, as many leaves or few. */
-static void make_leaf(struct random *random, struct subject *s)
+/* Of any shape, or flat, or slender, as many leaves or few; as it is, or off by up to an eighth of its size. */
+static void make_leaf(struct random *random, bool off, struct subject *s)
 {
   const int kind = (int)(random_bits(random) % 3), side = 1 << random_bits(random) % 6;
   s->patch = (struct model_patch){.scale = power(random, -30, 30), .m = 3, .n = 3, .split = {side, side}};
@@ -66,10 +67,12 @@ static void make_leaf(struct random *random, struct subject *s)
   for (int k = 0; k < 3; k++)
     s->tree.origin[k] = s->patch.center[k] + s->patch.scale * s->leaf.x[k][5] +
                         s->tree.frame * random_between(random, -0.25, 0.25);
-  leaf_orient(&s->tree, 0, &s->patch, &s->leaf, &s->box);
+  s->error = off ? leaf_size(s) * power(random, -20, -3) : 0;
+  leaf_orient(&s->tree, s->error, &s->patch, &s->leaf, &s->box);
 }
 
-/* Ray `number` through a point of the leaf, moved aside by `aside` across the ray; *out_t is where it is met. */
+/* Ray `number` through a point of the leaf, that is off by up to its error, moved aside by `aside` across the ray; *out_t is
+ * where it is met. */
 static void make_ray(struct random *random, struct subject *s, unsigned number, double aside, double *out_t)
 {
   const double u = parameter(random), v = parameter(random);
@@ -84,7 +87,8 @@ static void make_ray(struct random *random, struct subject *s, unsigned number, 
   for (int k = 0; k < 3; k++) {
     double net[4][4];
     memcpy(net, s->leaf.x[k], sizeof net);
-    const double point = s->patch.center[k] + s->patch.scale * patch_evaluate(net, u, v).value;
+    const double off = s->error > 0 ? s->error * random_between(random, -1, 1) : 0;
+    const double point = s->patch.center[k] + s->patch.scale * patch_evaluate(net, u, v).value + off;
     p->direction[k][lane] = scale * direction[k];
     p->origin[k][lane] = point + aside * across[k] / sqrt(square) - *out_t * p->direction[k][lane];
   }
@@ -110,7 +114,7 @@ static void rays_that_meet_the_leaf_pass_its_box(void **state)
   for (int n = 0; n < CASES; n++) {
     struct subject s = {.packet = {{.t_error = {0}}}};
     double t[FLOAT_LANES];
-    make_leaf(&random, &s);
+    make_leaf(&random, n % 2 == 1, &s);
     for (unsigned k = 0; k < FLOAT_LANES; k++) make_ray(&random, &s, k, 0, &t[k]);
     look(&s);
     const unsigned all = view_oriented(&s.view, &s.box);
@@ -130,7 +134,7 @@ static void rays_that_do_not_are_told(void **state)
   for (int n = 0; n < CASES / 4; n++) {
     struct subject s = {.packet = {{.t_error = {0}}}};
     double t[FLOAT_LANES];
-    make_leaf(&random, &s);
+    make_leaf(&random, false, &s);
     for (unsigned k = 0; k < FLOAT_LANES; k++) make_ray(&random, &s, k, 6 * leaf_size(&s), &t[k]);
     look(&s);
     const unsigned all = view_oriented(&s.view, &s.box);
@@ -154,7 +158,7 @@ static void rays_that_end_before_are_told(void **state)
   for (int n = 0; n < CASES / 4; n++) {
     struct subject s = {.packet = {{.t_error = {0}}}};
     double t[FLOAT_LANES];
-    make_leaf(&random, &s);
+    make_leaf(&random, false, &s);
     for (unsigned k = 0; k < FLOAT_LANES; k++) {
       make_ray(&random, &s, k, 0, &t[k]);
       s.packet[k / LANES].t_min[k % LANES] = 0, s.packet[k / LANES].t_max[k % LANES] = 0.25 * t[k];
