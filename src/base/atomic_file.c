@@ -229,6 +229,10 @@ static void settle(struct staged *staged, bool well)
   if (staged->old != NULL) (void)(undo ? rename(staged->old, staged->target.path) : unlink(staged->old));
   else if (undo && !staged->target.exists) (void)unlink(staged->target.path);
   if (!staged->placed && staged->fresh != NULL) (void)unlink(staged->fresh);
+}
+
+static void staged_free(struct staged *staged)
+{
   if (staged->descriptor >= 0) (void)close(staged->descriptor);
   free(staged->target.path);
   free(staged->fresh);
@@ -270,9 +274,11 @@ enum status atomic_files_write(const struct atomic_file *files, size_t count, co
     *out_failed = k;
     status = place(&files[k], count == 1, stop, &staged[k], out_errno);
   }
+  /* Other names are gone before the disk is waited for: who is killed then leaves none. */
+  for (size_t k = 0; staged != NULL && k < count; k++) settle(&staged[k], status == STATUS_OK);
   for (size_t k = 0; staged != NULL && k < count; k++) {
     if (status == STATUS_OK && staged[k].placed) sync_directory(staged[k].target.path);
-    settle(&staged[k], status == STATUS_OK);
+    staged_free(&staged[k]);
   }
   free(staged);
   return status == STATUS_FILE ? failure(*out_errno) : status;
