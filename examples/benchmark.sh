@@ -83,9 +83,10 @@ every_scene() {
 # preparing: a table of what is done before the first ray, by the camera rays' runs.
 preparing() {
   printf '| scene | pscn, s | Embree, s | of its best quality, s | pictures until Embree is done first |\n|---|---|---|---|---|\n'
-  awk -v rays="${SIZE%x*} * ${SIZE#*x}" 'BEGIN { split(rays, side, " [*] "); million = side[1] * side[2] / 1e6 }
-    { slower = $5 * (1 - 1 / $6) * million / 1e3 # seconds a picture
-      printf "| %s | %.4f | %.4f | %.4f | %s |\n", $1, $2, $3, $4, (slower <= 0 ? "never" : $3 <= $2 ? 0 : sprintf("%.0f", 0.5 + ($3 - $2) / slower)) }' "$folder/preparing"
+  awk -v rays=$((${SIZE%x*} * ${SIZE#*x})) '{
+    slower = $5 * (1 - 1 / $6) * rays / 1e9 # seconds a picture
+    pictures = slower <= 0 ? "never" : $3 <= $2 ? 0 : sprintf("%.0f", 0.5 + ($3 - $2) / slower)
+    printf "| %s | %.4f | %.4f | %.4f | %s |\n", $1, $2, $3, $4, pictures }' "$folder/preparing"
 }
 
 # every_scene_avx2: a table of all scenes and kinds of rays, both with AVX2 and no more.

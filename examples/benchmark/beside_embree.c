@@ -182,15 +182,20 @@ static void report(struct contestant *list, size_t count, size_t pscn, size_t ru
   }
 }
 
-/* Embree's triangles; *seconds is what making them took. */
-static struct embree_mesh *make_mesh(const struct scene *scene, unsigned side, bool best, struct arena *arena,
-                                     double *seconds)
+static const double (*nets_of(const struct scene *scene, struct arena *arena))[4][4][3]
 {
   double(*P)[4][4][3] = arena_alloc(arena, scene->patch_count, sizeof *P);
   if (P == NULL) fail("out of memory");
   for (size_t n = 0; n < scene->patch_count; n++) memcpy(P[n], scene->patches[n].P, sizeof P[n]);
+  return (const double(*)[4][4][3])P;
+}
+
+/* Embree's triangles; *seconds is what making them took. */
+static struct embree_mesh *make_mesh(const double (*P)[4][4][3], size_t patch_count, unsigned side, bool best,
+                                     double *seconds)
+{
   const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-  struct embree_mesh *mesh = pscn_embree_peer.mesh_create((const double(*)[4][4][3])P, scene->patch_count, side, best);
+  struct embree_mesh *mesh = pscn_embree_peer.mesh_create(P, patch_count, side, best);
   *seconds = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
   if (mesh == NULL) fail("Embree failed");
   return mesh;
@@ -214,9 +219,11 @@ int main(int argc, char **argv)
   struct arena *arena = arena_create();
   if (arena == NULL) fail("out of memory");
   const struct ray_list rays = make_rays(kind, &own, arena);
+  const double(*nets)[4][4][3] = nets_of(own.scene, arena);
+  const size_t patches = own.scene->patch_count;
   double default_seconds, best_seconds;
-  pscn_embree_peer.mesh_destroy(make_mesh(own.scene, side, false, arena, &default_seconds));
-  struct embree_mesh *mesh = make_mesh(own.scene, side, true, arena, &best_seconds);
+  pscn_embree_peer.mesh_destroy(make_mesh(nets, patches, side, false, &default_seconds));
+  struct embree_mesh *mesh = make_mesh(nets, patches, side, true, &best_seconds);
   struct embree_rays *embree = pscn_embree_peer.rays_create(rays.rays, rays.count);
   if (embree == NULL) fail("out of memory");
 

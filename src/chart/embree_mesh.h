@@ -19,8 +19,8 @@ struct embree_rays; /* rays as Embree wants them, rounded to float */
 
 struct embree_peer {
   /* `side` x `side` squares of two triangles a patch, corners on the patch, one thread; the hierarchy of the best quality
-   * or, several times sooner, of Embree's default. P[patch][i][j][xyz]. Of the processor's instructions it uses those that PSCN_KERNEL leaves pscn. NULL where memory is
-   * short or Embree fails. */
+   * or, several times sooner, of Embree's default. P[patch][i][j][xyz]. Of the processor's instructions it uses those
+   * that PSCN_KERNEL leaves pscn. NULL where memory is short or Embree fails. */
   struct embree_mesh *(*mesh_create)(const double (*P)[4][4][3], size_t patch_count, unsigned side, bool best);
   void (*mesh_destroy)(struct embree_mesh *mesh);
   struct embree_rays *(*rays_create)(const struct ray *rays, size_t count);
