@@ -58,6 +58,10 @@ static const struct hint HINTS[] = {
    false, "write the number, or give it by --declare NAME=NUMBER"},
   {"array function spline dimensions dimension_size str chr concat vstr substr strlen", false,
    "names stand for numbers, vectors, colours, textures and objects"},
+  {"break case debug declare default else elseif end error fclose fopen for if ifdef ifndef include local macro range "
+   "read "
+   "render statistics switch undef warning while write",
+   false, "directives begin with #"},
   {"#if #elseif #while #for #switch #case #range #break", false,
    "conditions are #ifdef and #ifndef; let a script write what a loop stands for"},
   {"#read #write #fopen #fclose", false, "text comes in by #include"},

@@ -5,7 +5,7 @@
 
 #include "language/sources.h"
 
-/* The innermost of that name; with `depth` at least 0, only that of that depth. */
+/* The innermost of that name; with `depth` at least 0, only that of that depth. A #local that is forgotten hides nothing. */
 static struct symbol *find(const struct symbols *symbols, const char *name, size_t length, int depth)
 {
   struct symbol *best = NULL;
@@ -13,7 +13,7 @@ static struct symbol *find(const struct symbols *symbols, const char *name, size
   for (; entry; entry = entry->older) {
     struct symbol *s = (struct symbol *)entry;
     if (s->length != length || memcmp(s->name, name, length) != 0) continue;
-    if (depth >= 0 && s->depth != depth) continue;
+    if ((depth >= 0 && s->depth != depth) || (s->depth > 0 && s->kind == SYMBOL_UNKNOWN)) continue;
     if (!best || s->depth > best->depth) best = s;
   }
   return best;

@@ -153,11 +153,15 @@ struct value *value_negative(struct language *language, struct value *a, struct 
   return value_placed(set(a, -a->x[0], -a->x[1], -a->x[2]), place);
 }
 
-/* A number's components are itself, as in POV-Ray. */
+/* A number's first component is itself, and it has no other, as in POV-Ray. */
 struct value *value_component(struct language *language, struct value *a, int index, struct span name)
 {
   const struct span place = span_join(a->place, name);
   if (!usable(language, a, "a vector")) return become_unknown(a, place);
+  if (a->kind == VALUE_NUMBER && index > 0) {
+    language_error(language, place, "a number has no such component");
+    return become_unknown(a, place);
+  }
   a->kind = VALUE_NUMBER;
   a->transparent = 0;
   return value_placed(set(a, a->x[index], a->x[index], a->x[index]), place);

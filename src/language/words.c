@@ -191,8 +191,8 @@ void guess_consider(struct guess *guess, const char *candidate, size_t length)
   if (guess->length > LONGEST_COMPARED || length > LONGEST_COMPARED) return;
   if (guess->length > length + guess->distance || length > guess->length + guess->distance) return;
   const size_t d = distance_between(guess->word, guess->length, candidate, length);
-  /* A word all of whose letters are wrong is no misspelling. */
-  if (d >= guess->length || d > guess->distance || (guess->best && d == guess->distance)) return;
+  /* A word all of whose letters are wrong is no misspelling, nor is the word itself. */
+  if (d == 0 || d >= guess->length || d > guess->distance || (guess->best && d == guess->distance)) return;
   guess->best = candidate;
   guess->best_length = length;
   guess->distance = d;

@@ -67,6 +67,9 @@ static void test_guesses(void **state)
   struct guess guess = guess_begin("inclde", 6);
   guess_directives(&guess);
   assert_string_equal(guess.best, "include");
+  guess = guess_begin("Same", 4);
+  guess_consider(&guess, "Same", 4);
+  assert_null(guess.best);
   /* What is longer than anybody types is compared with nothing. */
   char large[5000];
   memset(large, 'a', sizeof large);
