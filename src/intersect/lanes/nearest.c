@@ -167,22 +167,24 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
   if (p->gather) gather_best(p, taken);
 }
 
-/* What a root is off by that Newton's process ends at, of its radius, which is no less than 72 u |M| for the inverse Jacobian M
- * (PLANE_ERROR): what M makes of the rest's rounding, and of what the last step leaves, u/64 (LAST_STEP_CURVE). */
-#define REST_LEFT (1 / (72 * UNIT_ROUNDOFF))
-#define STEP_LEFT 0x1p-12
-
-/* Such a root is final where that is no more than so many roundings of t. */
+/* Such a root is final where it is off by no more than so many roundings of t. */
 #define FINAL_ROUNDINGS 4
 
-/* Lanes whose root is. Seen edge-on it may be off by far more than rounding the input makes, where the patch is thin. */
+/* What a plane is off by at a root that Newton's process ends at, besides the rest's rounding (leaf_parts.error) and what the last
+ * step leaves: the products of tails, 2^-27 with s and t of a patch that is one leaf, are 2^-26 of 6 at most in either of two
+ * coordinates, and take six roundings each. */
+#define TAIL_ERROR (72 * UNIT_ROUNDOFF * 0x1p-26)
+
+/* Lanes whose root is. The radii are no less than 72 u |M| for the inverse Jacobian M (PLANE_ERROR), so they tell what M makes of
+ * an error: seen edge-on the root may be off by far more than rounding the input makes, where the patch is thin. */
 LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candidate *it, const struct leaf_root *root)
 {
   const struct leaf *leaf = it->leaf;
-  const double left = leaf->parts.error * REST_LEFT + STEP_LEFT;
   const lanes reach = leaf->first[0] * root->at.radius_u + leaf->first[1] * root->at.radius_v;
-  return packet_has_digits(p, it->patch, root->t, NEAR_START_FINAL) &
-         (left * it->patch->scale * reach <= FINAL_ROUNDINGS * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
+  const lanes off = leaf->parts.error + TAIL_ERROR + root->left;
+  return packet_has_digits(p, it->patch, root->t, NEAR_START) &
+         (off * it->patch->scale * reach <=
+          72 * FINAL_ROUNDINGS * UNIT_ROUNDOFF * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
 }
 
 /* Keeps what a leaf's root says of the surface. */

@@ -321,6 +321,8 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
   out->w = x[k].hi + rest;
   out->t = (way.hi + (rest + (way.lo + line->start[1]))) * line->to_t;
   if (p->any) return;
+  const double second = leaf->second[0] + 2 * leaf->second[1] + leaf->second[2];
+  out->left = (0.5 * second * step + DERIVATIVE_ROUNDINGS * UNIT_ROUNDOFF * (leaf->first[0] + leaf->first[1])) * step;
   for (int c = 0; c < 3; c++) out->point[c] = x[c].hi + (x[c].lo - (x[c].ds * step_s + x[c].dt * step_t));
   const lane_mask turned = settled & (step > parts->slope_step);
   if (lanes_any(turned)) surface_turn(parts, s, t, -step_s, -step_t, turned, x);

@@ -25,6 +25,7 @@ struct newton_root {
 struct leaf_root {
   struct newton_root at;
   lanes w, t;                   /* x_k, and how far along the ray */
+  lanes left;                   /* bound on what the last step leaves of a plane's value */
   lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters; none of these where any hit will do */
 };
 

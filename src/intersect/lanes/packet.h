@@ -13,10 +13,9 @@
 
 #define NO_PATCH INT64_MAX
 
-/* Roots nearer to the ray's start than these parts of their patch's frame want more digits: the last step leaves 2^-72
- * of the frame, a root that is final without it the rounding of its leaf's bend. */
+/* Roots nearer to the ray's start than this part of their patch's frame want more digits: the last step leaves 2^-72 of the
+ * frame. */
 #define NEAR_START 0x1p-16
-#define NEAR_START_FINAL 0x1p-6
 
 /* And so do roots farther from it: the moments of a ray that starts there, in double-double, are no better than 2^-60
  * (MOMENT_ERROR). */
