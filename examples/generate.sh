@@ -8,16 +8,21 @@
 #   examples/generate.sh knots N       N patches through one another, of sixteen random points each
 #   examples/generate.sh confetti N    N small patches, each bent another way
 #   examples/generate.sh shells N      N / 8 balls of eight patches through one another
+#   examples/generate.sh pearls N      N / 8 small balls apart from one another
+#   examples/generate.sh floor N       N / 8 balls of very different sizes on a floor 2,000 wide
+#   examples/generate.sh hills N       N patches, a square number, of one smooth landscape, seen along it, the sun as low
 #
 # Of the first three the light stands at the camera: every hit of a camera ray sends one shadow ray, so that counting those
 # counts hits.
 set -euo pipefail
 export LC_ALL=C
 
-kind=${1:?hair, ribbons, creature, knots, confetti or shells?}
+KINDS='hair ribbons creature knots confetti shells pearls floor hills'
+
+kind=${1:?one of: $KINDS}
 count=${2:?how many patches?}
 case $count in *[!0-9]*) echo "$0: '$count' is no number of patches" >&2 && exit 2 ;; esac
-case $kind in hair | ribbons | creature | knots | confetti | shells) ;; *) echo "$0: there is no '$kind'" >&2 && exit 2 ;; esac
+case " $KINDS " in *" $kind "*) ;; *) echo "$0: there is no '$kind'" >&2 && exit 2 ;; esac
 awk -v kind="$kind" -v n="$count" '
   # A generator of its own: the same scene wherever awk runs.
   function random() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
@@ -91,9 +96,26 @@ awk -v kind="$kind" -v n="$count" '
     r = 0.55 + 0.12 * sin(7 * a + 2 * b) + 0.05 * sin(31 * a) * cos(5 * b) + 0.02 * sin(97 * a + 13 * b)
     for (c = 0; c < 3; c++) B[c] = K[0, c] + r * (cos(b) * V[c] + sin(b) * W[c])
   }
-  # Bezier points of a uniform cubic B-spline with control points at whole numbers: weights of the points -1 ... 2.
-  function creature(rows, columns, i, j, k, c, x, y, r, w) {
+  # P from the control points Q[x, y, c] of a uniform cubic B-spline; M: weights of the points -1 ... 2.
+  function from_spline(x, y, c, r, w) {
     split("1 4 1 0 0 4 2 0 0 2 4 0 0 1 4 1", M, " ")
+    for (x = 0; x < 4; x++)
+      for (y = 0; y < 4; y++)
+        for (c = 0; c < 3; c++) {
+          w = 0
+          for (r = 0; r < 4; r++) if (M[4 * y + r + 1]) w += M[4 * y + r + 1] * Q[x, r, c]
+          R[x, y, c] = w / 6
+        }
+    for (x = 0; x < 4; x++)
+      for (y = 0; y < 4; y++)
+        for (c = 0; c < 3; c++) {
+          w = 0
+          for (r = 0; r < 4; r++) if (M[4 * x + r + 1]) w += M[4 * x + r + 1] * R[r, y, c]
+          P[4 * x + y, c] = w / 6
+        }
+    patch()
+  }
+  function creature(rows, columns, i, j, c, x, y) {
     columns = int(sqrt(n / 8)); if (columns < 3) columns = 3
     rows = int(n / columns + 0.5); if (rows < 3) rows = 3
     head(0, 7, -7)
@@ -107,21 +129,7 @@ awk -v kind="$kind" -v n="$count" '
         for (x = 0; x < 4; x++)
           for (y = 0; y < 4; y++)
             for (c = 0; c < 3; c++) Q[x, y, c] = G[(i - 3 + x + 4) % 4, (j - 1 + y + columns) % columns, c]
-        for (x = 0; x < 4; x++)
-          for (y = 0; y < 4; y++)
-            for (c = 0; c < 3; c++) {
-              w = 0
-              for (r = 0; r < 4; r++) if (M[4 * y + r + 1]) w += M[4 * y + r + 1] * Q[x, r, c]
-              R[x, y, c] = w / 6
-            }
-        for (x = 0; x < 4; x++)
-          for (y = 0; y < 4; y++)
-            for (c = 0; c < 3; c++) {
-              w = 0
-              for (r = 0; r < 4; r++) if (M[4 * x + r + 1]) w += M[4 * x + r + 1] * R[r, y, c]
-              P[4 * x + y, c] = w / 6
-            }
-        patch()
+        from_spline()
       }
     }
   }
@@ -142,24 +150,61 @@ awk -v kind="$kind" -v n="$count" '
       patch()
     }
   }
-  # An eighth of a ball as (ring, height) of two quarters of a circle, turned round; u goes up to the pole.
-  function shells(k, i, s, c) {
-    begin(0, 0, -4, 2, 3, -4)
+  # A ball about `at` with the half axes R, of eight patches: each as (ring, height) of two quarters of a circle, turned round;
+  # u goes up to the pole.
+  function ball(i, s) {
     split("1 1 0.5522847498 0", along, " "); split("0 0.5522847498 1 1", up, " ")
+    for (s = 0; s < 8; s++) {
+      for (i = 0; i < 16; i++) {
+        P[i, 0] = at[0] + (s % 2 ? -1 : 1) * R[0] * along[int(i / 4) + 1] * along[i % 4 + 1]
+        P[i, 1] = at[1] + (s % 4 > 1 ? -1 : 1) * R[1] * up[int(i / 4) + 1]
+        P[i, 2] = at[2] + (s > 3 ? -1 : 1) * R[2] * along[int(i / 4) + 1] * up[i % 4 + 1]
+      }
+      patch()
+    }
+  }
+  function shells(k, c) {
+    begin(0, 0, -4, 2, 3, -4)
     for (k = 0; k < int(n / 8); k++) {
       for (c = 0; c < 3; c++) { at[c] = between(-0.3, 0.3); R[c] = between(0.9, 1.1) }
-      for (s = 0; s < 8; s++) {
-        for (i = 0; i < 16; i++) {
-          P[i, 0] = at[0] + (s % 2 ? -1 : 1) * R[0] * along[int(i / 4) + 1] * along[i % 4 + 1]
-          P[i, 1] = at[1] + (s % 4 > 1 ? -1 : 1) * R[1] * up[int(i / 4) + 1]
-          P[i, 2] = at[2] + (s > 3 ? -1 : 1) * R[2] * along[int(i / 4) + 1] * up[i % 4 + 1]
-        }
-        patch()
-      }
+      ball()
     }
+  }
+  function pearls(k, c) {
+    begin(0, 0, -9, 6, 9, -8)
+    R[0] = R[1] = R[2] = 0.12
+    for (k = 0; k < int(n / 8); k++) {
+      for (c = 0; c < 3; c++) at[c] = between(-2.5, 2.5)
+      ball()
+    }
+  }
+  function floor(k, i) {
+    begin(0, 2, -7, 6, 9, -8)
+    for (i = 0; i < 16; i++) { P[i, 0] = 2000 * (int(i / 4) / 3 - 0.5); P[i, 1] = -1; P[i, 2] = 2000 * (i % 4 / 3 - 0.5) }
+    patch()
+    for (k = 0; k < int(n / 8); k++) {
+      R[0] = R[1] = R[2] = 10 ^ between(-2.5, -0.4)
+      at[0] = between(-3, 3); at[1] = R[0] - 1; at[2] = between(-3, 3)
+      ball()
+    }
+  }
+  function hills(side, i, j, x, y) {
+    side = int(sqrt(n))
+    begin(0, side / 16, -0.7 * side, 7 * side, side / 6, 2.5 * side)
+    for (i = 0; i < side + 3; i++)
+      for (j = 0; j < side + 3; j++) G[i, j] = between(-0.8, 0.8)
+    for (i = 0; i < side; i++)
+      for (j = 0; j < side; j++) {
+        for (x = 0; x < 4; x++)
+          for (y = 0; y < 4; y++) {
+            Q[x, y, 0] = i + x - side / 2 - 1; Q[x, y, 1] = G[i + x, j + y]; Q[x, y, 2] = j + y - side / 2 - 1
+          }
+        from_spline()
+      }
   }
   BEGIN {
     seed = 20240511
     if (kind == "hair") hair(); else if (kind == "ribbons") ribbons(); else if (kind == "creature") creature()
-    else if (kind == "knots") knots(); else if (kind == "confetti") confetti(); else shells()
+    else if (kind == "knots") knots(); else if (kind == "confetti") confetti(); else if (kind == "shells") shells()
+    else if (kind == "pearls") pearls(); else if (kind == "floor") floor(); else hills()
   }'

@@ -186,7 +186,7 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, u
   last_step_take(&step);
   struct answers a = {.u = step.u, .v = step.v, .t = step.t, .done = step.done};
   a.done &= (lanes_abs(step.u - best->u) <= best->radius_u) & (lanes_abs(step.v - best->v) <= best->radius_v) &
-            packet_has_digits(p, patch, best->t, NEAR_START);
+            packet_has_digits(p, patch, best->t);
   a.point = surface_point(patch, step.point, step.tangent);
   for (int c = 0; c < 3; c++) a.normal[c] = step.normal[c];
   return write_hits(p, group, &a, out);

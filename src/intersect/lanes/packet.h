@@ -127,12 +127,12 @@ void packet_orient(struct packet *p);
  * was tried before. */
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
-/* Lanes whose root at t, in units of the packet's directions, has all its digits as double precision leaves it: at
- * least the part `least` of the patch's frame away from the ray's start, and not too far. */
-LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, lanes t, double least)
+/* Lanes whose root at t, in units of the packet's directions, has all its digits as double precision leaves it: neither
+ * too near to the ray's start nor too far. */
+LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, lanes t)
 {
   const lanes away = lanes_abs(t) * p->longest;
-  return (away >= least * patch->scale) & (away <= FAR_START * patch->scale);
+  return (away >= NEAR_START * patch->scale) & (away <= FAR_START * patch->scale);
 }
 
 /* candidate.c: tries the leaf, of that patch and number, on the lanes of `active`, and keeps what is nearer than the best. */
