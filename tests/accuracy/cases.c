@@ -1,7 +1,8 @@
 /* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver, the
  * ray, `from: T` where it begins there and `to: T` where it ends, `certain: yes` where the answer must be that too, or `no`
- * where it must not, `t: T` and `uv: U V` where it must be there, to the last places, and `all: N` where there must be N
- * hits in all, certainly; judged by the exact judge. Every file is a scene that pscn and POV-Ray read. */
+ * where it must not, `t: T` and `uv: U V` where it must be there, to the last places, `patch: N` where it must be that
+ * patch, and `all: N` where there must be N hits in all, certainly; judged by the exact judge. Every file is a scene that
+ * pscn and POV-Ray read. */
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -52,9 +53,10 @@ static bool all_good(struct tracer *tracer, const struct ray *ray, const char *c
 static bool judged_good(const char *path)
 {
   char solver[LINE_SIZE], text[LINE_SIZE], from[LINE_SIZE], to[LINE_SIZE], certain[LINE_SIZE], count[LINE_SIZE],
-    t[LINE_SIZE], uv[LINE_SIZE];
+    t[LINE_SIZE], uv[LINE_SIZE], patch[LINE_SIZE];
   header(path, "solver", solver), header(path, "ray", text), header(path, "from", from), header(path, "to", to);
-  header(path, "certain", certain), header(path, "all", count), header(path, "t", t), header(path, "uv", uv);
+  header(path, "certain", certain), header(path, "all", count), header(path, "t", t), header(path, "uv", uv),
+    header(path, "patch", patch);
   struct ray ray = {.t_min = from[0] ? strtod(from, NULL) : 0, .t_max = to[0] ? strtod(to, NULL) : INFINITY};
   double *o = ray.origin, *d = ray.direction;
   assert_int_equal(sscanf(text, "%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]), 6);
@@ -71,7 +73,8 @@ static bool judged_good(const char *path)
   const bool all = all_good(trial.tracer, &ray, count);
   const bool good = all && certificate.finding <= FINDING_UNDECIDED &&
                     (!certain[0] || (hit.certainty == CERTAINTY_CERTAIN) == !strcmp(certain, "yes")) &&
-                    numbers_are(t, 1, &hit.t) && numbers_are(uv, 2, (double[]){hit.u, hit.v});
+                    numbers_are(t, 1, &hit.t) && numbers_are(uv, 2, (double[]){hit.u, hit.v}) &&
+                    numbers_are(patch, 1, (double[]){hit.patch});
   if (!good)
     printf("%s:%s %s, %s\n", strrchr(path, '/') + 1, all ? "" : " not all, or grazing;",
            hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[certificate.finding]);

@@ -76,10 +76,7 @@ void packet_leave(struct packet *inner)
                     4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));
   const lane_mask hits = found->patch != NO_PATCH;
   const lane_mask rival = hits & (lanes_abs(t - outer->best.t) <= (far - t) + (outer->t_far - outer->best.t));
-  for (unsigned bits = lanes_bits(rival); bits; bits &= bits - 1) {
-    const unsigned lane = (unsigned)__builtin_ctz(bits);
-    packet_postpone(inner, &inner->model->leaves[found->leaf[lane]], lanes_mask(1u << lane)); /* objects keep theirs */
-  }
+  if (lanes_any(rival)) packet_postpone_best(inner, rival);
   const lane_mask taken = hits & ~rival & best_after(&outer->best, t, found->patch, found->leaf);
   if (!lanes_any(taken)) return;
   const lanes uv[2] = {found->u, found->v}, radius[2] = {found->radius_u, found->radius_v};

@@ -11,6 +11,7 @@
 #define packet_set_patch KERNEL(packet_set_patch)
 #define packet_give_up KERNEL(packet_give_up)
 #define packet_postpone KERNEL(packet_postpone)
+#define packet_postpone_best KERNEL(packet_postpone_best)
 #define packet_enter KERNEL(packet_enter)
 #define packet_leave KERNEL(packet_leave)
 #define packet_leaf KERNEL(packet_leaf)

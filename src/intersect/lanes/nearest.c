@@ -4,6 +4,8 @@
  */
 #include "intersect/lanes/nearest.h"
 
+#include <math.h>
+
 #include "intersect/lanes/gather.h"
 
 /* Makes room in the lane's list, where that was not in vain before. */
@@ -35,26 +37,54 @@ static void count_open(struct packet *p, lane_mask open)
   else p->postponed->full |= worn;
 }
 
-void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
+static void postpone(struct packet *p, const struct exact_region *region, lane_mask open)
 {
   struct postponed *to = p->postponed;
-  const struct exact_region region = {p->outer || !p->model->leaves ? NULL : leaf,
-                                      leaf->patch + (p->outer ? p->copy->first_patch : 0),
-                                      {leaf->column_u, leaf->column_v},
-                                      {1, 1}};
   p->tracer->counts.escalated += lanes_count(open);
   count_open(p, open);
   if (p->gather) {
-    gather_postpone(p->gather, &region, lanes_bits(open));
+    gather_postpone(p->gather, region, lanes_bits(open));
     return;
   }
   to->open |= lanes_bits(open);
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
-    if (count > 0 && exact_region_equal(&to->region[lane][count - 1], &region)) continue;
+    if (count > 0 && exact_region_equal(&to->region[lane][count - 1], region)) continue;
     if (count == EXACT_REGIONS_MAX) merge_regions(to, lane);
-    if (to->count[lane] < EXACT_REGIONS_MAX) to->region[lane][to->count[lane]++] = region;
+    if (to->count[lane] < EXACT_REGIONS_MAX) to->region[lane][to->count[lane]++] = *region;
     else to->cut_off |= 1u << lane;
+  }
+}
+
+void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
+{
+  const struct exact_region region = {p->outer || !p->model->leaves ? NULL : leaf,
+                                      leaf->patch + (p->outer ? p->copy->first_patch : 0),
+                                      {leaf->column_u, leaf->column_v},
+                                      {1, 1}};
+  postpone(p, &region, open);
+}
+
+/* The column of `split` that a parameter is in, or is nearest to. */
+static uint16_t column_at(double at, unsigned split)
+{
+  const double column = floor(at * split);
+  return (uint16_t)(column < 0 ? 0 : column < split ? column : split - 1);
+}
+
+void packet_postpone_best(struct packet *p, lane_mask open)
+{
+  const struct best *best = &p->best;
+  for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
+    const unsigned lane = (unsigned)__builtin_ctz(bits);
+    const double at[2] = {best->u[lane], best->v[lane]}, radius[2] = {best->radius_u[lane], best->radius_v[lane]};
+    struct exact_region region = {.patch = (uint32_t)best->patch[lane]};
+    for (int k = 0; k < 2; k++) {
+      const unsigned split = p->outer->model->cuts[region.patch].split[k];
+      region.column[k] = column_at(at[k] - radius[k], split);
+      region.span[k] = (uint16_t)(column_at(at[k] + radius[k], split) - region.column[k] + 1);
+    }
+    postpone(p, &region, lanes_mask(1u << lane));
   }
 }
 

@@ -142,6 +142,10 @@ void packet_leaf(struct packet *p, const struct leaf *leaf, const struct model_p
 /* nearest.c: leaves what is open of the leaf, or of the same leaf of a copy, to the last resort (exact.h). */
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open);
 
+/* nearest.c: the same of all leaves of a copy that the best root of these lanes may be in: next to a border between two leaves
+ * what is known of it in the object's coordinates does not tell in which. */
+void packet_postpone_best(struct packet *p, lane_mask open);
+
 /* nearest.c: the rays on these lanes, as bits, go no further: there is more than is known of. */
 void packet_give_up(struct packet *p, unsigned worn);
 
