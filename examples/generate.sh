@@ -96,8 +96,8 @@ awk -v kind="$kind" -v n="$count" '
     r = 0.55 + 0.12 * sin(7 * a + 2 * b) + 0.05 * sin(31 * a) * cos(5 * b) + 0.02 * sin(97 * a + 13 * b)
     for (c = 0; c < 3; c++) B[c] = K[0, c] + r * (cos(b) * V[c] + sin(b) * W[c])
   }
-  # P from the control points Q[x, y, c] of a uniform cubic B-spline; M: weights of the points -1 ... 2.
-  function from_spline(x, y, c, r, w) {
+  # The piece of a uniform cubic B-spline with the control points Q[x, y, c] as a patch; M: weights of the points -1 ... 2.
+  function spline(x, y, c, r, w) {
     split("1 4 1 0 0 4 2 0 0 2 4 0 0 1 4 1", M, " ")
     for (x = 0; x < 4; x++)
       for (y = 0; y < 4; y++)
@@ -129,7 +129,7 @@ awk -v kind="$kind" -v n="$count" '
         for (x = 0; x < 4; x++)
           for (y = 0; y < 4; y++)
             for (c = 0; c < 3; c++) Q[x, y, c] = G[(i - 3 + x + 4) % 4, (j - 1 + y + columns) % columns, c]
-        from_spline()
+        spline()
       }
     }
   }
@@ -199,7 +199,7 @@ awk -v kind="$kind" -v n="$count" '
           for (y = 0; y < 4; y++) {
             Q[x, y, 0] = i + x - side / 2 - 1; Q[x, y, 1] = G[i + x, j + y]; Q[x, y, 2] = j + y - side / 2 - 1
           }
-        from_spline()
+        spline()
       }
   }
   BEGIN {

@@ -59,8 +59,7 @@ static const struct hint HINTS[] = {
   {"array function spline dimensions dimension_size str chr concat vstr substr strlen", false,
    "names stand for numbers, vectors, colours, textures and objects"},
   {"break case debug declare default else elseif end error fclose fopen for if ifdef ifndef include local macro range "
-   "read "
-   "render statistics switch undef warning while write",
+   "read render statistics switch undef warning while write",
    false, "directives begin with #"},
   {"#if #elseif #while #for #switch #case #range #break", false,
    "conditions are #ifdef and #ifndef; let a script write what a loop stands for"},
