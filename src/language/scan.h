@@ -23,7 +23,8 @@ enum {
   TOKEN_UNDEF,
   TOKEN_FOREIGN_OPENER,    /* a directive of POV-Ray's that is not in the language and has an #end: #if, #while ... */
   TOKEN_FOREIGN_DIRECTIVE, /* one that has none */
-  TOKEN_UNKNOWN_DIRECTIVE
+  TOKEN_UNKNOWN_DIRECTIVE,
+  TOKEN_SECOND_POINT /* a number with a point too many, and what follows it; scan->number[0] is 1 */
 };
 
 /* One scanner over one text. */

@@ -57,6 +57,19 @@ static int make_up(struct tokens *tokens)
   return tokens->solver_only ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_START_SCENE;
 }
 
+/* What stands for a token that is not the grammar's, once that has been told. */
+static int stand_in(struct language *language, int token)
+{
+  struct tokens *tokens = language->tokens;
+  if (token == TOKEN_SECOND_POINT) {
+    if (!tokens->skipping) language_error(language, tokens->last.place, "a number has one point");
+    return PSCN_TOKEN_NUMBER;
+  }
+  directives_tell(language, token);
+  tokens->told = tokens->last.place;
+  return PSCN_TOKEN_FOREIGN;
+}
+
 int tokens_next(struct language *language)
 {
   struct tokens *tokens = language->tokens;
@@ -72,10 +85,8 @@ int tokens_next(struct language *language)
   const struct frame *frame = language->sources->frame;
   if (token == 0) {
     last->place = sources_span(frame, frame->source->length, frame->source->length);
-  } else if (token == TOKEN_FOREIGN_DIRECTIVE || token == TOKEN_UNKNOWN_DIRECTIVE) {
-    directives_tell(language, token);
-    tokens->told = last->place;
-    token = PSCN_TOKEN_FOREIGN;
+  } else if (token > TOKEN_FIRST_PRIVATE) {
+    token = stand_in(language, token);
   } else if (is_number(token) && frame->scan.too_large) {
     tell_too_large(language);
   }

@@ -48,6 +48,7 @@ struct value *value_axis(struct language *language, int axis, struct span place)
 
 struct value *value_placed(struct value *value, struct span place)
 {
+  value->component = false;
   value->place = place;
   return value;
 }
@@ -153,18 +154,21 @@ struct value *value_negative(struct language *language, struct value *a, struct 
   return value_placed(set(a, -a->x[0], -a->x[1], -a->x[2]), place);
 }
 
-/* A number's first component is itself, and it has no other, as in POV-Ray. */
+/* A number's first component is itself, and it has no other, as in POV-Ray; a component has none. */
 struct value *value_component(struct language *language, struct value *a, int index, struct span name)
 {
   const struct span place = span_join(a->place, name);
   if (!usable(language, a, "a vector")) return become_unknown(a, place);
-  if (a->kind == VALUE_NUMBER && index > 0) {
-    language_error(language, place, "a number has no such component");
+  if (a->component || (a->kind == VALUE_NUMBER && index > 0)) {
+    const char *has = a->component ? "a component has none of its own" : "a number has no such component";
+    language_error(language, place, "%s", has);
     return become_unknown(a, place);
   }
   a->kind = VALUE_NUMBER;
   a->transparent = 0;
-  return value_placed(set(a, a->x[index], a->x[index], a->x[index]), place);
+  value_placed(set(a, a->x[index], a->x[index], a->x[index]), place);
+  a->component = true;
+  return a;
 }
 
 /* A number after rgb is three, and after color five. */
