@@ -98,23 +98,32 @@ static void end_condition(struct language *language, int token)
 
 /* ---- what is not the grammar's ---- */
 
+/* The name behind a directive, which is no word of the language or of POV-Ray's; false, told, where there is none. */
+static bool next_name(struct language *language, const char *directive, struct name *out)
+{
+  const int token = pscn_scan_next(&language->sources->frame->scan);
+  *out = here(language);
+  if (token == PSCN_TOKEN_WORD) return true;
+  if (scan_is_word(token))
+    language_tell(language, out->place, "%s wants a name, and '%.*s' is a word of the language", directive,
+                  (int)out->length, out->text);
+  else language_tell(language, out->place, "%s wants a name", directive);
+  return false;
+}
+
 /* A macro may be defined; what is in it nobody reads. */
 static void skip_macro(struct language *language)
 {
   const struct span place = sources_here(language);
-  const int token = pscn_scan_next(&language->sources->frame->scan);
-  const struct name name = here(language);
-  if (scan_is_word(token)) declare_macro(language, &name);
-  else language_tell(language, name.place, "#macro wants a name");
+  struct name name;
+  if (next_name(language, "#macro", &name)) declare_macro(language, &name);
   if (skip_branch(language, false) != TOKEN_ENDIF) language_tell(language, place, "#macro without #end");
 }
 
 static void undeclare(struct language *language)
 {
-  const int token = pscn_scan_next(&language->sources->frame->scan);
-  const struct name name = here(language);
-  if (scan_is_word(token)) declare_gone(language, &name);
-  else language_tell(language, name.place, "#undef wants a name");
+  struct name name;
+  if (next_name(language, "#undef", &name)) declare_gone(language, &name);
 }
 
 void directives_tell(struct language *language, int token)
