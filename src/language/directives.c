@@ -42,7 +42,7 @@ static int skip_branch(struct language *language, bool to_else)
   }
 }
 
-/* "(NAME)": whether the name is declared. The words of the language never are, as in POV-Ray. */
+/* "(NAME)": whether the name is declared. The words of the language never are, as in POV-Ray, whose own names are. */
 static bool condition_holds(struct language *language, const char *directive)
 {
   struct scan *scan = &language->sources->frame->scan;
@@ -53,7 +53,7 @@ static bool condition_holds(struct language *language, const char *directive)
     token = pscn_scan_next(scan);
     const struct name name = here(language);
     if (scan_is_word(token)) {
-      declared = symbol_known(language, name.text, name.length);
+      declared = symbol_known(language, name.text, name.length) || words_declared(name.text, name.length);
       token = pscn_scan_next(scan);
       if (token == ')') return declared;
     }

@@ -83,13 +83,9 @@ int tokens_next(struct language *language)
   int token = scan(language);
   last->place = sources_here(language);
   const struct frame *frame = language->sources->frame;
-  if (token == 0) {
-    last->place = sources_span(frame, frame->source->length, frame->source->length);
-  } else if (token > TOKEN_FIRST_PRIVATE) {
-    token = stand_in(language, token);
-  } else if (is_number(token) && frame->scan.too_large) {
-    tell_too_large(language);
-  }
+  if (token == 0) last->place = sources_span(frame, frame->source->length, frame->source->length);
+  else if (token > TOKEN_FIRST_PRIVATE) token = stand_in(language, token);
+  else if (is_number(token) && frame->scan.too_large) tell_too_large(language);
   if (tokens->raw_words > 0 || token == PSCN_TOKEN_SOLVER) token = raw_word(language, token);
   last->token = token;
   last->depth = tokens->depth;

@@ -88,6 +88,13 @@ int words_token(const char *word, size_t length)
   return PSCN_TOKEN_WORD;
 }
 
+bool words_declared(const char *word, size_t length)
+{
+  static const char *const names[] = {"clock_delta", "final_clock",   "final_frame",   "frame_number",   "image_height",
+                                      "image_width", "initial_clock", "initial_frame", "input_file_name"};
+  return FIND(word, length, names) != NULL;
+}
+
 const char *words_directive(const char *text, size_t *length)
 {
   do text++, --*length;

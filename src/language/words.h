@@ -9,6 +9,10 @@
 int words_token(const char *word, size_t length);
 int words_directive_token(const char *text, size_t length);
 
+/* Whether POV-Ray declares that name before it reads a scene. Two of them are words here; the others nobody declares, but
+ * a condition on them must hold. */
+bool words_declared(const char *word, size_t length);
+
 /* The name of a directive, behind its # and blanks; *length, which was the directive's, becomes its own. */
 const char *words_directive(const char *text, size_t *length);
 
