@@ -5,7 +5,7 @@
 
 #include "language/sources.h"
 
-/* The innermost of that name; with `depth` at least 0, only that of that depth. A #local that is forgotten hides nothing. */
+/* The innermost of that name; with `depth` at least 0, only that of that depth. */
 static struct symbol *find(const struct symbols *symbols, const char *name, size_t length, int depth)
 {
   struct symbol *best = NULL;
@@ -13,7 +13,7 @@ static struct symbol *find(const struct symbols *symbols, const char *name, size
   for (; entry; entry = entry->older) {
     struct symbol *s = (struct symbol *)entry;
     if (s->length != length || memcmp(s->name, name, length) != 0) continue;
-    if ((depth >= 0 && s->depth != depth) || (s->depth > 0 && s->kind == SYMBOL_UNKNOWN)) continue;
+    if (depth >= 0 && s->depth != depth) continue;
     if (!best || s->depth > best->depth) best = s;
   }
   return best;
@@ -40,10 +40,17 @@ static struct symbol *add(struct language *language, const char *name, size_t le
 
 void symbols_enter(struct symbols *symbols) { symbols->depth++; }
 
+/* What has named it keeps what it stands for. */
+static void forget(struct symbols *symbols, struct symbol *symbol)
+{
+  if (!symbol->gone) table_remove(&symbols->table, &symbol->entry);
+  symbol->gone = true;
+}
+
 void symbols_leave(struct symbols *symbols)
 {
   for (; symbols->locals && symbols->locals->depth >= symbols->depth; symbols->locals = symbols->locals->older)
-    symbols->locals->kind = SYMBOL_UNKNOWN, table_remove(&symbols->table, &symbols->locals->entry);
+    forget(symbols, symbols->locals);
   symbols->depth--;
 }
 
@@ -70,7 +77,7 @@ void guess_symbols(struct guess *guess, struct language *language)
   struct symbols *symbols = language->symbols;
   const struct symbol *s = symbols->last;
   for (; s && symbols->considered < MOST_CONSIDERED; s = s->before, symbols->considered++)
-    if (s->kind != SYMBOL_BEGUN && s->kind != SYMBOL_UNKNOWN) guess_consider(guess, s->name, s->length);
+    if (s->kind != SYMBOL_BEGUN && s->kind != SYMBOL_UNKNOWN && !s->gone) guess_consider(guess, s->name, s->length);
 }
 
 /* Counts a name that is missing, and answers how often it was before. */
@@ -232,7 +239,7 @@ void declare_macro(struct language *language, const struct name *name)
 void declare_gone(struct language *language, const struct name *name)
 {
   struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
-  if (symbol && symbol->kind != SYMBOL_BEGUN) symbol->kind = SYMBOL_UNKNOWN;
+  if (symbol && symbol->kind != SYMBOL_BEGUN) forget(language->symbols, symbol);
 }
 
 void declare_number(struct language *language, const char *name, size_t length, double number)

@@ -53,6 +53,7 @@ struct symbol {
   const char *name;
   size_t length;
   int depth; /* 0: belongs to all; otherwise the include depth of its #local */
+  bool gone; /* forgotten */
   enum symbol_kind kind;
   union {
     struct value value;
