@@ -138,8 +138,8 @@ declaration:
   | declare surface                            { declare_texture(language, $1, $2); } layers semicolon
   ;
 layers: %empty | layers TEXTURE '{' { layer_begin(language, $2); } texture_items '}' { layer_end(language); };
-declare: DECLARE old WORD '='                  { $$ = declare_begin(language, $3, false); }
-  | LOCAL old WORD '='                         { $$ = declare_begin(language, $3, true); };
+declare: DECLARE old WORD '='                  { $$ = declare_begin(language, $3, NULL); }
+  | LOCAL old WORD '='                         { $$ = declare_begin(language, $3, &$1); };
 old: %empty | DEPRECATED STRING | DEPRECATED ONCE STRING;
 semicolon: %empty %prec ITEM | ';';
 

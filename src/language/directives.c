@@ -156,6 +156,7 @@ static bool end_of_source(struct language *language)
     language_tell(language, name.place, "%.*s without #end", (int)name.length, name.text);
   }
   if (!frame->outer) return false;
+  declare_left_open(language, sources_span(frame, frame->source->length, frame->source->length));
   sources_leave(language);
   return true;
 }

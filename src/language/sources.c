@@ -121,12 +121,18 @@ struct place sources_place(const struct language *language, struct span span)
   return (struct place){entry->source, span_begin(span) - entry->base, span_end(span) - entry->base};
 }
 
+bool sources_has(const struct language *language, struct span span)
+{
+  const struct frame *frame = language->sources->frame;
+  return span_begin(span) >= frame->base && span_begin(span) - frame->base <= frame->source->length;
+}
+
 struct name sources_name(const struct language *language, struct span span)
 {
   const struct frame *frame = language->sources->frame;
   const struct source *source = frame->source;
   size_t begin = span_begin(span) - frame->base;
-  if (span_begin(span) < frame->base || begin > source->length) { /* the last one of an included file */
+  if (!sources_has(language, span)) { /* the last one of an included file */
     const struct place place = sources_place(language, span);
     source = place.source, begin = place.begin;
   }

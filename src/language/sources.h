@@ -66,6 +66,9 @@ static inline struct span sources_here(const struct language *language)
 /* Where that is, for an error; nowhere where the span is zeroed. */
 struct place sources_place(const struct language *language, struct span span);
 
+/* Whether that is in the file being read. */
+bool sources_has(const struct language *language, struct span span);
+
 /* The word that stands there, which has been read just now. */
 struct name sources_name(const struct language *language, struct span span);
 

@@ -183,9 +183,21 @@ static struct symbol *symbol_begin(struct language *language, const struct name 
   return add(language, name->text, name->length, local ? depth : 0);
 }
 
-struct declaration *declare_begin(struct language *language, struct span place, bool local)
+/* POV-Ray loses such a name, or breaks down. */
+void declare_left_open(struct language *language, struct span end)
+{
+  for (const struct declaration *d = language->declaration; d; d = d->outer) {
+    if (d->symbol->depth < language->symbols->depth) continue;
+    language_tell(language, end, "the file ends within the declaration of its #local '%.*s'", (int)d->symbol->length,
+                  d->symbol->name);
+  }
+}
+
+struct declaration *declare_begin(struct language *language, struct span place, const struct span *local)
 {
   const struct name name = sources_name(language, place);
+  if (local && !sources_has(language, *local))
+    language_tell(language, *local, "a #local stands in one file with its name and =");
   struct declaration *declaration = language->symbols->ended;
   if (declaration) language->symbols->ended = declaration->outer;
   else declaration = language_alloc(language, sizeof *declaration);

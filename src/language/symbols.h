@@ -99,8 +99,10 @@ void symbols_tell_missed(struct language *language);
 /* Tells that a name is something else than what is wanted. */
 void symbol_mistaken(struct language *language, struct span place, const struct symbol *symbol, const char *wanted);
 
-/* A declaration begins; declarations may stand within each other. */
-struct declaration *declare_begin(struct language *language, struct span name, bool local);
+/* A declaration begins; declarations may stand within each other. `local`: where its #local stands, or NULL. */
+struct declaration *declare_begin(struct language *language, struct span name, const struct span *local);
+/* Tells of those that a file leaves open which is about to end, and which are of names of that file. */
+void declare_left_open(struct language *language, struct span end);
 /* It ends. Returns the symbol to write to, or NULL where something was held: then it is foreign. */
 struct symbol *declare_end(struct language *language, struct declaration *declaration);
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value);
