@@ -75,25 +75,24 @@ size_t scene_request_memory(const struct scene_request *request)
   return (size_t)pages * (size_t)page / share;
 }
 
-/* Where included files are looked for: the folders of -I, those of PSCN_INCLUDE (written over), POV-Ray's own. */
-static void list_folders(const struct scene_request *request, char *environment, const char *out[])
+/* Where included files are looked for, ended by NULL: the folders of -I, those of PSCN_INCLUDE (written over), POV-Ray's
+ * own. To be freed; NULL where memory is short. */
+static const char **list_folders(const struct scene_request *request, char *environment)
 {
-  size_t count = 0;
-  for (; count < request->folder_count; count++) out[count] = request->folders[count];
-  for (char *folder = strtok(environment, ":"); folder != NULL && count < 2 * SCENE_MOST_FOLDERS;
-       folder = strtok(NULL, ":"))
-    out[count++] = folder;
-  out[count++] = "/usr/share/povray-3.7/include";
-  out[count++] = "/usr/local/share/povray-3.7/include";
-  out[count] = NULL;
+  static const char *const povray[] = {"/usr/share/povray-3.7/include", "/usr/local/share/povray-3.7/include", NULL};
+  size_t count = request->folder_count, colons = 0;
+  for (const char *at = environment; (at = strchr(at, ':')) != NULL; at++) colons++;
+  const char **folders = malloc((count + colons + 1) * sizeof *folders + sizeof povray);
+  if (folders == NULL) return NULL;
+  memcpy(folders, request->folders, count * sizeof *folders);
+  for (char *folder = strtok(environment, ":"); folder != NULL; folder = strtok(NULL, ":")) folders[count++] = folder;
+  memcpy(folders + count, povray, sizeof povray);
+  return folders;
 }
 
-enum status scene_file_load(const struct command *command, const struct scene_request *request, struct scene **out)
+static enum status load(const struct command *command, const struct scene_request *request, const char *const *folders,
+                        struct scene **out)
 {
-  const char *folders[2 * SCENE_MOST_FOLDERS + 3], *variable = getenv("PSCN_INCLUDE");
-  char environment[4096];
-  snprintf(environment, sizeof environment, "%s", variable != NULL ? variable : "");
-  list_folders(request, environment, folders);
   const struct language_settings settings = {.image_width = (int)request->width,
                                              .image_height = (int)request->height,
                                              .solver_text = request->solver_text,
@@ -107,7 +106,6 @@ enum status scene_file_load(const struct command *command, const struct scene_re
   if (!output_is_standard(request->path)) return language_load(request->path, &settings, &diagnostics, out);
   struct source *text;
   const char *reason;
-  *out = NULL;
   enum status status = source_read_open("stdin", dup(STDIN_FILENO), &text, &reason);
   if (status != STATUS_OK) {
     diagnostics_error(&diagnostics, (struct place){NULL, 0, 0}, "stdin: %s", reason);
@@ -115,6 +113,18 @@ enum status scene_file_load(const struct command *command, const struct scene_re
   }
   status = language_load_text(text->name, text->text, text->length, &settings, &diagnostics, out);
   source_destroy(text);
+  return status;
+}
+
+enum status scene_file_load(const struct command *command, const struct scene_request *request, struct scene **out)
+{
+  const char *variable = getenv("PSCN_INCLUDE");
+  char *environment = strdup(variable != NULL ? variable : "");
+  const char **folders = environment == NULL ? NULL : list_folders(request, environment);
+  *out = NULL;
+  const enum status status = folders == NULL ? command_out_of_memory(command) : load(command, request, folders, out);
+  free(folders);
+  free(environment);
   return status;
 }
 

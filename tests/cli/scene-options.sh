@@ -9,6 +9,8 @@ pscn dump scene.pscn -I first | grep background
 pscn dump scene.pscn -I nowhere -I second/ -I first | grep background
 PSCN_INCLUDE=nowhere:second:first pscn dump scene.pscn | grep background
 PSCN_INCLUDE=second pscn dump scene.pscn --include=first | grep background
+PSCN_INCLUDE=:::second: pscn dump scene.pscn | grep background
+PSCN_INCLUDE=$(printf 'nowhere/%.0s' {1..600}):$(printf 'nowhere:%.0s' {1..600})first pscn dump scene.pscn | grep background
 cp second/here.inc where.inc
 pscn dump scene.pscn -I first | grep background
 
