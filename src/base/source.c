@@ -210,7 +210,7 @@ struct source_position source_locate(const struct source *source, size_t offset)
   const char *text = source->text;
   source_recall(source);
   if (offset > source->length) offset = source->length;
-  struct source_position at = {.line = 1, .column = 1};
+  struct source_position at = {.line = source->lines_before + 1, .column = 1};
   for (size_t begin = 0, end; begin < offset; begin = end) {
     const size_t before = at.line;
     end = offset - begin < COUNTED ? offset : begin + COUNTED;

@@ -2,7 +2,6 @@
 #include "command/stream.h"
 
 #include <errno.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -98,16 +97,10 @@ static enum status explain(const struct command *command, const struct stream *s
                       fault.text);
     return STATUS_INPUT;
   }
-  /* The line alone, standing where it stood in the stream: after as many line ends. */
-  const size_t length = line->length > MAX_LINE ? 1 : line->length;
-  char *text = length > SIZE_MAX - stream->count ? NULL : malloc(stream->count + length + 1);
-  if (text == NULL) return STATUS_LIMIT;
-  memset(text, '\n', stream->count);
-  memcpy(text + stream->count, line->text, length);
-  struct source *source = source_from_text(NAME, text, stream->count + length);
-  free(text);
+  struct source *source = source_from_text(NAME, line->text, line->length > MAX_LINE ? 1 : line->length);
   if (source == NULL) return STATUS_LIMIT;
-  const struct place place = {source, stream->count + fault.begin, stream->count + fault.end};
+  source->lines_before = stream->count;
+  const struct place place = {source, fault.begin, fault.end};
   diagnostics_error(&diagnostics, place, "%s", fault.text);
   source_destroy(source);
   return STATUS_INPUT;

@@ -91,8 +91,22 @@ static void nothing_said_is_lost(void **state)
   }
 }
 
+/* A line of a stream is told by its number in the stream, of which nothing else need be there. */
+static void lines_before_a_text_count(void **state)
+{
+  (void)state;
+  struct source *source = source_from_text("<stdin>", "1 x 3", 5);
+  struct told told = {.diagnostics = {.tell = keep}};
+  told.diagnostics.context = &told;
+  source->lines_before = (size_t)1 << 40;
+  diagnostics_error(&told.diagnostics, (struct place){source, 2, 3}, "this is no number");
+  source_destroy(source);
+  assert_string_equal(told.text, "<stdin>:1099511627777:3: error: this is no number\n  1 x 3\n    ^\n");
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_said_is_lost)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_said_is_lost),
+                                     cmocka_unit_test(lines_before_a_text_count)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
