@@ -148,6 +148,23 @@ static enum status complete(const struct command *command, struct request *reque
   return enough ? STATUS_OK : command_out_of_memory(command);
 }
 
+/* Where a picture can be written its part cannot always: its name is longer. It can be done without, unless it is asked
+ * for. */
+static enum status check_part(const struct command *command, struct rendering_request *picture)
+{
+  int reason;
+  if (picture->part == NULL) return STATUS_OK;
+  if (picture->resume) return output_probe(command, picture->part);
+  const enum status status = atomic_file_probe(picture->part, &reason);
+  if (status == STATUS_OK) return STATUS_OK;
+  if (status == STATUS_LIMIT) return command_out_of_memory(command);
+  if (!picture->scene->quiet)
+    fprintf(stderr, "pscn %s: warning: nothing is kept of what is done, for '%s' cannot be written: %s\n",
+            command->name, picture->part, strerror(reason));
+  picture->part = NULL;
+  return STATUS_OK;
+}
+
 /* Whatever can be known to be wrong before the work starts. */
 static enum status check(const struct command *command, struct rendering_request *picture)
 {
@@ -160,7 +177,7 @@ static enum status check(const struct command *command, struct rendering_request
   if (status == STATUS_OK) status = rendering_check_outputs(command, picture, NULL);
   if (status == STATUS_OK) status = output_probe(command, picture->output);
   if (status == STATUS_OK) status = output_probe(command, picture->stats);
-  return status;
+  return status == STATUS_OK ? check_part(command, picture) : status;
 }
 
 static enum status run(const struct command *command, int argc, const char **argv)

@@ -18,3 +18,8 @@ try pscn render "$scene" -o b.png --stats full.json $small
 echo "exit ${PIPESTATUS[0]}"
 cat old.png
 ls -A
+# A picture whose part, which keeps what is done, would have too long a name.
+long=$(printf 'x%.0s' {1..245}).png
+try pscn render "$scene" -o $long --size 16x12 2>&1 | grep 'warning\|exit' | sed 's/xx*/x/g'
+try pscn render "$scene" -o $long $small --resume 2>&1 | sed 's/xx*/x/g'
+pscn compare $long $long --quiet && echo whole
