@@ -6,7 +6,10 @@
 
 quad quad_sqrt(quad x)
 {
-  if (!(x > 0)) return 0;
+  if (!(x > 0) || x - x != 0) return x > 0 ? x : 0;
+  quad unit = 1; /* brings x to where doubles are normal */
+  for (; x > 0x1p1000; x *= 0x1p-1000) unit *= 0x1p500;
+  for (; x < 0x1p-1000; x *= 0x1p1000) unit *= 0x1p-500;
   int exponent;
   double leading = frexp((double)x, &exponent);
   if (exponent & 1) {
@@ -15,7 +18,7 @@ quad quad_sqrt(quad x)
   }
   quad root = (quad)ldexp(sqrt(leading), exponent / 2);
   for (int k = 0; k < 2; k++) root = (root + x / root) / 2; /* 53 bits, 106 bits, all */
-  return root;
+  return unit * root;
 }
 
 quad quad_net_magnitude(const struct quad_net *net)

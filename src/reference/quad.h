@@ -23,7 +23,7 @@ typedef long double quad;
 static inline quad quad_abs(quad x) { return x < 0 ? -x : x; }
 static inline quad quad_max(quad x, quad y) { return x > y ? x : y; }
 
-/* Square root to a few units of the last place; 0 for x <= 0. */
+/* Square root to a few units of the last place, of any size; 0 for x <= 0. */
 quad quad_sqrt(quad x);
 
 /* One coordinate of a bicubic patch: c[i][j] belongs to B_i(u) B_j(v). */

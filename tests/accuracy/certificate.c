@@ -1,6 +1,7 @@
 /* Answers against the exact roots of all patches; see certificate.h. */
 #include "accuracy/certificate.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,10 @@
  * move it by no more than 3 each. */
 #define LINE_ROUNDINGS 16
 
+/* A patch smaller than this, or than this part of the scene, has the digits of one that is so large. */
+#define LEAST_PATCH 0x1p-1000
+#define LEAST_PART 0x1p-100
+
 /* Roots are looked for this much farther than a hit, relative: the next solver's hit may differ in its last places. */
 #define SPARE 0x1p-20
 
@@ -50,6 +55,7 @@ void certifier_create(struct certifier *certifier, const struct scene *scene, st
         low = fmin(low, x), high = fmax(high, x);
       }
       certifier->boxes[n][0][axis] = low, certifier->boxes[n][1][axis] = high;
+      certifier->size = fmax(certifier->size, fmax(-low, high));
     }
   }
 }
@@ -166,7 +172,7 @@ static double floor_at_hit(const struct judging *j)
 /* Whether a root is too near to an end of the ray to be told from it, by what roundings of the input move either. */
 static bool at_an_end(const struct judging *j, struct truth_root *root)
 {
-  const double *d = j->ray->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), t = root->at.t;
+  const double length = facts_length(j->ray->direction), t = root->at.t;
   const double moved = TRIAL_SAME_FLOORS * floor_of(j->certifier, root)->t;
   const double near = AT_END * fmax(trial_size(j->ray, t), extent_of(j->certifier, root->patch) / length);
   return t - j->ray->t_min <= fmax(near, moved) || j->ray->t_max - t <= fmax(near, moved);
@@ -215,13 +221,13 @@ static void judge_hit(struct judging *j)
 {
   const struct hit *hit = j->hit;
   const bool certain = hit->certainty == CERTAINTY_CERTAIN;
-  const double *d = j->ray->direction, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const double length = facts_length(j->ray->direction);
   double size = length * trial_size(j->ray, hit->t); /* the patch's included */
   for (int k = 0; k < 6; k++) size = fmax(size, fabs(j->certifier->boxes[hit->patch][k / 3][k % 3]));
   const double near = TRIAL_NEAR * size / length;
   const double floor = floor_at_hit(j);
   j->allowed = certain ? CERTIFICATE_FLOORS * floor : near + TRIAL_SAME_FLOORS * floor;
-  const double most = certain ? MOST_ALLOWED * hit->t : 0x1p10 * near;
+  const double most = (certain ? MOST_ALLOWED * hit->t : 0x1p10 * near) + DBL_TRUE_MIN;
   if (!(j->allowed <= most)) j->allowed = most;
   find_truth(j->certifier, j->ray, hit->t + 2 * j->allowed);
   for (size_t n = 0; n < j->certifier->truth.count; n++) judge_root(j, &j->certifier->truth.root[n]);
@@ -293,12 +299,9 @@ static void surface_of(const struct judging *j, wide out[3])
 /* How far the hit's point is from it. */
 static double off_surface(const struct judging *j, const wide at[3])
 {
-  double square = 0;
-  for (int axis = 0; axis < 3; axis++) {
-    const double off = (double)(at[axis] - j->hit->point[axis]);
-    square += off * off;
-  }
-  return sqrt(square);
+  double off[3];
+  for (int axis = 0; axis < 3; axis++) off[axis] = (double)(at[axis] - j->hit->point[axis]);
+  return facts_length(off);
 }
 
 /* The largest coordinate of (S(U,V) - origin) x direction/|direction|: how far the hit's place is from the ray, as a
@@ -317,7 +320,8 @@ static double off_line(const struct judging *j, const wide at[3])
 /* Whether a certain hit's place is on the ray, but for what the rounding of U and V moves it. */
 static bool line_good(const struct judging *j, const wide at[3])
 {
-  const double extent = extent_of(j->certifier, j->hit->patch);
+  const double least = fmax(LEAST_PATCH, LEAST_PART * j->certifier->size);
+  const double extent = fmax(extent_of(j->certifier, j->hit->patch), least);
   return j->hit->certainty == CERTAINTY_GRAZING || off_line(j, at) <= LINE_ROUNDINGS * DOUBLE_UNIT * extent;
 }
 

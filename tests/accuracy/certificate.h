@@ -66,6 +66,7 @@ struct certifier {
   const struct scene *scene;
   struct reference *reference; /* for floors and residuals only */
   double (*boxes)[2][3];
+  double size;        /* the largest coordinate of a control point */
   struct truth truth; /* of the last ray: what several solvers answer to one ray is held to one proof */
 };
 

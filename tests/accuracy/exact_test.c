@@ -1,10 +1,11 @@
 /* The exact judge judged: it lists each root once, on the lines where it halves boxes and next to them too. */
-#include "accuracy/exact.h"
+#include "accuracy/certificate.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "accuracy/trial.h"
 #include "cmocka_test.h"
 
 /* 3 (x - 1/4) (x - 1/2) (x - 3/4) in Bernstein form. */
@@ -66,9 +67,36 @@ static void near_roots_are_two(void **state)
   }
 }
 
+/* What is said of a hit's point is proven and refuted alike from one end of the doubles to the other. */
+static void points_of_all_sizes(void **state)
+{
+  (void)state;
+  for (int k = -960; k <= 1000; k += 40) {
+    double P[1][4][4][3];
+    struct trial trial;
+    struct certifier certifier;
+    struct certificate good, bad;
+    struct hit hit;
+    make_net(1.0 / 16, P[0]);
+    for (int n = 0; n < 48; n++) P[0][n / 12][n / 3 % 4][n % 3] = ldexp(P[0][n / 12][n / 3 % 4][n % 3], k);
+    const struct ray ray = {{ldexp(3, k - 8), ldexp(5, k - 8), ldexp(-5, k)}, {0, 0, 1}, 0, INFINITY};
+    trial_create(&trial, (const double(*)[4][4][3])P, 1, NULL);
+    certifier_create(&certifier, &trial.scene, trial.reference);
+    tracer_closest(trial.tracer, 1, &ray, &hit);
+    certify(&certifier, &ray, &hit, &good);
+    hit.point[0] += 1.5 * hit.point_error;
+    certify(&certifier, &ray, &hit, &bad);
+    certifier_destroy(&certifier);
+    trial_destroy(&trial);
+    assert_int_equal(good.finding, FINDING_PROVEN);
+    assert_int_equal(bad.finding, FINDING_SURFACE);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(roots_are_listed_once), cmocka_unit_test(near_roots_are_two)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(roots_are_listed_once), cmocka_unit_test(near_roots_are_two),
+                                     cmocka_unit_test(points_of_all_sizes)};
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   exact_cleanup();
   return failed;

@@ -122,11 +122,7 @@ static double largest_coordinate(const struct trial *trial, const struct ray *ra
   return size;
 }
 
-static double direction_length(const struct ray *ray)
-{
-  const double *d = ray->direction;
-  return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-}
+static double direction_length(const struct ray *ray) { return facts_length(ray->direction); }
 
 double trial_size(const struct ray *ray, double t)
 {
@@ -190,8 +186,6 @@ static void add_t_error(struct tally *tally, double error)
   tally->t_errors[tally->t_count++] = error;
 }
 
-static double length_of(const double a[3]) { return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
-
 /* The largest k-th difference of control points along both parameters, times what makes it a bound of that
  * derivative. */
 static double difference_bound(const double P[4][4][3], int by_u, int by_v)
@@ -207,7 +201,7 @@ static double difference_bound(const double P[4][4][3], int by_u, int by_v)
           for (int axis = 0; axis < 3; axis++)
             d[axis] += ((by_u - m + by_v - n) % 2 ? -1 : 1) * (by_u == 2 && m == 1 ? 2 : 1) *
                        (by_v == 2 && n == 1 ? 2 : 1) * P[i + m][j + n][axis];
-      largest = fmax(largest, length_of(d));
+      largest = fmax(largest, facts_length(d));
     }
   }
   return factor * largest;
@@ -231,7 +225,7 @@ static double normal_bound(const double P[4][4][3], const struct reference_answe
   const double rounding = 12 * 6 * DOUBLE_UNIT * extent;
   const double off_u = difference_bound(P, 2, 0) * du + mixed * dv + rounding;
   const double off_v = mixed * du + difference_bound(P, 0, 2) * dv + rounding;
-  return (off_u * length_of(sv) + off_v * length_of(su)) / length_of(cross) + 8 * DOUBLE_UNIT;
+  return (off_u * facts_length(sv) + off_v * facts_length(su)) / facts_length(cross) + 8 * DOUBLE_UNIT;
 }
 
 /* The normal, where its bound is small enough for the first order to hold. */

@@ -1,6 +1,7 @@
 /* See facts.h. */
 #include "reference/facts.h"
 
+#include <float.h>
 #include <math.h>
 
 enum { FOOT_STEPS = 6 };
@@ -18,17 +19,17 @@ static void floor_bound(quad M[3][3], const double terms[3], double t, double u,
   quad determinant = 0;
   for (int k = 0; k < 3; k++)
     determinant += M[0][k] * (M[1][(k + 1) % 3] * M[2][(k + 2) % 3] - M[1][(k + 2) % 3] * M[2][(k + 1) % 3]);
-  double moved[3] = {0};
+  quad moved[3] = {0}; /* at the ends of the doubles not even the inverse is one */
   for (int row = 0; row < 3; row++) {
     for (int column = 0; column < 3; column++) {
       const int r1 = (column + 1) % 3, r2 = (column + 2) % 3, c1 = (row + 1) % 3, c2 = (row + 2) % 3;
       const quad cofactor = M[r1][c1] * M[r2][c2] - M[r1][c2] * M[r2][c1];
-      moved[row] += fabs((double)(cofactor / determinant)) * terms[column];
+      moved[row] += quad_abs(cofactor / determinant) * terms[column];
     }
   }
-  out->u = DOUBLE_UNIT * (moved[0] + fabs(u));
-  out->v = DOUBLE_UNIT * (moved[1] + fabs(v));
-  out->t = DOUBLE_UNIT * (moved[2] + fabs(t));
+  out->u = DOUBLE_UNIT * (double)(moved[0] + fabs(u));
+  out->v = DOUBLE_UNIT * (double)(moved[1] + fabs(v));
+  out->t = DOUBLE_UNIT * (double)(moved[2] + fabs(t)) + DBL_TRUE_MIN;
 }
 
 void facts_find(const double P[4][4][3], const double origin[3], const double direction[3], quad t, quad u, quad v,
@@ -82,6 +83,8 @@ double facts_residual(const double P[4][4][3], const double origin[3], const dou
   }
   return (double)quad_sqrt(square);
 }
+
+double facts_length(const double a[3]) { return hypot(hypot(a[0], a[1]), a[2]); }
 
 static quad clamp(quad x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 

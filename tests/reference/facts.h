@@ -32,6 +32,9 @@ void facts_find(const double P[4][4][3], const double origin[3], const double di
 double facts_residual(const double P[4][4][3], const double origin[3], const double direction[3], double t, double u,
                       double v);
 
+/* Of a vector, from one end of the doubles to the other: no square is formed. */
+double facts_length(const double a[3]);
+
 /* How far `point` is from the patch, at the foot that Gauss' and Newton's method finds next to (u,v), clamped to the
  * square: no less than the distance. */
 double facts_distance(const double P[4][4][3], const double point[3], double u, double v);

@@ -52,6 +52,22 @@ static void trough_net(double P[4][4][3])
   }
 }
 
+/* Squares of what doubles hold are no doubles. */
+static void test_lengths_of_all_sizes(void **state)
+{
+  (void)state;
+  for (int k = -1070; k < 1020; k++) {
+    const double size = ldexp(1, k), a[3] = {0, -3 * size, 4 * size}, none[3] = {0};
+    const quad square = (quad)a[1] * a[1] + (quad)a[2] * a[2];
+    double P[4][4][3];
+    assert_true(quad_sqrt(square) == 5 * size);
+    assert_true(facts_length(a) == 5 * size);
+    for (int n = 0; n < 16; n++) memcpy(P[n / 4][n % 4], a, sizeof a);
+    assert_true(facts_residual((const double(*)[4][3])P, none, a, 0, 0.5, 0.5) == 5 * size);
+  }
+  assert_true(quad_sqrt(0) == 0 && quad_sqrt(-1) == 0 && quad_sqrt((quad)INFINITY) == (quad)INFINITY);
+}
+
 static void test_flat(void **state)
 {
   (void)state;
@@ -282,8 +298,13 @@ static void test_floor(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_flat),       cmocka_unit_test(test_tangent),     cmocka_unit_test(test_border),
-    cmocka_unit_test(test_degenerate), cmocka_unit_test(test_brute_force), cmocka_unit_test(test_floor),
+    cmocka_unit_test(test_flat),
+    cmocka_unit_test(test_tangent),
+    cmocka_unit_test(test_border),
+    cmocka_unit_test(test_degenerate),
+    cmocka_unit_test(test_brute_force),
+    cmocka_unit_test(test_floor),
+    cmocka_unit_test(test_lengths_of_all_sizes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
