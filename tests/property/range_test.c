@@ -223,10 +223,36 @@ static void what_scaling_takes_away_is_in_doubt(void **state)
   }
 }
 
+/* Patches far smaller than 2^-100 of their scene, which is as small as a frame gets, are hit with all that a hit has. */
+static void patches_lost_in_their_scene_have_normals(void **state)
+{
+  (void)state;
+  for (int k = 100; k < 800; k += 20) {
+    world_net nets[2];
+    struct world world;
+    const double size = ldexp(1, -k / 2);
+    floor_at(0, ldexp(1, k - k / 2), 0, nets[0]);
+    floor_at(0, 1, 0, nets[1]);
+    for (int n = 0; n < 16; n++) { /* z = -(x + y), from the origin on */
+      double *p = nets[1][n / 4][n % 4];
+      p[0] = (n / 4 - 1) * size, p[1] = (n % 4 - 1) * size, p[2] = -(p[0] + p[1]);
+      nets[0][n / 4][n % 4][2] = -2 * ldexp(1, k - k / 2);
+    }
+    world_open(&world, nets, 2, NULL);
+    const struct ray ray = {{0, 0, 5 * size}, {0, 0, -1}, 0, INFINITY};
+    const struct hit hit = world_closest(&world, &ray);
+    assert_int_equal(hit.patch, 1);
+    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+    for (int c = 0; c < 3; c++) assert_true(fabs(hit.normal[c] - sqrt(1.0 / 3)) < 1e-15);
+    world_close(&world);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(rays_and_patches_of_all_sizes), cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way),
-    cmocka_unit_test(rays_pass_by_a_scene_of_one_point), cmocka_unit_test(what_scaling_takes_away_is_in_doubt)};
+    cmocka_unit_test(patches_lost_in_their_scene_have_normals), cmocka_unit_test(rays_and_patches_of_all_sizes),
+    cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way), cmocka_unit_test(rays_pass_by_a_scene_of_one_point),
+    cmocka_unit_test(what_scaling_takes_away_is_in_doubt)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

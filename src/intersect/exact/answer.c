@@ -85,6 +85,10 @@ static void set_surface(const struct model *model, const struct ray *ray, struct
     magnitude = real_max(magnitude, fabs(out->point[c]));
   }
   out->point_error = POINT_ERROR(patch->scale, tangent, magnitude);
+  /* A patch that is lost in its scene has derivatives whose products are no numbers. */
+  int exponent;
+  tangent = frexp(tangent, &exponent);
+  for (int c = 0; c < 3; c++) su[c] = ldexp(su[c], -exponent), sv[c] = ldexp(sv[c], -exponent);
   vector_cross(su, sv, out->normal);
   const double length = vector_length(out->normal);
   if (length > SURFACE_SURE * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
