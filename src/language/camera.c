@@ -13,6 +13,9 @@
 /* Of unit vectors: below this they lie in a line or in a plane to within what their own rounding leaves open. */
 #define FLAT 0x1p-45
 
+/* Of the sky's own length: how far it may be from the direction and still lie along it. */
+#define ALONG_SKY 1e-10
+
 void camera_default(struct camera_items *out)
 {
   static const double item[5][3] = {{0, 0, 0}, {0, 0, 1}, {1.33, 0, 0}, {0, 1, 0}, {0, 1, 0}};
@@ -89,6 +92,14 @@ struct camera_frame {
   double direction_length, right_length, up_length;
 };
 
+/* Whether the camera looks along the sky, of that length, so that what is across both says nothing: POV-Ray's measure,
+ * without which the picture would be turned about its middle. */
+static bool along_sky(const double across[3], double sky_length)
+{
+  const double largest = fmax(fabs(across[0]), fmax(fabs(across[1]), fabs(across[2])));
+  return largest * sky_length < ALONG_SKY;
+}
+
 /* Turns the frame towards look_at. Seen along the sky, right stays where it is. */
 static bool turn_frame(struct language *language, const struct camera_items *items, struct camera_frame *frame)
 {
@@ -101,13 +112,14 @@ static bool turn_frame(struct language *language, const struct camera_items *ite
   }
   vector_cross(frame->direction, frame->up, hand);
   const double sign = vector_dot(hand, frame->right) < 0 ? 1 : -1;
-  if (!(unit(items->item[CAMERA_SKY], sky) > 0)) {
+  const double sky_length = unit(items->item[CAMERA_SKY], sky);
+  if (!(sky_length > 0)) {
     language_error(language, items->block.place, "the camera's sky must not be zero");
     return false;
   }
   vector_cross(sky, ahead, across);
-  if (vector_length(across) > FLAT) unit(across, across);
-  else memcpy(across, frame->right, sizeof across);
+  if (along_sky(across, sky_length)) memcpy(across, frame->right, sizeof across);
+  else unit(across, across);
   memcpy(frame->direction, ahead, sizeof ahead);
   vector_cross(ahead, across, frame->up);
   vector_scale(sign, across, frame->right);
