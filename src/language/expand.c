@@ -26,7 +26,6 @@ struct known {
 struct expansion {
   struct language *language;
   struct scene *scene;
-  struct texture none; /* of what has no texture */
   struct list textures, methods, objects, copies;
   bool in_copy;
   bool told; /* that a point is too large */
@@ -35,8 +34,8 @@ struct expansion {
 /* What a node passes down to those below it. */
 struct inherited {
   const struct transform *transform;
-  const struct texture *texture; /* of the nearest node that has one, or NULL */
-  const struct method *method;   /* likewise */
+  const struct texture *texture; /* of the nearest node that has one, as each object of the scene has */
+  const struct method *method;   /* likewise, or the scene's */
 };
 
 /* A new element, or NULL where memory is short. */
@@ -102,7 +101,7 @@ static bool expand_patch(struct expansion *e, const struct node *node, const str
   patch->flatness = node->setting[PATCH_FLATNESS];
   patch->u_steps = (int)node->setting[PATCH_U_STEPS];
   patch->v_steps = (int)node->setting[PATCH_V_STEPS];
-  return intern(e, &e->textures, with->texture ? &with->texture->is : &e->none.is, &patch->texture) &&
+  return intern(e, &e->textures, &with->texture->is, &patch->texture) &&
          intern(e, &e->methods, with->method, &patch->solver);
 }
 
@@ -169,7 +168,6 @@ enum status objects_expand(struct language *language, const struct method *metho
   struct expansion e = {
     .language = language,
     .scene = scene,
-    .none = texture_default(language),
     .textures = {.items = (void **)&scene->textures, .count = &scene->texture_count, .size = sizeof *scene->textures},
     .methods = {.items = (void **)&scene->solvers, .count = &scene->solver_count, .size = sizeof *scene->solvers},
     .objects = {.items = (void **)&scene->objects, .count = &scene->object_count, .size = sizeof *scene->objects},

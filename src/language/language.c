@@ -7,6 +7,7 @@
 #include "language/camera.h"
 #include "language/expand.h"
 #include "language/settings.h"
+#include "language/textures.h"
 #include "language/tokens.h"
 
 static const struct place NOWHERE = {NULL, 0, 0};
@@ -40,6 +41,7 @@ static enum status reading_create(struct reading *r, const struct language_setti
                                 .objects = &r->objects,
                                 .camera = &r->camera,
                                 .settings = &r->settings,
+                                .texture_default = &TEXTURE_OF_POVRAY,
                                 .angles = &r->angles};
   camera_default(&r->camera);
   settings_default(&r->settings);

@@ -245,7 +245,7 @@ void node_transform(struct language *language, const struct transform *transform
 void node_texture(struct language *language, struct texture *texture)
 {
   struct node *node = language->objects->open;
-  struct texture all = node->texture ? *node->texture : texture_default(language);
+  struct texture all = node->texture ? *node->texture : *language->texture_default;
   texture_apply(&all, texture);
   *texture = all; /* it is nobody else's */
   node->texture = texture;

@@ -88,7 +88,7 @@ struct language {
   struct sources *sources;
   struct tokens *tokens;
   struct texture *texture;               /* the innermost that is open */
-  const struct texture *texture_default; /* NULL: POV-Ray's */
+  const struct texture *texture_default; /* what #default has said last */
   struct transform *transform;           /* the last statement's */
   struct span transform_place;           /* and where it stands */
   struct transform_angles *angles;       /* of rotations */

@@ -7,20 +7,16 @@
 
 static_assert(sizeof(struct scene_texture) == PARTS * sizeof(double), "a texture is PARTS doubles");
 
-struct texture texture_default(const struct language *language)
-{
-  if (language->texture_default) return *language->texture_default;
-  return (struct texture){.block = TEXTURE_ALL,
-                          .set = TEXTURE_ALL,
-                          .is = {.pigment = {0, 0, 0},
-                                 .finish = {.ambient = {0.1, 0.1, 0.1},
-                                            .diffuse = 0.6,
-                                            .brilliance = 1,
-                                            .phong = 0,
-                                            .phong_size = 40,
-                                            .specular = 0,
-                                            .roughness = 0.05}}};
-}
+const struct texture TEXTURE_OF_POVRAY = {.block = TEXTURE_ALL,
+                                          .set = TEXTURE_ALL,
+                                          .is = {.pigment = {0, 0, 0},
+                                                 .finish = {.ambient = {0.1, 0.1, 0.1},
+                                                            .diffuse = 0.6,
+                                                            .brilliance = 1,
+                                                            .phong = 0,
+                                                            .phong_size = 40,
+                                                            .specular = 0,
+                                                            .roughness = 0.05}}};
 
 void texture_apply(struct texture *to, const struct texture *from)
 {
@@ -32,7 +28,7 @@ void texture_apply(struct texture *to, const struct texture *from)
 void texture_begin(struct language *language, struct span place, enum texture_block block)
 {
   struct texture *texture = language_alloc(language, sizeof *texture);
-  *texture = texture_default(language);
+  *texture = *language->texture_default;
   texture->stage = STAGE_SETTINGS;
   texture->place = place;
   texture->block = block;
@@ -163,7 +159,7 @@ void layer_end(struct language *language)
 void texture_set_default(struct language *language, const struct texture *texture)
 {
   struct texture *whole = language_alloc(language, sizeof *whole);
-  *whole = texture_default(language);
+  *whole = *language->texture_default;
   texture_apply(whole, texture);
   language->texture_default = whole;
 }

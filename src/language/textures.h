@@ -32,8 +32,8 @@ struct texture {
   };
 };
 
-/* What #default has said last, or else POV-Ray's. */
-struct texture texture_default(const struct language *language);
+/* What holds until #default says more, which is of what stands behind it only. */
+extern const struct texture TEXTURE_OF_POVRAY;
 void texture_set_default(struct language *language, const struct texture *texture);
 /* What is set in `from` replaces what is in `to`. */
 void texture_apply(struct texture *to, const struct texture *from);
