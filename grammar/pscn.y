@@ -87,7 +87,7 @@ static void pscn_error(struct language *language, const char *message)
 %type <value> expression value colour shade quantity four five
 %type <index> part
 %type <place> solver method modifier
-%type <texture> texture_block pigment_block finish_block surface
+%type <texture> texture_block pigment_block finish_block part_block surface
 %type <node> object patch union copy
 %type <declaration> declare
 %type <matrix> matrix_numbers
@@ -135,7 +135,8 @@ default_item:
 declaration:
     declare shade ';'                          { declare_value(language, $1, $2); }
   | declare object                             { declare_object(language, $1, $2); } semicolon
-  | declare surface                            { declare_texture(language, $1, $2); } layers semicolon
+  | declare texture_block                      { declare_texture(language, $1, $2); } layers semicolon
+  | declare part_block                         { declare_texture(language, $1, $2); } semicolon
   ;
 layers: %empty | layers TEXTURE '{' { layer_begin(language, $2); } texture_items '}' { layer_end(language); };
 declare: DECLARE old WORD '='                  { $$ = declare_begin(language, $3, NULL); }
@@ -315,7 +316,8 @@ matrix_numbers:
 
 /* ---- textures ---- */
 
-surface: texture_block | pigment_block | finish_block;
+surface: texture_block | part_block;
+part_block: pigment_block | finish_block;
 
 texture_block: TEXTURE '{' { texture_begin(language, $1, TEXTURE_ALL); } texture_items '}'
     { $$ = texture_end(language, $5); };
