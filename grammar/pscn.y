@@ -113,8 +113,7 @@ input: START_SCENE statements | START_SOLVER solver;
 
 statements: %empty | statements statement;
 statement:
-    VERSION value ';'                          { language_version(language, $2); }
-  | DEFAULT '{' default_items '}'
+    default
   | declaration
   | GLOBAL_SETTINGS '{' global_items '}'
   | CAMERA '{' { camera_begin(language, $1); } camera_items '}' { camera_end(language); }
@@ -125,6 +124,8 @@ statement:
   | error                                      { RECOVER(); }
   ;
 
+/* Within a texture POV-Ray would begin again with what the default was before. */
+default: DEFAULT '{' default_items '}';
 default_items: %empty | default_items default_item;
 default_item:
     surface                                    { texture_set_default(language, $1); }
@@ -133,7 +134,8 @@ default_item:
   ;
 
 declaration:
-    declare shade ';'                          { declare_value(language, $1, $2); }
+    VERSION value ';'                          { language_version(language, $2); }
+  | declare shade ';'                          { declare_value(language, $1, $2); }
   | declare object                             { declare_object(language, $1, $2); } semicolon
   | declare texture_block                      { declare_texture(language, $1, $2); } layers semicolon
   | declare part_block                         { declare_texture(language, $1, $2); } semicolon
@@ -269,6 +271,7 @@ patch_item:
   | ','                                        { patch_comma(language, $1); }
   | modifier                                   { patch_modified(language); }
   | solver                                     { patch_solver(language); }
+  | default
   | declaration
   | error                                      { RECOVER(); }
   ;
@@ -280,6 +283,7 @@ union_item:
     object                                     { union_add(language, $1); }
   | modifier                                   { union_modified(language); }
   | solver                                     { solver_misplaced(language, $1); }
+  | default
   | declaration
   | error                                      { RECOVER(); }
   ;
@@ -292,6 +296,7 @@ copy_item:
   | object                                     { copy_object(language, $1); }
   | modifier                                   { copy_modified(language, $1); }
   | solver                                     { solver_misplaced(language, $1); }
+  | default
   | declaration
   | error                                      { RECOVER(); }
   ;
