@@ -156,6 +156,17 @@ void read_metadata(const OIIO::ImageSpec &spec, image &out)
   if (out.metadata == nullptr) throw std::bad_alloc();
 }
 
+/* What is read of a file is all that it has: an empty string, or what it has besides. */
+std::string besides(OIIO::ImageInput &input, const OIIO::ImageSpec &spec)
+{
+  for (const std::string &name : spec.channelnames)
+    if (name.size() >= IMAGE_NAME_SIZE)
+      return "a channel has a name of more than " + std::to_string(IMAGE_NAME_SIZE - 1) + " bytes";
+  if (input.seek_subimage(1, 0)) return "it has several pictures";
+  (void)input.geterror(); /* that there is no other one */
+  return input.seek_subimage(0, 0) ? "" : input.geterror();
+}
+
 std::string read(const char *path, const char *format, bool pixels, image &out, status &result)
 {
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
@@ -165,6 +176,8 @@ std::string read(const char *path, const char *format, bool pixels, image &out, 
   if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
       spec.nchannels > IMAGE_MAX_CHANNELS)
     return "not a flat picture of at most " + std::to_string(IMAGE_MAX_CHANNELS) + " channels";
+  const std::string more = besides(*input, spec);
+  if (!more.empty()) return more;
   result = image_create(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
                         static_cast<std::size_t>(spec.nchannels), &out);
   if (result != STATUS_OK) return "there is too little memory for its pixels, or they are too many";

@@ -99,6 +99,16 @@ grep -q "has 90x60 pixels, '0.1.exr' has 9x7" ours.err || failed=1
 head -c 700 a.png >cut.png
 verdict 4 cut.png a.png # idiff reads on
 verdict 4 nothing.png a.png
+# What is not read is not compared: other pictures in the file, of which idiff only says so, and channels whose names would
+# be cut to one.
+oiiotool 0.1.exr nan.exr --siappend -o two.exr
+oiiotool a.png b.png --siappend -o two.tif
+long=$(printf 'n%.0s' {1..63})
+for value in nan 0.1; do oiiotool $value.exr --chnames ${long}1,${long}2,${long}3 -o long-$value.exr; done
+for file in two.exr two.tif long-nan.exr; do verdict 4 $file $file; cat ours.err; done >refused
+[ "$(grep -c 'it has several pictures\|name of more than 63 bytes' refused)" = 3 ] || { cat refused; failed=1; }
+oiiotool 0.1.exr --chnames "${long%n}1,${long%n}2,${long%n}3" -o named.exr
+verdict 0 named.exr named.exr
 for file in a.png b.exr c.exr; do
   idiff -fail 0 "$file" "$file" >/dev/null && "$PSCN" compare --fail 0 "$file" "$file" >/dev/null || failed=1
 done
