@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/json_text.h"
 #include "check/fill.h"
 #include "check/measure.h"
 #include "check/page.h"
@@ -218,7 +219,7 @@ static enum status make_page(struct results *results, const char *verdict, struc
 static void make_json(struct results *results)
 {
   json_t *root = check_json(results->check);
-  char *text = root == NULL ? NULL : json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
+  char *text = json_text(root, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
   json_decref(root);
   results->failed = results->failed || text == NULL;
   text_buffer_format(&results->content[FILE_JSON], "%s\n", text == NULL ? "" : text);

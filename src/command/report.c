@@ -2,11 +2,11 @@
 #include "command/report.h"
 
 #include <inttypes.h>
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
+#include "base/json_text.h"
 #include "base/number.h"
 #include "command/output.h"
 #include "library/pscn.h"
@@ -81,15 +81,13 @@ json_t *report_statistics(const struct report *report)
 
 enum status report_text(const struct command *command, json_t *statistics, char **out_text)
 {
-  char *text = statistics == NULL ? NULL : json_dumps(statistics, JSON_INDENT(2) | JSON_REAL_PRECISION(JSON_DIGITS));
+  char *text = json_text(statistics, JSON_INDENT(2) | JSON_REAL_PRECISION(JSON_DIGITS));
   json_decref(statistics);
-  char *line = text == NULL ? NULL : realloc(text, strlen(text) + 2);
-  *out_text = line;
-  if (line != NULL) {
-    strcat(line, "\n");
+  *out_text = text;
+  if (text != NULL) {
+    strcat(text, "\n");
     return STATUS_OK;
   }
-  free(text);
   command_error(command, "out of memory for the statistics");
   return STATUS_LIMIT;
 }

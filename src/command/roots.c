@@ -1,6 +1,5 @@
 /* pscn roots: polynomials on stdin, roots on stdout. */
 #include <float.h>
-#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +7,7 @@
 
 #include "algebra/solver.h"
 #include "base/clock.h"
+#include "base/json_text.h"
 #include "base/number.h"
 #include "command/command.h"
 #include "command/output.h"
@@ -70,6 +70,7 @@ struct session {
   size_t doubtful; /* lines printed in plain with roots that are not known */
   size_t statuses[ROOT_CLUSTER + 1];
   double solve; /* seconds */
+  bool failed;  /* memory was too short for an answer */
 };
 
 /* Coefficients from the highest power to the constant. The fault's text is NULL where all is well. */
@@ -169,22 +170,32 @@ static void write_table(const struct answer *answer)
 /* JSON knows no infinity. */
 static json_t *finite_or_null(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
-/* One object a line. Null where memory is short. */
-static void write_json(const struct answer *answer)
+/* One object a line; to be freed, NULL where memory is short. */
+static char *json_line(const struct answer *answer)
 {
   json_t *roots = json_array();
+  bool complete = true;
   for (int k = 0; k < answer->roots.count; k++) {
     const struct root *root = &answer->roots.root[k];
-    json_array_append_new(roots, json_pack("{s:f, s:f, s:o, s:s, s:i, s:o}", "re", root->re, "im", root->im, "radius",
-                                           finite_or_null(root->radius), "status", status_word(root), "iterations",
-                                           root->iterations, "eq11", finite_or_null(eq11_of(answer, root))));
+    json_t *row = json_pack("{s:f, s:f, s:o, s:s, s:i, s:o}", "re", root->re, "im", root->im, "radius",
+                            finite_or_null(root->radius), "status", status_word(root), "iterations", root->iterations,
+                            "eq11", finite_or_null(eq11_of(answer, root)));
+    complete &= json_array_append_new(roots, row) == 0;
   }
   json_t *whole = json_pack("{s:I, s:i, s:o, s:i}", "line", (json_int_t)answer->line, "degree", answer->power.degree,
                             "roots", roots, "missing", answer->roots.missing);
-  char *text = json_dumps(whole, JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
-  puts(text == NULL ? "null" : text);
-  free(text);
+  char *text = complete ? json_text(whole, JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII) : NULL;
   json_decref(whole);
+  return text;
+}
+
+/* After a line that there was no memory for there is none. */
+static void write_json(struct session *session, const struct answer *answer)
+{
+  char *text = session->failed ? NULL : json_line(answer);
+  session->failed = text == NULL;
+  if (text != NULL) puts(text);
+  free(text);
 }
 
 /* --iterates: a row a step, as it is taken. */
@@ -270,7 +281,7 @@ static void write_answer(struct session *session, const struct answer *answer)
     tell_unknown(session, answer);
     break;
   case FORMAT_TABLE: write_table(answer); break;
-  case FORMAT_JSON: write_json(answer); break;
+  case FORMAT_JSON: write_json(session, answer); break;
   case FORMAT_ITERATES: break; /* written on the way */
   }
 }
@@ -288,6 +299,11 @@ static struct stream_fault take(void *context, const struct stream_line *line)
   qsort(answer.roots.root, (size_t)answer.roots.count, sizeof answer.roots.root[0], by_place);
   write_answer(session, &answer);
   return fault;
+}
+
+static enum status answered(void *context)
+{
+  return ((const struct session *)context)->failed ? STATUS_LIMIT : STATUS_OK;
 }
 
 static double share(size_t part, size_t whole) { return whole == 0 ? 0 : (double)part / (double)whole; }
@@ -340,7 +356,7 @@ static void begin_iterates(struct session *session)
 static enum status roots(const struct command *command, const struct request *request)
 {
   struct session session = {.format = request->format};
-  const struct stream_reader reader = {.take = take, .context = &session};
+  const struct stream_reader reader = {.take = take, .answer = answered, .context = &session};
   if (request->iterates && request->format != FORMAT_PLAIN)
     return command_usage(command, "--iterates has a format of its own");
   enum status status = output_spare(command, request->stats, "/dev/stdin");

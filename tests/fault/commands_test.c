@@ -6,6 +6,7 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include <dirent.h>
 #include <fcntl.h>
+#include <jansson.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -23,6 +24,9 @@ enum { LEAST = 8, MOST_ARGUMENTS = 24 };
 
 static char folder[] = "/tmp/pscn-fault-XXXXXX";
 static char input[64], output[64], errors[64], answers[64], stats[64], results[64], page[80], povray[64], picture[64];
+
+/* What jansson asks for, where it is to count as ours. */
+static void *json_block(size_t size) { return malloc(size); }
 
 static size_t size_of(const char *path)
 {
@@ -215,6 +219,7 @@ static void test_others(void **state)
   const char *const all[] = {"trace", "--all", PSCN_SOURCE_DIR "/scenes/dome.pscn", "--quiet", NULL};
   const char *const twice[] = {"trace", "--all", PSCN_SOURCE_DIR "/tests/fault/twice.pscn", "--quiet", NULL};
   const char *const roots[] = {"roots", "--quiet", "--stats", stats, NULL};
+  const char *const json[] = {"roots", "--quiet", "--format", "json", NULL};
   assert_true(fail_each(dump, ALLOCATE, NOTHING, NULL) > LEAST);
   feed("0 3 -9 0 -0.25 1\n0 3 -9 1 0 0\n");
   assert_true(fail_each(trace, ALLOCATE, NOTHING, NULL) > LEAST);
@@ -224,7 +229,13 @@ static void test_others(void **state)
   fail_files(trace, NOTHING);
   fail_files(dump, NOTHING);
   feed("1 0 -1\n1 -6 11 -6\n");
-  assert_true(fail_each(roots, ALLOCATE, NOTHING, NULL) > 0);
+  json_malloc_t get;
+  json_free_t release;
+  json_get_alloc_funcs(&get, &release);
+  json_set_alloc_funcs(json_block, free);
+  assert_true(fail_each(roots, ALLOCATE, NOTHING, NULL) > LEAST);
+  assert_true(fail_each(json, ALLOCATE, NOTHING, NULL) > LEAST);
+  json_set_alloc_funcs(get, release);
   fail_files(roots, NOTHING);
   feed("");
 }
