@@ -268,23 +268,11 @@ static void judge_miss(struct judging *j)
   j->out->finding = doubt && !grazing ? FINDING_UNDECIDED : FINDING_PROVEN;
 }
 
-/* Whether U and V of a certain hit are those of the root at T, where that is of the same patch; near, for a border that
- * two edges of one patch share has two places for it, and the floors are of the first order. */
-static bool place_good(const struct judging *j)
-{
-  const struct hit *hit = j->hit;
-  if (hit->certainty == CERTAINTY_GRAZING || !j->at || j->at->patch != hit->patch) return true;
-  const struct facts_floor *floor = floor_of(j->certifier, j->at);
-  return !(fabs(hit->u - j->at->at.u) > PLACE_FLOORS * (floor->u + DOUBLE_UNIT)) &&
-         !(fabs(hit->v - j->at->at.v) > PLACE_FLOORS * (floor->v + DOUBLE_UNIT));
-}
-
-/* S(U,V). */
-static void surface_of(const struct judging *j, wide out[3])
+/* S(u,v) of the hit's patch. */
+static void surface_of(const struct judging *j, wide u, wide v, wide out[3])
 {
   double(*P)[4][3] = j->certifier->scene->patches[j->hit->patch].P;
-  const wide u = j->hit->u, v = j->hit->v,
-             bu[4] = {(1 - u) * (1 - u) * (1 - u), 3 * u * (1 - u) * (1 - u), 3 * u * u * (1 - u), u * u * u},
+  const wide bu[4] = {(1 - u) * (1 - u) * (1 - u), 3 * u * (1 - u) * (1 - u), 3 * u * u * (1 - u), u * u * u},
              bv[4] = {(1 - v) * (1 - v) * (1 - v), 3 * v * (1 - v) * (1 - v), 3 * v * v * (1 - v), v * v * v};
   for (int axis = 0; axis < 3; axis++) {
     out[axis] = 0;
@@ -294,6 +282,40 @@ static void surface_of(const struct judging *j, wide out[3])
       out[axis] += bu[i] * row;
     }
   }
+}
+
+/* How large the patch counts as. */
+static double counted_extent(const struct judging *j)
+{
+  const double least = fmax(LEAST_PATCH, LEAST_PART * j->certifier->size);
+  return fmax(extent_of(j->certifier, j->hit->patch), least);
+}
+
+static bool at_border(double u, double v) { return fmin(u, v) <= SAME_PLACE || fmax(u, v) >= 1 - SAME_PLACE; }
+
+/* Whether the hit's place is another one of the same point: where two borders of the patch meet, or a border is one point. */
+static bool across_seam(const struct judging *j)
+{
+  const struct hit *hit = j->hit;
+  const struct exact_root *root = &j->at->at;
+  wide here[3], there[3];
+  double off = 0;
+  if (!at_border(hit->u, hit->v) || !at_border(root->u, root->v)) return false;
+  surface_of(j, hit->u, hit->v, here), surface_of(j, root->u, root->v, there);
+  for (int axis = 0; axis < 3; axis++) off = fmax(off, fabs((double)(here[axis] - there[axis])));
+  return off <= LINE_ROUNDINGS * DOUBLE_UNIT * counted_extent(j);
+}
+
+/* Whether U and V of a certain hit are those of the root at T, where that is of the same patch; near, for the floors are of
+ * the first order. */
+static bool place_good(const struct judging *j)
+{
+  const struct hit *hit = j->hit;
+  if (hit->certainty == CERTAINTY_GRAZING || !j->at || j->at->patch != hit->patch) return true;
+  const struct facts_floor *floor = floor_of(j->certifier, j->at);
+  const bool off = fabs(hit->u - j->at->at.u) > PLACE_FLOORS * (floor->u + DOUBLE_UNIT) ||
+                   fabs(hit->v - j->at->at.v) > PLACE_FLOORS * (floor->v + DOUBLE_UNIT);
+  return !off || across_seam(j);
 }
 
 /* How far the hit's point is from it. */
@@ -320,9 +342,7 @@ static double off_line(const struct judging *j, const wide at[3])
 /* Whether a certain hit's place is on the ray, but for what the rounding of U and V moves it. */
 static bool line_good(const struct judging *j, const wide at[3])
 {
-  const double least = fmax(LEAST_PATCH, LEAST_PART * j->certifier->size);
-  const double extent = fmax(extent_of(j->certifier, j->hit->patch), least);
-  return j->hit->certainty == CERTAINTY_GRAZING || off_line(j, at) <= LINE_ROUNDINGS * DOUBLE_UNIT * extent;
+  return j->hit->certainty == CERTAINTY_GRAZING || off_line(j, at) <= LINE_ROUNDINGS * DOUBLE_UNIT * counted_extent(j);
 }
 
 /* What a hit says of the surface, but for its place on the ray. */
@@ -333,7 +353,7 @@ static bool surface_good(const struct judging *j)
   if (!(hit->u >= 0 && hit->u <= 1 && hit->v >= 0 && hit->v <= 1)) return false;
   if (!(hit->t > j->ray->t_min && hit->t < j->ray->t_max) || !place_good(j)) return false;
   wide at[3];
-  surface_of(j, at);
+  surface_of(j, hit->u, hit->v, at);
   if (!line_good(j, at) || !(off_surface(j, at) <= hit->point_error)) return false;
   return hit->certainty == CERTAINTY_GRAZING || fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < UNIT_NORMAL;
 }

@@ -93,10 +93,40 @@ static void points_of_all_sizes(void **state)
   }
 }
 
+/* A tube meets itself along a seam: next to it either side is the place of a hit, and no other is. */
+static void places_at_a_seam(void **state)
+{
+  (void)state;
+  static const double x[4] = {1, -3, -3, 1}, y[4] = {0, 3, -3, 0};
+  double P[1][4][4][3];
+  for (int n = 0; n < 16; n++)
+    P[0][n / 4][n % 4][0] = x[n / 4], P[0][n / 4][n % 4][1] = y[n / 4], P[0][n / 4][n % 4][2] = n % 4;
+  const struct ray ray = {{5, 0x1p-60, 1.25}, {-1, 0, 0}, 0, INFINITY};
+  struct trial trial;
+  struct certifier certifier;
+  struct certificate certificate;
+  struct hit hit;
+  trial_create(&trial, (const double(*)[4][4][3])P, 1, NULL);
+  certifier_create(&certifier, &trial.scene, trial.reference);
+  tracer_closest(trial.tracer, 1, &ray, &hit);
+  assert_true(hit.patch == 0 && hit.certainty == CERTAINTY_CERTAIN);
+  static const struct {
+    double u;
+    enum finding finding;
+  } cases[] = {{0, FINDING_PROVEN}, {1, FINDING_PROVEN}, {0x1p-30, FINDING_SURFACE}, {0.5, FINDING_SURFACE}};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+    hit.u = cases[n].u;
+    certify(&certifier, &ray, &hit, &certificate);
+    assert_int_equal(certificate.finding, cases[n].finding);
+  }
+  certifier_destroy(&certifier);
+  trial_destroy(&trial);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(roots_are_listed_once), cmocka_unit_test(near_roots_are_two),
-                                     cmocka_unit_test(points_of_all_sizes)};
+                                     cmocka_unit_test(points_of_all_sizes), cmocka_unit_test(places_at_a_seam)};
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   exact_cleanup();
   return failed;
