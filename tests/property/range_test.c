@@ -1,6 +1,7 @@
 /* Rays, patches and lengths from one end of the doubles to the other, all against all: a ray through the middle of a
  * patch meets it, whatever their sizes are and wherever it starts. */
 #include <float.h>
+#include <string.h>
 #include <math.h>
 
 #include "base/wide.h"
@@ -223,6 +224,29 @@ static void what_scaling_takes_away_is_in_doubt(void **state)
   }
 }
 
+/* A pole that the ray meets exactly, next to its start: t is so small that no double can say what it is rounded by, and is known
+ * to lie on one side of t_min all the same. */
+static void poles_next_to_the_start_are_told(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 3};
+  world_net net[1];
+  struct world world;
+  floor_at(0, 1, 0.25, net[0]);
+  memset(net[0][0], 0, sizeof net[0][0]);
+  world_open(&world, net, 1, NULL);
+  for (int n = 0; n < 4000; n++) {
+    const double way = ldexp(rint(ldexp(random_between(&random, 1, 2), n % 53)), -1074 + n % 7 * 9);
+    struct ray ray = {{0, 0, -way}, {0, 0, random_between(&random, 1, 2)}, 0, INFINITY};
+    const double t = way / ray.direction[2], off = (double)(n % 3 - 1);
+    if (n % 5) ray.t_min = off == 0 ? t : nextafter(t, off > 0 ? 1 : 0);
+    const struct hit hit = world_closest(&world, &ray);
+    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+    assert_int_equal(hit.patch != HIT_NONE, (wide)ray.t_min * ray.direction[2] < way);
+  }
+  world_close(&world);
+}
+
 /* Patches far smaller than 2^-100 of their scene, which is as small as a frame gets, are hit with all that a hit has. */
 static void patches_lost_in_their_scene_have_normals(void **state)
 {
@@ -250,9 +274,11 @@ static void patches_lost_in_their_scene_have_normals(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(patches_lost_in_their_scene_have_normals), cmocka_unit_test(rays_and_patches_of_all_sizes),
-    cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way), cmocka_unit_test(rays_pass_by_a_scene_of_one_point),
-    cmocka_unit_test(what_scaling_takes_away_is_in_doubt)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_lost_in_their_scene_have_normals),
+                                     cmocka_unit_test(poles_next_to_the_start_are_told),
+                                     cmocka_unit_test(rays_and_patches_of_all_sizes),
+                                     cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way),
+                                     cmocka_unit_test(rays_pass_by_a_scene_of_one_point),
+                                     cmocka_unit_test(what_scaling_takes_away_is_in_doubt)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -246,6 +246,8 @@ static bool point_root(const struct judge *j, const struct net_point *at, struct
                              .u = at->u,
                              .v = at->v,
                              .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
+  /* Nothing of a t below 2^-963: there the difference is exact, a whole number of least doubles, and so far from the product
+   * of any double and d_k that is not it that the quotient, rounded once, lies on its own side of that double. */
   out->t_error = 4 * (double)(WIDE_ROUNDOFF * wide_abs(out->t));
   return true;
 }

@@ -29,12 +29,8 @@ struct zoom {
   double depth_error; /* the same of x_k, as it is */
 };
 
-/* What an error of x_k is of t: 0 only where it is. */
-static inline double error_to_t(double to_t, double error)
-{
-  const double of_t = fabs(to_t) * error;
-  return error > 0 && !(of_t > 0) ? DBL_TRUE_MIN : of_t;
-}
+/* What an error of x_k is of t: below the normal numbers rounded up, and so is what little is added to it. */
+static inline double error_to_t(double to_t, double error) { return fabs(to_t) * error + DBL_TRUE_MIN; }
 
 /* What rounding may do in the frame of the patch. */
 static inline double zoom_error(const struct zoom *zoom)
