@@ -7,6 +7,7 @@
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "geometry/twins.h"
@@ -183,16 +184,18 @@ static int by_t(const void *a, const void *b)
   return x->kind < y->kind ? -1 : x->kind > y->kind;
 }
 
-static void sort(struct exact_list *list)
+static void sort_part(struct exact_found at[], size_t count)
 {
-  if (list->count > 1) qsort(list->at, list->count, sizeof *list->at, by_t);
+  if (count > 1) qsort(at, count, sizeof *at, by_t);
   wide least = INFINITY;
-  for (size_t k = list->count; k-- > 0;) {
-    const struct exact_root *root = &list->at[k].root;
+  for (size_t k = count; k-- > 0;) {
+    const struct exact_root *root = &at[k].root;
     if (root->t - root->t_error < least) least = root->t - root->t_error;
-    list->at[k].least = least;
+    at[k].least = least;
   }
 }
+
+static void sort(struct exact_list *list) { sort_part(list->at, list->count); }
 
 /* Whether they are of patches that lie exactly on each other. */
 static bool are_twins(const struct judge *j, const struct exact_root *a, const struct exact_root *b)
@@ -210,32 +213,64 @@ static bool one_of_equal(const struct judge *j, const struct exact_root *a, cons
   return (holds(a, b) || holds(b, a)) && net_equal(patches[a->patch].P, patches[b->patch].P);
 }
 
-/* Whether a, which comes before b by t as it is known, is to stay before it. Of two roots that cannot be told
- * apart each is made sharp where it can be, as they are where the nearest of them is asked for. */
-static bool in_order(struct judge *j, struct exact_found *a, struct exact_found *b)
+/* Whether nothing tells which of the two comes first. What may be a hit has its place by t. */
+static bool tie(const struct exact_found *a, const struct exact_found *b)
 {
-  if (a->kind == EXACT_OPEN || b->kind == EXACT_OPEN || !judge_tie(&a->root, &b->root)) return !(b->root.t < a->root.t);
+  return a->kind != EXACT_OPEN && b->kind != EXACT_OPEN && judge_tie(&a->root, &b->root);
+}
+
+/* Of two roots that cannot be told apart each is made sharp where it can be, as they are where the nearest of them is asked
+ * for. */
+static void tell_apart(struct judge *j, struct exact_found *a, struct exact_found *b)
+{
   const bool twins = are_twins(j, &a->root, &b->root);
-  if (twins && one_of_equal(j, &a->root, &b->root)) return a->root.patch < b->root.patch;
+  if (!tie(a, b) || (twins && one_of_equal(j, &a->root, &b->root))) return;
   struct exact_root one = a->root, two = b->root;
   if (judge_sharpen(j, &one)) a->root = one;
   if (judge_sharpen(j, &two)) b->root = two;
   if (!twins) a->tied = b->tied = true;
-  if (!judge_tie(&a->root, &b->root)) return a->root.t < b->root.t;
-  j->doubt |= !judge_tie_fine(j, &a->root, &b->root);
-  return !judge_stands_before(&b->root, &a->root);
+}
+
+/* Of those from `first` on, which are sorted by t, the one that comes next: of all that are proven to be behind none of them the
+ * one that stands first. That it is before the others that it cannot be told from has to be no matter. */
+static size_t next_in_order(struct judge *j, size_t first, size_t end)
+{
+  const struct exact_found *at = j->list->at;
+  size_t next = first;
+  wide reach = INFINITY; /* what begins behind it is behind one of them */
+  for (size_t k = first; k < end && at[k].least <= reach; k++) {
+    const struct exact_root *root = &at[k].root;
+    const wide most = at[k].kind == EXACT_OPEN ? root->t : root->t + root->t_error;
+    if (most < reach) reach = most;
+  }
+  for (size_t k = first + 1; k < end && at[k].least <= reach; k++) {
+    const struct exact_root *root = &at[k].root;
+    if (at[k].kind == EXACT_OPEN || root->t - root->t_error > reach) continue;
+    if (at[next].kind != EXACT_OPEN && judge_stands_before(root, &at[next].root)) next = k;
+  }
+  for (size_t k = first; k < end && at[k].least <= reach && !j->doubt; k++) {
+    const struct exact_root *a = &at[next].root, *b = &at[k].root;
+    if (k == next || !tie(&at[next], &at[k])) continue;
+    if (are_twins(j, a, b) && one_of_equal(j, a, b)) continue;
+    j->doubt |= !judge_tie_fine(j, a, b);
+  }
+  return next;
 }
 
 static void order(struct judge *j, size_t first, size_t end)
 {
   struct exact_found *at = j->list->at;
-  size_t k = first + 1;
-  for (; k < end && !worn_out(j, 1); k++)
-    for (size_t n = k; n > first && !in_order(j, &at[n - 1], &at[n]); n--) {
-      const struct exact_found swap = at[n];
-      at[n] = at[n - 1], at[n - 1] = swap;
-    }
-  if (k < end) qsort(at + first, end - first, sizeof *at, by_t);
+  for (size_t k = first; k < end && !worn_out(j, 1); k++) {
+    const wide reach = at[k].root.t + at[k].root.t_error;
+    for (size_t n = k + 1; n < end && at[n].least <= reach && j->work > 0; n++) tell_apart(j, &at[k], &at[n]);
+  }
+  sort_part(at + first, end - first);
+  for (size_t k = first; k + 1 < end && !worn_out(j, 1); k++) {
+    const size_t next = next_in_order(j, k, end);
+    const struct exact_found found = at[next];
+    memmove(at + k + 1, at + k, (next - k) * sizeof *at);
+    at[k] = found;
+  }
 }
 
 /* Does it for all runs of roots that cannot be told apart by t. */

@@ -82,38 +82,6 @@ static enum side root_in_range(const struct judge *j, const struct exact_root *r
                                                       : SIDE_UNKNOWN;
 }
 
-bool judge_sharpen(struct judge *j, struct exact_root *root)
-{
-  if (root->sharp) return true;
-  judge_turn(j, root->patch);
-  judge_spend(j, WORK_SHARPEN);
-  return zoom_sharpen(judge_zoom(j), root);
-}
-
-/* Two roots whose t is known to so many errors of wide arithmetic are not ill-conditioned: the ray meets the surface at
- * a slant no worse than about that. A choice of words: what is worse is called grazing. */
-#define TIE_ERRORS 256
-
-bool judge_tie(const struct exact_root *a, const struct exact_root *b)
-{
-  return wide_abs(a->t - b->t) <= a->t_error + b->t_error;
-}
-
-bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct exact_root *b)
-{
-  judge_turn(j, a->patch);
-  const struct zoom *zoom = judge_zoom(j);
-  const double well = TIE_ERRORS * (double)(zoom_error(zoom) * wide_abs(zoom->to_t));
-  return a->t_error + b->t_error <= UNIT_ROUNDOFF * fabs((double)a->t) + well;
-}
-
-bool judge_stands_before(const struct exact_root *a, const struct exact_root *b)
-{
-  if (a->patch != b->patch) return a->patch < b->patch;
-  const bool beside = fabs((double)(a->u - b->u)) > a->radius_u + b->radius_u;
-  return beside ? a->u < b->u : a->v < b->v;
-}
-
 /* ---- what is found ---- */
 
 /* Nothing beyond the nearest hit matters, nor where a nearer one would be as doubtful as what is there. */
@@ -151,26 +119,48 @@ static void sharpen(struct judge *j, struct exact_root *root)
   if (judge_sharpen(j, &sharp)) *root = sharp;
 }
 
-/* A root inside: the nearest, or of those that cannot be told apart the first. */
+/* Of the rivals the one that stands first, or last. */
+static struct exact_root *standing(struct judge *j, bool last)
+{
+  struct exact_root *one = j->rival;
+  for (size_t k = 1; k < j->rivals; k++)
+    if (judge_stands_before(&j->rival[k], one) != last) one = &j->rival[k];
+  return one;
+}
+
+/* One more; where there are too many, the one that stands last is left out. */
+static void add_rival(struct judge *j, const struct exact_root *root)
+{
+  if (j->rivals < JUDGE_RIVALS_MAX) j->rival[j->rivals++] = *root;
+  else if (judge_stands_before(root, standing(j, true))) *standing(j, true) = *root;
+  j->nearest = *standing(j, false), j->found = true;
+}
+
+/* A root inside: the nearest, or of those that are not proven to be behind another one the first. Of three each may be at one t
+ * with the next, and the first before the last. */
 static void keep_root(struct judge *j, struct exact_root *root)
 {
   if (j->all) {
     (void)list_root(j, root, EXACT_INSIDE, 0); /* or the list has failed */
     return;
   }
-  if (j->found && root->patch == j->nearest.patch && exact_roots_meet(root, &j->nearest)) return;
-  struct exact_root *other = &j->nearest;
-  if (j->found && judge_tie(root, other)) {
-    sharpen(j, other), sharpen(j, root);
-    judge_turn(j, root->patch); /* whose region is being searched */
-    const bool tie = judge_tie(root, other);
-    if (tie && !judge_tie_fine(j, root, other))
-      j->tied_from = real_min(j->tied_from, real_min(least_t(root), least_t(other)));
-    if (tie ? judge_stands_before(other, root) : root->t > other->t) return;
-  } else if (j->found && !(root->t < other->t)) {
-    return;
+  struct exact_root *at = j->rival;
+  for (size_t k = 0; k < j->rivals; k++)
+    if (root->patch == at[k].patch && exact_roots_meet(root, &at[k])) return;
+  for (size_t k = 0; k < j->rivals; k++)
+    if (judge_tie(root, &at[k])) sharpen(j, &at[k]), sharpen(j, root);
+  judge_turn(j, root->patch); /* whose region is being searched */
+  for (size_t k = 0; k < j->rivals; k++)
+    if (!judge_tie(root, &at[k]) && at[k].t <= root->t) return;
+  size_t kept = 0;
+  for (size_t k = 0; k < j->rivals; k++) {
+    if (!judge_tie(root, &at[k])) continue;
+    if (!judge_tie_fine(j, root, &at[k]))
+      j->tied_from = real_min(j->tied_from, real_min(least_t(root), least_t(&at[k])));
+    at[kept++] = at[k];
   }
-  *other = *root, j->found = true;
+  j->rivals = kept;
+  add_rival(j, root);
   set_limit(j);
 }
 
@@ -194,10 +184,9 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double 
 /* What may be a hit at a root that is not known to be in its patch: the point next to it, and its place on the ray. */
 static void tell_maybe(struct judge *j, unsigned borders, const struct exact_root *root)
 {
-  double u = (double)root->u, v = (double)root->v, t_error = root->t_error;
-  u = real_min(real_max(u, 0), 1), v = real_min(real_max(v, 0), 1);
+  const double u = real_min(real_max((double)root->u, 0), 1), v = real_min(real_max((double)root->v, 0), 1);
   const double w = patch_evaluate(j->is->x[j->local.axis], u, v).value;
-  double t = (double)root->t;
+  double t = (double)root->t, t_error = root->t_error;
   if (!root->sharp) {
     t = t_of_depth(&j->local.depth, w);
     t_error += 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.depth.unit * j->local.depth.to_t));
@@ -246,8 +235,8 @@ static bool point_root(const struct judge *j, const struct net_point *at, struct
                              .u = at->u,
                              .v = at->v,
                              .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
-  /* Nothing of a t below 2^-963: there the difference is exact, a whole number of least doubles, and so far from the product
-   * of any double and d_k that is not it that the quotient, rounded once, lies on its own side of that double. */
+  /* 0 below 2^-963: there the difference is exact, and no product of a double and d_k is so near to it that the quotient, rounded
+   * once, is not on its own side of that double. */
   out->t_error = 4 * (double)(WIDE_ROUNDOFF * wide_abs(out->t));
   return true;
 }
@@ -445,7 +434,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct
                       .patch = UINT32_MAX};
   if (!all) {
     j->doubt = asked->cut_off;
-    if (asked->known) j->nearest = *asked->known, j->found = true;
+    if (asked->known) add_rival(j, asked->known);
   }
   set_limit(j);
   if (!all && asked->maybe) keep_maybe(j, asked->maybe, asked->maybe->t);

@@ -13,6 +13,9 @@
  * some more. */
 enum { JUDGE_BORDERS_MAX = 16 };
 
+/* Roots at one t, some sheets that lie on each other. */
+enum { JUDGE_RIVALS_MAX = 8 };
+
 /* Work is counted in boxes looked at, some 1,300 instructions each; what else is done is worth so many: to take a patch or
  * a part of it to the ray's frame, to start under the glass on a patch, to put a box there, to look for a fold, to sharpen a
  * root. Where all hits are asked for each of the first HITS_MOST that are found brings WORK_HIT. What a ray may take in all
@@ -31,8 +34,10 @@ struct judge {
   const struct exact_case *asked;
   bool all; /* all hits are asked for, and `list` has whatever is found; else roots on borders only */
   struct exact_list *list;
-  struct exact_root nearest; /* of the certain roots inside patches, where `found` */
-  struct exact_maybe maybe;  /* the nearest, where `doubtful` */
+  struct exact_root nearest;                 /* of the certain roots inside patches, where `found` */
+  struct exact_root rival[JUDGE_RIVALS_MAX]; /* it, and those that nothing tells from it or from each other by t */
+  size_t rivals;
+  struct exact_maybe maybe; /* the nearest, where `doubtful` */
   bool found, doubtful;
   /* where a root may be that `nearest`, or one before it, could not be told from (judge_tie_fine); infinite for none */
   double tied_from;
