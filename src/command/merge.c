@@ -113,6 +113,9 @@ static enum status create_picture(struct merge *merge)
   if (list == NULL) return STATUS_LIMIT;
   const bool known = channel_list_parse(list, &options.channels, &bad, &bad_length);
   free(list);
+  if (known && merge->request->format == IMAGE_PNG && !channel_list_is_rgb(&options.channels))
+    return command_usage(merge->command, "a PNG holds the channel rgb only, and '%s' has others: they need an .exr",
+                         merge->first->path);
   if (known) return piece_create(&options, 1, 1, NULL, 0, &merge->picture);
   command_error(merge->command, "'%s': its channels are unknown", merge->first->path);
   return STATUS_FILE;

@@ -101,8 +101,7 @@ static enum status check_piece(const struct command *command, struct rendering_r
 
 static enum status check_format(const struct command *command, struct rendering_request *picture)
 {
-  const struct channel_list *channels = &picture->options.channels;
-  const bool plain = channels->count == 1 && channels->kind[0] == CHANNEL_RGB;
+  const bool plain = channel_list_is_rgb(&picture->options.channels);
   if (output_is_standard(picture->output))
     picture->format = plain && picture->pieces == 0 && picture->bits != 32 ? IMAGE_PNG : IMAGE_EXR;
   else if (output_format(command, picture->output, &picture->format) != STATUS_OK) return STATUS_USAGE;

@@ -43,6 +43,8 @@ bool channel_list_measures(const struct channel_list *list)
          channel_list_has(list, CHANNEL_RESIDUAL);
 }
 
+bool channel_list_is_rgb(const struct channel_list *list) { return list->count == 1 && list->kind[0] == CHANNEL_RGB; }
+
 bool channel_list_parse(const char *text, struct channel_list *out, const char **out_bad, size_t *out_bad_length)
 {
   struct channel_list list = {0};

@@ -51,6 +51,9 @@ struct channel_list {
 bool channel_list_measures(const struct channel_list *list);
 bool channel_list_has(const struct channel_list *list, enum channel_kind kind);
 
+/* Whether it is rgb alone, which is all that a PNG holds. */
+bool channel_list_is_rgb(const struct channel_list *list);
+
 /* Reads names with commas between them. false: *out_bad .. + *out_bad_length is the name that is unknown or stands
  * twice (possibly empty), and *out is unchanged. */
 bool channel_list_parse(const char *text, struct channel_list *out, const char **out_bad, size_t *out_bad_length);

@@ -68,6 +68,12 @@ at=$(grep -abo displayWindow outside.exr | head -n 1 | cut -d: -f1)
 printf '\5' | dd of=outside.exr bs=1 seek=$((at + 24)) conv=notrunc status=none
 try pscn merge outside.exr -o no.png
 same outside.exr whole3.exr
+# A PNG of numbers would be no picture.
+for channels in normal rgb,depth; do
+  pscn render $scene --tile 1/1 --channels $channels --quiet -o $channels.exr
+  try pscn merge $channels.exr -o no.png
+  [ ! -e no.png ] || echo "there is a picture of $channels"
+done
 # The command line.
 try pscn merge -o no.png
 try pscn merge p1.exr
