@@ -87,12 +87,12 @@ void command_print(FILE *file, const char *text)
   }
 }
 
-static void print_error(const struct command *command, const char *format, va_list arguments)
+static void print_told(const struct command *command, const char *kind, const char *format, va_list arguments)
 {
   char text[MESSAGE_BYTES] = "";
   (void)vsnprintf(text, sizeof text, format, arguments);
-  if (command == NULL) fputs("pscn: error: ", stderr);
-  else fprintf(stderr, "pscn %s: error: ", command->name);
+  if (command == NULL) fprintf(stderr, "pscn: %s: ", kind);
+  else fprintf(stderr, "pscn %s: %s: ", command->name, kind);
   command_print(stderr, text);
   fputc('\n', stderr);
 }
@@ -101,7 +101,15 @@ void command_error(const struct command *command, const char *format, ...)
 {
   va_list arguments;
   va_start(arguments, format);
-  print_error(command, format, arguments);
+  print_told(command, "error", format, arguments);
+  va_end(arguments);
+}
+
+void command_warning(const struct command *command, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  print_told(command, "warning", format, arguments);
   va_end(arguments);
 }
 
@@ -109,7 +117,7 @@ enum status command_usage(const struct command *command, const char *format, ...
 {
   va_list arguments;
   va_start(arguments, format);
-  print_error(command, format, arguments);
+  print_told(command, "error", format, arguments);
   va_end(arguments);
   if (command == NULL) fputs("Try 'pscn help'.\n", stderr);
   else fprintf(stderr, "Try 'pscn help %s'.\n", command->name);
@@ -126,7 +134,7 @@ static void hear(void *context, enum told what, const char *text)
 {
   const struct command_ear *ear = context;
   if (what == TOLD_ERROR) command_error(ear->command, "%s", text);
-  else if (what == TOLD_WARNING) fprintf(stderr, "pscn %s: warning: %s\n", ear->command->name, text);
+  else if (what == TOLD_WARNING) command_warning(ear->command, "%s", text);
   else if (what == TOLD_DETAIL || !ear->quiet) fprintf(stderr, "%s\n", text);
 }
 

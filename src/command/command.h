@@ -61,8 +61,9 @@ void command_print_overview(FILE *file);
 void command_print(FILE *file, const char *text);
 
 /* "pscn NAME: error: text" to stderr (without NAME where command is NULL), the form of all errors that no line of
- * an input has. command_usage adds where help is, and answers STATUS_USAGE. */
+ * an input has; and of warnings. command_usage adds where help is, and answers STATUS_USAGE. */
 void command_error(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void command_warning(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 enum status command_usage(const struct command *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Tells that memory is short; answers STATUS_LIMIT. */

@@ -184,8 +184,8 @@ static enum status judge(const struct command *command, const struct request *re
     return STATUS_DIFFERENT;
   }
   if (compare_limit_passed(&request->warn, result, warning) && !request->quiet)
-    fprintf(stderr, "pscn %s: warning: %zu pixels differ by more than %.9g, the most by %.9g\n", command->name, warning,
-            request->warn.each, result->max);
+    command_warning(command, "%zu pixels differ by more than %.9g, the most by %.9g", warning, request->warn.each,
+                    result->max);
   return STATUS_OK;
 }
 

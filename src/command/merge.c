@@ -283,8 +283,9 @@ static enum status put_together(struct merge *merge)
     return status == STATUS_OK ? STATUS_DIFFERENT : status;
   }
   status = write_picture(merge);
-  if (status == STATUS_OK && !merge->request->quiet)
-    fprintf(stderr, "%s: %zu piece%s\n", merge->request->output, merge->count, merge->count == 1 ? "" : "s");
+  if (status != STATUS_OK || merge->request->quiet) return status;
+  command_print(stderr, merge->request->output);
+  fprintf(stderr, ": %zu piece%s\n", merge->count, merge->count == 1 ? "" : "s");
   return status;
 }
 

@@ -158,8 +158,8 @@ static enum status check_part(const struct command *command, struct rendering_re
   if (status == STATUS_OK) return STATUS_OK;
   if (status == STATUS_LIMIT) return command_out_of_memory(command);
   if (!picture->scene->quiet)
-    fprintf(stderr, "pscn %s: warning: nothing is kept of what is done, for '%s' cannot be written: %s\n",
-            command->name, picture->part, strerror(reason));
+    command_warning(command, "nothing is kept of what is done, for '%s' cannot be written: %s", picture->part,
+                    strerror(reason));
   picture->part = NULL;
   return STATUS_OK;
 }

@@ -77,8 +77,10 @@ static void keep_interrupted(struct rendering *rendering)
   const size_t done = tile_list_pixels(&rendering->piece.tiles, true),
                all = tile_list_pixels(&rendering->piece.tiles, false);
   if (rendering->request->part == NULL || done == 0 || !keep(rendering) || rendering->request->scene->quiet) return;
-  fprintf(stderr, "pscn %s: interrupted; the %.0f %% that are done are in '%s', and --resume goes on from there\n",
-          rendering->command->name, floor(100 * (double)done / (double)all), rendering->request->part);
+  fprintf(stderr, "pscn %s: interrupted; the %.0f %% that are done are in '", rendering->command->name,
+          floor(100 * (double)done / (double)all));
+  command_print(stderr, rendering->request->part);
+  fputs("', and --resume goes on from there\n", stderr);
 }
 
 /* Takes what an earlier run has left. */
@@ -91,8 +93,7 @@ static enum status resume(struct rendering *rendering)
   if (path == NULL || access(path, F_OK) != 0) return STATUS_OK;
   if (!rendering->request->resume) {
     if (!rendering->request->scene->quiet)
-      fprintf(stderr, "pscn %s: warning: '%s' is left by an earlier run; --resume goes on from there\n", command->name,
-              path);
+      command_warning(command, "'%s' is left by an earlier run; --resume goes on from there", path);
     return STATUS_OK;
   }
   enum status status = piece_read(path, true, &part, message);

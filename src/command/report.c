@@ -18,9 +18,11 @@ void report_print(const struct report *report)
   const struct intersect_counts *counts = &report->counts;
   char solver[METHOD_TEXT_SIZE];
   method_text(&report->scene->solvers[0], solver, sizeof solver);
-  if (report->picture_path != NULL)
-    fprintf(stderr, "%s: %zu x %zu pixels, %zu x %zu samples each\n", report->picture_path, report->crop.width,
-            report->crop.height, report->samples, report->samples);
+  if (report->picture_path != NULL) {
+    command_print(stderr, report->picture_path);
+    fprintf(stderr, ": %zu x %zu pixels, %zu x %zu samples each\n", report->crop.width, report->crop.height,
+            report->samples, report->samples);
+  }
   fprintf(stderr, "solver   %s, %zu patch%s, %zu thread%s\n", solver, report->scene->patch_count,
           report->scene->patch_count == 1 ? "" : "es", report->threads, report->threads == 1 ? "" : "s");
   fprintf(stderr, "rays     %" PRIu64 " primary, %" PRIu64 " shadow\n", counts->rays[0], counts->rays[1]);

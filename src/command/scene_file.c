@@ -151,7 +151,7 @@ void scene_file_warn(const struct command *command, const struct scene *scene)
   const bool missing[] = {scene->patch_count == 0, scene->light_count == 0, !scene->has_camera};
   static const char *const what[] = {"no patches", "no light_source", "no camera"};
   for (size_t k = 0; k < sizeof missing / sizeof *missing; k++)
-    if (missing[k]) fprintf(stderr, "pscn %s: warning: the scene has %s\n", command->name, what[k]);
+    if (missing[k]) command_warning(command, "the scene has %s", what[k]);
 }
 
 enum status scene_file_spare(const struct command *command, const struct scene_request *request,

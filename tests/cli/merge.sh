@@ -68,6 +68,12 @@ at=$(grep -abo displayWindow outside.exr | head -n 1 | cut -d: -f1)
 printf '\5' | dd of=outside.exr bs=1 seek=$((at + 24)) conv=notrunc status=none
 try pscn merge outside.exr -o no.png
 same outside.exr whole3.exr
+# No name steers a terminal, of a picture neither.
+red=$'\x1b[31m.exr'
+try pscn merge all?.exr -o $red
+cp all1.exr $red.part.exr
+try pscn render ${scene% --quiet} -o $red 2>&1 | cat -v | grep '31m'
+rm $red
 # A PNG of numbers would be no picture.
 for channels in normal rgb,depth; do
   pscn render $scene --tile 1/1 --channels $channels --quiet -o $channels.exr
