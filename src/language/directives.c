@@ -34,6 +34,9 @@ static int skip_branch(struct language *language, bool to_else)
     case TOKEN_ELSE:
       if (depth == 0 && to_else) return token;
       break;
+    case TOKEN_ELSEIF: /* its branch may be the one that counts */
+      if (depth == 0 && to_else) directives_tell(language, token);
+      break;
     case TOKEN_ENDIF:
       if (depth-- == 0) return token;
       break;

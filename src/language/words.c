@@ -37,7 +37,7 @@ static const struct keyword DIRECTIVES[] = {{"declare", PSCN_TOKEN_DECLARE},
 /* POV-Ray 3.7's other directives. */
 static const struct keyword FOREIGN_DIRECTIVES[] = {
   {"break", TOKEN_FOREIGN_DIRECTIVE},   {"case", TOKEN_FOREIGN_DIRECTIVE},
-  {"debug", TOKEN_FOREIGN_DIRECTIVE},   {"elseif", TOKEN_FOREIGN_DIRECTIVE},
+  {"debug", TOKEN_FOREIGN_DIRECTIVE},   {"elseif", TOKEN_ELSEIF},
   {"error", TOKEN_FOREIGN_DIRECTIVE},   {"fclose", TOKEN_FOREIGN_DIRECTIVE},
   {"fopen", TOKEN_FOREIGN_DIRECTIVE},   {"for", TOKEN_FOREIGN_OPENER},
   {"if", TOKEN_FOREIGN_OPENER},         {"macro", TOKEN_MACRO},
