@@ -19,11 +19,14 @@ static void tell_open_comment(struct language *language)
 /* ---- conditions ---- */
 
 /* Skips to the #end of a condition, or if `to_else` to its #else; what is skipped may hold conditions of its own,
- * also those that only POV-Ray has. Answers the token it stopped at; 0 is the end of the source. */
-static int skip_branch(struct language *language, bool to_else)
+ * also those that only POV-Ray has. `foreign`: POV-Ray may read it. Answers the token it stopped at; 0 is the end of the
+ * source. */
+static int skip_branch(struct language *language, bool to_else, bool foreign)
 {
+  struct passed passed = {0};
   for (int depth = 0;;) {
     const int token = pscn_scan_next(&language->sources->frame->scan);
+    if (foreign) declare_passed(language, token, sources_here(language), &passed);
     switch (token) {
     case 0: return token;
     case TOKEN_OPEN_COMMENT: tell_open_comment(language); break;
@@ -77,7 +80,7 @@ static void begin_condition(struct language *language, bool wanted)
   }
   frame->condition[frame->conditions++] = (struct condition){place, false};
   if (holds) return;
-  const int stopped = skip_branch(language, true);
+  const int stopped = skip_branch(language, true, false);
   if (stopped == TOKEN_ELSE) frame->condition[frame->conditions - 1].seen_else = true;
   if (stopped == TOKEN_ENDIF) frame->conditions--;
 }
@@ -94,7 +97,7 @@ static void end_condition(struct language *language, int token)
   if (token == TOKEN_ELSE) {
     if (condition->seen_else) language_tell(language, sources_here(language), "a second #else for the same #ifdef");
     condition->seen_else = true;
-    if (skip_branch(language, false) != TOKEN_ENDIF) return;
+    if (skip_branch(language, false, false) != TOKEN_ENDIF) return;
   }
   frame->conditions--;
 }
@@ -120,7 +123,7 @@ static void skip_macro(struct language *language)
   const struct span place = sources_here(language);
   struct name name;
   if (next_name(language, "#macro", &name)) declare_macro(language, &name);
-  if (skip_branch(language, false) != TOKEN_ENDIF) language_tell(language, place, "#macro without #end");
+  if (skip_branch(language, false, false) != TOKEN_ENDIF) language_tell(language, place, "#macro without #end");
 }
 
 static void undeclare(struct language *language)
@@ -191,7 +194,7 @@ bool directives_pass(struct language *language, int token)
     return true;
   case TOKEN_FOREIGN_OPENER:
     directives_tell(language, token);
-    skip_branch(language, false);
+    skip_branch(language, false, true);
     return true;
   case TOKEN_MACRO: skip_macro(language); return true;
   case TOKEN_UNDEF: undeclare(language); return true;

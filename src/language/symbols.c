@@ -183,6 +183,23 @@ static struct symbol *symbol_begin(struct language *language, const struct name 
   return add(language, name->text, name->length, local ? depth : 0);
 }
 
+void declare_passed(struct language *language, int token, struct span place, struct passed *passed)
+{
+  if (token == PSCN_TOKEN_DECLARE || token == PSCN_TOKEN_LOCAL || token == TOKEN_UNDEF) {
+    *passed = (struct passed){token, place};
+  } else if (token == PSCN_TOKEN_DEFAULT) {
+    language_tell(language, place, "this stands in what pscn has not, and is passed over");
+  } else if (passed->token != 0 && token == PSCN_TOKEN_WORD) {
+    struct declaration *declaration = declare_begin(language, place,
+                                                    passed->token == PSCN_TOKEN_LOCAL ? &passed->place : NULL);
+    language_foreign(language, place, "this is declared in what pscn has not, and passed over");
+    declare_end(language, declaration);
+    passed->token = 0;
+  } else if (token != PSCN_TOKEN_DEPRECATED && token != PSCN_TOKEN_ONCE && token != PSCN_TOKEN_STRING) {
+    passed->token = 0;
+  }
+}
+
 /* POV-Ray loses such a name, or breaks down. */
 void declare_left_open(struct language *language, struct span end)
 {
