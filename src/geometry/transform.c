@@ -42,7 +42,8 @@ struct transform transform_then(const struct transform *first, const struct tran
 bool transform_finite(const struct transform *transform)
 {
   uint64_t over = 0;
-  for (int i = 0; i < 12; i++) over |= real_infinite(transform->A[i / 3][i % 3].hi);
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 3; j++) over |= real_infinite(transform->A[i][j].hi);
   return over == 0;
 }
 
