@@ -305,10 +305,39 @@ static void sheets_that_wide_arithmetic_just_tells(void **state)
   assert_true(sure > STACKS * STACK_RAYS / 2);
 }
 
+/* Two planes that meet on the ray are met at one t. Which of them comes first is no matter, but where the ray is so nearly in them
+ * that their t is known badly: then it is a doubt. */
+static void what_comes_first_edge_on_is_in_doubt(void **state)
+{
+  (void)state;
+  for (int slant = 4; slant <= 64; slant += 6) {
+    world_net nets[2];
+    struct world world;
+    struct hit_list list;
+    for (int n = 0; n < 16; n++) {
+      for (int p = 0; p < 2; p++) {
+        double *x = nets[p][n / 4][n % 4];
+        x[0] = n / 4 - 1.5, x[1] = n % 4 - 1.5, x[2] = (p + 1) * x[1];
+      }
+    }
+    world_open(&world, nets, 2, NULL);
+    const struct ray ray = {{-2, 0, -2 * ldexp(1, -slant)}, {1, 0, ldexp(1, -slant)}, 0, INFINITY};
+    const struct hit hit = world_closest(&world, &ray);
+    assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
+    const enum certainty want = slant < 48 ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
+    assert_int_equal(hit.certainty, want);
+    assert_int_equal(list.certainty, want);
+    world_close(&world);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(of_one_solver), cmocka_unit_test(of_several), cmocka_unit_test(that_are_not_kept),
-    cmocka_unit_test(sheets_that_wide_arithmetic_just_tells), cmocka_unit_test(that_are_copies)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(of_one_solver),
+                                     cmocka_unit_test(of_several),
+                                     cmocka_unit_test(that_are_not_kept),
+                                     cmocka_unit_test(sheets_that_wide_arithmetic_just_tells),
+                                     cmocka_unit_test(what_comes_first_edge_on_is_in_doubt),
+                                     cmocka_unit_test(that_are_copies)};
   return cmocka_run_group_tests_name("twins", tests, NULL, NULL);
 }
