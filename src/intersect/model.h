@@ -155,8 +155,9 @@ struct model {
   struct model_cut *cuts;
   struct model_patch *patches;       /* NULL where they are not kept, */
   struct leaf *leaves;               /* nor are the leaves then, */
-  struct oriented_box *oriented;     /* and their boxes, */
   struct leaf_place *places;         /* but where they are; else NULL */
+  struct oriented_box *oriented;     /* the leaves' */
+  void *oriented_room;               /* what they are in where leaves are not kept; owned */
   struct edge_neighbour *neighbours; /* [4 * patch + border], see geometry/edges.h; none of `twin` ones */
   /* patches that lie exactly on an earlier one (geometry/twins.h), an object's wherever it is copied: never the nearest;
    * NULL for none */
@@ -182,8 +183,10 @@ struct model_patch *model_patch_at(const struct model *model, uint32_t index, st
 /* A leaf that is not kept. */
 void model_make_leaf(const struct model *model, uint32_t number, struct leaf_room *out);
 
-/* How many leaves a side there are at most where `split` is auto: of any patch, and of one that is bent all over. */
+/* Where `split` is auto a patch is cut until its leaves' derivatives turn by no more than about this fraction of their size, and
+ * into so many leaves a side at most: any patch, and one that is bent all over. Choices of speed, not of correctness. */
 struct split_limit {
+  double turn;
   int any, bent;
 };
 

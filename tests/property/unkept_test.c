@@ -14,26 +14,36 @@
 
 enum { SEED = 20261122, RAYS = 400, MANY = 70000 };
 
-/* The nets alone, or with small patches far away besides: one leaf each in either case. */
+/* The nets alone, or with small patches far away besides: one leaf each in either case; and with a floor so wide that they are in
+ * a tree of their own. */
 struct side {
   struct scene scene;
   struct intersector *intersector;
   struct tracer *tracer;
 };
 
-static void side_open(struct side *side, struct method *solver, world_net nets[], size_t count, size_t far)
+#define FLOOR 0x1p33
+
+static void side_open(struct side *side, struct method *solver, world_net nets[], size_t count, size_t far,
+                      bool floored)
 {
   struct random random = {SEED};
-  *side = (struct side){.scene = {.solvers = solver, .solver_count = 1, .patch_count = count + far}};
-  side->scene.patches = calloc(count + far, sizeof *side->scene.patches);
+  *side = (struct side){.scene = {.solvers = solver, .solver_count = 1, .patch_count = count + far + floored}};
+  side->scene.patches = calloc(count + far + floored, sizeof *side->scene.patches);
   assert_non_null(side->scene.patches);
-  for (size_t p = 0; p < count; p++) memcpy(side->scene.patches[p].P, nets[p], sizeof nets[p]);
-  for (size_t p = count; p < count + far; p++)
-    for (int n = 0; n < 48; n++)
-      side->scene.patches[p].P[n / 12][n / 3 % 4][n % 3] = 1000 + random_between(&random, 0, 0.01);
+  struct scene_patch *patch = side->scene.patches;
+  for (int n = 0; n < 16 && floored; n++) {
+    double *at = patch->P[n / 4][n % 4];
+    at[0] = FLOOR * (n / 4 - 1.25), at[1] = -20, at[2] = FLOOR * (n % 4 - 1.25);
+  }
+  if (floored) patch++;
+  for (size_t p = 0; p < count; p++, patch++) memcpy(patch->P, nets[p], sizeof nets[p]);
+  for (size_t p = 0; p < far; p++, patch++)
+    for (int n = 0; n < 48; n++) patch->P[n / 12][n / 3 % 4][n % 3] = 1000 + random_between(&random, 0, 0.01);
   assert_int_equal(intersector_create(&side->scene, &side->intersector), STATUS_OK);
   assert_int_equal(tracer_create(side->intersector, &side->tracer), STATUS_OK);
   assert_true((side->tracer->model->leaves != NULL) == (far == 0));
+  if (far > 0) assert_true((side->tracer->model->tree.inner != NULL) == floored);
 }
 
 static void side_close(struct side *side)
@@ -75,7 +85,7 @@ static void answers_are_the_same(void **state)
     const size_t count = world_fill((enum world_kind)kind, &random, nets);
     method_default(solver_find(solvers[kind % 3], strlen(solvers[kind % 3])), &solver);
     solver.split = 1;
-    for (int k = 0; k < 2; k++) side_open(&sides[k], &solver, nets, count, k == 0 ? 0 : MANY);
+    for (int k = 0; k < 2; k++) side_open(&sides[k], &solver, nets, count, k == 0 ? 0 : MANY, kind % 2);
     struct tracer anew; /* unlike the other one it remembers no leaves, and makes each anew */
     tracer_begin(sides[1].intersector, &anew);
     const int hits = compare(kind, (struct tracer *[]){sides[0].tracer, sides[1].tracer}, &random, nets, count) +

@@ -67,11 +67,11 @@ LANES_INLINE unsigned leaf_passed(const struct bundle *b, const struct oriented_
   return view_oriented_one(&b->view, (unsigned)__builtin_ctz(rays), box) ? rays : 0;
 }
 
-/* The same of box `index` of the tree, where that is a leaf that is kept. */
+/* The same of box `index` of the tree, where that is a leaf. */
 LANES_INLINE unsigned box_passed(const struct bundle *b, uint32_t index, unsigned rays)
 {
   const struct model *model = b->packet[0].model;
-  return index < model->leaf_count && model->oriented ? leaf_passed(b, &model->oriented[index], rays) : rays;
+  return index < model->leaf_count ? leaf_passed(b, &model->oriented[index], rays) : rays;
 }
 
 static void bundle_try(struct bundle *b, uint32_t index, const struct leaf *leaf, const struct model_patch *patch,
@@ -82,16 +82,12 @@ static void bundle_try(struct bundle *b, uint32_t index, const struct leaf *leaf
   if (active >> LANES) packet_leaf(&b->packet[1], leaf, patch, index, lanes_mask(active >> LANES));
 }
 
-/* A leaf that is not kept, box and all. Out of line for the room it takes. */
-__attribute__((noinline)) static void bundle_make(struct bundle *b, const struct model_tree *tree, uint32_t index,
-                                                  unsigned active)
+/* A leaf that is not kept. Out of line for the room it takes. */
+__attribute__((noinline)) static void bundle_make(struct bundle *b, uint32_t index, unsigned active)
 {
   struct leaf_room room;
-  struct oriented_box box;
   const struct leaf_room *made = tracer_leaf(b->packet[0].tracer, index, &room);
-  leaf_orient(tree, b->packet[0].model->error, &made->of.patch, &made->leaf, &box);
-  active = leaf_passed(b, &box, active);
-  if (active) bundle_try(b, index, &made->leaf, &made->of.patch, active);
+  bundle_try(b, index, &made->leaf, &made->of.patch, active);
 }
 
 /* Tries what box `index` of the tree stands for, which is passed. */
@@ -108,7 +104,7 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
     const struct leaf *leaf = &model->leaves[index];
     bundle_try(b, index, leaf, &model->patches[leaf->patch], active);
   } else {
-    bundle_make(b, tree, index, active);
+    bundle_make(b, index, active);
   }
   bool moved = false;
   for (int h = 0; h < b->packets; h++) moved |= b->packet[h].moved, b->packet[h].moved = false;
@@ -123,16 +119,19 @@ LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, 
   if (child == box) {
     __builtin_prefetch(&bvh->nodes[child]);
     __builtin_prefetch(&bvh->nodes[child].child);
-  } else if (model->oriented && box < model->leaf_count) {
+  } else if (box < model->leaf_count) {
     __builtin_prefetch(&model->oriented[box]);
   }
 }
 
-/* What a leaf's first stages read. */
-LANES_INLINE void fetch_leaf(const struct leaf *leaf)
+/* What a leaf's first stages read, or what it is made of. */
+LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
 {
   enum { CACHE_LINE = 64 };
-  for (size_t at = 0; at < offsetof(struct leaf, x); at += CACHE_LINE) __builtin_prefetch((const char *)leaf + at);
+  const char *from = model->leaves ? (const char *)&model->leaves[index]
+                                   : (const char *)&model->scene->patches[model->places[index].patch].P;
+  const size_t size = model->leaves ? offsetof(struct leaf, x) : sizeof model->scene->patches->P;
+  for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch(from + at);
 }
 
 /* One ray on its way through what is below some node. */
@@ -156,7 +155,7 @@ LANES_INLINE bool ray_step(struct bundle *b, const struct model_tree *tree, stru
     const struct model *model = b->packet[0].model;
     if (!way->passed && box_passed(b, box, 1u << way->lane)) {
       way->passed = true;
-      if (model->leaves && box < model->leaf_count) fetch_leaf(&model->leaves[box]);
+      if (box < model->leaf_count) fetch_leaf(model, box);
       return true;
     }
     if (way->passed) bundle_leaf(b, tree, box, 1u << way->lane);
@@ -232,7 +231,7 @@ enum { MANY_LEAVES = 1 << 14 };
 static bool rays_apart(const struct bundle *b)
 {
   const struct model *model = b->packet[0].model;
-  return b->view.apart && model->leaves && model->leaf_count >= MANY_LEAVES && !b->packet[0].tracer->warm;
+  return b->view.apart && model->leaf_count >= MANY_LEAVES && !b->packet[0].tracer->warm;
 }
 
 /* The rays together, as long as there are several. Out of line for the room it takes. */

@@ -1,6 +1,7 @@
 /* Preparing a scene: how far patches are cut, leaves, what copies share, the hierarchy. */
 #include "intersect/model.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -14,6 +15,11 @@
 #include "intersect/prepare/tree.h"
 
 enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
+
+/* One Newton process holds on the whole of such a leaf for all but grazing rays; and where leaves are made when a ray comes to
+ * them, fewer that turn farther are better. */
+#define AUTO_TURN 0.25
+#define BOXES_TURN 1.0
 
 /* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory
  * and time to make. The limit on the split is halved until they fit. Of patches that are bent all over there may be more. */
@@ -63,12 +69,13 @@ struct making {
   struct model *model;
   const struct team *team;
   struct split_limit limit;
-  bool keep;               /* patches, and leaves; else they are only looked at */
-  struct arena **arenas;   /* one a thread: of what is kept */
-  size_t part, part_count; /* patches in a part */
-  size_t *leaves;          /* in each part; then before it */
-  struct bvh_box *boxes;
-  atomic_size_t taken; /* parts */
+  bool keep;                     /* patches, and leaves; else they are only looked at */
+  struct arena **arenas;         /* one a thread: of what is kept */
+  size_t part, part_count;       /* patches in a part */
+  size_t *leaves;                /* in each part; then before it */
+  struct bvh_box *boxes;         /* where leaves are not kept, as much room as boxes along them take */
+  const struct model_tree *tree; /* whose leaves' boxes along them are made */
+  atomic_size_t taken;           /* parts, or nodes of that tree */
 };
 
 /* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
@@ -212,31 +219,71 @@ static void end_making(struct making *m)
   memory_free(m->boxes);
 }
 
-/* Leaves and their boxes, in huge pages, and the boxes each in one line of the caches. */
+/* Where boxes along leaves begin, each in one line of the caches, in room for one more. */
+static struct oriented_box *oriented_in(struct model *model, void *room)
+{
+  enum { LINE = sizeof(struct oriented_box) };
+  memory_used_anywhere(room, (model->leaf_count + 1) * LINE);
+  return (struct oriented_box *)(void *)((char *)room + (LINE - (uintptr_t)room % LINE) % LINE);
+}
+
+/* Leaves and their boxes, in huge pages. */
 static bool make_room(struct model *model)
 {
-  enum { LINE = sizeof *model->oriented };
   const size_t count = model->leaf_count + 1;
   model->leaves = arena_alloc(model->arena, count, sizeof *model->leaves);
-  char *lines = arena_alloc(model->arena, count, LINE);
-  if (!model->leaves || !lines) return false;
+  void *oriented = arena_alloc(model->arena, count, sizeof *model->oriented);
+  if (!model->leaves || !oriented) return false;
   memory_used_anywhere(model->leaves, count * sizeof *model->leaves);
-  memory_used_anywhere(lines, count * LINE);
-  model->oriented = (struct oriented_box *)(void *)(lines + (LINE - (uintptr_t)lines % LINE) % LINE);
+  model->oriented = oriented_in(model, oriented);
   return true;
 }
 
-/* Boxes of trees in the tree are in these trees' frames. */
-static void orient_inner(struct model *model)
+/* The box along a leaf in the frame of m->tree. */
+static void orient_leaf(const struct making *m, uint32_t number)
 {
-  for (const struct model_tree *tree = model->tree.inner; tree && model->leaves; tree = tree->inner) {
-    for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
-      const uint32_t child = tree->bvh.nodes[n / BVH_WIDTH].child[n % BVH_WIDTH], box = child & ~(uint32_t)BVH_LEAF;
-      if (child == box || box >= model->leaf_count) continue;
-      const struct leaf *leaf = &model->leaves[box];
-      leaf_orient(tree, model->error, &model->patches[leaf->patch], leaf, &model->oriented[box]);
+  const struct model *model = m->model;
+  struct leaf_room room;
+  if (!model->leaves) model_make_leaf(model, number, &room);
+  const struct leaf *leaf = model->leaves ? &model->leaves[number] : &room.leaf;
+  const struct model_patch *patch = model->leaves ? &model->patches[leaf->patch] : &room.of.patch;
+  leaf_orient(m->tree, model->error, patch, leaf, &model->oriented[number]);
+}
+
+/* Those of all leaves of that tree. */
+static enum status orient_leaves(void *context, size_t worker)
+{
+  enum { NODES_AT_ONCE = 64 };
+  struct making *m = context;
+  const struct bvh *bvh = &m->tree->bvh;
+  (void)worker;
+  for (size_t first; (first = atomic_fetch_add(&m->taken, NODES_AT_ONCE)) < bvh->node_count;) {
+    for (size_t n = BVH_WIDTH * first; n < BVH_WIDTH * (first + NODES_AT_ONCE) && n < BVH_WIDTH * bvh->node_count;
+         n++) {
+      const uint32_t child = bvh->nodes[n / BVH_WIDTH].child[n % BVH_WIDTH], box = child & ~(uint32_t)BVH_LEAF;
+      if (child != box && box < m->model->leaf_count) orient_leaf(m, box);
     }
   }
+  return STATUS_OK;
+}
+
+/* The boxes along leaves that are not known yet: of trees in the tree, in these trees' frames, and, where leaves are not kept, all,
+ * in place of those that the hierarchy was built from and has used up. */
+static enum status orient(struct making *m)
+{
+  struct model *model = m->model;
+  if (!m->keep) {
+    static_assert(sizeof *m->boxes <= sizeof *model->oriented, "room for these");
+    model->oriented_room = m->boxes, m->boxes = NULL;
+    model->oriented = oriented_in(model, model->oriented_room);
+  }
+  for (m->tree = m->keep ? model->tree.inner : &model->tree; m->tree; m->tree = m->tree->inner) {
+    const size_t count = m->tree->bvh.node_count;
+    atomic_store(&m->taken, 0);
+    const enum status status = team_run(count < TEAM_LEAST ? NULL : m->team, count, orient_leaves, m);
+    if (status != STATUS_OK) return status;
+  }
+  return STATUS_OK;
 }
 
 /* The leaves of patches and, behind them, the copies, in one hierarchy. Leaves are kept where that is wanted and they
@@ -249,7 +296,7 @@ static enum status make_hierarchy(struct model *model, const struct team *team, 
   if (status != STATUS_OK) goto done;
   if (model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
   const size_t count = model->leaf_count + model->copy_count;
-  m.boxes = memory_alloc(count + 1, sizeof *m.boxes);
+  m.boxes = memory_alloc(count + 1, m.keep ? sizeof *m.boxes : sizeof *model->oriented);
   bool room = m.boxes;
   if (m.keep) {
     room = room && make_room(model);
@@ -261,7 +308,7 @@ static enum status make_hierarchy(struct model *model, const struct team *team, 
   if (status != STATUS_OK) goto done;
   for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m.boxes[model->leaf_count + c]);
   status = tree_build(model->arena, m.boxes, count, team, &model->tree);
-  if (status == STATUS_OK) orient_inner(model);
+  if (status == STATUS_OK) status = orient(&m);
 done:
   end_making(&m);
   return status;
@@ -330,11 +377,12 @@ static enum status prepare(struct model *model, const struct team *team)
     status = copies_choose(model, &own);
     if (status != STATUS_OK) return status;
   }
-  struct split_limit limit = {most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
+  struct split_limit limit = {AUTO_TURN, most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
                               most_split(BENT_SPLIT_MAX, own, BENT_LEAVES_MAX)};
   const bool keep = limit.any > 1;
   if (!keep) limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, AUTO_BOXES_MAX);
   status = copies_prepare(model, team, &limit);
+  if (!keep) limit.turn = BOXES_TURN;
   return status == STATUS_OK ? make_hierarchy(model, team, &limit, keep, BENT_LEAVES_MAX) : status;
 }
 
@@ -370,6 +418,7 @@ void model_destroy(struct model *model)
   if (!model) return;
   for (size_t k = 0; k < model->object_count; k++) model_destroy(model->objects[k].model);
   tree_free(&model->tree);
+  memory_free(model->oriented_room);
   arena_destroy(model->arena);
   memory_free(model);
 }

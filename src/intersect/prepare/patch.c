@@ -16,10 +16,6 @@
  * of that degree. */
 #define DEGREE_SLACK (8 * UNIT_ROUNDOFF)
 
-/* Leaves of `split auto`: cut until a leaf's derivatives turn by no more than about this fraction of their size, for
- * then one Newton process holds on the whole leaf for all but grazing rays. A choice of speed, not of correctness. */
-#define AUTO_TURN 0.25
-
 /* A patch this many times as long as wide is slender, up to what so many leaves along it can make good, whose number
  * goes with the root of that. What lies in the plane of a ray must not be more than exact.h has room for. */
 #define SLENDER 16.0
@@ -60,7 +56,7 @@ static double patch_frame(double P[4][4][3], double scene_size, struct model_pat
   return largest;
 }
 
-/* Whether nearly all leaves of a patch that is cut so far turn by more than AUTO_TURN, as parts of it tell. Where only some
+/* Whether nearly all leaves of a patch that is cut so far turn by more than that, as parts of it tell. Where only some
  * do, still more leaves cost all rays more than they save those. Choices of speed. */
 enum { PARTS_MOST = 8 };
 #define NEARLY_ALL 0.84
@@ -71,7 +67,7 @@ static double turn_of(const struct patch_part *part)
   return (part->second[0] + 2 * part->second[1] + part->second[2]) / 2;
 }
 
-static bool turns_far(const struct model_patch *patch, int split)
+static bool turns_far(const struct model_patch *patch, double turn, int split)
 {
   const int parts = split < PARTS_MOST ? split : PARTS_MOST, all = parts * parts;
   const struct part_grid grid = {{(uint16_t)parts, (uint16_t)parts}, {1, 1}, 0};
@@ -81,7 +77,7 @@ static bool turns_far(const struct model_patch *patch, int split)
   patch_parts(patch, &grid, (size_t)all, (const uint16_t(*)[2])column, part);
   int far = 0;
   for (int n = 0; n < all; n++)
-    far += turn_of(&part[n]) * parts > AUTO_TURN * split * real_max(part[n].first[0], part[n].first[1]);
+    far += turn_of(&part[n]) * parts > turn * split * real_max(part[n].first[0], part[n].first[1]);
   return far > NEARLY_ALL * all;
 }
 
@@ -100,14 +96,15 @@ static void auto_split(const struct model_patch *patch, const struct split_limit
   if (along > SLENDER * across && along <= SLENDER_MOST * across) {
     uint16_t *cut = &split[side];
     while (2 * *cut <= limit->any * limit->any && 2 * *cut <= SLENDER_SPLIT_MAX && along > 2 * *cut * across &&
-           bend / *cut + 2 * whole.second[1] > 2 * AUTO_TURN * *cut * across)
+           bend / *cut + 2 * whole.second[1] > 2 * limit->turn * *cut * across)
       *cut = (uint16_t)(2 * *cut);
     return;
   }
   int most = limit->any;
-  while (split[0] < most && turn > AUTO_TURN * split[0] * along) {
+  while (split[0] < most && turn > limit->turn * split[0] * along) {
     split[0] = (uint16_t)(2 * split[0]);
-    if (split[0] == limit->any && limit->bent > limit->any && turns_far(patch, split[0])) most = limit->bent;
+    if (split[0] == limit->any && limit->bent > limit->any && turns_far(patch, limit->turn, split[0]))
+      most = limit->bent;
   }
   split[1] = split[0];
 }

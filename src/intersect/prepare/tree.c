@@ -71,8 +71,8 @@ static enum status build(const struct building *b, uint32_t index[], size_t coun
   struct bvh_box *boxes = b->boxes;
   const size_t stay = set_apart(boxes, index, count, frame, &hull), inner = stay < count;
   const bool first = frame == 1;
-  bool given = first && !inner; /* the boxes as they are: no copies of them */
-  for (size_t k = 0; given && k < stay; k++) given = index[k] == k;
+  const bool given = first && !inner; /* the boxes as they are: no copies of them */
+  for (size_t k = 0; given && k < stay; k++) index[k] = (uint32_t)k;
   struct bvh_box *own = given ? NULL : memory_alloc(stay + inner + 1, sizeof *own);
   *out = (struct model_tree){.frame = b->whole.frame * frame};
   for (int k = 0; k < 3; k++) out->origin[k] = b->whole.origin[k] + b->whole.frame * middle[k];
