@@ -21,6 +21,10 @@ struct chart_request {
   bool quick, peers;        /* fewer points; with Embree and POV-Ray */
 };
 
+/* What the files are called that chart_scene writes, or takes away where it has none. */
+enum { CHART_FILES = 3 };
+extern const char *const chart_files[CHART_FILES];
+
 /* Measures, judges, and writes chart.csv, chart.svg and chart.html: all of them, or none where something fails or the
  * listener stops it. `scene` gets the default solver; the steps of its patches are changed. *out_text, to be freed in
  * any case, receives the front as a table. A peer that is missing or fails is told, no error. */

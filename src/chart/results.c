@@ -198,12 +198,13 @@ static json_t *make_values(const struct chart *chart)
   return NULL;
 }
 
-enum { CSV, SVG, PAGE, FILES };
+enum { CSV, SVG, PAGE, FILES = CHART_FILES };
+
+const char *const chart_files[FILES] = {"chart.csv", "chart.svg", "chart.html"};
 
 /* A figure of an earlier chart goes where this one has none. */
 enum status chart_write(const struct chart *chart, struct text_buffer *out_text)
 {
-  static const char *const NAMES[FILES] = {"chart.csv", "chart.svg", "chart.html"};
   struct text_buffer content[FILES] = {{0}};
   char path[FILES][PAGE_PATH_SIZE];
   json_t *values = make_values(chart);
@@ -215,7 +216,7 @@ enum status chart_write(const struct chart *chart, struct text_buffer *out_text)
   fill_template(&content[CSV], TEMPLATE_CHART_CSV, values);
   fill_template(&content[PAGE], TEMPLATE_CHART_PAGE, values);
   fill_template(out_text, TEMPLATE_CHART_TABLE, values);
-  for (int k = 0; k < FILES; k++) snprintf(path[k], sizeof path[k], "%s/%s", chart->request->folder, NAMES[k]);
+  for (int k = 0; k < FILES; k++) snprintf(path[k], sizeof path[k], "%s/%s", chart->request->folder, chart_files[k]);
   content[PAGE].failed = content[PAGE].failed || out_text->failed;
   if (status == STATUS_OK) status = page_write(chart->listener, FILES, path, content);
   for (int k = 0; k < FILES; k++) text_buffer_free(&content[k]);

@@ -36,6 +36,10 @@ struct check_request {
   struct seconds parse;        /* what reading the scene took */
 };
 
+/* What file `number` is called of those that check_scene writes, or takes away where it has none. */
+enum { CHECK_FILES = 2 * (CHECK_MAX_STEPS + 1) + 3, CHECK_NAME_SIZE = 48 };
+void check_file_name(size_t number, char out[CHECK_NAME_SIZE]);
+
 /* Renders, measures, and writes check.html, check.json and the pictures: all of them, or none where something fails or
  * the listener stops it. `scene` was read with the picture's size; the steps of its patches are changed. *out_text, to
  * be freed in any case, receives the numbers as a table. STATUS_DIFFERENT, told, where the last row is beyond the

@@ -18,7 +18,7 @@
 enum { CROP = 15 }; /* pixels around a worst one */
 
 /* The files, in this order: ours, two for each row there might be, the numbers, the page. */
-enum { ROWS = CHECK_MAX_STEPS + 1, FILE_JSON = 1 + 2 * ROWS, FILE_PAGE, FILES };
+enum { ROWS = CHECK_MAX_STEPS + 1, FILE_JSON = 1 + 2 * ROWS, FILE_PAGE, FILES = CHECK_FILES };
 
 struct results {
   const struct check *check;
@@ -53,17 +53,23 @@ static void make_pictures(struct results *results)
   }
 }
 
+void check_file_name(size_t number, char out[CHECK_NAME_SIZE])
+{
+  const size_t row = (number - 1) / 2;
+  const char *name = number % 2 ? "povray" : "difference";
+  if (number == 0) snprintf(out, CHECK_NAME_SIZE, "pscn.png");
+  else if (number == FILE_JSON) snprintf(out, CHECK_NAME_SIZE, "check.json");
+  else if (number == FILE_PAGE) snprintf(out, CHECK_NAME_SIZE, "check.html");
+  else if (row == 0) snprintf(out, CHECK_NAME_SIZE, "%s.png", name);
+  else snprintf(out, CHECK_NAME_SIZE, "%s-%zu.png", name, row);
+}
+
 static void name_files(struct results *results)
 {
-  const char *folder = results->check->request->folder;
-  snprintf(results->path[0], PAGE_PATH_SIZE, "%s/pscn.png", folder);
-  snprintf(results->path[FILE_JSON], PAGE_PATH_SIZE, "%s/check.json", folder);
-  snprintf(results->path[FILE_PAGE], PAGE_PATH_SIZE, "%s/check.html", folder);
-  for (size_t k = 0; k < ROWS; k++) {
-    char number[32] = "";
-    if (k > 0) snprintf(number, sizeof number, "-%zu", k);
-    snprintf(results->path[1 + 2 * k], PAGE_PATH_SIZE, "%s/povray%s.png", folder, number);
-    snprintf(results->path[2 + 2 * k], PAGE_PATH_SIZE, "%s/difference%s.png", folder, number);
+  for (size_t k = 0; k < FILES; k++) {
+    char name[CHECK_NAME_SIZE];
+    check_file_name(k, name);
+    snprintf(results->path[k], PAGE_PATH_SIZE, "%s/%s", results->check->request->folder, name);
   }
 }
 

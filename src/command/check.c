@@ -99,6 +99,11 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
   request->scene.height = check->height;
   enum status status = scene_file_load(request->ear.command, &request->scene, &scene);
   check->parse = seconds_since(start);
+  for (size_t k = 0; k < CHECK_FILES && status == STATUS_OK; k++) {
+    char name[CHECK_NAME_SIZE];
+    check_file_name(k, name);
+    status = scene_file_spare_in(request->ear.command, &request->scene, scene, folder, name);
+  }
   if (status == STATUS_OK) status = check_scene(check, scene, &listener, out_text);
   scene_destroy(scene);
   return status;

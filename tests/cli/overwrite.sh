@@ -28,6 +28,17 @@ try pscn compare a.png b.png -o a.png
 try pscn compare b.png a.png -o c.png
 cksum a.png | cmp - sum && echo "the picture is the same"
 [ "$(sums)" = "$before" ] && echo "the scene is the same"
+# A folder of results, whose files have names of their own.
+cp scene.pscn folder/chart.html
+ln folder/chart.html folder/povray-8.png
+echo '#include "folder/chart.html"' >includes.pscn
+chart="--no-peers --quick --size 2x2 --rays 1 --rounds 1 --quiet"
+for scene in folder/chart.html includes.pscn -; do
+  try pscn chart $scene -o folder $chart <folder/chart.html
+  try pscn check $scene -o ./folder --steps 0 --size 8x6 --quiet <folder/chart.html
+done
+cmp scene.pscn folder/chart.html && ls folder
+rm -r folder/* includes.pscn
 # What is no file cannot be overwritten.
 try pscn render scene.pscn -o a.png $small --stats /dev/null </dev/null
 ls -A
