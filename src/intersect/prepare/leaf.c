@@ -32,6 +32,11 @@ void patch_parts(const struct model_patch *patch, const struct part_grid *grid, 
   kernel_for(count)->parts(patch, grid, count, column, out);
 }
 
+void leaf_slabs(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3])
+{
+  kernel_for(count)->slabs(patch, count, column, out);
+}
+
 bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], int border)
 {
   const int side = border / 2, end = column[side] + span[side];
@@ -125,18 +130,17 @@ void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first
 /* Rounded to floats, and as what they are compared with is: see view.h. */
 #define HALF_GROWTH (1 + 0x1p-20)
 
-void leaf_orient(const struct model_tree *tree, double error, const struct model_patch *patch, const struct leaf *leaf,
-                 struct oriented_box *box)
+void leaf_orient(const struct model_tree *tree, double error, const struct model_patch *patch,
+                 const struct leaf_slab slab[3], struct oriented_box *box)
 {
   double shift[3], most = 0;
   for (int k = 0; k < 3; k++) shift[k] = patch->center[k] - tree->origin[k], most = real_max(most, fabs(shift[k]));
   const double slack = LEAF_NET_ERROR * patch->scale + 8 * UNIT_ROUNDOFF * (most + patch->scale) + error;
   for (int q = 0; q < 3; q++) {
-    const struct leaf_slab *slab = &leaf->slab[q];
-    double offset = patch->scale * slab->offset;
-    for (int k = 0; k < 3; k++) offset += slab->g[k] * shift[k], box->g[k][q] = (float)slab->g[k];
+    double offset = patch->scale * slab[q].offset;
+    for (int k = 0; k < 3; k++) offset += slab[q].g[k] * shift[k], box->g[k][q] = (float)slab[q].g[k];
     box->offset[q] = (float)(offset / tree->frame);
-    box->half[q] = (float)((patch->scale * slab->half + slack) / tree->frame * HALF_GROWTH);
+    box->half[q] = (float)((patch->scale * slab[q].half + slack) / tree->frame * HALF_GROWTH);
   }
 }
 

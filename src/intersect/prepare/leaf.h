@@ -46,12 +46,15 @@ bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column
  * one at these columns. */
 void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[]);
 
+/* The boxes along leaves of a patch, as of struct leaf, from their columns on. */
+void leaf_slabs(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3]);
+
 /* What resultants of the leaf are formed of; its form, where it has one, is written to *form, which stays the caller's. */
 void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct leaf_form *form);
 
-/* The leaf's box along it in the frame of the tree, wider by the model's `error`. */
-void leaf_orient(const struct model_tree *tree, double error, const struct model_patch *patch, const struct leaf *leaf,
-                 struct oriented_box *box);
+/* A leaf's box along it in the frame of the tree, wider by the model's `error`. */
+void leaf_orient(const struct model_tree *tree, double error, const struct model_patch *patch,
+                 const struct leaf_slab slab[3], struct oriented_box *box);
 
 /* The box of a leaf's net in the frame of the model's hierarchy. */
 void leaf_box(const struct model *model, const struct model_patch *patch, const double x[3][16], struct bvh_box *box);

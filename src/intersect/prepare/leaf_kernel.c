@@ -384,10 +384,34 @@ static void parts(const struct model_patch *patch, const struct part_grid *grid,
   }
 }
 
+static struct part_grid leaf_grid(const struct model_patch *patch)
+{
+  return (struct part_grid){{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, LEAF_MARGIN};
+}
+
+static void slabs(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3])
+{
+  enum { SLABS = 3 * sizeof(struct leaf_slab) / sizeof(double) };
+  static_assert(SLABS == 15, "nothing but doubles, in a row");
+  const struct part_grid grid = leaf_grid(patch);
+  struct patch_halves halves;
+  patch_halve(patch, grid.split[0] * grid.split[1], &halves);
+  while (count > 0) {
+    const size_t here = count < LANES ? count : LANES;
+    struct cut cut;
+    struct lane_slab slab[3];
+    lanes at[2];
+    load_columns(column[0], 2, here, at);
+    cut_nets(&halves, at, &grid, &cut);
+    set_slabs(cut.x, slab);
+    store(slab->g, SLABS, here, (*out)->g, SLABS);
+    out += here, column += here, count -= here;
+  }
+}
+
 enum { LEAF = sizeof(struct leaf) / sizeof(double) };
 static_assert(sizeof(struct leaf) == LEAF * sizeof(double), "leaves are so many doubles apart");
-static_assert(sizeof(struct leaf_slab) == sizeof(double[5]) && offsetof(struct leaf_parts, error) == sizeof(double[60]),
-              "stored in a row");
+static_assert(offsetof(struct leaf_parts, error) == sizeof(double[60]), "stored in a row");
 
 static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], const struct lane_parts *parts,
                          bool exact, size_t here, struct leaf leaves[])
@@ -407,7 +431,7 @@ static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], 
 
 static void leaves(const struct model_patch *patch, size_t count, struct leaf leaves[])
 {
-  const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, LEAF_MARGIN};
+  const struct part_grid grid = leaf_grid(patch);
   const int all = grid.split[0] * grid.split[1];
   const bool exact = split_is_exact(all);
   struct patch_halves halves;
@@ -428,4 +452,4 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
   }
 }
 
-const struct leaf_kernel KERNEL(leaf_kernel) = {parts, leaves};
+const struct leaf_kernel KERNEL(leaf_kernel) = {parts, slabs, leaves};

@@ -12,6 +12,8 @@ struct leaf_kernel {
   /* patch_parts, leaf.h. */
   void (*parts)(const struct model_patch *patch, const struct part_grid *grid, size_t count, const uint16_t column[][2],
                 struct patch_part out[]);
+  /* leaf_slabs, leaf.h. */
+  void (*slabs)(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3]);
   /* All of a leaf that is doubles, and `final`, of leaves of one patch whose columns are set. */
   void (*leaves)(const struct model_patch *patch, size_t count, struct leaf leaves[]);
 };

@@ -69,13 +69,12 @@ struct making {
   struct model *model;
   const struct team *team;
   struct split_limit limit;
-  bool keep;                     /* patches, and leaves; else they are only looked at */
-  struct arena **arenas;         /* one a thread: of what is kept */
-  size_t part, part_count;       /* patches in a part */
-  size_t *leaves;                /* in each part; then before it */
-  struct bvh_box *boxes;         /* where leaves are not kept, as much room as boxes along them take */
-  const struct model_tree *tree; /* whose leaves' boxes along them are made */
-  atomic_size_t taken;           /* parts, or nodes of that tree */
+  bool keep;               /* patches, and leaves; else they are only looked at */
+  struct arena **arenas;   /* one a thread: of what is kept */
+  size_t part, part_count; /* patches in a part */
+  size_t *leaves;          /* in each part; then before it */
+  struct bvh_box *boxes;   /* where leaves are not kept, as much room as boxes along them take */
+  atomic_size_t taken;     /* parts */
 };
 
 /* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
@@ -135,7 +134,7 @@ static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, 
       leaf_set_form(patch, leaf, *form);
       if (leaf->form) *form = NULL;
       leaf_box(model, patch, leaf->x, &m->boxes[l]);
-      leaf_orient(&model->tree, model->error, patch, leaf, &model->oriented[l]);
+      leaf_orient(&model->tree, model->error, patch, leaf->slab, &model->oriented[l]);
     }
   }
   return STATUS_OK;
@@ -239,51 +238,64 @@ static bool make_room(struct model *model)
   return true;
 }
 
-/* The box along a leaf in the frame of m->tree. */
-static void orient_leaf(const struct making *m, uint32_t number)
-{
-  const struct model *model = m->model;
-  struct leaf_room room;
-  if (!model->leaves) model_make_leaf(model, number, &room);
-  const struct leaf *leaf = model->leaves ? &model->leaves[number] : &room.leaf;
-  const struct model_patch *patch = model->leaves ? &model->patches[leaf->patch] : &room.of.patch;
-  leaf_orient(m->tree, model->error, patch, leaf, &model->oriented[number]);
-}
-
-/* Those of all leaves of that tree. */
+/* The boxes along leaves that are not kept. */
 static enum status orient_leaves(void *context, size_t worker)
 {
-  enum { NODES_AT_ONCE = 64 };
   struct making *m = context;
-  const struct bvh *bvh = &m->tree->bvh;
+  const struct model *model = m->model;
   (void)worker;
-  for (size_t first; (first = atomic_fetch_add(&m->taken, NODES_AT_ONCE)) < bvh->node_count;) {
-    for (size_t n = BVH_WIDTH * first; n < BVH_WIDTH * (first + NODES_AT_ONCE) && n < BVH_WIDTH * bvh->node_count;
-         n++) {
-      const uint32_t child = bvh->nodes[n / BVH_WIDTH].child[n % BVH_WIDTH], box = child & ~(uint32_t)BVH_LEAF;
-      if (child != box && box < m->model->leaf_count) orient_leaf(m, box);
+  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+    for (size_t l = m->leaves[part]; p < end; p++) {
+      if (model->cuts[p].copied) continue;
+      struct patch_room room;
+      const struct model_patch *patch = &room.patch;
+      patch_make(model, (uint32_t)p, &room.patch, room.rest);
+      const size_t all = leaves_of(patch);
+      for (size_t first = 0; first < all; first += LEAVES_AT_ONCE) {
+        const size_t here = all - first < LEAVES_AT_ONCE ? all - first : LEAVES_AT_ONCE;
+        uint16_t column[LEAVES_AT_ONCE][2];
+        struct leaf_slab slab[LEAVES_AT_ONCE][3];
+        for (size_t k = 0; k < here; k++)
+          column[k][0] = model->places[l + k].column_u, column[k][1] = model->places[l + k].column_v;
+        leaf_slabs(patch, here, (const uint16_t(*)[2])column, slab);
+        for (size_t k = 0; k < here; k++, l++)
+          leaf_orient(&model->tree, model->error, patch, slab[k], &model->oriented[l]);
+      }
     }
   }
   return STATUS_OK;
 }
 
-/* The boxes along leaves that are not known yet: of trees in the tree, in these trees' frames, and, where leaves are not kept, all,
- * in place of those that the hierarchy was built from and has used up. */
+/* Boxes of trees in the tree are in these trees' frames. */
+static void orient_inner(struct model *model)
+{
+  for (const struct model_tree *tree = model->tree.inner; tree; tree = tree->inner) {
+    for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
+      const uint32_t child = tree->bvh.nodes[n / BVH_WIDTH].child[n % BVH_WIDTH], box = child & ~(uint32_t)BVH_LEAF;
+      if (child == box || box >= model->leaf_count) continue;
+      struct leaf_room room;
+      if (!model->leaves) model_make_leaf(model, box, &room);
+      const struct leaf *leaf = model->leaves ? &model->leaves[box] : &room.leaf;
+      const struct model_patch *patch = model->leaves ? &model->patches[leaf->patch] : &room.of.patch;
+      leaf_orient(tree, model->error, patch, leaf->slab, &model->oriented[box]);
+    }
+  }
+}
+
+/* The boxes along leaves that are not known yet. Where leaves are not kept they take the place of those that the hierarchy was
+ * built from, and has used up: there would not be room for both. */
 static enum status orient(struct making *m)
 {
   struct model *model = m->model;
+  enum status status = STATUS_OK;
   if (!m->keep) {
     static_assert(sizeof *m->boxes <= sizeof *model->oriented, "room for these");
     model->oriented_room = m->boxes, m->boxes = NULL;
     model->oriented = oriented_in(model, model->oriented_room);
+    status = do_parts(m, orient_leaves, model->leaf_count);
   }
-  for (m->tree = m->keep ? model->tree.inner : &model->tree; m->tree; m->tree = m->tree->inner) {
-    const size_t count = m->tree->bvh.node_count;
-    atomic_store(&m->taken, 0);
-    const enum status status = team_run(count < TEAM_LEAST ? NULL : m->team, count, orient_leaves, m);
-    if (status != STATUS_OK) return status;
-  }
-  return STATUS_OK;
+  if (status == STATUS_OK) orient_inner(model);
+  return status;
 }
 
 /* The leaves of patches and, behind them, the copies, in one hierarchy. Leaves are kept where that is wanted and they
