@@ -68,7 +68,7 @@ static void make_leaf(struct random *random, bool off, struct subject *s)
     s->tree.origin[k] = s->patch.center[k] + s->patch.scale * s->leaf.x[k][5] +
                         s->tree.frame * random_between(random, -0.25, 0.25);
   s->error = off ? leaf_size(s) * power(random, -20, -3) : 0;
-  leaf_orient(&s->tree, s->error, &s->patch, &s->leaf, &s->box);
+  leaf_orient(&s->tree, s->error, &s->patch, s->leaf.slab, &s->box);
 }
 
 /* Ray `number` through a point of the leaf, that is off by up to its error, moved aside by `aside` across the ray; *out_t is
