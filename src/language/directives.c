@@ -142,7 +142,8 @@ void directives_tell(struct language *language, int token)
     char directive[HINT_SIZE], hint[HINT_SIZE];
     const int size = snprintf(directive, sizeof directive, "#%.*s", (int)length, name);
     hint_write(directive, (size_t)size, hint, sizeof hint);
-    if (!language->tokens->skipping) language_foreign(language, place, "%s is POV-Ray, but pscn %s", directive, hint);
+    if (language->tokens->skipping != 0 && language->tokens->skipping <= language->tokens->depth) return;
+    language_foreign(language, place, "%s is POV-Ray, but pscn %s", directive, hint);
     return;
   }
   struct guess guess = guess_begin(name, length);
@@ -195,7 +196,7 @@ bool directives_pass(struct language *language, int token)
   case TOKEN_FOREIGN_OPENER:
     directives_tell(language, token);
     skip_branch(language, false, true);
-    return true;
+    return language->tokens->last.token != '='; /* behind which it stands for a value, and is no more passed over */
   case TOKEN_MACRO: skip_macro(language); return true;
   case TOKEN_UNDEF: undeclare(language); return true;
   default: return false;

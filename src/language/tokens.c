@@ -65,7 +65,7 @@ static int stand_in(struct language *language, int token)
     if (!tokens->skipping) language_error(language, tokens->last.place, "a number has one point");
     return PSCN_TOKEN_NUMBER;
   }
-  directives_tell(language, token);
+  if (token != TOKEN_FOREIGN_OPENER) directives_tell(language, token);
   tokens->told = tokens->last.place;
   return PSCN_TOKEN_FOREIGN;
 }
@@ -127,7 +127,11 @@ static bool recover(struct language *language)
       }
     }
     /* A block within what is skipped has ended, or a statement: what comes next is on its own. */
-    if (!first && token == '}' && last->depth == block + 1) return true;
+    if (!first && token == '}' && last->depth == block + 1) {
+      tokens->skipping = 0;
+      tokens->last.again = tokens_next(language) != ';'; /* which may end a declaration */
+      return true;
+    }
     if (token == ';' && last->depth == block && block == 0) return true;
   }
 }
@@ -135,8 +139,8 @@ static bool recover(struct language *language)
 /* What is skipped may hold what means nothing here, as a map of colours does: it is told of once. */
 bool tokens_recover(struct language *language)
 {
-  language->tokens->skipping = true;
+  language->tokens->skipping = 1 + language->tokens->last.depth;
   const bool more = recover(language);
-  language->tokens->skipping = false;
+  language->tokens->skipping = 0;
   return more;
 }

@@ -21,7 +21,7 @@ struct tokens {
   struct span braces[MAX_NESTING];
   struct delivered last;
   struct span previous;        /* of the token before the last */
-  bool skipping;               /* in tokens_recover */
+  int skipping;                /* in tokens_recover: 1 and the braces open where it began */
   struct span recovered, told; /* where the last recovery began, what the last syntax error was about */
 };
 
