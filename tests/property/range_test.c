@@ -325,12 +325,34 @@ static void patches_lost_in_their_scene_have_normals(void **state)
   }
 }
 
+/* A ray that starts in a corner, exactly, does not meet it, and that is known. */
+static void rays_from_a_corner_leave_it(void **state)
+{
+  (void)state;
+  static const double ways[][3] = {{-1, -2, 3}, {-1, 2, -5}, {3, -7, 1}, {0, 0, 1}};
+  world_net net[1];
+  struct world world;
+  floor_at(0, 1, 0.25, net[0]);
+  world_open(&world, net, 1, NULL);
+  for (size_t n = 0; n < sizeof ways / sizeof *ways; n++) {
+    struct ray ray = {.t_max = INFINITY};
+    memcpy(ray.direction, ways[n], sizeof ray.direction);
+    const struct hit hit = world_closest(&world, &ray);
+    assert_int_equal(hit.patch, HIT_NONE);
+    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+  }
+  world_close(&world);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(patches_lost_in_their_scene_have_normals),  cmocka_unit_test(poles_next_to_the_start_are_told),
-    cmocka_unit_test(far_rays_meet_what_near_ones_meet),         cmocka_unit_test(rays_and_patches_of_all_sizes),
-    cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way), cmocka_unit_test(rays_pass_by_a_scene_of_one_point),
-    cmocka_unit_test(what_scaling_takes_away_is_in_doubt)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_lost_in_their_scene_have_normals),
+                                     cmocka_unit_test(poles_next_to_the_start_are_told),
+                                     cmocka_unit_test(rays_from_a_corner_leave_it),
+                                     cmocka_unit_test(far_rays_meet_what_near_ones_meet),
+                                     cmocka_unit_test(rays_and_patches_of_all_sizes),
+                                     cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way),
+                                     cmocka_unit_test(rays_pass_by_a_scene_of_one_point),
+                                     cmocka_unit_test(what_scaling_takes_away_is_in_doubt)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
