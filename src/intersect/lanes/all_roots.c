@@ -114,7 +114,7 @@ static lane_mask all_roots_cover(const struct packet *p, const struct candidate 
     const lane_mask proven = all->proven[k] & open;
     if (lanes_any(proven)) known[count++] = (struct known_root){r, proven};
   }
-  return cover_proves(p, it, count, known, COVER_HALVINGS, open);
+  return cover_proves(p, it, count, known, COVER_HALVINGS, open, NULL);
 }
 
 /* The roots of the polynomial that is set, on the lanes of `active` where the method finds them: see
@@ -156,7 +156,7 @@ static lane_mask all_roots_find(struct packet *p, const struct candidate *it, la
   /* One sign variation is a root, which mostly is a hit. */
   const lane_mask doubtful = active & (it->variations != 1);
   lane_mask missed = {0};
-  if (lanes_any(doubtful)) missed = cover_proves(p, it, 0, NULL, MISS_HALVINGS, doubtful);
+  if (lanes_any(doubtful)) missed = cover_proves(p, it, 0, NULL, MISS_HALVINGS, doubtful, NULL);
   if (!lanes_any(active & ~missed)) return missed;
   const lane_mask able = roots_lanes_set(&a, it->degree, it->c);
   const lane_mask done = all_roots_solve(p, it, active & ~missed & able, it->variations, &a);

@@ -63,7 +63,13 @@ lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
   if (!lanes_any(open)) return open;
   const struct newton_root *r = &it->first.at;
   const struct known_root known = {r, open & r->exists};
-  const lane_mask covered = cover_proves(p, it, 1, &known, COVER_EARLY, open);
+  lanes left[2] = {{0}, {0}};
+  const lane_mask covered = cover_proves(p, it, 1, &known, COVER_EARLY, open, left);
   offer_root(p, it, &it->first, (p->any ? known.proven : covered & known.proven) & inside(r));
-  return open & ~covered & p->live;
+  open &= ~covered & p->live;
+  if (!lanes_any(open)) return open;
+  struct leaf_root second;
+  newton_solve(p, it->leaf, it->axis, left, open, &second);
+  const lane_mask more = open & second.at.exists;
+  return lanes_any(more) ? open & ~cover_two(p, it, &it->first, &second, more) & p->live : open;
 }

@@ -50,7 +50,7 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open)
 lane_mask stage_planes(struct candidate *it, lane_mask open);
 
 /* bilinear.c: by the default method, closed where boxes show that the leaf has no root but the one that stage_bilinear
- * has found; of a bent leaf that is done now. */
+ * has found, of a bent leaf now, and one more, which is sought where they do not. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
 /* resultant.c: Bezout's resultant r of a and b in Bernstein form: closed where it has no sign variation. */

@@ -145,7 +145,7 @@ static lane_mask cover_seen(const struct packet *p, const struct candidate *it, 
 }
 
 lane_mask cover_proves(const struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
-                       int halvings, lane_mask open)
+                       int halvings, lane_mask open, lanes left[2])
 {
   struct cover_box stack[COVER_HALVINGS + 2];
   struct cover_box *whole = &stack[0];
@@ -166,13 +166,30 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
     if (lanes_any(box->open)) box->open = cover_seen(p, it, box, box->open);
     if (!lanes_any(box->open)) continue;
     splits -= lanes_select(box->open, lanes_all(1), lanes_all(0));
-    open &= ~(box->open & (splits < 0));
-    if (box->halvings == halvings) open &= ~box->open;
-    box->open &= open;
+    const lane_mask lost = box->halvings == halvings ? box->open : box->open & (splits < 0);
+    if (left) left[0] = lanes_select(lost, lanes_all(box->u + 0.5 * box->size_u - 0.5), left[0]);
+    if (left) left[1] = lanes_select(lost, lanes_all(box->v + 0.5 * box->size_v - 0.5), left[1]);
+    open &= ~lost, box->open &= open;
     if (!lanes_any(box->open)) continue;
     cover_split(it->leaf, box, box + 1);
     top += 2;
   }
   p->postponed->splits -= given - splits;
   return open;
+}
+
+lane_mask cover_two(struct packet *p, const struct candidate *it, const struct leaf_root *first,
+                    const struct leaf_root *second, lane_mask open)
+{
+  const struct newton_root *one = &first->at, *two = &second->at;
+  const lane_mask apart = ~one->exists | (lanes_abs(one->u - two->u) > one->radius_u + two->radius_u + UNIT_ROUNDOFF) |
+                          (lanes_abs(one->v - two->v) > one->radius_v + two->radius_v + UNIT_ROUNDOFF);
+  const struct known_root known[2] = {{one, open & one->exists}, {two, open & two->exists & apart}};
+  open &= known[0].proven | known[1].proven;
+  if (!lanes_any(open)) return open;
+  const int count = lanes_any(known[1].proven) ? 2 : 1;
+  const lane_mask covered = cover_proves(p, it, count, known, COVER_HALVINGS, open, NULL);
+  offer_root(p, it, first, covered & known[0].proven & inside(one));
+  if (count > 1) offer_root(p, it, second, (p->any ? open : covered) & known[1].proven & inside(two));
+  return covered;
 }

@@ -36,6 +36,7 @@
 #define resultant_eliminated KERNEL(resultant_eliminated)
 #define newton_solve KERNEL(newton_solve)
 #define cover_proves KERNEL(cover_proves)
+#define cover_two KERNEL(cover_two)
 #define last_step_take KERNEL(last_step_take)
 #define finish_hits KERNEL(finish_hits)
 #define finish_best KERNEL(finish_best)

@@ -132,27 +132,12 @@ static void resultant_refine(const struct packet *p, const struct candidate *it,
 static lane_mask resultant_cover(struct packet *p, const struct candidate *it, const struct leaf_root *root,
                                  lane_mask open)
 {
-  const struct newton_root *r = &root->at;
-  const lane_mask proven = open & r->exists, more = open & (it->variations >= 2);
-  struct known_root known[2] = {{r, proven}};
+  const lane_mask more = open & (it->variations >= 2);
   struct leaf_root second;
-  struct newton_root *other = &second.at;
-  other->exists = (lane_mask){0};
-  if (lanes_any(more)) {
-    resultant_refine(p, it, true, more, &second);
-    const lane_mask apart = ~proven | (lanes_abs(r->u - other->u) > r->radius_u + other->radius_u + UNIT_ROUNDOFF) |
-                            (lanes_abs(r->v - other->v) > r->radius_v + other->radius_v + UNIT_ROUNDOFF);
-    other->exists &= more & apart;
-    known[1] = (struct known_root){other, other->exists};
-  }
-  /* Where neither is proven the ray nearly touches the leaf, and boxes would do one time in ten. A choice of speed. */
-  open &= proven | other->exists;
-  if (!lanes_any(open)) return open;
-  const bool two = lanes_any(other->exists);
-  const lane_mask covered = cover_proves(p, it, two ? 2 : 1, known, COVER_HALVINGS, open);
-  offer_root(p, it, root, covered & proven & inside(r));
-  if (two) offer_root(p, it, &second, covered & other->exists & inside(other));
-  return covered;
+  second.at.exists = (lane_mask){0};
+  if (lanes_any(more)) resultant_refine(p, it, true, more, &second);
+  second.at.exists &= more;
+  return cover_two(p, it, root, &second, open);
 }
 
 /* Where r has several sign variations, the start is one of its roots, or none; what is found from it still decides the
