@@ -25,8 +25,9 @@ enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
  * and time to make. The limit on the split is halved until they fit. Of patches that are bent all over there may be more. */
 enum { AUTO_LEAVES_MAX = 1 << 18, BENT_LEAVES_MAX = 1 << 19 };
 
-/* The same where leaves are not kept, and are no more than their boxes, an eighth of a leaf. */
-enum { AUTO_BOXES_MAX = 1 << 20 };
+/* The same of objects that are copied where the other patches' leaves are not kept. These are no more than their boxes, an eighth of a
+ * leaf: with so many columns a side, of slender patches the square of that along their long side, a patch takes a kilobyte at most. */
+enum { OBJECT_LEAVES_MAX = 1 << 20, BOXES_SPLIT_MAX = 2 };
 
 /* What threads take at once is this part of the patches. */
 enum { PARTS = 1024 };
@@ -392,9 +393,9 @@ static enum status prepare(struct model *model, const struct team *team)
   struct split_limit limit = {AUTO_TURN, most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
                               most_split(BENT_SPLIT_MAX, own, BENT_LEAVES_MAX)};
   const bool keep = limit.any > 1;
-  if (!keep) limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, AUTO_BOXES_MAX);
+  if (!keep) limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, OBJECT_LEAVES_MAX);
   status = copies_prepare(model, team, &limit);
-  if (!keep) limit.turn = BOXES_TURN;
+  if (!keep) limit = (struct split_limit){BOXES_TURN, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX};
   return status == STATUS_OK ? make_hierarchy(model, team, &limit, keep, BENT_LEAVES_MAX) : status;
 }
 
