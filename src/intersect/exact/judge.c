@@ -88,7 +88,7 @@ static enum side root_in_range(const struct judge *j, const struct exact_root *r
 static void set_limit(struct judge *j)
 {
   double limit = j->asked->ray->t_max;
-  if (j->found) limit = real_min(limit, (double)j->nearest.t + 2 * j->nearest.t_error);
+  if (j->rivals > 0) limit = real_min(limit, (double)j->nearest.t + 2 * j->nearest.t_error);
   if (j->doubtful) limit = real_min(limit, j->maybe.t - j->maybe.t_error);
   j->limit = limit + 4 * UNIT_ROUNDOFF * fabs(limit);
 }
@@ -133,7 +133,7 @@ static void add_rival(struct judge *j, const struct exact_root *root)
 {
   if (j->rivals < JUDGE_RIVALS_MAX) j->rival[j->rivals++] = *root;
   else if (judge_stands_before(root, standing(j, true))) *standing(j, true) = *root;
-  j->nearest = *standing(j, false), j->found = true;
+  j->nearest = *standing(j, false);
 }
 
 /* A root inside: the nearest, or of those that are not proven to be behind another one the first. Of three each may be at one t
@@ -386,7 +386,7 @@ static void sort_by_patch(struct exact_list *list)
 /* Whether the border's root is at one t with the nearest hit, which is certain. */
 static bool at_nearest(struct judge *j, const struct exact_root *root)
 {
-  if (!j->found || !judge_tie(root, &j->nearest)) return false;
+  if (j->rivals == 0 || !judge_tie(root, &j->nearest)) return false;
   return judge_sharpen(j, &j->nearest) ? one_t(root, &j->nearest) : judge_tie(root, &j->nearest);
 }
 
@@ -455,18 +455,18 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
   struct judge j;
   nearest_run(&j, asked);
   /* How well the nearest is known depends on what it was found beside. */
-  if (j.found && !(j.undecided > most_t(&j.nearest))) sharpen(&j, &j.nearest);
-  const double to = j.found ? most_t(&j.nearest) : INFINITY;
+  if (j.rivals > 0 && !(j.undecided > most_t(&j.nearest))) sharpen(&j, &j.nearest);
+  const double to = j.rivals > 0 ? most_t(&j.nearest) : INFINITY;
   *out = (struct exact_decision){.verdict = EXACT_MISS,
                                  .sure = !j.doubt && (j.undecided > to || j.undecided == INFINITY)};
-  if (j.doubtful && !(j.found && j.nearest.t <= j.maybe.t))
+  if (j.doubtful && !(j.rivals > 0 && j.nearest.t <= j.maybe.t))
     *out = (struct exact_decision){.verdict = EXACT_MAYBE, .maybe = j.maybe};
-  else if (j.found) out->verdict = EXACT_ROOT, out->root = j.nearest, out->sure &= j.tied_from > to;
+  else if (j.rivals > 0) out->verdict = EXACT_ROOT, out->root = j.nearest, out->sure &= j.tied_from > to;
 }
 
 bool exact_occluded(const struct exact_case *asked)
 {
   struct judge j;
   nearest_run(&j, asked);
-  return j.found || j.doubtful;
+  return j.rivals > 0 || j.doubtful;
 }

@@ -34,11 +34,11 @@ struct judge {
   const struct exact_case *asked;
   bool all; /* all hits are asked for, and `list` has whatever is found; else roots on borders only */
   struct exact_list *list;
-  struct exact_root nearest;                 /* of the certain roots inside patches, where `found` */
+  struct exact_root nearest;                 /* of the certain roots inside patches, where there are rivals */
   struct exact_root rival[JUDGE_RIVALS_MAX]; /* it, and those that nothing tells from it or from each other by t */
   size_t rivals;
   struct exact_maybe maybe; /* the nearest, where `doubtful` */
-  bool found, doubtful;
+  bool doubtful;
   /* where a root may be that `nearest`, or one before it, could not be told from (judge_tie_fine); infinite for none */
   double tied_from;
   bool doubt; /* of all hits, any doubt; else there were more regions */

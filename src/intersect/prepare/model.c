@@ -25,9 +25,12 @@ enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
  * and time to make. The limit on the split is halved until they fit. Of patches that are bent all over there may be more. */
 enum { AUTO_LEAVES_MAX = 1 << 18, BENT_LEAVES_MAX = 1 << 19 };
 
-/* The same of objects that are copied where the other patches' leaves are not kept. These are no more than their boxes, an eighth of a
- * leaf: with so many columns a side, of slender patches the square of that along their long side, a patch takes a kilobyte at most. */
-enum { OBJECT_LEAVES_MAX = 1 << 20, BOXES_SPLIT_MAX = 2 };
+/* The same of objects that are copied, whose leaves are kept, where those of other patches are not. */
+enum { OBJECT_LEAVES_MAX = 1 << 20 };
+
+/* Leaves that are not kept are no more than their boxes, an eighth of a leaf: with so many columns a side, of slender patches the square
+ * of that along their long side, a patch takes a kilobyte at most. */
+enum { BOXES_SPLIT_MAX = 2 };
 
 /* What threads take at once is this part of the patches. */
 enum { PARTS = 1024 };

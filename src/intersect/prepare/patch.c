@@ -56,7 +56,7 @@ static double patch_frame(double P[4][4][3], double scene_size, struct model_pat
   return largest;
 }
 
-/* Whether nearly all leaves of a patch that is cut so far turn by more than that, as parts of it tell. Where only some
+/* Whether nearly all leaves of a patch that is cut so far turn by more than `turn`, as parts of it tell. Where only some
  * do, still more leaves cost all rays more than they save those. Choices of speed. */
 enum { PARTS_MOST = 8 };
 #define NEARLY_ALL 0.84
