@@ -129,9 +129,10 @@ if cmake --build build --target beside_embree >/dev/null 2>&1; then
     every_scene "$kind"
   done >"$folder/every"
   {
-    printf '\n### Preparing\n\nBefore the first ray, CPU seconds of one thread: leaves and hierarchy; triangles and their hierarchy, of the\n'
-    printf 'default quality and of the best one, which is what its rays are measured with. Last: how many pictures of %s, of camera rays only,\n' "$SIZE"
-    printf 'it takes until Embree, prepared with the default quality, has taken less in all with its fastest packets.\n\n'
+    printf '\n### Preparing\n\nBefore the first ray, CPU seconds of one thread. pscn makes leaves and their hierarchy; Embree makes triangles and\n'
+    printf 'theirs, of the default quality and of the best one, which is what its rays are measured with. Last: how many pictures\n'
+    printf 'of %s, of camera rays only, it takes until Embree, prepared with the default quality and asked in its fastest\n' "$SIZE"
+    printf 'packets, has taken less in all.\n\n'
     preparing
   } >>"$folder/every"
   if [ -n "$(cell rtcIntersect16 2)" ]; then
@@ -218,15 +219,24 @@ cat "$folder/table"
 if [ -n "$page" ] && [ -e "$folder/every" ]; then
   {
     echo "Written by \`examples/benchmark.sh --page\`, by \`beside_embree KIND SCENE\` for each: CPU time of one thread at 800x600,"
-    echo "default solver, medians of $runs turns. Embree has 64 x 64 x 2 triangles a patch, 16 x 16 x 2 in floor and"
-    echo "hills and 8 x 8 x 2 in the last six scenes, of which it would otherwise have millions; its packets are of 8 rays"
-    echo "and, where the processor has the instructions, 16, said to be coherent but for scattered rays. Shadow rays: \`rtcOccluded\`. Scattered rays: random places and directions."
-    echo "hair: 10,000 patches of 1 : 200, ribbons: 1,000 of 1 : 1000, creature: 3,570 patches, animal: 11,532;"
-    echo "knots: 200 patches of sixteen random points each, through one another, shells: 40 balls of eight patches through one another,"
-    echo "knot: one patch of knots, confetti: 20,000 small patches, each bent another way, pearls: 500 small balls apart, floor: 150 balls of"
-    echo "0.003 to 0.4 on a floor 2,000 wide, hills: a landscape of 1,600 patches seen along it, the sun as low (examples/generate.sh)."
-    echo "\`inside\` is made of rays exactly along shared edges, \`nested\` of parts that ask for other solvers. Up to four rays are"
-    echo "answered in registers of AVX2."
+    echo "default solver, medians of $runs turns. Embree has 64 x 64 x 2 triangles a patch, 16 x 16 x 2 in floor and hills and"
+    echo "8 x 8 x 2 in the last six scenes, of which it would otherwise have millions. Its packets are of 8 rays and, where the"
+    echo "processor has the instructions, 16, said to be coherent but for scattered rays; its shadow rays are \`rtcOccluded\`."
+    echo "Scattered rays have random places and directions. Up to four rays are answered in registers of AVX2."
+    echo
+    echo "Eight scenes are those of [scenes/](../scenes/): \`inside\` is made of rays exactly along shared edges, \`nested\` of parts"
+    echo "that ask for other solvers. The others are made by \`examples/generate.sh\`:"
+    echo
+    echo "| scene | what it is |"
+    echo "|---|---|"
+    echo "| knots, knot | 200 patches of sixteen random points each, through one another; one of them |"
+    echo "| shells | 40 balls of eight patches through one another |"
+    echo "| floor | 150 balls of 0.003 to 0.4 on a floor 2,000 wide |"
+    echo "| hills | a landscape of 1,600 patches seen along it, under a low sun |"
+    echo "| hair, ribbons | 10,000 patches of 1 : 200; 1,000 of 1 : 1000 |"
+    echo "| creature, animal | closed skins of 3,570 and of 11,532 patches |"
+    echo "| confetti | 20,000 small patches, each bent another way |"
+    echo "| pearls | 500 small balls apart |"
     cat "$folder/every"
   } >"$folder/section"
   replace_section "$page" 'Every scene' "$folder/section"

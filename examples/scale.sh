@@ -213,8 +213,8 @@ reading() {
   echo
   echo "### Reading"
   echo
-  echo "CPU time from text to scene, the least of $TEXT_TURNS turns; asked: 50 MB/s. The canonical text is \`pscn dump\`'s of $((32 * TEXT_TEAPOTS)) patches, every one"
-  echo "written out. Of copies each line becomes a patch of 416 bytes."
+  echo "CPU time from text to scene, the least of $TEXT_TURNS turns; asked: 50 MB/s. The canonical text is \`pscn dump\`'s of"
+  echo "$((32 * TEXT_TEAPOTS)) patches, every one written out. Of copies each line becomes a patch of 416 bytes."
   echo
   echo "| text | MB | s | MB/s |"
   echo "|---|---|---|---|"
