@@ -93,13 +93,17 @@ Written by `examples/accuracy.sh`; the numbers are those of its last run. For an
 
     pscn chart scenes/teapot.pscn            # teapot-chart/chart.html, chart.svg, chart.csv; --quick: under a minute
 
-Camera rays of the scene, chosen evenly, and their shadow rays are answered by every solver but `durand_kerner`, basis, tolerance (1e-1 to
-1e-15), with polish and without, cold and warm, on whole patches, in the paper's own form, and by the peers: plain 2-D
-Newton from the middle of each of 8 x 8 parts of a patch, one ray a lane, which guards nothing; Embree on triangles;
-POV-Ray. All take turns on one thread; the ratio is the median of the ratios to the default solver within a round, and
-the time that ratio times the default's own median, in brackets with its quartiles. Every answer is judged by the
-reference ([src/reference/reference.h](../src/reference/reference.h)): subdivision and Krawczyk's test in quadruple
-precision, which shares nothing with the renderer.
+Camera rays of the scene, chosen evenly, and their shadow rays are answered by
+
+- every solver but `durand_kerner`, basis and tolerance (1e-1 to 1e-15), with polish and without, cold and warm, on leaves
+  and on whole patches, and in the paper's own form;
+- plain 2-D Newton from the middle of each of 8 x 8 parts of a patch, one ray a lane, which guards nothing;
+- Embree on triangles, and POV-Ray.
+
+All take turns on one thread. The ratio is the median of the ratios to the default solver within a round, and the time that
+ratio times the default's own median, in brackets with its quartiles. Every answer is judged by the reference
+([src/reference/reference.h](../src/reference/reference.h)): subdivision and Krawczyk's test in quadruple precision, which
+shares nothing with the renderer.
 
 - **error of T**: relative, of the rays that both hit.
 - **lost**, **invented**: a hit answered by a miss, a miss answered by a hit. **wrong**: both hit, more than 1 % apart.
@@ -138,9 +142,8 @@ precision, which shares nothing with the renderer.
 - **Embree is wrong in the same way, and faster in packets**: the same mesh gives the same bad answers as POV-Ray's
   (8 x 8 is `u_steps 3`). Rays one by one through the teapot's meshes of 16 x 16 x 2 triangles a patch take as long as
   the exact answer, finer ones longer; 16 coherent rays at once, where the processor can, a sixth of it (8 x 8 x 2) to
-  three fifths (256 x 256 x 2). A million triangles bring 99 % of the
-  rays within 1e-5 or so. The wild scene has few patches, and its meshes are faster. Single precision ends at 6e-8, even
-  on a flat floor.
+  three fifths (256 x 256 x 2). A million triangles bring 99 % of the rays within 1e-5 or so. The wild scene has few
+  patches, and its meshes are faster. Single precision ends at 6e-8, even on a flat floor.
 
 END
   for scene in "${SCENES[@]}"; do

@@ -139,18 +139,22 @@ closed_section() {
 ## Closed surfaces
 
 A ray that starts outside of a closed surface meets it an even number of times, and one that starts inside an odd number,
-whatever else is true of either; so the parity of a certain list of all hits tells whether one was lost or invented, without
-any judge. [tests/accuracy/parity.c](../tests/accuracy/parity.c) aims at a dome, a ball and a torus (turned, scaled by 1e6 and
-1e-6, shifted by 1000), exactly at edges, corners, poles and iso-lines and next to them by every power of two, and along tangents, and
-exactly at edges and corners of a cube and of two pyramids. [tests/accuracy/cycles.c](../tests/accuracy/cycles.c) takes
-surfaces that nobody would draw: two random sheets with common borders, boxes, gores between two poles, a patch that closes
-upon itself, sheets halved on one side (T-junctions), four patches at one border, a sheet twice, specks within; folded, of whole
-numbers, graded, thin to 1e-15, skew to 1e6; each patch with a solver and a split of its own; crowds of them as copies, and 66,000 patches of
-them. There the nearest hit, and whether there is one, have to be what the list of all hits says, of the whole ray
-and of parts of it.
+whatever else is true of either. So the parity of a certain list of all hits tells whether one was lost or invented, without
+any judge.
 
-The longest run of \`accuracy-parity\`, with an earlier revision (PSCN_EFFORT=0.1, PSCN_SEED 110001 to 110012, 130001 to 130027, 140001 to
-140011): 107 million rays, none of wrong parity. In full, all with one later revision: nothing certain was wrong in the runs below (PSCN_SEED $(seeds_of "$folder/closed")):
+- [tests/accuracy/parity.c](../tests/accuracy/parity.c) aims at a dome, a ball and a torus (turned, scaled by 1e6 and 1e-6,
+  shifted by 1000), exactly at edges, corners, poles and iso-lines and next to them by every power of two, and along
+  tangents; and exactly at edges and corners of a cube and of two pyramids.
+- [tests/accuracy/cycles.c](../tests/accuracy/cycles.c) takes surfaces that nobody would draw: two random sheets with common
+  borders, boxes, gores between two poles, a patch that closes upon itself, sheets halved on one side (T-junctions), four
+  patches at one border, a sheet twice, specks within; folded, of whole numbers, graded, thin to 1e-15, skew to 1e6; each
+  patch with a solver and a split of its own; crowds of them as copies, and 66,000 patches of them. There the nearest hit,
+  and whether there is one, have to be what the list of all hits says, of the whole ray and of parts of it.
+
+Nothing certain was wrong in the runs below, all of one revision
+(PSCN_SEED $(seeds_of "$folder/closed")), nor in the longest run of
+\`accuracy-parity\`, 107 million rays, of an earlier one (PSCN_EFFORT=0.1, PSCN_SEED 110001 to 110012, 130001 to 130027,
+140001 to 140011):
 
 | surface | rays | hits | of wrong parity | another nearest hit |
 |---|---|---|---|---|
@@ -168,25 +172,32 @@ nets of exact integers and proves them in ball arithmetic; it shares nothing wit
 takes every answer, hit or miss, certain or grazing, of the classes above and of those that an adversary would aim
 ([tests/accuracy/hostile.c](../tests/accuracy/hostile.c)): rings of every radius from 1e-18 to 1 round poles, edges, corners,
 borders of leaves, cusps, rulings and tangencies; starts next to surfaces; nets degenerate but for some roundings;
-coordinates of every size. Each ray is asked as it is, from beyond what it hits back, ending there and starting there (but for
-2^-20 to 2^-53, or to the last bit); with every solver, and with whole patches (split 1) and 8 x 8 leaves (split 8); and all answers
-to it are held to one proof. Alone it has to be answered as in a packet, and asked for any hit as for the nearest
-(PSCN_SEED $(seeds_of "$folder/proofs"); PSCN_CLASS takes one class). Those from 70001 on are of the present intersector, but for T, U and V in last
-places: a million answers each of the sixteen classes that are slowest to judge, or had something refuted before, and a hundred thousand each of
-the others, whose first million was answered a day's changes ago.
+coordinates of every size.
+
+Each ray is asked as it is, from beyond what it hits back, ending there and starting there (but for 2^-20 to 2^-53, or to the
+last bit); with every solver, and with whole patches (split 1) and 8 x 8 leaves (split 8). All answers to it are held to one
+proof. Alone it has to be answered as in a packet, and asked for any hit as for the nearest.
+
+The runs (PSCN_SEED $(seeds_of "$folder/proofs"); PSCN_CLASS takes one class):
+those from 70001 on are of the present intersector, but for T, U and V in last places. They are a million answers each of the
+sixteen classes that are slowest to judge, or had something refuted before, and a hundred thousand each of the others, whose
+first million is of an earlier revision.
 
 - **proven**: certain hits of which T is a root's, within 4 times what one rounding of each input moves it, and none before
   it; certain misses without a root on the ray.
-- **grazing**: hits and misses that say so, and stand: no proven root is lost or passed by. **provable**: the share of all
-  answers that say grazing though the judge proves them, so that they could be certain. What is left was met where no proof can
-  be had: the exact tangency, the common curve, the border of an open surface or the pole to the last bit, the start on the surface.
+- **grazing**: hits and misses that say so, and stand: no proven root is lost or passed by.
+- **provable**: the share of all answers that say grazing though the judge proves them, so that they could be certain. What is
+  left was met where no proof can be had: the exact tangency, the common curve, the border of an open surface or the pole to
+  the last bit, the start on the surface.
 - **undecided**: certain answers that the exact judge itself could not decide.
-- **refuted**: a proven root is lost or passed by, or there is none at T; U, V, the point or the normal are wrong.
-  What was met is a scene of [tests/accuracy/cases](../tests/accuracy/cases) and mended. What the table still has is all of it grazing: in a class that
-  aims at nothing else, tangent where nothing bends (rays along a direction in which the surface does not bend, next to it from 1e-18 of
-  its size on, half of them where that is the only one, so that they meet it as a cubic does 0, or a quartic), a ray's share of work may
-  end before a root that lies beyond. The judge's own share ends there too: with 60,000 boxes in place of 2,000 it proved all of 129,660
-  certain answers. And coordinates of 1e-160 beside 1, whose ray starts 1e-13 before its root: two rays of 143,000 miss it.
+- **refuted**: a proven root is lost or passed by, or there is none at T; U, V, the point or the normal are wrong. What was
+  met is a scene of [tests/accuracy/cases](../tests/accuracy/cases) and mended. What the table has is all of it grazing:
+  - *tangent where nothing bends*: rays along a direction in which the surface does not bend, next to it from 1e-18 of its
+    size on, half of them where that is the only one, so that they meet it as a cubic does 0, or a quartic. There a ray's
+    share of work may end before a root that lies beyond. The judge's own share ends there too: with 60,000 boxes in place of
+    2,000 it proves all of 129,660 certain answers.
+  - *sizes beyond all digits*: needles 1e-160 thick and 1 long, met 1e-13 behind the ray's start: two rays of 143,000. The
+    present intersector answers both (seeds 70080 and 70083), and calls 4.5 % of that class grazing.
 - **slow**: answers that took more than 2 ms; **slowest**: the slowest one, in ms, the machine being busy.
 
 | class | answers | hits proven | misses proven | grazing hits | grazing misses | grazing | provable | undecided | refuted | slow | slowest |
@@ -208,11 +219,17 @@ maps_section() {
   cat <<END
 ## Maps
 
-The teapot, $FRAME, by \`pscn render --channels iterations,roots,residual,deviation\`: iterations a root (dark 1, yellow 64) and the distance from the certified
-answer, relative (dark 1e-16, yellow 1, red: a hole or a phantom). The default form of every solver is certified; what differs is how long it looks, \`bernstein\`
-longest where a ray passes between two leaves. In the paper's form, eps 1e-12, \`aberth\` is right nearly everywhere but runs to its cap of steps all over the
-body and the lid; what it does not find to 1e-12 lies on the knob and the spout. Deflation leaves errors all over the body, and its holes lie in the
-floor, which is flat. \`bernstein\` is not in the paper and stands there with \`polish off\`. The patch of the paper's figures is drawn so in [paper.md](paper.md).
+The teapot, $FRAME, by \`pscn render --channels iterations,roots,residual,deviation\`: iterations a root (dark 1, yellow 64) and
+the distance from the certified answer, relative (dark 1e-16, yellow 1, red: a hole or a phantom).
+
+- The default form of every solver is certified; what differs is how long it looks, \`bernstein\` longest where a ray passes
+  between two leaves.
+- In the paper's form, eps 1e-12, \`aberth\` is right nearly everywhere but runs to its cap of steps all over the body and the
+  lid; what it does not find to 1e-12 lies on the knob and the spout.
+- Deflation leaves errors all over the body, and its holes lie in the floor, which is flat.
+- \`bernstein\` is not in the paper and stands there with \`polish off\`.
+
+The patch of the paper's figures is drawn so in [paper.md](paper.md).
 
 | | ${methods[0]} | ${methods[1]} | ${methods[2]} | ${methods[3]} | ${methods[4]} |
 |---|---|---|---|---|---|
@@ -348,8 +365,8 @@ END
   cat <<END
 
 Rays from inside closed bodies (dome, ball, torus, the teapot's body; turned, scaled by 1e6 and 1e-6, shifted by 1e6) at
-shared edges, corners, poles and iso-lines, PSCN_EFFORT=$LEAK_EFFORT of 10,000,000. The longest run so far, PSCN_SEED=1
-PSCN_EFFORT=0.5: 5,000,044 rays with the default and 100,072 with each other solver and split, no leak.
+shared edges, corners, poles and iso-lines, PSCN_EFFORT=$LEAK_EFFORT of 10,000,000. The longest run, PSCN_SEED=1
+PSCN_EFFORT=0.5, had 5,000,044 rays with the default and 100,072 with each other solver and split, and no leak.
 
 | run | rays | leaks |
 |---|---|---|
