@@ -1,6 +1,6 @@
 #!/bin/bash
 # readme.sh: the scene at the top of README.md has the eight lines it says, is read without a word, and is seen; POV-Ray
-# reads it too, where it is installed. The files that README.md and docs/ lead to are there.
+# reads it too, where it is installed. The files and headings that README.md and docs/ lead to are there.
 set -uo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -20,10 +20,15 @@ if command -v povray >/dev/null; then
   HOME=$folder povray +Ibowl.pscn +Opov.png +W40 +H30 -D >log 2>&1 || { tail -5 log; say "POV-Ray does not read it"; }
 fi
 
+# headings FILE: what a link may name behind "#", a line each.
+headings() { sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9 _-]//g; s/ /-/g'; }
+
 for page in README.md $(cd "$PSCN_SOURCE_DIR" && echo docs/*.md); do
-  (cd "$PSCN_SOURCE_DIR" && cd "$(dirname "$page")" &&
-    grep -o ']([^):]*)' "$(basename "$page")" | sed 's/](\([^#)]*\).*/\1/' | grep . | sort -u |
-    while read -r link; do [ -e "$link" ] || echo "$page leads to $link, which is not there"; done) >links
+  (cd "$PSCN_SOURCE_DIR" && cd "$(dirname "$page")" && name=$(basename "$page") &&
+    grep -o ']([^):]*)' "$name" | sed 's/^](\(.*\))$/\1/' | sort -u | while IFS='#' read -r file heading; do
+    [ -e "${file:-$name}" ] || { echo "$page leads to $file, which is not there"; continue; }
+    [ -z "$heading" ] || headings "${file:-$name}" | grep -Fx -- "$heading" >/dev/null || echo "$page leads to $file#$heading, a heading that is not there"
+  done) >links
   [ ! -s links ] || say "$(cat links)"
 done
 exit "$failed"
