@@ -39,6 +39,12 @@ LANES_INLINE struct double_lanes double_lanes_scale(struct double_lanes a, lanes
   return (struct double_lanes){p.hi, lanes_multiply_add(a.lo, b, p.lo)};
 }
 
+LANES_INLINE struct double_lanes double_lanes_add(struct double_lanes a, struct double_lanes b)
+{
+  const struct double_lanes s = double_lanes_sum(a.hi, b.hi);
+  return (struct double_lanes){s.hi, s.lo + (a.lo + b.lo)};
+}
+
 LANES_INLINE struct double_lanes double_lanes_subtract(struct double_lanes a, struct double_lanes b)
 {
   const struct double_lanes s = double_lanes_sum(a.hi, -b.hi);

@@ -173,20 +173,20 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
   return write_hits(p, group, &a, out);
 }
 
-/* The lanes of `group`, whose best roots are on one patch and whose rays share an axis. */
-static unsigned finish_group(const struct packet *p, unsigned group, int axis, uint32_t index, struct hit out[])
+/* The lanes of `group`, whose best roots are on one patch, whose rays share an axis and have them all near their starts, or
+ * none. */
+static unsigned finish_group(const struct packet *p, unsigned group, int axis, struct model_patch *patch, bool near,
+                             struct hit out[])
 {
-  struct patch_room room;
-  struct model_patch *patch = model_patch_at(p->model, index, &room);
   const struct best *best = &p->best;
   struct last_step step;
-  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction;
+  step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction, step.near = near;
   step.improves = lanes_mask(group) & best->certain;
   step.u = surface_clamp(best->u), step.v = surface_clamp(best->v), step.t = best->t;
   last_step_take(&step);
   struct answers a = {.u = step.u, .v = step.v, .t = step.t, .done = step.done};
   a.done &= (lanes_abs(step.u - best->u) <= best->radius_u) & (lanes_abs(step.v - best->v) <= best->radius_v) &
-            packet_has_digits(p, patch, best->t);
+            packet_has_digits(p, patch, NEAREST_START, best->t);
   a.point = surface_point(patch, step.point, step.tangent);
   for (int c = 0; c < 3; c++) a.normal[c] = step.normal[c];
   return write_hits(p, group, &a, out);
@@ -234,7 +234,11 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
     const int axis = packet_axis(p, first);
     const int64_t patch = p->best.patch[first];
     const unsigned group = left & lanes_bits((p->best.patch == patch) & p->on_axis[axis]);
-    grazing += finish_group(p, group, axis, (uint32_t)patch, out);
+    struct patch_room room;
+    struct model_patch *of = model_patch_at(p->model, (uint32_t)patch, &room);
+    const unsigned near = group & ~lanes_bits(packet_has_digits(p, of, NEAR_START, p->best.t));
+    if (group != near) grazing += finish_group(p, group & ~near, axis, of, false, out);
+    if (near) grazing += finish_group(p, near, axis, of, true, out);
     left &= ~group;
   }
   return grazing;

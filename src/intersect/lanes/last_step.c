@@ -5,7 +5,8 @@
  * b(u,v) as if computed in half as much precision again, makes all of them right to the last places. The sums are
  * exact in their leading parts because those have few bits on a common grid (as in Rump, Ogita and Oishi, Accurate
  * Floating-Point Summation, 2008, and Ozaki and others, Error-free transformations of matrix multiplication, 2012):
- * one multiply-add a product, where sums that keep track of their error take ten.
+ * one multiply-add a product, where sums that keep track of their error take ten. Those are what roots next to the ray's
+ * start take, from control points as seen from there.
  */
 #include "intersect/lanes/last_step.h"
 
@@ -18,6 +19,10 @@ enum { LAST_STEPS_MAX = 3 };
 /* A step longer than this, in patch parameters, is followed by another: the derivatives that the point and the
  * normal are taken from are off by about as much, relative to the second derivatives. */
 #define LAST_STEP_LONGEST 0x1p-44
+
+/* And one next to the ray's start, where t is as short as 2^-44 of the patch (NEAREST_START): what the step leaves is its square
+ * times the second derivatives. */
+#define LAST_STEP_LONGEST_NEAR 0x1p-52
 
 /* Splits a number of size at most 1: so the product of two heads, and a sum of such products of size at most 2, is a
  * multiple of 2^-52 and exact; what the tails add to it is 2^-26 of it, and so is its rounding. */
@@ -46,30 +51,34 @@ LANES_INLINE void last_step_split_net(const struct model_patch *patch, struct la
   }
 }
 
-/* Position as hi + lo, right to some 2^-76, |lo| up to 2^-24, and derivatives at (u,v), in the frame of the patch. */
+/* Position as hi + lo, |lo| up to 2^-24, and derivatives at (u,v), in the frame of the patch; the way there from the ray's
+ * start. */
 struct last_step_jet {
-  struct double_lanes s[3];
+  struct double_lanes s[3], way[3];
   lanes du[3], dv[3];
 };
 
 /* Weights w_i of cubic Bernstein polynomials, and their derivatives. */
-LANES_INLINE void last_step_weights(lanes t, struct split_lanes w[4], lanes dw[4])
+LANES_INLINE void last_step_weights(lanes t, struct double_lanes w[4], lanes dw[4])
 {
   const struct double_lanes s = double_lanes_sum(lanes_all(1), -t), tt = double_lanes_product(t, t);
   const struct double_lanes ss = double_lanes_multiply(s, s), three_t = double_lanes_product(lanes_all(3), t);
-  w[0] = last_step_split(double_lanes_multiply(ss, s)), w[1] = last_step_split(double_lanes_multiply(ss, three_t));
-  w[2] = last_step_split(double_lanes_multiply(s, double_lanes_scale(tt, lanes_all(3))));
-  w[3] = last_step_split(double_lanes_scale(tt, t));
+  w[0] = double_lanes_multiply(ss, s), w[1] = double_lanes_multiply(ss, three_t);
+  w[2] = double_lanes_multiply(s, double_lanes_scale(tt, lanes_all(3))), w[3] = double_lanes_scale(tt, t);
   const lanes st = s.hi * t;
   dw[0] = -3 * ss.hi, dw[1] = 3 * (ss.hi - 2 * st), dw[2] = 3 * (2 * st - tt.hi), dw[3] = 3 * tt.hi;
 }
 
-LANES_INLINE void last_step_evaluate(const struct last_step_net *net, lanes u, lanes v, struct last_step_jet *out)
+/* Right to some 2^-76. */
+LANES_INLINE void last_step_evaluate(const struct last_step_net *net, const struct double_lanes start[3], lanes u,
+                                     lanes v, struct last_step_jet *out)
 {
+  struct double_lanes weight_u[4], weight_v[4];
   struct split_lanes wu[4], wv[4];
   lanes du[4], dv[4];
-  last_step_weights(u, wu, du);
-  last_step_weights(v, wv, dv);
+  last_step_weights(u, weight_u, du);
+  last_step_weights(v, weight_v, dv);
+  for (int i = 0; i < 4; i++) wu[i] = last_step_split(weight_u[i]), wv[i] = last_step_split(weight_v[i]);
   for (int c = 0; c < 3; c++) {
     lanes hi = {0}, lo = {0}, by_u = {0}, by_v = {0};
 #pragma GCC unroll 4
@@ -91,6 +100,34 @@ LANES_INLINE void last_step_evaluate(const struct last_step_net *net, lanes u, l
       by_v = lanes_multiply_add(wu[i].head + wu[i].tail, row_dv, by_v);
     }
     out->s[c] = (struct double_lanes){hi, lo}, out->du[c] = by_u, out->dv[c] = by_v;
+    out->way[c] = double_lanes_subtract(out->s[c], start[c]);
+  }
+}
+
+/* The same of control points as seen from the ray's start, in double-double: the way right to some 2^-100. */
+static void last_step_evaluate_near(const struct model_patch *patch, const struct double_lanes start[3], lanes u,
+                                    lanes v, struct last_step_jet *out)
+{
+  struct double_lanes wu[4], wv[4];
+  lanes du[4], dv[4];
+  last_step_weights(u, wu, du);
+  last_step_weights(v, wv, dv);
+  for (int c = 0; c < 3; c++) {
+    struct double_lanes way = {{0}, {0}};
+    lanes by_u = {0}, by_v = {0};
+    for (int i = 0; i < 4; i++) {
+      struct double_lanes row = {{0}, {0}};
+      lanes row_dv = {0};
+      for (int j = 0; j < 4; j++) {
+        const struct double_lanes point = {lanes_all(patch->x[c][i][j]), lanes_all(patch->rest[c][i][j])};
+        const struct double_lanes from_start = double_lanes_subtract(point, start[c]);
+        row = double_lanes_add(row, double_lanes_multiply(wv[j], from_start));
+        row_dv = lanes_multiply_add(dv[j], from_start.hi, row_dv);
+      }
+      way = double_lanes_add(way, double_lanes_multiply(wu[i], row));
+      by_u = lanes_multiply_add(du[i], row.hi + row.lo, by_u), by_v = lanes_multiply_add(wu[i].hi, row_dv, by_v);
+    }
+    out->way[c] = way, out->s[c] = double_lanes_add(way, start[c]), out->du[c] = by_u, out->dv[c] = by_v;
   }
 }
 
@@ -117,11 +154,11 @@ void last_step_take(struct last_step *l)
   struct last_step_net net;
   last_step_split_net(patch, &net);
   struct last_step_jet jet;
-  struct double_lanes way[3]; /* from the ray's origin */
-  lane_mask moving = l->improves;
+  const struct double_lanes *way = jet.way;
+  lane_mask moving = l->improves, again;
   for (int n = 0;; n++) {
-    last_step_evaluate(&net, u, v, &jet);
-    for (int c = 0; c < 3; c++) way[c] = double_lanes_subtract(jet.s[c], start[c]);
+    if (l->near) last_step_evaluate_near(patch, start, u, v, &jet);
+    else last_step_evaluate(&net, start, u, v, &jet);
     lanes f[2], fu[2], fv[2];
     for (int s = 0; s < 2; s++) {
       const int at = s ? j : i;
@@ -137,17 +174,19 @@ void last_step_take(struct last_step *l)
     const lane_mask near = (lanes_abs(du) < 1) & (lanes_abs(dv) < 1);
     moving &= near;
     du = lanes_select(moving, du, lanes_all(0)), dv = lanes_select(moving, dv, lanes_all(0));
-    const lane_mask again = moving & (size > LAST_STEP_LONGEST);
+    again = moving & (size > (l->near ? LAST_STEP_LONGEST_NEAR : LAST_STEP_LONGEST));
     if (n + 1 == LAST_STEPS_MAX || !lanes_any(again)) break;
     /* A lane that is done stays where it is: what it gets then must not depend on the others. */
     u = lanes_select(again, u + du, u), v = lanes_select(again, v + dv, v);
   }
-  const lanes depth = way[k].hi + (way[k].lo + (jet.du[k] * du + jet.dv[k] * dv));
-  l->t = lanes_select(moving, depth * (patch->scale * inverse), l->t);
+  const lanes off = way[k].lo + (jet.du[k] * du + jet.dv[k] * dv), depth = way[k].hi + off;
+  const lanes t = depth * inverse, left = lanes_multiply_add(-t, dk, way[k].hi) + off;
+  l->t = lanes_select(moving, (t + left * inverse) * patch->scale, l->t);
   const lane_mask lost = l->improves & ~moving;
   l->u = surface_clamp(lanes_select(lost, l->u, u + du)), l->v = surface_clamp(lanes_select(lost, l->v, v + dv));
   const lanes to_u = l->u - u, to_v = l->v - v;
   for (int c = 0; c < 3; c++) l->point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
   last_step_normal(l, &jet);
   l->done &= ~lost; /* the jet is elsewhere */
+  if (l->near) l->done &= ~again;
 }

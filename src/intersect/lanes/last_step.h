@@ -14,6 +14,7 @@ struct last_step {
   const struct model_patch *patch;
   int axis;
   const lanes *origin, *direction; /* [3] */
+  bool near;                       /* to the rays' starts: their roots want more digits */
   lane_mask improves;              /* the others keep u, v and t as they come */
   lanes u, v, t;                   /* in and out */
   lanes point[3], normal[3];       /* out: in the patch's frame; unit, of either sense */
@@ -22,7 +23,8 @@ struct last_step {
 };
 
 /* Improves the lanes that ask for it, and takes point and normal of all lanes. A lane whose steps do not end within
- * the patch's size keeps what it came with. */
+ * the patch's size keeps what it came with. T is right to 2^-72 of the patch's frame, near the start to 2^-100, and then rounded
+ * once. */
 void last_step_take(struct last_step *l);
 
 #endif

@@ -212,7 +212,7 @@ LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candid
   const struct leaf *leaf = it->leaf;
   const lanes reach = leaf->first[0] * root->at.radius_u + leaf->first[1] * root->at.radius_v;
   const lanes off = leaf->parts.error + TAIL_ERROR + root->left;
-  return packet_has_digits(p, it->patch, root->t) &
+  return packet_has_digits(p, it->patch, NEAR_START, root->t) &
          (off * it->patch->scale * reach <=
           72 * FINAL_ROUNDINGS * UNIT_ROUNDOFF * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
 }

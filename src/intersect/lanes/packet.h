@@ -17,6 +17,9 @@
  * frame. */
 #define NEAR_START 0x1p-16
 
+/* Those that the last step leaves if it is taken from there: 2^-100. */
+#define NEAREST_START 0x1p-44
+
 /* And so do roots farther from it: the moments of a ray that starts there, in double-double, are no better than 2^-60
  * (MOMENT_ERROR). */
 #define FAR_START 0x1p40
@@ -127,12 +130,12 @@ void packet_orient(struct packet *p);
  * was tried before. */
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
-/* Lanes whose root at t, in units of the packet's directions, has all its digits as double precision leaves it: neither
- * too near to the ray's start nor too far. */
-LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, lanes t)
+/* Lanes whose root at t, in units of the packet's directions, is as far from the ray's start as that part of the patch's frame,
+ * and not too far. */
+LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, double from, lanes t)
 {
   const lanes away = lanes_abs(t) * p->longest;
-  return (away >= NEAR_START * patch->scale) & (away <= FAR_START * patch->scale);
+  return (away >= from * patch->scale) & (away <= FAR_START * patch->scale);
 }
 
 /* candidate.c: tries the leaf, of that patch and number, on the lanes of `active`, and keeps what is nearer than the best. */
