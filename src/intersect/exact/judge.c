@@ -1,9 +1,7 @@
-/* What is found on one ray becomes its answer: the order of roots, the ray's start and end, borders of patches.
+/* What is found on one ray becomes its answer: the order of roots, the ray's start and end.
  *
  * A root counts where it lies in its patch and within the ray's range. Where double precision cannot tell, it is made
- * as good as wide arithmetic can. A root that even then lies on a border is a hit where the border is shared, the
- * neighbour's polynomials have a root there too, and the two patches lie on either side of the border as the ray sees
- * it: then the ray, wherever it passes, meets one of them.
+ * as good as wide arithmetic can. One that even then lies on a border is put on a list, for borders.c to settle.
  */
 #include "intersect/exact/judge.h"
 
@@ -11,7 +9,6 @@
 
 #include "base/real.h"
 #include "geometry/patch.h"
-#include "geometry/vector.h"
 
 /* Work that may be done for one ray, by whichever regions ask for it: isolated roots and folds need some tens, rays that
  * pass a pole or start there some hundreds; only surfaces that lie along the ray over an area, and start where it does,
@@ -136,9 +133,7 @@ static void add_rival(struct judge *j, const struct exact_root *root)
   j->nearest = *standing(j, false);
 }
 
-/* A root inside: the nearest, or of those that are not proven to be behind another one the first. Of three each may be at one t
- * with the next, and the first before the last. */
-static void keep_root(struct judge *j, struct exact_root *root)
+void judge_keep(struct judge *j, struct exact_root *root)
 {
   if (j->all) {
     (void)list_root(j, root, EXACT_INSIDE, 0); /* or the list has failed */
@@ -201,6 +196,12 @@ void judge_maybe(struct judge *j, double u, double v, double t, double t_error, 
   keep_maybe(j, &maybe, from);
 }
 
+void judge_open(struct judge *j, const struct exact_found *border)
+{
+  judge_turn(j, border->root.patch);
+  tell_maybe(j, border->borders, &border->root);
+}
+
 /* A control point that is a point of the patch: where it stands in the net, and its parameters. */
 struct net_point {
   int row, column;
@@ -248,7 +249,7 @@ static bool tell_point(struct judge *j, const struct net_point *at, unsigned bor
   if (!point_root(j, at, &root)) return false;
   const enum side in_range = root_in_range(j, &root);
   if (in_range == SIDE_INSIDE && j->all) (void)list_root(j, &root, EXACT_BORDER, borders);
-  else if (in_range == SIDE_INSIDE) keep_root(j, &root);
+  else if (in_range == SIDE_INSIDE) judge_keep(j, &root);
   if (in_range == SIDE_UNKNOWN) judge_undecided(j, least_t(&root));
   return true;
 }
@@ -265,12 +266,23 @@ bool judge_pole(struct judge *j, int border, double reach)
   return false;
 }
 
+bool judge_corner(const struct judge *j, unsigned borders, const struct exact_root *root, struct exact_root *out)
+{
+  const struct net_point at = corner_point(root);
+  return in_corner(borders) && point_root(j, &at, out);
+}
+
+bool judge_tell_corner(struct judge *j, const struct exact_found *found)
+{
+  const struct net_point at = corner_point(&found->root);
+  return in_corner(found->borders) && tell_point(j, &at, found->borders);
+}
+
 /* Whether the root is in a corner where the ray starts, exactly: the corner is a root, and so the one that is there. */
 static bool starts_in_corner(const struct judge *j, unsigned borders, const struct exact_root *root)
 {
   struct exact_root corner;
-  const struct net_point at = corner_point(root);
-  return in_corner(borders) && point_root(j, &at, &corner) && root_in_range(j, &corner) == SIDE_OUTSIDE;
+  return judge_corner(j, borders, root, &corner) && root_in_range(j, &corner) == SIDE_OUTSIDE;
 }
 
 void judge_root(struct judge *j, struct exact_root *root)
@@ -291,133 +303,9 @@ void judge_root(struct judge *j, struct exact_root *root)
     /* Nobody can tell whether a ray that starts on the surface meets it, but at a control point. */
     if (!starts_in_corner(j, borders, root)) judge_undecided(j, least_t(root));
   } else if (in_patch == SIDE_INSIDE) {
-    keep_root(j, root);
+    judge_keep(j, root);
   } else if (!list_root(j, root, EXACT_BORDER, borders)) {
     tell_maybe(j, borders, root);
-  }
-}
-
-/* ---- borders ---- */
-
-/* The side of the border's curve, as seen along d, on which the patch lies at `along`: the sign of det(d, tangent,
- * inward), 0 where it is too small a part of what it could be to be sure of. The tangent runs along the border's
- * parameter. */
-static int inner_side(struct model_patch *patch, unsigned border, double along, const double d[3])
-{
-  /* Derivatives are right to some units in the last place of the patch's size 1; the side is sure well above that. */
-  static const double sure = 0x1p-40;
-  const double u = border == 0 ? 0 : border == 1 ? 1 : along, v = border == 2 ? 0 : border == 3 ? 1 : along;
-  const double inward = border == 0 || border == 2 ? 1 : -1;
-  double tangent[3], in[3], normal[3];
-  for (int c = 0; c < 3; c++) {
-    const struct patch_jet jet = patch_evaluate(patch->x[c], u, v);
-    tangent[c] = border < 2 ? jet.dv : jet.du;
-    in[c] = inward * (border < 2 ? jet.du : jet.dv);
-  }
-  vector_cross(tangent, in, normal);
-  const double side = vector_dot(normal, d), least = sure * fabs(d[dominant_axis(d)]);
-  return side > least ? 1 : side < -least ? -1 : 0;
-}
-
-static double along_border(const struct exact_root *root, unsigned border)
-{
-  return (double)(border < 2 ? root->v : root->u);
-}
-
-/* Places on a border that are no farther apart than this are one. A border may come back to a point of its own, where other
- * parts of the patches meet; but if it does so within 2^-50 its tangent there is no longer than second derivatives, 24 a
- * coordinate, times that, and with |inward| at most 6 a coordinate no side of it is sure. */
-#define ONE_PLACE 0x1p-50
-
-/* Ties that may be one hit have one t: next to the ray's start what wide arithmetic leaves open may be more than its last
- * places. */
-#define ONE_T (4 * UNIT_ROUNDOFF)
-
-static bool one_t(const struct exact_root *a, const struct exact_root *b)
-{
-  return judge_tie(a, b) && wide_abs(a->t - b->t) <= ONE_T * wide_abs(a->t);
-}
-
-bool judge_across(const struct judge *j, const struct exact_found *a, const struct exact_found *b)
-{
-  const struct model *model = j->asked->model;
-  const struct exact_root *one = &a->root, *two = &b->root;
-  if (a->borders & (a->borders - 1) || b->borders & (b->borders - 1)) return false; /* a corner */
-  const unsigned here = (unsigned)__builtin_ctz(a->borders), there = (unsigned)__builtin_ctz(b->borders);
-  const struct edge_neighbour *other = &model->neighbours[4 * (size_t)one->patch + here];
-  if (other->patch != two->patch || other->border != there || !one_t(one, two)) return false;
-  const double along = along_border(one, here), along_two = along_border(two, there);
-  if (!(fabs(along - (other->reversed ? 1 - along_two : along_two)) <= ONE_PLACE)) return false;
-  const double *d = j->asked->ray->direction;
-  struct patch_room room[2];
-  const int inner = inner_side(model_patch_at(model, one->patch, &room[0]), here, along, d);
-  const int inner_two = inner_side(model_patch_at(model, two->patch, &room[1]), there, along_two, d);
-  return inner * inner_two * (other->reversed ? -1 : 1) == -1;
-}
-
-static wide within(wide t) { return t < 0 ? 0 : t > 1 ? 1 : t; }
-
-void judge_to_border(struct judge *j, struct exact_found *found)
-{
-  struct exact_root *root = &found->root;
-  const struct net_point corner = corner_point(root);
-  judge_turn(j, root->patch);
-  if (in_corner(found->borders) && point_root(j, &corner, root)) return;
-  root->u = within(root->u), root->v = within(root->v);
-}
-
-void judge_open(struct judge *j, const struct exact_found *border)
-{
-  judge_turn(j, border->root.patch);
-  tell_maybe(j, border->borders, &border->root);
-}
-
-/* Puts the roots, a few, in the order of their patches. */
-static void sort_by_patch(struct exact_list *list)
-{
-  for (size_t k = 1; k < list->count; k++) {
-    const struct exact_found here = list->at[k];
-    size_t n = k;
-    for (; n > 0 && list->at[n - 1].root.patch > here.root.patch; n--) list->at[n] = list->at[n - 1];
-    list->at[n] = here;
-  }
-}
-
-/* Whether the border's root is at one t with the nearest hit, which is certain. */
-static bool at_nearest(struct judge *j, const struct exact_root *root)
-{
-  if (j->rivals == 0 || !judge_tie(root, &j->nearest)) return false;
-  return judge_sharpen(j, &j->nearest) ? one_t(root, &j->nearest) : judge_tie(root, &j->nearest);
-}
-
-/* Whether the ray crosses the surface at the root of j->list[at], on a border: then of the patches that meet there the one
- * that stands first in the scene has it. */
-static bool keep_border(struct judge *j, size_t at)
-{
-  struct exact_found *found = &j->list->at[at];
-  struct exact_root *root = &found->root;
-  for (size_t b = 0; b < j->list->count; b++) {
-    if (b == at || !judge_across(j, found, &j->list->at[b])) continue;
-    if (root->patch > j->list->at[b].root.patch) return true;
-    root->u = within(root->u), root->v = within(root->v);
-    keep_root(j, root);
-    return true;
-  }
-  judge_turn(j, root->patch);
-  const struct net_point corner = corner_point(root);
-  return in_corner(found->borders) && tell_point(j, &corner, found->borders);
-}
-
-/* Roots on borders that something certain is next to are hits; the others may be. A corner belongs to the first of its
- * patches, and so does a border that lies on another surface. */
-static void settle_borders(struct judge *j)
-{
-  sort_by_patch(j->list);
-  for (size_t a = 0; a < j->list->count; a++) {
-    struct exact_root *root = &j->list->at[a].root;
-    const bool beside = at_nearest(j, root);
-    if (beside && !(judge_stands_before(root, &j->nearest) && judge_tie_fine(j, root, &j->nearest))) continue;
-    if (!keep_border(j, a) && !beside) judge_open(j, &j->list->at[a]);
   }
 }
 
@@ -447,7 +335,7 @@ static void nearest_run(struct judge *j, const struct exact_case *asked)
   struct exact_found borders[JUDGE_BORDERS_MAX];
   struct exact_list list = {.at = borders, .room = JUDGE_BORDERS_MAX, .fixed = true};
   judge_run(j, asked, false, &list);
-  settle_borders(j);
+  judge_settle_borders(j);
 }
 
 void exact_closest(const struct exact_case *asked, struct exact_decision *out)

@@ -123,10 +123,25 @@ bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct ex
  * itself. */
 bool judge_stands_before(const struct exact_root *a, const struct exact_root *b);
 
+/* A root that counts: the nearest, or of those that are not proven to be behind another one the first. Of three each may be
+ * at one t with the next, and the first before the last. Where all hits are asked for it is put on the list. */
+void judge_keep(struct judge *j, struct exact_root *root);
+
 /* ---- roots on borders, of j->list ---- */
 
-/* Whether the two roots, each on one border of its patch, are on the same border, and the patches lie on either side of
- * it as the ray sees them: then it crosses the surface there. */
+/* borders.c: of the nearest hit. Those that something certain is next to are hits; the others may be. A corner belongs to
+ * the first of its patches, and so does a border that lies on another surface. */
+void judge_settle_borders(struct judge *j);
+
+/* Whether the root, on these borders, is in a corner that the ray meets exactly: *out is the root there then, and may be the
+ * same. The judge has turned to its patch. */
+bool judge_corner(const struct judge *j, unsigned borders, const struct exact_root *root, struct exact_root *out);
+
+/* The same of a root that was found, which is told of then. */
+bool judge_tell_corner(struct judge *j, const struct exact_found *found);
+
+/* borders.c: whether the two roots, each on one border of its patch, are on the same border, and the patches lie on either
+ * side of it as the ray sees them: then it crosses the surface there. */
 bool judge_across(const struct judge *j, const struct exact_found *a, const struct exact_found *b);
 
 /* star.c: the roots of j->list[first..end-1] that lie in one corner of patches, or at one pole, together with `at`, as
@@ -139,8 +154,8 @@ size_t judge_star(struct judge *j, size_t at, size_t first, size_t end, size_t o
  * that. */
 bool judge_passes(const struct ray *ray, const double point[3]);
 
-/* Takes the root to where it is on its patch's borders, and to the control point in a corner that the ray meets. Turns to
- * that patch. */
+/* borders.c: takes the root to where it is on its patch's borders, and to the control point in a corner that the ray meets.
+ * Turns to that patch. */
 void judge_to_border(struct judge *j, struct exact_found *found);
 
 /* Tells of the border's root as of what may be a hit. Turns to its patch. */

@@ -1,0 +1,280 @@
+/* From patches to the hierarchy: each patch is cut, its leaves are made, their boxes are put in order.
+ *
+ * Threads of a team take parts of the patches, one after the other, first to cut them, then, once it is known where each
+ * one's leaves begin, to make these. What they make are the same bits however many they are.
+ */
+#include "intersect/prepare/hierarchy.h"
+
+#include <assert.h>
+#include <stdatomic.h>
+
+#include "base/memory.h"
+#include "intersect/prepare/copies.h"
+#include "intersect/prepare/leaf.h"
+#include "intersect/prepare/patch.h"
+#include "intersect/prepare/tree.h"
+
+/* What threads take at once is this part of the patches. */
+enum { PARTS = 1024 };
+
+/* Patches and their leaves while they are made. */
+struct making {
+  struct model *model;
+  const struct team *team;
+  struct split_limit limit;
+  bool keep;               /* patches, and leaves; else they are only looked at */
+  struct arena **arenas;   /* one a thread: of what is kept */
+  size_t part, part_count; /* patches in a part */
+  size_t *leaves;          /* in each part; then before it */
+  struct bvh_box *boxes;   /* where leaves are not kept, as much room as boxes along them take */
+  atomic_size_t taken;     /* parts */
+};
+
+/* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
+static bool take_part(struct making *m, size_t *number, size_t *begin, size_t *end)
+{
+  *number = atomic_fetch_add(&m->taken, 1);
+  const size_t count = m->model->scene->patch_count;
+  *begin = *number * m->part, *end = count - *begin < m->part ? count : *begin + m->part;
+  return *number < m->part_count;
+}
+
+/* Has all parts done, by the team where there are so many patches or leaves that it is worth it. */
+static enum status do_parts(struct making *m, team_work *work, size_t count)
+{
+  atomic_store(&m->taken, 0);
+  return team_run(count < TEAM_LEAST ? NULL : m->team, m->part_count, work, m);
+}
+
+/* The next room for what not every patch or leaf has: *room, or new where that has been used. */
+static bool next_room(struct arena *arena, void **room, size_t size)
+{
+  if (!*room) *room = arena_alloc(arena, 1, size);
+  return *room != NULL;
+}
+
+/* ---- patches ---- */
+
+/* Patches, how far each is cut, and how many leaves there are. */
+static enum status make_patches(void *context, size_t worker)
+{
+  struct making *m = context;
+  struct model *model = m->model;
+  void *rest = NULL;
+  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+    for (; p < end; p++) {
+      struct patch_room room;
+      struct model_patch *patch = m->keep ? &model->patches[p] : &room.patch;
+      const struct model_cut *cut = &model->cuts[p];
+      if (cut->copied && !m->keep) continue;
+      if (m->keep && !next_room(m->arenas[worker], &rest, sizeof room.rest)) return STATUS_LIMIT;
+      patch_make_first(model, (uint32_t)p, &m->limit, patch, m->keep ? rest : room.rest);
+      if ((const void *)patch->rest == rest) rest = NULL;
+      if (!cut->copied) m->leaves[part] += (size_t)cut->split[0] * cut->split[1];
+    }
+  }
+  return STATUS_OK;
+}
+
+static enum status cut_patches(struct making *m)
+{
+  struct model *model = m->model;
+  const size_t count = model->scene->patch_count;
+  m->part = count / PARTS + 1, m->part_count = (count + m->part - 1) / m->part;
+  m->leaves = memory_alloc(m->part_count, sizeof *m->leaves);
+  m->arenas = memory_alloc(team_count(m->team), sizeof *m->arenas);
+  if (!m->leaves || !m->arenas) return STATUS_LIMIT;
+  for (size_t k = 0; k < team_count(m->team); k++)
+    if ((m->arenas[k] = arena_create()) == NULL) return STATUS_LIMIT;
+  if (m->keep) model->patches = arena_alloc(m->arenas[0], count + 1, sizeof *model->patches);
+  if (m->keep && !model->patches) return STATUS_LIMIT;
+  const enum status status = do_parts(m, make_patches, count);
+  for (size_t k = 0; k < m->part_count; k++) {
+    const size_t here = m->leaves[k];
+    m->leaves[k] = model->leaf_count;
+    model->leaf_count += here;
+  }
+  return status;
+}
+
+/* ---- leaves ---- */
+
+/* Leaves of one patch that are made one after the other without a look at anything else. */
+enum { LEAVES_AT_ONCE = 32 };
+
+struct leaf_run {
+  size_t first, count; /* of the patch's leaves */
+  uint16_t column[LEAVES_AT_ONCE][2];
+};
+
+/* The leaves that follow the run's, which is {0} at first; false where there are none. */
+static bool next_run(const struct model_patch *patch, struct leaf_run *run)
+{
+  const size_t row = (size_t)patch->split[1], all = (size_t)patch->split[0] * row;
+  run->first += run->count;
+  run->count = all - run->first < LEAVES_AT_ONCE ? all - run->first : LEAVES_AT_ONCE;
+  for (size_t k = 0; k < run->count; k++)
+    run->column[k][0] = (uint16_t)((run->first + k) / row), run->column[k][1] = (uint16_t)((run->first + k) % row);
+  return run->count > 0;
+}
+
+/* Leaves that are kept: from number l on those of patch p. */
+static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, size_t l, void **form)
+{
+  struct model *model = m->model;
+  const struct model_patch *patch = &model->patches[p];
+  for (struct leaf_run run = {0}; next_run(patch, &run);) {
+    leaves_make(patch, (uint32_t)p, (uint32_t)run.first, run.count, &model->leaves[l]);
+    for (size_t k = 0; k < run.count; k++, l++) {
+      struct leaf *leaf = &model->leaves[l];
+      if (!next_room(arena, form, sizeof *leaf->form)) return STATUS_LIMIT;
+      leaf_set_form(patch, leaf, *form);
+      if (leaf->form) *form = NULL;
+      leaf_box(model, patch, leaf->x, &m->boxes[l]);
+      leaf_orient(&model->tree, model->error, patch, leaf->slab, &model->oriented[l]);
+    }
+  }
+  return STATUS_OK;
+}
+
+/* Of leaves that are not kept: only where they are, and their boxes. */
+static void place_leaves(struct making *m, size_t p, size_t l)
+{
+  struct model *model = m->model;
+  struct patch_room room;
+  const struct model_patch *patch = &room.patch;
+  patch_make(model, (uint32_t)p, &room.patch, room.rest);
+  const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, 0};
+  for (struct leaf_run run = {0}; next_run(patch, &run);) {
+    struct patch_part part[LEAVES_AT_ONCE];
+    patch_parts(patch, &grid, run.count, (const uint16_t(*)[2])run.column, part);
+    for (size_t k = 0; k < run.count; k++, l++) {
+      model->places[l] = (struct leaf_place){(uint32_t)p, run.column[k][0], run.column[k][1]};
+      leaf_box(model, patch, part[k].x, &m->boxes[l]);
+    }
+  }
+}
+
+/* The boxes along them. */
+static void orient_leaves(struct making *m, size_t p, size_t l)
+{
+  const struct model *model = m->model;
+  struct patch_room room;
+  const struct model_patch *patch = &room.patch;
+  patch_make(model, (uint32_t)p, &room.patch, room.rest);
+  for (struct leaf_run run = {0}; next_run(patch, &run);) {
+    struct leaf_slab slab[LEAVES_AT_ONCE][3];
+    leaf_slabs(patch, run.count, (const uint16_t(*)[2])run.column, slab);
+    for (size_t k = 0; k < run.count; k++, l++)
+      leaf_orient(&model->tree, model->error, patch, slab[k], &model->oriented[l]);
+  }
+}
+
+/* The leaves of all patches, from where they begin on; where they are not kept first their boxes for the hierarchy, and once
+ * that is built, so that model->oriented has its room, those along them. */
+static enum status make_leaves(void *context, size_t worker)
+{
+  struct making *m = context;
+  void *form = NULL;
+  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+    for (size_t l = m->leaves[part]; p < end; p++) {
+      const struct model_cut *cut = &m->model->cuts[p];
+      if (cut->copied) continue;
+      if (!m->keep && m->model->oriented) orient_leaves(m, p, l);
+      else if (!m->keep) place_leaves(m, p, l);
+      else if (keep_leaves(m, m->arenas[worker], p, l, &form) != STATUS_OK) return STATUS_LIMIT;
+      l += (size_t)cut->split[0] * cut->split[1];
+    }
+  }
+  return STATUS_OK;
+}
+
+/* Where boxes along leaves begin, each in one line of the caches, in room for one more. */
+static struct oriented_box *oriented_in(struct model *model, void *room)
+{
+  enum { LINE = sizeof(struct oriented_box) };
+  memory_used_anywhere(room, (model->leaf_count + 1) * LINE);
+  return (struct oriented_box *)(void *)((char *)room + (LINE - (uintptr_t)room % LINE) % LINE);
+}
+
+/* Room for leaves that are kept and their boxes, in huge pages; or for the places of others. */
+static bool make_room(struct making *m)
+{
+  struct model *model = m->model;
+  const size_t count = model->leaf_count + 1;
+  m->boxes = memory_alloc(count + model->copy_count, m->keep ? sizeof *m->boxes : sizeof *model->oriented);
+  if (!m->boxes) return false;
+  if (!m->keep) {
+    model->places = arena_alloc(model->arena, model->leaf_count, sizeof *model->places);
+    return model->places;
+  }
+  model->leaves = arena_alloc(model->arena, count, sizeof *model->leaves);
+  void *oriented = arena_alloc(model->arena, count, sizeof *model->oriented);
+  if (!model->leaves || !oriented) return false;
+  memory_used_anywhere(model->leaves, count * sizeof *model->leaves);
+  model->oriented = oriented_in(model, oriented);
+  return true;
+}
+
+/* ---- the hierarchy ---- */
+
+/* Boxes of trees in the tree are in these trees' frames. */
+static void orient_inner(struct model *model)
+{
+  for (const struct model_tree *tree = model->tree.inner; tree; tree = tree->inner) {
+    for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
+      const uint32_t child = tree->bvh.nodes[n / BVH_WIDTH].child[n % BVH_WIDTH], box = child & ~(uint32_t)BVH_LEAF;
+      if (child == box || box >= model->leaf_count) continue;
+      struct leaf_room room;
+      if (!model->leaves) model_make_leaf(model, box, &room);
+      const struct leaf *leaf = model->leaves ? &model->leaves[box] : &room.leaf;
+      const struct model_patch *patch = model->leaves ? &model->patches[leaf->patch] : &room.of.patch;
+      leaf_orient(tree, model->error, patch, leaf->slab, &model->oriented[box]);
+    }
+  }
+}
+
+/* The boxes along leaves that are not known yet. Where leaves are not kept they take the place of those that the hierarchy was
+ * built from, and has used up: there would not be room for both. */
+static enum status orient(struct making *m)
+{
+  struct model *model = m->model;
+  enum status status = STATUS_OK;
+  if (!m->keep) {
+    static_assert(sizeof *m->boxes <= sizeof *model->oriented, "room for these");
+    model->oriented_room = m->boxes, m->boxes = NULL;
+    model->oriented = oriented_in(model, model->oriented_room);
+    status = do_parts(m, make_leaves, model->leaf_count);
+  }
+  if (status == STATUS_OK) orient_inner(model);
+  return status;
+}
+
+/* What has been made is the model's, where it is kept. */
+static void end_making(struct making *m)
+{
+  for (size_t k = 0; m->arenas && k < team_count(m->team); k++)
+    if (m->keep) arena_join(m->model->arena, m->arenas[k]);
+    else arena_destroy(m->arenas[k]);
+  memory_free(m->arenas);
+  memory_free(m->leaves);
+  memory_free(m->boxes);
+}
+
+enum status hierarchy_make(struct model *model, const struct team *team, const struct split_limit *limit, bool keep,
+                           size_t keep_most)
+{
+  struct making m = {.model = model, .team = team, .limit = *limit, .keep = keep};
+  enum status status = cut_patches(&m);
+  if (status != STATUS_OK) goto done;
+  if (model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
+  status = make_room(&m) ? do_parts(&m, make_leaves, model->leaf_count) : STATUS_LIMIT;
+  if (status != STATUS_OK) goto done;
+  /* copies are behind the leaves */
+  for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m.boxes[model->leaf_count + c]);
+  status = tree_build(model->arena, m.boxes, model->leaf_count + model->copy_count, team, &model->tree);
+  if (status == STATUS_OK) status = orient(&m);
+done:
+  end_making(&m);
+  return status;
+}
