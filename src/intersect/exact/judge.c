@@ -23,15 +23,15 @@ void judge_turn(struct judge *j, uint32_t patch)
 {
   if (j->patch == patch) return;
   j->patch = patch, j->zoomed = false;
-  j->is = model_patch_at(j->asked->model, patch, &j->room);
-  local_ray_make(j->is, j->asked->ray, &j->local);
+  j->prepared = model_patch_at(j->asked->model, patch, &j->room);
+  local_ray_make(j->prepared, j->asked->ray, &j->local);
 }
 
 struct zoom *judge_zoom(struct judge *j)
 {
   double(*P)[4][3] = j->asked->model->scene->patches[j->patch].P;
   if (j->zoomed) return &j->zoom;
-  zoom_start(j->is, P, j->asked->ray, &j->zoom);
+  zoom_start(j->prepared, P, j->asked->ray, &j->zoom);
   judge_spend(j, WORK_ZOOM_START);
   j->zoomed = true;
   return &j->zoom;
@@ -41,13 +41,13 @@ struct zoom *judge_zoom(struct judge *j)
 
 enum side { SIDE_OUTSIDE, SIDE_INSIDE, SIDE_UNKNOWN };
 
-/* Of x within error against a border at 0, inside above. */
+/* On which side of a border at 0 x is, known to within `error`; inside is above. */
 static enum side side_of(wide x, double error)
 {
   return x > error ? SIDE_INSIDE : x < -error ? SIDE_OUTSIDE : SIDE_UNKNOWN;
 }
 
-/* Farther from a border than this all doubles are. */
+/* A root farther from a border than this, and its radius, is on the same side when it is rounded to double. */
 #define CLEARLY 0x1p-40
 
 /* Of the root in its patch; *borders: those that it cannot be told from. */
@@ -96,7 +96,7 @@ static bool list_root(struct judge *j, const struct exact_root *root, enum exact
   return exact_list_add(j->list, &found);
 }
 
-/* Where it can be, at least and at most. */
+/* The least and the largest t that the root can have. */
 static double least_t(const struct exact_root *root)
 {
   const wide t = root->t - root->t_error;
@@ -109,7 +109,7 @@ static double most_t(const struct exact_root *root)
   return (double)t < t ? nextafter((double)t, INFINITY) : (double)t;
 }
 
-/* Each by itself where it can be, for one that stays as it is may still be told from the other. */
+/* Makes the root sharp where that can be done; else it stays as it is, and may still be told from another. */
 static void sharpen(struct judge *j, struct exact_root *root)
 {
   struct exact_root sharp = *root;
@@ -180,7 +180,7 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double 
 static void tell_maybe(struct judge *j, unsigned borders, const struct exact_root *root)
 {
   const double u = real_min(real_max((double)root->u, 0), 1), v = real_min(real_max((double)root->v, 0), 1);
-  const double w = patch_evaluate(j->is->x[j->local.axis], u, v).value;
+  const double w = patch_evaluate(j->prepared->x[j->local.axis], u, v).value;
   double t = (double)root->t, t_error = root->t_error;
   if (!root->sharp) {
     t = t_of_depth(&j->local.depth, w);
@@ -242,7 +242,7 @@ static bool point_root(const struct judge *j, const struct net_point *at, struct
   return true;
 }
 
-/* The same, which is told: it lies on those borders. */
+/* Tells of that root, which lies on those borders, if there is one; whether there is. */
 static bool tell_point(struct judge *j, const struct net_point *at, unsigned borders)
 {
   struct exact_root root;
@@ -259,7 +259,7 @@ bool judge_pole(struct judge *j, int border, double reach)
   const struct net_point at = pole_point(border);
   if (tell_point(j, &at, 1u << border)) return true;
   const struct zoom *zoom = judge_zoom(j);
-  const double t = (double)((j->is->x[zoom->axis][at.row][at.column] - zoom->origin) * zoom->to_t);
+  const double t = (double)((j->prepared->x[zoom->axis][at.row][at.column] - zoom->origin) * zoom->to_t);
   const double t_error = 16 * UNIT_ROUNDOFF * fabs(t) + ZOOM_POLE_REACH * zoom->depth_error * fabs((double)zoom->to_t);
   const struct exact_maybe maybe = {j->patch, 1u << border, at.u, at.v, t, t_error};
   keep_maybe(j, &maybe, t - t_error - reach);

@@ -51,7 +51,7 @@ struct judge {
   size_t open;  /* places in `list` that may be hits, where all hits are asked for */
   /* of the patch looked at last */
   uint32_t patch;
-  struct model_patch *is;
+  struct model_patch *prepared; /* in `room` where the model does not keep it */
   struct patch_room room;
   bool zoomed; /* `zoom` is set */
   struct zoom zoom;
@@ -82,7 +82,7 @@ void search_region(struct judge *j, const struct exact_region *region);
 /* search.c: where along the ray the region begins, or less. */
 double search_near(struct judge *j, const struct exact_region *region);
 
-/* Turns to the patch: is, room and local are of it from here on. */
+/* Turns to the patch: prepared, room and local are of it from here on. */
 void judge_turn(struct judge *j, uint32_t patch);
 
 /* The ray through the patch that it has turned to, under the glass. */

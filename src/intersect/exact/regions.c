@@ -1,5 +1,5 @@
-/* The regions that a ray leaves open: each is searched once, along poles all of the strip, and many of one patch as one;
- * in what order, and with how much work. */
+/* The regions that a ray leaves open: in what order they are searched, and with how much work. A region at a pole is widened
+ * to the strip along it, and many regions of one patch are searched as one. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,7 +14,7 @@ static bool passes_near(struct judge *j, uint32_t patch, int border)
 {
   judge_turn(j, patch);
   const struct local_ray *ray = &j->local;
-  double(*x)[4][4] = j->is->x;
+  double(*x)[4][4] = j->prepared->x;
   const int row = edge_at(border, 0) / 4, column = edge_at(border, 0) % 4;
   for (int s = 0; s < 2; s++) {
     const double side = x[(ray->axis + 1 + s) % 3][row][column] - ray->moment[s];
@@ -86,8 +86,8 @@ size_t exact_regions_merge(struct exact_region regions[], size_t count, size_t m
  * double precision tells nothing of it. A choice of speed. */
 enum { REGIONS_APART = 8 };
 
-/* Work that the regions have for themselves besides what is shared, one as much as another but no more than so much: so
- * one that the ray lies in leaves others decided. All in all that is less than a millisecond. */
+/* Work that is set apart for regions by themselves, the same for each and no more than REGION_WORK: so one that the ray lies
+ * in does not leave the others undecided. All of it is less than a millisecond. */
 enum { APART_WORK = 1536, REGION_WORK = 512 };
 
 /* With less than this a region is not begun: a root and what comes next to it at one t, made sharp. */
@@ -109,8 +109,8 @@ static int by_distance(const void *a, const void *b)
   return a_column[1] < b_column[1] ? -1 : a_column[1] > b_column[1];
 }
 
-/* With its share of the work that is apart, and with all that is shared unless something may be a hit; what it leaves of
- * its share is the next ones'. left: how many regions there are from this one on. */
+/* Searches the region with its share of the work that is set apart, and with all that is shared unless something may be a
+ * hit. What it leaves of its share is for the next ones. left: how many regions there are from this one on. */
 static void search(struct judge *j, const struct exact_region *region, size_t left)
 {
   const int part = (int)((size_t)j->apart / left), own = part < REGION_WORK ? part : REGION_WORK;

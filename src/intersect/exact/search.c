@@ -226,7 +226,7 @@ static bool is_leaf(const struct model *model, const struct exact_region *region
 /* The search of a region, and its whole box. */
 static void search_begin(struct judge *j, const struct exact_region *region, struct search *s, struct box *whole)
 {
-  struct model_patch *patch = j->is;
+  struct model_patch *patch = j->prepared;
   const struct local_ray *ray = &j->local;
   struct patch_part part;
   if (region->leaf) {

@@ -7,7 +7,7 @@
 #include "geometry/patch.h"
 #include "intersect/point.h"
 
-/* The quotient; without the dear division where it is a double. */
+/* columns/split, without the slow division where a double has it exactly. */
 static wide part_of(int columns, int split)
 {
   return (split & (split - 1)) == 0 ? (wide)((double)columns / split) : (wide)columns / split;
@@ -17,8 +17,8 @@ struct window window_of_region(struct judge *j, const struct exact_region *regio
 {
   struct window window = {.judge = j, .depth = j->local.depth, .depth_error = PLANE_ERROR(0, 0)};
   for (int k = 0; k < 2; k++)
-    window.low[k] = part_of(region->column[k], j->is->split[k]),
-    window.size[k] = part_of(region->span[k], j->is->split[k]);
+    window.low[k] = part_of(region->column[k], j->prepared->split[k]),
+    window.size[k] = part_of(region->span[k], j->prepared->split[k]);
   return window;
 }
 

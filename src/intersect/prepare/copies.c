@@ -34,11 +34,9 @@ static struct middle object_middle(const struct scene_object *object)
 {
   struct middle m = {{0}, 0};
   double lo[3], hi[3];
+  bounds_empty(lo, hi);
+  for (size_t p = 0; p < object->patch_count; p++) bounds_add(object->P[p], lo, hi);
   for (int k = 0; k < 3; k++) {
-    lo[k] = INFINITY, hi[k] = -INFINITY;
-    for (size_t p = 0; p < object->patch_count; p++)
-      for (int n = 0; n < 16; n++)
-        lo[k] = real_min(lo[k], object->P[p][n / 4][n % 4][k]), hi[k] = real_max(hi[k], object->P[p][n / 4][n % 4][k]);
     m.center[k] = lo[k] / 2 + hi[k] / 2;
     m.reach = real_max(m.reach, hi[k] / 2 - lo[k] / 2);
   }
@@ -65,7 +63,7 @@ static bool invert(double A[3][3], double W[3][3])
   return finite;
 }
 
-/* How far the copy's control points are carried past the object's. */
+/* How far from the object's control points the map carries the copy's. */
 static double copy_map_excess(const struct copy_map *c, const struct model *model, const struct scene_object *object,
                               const struct middle *m)
 {
@@ -83,8 +81,8 @@ static double copy_map_excess(const struct copy_map *c, const struct model *mode
   return off;
 }
 
-/* The map of a copy, and its error in the object's coordinates: how far the copy's control points are carried past
- * the object's, the rounding of finding that out, and that of a ray near the object (copy.c): of its origin, which
+/* The map of a copy, and its error in the object's coordinates: how far from the object's control points it
+ * carries the copy's, the rounding of finding that out, and that of a ray near the object (copy.c): of its origin, which
  * is moved to where the ray passes the middle of the copy, and of its direction on the way from there through the
  * object. */
 static void copy_map_make(struct copy_map *c, const struct model *model, const struct scene_object *object,
@@ -173,7 +171,8 @@ enum status copies_choose(struct model *model, size_t *own)
   return STATUS_OK;
 }
 
-/* Marks what of a copy lies on earlier patches: all of it, or those of the object's that do wherever it is copied. */
+/* Marks what lies on earlier patches: this copy where all of it does, and of the object's patches those that do in every
+ * copy. */
 static enum status mark_twins_of_copy(const struct model *model, struct model_copy *copy)
 {
   struct model *of = copy->object->model;
@@ -224,14 +223,13 @@ enum status copies_prepare(struct model *model, const struct team *team, const s
 
 void copy_box(const struct model *model, const struct model_copy *copy, struct bvh_box *out)
 {
+  double lo[3], hi[3];
+  bounds_empty(lo, hi);
+  for (size_t p = 0; p < copy->object->declared->patch_count; p++)
+    bounds_add(model->scene->patches[copy->first_patch + p].P, lo, hi);
   for (int k = 0; k < 3; k++) {
-    double lo = INFINITY, hi = -INFINITY;
-    for (size_t p = 0; p < copy->object->declared->patch_count; p++) {
-      double(*P)[4][3] = model->scene->patches[copy->first_patch + p].P;
-      for (int n = 0; n < 16; n++) lo = real_min(lo, P[n / 4][n % 4][k]), hi = real_max(hi, P[n / 4][n % 4][k]);
-    }
-    const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo), fabs(hi)) + fabs(model->tree.origin[k]));
-    out->lo[k] = (lo - model->tree.origin[k] - slack) / model->tree.frame;
-    out->hi[k] = (hi - model->tree.origin[k] + slack) / model->tree.frame;
+    const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo[k]), fabs(hi[k])) + fabs(model->tree.origin[k]));
+    out->lo[k] = (lo[k] - model->tree.origin[k] - slack) / model->tree.frame;
+    out->hi[k] = (hi[k] - model->tree.origin[k] + slack) / model->tree.frame;
   }
 }

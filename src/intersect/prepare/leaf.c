@@ -13,7 +13,7 @@
  * each in either direction on values below one). Used for the boxes. */
 #define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
 
-/* As narrow as they may be: wide registers with nothing in most lanes take longer. */
+/* The narrowest that has room for so many: wide registers with most lanes empty take longer. */
 static const struct leaf_kernel *kernel_for(size_t count)
 {
 #if defined(PSCN_HAS_AVX512)
@@ -111,8 +111,7 @@ void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct le
 
 static bool is_bent(const struct leaf *leaf)
 {
-  const double turn = (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]) / 2;
-  return !(turn <= BENT_TURN * real_min(leaf->first[0], leaf->first[1]));
+  return !(turn_of(leaf->second) <= BENT_TURN * real_min(leaf->first[0], leaf->first[1]));
 }
 
 void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[])
@@ -127,7 +126,7 @@ void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first
   for (size_t k = 0; k < count; k++) leaves[k].bent = is_bent(&leaves[k]);
 }
 
-/* Rounded to floats, and as what they are compared with is: see view.h. */
+/* What rounding `half` to a float, and what it is compared with, may do: see lanes/view.h. */
 #define HALF_GROWTH (1 + 0x1p-20)
 
 void leaf_orient(const struct model_tree *tree, double error, const struct model_patch *patch,

@@ -33,6 +33,9 @@ struct patch_part {
   double first[2], second[3]; /* |Su|, |Sv|; |Suu|, |Suv|, |Svv| */
 };
 
+/* How much the derivatives of a part or a leaf turn from its middle to its ends, by its bounds on second ones. */
+static inline double turn_of(const double second[3]) { return (second[0] + 2 * second[1] + second[2]) / 2; }
+
 /* The parts from these columns on. Of the patch only net and rest are asked for. */
 void patch_parts(const struct model_patch *patch, const struct part_grid *grid, size_t count,
                  const uint16_t column[][2], struct patch_part out[]);

@@ -44,12 +44,9 @@ static void set_frame(struct model *model)
 {
   const struct scene *scene = model->scene;
   double lo[3] = {0}, hi[3] = {0};
-  for (int k = 0; k < 3 && scene->patch_count > 0; k++) lo[k] = hi[k] = scene->patches[0].P[0][0][k];
+  if (scene->patch_count > 0) bounds_empty(lo, hi);
   for (size_t p = 0; p < scene->patch_count; p++) {
-    for (int n = 0; n < 16; n++) {
-      const double *c = scene->patches[p].P[n / 4][n % 4];
-      for (int k = 0; k < 3; k++) lo[k] = real_min(lo[k], c[k]), hi[k] = real_max(hi[k], c[k]);
-    }
+    bounds_add(scene->patches[p].P, lo, hi);
     model->unproven |= !scene->solvers[scene->patches[p].solver].polish;
   }
   for (int k = 0; k < 3; k++) model->size = real_max(model->size, real_max(fabs(lo[k]), fabs(hi[k])));

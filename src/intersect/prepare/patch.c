@@ -16,8 +16,8 @@
  * of that degree. */
 #define DEGREE_SLACK (8 * UNIT_ROUNDOFF)
 
-/* A patch this many times as long as wide is slender, up to what so many leaves along it can make good, whose number
- * goes with the root of that. What lies in the plane of a ray must not be more than exact.h has room for. */
+/* A patch this many times as long as wide is slender, and up to SLENDER_MOST times: it takes the root of that many leaves along
+ * it to make it good. All of them may lie in the plane of a ray, and exact.h must have room for them. */
 #define SLENDER 16.0
 #define SLENDER_MOST ((double)SLENDER_SPLIT_MAX * SLENDER_SPLIT_MAX)
 enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
@@ -25,14 +25,14 @@ enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 /* A patch's frame is no smaller than this, so that its reciprocal and all products with it are normal numbers. */
 #define LEAST_SCALE 0x1p-1000
 
-/* Writes all but the rest, and that to where it may stay; *rounded: whether there is any. Returns the largest
- * |coordinate|. */
+/* The patch in its frame; `rest` gets what rounding its net takes away, *rounded whether that is anything. Returns the
+ * largest |coordinate| in the scene. */
 static double patch_frame(double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4],
                           bool *rounded)
 {
   double largest = 0;
   double extent = scene_size > 0 ? real_max(LEAST_EXTENT * scene_size, LEAST_SCALE) : 0, lo[3], hi[3];
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < 3; k++) { /* as bounds_add does, which takes longer here, and rays wait for this, too */
     lo[k] = INFINITY, hi[k] = -INFINITY;
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) lo[k] = real_min(lo[k], P[i][j][k]), hi[k] = real_max(hi[k], P[i][j][k]);
@@ -43,7 +43,7 @@ static double patch_frame(double P[4][4][3], double scene_size, struct model_pat
   int exponent = 0;                             /* all of the scene is the origin: any scale will do */
   if (extent > 0) frexp(extent, &exponent);     /* extent < 2^exponent */
   out->scale = real_power_of_two(exponent + 1); /* the center may be a grain off the middle */
-  const double unit = 1 / out->scale;           /* a power of two: so are products quotients */
+  const double unit = 1 / out->scale;           /* a power of two, so that products with it are exact */
   for (int k = 0; k < 3; k++) {
     const double middle = lo[k] / 2 + hi[k] / 2, grain = out->scale / 4;
     out->center[k] = fabs(middle) < grain * 0x1p50 ? real_coarse(middle, grain) : middle;
@@ -56,16 +56,10 @@ static double patch_frame(double P[4][4][3], double scene_size, struct model_pat
   return largest;
 }
 
-/* Whether nearly all leaves of a patch that is cut so far turn by more than `turn`, as parts of it tell. Where only some
- * do, still more leaves cost all rays more than they save those. Choices of speed. */
+/* Whether nearly all leaves of a patch that is cut into `split` a side turn by more than `turn`, as some larger parts of it
+ * tell. Where only some do, more leaves cost all rays more than they save those that meet these. Choices of speed. */
 enum { PARTS_MOST = 8 };
 #define NEARLY_ALL 0.84
-
-/* Half of how much its derivatives turn, of the size of the bounds. */
-static double turn_of(const struct patch_part *part)
-{
-  return (part->second[0] + 2 * part->second[1] + part->second[2]) / 2;
-}
 
 static bool turns_far(const struct model_patch *patch, double turn, int split)
 {
@@ -77,19 +71,19 @@ static bool turns_far(const struct model_patch *patch, double turn, int split)
   patch_parts(patch, &grid, (size_t)all, (const uint16_t(*)[2])column, part);
   int far = 0;
   for (int n = 0; n < all; n++)
-    far += turn_of(&part[n]) * parts > turn * split * real_max(part[n].first[0], part[n].first[1]);
+    far += turn_of(part[n].second) * parts > turn * split * real_max(part[n].first[0], part[n].first[1]);
   return far > NEARLY_ALL * all;
 }
 
-/* How many leaves make every leaf nearly flat: second derivatives fall with the square, first ones with one over it. A
- * slender patch is cut along its long side only, for only that bends, until its leaves turn as little as the short side
- * wants or are no longer slender. */
+/* How many leaves make every leaf nearly flat: second derivatives fall with the square of that number, first ones with the
+ * number. A slender patch is cut along its long side only, for only that bends, until its leaves turn as little as the short
+ * side wants or are no longer slender. */
 static void auto_split(const struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
 {
   const struct part_grid grid = {{1, 1}, {1, 1}, 0};
   struct patch_part whole;
   patch_parts(patch, &grid, 1, (const uint16_t[1][2]){{0, 0}}, &whole);
-  const double turn = turn_of(&whole);
+  const double turn = turn_of(whole.second);
   const int side = whole.first[1] > whole.first[0];
   const double along = whole.first[side], across = whole.first[1 - side], bend = whole.second[2 * side];
   split[0] = split[1] = 1;

@@ -5,11 +5,29 @@
 #ifndef PSCN_INTERSECT_PREPARE_PATCH_H
 #define PSCN_INTERSECT_PREPARE_PATCH_H
 
+#include <math.h>
+
+#include "base/real.h"
 #include "intersect/model.h"
 
 /* A patch smaller than this part of the scene's coordinates is framed as if it were that large: one that is a single
  * point has no size of its own, and a frame too small would overflow. */
 #define LEAST_EXTENT 0x1p-100
+
+/* lo[k] ... hi[k] become nothing, along each axis, ... */
+static inline void bounds_empty(double lo[3], double hi[3])
+{
+  for (int k = 0; k < 3; k++) lo[k] = INFINITY, hi[k] = -INFINITY;
+}
+
+/* ... and are widened to a patch's control points. */
+static inline void bounds_add(double P[4][4][3], double lo[3], double hi[3])
+{
+  for (int n = 0; n < 16; n++) {
+    const double *c = P[n / 4][n % 4];
+    for (int k = 0; k < 3; k++) lo[k] = real_min(lo[k], c[k]), hi[k] = real_max(hi[k], c[k]);
+  }
+}
 
 /* Whether patches with this method are tried on lanes of rays at once. */
 bool patch_on_lanes(const struct method *method);

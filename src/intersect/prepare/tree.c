@@ -32,7 +32,7 @@ static size_t set_apart(const struct bvh_box boxes[], uint32_t index[], size_t c
   return large > 0 && count - large > 1 && box_extent(hull) <= SMALL_PART * frame ? large : count;
 }
 
-/* The box in the frame, and what its own rounding in the whole one may be. */
+/* The box in that frame, wider by what rounding it in the frame of the whole may have done. */
 static struct bvh_box framed(const struct bvh_box *box, const double middle[3], double frame)
 {
   struct bvh_box out;
@@ -63,7 +63,7 @@ struct building {
   const struct team *team;
 };
 
-/* A tree of those boxes about `middle`, of size `frame`, both in the frame of the whole. */
+/* A tree of boxes[index[0..count-1]] in a frame about `middle`, of size `frame`, both in the frame of the whole. */
 static enum status build(const struct building *b, uint32_t index[], size_t count, const double middle[3], double frame,
                          struct model_tree *out)
 {
