@@ -11,10 +11,11 @@
 
 #include "base/real.h"
 
-/* A box is put under the glass where it reaches no farther from the pole, of the patch. A choice of speed. */
+/* A box is put under the glass where it reaches no farther from the pole than this part of the patch. A choice of speed. */
 #define ZOOM_POLE 0x1p-10
 
-/* It is put there again where it is so small a part, away from the border, of what was; and so often, one in the other. */
+/* It is put there again where it reaches no farther from the border than this part of the box that was; and so often, one in
+ * the other. */
 #define ZOOM_AGAIN_POLE 0x1p-10
 enum { ZOOM_DEPTH = 12 };
 
@@ -23,7 +24,7 @@ enum { ZOOM_DEPTH = 12 };
  * that in a box that reaches no farther than so many times the root's distance d. */
 #define CERTIFICATE_SLOPES 16
 
-/* A box no wider than this along the border, of the patch, is made smaller towards the pole only: the place along the
+/* A box no wider along the border than this part of the patch is made smaller towards the pole only: the place along the
  * border is known no better than the direction in which the ray passes the pole. A choice of speed. */
 #define NARROW_AT_POLE 0x1p-5
 
@@ -42,10 +43,11 @@ bool pole_narrow(const struct search *s, const struct box *box)
   return (double)(s->divided < 2 ? s->window.size[1] * box->size_v : s->window.size[0] * box->size_u) <= NARROW_AT_POLE;
 }
 
-/* How far the box reaches from the border, of the search's whole box. */
+/* How far the box reaches from the border, as a part of the search's whole box. */
 static double reach_from(const struct box *box, int border) { return border < 2 ? box->size_u : box->size_v; }
 
-/* Whether it is to be put under the glass: as soon as it is not most of the patch, and whenever it has become small. */
+/* Whether the box is to be put under the glass: as soon as it is near enough to the pole, and again whenever it has become
+ * small. */
 static bool asks_zoom(const struct search *s, const struct box *box, int border)
 {
   if (border < 0 || s->met || s->dependent || s->window.zooms >= ZOOM_DEPTH) return false;
@@ -54,7 +56,8 @@ static bool asks_zoom(const struct search *s, const struct box *box, int border)
   return reach <= ZOOM_AGAIN_POLE;
 }
 
-/* A net of depths is the pole's at a border: a bound on how far others are from it, over their distance from the border. */
+/* Of a net of depths, which at the pole's border is `depth`: a bound on how far it is from that anywhere, over the distance
+ * from the border. */
 static double slope_at_pole(double net[4][4], double depth)
 {
   double rise = 0;
@@ -68,7 +71,7 @@ static double depth_of_pole(double net[4][4], int border)
   return net[at / 4][at % 4];
 }
 
-/* How far along the ray what is nearer to the pole than ZOOM_POLE_MET, of the window, may be from it. */
+/* How far from the pole, along the ray, may be what is nearer to it than ZOOM_POLE_MET, a part of the window. */
 static double met_reach(const struct window *closer, struct zoomed *zoomed, int border)
 {
   double(*net)[4] = zoomed->net[2];

@@ -9,7 +9,7 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 
-/* What may be roots and is no farther than this from a fold, of the box, is told as one place. */
+/* What may be roots and is no farther from a fold than this part of the box is told as one place. */
 #define FOLD_NEAR 0x1p-36
 
 /* The root on one side of the fold; false where it is not proven. error: of the box's nets, or NULL under the glass. */
