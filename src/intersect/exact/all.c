@@ -231,8 +231,8 @@ static void tell_apart(struct judge *j, struct exact_found *a, struct exact_foun
   if (!twins) a->tied = b->tied = true;
 }
 
-/* Of those from `first` on, which are sorted by t, the one that comes next: of all that are proven to be behind none of them the
- * one that stands first. That it is before the others that it cannot be told from has to be no matter. */
+/* Of those from `first` on, which are sorted by t, the one that comes next: of all that are proven to be behind none of them
+ * the one that stands first. That it is before the others that it cannot be told from has to be no matter. */
 static size_t next_in_order(struct judge *j, size_t first, size_t end)
 {
   const struct exact_found *at = j->list->at;

@@ -236,8 +236,8 @@ static bool point_root(const struct judge *j, const struct net_point *at, struct
                              .u = at->u,
                              .v = at->v,
                              .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
-  /* 0 below 2^-963: there the difference is exact, and no product of a double and d_k is so near to it that the quotient, rounded
-   * once, is not on its own side of that double. */
+  /* 0 below 2^-963: there the difference is exact, and no product of a double and d_k is so near to it that the quotient,
+   * rounded once, is not on its own side of that double. */
   out->t_error = 4 * (double)(WIDE_ROUNDOFF * wide_abs(out->t));
   return true;
 }
