@@ -118,12 +118,15 @@ static bool turn_frame(struct language *language, const struct camera_items *ite
     return false;
   }
   vector_cross(sky, ahead, across);
-  if (along_sky(across, sky_length)) memcpy(across, frame->right, sizeof across);
+  const bool along = along_sky(across, sky_length);
+  if (along) memcpy(across, frame->right, sizeof across);
   else unit(across, across);
   memcpy(frame->direction, ahead, sizeof ahead);
   vector_cross(ahead, across, frame->up);
   vector_scale(sign, across, frame->right);
-  if (unit(frame->up, frame->up) > 0) return true;
+  const double height = unit(frame->up, frame->up);
+  if (along) frame->up_length *= height; /* right may lean towards the direction, which makes POV-Ray's up shorter */
+  if (height > 0) return true;
   language_error(language, items->look_at_place, "the camera looks along its sky and its right");
   return false;
 }
