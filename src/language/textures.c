@@ -117,7 +117,7 @@ void finish_number(struct language *language, int part, const struct value *valu
   double x;
   texture->stage = STAGE_BODY;
   if (!value_to_number(language, value, &x)) return;
-  if (part == PART_ROUGHNESS && !(x > 0)) {
+  if (part == PART_ROUGHNESS && !((float)x > 0)) { /* POV-Ray's are floats, and it passes over a 0 */
     language_error(language, value->place, "roughness must be above 0");
     return;
   }
