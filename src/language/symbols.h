@@ -20,7 +20,7 @@ enum { TRANSPARENT_NUMBER = 1, TRANSPARENT_SAID = 2 };
 struct value {
   enum value_kind kind;
   unsigned transparent; /* a colour that POV-Ray gives transparency: why, or 0 */
-  bool component;       /* of another; until parentheses or a name make a number of it */
+  bool component;       /* of another, or reckoned from one; until parentheses or a name make a number of it */
   double x[3];
   const struct symbol *symbol;
   struct span place;

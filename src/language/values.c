@@ -53,6 +53,12 @@ struct value *value_placed(struct value *value, struct span place)
   return value;
 }
 
+struct value *value_positive(struct value *value, struct span place)
+{
+  value->place = place;
+  return value;
+}
+
 static struct value *become_unknown(struct value *value, struct span place)
 {
   *value = (struct value){.kind = VALUE_UNKNOWN, .x = {1, 1, 1}, .place = place};
@@ -127,7 +133,7 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
   value_last(language, b);
   if (a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER && !(op == '/' && b->x[0] == 0)) { /* as most are */
     const double x = operate(op, a->x[0], b->x[0]);
-    if (isfinite(x)) return value_placed(set(a, x, x, x), place);
+    if (isfinite(x)) return value_positive(set(a, x, x, x), place);
   }
   const bool a_usable = usable(language, a, "a value");
   if (!usable(language, b, "a value") || !a_usable || !stays_opaque(language, op, a, b))
@@ -151,7 +157,7 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
 struct value *value_negative(struct language *language, struct value *a, struct span place)
 {
   if (!usable(language, a, "a value")) return become_unknown(a, place);
-  return value_placed(set(a, -a->x[0], -a->x[1], -a->x[2]), place);
+  return value_positive(set(a, -a->x[0], -a->x[1], -a->x[2]), place);
 }
 
 /* A number's first component is itself, and it has no other, as in POV-Ray; a component has none. */
@@ -240,6 +246,11 @@ void value_to_vector(struct language *language, const struct value *a, double ou
   if (!usable(language, a, "a vector")) return;
   if (a->kind == VALUE_COLOUR) {
     language_error(language, a->place, "a vector is wanted here, not a colour");
+    return;
+  }
+  if (a->kind == VALUE_NUMBER && a->component) { /* the other parts are those of what it is a component of */
+    language_error(language, a->place,
+                   "POV-Ray makes another vector of a component than of a number; put this in parentheses");
     return;
   }
   for (int k = 0; k < 3; k++) out[k] = a->x[k];

@@ -16,6 +16,7 @@ struct value *value_flat(struct language *language, struct value *x, struct valu
 struct value *value_of_parts(struct language *language, struct value *x, struct value *y, struct value *z,
                              struct span place);
 struct value *value_placed(struct value *value, struct span place);
+struct value *value_positive(struct value *value, struct span place);
 struct value *value_binary(struct language *language, char op, struct value *a, struct value *b);
 struct value *value_negative(struct language *language, struct value *a, struct span place);
 /* `name`: the component's */

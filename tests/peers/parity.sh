@@ -114,6 +114,7 @@ location <3, 2, -3> look_at 0 sky z angle 50
 location <3, 2, -3> up z sky z right 1.33*x direction y look_at 0
 location <0, 5, 0> look_at 0
 location <0, 5, 0> look_at 0 angle 70 right x
+location <0, 5, 0> look_at 0 right <1.2, 0.5, 0>
 location <-4, 0.7, 0.4> look_at <0, 0.5, 0> angle 40 angle 60
 location <3, 2, -3> right x*image_width/image_height look_at 0
 location <0, 0.5, -4> translate <0.5, 0.2, 0.3>
@@ -143,6 +144,8 @@ rotate <50, 0, 30> scale <1.2, 0.6, 1> translate y
 rotate <50, 0, 30> scale <-1, 1, 1> translate y
 rotate 40*x scale 0.7 translate <0.2, 0.7, 0>
 matrix <1, 0.2, 0.1, 0, 0.8, 0.6, 0.3, 0, 1, 0.1, 0.9, 0>
+rotate (<40, 20, 0>.y) translate y*0.9
+rotate 10 + <40, 20, 0>.x translate y*0.9
 rotate 20*x matrix <0.8, 0, 0.1, 0.3, 0.9, 0, 0, 0.2, 1, 0, 1, 0> rotate 10*z
 END
 object='union { object { Square rotate 30*x } object { Square scale 0.4 translate <0, 0.5, -0.6> }
