@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "language/hints.h"
+#include "language/macros.h"
 #include "language/tokens.h"
 
 /* The last token of the source being read, whatever it is. */
@@ -20,13 +21,16 @@ static void tell_open_comment(struct language *language)
 
 /* Skips to the #end of a condition, or if `to_else` to its #else; what is skipped may hold conditions of its own,
  * also those that only POV-Ray has. `foreign`: POV-Ray may read it. Answers the token it stopped at; 0 is the end of the
- * source. */
-static int skip_branch(struct language *language, bool to_else, bool foreign)
+ * source. `macro`: whose text it is, or NULL. */
+static int skip_branch(struct language *language, bool to_else, bool foreign, struct macro *macro)
 {
   struct passed passed = {0};
+  if (foreign) declare_passed(language, TOKEN_FOREIGN_OPENER, sources_here(language), &passed);
   for (int depth = 0;;) {
     const int token = pscn_scan_next(&language->sources->frame->scan);
+    if (macro) macro_note(language, macro, token, sources_here(language));
     if (foreign) declare_passed(language, token, sources_here(language), &passed);
+    if (foreign && token == PSCN_TOKEN_WORD) macro_called(language, sources_here(language));
     switch (token) {
     case 0: return token;
     case TOKEN_OPEN_COMMENT: tell_open_comment(language); break;
@@ -59,7 +63,7 @@ static bool condition_holds(struct language *language, const char *directive)
     token = pscn_scan_next(scan);
     const struct name name = here(language);
     if (scan_is_word(token)) {
-      declared = symbol_known(language, name.text, name.length) || words_declared(name.text, name.length);
+      declared = symbol_known(language, &name) || words_declared(name.text, name.length);
       token = pscn_scan_next(scan);
       if (token == ')') return declared;
     }
@@ -80,7 +84,7 @@ static void begin_condition(struct language *language, bool wanted)
   }
   frame->condition[frame->conditions++] = (struct condition){place, false};
   if (holds) return;
-  const int stopped = skip_branch(language, true, false);
+  const int stopped = skip_branch(language, true, false, NULL);
   if (stopped == TOKEN_ELSE) frame->condition[frame->conditions - 1].seen_else = true;
   if (stopped == TOKEN_ENDIF) frame->conditions--;
 }
@@ -97,7 +101,7 @@ static void end_condition(struct language *language, int token)
   if (token == TOKEN_ELSE) {
     if (condition->seen_else) language_tell(language, sources_here(language), "a second #else for the same #ifdef");
     condition->seen_else = true;
-    if (skip_branch(language, false, false) != TOKEN_ENDIF) return;
+    if (skip_branch(language, false, false, NULL) != TOKEN_ENDIF) return;
   }
   frame->conditions--;
 }
@@ -117,13 +121,14 @@ static bool next_name(struct language *language, const char *directive, struct n
   return false;
 }
 
-/* A macro may be defined; what is in it nobody reads. */
+/* A macro may be defined; what is in it is not read, but for the names that it declares. */
 static void skip_macro(struct language *language)
 {
   const struct span place = sources_here(language);
   struct name name;
-  if (next_name(language, "#macro", &name)) declare_macro(language, &name);
-  if (skip_branch(language, false, false) != TOKEN_ENDIF) language_tell(language, place, "#macro without #end");
+  struct macro *macro = macro_begin(language);
+  if (next_name(language, "#macro", &name)) declare_macro(language, &name, macro);
+  if (skip_branch(language, false, false, macro) != TOKEN_ENDIF) language_tell(language, place, "#macro without #end");
 }
 
 static void undeclare(struct language *language)
@@ -195,7 +200,7 @@ bool directives_pass(struct language *language, int token)
     return true;
   case TOKEN_FOREIGN_OPENER:
     directives_tell(language, token);
-    skip_branch(language, false, true);
+    skip_branch(language, false, true, NULL);
     return language->tokens->last.token != '='; /* behind which it stands for a value, and is no more passed over */
   case TOKEN_MACRO: skip_macro(language); return true;
   case TOKEN_UNDEF: undeclare(language); return true;

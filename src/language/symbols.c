@@ -60,9 +60,12 @@ const struct symbol *symbol_find(const struct language *language, const char *na
   return symbol && symbol->kind != SYMBOL_BEGUN && symbol->kind != SYMBOL_UNKNOWN ? symbol : NULL;
 }
 
-bool symbol_known(const struct language *language, const char *name, size_t length)
+bool symbol_known(struct language *language, const struct name *name)
 {
-  const struct symbol *symbol = find(language->symbols, name, length, -1);
+  const struct symbol *symbol = find(language->symbols, name->text, name->length, -1);
+  if (symbol && symbol->kind == SYMBOL_FOREIGN && symbol->lost)
+    language_tell(language, name->place, "whether '%.*s' is declared depends on what is passed over", (int)name->length,
+                  name->text);
   return symbol && symbol->kind != SYMBOL_UNKNOWN;
 }
 
@@ -187,15 +190,19 @@ void declare_passed(struct language *language, int token, struct span place, str
 {
   if (token == PSCN_TOKEN_DECLARE || token == PSCN_TOKEN_LOCAL || token == TOKEN_UNDEF) {
     *passed = (struct passed){token, place};
-  } else if (token == PSCN_TOKEN_DEFAULT) {
+  } else if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE) {
     language_tell(language, place, "this stands in what pscn has not, and is passed over");
   } else if (passed->token != 0 && token == PSCN_TOKEN_WORD) {
     struct declaration *declaration = declare_begin(language, place,
                                                     passed->token == PSCN_TOKEN_LOCAL ? &passed->place : NULL);
     language_foreign(language, place, "this is declared in what pscn has not, and passed over");
+    declaration->symbol->lost = true;
     declare_end(language, declaration);
     passed->token = 0;
-  } else if (token != PSCN_TOKEN_DEPRECATED && token != PSCN_TOKEN_ONCE && token != PSCN_TOKEN_STRING) {
+  } else if (token == TOKEN_FOREIGN_OPENER) { /* the variable of a loop is one that is declared */
+    const struct name name = sources_name(language, place);
+    if (words_is_for(name.text, name.length)) *passed = (struct passed){PSCN_TOKEN_DECLARE, place};
+  } else if (token != PSCN_TOKEN_DEPRECATED && token != PSCN_TOKEN_ONCE && token != PSCN_TOKEN_STRING && token != '(') {
     passed->token = 0;
   }
 }
@@ -210,17 +217,23 @@ void declare_left_open(struct language *language, struct span end)
   }
 }
 
+static struct declaration *begin(struct language *language, const struct name *name, bool local)
+{
+  struct declaration *declaration = language->symbols->ended;
+  if (declaration) language->symbols->ended = declaration->outer;
+  else declaration = language_alloc(language, sizeof *declaration);
+  *declaration = (struct declaration){
+    .symbol = symbol_begin(language, name, local), .outer = language->declaration, .held_end = &declaration->held};
+  declaration->symbol->lost = false;
+  return language->declaration = declaration;
+}
+
 struct declaration *declare_begin(struct language *language, struct span place, const struct span *local)
 {
   const struct name name = sources_name(language, place);
   if (local && !sources_has(language, *local))
     language_tell(language, *local, "a #local stands in one file with its name and =");
-  struct declaration *declaration = language->symbols->ended;
-  if (declaration) language->symbols->ended = declaration->outer;
-  else declaration = language_alloc(language, sizeof *declaration);
-  *declaration = (struct declaration){
-    .symbol = symbol_begin(language, &name, local), .outer = language->declaration, .held_end = &declaration->held};
-  return language->declaration = declaration;
+  return begin(language, &name, local);
 }
 
 struct symbol *declare_end(struct language *language, struct declaration *declaration)
@@ -260,9 +273,21 @@ void declare_broken(struct language *language, struct declaration *declaration)
   if (symbol) symbol->kind = SYMBOL_BROKEN;
 }
 
-void declare_macro(struct language *language, const struct name *name)
+void declare_macro(struct language *language, const struct name *name, struct macro *macro)
 {
-  symbol_begin(language, name, false)->kind = SYMBOL_MACRO;
+  struct symbol *symbol = symbol_begin(language, name, false);
+  symbol->kind = SYMBOL_MACRO;
+  symbol->macro = macro;
+  language->symbols->macro_count++;
+}
+
+void declare_lost(struct language *language, const struct name *name)
+{
+  struct declaration *declaration = begin(language, name, false);
+  language_foreign(language, name->place, "'%.*s' is declared by this macro, which is passed over", (int)name->length,
+                   name->text);
+  declaration->symbol->lost = true;
+  declare_end(language, declaration);
 }
 
 void declare_gone(struct language *language, const struct name *name)

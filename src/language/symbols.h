@@ -54,6 +54,7 @@ struct symbol {
   size_t length;
   int depth; /* 0: belongs to all; otherwise the include depth of its #local */
   bool gone; /* forgotten */
+  bool lost; /* foreign for what is passed over may declare it or forget it */
   enum symbol_kind kind;
   union {
     struct value value;
@@ -63,6 +64,7 @@ struct symbol {
     };
     const struct node *object;
     struct held *held; /* of a foreign one */
+    struct macro *macro;
   };
   struct missed *missed; /* NULL: never unknown */
 };
@@ -76,6 +78,9 @@ struct symbols {
   struct declaration *ended; /* of values: for the next ones */
   size_t considered;         /* for guesses */
   size_t guessed;            /* for what is held: how many */
+  size_t macro_count;        /* macros that are or were declared, */
+  size_t macro_calls;        /* their calls, */
+  size_t macro_words;        /* and how much has been looked at for these */
   int depth;                 /* files that include the one being read */
 };
 
@@ -91,8 +96,8 @@ void symbols_leave(struct symbols *symbols);
 
 /* What a name stands for, or NULL: where it is not declared, or its declaration has only begun. */
 const struct symbol *symbol_find(const struct language *language, const char *name, size_t length);
-/* Whether #ifdef takes it for declared: from the = of its declaration on, as in POV-Ray. */
-bool symbol_known(const struct language *language, const char *name, size_t length);
+/* Whether #ifdef takes it for declared: from the = of its declaration on, as in POV-Ray. Told where nobody knows. */
+bool symbol_known(struct language *language, const struct name *name);
 
 /* Considers the declared names, the last one first, as long as there are not too many. */
 void guess_symbols(struct guess *guess, struct language *language);
@@ -115,8 +120,11 @@ void declare_left_open(struct language *language, struct span end);
 struct symbol *declare_end(struct language *language, struct declaration *declaration);
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value);
 void declare_broken(struct language *language, struct declaration *declaration); /* it has an error */
-void declare_macro(struct language *language, const struct name *name); /* it can be declared, but not called */
-void declare_gone(struct language *language, const struct name *name);  /* #undef */
+/* It can be declared, but not called. */
+void declare_macro(struct language *language, const struct name *name, struct macro *macro);
+/* A name that stands for something else by now, or for nothing: foreign. */
+void declare_lost(struct language *language, const struct name *name);
+void declare_gone(struct language *language, const struct name *name); /* #undef */
 
 /* Declares a number, such as the one that tells this program from POV-Ray. The name is kept. */
 void declare_number(struct language *language, const char *name, size_t length, double number);

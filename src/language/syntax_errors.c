@@ -112,8 +112,9 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
   char list[300] = "";
   list_expected(expected, count, list, sizeof list);
   if (!is_word) {
+    const bool outlives = token == PSCN_TOKEN_DEFAULT; /* the declaration it stands in, used or not */
     if (length == 0) language_tell(language, place, "the text ends here%s", list);
-    else language_error(language, place, "unexpected '%.*s'%s", shown, text, list);
+    else (outlives ? language_tell : language_error)(language, place, "unexpected '%.*s'%s", shown, text, list);
     return;
   }
   struct guess guess = {0};

@@ -2,6 +2,7 @@
 #include "language/tokens.h"
 
 #include "language/directives.h"
+#include "language/macros.h"
 
 static bool is_number(int token) { return token == PSCN_TOKEN_NUMBER || token == PSCN_TOKEN_POINT; }
 
@@ -89,6 +90,8 @@ int tokens_next(struct language *language)
   if (tokens->raw_words > 0 || token == PSCN_TOKEN_SOLVER) token = raw_word(language, token);
   last->token = token;
   last->depth = tokens->depth;
+  const bool passed = language->declaration || tokens->skipping; /* perhaps: a macro called elsewhere is an error */
+  if (token == PSCN_TOKEN_WORD && tokens->raw_words == 0 && passed) macro_called(language, last->place);
   if (token == '{') open_brace(language, last->place);
   else if (token == '}' && tokens->depth > 0) tokens->depth--;
   return token;

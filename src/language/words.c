@@ -102,6 +102,12 @@ const char *words_directive(const char *text, size_t *length)
   return text;
 }
 
+bool words_is_for(const char *text, size_t length)
+{
+  const char *name = words_directive(text, &length);
+  return length == 3 && memcmp(name, "for", 3) == 0;
+}
+
 int words_directive_token(const char *text, size_t length)
 {
   const char *name = words_directive(text, &length);

@@ -15,6 +15,8 @@ bool words_declared(const char *word, size_t length);
 
 /* The name of a directive, behind its # and blanks; *length, which was the directive's, becomes its own. */
 const char *words_directive(const char *text, size_t *length);
+/* Whether it is #for. */
+bool words_is_for(const char *text, size_t length);
 
 /* Whether a token begins a statement, or an item of a block and not a value. */
 bool words_begin_statement(int token);

@@ -1,0 +1,107 @@
+/* What macros declare. */
+#include "language/macros.h"
+
+#include <string.h>
+
+#include "language/scan.h"
+#include "language/sources.h"
+
+/* So many different words of a macro are looked at, and so many in all at its calls: a second's work. Of what has more
+ * it is told that it cannot be passed over. */
+enum { MOST_WORDS = 250, MOST_FOLLOWED = 10 * 1000 * 1000 };
+
+enum macro_role { ROLE_PARAMETER, ROLE_LOCAL, ROLE_DECLARED, ROLE_CALLED };
+
+struct macro_word {
+  enum macro_role role;
+  const char *text;
+  size_t length;
+  struct macro_word *next;
+};
+
+struct macro {
+  struct macro_word *words;
+  size_t count;
+  bool lasting; /* it may do what no names tell of */
+  size_t call;  /* the last one that came to it */
+  /* while it is read: */
+  bool headed;      /* its parameters have been */
+  int token;        /* the one before; PSCN_TOKEN_DECLARE: of what a name is changed by */
+  struct name name; /* if that was one */
+};
+
+struct macro *macro_begin(struct language *language) { return language_alloc(language, sizeof(struct macro)); }
+
+static void add_word(struct language *language, struct macro *macro, enum macro_role role, const struct name *name)
+{
+  if (language->ended_early) return;
+  for (const struct macro_word *w = macro->words; w; w = w->next) {
+    if (w->length != name->length || memcmp(w->text, name->text, w->length) != 0) continue;
+    /* what is handed over by its name is changed by that of the parameter */
+    if (role == ROLE_DECLARED && w->role == ROLE_PARAMETER) macro->lasting = true;
+    if (w->role == role || (role == ROLE_DECLARED && w->role != ROLE_CALLED)) return;
+  }
+  if (macro->count == MOST_WORDS) {
+    macro->lasting = true;
+    return;
+  }
+  struct macro_word *word = language_alloc(language, sizeof *word);
+  /* that of the source may be dropped */
+  char *text = language_afford(language, name->length) ? arena_alloc(language->arena, name->length, 1) : NULL;
+  language->ended_early |= !text;
+  if (!text) return;
+  *word = (struct macro_word){role, memcpy(text, name->text, name->length), name->length, macro->words};
+  macro->words = word;
+  macro->count++;
+}
+
+void macro_note(struct language *language, struct macro *macro, int token, struct span place)
+{
+  const struct name name = sources_name(language, place);
+  const int before = macro->token;
+  const bool word = token == PSCN_TOKEN_WORD;
+  if (before == PSCN_TOKEN_DECLARE &&
+      (token == '(' || token == PSCN_TOKEN_DEPRECATED || token == PSCN_TOKEN_ONCE || token == PSCN_TOKEN_STRING))
+    return;
+  macro->token = token;
+  if (!macro->headed) {
+    if (word) add_word(language, macro, ROLE_PARAMETER, &name);
+    macro->headed = token != '(' && token != ',' && !word;
+  } else if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE) {
+    macro->lasting = true;
+  } else if (token == TOKEN_UNDEF || (token == TOKEN_FOREIGN_OPENER && words_is_for(name.text, name.length))) {
+    macro->token = PSCN_TOKEN_DECLARE;
+  } else if (word && (before == PSCN_TOKEN_DECLARE || before == PSCN_TOKEN_LOCAL)) {
+    add_word(language, macro, before == PSCN_TOKEN_LOCAL ? ROLE_LOCAL : ROLE_DECLARED, &name);
+    macro->token = 0;
+  } else if (word) {
+    macro->name = name;
+  } else if (token == '(' && before == PSCN_TOKEN_WORD) {
+    add_word(language, macro, ROLE_CALLED, &macro->name);
+  }
+}
+
+static void follow(struct language *language, const struct symbol *symbol, struct span place, int depth)
+{
+  struct symbols *symbols = language->symbols;
+  if (!symbol || symbol->kind != SYMBOL_MACRO || symbol->macro->call == symbols->macro_calls) return;
+  struct macro *macro = symbol->macro;
+  macro->call = symbols->macro_calls;
+  symbols->macro_words += macro->count;
+  if (macro->lasting || depth == MAX_NESTING || symbols->macro_words > MOST_FOLLOWED)
+    language_tell(language, place, "this macro may change more than what is declared here, and is passed over");
+  for (const struct macro_word *w = macro->words; w; w = w->next) {
+    const struct name name = {.text = w->text, .length = w->length, .place = place};
+    if (w->role == ROLE_DECLARED) declare_lost(language, &name);
+    else if (w->role == ROLE_CALLED && depth < MAX_NESTING)
+      follow(language, symbol_find(language, w->text, w->length), place, depth + 1);
+  }
+}
+
+void macro_called(struct language *language, struct span place)
+{
+  if (language->symbols->macro_count == 0) return;
+  const struct name name = sources_name(language, place);
+  language->symbols->macro_calls++;
+  follow(language, symbol_find(language, name.text, name.length), place, 0);
+}
