@@ -116,21 +116,40 @@ static void sharpen(struct judge *j, struct exact_root *root)
   if (judge_sharpen(j, &sharp)) *root = sharp;
 }
 
-/* Of the rivals the one that stands first, or last. */
-static struct exact_root *standing(struct judge *j, bool last)
+/* Whether the first of two rivals is nearest wherever the second could be: it stands before it, and what it is behind the second
+ * is behind as well. */
+static bool stands_for(const struct exact_root *a, const struct exact_root *b)
 {
-  struct exact_root *one = j->rival;
-  for (size_t k = 1; k < j->rivals; k++)
-    if (judge_stands_before(&j->rival[k], one) != last) one = &j->rival[k];
-  return one;
+  return judge_stands_before(a, b) && a->t - a->t_error <= b->t - b->t_error;
 }
 
-/* One more; where there are too many, the one that stands last is left out. */
+/* There is one rival too many. Left out is one that another one stands for, but not the one that ends first: what it is not
+ * behind no other one tells. Where there is none, one may be left out that would have been the nearest. */
+static void leave_out_rival(struct judge *j)
+{
+  struct exact_root *at = j->rival;
+  size_t ends = 0, last = 0, out = j->rivals;
+  for (size_t k = 1; k < j->rivals; k++)
+    if (at[k].t + at[k].t_error < at[ends].t + at[ends].t_error) ends = k;
+  if (ends == 0) last = 1;
+  for (size_t k = 0; k < j->rivals; k++) {
+    if (k == ends) continue;
+    if (judge_stands_before(&at[last], &at[k])) last = k;
+    for (size_t n = 0; n < j->rivals; n++)
+      if (stands_for(&at[n], &at[k])) out = k;
+  }
+  if (out == j->rivals) out = last, j->tied_from = real_min(j->tied_from, least_t(&at[last]));
+  at[out] = at[--j->rivals];
+}
+
 static void add_rival(struct judge *j, const struct exact_root *root)
 {
-  if (j->rivals < JUDGE_RIVALS_MAX) j->rival[j->rivals++] = *root;
-  else if (judge_stands_before(root, standing(j, true))) *standing(j, true) = *root;
-  j->nearest = *standing(j, false);
+  j->rival[j->rivals++] = *root;
+  if (j->rivals > JUDGE_RIVALS_MAX) leave_out_rival(j);
+  const struct exact_root *first = j->rival;
+  for (size_t k = 1; k < j->rivals; k++)
+    if (judge_stands_before(&j->rival[k], first)) first = &j->rival[k];
+  j->nearest = *first;
 }
 
 void judge_keep(struct judge *j, struct exact_root *root)

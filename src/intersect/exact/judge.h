@@ -34,8 +34,9 @@ struct judge {
   const struct exact_case *asked;
   bool all; /* all hits are asked for, and `list` has whatever is found; else roots on borders only */
   struct exact_list *list;
-  struct exact_root nearest;                 /* of the certain roots inside patches, where there are rivals */
-  struct exact_root rival[JUDGE_RIVALS_MAX]; /* it, and those that nothing tells from it or from each other by t */
+  struct exact_root nearest; /* of the certain roots inside patches, where there are rivals */
+  /* it, and those that nothing tells from it or from each other by t; room for one more */
+  struct exact_root rival[JUDGE_RIVALS_MAX + 1];
   size_t rivals;
   struct exact_maybe maybe; /* the nearest, where `doubtful` */
   bool doubtful;
