@@ -10,7 +10,16 @@
 #include "intersect/model.h"
 #include "property/world.h"
 
-enum { SEED = 20261121, RAYS = 512, PATCHES = 1100, PACKET = 8, FAR_SCENES = 24, BESIDE = 6, BESIDE_SCENES = 4 };
+enum {
+  SEED = 20261121,
+  RAYS = 512,
+  PATCHES = 1100,
+  PACKET = 8,
+  FAR_SCENES = 24,
+  BESIDE = 6,
+  BESIDE_SCENES = 4,
+  SHEARED = 2
+};
 
 /* What U and V of a certain hit that is not seen edge-on may differ by. */
 #define SAME_PLACE 1e-12
@@ -26,6 +35,8 @@ struct pair {
   struct ray rays[RAYS];
 };
 
+typedef void place_copy(struct random *random, struct scene_copy *copy);
+
 /* Any affine map: turned, skew, mirrored, long and short, far away. */
 static void random_map(struct random *random, struct scene_copy *copy)
 {
@@ -34,6 +45,17 @@ static void random_map(struct random *random, struct scene_copy *copy)
     for (int j = 0; j < 3; j++) copy->A[i][j] = size * random_between(random, -1, 1);
     copy->b[i] = random_between(random, -1000, 1000);
   }
+}
+
+/* A shear along one axis, by so much at most, and whole numbers throughout: control points stay exact. */
+#define MOST_SHEAR 512
+
+static void exact_shear(struct random *random, struct scene_copy *copy)
+{
+  const int i = (int)(random_bits(random) % 3), k = (i + 1 + (int)(random_bits(random) % 2)) % 3;
+  for (int n = 0; n < 9; n++) copy->A[n / 3][n % 3] = n % 4 == 0;
+  copy->A[i][k] = rint(random_between(random, -MOST_SHEAR, MOST_SHEAR));
+  for (int n = 0; n < 3; n++) copy->b[n] = rint(random_between(random, -4096, 4096));
 }
 
 static void moved(const struct scene_copy *copy, world_net from, world_net to)
@@ -71,7 +93,7 @@ static void put_beside(const struct scene_copy *first, struct random *random, st
 /* far: NULL, or a ray whose way leads past the first copy, at t = `at`. beside: 0, or how many stand in one place but for
  * roundings; the rays are aimed at these then. */
 static void pair_open(struct pair *pair, int kind, struct random *random, const struct ray *far, double at,
-                      size_t beside)
+                      size_t beside, place_copy *place)
 {
   static world_net nets[WORLD_MAX];
   memset(pair, 0, sizeof *pair);
@@ -89,7 +111,7 @@ static void pair_open(struct pair *pair, int kind, struct random *random, const 
   scene->patch_count = copies * count, scene->copy_count = copies;
   for (size_t c = 0; c < copies; c++) {
     scene->copies[c].first_patch = c * count;
-    random_map(random, &scene->copies[c]);
+    place(random, &scene->copies[c]);
     if (c > 0 && c < beside) put_beside(&scene->copies[0], random, &scene->copies[c]);
     if (far && c == 0) put_in_the_way(far, at, nets[0], random, &scene->copies[c]);
     for (size_t p = 0; p < count; p++) moved(&scene->copies[c], nets[p], scene->patches[c * count + p].P);
@@ -131,12 +153,12 @@ static bool agree(const struct ray *ray, const struct hit *a, const struct hit *
   return fabs(a->t - b->t) <= tolerance(ray, a) + tolerance(ray, b);
 }
 
-static void each_kind(uint64_t seed, void (*body)(struct pair *pair))
+static void each_kind(uint64_t seed, place_copy *place, void (*body)(struct pair *pair))
 {
   static struct pair pair;
   struct random random = {seed};
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
-    pair_open(&pair, kind, &random, NULL, 0, 0);
+    pair_open(&pair, kind, &random, NULL, 0, 0, place);
     body(&pair);
     pair_close(&pair);
   }
@@ -191,13 +213,13 @@ static void compare_all(struct pair *pair)
 static void all_hits_of_copies_are_those_of_patches(void **state)
 {
   (void)state;
-  each_kind(SEED + 2, compare_all);
+  each_kind(SEED + 2, random_map, compare_all);
 }
 
 static void copies_answer_as_patches_of_their_own(void **state)
 {
   (void)state;
-  each_kind(SEED, compare);
+  each_kind(SEED, random_map, compare);
 }
 
 /* Alone, in company, as any hit. */
@@ -220,7 +242,7 @@ static void company(struct pair *pair)
 static void answers_do_not_depend_on_companions(void **state)
 {
   (void)state;
-  each_kind(SEED + 1, company);
+  each_kind(SEED + 1, random_map, company);
 }
 
 /* A ray that leaves a surface does not meet it where it left: what it meets is what it meets without sharing. */
@@ -248,7 +270,7 @@ static void leave(struct pair *pair)
 static void rays_leave_copies(void **state)
 {
   (void)state;
-  each_kind(SEED + 2, leave);
+  each_kind(SEED + 2, random_map, leave);
 }
 
 /* Whether both answers to the ray are one where they are certain; *certain counts hits on which they are. */
@@ -276,7 +298,7 @@ static void rays_meet_copies_from_very_far_away(void **state)
     struct ray ray = {.t_max = INFINITY};
     for (int k = 0; k < 3; k++) ray.direction[k] = random_between(&random, -1, 1);
     for (int k = 0; k < 3; k++) ray.origin[k] = -far * ray.direction[k];
-    pair_open(&pair, WORLD_GRID, &random, &ray, far, 0);
+    pair_open(&pair, WORLD_GRID, &random, &ray, far, 0, random_map);
     for (int from = 0; from < 3; from++) {
       struct hit hits[2];
       const bool same = same_from_far(&pair, &ray, hits, &certain[from]);
@@ -299,7 +321,7 @@ static void nearest_of_copies_beside_each_other(void **state)
   struct random random = {SEED + 4};
   int wrong = 0, certain = 0;
   for (int n = 0; n < BESIDE_SCENES; n++) {
-    pair_open(&pair, WORLD_GRID, &random, NULL, 0, BESIDE);
+    pair_open(&pair, WORLD_GRID, &random, NULL, 0, BESIDE, random_map);
     for (int l = 0; l < RAYS; l++) {
       struct hit hits[2];
       for (int k = 0; k < 2; k++) tracer_closest(pair.tracer[k], 1, &pair.rays[l], &hits[k]);
@@ -314,13 +336,24 @@ static void nearest_of_copies_beside_each_other(void **state)
   assert_true(certain > BESIDE_SCENES * RAYS / 2);
 }
 
+/* Then all that is off is the ray on its way to the object, which a shear makes much of. */
+static void sheared_copies_answer_as_patches_of_their_own(void **state)
+{
+  (void)state;
+  for (int n = 0; n < SHEARED; n++) each_kind(SEED + 5 + (uint64_t)n, exact_shear, n % 2 ? compare_all : compare);
+}
+
 int main(void)
 {
   print_message("seed %d\n", SEED);
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(copies_answer_as_patches_of_their_own), cmocka_unit_test(all_hits_of_copies_are_those_of_patches),
-    cmocka_unit_test(answers_do_not_depend_on_companions),   cmocka_unit_test(rays_leave_copies),
-    cmocka_unit_test(rays_meet_copies_from_very_far_away),   cmocka_unit_test(nearest_of_copies_beside_each_other),
+    cmocka_unit_test(copies_answer_as_patches_of_their_own),
+    cmocka_unit_test(all_hits_of_copies_are_those_of_patches),
+    cmocka_unit_test(answers_do_not_depend_on_companions),
+    cmocka_unit_test(rays_leave_copies),
+    cmocka_unit_test(rays_meet_copies_from_very_far_away),
+    cmocka_unit_test(nearest_of_copies_beside_each_other),
+    cmocka_unit_test(sheared_copies_answer_as_patches_of_their_own),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
