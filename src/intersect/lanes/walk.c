@@ -139,7 +139,6 @@ struct ray_way {
   struct ray_view ray;
   unsigned lane;
   uint32_t child; /* where it is */
-  bool passed;    /* it is known that it passes that leaf's box, and the leaf has been sent for */
   size_t top;
   struct {
     float near;
@@ -147,38 +146,15 @@ struct ray_way {
   } stack[BVH_STACK];
 };
 
-/* Four boxes at a time instead of all rays. Returns whether the ray goes on. */
-LANES_INLINE bool ray_step(struct bundle *b, const struct model_tree *tree, struct ray_way *way)
+LANES_INLINE void ray_begin(const struct bundle *b, uint32_t child, unsigned lane, struct ray_way *way)
 {
-  const uint32_t box = way->child & ~(uint32_t)BVH_LEAF;
-  if (way->child != box) {
-    const struct model *model = b->packet[0].model;
-    if (!way->passed && box_passed(b, box, 1u << way->lane)) {
-      way->passed = true;
-      if (box < model->leaf_count) fetch_leaf(model, box);
-      return true;
-    }
-    if (way->passed) bundle_leaf(b, tree, box, 1u << way->lane);
-    way->passed = false;
-    if (!(b->live >> way->lane & 1)) return false;
-  } else {
-    const struct bvh_node *node = &tree->bvh.nodes[way->child];
-    const size_t first = way->top;
-    float near[BVH_WIDTH];
-    unsigned bits = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near);
-    if (bits && (bits & (bits - 1)) == 0) { /* the next, by no way over the stack */
-      way->child = node->child[__builtin_ctz(bits)];
-      fetch_child(b->packet[0].model, &tree->bvh, way->child);
-      return true;
-    }
-    for (; bits; bits &= bits - 1) {
-      const int side = __builtin_ctz(bits);
-      size_t n = way->top++; /* the nearest on top */
-      for (; n > first && way->stack[n - 1].near < near[side]; n--) way->stack[n] = way->stack[n - 1];
-      way->stack[n].near = near[side], way->stack[n].child = node->child[side];
-      fetch_child(b->packet[0].model, &tree->bvh, node->child[side]);
-    }
-  }
+  way->ray = ray_view_of(&b->view, lane), way->lane = lane, way->child = child, way->top = 0;
+}
+
+/* From a leaf, or a node none of whose children is passed, to what is nearest of what is on the stack. Returns whether the ray
+ * goes on. */
+LANES_INLINE bool ray_next(const struct bundle *b, struct ray_way *way)
+{
   do {
     if (way->top == 0) return false;
     way->top--;
@@ -187,9 +163,35 @@ LANES_INLINE bool ray_step(struct bundle *b, const struct model_tree *tree, stru
   return true;
 }
 
-LANES_INLINE void ray_begin(const struct bundle *b, uint32_t child, unsigned lane, struct ray_way *way)
+/* From a node to the nearest of its children, four boxes at a time instead of all rays. Returns whether the ray goes on. */
+LANES_INLINE bool ray_down(const struct bundle *b, const struct model_tree *tree, struct ray_way *way)
 {
-  way->ray = ray_view_of(&b->view, lane), way->lane = lane, way->child = child, way->passed = false, way->top = 0;
+  const struct bvh_node *node = &tree->bvh.nodes[way->child];
+  const size_t first = way->top;
+  float near[BVH_WIDTH];
+  unsigned bits = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near);
+  if (bits && (bits & (bits - 1)) == 0) { /* the next, by no way over the stack */
+    way->child = node->child[__builtin_ctz(bits)];
+    fetch_child(b->packet[0].model, &tree->bvh, way->child);
+    return true;
+  }
+  for (; bits; bits &= bits - 1) {
+    const int side = __builtin_ctz(bits);
+    size_t n = way->top++; /* the nearest on top */
+    for (; n > first && way->stack[n - 1].near < near[side]; n--) way->stack[n] = way->stack[n - 1];
+    way->stack[n].near = near[side], way->stack[n].child = node->child[side];
+    fetch_child(b->packet[0].model, &tree->bvh, node->child[side]);
+  }
+  return ray_next(b, way);
+}
+
+/* Whether the ray passes that leaf's box; then the leaf is sent for. */
+LANES_INLINE bool ray_passes(const struct bundle *b, uint32_t box, unsigned lane)
+{
+  const struct model *model = b->packet[0].model;
+  if (!box_passed(b, box, 1u << lane)) return false;
+  if (box < model->leaf_count) fetch_leaf(model, box);
+  return true;
 }
 
 /* One ray through what is below `child`. */
@@ -197,21 +199,51 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
 {
   struct ray_way way;
   ray_begin(b, child, lane, &way);
-  while (ray_step(b, tree, &way)) continue;
+  for (bool on = true; on;) {
+    const uint32_t box = way.child & ~(uint32_t)BVH_LEAF;
+    if (way.child == box) {
+      on = ray_down(b, tree, &way);
+    } else {
+      if (ray_passes(b, box, lane)) bundle_leaf(b, tree, box, 1u << lane);
+      on = (b->live >> lane & 1) && ray_next(b, &way);
+    }
+  }
 }
 
 /* The rays through all of the tree, a step of each in turn: where one goes next is brought from memory while the others
- * take their steps. Out of line for the room it takes. */
+ * take their steps. One that passes a leaf's box waits there for its next turn, and for others that come there meanwhile. Out of
+ * line for the room it takes. */
 __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
   struct ray_way ways[FLOAT_LANES];
+  uint32_t waits_at[FLOAT_LANES] = {0}; /* a leaf child; 0 for none */
   for (unsigned bits = rays; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     ray_begin(b, 0, lane, &ways[lane]);
   }
-  while (rays)
-    for (unsigned bits = rays; bits; bits &= bits - 1)
-      if (!ray_step(b, tree, &ways[__builtin_ctz(bits)])) rays &= ~(bits & -bits);
+  while (rays) {
+    for (unsigned bits = rays; bits; bits &= bits - 1) {
+      const unsigned lane = (unsigned)__builtin_ctz(bits);
+      struct ray_way *way = &ways[lane];
+      const uint32_t child = way->child, box = child & ~(uint32_t)BVH_LEAF;
+      if (child == box) {
+        if (!ray_down(b, tree, way)) rays &= ~(1u << lane);
+      } else if (waits_at[lane] == 0) {
+        if (ray_passes(b, box, lane)) waits_at[lane] = child;
+        else if (!ray_next(b, way)) rays &= ~(1u << lane);
+      } else {
+        unsigned here = 0;
+        for (int k = 0; k < FLOAT_LANES; k++) here |= (unsigned)(waits_at[k] == child) << k;
+        bundle_leaf(b, tree, box, here);
+        bits &= ~here | 1u << lane; /* that was their turn, too */
+        for (; here; here &= here - 1) {
+          const unsigned k = (unsigned)__builtin_ctz(here);
+          waits_at[k] = 0;
+          if (!(b->live >> k & 1) || !ray_next(b, &ways[k])) rays &= ~(1u << k);
+        }
+      }
+    }
+  }
 }
 
 /* So few rays go their ways one by one: four boxes, or a leaf's, are a third of the work for one of them; and those that go
