@@ -172,7 +172,7 @@ expression:
   | expression '*' expression                  { $$ = value_binary(language, '*', $1, $3); }
   | expression '/' expression                  { $$ = value_binary(language, '/', $1, $3); }
   | '-' expression %prec SIGN                  { $$ = value_negative(language, $2, span_join($1, $2->place)); }
-  | '+' expression %prec SIGN                  { $$ = value_positive($2, span_join($1, $2->place)); }
+  | '+' expression %prec SIGN                  { $$ = value_moved($2, span_join($1, $2->place)); }
   | expression '.' X                           { $$ = value_component(language, $1, 0, $3); }
   | expression '.' Y                           { $$ = value_component(language, $1, 1, $3); }
   | expression '.' Z                           { $$ = value_component(language, $1, 2, $3); }

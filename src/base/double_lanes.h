@@ -47,8 +47,7 @@ LANES_INLINE struct double_lanes double_lanes_add(struct double_lanes a, struct 
 
 LANES_INLINE struct double_lanes double_lanes_subtract(struct double_lanes a, struct double_lanes b)
 {
-  const struct double_lanes s = double_lanes_sum(a.hi, -b.hi);
-  return (struct double_lanes){s.hi, s.lo + (a.lo - b.lo)};
+  return double_lanes_add(a, (struct double_lanes){-b.hi, -b.lo});
 }
 
 /* A number of size up to 2^24 as head + tail, exactly, the head a multiple of 2^-26: products of heads with numbers of

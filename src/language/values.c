@@ -46,17 +46,16 @@ struct value *value_axis(struct language *language, int axis, struct span place)
   return set(make(language, VALUE_VECTOR, place), axis == 0, axis == 1, axis == 2);
 }
 
-struct value *value_placed(struct value *value, struct span place)
+struct value *value_moved(struct value *value, struct span place)
 {
-  value->component = false;
   value->place = place;
   return value;
 }
 
-struct value *value_positive(struct value *value, struct span place)
+struct value *value_placed(struct value *value, struct span place)
 {
-  value->place = place;
-  return value;
+  value->component = false;
+  return value_moved(value, place);
 }
 
 static struct value *become_unknown(struct value *value, struct span place)
@@ -133,7 +132,7 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
   value_last(language, b);
   if (a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER && !(op == '/' && b->x[0] == 0)) { /* as most are */
     const double x = operate(op, a->x[0], b->x[0]);
-    if (isfinite(x)) return value_positive(set(a, x, x, x), place);
+    if (isfinite(x)) return value_moved(set(a, x, x, x), place);
   }
   const bool a_usable = usable(language, a, "a value");
   if (!usable(language, b, "a value") || !a_usable || !stays_opaque(language, op, a, b))
@@ -157,7 +156,7 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
 struct value *value_negative(struct language *language, struct value *a, struct span place)
 {
   if (!usable(language, a, "a value")) return become_unknown(a, place);
-  return value_positive(set(a, -a->x[0], -a->x[1], -a->x[2]), place);
+  return value_moved(set(a, -a->x[0], -a->x[1], -a->x[2]), place);
 }
 
 /* A number's first component is itself, and it has no other, as in POV-Ray; a component has none. */

@@ -236,7 +236,7 @@ unsigned finish_best(const struct packet *p, unsigned written, struct hit out[])
     const unsigned group = left & lanes_bits((p->best.patch == patch) & p->on_axis[axis]);
     struct patch_room room;
     struct model_patch *of = model_patch_at(p->model, (uint32_t)patch, &room);
-    const unsigned near = group & ~lanes_bits(packet_has_digits(p, of, NEAR_START, p->best.t));
+    const unsigned near = group & lanes_bits(packet_nearer(p, of, NEAR_START, p->best.t));
     if (group != near) grazing += finish_group(p, group & ~near, axis, of, false, out);
     if (near) grazing += finish_group(p, near, axis, of, true, out);
     left &= ~group;

@@ -152,7 +152,7 @@ void last_step_take(struct last_step *l)
   }
   lanes u = l->u, v = l->v, du, dv;
   struct last_step_net net;
-  last_step_split_net(patch, &net);
+  if (!l->near) last_step_split_net(patch, &net);
   struct last_step_jet jet;
   const struct double_lanes *way = jet.way;
   lane_mask moving = l->improves, again;
@@ -171,8 +171,7 @@ void last_step_take(struct last_step *l)
     const lanes determinant = 1 / (fu[0] * fv[1] - fv[0] * fu[1]);
     du = (fv[0] * f[1] - fv[1] * f[0]) * determinant, dv = (fu[1] * f[0] - fu[0] * f[1]) * determinant;
     const lanes size = lanes_max(lanes_abs(du), lanes_abs(dv));
-    const lane_mask near = (lanes_abs(du) < 1) & (lanes_abs(dv) < 1);
-    moving &= near;
+    moving &= (lanes_abs(du) < 1) & (lanes_abs(dv) < 1);
     du = lanes_select(moving, du, lanes_all(0)), dv = lanes_select(moving, dv, lanes_all(0));
     again = moving & (size > (l->near ? LAST_STEP_LONGEST_NEAR : LAST_STEP_LONGEST));
     if (n + 1 == LAST_STEPS_MAX || !lanes_any(again)) break;

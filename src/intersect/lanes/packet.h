@@ -130,12 +130,16 @@ void packet_orient(struct packet *p);
  * was tried before. */
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
-/* Lanes whose root at t, in units of the packet's directions, is as far from the ray's start as that part of the patch's frame,
- * and not too far. */
+/* Lanes whose root at t, in units of the packet's directions, is nearer to the ray's start than that part of the patch's frame. */
+LANES_INLINE lane_mask packet_nearer(const struct packet *p, const struct model_patch *patch, double part, lanes t)
+{
+  return lanes_abs(t) * p->longest < part * patch->scale;
+}
+
+/* Lanes where it is as far as that, and not too far. */
 LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, double from, lanes t)
 {
-  const lanes away = lanes_abs(t) * p->longest;
-  return (away >= from * patch->scale) & (away <= FAR_START * patch->scale);
+  return ~packet_nearer(p, patch, from, t) & (lanes_abs(t) * p->longest <= FAR_START * patch->scale);
 }
 
 /* candidate.c: tries the leaf, of that patch and number, on the lanes of `active`, and keeps what is nearer than the best. */
