@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "base/source.h"
-#include "language/scan.h"
+#include "language/sources.h"
 
 enum { MAX_FILES = 10000, MAX_NAME = 4096 };
 
@@ -83,21 +83,31 @@ static void blank_until(struct copy *copy, size_t end)
   for (; copy->done < end; copy->done++) put(copy, copy->source->text[copy->done] == '\n' ? "\n" : " ", 1);
 }
 
-/* A file name behind #include: relative to the folder of the file it stands in, as the language has it. */
+/* Reads a file that is named relative to the folder of the file `includer`, as the language has it; NULL where it is not
+ * there. */
+static struct source *read_beside(const char *includer, const char *name, size_t length)
+{
+  const char *slash = strrchr(includer, '/'), *reason;
+  const size_t folder = length > 0 && name[0] == '/' ? 0 : slash == NULL ? 0 : (size_t)(slash - includer) + 1;
+  char path[MAX_NAME];
+  struct source *source = NULL;
+  if (folder + length + MAX_ENDING >= sizeof path || memchr(name, '\0', length) != NULL) return NULL;
+  memcpy(path, includer, folder);
+  memcpy(path + folder, name, length);
+  for (const char *const *ending = include_endings(name, length); *ending != NULL && source == NULL; ending++) {
+    strcpy(path + folder + length, *ending);
+    if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK) source = NULL;
+  }
+  return source;
+}
+
+/* A file name behind #include. */
 static void copy_include(struct copy *copy)
 {
   const size_t begin = copy->scan.begin, end = copy->scan.end;
-  const char *name = copy->source->text + begin + 1, *includer = copy->source->name;
-  const char *slash = strrchr(includer, '/'), *reason;
-  const size_t length = end - begin - 2;
-  const size_t folder = length > 0 && name[0] == '/' ? 0 : slash == NULL ? 0 : (size_t)(slash - includer) + 1;
-  char path[MAX_NAME], new_name[MAX_NAME];
-  struct source *source;
-  if (folder + length >= sizeof path || memchr(name, '\0', length) != NULL) return;
-  memcpy(path, includer, folder);
-  memcpy(path + folder, name, length);
-  path[folder + length] = '\0';
-  if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK) return;
+  char new_name[MAX_NAME];
+  struct source *source = read_beside(copy->source->name, copy->source->text + begin + 1, end - begin - 2);
+  if (source == NULL) return;
   const size_t index = add_source(copy->all, source);
   if (index == MAX_FILES) {
     copy->status = STATUS_LIMIT;

@@ -162,35 +162,61 @@ void sources_close(struct language *language)
     source_destroy(entry->source);
 }
 
-/* `name` in a folder, which is folder[0 .. length-1] with the slash behind it; a name that begins with / is whole. */
-static char *path_in(struct language *language, const char *folder, size_t folder_length, const char *name,
-                     size_t length)
+const char *const *include_endings(const char *name, size_t length)
 {
-  const size_t before = name[0] == '/' ? 0 : folder_length;
+  static const char *const as_it_is[] = {"", NULL}, *const longer_first[] = {".inc", ".INC", "", NULL};
+  const char *end = length < 4 ? "" : name + length - 4;
+  return strncmp(end, ".inc", 4) == 0 || strncmp(end, ".INC", 4) == 0 ? as_it_is : longer_first;
+}
+
+/* A file name of an #include, and what is looked for behind it. */
+struct wanted {
+  const char *name, *ending;
+  size_t length;
+};
+
+/* Its path in a folder, which is folder[0 .. length-1] with or without a slash behind it; a name that begins with / is
+ * whole. */
+static char *path_in(struct language *language, const char *folder, size_t folder_length, const struct wanted *file)
+{
+  const size_t before = file->name[0] == '/' ? 0 : folder_length, ending = strlen(file->ending);
   const bool slash = before > 0 && folder[before - 1] != '/';
-  char *path = arena_alloc(language->arena, before + slash + length + 1, 1);
+  char *path = arena_alloc(language->arena, before + slash + file->length + ending + 1, 1);
   if (!path) return NULL;
   memcpy(path, folder, before);
   if (slash) path[before] = '/';
-  memcpy(path + before + slash, name, length);
+  memcpy(path + before + slash, file->name, file->length);
+  memcpy(path + before + slash + file->length, file->ending, ending);
   return path;
 }
 
 /* The path of an included file: relative to the folder of the file that includes it, or else to the first of the given
- * folders that has it; the former where it is nowhere. Writes what file that is, 0 and 0 for none. */
-static char *include_path(struct language *language, const char *name, size_t length, uint64_t *out_device,
-                          uint64_t *out_inode)
+ * folders that has it; the former, and *out_inode 0, where it is nowhere. NULL where memory is short. */
+static char *path_of(struct language *language, const struct wanted *file, uint64_t *out_device, uint64_t *out_inode)
 {
   const char *includer = language->sources->frame->source->name, *slash = strrchr(includer, '/');
-  char *path = path_in(language, includer, slash ? (size_t)(slash - includer) + 1 : 0, name, length), *other = path;
+  char *path = path_in(language, includer, slash ? (size_t)(slash - includer) + 1 : 0, file), *other = path;
   const char *const *folder = language->sources->folders;
   while (other && !source_identify(other, out_device, out_inode)) {
     *out_device = *out_inode = 0;
     if (!folder || !*folder) return path;
-    other = path_in(language, *folder, strlen(*folder), name, length);
+    other = path_in(language, *folder, strlen(*folder), file);
     folder++;
   }
   return other;
+}
+
+/* Each name is looked for in all folders before the next one is. */
+static char *include_path(struct language *language, const char *name, size_t length, uint64_t *out_device,
+                          uint64_t *out_inode)
+{
+  char *path = NULL;
+  *out_inode = 0;
+  for (const char *const *ending = include_endings(name, length); *ending && *out_inode == 0; ending++) {
+    path = path_of(language, &(struct wanted){name, *ending, length}, out_device, out_inode);
+    if (!path) return NULL;
+  }
+  return path;
 }
 
 static bool same_file(const struct source *a, const struct source *b)

@@ -43,6 +43,11 @@ bool sources_list(const struct language *language, struct scene *scene);
 /* Reads the file name behind #include and begins to read that file, or tells an error. */
 void sources_include(struct language *language);
 
+/* What may stand behind the name of an included file, in the order in which it is looked for, up to NULL: as POV-Ray does,
+ * .inc and .INC come first where a name ends in neither. */
+enum { MAX_ENDING = 4 };
+const char *const *include_endings(const char *name, size_t length);
+
 /* What has been read so far is needed no more, but for errors: the memory of a long text is given back. */
 void sources_pass(struct language *language);
 

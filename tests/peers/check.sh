@@ -21,8 +21,8 @@ expect() {
   [ "$code" -eq "$wanted" ] || { fail "exit code $code instead of $wanted: $*"; cat err; }
 }
 
-# Unguarded solver statements, in the scene and in what it includes; words in comments and strings; a branch for POV-Ray
-# alone that includes a file of the scene's folder and one of POV-Ray's own.
+# Unguarded solver statements, in the scene and in what it includes; words in comments and strings; a name to which POV-Ray
+# adds .inc; a branch for it alone that includes a file of the scene's folder and one of POV-Ray's own.
 cat >"$scene" <<'END'
 #version 3.7; // solver newton
 global_settings { assumed_gamma 1 solver aberth { start previous } }
@@ -31,7 +31,7 @@ light_source { <-3, 6, -6>, rgb 1 }
 background { rgb <0.2, 0.3, 0.5> }
 /* solver { */
 #include "parts.inc"
-#include "parts.inc"
+#include "parts"
 #ifndef (pscn)
   #include "only povray.inc"
   #include "colors.inc"
@@ -51,6 +51,7 @@ cat >"scenes and more/parts.inc" <<'END'
   lines */ { tolerance 1e-9 } translate 0 }
 END
 echo '#declare Nothing = 0;' >"scenes and more/only povray.inc"
+echo '#error "parts.inc is found first"' >"scenes and more/parts"
 
 answers() {
   expect 0 "$PSCN" check "$scene" --size 120x90 --steps 4 --failpercent 2 --failpsnr 25 --failmask 2
