@@ -99,7 +99,7 @@ static void pscn_error(struct language *language, const char *message)
 /* Where an expression may be followed by the next item, "+" and "-" belong to the expression, as in POV-Ray. */
 %precedence ITEM
 %precedence <place> ','
-%precedence TEXTURE
+%precedence TEXTURE RED GREEN BLUE FILTER
 %left <place> '+' '-'
 %left '*' '/'
 %precedence SIGN
@@ -197,6 +197,7 @@ colour:
   | COLOR RGBFT expression %prec ITEM          { $$ = value_rgbft(language, $3, 5, span_join($1, $3->place)); }
   | COLOR RGBF four                            { $$ = value_placed($3, span_join($1, $3->place)); }
   | COLOR RGBFT five                           { $$ = value_placed($3, span_join($1, $3->place)); }
+  | part expression %prec ITEM                 { $$ = value_part(language, NULL, $1, $2, $2->place); }
   | COLOR part expression %prec ITEM           { $$ = value_part(language, NULL, $2, $3, span_join($1, $3->place)); }
   | colour part expression %prec ITEM
                                                { $$ = value_part(language, $1, $2, $3, span_join($1->place, $3->place)); }

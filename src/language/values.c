@@ -204,6 +204,12 @@ struct value *value_part(struct language *language, struct value *colour, int pa
   double x;
   if (!colour) colour = make(language, VALUE_COLOUR, place);
   value_last(language, value);
+  if (colour->kind == VALUE_NUMBER || colour->kind == VALUE_VECTOR) {
+    language_error(
+      language, colour->place,
+      "red, green, blue, filter and transmit follow a colour: write rgb before this, or a comma behind it");
+    return become_unknown(colour, place);
+  }
   value_rgb(language, colour, place);
   if (!value_to_number(language, value, &x)) return become_unknown(colour, place);
   if (part < 3) colour->x[part] = x;
@@ -214,7 +220,7 @@ struct value *value_part(struct language *language, struct value *colour, int pa
 struct value *value_wide(struct language *language, struct value *red, struct value *green, struct value *blue,
                          struct value *filter, struct value *transmit, struct span place)
 {
-  struct value *value = value_of_parts(language, red, green, blue, place);
+  struct value *value = value_rgb(language, value_of_parts(language, red, green, blue, place), place);
   value = value_part(language, value, 3, filter, place);
   return transmit ? value_part(language, value, 3, transmit, place) : value;
 }
@@ -233,9 +239,24 @@ struct value *value_of_parts(struct language *language, struct value *x, struct 
   return value_placed(x, place);
 }
 
+/* Whether it reads as two numbers, the second one with a sign: "1 -2". */
+static bool seems_two(const struct language *language, const struct value *value)
+{
+  const struct name text = sources_name(language, value->place);
+  for (size_t k = 1; k + 1 < text.length; k++) {
+    const char sign = text.text[k], before = text.text[k - 1], behind = text.text[k + 1];
+    if ((sign == '-' || sign == '+') && (before == ' ' || before == '\t') && behind != ' ') return true;
+  }
+  return false;
+}
+
 struct value *value_flat(struct language *language, struct value *x, struct value *y, struct span place)
 {
-  language_foreign(language, place, "vectors of two parts are POV-Ray, but pscn has those of three");
+  const struct value *sum = seems_two(language, x) ? x : seems_two(language, y) ? y : NULL;
+  if (sum)
+    language_foreign(language, sum->place,
+                     "this is one part of the vector, which has two; write a comma before the sign");
+  else language_foreign(language, place, "vectors of two parts are POV-Ray, but pscn has those of three");
   value_last(language, y);
   return become_unknown(x, place);
 }

@@ -192,6 +192,7 @@ color V
 color 0
 color rgb Half*V + Paint.red
 color red 0.2 green 0.7 blue 0.1
+green 0.7 red 0.3
 color Paint green 0.3 red Half
 rgbf <0.2, 0.7, 0.1, 0>
 colour rgbt <0.2, 0.7, 0.1, 0>
