@@ -42,13 +42,14 @@ static const struct hint HINTS[] = {
   {"spotlight parallel point_at radius falloff tightness looks_like projected_through light_group", false,
    "a light is a point and shines everywhere"},
   {"fade_distance fade_power media_attenuation media_interaction", false, "a light is as bright from afar"},
-  {"orthographic fisheye omnimax panoramic ultra_wide_angle mesh_camera", false,
-   "cameras are in perspective: from far away with a small angle it comes near orthographic"},
+  {"fisheye omnimax panoramic ultra_wide_angle mesh_camera", false, "cameras are in perspective"},
+  {"orthographic", false, "cameras are in perspective: from far away with a small angle it comes near orthographic"},
   {"aperture blur_samples focal_point confidence variance", false, "a camera is sharp everywhere: leave it out"},
   {"sky_sphere fog rainbow", false, "background { } is one colour"},
-  {"radiosity photons adc_bailout number_of_waves max_intersections noise_generator charset mm_per_unit hf_gray_16 "
+  {"radiosity photons adc_bailout number_of_waves max_intersections noise_generator mm_per_unit hf_gray_16 "
    "irid_wavelength",
    false, "light is local here, as without it: leave it out"},
+  {"charset ascii utf8 sys", false, "comments may hold any bytes: leave it out"},
   {"clock", false, "a declared name does it: pscn render --declare NAME=NUMBER, for each picture"},
   {"srgb srgbf srgbft srgbt", false, "colours are linear: rgb, each part to the power of 2.2 or so"},
   {"true yes on", false, "1 stands for it"},

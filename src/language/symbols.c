@@ -155,10 +155,14 @@ void symbol_mistaken(struct language *language, struct span place, const struct 
 {
   const char *is = symbol->kind == SYMBOL_OBJECT    ? "an object"
                    : symbol->kind == SYMBOL_TEXTURE ? symbol->texture_kind
-                   : symbol->kind == SYMBOL_MACRO   ? "a macro, which pscn does not call"
                                                     : "a value";
-  (symbol->kind == SYMBOL_MACRO ? language_foreign : language_error)(language, place, "'%.*s' is %s; %s is wanted here",
-                                                                     (int)symbol->length, symbol->name, is, wanted);
+  if (symbol->kind != SYMBOL_MACRO) {
+    language_error(language, place, "'%.*s' is %s; %s is wanted here", (int)symbol->length, symbol->name, is, wanted);
+    return;
+  }
+  language->unknown = place;
+  language_foreign(language, place, "'%.*s' is a macro, which pscn does not call; write what it stands for",
+                   (int)symbol->length, symbol->name);
 }
 
 const struct symbol *symbol_wanted(struct language *language, const struct name *name, enum symbol_kind kind,

@@ -7,6 +7,8 @@
 #include "language/hints.h"
 #include "language/tokens.h"
 
+enum { LONGEST_SHOWN = 40 };
+
 static bool is_one_of(const char *name, const char *const list[])
 {
   for (; *list; list++)
@@ -76,11 +78,22 @@ static struct guess guess_meant(struct language *language, const char *word, siz
   return guess;
 }
 
+/* A declared name where none may stand: that of an object or a macro, say, without `object` around it. */
+static void tell_declared(struct language *language, const struct name *name, const struct symbol *symbol, bool objects,
+                          const char *list)
+{
+  const int length = name->length < LONGEST_SHOWN ? (int)name->length : LONGEST_SHOWN;
+  if (objects && symbol->kind == SYMBOL_OBJECT)
+    language_error(language, name->place, "a declared object stands in object { %.*s }", length, name->text);
+  else if (objects || symbol->kind == SYMBOL_FOREIGN || symbol->kind == SYMBOL_MACRO)
+    symbol_wanted(language, name, SYMBOL_OBJECT, "an object");
+  else language_error(language, name->place, "unexpected name '%.*s'%s", length, name->text, list);
+}
+
 static bool same_place(struct span a, struct span b) { return span_begin(a) > 0 && span_begin(a) == span_begin(b); }
 
 void syntax_error(struct language *language, bool is_word, const char *const expected[], int count)
 {
-  enum { LONGEST_SHOWN = 40 };
   struct tokens *tokens = language->tokens;
   const struct span place = tokens->last.place;
   /* What follows a word just told to be unknown fits the word that was meant. */
@@ -117,13 +130,16 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
     else (outlives ? language_tell : language_error)(language, place, "unexpected '%.*s'%s", shown, text, list);
     return;
   }
-  struct guess guess = {0};
-  const bool declared = symbol_find(language, text, length) != NULL;
-  if (!declared) guess = guess_meant(language, text, length, expected, count);
+  const struct symbol *symbol = symbol_find(language, text, length);
+  if (symbol) {
+    tell_declared(language, &name, symbol, contains(expected, count, "object"), list);
+    return;
+  }
+  const struct guess guess = guess_meant(language, text, length, expected, count);
   if (guess.best) {
     language_error(language, place, "unknown word '%.*s'; did you mean '%.*s'?", shown, text, (int)guess.best_length,
                    guess.best);
   } else {
-    language_error(language, place, "%s '%.*s'%s", declared ? "unexpected name" : "unknown word", shown, text, list);
+    language_error(language, place, "unknown word '%.*s'%s", shown, text, list);
   }
 }
