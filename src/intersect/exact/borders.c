@@ -94,6 +94,25 @@ static bool at_nearest(struct judge *j, const struct exact_root *root)
   return judge_sharpen(j, &j->nearest) ? one_t(root, &j->nearest) : judge_tie(root, &j->nearest);
 }
 
+/* Whether the ray crosses the border of the root there, the nearest hit being the other patch's. */
+static bool crosses_at_nearest(const struct judge *j, const struct exact_found *found)
+{
+  const unsigned here = (unsigned)__builtin_ctz(found->borders);
+  const struct edge_neighbour *other = &j->asked->model->neighbours[4 * (size_t)found->root.patch + here];
+  const struct exact_found nearest = {.root = j->nearest, .borders = 1u << other->border};
+  return judge_across(j, found, &nearest);
+}
+
+/* Of such a root: whether it is no matter which of the two comes first; they may be one place of the surface. */
+static bool fine_at_nearest(struct judge *j, const struct exact_found *found)
+{
+  struct exact_root root = found->root;
+  if (crosses_at_nearest(j, found)) return true;
+  judge_turn(j, root.patch);
+  (void)judge_corner(j, found->borders, &root, &root); /* or it stays what it is */
+  return judge_weigh_tie(j, &root, &j->nearest);
+}
+
 /* Whether the ray crosses the surface at the root of j->list[at], on a border: then of the patches that meet there the one
  * that stands first in the scene has it. */
 static bool keep_border(struct judge *j, size_t at)
@@ -117,7 +136,8 @@ void judge_settle_borders(struct judge *j)
   for (size_t a = 0; a < j->list->count; a++) {
     struct exact_root *root = &j->list->at[a].root;
     const bool beside = at_nearest(j, root);
-    if (beside && !(judge_stands_before(root, &j->nearest) && judge_tie_fine(j, root, &j->nearest))) continue;
+    const bool fine = !beside || fine_at_nearest(j, &j->list->at[a]);
+    if (beside && !(fine && judge_stands_before(root, &j->nearest))) continue;
     if (!keep_border(j, a) && !beside) judge_open(j, &j->list->at[a]);
   }
 }

@@ -152,6 +152,13 @@ static void add_rival(struct judge *j, const struct exact_root *root)
   j->nearest = *first;
 }
 
+bool judge_weigh_tie(struct judge *j, const struct exact_root *a, const struct exact_root *b)
+{
+  const bool fine = judge_tie_fine(j, a, b);
+  if (!fine) j->tied_from = real_min(j->tied_from, real_min(least_t(a), least_t(b)));
+  return fine;
+}
+
 void judge_keep(struct judge *j, struct exact_root *root)
 {
   if (j->all) {
@@ -169,8 +176,7 @@ void judge_keep(struct judge *j, struct exact_root *root)
   size_t kept = 0;
   for (size_t k = 0; k < j->rivals; k++) {
     if (!judge_tie(root, &at[k])) continue;
-    if (!judge_tie_fine(j, root, &at[k]))
-      j->tied_from = real_min(j->tied_from, real_min(least_t(root), least_t(&at[k])));
+    (void)judge_weigh_tie(j, root, &at[k]);
     at[kept++] = at[k];
   }
   j->rivals = kept;

@@ -120,6 +120,9 @@ bool judge_tie(const struct exact_root *a, const struct exact_root *b);
  * arithmetic leaves of roots that are not ill-conditioned. Turns to the patch of a. */
 bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct exact_root *b);
 
+/* Returns it, and where it matters has the nearest hit not be certain from the first of the two on. */
+bool judge_weigh_tie(struct judge *j, const struct exact_root *a, const struct exact_root *b);
+
 /* Which of two roots that nothing tells apart on the ray comes first: by patch, and by its parameters where a patch meets
  * itself. */
 bool judge_stands_before(const struct exact_root *a, const struct exact_root *b);
