@@ -26,11 +26,12 @@ struct check_request {
   const char *program;        /* of POV-Ray */
   const char *const *options; /* passed on to it */
   size_t option_count;
-  double timeout; /* seconds that a run of it may take */
-  size_t memory;  /* bytes that it may take */
-  bool own_text;  /* the first row is of the scene's own text, read once more from `path` */
-  size_t steps;   /* the last n; 0: only as written */
-  size_t grid;    /* every grid-th pixel of every grid-th row is asked for its distance; 0: none */
+  double timeout;             /* seconds that a run of it may take */
+  size_t memory;              /* bytes that it may take */
+  bool own_text;              /* the first row is of the scene's own text, read once more from `path` */
+  const char *const *folders; /* where files are looked for that it includes; those of language_settings */
+  size_t steps;               /* the last n; 0: only as written */
+  size_t grid;                /* every grid-th pixel of every grid-th row is asked for its distance; 0: none */
   struct compare_limit fail;
   double fail_psnr, fail_mask; /* dB, percent of the pixels */
   struct seconds parse;        /* what reading the scene took */

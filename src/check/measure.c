@@ -212,12 +212,13 @@ enum status check_measure_row(struct check *check, size_t steps)
 {
   struct check_row *row = &check->row[check->row_count];
   *row = (struct check_row){.steps = steps};
-  const bool own = steps == 0 && check->request->own_text;
-  enum status status = own ? povray_render_file(&check->povray, check->request->path, &row->picture)
+  const struct check_request *request = check->request;
+  const bool own = steps == 0 && request->own_text;
+  enum status status = own ? povray_render_file(&check->povray, request->path, request->folders, &row->picture)
                            : povray_render(&check->povray, check->scene, &row->picture);
   if (status != STATUS_OK) return status;
   if (check->row_count++ == 0) povray_warnings(&check->povray, &check->warnings);
-  row->mask = calloc(check->request->width * check->request->height, 1);
+  row->mask = calloc(request->width * request->height, 1);
   status = row->mask == NULL || check->warnings.failed ? listener_out_of_memory(check->listener) : ask(check, row);
   if (status == STATUS_OK) compare_row(check, row);
   return status;

@@ -280,7 +280,8 @@ enum status povray_render(struct povray *povray, const struct scene *scene, stru
   return status == STATUS_OK ? render_text(povray, "the scene", out) : status;
 }
 
-enum status povray_render_file(struct povray *povray, const char *path, struct povray_picture *out)
+enum status povray_render_file(struct povray *povray, const char *path, const char *const *folders,
+                               struct povray_picture *out)
 {
   char folder[SCRATCH_PATH_SIZE];
   const char *reason;
@@ -288,7 +289,7 @@ enum status povray_render_file(struct povray *povray, const char *path, struct p
   scratch_path(&povray->folder, RUN, folder);
   enum status status = begin_run(povray);
   if (status != STATUS_OK) return status;
-  status = plain_copy(path, folder, TEXT, &reason);
+  status = plain_copy(path, folders, folder, TEXT, &reason);
   if (status == STATUS_FILE)
     return listener_fail(povray->listener, status, "cannot copy the scene for POV-Ray: %s", reason);
   if (status != STATUS_OK) return listener_fail(povray->listener, status, "out of memory, or too many files");

@@ -52,8 +52,9 @@ struct povray_picture {
 enum status povray_render(struct povray *povray, const struct scene *scene,
                           struct povray_picture *out) STATUS_MUST_CHECK;
 
-/* The same by the text of a scene file itself, without its solver statements. */
-enum status povray_render_file(struct povray *povray, const char *path, struct povray_picture *out) STATUS_MUST_CHECK;
+/* The same by the text of a scene file itself, without its solver statements. `folders` are those of language_settings. */
+enum status povray_render_file(struct povray *povray, const char *path, const char *const *folders,
+                               struct povray_picture *out) STATUS_MUST_CHECK;
 
 /* Asks POV-Ray's trace() for the distance along each ray, in scene units: INFINITY on a miss. Where out_mask is not
  * NULL, also which pixels hit something: out_mask[height][width] is 1 or 0. */

@@ -2,9 +2,11 @@
 #include "check/check.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include "base/number.h"
 #include "check/povray.h"
 #include "command/command.h"
 #include "command/output.h"
@@ -57,6 +59,27 @@ static enum status take_povray_option(const struct command *command, struct requ
   return STATUS_OK;
 }
 
+/* The numbers of --declare, for a text that POV-Ray reads as it is. Writes the options' texts, to be freed. */
+static enum status declare_numbers(const struct command *command, struct request *request, char **out_texts)
+{
+  const struct scene_request *scene = &request->scene;
+  enum status status = STATUS_OK;
+  size_t size = 1, used = 0;
+  for (size_t k = 0; k < scene->number_count; k++)
+    size += sizeof "Declare==" + scene->numbers[k].name_length + NUMBER_TEXT_SIZE;
+  char *texts = *out_texts = malloc(size);
+  if (texts == NULL) return command_out_of_memory(command);
+  for (size_t k = 0; k < scene->number_count && status == STATUS_OK; k++) {
+    const struct language_number *given = &scene->numbers[k];
+    char number[NUMBER_TEXT_SIZE];
+    number_write_17(given->value, number);
+    status = take_povray_option(command, request, texts + used);
+    used += 1 + (size_t)snprintf(texts + used, size - used, "Declare=%.*s=%s", (int)given->name_length, given->name,
+                                 number);
+  }
+  return status;
+}
+
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
   struct request *request = context;
@@ -97,7 +120,10 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
   request->scene.path = check->path;
   request->scene.width = check->width;
   request->scene.height = check->height;
-  enum status status = scene_file_load(request->ear.command, &request->scene, &scene);
+  const char **folders = scene_request_folders(&request->scene);
+  check->folders = folders;
+  enum status status = folders == NULL ? command_out_of_memory(request->ear.command)
+                                       : scene_file_load(request->ear.command, &request->scene, &scene);
   check->parse = seconds_since(start);
   for (size_t k = 0; k < CHECK_FILES && status == STATUS_OK; k++) {
     char name[CHECK_NAME_SIZE];
@@ -106,6 +132,7 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
   }
   if (status == STATUS_OK) status = check_scene(check, scene, &listener, out_text);
   scene_destroy(scene);
+  free(folders);
   return status;
 }
 
@@ -124,7 +151,7 @@ static enum status run(const struct command *command, int argc, const char **arg
                             .folder = {.suffix = "-check", .page = "check.html"},
                             .ear = {.command = command}};
   struct command_line line;
-  char *command_line = command_line_text(argc, argv);
+  char *command_line = command_line_text(argc, argv), *declared = NULL;
   enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) {
     request.check.path = line.positional[0];
@@ -132,9 +159,11 @@ static enum status run(const struct command *command, int argc, const char **arg
     request.folder.scene = request.check.path;
     request.folder.quiet = request.scene.quiet = request.ear.quiet;
     status = prepare(command, &request.check);
+    if (status == STATUS_OK && request.check.own_text) status = declare_numbers(command, &request, &declared);
     if (status == STATUS_OK) status = output_folder_fill(command, &request.folder, work, &request);
   }
   free(command_line);
+  free(declared);
   free(request.options);
   return status;
 }

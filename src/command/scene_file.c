@@ -75,17 +75,19 @@ size_t scene_request_memory(const struct scene_request *request)
   return (size_t)pages * (size_t)page / share;
 }
 
-/* Where included files are looked for, ended by NULL: the folders of -I, those of PSCN_INCLUDE (written over), POV-Ray's
- * own. To be freed; NULL where memory is short. */
-static const char **list_folders(const struct scene_request *request, char *environment)
+const char **scene_request_folders(const struct scene_request *request)
 {
   static const char *const povray[] = {"/usr/share/povray-3.7/include", "/usr/local/share/povray-3.7/include", NULL};
+  const char *variable = getenv("PSCN_INCLUDE");
+  if (variable == NULL) variable = "";
   size_t count = request->folder_count, colons = 0;
-  for (const char *at = environment; (at = strchr(at, ':')) != NULL; at++) colons++;
-  const char **folders = malloc((count + colons + 1) * sizeof *folders + sizeof povray);
+  for (const char *at = variable; (at = strchr(at, ':')) != NULL; at++) colons++;
+  const size_t rows = (count + colons + 1) * sizeof(char *) + sizeof povray;
+  const char **folders = malloc(rows + strlen(variable) + 1);
   if (folders == NULL) return NULL;
   memcpy(folders, request->folders, count * sizeof *folders);
-  for (char *folder = strtok(environment, ":"); folder != NULL; folder = strtok(NULL, ":")) folders[count++] = folder;
+  char *names = strcpy((char *)folders + rows, variable);
+  for (char *folder = strtok(names, ":"); folder != NULL; folder = strtok(NULL, ":")) folders[count++] = folder;
   memcpy(folders + count, povray, sizeof povray);
   return folders;
 }
@@ -118,13 +120,10 @@ static enum status load(const struct command *command, const struct scene_reques
 
 enum status scene_file_load(const struct command *command, const struct scene_request *request, struct scene **out)
 {
-  const char *variable = getenv("PSCN_INCLUDE");
-  char *environment = strdup(variable != NULL ? variable : "");
-  const char **folders = environment == NULL ? NULL : list_folders(request, environment);
+  const char **folders = scene_request_folders(request);
   *out = NULL;
   const enum status status = folders == NULL ? command_out_of_memory(command) : load(command, request, folders, out);
   free(folders);
-  free(environment);
   return status;
 }
 

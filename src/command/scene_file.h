@@ -57,6 +57,10 @@ enum status scene_request_take(const struct command *command, void *scene_reques
 /* Bytes that the scene may take: what the command line says, or a share of what there is. */
 size_t scene_request_memory(const struct scene_request *request);
 
+/* Where included files are looked for, ended by NULL: the folders of -I, those of PSCN_INCLUDE, POV-Ray's own. To be freed
+ * by one free; NULL where memory is short. */
+const char **scene_request_folders(const struct scene_request *request);
+
 /* Reads the scene, from standard input where its path is "-"; the caller destroys it. On failure the errors have been
  * told and *out is NULL. */
 enum status scene_file_load(const struct command *command, const struct scene_request *request,

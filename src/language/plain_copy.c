@@ -16,6 +16,7 @@ struct copies {
   struct source **source;
   size_t count, room;
   const char *folder, *name;
+  const char *const *folders; /* where else to look */
   const char *reason;
 };
 
@@ -83,20 +84,31 @@ static void blank_until(struct copy *copy, size_t end)
   for (; copy->done < end; copy->done++) put(copy, copy->source->text[copy->done] == '\n' ? "\n" : " ", 1);
 }
 
-/* Reads a file that is named relative to the folder of the file `includer`, as the language has it; NULL where it is not
+/* Reads the file of that name and one of its endings in a folder, which is folder[0 .. length-1]; NULL where it is not
  * there. */
-static struct source *read_beside(const char *includer, const char *name, size_t length)
+static struct source *read_in(const char *folder, size_t length, const char *name, size_t name_length,
+                              const char *ending)
 {
-  const char *slash = strrchr(includer, '/'), *reason;
-  const size_t folder = length > 0 && name[0] == '/' ? 0 : slash == NULL ? 0 : (size_t)(slash - includer) + 1;
+  const bool whole = name_length > 0 && name[0] == '/', slash = !whole && length > 0 && folder[length - 1] != '/';
   char path[MAX_NAME];
+  struct source *source;
+  const char *reason;
+  if (length + name_length + MAX_ENDING + 2 > sizeof path || memchr(name, '\0', name_length) != NULL) return NULL;
+  snprintf(path, sizeof path, "%.*s%s%.*s%s", whole ? 0 : (int)length, folder, slash ? "/" : "", (int)name_length, name,
+           ending);
+  return source_read(path, INPUT_FILE, &source, &reason) == STATUS_OK ? source : NULL;
+}
+
+/* Reads the file that the language would include, or answers NULL. */
+static struct source *read_included(const struct copy *copy, const char *name, size_t length)
+{
+  const char *includer = copy->source->name, *slash = strrchr(includer, '/');
   struct source *source = NULL;
-  if (folder + length + MAX_ENDING >= sizeof path || memchr(name, '\0', length) != NULL) return NULL;
-  memcpy(path, includer, folder);
-  memcpy(path + folder, name, length);
   for (const char *const *ending = include_endings(name, length); *ending != NULL && source == NULL; ending++) {
-    strcpy(path + folder + length, *ending);
-    if (source_read(path, INPUT_FILE, &source, &reason) != STATUS_OK) source = NULL;
+    const char *const *folder = copy->all->folders;
+    source = read_in(includer, slash == NULL ? 0 : (size_t)(slash - includer) + 1, name, length, *ending);
+    for (; source == NULL && folder != NULL && *folder != NULL; folder++)
+      source = read_in(*folder, strlen(*folder), name, length, *ending);
   }
   return source;
 }
@@ -106,7 +118,7 @@ static void copy_include(struct copy *copy)
 {
   const size_t begin = copy->scan.begin, end = copy->scan.end;
   char new_name[MAX_NAME];
-  struct source *source = read_beside(copy->source->name, copy->source->text + begin + 1, end - begin - 2);
+  struct source *source = read_included(copy, copy->source->text + begin + 1, end - begin - 2);
   if (source == NULL) return;
   const size_t index = add_source(copy->all, source);
   if (index == MAX_FILES) {
@@ -178,9 +190,10 @@ static enum status copy_file(struct copies *copies, size_t index)
   return copy.status;
 }
 
-enum status plain_copy(const char *path, const char *folder, const char *name, const char **out_reason)
+enum status plain_copy(const char *path, const char *const *folders, const char *folder, const char *name,
+                       const char **out_reason)
 {
-  struct copies copies = {.folder = folder, .name = name};
+  struct copies copies = {.folder = folder, .name = name, .folders = folders};
   struct source *scene = NULL;
   enum status status = source_read(path, INPUT_FILE_OR_PIPE, &scene, &copies.reason);
   if (status == STATUS_OK && add_source(&copies, scene) == MAX_FILES) status = STATUS_LIMIT;

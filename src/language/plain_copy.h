@@ -2,8 +2,7 @@
  *
  * Everything else stays as it is, byte for byte, except that the copies are included by their own names: all of them
  * stand in one folder. What is removed leaves blanks, so that POV-Ray's messages name the lines of the scene. Both
- * branches of a condition are copied; an #include of a file that is not there, which may be meant for POV-Ray's own
- * folders, is left alone.
+ * branches of a condition are copied; an #include of a file that is not there is left alone.
  */
 #ifndef PSCN_LANGUAGE_PLAIN_COPY_H
 #define PSCN_LANGUAGE_PLAIN_COPY_H
@@ -11,9 +10,10 @@
 #include "base/status.h"
 
 /* Copies the scene file at `path` to `folder`/`name` and each included file to "K-FILE" beside it, K = 1, 2, ...
+ * `folders` are those of language_settings.
  * STATUS_FILE where a file cannot be read or written: out_reason says why in English words; STATUS_LIMIT where
  * memory is short or more than 10000 files are included. */
-STATUS_MUST_CHECK enum status plain_copy(const char *path, const char *folder, const char *name,
-                                         const char **out_reason);
+STATUS_MUST_CHECK enum status plain_copy(const char *path, const char *const *folders, const char *folder,
+                                         const char *name, const char **out_reason);
 
 #endif

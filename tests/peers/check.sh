@@ -39,6 +39,7 @@ background { rgb <0.2, 0.3, 0.5> }
 #else
   #declare Shade = rgb <1, 0, 0>;
 #end
+#ifdef (Beside) #include "beside.inc" #end
 object { Part translate 0.1*x }
 object { Part rotate 90*z translate <-0.3, 0.2, 1> texture { pigment { color Shade } } }
 END
@@ -52,6 +53,8 @@ cat >"scenes and more/parts.inc" <<'END'
 END
 echo '#declare Nothing = 0;' >"scenes and more/only povray.inc"
 echo '#error "parts.inc is found first"' >"scenes and more/parts"
+mkdir "scenes and more/beside"
+echo 'global_settings { solver newton } background { rgb Beside }' >"scenes and more/beside/beside.inc"
 
 answers() {
   expect 0 "$PSCN" check "$scene" --size 120x90 --steps 4 --failpercent 2 --failpsnr 25 --failmask 2
@@ -70,6 +73,12 @@ answers() {
   expect 0 "$PSCN" check "$scene" --size 120x90 --steps 0 --grid 0 -o own \
     --failpercent 100 --failpsnr 0 --failmask 100 --own-text
   cmp -s own/povray.png one-check/povray.png || fail "the scene's own text gives another picture"
+  # It finds what is declared and included as the scene does here.
+  given=(--declare Beside=0.125 -I "scenes and more/beside" --size 24x18 --steps 0 --grid 0
+    --failpercent 100 --failpsnr 0 --failmask 100)
+  expect 0 "$PSCN" check "$scene" "${given[@]}" -o dumped
+  expect 0 "$PSCN" check "$scene" "${given[@]}" -o own --own-text
+  cmp -s own/povray.png dumped/povray.png || fail "the scene's own text is read with other numbers or files"
   "$PSCN" compare one-check/pscn.png one-check/povray-4.png --fail 1 --quiet || fail "the pictures cannot be compared"
   "$PSCN" render "$scene" -o own.png --size 120x90 --quiet
   "$PSCN" compare own.png one-check/pscn.png --fail 0 --quiet || fail "check's own picture is not render's"
