@@ -99,14 +99,20 @@ static struct source *read_in(const char *folder, size_t length, const char *nam
   return source_read(path, INPUT_FILE, &source, &reason) == STATUS_OK ? source : NULL;
 }
 
+static struct source *read_beside(const struct source *other, const char *name, size_t length, const char *ending)
+{
+  const char *slash = strrchr(other->name, '/');
+  return read_in(other->name, slash == NULL ? 0 : (size_t)(slash - other->name) + 1, name, length, ending);
+}
+
 /* Reads the file that the language would include, or answers NULL. */
 static struct source *read_included(const struct copy *copy, const char *name, size_t length)
 {
-  const char *includer = copy->source->name, *slash = strrchr(includer, '/');
   struct source *source = NULL;
   for (const char *const *ending = include_endings(name, length); *ending != NULL && source == NULL; ending++) {
     const char *const *folder = copy->all->folders;
-    source = read_in(includer, slash == NULL ? 0 : (size_t)(slash - includer) + 1, name, length, *ending);
+    source = read_beside(copy->all->source[0], name, length, *ending);
+    if (source == NULL) source = read_beside(copy->source, name, length, *ending);
     for (; source == NULL && folder != NULL && *folder != NULL; folder++)
       source = read_in(*folder, strlen(*folder), name, length, *ending);
   }

@@ -190,20 +190,43 @@ static char *path_in(struct language *language, const char *folder, size_t folde
   return path;
 }
 
-/* The path of an included file: relative to the folder of the file that includes it, or else to the first of the given
- * folders that has it; the former, and *out_inode 0, where it is nowhere. NULL where memory is short. */
+/* The folder of a file, slash included. */
+static size_t folder_length(const struct source *source)
+{
+  const char *slash = strrchr(source->name, '/');
+  return slash ? (size_t)(slash - source->name) + 1 : 0;
+}
+
+/* The k-th folder to look in, or NULL: that of the scene, which POV-Ray is started in, that of the file that includes,
+ * those given. */
+static const char *folder_at(const struct language *language, size_t k, size_t *out_length)
+{
+  const struct frame *frame = language->sources->frame;
+  const char *const *folders = language->sources->folders;
+  while (k == 0 && frame->outer) frame = frame->outer;
+  if (k > 1) {
+    const char *folder = folders ? folders[k - 2] : NULL;
+    *out_length = folder ? strlen(folder) : 0;
+    return folder;
+  }
+  *out_length = folder_length(frame->source);
+  return frame->source->name;
+}
+
+/* The path of an included file in the first folder that has it; beside the one that includes it, and *out_inode 0,
+ * where none has. NULL where memory is short. */
 static char *path_of(struct language *language, const struct wanted *file, uint64_t *out_device, uint64_t *out_inode)
 {
-  const char *includer = language->sources->frame->source->name, *slash = strrchr(includer, '/');
-  char *path = path_in(language, includer, slash ? (size_t)(slash - includer) + 1 : 0, file), *other = path;
-  const char *const *folder = language->sources->folders;
-  while (other && !source_identify(other, out_device, out_inode)) {
-    *out_device = *out_inode = 0;
-    if (!folder || !*folder) return path;
-    other = path_in(language, *folder, strlen(*folder), file);
-    folder++;
+  char *beside = NULL;
+  const char *folder;
+  size_t length;
+  for (size_t k = language->sources->frame->outer ? 0 : 1; (folder = folder_at(language, k, &length)) != NULL; k++) {
+    char *path = path_in(language, folder, length, file);
+    if (!path || source_identify(path, out_device, out_inode)) return path;
+    if (k == 1) beside = path;
   }
-  return other;
+  *out_device = *out_inode = 0;
+  return beside;
 }
 
 /* Each name is looked for in all folders before the next one is. */
