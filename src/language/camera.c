@@ -7,11 +7,15 @@
 #include <string.h>
 
 #include "geometry/vector.h"
+#include "language/settings.h"
 
 #define RADIANS_A_DEGREE (3.14159265358979323846 / 180)
 
 /* Of unit vectors: below this they lie in a line or in a plane to within what their own rounding leaves open. */
 #define FLAT 0x1p-45
+
+/* The first version of which POV-Ray sorts the items; in older ones each does what it does where it stands. */
+#define VERSION_SORTED 3.5
 
 /* Of the sky's own length: how far it may be from the direction and still lie along it. */
 #define ALONG_SKY 1e-10
@@ -38,11 +42,21 @@ void camera_perspective(struct language *language, struct span place)
   language->camera->begun = true;
 }
 
+/* An item behind another one that POV-Ray would have had to know it. */
+static void tell_late(struct language *language, struct span place)
+{
+  if (language->settings->version < VERSION_SORTED)
+    language_error(language, place, "before version 3.5 look_at, angle and transforms stand behind what they change");
+}
+
 void camera_vector(struct language *language, int which, const struct value *value)
 {
   struct camera_items *camera = language->camera;
   camera->begun = true;
   value_to_vector(language, value, camera->item[which]);
+  const bool of_angle = which == CAMERA_DIRECTION || which == CAMERA_RIGHT;
+  if (camera->moved || (camera->look_at && which != CAMERA_LOOK_AT) || (camera->angle > 0 && of_angle))
+    tell_late(language, value->place);
   if (which != CAMERA_LOOK_AT) return;
   camera->look_at = true;
   camera->look_at_place = value->place;
@@ -52,6 +66,7 @@ void camera_angle(struct language *language, const struct value *value)
 {
   double angle;
   language->camera->begun = true;
+  if (language->camera->moved) tell_late(language, value->place);
   if (!value_to_number(language, value, &angle)) return;
   if (angle >= 0 && angle < 180) language->camera->angle = angle;
   else language_error(language, value->place, "the angle must be at least 0 and less than 180 degrees");
@@ -61,6 +76,7 @@ void camera_transform(struct language *language, const struct transform *transfo
 {
   struct camera_items *camera = language->camera;
   camera->begun = true;
+  camera->moved = true;
   camera->transform = transform_then(&camera->transform, transform);
 }
 

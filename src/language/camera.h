@@ -13,6 +13,7 @@ struct camera_items {
   bool said;  /* there is a camera statement */
   bool begun; /* an item has come */
   bool look_at;
+  bool moved;                 /* a transform has come */
   double angle;               /* degrees, 0 where not given */
   struct transform transform; /* of what all items but it make */
   struct block block;
