@@ -90,6 +90,16 @@ static void tell_declared(struct language *language, const struct name *name, co
   else language_error(language, name->place, "unexpected name '%.*s'%s", length, name->text, list);
 }
 
+/* What is told of a statement's word within a block, instead of what could have stood there: the block's brace is mostly
+ * missing. */
+static const char *misplaced(const struct tokens *tokens, const char *text)
+{
+  const int token = tokens->last.token;
+  if (tokens->last.depth == 0 || text[0] == '#' || !words_begin_statement(token)) return NULL;
+  const bool object = token == PSCN_TOKEN_BICUBIC_PATCH || token == PSCN_TOKEN_UNION || token == PSCN_TOKEN_OBJECT;
+  return object ? "; is a } missing before it?" : ", which stands in no other block; is a } missing before it?";
+}
+
 static bool same_place(struct span a, struct span b) { return span_begin(a) > 0 && span_begin(a) == span_begin(b); }
 
 void syntax_error(struct language *language, bool is_word, const char *const expected[], int count)
@@ -123,7 +133,9 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
     return;
   }
   char list[300] = "";
-  list_expected(expected, count, list, sizeof list);
+  const char *misplacement = misplaced(tokens, text);
+  if (misplacement) snprintf(list, sizeof list, "%s", misplacement);
+  else list_expected(expected, count, list, sizeof list);
   if (!is_word) {
     const bool outlives = token == PSCN_TOKEN_DEFAULT; /* the declaration it stands in, used or not */
     if (length == 0) language_tell(language, place, "the text ends here%s", list);
