@@ -67,7 +67,6 @@ struct leaf_parts {
   /* steps up to these, in leaf parameters, leave the root right to the rounding of its coordinates, and derivatives
    * right to their own */
   double last_step, slope_step;
-  double third; /* bound on third derivatives */
 };
 
 #define LEAF_GRAIN 0x1p-24
@@ -78,6 +77,21 @@ struct leaf_slab {
   double g[3], offset, half;
 };
 
+/* The quadric that the leaf lies along. With z, y1, y2 for g x - offset of slab[0], slab[1], slab[2] let
+ *
+ *     rest = z - (c[0] + c[1] y1 + c[2] y2 + c[3] y1^2 + c[4] y1 y2 + c[5] y2^2).
+ *
+ * On the leaf |rest| <= off, and from one point of it to another rest changes by no more than turn[0] times what y1 does and
+ * turn[1] times what y2 does; on the leaf widened by LEAF_MARGIN by turn_wide. So of the exact patch, and of points and forms
+ * of a ray that are off by no more than QUADRIC_ERROR makes of them; what that makes of a derivative along the ray is up to
+ * `slack`. Infinite where there is no such bound. */
+struct leaf_quadric {
+  double c[6], off, turn[2], turn_wide[2], slack;
+};
+
+/* In the frame of a patch. Planes' polynomials are off by a 2^8th of it, but of rays from far away and of copies. */
+#define QUADRIC_ERROR 0x1p-38
+
 struct leaf {
   /* a box along the leaf: across the normal in its middle, and the two that run with its parameters */
   struct leaf_slab slab[3];
@@ -85,12 +99,12 @@ struct leaf {
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split[0] in u, and so on */
   uint8_t kept_degree, eliminated_degree;
   bool v_kept;      /* the form keeps v and eliminates u */
-  bool bent;        /* so much that the root of its bilinear part is far from its own */
   uint8_t zeros[2]; /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
   double first[2]; /* bounds on |Su|, |Sv| there */
   struct leaf_parts parts;
+  struct leaf_quadric quadric;
   double x[3][16];              /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
 };

@@ -4,7 +4,7 @@
 
 #include "cmocka_test.h"
 #include "intersect/certificate.h"
-#include "intersect/lanes/newton.h"
+#include "intersect/lanes/quadric.h"
 #include "property/world.h"
 #include "quad_root.h"
 
@@ -172,20 +172,26 @@ static void aim(struct subject *s, struct random *random, double slant)
   }
 }
 
-/* The root that the kernel's process ends at from there, on all lanes alike. */
+/* The root that the kernel's process ends at from there, on all lanes alike; by what its quadric tells of the whole line, alone on
+ * the leaf as well. */
 static void solve(struct subject *s, const double start[2], struct leaf_root *out)
 {
   struct ray rays[LANES];
   struct packet p;
   struct ready ready;
-  for (int l = 0; l < LANES; l++) rays[l] = s->ray;
+  for (int l = 0; l < LANES; l++) rays[l] = s->ray, rays[l].t_min = -INFINITY;
   local_ray_make(&s->model->patches[s->leaf->patch], &s->ray, &s->local);
   truth_make(s->model, s->leaf, &s->ray, s->local.axis, &s->truth);
+  const struct model_patch *patch = &s->model->patches[s->leaf->patch];
   packet_begin(&p, &ready, s->world.tracer, LANES, rays, false);
-  packet_set_patch(&p, &s->model->patches[s->leaf->patch], s->leaf->patch);
+  packet_set_patch(&p, patch, s->leaf->patch);
   assert_int_equal(packet_axis(&p, 0), s->local.axis);
   const lanes at[2] = {lanes_all(start[0]), lanes_all(start[1])};
-  newton_solve(&p, s->leaf, s->local.axis, at, lanes_all(0) == lanes_all(0), out);
+  const lane_mask all = lanes_all(0) == lanes_all(0);
+  newton_solve(&p, s->leaf, s->local.axis, at, all, out);
+  const struct candidate it = {.leaf = s->leaf, .patch = patch, .axis = s->local.axis, .line = &p.line[s->local.axis]};
+  struct quadric_along along;
+  out->at.alone |= quadric_closes(&along, &it, out, quadric_along(&p, &it, all, &along));
 }
 
 static struct tally refined;
@@ -231,7 +237,7 @@ static void proven_roots_are_where_they_are_said_to_be(void **state)
 }
 
 static struct tally leaf_roots;
-static int closer_look; /* alone, though the root's derivatives alone do not say so */
+static int by_quadric; /* alone, though the root's derivatives alone do not say so */
 static double worst_residual, worst_place, worst_point, worst_tangent;
 
 static void check_leaf_root(struct subject *s, struct random *random)
@@ -244,7 +250,7 @@ static void check_leaf_root(struct subject *s, struct random *random)
   quad u, v;
   if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts.final) return;
   const double second = s->leaf->second[0] + 2 * s->leaf->second[1] + s->leaf->second[2];
-  if ((lanes_bits(root.at.alone) & 1) && root.at.size[0] * second > 2 * CERTIFICATE_ALONE) closer_look++;
+  if ((lanes_bits(root.at.alone) & 1) && root.at.size[0] * second > 2 * CERTIFICATE_ALONE) by_quadric++;
   /* Off the ray by: one rounding of a coordinate of the patch, of size 1, of the surface's way under the rounding of
    * u and v, and the bend's. */
   const quad at_u = root.at.u[0], at_v = root.at.v[0];
@@ -271,11 +277,11 @@ static void roots_of_leaves_that_bend_little_are_right_to_the_last_places(void *
   (void)state;
   on_all_leaves(SEED + 2, 0, CASES, check_leaf_root);
   on_all_leaves(SEED + 3, 32, CASES / 4, check_leaf_root); /* as many leaves as are cut exactly */
-  print_message("%d proven, %d of them alone, %d by a closer look; at most %.3g of the radius away\n", leaf_roots.exist,
-                leaf_roots.alone, closer_look, leaf_roots.worst_radius);
+  print_message("%d proven, %d of them alone, %d by its quadric; at most %.3g of the radius away\n", leaf_roots.exist,
+                leaf_roots.alone, by_quadric, leaf_roots.worst_radius);
   print_message("in roundings: off the ray %.3g, places %.3g, points %.3g, derivatives %.3g\n", worst_residual,
                 worst_place, worst_point, worst_tangent);
-  assert_true(leaf_roots.exist > 100 && leaf_roots.alone > 50 && closer_look > 10);
+  assert_true(leaf_roots.exist > 100 && leaf_roots.alone > 50 && by_quadric > 10);
   assert_int_equal(leaf_roots.outside_radius, 0);
   assert_int_equal(leaf_roots.not_alone, 0);
   assert_true(worst_residual <= 0.5 && worst_place <= 0.5 && worst_point <= 0.5 && worst_tangent <= 0.5);

@@ -82,12 +82,13 @@ static void assert_same_leaf(const struct leaf *a, const struct leaf *b)
   SAME(a, b, second);
   SAME(a, b, first);
   assert_true(a->patch == b->patch && a->column_u == b->column_u && a->column_v == b->column_v);
-  assert_true(a->kept_degree == b->kept_degree && a->v_kept == b->v_kept && a->bent == b->bent);
+  assert_true(a->kept_degree == b->kept_degree && a->v_kept == b->v_kept);
   assert_true(!a->form == !b->form);
   if (a->form) assert_memory_equal(a->form, b->form, sizeof *a->form);
   SAME(a, b, parts.base);
   SAME(a, b, parts.rest);
-  assert_true(a->parts.third == b->parts.third && a->parts.error == b->parts.error && a->parts.final == b->parts.final);
+  SAME(a, b, quadric);
+  assert_true(a->parts.error == b->parts.error && a->parts.final == b->parts.final);
 }
 
 static void assert_same(const struct model *a, const struct model *b)

@@ -180,6 +180,79 @@ static void leaves_are_their_parts_of_the_patch(void **state)
   assert_true(worst_slope <= 1 + 0x1p-40 && worst_slope > 0.5);
 }
 
+/* A point of the exact patch, in the leaf's parameters, as the forms of its slabs. */
+static void forms_at(const struct quad_net exact[3], const struct model_patch *patch, const struct leaf *leaf, double u,
+                     double v, quad out[3])
+{
+  quad x[3];
+  for (int k = 0; k < 3; k++)
+    x[k] = quad_net_jet(&exact[k], (leaf->column_u + (quad)u) / patch->split[0],
+                        (leaf->column_v + (quad)v) / patch->split[1])
+             .value;
+  for (int q = 0; q < 3; q++) {
+    const struct leaf_slab *slab = &leaf->slab[q];
+    out[q] = slab->g[0] * x[0] + slab->g[1] * x[1] + slab->g[2] * x[2] - slab->offset;
+  }
+}
+
+static quad rest_of(const struct leaf_quadric *of, const quad form[3])
+{
+  const double *c = of->c;
+  const quad y1 = form[1], y2 = form[2];
+  return form[0] - (c[0] + c[1] * y1 + c[2] * y2 + c[3] * y1 * y1 + c[4] * y1 * y2 + c[5] * y2 * y2);
+}
+
+static double worst_off, worst_turn[2]; /* [1]: on the leaf itself */
+static int bounded, turns_bounded;
+
+static void leaf_lies_along_its_quadric(struct random *random, int kind, const struct model_patch *patch)
+{
+  (void)kind;
+  struct quad_net exact[3];
+  exact_nets(patch, exact);
+  for (int n = 0; n < 30; n++) {
+    struct leaf leaf;
+    leaves_make(patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(patch->split[0] * patch->split[1])), 1, &leaf);
+    const struct leaf_quadric *of = &leaf.quadric;
+    if (isinf(of->off)) continue;
+    bounded++, turns_bounded += !isinf(of->turn[0]);
+    for (int pair = 0; pair < 20; pair++) {
+      const double near = exp2(-(double)(pair % 5));
+      double low = -LEAF_MARGIN, high = 1 + LEAF_MARGIN;
+      double at[2][2];
+      quad form[2][3];
+      for (int k = 0; k < 2; k++) {
+        if (pair % 2) low = 0, high = 1;
+        at[0][k] = random_between(random, low, high),
+        at[1][k] = at[0][k] + near * (random_between(random, low, high) - at[0][k]);
+        if (pair >= 15) at[0][k] = random_bits(random) % 2 ? low : high; /* a corner */
+      }
+      for (int k = 0; k < 2; k++) forms_at(exact, patch, &leaf, at[k][0], at[k][1], form[k]);
+      const quad one = rest_of(of, form[0]), other = rest_of(of, form[1]);
+      if (at[0][0] >= 0 && at[0][0] <= 1 && at[0][1] >= 0 && at[0][1] <= 1)
+        worst_off = fmax(worst_off, (double)(quad_abs(one) / of->off));
+      bool within = true;
+      for (int k = 0; k < 4; k++) within &= at[k / 2][k % 2] >= 0 && at[k / 2][k % 2] <= 1;
+      const double *turn = within ? of->turn : of->turn_wide;
+      const quad most = turn[0] * quad_abs(form[0][1] - form[1][1]) + turn[1] * quad_abs(form[0][2] - form[1][2]);
+      if (most > 0) worst_turn[within] = fmax(worst_turn[within], (double)(quad_abs(one - other) / most));
+    }
+  }
+}
+
+static void leaves_lie_along_their_quadrics(void **state)
+{
+  (void)state;
+  for_patches(3, leaf_lies_along_its_quadric);
+  print_message(
+    "%d leaves with a quadric, %d with one that tells of slopes; of what is allowed the rest takes %.3g, its "
+    "change %.3g, and %.3g next to them\n",
+    bounded, turns_bounded, worst_off, worst_turn[1], worst_turn[0]);
+  assert_true(worst_off <= 1 && worst_off > 0.8);
+  for (int k = 0; k < 2; k++) assert_true(worst_turn[k] <= 1 && worst_turn[k] > 0.5);
+  assert_true(turns_bounded > 200 && bounded > turns_bounded);
+}
+
 /* Second differences in quadruple precision. */
 static quad second(const struct quad_net *net, quad u, quad v, int kind)
 {
@@ -231,9 +304,8 @@ int main(void)
 {
   print_message("seed %d\n", SEED);
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(leaves_do_not_depend_on_their_neighbours),
-    cmocka_unit_test(parts_are_subnets),
-    cmocka_unit_test(leaves_are_their_parts_of_the_patch),
+    cmocka_unit_test(leaves_do_not_depend_on_their_neighbours),   cmocka_unit_test(parts_are_subnets),
+    cmocka_unit_test(leaves_are_their_parts_of_the_patch),        cmocka_unit_test(leaves_lie_along_their_quadrics),
     cmocka_unit_test(second_derivative_bounds_hold_and_are_near),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

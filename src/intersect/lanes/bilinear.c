@@ -59,8 +59,6 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask activ
 
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
 {
-  if (it->leaf->bent) open = stage_bilinear(p, it, open);
-  if (!lanes_any(open)) return open;
   const struct newton_root *r = &it->first.at;
   const struct known_root known = {r, open & r->exists};
   lanes left[2] = {{0}, {0}};

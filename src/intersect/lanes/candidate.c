@@ -33,9 +33,11 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   }
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
-  if (patch->lanes != SOLVER_LANES_NONE && !it->leaf->bent) {
+  if (patch->lanes != SOLVER_LANES_NONE) {
     entered[STAGE_BILINEAR] += lanes_count(open);
     open = stage_bilinear(p, it, open);
+    if (!lanes_any(open)) return;
+    open = stage_quadric(p, it, open);
     if (!lanes_any(open)) return;
   }
   entered[STAGE_PLANES] += lanes_count(open);

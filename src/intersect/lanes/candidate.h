@@ -45,12 +45,16 @@ lane_mask stage_box(const struct candidate *it, lane_mask open);
  * tried at once. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
+/* quadric.c: closed where the quadric that the leaf lies along tells that it has no root but the one that stage_bilinear has found,
+ * or none; with the default method also where it has just one more, which is sought. */
+lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask open);
+
 /* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net.
  * Where these are one polynomial `along` is set: no stage behind can decide that. */
 lane_mask stage_planes(struct candidate *it, lane_mask open);
 
 /* bilinear.c: by the default method, closed where boxes show that the leaf has no root but the one that stage_bilinear
- * has found, of a bent leaf now, and one more, which is sought where they do not. */
+ * has found, and one more, which is sought where they do not. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
 /* resultant.c: Bezout's resultant r of a and b in Bernstein form: closed where it has no sign variation. */
@@ -82,6 +86,27 @@ void method_starts(const struct packet *p, const struct candidate *it, lane_mask
 
 /* one_by_one.c: without polish the roots of r are the answer, proven or not. */
 lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);
+
+/* All of a patch is within |w| < 1 in its frame: a ray is not looked at beyond this. */
+#define FRAME_END 2.0
+
+/* Between these w = x_k the ray is where it looks for a root, but for `off`. */
+LANES_INLINE void ray_ends(const struct packet *p, const struct candidate *it, lanes *from, lanes *to, lanes *off)
+{
+  const lanes along = p->direction[it->axis] * (1 / it->patch->scale), start = it->line->start[0];
+  const lanes at_min = p->t_min * along - start, at_far = p->t_far * along - start;
+  *from = lanes_min(lanes_max(lanes_min(at_min, at_far), lanes_all(-FRAME_END)), lanes_all(FRAME_END));
+  *to = lanes_min(lanes_max(lanes_max(at_min, at_far), lanes_all(-FRAME_END)), lanes_all(FRAME_END));
+  *off = 2 * (p->t_error * lanes_abs(along) + 16 * UNIT_ROUNDOFF * lanes_abs(start));
+}
+
+/* On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the slab's form is a + b w. */
+LANES_INLINE void slab_values(const struct line *line, int k, const struct leaf_slab *slab, lanes *a, lanes *b)
+{
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  *a = slab->g[i] * line->moment[0] + (slab->g[j] * line->moment[1] - slab->offset);
+  *b = slab->g[i] * line->slope[0] + (slab->g[j] * line->slope[1] + slab->g[k]);
+}
 
 LANES_INLINE void plane_values(const struct line *line, int axis, const double x[3][16], int at, lanes *a, lanes *b)
 {

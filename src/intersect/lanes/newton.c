@@ -220,61 +220,9 @@ LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const 
   r->size = size, r->bend = bend * (step + off), r->off = off;
 }
 
-/* Bounds on a row of M J: its own parameter's element is at least `least`, the other within `cross`. */
-struct row {
-  lanes least, cross;
-};
-
-/* How far that of J(c + d), |d| up to `reach`, may be from J(c) + H d, all rounding included, is `rest`. */
-struct halfway {
-  struct coordinate x[3]; /* at c */
-  struct curvature h[3];
-  lanes reach, rest;
-};
-
-LANES_INLINE struct row row_bounds(const struct line *line, int axis, const struct halfway *at, lanes ma, lanes mb,
-                                   bool second)
-{
-  const struct coordinate *xk = &at->x[axis], *xi = &at->x[(axis + 1) % 3], *xj = &at->x[(axis + 2) % 3];
-  const struct curvature *hk = &at->h[axis], *hi = &at->h[(axis + 1) % 3], *hj = &at->h[(axis + 2) % 3];
-  const lanes mk = -(ma * line->slope[0] + mb * line->slope[1]);
-  const lanes ds = ma * xi->ds + mb * xj->ds + mk * xk->ds, dt = ma * xi->dt + mb * xj->dt + mk * xk->dt;
-  const lanes ss = lanes_abs(ma * hi->ss + mb * hj->ss + mk * hk->ss);
-  const lanes st = lanes_abs(ma * hi->st + mb * hj->st + mk * hk->st);
-  const lanes tt = lanes_abs(ma * hi->tt + mb * hj->tt + mk * hk->tt);
-  const lanes off_s = at->reach * (ss + st) + at->rest, off_t = at->reach * (st + tt) + at->rest;
-  return second ? (struct row){dt - off_t, lanes_abs(ds) + off_s} : (struct row){ds - off_s, lanes_abs(dt) + off_t};
-}
-
 /* Rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size 1:
  * the net, and some twenty operations. */
 #define DERIVATIVE_ROUNDINGS 64
-
-/* And of the rest: the sum of its terms grows by 3/(1/2 + LEAF_MARGIN) with the first derivative, by 6 over the square of that
- * with the second, which is off by so much of leaf_parts.error on the way. */
-#define DERIVATIVE_ERRORS 8
-
-/* Lanes whose proven root, near (s,t), is alone in the leaf, by a closer look than prove's.
- *
- * On the way from the root to a point of the leaf the Jacobian is on average what it is halfway, but for |T|/24 of
- * third derivatives times the way squared, which is at most 1 + LEAF_MARGIN long. Halfways are within 1/4 of the one to
- * the middle of the leaf, c: there the Jacobian is J(c) + H(c) d but for |T|/32. Where no such matrix can be singular,
- * because M times it has a positive diagonal whose product is larger than that of the other elements, no other point
- * of the leaf has the root's values. */
-LANES_INLINE lane_mask alone_at(const struct line *line, int axis, const struct leaf *leaf, const struct inverse *m,
-                                const struct newton_root *r, lanes step, lanes s, lanes t, unsigned few)
-{
-  struct halfway at;
-  surface_at(&leaf->parts, 0.5 * s, 0.5 * t, few, at.x);
-  curvatures_at(&leaf->parts, 0.5 * s, 0.5 * t, few, at.h);
-  const double way = 1 + LEAF_MARGIN, third = leaf->parts.third * (way * way / 24 + 1.0 / 32);
-  at.reach = 0.25 + (step + lanes_max(r->radius_u, r->radius_v)); /* (s,t) is not the root itself */
-  const double rounding = DERIVATIVE_ROUNDINGS * UNIT_ROUNDOFF * (1 + leaf->first[0] + leaf->first[1]);
-  at.rest = r->size * (third + rounding + DERIVATIVE_ERRORS * leaf->parts.error);
-  const struct row u = row_bounds(line, axis, &at, m->ua, m->ub, false);
-  const struct row v = row_bounds(line, axis, &at, m->va, m->vb, true);
-  return (u.least > 0) & (v.least > 0) & (u.least * v.least > (1 + 8 * UNIT_ROUNDOFF) * (u.cross * v.cross));
-}
 
 /* ---- the process ---- */
 
@@ -314,8 +262,6 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
   }
   out->at.u = from_middle(s, step_s), out->at.v = from_middle(t, step_t);
   prove(leaf, &m, line->slope, line->error + parts->error, step, settled, &out->at);
-  const lane_mask open = out->at.exists & ~out->at.alone;
-  if (lanes_any(open)) out->at.alone |= open & alone_at(line, k, leaf, &m, &out->at, step, s, t, few_lanes(open));
   const struct double_lanes way = double_lanes_sum(x[k].hi, line->start[0]);
   const lanes rest = x[k].lo - (x[k].ds * step_s + x[k].dt * step_t);
   out->w = x[k].hi + rest;

@@ -4,17 +4,6 @@
  */
 #include "intersect/lanes/candidate.h"
 
-/* All of a patch is within |w| < 1 in its frame: a ray is not looked at beyond this. */
-#define FRAME_END 2.0
-
-/* On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the slab's form is a + b w. */
-LANES_INLINE void slab_values(const struct line *line, int k, const struct leaf_slab *slab, lanes *a, lanes *b)
-{
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
-  *a = slab->g[i] * line->moment[0] + (slab->g[j] * line->moment[1] - slab->offset);
-  *b = slab->g[i] * line->slope[0] + (slab->g[j] * line->slope[1] + slab->g[k]);
-}
-
 /* With e the bound on a plane's error (local_ray.h), u < e/72: a is off by less than 2.5 e, b w by 8u, w by its two roundings
  * and that of the start, what is made of them by e + 6u, the net by 32u. */
 lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open)
@@ -23,14 +12,9 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
   const struct line *line = it->line;
   lanes a, b;
   slab_values(line, it->axis, slab, &a, &b);
-  const lanes along = p->direction[it->axis] * (1 / it->patch->scale), start = line->start[0];
-  const lanes out = slab->half + 10 * line->error +
-                    2 * (p->t_error * lanes_abs(along) + 16 * UNIT_ROUNDOFF * lanes_abs(start));
-  lanes at[2];
-  for (int end = 0; end < 2; end++) {
-    const lanes w = (end ? p->t_far : p->t_min) * along - start;
-    at[end] = a + b * lanes_min(lanes_max(w, lanes_all(-FRAME_END)), lanes_all(FRAME_END));
-  }
+  lanes from, to, off;
+  ray_ends(p, it, &from, &to, &off);
+  const lanes out = slab->half + 10 * line->error + off, at[2] = {a + b * from, a + b * to};
   return open & ~((lanes_min(at[0], at[1]) > out) | (lanes_max(at[0], at[1]) < -out));
 }
 

@@ -105,15 +105,6 @@ void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct le
   leaf->form = form;
 }
 
-/* A leaf whose derivatives turn by more than this fraction of their size is bent: the root of its bilinear part is off by a
- * quarter of that at most. A choice of speed: what comes of it is proven. */
-#define BENT_TURN 2.0
-
-static bool is_bent(const struct leaf *leaf)
-{
-  return !(turn_of(leaf->second) <= BENT_TURN * real_min(leaf->first[0], leaf->first[1]));
-}
-
 void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[])
 {
   const uint32_t row = (uint32_t)patch->split[1];
@@ -123,7 +114,6 @@ void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first
     leaves[k].column_v = (uint16_t)(number % row);
   }
   kernel_for(count)->leaves(patch, count, leaves);
-  for (size_t k = 0; k < count; k++) leaves[k].bent = is_bent(&leaves[k]);
 }
 
 /* What rounding `half` to a float, and what it is compared with, may do: see lanes/view.h. */

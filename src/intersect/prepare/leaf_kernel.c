@@ -8,13 +8,9 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "base/kernel.h"
-#include "base/lanes.h"
 #include "base/real.h"
 #include "geometry/vector.h"
-
-/* One of three coordinates, or of any other function of the surface: net[i][j], as in geometry/patch.h. */
-typedef lanes lane_net[4][4];
+#include "intersect/prepare/leaf_nets.h"
 
 /* ---- subdivision ---- */
 
@@ -92,6 +88,7 @@ static void patch_halve(const struct model_patch *patch, int leaves, struct patc
 /* Parts, and what is known of them. */
 struct cut {
   lane_net head[3], tail[3], x[3]; /* x: their sum */
+  lane_net wide[3];                /* widened, where there is a margin */
   lanes first[2], second[3];
 };
 
@@ -187,32 +184,14 @@ static void bounds(double margin, struct cut *cut)
     return;
   }
   const struct lane_range range = {lanes_all(-margin), lanes_all(1 + margin), false, false};
-  lane_net wide[3];
-  for (int k = 0; k < 3; k++) subnet((const lanes(*)[4])cut->x[k], &range, &range, wide[k]);
-  first_bounds(wide, cut->first), second_bounds(wide, cut->second);
+  for (int k = 0; k < 3; k++) subnet((const lanes(*)[4])cut->x[k], &range, &range, cut->wide[k]);
+  first_bounds(cut->wide, cut->first), second_bounds(cut->wide, cut->second);
   const double shrink = 1 / (1 + 2 * margin);
   for (int k = 0; k < 3; k++) cut->second[k] *= shrink * shrink;
   for (int k = 0; k < 2; k++) cut->first[k] *= shrink;
 }
 
 /* ---- Taylor's polynomial ---- */
-
-/* Coefficients about the middle, of a cubic in Bernstein form. */
-LANES_INLINE void taylor(lanes b0, lanes b1, lanes b2, lanes b3, lanes out[4])
-{
-  out[0] = ((b0 + b3) + 3 * (b1 + b2)) / 8, out[1] = 0.75 * ((b3 - b0) + (b2 - b1));
-  out[2] = 1.5 * ((b0 + b3) - (b1 + b2)), out[3] = (b3 - b0) - 3 * (b2 - b1);
-}
-
-static void taylor_net(const lane_net x, lanes out[16])
-{
-  lanes rows[4][4], column[4];
-  for (int i = 0; i < 4; i++) taylor(x[i][0], x[i][1], x[i][2], x[i][3], rows[i]);
-  for (int j = 0; j < 4; j++) {
-    taylor(rows[0][j], rows[1][j], rows[2][j], rows[3][j], column);
-    for (int i = 0; i < 4; i++) out[4 * i + j] = column[i];
-  }
-}
 
 /* The largest powers of s and t over the leaf widened by LEAF_MARGIN. */
 #define REACH (0.5 + LEAF_MARGIN)
@@ -221,25 +200,8 @@ static const double REACH_POWER[4] = {1, REACH, (REACH) * (REACH), (REACH) * (RE
 /* As struct leaf_parts has them. */
 struct lane_parts {
   lanes base[12], rest[48];
-  lanes error, last_step, slope_step, third;
+  lanes error, last_step, slope_step;
 };
-
-/* A bound on what third derivatives make of parameter vectors of maximum norm 1, over the leaf widened by LEAF_MARGIN:
- * that of the sum of each coordinate's terms. */
-static lanes third_bound(const struct lane_parts *parts)
-{
-  static const double falling[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 2, 0}, {1, 3, 6, 6}}; /* n!/(n-k)! */
-  lanes sum[1][3] = {{{0}, {0}, {0}}};
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++)
-      for (int a = 0; a <= 3; a++) {
-        if (i < a || j < 3 - a) continue;
-        const double weight = (a == 0 || a == 3 ? 1 : 3) * falling[i][a] * falling[j][3 - a] * REACH_POWER[i - a] *
-                              REACH_POWER[j - (3 - a)];
-        for (int k = 0; k < 3; k++) sum[0][k] += weight * lanes_abs(parts->rest[3 * (4 * i + j) + k]);
-      }
-  return longest((const lanes(*)[3])sum, 1);
-}
 
 /* What rounding adds to the value of a plane's polynomial. Of each term of the rest, in either of two coordinates: one
  * rounding of the coefficient, without fused multiply-add two for each of its powers and two more in Horner's scheme, and
@@ -293,7 +255,6 @@ static void set_parts(const struct cut *cut, bool exact, struct lane_parts *out)
   const lanes first = lanes_min(cut->first[0], cut->first[1]), least = lanes_all(LAST_STEP_CURVE);
   out->last_step = lanes_min(lanes_all(NEWTON_LAST_STEP), lanes_sqrt(least / lanes_max(second, least)));
   out->slope_step = lanes_select(second > UNIT_ROUNDOFF * first, 2 * UNIT_ROUNDOFF * first / second, lanes_all(2));
-  out->third = third_bound(out);
   out->error = error_bound(out, !exact);
 }
 
@@ -308,11 +269,6 @@ LANES_INLINE void cross(const lanes a[3], const lanes b[3], lanes out[3])
   out[1] = a[2] * b[0] - a[0] * b[2];
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
-
-/* As struct leaf_slab has it. */
-struct lane_slab {
-  lanes g[3], offset, half;
-};
 
 /* A net whose middle has no normal gets slabs that tell nothing. */
 static void set_slabs(lane_net x[3], struct lane_slab out[3])
@@ -411,19 +367,22 @@ static void slabs(const struct model_patch *patch, size_t count, const uint16_t 
 
 enum { LEAF = sizeof(struct leaf) / sizeof(double) };
 static_assert(sizeof(struct leaf) == LEAF * sizeof(double), "leaves are so many doubles apart");
-static_assert(offsetof(struct leaf_parts, error) == sizeof(double[60]), "stored in a row");
+static_assert(offsetof(struct leaf_parts, error) == sizeof(double[60]) &&
+                sizeof(struct leaf_quadric) == sizeof(double[12]),
+              "stored in a row");
 
-static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], const struct lane_parts *parts,
-                         bool exact, size_t here, struct leaf leaves[])
+static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], const struct lane_quadric *quadric,
+                         const struct lane_parts *parts, bool exact, size_t here, struct leaf leaves[])
 {
   store(cut->x[0][0], 48, here, leaves->x[0], LEAF);
   store(slab->g, 15, here, leaves->slab->g, LEAF);
   store(parts->base, 60, here, leaves->parts.base[0], LEAF);
+  store(quadric->c, 12, here, leaves->quadric.c, LEAF);
   for (size_t lane = 0; lane < here; lane++) {
     struct leaf *leaf = &leaves[lane];
     for (int k = 0; k < 2; k++) leaf->first[k] = cut->first[k][lane];
     for (int k = 0; k < 3; k++) leaf->second[k] = cut->second[k][lane];
-    leaf->parts.error = parts->error[lane], leaf->parts.third = parts->third[lane];
+    leaf->parts.error = parts->error[lane];
     leaf->parts.final = exact && leaf->parts.error <= FINAL_ERROR;
     leaf->parts.last_step = parts->last_step[lane], leaf->parts.slope_step = parts->slope_step[lane];
   }
@@ -441,13 +400,15 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
     struct cut cut;
     struct lane_slab slab[3];
     struct lane_parts parts;
+    struct lane_quadric quadric;
     lanes at[2];
     load_columns(&leaves->column_u, sizeof *leaves / sizeof leaves->column_u, here, at);
     cut_nets(&halves, at, &grid, &cut);
     bounds(grid.margin, &cut);
     set_parts(&cut, exact, &parts);
     set_slabs(cut.x, slab);
-    leaves_store(&cut, slab, &parts, exact, here, leaves);
+    quadric_set((const lane_net *)cut.x, (const lane_net *)cut.wide, slab, &quadric);
+    leaves_store(&cut, slab, &quadric, &parts, exact, here, leaves);
     leaves += here, count -= here;
   }
 }

@@ -1,0 +1,137 @@
+/* Roots and a leaf's quadric. See quadric.h.
+ *
+ * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
+ */
+#include "intersect/lanes/quadric.h"
+
+#include "intersect/lanes/nearest.h"
+
+/* In place of a slope of 0: over |w| <= FRAME_END it moves nothing by more than a plane's error. */
+#define LEAST_SLOPE 0x1p-60
+
+/* The slab |a + b w| <= half leaves no more than this. */
+LANES_INLINE void within_slab(lanes a, lanes b, lanes half, struct quadric_along *out)
+{
+  const lanes least = lanes_all(LEAST_SLOPE), inverse = 1 / lanes_select(lanes_abs(b) < least, least, b);
+  const lanes middle = -a * inverse, reach = half * lanes_abs(inverse);
+  out->from = lanes_max(middle - reach, out->from), out->to = lanes_min(middle + reach, out->to);
+}
+
+lane_mask quadric_along(const struct packet *p, const struct candidate *it, lane_mask open, struct quadric_along *out)
+{
+  const struct leaf *leaf = it->leaf;
+  const struct leaf_quadric *quadric = &leaf->quadric;
+  const double *c = quadric->c;
+  lanes z, dz, y1, dy1, y2, dy2;
+  slab_values(it->line, it->axis, &leaf->slab[0], &z, &dz);
+  slab_values(it->line, it->axis, &leaf->slab[1], &y1, &dy1);
+  slab_values(it->line, it->axis, &leaf->slab[2], &y2, &dy2);
+  const lanes by_1 = c[1] + c[3] * y1 + c[4] * y2, by_2 = c[2] + c[5] * y2;
+  const lanes turn_1 = c[3] * dy1 + c[4] * dy2, turn_2 = c[5] * dy2;
+  out->f[0] = z - (c[0] + y1 * by_1 + y2 * by_2);
+  out->f[1] = dz - (dy1 * by_1 + y1 * turn_1 + dy2 * by_2 + y2 * turn_2);
+  out->f[2] = -(dy1 * turn_1 + dy2 * turn_2);
+  out->slope[0] = dy1, out->slope[1] = dy2;
+  const lanes way_1 = lanes_abs(dy1), way_2 = lanes_abs(dy2);
+  out->turn = quadric->turn[0] * way_1 + (quadric->turn[1] * way_2 + quadric->slack);
+  out->turn_wide = quadric->turn_wide[0] * way_1 + (quadric->turn_wide[1] * way_2 + quadric->slack);
+  lanes off;
+  ray_ends(p, it, &out->from, &out->to, &off);
+  out->from -= off, out->to += off, off = 10 * it->line->error;
+  within_slab(y1, dy1, leaf->slab[1].half + off, out);
+  within_slab(y2, dy2, leaf->slab[2].half + off, out);
+  return open & (it->line->error <= QUADRIC_ERROR);
+}
+
+LANES_INLINE lanes value_at(const struct quadric_along *a, lanes w) { return a->f[0] + w * (a->f[1] + w * a->f[2]); }
+
+/* Lanes where f is nowhere within `off` of 0. */
+LANES_INLINE lane_mask passes_by(const struct quadric_along *a, double off)
+{
+  const lanes first = value_at(a, a->from), last = value_at(a, a->to);
+  /* where f is extremal, or the end that is next to it */
+  const lanes turns = lanes_min(lanes_max(-0.5 * a->f[1] / a->f[2], a->from), a->to), extreme = value_at(a, turns);
+  const lanes low = lanes_min(lanes_min(first, last), extreme), high = lanes_max(lanes_max(first, last), extreme);
+  return (low > off) | (high < -off);
+}
+
+/* A proven root as the quadric asks for it. */
+struct known_place {
+  lane_mask near; /* it exists, on the widened leaf */
+  lanes w, reach; /* where it is, but for so much */
+  lanes turn;     /* as of struct quadric_along, for that root and any other one on the leaf */
+};
+
+LANES_INLINE struct known_place place_of(const struct quadric_along *a, const struct candidate *it,
+                                         const struct leaf_root *root)
+{
+  const struct newton_root *r = &root->at;
+  const lanes far_u = lanes_abs(r->u - 0.5) + r->radius_u, far_v = lanes_abs(r->v - 0.5) + r->radius_v;
+  return (struct known_place){r->exists & (far_u <= 0.5 + LEAF_MARGIN) & (far_v <= 0.5 + LEAF_MARGIN), root->w,
+                              it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + 2 * it->line->error,
+                              lanes_select((far_u <= 0.5) & (far_v <= 0.5), a->turn, a->turn_wide)};
+}
+
+lane_mask quadric_closes(const struct quadric_along *a, const struct candidate *it, const struct leaf_root *root,
+                         lane_mask asked)
+{
+  const struct known_place at = place_of(a, it, root);
+  const lanes first = a->f[1] + a->f[2] * ((at.w - at.reach) + a->from);
+  const lanes last = a->f[1] + a->f[2] * ((at.w + at.reach) + a->to);
+  const lane_mask alone = at.near & ((lanes_min(first, last) > at.turn) | (lanes_max(first, last) < -at.turn));
+  return asked & ((a->from > a->to) | passes_by(a, it->leaf->quadric.off) | alone);
+}
+
+lane_mask quadric_closes_two(const struct quadric_along *a, const struct candidate *it, const struct leaf_root *first,
+                             const struct leaf_root *second, lane_mask asked)
+{
+  const struct known_place one = place_of(a, it, first), two = place_of(a, it, second);
+  const lanes apart = lanes_abs(one.w - two.w) - (one.reach + two.reach);
+  return asked & one.near & two.near & (lanes_abs(a->f[2]) * apart > (1 + 8 * UNIT_ROUNDOFF) * (one.turn + two.turn));
+}
+
+/* Where to look for another root: where f has the value again that it has at the known one, by the derivatives in the middle of the
+ * leaf. Returns the lanes where that is near the leaf. */
+static lane_mask other_start(const struct quadric_along *a, const struct candidate *it, lane_mask open, lanes start[2])
+{
+  const struct leaf *leaf = it->leaf;
+  const double(*base)[3] = leaf->parts.base;
+  double y[2][2]; /* of y1 and y2, by s and t */
+  for (int q = 0; q < 2; q++) {
+    const double *g = leaf->slab[1 + q].g;
+    for (int k = 0; k < 2; k++) y[q][k] = g[0] * base[1 + k][0] + (g[1] * base[1 + k][1] + g[2] * base[1 + k][2]);
+  }
+  const double inverse = 1 / (y[0][0] * y[1][1] - y[0][1] * y[1][0]);
+  const lanes w = it->first.w, way = inverse * (-(a->f[1] / a->f[2] + w) - w);
+  start[0] = (it->first.at.u - 0.5) + way * (y[1][1] * a->slope[0] - y[0][1] * a->slope[1]);
+  start[1] = (it->first.at.v - 0.5) + way * (y[0][0] * a->slope[1] - y[1][0] * a->slope[0]);
+  const double end = 0.5 + LEAF_MARGIN;
+  return open & it->first.at.exists & (lanes_abs(start[0]) <= end) & (lanes_abs(start[1]) <= end);
+}
+
+/* Seeks another root beside the one that was found first. Returns the lanes on which these two are all. */
+static lane_mask other_root(struct packet *p, const struct candidate *it, const struct quadric_along *a, lane_mask open)
+{
+  struct leaf_root second;
+  lanes start[2];
+  open = other_start(a, it, open, start);
+  if (!lanes_any(open)) return open;
+  newton_solve(p, it->leaf, it->axis, start, open, &second);
+  open &= second.at.exists;
+  const lane_mask all = quadric_closes_two(a, it, &it->first, &second, open);
+  offer_root(p, it, &it->first, all & inside(&it->first.at));
+  offer_root(p, it, &second, (p->any ? open : all) & inside(&second.at));
+  return all;
+}
+
+lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask open)
+{
+  struct quadric_along along;
+  const lane_mask asked = quadric_along(p, it, open, &along), closed = quadric_closes(&along, it, &it->first, asked);
+  offer_root(p, it, &it->first, closed & it->first.at.exists & inside(&it->first.at));
+  open &= ~closed & p->live;
+  if (it->patch->lanes != SOLVER_LANES_SIGNS) return open;
+  p->tracer->counts.roots_found += lanes_count(closed & it->first.at.exists);
+  if (lanes_any(open & asked)) open &= ~other_root(p, it, &along, open & asked);
+  return open & p->live;
+}

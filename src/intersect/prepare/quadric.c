@@ -1,0 +1,161 @@
+/* The quadric that a leaf lies along. See struct leaf_quadric (model.h).
+ *
+ * Compiled once per instruction set, without contraction and without fused multiply-add. Parameters are those of a net,
+ * s and t within [-1/2,1/2], of the leaf or the leaf widened: nothing that is kept depends on how a parameter is scaled.
+ */
+#include <math.h>
+
+#include "intersect/prepare/leaf_nets.h"
+
+/* z, y1 and y2 of struct leaf_quadric: nets, and Taylor's coefficients about the middle, that of s^i t^j at [4 * i + j]. */
+struct forms {
+  lane_net net[3];
+  lanes taylor[3][16];
+};
+
+enum { Z, Y1, Y2 };
+enum { S = 4, T = 1, SS = 8, ST = 5, TT = 2, SSS = 12, SST = 9, STT = 6, TTT = 3 };
+
+static void set_forms(const lane_net x[3], const struct lane_slab slab[3], struct forms *out)
+{
+  for (int q = 0; q < 3; q++) {
+    const lanes *g = slab[q].g;
+    for (int n = 0; n < 16; n++) {
+      const int i = n / 4, j = n % 4;
+      out->net[q][i][j] = (g[0] * x[0][i][j] + (g[1] * x[1][i][j] + g[2] * x[2][i][j])) - slab[q].offset;
+    }
+    taylor_net((const lanes(*)[4])out->net[q], out->taylor[q]);
+  }
+}
+
+/* A choice of what is small, of which rest_bounds finds out how small it is: second derivatives in the middle of the leaf as
+ * the surface has them, and of what third ones leave of value and derivatives the linear part that halves it. */
+static void fit(const struct forms *of, lanes c[6])
+{
+  const lanes *z = of->taylor[Z], *p = of->taylor[Y1], *q = of->taylor[Y2];
+  /* (s,t) is k (y1,y2) but for terms of higher order. */
+  const lanes inverse = 1 / (p[S] * q[T] - p[T] * q[S]);
+  const lanes k[2][2] = {{q[T] * inverse, -p[T] * inverse}, {-q[S] * inverse, p[S] * inverse}};
+  lanes along_1 = k[0][0] * z[S] + k[1][0] * z[T], along_2 = k[0][1] * z[S] + k[1][1] * z[T];
+  const lanes ss = z[SS] - along_1 * p[SS] - along_2 * q[SS], st = z[ST] - along_1 * p[ST] - along_2 * q[ST];
+  const lanes tt = z[TT] - along_1 * p[TT] - along_2 * q[TT];
+  c[3] = ss * k[0][0] * k[0][0] + st * k[0][0] * k[1][0] + tt * k[1][0] * k[1][0];
+  c[4] = 2 * ss * k[0][0] * k[0][1] + st * (k[0][0] * k[1][1] + k[0][1] * k[1][0]) + 2 * tt * k[1][0] * k[1][1];
+  c[5] = ss * k[0][1] * k[0][1] + st * k[0][1] * k[1][1] + tt * k[1][1] * k[1][1];
+  /* The quadratic part's derivatives by y1 and y2, along s and t. */
+  const lanes ps = 2 * c[3] * p[S] + c[4] * q[S], pt = 2 * c[3] * p[T] + c[4] * q[T];
+  const lanes qs = c[4] * p[S] + 2 * c[5] * q[S], qt = c[4] * p[T] + 2 * c[5] * q[T];
+  const lanes sss = z[SSS] - along_1 * p[SSS] - along_2 * q[SSS] - (ps * p[SS] + qs * q[SS]);
+  const lanes sst = z[SST] - along_1 * p[SST] - along_2 * q[SST] - (pt * p[SS] + qt * q[SS] + ps * p[ST] + qs * q[ST]);
+  const lanes stt = z[STT] - along_1 * p[STT] - along_2 * q[STT] - (ps * p[TT] + qs * q[TT] + pt * p[ST] + qt * q[ST]);
+  const lanes ttt = z[TTT] - along_1 * p[TTT] - along_2 * q[TTT] - (pt * p[TT] + qt * q[TT]);
+  const lanes more_s = 0.25 * (sss + 0.5 * stt), more_t = 0.25 * (ttt + 0.5 * sst);
+  along_1 += k[0][0] * more_s + k[1][0] * more_t, along_2 += k[0][1] * more_s + k[1][1] * more_t;
+  c[0] = z[0] - along_1 * p[0] - along_2 * q[0] + (c[3] * p[0] * p[0] + c[4] * p[0] * q[0] + c[5] * q[0] * q[0]);
+  c[1] = along_1 - 2 * c[3] * p[0] - c[4] * q[0], c[2] = along_2 - c[4] * p[0] - 2 * c[5] * q[0];
+}
+
+/* Adds or takes away, in Bernstein form of degree (6,6) but for the factor C(6,i) C(6,j), the product of two bicubics. */
+static void add_product(double sign, const lane_net a, const lane_net b, lanes out[7][7])
+{
+  static const double binomial[4] = {1, 3, 3, 1};
+  for (int n = 0; n < 16; n++) {
+    const lanes of = sign * binomial[n / 4] * binomial[n % 4] * a[n / 4][n % 4];
+    for (int m = 0; m < 16; m++)
+      out[n / 4 + m / 4][n % 4 + m % 4] += of * (binomial[m / 4] * binomial[m % 4] * b[m / 4][m % 4]);
+  }
+}
+
+/* What is left of z: in Bernstein form of degree (6,6). */
+static void rest(const struct forms *of, const lanes c[6], lanes out[7][7])
+{
+  static const double binomial[7] = {1, 6, 15, 20, 15, 6, 1};
+  lane_net one, a, b;
+  for (int n = 0; n < 16; n++) {
+    const int i = n / 4, j = n % 4;
+    one[i][j] = lanes_all(1), a[i][j] = c[1] + (c[3] * of->net[Y1][i][j] + c[4] * of->net[Y2][i][j]);
+    b[i][j] = c[2] + c[5] * of->net[Y2][i][j];
+  }
+  for (int n = 0; n < 49; n++) out[n / 7][n % 7] = lanes_all(0);
+  add_product(1, of->net[Z], one, out);
+  add_product(-1, of->net[Y1], a, out);
+  add_product(-1, of->net[Y2], b, out);
+  for (int n = 0; n < 49; n++) out[n / 7][n % 7] = out[n / 7][n % 7] / (binomial[n / 7] * binomial[n % 7]) - c[0];
+}
+
+LANES_INLINE lanes largest(lanes a, lanes b) { return lanes_max(lanes_abs(a), b); }
+
+/* Bounds on a form: its value, its smallest derivative by its own parameter, S or T, its largest by the other, and by either. */
+struct form_bounds {
+  lanes most, least, cross, steepest;
+};
+
+static struct form_bounds form_bounds(const lane_net y, int own)
+{
+  struct form_bounds b = {{0}, lanes_all(INFINITY), {0}, {0}};
+  for (int n = 0; n < 16; n++) b.most = largest(y[n / 4][n % 4], b.most);
+  for (int n = 0; n < 12; n++) {
+    const lanes s = 3 * (y[n % 3 + 1][n / 3] - y[n % 3][n / 3]), t = 3 * (y[n / 3][n % 3 + 1] - y[n / 3][n % 3]);
+    b.least = lanes_min(own == S ? s : t, b.least), b.cross = largest(own == S ? t : s, b.cross);
+    b.steepest = largest(s, largest(t, b.steepest));
+  }
+  return b;
+}
+
+/* With E = QUADRIC_ERROR: coefficients of the exact patch's forms are off from the net's by E at most, those of the widened
+ * leaf, which are mixed six times with weights of 1.125 and -0.125, by 3.9 E, its derivatives by 6 times that. A ray's forms are
+ * off by 3 E. All roundings here, and those of a ray's forms, of size 4 at most, in the quadric, are far less. */
+#define FORM_SLACK (36 * QUADRIC_ERROR)
+
+/* Of what is left of z: its range, by how much it turns, and what QUADRIC_ERROR may do to all of that and to a derivative along a
+ * ray. */
+struct rest_bounds {
+  lanes low, high, turn[2], slack;
+};
+
+static void rest_bounds(const struct forms *of, const lanes c[6], struct rest_bounds *out)
+{
+  lanes r[7][7], by_s = {0}, by_t = {0};
+  rest(of, c, r);
+  out->low = out->high = r[0][0];
+  for (int n = 1; n < 49; n++)
+    out->low = lanes_min(r[n / 7][n % 7], out->low), out->high = lanes_max(r[n / 7][n % 7], out->high);
+  for (int n = 0; n < 42; n++) {
+    by_s = largest(6 * (r[n % 6 + 1][n / 6] - r[n % 6][n / 6]), by_s);
+    by_t = largest(6 * (r[n / 6][n % 6 + 1] - r[n / 6][n % 6]), by_t);
+  }
+  const struct form_bounds one = form_bounds((const lanes(*)[4])of->net[Y1], S);
+  const struct form_bounds two = form_bounds((const lanes(*)[4])of->net[Y2], T);
+  /* How much z less the quadric moves where forms do; the same of its derivatives. */
+  const lanes square_1 = lanes_abs(c[3]), mixed = lanes_abs(c[4]), square_2 = lanes_abs(c[5]);
+  const lanes moves = 1 + (lanes_abs(c[1]) + 2 * square_1 * one.most + mixed * two.most) +
+                      (lanes_abs(c[2]) + mixed * one.most + 2 * square_2 * two.most);
+  out->slack = FORM_SLACK * (moves + 2 * (square_1 + mixed + square_2) * (1 + one.steepest + two.steepest));
+  by_s += out->slack, by_t += out->slack;
+  /* From one point to another y1 and y2 change by their derivatives, averaged on the way: a matrix that has an inverse. */
+  const lanes least_1 = one.least - FORM_SLACK, least_2 = two.least - FORM_SLACK;
+  const lanes cross_1 = one.cross + FORM_SLACK, cross_2 = two.cross + FORM_SLACK;
+  const lanes area = least_1 * least_2 - cross_1 * cross_2, inverse = (1 + 0x1p-30) / area;
+  const lane_mask sound = (least_1 > 0) & (least_2 > 0) & (area > 0x1p-10 * (least_1 * least_2));
+  out->turn[0] = lanes_select(sound, (by_s * least_2 + by_t * cross_2) * inverse, lanes_all(INFINITY));
+  out->turn[1] = lanes_select(sound, (by_s * cross_1 + by_t * least_1) * inverse, lanes_all(INFINITY));
+}
+
+void quadric_set(const lane_net x[3], const lane_net wide[3], const struct lane_slab slab[3], struct lane_quadric *out)
+{
+  struct forms forms;
+  struct rest_bounds leaf, around;
+  set_forms(x, slab, &forms);
+  fit(&forms, out->c);
+  rest_bounds(&forms, out->c, &leaf);
+  set_forms(wide, slab, &forms);
+  rest_bounds(&forms, out->c, &around);
+  out->c[0] += 0.5 * (leaf.low + leaf.high);
+  out->off = 0.5 * (leaf.high - leaf.low) + leaf.slack, out->slack = around.slack;
+  for (int k = 0; k < 2; k++) out->turn[k] = leaf.turn[k], out->turn_wide[k] = around.turn[k];
+  /* What is not a number, or where no forms are, tells nothing. */
+  const lane_mask tells = (out->off < 4) & (out->slack < 4);
+  for (int n = 0; n < 6; n++) out->c[n] = lanes_select(tells, out->c[n], lanes_all(0));
+  out->off = lanes_select(tells, out->off, lanes_all(INFINITY));
+  out->slack = lanes_select(tells, out->slack, lanes_all(INFINITY));
+}

@@ -1,0 +1,213 @@
+/* What a leaf's quadric tells of a ray, against rays through two or three points of what the leaf stands for, which is as far from it
+ * as it may be: whichever of them are known, or none, as long as one is not the leaf is not done. Compiled once per instruction set (CMakeLists.txt); where
+ * the processor lacks it the test is skipped. */
+#include <math.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "geometry/patch.h"
+#include "intersect/lanes/quadric.h"
+#include "intersect/prepare/leaf.h"
+#include "lanes_main.h"
+#include "random.h"
+
+enum { SEED = 20261125, CASES = 20000 };
+
+/* Points are multiples of this part of the patch's scale, and what they are off by is no more than so many of that. */
+#define GRAIN 0x1p-46
+#define GRAINS 64
+
+struct subject {
+  double rest[3][4][4];
+  struct method method;
+  struct model_patch patch;
+  struct leaf leaf;
+  struct packet packet;
+  struct leaf_root root; /* what is known, on each lane */
+  bool over_a_plane;     /* x is linear in u, y in v */
+};
+
+/* Of any shape, or bent a little, or slender. */
+static void make_leaf(struct random *random, struct subject *s)
+{
+  const int kind = (int)(random_bits(random) % 3), side = 1 << random_bits(random) % 5;
+  s->over_a_plane = kind == 1;
+  method_default(solver_at(0), &s->method);
+  s->patch = (struct model_patch){
+    .scale = exp2(rint(random_between(random, -30, 30))), .m = 3, .n = 3, .split = {side, side}, .method = &s->method};
+  s->patch.rest = (const double(*)[4][4])s->rest;
+  for (int k = 0; k < 3; k++) {
+    s->patch.center[k] = s->patch.scale * rint(random_between(random, -4, 4));
+    for (int n = 0; n < 16; n++) {
+      double x = random_between(random, -1, 1);
+      if (kind == 1) x = k == 0 ? n / 4 / 4.0 : k == 1 ? n % 4 / 4.0 : x * 0.2;
+      if (kind == 2) x = (k == 0 ? n / 4 / 2.0 - 0.75 : 0) + x * 0x1p-7;
+      s->patch.x[k][n / 4][n % 4] = x;
+    }
+  }
+  leaves_make(&s->patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(side * side)), 1, &s->leaf);
+}
+
+/* In grains, from the patch's center. */
+static void make_point(struct random *random, const struct subject *s, double margin, double at[2], double out[3])
+{
+  for (int k = 0; k < 2; k++) at[k] = fmin(fmax(random_between(random, -0.5, 1.5), -margin), 1 + margin);
+  for (int k = 0; k < 3; k++) {
+    double net[4][4];
+    memcpy(net, s->leaf.x[k], sizeof net);
+    const double off = random_bits(random) % 2 ? GRAINS - 1 : 1 - GRAINS; /* and the rounding to a grain */
+    out[k] = rint(patch_evaluate(net, at[0], at[1]).value / GRAIN) + off;
+  }
+}
+
+/* Lane `lane` gets a ray through a point of the leaf, between its ends, and one of the widened leaf, at the known root, as far
+ * from it as its radii allow. */
+static void make_ray(struct random *random, struct subject *s, unsigned lane)
+{
+  struct packet *p = &s->packet;
+  double known[2], other[2], from[3], to[3], way[3], most = 0;
+  make_point(random, s, LEAF_MARGIN - 0x1p-20, known, from);
+  make_point(random, s, 0, other, to);
+  for (int k = 0; k < 3; k++) way[k] = to[k] - from[k], most = fmax(most, fabs(way[k]));
+  const double unit = ldexp(1, ilogb(fmax(most, 1))), side = random_bits(random) % 2 ? 1 : -1;
+  /* t of the known root is 0, of the other one `t` */
+  const double t = side * unit * GRAIN * s->patch.scale, radius = random_bits(random) % 2 ? 0x1p-30 : 0;
+  int axis = 0;
+  for (int k = 0; k < 3; k++) {
+    p->direction[k][lane] = side * way[k] / unit;
+    p->origin[k][lane] = s->patch.center[k] + s->patch.scale * GRAIN * from[k];
+    if (fabs(way[k]) > fabs(way[axis])) axis = k;
+  }
+  const int first = (int)(random_bits(random) % 3), last = (int)(random_bits(random) % 3);
+  p->t_min[lane] = first == 0 ? -INFINITY : first == 1 ? nextafter(t, -INFINITY) : t - fabs(t);
+  p->t_max[lane] = last == 0 ? INFINITY : last == 1 ? nextafter(t, INFINITY) : t + fabs(t);
+  struct leaf_root *root = &s->root;
+  root->at.u[lane] = known[0], root->at.v[lane] = known[1];
+  root->at.radius_u[lane] = root->at.radius_v[lane] = radius;
+  const double off = random_bits(random) % 2 ? radius : -radius;
+  root->w[lane] = from[axis] * GRAIN + off * (s->leaf.first[0] + s->leaf.first[1]);
+}
+
+static void another_root_is_never_told_away(void **state)
+{
+  (void)state;
+  struct random random = {SEED};
+  const lane_mask all = (lane_mask){0} == 0;
+  unsigned besides = 0, alone = 0, elsewhere = 0, tried = 0;
+  for (int n = 0; n < CASES; n++) {
+    struct subject s = {.patch = {.scale = 0}};
+    struct packet *p = &s.packet;
+    make_leaf(&random, &s);
+    for (unsigned lane = 0; lane < LANES; lane++) make_ray(&random, &s, lane);
+    p->live = all, p->t_far = p->t_max, p->net_error = GRAINS * GRAIN * s.patch.scale;
+    packet_untried(p);
+    packet_set_patch(p, &s.patch, 0);
+    for (unsigned axes = p->axes; axes; axes &= axes - 1) {
+      struct candidate it = {.leaf = &s.leaf, .patch = &s.patch, .axis = __builtin_ctz(axes)};
+      const lane_mask here = p->on_axis[it.axis];
+      it.line = &p->line[it.axis];
+      struct quadric_along along;
+      const lane_mask asked = quadric_along(p, &it, here, &along);
+      s.root.at.exists = all;
+      besides += lanes_count(quadric_closes(&along, &it, &s.root, asked));
+      s.root.at.exists = ~all;
+      alone += lanes_count(quadric_closes(&along, &it, &s.root, asked));
+      /* not vacuous: with ends that leave the other root out much is closed */
+      const lanes end = p->t_far;
+      s.root.at.exists = all, p->t_far = lanes_min(p->t_far, lanes_all(0));
+      tried += lanes_count(asked), quadric_along(p, &it, here, &along);
+      elsewhere += lanes_count(quadric_closes(&along, &it, &s.root, asked));
+      p->t_far = end;
+    }
+  }
+  print_message("of %u a second root lost %u times, an only one %u times; %u closed with other ends\n", tried, besides,
+                alone, elsewhere);
+  assert_int_equal(besides + alone, 0);
+  assert_true(elsewhere > tried / 20);
+}
+
+/* ---- three roots ---- */
+
+/* A leaf over a plane, z a cubic in x where y is constant: whatever line in that plane meets two points of it meets a third one. */
+static double third_root(const struct subject *s, double v, double u1, double u2)
+{
+  double c[4];
+  for (int i = 0; i < 4; i++) {
+    double net[4][4] = {{0}};
+    memcpy(net[0], &s->leaf.x[2][4 * (size_t)i], sizeof net[0]);
+    c[i] = patch_evaluate(net, 0, v).value;
+  }
+  const double cubic = c[3] - 3 * c[2] + 3 * c[1] - c[0], square = 3 * (c[2] - 2 * c[1] + c[0]);
+  return -square / cubic - u1 - u2;
+}
+
+static void point_at(const struct subject *s, double u, double v, double out[3])
+{
+  for (int k = 0; k < 3; k++) {
+    double net[4][4];
+    memcpy(net, s->leaf.x[k], sizeof net);
+    out[k] = patch_evaluate(net, u, v).value;
+  }
+}
+
+static void know(struct leaf_root *root, unsigned lane, double u, double v, double w)
+{
+  root->at.u[lane] = u, root->at.v[lane] = v, root->w[lane] = w;
+  root->at.radius_u[lane] = root->at.radius_v[lane] = 0x1p-26; /* that is what the points' rounding makes of it */
+}
+
+static void a_third_root_is_never_told_away(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 1};
+  const lane_mask all = (lane_mask){0} == 0;
+  unsigned lost = 0, three = 0, two = 0, closed = 0;
+  for (int n = 0; n < 4 * CASES; n++) {
+    struct subject s = {.patch = {.scale = 0}};
+    struct packet *p = &s.packet;
+    struct leaf_root second;
+    lane_mask third = {0};
+    do make_leaf(&random, &s);
+    while (!s.over_a_plane);
+    for (unsigned lane = 0; lane < LANES; lane++) {
+      const double v = random_unit(&random), u1 = random_unit(&random), u2 = random_unit(&random);
+      const double u3 = third_root(&s, v, u1, u2);
+      double one[3], two_at[3];
+      point_at(&s, u1, v, one), point_at(&s, u2, v, two_at);
+      const double way = two_at[0] - one[0];
+      for (int k = 0; k < 3; k++) {
+        p->direction[k][lane] = (two_at[k] - one[k]) / way;
+        p->origin[k][lane] = s.patch.center[k] + s.patch.scale * one[k];
+      }
+      p->t_min[lane] = -INFINITY, p->t_max[lane] = INFINITY;
+      const int axis = fabs(p->direction[2][lane]) > 1 ? 2 : 0;
+      know(&s.root, lane, u1, v, one[axis]), know(&second, lane, u2, v, two_at[axis]);
+      third[lane] = -(u3 > 0 && u3 < 1);
+    }
+    s.root.at.exists = second.at.exists = all;
+    p->live = all, p->t_far = p->t_max, p->net_error = GRAIN * s.patch.scale;
+    packet_untried(p);
+    packet_set_patch(p, &s.patch, 0);
+    for (unsigned axes = p->axes; axes; axes &= axes - 1) {
+      struct candidate it = {.leaf = &s.leaf, .patch = &s.patch, .axis = __builtin_ctz(axes)};
+      it.line = &p->line[it.axis];
+      struct quadric_along along;
+      const lane_mask asked = quadric_along(p, &it, p->on_axis[it.axis], &along);
+      const lane_mask done = quadric_closes_two(&along, &it, &s.root, &second, asked);
+      three += lanes_count(asked & third), two += lanes_count(asked & ~third);
+      lost += lanes_count(done & third), closed += lanes_count(done & ~third);
+    }
+  }
+  print_message("of %u a third root lost %u times; of %u without one %u closed\n", three, lost, two, closed);
+  assert_int_equal(lost, 0);
+  assert_true(three > 100 && closed > two / 20);
+}
+
+__attribute__((noinline)) static int run(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(another_root_is_never_told_away),
+                                     cmocka_unit_test(a_third_root_is_never_told_away)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+int main(void) { return lanes_main(run); }
