@@ -104,7 +104,7 @@ struct leaf {
   double second[3];
   double first[2]; /* bounds on |Su|, |Sv| there */
   struct leaf_parts parts;
-  double x[3][16];              /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
+  double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   struct leaf_quadric quadric;
   const struct leaf_form *form; /* NULL: x itself is the form (3,3), u kept */
 };
