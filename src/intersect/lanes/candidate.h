@@ -90,11 +90,12 @@ lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask ope
 /* All of a patch is within |w| < 1 in its frame: a ray is not looked at beyond this. */
 #define FRAME_END 2.0
 
-/* Between these w = x_k the ray is where it looks for a root, but for `off`. */
-LANES_INLINE void ray_ends(const struct packet *p, const struct candidate *it, lanes *from, lanes *to, lanes *off)
+/* Between these w = x_k the ray is where it looks for a root up to t = far, but for `off`. */
+LANES_INLINE void ray_ends(const struct packet *p, const struct candidate *it, lanes far, lanes *from, lanes *to,
+                           lanes *off)
 {
   const lanes along = p->direction[it->axis] * (1 / it->patch->scale), start = it->line->start[0];
-  const lanes at_min = p->t_min * along - start, at_far = p->t_far * along - start;
+  const lanes at_min = p->t_min * along - start, at_far = far * along - start;
   *from = lanes_min(lanes_max(lanes_min(at_min, at_far), lanes_all(-FRAME_END)), lanes_all(FRAME_END));
   *to = lanes_min(lanes_max(lanes_max(at_min, at_far), lanes_all(-FRAME_END)), lanes_all(FRAME_END));
   *off = 2 * (p->t_error * lanes_abs(along) + 16 * UNIT_ROUNDOFF * lanes_abs(start));

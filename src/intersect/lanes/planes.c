@@ -13,7 +13,7 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
   lanes a, b;
   slab_values(line, it->axis, slab, &a, &b);
   lanes from, to, off;
-  ray_ends(p, it, &from, &to, &off);
+  ray_ends(p, it, p->t_far, &from, &to, &off);
   const lanes out = slab->half + 10 * line->error + off, at[2] = {a + b * from, a + b * to};
   return open & ~((lanes_min(at[0], at[1]) > out) | (lanes_max(at[0], at[1]) < -out));
 }

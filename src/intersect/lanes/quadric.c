@@ -36,7 +36,8 @@ lane_mask quadric_along(const struct packet *p, const struct candidate *it, lane
   out->turn = quadric->turn[0] * way_1 + (quadric->turn[1] * way_2 + quadric->slack);
   out->turn_wide = quadric->turn_wide[0] * way_1 + (quadric->turn_wide[1] * way_2 + quadric->slack);
   lanes off;
-  ray_ends(p, it, &out->from, &out->to, &off);
+  /* not where the ray's nearest hit so far is: what the ray has met before would show in the last places of what it meets */
+  ray_ends(p, it, p->t_max, &out->from, &out->to, &off);
   out->from -= off, out->to += off, off = 10 * it->line->error;
   within_slab(y1, dy1, leaf->slab[1].half + off, out);
   within_slab(y2, dy2, leaf->slab[2].half + off, out);
