@@ -4,6 +4,7 @@
  */
 #include "intersect/lanes/candidate.h"
 
+#include "base/real.h"
 #include "intersect/explain.h"
 
 /* Out of line, for it is rare: a ray that comes by so many leaves runs along something thin, of which the walk's floats tell
@@ -16,6 +17,19 @@ __attribute__((noinline)) static lane_mask candidate_worn(struct packet *p, cons
   const lane_mask worn = many & ~passed & (p->postponed->leaves < 0);
   if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn));
   return passed | worn;
+}
+
+/* A leaf whose derivatives turn by more than this fraction of their size has its root far from that of its bilinear part: where that
+ * takes an iteration it is in vain, and the next one's warm start is lost. A choice of speed: what comes of it is proven. */
+#define BENT_TURN 2.0
+
+/* Whether the bilinear part is worth its root. */
+static bool starts_bilinear(const struct candidate *it)
+{
+  const double *first = it->leaf->first, *second = it->leaf->second;
+  if (it->patch->lanes == SOLVER_LANES_SIGNS) return true;
+  if (it->patch->lanes == SOLVER_LANES_NONE) return false;
+  return second[0] + 2 * second[1] + second[2] <= 2 * BENT_TURN * real_min(first[0], first[1]);
 }
 
 /* A scene with `polish off` asks for the roots as its solver finds them: nothing is closed before that. */
@@ -33,7 +47,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   }
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
-  if (patch->lanes != SOLVER_LANES_NONE) {
+  if (starts_bilinear(it)) {
     entered[STAGE_BILINEAR] += lanes_count(open);
     open = stage_bilinear(p, it, open);
     if (!lanes_any(open)) return;

@@ -32,7 +32,8 @@ lane_mask quadric_along(const struct packet *p, const struct candidate *it, lane
   out->f[1] = dz - (dy1 * by_1 + y1 * turn_1 + dy2 * by_2 + y2 * turn_2);
   out->f[2] = -(dy1 * turn_1 + dy2 * turn_2);
   out->slope[0] = dy1, out->slope[1] = dy2;
-  const lanes way_1 = lanes_abs(dy1), way_2 = lanes_abs(dy2);
+  const double rounded = 8 * UNIT_ROUNDOFF; /* what dy1 and dy2 are off by at most */
+  const lanes way_1 = lanes_abs(dy1) + rounded, way_2 = lanes_abs(dy2) + rounded;
   out->turn = quadric->turn[0] * way_1 + (quadric->turn[1] * way_2 + quadric->slack);
   out->turn_wide = quadric->turn_wide[0] * way_1 + (quadric->turn_wide[1] * way_2 + quadric->slack);
   lanes off;
