@@ -6,6 +6,7 @@
 
 #include "base/real.h"
 #include "intersect/explain.h"
+#include "intersect/prepare/leaf.h"
 
 /* Out of line, for it is rare: a ray that comes by so many leaves runs along something thin, of which the walk's floats tell
  * little. What it passes by to the last places does not count; after so many others it is let go. Returns the lanes that are
@@ -26,10 +27,10 @@ __attribute__((noinline)) static lane_mask candidate_worn(struct packet *p, cons
 /* Whether the bilinear part is worth its root. */
 static bool starts_bilinear(const struct candidate *it)
 {
-  const double *first = it->leaf->first, *second = it->leaf->second;
+  const double *first = it->leaf->first;
   if (it->patch->lanes == SOLVER_LANES_SIGNS) return true;
   if (it->patch->lanes == SOLVER_LANES_NONE) return false;
-  return second[0] + 2 * second[1] + second[2] <= 2 * BENT_TURN * real_min(first[0], first[1]);
+  return turn_of(it->leaf->second) <= BENT_TURN * real_min(first[0], first[1]);
 }
 
 /* A scene with `polish off` asks for the roots as its solver finds them: nothing is closed before that. */

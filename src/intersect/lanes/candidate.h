@@ -41,8 +41,7 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
 lane_mask stage_box(const struct candidate *it, lane_mask open);
 
 /* bilinear.c: the root of the leaf's bilinear part, from a resultant of degree 2, made good by Newton's process on the
- * leaf. Open stays where the ray is so slanted that it is not proven to be the only one. Leaves that are bent are not
- * tried at once. */
+ * leaf. Open stays where the ray is so slanted that it is not proven to be the only one. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
 /* quadric.c: closed where the quadric that the leaf lies along tells that it has no root but the one that stage_bilinear has found,

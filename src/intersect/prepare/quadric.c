@@ -7,32 +7,29 @@
 
 #include "intersect/prepare/leaf_nets.h"
 
-/* z, y1 and y2 of struct leaf_quadric: nets, and Taylor's coefficients about the middle, that of s^i t^j at [4 * i + j]. */
-struct forms {
-  lane_net net[3];
-  lanes taylor[3][16];
-};
-
+/* z, y1 and y2 of struct leaf_quadric, as nets. */
 enum { Z, Y1, Y2 };
+
+/* Where taylor_net has what goes with s, t, s^2 ... */
 enum { S = 4, T = 1, SS = 8, ST = 5, TT = 2, SSS = 12, SST = 9, STT = 6, TTT = 3 };
 
-static void set_forms(const lane_net x[3], const struct lane_slab slab[3], struct forms *out)
+static void set_forms(const lane_net x[3], const struct lane_slab slab[3], lane_net out[3])
 {
   for (int q = 0; q < 3; q++) {
     const lanes *g = slab[q].g;
     for (int n = 0; n < 16; n++) {
       const int i = n / 4, j = n % 4;
-      out->net[q][i][j] = (g[0] * x[0][i][j] + (g[1] * x[1][i][j] + g[2] * x[2][i][j])) - slab[q].offset;
+      out[q][i][j] = (g[0] * x[0][i][j] + (g[1] * x[1][i][j] + g[2] * x[2][i][j])) - slab[q].offset;
     }
-    taylor_net((const lanes(*)[4])out->net[q], out->taylor[q]);
   }
 }
 
 /* A choice of what is small, of which rest_bounds finds out how small it is: second derivatives in the middle of the leaf as
  * the surface has them, and of what third ones leave of value and derivatives the linear part that halves it. */
-static void fit(const struct forms *of, lanes c[6])
+static void fit(const lane_net of[3], lanes c[6])
 {
-  const lanes *z = of->taylor[Z], *p = of->taylor[Y1], *q = of->taylor[Y2];
+  lanes z[16], p[16], q[16];
+  taylor_net(of[Z], z), taylor_net(of[Y1], p), taylor_net(of[Y2], q);
   /* (s,t) is k (y1,y2) but for terms of higher order. */
   const lanes inverse = 1 / (p[S] * q[T] - p[T] * q[S]);
   const lanes k[2][2] = {{q[T] * inverse, -p[T] * inverse}, {-q[S] * inverse, p[S] * inverse}};
@@ -59,27 +56,28 @@ static void fit(const struct forms *of, lanes c[6])
 static void add_product(double sign, const lane_net a, const lane_net b, lanes out[7][7])
 {
   static const double binomial[4] = {1, 3, 3, 1};
+  lanes weighted[16];
+  for (int m = 0; m < 16; m++) weighted[m] = binomial[m / 4] * binomial[m % 4] * b[m / 4][m % 4];
   for (int n = 0; n < 16; n++) {
     const lanes of = sign * binomial[n / 4] * binomial[n % 4] * a[n / 4][n % 4];
-    for (int m = 0; m < 16; m++)
-      out[n / 4 + m / 4][n % 4 + m % 4] += of * (binomial[m / 4] * binomial[m % 4] * b[m / 4][m % 4]);
+    for (int m = 0; m < 16; m++) out[n / 4 + m / 4][n % 4 + m % 4] += of * weighted[m];
   }
 }
 
 /* What is left of z: in Bernstein form of degree (6,6). */
-static void rest(const struct forms *of, const lanes c[6], lanes out[7][7])
+static void rest(const lane_net of[3], const lanes c[6], lanes out[7][7])
 {
   static const double binomial[7] = {1, 6, 15, 20, 15, 6, 1};
   lane_net one, a, b;
   for (int n = 0; n < 16; n++) {
     const int i = n / 4, j = n % 4;
-    one[i][j] = lanes_all(1), a[i][j] = c[1] + (c[3] * of->net[Y1][i][j] + c[4] * of->net[Y2][i][j]);
-    b[i][j] = c[2] + c[5] * of->net[Y2][i][j];
+    one[i][j] = lanes_all(1), a[i][j] = c[1] + (c[3] * of[Y1][i][j] + c[4] * of[Y2][i][j]);
+    b[i][j] = c[2] + c[5] * of[Y2][i][j];
   }
   for (int n = 0; n < 49; n++) out[n / 7][n % 7] = lanes_all(0);
-  add_product(1, of->net[Z], one, out);
-  add_product(-1, of->net[Y1], a, out);
-  add_product(-1, of->net[Y2], b, out);
+  add_product(1, of[Z], one, out);
+  add_product(-1, of[Y1], a, out);
+  add_product(-1, of[Y2], b, out);
   for (int n = 0; n < 49; n++) out[n / 7][n % 7] = out[n / 7][n % 7] / (binomial[n / 7] * binomial[n % 7]) - c[0];
 }
 
@@ -107,13 +105,18 @@ static struct form_bounds form_bounds(const lane_net y, int own)
  * off by 3 E. All roundings here, and those of a ray's forms, of size 4 at most, in the quadric, are far less. */
 #define FORM_SLACK (36 * QUADRIC_ERROR)
 
+/* Forms are told to turn into each other no more than so: the area of a step in both is this part of the product of its sides or
+ * more, and what rounds it, and what is made of it, is within the growth. */
+#define LEAST_SHARE 0x1p-10
+#define AREA_GROWTH (1 + 0x1p-30)
+
 /* Of what is left of z: its range, by how much it turns, and what QUADRIC_ERROR may do to all of that and to a derivative along a
  * ray. */
 struct rest_bounds {
   lanes low, high, turn[2], slack;
 };
 
-static void rest_bounds(const struct forms *of, const lanes c[6], struct rest_bounds *out)
+static void rest_bounds(const lane_net of[3], const lanes c[6], struct rest_bounds *out)
 {
   lanes r[7][7], by_s = {0}, by_t = {0};
   rest(of, c, r);
@@ -124,8 +127,8 @@ static void rest_bounds(const struct forms *of, const lanes c[6], struct rest_bo
     by_s = largest(6 * (r[n % 6 + 1][n / 6] - r[n % 6][n / 6]), by_s);
     by_t = largest(6 * (r[n / 6][n % 6 + 1] - r[n / 6][n % 6]), by_t);
   }
-  const struct form_bounds one = form_bounds((const lanes(*)[4])of->net[Y1], S);
-  const struct form_bounds two = form_bounds((const lanes(*)[4])of->net[Y2], T);
+  const struct form_bounds one = form_bounds(of[Y1], S);
+  const struct form_bounds two = form_bounds(of[Y2], T);
   /* How much z less the quadric moves where forms do; the same of its derivatives. */
   const lanes square_1 = lanes_abs(c[3]), mixed = lanes_abs(c[4]), square_2 = lanes_abs(c[5]);
   const lanes moves = 1 + (lanes_abs(c[1]) + 2 * square_1 * one.most + mixed * two.most) +
@@ -135,21 +138,21 @@ static void rest_bounds(const struct forms *of, const lanes c[6], struct rest_bo
   /* From one point to another y1 and y2 change by their derivatives, averaged on the way: a matrix that has an inverse. */
   const lanes least_1 = one.least - FORM_SLACK, least_2 = two.least - FORM_SLACK;
   const lanes cross_1 = one.cross + FORM_SLACK, cross_2 = two.cross + FORM_SLACK;
-  const lanes area = least_1 * least_2 - cross_1 * cross_2, inverse = (1 + 0x1p-30) / area;
-  const lane_mask sound = (least_1 > 0) & (least_2 > 0) & (area > 0x1p-10 * (least_1 * least_2));
+  const lanes area = least_1 * least_2 - cross_1 * cross_2, inverse = AREA_GROWTH / area;
+  const lane_mask sound = (least_1 > 0) & (least_2 > 0) & (area > LEAST_SHARE * (least_1 * least_2));
   out->turn[0] = lanes_select(sound, (by_s * least_2 + by_t * cross_2) * inverse, lanes_all(INFINITY));
   out->turn[1] = lanes_select(sound, (by_s * cross_1 + by_t * least_1) * inverse, lanes_all(INFINITY));
 }
 
 void quadric_set(const lane_net x[3], const lane_net wide[3], const struct lane_slab slab[3], struct lane_quadric *out)
 {
-  struct forms forms;
+  lane_net forms[3];
   struct rest_bounds leaf, around;
-  set_forms(x, slab, &forms);
-  fit(&forms, out->c);
-  rest_bounds(&forms, out->c, &leaf);
-  set_forms(wide, slab, &forms);
-  rest_bounds(&forms, out->c, &around);
+  set_forms(x, slab, forms);
+  fit((const lane_net *)forms, out->c);
+  rest_bounds((const lane_net *)forms, out->c, &leaf);
+  set_forms(wide, slab, forms);
+  rest_bounds((const lane_net *)forms, out->c, &around);
   out->c[0] += 0.5 * (leaf.low + leaf.high);
   out->off = 0.5 * (leaf.high - leaf.low) + leaf.slack, out->slack = around.slack;
   for (int k = 0; k < 2; k++) out->turn[k] = leaf.turn[k], out->turn_wide[k] = around.turn[k];
