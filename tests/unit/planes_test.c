@@ -1,15 +1,9 @@
 /* A leaf's slab, box and plane polynomials to the last places, against rays through points of what the leaf stands for, which is
  * as far from it as it may be: none of them may be told to miss it. Compiled once per instruction set (CMakeLists.txt); where
  * the processor lacks it the test is skipped. */
-#include <math.h>
-#include <string.h>
-
 #include "cmocka_test.h"
-#include "geometry/patch.h"
-#include "intersect/lanes/candidate.h"
-#include "intersect/prepare/leaf.h"
 #include "lanes_main.h"
-#include "random.h"
+#include "unit/lane_subject.h"
 
 enum { SEED = 20261124, CASES = 20000 };
 
@@ -17,34 +11,6 @@ enum { SEED = 20261124, CASES = 20000 };
  * rays are exact then. */
 #define GRAIN 0x1p-40
 #define GRAINS 64
-
-struct subject {
-  double rest[3][4][4];
-  struct method method;
-  struct model_patch patch;
-  struct leaf leaf;
-  struct packet packet;
-};
-
-/* Of any shape, or flat, or slender. */
-static void make_leaf(struct random *random, struct subject *s)
-{
-  const int kind = (int)(random_bits(random) % 3), side = 1 << random_bits(random) % 4;
-  method_default(solver_at(0), &s->method);
-  s->patch = (struct model_patch){
-    .scale = exp2(rint(random_between(random, -30, 30))), .m = 3, .n = 3, .split = {side, side}, .method = &s->method};
-  s->patch.rest = (const double(*)[4][4])s->rest;
-  for (int k = 0; k < 3; k++) {
-    s->patch.center[k] = s->patch.scale * rint(random_between(random, -4, 4));
-    for (int n = 0; n < 16; n++) {
-      double x = random_between(random, -1, 1);
-      if (kind == 1) x = k == 0 ? n / 4 / 4.0 : k == 1 ? n % 4 / 4.0 : (n / 4 - n % 4) / 8.0;
-      if (kind == 2) x = (k == 0 ? n / 4 / 2.0 - 0.75 : 0) + x * 0x1p-7;
-      s->patch.x[k][n / 4][n % 4] = x;
-    }
-  }
-  leaves_make(&s->patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(side * side)), 1, &s->leaf);
-}
 
 /* A direction of few bits: any, or nearly along the leaf. */
 static void make_direction(struct random *random, const struct subject *s, double out[3])
@@ -66,16 +32,15 @@ static void make_ray(struct random *random, struct subject *s, unsigned lane)
   struct packet *p = &s->packet;
   const double t = s->patch.scale * exp2(rint(random_between(random, -3, 3))), grain = s->patch.scale * GRAIN;
   const int from = (int)(random_bits(random) % 3), to = (int)(random_bits(random) % 3);
-  double direction[3];
+  double direction[3], point[3];
   const double u = fmin(fmax(random_between(random, -0.5, 1.5), 0), 1),
                v = fmin(fmax(random_between(random, -0.5, 1.5), 0), 1);
   make_direction(random, s, direction);
+  subject_point(s, u, v, point);
   for (int k = 0; k < 3; k++) {
-    double net[4][4];
-    memcpy(net, s->leaf.x[k], sizeof net);
     const double off = random_bits(random) % 2 ? GRAINS - 1 : 1 - GRAINS; /* and the rounding to a grain */
-    const double point = s->patch.center[k] + s->patch.scale * patch_evaluate(net, u, v).value;
-    p->direction[k][lane] = direction[k], p->origin[k][lane] = (rint(point / grain) + off) * grain - t * direction[k];
+    const double at = s->patch.center[k] + s->patch.scale * point[k];
+    p->direction[k][lane] = direction[k], p->origin[k][lane] = (rint(at / grain) + off) * grain - t * direction[k];
   }
   p->t_min[lane] = from == 0 ? 0 : from == 1 ? nextafter(t, 0) : 0.5 * t;
   p->t_max[lane] = to == 0 ? INFINITY : to == 1 ? nextafter(t, INFINITY) : 2 * t;
@@ -89,11 +54,9 @@ static void rays_that_meet_what_it_stands_for_are_not_told_to_miss(void **state)
   for (int n = 0; n < CASES; n++) {
     struct subject s = {.patch = {.scale = 0}};
     struct packet *p = &s.packet;
-    make_leaf(&random, &s);
+    subject_make(&random, 3, 0, &s);
     for (unsigned lane = 0; lane < LANES; lane++) make_ray(&random, &s, lane);
-    p->live = (lane_mask){0} == 0, p->t_far = p->t_max, p->net_error = GRAINS * GRAIN * s.patch.scale;
-    packet_untried(p);
-    packet_set_patch(p, &s.patch, 0);
+    subject_look(&s, GRAINS * GRAIN * s.patch.scale);
     for (unsigned axes = p->axes; axes; axes &= axes - 1) {
       struct candidate it = {.leaf = &s.leaf, .patch = &s.patch, .axis = __builtin_ctz(axes)};
       const lane_mask here = p->on_axis[it.axis];

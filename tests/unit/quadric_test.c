@@ -1,15 +1,10 @@
 /* What a leaf's quadric tells of a ray, against rays through two or three points of what the leaf stands for, which is as far from it
  * as it may be: whichever of them are known, or none, as long as one is not the leaf is not done. Compiled once per instruction set (CMakeLists.txt); where
  * the processor lacks it the test is skipped. */
-#include <math.h>
-#include <string.h>
-
 #include "cmocka_test.h"
-#include "geometry/patch.h"
 #include "intersect/lanes/quadric.h"
-#include "intersect/prepare/leaf.h"
 #include "lanes_main.h"
-#include "random.h"
+#include "unit/lane_subject.h"
 
 enum { SEED = 20261125, CASES = 20000 };
 
@@ -17,52 +12,23 @@ enum { SEED = 20261125, CASES = 20000 };
 #define GRAIN 0x1p-46
 #define GRAINS 64
 
-struct subject {
-  double rest[3][4][4];
-  struct method method;
-  struct model_patch patch;
-  struct leaf leaf;
-  struct packet packet;
-  struct leaf_root root; /* what is known, on each lane */
-  bool over_a_plane;     /* x is linear in u, y in v */
-};
-
-/* Of any shape, or bent a little, or slender. */
-static void make_leaf(struct random *random, struct subject *s)
-{
-  const int kind = (int)(random_bits(random) % 3), side = 1 << random_bits(random) % 5;
-  s->over_a_plane = kind == 1;
-  method_default(solver_at(0), &s->method);
-  s->patch = (struct model_patch){
-    .scale = exp2(rint(random_between(random, -30, 30))), .m = 3, .n = 3, .split = {side, side}, .method = &s->method};
-  s->patch.rest = (const double(*)[4][4])s->rest;
-  for (int k = 0; k < 3; k++) {
-    s->patch.center[k] = s->patch.scale * rint(random_between(random, -4, 4));
-    for (int n = 0; n < 16; n++) {
-      double x = random_between(random, -1, 1);
-      if (kind == 1) x = k == 0 ? n / 4 / 4.0 : k == 1 ? n % 4 / 4.0 : x * 0.2;
-      if (kind == 2) x = (k == 0 ? n / 4 / 2.0 - 0.75 : 0) + x * 0x1p-7;
-      s->patch.x[k][n / 4][n % 4] = x;
-    }
-  }
-  leaves_make(&s->patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(side * side)), 1, &s->leaf);
-}
+enum { HALVINGS = 4 };
+#define ROUGH 0.2
 
 /* In grains, from the patch's center. */
 static void make_point(struct random *random, const struct subject *s, double margin, double at[2], double out[3])
 {
   for (int k = 0; k < 2; k++) at[k] = fmin(fmax(random_between(random, -0.5, 1.5), -margin), 1 + margin);
+  subject_point(s, at[0], at[1], out);
   for (int k = 0; k < 3; k++) {
-    double net[4][4];
-    memcpy(net, s->leaf.x[k], sizeof net);
     const double off = random_bits(random) % 2 ? GRAINS - 1 : 1 - GRAINS; /* and the rounding to a grain */
-    out[k] = rint(patch_evaluate(net, at[0], at[1]).value / GRAIN) + off;
+    out[k] = rint(out[k] / GRAIN) + off;
   }
 }
 
 /* Lane `lane` gets a ray through a point of the leaf, between its ends, and one of the widened leaf, at the known root, as far
  * from it as its radii allow. */
-static void make_ray(struct random *random, struct subject *s, unsigned lane)
+static void make_ray(struct random *random, struct subject *s, struct leaf_root *root, unsigned lane)
 {
   struct packet *p = &s->packet;
   double known[2], other[2], from[3], to[3], way[3], most = 0;
@@ -81,7 +47,6 @@ static void make_ray(struct random *random, struct subject *s, unsigned lane)
   const int first = (int)(random_bits(random) % 3), last = (int)(random_bits(random) % 3);
   p->t_min[lane] = first == 0 ? -INFINITY : first == 1 ? nextafter(t, -INFINITY) : t - fabs(t);
   p->t_max[lane] = last == 0 ? INFINITY : last == 1 ? nextafter(t, INFINITY) : t + fabs(t);
-  struct leaf_root *root = &s->root;
   root->at.u[lane] = known[0], root->at.v[lane] = known[1];
   root->at.radius_u[lane] = root->at.radius_v[lane] = radius;
   const double off = random_bits(random) % 2 ? radius : -radius;
@@ -97,30 +62,29 @@ static void another_root_is_never_told_away(void **state)
   for (int n = 0; n < CASES; n++) {
     struct subject s = {.patch = {.scale = 0}};
     struct packet *p = &s.packet;
-    make_leaf(&random, &s);
-    for (unsigned lane = 0; lane < LANES; lane++) make_ray(&random, &s, lane);
-    p->live = all, p->t_far = p->t_max, p->net_error = GRAINS * GRAIN * s.patch.scale;
-    packet_untried(p);
-    packet_set_patch(p, &s.patch, 0);
+    struct leaf_root root = {.t = {0}};
+    subject_make(&random, HALVINGS, ROUGH, &s);
+    for (unsigned lane = 0; lane < LANES; lane++) make_ray(&random, &s, &root, lane);
+    subject_look(&s, GRAINS * GRAIN * s.patch.scale);
     for (unsigned axes = p->axes; axes; axes &= axes - 1) {
       struct candidate it = {.leaf = &s.leaf, .patch = &s.patch, .axis = __builtin_ctz(axes)};
       const lane_mask here = p->on_axis[it.axis];
       it.line = &p->line[it.axis];
       struct quadric_along along;
       const lane_mask asked = quadric_along(p, &it, here, &along);
-      s.root.at.exists = all;
-      besides += lanes_count(quadric_closes(&along, &it, &s.root, asked));
-      s.root.at.exists = ~all;
-      alone += lanes_count(quadric_closes(&along, &it, &s.root, asked));
+      root.at.exists = all;
+      besides += lanes_count(quadric_closes(&along, &it, &root, asked));
+      root.at.exists = ~all;
+      alone += lanes_count(quadric_closes(&along, &it, &root, asked));
       /* not vacuous: with ends that leave the other root out much is closed */
       const lanes end = p->t_max;
-      s.root.at.exists = all, p->t_max = lanes_min(p->t_max, lanes_all(0));
+      root.at.exists = all, p->t_max = lanes_min(p->t_max, lanes_all(0));
       tried += lanes_count(asked), quadric_along(p, &it, here, &along);
-      elsewhere += lanes_count(quadric_closes(&along, &it, &s.root, asked));
+      elsewhere += lanes_count(quadric_closes(&along, &it, &root, asked));
       /* what the ray has hit does as if it were not: else last places would show what came first */
       p->t_max = end, p->t_far = lanes_min(p->t_far, lanes_all(0));
       quadric_along(p, &it, here, &along);
-      besides += lanes_count(quadric_closes(&along, &it, &s.root, asked));
+      besides += lanes_count(quadric_closes(&along, &it, &root, asked));
       p->t_far = end;
     }
   }
@@ -152,20 +116,11 @@ static void make_s_shape(struct random *random, struct subject *s)
   static const double height[4] = {-15, 5, -11, -15}; /* by 48 */
   const bool mirrored = random_bits(random) % 2;
   const double size = exp2(random_between(random, -6, 0)) / 48;
-  do make_leaf(random, s);
+  do subject_make(random, HALVINGS, ROUGH, s);
   while (!s->over_a_plane);
   s->patch.split[0] = s->patch.split[1] = 1;
   for (int n = 0; n < 16; n++) s->patch.x[2][n / 4][n % 4] = (mirrored ? -size : size) * height[n / 4];
   leaves_make(&s->patch, 0, 0, 1, &s->leaf);
-}
-
-static void point_at(const struct subject *s, double u, double v, double out[3])
-{
-  for (int k = 0; k < 3; k++) {
-    double net[4][4];
-    memcpy(net, s->leaf.x[k], sizeof net);
-    out[k] = patch_evaluate(net, u, v).value;
-  }
 }
 
 static void know(struct leaf_root *root, unsigned lane, double u, double v, double w)
@@ -184,19 +139,19 @@ static void a_third_root_is_never_told_away(void **state)
   for (int n = 0; n < 4 * CASES; n++) {
     struct subject s = {.patch = {.scale = 0}};
     struct packet *p = &s.packet;
-    struct leaf_root second;
+    struct leaf_root root = {.t = {0}}, second = root;
     lane_mask third = {0};
     const bool s_shape = n % 2;
     if (s_shape) make_s_shape(&random, &s);
     else do
-        make_leaf(&random, &s);
+        subject_make(&random, HALVINGS, ROUGH, &s);
       while (!s.over_a_plane);
     for (unsigned lane = 0; lane < LANES; lane++) {
       const double v = random_unit(&random), u = random_unit(&random), other = random_unit(&random);
       const double u1 = s_shape ? 1 - u / 64 : u, u2 = s_shape ? 0.25 + other / 32 : other;
       const double u3 = third_root(&s, v, u1, u2);
       double one[3], two_at[3];
-      point_at(&s, u1, v, one), point_at(&s, u2, v, two_at);
+      subject_point(&s, u1, v, one), subject_point(&s, u2, v, two_at);
       const double way = two_at[0] - one[0];
       for (int k = 0; k < 3; k++) {
         p->direction[k][lane] = (two_at[k] - one[k]) / way;
@@ -204,20 +159,18 @@ static void a_third_root_is_never_told_away(void **state)
       }
       p->t_min[lane] = -INFINITY, p->t_max[lane] = INFINITY;
       const int axis = fabs(p->direction[2][lane]) > 1 ? 2 : 0;
-      know(&s.root, lane, u1, v, one[axis]), know(&second, lane, u2, v, two_at[axis]);
+      know(&root, lane, u1, v, one[axis]), know(&second, lane, u2, v, two_at[axis]);
       third[lane] = -(u3 > 0 && u3 < 1);
     }
-    s.root.at.exists = second.at.exists = all;
-    p->live = all, p->t_far = p->t_max, p->net_error = GRAIN * s.patch.scale;
-    packet_untried(p);
-    packet_set_patch(p, &s.patch, 0);
+    root.at.exists = second.at.exists = all;
+    subject_look(&s, GRAIN * s.patch.scale);
     for (unsigned axes = p->axes; axes; axes &= axes - 1) {
       struct candidate it = {.leaf = &s.leaf, .patch = &s.patch, .axis = __builtin_ctz(axes)};
       it.line = &p->line[it.axis];
       struct quadric_along along;
       const lane_mask asked = quadric_along(p, &it, p->on_axis[it.axis], &along);
-      const lane_mask done = quadric_closes_two(&along, &it, &s.root, &second, asked);
-      const lanes taken = lanes_abs(along.f[2] * (s.root.w - second.w)) / (2 * along.turn);
+      const lane_mask done = quadric_closes_two(&along, &it, &root, &second, asked);
+      const lanes taken = lanes_abs(along.f[2] * (root.w - second.w)) / (2 * along.turn);
       for (unsigned lane = 0; lane < LANES; lane++)
         if (asked[lane] & third[lane]) most = fmax(most, taken[lane]);
       three += lanes_count(asked & third), two += s_shape ? 0 : lanes_count(asked & ~third);
