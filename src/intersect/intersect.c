@@ -131,7 +131,7 @@ void tracer_destroy(struct tracer *tracer)
   memory_free(tracer);
 }
 
-const struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct leaf_room *room)
+struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct leaf_room *room)
 {
   if (tracer->made) {
     struct made_leaf *slot = &tracer->made[number * UINT32_C(0x9e3779b1) >> (32 - MADE_BITS)]; /* Knuth 6.4 */

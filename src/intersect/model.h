@@ -99,6 +99,7 @@ struct leaf {
   uint16_t column_u, column_v; /* the leaf is [column_u, column_u + 1] / split[0] in u, and so on */
   uint8_t kept_degree, eliminated_degree;
   bool v_kept;      /* the form keeps v and eliminates u */
+  bool has_quadric; /* one that is not kept gets its quadric when that is first asked for */
   uint8_t zeros[2]; /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
@@ -194,7 +195,7 @@ void model_destroy(struct model *model);
 /* The patch, in `room` where it is not kept. */
 struct model_patch *model_patch_at(const struct model *model, uint32_t index, struct patch_room *room);
 
-/* A leaf that is not kept. */
+/* A leaf that is not kept, without its quadric. */
 void model_make_leaf(const struct model *model, uint32_t number, struct leaf_room *out);
 
 /* Where `split` is auto a patch is cut until its leaves' derivatives turn by no more than about this fraction of their size, and

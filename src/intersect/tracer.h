@@ -66,7 +66,7 @@ struct tracer {
 void tracer_begin(const struct intersector *intersector, struct tracer *out);
 
 /* intersect.c: a leaf of the tracer's model that is not kept, perhaps in `room`; valid until the next call. */
-const struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct leaf_room *room);
+struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct leaf_room *room);
 
 /* intersect.c: gives back what tracer_all has taken for it, by memory_free, so on a thread with the same hooks. Not
  * asked for all hits, a tracer has nothing. */

@@ -44,7 +44,7 @@ static void truth_make(const struct model *model, const struct leaf *leaf, const
 struct subject {
   struct world world;
   const struct model *model;
-  const struct leaf *leaf;
+  struct leaf *leaf;
   struct ray ray;
   struct local_ray local;
   struct truth truth;

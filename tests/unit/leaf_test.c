@@ -63,15 +63,15 @@ static void leaves_of_any_company(struct random *random, int kind, const struct 
   (void)kind;
   const size_t count = (size_t)(patch->split[0] * patch->split[1]);
   struct leaf *together = no_leaves(), *apart = no_leaves();
-  leaves_make(patch, 7, 0, count, together);
+  leaves_make(patch, 7, 0, count, together), leaf_quadrics(count, together);
   for (size_t first = 0, here; first < count; first += here) {
     here = 1 + random_bits(random) % 20;
     if (here > count - first) here = count - first;
-    leaves_make(patch, 7, (uint32_t)first, here, apart + first);
+    leaves_make(patch, 7, (uint32_t)first, here, apart + first), leaf_quadrics(here, apart + first);
   }
   assert_memory_equal(together, apart, count * sizeof *together);
   for (size_t k = 0; k < count; k++) {
-    leaves_make(patch, 7, (uint32_t)k, 1, &apart[0]);
+    leaves_make(patch, 7, (uint32_t)k, 1, &apart[0]), leaf_quadrics(1, &apart[0]);
     assert_memory_equal(&together[k], &apart[0], sizeof *together);
     assert_int_equal(together[k].column_u * patch->split[1] + together[k].column_v, k);
     assert_int_equal(together[k].patch, 7);
@@ -213,6 +213,7 @@ static void leaf_lies_along_its_quadric(struct random *random, int kind, const s
   for (int n = 0; n < 30; n++) {
     struct leaf leaf;
     leaves_make(patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(patch->split[0] * patch->split[1])), 1, &leaf);
+    leaf_quadrics(1, &leaf);
     const struct leaf_quadric *of = &leaf.quadric;
     if (isinf(of->off)) continue;
     bounded++, turns_bounded += !isinf(of->turn[0]);

@@ -121,6 +121,7 @@ static void make_s_shape(struct random *random, struct subject *s)
   s->patch.split[0] = s->patch.split[1] = 1;
   for (int n = 0; n < 16; n++) s->patch.x[2][n / 4][n % 4] = (mirrored ? -size : size) * height[n / 4];
   leaves_make(&s->patch, 0, 0, 1, &s->leaf);
+  leaf_quadrics(1, &s->leaf);
 }
 
 static void know(struct leaf_root *root, unsigned lane, double u, double v, double w)

@@ -99,7 +99,7 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
  * proves no root, and the last resort looks at most of the patch in any case. */
 #define BLIND 0x1p-5
 
-void packet_leaf(struct packet *p, const struct leaf *leaf, const struct model_patch *patch, uint32_t number,
+void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
                  lane_mask active)
 {
   struct candidate it;

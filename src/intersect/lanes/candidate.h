@@ -14,7 +14,7 @@ enum { RESULTANT_MAX_DEGREE = 18 };
 
 /* What the stages tell each other. */
 struct candidate {
-  const struct leaf *leaf;
+  struct leaf *leaf; /* constant but for its quadric, where it has none yet: then it is the tracer's own */
   const struct model_patch *patch; /* the leaf's */
   int64_t number;                  /* the leaf's, in its model */
   int axis;

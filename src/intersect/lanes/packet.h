@@ -143,7 +143,7 @@ LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct mo
 }
 
 /* candidate.c: tries the leaf, of that patch and number, on the lanes of `active`, and keeps what is nearer than the best. */
-void packet_leaf(struct packet *p, const struct leaf *leaf, const struct model_patch *patch, uint32_t number,
+void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
                  lane_mask active);
 
 /* nearest.c: leaves what is open of the leaf, or of the same leaf of a copy, to the last resort (exact.h). */

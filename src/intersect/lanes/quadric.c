@@ -5,6 +5,7 @@
 #include "intersect/lanes/quadric.h"
 
 #include "intersect/lanes/nearest.h"
+#include "intersect/prepare/leaf.h"
 
 /* In place of a slope of 0: over |w| <= FRAME_END it moves nothing by more than a plane's error. */
 #define LEAST_SLOPE 0x1p-60
@@ -129,6 +130,7 @@ static lane_mask other_root(struct packet *p, const struct candidate *it, const 
 lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask open)
 {
   struct quadric_along along;
+  if (!it->leaf->has_quadric) leaf_quadrics(1, it->leaf);
   const lane_mask asked = quadric_along(p, it, open, &along), closed = quadric_closes(&along, it, &it->first, asked);
   offer_root(p, it, &it->first, closed & it->first.at.exists & inside(&it->first.at));
   open &= ~closed & p->live;

@@ -74,7 +74,7 @@ LANES_INLINE unsigned box_passed(const struct bundle *b, uint32_t index, unsigne
   return index < model->leaf_count ? leaf_passed(b, &model->oriented[index], rays) : rays;
 }
 
-static void bundle_try(struct bundle *b, uint32_t index, const struct leaf *leaf, const struct model_patch *patch,
+static void bundle_try(struct bundle *b, uint32_t index, struct leaf *leaf, const struct model_patch *patch,
                        unsigned active)
 {
   const unsigned all = (1u << LANES) - 1;
@@ -86,7 +86,7 @@ static void bundle_try(struct bundle *b, uint32_t index, const struct leaf *leaf
 __attribute__((noinline)) static void bundle_make(struct bundle *b, uint32_t index, unsigned active)
 {
   struct leaf_room room;
-  const struct leaf_room *made = tracer_leaf(b->packet[0].tracer, index, &room);
+  struct leaf_room *made = tracer_leaf(b->packet[0].tracer, index, &room);
   bundle_try(b, index, &made->leaf, &made->of.patch, active);
 }
 
@@ -101,7 +101,7 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
   } else if (index >= model->leaf_count) {
     bundle_copy(b, &model->copies[index - model->leaf_count], active);
   } else if (model->leaves) {
-    const struct leaf *leaf = &model->leaves[index];
+    struct leaf *leaf = &model->leaves[index];
     bundle_try(b, index, leaf, &model->patches[leaf->patch], active);
   } else {
     bundle_make(b, index, active);

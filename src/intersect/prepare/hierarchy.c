@@ -177,7 +177,8 @@ static enum status make_leaves(void *context, size_t worker)
   struct making *m = context;
   void *form = NULL;
   for (size_t part, p, end; take_part(m, &part, &p, &end);) {
-    for (size_t l = m->leaves[part]; p < end; p++) {
+    size_t l = m->leaves[part];
+    for (; p < end; p++) {
       const struct model_cut *cut = &m->model->cuts[p];
       if (cut->copied) continue;
       if (!m->keep && m->model->oriented) orient_leaves(m, p, l);
@@ -185,6 +186,7 @@ static enum status make_leaves(void *context, size_t worker)
       else if (keep_leaves(m, m->arenas[worker], p, l, &form) != STATUS_OK) return STATUS_LIMIT;
       l += (size_t)cut->split[0] * cut->split[1];
     }
+    if (m->keep) leaf_quadrics(l - m->leaves[part], &m->model->leaves[m->leaves[part]]);
   }
   return STATUS_OK;
 }

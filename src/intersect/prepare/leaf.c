@@ -112,9 +112,12 @@ void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first
     const uint32_t number = first + (uint32_t)k;
     leaves[k].patch = index, leaves[k].column_u = (uint16_t)(number / row),
     leaves[k].column_v = (uint16_t)(number % row);
+    leaves[k].has_quadric = false;
   }
   kernel_for(count)->leaves(patch, count, leaves);
 }
+
+void leaf_quadrics(size_t count, struct leaf leaves[]) { kernel_for(count)->quadrics(count, leaves); }
 
 /* What rounding `half` to a float, and what it is compared with, may do: see lanes/view.h. */
 #define HALF_GROWTH (1 + 0x1p-20)

@@ -45,9 +45,12 @@ void patch_parts(const struct model_patch *patch, const struct part_grid *grid, 
 bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2],
                           int border);
 
-/* Leaves of patch number `index`, from its leaf `first` on; all but their forms. Leaf column_u split[1] + column_v is the
- * one at these columns. */
+/* Leaves of patch number `index`, from its leaf `first` on; all but their quadrics and forms. Leaf column_u split[1] + column_v is
+ * the one at these columns. */
 void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[]);
+
+/* The quadrics of leaves, of one patch or of several. */
+void leaf_quadrics(size_t count, struct leaf leaves[]);
 
 /* The boxes along leaves of a patch, as of struct leaf, from their columns on. */
 void leaf_slabs(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3]);

@@ -12,57 +12,6 @@
 #include "geometry/vector.h"
 #include "intersect/prepare/leaf_nets.h"
 
-/* ---- subdivision ---- */
-
-/* A range of a parameter, from < 1; the whole of [0,1], for all lanes, copies. */
-struct lane_range {
-  lanes from, to;
-  bool whole;
-  bool ends; /* on some lane at 1 */
-};
-
-/* From here on as geometry/patch.c does it for one net, to the last bit. `ends`: t may be 1. */
-LANES_INLINE lanes mix(lanes a, lanes b, lanes t, bool ends)
-{
-  const lanes mixed = a + t * (b - a);
-  return ends ? lanes_select(t == 1, b, mixed) : mixed;
-}
-
-/* The control points: the cubic's blossom at from, from, from; from, from, to; and so on. */
-LANES_INLINE void cubic_range(const lanes c[4], const struct lane_range *range, bool ends, lanes out[4])
-{
-  const lanes from = range->from, to = range->to;
-  lanes low[3], high[3], lower[2], between[2], higher[2];
-  for (int k = 0; k < 3; k++) low[k] = mix(c[k], c[k + 1], from, false), high[k] = mix(c[k], c[k + 1], to, ends);
-  for (int k = 0; k < 2; k++) {
-    lower[k] = mix(low[k], low[k + 1], from, false), between[k] = mix(low[k], low[k + 1], to, ends);
-    higher[k] = mix(high[k], high[k + 1], to, ends);
-  }
-  out[0] = mix(lower[0], lower[1], from, false), out[1] = mix(lower[0], lower[1], to, ends);
-  out[2] = mix(between[0], between[1], to, ends), out[3] = mix(higher[0], higher[1], to, ends);
-}
-
-LANES_INLINE void cubic_part(const lanes c[4], const struct lane_range *range, lanes out[4])
-{
-  if (range->whole) memcpy(out, c, 4 * sizeof *out);
-  else if (range->ends) cubic_range(c, range, true, out);
-  else cubic_range(c, range, false, out);
-}
-
-/* Out of line, for it is large. */
-__attribute__((noinline)) static void subnet(const lane_net net, const struct lane_range *u, const struct lane_range *v,
-                                             lane_net out)
-{
-  lane_net rows;
-  for (int i = 0; i < 4; i++) cubic_part(net[i], v, rows[i]);
-  for (int j = 0; j < 4; j++) {
-    const lanes column[4] = {rows[0][j], rows[1][j], rows[2][j], rows[3][j]};
-    lanes cut[4];
-    cubic_part(column, u, cut);
-    for (int i = 0; i < 4; i++) out[i][j] = cut[i];
-  }
-}
-
 /* ---- cutting ---- */
 
 static int head_bits(int leaves) { return leaves <= 256 ? 20 : 16; }
@@ -88,7 +37,6 @@ static void patch_halve(const struct model_patch *patch, int leaves, struct patc
 /* Parts, and what is known of them. */
 struct cut {
   lane_net head[3], tail[3], x[3]; /* x: their sum */
-  lane_net wide[3];                /* widened, where there is a margin */
   lanes first[2], second[3];
 };
 
@@ -183,9 +131,9 @@ static void bounds(double margin, struct cut *cut)
     first_bounds(cut->x, cut->first), second_bounds(cut->x, cut->second);
     return;
   }
-  const struct lane_range range = {lanes_all(-margin), lanes_all(1 + margin), false, false};
-  for (int k = 0; k < 3; k++) subnet((const lanes(*)[4])cut->x[k], &range, &range, cut->wide[k]);
-  first_bounds(cut->wide, cut->first), second_bounds(cut->wide, cut->second);
+  lane_net wide[3];
+  for (int k = 0; k < 3; k++) subnet_widened((const lanes(*)[4])cut->x[k], margin, wide[k]);
+  first_bounds(wide, cut->first), second_bounds(wide, cut->second);
   const double shrink = 1 / (1 + 2 * margin);
   for (int k = 0; k < 3; k++) cut->second[k] *= shrink * shrink;
   for (int k = 0; k < 2; k++) cut->first[k] *= shrink;
@@ -301,17 +249,6 @@ static void set_slabs(lane_net x[3], struct lane_slab out[3])
 
 /* ---- the face ---- */
 
-/* Writes value[k] of the first lanes, `here` of them, to to[k], and `stride` doubles on for each lane; count is at least 4. */
-LANES_INLINE void store(const lanes value[], int count, size_t here, double *to, size_t stride)
-{
-  for (int k = 0; k < count && here == LANES; k += 4) {
-    const int at = k + 4 <= count ? k : count - 4; /* the last four, some of them twice */
-    lanes_store4(value[at], value[at + 1], value[at + 2], value[at + 3], to + at, stride);
-  }
-  for (size_t lane = 0; lane < here && here < LANES; lane++)
-    for (int k = 0; k < count; k++) to[lane * stride + (size_t)k] = value[k][lane];
-}
-
 /* The columns of up to LANES parts, `stride` numbers from one to the next; lanes without a part have the first's. */
 static void load_columns(const uint16_t *column, size_t stride, size_t count, lanes out[2])
 {
@@ -334,8 +271,8 @@ static void parts(const struct model_patch *patch, const struct part_grid *grid,
     cut_nets(&halves, at, grid, &cut);
     bounds(grid->margin, &cut);
     memcpy(derivatives, cut.first, sizeof cut.first), memcpy(derivatives + 2, cut.second, sizeof cut.second);
-    store(cut.x[0][0], 48, here, out->x[0], PART);
-    store(derivatives, 5, here, out->first, PART);
+    lanes_scatter(cut.x[0][0], 48, here, out->x[0], PART);
+    lanes_scatter(derivatives, 5, here, out->first, PART);
     out += here, column += here, count -= here;
   }
 }
@@ -360,24 +297,19 @@ static void slabs(const struct model_patch *patch, size_t count, const uint16_t 
     load_columns(column[0], 2, here, at);
     cut_nets(&halves, at, &grid, &cut);
     set_slabs(cut.x, slab);
-    store(slab->g, SLABS, here, (*out)->g, SLABS);
+    lanes_scatter(slab->g, SLABS, here, (*out)->g, SLABS);
     out += here, column += here, count -= here;
   }
 }
 
-enum { LEAF = sizeof(struct leaf) / sizeof(double) };
-static_assert(sizeof(struct leaf) == LEAF * sizeof(double), "leaves are so many doubles apart");
-static_assert(offsetof(struct leaf_parts, error) == sizeof(double[60]) &&
-                sizeof(struct leaf_quadric) == sizeof(double[12]),
-              "stored in a row");
+static_assert(offsetof(struct leaf_parts, error) == sizeof(double[60]), "stored in a row");
 
-static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], const struct lane_quadric *quadric,
-                         const struct lane_parts *parts, bool exact, size_t here, struct leaf leaves[])
+static void leaves_store(const struct cut *cut, const struct lane_slab slab[3], const struct lane_parts *parts,
+                         bool exact, size_t here, struct leaf leaves[])
 {
-  store(cut->x[0][0], 48, here, leaves->x[0], LEAF);
-  store(slab->g, 15, here, leaves->slab->g, LEAF);
-  store(parts->base, 60, here, leaves->parts.base[0], LEAF);
-  store(quadric->c, 12, here, leaves->quadric.c, LEAF);
+  lanes_scatter(cut->x[0][0], 48, here, leaves->x[0], LEAF);
+  lanes_scatter(slab->g, 15, here, leaves->slab->g, LEAF);
+  lanes_scatter(parts->base, 60, here, leaves->parts.base[0], LEAF);
   for (size_t lane = 0; lane < here; lane++) {
     struct leaf *leaf = &leaves[lane];
     for (int k = 0; k < 2; k++) leaf->first[k] = cut->first[k][lane];
@@ -400,17 +332,15 @@ static void leaves(const struct model_patch *patch, size_t count, struct leaf le
     struct cut cut;
     struct lane_slab slab[3];
     struct lane_parts parts;
-    struct lane_quadric quadric;
     lanes at[2];
     load_columns(&leaves->column_u, sizeof *leaves / sizeof leaves->column_u, here, at);
     cut_nets(&halves, at, &grid, &cut);
     bounds(grid.margin, &cut);
     set_parts(&cut, exact, &parts);
     set_slabs(cut.x, slab);
-    quadric_set((const lane_net *)cut.x, (const lane_net *)cut.wide, slab, &quadric);
-    leaves_store(&cut, slab, &quadric, &parts, exact, here, leaves);
+    leaves_store(&cut, slab, &parts, exact, here, leaves);
     leaves += here, count -= here;
   }
 }
 
-const struct leaf_kernel KERNEL(leaf_kernel) = {parts, slabs, leaves};
+const struct leaf_kernel KERNEL(leaf_kernel) = {parts, slabs, leaves, quadrics_make};

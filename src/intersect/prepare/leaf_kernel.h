@@ -14,8 +14,10 @@ struct leaf_kernel {
                 struct patch_part out[]);
   /* leaf_slabs, leaf.h. */
   void (*slabs)(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3]);
-  /* All of a leaf that is doubles, and `final`, of leaves of one patch whose columns are set. */
+  /* All of a leaf that is doubles but its quadric, and `final`, of leaves of one patch whose columns are set. */
   void (*leaves)(const struct model_patch *patch, size_t count, struct leaf leaves[]);
+  /* leaf_quadrics, leaf.h. */
+  void (*quadrics)(size_t count, struct leaf leaves[]);
 };
 
 extern const struct leaf_kernel leaf_kernel_baseline, leaf_kernel_avx2, leaf_kernel_avx512;

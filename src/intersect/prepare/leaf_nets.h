@@ -6,6 +6,9 @@
 #ifndef PSCN_INTERSECT_PREPARE_LEAF_NETS_H
 #define PSCN_INTERSECT_PREPARE_LEAF_NETS_H
 
+#include <assert.h>
+#include <stddef.h>
+
 #include "base/kernel.h"
 #include "base/lanes.h"
 #include "intersect/model.h"
@@ -18,10 +21,24 @@ struct lane_slab {
   lanes g[3], offset, half;
 };
 
-/* As struct leaf_quadric has it. */
-struct lane_quadric {
-  lanes c[6], off, turn[2], turn_wide[2], slack;
+/* ---- parts ---- */
+
+/* A range of a parameter, from < 1; the whole of [0,1], for all lanes, copies. */
+struct lane_range {
+  lanes from, to;
+  bool whole;
+  bool ends; /* on some lane at 1 */
 };
+
+/* leaf_nets.c: the net over these ranges, by blossoms, to the last bit as geometry/patch.c has it. */
+#define subnet KERNEL(subnet)
+void subnet(const lane_net net, const struct lane_range *u, const struct lane_range *v, lane_net out);
+
+/* leaf_nets.c: the net over [-margin, 1 + margin] in both parameters. */
+#define subnet_widened KERNEL(subnet_widened)
+void subnet_widened(const lane_net net, double margin, lane_net out);
+
+/* ---- Taylor's polynomial ---- */
 
 /* Coefficients about the middle, of a cubic in Bernstein form. */
 LANES_INLINE void taylor(lanes b0, lanes b1, lanes b2, lanes b3, lanes out[4])
@@ -41,8 +58,31 @@ LANES_INLINE void taylor_net(const lane_net x, lanes out[16])
   }
 }
 
-/* quadric.c: the quadric of leaves with nets x, which are `wide` where they are widened by LEAF_MARGIN. */
-#define quadric_set KERNEL(quadric_set)
-void quadric_set(const lane_net x[3], const lane_net wide[3], const struct lane_slab slab[3], struct lane_quadric *out);
+/* ---- stored ---- */
+
+enum { LEAF = sizeof(struct leaf) / sizeof(double) };
+static_assert(sizeof(struct leaf) == LEAF * sizeof(double), "leaves are so many doubles apart");
+
+/* Writes value[k] of the first lanes, `here` of them, to to[k], and `stride` doubles on for each lane; count is at least 4. */
+LANES_INLINE void lanes_scatter(const lanes value[], int count, size_t here, double *to, size_t stride)
+{
+  for (int k = 0; k < count && here == LANES; k += 4) {
+    const int at = k + 4 <= count ? k : count - 4; /* the last four, some of them twice */
+    lanes_store4(value[at], value[at + 1], value[at + 2], value[at + 3], to + at, stride);
+  }
+  for (size_t lane = 0; lane < here && here < LANES; lane++)
+    for (int k = 0; k < count; k++) to[lane * stride + (size_t)k] = value[k][lane];
+}
+
+/* Reads what that writes. Lanes without any have the first's. */
+LANES_INLINE void lanes_gather(lanes value[], int count, size_t here, const double *from, size_t stride)
+{
+  for (size_t lane = 0; lane < LANES; lane++)
+    for (int k = 0; k < count; k++) value[k][lane] = from[(lane < here ? lane : 0) * stride + (size_t)k];
+}
+
+/* quadric.c: leaf_quadrics, leaf.h. */
+#define quadrics_make KERNEL(quadrics_make)
+void quadrics_make(size_t count, struct leaf leaves[]);
 
 #endif

@@ -144,7 +144,14 @@ static void rest_bounds(const lane_net of[3], const lanes c[6], struct rest_boun
   out->turn[1] = lanes_select(sound, (by_s * cross_1 + by_t * least_1) * inverse, lanes_all(INFINITY));
 }
 
-void quadric_set(const lane_net x[3], const lane_net wide[3], const struct lane_slab slab[3], struct lane_quadric *out)
+/* As struct leaf_quadric has it. */
+struct lane_quadric {
+  lanes c[6], off, turn[2], turn_wide[2], slack;
+};
+static_assert(sizeof(struct leaf_quadric) == sizeof(double[12]), "stored in a row");
+
+static void quadric_set(const lane_net x[3], const lane_net wide[3], const struct lane_slab slab[3],
+                        struct lane_quadric *out)
 {
   lane_net forms[3];
   struct rest_bounds leaf, around;
@@ -161,4 +168,21 @@ void quadric_set(const lane_net x[3], const lane_net wide[3], const struct lane_
   for (int n = 0; n < 6; n++) out->c[n] = lanes_select(tells, out->c[n], lanes_all(0));
   out->off = lanes_select(tells, out->off, lanes_all(INFINITY));
   out->slack = lanes_select(tells, out->slack, lanes_all(INFINITY));
+}
+
+void quadrics_make(size_t count, struct leaf leaves[])
+{
+  while (count > 0) {
+    const size_t here = count < LANES ? count : LANES;
+    lane_net x[3], wide[3];
+    struct lane_slab slab[3];
+    struct lane_quadric quadric;
+    lanes_gather(x[0][0], 48, here, leaves->x[0], LEAF);
+    lanes_gather(slab->g, 15, here, leaves->slab->g, LEAF);
+    for (int k = 0; k < 3; k++) subnet_widened((const lanes(*)[4])x[k], LEAF_MARGIN, wide[k]);
+    quadric_set((const lane_net *)x, (const lane_net *)wide, slab, &quadric);
+    lanes_scatter(quadric.c, 12, here, leaves->quadric.c, LEAF);
+    for (size_t k = 0; k < here; k++) leaves[k].has_quadric = true;
+    leaves += here, count -= here;
+  }
 }
