@@ -159,6 +159,7 @@ struct model_tree {
   double origin[3], frame;
   struct bvh bvh;
   struct model_tree *inner; /* or NULL; in the arena */
+  double crossings;         /* how many surfaces a line that comes by the tree crosses, on average, about */
 };
 
 enum { MODEL_INNER = INT32_MAX };

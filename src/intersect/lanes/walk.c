@@ -134,6 +134,22 @@ LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
   for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch(from + at);
 }
 
+/* Where rays cross so many surfaces, what waits is taken in the order in which rays come to it, whatever node it is below, so
+ * that little is tried that lies behind a hit. Elsewhere that is not worth the sorting; and any hit is found the sooner the
+ * less waits. */
+enum { MANY_CROSSINGS = 4 };
+
+LANES_INLINE bool nearest_first(const struct bundle *b, const struct model_tree *tree)
+{
+  return tree->crossings >= MANY_CROSSINGS && !b->packet[0].any && !b->packet[0].gather;
+}
+
+/* In that order no more than BVH_STACK may wait; what is below one of them then goes node by node. */
+enum { MOST_WAITING = 2 * BVH_STACK + BVH_WIDTH };
+
+/* From where on what comes to the `top` that wait is sorted in. */
+LANES_INLINE size_t sorted_from(bool nearest, size_t top) { return nearest && top < BVH_STACK ? 0 : top; }
+
 /* One ray on its way through what is below some node. */
 struct ray_way {
   struct ray_view ray;
@@ -143,7 +159,7 @@ struct ray_way {
   struct {
     float near;
     uint32_t child;
-  } stack[BVH_STACK];
+  } stack[MOST_WAITING];
 };
 
 LANES_INLINE void ray_begin(const struct bundle *b, uint32_t child, unsigned lane, struct ray_way *way)
@@ -167,7 +183,7 @@ LANES_INLINE bool ray_next(const struct bundle *b, struct ray_way *way)
 LANES_INLINE bool ray_down(const struct bundle *b, const struct model_tree *tree, struct ray_way *way)
 {
   const struct bvh_node *node = &tree->bvh.nodes[way->child];
-  const size_t first = way->top;
+  const size_t first = sorted_from(nearest_first(b, tree), way->top);
   float near[BVH_WIDTH];
   unsigned bits = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near);
   if (bits && (bits & (bits - 1)) == 0) { /* the next, by no way over the stack */
@@ -275,9 +291,10 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
     float first;   /* where the first of the rays enters */
     unsigned rays; /* a leaf's test on one ray must not depend on its neighbours, so each ray goes its own way */
     uint32_t child;
-  } stack[BVH_STACK];
+  } stack[MOST_WAITING];
   size_t top = 0;
   const int few = most_alone(b);
+  const bool nearest = nearest_first(b, tree);
   uint32_t child = 0;
   for (;;) {
     if (child & (uint32_t)BVH_LEAF) {
@@ -288,7 +305,7 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
       for (unsigned bits = rays; bits; bits &= bits - 1) ray_walk(b, tree, child, (unsigned)__builtin_ctz(bits));
     } else {
       const struct bvh_node *node = &bvh->nodes[child];
-      const size_t first = top;
+      const size_t first = sorted_from(nearest, top);
       struct entries in;
       view_boxes(&b->view, node, &in);
       for (int side = 0; side < BVH_WIDTH && node->child[side] != 0; side++) {

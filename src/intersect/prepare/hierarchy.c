@@ -276,6 +276,7 @@ enum status hierarchy_make(struct model *model, const struct team *team, const s
   for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m.boxes[model->leaf_count + c]);
   status = tree_build(model->arena, m.boxes, model->leaf_count + model->copy_count, team, &model->tree);
   if (status == STATUS_OK) status = orient(&m);
+  if (status == STATUS_OK) tree_set_crossings(model);
 done:
   end_making(&m);
   return status;

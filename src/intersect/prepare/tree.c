@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/real.h"
+#include "geometry/vector.h"
 
 /* Boxes no larger than this part of a frame have one of their own where all of them lie within that part: a float is
  * then still some thousand times finer than they are. Choices of speed. */
@@ -104,6 +105,56 @@ enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count
   memory_free(index);
   return status;
 }
+
+/* ---- crossings ---- */
+
+static double box_surface(const double lo[3], const double hi[3])
+{
+  const double d[3] = {hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]};
+  return 2 * (d[0] * d[1] + d[1] * d[2] + d[2] * d[0]);
+}
+
+/* The area of a leaf: of the face across its normal of the box along it. */
+static double leaf_area(const struct oriented_box *box)
+{
+  double g[3][3], normal[3];
+  for (int q = 0; q < 3; q++)
+    for (int k = 0; k < 3; k++) g[q][k] = (double)box->g[k][q];
+  vector_cross(g[1], g[2], normal);
+  const double area = 4 * (double)box->half[1] * (double)box->half[2] * vector_length(g[0]) /
+                      fabs(vector_dot(g[0], normal));
+  return isfinite(area) ? area : 0;
+}
+
+/* Of what is in a leaf child's box, times its surface. */
+static double crossings_in(const struct model *model, const struct model_tree *tree, uint32_t box, double surface)
+{
+  if (box == MODEL_INNER) return tree->inner->crossings * surface;
+  if (box >= model->leaf_count) return model->copies[box - model->leaf_count].object->model->tree.crossings * surface;
+  return 2 * leaf_area(&model->oriented[box]);
+}
+
+static void set_crossings(const struct model *model, struct model_tree *tree)
+{
+  if (tree->inner) set_crossings(model, tree->inner);
+  struct bvh_box whole = BVH_EMPTY;
+  double sum = 0;
+  for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
+    const struct bvh_node *node = &tree->bvh.nodes[n / BVH_WIDTH];
+    const size_t side = n % BVH_WIDTH;
+    const uint32_t child = node->child[side];
+    struct bvh_box box;
+    for (int k = 0; k < 3; k++) box.lo[k] = (double)node->lo[k][side], box.hi[k] = (double)node->hi[k][side];
+    if (child == 0) continue;
+    if (n < BVH_WIDTH) bvh_box_add(&whole, &box);
+    if (child & (uint32_t)BVH_LEAF)
+      sum += crossings_in(model, tree, child & ~(uint32_t)BVH_LEAF, box_surface(box.lo, box.hi));
+  }
+  const double surface = box_surface(whole.lo, whole.hi);
+  tree->crossings = surface > 0 ? sum / surface : 0;
+}
+
+void tree_set_crossings(struct model *model) { set_crossings(model, &model->tree); }
 
 void tree_free(struct model_tree *tree)
 {

@@ -13,6 +13,11 @@
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree) STATUS_MUST_CHECK;
 
+/* Sets `crossings` of the model's tree and of those in it, when boxes along leaves and the trees of objects are there: a convex
+ * body of surface S has 2 A / S of them, where A is the area of what is in it (Crofton's formula). Of leaves whose boxes tell
+ * nothing there is none. */
+void tree_set_crossings(struct model *model);
+
 /* Frees the nodes of this tree and of those in it. */
 void tree_free(struct model_tree *tree);
 
