@@ -199,10 +199,11 @@ struct model_patch *model_patch_at(const struct model *model, uint32_t index, st
 /* A leaf that is not kept, without its quadric. */
 void model_make_leaf(const struct model *model, uint32_t number, struct leaf_room *out);
 
-/* Where `split` is auto a patch is cut until its leaves' derivatives turn by no more than about this fraction of their size, and
- * into so many leaves a side at most: any patch, and one that is bent all over. Choices of speed, not of correctness. */
+/* Where `split` is auto a patch is cut until its leaves' derivatives turn by no more than about this fraction of their size, or
+ * by `coarse` where there would be more leaves than a picture shows, and into so many leaves a side at most: any patch, and one
+ * that is bent all over. Choices of speed, not of correctness. */
 struct split_limit {
-  double turn;
+  double turn, coarse;
   int any, bent;
 };
 

@@ -30,8 +30,16 @@ static double peak(struct random *random, int i, int j)
   return i == 3 && j == 3 ? 20 : 0;
 }
 
-/* The split of the first of `count` patches, all of that height; NULL: of random points in a cube. All are cut alike. */
-static int split_of(height *z, size_t count)
+/* Leaves of a quarter of it turn by less than a quarter; of a half of it by more, but not by much. */
+static double cup(struct random *random, int i, int j)
+{
+  (void)random;
+  return 0.11 * ((i == 1 || i == 2) + (j == 1 || j == 2));
+}
+
+/* The split of the first of `count` patches, all of that height and `apart` along x and z; NULL: of random points in a cube. All
+ * are cut alike. */
+static int split_of_apart(height *z, size_t count, const double apart[2])
 {
   struct random random = {SEED};
   struct scene scene = {.patch_count = count, .solver_count = 1};
@@ -43,9 +51,9 @@ static int split_of(height *z, size_t count)
   for (size_t p = 0; p < count; p++) {
     for (int n = 0; n < 16; n++) {
       double *x = scene.patches[p].P[n / 4][n % 4];
-      x[0] = z ? n / 4 / 3.0 + 2 * (double)p : random_between(&random, -1, 1);
+      x[0] = z ? n / 4 / 3.0 + apart[0] * (double)p : random_between(&random, -1, 1);
       x[1] = z ? n % 4 / 3.0 : random_between(&random, -1, 1);
-      x[2] = z ? z(&random, n / 4, n % 4) : random_between(&random, -1, 1);
+      x[2] = z ? z(&random, n / 4, n % 4) + apart[1] * (double)p : random_between(&random, -1, 1);
     }
   }
   assert_int_equal(model_create(&scene, NULL, &model), STATUS_OK);
@@ -56,6 +64,8 @@ static int split_of(height *z, size_t count)
   free(scene.patches);
   return split;
 }
+
+static int split_of(height *z, size_t count) { return split_of_apart(z, count, (double[2]){2, 0}); }
 
 static void patches_are_cut_as_far_as_they_bend(void **state)
 {
@@ -76,9 +86,22 @@ static void many_patches_are_cut_less(void **state)
   assert_int_equal(split_of(NULL, 2 * MANY), 2);
 }
 
+/* Side by side they are small in any picture; one above the other no more of their leaves are seen than of one patch's. */
+static void patches_side_by_side_are_cut_less(void **state)
+{
+  (void)state;
+  enum { MANY = 3000 };
+  const int one = split_of(cup, 1);
+  print_message("%d; %d, %d\n", one, split_of(cup, MANY), split_of_apart(cup, MANY, (double[2]){0, 1e-3}));
+  assert_true(one * one * MANY > 1 << 15);
+  assert_int_equal(split_of(cup, MANY), one / 2);
+  assert_int_equal(split_of_apart(cup, MANY, (double[2]){0, 1e-3}), one);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_cut_as_far_as_they_bend),
-                                     cmocka_unit_test(many_patches_are_cut_less)};
+                                     cmocka_unit_test(many_patches_are_cut_less),
+                                     cmocka_unit_test(patches_side_by_side_are_cut_less)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

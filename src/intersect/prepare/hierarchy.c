@@ -76,6 +76,60 @@ static enum status make_patches(void *context, size_t worker)
   return STATUS_OK;
 }
 
+static void number_leaves(struct making *m)
+{
+  m->model->leaf_count = 0;
+  for (size_t k = 0; k < m->part_count; k++) {
+    const size_t here = m->leaves[k];
+    m->leaves[k] = m->model->leaf_count;
+    m->model->leaf_count += here;
+  }
+}
+
+/* A picture shows a layer of the surfaces that a line crosses. With more leaves than this in a layer few rays of a packet meet
+ * the same one, and none of them finds a leaf in the processor's caches: what fewer and larger ones cost each is less. */
+enum { LAYER_LEAVES = 1 << 15 };
+
+/* Whether there are, of patches that are kept; layers as tree_set_crossings has them, by patches. */
+static bool too_many(const struct model *model)
+{
+  if (model->leaf_count <= LAYER_LEAVES) return false;
+  double lo[3], hi[3], area = 0;
+  bounds_empty(lo, hi);
+  for (size_t p = 0; p < model->scene->patch_count; p++) {
+    if (model->cuts[p].copied) continue;
+    bounds_add(model->scene->patches[p].P, lo, hi);
+    area += patch_net_area(&model->patches[p]);
+  }
+  const double layers = 2 * area / box_surface(lo, hi);
+  return (double)model->leaf_count > LAYER_LEAVES * (layers > 1 ? layers : 1);
+}
+
+static enum status cut_part_again(void *context, size_t worker)
+{
+  struct making *m = context;
+  struct model *model = m->model;
+  (void)worker;
+  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+    m->leaves[part] = 0;
+    for (; p < end; p++) {
+      const struct model_cut *cut = &model->cuts[p];
+      if (cut->copied) continue;
+      patch_cut_again(model, (uint32_t)p, &m->limit, &model->patches[p]);
+      m->leaves[part] += (size_t)cut->split[0] * cut->split[1];
+    }
+  }
+  return STATUS_OK;
+}
+
+static enum status cut_coarser(struct making *m)
+{
+  m->limit.turn = m->limit.coarse;
+  const enum status status = do_parts(m, cut_part_again, m->model->scene->patch_count);
+  number_leaves(m);
+  return status;
+}
+
 static enum status cut_patches(struct making *m)
 {
   struct model *model = m->model;
@@ -89,12 +143,8 @@ static enum status cut_patches(struct making *m)
   if (m->keep) model->patches = arena_alloc(m->arenas[0], count + 1, sizeof *model->patches);
   if (m->keep && !model->patches) return STATUS_LIMIT;
   const enum status status = do_parts(m, make_patches, count);
-  for (size_t k = 0; k < m->part_count; k++) {
-    const size_t here = m->leaves[k];
-    m->leaves[k] = model->leaf_count;
-    model->leaf_count += here;
-  }
-  return status;
+  number_leaves(m);
+  return status == STATUS_OK && m->keep && too_many(model) ? cut_coarser(m) : status;
 }
 
 /* ---- leaves ---- */

@@ -154,3 +154,27 @@ void patch_make_first(const struct model *model, uint32_t index, const struct sp
   }
   patch_end(cut, out);
 }
+
+void patch_cut_again(const struct model *model, uint32_t index, const struct split_limit *limit,
+                     struct model_patch *patch)
+{
+  struct model_cut *cut = &model->cuts[index];
+  if (patch->method->split == 0) auto_split(patch, limit, cut->split);
+  patch_end(cut, patch);
+}
+
+double patch_net_area(const struct model_patch *patch)
+{
+  double area = 0;
+  for (int n = 0; n < 9; n++) {
+    const int i = n / 3, j = n % 3;
+    double one[3], other[3], across[3];
+    for (int k = 0; k < 3; k++) {
+      one[k] = patch->x[k][i + 1][j + 1] - patch->x[k][i][j];
+      other[k] = patch->x[k][i][j + 1] - patch->x[k][i + 1][j];
+    }
+    vector_cross(one, other, across);
+    area += vector_length(across) / 2;
+  }
+  return area * patch->scale * patch->scale;
+}

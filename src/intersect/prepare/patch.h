@@ -39,4 +39,11 @@ void patch_make(const struct model *model, uint32_t index, struct model_patch *o
 void patch_make_first(const struct model *model, uint32_t index, const struct split_limit *limit,
                       struct model_patch *out, double rest[3][4][4]);
 
+/* Sets split and cut of a patch that is not copied once more, where `split` is auto. */
+void patch_cut_again(const struct model *model, uint32_t index, const struct split_limit *limit,
+                     struct model_patch *patch);
+
+/* The area of the patch's control net, in units of the scene: that of the patch, about, and hardly ever less. */
+double patch_net_area(const struct model_patch *patch);
+
 #endif

@@ -108,12 +108,6 @@ enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count
 
 /* ---- crossings ---- */
 
-static double box_surface(const double lo[3], const double hi[3])
-{
-  const double d[3] = {hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]};
-  return 2 * (d[0] * d[1] + d[1] * d[2] + d[2] * d[0]);
-}
-
 /* The area of a leaf: of the face across its normal of the box along it. */
 static double leaf_area(const struct oriented_box *box)
 {

@@ -13,6 +13,12 @@
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree) STATUS_MUST_CHECK;
 
+static inline double box_surface(const double lo[3], const double hi[3])
+{
+  const double d[3] = {hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]};
+  return 2 * (d[0] * d[1] + d[1] * d[2] + d[2] * d[0]);
+}
+
 /* Sets `crossings` of the model's tree and of those in it, when boxes along leaves and the trees of objects are there: a convex
  * body of surface S has 2 A / S of them, where A is the area of what is in it (Crofton's formula). Of leaves whose boxes tell
  * nothing there is none. */
