@@ -94,13 +94,16 @@ enum { LAYER_LEAVES = 1 << 15 };
 static bool too_many(const struct model *model)
 {
   if (model->leaf_count <= LAYER_LEAVES) return false;
+  const double frame = model->tree.frame;
   double lo[3], hi[3], area = 0;
   bounds_empty(lo, hi);
   for (size_t p = 0; p < model->scene->patch_count; p++) {
     if (model->cuts[p].copied) continue;
     bounds_add(model->scene->patches[p].P, lo, hi);
-    area += patch_net_area(&model->patches[p]);
+    const double scale = model->patches[p].scale / frame;
+    area += scale * scale * patch_net_area(&model->patches[p]);
   }
+  for (int k = 0; k < 3; k++) lo[k] /= frame, hi[k] /= frame;
   const double layers = 2 * area / box_surface(lo, hi);
   return (double)model->leaf_count > LAYER_LEAVES * (layers > 1 ? layers : 1);
 }

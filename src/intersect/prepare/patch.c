@@ -176,5 +176,5 @@ double patch_net_area(const struct model_patch *patch)
     vector_cross(one, other, across);
     area += vector_length(across) / 2;
   }
-  return area * patch->scale * patch->scale;
+  return area;
 }

@@ -43,7 +43,7 @@ void patch_make_first(const struct model *model, uint32_t index, const struct sp
 void patch_cut_again(const struct model *model, uint32_t index, const struct split_limit *limit,
                      struct model_patch *patch);
 
-/* The area of the patch's control net, in units of the scene: that of the patch, about, and hardly ever less. */
+/* The area of the patch's control net in its frame: that of the patch, about, and hardly ever less. */
 double patch_net_area(const struct model_patch *patch);
 
 #endif
