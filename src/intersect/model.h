@@ -200,10 +200,11 @@ struct model_patch *model_patch_at(const struct model *model, uint32_t index, st
 void model_make_leaf(const struct model *model, uint32_t number, struct leaf_room *out);
 
 /* Where `split` is auto a patch is cut until its leaves' derivatives turn by no more than about this fraction of their size, or
- * by `coarse` where there would be more leaves than a picture shows, and into so many leaves a side at most: any patch, and one
- * that is bent all over. Choices of speed, not of correctness. */
+ * by `coarse` where there would be more leaves than a picture shows, the second where there still were four times as many, and
+ * into so many leaves a side at most: any patch, and one that is bent all over. Choices of speed, not of correctness. */
+enum { COARSER = 2 };
 struct split_limit {
-  double turn, coarse;
+  double turn, coarse[COARSER];
   int any, bent;
 };
 

@@ -37,6 +37,9 @@ static double cup(struct random *random, int i, int j)
   return 0.11 * ((i == 1 || i == 2) + (j == 1 || j == 2));
 }
 
+/* Leaves of an eighth of it turn by less than a quarter, of a quarter by less than 0.42, of a half by less than 0.84. */
+static double deep_cup(struct random *random, int i, int j) { return 4 * cup(random, i, j); }
+
 /* The split of the first of `count` patches, all of that height and `apart` along x and z; NULL: of random points in a cube. All
  * are cut alike. */
 static int split_of_apart(height *z, size_t count, const double apart[2])
@@ -96,6 +99,9 @@ static void patches_side_by_side_are_cut_less(void **state)
   assert_true(one * one * MANY > 1 << 15);
   assert_int_equal(split_of(cup, MANY), one / 2);
   assert_int_equal(split_of_apart(cup, MANY, (double[2]){0, 1e-3}), one);
+  assert_int_equal(split_of(deep_cup, 1), 8);
+  assert_int_equal(split_of(deep_cup, MANY), 4);
+  assert_int_equal(split_of(deep_cup, 10000), 2);
 }
 
 int main(void)

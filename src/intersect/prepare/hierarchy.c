@@ -90,10 +90,10 @@ static void number_leaves(struct making *m)
  * the same one, and none of them finds a leaf in the processor's caches: what fewer and larger ones cost each is less. */
 enum { LAYER_LEAVES = 1 << 15 };
 
-/* Whether there are, of patches that are kept; layers as tree_set_crossings has them, by patches. */
-static bool too_many(const struct model *model)
+/* Whether there are more than `most` in a layer, of patches that are kept; layers as tree_set_crossings has them, by patches. */
+static bool too_many(const struct model *model, size_t most)
 {
-  if (model->leaf_count <= LAYER_LEAVES) return false;
+  if (model->leaf_count <= most) return false;
   const double frame = model->tree.frame;
   double lo[3], hi[3], area = 0;
   bounds_empty(lo, hi);
@@ -105,7 +105,7 @@ static bool too_many(const struct model *model)
   }
   for (int k = 0; k < 3; k++) lo[k] /= frame, hi[k] /= frame;
   const double layers = 2 * area / box_surface(lo, hi);
-  return (double)model->leaf_count > LAYER_LEAVES * (layers > 1 ? layers : 1);
+  return (double)model->leaf_count > (double)most * (layers > 1 ? layers : 1);
 }
 
 static enum status cut_part_again(void *context, size_t worker)
@@ -127,9 +127,13 @@ static enum status cut_part_again(void *context, size_t worker)
 
 static enum status cut_coarser(struct making *m)
 {
-  m->limit.turn = m->limit.coarse;
-  const enum status status = do_parts(m, cut_part_again, m->model->scene->patch_count);
-  number_leaves(m);
+  enum status status = STATUS_OK;
+  size_t most = LAYER_LEAVES;
+  for (int k = 0; k < COARSER && status == STATUS_OK && too_many(m->model, most); k++, most *= 4) {
+    m->limit.turn = m->limit.coarse[k];
+    status = do_parts(m, cut_part_again, m->model->scene->patch_count);
+    number_leaves(m);
+  }
   return status;
 }
 
@@ -147,7 +151,7 @@ static enum status cut_patches(struct making *m)
   if (m->keep && !model->patches) return STATUS_LIMIT;
   const enum status status = do_parts(m, make_patches, count);
   number_leaves(m);
-  return status == STATUS_OK && m->keep && too_many(model) ? cut_coarser(m) : status;
+  return status == STATUS_OK && m->keep ? cut_coarser(m) : status;
 }
 
 /* ---- leaves ---- */

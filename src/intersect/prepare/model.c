@@ -19,7 +19,10 @@ enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
 /* One Newton process holds on the whole of such a leaf for all but grazing rays. Where there would be very many, and where they
  * are made when a ray comes to them, fewer that turn farther are better; much farther, and rays under a low sun pay for it. */
 #define AUTO_TURN 0.25
-#define COARSE_TURN 0.42
+#define COARSE_TURNS \
+  {                  \
+    0.42, 0.84       \
+  }
 #define BOXES_TURN 1.0
 
 /* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory
@@ -123,12 +126,12 @@ static enum status prepare(struct model *model, const struct team *team)
     status = copies_choose(model, &own);
     if (status != STATUS_OK) return status;
   }
-  struct split_limit limit = {AUTO_TURN, COARSE_TURN, most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
+  struct split_limit limit = {AUTO_TURN, COARSE_TURNS, most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
                               most_split(BENT_SPLIT_MAX, own, BENT_LEAVES_MAX)};
   const bool keep = limit.any > 1;
   if (!keep) limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, OBJECT_LEAVES_MAX);
   status = copies_prepare(model, team, &limit);
-  if (!keep) limit = (struct split_limit){BOXES_TURN, BOXES_TURN, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX};
+  if (!keep) limit = (struct split_limit){BOXES_TURN, {BOXES_TURN, BOXES_TURN}, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX};
   return status == STATUS_OK ? hierarchy_make(model, team, &limit, keep, BENT_LEAVES_MAX) : status;
 }
 
