@@ -145,8 +145,7 @@ struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct lea
 
 void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
 
-/* Asks once more, one by one, for the rays whose answers are not certain: what the last resort tells of them depends on
- * the leaves that came to it, and those on how soon the rays beside had the walk find something nearer. */
+/* Asks for the rays whose answers are not certain one by one (tracer_asks_again). */
 static void ask_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit hits[])
 {
   const struct intersect_counts counts = tracer->counts;
@@ -158,7 +157,7 @@ static void ask_alone(struct tracer *tracer, size_t count, const struct ray rays
 
 static bool doubtful(const struct tracer *tracer, size_t count, uint64_t grazing)
 {
-  return count > 1 && tracer->counts.grazing > grazing && !tracer->warm && !tracer->model->unproven;
+  return tracer->counts.grazing > grazing && tracer_asks_again(tracer, count);
 }
 
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])

@@ -65,6 +65,15 @@ struct tracer {
 /* intersect.c: a tracer in memory of the caller's, without warm starts, whatever the scene asks for. */
 void tracer_begin(const struct intersector *intersector, struct tracer *out);
 
+/* Whether of so many rays together those are asked once more, alone, whose answers are not certain or would take much: what
+ * the last resort tells of a ray, and where its share of work ends, depends on the leaves that came to it, and those on how
+ * soon the rays beside had the walk find something nearer. Warm starts go from ray to ray in any case, and where nothing is
+ * proven all would be asked twice. */
+static inline bool tracer_asks_again(const struct tracer *tracer, size_t count)
+{
+  return count > 1 && !tracer->warm && !tracer->model->unproven;
+}
+
 /* intersect.c: a leaf of the tracer's model that is not kept, perhaps in `room`; valid until the next call. */
 struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct leaf_room *room);
 

@@ -10,9 +10,8 @@
  * A scene is built once, from a file, from text or from control points, and never changes. Any number of threads may
  * ask it at once; what each is answered depends on nothing but the ray: not on the other rays of the call, their order
  * or their number, nor on what other threads do. (Where another hit is so near that double precision cannot tell which
- * comes first, the last places of t, u, v and the normal may; and so may they, and whether it is certain, of a ray that
- * passes what takes all that one may cost, such as many poles in one point, before its hit or behind it.) To change a
- * scene build another, and free the old one when nobody asks it any more.
+ * comes first, the last places of t, u, v and the normal may.) To change a scene build another, and free the old one when
+ * nobody asks it any more.
  *
  * Nothing is ever printed, no signal handled, no thread started, the process never ended. The locale means nothing.
  * The caller's rounding mode, flush-to-zero and floating-point traps mean nothing either, and are as before after each

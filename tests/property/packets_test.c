@@ -1,5 +1,6 @@
 /* What the answer to a ray may not depend on: the rays beside it, the instruction set, the order of the patches. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cmocka_test.h"
@@ -77,6 +78,47 @@ static void rays_apart_do_not_depend_on_companions(void **state)
   world_close(&world);
   assert_int_equal(wrong, 0);
   assert_true(hits > 100);
+}
+
+/* Patches all through one another in one place, of which many a ray passes more leaves than it may be tried on: which those
+ * are depends on the order in which they come, and what is certain of the ray must not. */
+static void rays_whose_share_ends_do_not_depend_on_companions(void **state)
+{
+  enum { HEAP = 20000, RAYS = 120, FEW = 3 };
+  struct random random = {SEED + 5};
+  struct world world;
+  struct method options;
+  struct ray rays[RAYS];
+  int wrong = 0, ended = 0;
+  (void)state;
+  method_default(solver_find("bernstein", 9), &options);
+  options.split = 2;
+  world_net *nets = malloc(HEAP * sizeof *nets);
+  assert_non_null(nets);
+  for (size_t p = 0; p < HEAP; p++)
+    for (int k = 0; k < 48; k++) nets[p][k / 12][k / 3 % 4][k % 3] = random_between(&random, -1, 1);
+  world_open(&world, nets, HEAP, &options);
+  for (int n = 0; n < RAYS; n++) {
+    rays[n] = (struct ray){.t_max = INFINITY};
+    for (int k = 0; k < 3; k++) {
+      rays[n].origin[k] = random_between(&random, -3, 3);
+      rays[n].direction[k] = random_between(&random, -1, 1) - rays[n].origin[k];
+    }
+  }
+  for (int n = 0; n < RAYS; n += FEW) {
+    struct hit together[FEW];
+    tracer_closest(world.tracer, FEW, rays + n, together);
+    for (int k = 0; k < FEW; k++) {
+      const struct hit alone = world_closest(&world, &rays[n + k]);
+      ended += alone.certainty == CERTAINTY_GRAZING;
+      if (alone.certainty == together[k].certainty && alone.patch == together[k].patch) continue;
+      if (wrong++ < 2) world_print_case("share", WORLD_WILD, &rays[n + k], &alone, &together[k]);
+    }
+  }
+  world_close(&world);
+  free(nets);
+  assert_int_equal(wrong, 0);
+  assert_true(ended > 0 && ended < RAYS / 2);
 }
 
 /* Any hit is found exactly where a closest one is, alone and in company. */
@@ -190,6 +232,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(answers_do_not_depend_on_companions),
     cmocka_unit_test(rays_apart_do_not_depend_on_companions),
+    cmocka_unit_test(rays_whose_share_ends_do_not_depend_on_companions),
     cmocka_unit_test(occluded_is_whether_there_is_a_hit),
     cmocka_unit_test(kernels_agree),
     cmocka_unit_test(answers_do_not_depend_on_the_order_of_patches),

@@ -40,7 +40,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   uint64_t *entered = p->tracer->counts.stages;
   open = stage_slab(p, it, open);
   p->postponed->leaves += open; /* -1 each */
-  const lane_mask many = open & (p->postponed->leaves < MOST_LEAVES / 2);
+  const lane_mask many = open & (p->postponed->leaves < p->postponed->most_leaves / 2);
   if (lanes_any(many)) open &= ~candidate_worn(p, it, many);
   if (p->postponed->full) {
     const lane_mask full = open & lanes_mask(p->postponed->full);

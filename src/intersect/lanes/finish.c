@@ -196,7 +196,7 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, s
 static unsigned decide_open(struct packet *p, struct hit out[])
 {
   unsigned written = 0;
-  for (unsigned bits = p->postponed->open; bits; bits &= bits - 1) {
+  for (unsigned bits = p->postponed->open & ~packet_let_go(p); bits; bits &= bits - 1) {
     const unsigned l = (unsigned)__builtin_ctz(bits);
     if (lane_decide(p, l, &out[l])) written |= 1u << l;
   }

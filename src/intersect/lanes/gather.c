@@ -13,8 +13,8 @@
 void gather_start(struct packet *p, struct gather *gather)
 {
   if (!p->oriented) packet_orient(p);
-  p->gather = gather, p->postponed->leaves = MOST_LEAVES_OF_ALL + (lane_mask){0};
-  p->postponed->sweeps = lanes_all(MOST_SWEEPS_OF_ALL);
+  p->gather = gather;
+  packet_set_share(p->postponed, p->postponed->share, MOST_LEAVES_OF_ALL, MOST_OPEN_OF_ALL, MOST_SWEEPS_OF_ALL);
   gather->roots.count = gather->open.count = 0;
   gather->failed = gather->list.failed = false;
 }
@@ -192,7 +192,9 @@ static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathe
     tie |= !(t - error > reach);
     reach = far > reach ? far : reach;
   }
-  if (gather->open.count > 0) collect_regions(gather, lane);
+  gather->regions.count = 0;
+  if (packet_let_go(p) >> lane & 1) certain = false; /* its list will be made anew */
+  else if (gather->open.count > 0) collect_regions(gather, lane);
   const bool decided = gather->regions.count > 0 || (tie && certain);
   if (decided) certain &= decide(p, lane, roots, count);
   out->certainty = certain ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING;
@@ -211,7 +213,6 @@ bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[]
 {
   struct gather *gather = p->gather;
   size_t begin[LANES + 1];
-  gather->regions.count = 0;
   order_roots(gather, begin);
   for (unsigned lane = 0; lane < p->count && !gather->failed; lane++) {
     struct hit *hits = lane_hits(p, lane, (const struct gathered *const *)gather->order.at + begin[lane],

@@ -26,22 +26,25 @@ void packet_give_up(struct packet *p, unsigned worn)
   }
 }
 
-/* Counts the leaves left open. All hits are not gathered any more after too many; else what comes then is left open too. */
-static void count_open(struct packet *p, lane_mask open)
+/* Counts the leaves left open. All hits are not gathered any more after too many; else what comes then is left open too. In
+ * company a ray whose share of anything has ended is let go. Returns the lanes that go on. */
+static lane_mask count_open(struct packet *p, lane_mask open)
 {
-  const unsigned most = p->gather ? MOST_OPEN_OF_ALL : MOST_OPEN;
+  struct postponed *to = p->postponed;
   unsigned worn = 0;
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1)
-    if (++p->postponed->left[__builtin_ctz(bits)] > most) worn |= bits & -bits;
-  if (p->gather && worn) packet_give_up(p, worn);
-  else p->postponed->full |= worn;
+    if (++to->left[__builtin_ctz(bits)] > to->most_open) worn |= bits & -bits;
+  if (to->share > SHARE_ALONE) worn |= lanes_bits(open & ((to->splits <= 0) | (to->sweeps <= 0)));
+  if (!p->gather && to->share == SHARE_ALONE) to->full |= worn;
+  else if (worn) packet_give_up(p, worn);
+  return to->share > SHARE_ALONE ? open & ~lanes_mask(worn) : open;
 }
 
 static void postpone(struct packet *p, const struct exact_region *region, lane_mask open)
 {
   struct postponed *to = p->postponed;
   p->tracer->counts.escalated += lanes_count(open);
-  count_open(p, open);
+  open = count_open(p, open);
   if (p->gather) {
     gather_postpone(p->gather, region, lanes_bits(open));
     return;

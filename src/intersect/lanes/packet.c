@@ -18,13 +18,12 @@ static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(d
 /* The rays, of which there are LANES, those from `count` on as the first; of a single one there may be one. *postponed,
  * which the packet borrows, is emptied. */
 static void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
-                         struct postponed *postponed)
+                         int share, struct postponed *postponed)
 {
   p->postponed = postponed;
   postponed->open = postponed->full = postponed->merged = postponed->crowded = postponed->cut_off = 0;
   memset(postponed->count, 0, sizeof postponed->count), memset(postponed->left, 0, sizeof postponed->left);
-  postponed->splits = lanes_all(MOST_SPLITS), postponed->sweeps = lanes_all(MOST_SWEEPS);
-  postponed->leaves = MOST_LEAVES + (lane_mask){0};
+  packet_set_share(postponed, share, MOST_LEAVES, MOST_OPEN, MOST_SWEEPS);
   p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
   p->outer = NULL, p->gather = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);
@@ -73,7 +72,7 @@ static bool scaling_lost(const struct ray *ray, const struct ray *scaled, int ex
 
 /* Out of line, for it is rare: the packet from copies of its rays. */
 __attribute__((noinline)) static void packet_copied(struct packet *p, struct ready *ready, struct tracer *tracer,
-                                                    size_t count, const struct ray rays[], bool any)
+                                                    size_t count, const struct ray rays[], bool any, int share)
 {
   unsigned lost = 0;
   ready->copied = true;
@@ -82,21 +81,21 @@ __attribute__((noinline)) static void packet_copied(struct packet *p, struct rea
     if (scaling_lost(&rays[l], &ready->copy[l], ready->exponent[l])) lost |= 1u << l;
   }
   for (size_t l = count; l < LANES; l++) ready->copy[l] = ready->copy[0];
-  packet_start(p, tracer, ready->copy, count, any, &ready->postponed);
+  packet_start(p, tracer, ready->copy, count, any, share, &ready->postponed);
   if (lost) packet_orient(p), p->best.doubt = lanes_mask(lost);
 }
 
 void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[],
-                  bool any)
+                  bool any, int share)
 {
   ready->copied = false;
   if (count == 1 || count == LANES) {
-    packet_start(p, tracer, rays, count, any, &ready->postponed);
+    packet_start(p, tracer, rays, count, any, share, &ready->postponed);
     lane_mask scaled = (p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX);
     for (int k = 0; k < 3; k++) scaled |= lanes_abs(p->origin[k]) > ORIGIN_MAX;
     if (!lanes_any(scaled)) return;
   }
-  packet_copied(p, ready, tracer, count, rays, any);
+  packet_copied(p, ready, tracer, count, rays, any, share);
 }
 
 void packet_orient(struct packet *p)

@@ -53,9 +53,17 @@ struct line {
 enum { MOST_LEAVES = 4096, MOST_LEAVES_OF_ALL = 16384, MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
 enum { MOST_SWEEPS = 384 * 18 * 18, MOST_SWEEPS_OF_ALL = 4 * MOST_SWEEPS };
 
+/* How much of that a ray gets alone, and in the company of others: what comes to a ray and in which order depends on those
+ * beside it, so that where its share ends does, too. In company one that takes more than this part of it is let go, and asked
+ * alone (intersect.c). */
+enum { SHARE_ALONE = 1, SHARE_IN_COMPANY = 8 };
+
 /* What the lanes leave open, a list a lane. */
 struct postponed {
-  /* bit k, of lane k: it has a list; that has MOST_OPEN leaves; some of it was merged; merging once more would make too
+  int share; /* SHARE_ALONE or SHARE_IN_COMPANY */
+  int64_t most_leaves;
+  unsigned most_open;
+  /* bit k, of lane k: it has a list; that has most_open leaves; some of it was merged; merging once more would make too
    * little room; there were more than there is room for */
   unsigned open, full, merged, crowded, cut_off;
   unsigned count[LANES];
@@ -110,9 +118,23 @@ struct ready {
   int exponent[LANES];
 };
 
-/* packet.c: up to LANES rays, none of which has hit anything yet. The packet borrows *ready. */
+/* packet.c: up to LANES rays, none of which has hit anything yet, with that share of work. The packet borrows *ready. */
 void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[],
-                  bool any);
+                  bool any, int share);
+
+/* The rays that were let go to be asked alone, as bits: nothing they have left open need be looked at. */
+LANES_INLINE unsigned packet_let_go(const struct packet *p)
+{
+  return p->postponed->share > SHARE_ALONE ? p->postponed->cut_off : 0;
+}
+
+/* The rays, that have been tried on nothing yet, have that part of so much. */
+LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int leaves, int open, int sweeps)
+{
+  postponed->share = share, postponed->most_leaves = leaves / share, postponed->most_open = (unsigned)(open / share);
+  postponed->leaves = postponed->most_leaves + (lane_mask){0};
+  postponed->splits = lanes_all(MOST_SPLITS / share), postponed->sweeps = lanes_all(sweeps / share);
+}
 
 /* No leaf has been tried on the rays, whose directions and ends are set. */
 LANES_INLINE void packet_untried(struct packet *p)
@@ -176,7 +198,7 @@ struct exact_root finish_root(const struct packet *p, unsigned lane);
 /* finish.c: the lane's best root is one that the last resort has found, and that is not sharp. */
 void finish_set_root(struct packet *p, unsigned lane, const struct exact_root *root);
 
-/* finish.c: the rays that hit anything, as bits: the lanes have found it, or what they have left open is hit. */
+/* finish.c: the rays that hit anything, as bits: the lanes have found it, or what they have left open is hit, or may be. */
 unsigned finish_occluded(const struct packet *p);
 
 #endif

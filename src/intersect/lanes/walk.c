@@ -340,22 +340,23 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
 LANES_INLINE size_t packets_of(size_t count) { return count > LANES ? 2 : 1; }
 
 LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count,
-                               const struct ray rays[], bool any)
+                               const struct ray rays[], bool any, int share)
 {
   const size_t packets = packets_of(count);
   b->packets = (int)packets;
   for (size_t h = 0; h < packets; h++) {
     const size_t left = count - h * LANES;
-    packet_begin(&b->packet[h], &ready[h], tracer, left < LANES ? left : LANES, rays + h * LANES, any);
+    packet_begin(&b->packet[h], &ready[h], tracer, left < LANES ? left : LANES, rays + h * LANES, any, share);
   }
   bundle_start(b, &tracer->model->tree);
 }
 
-LANES_INLINE void bundle_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
+LANES_INLINE void bundle_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[],
+                                 int share)
 {
   struct ready ready[2];
   struct bundle bundle;
-  bundle_begin(&bundle, ready, tracer, count, rays, false);
+  bundle_begin(&bundle, ready, tracer, count, rays, false, share);
   bundle_walk(&bundle, &tracer->model->tree, bundle.live);
   for (size_t h = 0; h < packets_of(count); h++) {
     struct packet *packet = &bundle.packet[h];
@@ -368,11 +369,13 @@ LANES_INLINE void bundle_closest(struct tracer *tracer, size_t count, const stru
   }
 }
 
+/* Where nothing is hit all leaves come to a ray in any order; else it is hit in any, or may be. So its share may end where it
+ * does. */
 LANES_INLINE void bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
   struct ready ready[2];
   struct bundle bundle;
-  bundle_begin(&bundle, ready, tracer, count, rays, true);
+  bundle_begin(&bundle, ready, tracer, count, rays, true, SHARE_ALONE);
   bundle_walk(&bundle, &tracer->model->tree, bundle.live);
   for (size_t h = 0; h < packets_of(count); h++) {
     const struct packet *packet = &bundle.packet[h];
@@ -382,15 +385,21 @@ LANES_INLINE void bundle_occluded(struct tracer *tracer, size_t count, const str
   }
 }
 
+LANES_INLINE int share_of(const struct tracer *tracer, size_t count)
+{
+  return tracer_asks_again(tracer, count) ? SHARE_IN_COMPANY : SHARE_ALONE;
+}
+
 /* One ray is twice in the code, so that it costs no loops over more. */
 static void closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
   if (count == 1) {
-    bundle_closest(tracer, 1, rays, out_hits);
+    bundle_closest(tracer, 1, rays, out_hits, SHARE_ALONE);
     return;
   }
+  const int share = share_of(tracer, count);
   for (size_t first = 0; first < count; first += FLOAT_LANES)
-    bundle_closest(tracer, count - first, rays + first, out_hits + first);
+    bundle_closest(tracer, count - first, rays + first, out_hits + first, share);
 }
 
 static void occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
@@ -406,11 +415,12 @@ static void occluded(struct tracer *tracer, size_t count, const struct ray rays[
 /* Adds the lists' hits to tracer->hits one behind the other; where they are is known when all of them are there. */
 static bool all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])
 {
+  const int share = share_of(tracer, count);
   bool done = true;
   for (size_t first = 0; first < count; first += FLOAT_LANES) {
     struct ready ready[2];
     struct bundle bundle;
-    bundle_begin(&bundle, ready, tracer, count - first, rays + first, false);
+    bundle_begin(&bundle, ready, tracer, count - first, rays + first, false, share);
     for (int h = 0; h < bundle.packets; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
     bundle_walk(&bundle, &tracer->model->tree, bundle.live);
     for (size_t h = 0; h < (size_t)bundle.packets; h++) {
