@@ -2,179 +2,153 @@
  *
  * Compiled once per instruction set.
  */
-#include <math.h>
-#include <string.h>
+#include "intersect/lanes/cover.h"
 
 #include "intersect/certificate.h"
-#include "intersect/lanes/cover.h"
+#include "intersect/lanes/cover_nets.h"
 #include "intersect/lanes/nearest.h"
 
 /* A choice of speed, as COVER_HALVINGS. */
 enum { COVER_SPLITS = 160 };
 
-struct cover_box {
-  lanes a[16], b[16];
-  double u, v, size_u, size_v; /* in leaf parameters */
-  int halvings;
-  lane_mask open;
+/* A proven root of one lane, as struct newton_root has it. */
+struct cover_root {
+  double u, v, radius_u, radius_v, size, bend, off;
 };
 
-/* The lanes of `open` on which the root is not alone on the box and itself together. As in newton.c, but where the
- * box is small q does not outweigh the rest: M J at the root is off from 1 by 2 bend, which counts twice against a
- * bound on q, and the root by 2 (|step| + e) from where q takes it, which may make q larger by 2 bend. */
-LANES_INLINE lane_mask cover_unknown(const struct leaf *leaf, const struct cover_box *box,
-                                     const struct known_root *known, lane_mask open)
+/* What is known of one ray on the leaf. */
+struct cover_ray {
+  const struct leaf *leaf;
+  int count;
+  struct cover_root root[TRIED_ROOTS];
+  double size, error;     /* of the coefficients of a and b: a bound, and what they are off by */
+  struct cover_net depth; /* x_k of the leaf, k the ray's axis */
+  double from, to;        /* between these x_k the ray looks for roots, what it has hit apart: see ray_ends */
+  int halvings, splits;   /* how often a box may be halved, and how many more may be */
+  double left[2];         /* out: the middle of a box that was not cleared */
+};
+
+struct cover_box {
+  struct cover_net a, b;
+  double u, v, size_u, size_v; /* in leaf parameters */
+  int halvings;
+};
+
+/* Whether the root is alone on the box and itself together. As in newton.c, but where the box is small q does not outweigh
+ * the rest: M J at the root is off from 1 by 2 bend, which counts twice against a bound on q, and the root by 2 (|step| + e)
+ * from where q takes it, which may make q larger by 2 bend. */
+LANES_INLINE bool root_is_alone(const struct cover_ray *ray, const struct cover_box *box, const struct cover_root *root)
 {
-  const struct newton_root *root = known->at;
-  const lanes reach_u = lanes_max(root->u - box->u, (box->u + box->size_u) - root->u);
-  const lanes reach_v = lanes_max(root->v - box->v, (box->v + box->size_v) - root->v);
-  const lanes q = root->size *
-                  ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
-  return open & ~(known->proven & certificate_alone(q + 6 * root->bend, root->off));
+  const double *second = ray->leaf->second;
+  const double reach_u = real_max(root->u - box->u, (box->u + box->size_u) - root->u);
+  const double reach_v = real_max(root->v - box->v, (box->v + box->size_v) - root->v);
+  const double q = root->size * ((second[0] + second[1]) * reach_u + (second[1] + second[2]) * reach_v);
+  return certificate_alone(q + 6 * root->bend, root->off);
 }
 
-/* The cubic at c[0], c[stride] ... becomes its lower half. */
-LANES_INLINE void cover_halve(lanes *c, int stride, lanes *high)
+LANES_INLINE bool root_is_in(const struct cover_box *box, const struct cover_root *root)
 {
-  const lanes c0 = c[0], c1 = c[stride], c2 = c[2 * stride], c3 = c[3 * stride];
-  const lanes q0 = 0.5 * (c0 + c1), q1 = 0.5 * (c1 + c2), q2 = 0.5 * (c2 + c3);
-  const lanes r0 = 0.5 * (q0 + q1), r1 = 0.5 * (q1 + q2), s = 0.5 * (r0 + r1);
-  c[stride] = q0, c[2 * stride] = r0, c[3 * stride] = s;
-  high[0] = s, high[stride] = r1, high[2 * stride] = q2, high[3 * stride] = c3;
+  return root->u - root->radius_u >= box->u && root->u + root->radius_u <= box->u + box->size_u &&
+         root->v - root->radius_v >= box->v && root->v + root->radius_v <= box->v + box->size_v;
 }
 
-/* Halves the box across the parameter along which it is longer: not as seen along the ray, so that a lane's boxes do
- * not depend on its neighbours. It becomes its own lower half. */
-static void cover_split(const struct leaf *leaf, struct cover_box *box, struct cover_box *high)
+/* The weights of a cubic's coefficients. */
+LANES_INLINE row weights_at(double t)
+{
+  const double s = 1 - t;
+  return (row){s * s * s, 3 * (s * s * t), 3 * (s * t * t), t * t * t};
+}
+
+/* Whether the box is where the ray looks for roots. */
+LANES_INLINE bool box_is_seen(const struct cover_ray *ray, const struct cover_box *box)
+{
+  const double half_u = 0.5 * box->size_u, half_v = 0.5 * box->size_v, *first = ray->leaf->first;
+  const row *x = ray->depth.c, u = weights_at(box->u + half_u), v = weights_at(box->v + half_v);
+  const row sums = (u[0] * x[0] + u[1] * x[1] + (u[2] * x[2] + u[3] * x[3])) * v;
+  const double middle = (sums[0] + sums[1]) + (sums[2] + sums[3]), reach = first[0] * half_u + first[1] * half_v;
+  return middle + reach >= ray->from && middle - reach <= ray->to;
+}
+
+/* Whether the box may have a root that is not known. */
+LANES_INLINE bool box_is_open(const struct cover_ray *ray, const struct cover_box *box)
+{
+  bool has_root = false;
+  for (int k = 0; k < ray->count; k++) {
+    if (root_is_alone(ray, box, &ray->root[k])) return false;
+    has_root |= root_is_in(box, &ray->root[k]);
+  }
+  /* each halving adds three roundings, of values of the leaf's size */
+  const double error = ray->error + box->halvings * 4 * UNIT_ROUNDOFF * ray->size;
+  return nets_full(&box->a, &box->b, has_root, ray->size, error) && box_is_seen(ray, box);
+}
+
+/* Halves the box across the parameter along which it is longer. It becomes its own lower half. */
+LANES_INLINE void box_split(const struct leaf *leaf, struct cover_box *box, struct cover_box *high)
 {
   const bool across_u = leaf->first[0] * box->size_u >= leaf->first[1] * box->size_v;
   if (across_u) box->size_u /= 2;
   else box->size_v /= 2;
   box->halvings++;
   high->u = across_u ? box->u + box->size_u : box->u, high->v = across_u ? box->v : box->v + box->size_v;
-  high->size_u = box->size_u, high->size_v = box->size_v, high->halvings = box->halvings, high->open = box->open;
-  for (int n = 0; n < 4; n++) {
-    const int at = across_u ? n : 4 * n, stride = across_u ? 4 : 1;
-    cover_halve(box->a + at, stride, high->a + at);
-    cover_halve(box->b + at, stride, high->b + at);
+  high->size_u = box->size_u, high->size_v = box->size_v, high->halvings = box->halvings;
+  net_halve(&box->a, across_u, &high->a);
+  net_halve(&box->b, across_u, &high->b);
+}
+
+/* Whether all boxes are cleared. stack[0], the leaf, is set. Counts what it takes. */
+static bool cover(struct cover_ray *ray, struct cover_box stack[COVER_HALVINGS + 2])
+{
+  for (int top = 1; top > 0;) {
+    struct cover_box *box = &stack[--top];
+    if (!box_is_open(ray, box)) continue;
+    if (box->halvings == ray->halvings || --ray->splits < 0) {
+      ray->left[0] = box->u + 0.5 * box->size_u - 0.5, ray->left[1] = box->v + 0.5 * box->size_v - 0.5;
+      return false;
+    }
+    box_split(ray->leaf, box, box + 1);
+    top += 2;
   }
+  return true;
 }
 
-/* A polynomial on the box, and what each of its coefficients is off by. */
-struct cover_net {
-  lanes c[16], error;
-};
-
-/* p a + q b; `size` bounds the coefficients of a and b, `error` what they are off by. Three roundings of its own. */
-LANES_INLINE void cover_combine(const struct cover_box *box, lanes p, lanes q, lanes size, lanes error,
-                                struct cover_net *out)
+/* The lane's. */
+static void set_roots(struct cover_ray *ray, int lane, int count, const struct known_root roots[])
 {
-  for (int n = 0; n < 16; n++) out->c[n] = p * box->a[n] + q * box->b[n];
-  out->error = (error + 8 * UNIT_ROUNDOFF * size) * (lanes_abs(p) + lanes_abs(q));
-}
-
-/* The lanes of `open` where it does not keep one sign. */
-LANES_INLINE lane_mask cover_changes(const lanes c[16], lanes error, lane_mask open)
-{
-  lanes low = c[0], high = low;
-  for (int n = 1; n < 16; n++) low = lanes_min(c[n], low), high = lanes_max(c[n], high);
-  return open & (low <= error) & (high >= -error);
-}
-
-/* How it grows along its own parameter at least, and changes along the other at most, as differences of neighbours. */
-LANES_INLINE void cover_slopes(const struct cover_net *net, int own, lanes *least, lanes *most)
-{
-  const int other = 5 - own;
-  lanes grows = lanes_all(INFINITY), moves = lanes_all(0);
-  for (int n = 0; n < 12; n++) {
-    const int at = n / 3, k = n % 3;
-    grows = lanes_min(net->c[other * at + own * (k + 1)] - net->c[other * at + own * k], grows);
-    moves = lanes_max(lanes_abs(net->c[own * at + other * (k + 1)] - net->c[own * at + other * k]), moves);
+  ray->count = 0;
+  for (int k = 0; k < count; k++) {
+    const struct newton_root *at = roots[k].at;
+    if (!roots[k].proven[lane]) continue;
+    ray->root[ray->count++] = (struct cover_root){
+      at->u[lane], at->v[lane], at->radius_u[lane], at->radius_v[lane], at->size[lane], at->bend[lane], at->off[lane]};
   }
-  *least = grows - 2 * net->error, *most = moves + 2 * net->error;
-}
-
-/* The lanes where two polynomials, that aim along u and v, take no pair of values twice: from one point to another they
- * change by their derivatives, averaged on the way, times it; those are within their differences, three times over, and
- * so no singular matrix, its diagonal's product being larger than that of the other elements. */
-LANES_INLINE lane_mask cover_one_to_one(const struct cover_net *along_u, const struct cover_net *along_v)
-{
-  lanes least_u, least_v, most_u, most_v;
-  cover_slopes(along_u, 4, &least_u, &most_u);
-  cover_slopes(along_v, 1, &least_v, &most_v);
-  return (least_u > 0) & (least_v > 0) & (least_u * least_v > (1 + 8 * UNIT_ROUNDOFF) * (most_u * most_v));
-}
-
-/* The lanes where a proven root is in the box. */
-LANES_INLINE lane_mask cover_holds(const struct cover_box *box, const struct known_root *known)
-{
-  const struct newton_root *root = known->at;
-  return known->proven & (root->u - root->radius_u >= box->u) & (root->u + root->radius_u <= box->u + box->size_u) &
-         (root->v - root->radius_v >= box->v) & (root->v + root->radius_v <= box->v + box->size_v);
-}
-
-/* The lanes of `open` where neither a nor b nor one of two combinations, which aim along the box's parameters, keeps one sign
- * on the box, nor both together have no value twice while one of the roots is there. */
-LANES_INLINE lane_mask cover_full(const struct cover_box *box, int count, const struct known_root roots[], lanes size,
-                                  lanes error, lane_mask open)
-{
-  const lanes *a = box->a, *b = box->b;
-  lanes au = (a[13] + a[14]) - (a[1] + a[2]), av = (a[7] + a[11]) - (a[4] + a[8]);
-  lanes bu = (b[13] + b[14]) - (b[1] + b[2]), bv = (b[7] + b[11]) - (b[4] + b[8]);
-  const lane_mask turned = au * bv < av * bu;
-  struct cover_net along_u, along_v;
-  cover_combine(box, lanes_select(turned, -bv, bv), lanes_select(turned, av, -av), size, error, &along_u);
-  open = cover_changes(along_u.c, along_u.error, open);
-  if (!lanes_any(open)) return open;
-  cover_combine(box, lanes_select(turned, bu, -bu), lanes_select(turned, -au, au), size, error, &along_v);
-  open = cover_changes(along_v.c, along_v.error, open);
-  lane_mask holds = {0};
-  for (int k = 0; k < count; k++) holds |= cover_holds(box, &roots[k]);
-  if (lanes_any(open & holds)) open &= ~(holds & cover_one_to_one(&along_u, &along_v));
-  if (lanes_any(open)) open = cover_changes(a, error, open);
-  if (lanes_any(open)) open = cover_changes(b, error, open);
-  return open;
-}
-
-/* The lanes of `open` between whose ends the box is. */
-static lane_mask cover_seen(const struct packet *p, const struct candidate *it, const struct cover_box *box,
-                            lane_mask open)
-{
-  const double half[2] = {0.5 * box->size_u, 0.5 * box->size_v}, middle[2] = {box->u + half[0], box->v + half[1]};
-  return open & ~box_out_of_range(p, it, middle, half);
 }
 
 lane_mask cover_proves(const struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2])
 {
   struct cover_box stack[COVER_HALVINGS + 2];
-  struct cover_box *whole = &stack[0];
-  memcpy(whole->a, it->a, sizeof whole->a), memcpy(whole->b, it->b, sizeof whole->b);
-  whole->u = whole->v = 0, whole->size_u = whole->size_v = 1, whole->halvings = 0, whole->open = open;
-  lanes size = {0};
-  for (int n = 0; n < 16; n++) size = lanes_max(lanes_max(lanes_abs(it->a[n]), lanes_abs(it->b[n])), size);
-  int top = 1;
-  const lanes given = lanes_min(p->postponed->splits, lanes_all(COVER_SPLITS));
-  lanes splits = given;
-  while (top > 0) {
-    struct cover_box *box = &stack[--top];
-    box->open &= open;
-    for (int k = 0; k < count; k++) box->open = cover_unknown(it->leaf, box, &roots[k], box->open);
-    /* each halving adds three roundings, of values of the leaf's size */
-    const lanes error = it->line->error + box->halvings * 4 * UNIT_ROUNDOFF * size;
-    if (lanes_any(box->open)) box->open = cover_full(box, count, roots, size, error, box->open);
-    if (lanes_any(box->open)) box->open = cover_seen(p, it, box, box->open);
-    if (!lanes_any(box->open)) continue;
-    splits -= lanes_select(box->open, lanes_all(1), lanes_all(0));
-    const lane_mask lost = box->halvings == halvings ? box->open : box->open & (splits < 0);
-    if (left) left[0] = lanes_select(lost, lanes_all(box->u + 0.5 * box->size_u - 0.5), left[0]);
-    if (left) left[1] = lanes_select(lost, lanes_all(box->v + 0.5 * box->size_v - 0.5), left[1]);
-    open &= ~lost, box->open &= open;
-    if (!lanes_any(box->open)) continue;
-    cover_split(it->leaf, box, box + 1);
-    top += 2;
+  struct cover_box *leaf = &stack[0];
+  struct cover_ray ray = {.leaf = it->leaf, .halvings = halvings};
+  lanes from, to, off, *splits = &p->postponed->splits;
+  /* not where the nearest hit so far is, or answers would depend on the way through the hierarchy */
+  ray_ends(p, it, p->t_max, &from, &to, &off);
+  off += 2 * it->line->error;
+  memcpy(&ray.depth, it->leaf->x[it->axis], sizeof ray.depth);
+  for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    for (int n = 0; n < 16; n++) leaf->a.c[n / 4][n % 4] = it->a[n][lane], leaf->b.c[n / 4][n % 4] = it->b[n][lane];
+    leaf->u = leaf->v = 0, leaf->size_u = leaf->size_v = 1, leaf->halvings = 0;
+    set_roots(&ray, lane, count, roots);
+    ray.size = real_max(net_size(&leaf->a), net_size(&leaf->b)), ray.error = it->line->error[lane];
+    ray.from = from[lane] - off[lane], ray.to = to[lane] + off[lane];
+    const int given = (int)real_min((*splits)[lane], COVER_SPLITS);
+    ray.splits = given;
+    const bool covered = cover(&ray, stack);
+    (*splits)[lane] -= given - ray.splits;
+    if (covered) continue;
+    open &= ~lanes_mask(bits & -bits);
+    if (left) left[0][lane] = ray.left[0], left[1][lane] = ray.left[1];
   }
-  p->postponed->splits -= given - splits;
   return open;
 }
 

@@ -18,7 +18,6 @@
 #define view_set KERNEL(view_set)
 #define view_set_ends KERNEL(view_set_ends)
 #define view_boxes_unlike KERNEL(view_boxes_unlike)
-#define box_out_of_range KERNEL(box_out_of_range)
 #define offer_root KERNEL(offer_root)
 #define offer_unproven KERNEL(offer_unproven)
 #define stage_box KERNEL(stage_box)

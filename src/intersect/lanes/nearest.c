@@ -120,18 +120,6 @@ LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *
          8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
 }
 
-lane_mask box_out_of_range(const struct packet *p, const struct candidate *it, const double middle[2],
-                           const double half[2])
-{
-  const struct newton_root box = {.u = lanes_all(middle[0]),
-                                  .v = lanes_all(middle[1]),
-                                  .radius_u = lanes_all(half[0]),
-                                  .radius_v = lanes_all(half[1])};
-  const lanes w = plane_depth(it, box.u, box.v), at = depth_to_t(it->line, w);
-  const lanes error = root_t_error(p, it, &box, w, at);
-  return (at < p->t_min - error) | (at > p->t_max + error);
-}
-
 /* The root and its radii in parameters of the patch. */
 LANES_INLINE void root_uv(const struct candidate *it, const struct newton_root *r, lanes uv[2], lanes radius[2])
 {

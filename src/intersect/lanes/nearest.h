@@ -35,11 +35,6 @@ LANES_INLINE lane_mask inside(const struct newton_root *r)
          (r->v - 1 <= r->radius_v);
 }
 
-/* Lanes on which no root in the box of the leaf's parameters, `half` about its middle, is between the ends of the ray;
- * what it has hit says nothing here, or answers would depend on the way through the hierarchy. */
-lane_mask box_out_of_range(const struct packet *p, const struct candidate *it, const double middle[2],
-                           const double half[2]);
-
 /* Proven roots of several lanes. */
 void offer_root(struct packet *p, const struct candidate *it, const struct leaf_root *root, lane_mask hits);
 
