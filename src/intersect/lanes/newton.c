@@ -5,6 +5,8 @@
  * right to the rounding of the bend of its leaf. Point and normal come from the last evaluation. Parameters are
  * s = u - 1/2 and t = v - 1/2.
  */
+#include <math.h>
+
 #include "base/double_lanes.h"
 #include "base/lane_points.h"
 #include "intersect/certificate.h"
@@ -226,7 +228,8 @@ LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const 
 
 /* ---- the process ---- */
 
-enum { MOST_STEPS = 10 };
+/* After the first few a step that is not half of the one before is no progress. */
+enum { MOST_STEPS = 10, FREE_STEPS = 3 };
 
 /* 1/2 + s - step to one rounding, so that nothing of a small parameter is lost. */
 LANES_INLINE lanes from_middle(lanes s, lanes step)
@@ -243,7 +246,7 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
   const int k = axis;
   struct coordinate x[3];
   struct inverse m;
-  lanes s = start[0], t = start[1], step_s, step_t, step;
+  lanes s = start[0], t = start[1], step_s, step_t, step = lanes_all(INFINITY);
   lane_mask settled, moving = active;
   const unsigned few = few_lanes(active);
   for (int n = 1;; n++) {
@@ -252,7 +255,9 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
     const lanes inverse = 1 / (a.ds * b.dt - a.dt * b.ds);
     m = (struct inverse){b.dt * inverse, -a.dt * inverse, -b.ds * inverse, a.ds * inverse};
     step_s = m.ua * a.value + m.ub * b.value, step_t = m.va * a.value + m.vb * b.value;
+    const lanes before = step;
     step = lanes_max(lanes_abs(step_s), lanes_abs(step_t));
+    if (n > FREE_STEPS) moving &= step < 0.5 * before;
     settled = active & (step <= parts->last_step);
     /* A root far outside the leaf, or no progress (NaN compares false), is no concern of this process. */
     moving &= ~settled & (lanes_abs(s - step_s) < 2) & (lanes_abs(t - step_t) < 2);
