@@ -115,7 +115,7 @@ struct leaf {
 struct oriented_box {
   float g[3][3]; /* g[k][q]: component k of slab q's */
   float offset[3], half[3];
-  float unused;
+  uint32_t patch; /* the leaf's, of which some is wanted at the same time */
 };
 
 /* Which part of which patch a leaf is. */

@@ -124,13 +124,19 @@ LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, 
   }
 }
 
-/* What a leaf's first stages read, or what it is made of. */
+/* What a leaf's first stages read of it and of its patch, or what it is made of. */
 LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
 {
   enum { CACHE_LINE = 64 };
-  const char *from = model->leaves ? (const char *)&model->leaves[index]
-                                   : (const char *)&model->scene->patches[model->places[index].patch].P;
+  const uint32_t patch = model->oriented[index].patch;
+  const char *from = model->leaves ? (const char *)&model->leaves[index] : (const char *)&model->scene->patches[patch].P;
   const size_t size = model->leaves ? offsetof(struct leaf, x) : sizeof model->scene->patches->P;
+  if (model->leaves) {
+    __builtin_prefetch(&model->patches[patch].center);
+    __builtin_prefetch(&model->patches[patch].split);
+  } else {
+    __builtin_prefetch(&model->places[index]);
+  }
   for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch(from + at);
 }
 

@@ -189,6 +189,7 @@ static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, 
       if (leaf->form) *form = NULL;
       leaf_box(model, patch, leaf->x, &m->boxes[l]);
       leaf_orient(&model->tree, model->error, patch, leaf->slab, &model->oriented[l]);
+      model->oriented[l].patch = (uint32_t)p;
     }
   }
   return STATUS_OK;
@@ -222,8 +223,10 @@ static void orient_leaves(struct making *m, size_t p, size_t l)
   for (struct leaf_run run = {0}; next_run(patch, &run);) {
     struct leaf_slab slab[LEAVES_AT_ONCE][3];
     leaf_slabs(patch, run.count, (const uint16_t(*)[2])run.column, slab);
-    for (size_t k = 0; k < run.count; k++, l++)
+    for (size_t k = 0; k < run.count; k++, l++) {
       leaf_orient(&model->tree, model->error, patch, slab[k], &model->oriented[l]);
+      model->oriented[l].patch = (uint32_t)p;
+    }
   }
 }
 

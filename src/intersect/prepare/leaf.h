@@ -58,7 +58,7 @@ void leaf_slabs(const struct model_patch *patch, size_t count, const uint16_t co
 /* What resultants of the leaf are formed of; its form, where it has one, is written to *form, which stays the caller's. */
 void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct leaf_form *form);
 
-/* A leaf's box along it in the frame of the tree, wider by the model's `error`. */
+/* A leaf's box along it in the frame of the tree, wider by the model's `error`; all but whose it is. */
 void leaf_orient(const struct model_tree *tree, double error, const struct model_patch *patch,
                  const struct leaf_slab slab[3], struct oriented_box *box);
 
