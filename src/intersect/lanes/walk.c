@@ -306,6 +306,7 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
     if (child & (uint32_t)BVH_LEAF) {
       const uint32_t box = child & ~(uint32_t)BVH_LEAF;
       rays = box_passed(b, box, rays);
+      if (rays && box < b->packet[0].model->leaf_count) fetch_leaf(b->packet[0].model, box);
       if (rays) bundle_leaf(b, tree, box, rays);
     } else if (__builtin_popcount(rays) <= few) {
       for (unsigned bits = rays; bits; bits &= bits - 1) ray_walk(b, tree, child, (unsigned)__builtin_ctz(bits));
