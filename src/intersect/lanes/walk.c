@@ -129,7 +129,8 @@ LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
 {
   enum { CACHE_LINE = 64 };
   const uint32_t patch = model->oriented[index].patch;
-  const char *from = model->leaves ? (const char *)&model->leaves[index] : (const char *)&model->scene->patches[patch].P;
+  const char *from = model->leaves ? (const char *)&model->leaves[index]
+                                   : (const char *)&model->scene->patches[patch].P;
   const size_t size = model->leaves ? offsetof(struct leaf, x) : sizeof model->scene->patches->P;
   if (model->leaves) {
     __builtin_prefetch(&model->patches[patch].center);
