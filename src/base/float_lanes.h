@@ -1,5 +1,5 @@
-/* Floats side by side in a register that holds half as many doubles (base/lanes.h): one ray a lane, where few bits
- * will do.
+/* Floats side by side, as many as a register holds: one ray a lane, where few bits will do. Their doubles are those of several
+ * packets, of LANES rays each (base/lanes.h).
  *
  * Plain GCC/clang vector extensions. Arithmetic operators work lane by lane; a comparison gives a mask whose lanes
  * are 0 or -1.
@@ -9,26 +9,46 @@
 
 #include "base/lanes.h"
 
-enum { FLOAT_LANES = 2 * LANES };
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#define FLOAT_LANES 16
+#define FLOAT_LANES_OP(name) _mm512_##name
+#else
+#define FLOAT_LANES (2 * LANES)
+#if defined(LANES_OP)
+#define FLOAT_LANES_OP(name) LANES_OP(name)
+#endif
+#endif
 
-typedef float float_lanes __attribute__((vector_size(8 * LANES)));
-typedef int32_t float_mask __attribute__((vector_size(8 * LANES)));
+/* How many packets that is. */
+enum { PACKETS = FLOAT_LANES / LANES };
+
+typedef float float_lanes __attribute__((vector_size(4 * FLOAT_LANES)));
+typedef int32_t float_mask __attribute__((vector_size(4 * FLOAT_LANES)));
 
 /* Lane k: x. */
 LANES_INLINE float_lanes float_lanes_all(float x) { return x - (float_lanes){0}; }
 
-/* The doubles of two registers, rounded to nearest: a in the first LANES lanes. */
-LANES_INLINE float_lanes float_lanes_join(lanes a, lanes b)
+#if LANES == 4
+LANES_INLINE __m256 float_lanes_of_two(const lanes x[2])
+{
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(x[0])), _mm256_cvtpd_ps(x[1]), 1);
+}
+#endif
+
+/* The doubles of all packets, rounded to nearest: x[0] in the first LANES lanes. */
+LANES_INLINE float_lanes float_lanes_join(const lanes x[PACKETS])
 {
 #if LANES == 8
-  return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a)), _mm512_cvtpd_ps(b), 1);
+  return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(x[0])), _mm512_cvtpd_ps(x[1]), 1);
+#elif LANES == 4 && FLOAT_LANES == 16
+  return _mm512_insertf32x8(_mm512_castps256_ps512(float_lanes_of_two(x)), float_lanes_of_two(x + 2), 1);
 #elif LANES == 4
-  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(a)), _mm256_cvtpd_ps(b), 1);
+  return float_lanes_of_two(x);
 #elif defined(LANES_OP)
-  return _mm_movelh_ps(_mm_cvtpd_ps(a), _mm_cvtpd_ps(b));
+  return _mm_movelh_ps(_mm_cvtpd_ps(x[0]), _mm_cvtpd_ps(x[1]));
 #else
   float_lanes joined;
-  for (int k = 0; k < LANES; k++) joined[k] = (float)a[k], joined[LANES + k] = (float)b[k];
+  for (int k = 0; k < FLOAT_LANES; k++) joined[k] = (float)x[k / LANES][k % LANES];
   return joined;
 #endif
 }
@@ -36,7 +56,7 @@ LANES_INLINE float_lanes float_lanes_join(lanes a, lanes b)
 /* Lane k: mask ? a : b. */
 LANES_INLINE float_lanes float_lanes_select(float_mask mask, float_lanes a, float_lanes b)
 {
-#if LANES == 4
+#if FLOAT_LANES == 8
   return _mm256_blendv_ps(b, a, (__m256)mask);
 #else
   return (float_lanes)((mask & (float_mask)a) | (~mask & (float_mask)b));
@@ -51,8 +71,8 @@ LANES_INLINE float_lanes float_lanes_abs(float_lanes a)
 /* Lane k: a < b ? a : b, so b where either is NaN. */
 LANES_INLINE float_lanes float_lanes_min(float_lanes a, float_lanes b)
 {
-#if defined(LANES_OP)
-  return LANES_OP(min_ps)(a, b);
+#if defined(FLOAT_LANES_OP)
+  return FLOAT_LANES_OP(min_ps)(a, b);
 #else
   return float_lanes_select(a < b, a, b);
 #endif
@@ -61,8 +81,8 @@ LANES_INLINE float_lanes float_lanes_min(float_lanes a, float_lanes b)
 /* Lane k: a > b ? a : b, so b where either is NaN. */
 LANES_INLINE float_lanes float_lanes_max(float_lanes a, float_lanes b)
 {
-#if defined(LANES_OP)
-  return LANES_OP(max_ps)(a, b);
+#if defined(FLOAT_LANES_OP)
+  return FLOAT_LANES_OP(max_ps)(a, b);
 #else
   return float_lanes_select(a > b, a, b);
 #endif
@@ -119,10 +139,10 @@ LANES_INLINE unsigned four_mask_bits(four_mask mask)
 /* The mask as bits: bit k is lane k. */
 LANES_INLINE unsigned float_lanes_bits(float_mask mask)
 {
-#if LANES == 8
+#if FLOAT_LANES == 16
   return _mm512_movepi32_mask((__m512i)mask);
-#elif defined(LANES_OP)
-  return (unsigned)LANES_OP(movemask_ps)((float_lanes)mask);
+#elif defined(FLOAT_LANES_OP)
+  return (unsigned)FLOAT_LANES_OP(movemask_ps)((float_lanes)mask);
 #else
   unsigned bits = 0;
   for (int k = 0; k < FLOAT_LANES; k++) bits |= (unsigned)(mask[k] & 1) << k;
@@ -133,7 +153,7 @@ LANES_INLINE unsigned float_lanes_bits(float_mask mask)
 /* Bit k: whether lane k of a is at most that of b. */
 LANES_INLINE unsigned float_lanes_up_to(float_lanes a, float_lanes b)
 {
-#if LANES == 8
+#if FLOAT_LANES == 16
   return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
 #else
   return float_lanes_bits(a <= b);

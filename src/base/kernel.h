@@ -1,6 +1,6 @@
 /* Sources compiled once per instruction set and linked into one program (pscn_kernels in CMakeLists.txt).
  *
- * In them PSCN_KERNEL is the name of the set: baseline, avx2 or avx512; KERNEL(name) is a name of one compilation and
+ * In them PSCN_KERNEL is the name of the set: baseline, avx2, avx512 or avx512_narrow; KERNEL(name) is a name of one compilation and
  * KERNEL_NAME the set's as a text. Elsewhere PSCN_HAS_AVX2 and PSCN_HAS_AVX512 say which sets there are besides the
  * baseline, and KERNEL_RUNS_... whether this processor has them.
  */

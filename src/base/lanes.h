@@ -2,7 +2,7 @@
  *
  * Plain GCC/clang vector extensions, so one source serves every instruction set; LANES is what one register of the
  * target holds (vectors wider than that are taken apart into single doubles by the compiler, which costs more than
- * it saves). Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are 0 or -1. A source
+ * it saves); with PSCN_NARROW half as many, for where most lanes would be empty. Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are 0 or -1. A source
  * that uses this is compiled once per instruction set (base/kernel.h).
  */
 #ifndef PSCN_BASE_LANES_H
@@ -16,7 +16,7 @@
 #endif
 
 /* LANES_OP(min_pd) is the intrinsic of that name for the whole register; without SSE2 there are none. */
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && !defined(PSCN_NARROW)
 #define LANES 8
 #define LANES_OP(name) _mm512_##name
 #elif defined(__AVX__)

@@ -18,13 +18,13 @@ struct intersector {
 /* What a register of AVX2 holds. A choice of speed. */
 enum { FEW_RAYS = 4 };
 
-extern const struct kernel kernel_baseline, kernel_avx2, kernel_avx512;
+extern const struct kernel kernel_baseline, kernel_avx2, kernel_avx512, kernel_avx512_narrow;
 
 size_t kernels_here(const struct kernel *out[KERNELS_MAX])
 {
   size_t count = 0;
 #if defined(PSCN_HAS_AVX512)
-  if (KERNEL_RUNS_AVX512) out[count++] = &kernel_avx512;
+  if (KERNEL_RUNS_AVX512) out[count++] = &kernel_avx512, out[count++] = &kernel_avx512_narrow;
 #endif
 #if defined(PSCN_HAS_AVX2)
   if (KERNEL_RUNS_AVX2) out[count++] = &kernel_avx2;
@@ -44,14 +44,28 @@ static const struct kernel *kernel_chosen(void)
   return NULL;
 }
 
-/* The one that answers so many rays at once: what few of them leave empty of wide registers is set up all the same, and
- * sets that round alike answer alike. */
-static const struct kernel *kernel_for(const struct tracer *tracer, size_t count)
+#if defined(PSCN_HAS_AVX512)
+/* Whether along each axis some rays go up and some down: then few of them come to one leaf. */
+static bool go_apart(size_t count, const struct ray rays[])
+{
+  for (int k = 0; k < 3; k++) {
+    size_t down = 0;
+    for (size_t n = 0; n < count; n++) down += rays[n].direction[k] < 0;
+    if (down == 0 || down == count) return false;
+  }
+  return true;
+}
+#endif
+
+/* The one that answers these rays: what they leave empty of wide registers is worked on all the same, and sets that round
+ * alike answer alike, but for warm starts. */
+static const struct kernel *kernel_for(const struct tracer *tracer, size_t count, const struct ray rays[])
 {
 #if defined(PSCN_HAS_AVX512) /* then AVX2 is there too: base/kernel.h */
   if (tracer->kernel == &kernel_avx512 && count <= FEW_RAYS) return &kernel_avx2;
+  if (tracer->kernel == &kernel_avx512 && !tracer->warm && go_apart(count, rays)) return &kernel_avx512_narrow;
 #endif
-  (void)count;
+  (void)count, (void)rays;
   return tracer->kernel;
 }
 
@@ -114,7 +128,7 @@ enum status tracer_create(const struct intersector *intersector, struct tracer *
 
 void tracer_end(struct tracer *tracer)
 {
-  for (int h = 0; h < 2; h++) {
+  for (int h = 0; h < PACKETS_MAX; h++) {
     struct gather *gather = &tracer->gather[h];
     memory_free(gather->roots.at), memory_free(gather->open.at), memory_free(gather->order.at);
     memory_free(gather->regions.at), memory_free(gather->list.at);
@@ -149,7 +163,7 @@ void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
 static void ask_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit hits[])
 {
   const struct intersect_counts counts = tracer->counts;
-  const struct kernel *kernel = kernel_for(tracer, 1);
+  const struct kernel *kernel = kernel_for(tracer, 1, rays);
   for (size_t k = 0; k < count; k++)
     if (hits[k].certainty == CERTAINTY_GRAZING) kernel->closest(tracer, 1, &rays[k], &hits[k]);
   tracer->counts = counts;
@@ -163,13 +177,13 @@ static bool doubtful(const struct tracer *tracer, size_t count, uint64_t grazing
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
   const uint64_t grazing = tracer->counts.grazing;
-  kernel_for(tracer, count)->closest(tracer, count, rays, out_hits);
+  kernel_for(tracer, count, rays)->closest(tracer, count, rays, out_hits);
   if (doubtful(tracer, count, grazing)) ask_alone(tracer, count, rays, out_hits);
 }
 
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
-  kernel_for(tracer, count)->occluded(tracer, count, rays, out_occluded);
+  kernel_for(tracer, count, rays)->occluded(tracer, count, rays, out_occluded);
 }
 
 /* As ask_alone; list k's hits begin at first[k] of the tracer's. Returns whether there was memory. */
@@ -177,7 +191,7 @@ static bool ask_all_alone(struct tracer *tracer, size_t count, const struct ray 
                           size_t first[])
 {
   const struct intersect_counts counts = tracer->counts;
-  const struct kernel *kernel = kernel_for(tracer, 1);
+  const struct kernel *kernel = kernel_for(tracer, 1, rays);
   bool done = true;
   for (size_t k = 0; k < count && done; k++) {
     if (lists[k].certainty != CERTAINTY_GRAZING) continue;
@@ -193,7 +207,7 @@ enum status tracer_all(struct tracer *tracer, size_t count, const struct ray ray
   const uint64_t grazing = tracer->counts.grazing;
   size_t first[PACKET_SIZE], hits = 0;
   tracer->hits.count = 0;
-  if (!kernel_for(tracer, count)->all(tracer, count, rays, out)) return STATUS_LIMIT;
+  if (!kernel_for(tracer, count, rays)->all(tracer, count, rays, out)) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) first[k] = hits, hits += out[k].count;
   if (doubtful(tracer, count, grazing) && !ask_all_alone(tracer, count, rays, out, first)) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) out[k].hits = (const struct hit *)tracer->hits.at + first[k];

@@ -86,8 +86,8 @@ struct intersect_counts {
 struct intersector;
 struct tracer;
 
-/* Whether the instruction set that the environment variable PSCN_KERNEL asks for (baseline, avx2 or avx512; none: the
- * best there is) is one that this processor has and the program was built with. */
+/* Whether the instruction set that the environment variable PSCN_KERNEL asks for (baseline, avx2, avx512 or avx512_narrow;
+ * none: the best there is) is one that this processor has and the program was built with. */
 bool intersector_kernel_here(void);
 
 /* "fused" or "baseline": how that one rounds products that are added to. Those of one kind answer alike to the last

@@ -21,7 +21,7 @@ struct kernel {
   bool (*all)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[]);
 };
 
-enum { KERNELS_MAX = 3 };
+enum { KERNELS_MAX = 4 };
 
 /* intersect.c: the kernels that this processor can run, the best first; returns how many. */
 size_t kernels_here(const struct kernel *out[KERNELS_MAX]);
@@ -31,6 +31,9 @@ struct warm_leaf {
   uint64_t epoch;
   struct solver_warm warm;
 };
+
+/* As many packets are side by side (base/float_lanes.h). */
+enum { PACKETS_MAX = 4 };
 
 /* Leaves that the model does not keep, made lately. */
 enum { MADE_BITS = 9 };
@@ -55,11 +58,11 @@ struct tracer {
   const struct kernel *kernel;
   struct intersect_counts counts;
   uint64_t epoch;
-  struct warm_leaf *warm;      /* one a leaf, NULL where no patch asks for it */
-  struct made_leaf *made;      /* 2^MADE_BITS; NULL where leaves are kept, or each is made whenever asked for */
-  struct gather gather[2];     /* of two packets side by side */
-  struct growing hits;         /* struct hit: of all lists of the last call of tracer_all */
-  struct explainer *explainer; /* explain.c; NULL where nobody asks */
+  struct warm_leaf *warm;            /* one a leaf, NULL where no patch asks for it */
+  struct made_leaf *made;            /* 2^MADE_BITS; NULL where leaves are kept, or each is made whenever asked for */
+  struct gather gather[PACKETS_MAX]; /* of packets side by side */
+  struct growing hits;               /* struct hit: of all lists of the last call of tracer_all */
+  struct explainer *explainer;       /* explain.c; NULL where nobody asks */
 };
 
 /* intersect.c: a tracer in memory of the caller's, without warm starts, whatever the scene asks for. */

@@ -81,7 +81,9 @@ static void lanes_are_placed(void **state)
     lanes_load4(grid, STRIDE, &four[0], &four[1], &four[2], &four[3]);
     lanes_store4(four[0], four[1], four[2], four[3], back, STRIDE);
     const float_lanes float_all = float_lanes_all((float)first_value(n));
-    const float_lanes joined = float_lanes_join(row(first_value, n), row(first_value, n + LANES));
+    lanes packets[PACKETS];
+    for (int h = 0; h < PACKETS; h++) packets[h] = row(first_value, n + h * LANES);
+    const float_lanes joined = float_lanes_join(packets);
     for (int l = 0; l < LANES; l++) {
       assert_true(same_bits(all[l], first_value(n)));
       for (int k = 0; k < 4; k++) assert_true(same_bits(four[k][l], grid[STRIDE * l + k]));

@@ -20,7 +20,7 @@ struct subject {
   struct leaf leaf;
   double error; /* how far what the leaf stands for may be from it */
   struct oriented_box box;
-  struct packet packet[2];
+  struct packet packet[PACKETS];
   struct view view;
 };
 
@@ -98,13 +98,13 @@ static void make_ray(struct random *random, struct subject *s, unsigned number, 
 
 static void look(struct subject *s)
 {
-  for (int h = 0; h < 2; h++) {
+  for (int h = 0; h < PACKETS; h++) {
     struct packet *p = &s->packet[h];
     p->count = LANES, p->t_far = p->t_max;
     packet_untried(p);
   }
-  view_set(&s->view, s->packet, 2, &s->tree);
-  view_set_ends(&s->view, s->packet, 2);
+  view_set(&s->view, s->packet, PACKETS, &s->tree);
+  view_set_ends(&s->view, s->packet, PACKETS);
 }
 
 static void rays_that_meet_the_leaf_pass_its_box(void **state)

@@ -60,7 +60,7 @@ LANES_INLINE void set(struct view *view, const struct packet packet[], int packe
 {
   view->alike = view->apart = true;
   const double to_frame = 1 / tree->frame; /* a power of two */
-  lanes low[3][2], high[3][2], along[3][2], from[3][2], widen[2];
+  lanes low[3][PACKETS], high[3][PACKETS], along[3][PACKETS], from[3][PACKETS], widen[PACKETS];
   const int last = packets - 1;
   for (int h = 0; h <= last; h++) {
     const struct packet *p = &packet[h];
@@ -88,20 +88,25 @@ LANES_INLINE void set(struct view *view, const struct packet packet[], int packe
       widen[h] = lanes_max(slack[k], widen[h]);
     }
   }
+  for (int h = packets; h < PACKETS; h++) { /* as the last */
+    for (int k = 0; k < 3; k++)
+      low[k][h] = low[k][last], high[k][h] = high[k][last], along[k][h] = along[k][last], from[k][h] = from[k][last];
+    widen[h] = widen[last];
+  }
   for (int k = 0; k < 3; k++) {
-    const float_lanes d = float_lanes_join(along[k][0], along[k][last]);
+    const float_lanes d = float_lanes_join(along[k]);
     const float_lanes huge = float_lanes_select(d < 0, float_lanes_all(-HUGE_INVERSE), float_lanes_all(HUGE_INVERSE));
     const float_lanes inverse = float_lanes_select(float_lanes_abs(d) > 1 / HUGE_INVERSE, 1 / d, huge);
-    const float_lanes to_low = float_lanes_join(low[k][0], low[k][last]) * -inverse;
-    const float_lanes to_high = float_lanes_join(high[k][0], high[k][last]) * -inverse;
+    const float_lanes to_low = float_lanes_join(low[k]) * -inverse;
+    const float_lanes to_high = float_lanes_join(high[k]) * -inverse;
     const unsigned down = float_lanes_bits(d < 0);
-    view->inverse[k] = inverse, view->from[k] = float_lanes_join(from[k][0], from[k][last]), view->along[k] = d;
+    view->inverse[k] = inverse, view->from[k] = float_lanes_join(from[k]), view->along[k] = d;
     view->early[k] = float_lanes_min(to_low, to_high), view->late[k] = float_lanes_max(to_low, to_high);
     const bool same = down == 0 || down == ALL_RAYS;
     view->alike &= same, view->apart &= !same;
     sides_set(&view->sides, k, down != 0);
   }
-  view->widen = WIDE_SLACKS * float_lanes_join(widen[0], widen[last]);
+  view->widen = WIDE_SLACKS * float_lanes_join(widen);
 }
 
 #if LANES == 4
@@ -140,12 +145,12 @@ static bool set_one(struct view *view, const struct packet *p, const struct mode
 }
 #endif
 
-/* Twice in the code, so that one packet costs no second one; out of line for the room they take. */
+/* Twice in the code, so that one packet costs no loops over more; out of line for the room they take. */
 __attribute__((noinline)) static void set_many(struct view *view, const struct packet packet[], int packets,
                                                const struct model_tree *tree)
 {
   if (packets == 1) set(view, packet, 1, tree);
-  else set(view, packet, 2, tree);
+  else set(view, packet, PACKETS == 2 ? 2 : packets, tree);
 }
 
 void view_set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree)
@@ -163,12 +168,13 @@ void view_set_ends(struct view *view, const struct packet packet[], int packets)
     view->far[0] = (float)((end - start) + 8 * UNIT_ROUNDOFF * (fabs(end) + fabs(start))) * DEPTH_GROWTH;
     return;
   }
-  lanes far[2];
-  for (int h = 0; h < packets; h++) {
+  lanes far[PACKETS];
+  for (int k = 0; k < PACKETS; k++) {
+    const int h = k < packets ? k : packets - 1;
     const lanes end = packet[h].t_far * view->unit[h];
-    far[h] = (end - view->start[h]) + 8 * UNIT_ROUNDOFF * (lanes_abs(end) + lanes_abs(view->start[h]));
+    far[k] = (end - view->start[h]) + 8 * UNIT_ROUNDOFF * (lanes_abs(end) + lanes_abs(view->start[h]));
   }
-  view->far = float_lanes_join(far[0], far[packets - 1]) * DEPTH_GROWTH;
+  view->far = float_lanes_join(far) * DEPTH_GROWTH;
 }
 
 /* Out of line, or the compiler takes the products that both forms have in front of them, and fuses none. */

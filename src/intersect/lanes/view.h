@@ -26,16 +26,16 @@ struct sides {
   size_t first[3], last[3];
 };
 
-/* The rays of a packet or two, one behind the other as floats. A ray passes the plane x_k = c at a depth from c inverse
+/* The rays of some packets, one behind the other as floats. A ray passes the plane x_k = c at a depth from c inverse
  * + early to c inverse + late. */
 struct view {
   float_lanes inverse[3], early[3], late[3];
-  float_lanes far;               /* where the rays end, by view_set_ends */
-  lanes start[2], unit[2];       /* of each packet: depth = t unit - start */
-  float_lanes from[3], along[3]; /* a ray's point at a depth: from + along depth */
-  float_lanes widen;             /* oriented boxes are wider by so much for it */
-  bool apart;                    /* along each axis some rays go up and some down */
-  bool alike;                    /* all rays enter boxes by the same sides: */
+  float_lanes far;                     /* where the rays end, by view_set_ends */
+  lanes start[PACKETS], unit[PACKETS]; /* of each packet: depth = t unit - start */
+  float_lanes from[3], along[3];       /* a ray's point at a depth: from + along depth */
+  float_lanes widen;                   /* oriented boxes are wider by so much for it */
+  bool apart;                          /* along each axis some rays go up and some down */
+  bool alike;                          /* all rays enter boxes by the same sides: */
   struct sides sides;
 };
 
@@ -51,7 +51,7 @@ struct ray_view {
   struct sides sides;
 };
 
-/* view.c: the rays of these packets, one or two, in the tree's frame; all but their ends. Of a ray by itself no lane but the
+/* view.c: the rays of these packets, one to PACKETS, in the tree's frame; all but their ends. Of a ray by itself no lane but the
  * first need be set, which ray_view_of asks for. */
 void view_set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree);
 

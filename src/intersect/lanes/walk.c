@@ -1,4 +1,4 @@
-/* Rays through the hierarchy: two packets at a time, their rays side by side as floats.
+/* Rays through the hierarchy: some packets at a time, their rays side by side as floats.
  *
  * Compiled once per instruction set; the table of this compilation is KERNEL(kernel), see names.h.
  */
@@ -7,8 +7,8 @@
 #include "intersect/prepare/leaf.h"
 
 struct bundle {
-  struct packet packet[2];
-  int packets; /* 1 where a second would be empty */
+  struct packet packet[PACKETS];
+  int packets; /* those that are not empty */
   struct view view;
   unsigned live; /* bit k: ray k still looks for a hit */
 };
@@ -78,8 +78,8 @@ static void bundle_try(struct bundle *b, uint32_t index, struct leaf *leaf, cons
                        unsigned active)
 {
   const unsigned all = (1u << LANES) - 1;
-  if (active & all) packet_leaf(&b->packet[0], leaf, patch, index, lanes_mask(active & all));
-  if (active >> LANES) packet_leaf(&b->packet[1], leaf, patch, index, lanes_mask(active >> LANES));
+  for (struct packet *p = b->packet; active; p++, active >>= LANES)
+    if (active & all) packet_leaf(p, leaf, patch, index, lanes_mask(active & all));
 }
 
 /* A leaf that is not kept. Out of line for the room it takes. */
@@ -345,9 +345,9 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
 
 /* ---- the face ---- */
 
-LANES_INLINE size_t packets_of(size_t count) { return count > LANES ? 2 : 1; }
+LANES_INLINE size_t packets_of(size_t count) { return count < FLOAT_LANES ? (count - 1) / LANES + 1 : PACKETS; }
 
-LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[2], struct tracer *tracer, size_t count,
+LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], struct tracer *tracer, size_t count,
                                const struct ray rays[], bool any, int share)
 {
   const size_t packets = packets_of(count);
@@ -362,7 +362,7 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[2], struct t
 LANES_INLINE void bundle_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[],
                                  int share)
 {
-  struct ready ready[2];
+  struct ready ready[PACKETS];
   struct bundle bundle;
   bundle_begin(&bundle, ready, tracer, count, rays, false, share);
   bundle_walk(&bundle, &tracer->model->tree, bundle.live);
@@ -381,7 +381,7 @@ LANES_INLINE void bundle_closest(struct tracer *tracer, size_t count, const stru
  * does. */
 LANES_INLINE void bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
-  struct ready ready[2];
+  struct ready ready[PACKETS];
   struct bundle bundle;
   bundle_begin(&bundle, ready, tracer, count, rays, true, SHARE_ALONE);
   bundle_walk(&bundle, &tracer->model->tree, bundle.live);
@@ -426,7 +426,7 @@ static bool all(struct tracer *tracer, size_t count, const struct ray rays[], st
   const int share = share_of(tracer, count);
   bool done = true;
   for (size_t first = 0; first < count; first += FLOAT_LANES) {
-    struct ready ready[2];
+    struct ready ready[PACKETS];
     struct bundle bundle;
     bundle_begin(&bundle, ready, tracer, count - first, rays + first, false, share);
     for (int h = 0; h < bundle.packets; h++) gather_start(&bundle.packet[h], &tracer->gather[h]);
