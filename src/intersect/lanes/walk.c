@@ -289,21 +289,87 @@ static bool rays_apart(const struct bundle *b)
   return b->view.apart && model->leaf_count >= MANY_LEAVES && !b->packet[0].tracer->warm;
 }
 
+/* Where rays that go together have still to go. What comes next is on top; `room` tells where near[] has the places at which the rays
+ * enter, so that sorting moves little. The rooms of keys from `top` to `rooms` are free. */
+struct waiting {
+  size_t top, rooms;
+  struct waiting_key {
+    float first;   /* where the first of the rays enters */
+    unsigned rays; /* a leaf's test on one ray must not depend on its neighbours, so each ray goes its own way */
+    uint32_t child, room;
+  } key[MOST_WAITING];
+  float_lanes near[MOST_WAITING];
+};
+
+/* Puts it on, from `from` on in the order in which it is come to. */
+LANES_INLINE void waiting_add(struct waiting *w, size_t from, struct waiting_key key, const float_lanes *near)
+{
+  size_t n = w->top++;
+  if (n == w->rooms) w->key[w->rooms++].room = (uint32_t)n;
+  key.room = w->key[n].room;
+  for (; n > from && w->key[n - 1].first < key.first; n--) w->key[n] = w->key[n - 1];
+  w->key[n] = key, w->near[key.room] = *near;
+}
+
+/* From a node to the nearest of its children; the others wait. Returns whether it is to be gone to at once. */
+LANES_INLINE bool together_down(const struct bundle *b, const struct bvh *bvh, bool nearest, struct waiting *w,
+                                unsigned *rays, uint32_t *child)
+{
+  const struct bvh_node *node = &bvh->nodes[*child];
+  const size_t from = sorted_from(nearest, w->top);
+  struct entries in;
+  unsigned sides = 0;
+  view_boxes(&b->view, node, &in);
+  for (int side = 0; side < BVH_WIDTH; side++) {
+    in.rays[side] &= *rays;
+    sides |= (unsigned)(in.rays[side] != 0 && node->child[side] != 0) << side;
+  }
+  if (sides == 0) return false;
+  int next = __builtin_ctz(sides);
+  fetch_child(b->packet[0].model, bvh, node->child[next]);
+  if (w->top > from || (sides & (sides - 1)) != 0) {
+    float first = in.near[next][__builtin_ctz(in.rays[next])];
+    for (sides &= sides - 1; sides; sides &= sides - 1) {
+      int side = __builtin_ctz(sides);
+      float enter = in.near[side][__builtin_ctz(in.rays[side])];
+      fetch_child(b->packet[0].model, bvh, node->child[side]);
+      if (enter <= first) {
+        const int farther = next;
+        const float then = first;
+        next = side, first = enter, side = farther, enter = then;
+      }
+      waiting_add(w, from, (struct waiting_key){enter, in.rays[side], node->child[side], 0}, &in.near[side]);
+    }
+    if (w->top > from && w->key[w->top - 1].first < first) {
+      waiting_add(w, from, (struct waiting_key){first, in.rays[next], node->child[next], 0}, &in.near[next]);
+      return false;
+    }
+  }
+  *rays = in.rays[next], *child = node->child[next];
+  return true;
+}
+
+/* To what is nearest of what waits. Returns whether there is any. */
+LANES_INLINE bool together_next(const struct bundle *b, struct waiting *w, unsigned *rays, uint32_t *child)
+{
+  do {
+    if (w->top == 0) return false;
+    const struct waiting_key *key = &w->key[--w->top];
+    *child = key->child;
+    *rays = key->rays & b->live & float_lanes_up_to(w->near[key->room], b->view.far);
+  } while (*rays == 0);
+  return true;
+}
+
 /* The rays together, as long as there are several. Out of line for the room it takes. */
 __attribute__((noinline)) static void together_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
-  const struct bvh *bvh = &tree->bvh;
-  struct {
-    float_lanes near;
-    float first;   /* where the first of the rays enters */
-    unsigned rays; /* a leaf's test on one ray must not depend on its neighbours, so each ray goes its own way */
-    uint32_t child;
-  } stack[MOST_WAITING];
-  size_t top = 0;
+  struct waiting waiting;
+  waiting.top = waiting.rooms = 0;
   const int few = most_alone(b);
   const bool nearest = nearest_first(b, tree);
   uint32_t child = 0;
-  for (;;) {
+  for (bool on = true; on;) {
     if (child & (uint32_t)BVH_LEAF) {
       const uint32_t box = child & ~(uint32_t)BVH_LEAF;
       rays = box_passed(b, box, rays);
@@ -311,27 +377,10 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
       if (rays) bundle_leaf(b, tree, box, rays);
     } else if (__builtin_popcount(rays) <= few) {
       for (unsigned bits = rays; bits; bits &= bits - 1) ray_walk(b, tree, child, (unsigned)__builtin_ctz(bits));
-    } else {
-      const struct bvh_node *node = &bvh->nodes[child];
-      const size_t first = sorted_from(nearest, top);
-      struct entries in;
-      view_boxes(&b->view, node, &in);
-      for (int side = 0; side < BVH_WIDTH && node->child[side] != 0; side++) {
-        const unsigned hit = rays & in.rays[side];
-        if (!hit) continue;
-        const float enter = in.near[side][__builtin_ctz(hit)];
-        size_t n = top++; /* the nearest on top */
-        for (; n > first && stack[n - 1].first < enter; n--) stack[n] = stack[n - 1];
-        stack[n].near = in.near[side], stack[n].first = enter, stack[n].rays = hit, stack[n].child = node->child[side];
-        fetch_child(b->packet[0].model, bvh, node->child[side]);
-      }
+    } else if (together_down(b, &tree->bvh, nearest, &waiting, &rays, &child)) {
+      continue;
     }
-    do {
-      if (top == 0) return;
-      top--;
-      rays = stack[top].rays & b->live & float_lanes_up_to(stack[top].near, b->view.far);
-    } while (rays == 0);
-    child = stack[top].child;
+    on = together_next(b, &waiting, &rays, &child);
   }
 }
 
