@@ -320,25 +320,25 @@ LANES_INLINE bool together_down(const struct bundle *b, const struct bvh *bvh, b
   struct entries in;
   unsigned sides = 0;
   view_boxes(&b->view, node, &in);
+#pragma GCC unroll 4
   for (int side = 0; side < BVH_WIDTH; side++) {
     in.rays[side] &= *rays;
-    sides |= (unsigned)(in.rays[side] != 0 && node->child[side] != 0) << side;
+    sides |= (unsigned)((in.rays[side] != 0) & (node->child[side] != 0)) << side;
   }
   if (sides == 0) return false;
   int next = __builtin_ctz(sides);
-  fetch_child(b->packet[0].model, bvh, node->child[next]);
   if (w->top > from || (sides & (sides - 1)) != 0) {
     float first = in.near[next][__builtin_ctz(in.rays[next])];
     for (sides &= sides - 1; sides; sides &= sides - 1) {
       int side = __builtin_ctz(sides);
       float enter = in.near[side][__builtin_ctz(in.rays[side])];
-      fetch_child(b->packet[0].model, bvh, node->child[side]);
       if (enter <= first) {
         const int farther = next;
         const float then = first;
         next = side, first = enter, side = farther, enter = then;
       }
       waiting_add(w, from, (struct waiting_key){enter, in.rays[side], node->child[side], 0}, &in.near[side]);
+      fetch_child(b->packet[0].model, bvh, node->child[side]);
     }
     if (w->top > from && w->key[w->top - 1].first < first) {
       waiting_add(w, from, (struct waiting_key){first, in.rays[next], node->child[next], 0}, &in.near[next]);
