@@ -161,6 +161,7 @@ LANES_INLINE size_t sorted_from(bool nearest, size_t top) { return nearest && to
 struct ray_way {
   struct ray_view ray;
   unsigned lane;
+  bool nearest;   /* see nearest_first */
   uint32_t child; /* where it is */
   size_t top;
   struct {
@@ -169,9 +170,11 @@ struct ray_way {
   } stack[MOST_WAITING];
 };
 
-LANES_INLINE void ray_begin(const struct bundle *b, uint32_t child, unsigned lane, struct ray_way *way)
+LANES_INLINE void ray_begin(const struct bundle *b, const struct model_tree *tree, uint32_t child, unsigned lane,
+                            struct ray_way *way)
 {
   way->ray = ray_view_of(&b->view, lane), way->lane = lane, way->child = child, way->top = 0;
+  way->nearest = nearest_first(b, tree);
 }
 
 /* From a leaf, or a node none of whose children is passed, to what is nearest of what is on the stack. Returns whether the ray
@@ -186,26 +189,36 @@ LANES_INLINE bool ray_next(const struct bundle *b, struct ray_way *way)
   return true;
 }
 
-/* From a node to the nearest of its children, four boxes at a time instead of all rays. Returns whether the ray goes on. */
-LANES_INLINE bool ray_down(const struct bundle *b, const struct model_tree *tree, struct ray_way *way)
+LANES_INLINE void ray_wait(struct ray_way *way, size_t from, float near, uint32_t child)
 {
-  const struct bvh_node *node = &tree->bvh.nodes[way->child];
-  const size_t first = sorted_from(nearest_first(b, tree), way->top);
+  size_t n = way->top++;
+  for (; n > from && way->stack[n - 1].near < near; n--) way->stack[n] = way->stack[n - 1];
+  way->stack[n].near = near, way->stack[n].child = child;
+}
+
+/* From a node to the nearest of its children, four boxes at a time instead of all rays; the others wait. Returns whether the ray
+ * goes on. */
+LANES_INLINE bool ray_down(const struct bundle *b, const struct bvh *bvh, struct ray_way *way)
+{
+  const struct bvh_node *node = &bvh->nodes[way->child];
+  const size_t from = sorted_from(way->nearest, way->top);
   float near[BVH_WIDTH];
-  unsigned bits = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near);
-  if (bits && (bits & (bits - 1)) == 0) { /* the next, by no way over the stack */
-    way->child = node->child[__builtin_ctz(bits)];
-    fetch_child(b->packet[0].model, &tree->bvh, way->child);
-    return true;
+  unsigned sides = ray_view_boxes(&way->ray, b->view.far[way->lane], node, near);
+  if (sides == 0) return ray_next(b, way);
+  int next = __builtin_ctz(sides);
+  for (sides &= sides - 1; sides; sides &= sides - 1) {
+    const int side = __builtin_ctz(sides), farther = near[side] <= near[next] ? next : side;
+    next = farther == side ? next : side;
+    ray_wait(way, from, near[farther], node->child[farther]);
+    fetch_child(b->packet[0].model, bvh, node->child[farther]);
   }
-  for (; bits; bits &= bits - 1) {
-    const int side = __builtin_ctz(bits);
-    size_t n = way->top++; /* the nearest on top */
-    for (; n > first && way->stack[n - 1].near < near[side]; n--) way->stack[n] = way->stack[n - 1];
-    way->stack[n].near = near[side], way->stack[n].child = node->child[side];
-    fetch_child(b->packet[0].model, &tree->bvh, node->child[side]);
+  if (way->top > from && way->stack[way->top - 1].near < near[next]) {
+    ray_wait(way, from, near[next], node->child[next]);
+    return ray_next(b, way);
   }
-  return ray_next(b, way);
+  way->child = node->child[next];
+  fetch_child(b->packet[0].model, bvh, way->child);
+  return true;
 }
 
 /* Whether the ray passes that leaf's box; then the leaf is sent for. */
@@ -221,11 +234,11 @@ LANES_INLINE bool ray_passes(const struct bundle *b, uint32_t box, unsigned lane
 static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t child, unsigned lane)
 {
   struct ray_way way;
-  ray_begin(b, child, lane, &way);
+  ray_begin(b, tree, child, lane, &way);
   for (bool on = true; on;) {
     const uint32_t box = way.child & ~(uint32_t)BVH_LEAF;
     if (way.child == box) {
-      on = ray_down(b, tree, &way);
+      on = ray_down(b, &tree->bvh, &way);
     } else {
       if (ray_passes(b, box, lane)) bundle_leaf(b, tree, box, 1u << lane);
       on = (b->live >> lane & 1) && ray_next(b, &way);
@@ -242,7 +255,7 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
   uint32_t waits_at[FLOAT_LANES] = {0}; /* a leaf child; 0 for none */
   for (unsigned bits = rays; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
-    ray_begin(b, 0, lane, &ways[lane]);
+    ray_begin(b, tree, 0, lane, &ways[lane]);
   }
   while (rays) {
     for (unsigned bits = rays; bits; bits &= bits - 1) {
@@ -250,7 +263,7 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
       struct ray_way *way = &ways[lane];
       const uint32_t child = way->child, box = child & ~(uint32_t)BVH_LEAF;
       if (child == box) {
-        if (!ray_down(b, tree, way)) rays &= ~(1u << lane);
+        if (!ray_down(b, &tree->bvh, way)) rays &= ~(1u << lane);
       } else if (waits_at[lane] == 0) {
         if (ray_passes(b, box, lane)) waits_at[lane] = child;
         else if (!ray_next(b, way)) rays &= ~(1u << lane);
