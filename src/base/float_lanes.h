@@ -136,6 +136,18 @@ LANES_INLINE unsigned four_mask_bits(four_mask mask)
 #endif
 }
 
+/* The mask as 16 bits for each lane, all of them the same. */
+LANES_INLINE uint64_t four_mask_words(four_mask mask)
+{
+#if defined(LANES_OP) && defined(__x86_64__)
+  return (uint64_t)_mm_cvtsi128_si64(_mm_packs_epi32((__m128i)mask, (__m128i)mask));
+#else
+  uint64_t words = 0;
+  for (int k = 0; k < 4; k++) words |= (uint64_t)(uint16_t)mask[k] << 16 * k;
+  return words;
+#endif
+}
+
 /* The mask as bits: bit k is lane k. */
 LANES_INLINE unsigned float_lanes_bits(float_mask mask)
 {

@@ -10,6 +10,7 @@
 #ifndef PSCN_INTERSECT_LANES_VIEW_H
 #define PSCN_INTERSECT_LANES_VIEW_H
 
+#include <assert.h>
 #include <string.h>
 
 #include "base/float_lanes.h"
@@ -39,11 +40,26 @@ struct view {
   struct sides sides;
 };
 
-/* What the rays make of a node: where they enter its children, and their bits where they pass one before their ends. */
+/* What the rays make of a node: where they enter its children, and their bits where they pass one before their ends, those of child k
+ * from bit SIDE_BITS k on. */
 struct entries {
   float_lanes near[BVH_WIDTH];
-  unsigned rays[BVH_WIDTH];
+  uint64_t rays;
 };
+
+enum { SIDE_BITS = 16 };
+static_assert(FLOAT_LANES <= SIDE_BITS && SIDE_BITS * BVH_WIDTH == 64, "room for all rays of all children");
+
+/* These rays, for each child. */
+LANES_INLINE uint64_t rays_of_sides(unsigned rays) { return rays * UINT64_C(0x0001000100010001); }
+
+/* All rays, for each child that there is. */
+LANES_INLINE uint64_t node_sides(const struct bvh_node *node)
+{
+  four_mask child;
+  memcpy(&child, node->child, sizeof child);
+  return four_mask_words(child != 0);
+}
 
 /* One ray of them, four times over. */
 struct ray_view {
@@ -75,7 +91,7 @@ LANES_INLINE void sides_set(struct sides *sides, int k, bool down)
   sides->first[k] = (down ? hi : lo) + at, sides->last[k] = (down ? lo : hi) + at;
 }
 
-/* `alike`: the view's. What the node has no child for means nothing. */
+/* `alike`: the view's. */
 LANES_INLINE void view_boxes_as(const struct view *view, const struct bvh_node *node, bool alike, struct entries *out)
 {
   float_lanes near[BVH_WIDTH], far[BVH_WIDTH];
@@ -92,14 +108,16 @@ LANES_INLINE void view_boxes_as(const struct view *view, const struct bvh_node *
       far[side] = float_lanes_min(leave, k > 0 ? far[side] : view->far);
     }
   }
+  uint64_t rays = 0;
 #pragma GCC unroll 4
   for (int side = 0; side < BVH_WIDTH; side++) {
     out->near[side] = near[side];
-    out->rays[side] = float_lanes_up_to(near[side], far[side] * DEPTH_GROWTH);
+    rays |= (uint64_t)float_lanes_up_to(near[side], far[side] * DEPTH_GROWTH) << SIDE_BITS * side;
   }
+  out->rays = rays & node_sides(node);
 }
 
-/* All rays on the boxes of a node; what it has no child for means nothing. */
+/* All rays on the boxes of a node. */
 LANES_INLINE void view_boxes(const struct view *view, const struct bvh_node *node, struct entries *out)
 {
   if (view->alike) view_boxes_as(view, node, true, out);

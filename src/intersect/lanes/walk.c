@@ -124,21 +124,25 @@ LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, 
   }
 }
 
+LANES_INLINE void fetch(const void *from, size_t size)
+{
+  enum { CACHE_LINE = 64 };
+#pragma GCC unroll 16
+  for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch((const char *)from + at);
+}
+
 /* What a leaf's first stages read of it and of its patch, or what it is made of. */
 LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
 {
-  enum { CACHE_LINE = 64 };
   const uint32_t patch = model->oriented[index].patch;
-  const char *from = model->leaves ? (const char *)&model->leaves[index]
-                                   : (const char *)&model->scene->patches[patch].P;
-  const size_t size = model->leaves ? offsetof(struct leaf, x) : sizeof model->scene->patches->P;
   if (model->leaves) {
     __builtin_prefetch(&model->patches[patch].center);
     __builtin_prefetch(&model->patches[patch].split);
+    fetch(&model->leaves[index], offsetof(struct leaf, x));
   } else {
     __builtin_prefetch(&model->places[index]);
+    fetch(&model->scene->patches[patch].P, sizeof model->scene->patches->P);
   }
-  for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch(from + at);
 }
 
 /* Where rays cross so many surfaces, what waits is taken in the order in which rays come to it, whatever node it is below, so
@@ -324,6 +328,23 @@ LANES_INLINE void waiting_add(struct waiting *w, size_t from, struct waiting_key
   w->key[n] = key, w->near[key.room] = *near;
 }
 
+/* A child of a node, and those of the rays that enter it. */
+struct entered {
+  int side;
+  unsigned rays;
+  float first; /* where the first of them does */
+};
+
+/* Takes the first child out of *sides, which are not 0. */
+LANES_INLINE struct entered take_side(const struct entries *in, uint64_t *sides)
+{
+  const int at = __builtin_ctzll(*sides), side = at / SIDE_BITS;
+  const uint64_t all = ((UINT64_C(1) << SIDE_BITS) - 1) << SIDE_BITS * side;
+  const struct entered child = {side, (unsigned)((*sides & all) >> SIDE_BITS * side), in->near[side][at % SIDE_BITS]};
+  *sides &= ~all;
+  return child;
+}
+
 /* From a node to the nearest of its children; the others wait. Returns whether it is to be gone to at once. */
 LANES_INLINE bool together_down(const struct bundle *b, const struct bvh *bvh, bool nearest, struct waiting *w,
                                 unsigned *rays, uint32_t *child)
@@ -331,34 +352,24 @@ LANES_INLINE bool together_down(const struct bundle *b, const struct bvh *bvh, b
   const struct bvh_node *node = &bvh->nodes[*child];
   const size_t from = sorted_from(nearest, w->top);
   struct entries in;
-  unsigned sides = 0;
   view_boxes(&b->view, node, &in);
-#pragma GCC unroll 4
-  for (int side = 0; side < BVH_WIDTH; side++) {
-    in.rays[side] &= *rays;
-    sides |= (unsigned)((in.rays[side] != 0) & (node->child[side] != 0)) << side;
-  }
+  uint64_t sides = in.rays & rays_of_sides(*rays);
   if (sides == 0) return false;
-  int next = __builtin_ctz(sides);
-  if (w->top > from || (sides & (sides - 1)) != 0) {
-    float first = in.near[next][__builtin_ctz(in.rays[next])];
-    for (sides &= sides - 1; sides; sides &= sides - 1) {
-      int side = __builtin_ctz(sides);
-      float enter = in.near[side][__builtin_ctz(in.rays[side])];
-      if (enter <= first) {
-        const int farther = next;
-        const float then = first;
-        next = side, first = enter, side = farther, enter = then;
-      }
-      waiting_add(w, from, (struct waiting_key){enter, in.rays[side], node->child[side], 0}, &in.near[side]);
-      fetch_child(b->packet[0].model, bvh, node->child[side]);
+  struct entered next = take_side(&in, &sides);
+  while (sides != 0) {
+    struct entered other = take_side(&in, &sides);
+    if (other.first <= next.first) {
+      const struct entered farther = next;
+      next = other, other = farther;
     }
-    if (w->top > from && w->key[w->top - 1].first < first) {
-      waiting_add(w, from, (struct waiting_key){first, in.rays[next], node->child[next], 0}, &in.near[next]);
-      return false;
-    }
+    waiting_add(w, from, (struct waiting_key){other.first, other.rays, node->child[other.side], 0}, &in.near[other.side]);
+    fetch_child(b->packet[0].model, bvh, node->child[other.side]);
   }
-  *rays = in.rays[next], *child = node->child[next];
+  if (w->top > from && w->key[w->top - 1].first < next.first) {
+    waiting_add(w, from, (struct waiting_key){next.first, next.rays, node->child[next.side], 0}, &in.near[next.side]);
+    return false;
+  }
+  *rays = next.rays, *child = node->child[next.side];
   return true;
 }
 
