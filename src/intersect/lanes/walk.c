@@ -362,7 +362,8 @@ LANES_INLINE bool together_down(const struct bundle *b, const struct bvh *bvh, b
       const struct entered farther = next;
       next = other, other = farther;
     }
-    waiting_add(w, from, (struct waiting_key){other.first, other.rays, node->child[other.side], 0}, &in.near[other.side]);
+    waiting_add(w, from, (struct waiting_key){other.first, other.rays, node->child[other.side], 0},
+                &in.near[other.side]);
     fetch_child(b->packet[0].model, bvh, node->child[other.side]);
   }
   if (w->top > from && w->key[w->top - 1].first < next.first) {
