@@ -61,6 +61,23 @@ LANES_INLINE uint64_t node_sides(const struct bvh_node *node)
   return four_mask_words(child != 0);
 }
 
+/* A child of a node, and those of the rays that enter it. */
+struct entered {
+  int side;
+  unsigned rays;
+  float first; /* where the first of them does */
+};
+
+/* Takes the first child out of *sides, which are not 0. */
+LANES_INLINE struct entered take_side(const struct entries *in, uint64_t *sides)
+{
+  const int at = __builtin_ctzll(*sides), side = at / SIDE_BITS;
+  const uint64_t all = ((UINT64_C(1) << SIDE_BITS) - 1) << SIDE_BITS * side;
+  const struct entered child = {side, (unsigned)((*sides & all) >> SIDE_BITS * side), in->near[side][at % SIDE_BITS]};
+  *sides &= ~all;
+  return child;
+}
+
 /* One ray of them, four times over. */
 struct ray_view {
   four_floats inverse[3], early[3], late[3];

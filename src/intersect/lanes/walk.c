@@ -4,6 +4,7 @@
  */
 #include "intersect/lanes/gather.h"
 #include "intersect/lanes/view.h"
+#include "intersect/lanes/waiting.h"
 #include "intersect/prepare/leaf.h"
 
 struct bundle {
@@ -155,10 +156,8 @@ LANES_INLINE bool nearest_first(const struct bundle *b, const struct model_tree 
   return tree->crossings >= MANY_CROSSINGS && !b->packet[0].any && !b->packet[0].gather;
 }
 
-/* In that order no more than BVH_STACK may wait; what is below one of them then goes node by node. */
-enum { MOST_WAITING = 2 * BVH_STACK + BVH_WIDTH };
-
-/* From where on what comes to the `top` that wait is sorted in. */
+/* From where on what comes to the `top` that wait is sorted in: in that order no more than BVH_STACK may wait, and what is below
+ * one of them then goes node by node. */
 LANES_INLINE size_t sorted_from(bool nearest, size_t top) { return nearest && top < BVH_STACK ? 0 : top; }
 
 /* One ray on its way through what is below some node. */
@@ -304,45 +303,6 @@ static bool rays_apart(const struct bundle *b)
 {
   const struct model *model = b->packet[0].model;
   return b->view.apart && model->leaf_count >= MANY_LEAVES && !b->packet[0].tracer->warm;
-}
-
-/* Where rays that go together have still to go. What comes next is on top; `room` tells where near[] has the places at which the rays
- * enter, so that sorting moves little. The rooms of keys from `top` to `rooms` are free. */
-struct waiting {
-  size_t top, rooms;
-  struct waiting_key {
-    float first;   /* where the first of the rays enters */
-    unsigned rays; /* a leaf's test on one ray must not depend on its neighbours, so each ray goes its own way */
-    uint32_t child, room;
-  } key[MOST_WAITING];
-  float_lanes near[MOST_WAITING];
-};
-
-/* Puts it on, from `from` on in the order in which it is come to. */
-LANES_INLINE void waiting_add(struct waiting *w, size_t from, struct waiting_key key, const float_lanes *near)
-{
-  size_t n = w->top++;
-  if (n == w->rooms) w->key[w->rooms++].room = (uint32_t)n;
-  key.room = w->key[n].room;
-  for (; n > from && w->key[n - 1].first < key.first; n--) w->key[n] = w->key[n - 1];
-  w->key[n] = key, w->near[key.room] = *near;
-}
-
-/* A child of a node, and those of the rays that enter it. */
-struct entered {
-  int side;
-  unsigned rays;
-  float first; /* where the first of them does */
-};
-
-/* Takes the first child out of *sides, which are not 0. */
-LANES_INLINE struct entered take_side(const struct entries *in, uint64_t *sides)
-{
-  const int at = __builtin_ctzll(*sides), side = at / SIDE_BITS;
-  const uint64_t all = ((UINT64_C(1) << SIDE_BITS) - 1) << SIDE_BITS * side;
-  const struct entered child = {side, (unsigned)((*sides & all) >> SIDE_BITS * side), in->near[side][at % SIDE_BITS]};
-  *sides &= ~all;
-  return child;
 }
 
 /* From a node to the nearest of its children; the others wait. Returns whether it is to be gone to at once. */
