@@ -1,36 +1,39 @@
 /* The certificate: the Newton-Kantorovich test, on which every answer that is called certain stands.
  *
- * Theorem. Let f be a pair of polynomials on a convex region, known up to `error` in each value, J its Jacobian as
- * computed, z the last point but one of Newton's process, M the computed inverse of J(z), step = |M f(z)| the length
- * of the last step, at most 1/32 (all who ask end far below), size = |M| error what rounding adds to it, and bend a
- * Lipschitz bound of M J on the region. Norms of parameter vectors are maximum norms; what has an index k is of the
- * k-th parameter's row of M alone. Where
+ * Theorem. Let f be a pair of polynomials, known up to `error` in each value, J its Jacobian as computed, z the last point
+ * but one of Newton's process, M the computed inverse of J(z), step = |M f(z)| the length of the last step, and size_k what
+ * rounding adds to the k-th parameter's step: `error` times the sum of the sizes in that row of M, or, what may be less by
+ * a factor of sqrt 2, times the row's Euclidean length. Let bend_k be a Lipschitz bound of that row of M J on a convex
+ * region that holds the ball of radius 2 (step + size) about z, and so all within CERTIFICATE_REACH of where the step went.
+ * Norms of parameter vectors are maximum norms; what has no index is the larger one of both rows. Where
  *
- *     bend (step + size) <= CERTIFICATE_BEND   and   size <= CERTIFICATE_SIZE
+ *     bend (step + size) <= CERTIFICATE_BEND,   step <= CERTIFICATE_STEP   and   size <= CERTIFICATE_SIZE
  *
- * there is exactly one root of the exact f within 2 (step + size) of z, and each of its parameters lies within
+ * there is exactly one root of the exact f in that ball, and each of its parameters lies within
  *
  *     2 bend_k reach^2 + 2 size_k,   reach = step + size,
  *
  * of where the step went. Where bend_k and size_k are the length of the row times what all rows share, reach = step will
  * do; seen edge-on, a row with little error but much bend stands beside one with little bend but much error.
  *
- * Proof. The map w -> w - M f(w) moves z by at most beta = step + size and has a derivative of at most
- * kappa + bend |w - z|, where kappa is what rounding leaves of M J(z) - 1: derivatives of Bernstein forms are
- * differences of coefficients times 3, so they and their sums are off by no more than 16 times the error of a value,
- * and kappa <= 16 size <= 1/64. So it maps the ball of radius 2 beta into itself (beta (1 + 1/32 + 1/4) < 2 beta) and
- * contracts there (1/64 + 1/4 < 1): one root, by Banach. That one, at distance r <= beta (1 + kappa r/beta + bend
- * r^2/(2 beta)), is within 1.2 beta of z; and where the step went it is, in row k, off by size_k for the values,
- * kappa_k r <= 0.62 size_k and bend_k r^2/2 <= 0.72 bend_k beta^2, that is by less than the bound. Where rows share what
- * they are multiplied by, bend_k size^2 = bend size size_k <= size_k/8, and the last is no more than 1.44 bend_k step^2 +
- * 0.18 size_k. Compare Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations, 12.6.
+ * Proof. What rounding adds is sqrt 2 size_k at most. The map w -> w - M f(w) moves z by at most beta = step +
+ * sqrt 2 size and has a derivative of at most kappa + bend |w - z|, where kappa is what rounding leaves of M J(z) - 1:
+ * derivatives of Bernstein forms are differences of coefficients times 3, so they and their sums are off by no more than
+ * 16 times the error of a value, and kappa <= 16 sqrt 2 size <= 1/45. bend beta is at most sqrt 2/8 <= 0.177. So the map
+ * takes the ball of radius 1.4 beta, which is within the other, into itself (1 + 1.4/45 + 0.177 1.4^2/2 < 1.4), and in
+ * the other, which is within that of radius 2 beta, it contracts (1/45 + 2 0.177 < 1): one root, by Banach. That one, at
+ * distance r <= beta + kappa r + bend r^2/2, is within 1.15 beta of z, less than 2^-9; and where the step went it is, in
+ * row k, off by 1.42 size_k for the values, by kappa_k r <= 0.05 size_k, and by bend_k r^2/2 <= 0.67 bend_k beta^2 <=
+ * 1.34 bend_k reach^2: less than the bound. Where rows share what they are multiplied by, bend_k size = bend size_k, and
+ * the last is no more than 0.67 bend_k step^2 + 1.9 bend (step + size) size_k, with 1.9/8 = 0.24. Compare Ortega and
+ * Rheinboldt, Iterative Solution of Nonlinear Equations, 12.6.
  *
  * That no second root exists in a region is a matter of its own: M J, averaged on the way from the root to any point
- * of it, differs from 1 by less than 1. Where q bounds twice what second derivatives make of that difference, and is no
- * more than CERTIFICATE_ALONE with what rounding makes of it (second derivatives are differences of coefficients times
- * 24, 36 and 24, each off by the error of a value, twice over for the mixed one), half of that is 0.95, kappa is 1/64,
- * and M J is within 2^-14 of what it is at the root where the last step was no longer than NEWTON_LAST_STEP: less than
- * 1.
+ * of it, differs from 1 by less than 1. Let q bound twice what second derivatives make of that difference, from where the
+ * step went, and be no more than CERTIFICATE_ALONE with CERTIFICATE_SECOND size. Half of that is 0.95. What is not in it:
+ * second derivatives are differences of coefficients times 24, 36 and 24, each off by the error of a value, twice over
+ * for the mixed one, 170 size for 144 of which the half is 13 size; M J at the root, off from M J(z) by bend r <= 6.2 size +
+ * 2^-13, where bend <= 2 q <= 3.8; and kappa. Together that is less than 0.05: less than 1.
  *
  * Works on doubles and on lanes alike.
  */
@@ -38,13 +41,15 @@
 #define PSCN_INTERSECT_CERTIFICATE_H
 
 #define CERTIFICATE_BEND 0.125
+#define CERTIFICATE_STEP 0x1p-16
 #define CERTIFICATE_SIZE 0x1p-10
+#define CERTIFICATE_REACH (3 * CERTIFICATE_STEP + 2 * CERTIFICATE_SIZE)
 #define CERTIFICATE_ALONE 1.9
 #define CERTIFICATE_SECOND 144
 
 /* Whether the root exists. */
 #define certificate_holds(bend, step, size) \
-  (((bend) * ((step) + (size)) <= CERTIFICATE_BEND) & ((size) <= CERTIFICATE_SIZE))
+  (((bend) * ((step) + (size)) <= CERTIFICATE_BEND) & ((step) <= CERTIFICATE_STEP) & ((size) <= CERTIFICATE_SIZE))
 
 /* How far it may be from where the last step went, in the parameter of the row. */
 #define certificate_radius(row_bend, reach, row_size) (2 * (row_bend) * (reach) * (reach) + 2 * (row_size))

@@ -19,13 +19,14 @@
 #include "base/team.h"
 #include "geometry/bvh.h"
 #include "geometry/edges.h"
+#include "intersect/certificate.h"
 #include "scene/scene.h"
 
 /* How far outside [0,1] a leaf's polynomials are still used (its second-derivative bounds hold up to there). */
 #define LEAF_MARGIN 0.125
 
 /* Newton's process on a leaf ends with a step no longer than this, in leaf parameters. */
-#define NEWTON_LAST_STEP 0x1p-16
+#define NEWTON_LAST_STEP CERTIFICATE_STEP
 
 /* What is found out about a patch once. */
 struct model_cut {

@@ -1,7 +1,7 @@
-/* The certificate at its limits: of all that certificate.h lets pass, what passes just so is tried on the function that
- * turns as fast, and is off by as much, as is allowed. In one dimension, with M = 1 and z = 0, that is the parabola
+/* The certificate at its limits: of all that certificate.h lets pass, what passes just so is tried on the functions that
+ * turn as fast, and are off by as much, as is allowed. Of one row, with z = 0, that is the parabola
  *
- *     f(w) = -(step + d) + (1 + k) w - turn w^2 / 2,   |d| <= size, |k| <= 16 size, |turn| <= bend. */
+ *     (M f)(w) = -(step + d) + (1 + k) w - turn w^2 / 2,   |d| <= sqrt 2 size, |k| <= 16 sqrt 2 size, |turn| <= bend. */
 #include "intersect/certificate.h"
 
 #include <math.h>
@@ -13,8 +13,11 @@
 #define LARGEST 0x1p100
 enum { HALVINGS = 256 };
 
-/* Roundings of the derivative: the k above is so many sizes. */
+/* Roundings of the derivative: the k above is so many times what rounding makes of a value. */
 enum { SLOPE_ERRORS = 16 };
+
+/* What rounding makes of a step where size is a row's Euclidean length times the error of both values. */
+#define SIZES sqrtl(2)
 
 /* How far the second derivatives of a plane polynomial are off, in errors of a value: 24 and 24, and twice 36. */
 enum { SECOND_ERRORS = 120 };
@@ -56,7 +59,7 @@ static bool has_one_root(const struct turning *f, long double d, long double k, 
 /* Whether another row, with a bend and a size of its own, is within its radius at a root that is so far away. */
 static bool row_is_near(const struct turning *f, long double away, long double row_bend, long double row_size)
 {
-  const long double off = row_size + SLOPE_ERRORS * row_size * away + row_bend * away * away / 2;
+  const long double off = SIZES * (row_size + SLOPE_ERRORS * row_size * away) + row_bend * away * away / 2;
   return off <= certificate_radius(row_bend, (long double)f->step + f->size, row_size);
 }
 
@@ -64,18 +67,15 @@ static void try_all(const struct turning *f)
 {
   for (int n = 0; n < 18; n++) {
     const int d = n / 6 - 1, k = n / 2 % 3 - 1, turn = n % 2 ? 1 : -1;
-    const long double size = f->size, bend = f->bend;
+    const long double size = SIZES * f->size, bend = f->bend;
     long double away = 0;
     assert_true(has_one_root(f, d * size, k * SLOPE_ERRORS * size, turn * bend, &away));
     for (int part = 0; part <= 100; part += 50) {
-      assert_true(row_is_near(f, away, bend, ldexpl(size, -part)));
-      assert_true(row_is_near(f, away, ldexpl(bend, -part), size));
+      assert_true(row_is_near(f, away, bend, ldexpl(f->size, -part)));
+      assert_true(row_is_near(f, away, ldexpl(bend, -part), f->size));
     }
   }
 }
-
-/* Nobody asks for longer steps. */
-#define LONGEST_STEP (1.0 / 32)
 
 static void what_passes_has_one_root(void **state)
 {
@@ -85,10 +85,10 @@ static void what_passes_has_one_root(void **state)
     for (int size = -70; size <= 0; size++) {
       struct turning f = {.bend = ldexp(1, bend), .size = ldexp(1, size)};
       f.step = limit(step_passes, &f);
-      if (!(f.step >= 0 && f.step <= LONGEST_STEP)) continue;
+      if (!(f.step >= 0)) continue;
       try_all(&f), tried++;
     }
-    for (int step = -60; step <= -5; step++) {
+    for (int step = -60; step <= 0; step++) {
       struct turning f = {.bend = ldexp(1, bend), .step = ldexp(1, step)};
       f.size = limit(size_passes, &f);
       if (f.size < 0) continue;
@@ -97,6 +97,100 @@ static void what_passes_has_one_root(void **state)
   }
   assert_true(tried > 1000);
 }
+
+/* ---- two rows ---- */
+
+/* (M f)(w) of two parameters: M's rows point along `row`, and are the longer one times `length` long. */
+struct surface {
+  struct turning longer;
+  long double row[2][2], length[2], step[2];
+  long double error[2], slope[2], form[3]; /* signs of what rounding makes of values and slopes; shares of turn */
+};
+
+/* The root, by Newton's process; false where there is none near. */
+static bool surface_root(const struct surface *f, long double w[2])
+{
+  const long double *h = f->form;
+  w[0] = w[1] = 0;
+  for (int n = 0; n < 20; n++) {
+    long double value[2], jacobian[2][2];
+    for (int k = 0; k < 2; k++) {
+      const long double size = f->longer.size * f->length[k], turn = f->longer.bend * f->length[k];
+      const long double rounding[2] = {f->row[k][0] * f->error[0] * size, f->row[k][1] * f->error[1] * size};
+      const long double off = SLOPE_ERRORS * (rounding[0] * f->slope[0] + rounding[1] * f->slope[1]) / 2;
+      value[k] = w[k] + off * (w[0] + w[1]) - f->step[k] - rounding[0] - rounding[1] -
+                 turn * (h[0] * w[0] * w[0] + 2 * h[1] * w[0] * w[1] + h[2] * w[1] * w[1]) / 2;
+      jacobian[k][0] = (k == 0) + off - turn * (h[0] * w[0] + h[1] * w[1]);
+      jacobian[k][1] = (k == 1) + off - turn * (h[1] * w[0] + h[2] * w[1]);
+    }
+    const long double d = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
+    w[0] -= (jacobian[1][1] * value[0] - jacobian[0][1] * value[1]) / d;
+    w[1] -= (jacobian[0][0] * value[1] - jacobian[1][0] * value[0]) / d;
+  }
+  return fmaxl(fabsl(w[0]), fabsl(w[1])) <= 2 * ((long double)f->longer.step + f->longer.size);
+}
+
+/* The next digit of *n, of so many, which is taken off. */
+static int digit(int *n, int base)
+{
+  const int last = *n % base;
+  *n /= base;
+  return last;
+}
+
+static int sign(int *n) { return digit(n, 2) ? 1 : -1; }
+
+enum { SURFACES = 4 * 3 * 4 * 4 * 64 };
+
+/* The number-th of SURFACES that pass with its longer row. */
+static struct surface surface_of(const struct turning *longer, int number)
+{
+  static const long double forms[][3] = {{1, 0, 0}, {0, 0.5L, 0}, {0.25L, 0.25L, 0.25L}, {0.5L, 0, -0.5L}};
+  const long double eighth = atanl(1), angle = eighth * digit(&number, 4),
+                    other = angle + eighth * (1 + digit(&number, 3));
+  const int shorter = digit(&number, 4), form = digit(&number, 4);
+  struct surface f = {.longer = *longer,
+                      .row = {{cosl(angle), sinl(angle)}, {cosl(other), sinl(other)}},
+                      .length = {1, ldexpl(1, -shorter * shorter)}};
+  for (int c = 0; c < 3; c++) f.form[c] = forms[form][c];
+  for (int k = 0; k < 2; k++)
+    f.step[k] = sign(&number) * longer->step, f.error[k] = sign(&number), f.slope[k] = sign(&number);
+  return f;
+}
+
+/* The largest part of its radius that the root of any of them is from where the step went. */
+static long double try_surfaces(const struct turning *longer)
+{
+  long double most = 0;
+  for (int n = 0; n < SURFACES; n++) {
+    const struct surface f = surface_of(longer, n);
+    long double w[2];
+    assert_true(surface_root(&f, w));
+    for (int k = 0; k < 2; k++) {
+      const long double radius = certificate_radius(longer->bend * f.length[k], longer->step,
+                                                    longer->size * f.length[k]);
+      most = fmaxl(most, fabsl(w[k] - f.step[k]) / radius);
+    }
+  }
+  return most;
+}
+
+static void what_passes_of_two_rows_is_near(void **state)
+{
+  (void)state;
+  long double most = 0;
+  for (int bend = -20; bend <= 40; bend += 5) {
+    for (int size = -58; size <= -10; size += 4) {
+      struct turning f = {.bend = ldexp(1, bend), .size = ldexp(1, size)};
+      f.step = limit(step_passes, &f);
+      if (f.step >= 0) most = fmaxl(most, try_surfaces(&f));
+    }
+  }
+  assert_true(most <= 1);
+  assert_true(most > 0.5L); /* the limits are come near to */
+}
+
+/* ---- no other ---- */
 
 /* From a root, where the slope is 1 or as little as rounding lets it be, f = w - turn w^2 / 2 is back at 0 at w = 2 / turn: over a leaf of
  * length 1 that is behind its end where turn is below 2. */
@@ -108,7 +202,7 @@ static void what_passes_is_alone(void **state)
     struct turning f = {.size = ldexp(1, size)};
     const double turn = limit(turn_passes, &f);
     if (!(f.size <= CERTIFICATE_SIZE) || turn < 0) continue;
-    assert_true(2 * (1 - SLOPE_ERRORS * f.size) / (turn + SECOND_ERRORS * f.size) > 1);
+    assert_true(2 * (1 - SIZES * SLOPE_ERRORS * f.size) / (turn + SIZES * SECOND_ERRORS * f.size) > 1);
     tried++;
   }
   assert_true(tried > 50);
@@ -117,6 +211,7 @@ static void what_passes_is_alone(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_passes_has_one_root),
+                                     cmocka_unit_test(what_passes_of_two_rows_is_near),
                                      cmocka_unit_test(what_passes_is_alone)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,7 +77,8 @@ static bool may_be_alone(struct box *box, double m[2][2])
 static bool box_prove(struct box *box, double m[2][2], const double error[2], bool alone, double step,
                       const double root[2], double radius[2])
 {
-  const double out_u = real_max(-root[0], root[0] - 1), out_v = real_max(-root[1], root[1] - 1);
+  const double out_u = real_max(-root[0], root[0] - 1) + CERTIFICATE_REACH;
+  const double out_v = real_max(-root[1], root[1] - 1) + CERTIFICATE_REACH;
   if (!(out_u < BOX_MARGIN && out_v < BOX_MARGIN)) return false;
   const double growth = out_u > 0 || out_v > 0 ? BOX_MARGIN_GROWTH : 1;
   const double reach_u = 0.5 + fabs(root[0] - 0.5), reach_v = 0.5 + fabs(root[1] - 0.5);

@@ -81,7 +81,7 @@ enum { SHARPEN_STEPS = 24 };
  * to a pole all of the determinant is small, and each row is right to its own last places. */
 static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide m[2][2])
 {
-  static const fixed most = (fixed)((1 + 2 * LEAF_MARGIN) / FIXED_UNIT);
+  static const fixed most = (fixed)((1 + 2 * LEAF_MARGIN - CERTIFICATE_REACH) / FIXED_UNIT);
   double before = INFINITY;
   for (int n = 0; n < SHARPEN_STEPS; n++) {
     fixed f[2][3];

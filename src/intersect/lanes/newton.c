@@ -202,6 +202,9 @@ LANES_INLINE lanes row_length(lanes p, lanes q, const lanes slope[2])
   return lanes_sqrt(p * p + q * q + r * r);
 }
 
+/* How far outside the leaf a root may be, for the leaf's bounds to hold on all that the certificate asks. */
+#define NEWTON_MARGIN (LEAF_MARGIN - CERTIFICATE_REACH)
+
 /* The certificate (certificate.h): sets all but u and v of *r, which hold where the process went on the lanes that
  * `settled`. bend is |M| (|Suu| + 2 |Suv| + |Svv|). */
 LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const lanes slope[2], lanes error, lanes step,
@@ -211,7 +214,7 @@ LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const 
   const lanes size = lanes_max(size_u, size_v);
   const lanes bend = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
   const lanes off = size * error;
-  const lane_mask near = (lanes_abs(r->u - 0.5) < 0.5 + LEAF_MARGIN) & (lanes_abs(r->v - 0.5) < 0.5 + LEAF_MARGIN);
+  const lane_mask near = (lanes_abs(r->u - 0.5) < 0.5 + NEWTON_MARGIN) & (lanes_abs(r->v - 0.5) < 0.5 + NEWTON_MARGIN);
   r->exists = settled & near & certificate_holds(bend, step, off);
   r->radius_u = certificate_radius(bend, step, size_u * error);
   r->radius_v = certificate_radius(bend, step, size_v * error);
