@@ -289,8 +289,12 @@ static struct source *read_included(struct language *language, struct span place
   const struct name quoted = sources_name(language, place);
   const char *name = quoted.text + 1, *reason;
   const size_t length = quoted.length - 2;
-  if (memchr(name, '\0', length)) {
-    language_tell(language, place, "a file name holds no NUL");
+  if (memchr(name, '\n', length)) {
+    language_tell(language, place, "a file name stands on one line: this quote is not closed there");
+    return NULL;
+  }
+  if (memchr(name, '"', length)) {
+    language_tell(language, place, "a file name holds no quote");
     return NULL;
   }
   uint64_t device, inode;
@@ -325,7 +329,8 @@ void sources_include(struct language *language)
   const int token = pscn_scan_next(&language->sources->frame->scan);
   const struct span place = sources_here(language);
   if (token != PSCN_TOKEN_STRING) {
-    language_tell(language, place, "#include wants a file name in quotes");
+    language_tell(language, place,
+                  token == TOKEN_OPEN_STRING ? "this quote is not closed" : "#include wants a file name in quotes");
     return;
   }
   if (language->symbols->depth == MAX_INCLUDE_DEPTH) {

@@ -223,6 +223,12 @@ object='object { Square rotate <50, 20, 0> translate <0, 0.9, 0> pigment { Paint
 object { First translate y*Known/3 }'
 scene 'declarations within each other'
 
+before='#declare Title = "a \"; background { rgb <1, 0, 0> } // \" b";
+#macro Report(N) #debug concat("a line
+#end \" \\", str(N, 0, 0)) #end
+#ifdef (Nothing) "abc\"#end" #declare Title = 1; #end'
+scene 'strings'
+
 # judge FILE: what is wrong with a scene.
 cat >judge.sh <<'END'
 file=${1%.pscn}
