@@ -195,6 +195,8 @@ static enum status compare(const struct command *command, const struct request *
   if (request->output != NULL && output_format(command, request->output, &format) != STATUS_OK) return STATUS_USAGE;
   enum status status = output_spare(command, request->output, request->first);
   if (status == STATUS_OK) status = output_spare(command, request->output, request->second);
+  if (status == STATUS_OK) status = output_spare(command, "-", request->first);
+  if (status == STATUS_OK) status = output_spare(command, "-", request->second);
   if (status == STATUS_OK) status = output_probe(command, request->output);
   if (status != STATUS_OK) return status;
   struct subject subject = {0};

@@ -24,7 +24,7 @@ enum status output_write(const struct command *command, const struct atomic_file
 enum status output_format(const struct command *command, const char *path, enum image_format *out) STATUS_MUST_CHECK;
 
 /* STATUS_USAGE, told, where `path` would overwrite `other`, an input or another output: the same file, by whatever name.
- * NULLs and devices overwrite nothing. */
+ * "-" is the file that standard output goes to. NULLs and devices overwrite nothing. */
 enum status output_spare(const struct command *command, const char *path, const char *other) STATUS_MUST_CHECK;
 
 /* The scene's name with `suffix` instead of its own: "scenes/teapot.pscn" gives "scenes/teapot.png", beside the scene,

@@ -218,10 +218,10 @@ static void tell_unknown(struct session *session, const struct answer *answer)
   if (session->doubtful > MOST_TOLD) return;
   fflush(stdout);
   if (unknown > 0)
-    fprintf(stderr, "<stdin>:%zu: error: of %d of the values printed it is not known how near they are to a root\n",
+    fprintf(stderr, "stdin:%zu: error: of %d of the values printed it is not known how near they are to a root\n",
             answer->line, unknown);
   if (answer->roots.missing > 0)
-    fprintf(stderr, "<stdin>:%zu: error: %d of the roots missing: not found, or not told from infinity\n", answer->line,
+    fprintf(stderr, "stdin:%zu: error: %d of the roots missing: not found, or not told from infinity\n", answer->line,
             answer->roots.missing);
 }
 
@@ -360,6 +360,7 @@ static enum status roots(const struct command *command, const struct request *re
   if (request->iterates && request->format != FORMAT_PLAIN)
     return command_usage(command, "--iterates has a format of its own");
   enum status status = output_spare(command, request->stats, "/dev/stdin");
+  if (status == STATUS_OK) status = output_spare(command, "-", "/dev/stdin");
   if (status == STATUS_OK) status = output_probe(command, request->stats);
   if (status == STATUS_OK) status = choose_solver(command, request, &session.method);
   if (status == STATUS_OK && request->iterates) begin_iterates(&session);

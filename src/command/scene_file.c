@@ -122,8 +122,10 @@ enum status scene_file_load(const struct command *command, const struct scene_re
 {
   const char **folders = scene_request_folders(request);
   *out = NULL;
-  const enum status status = folders == NULL ? command_out_of_memory(command) : load(command, request, folders, out);
+  enum status status = folders == NULL ? command_out_of_memory(command) : load(command, request, folders, out);
   free(folders);
+  if (status == STATUS_OK) status = scene_file_spare(command, request, *out, "-");
+  if (status != STATUS_OK) scene_destroy(*out), *out = NULL;
   return status;
 }
 

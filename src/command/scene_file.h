@@ -62,7 +62,7 @@ size_t scene_request_memory(const struct scene_request *request);
 const char **scene_request_folders(const struct scene_request *request);
 
 /* Reads the scene, from standard input where its path is "-"; the caller destroys it. On failure the errors have been
- * told and *out is NULL. */
+ * told and *out is NULL; standard output must not go to a file that it is read from. */
 enum status scene_file_load(const struct command *command, const struct scene_request *request,
                             struct scene **out) STATUS_MUST_CHECK;
 

@@ -10,7 +10,7 @@
 #include "command/scene_file.h"
 
 /* How standard input is called in diagnostics. */
-#define NAME "<stdin>"
+#define NAME "stdin"
 
 enum {
   BUFFER_SIZE = 1 << 16,

@@ -232,6 +232,7 @@ static enum status trace(const struct command *command, struct request *request)
     return command_usage(command, "the rays come from standard input, the scene from a file");
   enum status status = scene_file_spare(command, &request->scene, NULL, request->stats);
   if (status == STATUS_OK) status = output_spare(command, request->stats, "/dev/stdin");
+  if (status == STATUS_OK) status = output_spare(command, "-", "/dev/stdin");
   if (status == STATUS_OK) status = output_probe(command, request->stats);
   if (status != STATUS_OK) return status;
   status = scene_file_load(command, &request->scene, &scene);

@@ -39,6 +39,26 @@ for scene in folder/chart.html includes.pscn -; do
 done
 cmp scene.pscn folder/chart.html && ls folder
 rm -r folder/* includes.pscn
+# Standard output, too: what reads would read its own answers. try tells its exit code there.
+into() {
+  local file=$1 code=0
+  shift
+  "$@" 1<>"$file" || code=$?
+  echo "exit $code"
+}
+for arguments in "dump scene.pscn" "dump main.pscn" "render scene.pscn -o - $small" "render main.pscn -o b.png --stats - $small" \
+  "trace main.pscn"; do
+  into scene.pscn pscn $arguments </dev/null
+done
+into scene.pscn pscn dump - <scene.pscn
+echo '0 0 -5 0 0 1' >rays
+into rays pscn trace main.pscn <rays
+into polynomials pscn roots <polynomials
+into b.png pscn compare a.png b.png
+into b.png pscn render scene.pscn -o b.png --stats - $small
+cat rays polynomials
+cksum a.png | cmp - sum && pscn compare --quiet a.png b.png && [ "$(sums)" = "$before" ] && echo "all is as it was"
+rm rays
 # What is no file cannot be overwritten.
 try pscn render scene.pscn -o a.png $small --stats /dev/null </dev/null
 ls -A
