@@ -7,7 +7,9 @@
  * hit is the nearest with t in (t_min, t_max); a miss has none. `certain` means this is proven; `grazing` means that
  * the answer can be turned by a change of the input within the rounding bound of the evaluation (a tangency, the border
  * of an open surface, a coincident component): then a hit is reported where a hit cannot be excluded, but for one that
- * 113 bits cannot tell from t_min or t_max, which is left out. The answer to a ray does not depend on the rays it
+ * 113 bits cannot tell from t_min or t_max, which is left out. Corners and poles are given points: the nearest hit is certain
+ * where the ray meets one exactly, though the surface is open there; of all hits it is grazing then, for how many patches are
+ * met in that point means nothing. The answer to a ray does not depend on the rays it
  * shares a packet with, but for last places where another hit is so near that double precision cannot tell which comes
  * first; for these, and whether it is certain, where what it passes before its hit or behind it takes all of its share
  * of work; and with `start previous`.

@@ -21,7 +21,9 @@
  * nearest with t_min < t < t_max, and a miss has none. `certain` is 1 where this is proven. It is 0, "grazing", where a
  * change of the input within the rounding of the last digits could turn the answer: a tangency, the border of an open
  * surface, a ray that lies in a surface. Then a hit is answered where one cannot be excluded; only one so near t_min or
- * t_max that 113 bits cannot tell on which side it lies is left out. What one ray may cost is limited: what is not
+ * t_max that 113 bits cannot tell on which side it lies is left out. The corner of a patch, or a border that is one point, is a
+ * given point: a ray that meets it exactly hits it, and the nearest hit is certain, though the surface may be open there; of
+ * all hits it is grazing then. What one ray may cost is limited: what is not
  * known by then is grazing too. (Of patches whose solver says `polish off` nothing is proven.)
  *
  * C11 or later, or C++. Link with -lpscn; the static library needs -lm besides. `pkg-config pscn` and CMake's
