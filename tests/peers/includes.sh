@@ -46,7 +46,7 @@ documented 'refused, for they put things into the scene' "${refused[@]}"
 used() { # FILE LINE WORD
   scene "#include \"$1.inc\"" "$2" >used.pscn
   "$PSCN" dump used.pscn >out 2>said && fail "$2: exit 0"
-  grep -Eq "^used.pscn:4:[0-9]+: error: '$3' is declared with what pscn has not" said || fail "$2: not told where it is used"
+  grep -Eq "^used.pscn:4:[0-9]+: error: '$3' is declared with what pscn has not, or within it" said || fail "$2: not told where it is used"
   grep -Eq "/$4.inc:[0-9]+:[0-9]+: error: $5" said || fail "$2: not told what it is"
 }
 used stones '#default { texture { T_Stone10 } }' T_Stone10 stones1 granite
