@@ -33,6 +33,13 @@ static bool starts_bilinear(const struct candidate *it)
   return turn_of(it->leaf->second) <= BENT_TURN * real_min(first[0], first[1]);
 }
 
+/* Puts the leaf off, where that is done. Returns the lanes that go on now. */
+static lane_mask candidate_put_off(struct packet *p, const struct candidate *it, lane_mask open)
+{
+  const bool later = p->later && later_add(p->later, (uint32_t)it->number, lanes_bits(open) << p->first_ray);
+  return later ? (lane_mask){0} : open;
+}
+
 /* A scene with `polish off` asks for the roots as its solver finds them: nothing is closed before that. */
 static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
 {
@@ -53,6 +60,8 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     open = stage_bilinear(p, it, open);
     if (!lanes_any(open)) return;
     open = stage_quadric(p, it, open);
+    if (!lanes_any(open)) return;
+    open = candidate_put_off(p, it, open);
     if (!lanes_any(open)) return;
   }
   entered[STAGE_PLANES] += lanes_count(open);

@@ -74,6 +74,28 @@ struct postponed {
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
 
+/* Leaves that are put off until all others have been tried, where any hit will do: those that rays start in, which few of them
+ * hit, and those that only dear stages decide. Rays that have hit something by then need not be tried on them. */
+enum { MOST_LATER = 32 };
+struct later {
+  unsigned count;
+  struct {
+    uint32_t leaf;
+    unsigned rays; /* of all packets that go together, as bits */
+  } at[MOST_LATER];
+};
+
+/* Puts the leaf off for these rays; false where there is no room. */
+static inline bool later_add(struct later *later, uint32_t leaf, unsigned rays)
+{
+  unsigned k = 0;
+  while (k < later->count && later->at[k].leaf != leaf) k++;
+  if (k == MOST_LATER) return false;
+  if (k == later->count) later->at[later->count++].leaf = leaf, later->at[k].rays = 0;
+  later->at[k].rays |= rays;
+  return true;
+}
+
 struct packet {
   struct tracer *tracer;
   const struct model *model;
@@ -84,6 +106,8 @@ struct packet {
   const struct model_copy *copy;          /* then the object's copy */
   lanes shift;                            /* then t of the scene is shift + t */
   bool any;                               /* any hit will do */
+  struct later *later;                    /* where leaves are put off; NULL where they are not, or not any more */
+  unsigned first_ray;                     /* there */
   struct gather *gather;                  /* all hits are asked for, and gathered here; else NULL */
   lanes t_end;                            /* then what t_far is, but while a root is taken */
   bool moved;                             /* live or t_far is not what it was */

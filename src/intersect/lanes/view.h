@@ -176,6 +176,14 @@ LANES_INLINE unsigned view_oriented(const struct view *view, const struct orient
   return ~float_lanes_bits(out);
 }
 
+/* The rays that start in the slab across the leaf, as far as floats tell, as bits. */
+LANES_INLINE unsigned view_starts(const struct view *view, const struct oriented_box *box)
+{
+  const float_lanes a = view->from[0] * box->g[0][0] +
+                        (view->from[1] * box->g[1][0] + (view->from[2] * box->g[2][0] - box->offset[0]));
+  return float_lanes_bits(float_lanes_abs(a) <= view->widen + box->half[0]);
+}
+
 LANES_INLINE four_floats four_floats_load(const float *from)
 {
   four_floats x;

@@ -10,6 +10,7 @@
 struct bundle {
   struct packet packet[PACKETS];
   int packets; /* those that are not empty */
+  struct later later;
   struct view view;
   unsigned live; /* bit k: ray k still looks for a hit */
 };
@@ -30,6 +31,15 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
 }
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
+static void bundle_walk_all(struct bundle *b, const struct model_tree *tree);
+
+/* Whether leaves are put off from here on. */
+LANES_INLINE void bundle_set_later(struct bundle *b, bool later)
+{
+  b->later.count = 0;
+  for (int h = 0; h < b->packets; h++)
+    b->packet[h].later = later ? &b->later : NULL, b->packet[h].first_ray = (unsigned)h * LANES;
+}
 
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
@@ -37,8 +47,9 @@ static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigne
   inner.packets = b->packets;
   for (int h = 0; h < b->packets; h++)
     packet_enter(&b->packet[h], copy, lanes_mask(active >> h * LANES), &inner.packet[h]);
+  bundle_set_later(&inner, b->packet[0].any);
   bundle_start(&inner, &copy->object->model->tree);
-  bundle_walk(&inner, &copy->object->model->tree, inner.live);
+  bundle_walk_all(&inner, &copy->object->model->tree);
   for (int h = 0; h < b->packets; h++) packet_leave(&inner.packet[h]);
 }
 
@@ -224,11 +235,25 @@ LANES_INLINE bool ray_down(const struct bundle *b, const struct bvh *bvh, struct
   return true;
 }
 
-/* Whether the ray passes that leaf's box; then the leaf is sent for. */
-LANES_INLINE bool ray_passes(const struct bundle *b, uint32_t box, unsigned lane)
+/* Puts the leaf off for packets whose rays all start in its slab. Returns the rays that are to be tried on it now. */
+LANES_INLINE unsigned put_off(struct bundle *b, uint32_t index, unsigned rays)
 {
   const struct model *model = b->packet[0].model;
-  if (!box_passed(b, box, 1u << lane)) return false;
+  if (!b->packet[0].later || index >= model->leaf_count) return rays;
+  const unsigned others = rays & ~view_starts(&b->view, &model->oriented[index]);
+  unsigned now = 0;
+  for (int h = 0; h < PACKETS; h++) {
+    const unsigned all = ((1u << LANES) - 1) << h * LANES;
+    if (others & all) now |= rays & all;
+  }
+  return rays != now && later_add(&b->later, index, rays & ~now) ? now : rays;
+}
+
+/* Whether the ray passes that leaf's box and is to be tried on the leaf now, which is sent for then. */
+LANES_INLINE bool ray_passes(struct bundle *b, uint32_t box, unsigned lane)
+{
+  const struct model *model = b->packet[0].model;
+  if (!box_passed(b, box, 1u << lane) || !put_off(b, box, 1u << lane)) return false;
   if (box < model->leaf_count) fetch_leaf(model, box);
   return true;
 }
@@ -358,6 +383,7 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
     if (child & (uint32_t)BVH_LEAF) {
       const uint32_t box = child & ~(uint32_t)BVH_LEAF;
       rays = box_passed(b, box, rays);
+      if (rays) rays = put_off(b, box, rays);
       if (rays && box < b->packet[0].model->leaf_count) fetch_leaf(b->packet[0].model, box);
       if (rays) bundle_leaf(b, tree, box, rays);
     } else if (__builtin_popcount(rays) <= few) {
@@ -377,6 +403,17 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   else together_walk(b, tree, rays);
 }
 
+/* All of the tree, and then the leaves that were put off. */
+static void bundle_walk_all(struct bundle *b, const struct model_tree *tree)
+{
+  bundle_walk(b, tree, b->live);
+  for (int h = 0; h < b->packets; h++) b->packet[h].later = NULL;
+  for (unsigned k = 0; k < b->later.count; k++) {
+    const unsigned rays = b->later.at[k].rays & b->live;
+    if (rays) bundle_leaf(b, tree, b->later.at[k].leaf, rays);
+  }
+}
+
 /* ---- the face ---- */
 
 LANES_INLINE size_t packets_of(size_t count) { return count < FLOAT_LANES ? (count - 1) / LANES + 1 : PACKETS; }
@@ -390,6 +427,7 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], st
     const size_t left = count - h * LANES;
     packet_begin(&b->packet[h], &ready[h], tracer, left < LANES ? left : LANES, rays + h * LANES, any, share);
   }
+  bundle_set_later(b, any);
   bundle_start(b, &tracer->model->tree);
 }
 
@@ -418,7 +456,7 @@ LANES_INLINE void bundle_occluded(struct tracer *tracer, size_t count, const str
   struct ready ready[PACKETS];
   struct bundle bundle;
   bundle_begin(&bundle, ready, tracer, count, rays, true, SHARE_ALONE);
-  bundle_walk(&bundle, &tracer->model->tree, bundle.live);
+  bundle_walk_all(&bundle, &tracer->model->tree);
   for (size_t h = 0; h < packets_of(count); h++) {
     const struct packet *packet = &bundle.packet[h];
     const unsigned hit = finish_occluded(packet);
