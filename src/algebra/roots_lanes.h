@@ -286,6 +286,7 @@ LANES_INLINE void roots_lanes_seek(struct roots_lanes *a, int i, bool curved, do
   for (int step = 0; step < most && lanes_any(a->moving[i] & a->seeking); step++) {
     struct roots_lanes_value value;
     struct roots_lanes_complex sum = {{0}, {0}}, squares = {{0}, {0}};
+    a->sweeps += lanes_select(a->moving[i] & a->seeking, lanes_all(a->degree + i), lanes_all(0));
     roots_lanes_evaluate(a, a->degree, &i, 1, curved, &value);
     for (int j = 0; j < i; j++) {
       const lanes dx = a->zr[i] - a->zr[j], dy = a->zi[i] - a->zi[j], push = roots_lanes_push(dx, dy);

@@ -33,7 +33,7 @@ struct roots_lanes {
   lane_mask moving[ROOTS_LANES_DEGREE];                 /* not found */
   lane_mask seeking;                                    /* lanes that are not done */
   lanes enough;                                         /* real roots in [-1,1] that are not found, at most */
-  lanes sweeps;                                         /* of all at once, each as dear as the degree squared */
+  lanes sweeps;                                         /* over all roots, each as dear as the degree squared */
 };
 
 /* p = sum over k of c[k] (1+y)^k (1-y)^(n-k) in powers of y, and choose[j] = C(n,j). Terms k and n-k are together

@@ -182,10 +182,30 @@ static void neighbours_do_not_matter(void **state)
     roots_lanes_start(&b, able);
     run_all(&b, able);
     assert_true(able[subject] != 0);
+    assert_true(a.sweeps[subject] == b.sweeps[subject]);
     for (int i = 0; i < n; i++) {
       assert_true(a.zr[i][subject] == b.zr[i][subject]);
       assert_true(a.zi[i][subject] == b.zi[i][subject]);
     }
+  }
+}
+
+/* At least one step of every root, or of one of each pair, on the lanes that seek. */
+static void what_is_done_is_counted(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 3};
+  for (int n = 2; n <= ROOTS_LANES_DEGREE; n++) {
+    double root[4], one[ROOTS_LANES_DEGREE + 3];
+    lanes c[ROOTS_LANES_DEGREE + 1];
+    struct roots_lanes a = {.method = method};
+    known_polynomial(&random, n, n < 3 ? n : 3, root, one);
+    for (int k = 0; k <= n; k++) c[k] = lanes_all(one[k]);
+    roots_lanes_start(&a, roots_lanes_set(&a, n, c));
+    run_all(&a, lanes_mask(1));
+    for (int lane = 0; lane < LANES; lane++)
+      if (lane == 0) assert_in_range((size_t)a.sweeps[lane], n * n / 2, SWEEPS * 2 * n * n);
+      else assert_true(a.sweeps[lane] == 0);
   }
 }
 
@@ -201,10 +221,9 @@ __attribute__((noinline)) static int run(void)
                  {SOLVER_LANES_DURAND_KERNER, "durand_kerner"}};
   print_message("seed %d, %d lanes\n", SEED, LANES);
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(known_roots_are_found),
-    cmocka_unit_test(a_root_of_quadratics_is_found),
-    cmocka_unit_test(previous_roots_part_and_meet),
-    cmocka_unit_test(neighbours_do_not_matter),
+    cmocka_unit_test(known_roots_are_found),        cmocka_unit_test(a_root_of_quadratics_is_found),
+    cmocka_unit_test(previous_roots_part_and_meet), cmocka_unit_test(neighbours_do_not_matter),
+    cmocka_unit_test(what_is_done_is_counted),
   };
   int failed = 0;
   for (size_t n = 0; n < sizeof methods / sizeof methods[0]; n++) {

@@ -48,8 +48,8 @@ struct line {
 /* What a ray may cost here: leaves whose boxes it passes before it is told as it is known then, grazing; those of them that
  * are left open, after which the others are left open as they are, for the last resort looks at all of a patch's at once
  * (where hits are gathered they are told as known then); the splits of boxes that cover a leaf, after which the last
- * resort has what comes; and the sweeps of methods that move all roots at once, each as dear as the degree squared, after
- * which boxes have it. A millisecond at most; where hits are gathered, which take their time themselves, some more. */
+ * resort has what comes; and the sweeps of methods that find all roots, each as dear as the degree squared, after which
+ * boxes have it. A millisecond at most; where hits are gathered, which take their time themselves, some more. */
 enum { MOST_LEAVES = 4096, MOST_LEAVES_OF_ALL = 16384, MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
 enum { MOST_SWEEPS = 384 * 18 * 18, MOST_SWEEPS_OF_ALL = 4 * MOST_SWEEPS };
 
@@ -70,7 +70,7 @@ struct postponed {
   lane_mask leaves;     /* how many more a ray may be tried on */
   unsigned left[LANES]; /* how many of them were left open */
   lanes splits;         /* how many more there may be to cover leaves (cover.h) */
-  lanes sweeps;         /* how many more there may be of all roots at once */
+  lanes sweeps;         /* how many more there may be over all roots */
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
 
