@@ -62,6 +62,7 @@ struct tracer {
   struct made_leaf *made;            /* 2^MADE_BITS; NULL where leaves are kept, or each is made whenever asked for */
   struct gather gather[PACKETS_MAX]; /* of packets side by side */
   struct growing hits;               /* struct hit: of all lists of the last call of tracer_all */
+  bool worn;                         /* of the shadow rays asked last some were let go */
   struct explainer *explainer;       /* explain.c; NULL where nobody asks */
 };
 

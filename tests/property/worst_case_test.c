@@ -2,6 +2,7 @@
  * certain still is.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cmocka_test.h"
@@ -240,9 +241,97 @@ static void what_is_not_looked_at_hides(void **state)
   world_close(&world);
 }
 
+/* What is counted without being tried. Of more patches than these neither they nor leaves are kept. */
+enum { KEPT = 1 << 16, CROWD = KEPT + 4096, THROUGH = 3000 };
+
+/* Flat nets through one point. */
+static void through_the_point(struct random *random, world_net net)
+{
+  double along[2][3];
+  for (int k = 0; k < 6; k++) along[k / 3][k % 3] = random_between(random, -1, 1);
+  for (int n = 0; n < 16; n++)
+    for (int k = 0; k < 3; k++) net[n / 4][n % 4][k] = (n / 4 - 1.5) * along[0][k] + (n % 4 - 1.5) * along[1][k];
+}
+
+/* A sheaf of straws, aslant so that each one's box is everyone's. */
+static void straw(struct random *random, world_net net)
+{
+  const double at[2] = {random_between(random, -1e-3, 1e-3), random_between(random, -1e-3, 1e-3)};
+  for (int n = 0; n < 16; n++) {
+    const double t = n / 4 - 1.5;
+    for (int k = 0; k < 3; k++) net[n / 4][n % 4][k] = t + (k < 2 ? at[k] : 0) + 1e-6 * random_between(random, -1, 1);
+  }
+}
+
+/* Far from all that. */
+static void aside(struct random *random, world_net net)
+{
+  double at[3];
+  for (int k = 0; k < 3; k++) at[k] = (k == 0 ? 20 : 0) + random_between(random, -1, 1);
+  for (int n = 0; n < 48; n++) net[n / 12][n / 3 % 4][n % 3] = at[n % 3] + random_between(random, 0, 1e-3);
+}
+
+/* The first rays of each packet are the hard ones. In company, asked alone where these take too much, they and those
+ * beside are told what they are told alone. Returns how many of the hard ones are certain. */
+static int certain_of(const struct world *world, size_t hard, const struct ray rays[PACKET_SIZE])
+{
+  struct hit hits[PACKET_SIZE];
+  bool occluded[PACKET_SIZE];
+  int certain = 0;
+  tracer_closest(world->tracer, PACKET_SIZE, rays, hits);
+  tracer_occluded(world->tracer, PACKET_SIZE, rays, occluded);
+  for (size_t n = 0; n < PACKET_SIZE; n++) {
+    const struct hit alone = world_closest(world, &rays[n]);
+    bool hidden;
+    tracer_occluded(world->tracer, 1, &rays[n], &hidden);
+    assert_int_equal(hits[n].certainty, alone.certainty);
+    assert_int_equal(hits[n].patch, alone.patch);
+    assert_int_equal(occluded[n], hidden);
+    if (alone.certainty == CERTAINTY_GRAZING) assert_true(hidden);
+    if (n < hard) certain += alone.certainty == CERTAINTY_CERTAIN;
+    else assert_int_equal(alone.certainty, CERTAINTY_CERTAIN);
+  }
+  return certain;
+}
+
+static void boxes_and_leaves_made_are_counted(void **state)
+{
+  (void)state;
+  enum { STRAWS, POINT, KINDS, HARD = 8 };
+  static const char *const names[KINDS] = {"straws", "through the point"};
+  world_net *nets = calloc(CROWD, sizeof *nets);
+  struct method whole;
+  assert_non_null(nets);
+  method_default(solver_at(0), &whole);
+  whole.split = 1;
+  for (int kind = 0; kind < KINDS; kind++) {
+    struct random random = {SEED + (uint64_t)kind};
+    struct ray rays[PACKET_SIZE];
+    for (size_t p = 0; p < CROWD; p++)
+      if (kind == STRAWS) straw(&random, nets[p]);
+      else if (p < THROUGH) through_the_point(&random, nets[p]);
+      else aside(&random, nets[p]);
+    for (size_t n = 0; n < PACKET_SIZE; n++) {
+      rays[n] = (struct ray){.t_max = INFINITY};
+      towards(&random, (const double[3]){0}, kind == STRAWS ? 1e-6 : 1e-8, &rays[n]);
+      if (n >= HARD) rays[n].origin[2] += 40;
+    }
+    for (int crowd = 0; crowd < 2; crowd++) {
+      struct world world;
+      world_open(&world, nets, crowd ? CROWD : kind == STRAWS ? CROWD / 2 : THROUGH, &whole);
+      const int certain = certain_of(&world, HARD, rays);
+      print_message("%s, %s: %d certain\n", names[kind], crowd ? "more" : "few", certain);
+      assert_int_equal(certain, crowd ? 0 : HARD);
+      world_close(&world);
+    }
+  }
+  free(nets);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_takes_no_more_than_its_share),
-                                     cmocka_unit_test(what_is_not_looked_at_hides)};
+                                     cmocka_unit_test(what_is_not_looked_at_hides),
+                                     cmocka_unit_test(boxes_and_leaves_made_are_counted)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,14 +8,13 @@
 #include "intersect/explain.h"
 #include "intersect/prepare/leaf.h"
 
-/* Out of line, for it is rare: a ray that comes by so many leaves runs along something thin, of which the walk's floats tell
- * little. What it passes by to the last places does not count; after so many others it is let go. Returns the lanes that are
- * done with the leaf. */
+/* Out of line, for it is rare: a ray that comes by so many leaves runs along something thin, of which the walk's floats
+ * tell little. What it passes by to the last places was not tried. Returns the lanes that are done with the leaf, or
+ * with all. */
 __attribute__((noinline)) static lane_mask candidate_worn(struct packet *p, const struct candidate *it, lane_mask many)
 {
-  const lane_mask passed = many & ~stage_box(it, many);
-  p->postponed->leaves -= passed;
-  const lane_mask worn = many & ~passed & (p->postponed->leaves < 0);
+  const lane_mask passed = many & ~stage_box(it, many), left = packet_spend(p, passed & -LOOKS_TRIED);
+  const lane_mask worn = many & ~passed & (left < 0);
   if (lanes_any(worn)) packet_give_up(p, lanes_bits(worn));
   return passed | worn;
 }
@@ -45,9 +44,10 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
 {
   const struct model_patch *patch = it->patch;
   uint64_t *entered = p->tracer->counts.stages;
+  const lane_mask met = open & LOOKS_MET;
   open = stage_slab(p, it, open);
-  p->postponed->leaves += open; /* -1 each */
-  const lane_mask many = open & (p->postponed->leaves < p->postponed->most_leaves / 2);
+  const lane_mask left = packet_spend(p, met + (open & LOOKS_TRIED)),
+                  many = open & (left < p->postponed->most_looks / 2);
   if (lanes_any(many)) open &= ~candidate_worn(p, it, many);
   if (p->postponed->full) {
     const lane_mask full = open & lanes_mask(p->postponed->full);

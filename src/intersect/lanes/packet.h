@@ -5,6 +5,8 @@
 #ifndef PSCN_INTERSECT_LANES_PACKET_H
 #define PSCN_INTERSECT_LANES_PACKET_H
 
+#include <string.h>
+
 #include "base/double_lanes.h"
 #include "intersect/exact/exact.h"
 #include "intersect/lanes/surface.h"
@@ -45,12 +47,18 @@ struct line {
   lanes error;
 };
 
-/* What a ray may cost here: leaves whose boxes it passes before it is told as it is known then, grazing; those of them that
- * are left open, after which the others are left open as they are, for the last resort looks at all of a patch's at once
- * (where hits are gathered they are told as known then); the splits of boxes that cover a leaf, after which the last
- * resort has what comes; and the sweeps of methods that find all roots, each as dear as the degree squared, after which
- * boxes have it. A millisecond at most; where hits are gathered, which take their time themselves, some more. */
-enum { MOST_LEAVES = 4096, MOST_LEAVES_OF_ALL = 16384, MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
+/* What a ray may take on its way before it is told as it is known then, grazing, counted in looks at boxes, of the
+ * hierarchy or along leaves: 15 to 60 ns each, by where they are in memory. A leaf that it meets, whose boxes it
+ * passes, is as dear as so many of them; more where its slab is not passed by in doubles, either, and it is tried; and
+ * where it is not kept, to make. Some milliseconds at most; where hits are gathered, which take their time themselves,
+ * some more. */
+enum { MOST_LOOKS = 1 << 16, MOST_LOOKS_OF_ALL = 4 * MOST_LOOKS, LOOKS_MET = 4, LOOKS_TRIED = 12, LOOKS_MADE = 32 };
+
+/* What else it may cost: leaves that are left open, after which the others are left open as they are, for the last
+ * resort looks at all of a patch's at once (where hits are gathered they are told as known then); the splits of boxes
+ * that cover a leaf, after which the last resort has what comes; and the sweeps of methods that find all roots, each as
+ * dear as the degree squared, after which boxes have it. */
+enum { MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
 enum { MOST_SWEEPS = 384 * 18 * 18, MOST_SWEEPS_OF_ALL = 4 * MOST_SWEEPS };
 
 /* How much of that a ray gets alone, and in the company of others: what comes to a ray and in which order depends on those
@@ -61,14 +69,14 @@ enum { SHARE_ALONE = 1, SHARE_IN_COMPANY = 8 };
 /* What the lanes leave open, a list a lane. */
 struct postponed {
   int share; /* SHARE_ALONE or SHARE_IN_COMPANY */
-  int64_t most_leaves;
+  int64_t most_looks;
   unsigned most_open;
   /* bit k, of lane k: it has a list; that has most_open leaves; some of it was merged; merging once more would make too
    * little room; there were more than there is room for */
   unsigned open, full, merged, crowded, cut_off;
   unsigned count[LANES];
-  lane_mask leaves;     /* how many more a ray may be tried on */
-  unsigned left[LANES]; /* how many of them were left open */
+  int64_t looks[LANES]; /* how many more a ray may take; below 0 it goes no further */
+  unsigned left[LANES]; /* how many leaves were left open */
   lanes splits;         /* how many more there may be to cover leaves (cover.h) */
   lanes sweeps;         /* how many more there may be over all roots */
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
@@ -153,11 +161,21 @@ LANES_INLINE unsigned packet_let_go(const struct packet *p)
 }
 
 /* The rays, that have been tried on nothing yet, have that part of so much. */
-LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int leaves, int open, int sweeps)
+LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int looks, int open, int sweeps)
 {
-  postponed->share = share, postponed->most_leaves = leaves / share, postponed->most_open = (unsigned)(open / share);
-  postponed->leaves = postponed->most_leaves + (lane_mask){0};
+  postponed->share = share, postponed->most_looks = looks / share, postponed->most_open = (unsigned)(open / share);
+  for (int l = 0; l < LANES; l++) postponed->looks[l] = postponed->most_looks;
   postponed->splits = lanes_all(MOST_SPLITS / share), postponed->sweeps = lanes_all(sweeps / share);
+}
+
+/* Takes so many looks from what each of the rays has left; returns what that is then. */
+LANES_INLINE lane_mask packet_spend(struct packet *p, lane_mask looks)
+{
+  lane_mask left;
+  memcpy(&left, p->postponed->looks, sizeof left);
+  left -= looks;
+  memcpy(p->postponed->looks, &left, sizeof left);
+  return left;
 }
 
 /* No leaf has been tried on the rays, whose directions and ends are set. */

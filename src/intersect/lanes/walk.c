@@ -30,6 +30,37 @@ static void bundle_start(struct bundle *b, const struct model_tree *tree)
   bundle_update(b);
 }
 
+/* Out of line, for it is rare: these rays have taken all they may. */
+__attribute__((noinline)) static void bundle_let_go(struct bundle *b, unsigned rays)
+{
+  for (struct packet *p = b->packet; rays; p++, rays >>= LANES) {
+    const unsigned here = rays & lanes_bits(p->live);
+    if (here && !p->oriented) packet_orient(p);
+    if (here) packet_give_up(p, here);
+  }
+  bundle_update(b);
+}
+
+/* The rays have looked at so many boxes together: each is told to have looked at all of them, for what a ray looks at
+ * alone is among them. */
+static void bundle_looked(struct bundle *b, int64_t looks)
+{
+  unsigned worn = 0;
+  for (int h = 0; h < b->packets; h++) {
+    const lane_mask left = packet_spend(&b->packet[h], looks + (lane_mask){0});
+    worn |= lanes_bits(left < 0) << h * LANES;
+  }
+  if (worn & b->live) bundle_let_go(b, worn & b->live);
+}
+
+/* One ray looks at a box. Returns whether it may. */
+LANES_INLINE bool ray_looks(struct bundle *b, unsigned lane)
+{
+  if (--b->packet[lane / LANES].postponed->looks[lane % LANES] >= 0) return true;
+  bundle_let_go(b, 1u << lane);
+  return false;
+}
+
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
 static void bundle_walk_all(struct bundle *b, const struct model_tree *tree);
 
@@ -98,6 +129,7 @@ static void bundle_try(struct bundle *b, uint32_t index, struct leaf *leaf, cons
 __attribute__((noinline)) static void bundle_make(struct bundle *b, uint32_t index, unsigned active)
 {
   struct leaf_room room;
+  for (int h = 0; h < b->packets; h++) (void)packet_spend(&b->packet[h], lanes_mask(active >> h * LANES) & LOOKS_MADE);
   struct leaf_room *made = tracer_leaf(b->packet[0].tracer, index, &room);
   bundle_try(b, index, &made->leaf, &made->of.patch, active);
 }
@@ -263,7 +295,7 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
 {
   struct ray_way way;
   ray_begin(b, tree, child, lane, &way);
-  for (bool on = true; on;) {
+  for (bool on = true; on && ray_looks(b, lane);) {
     const uint32_t box = way.child & ~(uint32_t)BVH_LEAF;
     if (way.child == box) {
       on = ray_down(b, &tree->bvh, &way);
@@ -290,7 +322,9 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
       const unsigned lane = (unsigned)__builtin_ctz(bits);
       struct ray_way *way = &ways[lane];
       const uint32_t child = way->child, box = child & ~(uint32_t)BVH_LEAF;
-      if (child == box) {
+      if (waits_at[lane] == 0 && !ray_looks(b, lane)) {
+        rays &= ~(1u << lane);
+      } else if (child == box) {
         if (!ray_down(b, &tree->bvh, way)) rays &= ~(1u << lane);
       } else if (waits_at[lane] == 0) {
         if (ray_passes(b, box, lane)) waits_at[lane] = child;
@@ -371,6 +405,9 @@ LANES_INLINE bool together_next(const struct bundle *b, struct waiting *w, unsig
   return true;
 }
 
+/* What rays have looked at together is counted when it is so many boxes. */
+enum { LOOKS_AT_ONCE = 64 };
+
 /* The rays together, as long as there are several. Out of line for the room it takes. */
 __attribute__((noinline)) static void together_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
@@ -379,7 +416,9 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
   const int few = most_alone(b);
   const bool nearest = nearest_first(b, tree);
   uint32_t child = 0;
+  int looks = 0;
   for (bool on = true; on;) {
+    looks++;
     if (child & (uint32_t)BVH_LEAF) {
       const uint32_t box = child & ~(uint32_t)BVH_LEAF;
       rays = box_passed(b, box, rays);
@@ -391,8 +430,10 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
     } else if (together_down(b, &tree->bvh, nearest, &waiting, &rays, &child)) {
       continue;
     }
+    if (looks >= LOOKS_AT_ONCE) bundle_looked(b, looks), looks = 0;
     on = together_next(b, &waiting, &rays, &child);
   }
+  bundle_looked(b, looks);
 }
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
@@ -449,8 +490,8 @@ LANES_INLINE void bundle_closest(struct tracer *tracer, size_t count, const stru
   }
 }
 
-/* Where nothing is hit all leaves come to a ray in any order; else it is hit in any, or may be. So its share may end where it
- * does. */
+/* Where nothing is hit all boxes and leaves come to a ray in any order; else it is hit in any, or may be. So its share
+ * may end where it does; but one that has had what others looked at counted, too, is asked alone. */
 LANES_INLINE void bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
   struct ready ready[PACKETS];
@@ -460,6 +501,7 @@ LANES_INLINE void bundle_occluded(struct tracer *tracer, size_t count, const str
   for (size_t h = 0; h < packets_of(count); h++) {
     const struct packet *packet = &bundle.packet[h];
     const unsigned hit = finish_occluded(packet);
+    tracer->worn |= ready[h].postponed.cut_off != 0;
     for (size_t l = 0; l < packet->count; l++) out_occluded[h * LANES + l] = hit >> l & 1;
     tracer->counts.rays[1] += packet->count;
   }
