@@ -105,7 +105,8 @@ void intersector_destroy(struct intersector *intersector)
 
 void tracer_begin(const struct intersector *intersector, struct tracer *out)
 {
-  *out = (struct tracer){.model = intersector->model, .kernel = intersector->kernel, .epoch = 1};
+  *out = (struct tracer){
+    .model = intersector->model, .kernel = intersector->kernel, .epoch = 1, .most_looks = MOST_LOOKS};
 }
 
 enum status tracer_create(const struct intersector *intersector, struct tracer **out)

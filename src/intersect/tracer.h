@@ -53,6 +53,11 @@ struct gather {
   bool failed;            /* memory was short */
 };
 
+/* How often a ray may look at a box, of the hierarchy or along a leaf, before it is told as it is known then, grazing:
+ * 15 to 60 ns each, by where they are in memory. Leaves count as more than one (packet.h). A tenth of a second at most, of
+ * which nothing but a hundred thousand surfaces at one place takes more than a few milliseconds. */
+enum { MOST_LOOKS = 1 << 21 };
+
 struct tracer {
   const struct model *model;
   const struct kernel *kernel;
@@ -62,6 +67,7 @@ struct tracer {
   struct made_leaf *made;            /* 2^MADE_BITS; NULL where leaves are kept, or each is made whenever asked for */
   struct gather gather[PACKETS_MAX]; /* of packets side by side */
   struct growing hits;               /* struct hit: of all lists of the last call of tracer_all */
+  int most_looks;                    /* MOST_LOOKS; tests make it less */
   bool worn;                         /* of the shadow rays asked last some were let go */
   struct explainer *explainer;       /* explain.c; NULL where nobody asks */
 };

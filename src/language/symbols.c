@@ -138,7 +138,8 @@ static void tell_foreign(struct language *language, const struct name *name, str
     language_hold(language, name->place, symbol->held);
     return;
   }
-  language_error(language, name->place, "'%.*s' is declared with what pscn has not, or within it", (int)name->length, name->text);
+  language_error(language, name->place, "'%.*s' is declared with what pscn has not, or within it", (int)name->length,
+                 name->text);
   for (struct held *list = symbol->held, *next; list; list = next) {
     next = NULL;
     for (struct held *held = list; held; held = held->next) {

@@ -14,7 +14,8 @@ void gather_start(struct packet *p, struct gather *gather)
 {
   if (!p->oriented) packet_orient(p);
   p->gather = gather;
-  packet_set_share(p->postponed, p->postponed->share, MOST_LOOKS_OF_ALL, MOST_OPEN_OF_ALL, MOST_SWEEPS_OF_ALL);
+  packet_set_share(p->postponed, p->postponed->share, LOOKS_OF_ALL * p->tracer->most_looks, MOST_OPEN_OF_ALL,
+                   MOST_SWEEPS_OF_ALL);
   gather->roots.count = gather->open.count = 0;
   gather->failed = gather->list.failed = false;
 }

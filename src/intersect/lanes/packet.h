@@ -47,12 +47,11 @@ struct line {
   lanes error;
 };
 
-/* What a ray may take on its way before it is told as it is known then, grazing, counted in looks at boxes, of the
- * hierarchy or along leaves: 15 to 60 ns each, by where they are in memory. A leaf that it meets, whose boxes it
- * passes, is as dear as so many of them; more where its slab is not passed by in doubles, either, and it is tried; and
- * where it is not kept, to make. Some milliseconds at most; where hits are gathered, which take their time themselves,
- * some more. */
-enum { MOST_LOOKS = 1 << 16, MOST_LOOKS_OF_ALL = 4 * MOST_LOOKS, LOOKS_MET = 4, LOOKS_TRIED = 12, LOOKS_MADE = 32 };
+/* What counts as so many of the looks that a ray may take (MOST_LOOKS): a leaf that it meets, whose boxes it passes; one
+ * whose slab it does not pass by in doubles, either, so that it is tried, which may leave dear things open, 4,096 of them in
+ * all; and to make one that is not kept. Where hits are gathered, which take their time themselves, there are so many times as
+ * many. */
+enum { LOOKS_MET = 4, LOOKS_TRIED = 508, LOOKS_MADE = 32, LOOKS_OF_ALL = 4 };
 
 /* What else it may cost: leaves that are left open, after which the others are left open as they are, for the last
  * resort looks at all of a patch's at once (where hits are gathered they are told as known then); the splits of boxes
