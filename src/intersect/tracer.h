@@ -54,8 +54,7 @@ struct gather {
 };
 
 /* How often a ray may look at a box, of the hierarchy or along a leaf, before it is told as it is known then, grazing:
- * 15 to 60 ns each, by where they are in memory. Leaves count as more than one (packet.h). A tenth of a second at most, of
- * which nothing but a hundred thousand surfaces at one place takes more than a few milliseconds. */
+ * 15 to 60 ns each, by where they are in memory. Leaves count as more than one (packet.h). A tenth of a second at most. */
 enum { MOST_LOOKS = 1 << 21 };
 
 struct tracer {
