@@ -184,13 +184,11 @@ void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[]
 
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
-  tracer->worn = false;
-  kernel_for(tracer, count, rays)->occluded(tracer, count, rays, out_occluded);
-  if (!tracer->worn || count == 1) return;
+  if (!kernel_for(tracer, count, rays)->occluded(tracer, count, rays, out_occluded) || count == 1) return;
   const struct intersect_counts counts = tracer->counts;
   const struct kernel *kernel = kernel_for(tracer, 1, rays);
   for (size_t k = 0; k < count; k++)
-    if (out_occluded[k]) kernel->occluded(tracer, 1, &rays[k], &out_occluded[k]);
+    if (out_occluded[k]) (void)kernel->occluded(tracer, 1, &rays[k], &out_occluded[k]);
   tracer->counts = counts;
 }
 

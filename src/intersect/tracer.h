@@ -16,7 +16,8 @@
 struct kernel {
   const char *name;
   void (*closest)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
-  void (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
+  /* whether some rays were let go */
+  bool (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
   /* whether there was memory for it */
   bool (*all)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[]);
 };
@@ -67,7 +68,6 @@ struct tracer {
   struct gather gather[PACKETS_MAX]; /* of packets side by side */
   struct growing hits;               /* struct hit: of all lists of the last call of tracer_all */
   int most_looks;                    /* MOST_LOOKS; tests make it less */
-  bool worn;                         /* of the shadow rays asked last some were let go */
   struct explainer *explainer;       /* explain.c; NULL where nobody asks */
 };
 

@@ -5,8 +5,6 @@
 #ifndef PSCN_INTERSECT_LANES_PACKET_H
 #define PSCN_INTERSECT_LANES_PACKET_H
 
-#include <string.h>
-
 #include "base/double_lanes.h"
 #include "intersect/exact/exact.h"
 #include "intersect/lanes/surface.h"
@@ -74,7 +72,7 @@ struct postponed {
    * little room; there were more than there is room for */
   unsigned open, full, merged, crowded, cut_off;
   unsigned count[LANES];
-  int64_t looks[LANES]; /* how many more a ray may take; below 0 it goes no further */
+  lane_mask looks;      /* how many more a ray may take; below 0 it goes no further */
   unsigned left[LANES]; /* how many leaves were left open */
   lanes splits;         /* how many more there may be to cover leaves (cover.h) */
   lanes sweeps;         /* how many more there may be over all roots */
@@ -163,19 +161,12 @@ LANES_INLINE unsigned packet_let_go(const struct packet *p)
 LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int looks, int open, int sweeps)
 {
   postponed->share = share, postponed->most_looks = looks / share, postponed->most_open = (unsigned)(open / share);
-  for (int l = 0; l < LANES; l++) postponed->looks[l] = postponed->most_looks;
+  postponed->looks = postponed->most_looks + (lane_mask){0};
   postponed->splits = lanes_all(MOST_SPLITS / share), postponed->sweeps = lanes_all(sweeps / share);
 }
 
 /* Takes so many looks from what each of the rays has left; returns what that is then. */
-LANES_INLINE lane_mask packet_spend(struct packet *p, lane_mask looks)
-{
-  lane_mask left;
-  memcpy(&left, p->postponed->looks, sizeof left);
-  left -= looks;
-  memcpy(p->postponed->looks, &left, sizeof left);
-  return left;
-}
+LANES_INLINE lane_mask packet_spend(struct packet *p, lane_mask looks) { return p->postponed->looks -= looks; }
 
 /* No leaf has been tried on the rays, whose directions and ends are set. */
 LANES_INLINE void packet_untried(struct packet *p)

@@ -2,75 +2,13 @@
  *
  * Compiled once per instruction set; the table of this compilation is KERNEL(kernel), see names.h.
  */
+#include "intersect/lanes/bundle.h"
 #include "intersect/lanes/gather.h"
-#include "intersect/lanes/view.h"
 #include "intersect/lanes/waiting.h"
 #include "intersect/prepare/leaf.h"
 
-struct bundle {
-  struct packet packet[PACKETS];
-  int packets; /* those that are not empty */
-  struct later later;
-  struct view view;
-  unsigned live; /* bit k: ray k still looks for a hit */
-};
-
-/* Takes over where its packets' rays end now. */
-static void bundle_update(struct bundle *b)
-{
-  b->live = 0;
-  for (int h = 0; h < b->packets; h++) b->live |= lanes_bits(b->packet[h].live) << h * LANES;
-  view_set_ends(&b->view, b->packet, b->packets);
-}
-
-/* The rays in the frame of that tree from now on. */
-static void bundle_start(struct bundle *b, const struct model_tree *tree)
-{
-  view_set(&b->view, b->packet, b->packets, tree);
-  bundle_update(b);
-}
-
-/* Out of line, for it is rare: these rays have taken all they may. */
-__attribute__((noinline)) static void bundle_let_go(struct bundle *b, unsigned rays)
-{
-  for (struct packet *p = b->packet; rays; p++, rays >>= LANES) {
-    const unsigned here = rays & lanes_bits(p->live);
-    if (here && !p->oriented) packet_orient(p);
-    if (here) packet_give_up(p, here);
-  }
-  bundle_update(b);
-}
-
-/* The rays have looked at so many boxes together: each is told to have looked at all of them, for what a ray looks at
- * alone is among them. */
-static void bundle_looked(struct bundle *b, int64_t looks)
-{
-  unsigned worn = 0;
-  for (int h = 0; h < b->packets; h++) {
-    const lane_mask left = packet_spend(&b->packet[h], looks + (lane_mask){0});
-    worn |= lanes_bits(left < 0) << h * LANES;
-  }
-  if (worn & b->live) bundle_let_go(b, worn & b->live);
-}
-
-/* One ray looks at a box. Returns whether it may. */
-LANES_INLINE bool ray_looks(struct bundle *b, unsigned lane)
-{
-  if (--b->packet[lane / LANES].postponed->looks[lane % LANES] >= 0) return true;
-  bundle_let_go(b, 1u << lane);
-  return false;
-}
-
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
 static void bundle_walk_all(struct bundle *b, const struct model_tree *tree);
-
-/* Whether leaves are put off from here on. */
-LANES_INLINE void bundle_set_later(struct bundle *b, bool later)
-{
-  b->later.count = 0;
-  for (int h = 0; h < b->packets; h++)
-    b->packet[h].later = later ? &b->later : NULL, b->packet[h].first_ray = (unsigned)h * LANES;
-}
 
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
@@ -267,25 +205,11 @@ LANES_INLINE bool ray_down(const struct bundle *b, const struct bvh *bvh, struct
   return true;
 }
 
-/* Puts the leaf off for packets whose rays all start in its slab. Returns the rays that are to be tried on it now. */
-LANES_INLINE unsigned put_off(struct bundle *b, uint32_t index, unsigned rays)
-{
-  const struct model *model = b->packet[0].model;
-  if (!b->packet[0].later || index >= model->leaf_count) return rays;
-  const unsigned others = rays & ~view_starts(&b->view, &model->oriented[index]);
-  unsigned now = 0;
-  for (int h = 0; h < PACKETS; h++) {
-    const unsigned all = ((1u << LANES) - 1) << h * LANES;
-    if (others & all) now |= rays & all;
-  }
-  return rays != now && later_add(&b->later, index, rays & ~now) ? now : rays;
-}
-
 /* Whether the ray passes that leaf's box and is to be tried on the leaf now, which is sent for then. */
 LANES_INLINE bool ray_passes(struct bundle *b, uint32_t box, unsigned lane)
 {
   const struct model *model = b->packet[0].model;
-  if (!box_passed(b, box, 1u << lane) || !put_off(b, box, 1u << lane)) return false;
+  if (!box_passed(b, box, 1u << lane) || !bundle_put_off(b, box, 1u << lane)) return false;
   if (box < model->leaf_count) fetch_leaf(model, box);
   return true;
 }
@@ -422,7 +346,7 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
     if (child & (uint32_t)BVH_LEAF) {
       const uint32_t box = child & ~(uint32_t)BVH_LEAF;
       rays = box_passed(b, box, rays);
-      if (rays) rays = put_off(b, box, rays);
+      if (rays) rays = bundle_put_off(b, box, rays);
       if (rays && box < b->packet[0].model->leaf_count) fetch_leaf(b->packet[0].model, box);
       if (rays) bundle_leaf(b, tree, box, rays);
     } else if (__builtin_popcount(rays) <= few) {
@@ -492,19 +416,21 @@ LANES_INLINE void bundle_closest(struct tracer *tracer, size_t count, const stru
 
 /* Where nothing is hit all boxes and leaves come to a ray in any order; else it is hit in any, or may be. So its share
  * may end where it does; but one that has had what others looked at counted, too, is asked alone. */
-LANES_INLINE void bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
+LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
   struct ready ready[PACKETS];
   struct bundle bundle;
   bundle_begin(&bundle, ready, tracer, count, rays, true, SHARE_ALONE);
   bundle_walk_all(&bundle, &tracer->model->tree);
+  bool let_go = false;
   for (size_t h = 0; h < packets_of(count); h++) {
     const struct packet *packet = &bundle.packet[h];
     const unsigned hit = finish_occluded(packet);
-    tracer->worn |= ready[h].postponed.cut_off != 0;
+    let_go |= ready[h].postponed.cut_off != 0;
     for (size_t l = 0; l < packet->count; l++) out_occluded[h * LANES + l] = hit >> l & 1;
     tracer->counts.rays[1] += packet->count;
   }
+  return let_go;
 }
 
 LANES_INLINE int share_of(const struct tracer *tracer, size_t count)
@@ -524,14 +450,13 @@ static void closest(struct tracer *tracer, size_t count, const struct ray rays[]
     bundle_closest(tracer, count - first, rays + first, out_hits + first, share);
 }
 
-static void occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
+static bool occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
-  if (count == 1) {
-    bundle_occluded(tracer, 1, rays, out_occluded);
-    return;
-  }
+  if (count == 1) return bundle_occluded(tracer, 1, rays, out_occluded);
+  bool let_go = false;
   for (size_t first = 0; first < count; first += FLOAT_LANES)
-    bundle_occluded(tracer, count - first, rays + first, out_occluded + first);
+    let_go |= bundle_occluded(tracer, count - first, rays + first, out_occluded + first);
+  return let_go;
 }
 
 /* Adds the lists' hits to tracer->hits one behind the other; where they are is known when all of them are there. */

@@ -1,0 +1,87 @@
+/* A bundle: the packets whose rays go together, where they are in a tree, what each may still look at, and the leaves that
+ * they put off.
+ *
+ * Internal to src/intersect/lanes: walk.c includes it.
+ */
+#ifndef PSCN_INTERSECT_LANES_BUNDLE_H
+#define PSCN_INTERSECT_LANES_BUNDLE_H
+
+#include "intersect/lanes/view.h"
+
+struct bundle {
+  struct packet packet[PACKETS];
+  int packets; /* those that are not empty */
+  struct later later;
+  struct view view;
+  unsigned live; /* bit k: ray k still looks for a hit */
+};
+
+/* Takes over where its packets' rays end now. */
+static void bundle_update(struct bundle *b)
+{
+  b->live = 0;
+  for (int h = 0; h < b->packets; h++) b->live |= lanes_bits(b->packet[h].live) << h * LANES;
+  view_set_ends(&b->view, b->packet, b->packets);
+}
+
+/* The rays in the frame of that tree from now on. */
+static void bundle_start(struct bundle *b, const struct model_tree *tree)
+{
+  view_set(&b->view, b->packet, b->packets, tree);
+  bundle_update(b);
+}
+
+/* Out of line, for it is rare: these rays have taken all they may. */
+__attribute__((noinline)) static void bundle_let_go(struct bundle *b, unsigned rays)
+{
+  for (struct packet *p = b->packet; rays; p++, rays >>= LANES) {
+    const unsigned here = rays & lanes_bits(p->live);
+    if (here && !p->oriented) packet_orient(p);
+    if (here) packet_give_up(p, here);
+  }
+  bundle_update(b);
+}
+
+/* The rays have looked at so many boxes together: each is told to have looked at all of them, for what a ray looks at
+ * alone is among them. */
+static void bundle_looked(struct bundle *b, int64_t looks)
+{
+  unsigned worn = 0;
+  for (int h = 0; h < b->packets; h++) {
+    const lane_mask left = packet_spend(&b->packet[h], looks + (lane_mask){0});
+    worn |= lanes_bits(left < 0) << h * LANES;
+  }
+  if (worn & b->live) bundle_let_go(b, worn & b->live);
+}
+
+/* One ray looks at a box. Returns whether it may. */
+LANES_INLINE bool ray_looks(struct bundle *b, unsigned lane)
+{
+  if (--b->packet[lane / LANES].postponed->looks[lane % LANES] >= 0) return true;
+  bundle_let_go(b, 1u << lane);
+  return false;
+}
+
+/* Whether leaves are put off from here on. */
+LANES_INLINE void bundle_set_later(struct bundle *b, bool later)
+{
+  b->later.count = 0;
+  for (int h = 0; h < b->packets; h++)
+    b->packet[h].later = later ? &b->later : NULL, b->packet[h].first_ray = (unsigned)h * LANES;
+}
+
+/* Puts the leaf off for packets whose rays all start in its slab. Returns the rays that are to be tried on it now. */
+LANES_INLINE unsigned bundle_put_off(struct bundle *b, uint32_t index, unsigned rays)
+{
+  const struct model *model = b->packet[0].model;
+  if (!b->packet[0].later || index >= model->leaf_count) return rays;
+  const unsigned others = rays & ~view_starts(&b->view, &model->oriented[index]);
+  unsigned now = 0;
+  for (int h = 0; h < PACKETS; h++) {
+    const unsigned all = ((1u << LANES) - 1) << h * LANES;
+    if (others & all) now |= rays & all;
+  }
+  return rays != now && later_add(&b->later, index, rays & ~now) ? now : rays;
+}
+
+#endif
