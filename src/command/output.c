@@ -70,7 +70,7 @@ enum status output_format(const struct command *command, const char *path, enum 
 enum status output_spare(const struct command *command, const char *path, const char *other)
 {
   if (path == NULL || other == NULL) return STATUS_OK;
-  const char *file = output_is_standard(path) && strcmp(path, other) != 0 ? "/dev/stdout" : path;
+  const char *file = output_is_standard(path) && !output_is_standard(other) ? "/dev/stdout" : path;
   if (strcmp(file, other) != 0 && !input_same(file, other)) return STATUS_OK;
   return command_usage(command, "'%s' and '%s' are one file and must be two", file, other);
 }

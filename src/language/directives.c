@@ -17,11 +17,6 @@ static void tell_open_comment(struct language *language)
   language_tell(language, sources_span(frame, begin, begin + 2), "this comment is not closed");
 }
 
-static void tell_open_string(struct language *language)
-{
-  language_tell(language, sources_here(language), "this quote is not closed");
-}
-
 /* ---- conditions ---- */
 
 /* Skips to the #end of a condition, or if `to_else` to its #else; what is skipped may hold conditions of its own,
@@ -39,7 +34,7 @@ static int skip_branch(struct language *language, bool to_else, bool foreign, st
     switch (token) {
     case 0: return token;
     case TOKEN_OPEN_COMMENT: tell_open_comment(language); break;
-    case TOKEN_OPEN_STRING: tell_open_string(language); break;
+    case TOKEN_OPEN_STRING: sources_tell_open_string(language); break;
     case TOKEN_IFDEF:
     case TOKEN_IFNDEF:
     case TOKEN_MACRO:
@@ -200,7 +195,7 @@ bool directives_pass(struct language *language, int token)
   case TOKEN_ELSE:
   case TOKEN_ENDIF: end_condition(language, token); return true;
   case TOKEN_OPEN_COMMENT: tell_open_comment(language); return true;
-  case TOKEN_OPEN_STRING: tell_open_string(language); return true;
+  case TOKEN_OPEN_STRING: sources_tell_open_string(language); return true;
   case TOKEN_BAD_CHARACTER:
     if (!language->tokens->skipping) language_error(language, sources_here(language), "this means nothing here");
     return true;

@@ -324,13 +324,21 @@ static struct source *read_included(struct language *language, struct span place
   return source;
 }
 
+void sources_tell_open_string(struct language *language)
+{
+  language_tell(language, sources_here(language), "this quote is not closed");
+}
+
 void sources_include(struct language *language)
 {
   const int token = pscn_scan_next(&language->sources->frame->scan);
   const struct span place = sources_here(language);
+  if (token == TOKEN_OPEN_STRING) {
+    sources_tell_open_string(language);
+    return;
+  }
   if (token != PSCN_TOKEN_STRING) {
-    language_tell(language, place,
-                  token == TOKEN_OPEN_STRING ? "this quote is not closed" : "#include wants a file name in quotes");
+    language_tell(language, place, "#include wants a file name in quotes");
     return;
   }
   if (language->symbols->depth == MAX_INCLUDE_DEPTH) {

@@ -43,6 +43,9 @@ bool sources_list(const struct language *language, struct scene *scene);
 /* Reads the file name behind #include and begins to read that file, or tells an error. */
 void sources_include(struct language *language);
 
+/* At a quote that is not closed. */
+void sources_tell_open_string(struct language *language);
+
 /* What may stand behind the name of an included file, in the order in which it is looked for, up to NULL: as POV-Ray does,
  * .inc and .INC come first where a name ends in neither. */
 enum { MAX_ENDING = 4 };
