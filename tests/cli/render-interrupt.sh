@@ -21,7 +21,7 @@ ls -A
 (trap '' HUP PIPE
 pscn render "$scene" -o kept.png --size 60x40 --samples 24 --quiet &
 sleep 0.2
-kill -HUP $!
+kill -HUP $! 2>/dev/null
 wait $!
 echo "exit $?"
 (sleep 0.2; pscn dump "$scene" 2>err; echo "exit $?" >code) | true

@@ -2,15 +2,20 @@
 scene="$SCENES/bent.pscn --size 300x200 --samples 10"
 pscn render $scene -o one.exr --quiet
 all=$((300 * 200 * 10 * 10))
-# end SIGNAL FILE OPTION...: ends a rendering by the signal when a part of it is done.
+# end SIGNAL FILE OPTION...: ends a rendering by the signal when a part of it is done. On a busy machine it may be done
+# before the signal comes; then it is begun again.
 end() {
-  local signal=$1 file=$2
+  local signal=$1 file=$2 status
   shift 2
-  pscn render $scene -o $file --threads 1 --checkpoint 0.2 "$@" 2>said &
-  for wait in {1..200}; do [ -e $file.part.exr ] && break || sleep 0.05; done
-  kill -$signal $!
-  wait $! 2>/dev/null
-  echo "exit $?"
+  for attempt in {1..20}; do
+    rm -f $file
+    pscn render $scene -o $file --threads 1 --checkpoint 0.2 "$@" 2>said &
+    for wait in {1..200}; do [ -e $file.part.exr ] && break || sleep 0.05; done
+    kill -$signal $! 2>/dev/null
+    wait $! 2>/dev/null && status=0 || status=$?
+    [ $status = 0 ] || break
+  done
+  echo "exit $status"
   [ $# -gt 0 ] || sed -n '/interrupted/s/the [0-9]* %/so many %/p' said # else it may end before it begins
   rm -f said
   [ -e $file ] && echo "$file is there"
