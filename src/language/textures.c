@@ -117,6 +117,10 @@ void finish_number(struct language *language, int part, const struct value *valu
   double x;
   texture->stage = STAGE_BODY;
   if (!value_to_number(language, value, &x)) return;
+  if (!value_is_float(x)) {
+    language_error(language, value->place, "a finish's numbers must be from -3.4e38 to 3.4e38");
+    return;
+  }
   if (part == PART_ROUGHNESS && !((float)x > 0)) { /* POV-Ray's are floats, and it passes over a 0 */
     language_error(language, value->place, "roughness must be above 0");
     return;

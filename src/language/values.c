@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/number.h"
 #include "language/sources.h"
@@ -276,10 +277,18 @@ void value_to_vector(struct language *language, const struct value *a, double ou
   for (int k = 0; k < 3; k++) out[k] = a->x[k];
 }
 
+bool value_is_float(double x) { return fabs(x) <= (double)FLT_MAX; }
+
 void value_to_colour(struct language *language, const struct value *a, double out[3])
 {
   if (!usable(language, a, "a colour")) return;
-  for (int k = 0; k < 3; k++) out[k] = a->x[k];
+  for (int k = 0; k < 3; k++) {
+    if (!value_is_float(a->x[k])) {
+      language_error(language, a->place, "a colour's parts must be from -3.4e38 to 3.4e38");
+      return;
+    }
+  }
+  memcpy(out, a->x, sizeof a->x);
 }
 
 void value_to_opaque(struct language *language, const struct value *a, double out[3])

@@ -37,10 +37,12 @@ struct value *value_last(struct language *language, struct value *value);
 
 /* What is wanted, or an error. Nothing is written to `out` then; value_to_number answers false. */
 void value_to_vector(struct language *language, const struct value *a, double out[3]);
-void value_to_colour(struct language *language, const struct value *a, double out[3]);
+void value_to_colour(struct language *language, const struct value *a, double out[3]); /* of parts that are floats */
 bool value_to_number(struct language *language, const struct value *a, double *out);
 /* As value_to_colour, where POV-Ray heeds transparency: a colour that has some there, or a bare number, is an error. */
 void value_to_opaque(struct language *language, const struct value *a, double out[3]);
+/* Whether x is within a float's range, as POV-Ray's colours and finishes are: then products of some are doubles. */
+bool value_is_float(double x);
 /* As a number in [low, high], or an error saying that `what` must be so, and false. */
 bool value_in_range(struct language *language, const struct value *a, const char *what, double low, double high,
                     bool whole, double *out);

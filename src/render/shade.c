@@ -2,6 +2,7 @@
  * J. F. Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977 (the half vector). */
 #include "render/shade.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -24,13 +25,17 @@ static const struct scene_texture *texture_of(const struct scene *scene, const s
   return &scene->textures[scene->patches[hit->patch].texture];
 }
 
+/* A cosine, not above 1 but by rounding, to a power that may be as large or as negative as a float: no larger than one, so
+ * that times the colours, which are floats too, it is a number. */
+static double power(double cosine, double exponent) { return fmin(pow(fmin(cosine, 1), exponent), FLT_MAX); }
+
 static double phong(const struct view *view, const double to_light[3])
 {
   double reflected[3];
   vector_add_scaled(view->toward, -2 * vector_dot(view->toward, view->normal), view->normal, reflected);
   const double cosine = vector_dot(reflected, to_light);
   const struct scene_finish *finish = &view->texture->finish;
-  return cosine > 0 ? finish->phong * pow(cosine, finish->phong_size) : 0;
+  return cosine > 0 ? finish->phong * power(cosine, finish->phong_size) : 0;
 }
 
 static double specular(const struct view *view, const double to_light[3])
@@ -40,7 +45,7 @@ static double specular(const struct view *view, const double to_light[3])
   const double length = vector_length(half);
   const double cosine = length > 0 ? vector_dot(half, view->normal) / length : 0;
   const struct scene_finish *finish = &view->texture->finish;
-  return cosine > 0 ? finish->specular * pow(cosine, 1 / finish->roughness) : 0;
+  return cosine > 0 ? finish->specular * power(cosine, 1 / finish->roughness) : 0;
 }
 
 /* Adds what a visible light gives; to_light is the unit vector L, cosine = N.L > 0. */
@@ -48,7 +53,7 @@ static void add_light(const struct view *view, const struct scene_light *light, 
                       double rgb[3])
 {
   const struct scene_finish *finish = &view->texture->finish;
-  const double part = finish->brilliance == 1 ? cosine : pow(cosine, finish->brilliance);
+  const double part = finish->brilliance == 1 ? cosine : power(cosine, finish->brilliance);
   const double diffuse = finish->diffuse > 0 ? finish->diffuse * part : 0; /* as the highlights: nothing darkens */
   double highlight = 0;
   if (!light->shadowless) {

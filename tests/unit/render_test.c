@@ -1,6 +1,7 @@
 /* Rendering: the same pixels for any threads and crop, colours by the shading formulas, channels, samples. */
 #include "render/render.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -232,6 +233,37 @@ static void colours_follow_the_formulas(void **state)
 }
 
 /* What is hidden from the only light has the ambient colour, unless the light is shadowless. */
+/* Powers, colours and products as large as a scene can ask for are too bright for a float at most. */
+static void extreme_colours_are_numbers(void **state)
+{
+  (void)state;
+  struct scene scene = scene_of();
+  const struct scene_texture saved = texture;
+  const struct scene_light light = lights[0];
+  const double most = FLT_MAX, powers[] = {-most, -40, 40, most}, colours[] = {-most, 0, most};
+  const struct render_options options = options_of("rgb");
+  for (size_t p = 0; p < 4; p++) {
+    for (size_t c = 0; c < 9; c++) {
+      const double pigment = colours[c % 3], shine = colours[c / 3];
+      texture = (struct scene_texture){.pigment = {pigment, 0, -pigment},
+                                       .finish = {.ambient = {most, most, -most},
+                                                  .diffuse = most,
+                                                  .brilliance = powers[p],
+                                                  .phong = most,
+                                                  .phong_size = powers[p],
+                                                  .specular = most,
+                                                  .roughness = 1 / powers[p]}};
+      lights[0].color[0] = shine, lights[0].color[1] = 0, lights[0].color[2] = -shine;
+      struct render_stats stats;
+      float *out = render(&scene, &options, &stats);
+      for (size_t k = 0; k < (size_t)WIDTH * HEIGHT * 3; k++) assert_true(out[k] <= INFINITY);
+      free(out);
+    }
+  }
+  texture = saved;
+  lights[0] = light;
+}
+
 static void shadows_are_cast(void **state)
 {
   (void)state;
@@ -429,15 +461,11 @@ static void a_stopped_rendering_says_so(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(threads_and_crop_change_nothing),
-    cmocka_unit_test(nor_do_they_with_warm_starts),
-    cmocka_unit_test(crop_counts_only_its_rays),
-    cmocka_unit_test(colours_follow_the_formulas),
-    cmocka_unit_test(shadows_are_cast),
-    cmocka_unit_test(a_light_may_lie_on_a_surface),
-    cmocka_unit_test(channels_tell_of_the_hit),
-    cmocka_unit_test(channels_tell_of_the_solver),
-    cmocka_unit_test(samples_are_a_finer_picture),
+    cmocka_unit_test(threads_and_crop_change_nothing), cmocka_unit_test(nor_do_they_with_warm_starts),
+    cmocka_unit_test(crop_counts_only_its_rays),       cmocka_unit_test(colours_follow_the_formulas),
+    cmocka_unit_test(extreme_colours_are_numbers),     cmocka_unit_test(shadows_are_cast),
+    cmocka_unit_test(a_light_may_lie_on_a_surface),    cmocka_unit_test(channels_tell_of_the_hit),
+    cmocka_unit_test(channels_tell_of_the_solver),     cmocka_unit_test(samples_are_a_finer_picture),
     cmocka_unit_test(a_stopped_rendering_says_so),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
