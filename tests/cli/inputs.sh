@@ -1,6 +1,6 @@
 # What is read is a file or a pipe; what has no end is refused at once, whoever asks for it.
 scene=$SCENES/flat.pscn
-within() { try timeout 20 "$@"; }
+within() { try timeout 100 "$@"; }
 for device in /dev/zero /dev/full /dev/null /dev/random; do
   within pscn compare $device $device
   within pscn dump $device
@@ -24,8 +24,8 @@ for name in loop device.pscn/x "$(printf 'x%.0s' {1..300})"; do within pscn dump
 nuls() { head -c 4000000 /dev/zero; }
 nuls >nuls
 within pscn dump nuls
-(printf '//' && nuls) | timeout 20 pscn dump - | cmp - <(pscn dump - </dev/null) && echo a comment
-(printf '/*' && nuls && printf '*/') | timeout 20 pscn dump - | cmp - <(pscn dump - </dev/null) && echo a comment
+(printf '//' && nuls) | timeout 100 pscn dump - | cmp - <(pscn dump - </dev/null) && echo a comment
+(printf '/*' && nuls && printf '*/') | timeout 100 pscn dump - | cmp - <(pscn dump - </dev/null) && echo a comment
 (printf '#include "' && nuls) | within pscn dump - 2>&1 | cut -c 1-60
 truncate -s 4G empty.exr
 within pscn compare empty.exr empty.exr

@@ -43,8 +43,8 @@ dialogue() { # WHAT COMMAND...: writes `one` and `two` in turn, and waits in bet
   exec 3>&- 4<&-
   wait
 }
-line() { timeout 20 head -n 1; }
-record() { timeout 20 head -c 56 | LC_ALL=C od -A n -v -t f8 -w56 | sed 's/  */ /g'; }
+line() { timeout 100 head -n 1; }
+record() { timeout 100 head -c 56 | LC_ALL=C od -A n -v -t f8 -w56 | sed 's/  */ /g'; }
 dialogue record --binary
 echo '0 0 -4 0 0 1' >one
 echo '9 0 -4 0 0 1' >two
