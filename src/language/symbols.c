@@ -288,6 +288,8 @@ void declare_macro(struct language *language, const struct name *name, struct ma
 
 void declare_lost(struct language *language, const struct name *name)
 {
+  const struct symbol *known = find(language->symbols, name->text, name->length, -1);
+  if (known && known->kind == SYMBOL_FOREIGN && known->lost) return; /* by an earlier call, say */
   struct declaration *declaration = begin(language, name, false);
   language_foreign(language, name->place, "'%.*s' is declared by this macro, which is passed over", (int)name->length,
                    name->text);

@@ -51,3 +51,16 @@ empty_unions() {
   yes 'object { Hollow }' | head -n 20000
 }
 empty_unions | within pscn dump - 2>&1 | grep -c 'bicubic_patch\|exit'
+# What a macro declares is lost once, however often it is called.
+declaring_macros() {
+  for macro in {A..T}; do
+    echo "#macro $macro()"
+    printf '#declare N%s = 1;\n' $macro{A..L}{A..T}
+    echo '#end'
+  done
+  echo '#macro All()' {A..T}'()' '#end'
+  echo '#declare Unused = union {'
+  yes 'All()' | head -n 2000
+  echo '}'
+}
+declaring_macros | within pscn dump - --max-memory 100M 2>&1 | grep 'rror\|exit'
