@@ -4,7 +4,8 @@
  * scratch memory and its warm starts. No call on a tracer allocates or fails, but tracer_all.
  *
  * What an answer promises (with `polish on`, the default): of all points where the exact ray meets the exact patches, a
- * hit is the nearest with t in (t_min, t_max); a miss has none. `certain` means this is proven; `grazing` means that
+ * hit is the nearest with t in (t_min, t_max), or on the first of the patches that it is that near on (exact/ties.c); a miss
+ * has none. `certain` means this is proven; `grazing` means that
  * the answer can be turned by a change of the input within the rounding bound of the evaluation (a tangency, the border
  * of an open surface, a coincident component): then a hit is reported where a hit cannot be excluded, but for one that
  * 113 bits cannot tell from t_min or t_max, which is left out. Corners and poles are given points: the nearest hit is certain
