@@ -197,6 +197,8 @@ colour:
   | COLOR RGBFT expression %prec ITEM          { $$ = value_rgbft(language, $3, 5, span_join($1, $3->place)); }
   | COLOR RGBF four                            { $$ = value_placed($3, span_join($1, $3->place)); }
   | COLOR RGBFT five                           { $$ = value_placed($3, span_join($1, $3->place)); }
+  | expression part expression %prec ITEM
+                                               { $$ = value_bare_part(language, $1, $2, $3, span_join($1->place, $3->place)); }
   | part expression %prec ITEM                 { $$ = value_part(language, NULL, $1, $2, $2->place); }
   | COLOR part expression %prec ITEM           { $$ = value_part(language, NULL, $2, $3, span_join($1, $3->place)); }
   | colour part expression %prec ITEM

@@ -260,6 +260,8 @@ static void symbol_set(struct symbol *symbol, const struct value *value)
 /* A value that is but the name of something else declares another name for it. */
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value)
 {
+  if (value->bare)
+    language_error(language, value->place, "POV-Ray ends a declaration before the part of a colour; write color first");
   struct symbol *symbol = declare_end(language, declaration);
   declaration->outer = language->symbols->ended;
   language->symbols->ended = declaration;

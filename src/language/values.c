@@ -218,6 +218,14 @@ struct value *value_part(struct language *language, struct value *colour, int pa
   return colour;
 }
 
+struct value *value_bare_part(struct language *language, struct value *colour, int part, struct value *value,
+                              struct span place)
+{
+  colour = value_part(language, colour, part, value, place);
+  colour->bare = colour->kind == VALUE_COLOUR;
+  return colour;
+}
+
 struct value *value_wide(struct language *language, struct value *red, struct value *green, struct value *blue,
                          struct value *filter, struct value *transmit, struct span place)
 {

@@ -29,6 +29,9 @@ struct value *value_color(struct language *language, struct value *a, struct spa
 struct value *value_rgbft(struct language *language, struct value *a, int parts, struct span place);
 struct value *value_wide(struct language *language, struct value *red, struct value *green, struct value *blue,
                          struct value *filter, struct value *transmit, struct span place);
+/* A colour without rgb or color, with one part said by name, as by value_part. */
+struct value *value_bare_part(struct language *language, struct value *colour, int part, struct value *value,
+                              struct span place);
 /* A colour, black where NULL, with one part said by name: 0 red, 1 green, 2 blue, 3 filter or transmit. */
 struct value *value_part(struct language *language, struct value *colour, int part, struct value *value,
                          struct span place);
