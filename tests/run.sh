@@ -29,8 +29,8 @@ TEST_PACKAGES=(chromium clang-format dpkg-dev libcmocka-dev libflint-arb-dev loc
   povray-examples povray-includes parallel python3-numpy)
 # Of 1. Sanitized code looks for faults of memory and arithmetic, which show on few rays.
 QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.002
-# Hundreds of pictures and their comparison with a peer's: the code they run is looked at by other tests already.
-ASAN_WITHOUT='^(peers-(parity|random|shading|compare-idiff|kinds|examples|farm-slurm)|paper-counts)$'
+# Hundreds of pictures and their comparison with a peer's, and arithmetic: the code they run is looked at by other tests already.
+ASAN_WITHOUT='^(peers-(parity|random|shading|compare-idiff|kinds|examples|farm-slurm)|paper-counts|property-refine)$'
 JOBS=$(nproc)
 
 # build PRESET [OPTION...]
@@ -45,11 +45,12 @@ build() {
   cmake --build "build-$preset" -- -j "$JOBS"
 }
 
-# run PRESET EFFORT [OPTION...]: ctest, where EFFORT stands unless PSCN_EFFORT is set.
+# run PRESET EFFORT [OPTION...]: ctest, where EFFORT stands unless PSCN_EFFORT is set. A test more than there are processors:
+# some wait for other programs.
 run() {
   local preset=$1 effort=${PSCN_EFFORT:-$2}
   shift 2
-  PSCN_EFFORT=$effort ctest --test-dir "build-$preset" --output-on-failure --no-tests=error -j "$JOBS" "$@"
+  PSCN_EFFORT=$effort ctest --test-dir "build-$preset" --output-on-failure --no-tests=error -j $((JOBS + 1)) "$@"
 }
 
 # A German locale of our own: nothing is changed outside the build folder.

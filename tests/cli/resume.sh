@@ -1,7 +1,7 @@
 # What ends a rendering costs little of its work: --resume goes on to the same bits, or says what has changed.
-scene="$SCENES/bent.pscn --size 300x200 --samples 10"
+scene="$SCENES/bent.pscn --size 300x200 --samples 7"
 pscn render $scene -o one.exr --quiet
-all=$((300 * 200 * 10 * 10))
+all=$((300 * 200 * 7 * 7))
 # end SIGNAL FILE OPTION...: ends a rendering by the signal when a part of it is done. On a busy machine it may be done
 # before the signal comes; then it is begun again.
 end() {

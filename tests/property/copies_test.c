@@ -12,7 +12,7 @@
 
 enum {
   SEED = 20261121,
-  RAYS = 512,
+  RAYS = 256,
   PATCHES = 1100,
   PACKET = 8,
   FAR_SCENES = 24,
