@@ -31,6 +31,8 @@ TEST_PACKAGES=(chromium clang-format dpkg-dev libcmocka-dev libflint-arb-dev loc
 QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.002
 # Hundreds of pictures and their comparison with a peer's, and arithmetic: the code they run is looked at by other tests already.
 ASAN_WITHOUT='^(peers-(parity|random|shading|compare-idiff|kinds|examples|farm-slurm)|paper-counts|property-refine)$'
+# What would find the same again, without sanitizers less.
+ALL_WITHOUT='^fault-(commands|files)$'
 JOBS=$(nproc)
 
 # build PRESET [OPTION...]
@@ -83,7 +85,7 @@ case ${1:-} in
     fi
     status=0
     LOCPATH=$(comma_locale build-asan) LC_ALL=de_DE.UTF-8 run asan "$ASAN_EFFORT" -E "$ASAN_WITHOUT" || status=$?
-    run dev "$ALL_EFFORT" || status=$?
+    run dev "$ALL_EFFORT" -E "$ALL_WITHOUT" || status=$?
     exit "$status"
     ;;
   *) run dev "$ALL_EFFORT" --verbose --tests-regex "^($(IFS='|' && echo "$*"))\$" ;;
