@@ -5,14 +5,15 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "base/kernel.h"
+
 /* What main returns: what run() does, or TEST_SKIP. run() must not be inlined into main, which runs on all. */
 static inline int lanes_main(int (*run)(void))
 {
 #if defined(__AVX512F__)
-  const bool here = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                    __builtin_cpu_supports("avx512vl");
+  const bool here = KERNEL_RUNS_AVX512;
 #elif defined(__AVX2__)
-  const bool here = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const bool here = KERNEL_RUNS_AVX2;
 #else
   const bool here = true;
 #endif

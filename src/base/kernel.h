@@ -15,7 +15,9 @@
 #define KERNEL_TEXT_EXPANDED(kernel) KERNEL_TEXT(kernel)
 #define KERNEL_NAME KERNEL_TEXT_EXPANDED(PSCN_KERNEL)
 
-#define KERNEL_RUNS_AVX2 (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+#define KERNEL_RUNS_AVX2                                                                               \
+  (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") && \
+   __builtin_cpu_supports("bmi2"))
 #define KERNEL_RUNS_AVX512                                                                        \
   (KERNEL_RUNS_AVX2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && \
    __builtin_cpu_supports("avx512vl"))
