@@ -51,6 +51,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (lanes_any(many)) open &= ~candidate_worn(p, it, many);
   if (p->postponed->full) {
     const lane_mask full = open & lanes_mask(p->postponed->full);
+    (void)packet_spend(p, full & LOOKS_DEAR);
     packet_postpone(p, it->leaf, full), open &= ~full;
   }
   if (!lanes_any(open)) return;
@@ -64,6 +65,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     open = candidate_put_off(p, it, open);
     if (!lanes_any(open)) return;
   }
+  (void)packet_spend(p, open & LOOKS_DEAR); /* the next leaf asks what is left */
   entered[STAGE_PLANES] += lanes_count(open);
   open = stage_planes(it, open);
   if (lanes_any(open & it->along)) /* nothing that follows could decide that */

@@ -45,11 +45,11 @@ struct line {
   lanes error;
 };
 
-/* What counts as so many of the looks that a ray may take (MOST_LOOKS): a leaf that it meets, whose boxes it passes; one
- * whose slab it does not pass by in doubles, either, so that it is tried, which may leave dear things open, 4,096 of them in
- * all; and to make one that is not kept. Where hits are gathered, which take their time themselves, there are so many times as
- * many. */
-enum { LOOKS_MET = 4, LOOKS_TRIED = 508, LOOKS_MADE = 32, LOOKS_OF_ALL = 4 };
+/* What counts as so many of the looks that a ray may take (MOST_LOOKS): a leaf that it meets, whose boxes it passes; besides,
+ * one whose slab it does not pass by in doubles, either, so that it is tried, 65,536 of them in all; one that the quadric leaves
+ * open, so that dear stages decide it, 4,096 of them; and to make one that is not kept. Where hits are gathered, which take
+ * their time themselves, there are so many times as many. */
+enum { LOOKS_MET = 4, LOOKS_TRIED = 28, LOOKS_DEAR = 480, LOOKS_MADE = 32, LOOKS_OF_ALL = 4 };
 
 /* What else it may cost: leaves that are left open, after which the others are left open as they are, for the last
  * resort looks at all of a patch's at once (where hits are gathered they are told as known then); the splits of boxes
