@@ -195,8 +195,9 @@ static enum status compare(const struct command *command, const struct request *
   if (request->output != NULL && output_format(command, request->output, &format) != STATUS_OK) return STATUS_USAGE;
   enum status status = output_spare(command, request->output, request->first);
   if (status == STATUS_OK) status = output_spare(command, request->output, request->second);
-  if (status == STATUS_OK) status = output_spare(command, "-", request->first);
-  if (status == STATUS_OK) status = output_spare(command, "-", request->second);
+  const char *const pictures[2] = {request->first, request->second}; /* files: "-" is the name of one */
+  for (int k = 0; k < 2 && status == STATUS_OK; k++)
+    if (!output_is_standard(pictures[k])) status = output_spare(command, "-", pictures[k]);
   if (status == STATUS_OK) status = output_probe(command, request->output);
   if (status != STATUS_OK) return status;
   struct subject subject = {0};

@@ -18,14 +18,16 @@
  * call. Functions answer a status; what was wrong, and where, is kept with the scene until it is asked for.
  *
  * What an answer promises: of all points where the ray meets the patches, as both are given in doubles, the hit is the
- * nearest with t_min < t < t_max, and a miss has none. (Points no farther apart than 2^-95 of their patch, or 2^-105 of t,
- * have one t; of these the hit is on the patch that stands first.) `certain` is 1 where this is proven. It is 0,
+ * nearest with t_min < t < t_max, and a miss has none. (Points no farther apart than 2^-95 of their patch, or 2^-105
+ * of t, have one t; of these the hit is on the patch that stands first.) `certain` is 1 where this is proven. It is 0,
  * "grazing", where a change of the input within the rounding of the last digits could turn the answer: a tangency, the
- * border of an open surface, a ray that lies in a surface. Then a hit is answered where one cannot be excluded; only one so near t_min or
- * t_max that 113 bits cannot tell on which side it lies is left out. The corner of a patch, or a border that is one point, is a
- * given point: a ray that meets it exactly hits it, and the nearest hit is certain, though the surface may be open there; of
- * all hits it is grazing then. What one ray may cost is limited: what is not
- * known by then is grazing too. (Of patches whose solver says `polish off` nothing is proven.)
+ * border of an open surface, a ray that lies in a surface. Then a hit is answered where one cannot be excluded; only
+ * one so near t_min or t_max that 113 bits cannot tell on which side it lies is left out. The corner of a patch, or a
+ * border that is one point, is a given point: a ray that meets it exactly hits it, and the nearest hit is certain,
+ * though the surface may be open there; of all hits it is grazing then, and both are where the ray touches a patch
+ * there. What one ray may cost is limited: where that ends first the answer is grazing, and the nearest hit known by
+ * then, or a miss; what asks for any hit is told of one. (Of patches whose solver says `polish off` nothing is
+ * proven.)
  *
  * C11 or later, or C++. Link with -lpscn; the static library needs -lm besides. `pkg-config pscn` and CMake's
  * find_package(pscn), targets pscn::pscn and pscn::static, know where both are.
@@ -218,7 +220,8 @@ PSCN_API enum pscn_status pscn_occluded(const struct pscn_scene *scene, size_t c
 /* How many hits a ray has. `certain`: it is proven that these are all, and that their order is right. A point of an
  * edge that patches share is one hit where the ray crosses the surface there, and so is a pole; a ray with t_max
  * infinite starts inside a closed surface where `count` is odd, outside where it is even. Grazing: what may be a hit
- * is counted as well, and its own `certain` is 0. The first of proven hits is pscn_nearest's, but for last places. */
+ * is counted as well, up to 64, and its own `certain` is 0; or what a ray may cost ended first, and some are not
+ * counted. The first of proven hits is pscn_nearest's, but for last places. */
 struct pscn_hits {
   size_t count;
   int32_t verdict; /* PSCN_HIT where count > 0 */

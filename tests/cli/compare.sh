@@ -36,3 +36,5 @@ pscn render "$SCENES/flat.pscn" --size 4x3 --channels depth -o depth.exr --quiet
 sed 's/depth/\x1b[31m/g' depth.exr >red.exr
 try pscn compare red.exr red.exr | head -n 1
 try pscn compare red.exr depth.exr
+# Pictures are files, whatever they are called.
+try pscn compare - -
