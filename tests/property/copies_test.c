@@ -15,7 +15,7 @@ enum {
   RAYS = 256,
   PATCHES = 1100,
   PACKET = 8,
-  FAR_SCENES = 24,
+  FAR_SCENES = 12,
   BESIDE = 6,
   BESIDE_SCENES = 4,
   SHEARED = 2
