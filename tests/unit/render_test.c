@@ -232,7 +232,6 @@ static void colours_follow_the_formulas(void **state)
   texture = saved;
 }
 
-/* What is hidden from the only light has the ambient colour, unless the light is shadowless. */
 /* Powers, colours and products as large as a scene can ask for are too bright for a float at most. */
 static void extreme_colours_are_numbers(void **state)
 {
@@ -264,6 +263,7 @@ static void extreme_colours_are_numbers(void **state)
   lights[0] = light;
 }
 
+/* What is hidden from the only light has the ambient colour, unless the light is shadowless. */
 static void shadows_are_cast(void **state)
 {
   (void)state;
