@@ -16,7 +16,7 @@ static const struct {
   {"pscn:size", "size"},         {"pscn:crop", "crop"},
   {"pscn:samples", "samples"},   {"pscn:channels", "channels"},
   {"pscn:text", "scene's text"}, {"pscn:options", "options"},
-  {"pscn:version", "version"},   {"pscn:arithmetic", "processor's arithmetic"},
+  {"pscn:version", "version"},   {"pscn:arithmetic", "arithmetic"},
 };
 
 enum {

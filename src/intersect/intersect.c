@@ -71,7 +71,11 @@ static const struct kernel *kernel_for(const struct tracer *tracer, size_t count
 
 bool intersector_kernel_here(void) { return kernel_chosen() != NULL; }
 
-const char *intersector_arithmetic(void) { return kernel_chosen() == &kernel_baseline ? "baseline" : "fused"; }
+/* ARITHMETIC_BUILT: the processor and the compiler, which choose what the baseline fuses, too (CMakeLists.txt). */
+const char *intersector_arithmetic(void)
+{
+  return kernel_chosen() == &kernel_baseline ? "baseline, " ARITHMETIC_BUILT : "fused, " ARITHMETIC_BUILT;
+}
 
 enum status intersector_create(const struct scene *scene, struct intersector **out)
 {

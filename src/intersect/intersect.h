@@ -93,8 +93,8 @@ struct tracer;
  * none: the best there is) is one that this processor has and the program was built with. */
 bool intersector_kernel_here(void);
 
-/* "fused" or "baseline": how that one rounds products that are added to. Those of one kind answer alike to the last
- * bit. */
+/* Of which kind that one's arithmetic is: "fused" or "baseline", as products are rounded that are added to, and what it was
+ * compiled for and by, such as "fused, x86_64, GNU 12". Those of one kind answer alike to the last bit. */
 const char *intersector_arithmetic(void);
 
 /* Prepares the scene: degrees, leaves, bounding hierarchy. Borrows the scene, which must outlive it.

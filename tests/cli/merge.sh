@@ -43,7 +43,12 @@ sed 's/angle 4/angle 5/' $SCENES/bent.pscn >other.pscn
 pscn render other.pscn --size 150x100 --quiet --samples 2 --tile 3/4 -o p3.exr
 pscn merge p?.exr -o no.png 2>err; echo "exit $?"
 sed "s/'[0-9a-f]\{32\}'/HASH/g" err
+# What another processor rendered, by a program made for it, may differ in last bits.
 pscn render $scene --samples 2 --tile 3/4 -o whole3.exr
+processor=$(uname -m)
+sed "s/, $processor,/, ${processor//[a-z0-9]/z},/" whole3.exr >p3.exr
+pscn merge p?.exr -o no.png 2>err; echo "exit $?"
+grep -o "'p3.exr': .* arithmetic" err
 head -c 3000 whole3.exr >p3.exr
 pscn merge p?.exr -o no.png 2>/dev/null; echo "exit $?"
 try pscn merge p1.exr gone.exr one.exr crop.exr -o no.png
