@@ -73,7 +73,8 @@ static void tell_end(struct language *language)
 static enum status parse(struct reading *r, struct source *source)
 {
   const size_t before = r->language.diagnostics->error_count;
-  if (setjmp(r->sources.broken) || !source || !sources_open(&r->language, source)) return STATUS_LIMIT;
+  if (setjmp(r->sources.broken) != 0) return STATUS_LIMIT;
+  if (!source || !sources_open(&r->language, source)) return STATUS_LIMIT;
   const int result = pscn_parse(&r->language);
   symbols_tell_missed(&r->language);
   if (result == 1 && r->language.diagnostics->error_count == before && !r->language.ended_early) tell_end(&r->language);
@@ -133,10 +134,10 @@ static enum status override(struct scene *scene, const struct language_settings 
 }
 
 /* Ends a reading. One that ended for want of memory has not said so itself. */
-static void finish(struct reading *r, enum status status, size_t errors_before)
+static void finish(struct reading *r, enum status status)
 {
   struct diagnostics *diagnostics = r->language.diagnostics;
-  if (status == STATUS_LIMIT && diagnostics->error_count == errors_before) {
+  if (status == STATUS_LIMIT && !r->language.limit_told) {
     diagnostics_error(diagnostics, NOWHERE, "%s",
                       r->language.unaffordable ? "reading takes more memory than is allowed; --max-memory allows more"
                                                : "memory is short");
@@ -148,12 +149,11 @@ static enum status load(struct source *source, const struct language_settings *s
                         struct diagnostics *diagnostics, struct scene **out_scene)
 {
   struct reading r;
-  const size_t before = diagnostics->error_count;
   enum status status = reading_create(&r, settings, diagnostics);
   if (status != STATUS_OK) source_destroy(source);
   else status = parse(&r, source);
   if (status == STATUS_OK) status = make_scene(&r, out_scene);
-  finish(&r, status, before);
+  finish(&r, status);
   if (status == STATUS_OK) status = override(*out_scene, settings, diagnostics);
   if (status == STATUS_OK) return STATUS_OK;
   scene_destroy(*out_scene);
@@ -192,12 +192,11 @@ enum status language_parse_solver(const char *text, struct diagnostics *diagnost
 {
   const struct language_settings settings = {.image_width = 1, .image_height = 1, .tolerance = NAN};
   struct reading r;
-  const size_t before = diagnostics->error_count;
   enum status status = reading_create(&r, &settings, diagnostics);
   r.tokens.solver_only = true;
   if (status == STATUS_OK) status = parse(&r, source_from_text("<--solver>", text, strlen(text)));
   if (status == STATUS_OK) *out_method = *r.language.method;
   if (status == STATUS_INPUT) status = STATUS_USAGE;
-  finish(&r, status, before);
+  finish(&r, status);
   return status;
 }

@@ -157,7 +157,11 @@ static int drop_solver(struct copy *copy)
 
 static void copy_text(struct copy *copy)
 {
-  if (setjmp(copy->broken) || !pscn_scan_open(&copy->scan, copy->source->text, copy->source->length, &copy->broken)) {
+  if (setjmp(copy->broken) != 0) {
+    copy->status = STATUS_LIMIT;
+    return;
+  }
+  if (!pscn_scan_open(&copy->scan, copy->source->text, copy->source->length, &copy->broken)) {
     copy->status = STATUS_LIMIT;
     return;
   }

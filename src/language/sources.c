@@ -136,7 +136,8 @@ struct name sources_name(const struct language *language, struct span span)
     const struct place place = sources_place(language, span);
     source = place.source, begin = place.begin;
   }
-  return (struct name){.place = span, .text = source->text + begin, .length = span_end(span) - span_begin(span)};
+  const size_t said = span_end(span) - span_begin(span), left = source->length - begin;
+  return (struct name){.place = span, .text = source->text + begin, .length = said < left ? said : left};
 }
 
 void sources_pass(struct language *language)

@@ -75,6 +75,7 @@ struct language {
   size_t memory_bytes, max_memory;        /* held while reading; allowed */
   bool unaffordable;                      /* more was wanted */
   bool ended_early;                       /* memory, or a stated limit: STATUS_LIMIT */
+  bool limit_told;                        /* which of them */
   struct span unknown;                    /* the last word told to be unknown */
   struct declaration *declaration;        /* the innermost that is open, or NULL */
   struct declaration *declared;           /* the last of a texture */
