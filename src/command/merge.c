@@ -96,8 +96,10 @@ static void choose_picture(struct merge *merge)
     struct file *like = merge->file;
     if (!merge->file[k].good) continue;
     while (!like->good || !belong(&merge->file[k], like, message, sizeof message)) like++;
-    if (++like->alike > (merge->first == NULL ? 0 : merge->first->alike)) merge->first = like;
+    like->alike++;
   }
+  for (size_t k = 0; k < merge->count; k++)
+    if (merge->file[k].alike > (merge->first == NULL ? 0 : merge->first->alike)) merge->first = &merge->file[k];
 }
 
 /* The picture, still black, and what is common to all pieces. */

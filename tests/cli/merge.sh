@@ -37,6 +37,9 @@ try pscn merge p?.exr p2.exr -o no.png
 try pscn merge p?.exr all2.exr -o no.png
 pscn render $scene --samples 2 --tile 3/4 --declare Unused=1 -o p3.exr
 try pscn merge p?.exr -o no.png
+cp p3.exr other3.exr
+pscn render $scene --samples 2 --tile 4/4 --declare Unused=1 -o other4.exr
+try pscn merge p1.exr other3.exr other4.exr p2.exr -o no.png
 pscn render $scene --samples 2 --tile 3/5 -o p3.exr
 try pscn merge p?.exr -o no.png
 sed 's/angle 4/angle 5/' $SCENES/bent.pscn >other.pscn
