@@ -1,5 +1,6 @@
 /* pscn: a table of subcommands. */
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,12 +42,14 @@ struct call {
   const struct command *command;
   int argc;
   const char **argv;
+  bool ran;
 };
 
 static enum status run_call(void *context, size_t worker)
 {
-  const struct call *call = context;
+  struct call *call = context;
   (void)worker;
+  call->ran = true;
   return call->command->run(call->command, call->argc, call->argv);
 }
 
@@ -73,7 +76,8 @@ int main(int argc, char **argv)
   if (command == NULL) return (int)command_unknown(name);
   if (!intersector_kernel_here())
     return (int)command_usage(NULL, "PSCN_KERNEL='%s' is no instruction set of this processor", getenv("PSCN_KERNEL"));
-  struct call call = {command, argc - words, (const char **)argv + words};
+  struct call call = {command, argc - words, (const char **)argv + words, false};
   const int code = (int)threads_run_deep(run_call, &call);
+  if (!call.ran) return (int)command_out_of_memory(command); /* there was no room for the thread */
   return code == STATUS_INTERRUPTED ? interrupt_exit_code() : code;
 }

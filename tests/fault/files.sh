@@ -13,12 +13,13 @@ failed=0
 RANDOM=${PSCN_SEED:-1}
 
 wrong() { echo "wrong: $*"; failed=1; }
-# expect CODE COMMAND...: the exit code, which is the command's answer
+# expect CODE COMMAND...: the exit code, which is the command's answer; what fails says why
 expect() {
   local wanted=$1 code=0
   shift
   "$@" 2>"$said" || code=$?
   [ "$code" = "$wanted" ] || { wrong "exit $code instead of $wanted: $*"; cat "$said"; }
+  [ "$code" = 0 ] || [ -s "$said" ] || wrong "exit $code and nothing said: $*"
 }
 # only NAME...: nothing else is in the folder
 only() { [ "$(ls -A)" = "$(printf '%s\n' "$@" | LC_ALL=C sort)" ] || wrong "here are: $(ls -A | tr '\n' ' ')"; }
@@ -146,6 +147,8 @@ if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   for kilobytes in 64 200 1000; do
     (ulimit -s $kilobytes && expect 0 "$PSCN" trace "$scene" <<<'0 0 -9 0 0 1' >/dev/null && exit "$failed") || wrong "with $kilobytes KB of stack"
   done
+  # Little stack, and no room for another one.
+  (ulimit -s 512 && ulimit -v 8000 && expect 5 "$PSCN" dump "$scene" && exit "$failed") || wrong "without room for a stack"
 fi
 
 # A file that is said to be one, and waits for what never comes.
