@@ -138,6 +138,7 @@ declaration:
   | declare shade ';'                          { declare_value(language, $1, $2); }
   | declare object                             { declare_object(language, $1, $2); } semicolon
   | declare texture_block                      { declare_texture(language, $1, $2); } layers semicolon
+    { language->layered = NULL; }
   | declare part_block                         { declare_texture(language, $1, $2); } semicolon
   ;
 layers: %empty | layers TEXTURE '{' { layer_begin(language, $2); } texture_items '}' { layer_end(language); };
@@ -163,7 +164,7 @@ expression:
   | IMAGE_WIDTH                                { $$ = value_of_number(language, language->width, $1); }
   | IMAGE_HEIGHT                               { $$ = value_of_number(language, language->height, $1); }
   | VERSION_WORD                               { $$ = value_of_number(language, language->settings->version, $1); }
-  | '(' expression ')'                         { $$ = value_placed($2, span_join($1, $3)); }
+  | '(' expression ')'                         { $$ = value_alone(language, $2, span_join($1, $3)); }
   | '<' expression comma expression comma expression '>'
                                                { $$ = value_of_parts(language, $2, $4, $6, span_join($1, $7)); }
   | '<' expression comma expression '>'        { $$ = value_flat(language, $2, $4, span_join($1, $5)); }
@@ -172,7 +173,7 @@ expression:
   | expression '*' expression                  { $$ = value_binary(language, '*', $1, $3); }
   | expression '/' expression                  { $$ = value_binary(language, '/', $1, $3); }
   | '-' expression %prec SIGN                  { $$ = value_negative(language, $2, span_join($1, $2->place)); }
-  | '+' expression %prec SIGN                  { $$ = value_moved($2, span_join($1, $2->place)); }
+  | '+' expression %prec SIGN                  { $$ = value_positive(language, $2, span_join($1, $2->place)); }
   | expression '.' X                           { $$ = value_component(language, $1, 0, $3); }
   | expression '.' Y                           { $$ = value_component(language, $1, 1, $3); }
   | expression '.' Z                           { $$ = value_component(language, $1, 2, $3); }

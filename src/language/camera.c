@@ -17,7 +17,7 @@
 /* The first version of which POV-Ray sorts the items; in older ones each does what it does where it stands. */
 #define VERSION_SORTED 3.5
 
-/* Of the sky's own length: how far it may be from the direction and still lie along it. */
+/* Absolute, in the units of `sky`, as POV-Ray has it: how far its tip may be from the line of sight and it still lie along it. */
 #define ALONG_SKY 1e-10
 
 void camera_default(struct camera_items *out)

@@ -11,7 +11,7 @@
 
 /* What one patch more takes until rays can be traced: its net, its frame, its boxes. Of copies 1,280 bytes from 65,536 to
  * 262,144 of them and 1,457 from there to 1,048,576; of as many different patches 1,000. The leaves that fewer patches are
- * cut into come on top, 1.3 KB each: in all 350 MB (model.c). */
+ * cut into come on top, 1.3 KB each: in all 350 MB, or 700 where `split` or the bending of patches asks for more (model.c). */
 #define PATCH_BYTES ((size_t)1500)
 
 enum {

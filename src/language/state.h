@@ -78,7 +78,7 @@ struct language {
   bool limit_told;                        /* which of them */
   struct span unknown;                    /* the last word told to be unknown */
   struct declaration *declaration;        /* the innermost that is open, or NULL */
-  struct declaration *declared;           /* the last of a texture */
+  struct declaration *layered;            /* a texture's, behind which more layers may come, or NULL */
   size_t held_count;                      /* in all declarations */
   struct value *unused;                   /* values that are needed no more */
   const double *number;                   /* of the last token, if it is a number or a vector; until the next one */

@@ -220,6 +220,10 @@ void declare_left_open(struct language *language, struct span end)
     language_tell(language, end, "the file ends within the declaration of its #local '%.*s'", (int)d->symbol->length,
                   d->symbol->name);
   }
+  const struct declaration *layered = language->layered; /* it looks for more layers */
+  if (layered && layered->symbol->depth >= language->symbols->depth)
+    language_tell(language, end, "the file ends before the ; of its #local '%.*s'", (int)layered->symbol->length,
+                  layered->symbol->name);
 }
 
 static struct declaration *begin(struct language *language, const struct name *name, bool local)
@@ -230,6 +234,7 @@ static struct declaration *begin(struct language *language, const struct name *n
   *declaration = (struct declaration){
     .symbol = symbol_begin(language, name, local), .outer = language->declaration, .held_end = &declaration->held};
   declaration->symbol->lost = false;
+  language->layered = NULL;
   return language->declaration = declaration;
 }
 
@@ -282,6 +287,11 @@ void declare_broken(struct language *language, struct declaration *declaration)
 
 void declare_macro(struct language *language, const struct name *name, struct macro *macro)
 {
+  const struct symbol *known = find(language->symbols, name->text, name->length, -1);
+  if (known && (known->kind == SYMBOL_VALUE || known->kind == SYMBOL_TEXTURE || known->kind == SYMBOL_OBJECT ||
+                (known->kind == SYMBOL_FOREIGN && !known->lost)))
+    language_tell(language, name->place, "'%.*s' is declared already, and no macro; #undef it before",
+                  (int)name->length, name->text);
   struct symbol *symbol = symbol_begin(language, name, false);
   symbol->kind = SYMBOL_MACRO;
   symbol->macro = macro;

@@ -21,6 +21,8 @@ struct value {
   enum value_kind kind;
   unsigned transparent; /* a colour that POV-Ray gives transparency: why, or 0 */
   bool component;       /* of another, or reckoned from one; until parentheses or a name make a number of it */
+  bool open;            /* an axis, or a vector by its name, */
+  bool wide;            /* or a product of one, or a quotient, by which POV-Ray makes a colour before it transparent */
   bool bare;            /* a colour with a part behind it and neither rgb nor color before */
   double x[3];
   const struct symbol *symbol;

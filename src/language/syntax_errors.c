@@ -78,16 +78,18 @@ static struct guess guess_meant(struct language *language, const char *word, siz
   return guess;
 }
 
+/* So much of it is shown. */
+static int shown(const struct name *name) { return name->length < LONGEST_SHOWN ? (int)name->length : LONGEST_SHOWN; }
+
 /* A declared name where none may stand: that of an object or a macro, say, without `object` around it. */
 static void tell_declared(struct language *language, const struct name *name, const struct symbol *symbol, bool objects,
                           const char *list)
 {
-  const int length = name->length < LONGEST_SHOWN ? (int)name->length : LONGEST_SHOWN;
   if (objects && symbol->kind == SYMBOL_OBJECT)
-    language_error(language, name->place, "a declared object stands in object { %.*s }", length, name->text);
+    language_error(language, name->place, "a declared object stands in object { %.*s }", shown(name), name->text);
   else if (objects || symbol->kind == SYMBOL_FOREIGN || symbol->kind == SYMBOL_MACRO)
     symbol_wanted(language, name, SYMBOL_OBJECT, "an object");
-  else language_error(language, name->place, "unexpected name '%.*s'%s", length, name->text, list);
+  else language_error(language, name->place, "unexpected name '%.*s'%s", shown(name), name->text, list);
 }
 
 /* What is told of a statement's word within a block, instead of what could have stood there: the block's brace is mostly
@@ -102,6 +104,42 @@ static const char *misplaced(const struct tokens *tokens, const char *text)
 
 static bool same_place(struct span a, struct span b) { return span_begin(a) > 0 && span_begin(a) == span_begin(b); }
 
+/* What POV-Ray declares and pscn has only where it is meant. */
+static bool begins_undeclarable(const struct language *language)
+{
+  const struct tokens *tokens = language->tokens;
+  const int token = tokens->last.token;
+  if (!language->declaration) return false;
+  if (token != PSCN_TOKEN_STRING) return token == PSCN_TOKEN_CAMERA || token == PSCN_TOKEN_LIGHT_SOURCE;
+  return span_begin(tokens->previous) > 0 && sources_name(language, tokens->previous).text[0] == '=';
+}
+
+/* A word that may not stand here, or that nobody knows. */
+static void tell_word(struct language *language, const struct name *word, const char *const expected[], int count,
+                      const char *list)
+{
+  const struct symbol *symbol = symbol_find(language, word->text, word->length);
+  if (symbol) {
+    tell_declared(language, word, symbol, contains(expected, count, "object"), list);
+    return;
+  }
+  const struct guess guess = guess_meant(language, word->text, word->length, expected, count);
+  if (guess.best)
+    language_error(language, word->place, "unknown word '%.*s'; did you mean '%.*s'?", shown(word), word->text,
+                   (int)guess.best_length, guess.best);
+  else language_error(language, word->place, "unknown word '%.*s'%s", shown(word), word->text, list);
+}
+
+/* A sign, a number or a string that may not stand here, or the end of the text. */
+static void tell_unexpected(struct language *language, const struct name *text, const char *list)
+{
+  const bool outlives = language->tokens->last.token == PSCN_TOKEN_DEFAULT; /* its declaration, used or not */
+  if (text->length == 0) language_tell(language, text->place, "the text ends here%s", list);
+  else
+    (outlives ? language_tell : language_error)(language, text->place, "unexpected '%.*s'%s", shown(text), text->text,
+                                                list);
+}
+
 void syntax_error(struct language *language, bool is_word, const char *const expected[], int count)
 {
   struct tokens *tokens = language->tokens;
@@ -111,47 +149,26 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
   if (same_place(place, tokens->told) || follows || language->ended_early) return;
   tokens->told = place;
   const struct name name = sources_name(language, place);
-  const char *text = name.text;
-  const size_t length = name.length;
-  const int shown = length < LONGEST_SHOWN ? (int)length : LONGEST_SHOWN;
-  if (length == 0 && tokens->depth > 0) {
+  if (name.length == 0 && tokens->depth > 0) {
     language_tell(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
     return;
   }
   if (tokens->last.token == PSCN_TOKEN_FOREIGN) {
     char hint[HINT_SIZE];
-    hint_write(text, length, hint, sizeof hint);
-    language_foreign(language, place, "%.*s is POV-Ray, but pscn %s", shown, text, hint);
+    hint_write(name.text, name.length, hint, sizeof hint);
+    language_foreign(language, place, "%.*s is POV-Ray, but pscn %s", shown(&name), name.text, hint);
     return;
   }
-  const int token = tokens->last.token;
-  const bool value_begins = span_begin(tokens->previous) > 0 && sources_name(language, tokens->previous).text[0] == '=';
-  if (language->declaration && (token == PSCN_TOKEN_CAMERA || token == PSCN_TOKEN_LIGHT_SOURCE ||
-                                (token == PSCN_TOKEN_STRING && value_begins))) {
-    language_foreign(language, place, "%.*s cannot be declared in pscn; it stands where it is meant", shown, text);
+  if (begins_undeclarable(language)) {
+    language_foreign(language, place, "%.*s cannot be declared in pscn; it stands where it is meant", shown(&name),
+                     name.text);
     tokens->recovered = place; /* it begins no statement of its own */
     return;
   }
   char list[300] = "";
-  const char *misplacement = misplaced(tokens, text);
+  const char *misplacement = misplaced(tokens, name.text);
   if (misplacement) snprintf(list, sizeof list, "%s", misplacement);
   else list_expected(expected, count, list, sizeof list);
-  if (!is_word) {
-    const bool outlives = token == PSCN_TOKEN_DEFAULT; /* the declaration it stands in, used or not */
-    if (length == 0) language_tell(language, place, "the text ends here%s", list);
-    else (outlives ? language_tell : language_error)(language, place, "unexpected '%.*s'%s", shown, text, list);
-    return;
-  }
-  const struct symbol *symbol = symbol_find(language, text, length);
-  if (symbol) {
-    tell_declared(language, &name, symbol, contains(expected, count, "object"), list);
-    return;
-  }
-  const struct guess guess = guess_meant(language, text, length, expected, count);
-  if (guess.best) {
-    language_error(language, place, "unknown word '%.*s'; did you mean '%.*s'?", shown, text, (int)guess.best_length,
-                   guess.best);
-  } else {
-    language_error(language, place, "unknown word '%.*s'%s", shown, text, list);
-  }
+  if (is_word) tell_word(language, &name, expected, count, list);
+  else tell_unexpected(language, &name, list);
 }

@@ -133,7 +133,7 @@ void finish_number(struct language *language, int part, const struct value *valu
 void declare_texture(struct language *language, struct declaration *declaration, const struct texture *texture)
 {
   struct symbol *symbol = declare_end(language, declaration);
-  language->declared = declaration;
+  language->layered = texture->block == TEXTURE_ALL ? declaration : NULL;
   if (!symbol) return;
   struct texture *whole = language_alloc(language, sizeof *whole);
   *whole = *texture;
@@ -145,7 +145,7 @@ void declare_texture(struct language *language, struct declaration *declaration,
 
 void layer_begin(struct language *language, struct span place)
 {
-  struct declaration *declaration = language->declared;
+  struct declaration *declaration = language->layered;
   declaration->outer = language->declaration;
   language->declaration = declaration;
   language_foreign(language, place, "a texture of several layers is POV-Ray, but pscn has one; leave out all but one");
@@ -157,7 +157,7 @@ void layer_end(struct language *language)
   struct declaration *declaration = language->declaration;
   language->texture = language->texture->outer;
   declare_end(language, declaration);
-  language->declared = declaration;
+  language->layered = declaration;
 }
 
 void texture_set_default(struct language *language, const struct texture *texture)

@@ -51,8 +51,9 @@ const struct transform *transform_scale(struct language *language, struct span p
   for (int k = 0; k < 3; k++) {
     if (by[k] == 0) zeros |= 1u << k;
     else t->A[k][k] = dd(by[k]);
-    t->identity = t->moves &= by[k] == 1;
+    t->moves = t->moves && by[k] == 1;
   }
+  t->identity = t->moves;
   if (zeros)
     language_error(language, value->place, "scaling %s by 0 leaves nothing; POV-Ray would take 1 instead", axes[zeros]);
   return t;

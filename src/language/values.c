@@ -44,7 +44,9 @@ struct value *value_of_vector(struct language *language, const double x[3], stru
 
 struct value *value_axis(struct language *language, int axis, struct span place)
 {
-  return set(make(language, VALUE_VECTOR, place), axis == 0, axis == 1, axis == 2);
+  struct value *value = set(make(language, VALUE_VECTOR, place), axis == 0, axis == 1, axis == 2);
+  value->open = true;
+  return value;
 }
 
 struct value *value_moved(struct value *value, struct span place)
@@ -55,7 +57,7 @@ struct value *value_moved(struct value *value, struct span place)
 
 struct value *value_placed(struct value *value, struct span place)
 {
-  value->component = false;
+  value->component = value->open = value->wide = false;
   return value_moved(value, place);
 }
 
@@ -81,7 +83,9 @@ struct value *value_named(struct language *language, struct span place)
     return become_unknown(value, place);
   }
   *value = symbol->value;
-  return value_placed(value, place);
+  value_placed(value, place);
+  value->open = value->kind == VALUE_VECTOR;
+  return value;
 }
 
 /* Whether it can be reckoned with; if not, that has been told. */
@@ -116,7 +120,20 @@ static bool stays_opaque(struct language *language, char op, const struct value 
                    "this makes a colour infinitely transparent in POV-Ray; divide by a number");
     return false;
   }
+  if (a->kind == VALUE_COLOUR && b->wide && (op == '+' || op == '-')) {
+    language_error(language, b->place, "behind a colour this makes it transparent in POV-Ray; put it in parentheses");
+    return false;
+  }
   return true;
+}
+
+/* Behind a colour POV-Ray wants five parts of all that follows. A number has five; an axis, or a vector by its name, is taken for
+ * as many though it has three, and the others are what the numbers before it have left; of other vectors they are 0, by which
+ * nothing is to be divided. */
+static bool result_wide(char op, const struct value *a, const struct value *b)
+{
+  if (op == '+' || op == '-') return false;
+  return a->wide || (op == '/' ? b->kind == VALUE_VECTOR : a->kind == VALUE_NUMBER && b->open);
 }
 
 /* Vectors and other colours have no transparency, and a product with none has none. */
@@ -138,6 +155,7 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
   const bool a_usable = usable(language, a, "a value");
   if (!usable(language, b, "a value") || !a_usable || !stays_opaque(language, op, a, b))
     return become_unknown(a, place);
+  const bool wide = result_wide(op, a, b);
   a->transparent = result_transparent(op, a, b);
   if (b->kind > a->kind) a->kind = b->kind;
   for (int k = 0; k < 3; k++) {
@@ -151,13 +169,25 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
       return become_unknown(a, place);
     }
   }
-  return value_placed(a, place);
+  value_placed(a, place);
+  a->wide = wide;
+  return a;
 }
 
 struct value *value_negative(struct language *language, struct value *a, struct span place)
 {
   if (!usable(language, a, "a value")) return become_unknown(a, place);
   return value_moved(set(a, -a->x[0], -a->x[1], -a->x[2]), place);
+}
+
+struct value *value_positive(struct language *language, struct value *a, struct span place)
+{
+  return usable(language, a, "a value") ? value_moved(a, place) : become_unknown(a, place);
+}
+
+struct value *value_alone(struct language *language, struct value *a, struct span place)
+{
+  return usable(language, a, "a value") ? value_placed(a, place) : become_unknown(a, place);
 }
 
 /* A number's first component is itself, and it has no other, as in POV-Ray; a component has none. */

@@ -17,10 +17,13 @@ struct value *value_of_parts(struct language *language, struct value *x, struct 
                              struct span place);
 /* The same value, which stands there. */
 struct value *value_moved(struct value *value, struct span place);
-/* And is a component of another no longer. */
+/* And is a component of another, or not all of its five parts are its own, no longer. */
 struct value *value_placed(struct value *value, struct span place);
 struct value *value_binary(struct language *language, char op, struct value *a, struct value *b);
 struct value *value_negative(struct language *language, struct value *a, struct span place);
+struct value *value_positive(struct language *language, struct value *a, struct span place);
+/* In parentheses, where it has nothing to do with what is beside it. */
+struct value *value_alone(struct language *language, struct value *a, struct span place);
 /* `name`: the component's */
 struct value *value_component(struct language *language, struct value *a, int index, struct span name);
 struct value *value_rgb(struct language *language, struct value *a, struct span place);

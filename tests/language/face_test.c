@@ -295,6 +295,22 @@ static void test_many_empty_copies(void **state)
   scene_destroy(scene);
 }
 
+/* Named once it is its patches and no more. */
+static void test_one_is_no_copy(void **state)
+{
+  (void)state;
+  static const char text[] =
+    "#declare P = bicubic_patch { type 1 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> "
+    "<1,2,0> <2,2,1> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0> }\n"
+    "object { P rotate 10 * x }\n";
+  struct scene *scene = NULL;
+  assert_int_equal(load(text, sizeof text - 1, &PLAIN, &scene), STATUS_OK);
+  assert_int_equal(scene->patch_count, 1);
+  assert_int_equal(scene->copy_count, 0);
+  assert_int_equal(scene->object_count, 0);
+  scene_destroy(scene);
+}
+
 /* A declared object that is named several times is told to be one, whatever it is in and however it is moved; its
  * patches are where its copies' maps carry them. */
 static void test_copies(void **state)
@@ -351,6 +367,7 @@ int main(void)
     cmocka_unit_test(test_max_memory),
     cmocka_unit_test(test_included_often),
     cmocka_unit_test(test_included_kinds),
+    cmocka_unit_test(test_one_is_no_copy),
     cmocka_unit_test(test_copies),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
