@@ -16,7 +16,8 @@ struct arena *arena_create(void);
 /* `count` zeroed elements of `size` bytes each, or NULL where memory is short or the product overflows. */
 void *arena_alloc(struct arena *arena, size_t count, size_t size);
 
-/* Gives all that `other` has handed out to the arena, and frees `other`. NULL is allowed. */
+/* Gives all that `other`, whose memory comes from the same hooks (memory.h), has handed out to the arena, and frees `other`.
+ * NULL is allowed. */
 void arena_join(struct arena *arena, struct arena *other);
 
 /* Frees the arena and all it handed out. NULL is allowed. */

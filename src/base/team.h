@@ -1,12 +1,14 @@
 /* Work shared by several threads, which are started by whoever lends them: the library starts none.
  *
- * Threads of a team have libc's memory, whatever hooks their caller's has (memory.h).
+ * Threads of a team have libc's memory: a caller whose memory comes from hooks (memory.h) works by itself.
  */
 #ifndef PSCN_BASE_TEAM_H
 #define PSCN_BASE_TEAM_H
 
+#include <assert.h>
 #include <stddef.h>
 
+#include "base/memory.h"
 #include "base/status.h"
 
 /* One thread's share, of worker 0 ... count-1. */
@@ -27,6 +29,7 @@ STATUS_MUST_CHECK static inline enum status team_run(const struct team *team, si
                                                      void *context)
 {
   const size_t count = team_count(team) < parts ? team_count(team) : parts;
+  assert(count == 1 || memory_is_libcs()); /* what they make is freed by the caller */
   return count > 1 ? team->run(count, work, context) : work(context, 0);
 }
 

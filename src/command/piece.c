@@ -1,6 +1,7 @@
 /* Parts of a picture. */
 #include "command/piece.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -274,6 +275,7 @@ enum status piece_encode(const struct piece *piece, const struct image_attribute
   struct image_attribute all[MOST];
   struct piece copy;
   char tile[48], sum[SUM_SIZE], *done = NULL;
+  assert(attribute_count + 3 <= MOST);
   *out_bytes = NULL;
   *out_size = 0;
   enum status status = copy_done(piece, &copy);

@@ -1,6 +1,7 @@
 /* What a run was and did. */
 #include "command/report.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,6 +106,7 @@ enum status report_write(const struct command *command, json_t *statistics, cons
 
 static void add(struct report_metadata *metadata, const char *name, const char *text)
 {
+  assert(metadata->count < sizeof metadata->attribute / sizeof *metadata->attribute);
   metadata->attribute[metadata->count++] = (struct image_attribute){name, text};
 }
 

@@ -218,12 +218,9 @@ static struct stream_fault take(void *context, const struct stream_line *line)
   return fault;
 }
 
-static enum status trace(const struct command *command, struct request *request)
+/* What is asked for, before anything is read: it goes together, and nothing is written over. */
+static enum status check_request(const struct command *command, struct request *request)
 {
-  struct scene *scene = NULL;
-  struct intersector *intersector = NULL;
-  struct session session = {.request = request};
-  struct seconds start = seconds_now();
   if (request->explain && request->all)
     return command_usage(command, "a story is the nearest hit's: --explain and --all do not go together");
   if (request->explain && request->binary)
@@ -234,6 +231,16 @@ static enum status trace(const struct command *command, struct request *request)
   if (status == STATUS_OK) status = output_spare(command, request->stats, "/dev/stdin");
   if (status == STATUS_OK) status = output_spare(command, "-", "/dev/stdin");
   if (status == STATUS_OK) status = output_probe(command, request->stats);
+  return status;
+}
+
+static enum status trace(const struct command *command, struct request *request)
+{
+  struct scene *scene = NULL;
+  struct intersector *intersector = NULL;
+  struct session session = {.request = request};
+  struct seconds start = seconds_now();
+  enum status status = check_request(command, request);
   if (status != STATUS_OK) return status;
   status = scene_file_load(command, &request->scene, &scene);
   if (status == STATUS_OK) status = scene_file_spare(command, &request->scene, scene, request->stats);
