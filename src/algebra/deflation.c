@@ -24,8 +24,8 @@
  * without real roots would never leave the axis, and Laguerre's method jumps to and fro between the middle of roots on
  * a circle and far outside. On its way from afar Newton's method shortens its steps by 1/n each: at degree 64 the
  * seventh is still 0.9 of the first. */
-enum { TURN_PERIOD = 7 };
-#define STUCK 0.9
+enum { TURN_STEPS = 7 };
+#define TURN_STUCK 0.9
 
 /* A term this much of the largest one counts as nearly the largest: two that tie, or three of a double root. */
 #define NEARLY 0.25
@@ -178,9 +178,9 @@ static struct sought seek(const struct root_problem *problem, const struct solve
     }
     const double square = relative ? root_problem_square_in_u(problem->basis, out.x) : 1.0;
     out.converged = out.converged || (usable && in_u < (square < 1.0 ? tolerance * square : tolerance));
-    if (!out.converged && out.iterations % TURN_PERIOD == 0) {
+    if (!out.converged && out.iterations % TURN_STEPS == 0) {
       const double now = complex_norm(move);
-      if (now >= STUCK * STUCK * checked) {
+      if (now >= TURN_STUCK * TURN_STUCK * checked) {
         move = complex_multiply(move, (struct complex_number){COMPLEX_RADIAN_RE, COMPLEX_RADIAN_IM});
         longest = longest > 1.0 ? 0.5 : 0.5 * longest;
       }

@@ -144,7 +144,7 @@ static void level_times(struct chart *chart)
   double yard[RAY_KINDS];
   for (int kind = 0; kind < RAY_KINDS; kind++) {
     sort_numbers(chart->yard[kind], chart->yard_count);
-    yard[kind] = chart->yard[kind][chart->yard_count / 2];
+    yard[kind] = sorted_quantile(chart->yard[kind], chart->yard_count, 0.5);
   }
   point_level(chart->points, chart->point_count, yard);
 }

@@ -55,8 +55,7 @@ static void look_at_light(const struct check *check, struct tracer *tracer, size
 
 static void look_at_pixels(struct check *check, struct tracer *tracer)
 {
-  enum { LIGHTS = 64 };
-  const size_t lights = check->scene->light_count < LIGHTS ? check->scene->light_count : LIGHTS;
+  const size_t lights = check->scene->light_count < CHECK_LIGHTS ? check->scene->light_count : CHECK_LIGHTS;
   for (size_t y = 0; y < check->request->height && !listener_stopped(check->listener); y++) {
     for (size_t x = 0; x < check->request->width; x += PACKET_SIZE) {
       struct check_pixel *pixels = &check->ours.pixel[y * check->request->width + x];

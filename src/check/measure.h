@@ -17,11 +17,14 @@ enum {
 enum check_edge { CHECK_EDGE_NONE, CHECK_EDGE_CREASE, CHECK_EDGE_SHADOW, CHECK_EDGE_SILHOUETTE, CHECK_EDGES };
 extern const char *const CHECK_EDGE_NAME[CHECK_EDGES];
 
+/* Lights whose shadows' edges are known to be edges; of a scene of more lights, those of the first ones. */
+enum { CHECK_LIGHTS = 64 };
+
 /* What we know of a pixel's centre. */
 struct check_pixel {
   struct hit hit;
   double distance; /* scene units; INFINITY on a miss */
-  uint64_t lights; /* bit k: light k (of the first 64) reaches the point */
+  uint64_t lights; /* bit k: light k of CHECK_LIGHTS reaches the point */
   enum check_edge edge;
 };
 

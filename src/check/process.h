@@ -2,7 +2,7 @@
  *
  * The program gets a process group of its own, so that a key pressed at the terminal reaches us alone; when `stop`
  * turns nonzero or its time is over the whole group is asked to end, then made to, and is reaped. Where we are killed,
- * Linux kills it too. One program at a time, started from the main thread.
+ * Linux kills it too. One program at a time, started from a thread that outlives it.
  */
 #ifndef PSCN_CHECK_PROCESS_H
 #define PSCN_CHECK_PROCESS_H
@@ -29,7 +29,7 @@ struct process_result {
   bool missing;        /* there is no such program, or it may not be run; `reason` says why, the rest is unset */
   int reason;          /* errno of a program that could not be started, or 0 */
   int exit_code;       /* 128 + the signal's number where a signal ended it */
-  struct seconds time; /* of the processor: by the program and those it waited for */
+  struct seconds time; /* by the clock, and of the processor by the program and those it waited for */
 };
 
 /* Standard input is empty. STATUS_FILE where it could not be started, STATUS_INTERRUPTED where `stop` ended it,

@@ -1,9 +1,10 @@
 /* Shared borders, by a table of all borders that is looked up by their control points: open addressing with linear
  * probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L). Each thread has a part of the table to itself,
- * and fills in the borders that belong there. Places are by a hash with random keys, or a made-up scene could have all of
+ * and fills in the borders that belong there. Slots are by a hash with random keys, or a made-up scene could have all of
  * its borders in one of them; which patches share which borders does not depend on it. */
 #include "geometry/edges.h"
 
+#include <stdatomic.h>
 #include <string.h>
 #include <sys/random.h>
 
@@ -15,9 +16,9 @@ struct border {
   bool reversed;      /* against the running parameter */
 };
 
-/* The first border of those points, counted from 1, or 0 for a free place; with MANY where there are more than two of
+/* The first border of those points, counted from 1, or 0 for a free slot; with MANY where there are more than two of
  * them. */
-struct place {
+struct slot {
   uint32_t border;
   uint32_t tag; /* bits of the hash */
 };
@@ -29,7 +30,7 @@ static const struct edge_neighbour alone = {EDGE_NONE, 0, false};
 /* Two for each number of a border, and one. */
 enum { KEYS = 2 * 12 + 1 };
 
-/* What the threads share: they write to places of their own and to what belongs to the borders in them. */
+/* What the threads share: they write to slots of their own and to what belongs to the borders in them. */
 struct matching {
   const char *nets;
   size_t stride, count;
@@ -37,8 +38,9 @@ struct matching {
   size_t workers;
   uint64_t key[KEYS];
   uint64_t *hash; /* [4 * patch + border] */
-  struct place *places;
-  size_t place_count;
+  struct slot *slots;
+  size_t slot_count;
+  atomic_bool overflowed; /* a worker's part of the slots has no room for its borders */
   struct edge_neighbour *out;
 };
 
@@ -124,17 +126,17 @@ static enum status hash_borders(void *context, size_t worker)
   return STATUS_OK;
 }
 
-/* One more border of the points of the first one in that place. */
-static void meet(struct matching *m, struct place *place, size_t index, const struct border *b,
+/* One more border of the points of the first one in that slot. */
+static void meet(struct matching *m, struct slot *slot, size_t index, const struct border *b,
                  const struct border *first)
 {
-  const size_t k = place->border - 1;
+  const size_t k = slot->border - 1;
   struct edge_neighbour *here = &m->out[k];
   if (collapsed(&first->point[0][0])) return;
   if (here->patch != EDGE_NONE) {
     struct edge_neighbour *second = &m->out[4 * (size_t)here->patch + here->border];
     *second = *here = alone;
-    place->border |= MANY;
+    slot->border |= MANY;
     return;
   }
   const bool reversed = b->reversed != first->reversed;
@@ -142,34 +144,36 @@ static void meet(struct matching *m, struct place *place, size_t index, const st
   m->out[index] = (struct edge_neighbour){(uint32_t)(k / 4), (uint8_t)(k % 4), reversed};
 }
 
-/* Places the border among `count` places; false where all are taken. */
-static bool place_border(struct matching *m, size_t index, struct place *places, size_t count, size_t home)
+/* Puts the border into one of `count` slots; false where all are taken. */
+static bool place_border(struct matching *m, size_t index, struct slot *slots, size_t count, size_t home)
 {
   const uint32_t tag = (uint32_t)m->hash[index];
   for (size_t k = 0; k < count; k++, home = home + 1 < count ? home + 1 : 0) {
-    struct place *place = &places[home];
-    if (place->border == 0) {
-      *place = (struct place){(uint32_t)index + 1, tag};
+    struct slot *slot = &slots[home];
+    if (slot->border == 0) {
+      *slot = (struct slot){(uint32_t)index + 1, tag};
       return true;
     }
-    if (place->tag != tag) continue;
-    const struct border b = border_of(m, index), first = border_of(m, (place->border & ~MANY) - 1);
+    if (slot->tag != tag) continue;
+    const struct border b = border_of(m, index), first = border_of(m, (slot->border & ~MANY) - 1);
     if (compare_numbers(&first.point[0][0], &b.point[0][0], 12)) continue;
-    if (!(place->border & MANY)) meet(m, place, index, &b, &first);
+    if (!(slot->border & MANY)) meet(m, slot, index, &b, &first);
     return true;
   }
   return false;
 }
 
-/* STATUS_DIFFERENT where the borders do not fit in the worker's part. */
 static enum status match_borders(void *context, size_t worker)
 {
   struct matching *m = context;
-  const size_t begin = share(m, worker, m->place_count), end = share(m, worker + 1, m->place_count);
+  const size_t begin = share(m, worker, m->slot_count), end = share(m, worker + 1, m->slot_count);
   for (size_t k = 0; k < 4 * m->count; k++) {
-    const size_t home = (size_t)((m->hash[k] >> 32) * m->place_count >> 32);
+    const size_t home = (size_t)((m->hash[k] >> 32) * m->slot_count >> 32);
     if (home < begin || home >= end || (m->left_out && m->left_out[k / 4])) continue;
-    if (!place_border(m, k, m->places + begin, end - begin, home - begin)) return STATUS_DIFFERENT;
+    if (!place_border(m, k, m->slots + begin, end - begin, home - begin)) {
+      atomic_store(&m->overflowed, true);
+      break;
+    }
   }
   return STATUS_OK;
 }
@@ -184,20 +188,20 @@ enum status edges_match(const void *nets, size_t stride, size_t count, const boo
                        .count = count,
                        .left_out = left_out,
                        .workers = team_count(team),
-                       .place_count = 6 * count,
+                       .slot_count = 6 * count,
                        .out = out};
   choose_keys(m.key);
   m.hash = memory_alloc(count, 4 * sizeof *m.hash);
-  m.places = memory_alloc(m.place_count, sizeof *m.places);
-  enum status status = m.hash && m.places ? team_run(team, m.workers, hash_borders, &m) : STATUS_LIMIT;
+  m.slots = memory_alloc(m.slot_count, sizeof *m.slots);
+  enum status status = m.hash && m.slots ? team_run(team, m.workers, hash_borders, &m) : STATUS_LIMIT;
   if (status == STATUS_OK) status = team_run(team, m.workers, match_borders, &m);
-  if (status == STATUS_DIFFERENT) { /* by chance, or malice: all of the table is room enough */
-    memset(m.places, 0, m.place_count * sizeof *m.places);
+  if (status == STATUS_OK && atomic_load(&m.overflowed)) { /* by chance, or malice: all of the table is room enough */
+    memset(m.slots, 0, m.slot_count * sizeof *m.slots);
     m.workers = 1;
     (void)hash_borders(&m, 0);
     status = match_borders(&m, 0);
   }
   memory_free(m.hash);
-  memory_free(m.places);
+  memory_free(m.slots);
   return status;
 }

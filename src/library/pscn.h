@@ -13,7 +13,9 @@
  * comes first, the last places of t, u, v and the normal may.) To change a scene build another, and free the old one when
  * nobody asks it any more.
  *
- * Nothing is ever printed, no signal handled, no thread started, the process never ended. The locale means nothing.
+ * Nothing is ever printed, no signal handled, no thread started, the process never ended. The locale means nothing. Of the
+ * environment PSCN_KERNEL is looked at: baseline, avx2, avx512 or avx512_narrow is the instruction set that scenes are made
+ * for; where the processor has it not, making one is PSCN_USAGE.
  * The caller's rounding mode, flush-to-zero and floating-point traps mean nothing either, and are as before after each
  * call. Functions answer a status; what was wrong, and where, is kept with the scene until it is asked for.
  *

@@ -104,9 +104,46 @@ static void lines_before_a_text_count(void **state)
   assert_string_equal(told.text, "<stdin>:1099511627777:3: error: this is no number\n  1 x 3\n    ^\n");
 }
 
+/* What UTF-8 is, by the edges of its table (RFC 3629, section 4). */
+static void characters_are_well_formed(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *text;
+    size_t bytes;
+  } table[] = {
+    {"\x7f", 1},
+    {"\x80", 0},
+    {"\xc1\xbf", 0},
+    {"\xc2\x80", 2},
+    {"\xdf\xbf", 2},
+    {"\xdf\x7f", 0},
+    {"\xdf\xc0", 0},
+    {"\xe0\x9f\xbf", 0},
+    {"\xe0\xa0\x80", 3},
+    {"\xed\x9f\xbf", 3},
+    {"\xed\xa0\x80", 0},
+    {"\xed\xbf\xbf", 0},
+    {"\xee\x80\x80", 3},
+    {"\xef\xbf\xbf", 3},
+    {"\xef\xbf\x41", 0},
+    {"\xf0\x8f\xbf\xbf", 0},
+    {"\xf0\x90\x80\x80", 4},
+    {"\xf4\x8f\xbf\xbf", 4},
+    {"\xf4\x90\x80\x80", 0},
+    {"\xf5\x80\x80\x80", 0},
+  };
+  for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+    const size_t length = strlen(table[k].text);
+    assert_int_equal(source_character(table[k].text, length), table[k].bytes);
+    if (table[k].bytes > 1) assert_int_equal(source_character(table[k].text, length - 1), 0); /* cut off */
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_said_is_lost),
-                                     cmocka_unit_test(lines_before_a_text_count)};
+                                     cmocka_unit_test(lines_before_a_text_count),
+                                     cmocka_unit_test(characters_are_well_formed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

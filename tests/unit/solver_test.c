@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "algebra/deflation.h"
+#include "algebra/start.h"
 #include "cmocka_test.h"
 #include "random.h"
 
@@ -305,6 +306,20 @@ static void beyond_doubles(void **state)
 }
 
 /* Whatever the iteration limit, an answer comes, and its radii hold. */
+/* Methods that divide by the differences of their values get none that are equal. */
+static void equal_warm_starts_are_parted(void **state)
+{
+  (void)state;
+  const struct root_problem problem = {.degree = 4, .basis = BASIS_POWER, .c = {1, 2, 3, 4, 5}};
+  const struct solver_warm warm = {4, {0.5, 0.5, 0.5, -3}, {0, 0, 0, 1}};
+  double re[4], im[4];
+  start_values(&problem, RADII_POLYGON, &warm, 4, re, im);
+  for (int i = 0; i < 4; i++) {
+    assert_true(hypot(re[i] - warm.re[i], im[i] - warm.im[i]) < 0x1p-8);
+    for (int j = 0; j < i; j++) assert_true(re[i] != re[j] || im[i] != im[j]);
+  }
+}
+
 static void limits(void **state)
 {
   (void)state;
@@ -346,6 +361,7 @@ int main(void)
     cmocka_unit_test(raised_degree),
     cmocka_unit_test(random_roots),
     cmocka_unit_test(warm_start),
+    cmocka_unit_test(equal_warm_starts_are_parted),
     cmocka_unit_test(limits),
     cmocka_unit_test(division),
     cmocka_unit_test(sizes),
