@@ -154,16 +154,16 @@ struct model_copy {
 };
 
 /* A hierarchy in a frame of its own: (world - origin)/frame, all within about [-1,1], frame a power of two. Its boxes
- * are floats, which tell little of what is far smaller than the frame: small boxes that lie together among large ones
- * have a tree of theirs, which is box MODEL_INNER of this one. */
+ * are floats, which tell little of what is far smaller than the frame: small boxes that lie together have a tree of theirs
+ * where there are others far away, or far larger. In the hierarchy box k < leaf_count is a leaf's, those behind are the copies',
+ * and behind these come the trees in this one. */
 struct model_tree {
   double origin[3], frame;
   struct bvh bvh;
-  struct model_tree *inner; /* or NULL; in the arena */
-  double crossings;         /* how many surfaces a line that comes by the tree crosses, on average, about */
+  struct model_tree *inner; /* in the arena */
+  size_t inner_count;
+  double crossings; /* how many surfaces a line that comes by the tree crosses, on average, about */
 };
-
-enum { MODEL_INNER = INT32_MAX };
 
 struct model {
   const struct scene *scene;
@@ -193,6 +193,18 @@ struct model {
  * where memory is short, or threads are; then *out is NULL. */
 enum status model_create(const struct scene *scene, const struct team *team, struct model **out) STATUS_MUST_CHECK;
 void model_destroy(struct model *model);
+
+/* Whether a box of the hierarchy, or of a tree in it, is a tree's. */
+static inline bool model_is_tree(const struct model *model, uint32_t box)
+{
+  return box >= model->leaf_count + model->copy_count;
+}
+
+/* That tree, which is in `tree`. */
+static inline struct model_tree *model_inner(const struct model *model, const struct model_tree *tree, uint32_t box)
+{
+  return &tree->inner[box - model->leaf_count - model->copy_count];
+}
 
 /* The patch, in `room` where it is not kept. */
 struct model_patch *model_patch_at(const struct model *model, uint32_t index, struct patch_room *room);

@@ -44,7 +44,7 @@ static void side_open(struct side *side, struct method *solver, world_net nets[]
   assert_int_equal(intersector_create(&side->scene, &side->intersector), STATUS_OK);
   assert_int_equal(tracer_create(side->intersector, &side->tracer), STATUS_OK);
   assert_true((side->tracer->model->leaves != NULL) == (far == 0));
-  if (far > 0) assert_true((side->tracer->model->tree.inner != NULL) == floored);
+  if (far > 0) assert_true((side->tracer->model->tree.inner_count > 0) == floored);
 }
 
 static void side_close(struct side *side)

@@ -275,6 +275,66 @@ static void what_is_passed_by_hides_nothing(void **state)
   world_close(&world);
 }
 
+/* Villages, and a patch all by itself, so far apart that floats in the frame of the whole would not tell the patches of one
+ * from one another. */
+enum { VILLAGES = 3, VILLAGE = 60, VILLAGERS = VILLAGES * VILLAGE };
+
+static void village(struct random *random, const double at[3], world_net nets[VILLAGE])
+{
+  for (int p = 0; p < VILLAGE; p++) {
+    double corner[3];
+    for (int k = 0; k < 3; k++) corner[k] = at[k] + random_between(random, -2, 2);
+    for (int n = 0; n < 16; n++) {
+      const double step[3] = {n / 4 * 0.3, n % 4 * 0.3, random_between(random, -0.2, 0.2)};
+      for (int k = 0; k < 3; k++) nets[p][n / 4][n % 4][k] = corner[k] + step[k];
+    }
+  }
+}
+
+/* Rays at a village are answered as if there were nothing else, and by trying no more leaves. */
+static void what_is_far_away_costs_nothing(void **state)
+{
+  (void)state;
+  static world_net nets[VILLAGERS + 1];
+  size_t hits = 0;
+  for (double apart = 1e3; apart <= 1e15; apart *= 1e3) {
+    struct random random = {SEED};
+    const double at[VILLAGES + 1][3] = {{0, 0, 0}, {apart, 0, 0}, {apart / 3, -apart, 7}, {-apart, apart, apart}};
+    for (int v = 0; v < VILLAGES; v++) village(&random, at[v], nets + VILLAGE * v);
+    for (int n = 0; n < 16; n++)
+      for (int k = 0; k < 3; k++)
+        nets[VILLAGERS][n / 4][n % 4][k] = at[VILLAGES][k] + (k == 0) * (n / 4) + (k == 1) * (n % 4);
+    struct world all, alone;
+    world_open(&all, nets, VILLAGERS + 1, NULL);
+    for (int v = 0; v < (apart > 1e12 ? 1 : VILLAGES); v++) { /* the others are rounded to pieces then */
+      struct intersect_counts before = *tracer_counts(all.tracer), none = {.work = 0};
+      world_open(&alone, nets + VILLAGE * v, VILLAGE, NULL);
+      for (int n = 0; n < 10 * RAYS; n++) {
+        struct ray ray = {.t_max = INFINITY};
+        for (int k = 0; k < 3; k++) {
+          ray.origin[k] = at[v][k] + random_between(&random, -5, 5);
+          ray.direction[k] = at[v][k] + random_between(&random, -2, 2) - ray.origin[k];
+        }
+        if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0) continue;
+        struct hit hit = world_closest(&all, &ray);
+        const struct hit other = world_closest(&alone, &ray);
+        if (other.certainty != CERTAINTY_CERTAIN) continue;
+        assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+        if (hit.patch < VILLAGERS && other.patch == HIT_NONE) continue; /* it goes on to another village */
+        if (hit.patch != HIT_NONE) hit.patch -= (uint32_t)(VILLAGE * v);
+        assert_int_equal(hit.patch, other.patch);
+        if (hit.patch != HIT_NONE) assert_true(fabs(hit.t - other.t) <= 0x1p-50 * other.t);
+        hits += hit.patch != HIT_NONE;
+      }
+      const uint64_t took = counted(&all, &before).patches_tested, least = counted(&alone, &none).patches_tested;
+      assert_in_range(took, 0, 2 * least + 10 * RAYS);
+      world_close(&alone);
+    }
+    world_close(&all);
+  }
+  assert_true(hits > 1000);
+}
+
 /* What is counted without being tried. Of more patches than these neither they nor leaves are kept. */
 enum { KEPT = 1 << 16, CROWD = KEPT + 4096, THROUGH = 4000, FEW_LOOKS = 90000 };
 
@@ -367,6 +427,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_ray_takes_no_more_than_its_share), cmocka_unit_test(what_is_not_looked_at_hides),
-    cmocka_unit_test(what_is_passed_by_hides_nothing), cmocka_unit_test(boxes_and_leaves_made_are_counted)};
+    cmocka_unit_test(what_is_passed_by_hides_nothing), cmocka_unit_test(what_is_far_away_costs_nothing),
+    cmocka_unit_test(boxes_and_leaves_made_are_counted)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,8 +76,8 @@ __attribute__((noinline)) static void bundle_make(struct bundle *b, uint32_t ind
 static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_t index, unsigned active)
 {
   const struct model *model = b->packet[0].model;
-  if (index == MODEL_INNER) {
-    bundle_inner(b, tree->inner, active);
+  if (model_is_tree(model, index)) {
+    bundle_inner(b, model_inner(model, tree, index), active);
   } else if (is_twin(&b->packet[0], index)) {
     return;
   } else if (index >= model->leaf_count) {

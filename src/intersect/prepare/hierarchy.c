@@ -281,9 +281,11 @@ static bool make_room(struct making *m)
 /* ---- the hierarchy ---- */
 
 /* Boxes of trees in the tree are in these trees' frames. */
-static void orient_inner(struct model *model)
+static void orient_inner(struct model *model, const struct model_tree *whole)
 {
-  for (const struct model_tree *tree = model->tree.inner; tree; tree = tree->inner) {
+  for (size_t k = 0; k < whole->inner_count; k++) {
+    const struct model_tree *tree = &whole->inner[k];
+    orient_inner(model, tree);
     for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
       const uint32_t child = tree->bvh.nodes[n / BVH_WIDTH].child[n % BVH_WIDTH], box = child & ~(uint32_t)BVH_LEAF;
       if (child == box || box >= model->leaf_count) continue;
@@ -308,7 +310,7 @@ static enum status orient(struct making *m)
     model->oriented = oriented_in(model, model->oriented_room);
     status = do_parts(m, make_leaves, model->leaf_count);
   }
-  if (status == STATUS_OK) orient_inner(model);
+  if (status == STATUS_OK) orient_inner(model, &model->tree);
   return status;
 }
 

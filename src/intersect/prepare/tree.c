@@ -2,6 +2,7 @@
 #include "intersect/prepare/tree.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "base/real.h"
@@ -12,6 +13,11 @@
 #define SMALL_BOX 0x1p-8
 #define SMALL_PART 0x1p-6
 
+/* Where they do not, those that are no larger than that, of which floats tell little (what is added to a box is 2^-21 of the
+ * frame), have several: so many or more that lie within such a part. */
+#define TINY_BOX 0x1p-16
+enum { GROUP_LEAST = 8 };
+
 static double box_extent(const struct bvh_box *box)
 {
   double extent = 0;
@@ -19,18 +25,112 @@ static double box_extent(const struct bvh_box *box)
   return extent;
 }
 
-/* Moves the small boxes to the end where they lie together, and writes their hull; returns how many stay. */
-static size_t set_apart(const struct bvh_box boxes[], uint32_t index[], size_t count, double frame,
-                        struct bvh_box *hull)
+static double box_center(const struct bvh_box *box, int axis) { return box->lo[axis] / 2 + box->hi[axis] / 2; }
+
+/* Boxes that have a tree of their own: index[first .. first + count - 1]. */
+struct group {
+  size_t first, count;
+  struct bvh_box hull;
+};
+
+/* The boxes of a tree, and those of them that are set apart. */
+struct grouping {
+  const struct bvh_box *boxes;
+  uint32_t *index;
+  double frame;
+  struct group *groups;
+  size_t count, room;
+  bool failed; /* memory was short */
+};
+
+static void group_add(struct grouping *g, const struct group *group)
 {
-  *hull = BVH_EMPTY;
+  struct group *grown = memory_grow(g->groups, &g->room, g->count + 1, sizeof *grown);
+  g->failed |= !grown;
+  if (grown) g->groups = grown, g->groups[g->count++] = *group;
+}
+
+static struct bvh_box hull_of(const struct grouping *g, size_t first, size_t count)
+{
+  struct bvh_box hull = BVH_EMPTY;
+  for (size_t k = first; k < first + count; k++) bvh_box_add(&hull, &g->boxes[g->index[k]]);
+  return hull;
+}
+
+/* Moves boxes larger than that to the front; returns how many there are. */
+static size_t larger_first(struct grouping *g, size_t first, size_t count, double extent)
+{
   size_t large = 0;
   for (size_t k = 0; k < count; k++) {
-    const uint32_t here = index[k];
-    if (box_extent(&boxes[here]) > SMALL_BOX * frame) index[k] = index[large], index[large++] = here;
-    else bvh_box_add(hull, &boxes[here]);
+    const uint32_t here = g->index[first + k];
+    if (box_extent(&g->boxes[here]) > extent)
+      g->index[first + k] = g->index[first + large], g->index[first + large++] = here;
   }
-  return large > 0 && count - large > 1 && box_extent(hull) <= SMALL_PART * frame ? large : count;
+  return large;
+}
+
+/* Those whose centers are on the lower side of that place, first; returns how many there are. */
+static size_t lower_first(struct grouping *g, const struct group *all, int axis, double place)
+{
+  size_t lower = 0;
+  for (size_t k = all->first; k < all->first + all->count; k++) {
+    const uint32_t here = g->index[k];
+    if (box_center(&g->boxes[here], axis) < place)
+      g->index[k] = g->index[all->first + lower], g->index[all->first + lower++] = here;
+  }
+  return lower;
+}
+
+/* Finds the groups among these boxes, which are tiny, by halving the space that they are in: both halves have some, for the
+ * hull is far larger than the boxes. */
+static void find_groups(struct grouping *g, size_t first, size_t count)
+{
+  if (count < GROUP_LEAST) return;
+  const struct group all = {first, count, hull_of(g, first, count)};
+  if (box_extent(&all.hull) <= SMALL_PART * g->frame) {
+    group_add(g, &all);
+    return;
+  }
+  int axis = 0;
+  for (int k = 1; k < 3; k++)
+    if (all.hull.hi[k] - all.hull.lo[k] > all.hull.hi[axis] - all.hull.lo[axis]) axis = k;
+  const size_t lower = lower_first(g, &all, axis, box_center(&all.hull, axis));
+  find_groups(g, first, lower);
+  find_groups(g, first + lower, count - lower);
+}
+
+/* Moves the groups, which are in their order, behind all other boxes; returns how many these are. */
+static size_t groups_last(struct grouping *g, size_t count)
+{
+  uint32_t *moved = memory_alloc(count, sizeof *moved);
+  g->failed |= !moved;
+  if (!moved) return count;
+  size_t stay = 0, behind = 0, from = 0;
+  for (size_t n = 0; n < g->count; n++) {
+    struct group *group = &g->groups[n];
+    memcpy(moved + behind, g->index + group->first, group->count * sizeof *moved);
+    for (; from < group->first; from++) g->index[stay++] = g->index[from];
+    from += group->count, behind += group->count;
+  }
+  for (; from < count; from++) g->index[stay++] = g->index[from];
+  memcpy(g->index + stay, moved, behind * sizeof *moved);
+  memory_free(moved);
+  for (size_t n = 0, first = stay; n < g->count; first += g->groups[n++].count) g->groups[n].first = first;
+  return stay;
+}
+
+/* Finds what is to be set apart, and moves it to the end; returns how many stay. */
+static size_t set_apart(struct grouping *g, size_t count)
+{
+  const size_t large = larger_first(g, 0, count, SMALL_BOX * g->frame);
+  const struct group small = {large, count - large, hull_of(g, large, count - large)};
+  if (large > 0 && small.count > 1 && box_extent(&small.hull) <= SMALL_PART * g->frame) {
+    group_add(g, &small);
+    return large;
+  }
+  const size_t larger = large + larger_first(g, large, small.count, TINY_BOX * g->frame);
+  find_groups(g, larger, count - larger);
+  return g->count > 0 ? groups_last(g, count) : count;
 }
 
 /* The box in that frame, wider by what rounding it in the frame of the whole may have done. */
@@ -44,60 +144,88 @@ static struct bvh_box framed(const struct bvh_box *box, const double middle[3], 
   return out;
 }
 
-/* The leaves of the hierarchy get the numbers of their boxes; its last box is the hull of those set apart, if any. */
-static void number_leaves(struct bvh *bvh, const uint32_t index[], size_t stay)
+/* What the trees are built from: all boxes, in the frame of the whole. */
+struct building {
+  struct arena *arena;
+  struct bvh_box *boxes;
+  size_t count;
+  struct model_tree whole;
+  const struct team *team;
+};
+
+/* The leaves of the hierarchy get the numbers of their boxes; its last boxes are the hulls of those set apart, if any. */
+static void number_leaves(const struct building *b, struct bvh *bvh, const uint32_t index[], size_t stay)
 {
   for (size_t n = 0; n < bvh->node_count; n++) {
     for (int side = 0; side < BVH_WIDTH; side++) {
       uint32_t *child = &bvh->nodes[n].child[side];
       const uint32_t box = *child & ~(uint32_t)BVH_LEAF;
-      if (*child & (uint32_t)BVH_LEAF) *child = (uint32_t)BVH_LEAF | (box == stay ? (uint32_t)MODEL_INNER : index[box]);
+      const uint32_t number = box < stay ? index[box] : (uint32_t)(b->count + (box - stay));
+      if (*child & (uint32_t)BVH_LEAF) *child = (uint32_t)BVH_LEAF | number;
     }
   }
 }
 
-/* What the trees are built from: all boxes, in the frame of the whole. */
-struct building {
-  struct arena *arena;
-  struct bvh_box *boxes;
-  struct model_tree whole;
-  const struct team *team;
-};
+static enum status build(const struct building *b, uint32_t index[], size_t count, const double middle[3], double frame,
+                         struct model_tree *out);
+
+/* The hierarchy of the boxes that stay in that frame, and of the groups' hulls. */
+static enum status build_outer(const struct building *b, const struct grouping *g, size_t stay, const double middle[3],
+                               struct model_tree *out)
+{
+  const bool first = g->frame == 1;
+  const bool given = first && g->count == 0; /* the boxes as they are: no copies of them */
+  for (size_t k = 0; given && k < stay; k++) g->index[k] = (uint32_t)k;
+  struct bvh_box *own = given ? NULL : memory_alloc(stay + g->count + 1, sizeof *own);
+  if (!own && !given) return STATUS_LIMIT;
+  for (size_t k = 0; own && k < stay; k++) {
+    const struct bvh_box *box = &b->boxes[g->index[k]];
+    own[k] = first ? *box : framed(box, middle, g->frame);
+  }
+  for (size_t k = 0; k < g->count; k++) own[stay + k] = framed(&g->groups[k].hull, middle, g->frame);
+  const enum status status = bvh_build(given ? b->boxes : own, stay + g->count, b->team, &out->bvh);
+  memory_free(own);
+  if (status == STATUS_OK) number_leaves(b, &out->bvh, g->index, stay);
+  return status;
+}
+
+/* The trees of the groups. */
+static enum status build_inner(const struct building *b, const struct grouping *g, struct model_tree *out)
+{
+  out->inner = arena_alloc(b->arena, g->count, sizeof *out->inner);
+  if (!out->inner) return STATUS_LIMIT;
+  enum status status = STATUS_OK;
+  for (size_t n = 0; n < g->count && status == STATUS_OK; n++) {
+    const struct group *group = &g->groups[n];
+    double center[3];
+    int exponent;
+    for (int k = 0; k < 3; k++) center[k] = box_center(&group->hull, k);
+    frexp(real_max(box_extent(&group->hull) / 2, UNIT_ROUNDOFF), &exponent);
+    out->inner_count++;
+    status = build(b, g->index + group->first, group->count, center, ldexp(1, exponent), &out->inner[n]);
+  }
+  return status;
+}
 
 /* A tree of boxes[index[0..count-1]] in a frame about `middle`, of size `frame`, both in the frame of the whole. */
 static enum status build(const struct building *b, uint32_t index[], size_t count, const double middle[3], double frame,
                          struct model_tree *out)
 {
-  struct bvh_box hull;
-  struct bvh_box *boxes = b->boxes;
-  const size_t stay = set_apart(boxes, index, count, frame, &hull), inner = stay < count;
-  const bool first = frame == 1;
-  const bool given = first && !inner; /* the boxes as they are: no copies of them */
-  for (size_t k = 0; given && k < stay; k++) index[k] = (uint32_t)k;
-  struct bvh_box *own = given ? NULL : memory_alloc(stay + inner + 1, sizeof *own);
+  struct grouping g = {.boxes = b->boxes, .index = index, .frame = frame};
+  const size_t stay = set_apart(&g, count);
   *out = (struct model_tree){.frame = b->whole.frame * frame};
   for (int k = 0; k < 3; k++) out->origin[k] = b->whole.origin[k] + b->whole.frame * middle[k];
-  if (!own && !given) return STATUS_LIMIT;
-  for (size_t k = 0; own && k < stay; k++) own[k] = first ? boxes[index[k]] : framed(&boxes[index[k]], middle, frame);
-  if (inner) own[stay] = framed(&hull, middle, frame);
-  const enum status status = bvh_build(given ? boxes : own, stay + inner, b->team, &out->bvh);
-  memory_free(own);
-  if (status == STATUS_OK) number_leaves(&out->bvh, index, stay);
-  if (status != STATUS_OK || !inner) return status;
-  out->inner = arena_alloc(b->arena, 1, sizeof *out->inner);
-  if (!out->inner) return STATUS_LIMIT;
-  double center[3];
-  int exponent;
-  for (int k = 0; k < 3; k++) center[k] = hull.lo[k] / 2 + hull.hi[k] / 2;
-  frexp(real_max(box_extent(&hull) / 2, UNIT_ROUNDOFF), &exponent);
-  return build(b, index + stay, count - stay, center, ldexp(1, exponent), out->inner);
+  enum status status = g.failed ? STATUS_LIMIT : build_outer(b, &g, stay, middle, out);
+  if (status == STATUS_OK && g.count > 0) status = build_inner(b, &g, out);
+  memory_free(g.groups);
+  return status;
 }
 
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree)
 {
   static const double middle[3] = {0, 0, 0};
-  const struct building all = {arena, boxes, *tree, team};
+  const struct building all = {arena, boxes, count, *tree, team};
   uint32_t *index = memory_alloc(count + 1, sizeof *index);
   if (!index) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
@@ -123,14 +251,14 @@ static double leaf_area(const struct oriented_box *box)
 /* Of what is in a leaf child's box, times its surface. */
 static double crossings_in(const struct model *model, const struct model_tree *tree, uint32_t box, double surface)
 {
-  if (box == MODEL_INNER) return tree->inner->crossings * surface;
+  if (model_is_tree(model, box)) return model_inner(model, tree, box)->crossings * surface;
   if (box >= model->leaf_count) return model->copies[box - model->leaf_count].object->model->tree.crossings * surface;
   return 2 * leaf_area(&model->oriented[box]);
 }
 
 static void set_crossings(const struct model *model, struct model_tree *tree)
 {
-  if (tree->inner) set_crossings(model, tree->inner);
+  for (size_t k = 0; k < tree->inner_count; k++) set_crossings(model, &tree->inner[k]);
   struct bvh_box whole = BVH_EMPTY;
   double sum = 0;
   for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
@@ -152,5 +280,6 @@ void tree_set_crossings(struct model *model) { set_crossings(model, &model->tree
 
 void tree_free(struct model_tree *tree)
 {
-  for (; tree; tree = tree->inner) bvh_free(&tree->bvh);
+  for (size_t k = 0; k < tree->inner_count; k++) tree_free(&tree->inner[k]);
+  bvh_free(&tree->bvh);
 }

@@ -8,8 +8,8 @@
 #include "base/arena.h"
 #include "intersect/model.h"
 
-/* Builds over boxes[0..count), which are given in the frame that the tree has already, and used up. STATUS_LIMIT where
- * memory is short, or threads are; then there may be nodes to free. */
+/* Builds over boxes[0..count), a model's leaves' and then its copies', which are given in the frame that the tree has already,
+ * and used up. STATUS_LIMIT where memory is short, or threads are; then there may be nodes to free. */
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree) STATUS_MUST_CHECK;
 
