@@ -173,6 +173,17 @@ LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)
 #endif
 }
 
+/* Lane k: c - a b, with one rounding. */
+LANES_INLINE lanes lanes_residual(lanes a, lanes b, lanes c)
+{
+#if LANES == 8 || defined(__FMA__)
+  return LANES_OP(fnmadd_pd)(a, b, c);
+#else
+  for (int k = 0; k < LANES; k++) a[k] = __builtin_fma(-a[k], b[k], c[k]);
+  return a;
+#endif
+}
+
 /* Lane k: a b + c, with one rounding or two. */
 LANES_INLINE lanes lanes_multiply_add(lanes a, lanes b, lanes c)
 {

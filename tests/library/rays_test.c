@@ -282,7 +282,7 @@ static void test_arithmetic(void **state)
 #endif
   assert_int_equal(fesetround(FE_UPWARD), 0);
   feclearexcept(FE_ALL_EXCEPT);
-  (void)feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+  const int traps_wanted = FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW, asked = feenableexcept(traps_wanted);
   const enum pscn_status status = pscn_nearest(rays->scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits);
   struct pscn_scene *scene = make_ball();
   const int round = fegetround(), raised = fetestexcept(FE_ALL_EXCEPT), traps = fegetexcept();
@@ -295,7 +295,7 @@ static void test_arithmetic(void **state)
 #endif
   assert_int_equal(round, FE_UPWARD);
   assert_int_equal(raised, 0);
-  assert_int_equal(traps, FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+  assert_int_equal(traps, asked < 0 ? 0 : traps_wanted); /* arm64 has none */
   assert_int_equal(status, PSCN_OK);
   assert_memory_equal(hits, rays->hit, sizeof hits);
   assert_int_equal(pscn_nearest(scene, COUNT, rays->ray, sizeof *rays->ray, hits, sizeof *hits), PSCN_OK);
