@@ -130,6 +130,8 @@ static size_t set_apart(struct grouping *g, size_t count)
   }
   const size_t larger = large + larger_first(g, large, small.count, TINY_BOX * g->frame);
   find_groups(g, larger, count - larger);
+  if (g->count == 1 && g->groups->count == count)
+    g->count = 0; /* all of them: the frame is as fine as doubles tell already */
   return g->count > 0 ? groups_last(g, count) : count;
 }
 
