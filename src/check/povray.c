@@ -18,7 +18,9 @@
 static const char LOG[] = "povray.log", HOME[] = "home", RUN[] = "run";
 
 /* In RUN. */
-static const char TEXT[] = "scene.pov", PICTURE[] = "picture.png", ANSWERS[] = "answers.txt";
+#define TEXT "scene.pov"
+#define PICTURE "picture.png"
+#define ANSWERS "answers.txt"
 
 /* Only what it is installed with may be read, beside its folder, and no program be run; where it keeps to that. */
 static const char RESTRICTIONS[] = "[File I/O Security]\nrestricted\n[Shellout Security]\nforbidden\n"
@@ -207,8 +209,8 @@ static enum status run_on_text(struct povray *povray, const char *what, bool pic
   snprintf(size[0], sizeof size[0], "+W%zu", pictured ? povray->width : 1);
   snprintf(size[1], sizeof size[1], "+H%zu", pictured ? povray->height : 1);
   const char *const ours[] = {
-    povray->program, "+Iscene.pov", "+Opicture.png", size[0],         size[1], "+FN8", "-A", "-D", "-P",
-    "-UA",           "+SU",         "Dither=Off",    "Work_Threads=1"};
+    povray->program, "+I" TEXT, "+O" PICTURE, size[0],         size[1], "+FN8", "-A", "-D", "-P",
+    "-UA",           "+SU",     "Dither=Off", "Work_Threads=1"};
   const size_t count = sizeof ours / sizeof ours[0];
   _Static_assert(sizeof ours / sizeof ours[0] < OURS, "and the NULL");
   memcpy(arguments, ours, sizeof ours);
@@ -331,7 +333,7 @@ static enum status write_questions(const struct question *question, FILE *file)
   empty.patch_count = 0;
   enum status status = scene_dump(&empty, file);
   if (status == STATUS_OK) status = scene_dump_union(question->scene, "Scene", file);
-  fputs("object { Scene }\n#fopen Answers \"answers.txt\" write\n"
+  fputs("object { Scene }\n#fopen Answers \"" ANSWERS "\" write\n"
         "#macro Ask(From, Along)\n"
         "  #local Normal = <0, 0, 0>;\n"
         "  #local Point = trace(Scene, From, Along, Normal);\n"
