@@ -1,4 +1,4 @@
-/* What two pixels beside each other lie on, told from what is known of their centres. */
+/* What two pixels beside each other lie on, told from what is known of their centres; and whether a picture is within its limits. */
 #include <math.h>
 #include <string.h>
 
@@ -67,10 +67,31 @@ static void shadows_and_creases_are_told_apart(void **state)
   assert_int_equal(between(lit, dark), CHECK_EDGE_SHADOW);
 }
 
+/* Of 1,000 pixels; each limit is passed by the least that is more, and not by as much as it is. */
+static void limits_are_what_they_are(void **state)
+{
+  (void)state;
+  const struct check_request request = {.fail = {.each = 0.5, .percent = 1}, .fail_psnr = 40, .fail_mask = 0.5};
+  struct check check = {.request = &request, .row_count = 1};
+  struct check_row *row = &check.row[0];
+  char said[200] = "";
+  row->result.pixels = 1000, row->result.psnr = 40, row->over_limit = 10, row->mask_ours = 3, row->mask_theirs = 2;
+  assert_true(check_within_limits(&check, said, sizeof said));
+  row->mask_theirs = 3;
+  assert_false(check_within_limits(&check, said, sizeof said));
+  assert_non_null(strstr(said, "0.6 %"));
+  row->mask_ours = 2, row->over_limit = 11;
+  assert_false(check_within_limits(&check, said, sizeof said));
+  assert_non_null(strstr(said, "1.1 %"));
+  row->over_limit = 10, row->result.psnr = nextafter(40, 0);
+  assert_false(check_within_limits(&check, said, sizeof said));
+  assert_non_null(strstr(said, "PSNR"));
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(one_surface_has_no_edge),
-                                     cmocka_unit_test(what_stands_before_another_is_a_silhouette),
-                                     cmocka_unit_test(shadows_and_creases_are_told_apart)};
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(one_surface_has_no_edge), cmocka_unit_test(what_stands_before_another_is_a_silhouette),
+    cmocka_unit_test(shadows_and_creases_are_told_apart), cmocka_unit_test(limits_are_what_they_are)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
