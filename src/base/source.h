@@ -1,9 +1,9 @@
 /* Source text: the bytes of one scene file, and where in them a byte offset lies.
  *
  * The bytes are kept as they are in the file (any bytes, NUL included). A source that was included knows the place of
- * its #include. To others sources are read-only once made; the scanner ends words in `text` for a
- * moment. They own what they point to, except `includer` and a text that is shared. The memory of a long file's text may be
- * given back as it is read (source_drop), and is filled again where that text is looked at once more (source_recall).
+ * its #include. To others sources are read-only once made; the scanner ends words in `text` for a moment. They own what
+ * they point to, except `includer` and a text that is shared. The memory of a long file's text may be given back as it is
+ * read (source_drop), and is filled again where that text is looked at once more (source_recall).
  */
 #ifndef PSCN_BASE_SOURCE_H
 #define PSCN_BASE_SOURCE_H

@@ -86,8 +86,10 @@ void language_error_in(struct language *language, const struct block *block, str
 
 void language_limit(struct language *language, struct span place, const char *text)
 {
-  if (!language->ended_early) diagnostics_error(language->diagnostics, sources_place(language, place), "%s", text);
-  language->limit_told |= !language->ended_early;
+  if (!language->ended_early) {
+    diagnostics_error(language->diagnostics, sources_place(language, place), "%s", text);
+    language->limit_told = true;
+  }
   language->ended_early = true;
 }
 

@@ -295,14 +295,16 @@ static void test_many_empty_copies(void **state)
   scene_destroy(scene);
 }
 
+#define NET                                                                                  \
+  "<0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> <1,2,0> <2,2,1> " \
+  "<3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0>"
+
 /* Named once it is its patches and no more. */
 static void test_one_is_no_copy(void **state)
 {
   (void)state;
-  static const char text[] =
-    "#declare P = bicubic_patch { type 1 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> "
-    "<1,2,0> <2,2,1> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0> }\n"
-    "object { P rotate 10 * x }\n";
+  static const char text[] = "#declare P = bicubic_patch { type 1 " NET " }\n"
+                             "object { P rotate 10 * x }\n";
   struct scene *scene = NULL;
   assert_int_equal(load(text, sizeof text - 1, &PLAIN, &scene), STATUS_OK);
   assert_int_equal(scene->patch_count, 1);
@@ -317,9 +319,7 @@ static void test_copies(void **state)
 {
   (void)state;
   static const char text[] =
-    "#declare P = bicubic_patch { type 1 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0> <0,2,0> "
-    "<1,2,0> <2,2,1> <3,2,0>"
-    " <0,3,0> <1,3,0> <2,3,0> <3,3,0> translate <0.1, 0, 0> }\n"
+    "#declare P = bicubic_patch { type 1 " NET " translate <0.1, 0, 0> }\n"
     "#declare Two = union { object { P rotate <10, 20, 30> } object { P scale <1, -2, 0.3> } translate z }\n"
     "object { P }\n"
     "union { object { Two } object { Two rotate 33 * y translate <5, 0, 0.7> } rotate 7 * x }\n"
