@@ -161,7 +161,7 @@ LANES_INLINE lanes lanes_rint(lanes a)
 #endif
 }
 
-/* Lane k: a b - product exactly, for product = a b rounded: the rounding error of a product. Written so that no
+/* Lane k: a b - product, with one rounding: exactly where product = a b rounded, whose error it is. Written so that no
  * contraction of multiply and add by the compiler can change it. */
 LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)
 {
@@ -169,17 +169,6 @@ LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)
   return LANES_OP(fmsub_pd)(a, b, product);
 #else
   for (int k = 0; k < LANES; k++) a[k] = __builtin_fma(a[k], b[k], -product[k]);
-  return a;
-#endif
-}
-
-/* Lane k: c - a b, with one rounding. */
-LANES_INLINE lanes lanes_residual(lanes a, lanes b, lanes c)
-{
-#if LANES == 8 || defined(__FMA__)
-  return LANES_OP(fnmadd_pd)(a, b, c);
-#else
-  for (int k = 0; k < LANES; k++) a[k] = __builtin_fma(-a[k], b[k], c[k]);
   return a;
 #endif
 }

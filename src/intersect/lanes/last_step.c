@@ -179,7 +179,7 @@ void last_step_take(struct last_step *l)
     u = lanes_select(again, u + du, u), v = lanes_select(again, v + dv, v);
   }
   const lanes off = way[k].lo + (jet.du[k] * du + jet.dv[k] * dv), depth = way[k].hi + off;
-  const lanes t = depth * inverse, left = lanes_residual(t, dk, way[k].hi) + off;
+  const lanes t = depth * inverse, left = off - lanes_product_error(t, dk, way[k].hi);
   l->t = lanes_select(moving, (t + left * inverse) * patch->scale, l->t);
   const lane_mask lost = l->improves & ~moving;
   l->u = surface_clamp(lanes_select(lost, l->u, u + du)), l->v = surface_clamp(lanes_select(lost, l->v, v + dv));
