@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/real.h"
 #include "intersect/prepare/patch.h"
+#include "intersect/prepare/tree.h"
 
 /* A map that stretches errors more than this is no gain: what is undecidable in the object would be decided twice. */
 #define MOST_STRETCH 0x1p10
@@ -228,8 +229,9 @@ void copy_box(const struct model *model, const struct model_copy *copy, struct b
   for (size_t p = 0; p < copy->object->declared->patch_count; p++)
     bounds_add(model->scene->patches[copy->first_patch + p].P, lo, hi);
   for (int k = 0; k < 3; k++) {
-    const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo[k]), fabs(hi[k])) + fabs(model->tree.origin[k]));
-    out->lo[k] = (lo[k] - model->tree.origin[k] - slack) / model->tree.frame;
-    out->hi[k] = (hi[k] - model->tree.origin[k] + slack) / model->tree.frame;
+    const double about = tree_about(&model->tree, k);
+    const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo[k]), fabs(hi[k])) + fabs(about));
+    out->lo[k] = (lo[k] - about - slack) / model->tree.frame;
+    out->hi[k] = (hi[k] - about + slack) / model->tree.frame;
   }
 }

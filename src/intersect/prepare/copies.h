@@ -19,7 +19,7 @@ enum status copies_choose(struct model *model, size_t *own) STATUS_MUST_CHECK;
 enum status copies_prepare(struct model *model, const struct team *team,
                            const struct split_limit *limit) STATUS_MUST_CHECK;
 
-/* The copy's box in the frame of the model's hierarchy. */
+/* The copy's box, as tree_build takes it. */
 void copy_box(const struct model *model, const struct model_copy *copy, struct bvh_box *out);
 
 #endif

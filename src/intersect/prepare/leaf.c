@@ -8,6 +8,7 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "intersect/prepare/leaf_kernel.h"
+#include "intersect/prepare/tree.h"
 
 /* Rounding of the local net itself: of P - center (half a unit), and of cutting leaves (six lerps of two roundings
  * each in either direction on values below one). Used for the boxes. */
@@ -141,7 +142,7 @@ void leaf_box(const struct model *model, const struct model_patch *patch, const 
   for (int k = 0; k < 3; k++) {
     double lo = INFINITY, hi = -INFINITY;
     for (int i = 0; i < 16; i++) lo = real_min(lo, x[k][i]), hi = real_max(hi, x[k][i]);
-    const double shift = patch->center[k] - model->tree.origin[k];
+    const double shift = patch->center[k] - tree_about(&model->tree, k);
     const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale) +
                          model->error;
     box->lo[k] = (shift + patch->scale * lo - slack) / model->tree.frame;

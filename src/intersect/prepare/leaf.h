@@ -62,7 +62,7 @@ void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct le
 void leaf_orient(const struct model_tree *tree, double error, const struct model_patch *patch,
                  const struct leaf_slab slab[3], struct oriented_box *box);
 
-/* The box of a leaf's net in the frame of the model's hierarchy. */
+/* The box of a leaf's net, as tree_build takes it. */
 void leaf_box(const struct model *model, const struct model_patch *patch, const double x[3][16], struct bvh_box *box);
 
 #endif

@@ -36,9 +36,6 @@ enum { OBJECT_LEAVES_MAX = 1 << 20 };
  * that along the long side of a slender patch, a patch takes a kilobyte at most. */
 enum { BOXES_SPLIT_MAX = 2 };
 
-/* A frame no smaller than this: its reciprocal times a direction is finite. */
-#define LEAST_FRAME 0x1p-1000
-
 /* Of a scene that reaches farther not even its own size is a number that can be squared, or doubled: nothing is
  * proven. */
 #define LARGEST_SIZE 0x1p1020

@@ -30,8 +30,7 @@ enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 static double patch_frame(double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4],
                           bool *rounded)
 {
-  double largest = 0;
-  double extent = scene_size > 0 ? real_max(LEAST_EXTENT * scene_size, LEAST_SCALE) : 0, lo[3], hi[3];
+  double largest = 0, extent = 0, lo[3], hi[3];
   for (int k = 0; k < 3; k++) { /* as bounds_add does, which takes longer here, and rays wait for this, too */
     lo[k] = INFINITY, hi[k] = -INFINITY;
     for (int i = 0; i < 4; i++)
@@ -39,6 +38,8 @@ static double patch_frame(double P[4][4][3], double scene_size, struct model_pat
     extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
     largest = real_max(largest, real_max(fabs(lo[k]), fabs(hi[k])));
   }
+  if (scene_size > 0)
+    extent = real_max(extent, real_max(LEAST_EXTENT * (largest > 0 ? largest : scene_size), LEAST_SCALE));
   *rounded = false;
   int exponent = 0;                             /* all of the scene is the origin: any scale will do */
   if (extent > 0) frexp(extent, &exponent);     /* extent < 2^exponent */

@@ -10,8 +10,8 @@
 #include "base/real.h"
 #include "intersect/model.h"
 
-/* A patch smaller than this part of the scene's coordinates is framed as if it were that large: one that is a single
- * point has no size of its own, and a frame too small would overflow. */
+/* A patch smaller than this part of its coordinates, or of the scene's where these are zeros, is framed as if it were that
+ * large: one that is a single point has no size of its own, and a frame too small would overflow. */
 #define LEAST_EXTENT 0x1p-100
 
 /* lo[k] ... hi[k] become nothing, along each axis, ... */

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/real.h"
 #include "geometry/vector.h"
+#include "intersect/prepare/patch.h"
 
 /* Boxes no larger than this part of a frame have one of their own where all of them lie within that part: a float is
  * then still some thousand times finer than they are. Choices of speed. */
@@ -135,23 +136,24 @@ static size_t set_apart(struct grouping *g, size_t count)
   return g->count > 0 ? groups_last(g, count) : count;
 }
 
-/* The box in that frame, wider by what rounding it in the frame of the whole may have done. */
+/* The box in that frame, wider by what rounding it may do. */
 static struct bvh_box framed(const struct bvh_box *box, const double middle[3], double frame)
 {
   struct bvh_box out;
   for (int k = 0; k < 3; k++) {
-    const double slack = 4 * UNIT_ROUNDOFF * (1 + fabs(middle[k]));
+    const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(box->lo[k]), fabs(box->hi[k])) + fabs(middle[k]));
     out.lo[k] = (box->lo[k] - middle[k] - slack) / frame, out.hi[k] = (box->hi[k] - middle[k] + slack) / frame;
   }
   return out;
 }
 
-/* What the trees are built from: all boxes, in the frame of the whole. */
+/* What the trees are built from: all boxes, as tree_about has them. */
 struct building {
   struct arena *arena;
   struct bvh_box *boxes;
   size_t count;
   struct model_tree whole;
+  double about[3];
   const struct team *team;
 };
 
@@ -175,18 +177,16 @@ static enum status build(const struct building *b, uint32_t index[], size_t coun
 static enum status build_outer(const struct building *b, const struct grouping *g, size_t stay, const double middle[3],
                                struct model_tree *out)
 {
-  const bool first = g->frame == 1;
-  const bool given = first && g->count == 0; /* the boxes as they are: no copies of them */
-  for (size_t k = 0; given && k < stay; k++) g->index[k] = (uint32_t)k;
-  struct bvh_box *own = given ? NULL : memory_alloc(stay + g->count + 1, sizeof *own);
-  if (!own && !given) return STATUS_LIMIT;
-  for (size_t k = 0; own && k < stay; k++) {
-    const struct bvh_box *box = &b->boxes[g->index[k]];
-    own[k] = first ? *box : framed(box, middle, g->frame);
+  const bool all = g->frame == 1 && g->count == 0; /* nobody else wants the boxes: no copies of them */
+  struct bvh_box *own = all ? b->boxes : memory_alloc(stay + g->count + 1, sizeof *own);
+  if (!own) return STATUS_LIMIT;
+  for (size_t k = 0; k < stay; k++) {
+    if (all) g->index[k] = (uint32_t)k;
+    own[k] = framed(&b->boxes[g->index[k]], middle, g->frame);
   }
   for (size_t k = 0; k < g->count; k++) own[stay + k] = framed(&g->groups[k].hull, middle, g->frame);
-  const enum status status = bvh_build(given ? b->boxes : own, stay + g->count, b->team, &out->bvh);
-  memory_free(own);
+  const enum status status = bvh_build(own, stay + g->count, b->team, &out->bvh);
+  if (!all) memory_free(own);
   if (status == STATUS_OK) number_leaves(b, &out->bvh, g->index, stay);
   return status;
 }
@@ -202,21 +202,21 @@ static enum status build_inner(const struct building *b, const struct grouping *
     double center[3];
     int exponent;
     for (int k = 0; k < 3; k++) center[k] = box_center(&group->hull, k);
-    frexp(real_max(box_extent(&group->hull) / 2, UNIT_ROUNDOFF), &exponent);
+    frexp(real_max(box_extent(&group->hull) / 2, LEAST_FRAME / b->whole.frame), &exponent);
     out->inner_count++;
     status = build(b, g->index + group->first, group->count, center, ldexp(1, exponent), &out->inner[n]);
   }
   return status;
 }
 
-/* A tree of boxes[index[0..count-1]] in a frame about `middle`, of size `frame`, both in the frame of the whole. */
+/* A tree of boxes[index[0..count-1]] in a frame about `middle`, of size `frame`, both as the boxes are given. */
 static enum status build(const struct building *b, uint32_t index[], size_t count, const double middle[3], double frame,
                          struct model_tree *out)
 {
   struct grouping g = {.boxes = b->boxes, .index = index, .frame = frame};
   const size_t stay = set_apart(&g, count);
   *out = (struct model_tree){.frame = b->whole.frame * frame};
-  for (int k = 0; k < 3; k++) out->origin[k] = b->whole.origin[k] + b->whole.frame * middle[k];
+  for (int k = 0; k < 3; k++) out->origin[k] = b->about[k] + b->whole.frame * middle[k];
   enum status status = g.failed ? STATUS_LIMIT : build_outer(b, &g, stay, middle, out);
   if (status == STATUS_OK && g.count > 0) status = build_inner(b, &g, out);
   memory_free(g.groups);
@@ -226,8 +226,12 @@ static enum status build(const struct building *b, uint32_t index[], size_t coun
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree)
 {
-  static const double middle[3] = {0, 0, 0};
-  const struct building all = {arena, boxes, count, *tree, team};
+  struct building all = {.arena = arena, .boxes = boxes, .count = count, .whole = *tree, .team = team};
+  double middle[3];
+  for (int k = 0; k < 3; k++) {
+    all.about[k] = tree_about(tree, k);
+    middle[k] = (tree->origin[k] - all.about[k]) / tree->frame;
+  }
   uint32_t *index = memory_alloc(count + 1, sizeof *index);
   if (!index) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;

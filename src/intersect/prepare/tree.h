@@ -5,11 +5,24 @@
 #ifndef PSCN_INTERSECT_PREPARE_TREE_H
 #define PSCN_INTERSECT_PREPARE_TREE_H
 
+#include <math.h>
+
 #include "base/arena.h"
 #include "intersect/model.h"
 
-/* Builds over boxes[0..count), a model's leaves' and then its copies', which are given in the frame that the tree has already,
- * and used up. STATUS_LIMIT where memory is short, or threads are; then there may be nodes to free. */
+/* A frame no smaller than this: its reciprocal times a direction is finite. */
+#define LEAST_FRAME 0x1p-1000
+
+/* What boxes are given about, in coordinate k of the scene: the scene's own zero, for doubles are finest there, and what is tiny
+ * next to the whole would be rounded away about the middle of that; of a scene that lies far from its zero the middle, next to
+ * which all differences are exact. */
+static inline double tree_about(const struct model_tree *whole, int k)
+{
+  return fabs(whole->origin[k]) > 4 * whole->frame ? whole->origin[k] : 0;
+}
+
+/* Builds over boxes[0..count), a model's leaves' and then its copies', which are used up: in the scene less tree_about, over the
+ * frame that the tree has already. STATUS_LIMIT where memory is short, or threads are; then there may be nodes to free. */
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree) STATUS_MUST_CHECK;
 
