@@ -73,7 +73,7 @@ static enum status add_listed(const struct command *command, const struct reques
 {
   enum status status = STATUS_OK;
   for (const char *from = request->channels; status == STATUS_OK; from++) {
-    char name[IMAGE_NAME_SIZE];
+    char name[IMAGE_NAME_SIZE + 1]; /* one byte more than any has, so that a longer one is not taken for it */
     const size_t length = strcspn(from, ",");
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), from);
     status = add_channel(command, request, subject, name);

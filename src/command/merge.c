@@ -106,21 +106,14 @@ static void choose_picture(struct merge *merge)
 static enum status create_picture(struct merge *merge)
 {
   const struct image *image = &merge->first->piece.image;
-  struct render_options options = {.width = image->full_width,
-                                   .height = image->full_height,
-                                   .crop = {image->x, image->y, image->width, image->height}};
-  size_t length, bad_length;
-  const char *channels = image_metadata(image, "pscn:channels", &length), *bad;
-  char *list = strndup(channels, length);
-  if (list == NULL) return STATUS_LIMIT;
-  const bool known = channel_list_parse(list, &options.channels, &bad, &bad_length);
-  free(list);
-  if (known && merge->request->format == IMAGE_PNG && !channel_list_is_rgb(&options.channels))
+  const struct render_options options = {.width = image->full_width,
+                                         .height = image->full_height,
+                                         .crop = {image->x, image->y, image->width, image->height},
+                                         .channels = merge->first->piece.channels};
+  if (merge->request->format == IMAGE_PNG && !channel_list_is_rgb(&options.channels))
     return command_usage(merge->command, "a PNG holds the channel rgb only, and '%s' has others: they need an .exr",
                          merge->first->path);
-  if (known) return piece_create(&options, 1, 1, NULL, 0, &merge->picture);
-  command_error(merge->command, "'%s': its channels are unknown", merge->first->path);
-  return STATUS_FILE;
+  return piece_create(&options, 1, 1, NULL, 0, &merge->picture);
 }
 
 /* Where a tile of a piece stands in the list of the whole picture (tile_list.h). */

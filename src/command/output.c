@@ -45,6 +45,8 @@ enum status output_write(const struct command *command, const struct atomic_file
   assert(count <= OUTPUT_MOST);
   for (size_t k = 0; k < count && status == STATUS_OK; k++) {
     if (outputs[k].path != NULL && output_is_standard(outputs[k].path)) {
+      interrupt_resume(); /* nothing would have to be put away */
+      if (atomic_load(&interrupt_signal) != 0) return STATUS_INTERRUPTED;
       (void)fwrite(outputs[k].bytes, 1, outputs[k].size, stdout);
       status = command_finish_output(command);
     } else if (outputs[k].path != NULL) {

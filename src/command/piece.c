@@ -72,7 +72,7 @@ enum status piece_create(const struct render_options *options, size_t number, si
 {
   const struct rectangle *crop = &options->crop;
   struct image *image = &out->image;
-  *out = (struct piece){.number = number, .count = count};
+  *out = (struct piece){.number = number, .count = count, .channels = options->channels};
   enum status status = image_create(crop->width, crop->height, options->channels.width, image);
   if (status == STATUS_OK) status = tile_list_create(crop, number, count, &out->tiles);
   if (status != STATUS_OK) return status;
@@ -117,8 +117,7 @@ static enum status read_tiles(struct piece *piece)
   const struct rectangle crop = {image->x, image->y, image->width, image->height};
   size_t length;
   const char *tile = image_metadata(image, "pscn:tile", &length);
-  if (tile == NULL || image_metadata(image, "pscn:channels", &(size_t){0}) == NULL || image->full_width == 0 ||
-      !piece_number(tile, length, &piece->number, &piece->count))
+  if (tile == NULL || image->full_width == 0 || !piece_number(tile, length, &piece->number, &piece->count))
     return STATUS_INPUT;
   const enum status status = tile_list_create(&crop, piece->number, piece->count, &piece->tiles);
   if (status != STATUS_OK) return status;
@@ -126,6 +125,18 @@ static enum status read_tiles(struct piece *piece)
   if (done != NULL) return read_done(done, length, &piece->tiles) ? STATUS_OK : STATUS_INPUT;
   for (size_t k = 0; k < piece->tiles.count; k++) atomic_store(&piece->tiles.done[k], true);
   return STATUS_OK;
+}
+
+/* What the picture says of its channels, likewise. */
+static enum status read_channels(struct piece *piece)
+{
+  size_t length, bad_length;
+  const char *channels = image_metadata(&piece->image, "pscn:channels", &length), *bad;
+  char *list = channels == NULL ? NULL : strndup(channels, length);
+  const bool known = list != NULL && channel_list_parse(list, &piece->channels, &bad, &bad_length);
+  const bool failed = channels != NULL && list == NULL;
+  free(list);
+  return known ? STATUS_OK : failed ? STATUS_LIMIT : STATUS_INPUT;
 }
 
 /* FNV-1a (Fowler, Noll, Vo; RFC 9923), a word at a time too: no two words give one hash. */
@@ -176,6 +187,7 @@ enum status piece_read(const char *path, bool pixels, struct piece *out, char *m
   enum status status = pixels ? image_read(path, &out->image, message) : image_read_header(path, &out->image, message);
   if (status != STATUS_OK) return status;
   status = read_tiles(out);
+  if (status == STATUS_OK) status = read_channels(out);
   snprintf(message, IMAGE_MESSAGE_SIZE, "%s", status == STATUS_INPUT ? "no piece of a picture" : "out of memory");
   if (status == STATUS_OK && pixels && !is_as_written(&out->image)) {
     snprintf(message, IMAGE_MESSAGE_SIZE, "it is damaged: it is not what was written");

@@ -18,6 +18,7 @@
 struct piece {
   struct image image;
   size_t number, count;
+  struct channel_list channels;
   struct tile_list tiles; /* of this piece; done: those the image has */
 };
 

@@ -1,6 +1,7 @@
 /* pscn render SCENE: a picture. */
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "command/command.h"
@@ -152,14 +153,17 @@ static enum status complete(const struct command *command, struct request *reque
 static enum status check_part(const struct command *command, struct rendering_request *picture)
 {
   int reason;
+  struct stat state;
   if (picture->part == NULL) return STATUS_OK;
   if (picture->resume) return output_probe(command, picture->part);
   const enum status status = atomic_file_probe(picture->part, &reason);
-  if (status == STATUS_OK) return STATUS_OK;
+  /* a pipe that nobody reads would be waited for, and what is written to a device is gone */
+  const bool special = status == STATUS_OK && stat(picture->part, &state) == 0 && !S_ISREG(state.st_mode);
+  if (status == STATUS_OK && !special) return STATUS_OK;
   if (status == STATUS_LIMIT) return command_out_of_memory(command);
   if (!picture->scene->quiet)
     command_warning(command, "nothing is kept of what is done, for '%s' cannot be written: %s", picture->part,
-                    strerror(reason));
+                    special ? "it is no file" : strerror(reason));
   picture->part = NULL;
   return STATUS_OK;
 }

@@ -166,14 +166,21 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
       keep_interrupted(rendering);
       status = STATUS_INTERRUPTED;
     }
-    interrupt_resume();
     report->counts = stats.counts;
     report->threads = stats.threads;
   }
   if (status == STATUS_LIMIT) command_error(rendering->command, "out of memory or threads");
-  else if (atomic_load(&interrupt_signal) == 0) status = loaded(rendering->command, loading);
+  else if (status == STATUS_OK) status = loaded(rendering->command, loading);
   intersector_destroy(intersector);
   return status;
+}
+
+/* While the file is made. */
+static bool go_on_writing(void *context, double part)
+{
+  struct rendering *rendering = context;
+  if (!rendering->request->scene->quiet) progress_write(&rendering->progress, part);
+  return atomic_load(&interrupt_signal) == 0;
 }
 
 static enum status encode(struct rendering *rendering, unsigned char **out_bytes, size_t *out_size, char *message)
@@ -188,8 +195,8 @@ static enum status encode(struct rendering *rendering, unsigned char **out_bytes
                                           .bits = (int)request->bits,
                                           .attributes = metadata.attribute,
                                           .attribute_count = metadata.count,
-                                          .progress = request->scene->quiet ? NULL : progress_write,
-                                          .context = &rendering->progress};
+                                          .progress = go_on_writing,
+                                          .context = rendering};
   const enum status status = image_encode(&rendering->piece.image, &encoding, out_bytes, out_size, message);
   progress_end(&rendering->progress);
   return status;
@@ -206,10 +213,9 @@ static enum status write_results(struct rendering *rendering)
   size_t size;
   char message[IMAGE_MESSAGE_SIZE];
   enum status status = encode(rendering, &bytes, &size, message);
-  if (status != STATUS_OK) {
-    command_error(command, "cannot make '%s': %s", request->output, message);
-    return status;
-  }
+  if (status == STATUS_INTERRUPTED) keep_interrupted(rendering);
+  else if (status != STATUS_OK) command_error(command, "cannot make '%s': %s", request->output, message);
+  if (status != STATUS_OK) return status;
   rendering->report->write = seconds_since(start);
   if (request->stats != NULL) status = report_text(command, report_statistics(rendering->report), &statistics);
   const size_t length = statistics == NULL ? 0 : strlen(statistics);
@@ -217,6 +223,7 @@ static enum status write_results(struct rendering *rendering)
                                       {request->stats, statistics, length},
                                       {rendering->has_part ? request->part : NULL, NULL, 0}};
   if (status == STATUS_OK) status = output_write(command, files, 3);
+  if (status == STATUS_INTERRUPTED) keep_interrupted(rendering);
   free(statistics);
   free(bytes);
   return status;

@@ -38,8 +38,9 @@ struct image_encoding {
   bool encoded; /* the values are display codes already: PNG takes them without the sRGB curve */
   const struct image_attribute *attributes;
   size_t attribute_count;
-  /* Told now and then, with its context, which part is encoded; NULL: nobody asks. */
-  void (*progress)(void *context, double part);
+  /* Told now and then, with its context, which part is encoded; NULL: nobody asks. Where it answers false that is the end:
+   * STATUS_INTERRUPTED. */
+  bool (*progress)(void *context, double part);
   void *context;
 };
 

@@ -54,6 +54,8 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
     mixed = mixed || spec.channelformats[c] != spec.format;
   }
   if (!mixed) spec.channelformats.clear();
+  /* A fourth channel would be taken for opacity, by which PNG's others are to be divided. */
+  if (encoding.format == IMAGE_PNG) spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("oiio:ColorSpace", encoding.format == IMAGE_PNG ? "sRGB" : "Linear");
   for (std::size_t k = 0; k < encoding.attribute_count; k++)
     spec.attribute(encoding.attributes[k].name, encoding.attributes[k].text);
@@ -96,9 +98,10 @@ Bytes native_rows(const image &picture, const image_encoding &encoding, const sr
   return bytes;
 }
 
-/* Writes all rows, some at a time: what they are turned into takes little memory, and how far it is can be told. */
+/* Writes all rows, some at a time: what they are turned into takes little memory, and whoever waits can be told how far it is,
+ * and end it: then `result` says so. False where not all is written. */
 bool write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const image &picture,
-                const image_encoding &encoding)
+                const image_encoding &encoding, status &result)
 {
   const std::size_t most = 64; /* whole blocks of every way to pack an EXR */
   const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeDesc();
@@ -109,15 +112,18 @@ bool write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const im
     const Bytes pixels = native_rows(picture, encoding, table, row, rows);
     const int y = spec.y + static_cast<int>(row);
     if (!output.write_scanlines(y, y + static_cast<int>(rows), 0, type, pixels.data())) return false;
-    if (encoding.progress != nullptr)
-      encoding.progress(encoding.context, static_cast<double>(row + rows) / static_cast<double>(picture.height));
+    const double part = static_cast<double>(row + rows) / static_cast<double>(picture.height);
+    if (encoding.progress == nullptr || encoding.progress(encoding.context, part)) continue;
+    result = STATUS_INTERRUPTED;
+    return false;
   }
   return true;
 }
 
-/* Encodes into `file`; an empty string or what went wrong. */
-std::string encode(const image &picture, const image_encoding &encoding, Bytes &file)
+/* Encodes into `file`; an empty string or what went wrong, which is STATUS_FILE unless `result` says otherwise. */
+std::string encode(const image &picture, const image_encoding &encoding, Bytes &file, status &result)
 {
+  result = STATUS_FILE;
   OIIO::ImageSpec spec = make_spec(picture, encoding);
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(SUFFIXES[encoding.format] + 1);
   if (!output) return "OpenImageIO: " + OIIO::geterror();
@@ -126,9 +132,10 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
   if (!output->set_ioproxy(&proxy)) return "OpenImageIO: " + output->geterror();
   /* The name decides nothing but the format: the proxy takes the bytes. */
   if (!output->open(std::string("memory") + SUFFIXES[encoding.format], spec) ||
-      !write_rows(*output, spec, picture, encoding) || !output->close())
-    return "OpenImageIO: " + output->geterror();
+      !write_rows(*output, spec, picture, encoding, result) || !output->close())
+    return result == STATUS_INTERRUPTED ? "interrupted" : "OpenImageIO: " + output->geterror();
   if (file.empty()) return "OpenImageIO wrote nothing";
+  result = STATUS_OK;
   return "";
 }
 
@@ -171,8 +178,10 @@ std::string read(const char *path, const char *format, bool pixels, image &out, 
 {
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) return "OpenImageIO: " + OIIO::geterror();
-  OIIO::ImageSpec spec;
-  if (!input->open(path, spec)) return input->geterror();
+  OIIO::ImageSpec spec, as_stored; /* not multiplied by opacity, nor made red, green and blue of other colours */
+  as_stored.attribute("oiio:UnassociatedAlpha", 1);
+  as_stored.attribute("oiio:RawColor", 1);
+  if (!input->open(path, spec, as_stored)) return input->geterror();
   if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
       spec.nchannels > IMAGE_MAX_CHANNELS)
     return "not a flat picture of at most " + std::to_string(IMAGE_MAX_CHANNELS) + " channels";
@@ -216,10 +225,11 @@ status module_encode(const image *picture, const image_encoding *encoding, unsig
     message,
     [&] {
       Bytes file;
-      const std::string problem = encode(*picture, *encoding, file);
-      if (!problem.empty()) {
+      status result;
+      const std::string problem = encode(*picture, *encoding, file, result);
+      if (result != STATUS_OK) {
         say(message, problem);
-        return STATUS_FILE;
+        return result;
       }
       *out_bytes = static_cast<unsigned char *>(std::malloc(file.size()));
       if (*out_bytes == nullptr) throw std::bad_alloc();

@@ -264,5 +264,8 @@ void pscn_leave(const struct pscn_hit *hit, const double direction[3], double ou
   struct hit from = {.clearance = hit->clearance};
   memcpy(from.point, hit->point, sizeof from.point);
   memcpy(from.normal, hit->normal, sizeof from.normal);
+  struct calm calm;
+  calm_begin(&calm);
   hit_leave(&from, direction, out_origin);
+  calm_end(&calm);
 }

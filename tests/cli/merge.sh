@@ -67,6 +67,11 @@ for text in 0-4:4-0 0-4:3,1 0-4:0-9 '0-4:0;4' 0-4:x-4 0-4:0-x 3/4:5/4 3/4:0/4 3/
   sed "s|${text%:*}|${text#*:}|" whole3.exr >said.exr
   pscn merge said.exr -o no.png 2>&1 | sed "s|^|$text: |"
 done
+# In whatever order they come.
+LC_ALL=C sed 's|\(pscn:channels.string.....\)rgb|\1rgc|' p1.exr >unknown.exr
+cmp -s p1.exr unknown.exr && echo "nothing is changed"
+try pscn merge unknown.exr p1.exr -o no.png
+try pscn merge p1.exr unknown.exr -o no.png
 # A byte of its pixels that has changed since.
 last=$(tail -c 1 p1.exr | od -An -tu1)
 (head -c -1 p1.exr && printf "\\x$(printf %x $(((last + 1) % 256)))") >changed.exr

@@ -17,6 +17,29 @@ kill -INT $!
 wait $!
 echo "exit $?"
 ls -A
+# While the file is written, too: here into a pipe that nobody reads.
+mkfifo p.png
+pscn render "$scene" -o p.png --size 90x60 &
+sleep 1
+kill -TERM $!
+wait $!
+echo "exit $?"
+pscn render "$scene" -o p.png --size 90x60 --resume --quiet --stats stats.json &
+cat p.png >resumed.png
+wait $!
+echo "exit $?"
+grep '"primary"' stats.json
+pscn render "$scene" -o whole.png --size 90x60 --quiet
+pscn compare resumed.png whole.png --fail 0 --quiet; echo "exit $?"
+ls -A
+# What is done is not kept where it would be waited for, or be gone.
+mkfifo a.png.part.exr
+pscn render "$scene" -o a.png --size 2000x2000 --samples 16 --checkpoint 0.1 &
+sleep 1
+kill -INT $!
+wait $!
+echo "exit $?"
+rm p.png a.png.part.exr resumed.png whole.png stats.json
 # What was ignored when it was started stays so: SIGHUP under nohup, SIGPIPE under programs that ask write instead.
 (trap '' HUP PIPE
 pscn render "$scene" -o kept.png --size 60x40 --samples 24 --quiet &

@@ -109,6 +109,19 @@ for file in two.exr two.tif long-nan.exr; do verdict 4 $file $file; cat ours.err
 [ "$(grep -c 'it has several pictures\|name of more than 63 bytes' refused)" = 3 ] || { cat refused; failed=1; }
 oiiotool 0.1.exr --chnames "${long%n}1,${long%n}2,${long%n}3" -o named.exr
 verdict 0 named.exr named.exr
+oiiotool 0.1.exr --ch 0 --chnames "$long" -o lone.exr
+"$PSCN" compare lone.exr lone.exr --channels "$long" --quiet || { echo "a name of 63 bytes"; failed=1; }
+"$PSCN" compare lone.exr lone.exr --channels "${long}n" --quiet 2>/dev/null && { echo "a name of 64 bytes"; failed=1; }
+# Colours that are stored differ, whatever opacity says (the same to idiff) or black ink.
+for k in 0 1; do
+  for format in png tif; do
+    oiiotool --pattern constant:color=$k,0,0,0 9x7 4 --attrib oiio:UnassociatedAlpha 1 -d uint8 -o clear$k.$format
+  done
+  oiiotool --pattern constant:color=$k,$k,$k,1 9x7 4 --chnames C,M,Y,K --attrib oiio:ColorSpace CMYK -d uint8 -o ink$k.tif
+done
+verdict 1 clear0.png clear1.png
+verdict 1 clear0.tif clear1.tif
+verdict 1 ink0.tif ink1.tif
 for file in a.png b.exr c.exr; do
   idiff -fail 0 "$file" "$file" >/dev/null && "$PSCN" compare --fail 0 "$file" "$file" >/dev/null || failed=1
 done

@@ -126,11 +126,18 @@ static void exr_keeps_values_and_names(void **state)
   image_destroy(&image);
 }
 
-static void note_progress(void *context, double part)
+static bool note_progress(void *context, double part)
 {
   double *last = context;
   assert_true(part > *last && part <= 1);
   *last = part;
+  return true;
+}
+
+static bool end_soon(void *context, double part)
+{
+  (void)context;
+  return part < 0.5;
 }
 
 /* How far the file is, to its end; rows that are written apart are the picture. */
@@ -148,7 +155,38 @@ static void encoding_is_told(void **state)
   assert_true(last == 1);
   assert_memory_equal(back.value, image.value, 9 * TALL * sizeof *image.value);
   image_destroy(&back);
+  for (int format = 0; format < 2; format++) {
+    const struct image_encoding ended = {
+      .format = format == 0 ? IMAGE_PNG : IMAGE_EXR, .bits = 16, .progress = end_soon};
+    unsigned char *bytes;
+    size_t size;
+    char message[IMAGE_MESSAGE_SIZE];
+    assert_int_equal(image_encode(&image, &ended, &bytes, &size, message), STATUS_INTERRUPTED);
+    assert_null(bytes);
+  }
   image_destroy(&image);
+}
+
+/* Neither writing nor reading divides or multiplies by a channel that might be opacity. */
+static void no_channel_is_opacity(void **state)
+{
+  (void)state;
+  static const char *const names[] = {"R", "G", "B", "A"};
+  for (size_t channels = 2; channels <= 4; channels += 2) {
+    struct image image = picture(channels, names);
+    for (size_t k = channels - 1; k < WIDTH * HEIGHT * channels; k += channels)
+      image.value[k] = (float)(k / channels % 3) / 2; /* 0, 1/2, 1 */
+    for (int format = 0; format < 2; format++) {
+      const struct image_encoding encoding = {
+        .format = format == 0 ? IMAGE_PNG : IMAGE_EXR, .bits = 16, .encoded = true};
+      struct image back = there_and_back(&image, &encoding);
+      assert_int_equal(back.channel_count, channels);
+      for (size_t k = 0; k < WIDTH * HEIGHT * channels; k++)
+        assert_true(fabsf(back.value[k] - image.value[k]) <= (format == 0 ? 0x1p-16F : 0x1p-11F));
+      image_destroy(&back);
+    }
+    image_destroy(&image);
+  }
 }
 
 /* A crop knows where it stands, in either packing; its texts come back, others do not. */
@@ -318,6 +356,7 @@ int main(void)
     WITH_FILE(exr_keeps_values_and_names),
     WITH_FILE(exr_keeps_its_window_and_texts),
     WITH_FILE(encoding_is_told),
+    WITH_FILE(no_channel_is_opacity),
     cmocka_unit_test(png_refuses_five_channels),
     WITH_FILE(unreadable_files_are_told),
     WITH_FILE(pictures_without_bounds_are_refused),
