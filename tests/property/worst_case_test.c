@@ -337,6 +337,62 @@ static void what_is_far_away_costs_nothing(void **state)
   assert_true(hits > 1000);
 }
 
+/* A bumpy square of that size in the plane y = 0, or with a corner there. */
+static void square(double size, bool corner, world_net net)
+{
+  static const double bump[4] = {1, 2, 0, 1}, along[4] = {1, 0, 1, 2};
+  for (int n = 0; n < 16; n++) {
+    const double at[3] = {2 * (n / 4) - 3 * !corner, bump[n / 4] * along[n % 4] / 4, 2 * (n % 4) - 3 * !corner};
+    for (int k = 0; k < 3; k++) net[n / 4][n % 4][k] = size * at[k];
+  }
+}
+
+/* Patches in one place, some of them up to 1e560 times as large as others: each is hit as if it were alone, in whatever order
+ * they come. */
+static void sizes_have_nothing_to_do_with_each_other(void **state)
+{
+  (void)state;
+  enum { SCENES = 400, MOST = 5, LEAST_APART = 3, FARTHEST = 280 };
+  struct random random = {SEED};
+  size_t hits = 0;
+  for (int n = 0; n < SCENES; n++) {
+    world_net nets[MOST];
+    double power[MOST];
+    size_t count = 0;
+    for (int k = 0; k < MOST; k++) {
+      const double here = k == 0 ? 0 : random_between(&random, -FARTHEST, FARTHEST);
+      bool apart = true;
+      for (size_t p = 0; p < count; p++) apart &= fabs(power[p] - here) >= LEAST_APART;
+      if (apart) power[count++] = here;
+    }
+    for (size_t p = 0; p < count; p++) square(pow(10, power[p]), n % 2, nets[p]);
+    struct world all;
+    world_open(&all, nets, count, NULL);
+    for (size_t p = 0; p < count; p++) {
+      struct world alone;
+      world_open(&alone, &nets[p], 1, NULL);
+      const double size = pow(10, power[p]);
+      for (int k = 0; k < RAYS; k++) {
+        struct ray ray = {.t_max = INFINITY, .origin = {0, 8 * size, 0}, .direction = {0, -1, 0}};
+        for (int c = 0; c < 3; c += 2) {
+          ray.origin[c] = size * random_between(&random, -1, 3);
+          if (k % 2) ray.direction[c] = random_between(&random, -0.1, 0.1);
+        }
+        struct hit hit = world_closest(&all, &ray);
+        const struct hit other = world_closest(&alone, &ray);
+        if (other.certainty != CERTAINTY_CERTAIN || other.patch == HIT_NONE) continue;
+        assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+        assert_int_equal(hit.patch, p);
+        assert_true(fabs(hit.t - other.t) <= 0x1p-50 * other.t);
+        hits++;
+      }
+      world_close(&alone);
+    }
+    world_close(&all);
+  }
+  assert_true(hits > SCENES * RAYS);
+}
+
 /* What is counted without being tried. Of more patches than these neither they nor leaves are kept. */
 enum { KEPT = 1 << 16, CROWD = KEPT + 4096, THROUGH = 4000, FEW_LOOKS = 90000 };
 
@@ -428,8 +484,8 @@ static void boxes_and_leaves_made_are_counted(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_ray_takes_no_more_than_its_share), cmocka_unit_test(what_is_not_looked_at_hides),
-    cmocka_unit_test(what_is_passed_by_hides_nothing), cmocka_unit_test(what_is_far_away_costs_nothing),
-    cmocka_unit_test(boxes_and_leaves_made_are_counted)};
+    cmocka_unit_test(a_ray_takes_no_more_than_its_share),       cmocka_unit_test(what_is_not_looked_at_hides),
+    cmocka_unit_test(what_is_passed_by_hides_nothing),          cmocka_unit_test(what_is_far_away_costs_nothing),
+    cmocka_unit_test(sizes_have_nothing_to_do_with_each_other), cmocka_unit_test(boxes_and_leaves_made_are_counted)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -231,7 +231,6 @@ void copy_box(const struct model *model, const struct model_copy *copy, struct b
   for (int k = 0; k < 3; k++) {
     const double about = tree_about(&model->tree, k);
     const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo[k]), fabs(hi[k])) + fabs(about));
-    out->lo[k] = (lo[k] - about - slack) / model->tree.frame;
-    out->hi[k] = (hi[k] - about + slack) / model->tree.frame;
+    out->lo[k] = lo[k] - about - slack, out->hi[k] = hi[k] - about + slack;
   }
 }

@@ -145,7 +145,6 @@ void leaf_box(const struct model *model, const struct model_patch *patch, const 
     const double shift = patch->center[k] - tree_about(&model->tree, k);
     const double slack = LEAF_NET_ERROR * patch->scale + 2 * UNIT_ROUNDOFF * (fabs(shift) + patch->scale) +
                          model->error;
-    box->lo[k] = (shift + patch->scale * lo - slack) / model->tree.frame;
-    box->hi[k] = (shift + patch->scale * hi + slack) / model->tree.frame;
+    box->lo[k] = shift + patch->scale * lo - slack, box->hi[k] = shift + patch->scale * hi + slack;
   }
 }

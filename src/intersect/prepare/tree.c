@@ -152,7 +152,6 @@ struct building {
   struct arena *arena;
   struct bvh_box *boxes;
   size_t count;
-  struct model_tree whole;
   double about[3];
   const struct team *team;
 };
@@ -177,7 +176,7 @@ static enum status build(const struct building *b, uint32_t index[], size_t coun
 static enum status build_outer(const struct building *b, const struct grouping *g, size_t stay, const double middle[3],
                                struct model_tree *out)
 {
-  const bool all = g->frame == 1 && g->count == 0; /* nobody else wants the boxes: no copies of them */
+  const bool all = stay == b->count; /* nobody else wants the boxes: no copies of them */
   struct bvh_box *own = all ? b->boxes : memory_alloc(stay + g->count + 1, sizeof *own);
   if (!own) return STATUS_LIMIT;
   for (size_t k = 0; k < stay; k++) {
@@ -202,21 +201,21 @@ static enum status build_inner(const struct building *b, const struct grouping *
     double center[3];
     int exponent;
     for (int k = 0; k < 3; k++) center[k] = box_center(&group->hull, k);
-    frexp(real_max(box_extent(&group->hull) / 2, LEAST_FRAME / b->whole.frame), &exponent);
+    frexp(real_max(box_extent(&group->hull) / 2, LEAST_FRAME), &exponent);
     out->inner_count++;
     status = build(b, g->index + group->first, group->count, center, ldexp(1, exponent), &out->inner[n]);
   }
   return status;
 }
 
-/* A tree of boxes[index[0..count-1]] in a frame about `middle`, of size `frame`, both as the boxes are given. */
+/* A tree of boxes[index[0..count-1]] in a frame of size `frame` about `middle`, which is given as they are. */
 static enum status build(const struct building *b, uint32_t index[], size_t count, const double middle[3], double frame,
                          struct model_tree *out)
 {
   struct grouping g = {.boxes = b->boxes, .index = index, .frame = frame};
   const size_t stay = set_apart(&g, count);
-  *out = (struct model_tree){.frame = b->whole.frame * frame};
-  for (int k = 0; k < 3; k++) out->origin[k] = b->about[k] + b->whole.frame * middle[k];
+  *out = (struct model_tree){.frame = frame};
+  for (int k = 0; k < 3; k++) out->origin[k] = b->about[k] + middle[k];
   enum status status = g.failed ? STATUS_LIMIT : build_outer(b, &g, stay, middle, out);
   if (status == STATUS_OK && g.count > 0) status = build_inner(b, &g, out);
   memory_free(g.groups);
@@ -226,16 +225,14 @@ static enum status build(const struct building *b, uint32_t index[], size_t coun
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree)
 {
-  struct building all = {.arena = arena, .boxes = boxes, .count = count, .whole = *tree, .team = team};
+  struct building all = {.arena = arena, .boxes = boxes, .count = count, .team = team};
+  const double frame = tree->frame;
   double middle[3];
-  for (int k = 0; k < 3; k++) {
-    all.about[k] = tree_about(tree, k);
-    middle[k] = (tree->origin[k] - all.about[k]) / tree->frame;
-  }
+  for (int k = 0; k < 3; k++) all.about[k] = tree_about(tree, k), middle[k] = tree->origin[k] - all.about[k];
   uint32_t *index = memory_alloc(count + 1, sizeof *index);
   if (!index) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
-  const enum status status = build(&all, index, count, middle, 1, tree);
+  const enum status status = build(&all, index, count, middle, frame, tree);
   memory_free(index);
   return status;
 }
