@@ -1,4 +1,5 @@
 /* pscn trace SCENE: rays on stdin, hits on stdout. */
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -59,9 +60,11 @@ static void answer_values(const struct ray *ray, const struct hit *hit, double o
 {
   const bool missed = hit->patch == HIT_NONE;
   memset(out, 0, ANSWER_VALUES * sizeof *out);
-  out[0] = missed ? INFINITY : hit->t * vector_length(ray->direction);
+  const double distance = missed ? INFINITY : hit->t * vector_length(ray->direction);
+  const bool beyond = !missed && distance > DBL_MAX; /* the last of the doubles, and grazing */
+  out[0] = beyond ? DBL_MAX : distance;
   out[3] = missed ? -1 : (double)hit->patch;
-  out[7] = hit->certainty == CERTAINTY_CERTAIN;
+  out[7] = hit->certainty == CERTAINTY_CERTAIN && !beyond;
   if (!missed) {
     out[1] = hit->u;
     out[2] = hit->v;
@@ -83,9 +86,9 @@ static char *next_answer(struct session *session)
 }
 
 /* Ends a line. Returns its end. */
-static char *append_end(bool tells, enum certainty certainty, char *to)
+static char *append_end(bool tells, bool certain, char *to)
 {
-  if (tells) memcpy(to, certainty == CERTAINTY_CERTAIN ? " certain" : " grazing", 8), to += 8;
+  if (tells) memcpy(to, certain ? " certain" : " grazing", 8), to += 8;
   *to++ = '\n';
   return to;
 }
@@ -114,7 +117,7 @@ static void write_hit(struct session *session, const struct ray *ray, const stru
       *to++ = ' ';
       to += number_write_17(value[k], to);
     }
-    to = append_end(request->certainty, hit->certainty, to);
+    to = append_end(request->certainty, value[ANSWER_VALUES - 1] == 1, to);
   }
   session->length = (size_t)(to - session->text);
 }
@@ -125,7 +128,7 @@ static void write_count(struct session *session, const struct hit_list *list)
   char *to = next_answer(session);
   const double count = (double)list->count;
   if (session->request->binary) to = append_double(list->certainty == CERTAINTY_CERTAIN, append_double(count, to));
-  else to = append_end(true, list->certainty, to + number_write_17(count, to));
+  else to = append_end(true, list->certainty == CERTAINTY_CERTAIN, to + number_write_17(count, to));
   session->length = (size_t)(to - session->text);
 }
 

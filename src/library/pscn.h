@@ -29,7 +29,7 @@
  * though the surface may be open there; of all hits it is grazing then, and both are where the ray touches a patch
  * there. What one ray may cost is limited: where that ends first the answer is grazing, and the nearest hit known by
  * then, or a miss; what asks for any hit is told of one. (Of patches whose solver says `polish off` nothing is
- * proven.)
+ * proven, and of roots no farther apart than that solver's errors any one may be the answer, in one call or another.)
  *
  * C11 or later, or C++. Link with -lpscn; the static library needs -lm besides. `pkg-config pscn` and CMake's
  * find_package(pscn), targets pscn::pscn and pscn::static, know where both are.
