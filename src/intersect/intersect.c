@@ -164,14 +164,25 @@ struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct lea
 
 void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
 
+/* What rays that are asked again take is not counted, but which answers they get. */
+static void count_again(struct tracer *tracer, const struct intersect_counts *before, uint64_t certain_now)
+{
+  tracer->counts = *before;
+  tracer->counts.certain += certain_now, tracer->counts.grazing -= certain_now;
+}
+
 /* Asks for the rays whose answers are not certain one by one (tracer_asks_again). */
 static void ask_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit hits[])
 {
   const struct intersect_counts counts = tracer->counts;
   const struct kernel *kernel = kernel_for(tracer, 1, rays);
-  for (size_t k = 0; k < count; k++)
-    if (hits[k].certainty == CERTAINTY_GRAZING) kernel->closest(tracer, 1, &rays[k], &hits[k]);
-  tracer->counts = counts;
+  uint64_t certain_now = 0;
+  for (size_t k = 0; k < count; k++) {
+    if (hits[k].certainty == CERTAINTY_CERTAIN) continue;
+    kernel->closest(tracer, 1, &rays[k], &hits[k]);
+    certain_now += hits[k].certainty == CERTAINTY_CERTAIN;
+  }
+  count_again(tracer, &counts, certain_now);
 }
 
 static bool doubtful(const struct tracer *tracer, size_t count, uint64_t grazing)
@@ -202,13 +213,15 @@ static bool ask_all_alone(struct tracer *tracer, size_t count, const struct ray 
 {
   const struct intersect_counts counts = tracer->counts;
   const struct kernel *kernel = kernel_for(tracer, 1, rays);
+  uint64_t certain_now = 0;
   bool done = true;
   for (size_t k = 0; k < count && done; k++) {
-    if (lists[k].certainty != CERTAINTY_GRAZING) continue;
+    if (lists[k].certainty == CERTAINTY_CERTAIN) continue;
     first[k] = tracer->hits.count;
     done = kernel->all(tracer, 1, &rays[k], &lists[k]);
+    certain_now += lists[k].certainty == CERTAINTY_CERTAIN;
   }
-  tracer->counts = counts;
+  count_again(tracer, &counts, certain_now);
   return done;
 }
 

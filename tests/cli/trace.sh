@@ -58,3 +58,8 @@ for all in '' --all; do printf '1 1 -4 0 0 1\n1.0000000000000002 1 -4 0 0 1\n' |
 # T beyond the doubles is the last of them, which nobody takes for a miss.
 echo '-1.7976931348623157e308 -1.7976931348623157e308 -1.7976931348623157e308 1 1 1' >far
 pscn trace "$scene" --certainty <far | cut -d ' ' -f 1,2,9
+# What was asked once more, alone, is counted as it was answered.
+for all in '' --all; do
+  printf '0 0.6 0 0 0.41954981558864002 0\n0 0.6 0 -0.0024937655860348684 0.41954981558864002 0\n' |
+    pscn trace "${0%/*}/../../scenes/inside.pscn" $all --certainty --stats - | grep -o 'certain$\|"certain".*\|"grazing".*'
+done
