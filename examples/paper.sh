@@ -68,22 +68,21 @@ patch() {
   "$programs/footing" patch scenes/paper.pscn 100 75 | keep footing_patch.csv
 }
 
-# How many pixels are wrong, and how: what stands in the columns before, the scene, the solver, a map.
+# How many pixels are wrong, and how: what stands in the columns before, the scene, the solver; the picture and a map.
 errors() {
   printf '%s,' "$1"
-  "$programs/picture_errors" "$2" 320 240 "$3" "${4:-$data/map.png}"
+  "$programs/picture_errors" "$2" 320 240 "$3" "${4:-$data/unused}"
 }
 
-# Fig 16 and 17: the paper's own form, eps 1e-2, and 200 x magnified, eps 1e-10; and the default solver. Beside each picture
-# a map of what is wrong in it, and how many pixels of each kind.
+# Fig 16 and 17: the paper's own form, eps 1e-2, and 200 x magnified, eps 1e-10, line by line; and the default solver. Beside
+# each picture a map of what is wrong in it, and how many pixels of each kind.
 pictures() {
   for figure in 'fig16 paper 1e-2' 'fig17 paper_magnified 1e-10'; do
     read -r name scene eps <<<"$figure"
     "$pscn" render "scenes/$scene.pscn" -o "$data/$name-default.png" --size 320x240 --quiet
     for method in newton laguerre aberth durand_kerner; do
       solver="$method { $paper tolerance $eps }"
-      "$pscn" render "scenes/$scene.pscn" -o "$data/$name-$method.png" --size 320x240 --quiet --solver "$solver"
-      errors "$name,$method" "scenes/$scene.pscn" "$solver" "$data/$name-$method-map.png"
+      errors "$name,$method" "scenes/$scene.pscn" "$solver" "$data/$name-$method"
     done
   done | { echo "figure,method,$kinds"; cat; } | keep pictures.csv
 
@@ -98,7 +97,7 @@ pictures() {
       errors "$cap,$method" scenes/paper.pscn "$method { $paper tolerance 1e-2 max_iterations $cap }"
     done
   done | { echo "cap,method,$kinds"; cat; } | keep picture_caps.csv
-  rm "$data/map.png"
+  rm "$data"/unused*.png
 }
 
 # The same as maps: iterations, eq 11, the distance from the certified answer; Fig 16's patch, eps 1e-2 and 1e-6.

@@ -152,7 +152,7 @@ static bool draw_basins(const char *path, int method)
     if (root >= 0) picture_scale((root + 0.5) / BASIN_DEGREE, pixel);
     if (hypot(roots.root[near].re - z.re, roots.root[near].im - z.im) < 0.04) pixel[0] = pixel[1] = pixel[2] = 0;
   }
-  return picture_end(&image, path);
+  return picture_end(&image, true, path, "");
 }
 
 static bool nearest(const char *folder)

@@ -1,8 +1,8 @@
-/* Where a solver's picture is wrong, and how (Fig 16 and 17): a row of CSV on standard output, and a map.
+/* A solver's picture, and where it is wrong, and how (Fig 16 and 17): a row of CSV on standard output, the picture and a map.
  *
- *     picture_errors SCENE WIDTH HEIGHT SOLVER MAP.png
+ *     picture_errors SCENE WIDTH HEIGHT SOLVER NAME
  *
- * The depth of every pixel by the solver, against the default's, which is certified. Depths are the same within a
+ * Pixels are traced line by line (pictures.h). Writes NAME.png and NAME-map.png. The depth of every pixel by the solver, against the default's, which is certified. Depths are the same within a
  * fiftieth of the depths there are in the picture. Map: blue holes (darker: through to the background), red phantoms
  * (darker: in front of nothing), light grey what is right.
  */
@@ -19,12 +19,12 @@ enum error { RIGHT, BACKGROUND, HOLE_BACKGROUND, HOLE_FARTHER, PHANTOM_BEFORE, P
 static const float colours[ERRORS][3] = {{0.8F, 0.8F, 0.8F}, {1, 1, 1},       {0, 0, 0.5F},
                                          {0.3F, 0.5F, 1},    {1, 0.4F, 0.3F}, {0.6F, 0, 0}};
 
-static enum error judge(float found, float exact, double same)
+static enum error judge(double found, double exact, double same)
 {
   if (isinf(found) && isinf(exact)) return BACKGROUND;
   if (isinf(found)) return HOLE_BACKGROUND;
   if (isinf(exact)) return PHANTOM_BACKGROUND;
-  if (fabs((double)found - exact) <= same) return RIGHT;
+  if (fabs(found - exact) <= same) return RIGHT;
   return found > exact ? HOLE_FARTHER : PHANTOM_BEFORE;
 }
 
@@ -32,26 +32,29 @@ int main(int argc, char **argv)
 {
   const int width = argc == 6 ? atoi(argv[2]) : 0, height = argc == 6 ? atoi(argv[3]) : 0;
   if (width < 1 || height < 1) {
-    fputs("usage: picture_errors SCENE WIDTH HEIGHT SOLVER MAP.png\n", stderr);
+    fputs("usage: picture_errors SCENE WIDTH HEIGHT SOLVER NAME\n", stderr);
     return 2;
   }
   const size_t pixels = (size_t)width * (size_t)height;
-  float *exact = picture_channels(argv[1], (size_t)width, (size_t)height, NULL, "depth");
-  float *found = picture_channels(argv[1], (size_t)width, (size_t)height, argv[4], "depth");
-  struct image map = {0};
-  if (exact == NULL || found == NULL || !picture_begin((size_t)width, (size_t)height, &map)) return 3;
+  struct picture_pixel *exact = picture_lines(argv[1], (size_t)width, (size_t)height, NULL);
+  struct picture_pixel *found = picture_lines(argv[1], (size_t)width, (size_t)height, argv[4]);
+  struct image map = {0}, picture = {0};
+  if (exact == NULL || found == NULL || !picture_begin((size_t)width, (size_t)height, &map) ||
+      !picture_begin((size_t)width, (size_t)height, &picture))
+    return 3;
   double nearest = INFINITY, farthest = 0;
   for (size_t p = 0; p < pixels; p++)
-    if (isfinite(exact[p])) nearest = fmin(nearest, exact[p]), farthest = fmax(farthest, exact[p]);
+    if (isfinite(exact[p].depth)) nearest = fmin(nearest, exact[p].depth), farthest = fmax(farthest, exact[p].depth);
   size_t count[ERRORS] = {0};
   for (size_t p = 0; p < pixels; p++) {
-    const enum error error = judge(found[p], exact[p], SAME_DEPTH * (farthest - nearest));
+    const enum error error = judge(found[p].depth, exact[p].depth, SAME_DEPTH * (farthest - nearest));
     count[error]++;
-    for (int c = 0; c < 3; c++) map.value[3 * p + (size_t)c] = colours[error][c];
+    for (size_t c = 0; c < 3; c++) map.value[3 * p + c] = colours[error][c];
+    for (size_t c = 0; c < 3; c++) picture.value[3 * p + c] = (float)found[p].rgb[c];
   }
   printf("%zu,%zu,%zu,%zu\n", count[HOLE_BACKGROUND], count[HOLE_FARTHER], count[PHANTOM_BEFORE],
          count[PHANTOM_BACKGROUND]);
-  const bool good = picture_end(&map, argv[5]);
+  const bool good = picture_end(&map, true, argv[5], "-map.png") && picture_end(&picture, false, argv[5], ".png");
   free(exact);
   free(found);
   return good ? 0 : 4;

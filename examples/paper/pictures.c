@@ -1,13 +1,16 @@
-/* Pictures rendered into memory, and maps written. See pictures.h. */
+/* Pictures made line by line, and maps written. See pictures.h. */
 #include "pictures.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "geometry/vector.h"
 #include "image/image_file.h"
+#include "intersect/intersect.h"
 #include "language/language.h"
-#include "render/render.h"
+#include "render/camera.h"
+#include "render/shade.h"
 
 static void tell(void *context, const char *text, size_t length)
 {
@@ -15,29 +18,47 @@ static void tell(void *context, const char *text, size_t length)
   fwrite(text, 1, length, stderr);
 }
 
-float *picture_channels(const char *scene_path, size_t width, size_t height, const char *solver, const char *channels)
+static struct ray pixel_ray(const struct scene *scene, size_t width, size_t height, size_t pixel)
+{
+  struct ray ray;
+  const double s = ((double)(pixel % width) + 0.5) / (double)width,
+               t = ((double)(pixel / width) + 0.5) / (double)height;
+  camera_ray(&scene->camera, s, t, &ray);
+  return ray;
+}
+
+/* By two tracers, each of which has its own roots to begin at: of camera rays and of shadow rays. */
+static void trace_lines(const struct scene *scene, struct tracer *tracer[2], size_t width, size_t height,
+                        struct picture_pixel out[])
+{
+  for (size_t p = 0; p < width * height; p++) {
+    const struct ray ray = pixel_ray(scene, width, height, p);
+    struct hit hit;
+    tracer_measure(tracer[0], &ray, &hit, &out[p].solver);
+    shade_packet(scene, tracer[1], 1, &ray, &hit, &out[p].rgb);
+    out[p].depth = hit.patch == HIT_NONE ? INFINITY : hit.t * vector_length(ray.direction);
+  }
+}
+
+struct picture_pixel *picture_lines(const char *scene_path, size_t width, size_t height, const char *solver)
 {
   const struct language_settings settings = {
     .image_width = (int)width, .image_height = (int)height, .solver_text = solver, .tolerance = NAN};
   struct diagnostics diagnostics = {.tell = tell};
   struct scene *scene = NULL;
   struct intersector *intersector = NULL;
-  struct render_options options = {
-    .width = width, .height = height, .samples = 1, .crop = {.width = width, .height = height}, .threads = 1};
-  const char *bad;
-  size_t bad_length;
-  if (!channel_list_parse(channels, &options.channels, &bad, &bad_length)) return NULL;
+  struct tracer *tracer[2] = {NULL, NULL};
+  struct picture_pixel *out = NULL;
   if (language_load(scene_path, &settings, &diagnostics, &scene) != STATUS_OK) return NULL;
-  const struct render_watch watch = {0};
-  struct render_stats stats;
-  float *out = malloc(width * height * options.channels.width * sizeof *out);
-  bool good = out != NULL && intersector_create(scene, &intersector) == STATUS_OK;
-  good = good && render_scene(scene, intersector, &options, &watch, out, &stats) == STATUS_OK;
+  if (intersector_create(scene, &intersector) == STATUS_OK && tracer_create(intersector, &tracer[0]) == STATUS_OK &&
+      tracer_create(intersector, &tracer[1]) == STATUS_OK)
+    out = malloc(width * height * sizeof *out);
+  if (out != NULL) trace_lines(scene, tracer, width, height, out);
+  else fputs("out of memory\n", stderr);
+  for (int k = 0; k < 2; k++) tracer_destroy(tracer[k]);
   intersector_destroy(intersector);
   scene_destroy(scene);
-  if (good) return out;
-  free(out);
-  return NULL;
+  return out;
 }
 
 bool picture_begin(size_t width, size_t height, struct image *out)
@@ -47,10 +68,10 @@ bool picture_begin(size_t width, size_t height, struct image *out)
   return true;
 }
 
-bool picture_end(struct image *image, const char *path)
+bool picture_end(struct image *image, bool encoded, const char *name, const char *suffix)
 {
-  const struct image_encoding encoding = {.format = IMAGE_PNG, .bits = 8, .encoded = true};
-  char message[IMAGE_MESSAGE_SIZE];
+  const struct image_encoding encoding = {.format = IMAGE_PNG, .bits = 8, .encoded = encoded};
+  char message[IMAGE_MESSAGE_SIZE], path[4096];
   unsigned char *bytes = NULL;
   size_t size = 0;
   const enum status status = image_encode(image, &encoding, &bytes, &size, message);
@@ -59,7 +80,7 @@ bool picture_end(struct image *image, const char *path)
     fprintf(stderr, "%s\n", message);
     return false;
   }
-  FILE *file = fopen(path, "wb");
+  FILE *file = snprintf(path, sizeof path, "%s%s", name, suffix) < (int)sizeof path ? fopen(path, "wb") : NULL;
   const bool good = file != NULL && fwrite(bytes, 1, size, file) == size;
   free(bytes);
   return file != NULL && fclose(file) == 0 && good;

@@ -194,14 +194,33 @@ static struct polynomial resultant(const struct method *method, const struct lea
   return r;
 }
 
-/* What becomes of a root, and the other parameter that follows from it. */
-static enum root_fate substitute(const struct method *method, const struct form *form, const double size[2],
-                                 const struct root *root, double *out_other)
+/* Whether r vanishes at u in [0,1] within n roundings of its terms, as eq 11 of the paper asks of a root. */
+static bool vanishes(const struct polynomial *r, double u)
 {
-  /* paper 2.2: the real ones, as far as eps tells */
-  const double real = method->polish ? START_MARGIN : method->roots.tolerance;
+  const double other = r->basis == BASIS_BERNSTEIN ? 1 - u : 1;
+  double value = 0, size = 0, power = 1;
+  for (int k = r->degree; k >= 0; k--) {
+    const double term = r->c[k] * power;
+    value = value * u + term, size = size * u + fabs(term);
+    power *= other;
+  }
+  return fabs(value) <= 2 * r->degree * UNIT_ROUNDOFF * size;
+}
+
+/* Paper 2.2: the real ones, as far as eps tells. Where eps asks for less than a rounding, the methods that move all roots at
+ * once end beside the axis, by what their own roundings are; those that deflate have put their roots on it (deflation.c). */
+static bool is_real(const struct method *method, const struct polynomial *r, const struct root *root)
+{
+  if (method->polish) return fabs(root->im) <= START_MARGIN;
+  return fabs(root->im) <= method->roots.tolerance || (root->re >= 0 && root->re <= 1 && vanishes(r, root->re));
+}
+
+/* What becomes of a root of r, and the other parameter that follows from it. */
+static enum root_fate substitute(const struct method *method, const struct form *form, const double size[2],
+                                 const struct polynomial *r, const struct root *root, double *out_other)
+{
   const double margin = method->polish ? START_MARGIN : 0;
-  if (!(fabs(root->im) <= real)) return ROOT_COMPLEX;
+  if (!is_real(method, r, root)) return ROOT_COMPLEX;
   if (!(root->re >= -margin && root->re <= 1 + margin)) return ROOT_OUTSIDE;
   const double v = *out_other = eliminated_at(form, method, root->re);
   if (!(v >= -1 && v <= 2)) return ROOT_ELSEWHERE;
@@ -227,7 +246,7 @@ void method_find(const struct method *method, struct solver_warm *warm, const st
   }
   for (int k = 0; k < roots.count; k++) {
     double other = NAN;
-    const enum root_fate fate = substitute(method, &form, size, &roots.root[k], &other);
+    const enum root_fate fate = substitute(method, &form, size, &r, &roots.root[k], &other);
     if (story) story->fate[k] = fate, story->other[k] = other;
     if (fate != ROOT_OFFERED) continue;
     out->u[out->count] = leaf->v_kept ? other : roots.root[k].re;

@@ -43,7 +43,7 @@ near() { # FILE PATTERN COMMAND...
 picture() { # FIGURE SCENE METHOD EPS
   printf '%s,%s,' "$1" "$3"
   "$programs/picture_errors" "scenes/$2.pscn" 320 240 \
-    "$3 { form paper start previous max_iterations 500 tolerance $4 }" "$folder/map.png"
+    "$3 { form paper start previous max_iterations 500 tolerance $4 }" "$folder/picture"
 }
 
 same degrees 1-3 . "$programs/random_experiments" degrees once
@@ -54,6 +54,7 @@ same caps 1-6 . "$programs/random_experiments" caps once
 same footing_degrees 1-4,8-11 . "$programs/footing" degrees once
 same slopes 1-3 . "$programs/claims" slopes
 same patch 1-4,6,7 '^1e-6,' "$programs/patch_experiments" scenes/paper.pscn 100 75 6
+near pictures '^fig16,newton' picture fig16 paper newton 1e-2
 near pictures '^fig16,laguerre' picture fig16 paper laguerre 1e-2
 near pictures '^fig16,aberth' picture fig16 paper aberth 1e-2
 near pictures '^fig17,newton' picture fig17 paper_magnified newton 1e-10
