@@ -16,7 +16,7 @@ trap 'rm -rf "$folder"' EXIT
 charts=${PSCN_CHARTS:-$folder}
 if [ -z "${PSCN_CHARTS:-}" ]; then
   install_packages "${BUILD_PACKAGES[@]}" povray gnuplot-nox libembree-dev
-  cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+  cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >/dev/null
   cmake --build build >/dev/null
   for scene in "${SCENES[@]}"; do
     build/src/command/pscn chart "scenes/$scene.pscn" "$@" -o "$charts/$scene" >/dev/null

@@ -20,7 +20,7 @@ SIZE=800x600
 TEAPOTS=10000
 
 install_packages "${BUILD_PACKAGES[@]}" povray libembree-dev time
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build build --target pscn pscn_openimageio resultant_time >/dev/null
 pscn=$PWD/build/src/command/pscn
 folder=$(mktemp -d)

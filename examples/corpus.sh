@@ -7,7 +7,7 @@ export LC_ALL=C
 
 install_packages "${BUILD_PACKAGES[@]}" libcmocka-dev libflint-arb-dev mpsolve
 build=${1:-build-corpus} # a build folder
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPSCN_TESTS=ON
+cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DPSCN_TESTS=ON
 cmake --build "$build" --target corpus_table
 table=$(mktemp)
 trap 'rm -f "$table"' EXIT

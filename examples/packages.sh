@@ -5,6 +5,9 @@
 #
 # Asks the network only when something is missing. Fails with the command to run where root would be needed.
 
+# A build folder that was made otherwise, by hand, stays what it is.
+export CMAKE_GENERATOR=Ninja
+
 # What building and running pscn takes.
 BUILD_PACKAGES=(cmake ninja-build gcc g++ libc6-dev pkg-config flex bison libopenimageio-dev libjansson-dev)
 

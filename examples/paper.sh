@@ -21,7 +21,7 @@ keep() { cat >"$data/$1.new" && mv "$data/$1.new" "$data/$1"; }
 
 build() {
   install_packages "${BUILD_PACKAGES[@]}" gnuplot-nox
-  cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+  cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >/dev/null
   cmake --build build --target pscn random_experiments patch_experiments picture_errors channel_maps footing claims tangency \
     >/dev/null
 }

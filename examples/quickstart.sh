@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export LC_ALL=C
 
 install_packages "${BUILD_PACKAGES[@]}"
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DPSCN_WERROR=OFF
+cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DPSCN_WERROR=OFF
 cmake --build build
 build/src/command/pscn render scenes/teapot.pscn -o teapot.png
 echo "The picture is $PWD/teapot.png"

@@ -26,7 +26,7 @@ teapots=("$@")
 [ $# -gt 0 ] || teapots=(1 10 100 1000 10000)
 
 install_packages "${BUILD_PACKAGES[@]}" povray gnuplot-nox time
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build build --target pscn pscn_openimageio >/dev/null
 pscn=$PWD/build/src/command/pscn
 folder=$(mktemp -d)

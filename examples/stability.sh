@@ -28,7 +28,7 @@ CLOSED_EFFORT=${PSCN_EFFORT:-0.02}
 
 install_packages "${BUILD_PACKAGES[@]}" libcmocka-dev libflint-arb-dev
 build=${PSCN_BUILD:-build-stability}
-cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPSCN_TESTS=ON >/dev/null
+cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DPSCN_TESTS=ON >/dev/null
 targets=(pscn channel_maps stability-table accuracy-camera accuracy-random-patches accuracy-leaks accuracy-certificate
   accuracy-parity accuracy-cycles)
 [ "${1:-}" != maps ] || targets=(pscn channel_maps)
@@ -391,8 +391,8 @@ END
 ## Holes
 
 The teapot, \`pscn render scenes/teapot.pscn --size $FRAME\`: the default, and the paper's form of three solvers, at eps
-1e-12. Aberth's roots are nearly all there; those of deflation have holes everywhere, in floor and shadows as well: the
-paper's finding.
+1e-12. Aberth's roots are nearly all there; those of deflation have holes all over the floor, which is flat,
+and on the body dark specks, shadow rays that hit what is not there.
 
 | default | aberth | laguerre | newton |
 |---|---|---|---|

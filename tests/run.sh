@@ -42,7 +42,7 @@ build() {
   local preset=$1
   shift
   mkdir -p "build-$preset"
-  cmake --preset "$preset" -G Ninja "$@" >"build-$preset/configure.log" 2>&1 || {
+  cmake --preset "$preset" "$@" >"build-$preset/configure.log" 2>&1 || {
     cat "build-$preset/configure.log" >&2
     return 1
   }

@@ -8,6 +8,7 @@
  * all of them take turns, so that a busy machine slows all alike; and operations, counted, by our Table 1 and the
  * paper's.
  */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,8 +68,17 @@ static double *random_polynomials(int degree, uint64_t seed)
   return c;
 }
 
-/* What is timed at one degree: the first root (Aberth's method: all), the same after one iteration, all roots. */
-enum task { ONE, BEGUN, ALL, TASKS };
+/* What is timed at one degree: the first root (Aberth's method: all), the same with an eps that ends nothing after a few
+ * iterations and after many, all roots. */
+enum task { ONE, FEW, MANY, ALL, TASKS };
+enum { FEW_ITERATIONS = 4, MANY_ITERATIONS = 20 };
+
+/* Seconds an iteration of one root takes, without the start and what is done with the root. */
+static double iterating(const struct measured *few, const struct measured *many, double roots)
+{
+  const double more = many->totals.iterations / many->totals.sought - few->totals.iterations / few->totals.sought;
+  return (many->seconds - few->seconds) / roots / more;
+}
 
 static void degree_rows(int degree, struct measured found[TASKS][PAPER_METHODS][FORMS])
 {
@@ -76,11 +86,9 @@ static void degree_rows(int degree, struct measured found[TASKS][PAPER_METHODS][
     for (int f = 0; f < FORMS; f++) {
       const struct measured *one = &found[ONE][m][f], *all = &found[ALL][m][f];
       const double roots = m == PAPER_ABERTH ? degree : 1, iterations = one->totals.iterations / one->totals.sought;
-      /* without the start and what is done with the root */
-      const double iterating = (one->seconds - found[BEGUN][m][f].seconds) / roots / (iterations - 1);
       printf("%d,%s,%s,%.3f,%.4f,%.4f,%.4f,%.0f,%.0f,%.0f,%.0f\n", degree, paper_method_names[m], form_names[f],
-             iterations, iterating * 1e6, one->seconds / roots * 1e6, all->seconds * 1e6,
-             one->totals.operations / roots / POLYNOMIALS, all->totals.operations / POLYNOMIALS,
+             iterations, iterating(&found[FEW][m][f], &found[MANY][m][f], roots) * 1e6, one->seconds / roots * 1e6,
+             all->seconds * 1e6, one->totals.operations / roots / POLYNOMIALS, all->totals.operations / POLYNOMIALS,
              one->totals.operations_paper / roots / POLYNOMIALS, all->totals.operations_paper / POLYNOMIALS);
     }
   }
@@ -96,9 +104,11 @@ static bool degrees(void)
     struct measured found[TASKS][PAPER_METHODS][FORMS];
     struct batch batch = {degree, POLYNOMIALS, c, 1e-6, MAX_ITERATIONS, false, true};
     measure_all(batch, (struct effort){ROUNDS, 4}, found[ONE]);
-    batch.max_iterations = 1;
-    measure_all(batch, (struct effort){ROUNDS, 4}, found[BEGUN]);
-    batch.max_iterations = MAX_ITERATIONS, batch.first_only = false;
+    batch.tolerance = DBL_MIN, batch.max_iterations = FEW_ITERATIONS;
+    measure_all(batch, (struct effort){ROUNDS, 4}, found[FEW]);
+    batch.max_iterations = MANY_ITERATIONS;
+    measure_all(batch, (struct effort){ROUNDS, 4}, found[MANY]);
+    batch.tolerance = 1e-6, batch.max_iterations = MAX_ITERATIONS, batch.first_only = false;
     measure_all(batch, (struct effort){ROUNDS, 2}, found[ALL]);
     degree_rows(degree, found);
     free(c);

@@ -92,7 +92,7 @@ enum solver_lanes {
 
 struct solver {
   const char *name;    /* the keyword in a scene */
-  const char *summary; /* one line for `pscn help` */
+  const char *summary; /* one line for `pscn help solver` */
   bool real_only;      /* finds only real roots in [0,1] */
   enum solver_lanes lanes;
   double tolerance; /* what a bare `solver NAME` means */

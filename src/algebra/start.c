@@ -2,7 +2,7 @@
  *
  * Aberth's circle (section 3.4 of the paper): the centre is the centroid of the roots, -c[n-1] / (n c[n]); the radius
  * is the positive root of |b[n]| r^n = sum over k < n of |b[k]| r^k, with b the coefficients about the centre, which is
- * Cauchy's bound: the circle holds every root. The values are spread evenly on it, turned by a quarter of their spacing
+ * Cauchy's bound, to RADIUS_ACCURACY: the circle holds every root, or nearly. The values are spread evenly on it, turned by a quarter of their spacing
  * so that they do not lie in conjugate pairs, which the iteration could not part.
  *
  * Newton's polygon (D. Bini, "Numerical computation of polynomial zeros by means of Aberth's method", 1996): the upper
@@ -14,7 +14,8 @@
 #include <float.h>
 #include <string.h>
 
-/* Newton on Cauchy's equation comes down from above monotonically; this is far more than it takes. */
+/* Newton on Cauchy's equation, in 1/r, comes down from above, and passes the root by a part of the accuracy at last; this is far
+ * more than it takes. */
 enum { RADIUS_STEPS = 60 };
 #define RADIUS_ACCURACY 1e-2 /* relative; a start radius needs no more */
 

@@ -178,7 +178,7 @@ const struct command command_check = {
     "differ by more than 1, 4 and 16 of 255, how many of those beyond the limit are not on a silhouette, a shadow's\n"
     "edge or a crease, which pixels only one of both hits, the time of both, and the differences of the distances\n"
     "that POV-Ray's trace() answers. DIR receives check.html, which needs nothing beside itself, check.json, and\n"
-    "the pictures. The exit code is 1 where the last picture passes the limits.\n"
+    "the pictures. The exit code is 1 where the last picture exceeds a limit.\n"
     "POV-Ray runs without the user's settings, on one thread, without antialiasing, and reads what pscn understood of\n"
     "the scene (pscn dump); with --own-text it first reads the scene's own text, which may do whatever POV-Ray lets\n"
     "it do: it runs in a folder of its own, with a limit of time and memory.\n",

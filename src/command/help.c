@@ -1,15 +1,66 @@
-/* pscn help [COMMAND] */
+/* pscn help [COMMAND | solver | channels] */
 #include <string.h>
 
 #include "command/command.h"
+#include "render/channels.h"
+#include "scene/method.h"
 
 static const struct command_option OPTIONS[] = {COMMAND_HELP_OPTION, COMMAND_OPTIONS_END};
+
+/* "start cold|previous", "split auto|N" */
+static void print_item(const struct method_item *item)
+{
+  enum { LABEL_SIZE = 80, LABEL_WIDTH = 36 };
+  static const char *const number[] = {[METHOD_ITEM_NUMBER] = "X", [METHOD_ITEM_INTEGER] = "N"};
+  char label[LABEL_SIZE];
+  int length = snprintf(label, sizeof label, "%s ", item->name);
+  for (size_t k = 0; item->keywords != NULL && item->keywords[k] != NULL; k++)
+    length += snprintf(label + length, sizeof label - (size_t)length, "%s%s", k == 0 ? "" : "|", item->keywords[k]);
+  if (item->kind != METHOD_ITEM_KEYWORD)
+    snprintf(label + length, sizeof label - (size_t)length, "%s%s", item->keywords == NULL ? "" : "|",
+             number[item->kind]);
+  printf("  %-*s  %s\n", LABEL_WIDTH, label, item->summary);
+}
+
+static void print_solver_help(void)
+{
+  puts("usage: solver NAME { ITEM VALUE ... }          in a scene\n"
+       "       --solver 'NAME { ITEM VALUE ... }'       of render, trace and roots\n"
+       "How roots are found, and of what; the braces and each item may be left out.\n\n"
+       "Names:");
+  for (size_t k = 0; k < solver_count(); k++) printf("  %-15s %s\n", solver_at(k)->name, solver_at(k)->summary);
+  puts("\nItems:");
+  for (size_t k = 0; k < method_item_count(); k++) print_item(method_item_at(k));
+}
+
+static void print_channels_help(void)
+{
+  puts("usage: --channels NAME[,NAME...]       of render, into an EXR\n"
+       "What is told of each pixel; in the file the values have the names in brackets.\n\n"
+       "Names:");
+  for (int kind = 0; kind < CHANNEL_KINDS; kind++) {
+    const struct channel_traits *traits = channel_traits((enum channel_kind)kind);
+    printf("  %-10s  %s (", traits->name, traits->summary);
+    for (size_t k = 0; k < traits->width; k++) printf("%s%s", k == 0 ? "" : ", ", traits->value_names[k]);
+    puts(")");
+  }
+}
+
+static const struct {
+  const char *name;
+  void (*print)(void);
+} TOPICS[] = {{"solver", print_solver_help}, {"channels", print_channels_help}};
 
 static enum status run(const struct command *command, int argc, const char **argv)
 {
   if (argc > 2) return command_usage(NULL, "one argument too many: '%s'", argv[2]);
   if (argc < 2) {
     command_print_overview(stdout);
+    return command_finish_output(command);
+  }
+  for (size_t k = 0; k < sizeof TOPICS / sizeof *TOPICS; k++) {
+    if (strcmp(argv[1], TOPICS[k].name) != 0) continue;
+    TOPICS[k].print();
     return command_finish_output(command);
   }
   const bool itself = strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0;
@@ -23,7 +74,9 @@ const struct command command_help = {
   .name = "help",
   .arguments = "[COMMAND]",
   .summary = "Tells how pscn or one of its commands is used",
-  .description = "Without an argument the commands are listed.\n",
+  .description =
+    "Without an argument the commands are listed. `pscn help solver` lists what a scene, or --solver, may say of\n"
+    "solvers, `pscn help channels` what --channels may.\n",
   .options = OPTIONS,
   .run = run,
 };

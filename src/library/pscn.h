@@ -9,9 +9,9 @@
  *
  * A scene is built once, from a file, from text or from control points, and never changes. Any number of threads may
  * ask it at once; what each is answered depends on nothing but the ray: not on the other rays of the call, their order
- * or their number, nor on what other threads do. (Where another hit is so near that double precision cannot tell which
- * comes first, the last places of t, u, v and the normal may.) To change a scene build another, and free the old one when
- * nobody asks it any more.
+ * or their number, nor on what other threads do. (Where another hit, or a border of the patch, is so near that double
+ * precision cannot tell which comes first, the last places of t, u, v and the normal may.) To change a scene build another,
+ * and free the old one when nobody asks it any more.
  *
  * Nothing is ever printed, no signal handled, no thread started, the process never ended. The locale means nothing. Of the
  * environment PSCN_KERNEL is looked at: baseline, avx2, avx512 or avx512_narrow is the instruction set that scenes are made
@@ -107,7 +107,7 @@ struct pscn_options {
                          for with it an answer would depend on the ray before */
   double tolerance;   /* instead of every solver's tolerance; 0: as those say */
   size_t max_memory;  /* bytes that the text and the patches may take, as counted before the scene is built, which takes
-                         more; 0: no limit */
+                         more: 1500 a patch of a text, 416 of control points; 0: no limit */
   const char *const *folders;        /* where files that the text includes are looked for besides its own folder, ended
                                         by NULL; or NULL */
   const struct pscn_number *numbers; /* number_count of them */

@@ -33,7 +33,7 @@ enum channel_status {
 
 struct channel_traits {
   const char *name;           /* as in --channels */
-  const char *summary;        /* one line for the help text */
+  const char *summary;        /* one line for `pscn help channels` */
   size_t width;               /* values a pixel */
   const char *value_names[3]; /* what the file calls them */
   bool data;                  /* numbers rather than light */

@@ -1,5 +1,6 @@
-/* Every kernel that the processor can run gives the same answers, whatever the ray and beside whatever other rays: the
- * same hit or miss, certainty and patch; T, U, V may differ in their last places only. And any hit is found exactly
+/* Every kernel that the processor can run gives the same answers, whatever the ray: the same hit or miss, certainty and
+ * patch; T, U, V may differ in their last places only. Beside whatever other rays they are the same to the last bit, but where
+ * another hit, or a border, is too near to be told from it by doubles: there T, U, V may differ in their last places, too. And any hit is found exactly
  * where a closest one is. All classes of hostile.h, prints for each what differs. */
 #include <math.h>
 #include <stdio.h>
@@ -21,6 +22,7 @@ struct count {
   size_t place;                     /* T differs, but for the last bits of certain ones: by more than DIFFERENT */
   size_t bits;                      /* T, U or V differ at all */
   size_t company, occlusion;        /* an answer depends on the rays beside it; any hit is not where a closest is */
+  size_t tied;                      /* it does, in its last places, and another hit is at hand */
   double worst;                     /* difference of T in floors, both certain */
 };
 
@@ -66,6 +68,27 @@ static void compare(const char *class, const char *kernel, const struct referenc
   if (which != &count->bits) show(class, kernel, ray, plain, other);
 }
 
+/* A hit this many floors behind or before may be found first. */
+#define TIED 256
+
+/* So near a border a hit may be found on either side of it first, in parameters of the patch. */
+#define BORDER 0x1p-40
+
+/* Whether these answers to a ray differ in last places only, and it has another hit that doubles do not tell from the first, or
+ * one of a patch beside it. */
+static bool is_tied(struct trial *trial, const struct ray *ray, const struct hit *a, const struct hit *b)
+{
+  if (a->patch == HIT_NONE || a->patch != b->patch || a->certainty != b->certainty) return false;
+  const double floor = trial_floor(trial->reference, ray, a->patch, a->t, a->u, a->v).t;
+  if (fabs(a->t - b->t) > DIFFERENT * floor) return false;
+  if (fmin(fmin(a->u, 1 - a->u), fmin(a->v, 1 - a->v)) <= BORDER) return true;
+  struct hit_list list;
+  size_t near = 0;
+  assert_int_equal(tracer_all(trial->tracer, 1, ray, &list), STATUS_OK);
+  for (size_t k = 0; k < list.count; k++) near += fabs(list.hits[k].t - a->t) <= TIED * floor;
+  return near > 1;
+}
+
 static void run_situation(const char *class, const struct situation *s, struct count *count)
 {
   struct trial trial;
@@ -84,7 +107,8 @@ static void run_situation(const char *class, const struct situation *s, struct c
       bool occluded;
       tracer_closest(trial.tracer, 1, &s->rays[n], &single);
       tracer_occluded(trial.tracer, 1, &s->rays[n], &occluded);
-      if (!same(&single, &hits[n])) count->company++, show(class, "company", &s->rays[n], &single, &hits[n]);
+      if (!same(&single, &hits[n]) && is_tied(&trial, &s->rays[n], &single, &hits[n])) count->tied++;
+      else if (!same(&single, &hits[n])) count->company++, show(class, "company", &s->rays[n], &single, &hits[n]);
       if (occluded != (single.patch != HIT_NONE))
         count->occlusion++, show(class, "occlusion", &s->rays[n], &single, &single);
     }
@@ -107,9 +131,9 @@ static void test_class(void **state)
     run_situation(class->name, &situation, &c);
   }
   printf("%-36s %7zu rays: verdict %zu, certainty %zu, patch %zu, T %zu, last bits %zu differ; T by %.2g floors; "
-         "company %zu, "
+         "company %zu, and %zu tied, "
          "occlusion %zu; seed %llu\n",
-         class->name, c.rays, c.verdict, c.certainty, c.patch, c.place, c.bits, c.worst, c.company, c.occlusion,
+         class->name, c.rays, c.verdict, c.certainty, c.patch, c.place, c.bits, c.worst, c.company, c.tied, c.occlusion,
          (unsigned long long)seed);
   assert_int_equal(c.verdict + c.certainty + c.patch + c.place + c.company + c.occlusion, 0);
 }

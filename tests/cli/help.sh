@@ -11,3 +11,5 @@ try pscn help nothing
 try pscn help render trace
 try pscn nothing
 try pscn --nothing
+# What is no command.
+for topic in solver channels; do try pscn help $topic; done

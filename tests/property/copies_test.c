@@ -5,6 +5,7 @@
 
 #include "base/wide.h"
 #include "cmocka_test.h"
+#include "effort.h"
 #include "geometry/vector.h"
 #include "intersect/intersect.h"
 #include "intersect/model.h"
@@ -15,9 +16,11 @@ enum {
   RAYS = 256,
   PATCHES = 1100,
   PACKET = 8,
-  FAR_SCENES = 12,
+  FULL_FAR_SCENES = 6000, /* of such scenes nearly all is to prepare them */
+  LEAST_FAR_SCENES = 4,
   BESIDE = 6,
-  BESIDE_SCENES = 4,
+  FULL_BESIDE_SCENES = 2000,
+  LEAST_BESIDE_SCENES = 2,
   SHEARED = 2
 };
 
@@ -293,7 +296,8 @@ static void rays_meet_copies_from_very_far_away(void **state)
   static struct pair pair;
   struct random random = {SEED + 3};
   int wrong = 0, certain[3] = {0};
-  for (int n = 0; n < FAR_SCENES; n++) {
+  const int scenes = (int)effort_count(FULL_FAR_SCENES, LEAST_FAR_SCENES);
+  for (int n = 0; n < scenes; n++) {
     const double far = pow(2, random_between(&random, 75, 95));
     struct ray ray = {.t_max = INFINITY};
     for (int k = 0; k < 3; k++) ray.direction[k] = random_between(&random, -1, 1);
@@ -309,7 +313,7 @@ static void rays_meet_copies_from_very_far_away(void **state)
     pair_close(&pair);
   }
   assert_int_equal(wrong, 0);
-  assert_true(certain[0] > FAR_SCENES / 4 && certain[1] > FAR_SCENES / 4);
+  assert_true(certain[0] > scenes / 4 && certain[1] > scenes / 4);
 }
 
 /* Of surfaces that are some roundings apart the nearest is known for certain, or not at all: also where what is known in the
@@ -320,7 +324,8 @@ static void nearest_of_copies_beside_each_other(void **state)
   static struct pair pair;
   struct random random = {SEED + 4};
   int wrong = 0, certain = 0;
-  for (int n = 0; n < BESIDE_SCENES; n++) {
+  const int scenes = (int)effort_count(FULL_BESIDE_SCENES, LEAST_BESIDE_SCENES);
+  for (int n = 0; n < scenes; n++) {
     pair_open(&pair, WORLD_GRID, &random, NULL, 0, BESIDE, random_map);
     for (int l = 0; l < RAYS; l++) {
       struct hit hits[2];
@@ -333,7 +338,7 @@ static void nearest_of_copies_beside_each_other(void **state)
     pair_close(&pair);
   }
   assert_int_equal(wrong, 0);
-  assert_true(certain > BESIDE_SCENES * RAYS / 2);
+  assert_true(certain > scenes * RAYS / 2);
 }
 
 /* Then all that is off is the ray on its way to the object, which a shear makes much of. */
