@@ -55,6 +55,38 @@ best() {
   rows "$1" "NR == $(cat "$folder/at")"
 }
 
+# span SCENE CONDITION EXPRESSION [DIGITS]: what awk's EXPRESSION is of the points that CONDITION chooses: "A", or "A to B".
+span() {
+  awk "$READ"'
+    function value() { return '"$3"' }
+    read() && ('"$2"') { x = value() + 0; low = n++ && low < x ? low : x; high = n > 1 && high > x ? high : x }
+    END {
+      if (n == 0) exit 1
+      a = number(low, '"${4:-2}"'); b = number(high, '"${4:-2}"')
+      print a == b ? a : a " to " b
+    }' "$charts/$1/chart.csv"
+}
+
+# faster SCENE POLISH: how many times as long each complex solver takes in Bernstein form as in the power basis, warm, on the
+# leaves of `split auto`: the median over the tolerances of each.
+faster() {
+  awk "$READ"'
+    read() && f["start"] == "previous" && f["polish"] == "'"$2"'" && f["family"] != "paper" && f["split"] != 1 {
+      ns[f["solver"], f["tolerance"], f["basis"]] = f["ns_median"]; tolerance[f["tolerance"]]
+    }
+    END {
+      m = split("newton laguerre aberth", solver, " ")
+      for (s = 1; s <= m; s++) {
+        n = 0
+        for (t in tolerance)
+          if ((solver[s], t, "power") in ns) ratio[n++] = ns[solver[s], t, "bernstein"] / ns[solver[s], t, "power"]
+        for (i = 1; i < n; i++)
+          for (k = i; k > 0 && ratio[k - 1] > ratio[k]; k--) { x = ratio[k]; ratio[k] = ratio[k - 1]; ratio[k - 1] = x }
+        printf "%s%s", s == 1 ? "" : s == m ? " and " : ", ", number(ratio[int(n / 2)], 2)
+      }
+    }' "$charts/$1/chart.csv"
+}
+
 # What basis, polish and tolerance buy: a line a solver and tolerance, start previous, `split auto`; the paper's form
 # last.
 ways() {
@@ -114,35 +146,54 @@ shares nothing with the renderer.
 - Embree's rays are single precision; its own program measures it, with pscn's default beside it in every round.
   POV-Ray's errors are those of its `trace()`, its time the CPU time of its trace phase for every pixel of the scene in
   white without lights.
+END
+  paper='f["family"] == "paper" && f["solver"] == ' small='f["tolerance"] + 0 <= 1e-4' tiny='f["tolerance"] + 0 <= 1e-6'
+  registers='On a processor with AVX-512, 16 at once would be in the charts as well.'
+  grep -q '16 coherent' "$charts/teapot/chart.csv" && registers='This processor has AVX-512, so that 16 at once are in the charts as well.'
+  cat <<END
 
 ## What one sees
 
 - **What is polished is exact.** Every point with polish, which is the default, whatever its solver, basis, tolerance,
   start and split, stands at one place on the axis of errors, the rounding of doubles, without a bad answer: 2-D Newton
   and its certificate decide, and what they do not accept goes to the last resort. The tolerance then changes hardly even
-  the time. Certainty costs little: plain Newton, which proves nothing and forms no resultant, takes 1.6
-  times the default's time on the wild patches and 1.4 on the teapot, and answers up to one hit in twenty with a farther
-  one or none.
-- **Without polish the answer is the solver's.** Tolerances of 1e-1 and 1e-2 give bad answers with any solver. From 1e-4
-  on most are right, to 1e-14; but nothing says which: `bernstein` keeps a few per cent of bad ones on the wild patches
-  at every tolerance, where roots lie close together, and one on the teapot.
+  the time. Certainty costs little: plain Newton, which proves nothing and forms no resultant, takes
+  $(span wild 'f["family"] == "plain-newton"' 'f["ratio"]') times the default's time on the wild patches and
+  $(span teapot 'f["family"] == "plain-newton"' 'f["ratio"]') on the teapot, and is wrong or has nothing for
+  $(span wild 'f["family"] == "plain-newton"' 'bad()') of $(span wild 'f["family"] == "plain-newton"' 'f["hits"]' 4) and
+  $(span teapot 'f["family"] == "plain-newton"' 'bad()') of $(span teapot 'f["family"] == "plain-newton"' 'f["hits"]' 4) hits.
+- **Without polish the answer is the solver's.** On leaves, tolerances of 1e-1 to 1e-3 give bad answers, most of them in
+  Bernstein form; below, next to none but \`bernstein\`'s, which keeps
+  $(span wild 'f["family"] == "bernstein" && f["polish"] == "off" && '"$tiny" 'bad()') of
+  $(span wild 'f["family"] == "bernstein" && f["polish"] == "off" && '"$tiny" 'f["hits"]' 4) on the wild patches at every
+  tolerance, where roots lie close together, and
+  $(span teapot 'f["family"] == "bernstein" && f["polish"] == "off" && '"$tiny" 'bad()') on the teapot. Nothing says which.
 - **The paper's form** (power basis on whole patches, Sylvester, Euclid's algorithm for v, no polish) separates the
-  solvers as the paper says: `aberth` from 1e-4 on has hardly a bad answer, `newton` and `laguerre` have some at every
-  tolerance, 3 % of the teapot's rays and up to most hits of the wild patches. But the error of T stops at 1e-11
-  (teapot) and 1e-6 (wild), for the coefficients are no better, and tolerances below that only cost time, up to the
-  iteration limit. It is also the slowest, as every candidate costs all 18 roots.
-- **Basis.** On the leaves that `split auto` makes, the complex solvers without polish are mostly two to six times as
-  fast in the power basis of the leaf: in Bernstein form the many roots far from the leaf crowd together at x = -1. With
-  polish, where roots are only starts, less is left of that. `bernstein`, which looks for roots within the leaf alone,
-  has no such trouble.
-- **POV-Ray's error is that of its triangles**: a step more in `u_steps` divides it by four. Few steps lose hits, invent
-  others, and miss the nearest surface: the larger part of the wild scene's hits at `u_steps 1`, and still a ray here
-  and there at the usual 4 or 5. Type 1 costs little more with each step, type 0 several times as much. Its median on
-  the teapot is small only because half of the rays meet the flat floor.
-- **Embree is wrong in the same way, and faster in packets**: the same mesh gives the same bad answers as POV-Ray's
-  (8 x 8 is `u_steps 3`). Rays one by one through the teapot's meshes of 16 x 16 x 2 triangles a patch take as long as
-  the exact answer, finer ones longer; 16 coherent rays at once, where the processor can, a sixth of it (8 x 8 x 2) to
-  three fifths (256 x 256 x 2). A million triangles bring 99 % of the rays within 1e-5 or so. The wild scene has few
+  solvers as the paper says. From 1e-4 down \`aberth\` has $(span teapot "$paper"'"aberth" && '"$small" 'bad()') bad answers of
+  $(span teapot "$paper"'"aberth"' 'f["hits"]' 4) on the teapot and $(span wild "$paper"'"aberth" && '"$small" 'bad()') of
+  $(span wild "$paper"'"aberth"' 'f["hits"]' 4) on the wild patches; from 1e-6 down \`newton\` has
+  $(span teapot "$paper"'"newton" && '"$tiny" 'bad()') and $(span wild "$paper"'"newton" && '"$tiny" 'bad()'), \`laguerre\`
+  $(span teapot "$paper"'"laguerre" && '"$tiny" 'bad()') and $(span wild "$paper"'"laguerre" && '"$tiny" 'bad()' 3). For the
+  coefficients are no better, the error of T stops there: of 99 % of Aberth's rays at
+  $(span teapot "$paper"'"aberth" && '"$tiny" 'f["t_99"]') (teapot) and $(span wild "$paper"'"aberth" && '"$tiny" 'f["t_99"]')
+  (wild), and smaller tolerances only cost time, up to the iteration limit. It is also the slowest form, as every candidate
+  costs all 18 roots.
+- **Basis.** On the leaves of \`split auto\` and without polish \`newton\`, \`laguerre\` and \`aberth\` take in Bernstein form
+  $(faster teapot off) (teapot), $(faster wild off) (wild) times as long as in the power basis of the leaf: there the
+  many roots far from the leaf crowd together at x = -1. With polish it is
+  $(faster teapot on) and $(faster wild on): Bernstein form, the default, has a way of its own on registers
+  ([solvers.md](solvers.md#on-lanes)). \`bernstein\`, which looks for roots within the leaf alone, has no such trouble.
+- **POV-Ray's error is that of its triangles**: a step more in \`u_steps\` divides it by four. Few steps lose hits and miss the
+  nearest surface: $(span wild 'f["family"] == "povray" && f["name"] ~ /u_steps 1,/' 'bad()' 4) of the wild scene's
+  $(span wild 'f["family"] == "povray"' 'f["hits"]' 4) hits at \`u_steps 1\`, and still a ray here and there at the usual 4
+  or 5. Type 1 costs little more with each step, type 0 several times as much. Its median on the teapot is small only
+  because half of the rays meet the flat floor.
+- **Embree is wrong in the same way, and faster**: the same mesh gives the same bad answers as POV-Ray's (8 x 8 is
+  \`u_steps 3\`). Of the default's time on the teapot's camera rays, which go in packets too, its rays one by one take
+  $(span teapot 'f["name"] ~ /^Embree, 16x16.* one by one/' 'f["ratio"]') through meshes of 16 x 16 x 2 triangles a patch and
+  $(span teapot 'f["name"] ~ /^Embree, 256x256.* one by one/' 'f["ratio"]') through 256 x 256 x 2; 8 coherent rays at once
+  $(span teapot 'f["name"] ~ /^Embree, 8x8.* 8 coherent/' 'f["ratio"]') (8 x 8 x 2) to
+  $(span teapot 'f["name"] ~ /^Embree, 256x256.* 8 coherent/' 'f["ratio"]'). $registers A million triangles bring 99 % of the rays within 1e-5 or so. The wild scene has few
   patches, and its meshes are faster. Single precision ends at 6e-8, even on a flat floor.
 
 END
