@@ -219,7 +219,7 @@ maps_section() {
   cat <<END
 ## Maps
 
-The teapot, $FRAME, by \`pscn render --channels iterations,roots,residual,deviation\`: iterations a root (dark 1, yellow 64) and
+The teapot, $FRAME, what \`pscn render --channels iterations,roots,residual,deviation\` tells, line by line: iterations a root (dark 1, yellow 64) and
 the distance from the certified answer, relative (dark 1e-16, yellow 1, red: a hole or a phantom).
 
 - The default form of every solver is certified; what differs is how long it looks, \`bernstein\` longest where a ray passes

@@ -89,8 +89,8 @@ static const char *const split_words[] = {"auto", NULL};
 #define MAX_SPLIT 64
 
 static const struct method_item items[] = {
-  {"tolerance", "a root has converged when a step is below this (eps of eq 10), relative; `form paper`: absolute", METHOD_ITEM_NUMBER,
-   NULL, DBL_MIN, MAX_TOLERANCE, set_tolerance, get_tolerance},
+  {"tolerance", "a root has converged when a step is below this (eps of eq 10), relative; `form paper`: absolute",
+   METHOD_ITEM_NUMBER, NULL, DBL_MIN, MAX_TOLERANCE, set_tolerance, get_tolerance},
   {"max_iterations", "steps a root may take", METHOD_ITEM_INTEGER, NULL, 1, MAX_ITERATIONS, set_max_iterations,
    get_max_iterations},
   {"start", "from Aberth's circle, or from the roots of the previous ray on the same patch", METHOD_ITEM_KEYWORD,
