@@ -62,7 +62,7 @@ static void hits_next_to_the_start_have_their_last_places(void **state)
       tracer_closest(world.tracer, RAYS, rays, hits);
       for (size_t k = 0; k < RAYS; k++) {
         const struct hit alone = world_closest(&world, &rays[k]);
-        assert_same_hit("next to the start", kind, &rays[k], &alone, &hits[k]);
+        assert_same_hit("next to the start", (int)kind, &rays[k], &alone, &hits[k]);
         check(reference, &rays[k], &hits[k]);
       }
     }
