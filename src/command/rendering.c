@@ -170,7 +170,7 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
     report->threads = stats.threads;
   }
   if (status == STATUS_LIMIT) command_error(rendering->command, "out of memory or threads");
-  else if (status == STATUS_OK) status = loaded(rendering->command, loading);
+  else if (atomic_load(&interrupt_signal) == 0) status = loaded(rendering->command, loading);
   intersector_destroy(intersector);
   return status;
 }
