@@ -144,7 +144,8 @@ static void add_child(struct language *language, struct node *parent, struct nod
   parent->patch_count += child->patch_count;
   count_patches(language, parent, child->whole);
   if (child->height >= parent->height) parent->height = child->height + 1;
-  if (parent->height == MAX_NESTING) language_limit(language, child->whole, "objects are nested more than 200 deep");
+  if (parent->height == MAX_NESTING && parent != &language->objects->scene)
+    language_limit(language, child->whole, "objects are nested more than 200 deep");
 }
 
 void union_begin(struct language *language, struct span place) { open_node(language, place); }

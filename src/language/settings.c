@@ -6,7 +6,7 @@
 #include "language/sources.h"
 
 /* The versions of POV-Ray's language that a scene may ask for; it is read as the one whose gamma is ours. */
-#define VERSION_LOW 1.0
+#define VERSION_LOW 1.5 /* before it there were no binary operators */
 #define VERSION_READ 3.7
 #define VERSION_HIGH 3.8
 

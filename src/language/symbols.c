@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "language/sources.h"
+#include "language/tokens.h"
 
 /* The innermost of that name; with `depth` at least 0, only that of that depth. */
 static struct symbol *find(const struct symbols *symbols, const char *name, size_t length, int depth)
@@ -243,6 +244,9 @@ struct declaration *declare_begin(struct language *language, struct span place, 
   const struct name name = sources_name(language, place);
   if (local && !sources_has(language, *local))
     language_tell(language, *local, "a #local stands in one file with its name and =");
+  const struct symbol *known = find(language->symbols, name.text, name.length, local ? language->symbols->depth : -1);
+  if (known && known->kind == SYMBOL_MACRO && !language->tokens->skipping)
+    language_tell(language, place, "'%.*s' is a macro already; #undef it before", (int)name.length, name.text);
   return begin(language, &name, local);
 }
 

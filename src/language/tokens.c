@@ -16,15 +16,21 @@ static void tell_too_large(struct language *language)
 
 /* ---- the stream ---- */
 
-/* Words in a solver statement are plain, whatever they mean elsewhere. */
+/* Words in a solver statement are plain, whatever they mean elsewhere, but in the parentheses of a number. */
 static int raw_word(struct language *language, int token)
 {
-  switch (language->tokens->raw_words) {
-  case 0: language->tokens->raw_words = 1; return token; /* solver */
-  case 1: language->tokens->raw_words = 2; break;
-  case 2: language->tokens->raw_words = token == '{' ? 3 : token == PSCN_TOKEN_SOLVER ? 1 : 0; return token;
+  struct tokens *tokens = language->tokens;
+  switch (tokens->raw_words) {
+  case 0: tokens->raw_words = 1; return token; /* solver */
+  case 1: tokens->raw_words = 2; break;
+  case 2:
+    tokens->raw_words = token == '{' ? 3 : token == PSCN_TOKEN_SOLVER ? 1 : 0;
+    tokens->parentheses = 0;
+    return token;
   default:
-    if (token == '}' || token == 0) language->tokens->raw_words = 0;
+    if (token == '}' || token == 0) tokens->raw_words = 0;
+    tokens->parentheses += (token == '(') - (token == ')' && tokens->parentheses > 0);
+    if (tokens->parentheses > 0) return token;
     break;
   }
   return scan_is_word(token) ? PSCN_TOKEN_WORD : token;

@@ -17,6 +17,7 @@ struct tokens {
   bool solver_only; /* the text is what follows `solver` */
   int made_up;      /* tokens handed out before those of the text */
   int raw_words;    /* in a solver statement all words are plain: 1 before the name, 2 after it, 3 in its block */
+  int parentheses;  /* open in its block: there words are what they are elsewhere */
   int depth;        /* braces open */
   struct span braces[MAX_NESTING];
   struct delivered last;
