@@ -207,8 +207,9 @@ static bool vanishes(const struct polynomial *r, double u)
   return fabs(value) <= 2 * r->degree * UNIT_ROUNDOFF * size;
 }
 
-/* Paper 2.2: the real ones, as far as eps tells. Where eps asks for less than a rounding, the methods that move all roots at
- * once end beside the axis, by what their own roundings are; those that deflate have put their roots on it (deflation.c). */
+/* Paper 2.2: the real ones, as far as eps tells. Where eps asks for less than a rounding, a method ends beside the axis by
+ * what its roundings are: those that deflate put most of their roots on it (deflation.c), those that move all at once none. A
+ * ray that passes a silhouette by some 1e-6 of the patch may be told a hit for it. */
 static bool is_real(const struct method *method, const struct polynomial *r, const struct root *root)
 {
   if (method->polish) return fabs(root->im) <= START_MARGIN;

@@ -153,6 +153,10 @@ struct model_copy {
   double W[3][3], b[3];
 };
 
+/* So many frames may be within one another, for the walk goes down by recursion. What is still smaller is passed over less
+ * well, and found all the same: sizes in one place that go down by 2^8 each, so many times and more, are no scene. */
+enum { MODEL_FRAMES = 48 };
+
 /* A hierarchy in a frame of its own: (world - origin)/frame, all within about [-1,1], frame a power of two. Its boxes
  * are floats, which tell little of what is far smaller than the frame: small boxes that lie together have a tree of theirs
  * where there are others far away, or far larger. In the hierarchy box k < leaf_count is a leaf's, those behind are the copies',

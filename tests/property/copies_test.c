@@ -61,6 +61,13 @@ static void exact_shear(struct random *random, struct scene_copy *copy)
   for (int n = 0; n < 3; n++) copy->b[n] = rint(random_between(random, -4096, 4096));
 }
 
+/* Larger or smaller, about 0. */
+static void exact_scale(struct random *random, struct scene_copy *copy)
+{
+  const double size = ldexp(1, (int)(random_bits(random) % 61) - 30);
+  for (int n = 0; n < 9; n++) copy->A[n / 3][n % 3] = n % 4 == 0 ? size : 0;
+}
+
 static void moved(const struct scene_copy *copy, world_net from, world_net to)
 {
   for (int n = 0; n < 16; n++) {
@@ -94,14 +101,16 @@ static void put_beside(const struct scene_copy *first, struct random *random, st
 }
 
 /* far: NULL, or a ray whose way leads past the first copy, at t = `at`. beside: 0, or how many stand in one place but for
- * roundings; the rays are aimed at these then. */
+ * roundings; the rays are aimed at these then. parts: how large all patches but the first are, as a part of what they are. */
 static void pair_open(struct pair *pair, int kind, struct random *random, const struct ray *far, double at,
-                      size_t beside, place_copy *place)
+                      size_t beside, place_copy *place, double parts)
 {
   static world_net nets[WORLD_MAX];
   memset(pair, 0, sizeof *pair);
   pair->kind = kind;
   const size_t count = world_fill((enum world_kind)kind, random, nets), copies = PATCHES / count;
+  for (size_t n = 16; n < count * 16; n++)
+    for (int k = 0; k < 3; k++) nets[n / 16][n / 4 % 4][n % 4][k] *= parts;
   pair->object = (struct scene_object){nets, count};
   struct scene *scene = &pair->scene;
   method_default(solver_at(0), &pair->solver);
@@ -161,7 +170,7 @@ static void each_kind(uint64_t seed, place_copy *place, void (*body)(struct pair
   static struct pair pair;
   struct random random = {seed};
   for (int kind = 0; kind < WORLD_KINDS; kind++) {
-    pair_open(&pair, kind, &random, NULL, 0, 0, place);
+    pair_open(&pair, kind, &random, NULL, 0, 0, place, 1);
     body(&pair);
     pair_close(&pair);
   }
@@ -302,7 +311,7 @@ static void rays_meet_copies_from_very_far_away(void **state)
     struct ray ray = {.t_max = INFINITY};
     for (int k = 0; k < 3; k++) ray.direction[k] = random_between(&random, -1, 1);
     for (int k = 0; k < 3; k++) ray.origin[k] = -far * ray.direction[k];
-    pair_open(&pair, WORLD_GRID, &random, &ray, far, 0, random_map);
+    pair_open(&pair, WORLD_GRID, &random, &ray, far, 0, random_map, 1);
     for (int from = 0; from < 3; from++) {
       struct hit hits[2];
       const bool same = same_from_far(&pair, &ray, hits, &certain[from]);
@@ -326,7 +335,7 @@ static void nearest_of_copies_beside_each_other(void **state)
   int wrong = 0, certain = 0;
   const int scenes = (int)effort_count(FULL_BESIDE_SCENES, LEAST_BESIDE_SCENES);
   for (int n = 0; n < scenes; n++) {
-    pair_open(&pair, WORLD_GRID, &random, NULL, 0, BESIDE, random_map);
+    pair_open(&pair, WORLD_GRID, &random, NULL, 0, BESIDE, random_map, 1);
     for (int l = 0; l < RAYS; l++) {
       struct hit hits[2];
       for (int k = 0; k < 2; k++) tracer_closest(pair.tracer[k], 1, &pair.rays[l], &hits[k]);
@@ -348,6 +357,20 @@ static void sheared_copies_answer_as_patches_of_their_own(void **state)
   for (int n = 0; n < SHEARED; n++) each_kind(SEED + 5 + (uint64_t)n, exact_shear, n % 2 ? compare_all : compare);
 }
 
+/* What is small beside the whole of its object is as certain in copies as by itself. */
+static void small_parts_of_copies_are_certain(void **state)
+{
+  (void)state;
+  static struct pair pair;
+  struct random random = {SEED + 9};
+  static const double parts[] = {0x1p-12, 0x1p-30, 0x1p-57, 0x1p-100};
+  for (size_t n = 0; n < sizeof parts / sizeof parts[0]; n++) {
+    pair_open(&pair, WORLD_GRID, &random, NULL, 0, 0, exact_scale, parts[n]);
+    compare(&pair);
+    pair_close(&pair);
+  }
+}
+
 int main(void)
 {
   print_message("seed %d\n", SEED);
@@ -359,6 +382,7 @@ int main(void)
     cmocka_unit_test(rays_meet_copies_from_very_far_away),
     cmocka_unit_test(nearest_of_copies_beside_each_other),
     cmocka_unit_test(sheared_copies_answer_as_patches_of_their_own),
+    cmocka_unit_test(small_parts_of_copies_are_certain),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
  * certain still is.
  */
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -393,6 +394,88 @@ static void sizes_have_nothing_to_do_with_each_other(void **state)
   assert_true(hits > SCENES * RAYS);
 }
 
+/* Bowls round 0, each 2^8 times as wide as the next one, from one end of the doubles to the other, and a crowd at the bottom. */
+enum { BOWLS = 240, AT_THE_BOTTOM = 17000, DEEP_RAYS = 16 };
+
+/* What a call may take, as of pscn.h. The sanitizers' frames are larger. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+enum { DEEP_STACK = 12 << 20 };
+#else
+enum { DEEP_STACK = 3 << 19 };
+#endif
+
+struct deep {
+  struct world world;
+  struct ray rays[DEEP_RAYS];
+  struct hit hits[DEEP_RAYS];
+  bool occluded[DEEP_RAYS];
+  size_t listed[DEEP_RAYS];
+};
+
+static void *go_deep(void *context)
+{
+  struct deep *d = context;
+  struct hit_list lists[PACKET_SIZE];
+  for (size_t n = 0; n < DEEP_RAYS; n += PACKET_SIZE) {
+    const size_t count = DEEP_RAYS - n < PACKET_SIZE ? DEEP_RAYS - n : PACKET_SIZE;
+    tracer_closest(d->world.tracer, count, d->rays + n, d->hits + n);
+    tracer_occluded(d->world.tracer, count, d->rays + n, d->occluded + n);
+    if (tracer_all(d->world.tracer, count, d->rays + n, lists) != STATUS_OK) return NULL;
+    for (size_t k = 0; k < count; k++) d->listed[n + k] = lists[k].count;
+  }
+  return d;
+}
+
+static void frames_within_frames_take_little_stack(void **state)
+{
+  (void)state;
+  static world_net nets[BOWLS + AT_THE_BOTTOM];
+  static struct deep d;
+  for (int crowd = 0; crowd < 2; crowd++) { /* with it the rays go apart */
+    for (int k = 0; k < BOWLS; k++) {
+      const double size = exp2(1000 - 8.2 * k);
+      for (int n = 0; n < 16; n++) {
+        const int i = n / 4, j = n % 4;
+        const double at[3] = {(i - 1.5) / 1.5, (j - 1.5) / 1.5, ((i == 1 || i == 2) + (j == 1 || j == 2)) / 4.0 - 1};
+        for (int c = 0; c < 3; c++) nets[k][i][j][c] = size * at[c];
+      }
+    }
+    const double least = exp2(1000 - 8.2 * BOWLS);
+    for (int k = 0; k < AT_THE_BOTTOM; k++)
+      for (int n = 0; n < 16; n++) {
+        const double at[3] = {(n / 4 * 0.01 + 0.1 * (k % 128)) / 128, (n % 4 * 0.01 + 0.1 * (k / 128)) / 128, 1e-6 * k};
+        for (int c = 0; c < 3; c++) nets[BOWLS + k][n / 4][n % 4][c] = least * (at[c] + 0.1);
+      }
+    for (int n = 0; n < DEEP_RAYS; n++) {
+      d.rays[n] = (struct ray){.t_max = INFINITY};
+      for (int c = 0; c < 3; c++) {
+        d.rays[n].origin[c] = least * (n + c) * 1e-3;
+        d.rays[n].direction[c] = (n >> c & 1 ? 1 : -1) * (1 + 0.01 * c + 0.001 * n);
+      }
+    }
+    world_open(&d.world, nets, crowd ? BOWLS + AT_THE_BOTTOM : BOWLS, NULL);
+    pthread_t thread;
+    pthread_attr_t attributes;
+    void *done;
+    assert_int_equal(pthread_attr_init(&attributes), 0);
+    assert_int_equal(pthread_attr_setstacksize(&attributes, DEEP_STACK), 0);
+    assert_int_equal(pthread_create(&thread, &attributes, go_deep, &d), 0);
+    assert_int_equal(pthread_join(thread, &done), 0);
+    pthread_attr_destroy(&attributes);
+    assert_non_null(done);
+    size_t hits = 0;
+    for (int n = 0; n < DEEP_RAYS; n++) {
+      const struct hit alone = world_closest(&d.world, &d.rays[n]);
+      assert_int_equal(d.hits[n].patch, alone.patch);
+      assert_int_equal(d.hits[n].certainty, alone.certainty);
+      assert_int_equal(d.occluded[n], alone.patch != HIT_NONE);
+      hits += alone.patch != HIT_NONE && d.listed[n] > 0;
+    }
+    assert_true(hits >= DEEP_RAYS / 4);
+    world_close(&d.world);
+  }
+}
+
 /* What is counted without being tried. Of more patches than these neither they nor leaves are kept. */
 enum { KEPT = 1 << 16, CROWD = KEPT + 4096, THROUGH = 4000, FEW_LOOKS = 90000 };
 
@@ -483,9 +566,12 @@ static void boxes_and_leaves_made_are_counted(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_ray_takes_no_more_than_its_share),       cmocka_unit_test(what_is_not_looked_at_hides),
-    cmocka_unit_test(what_is_passed_by_hides_nothing),          cmocka_unit_test(what_is_far_away_costs_nothing),
-    cmocka_unit_test(sizes_have_nothing_to_do_with_each_other), cmocka_unit_test(boxes_and_leaves_made_are_counted)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_takes_no_more_than_its_share),
+                                     cmocka_unit_test(what_is_not_looked_at_hides),
+                                     cmocka_unit_test(what_is_passed_by_hides_nothing),
+                                     cmocka_unit_test(what_is_far_away_costs_nothing),
+                                     cmocka_unit_test(sizes_have_nothing_to_do_with_each_other),
+                                     cmocka_unit_test(frames_within_frames_take_little_stack),
+                                     cmocka_unit_test(boxes_and_leaves_made_are_counted)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,6 +14,7 @@ struct bundle {
   struct later later;
   struct view view;
   unsigned live; /* bit k: ray k still looks for a hit */
+  int depth;     /* of the tree that it is in: how many frames are around it, those around the copy too */
 };
 
 /* Takes over where its packets' rays end now. */

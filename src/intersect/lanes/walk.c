@@ -13,7 +13,7 @@ static void bundle_walk_all(struct bundle *b, const struct model_tree *tree);
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
   struct bundle inner;
-  inner.packets = b->packets;
+  inner.packets = b->packets, inner.depth = b->depth + 1;
   for (int h = 0; h < b->packets; h++)
     packet_enter(&b->packet[h], copy, lanes_mask(active >> h * LANES), &inner.packet[h]);
   bundle_set_later(&inner, b->packet[0].any);
@@ -26,8 +26,10 @@ static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigne
 static void bundle_inner(struct bundle *b, const struct model_tree *inner, unsigned active)
 {
   const struct view outer = b->view;
+  b->depth++;
   bundle_start(b, inner);
   bundle_walk(b, inner, active & b->live);
+  b->depth--;
   b->view = outer;
   bundle_update(b);
 }
@@ -360,10 +362,15 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
   bundle_looked(b, looks);
 }
 
+/* In frames within so many others each ray goes by itself, which takes a tenth of the stack: 7 KB a frame, where rays together
+ * take up to 60 (AVX-512). With MODEL_FRAMES in the scene and in an object that is copied, it is 1.1 MB at most. */
+enum { TOGETHER_DEEP = 6 };
+
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
   if (tree->bvh.node_count == 0) return;
-  if (__builtin_popcount(rays) == 1) ray_walk(b, tree, 0, (unsigned)__builtin_ctz(rays));
+  if (b->depth > TOGETHER_DEEP || __builtin_popcount(rays) == 1)
+    for (; rays; rays &= rays - 1) ray_walk(b, tree, 0, (unsigned)__builtin_ctz(rays));
   else if (rays_apart(b)) rays_walk(b, tree, rays);
   else together_walk(b, tree, rays);
 }
@@ -387,7 +394,7 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], st
                                const struct ray rays[], bool any, int share)
 {
   const size_t packets = packets_of(count);
-  b->packets = (int)packets;
+  b->packets = (int)packets, b->depth = 0;
   for (size_t h = 0; h < packets; h++) {
     const size_t left = count - h * LANES;
     packet_begin(&b->packet[h], &ready[h], tracer, left < LANES ? left : LANES, rays + h * LANES, any, share);

@@ -17,6 +17,10 @@
  * (packet.c). */
 #define MOST_SIZE 0x1p100
 
+/* Nor is one that leaves more of the object open than this part of it, or of its smallest patch. */
+#define MOST_OPEN 0x1p-30
+#define MOST_OPEN_OF_PATCH 0x1p-24
+
 /* How one copy may share the object's leaves, while its object is looked at. */
 struct copy_map {
   const struct scene_copy *copy;
@@ -26,17 +30,25 @@ struct copy_map {
   bool good;
 };
 
-/* The object's nets about the middle of their box, and how far they reach from it. */
+/* The object's nets about the middle of their box, how far they reach from it, and how large the smallest is that is no
+ * point. */
 struct middle {
-  double center[3], reach;
+  double center[3], reach, least;
 };
 
 static struct middle object_middle(const struct scene_object *object)
 {
-  struct middle m = {{0}, 0};
+  struct middle m = {{0}, 0, INFINITY};
   double lo[3], hi[3];
   bounds_empty(lo, hi);
-  for (size_t p = 0; p < object->patch_count; p++) bounds_add(object->P[p], lo, hi);
+  for (size_t p = 0; p < object->patch_count; p++) {
+    double own_lo[3], own_hi[3], extent = 0;
+    bounds_empty(own_lo, own_hi);
+    bounds_add(object->P[p], own_lo, own_hi);
+    bounds_add(object->P[p], lo, hi);
+    for (int k = 0; k < 3; k++) extent = real_max(extent, own_hi[k] / 2 - own_lo[k] / 2);
+    if (extent > 0 && extent < m.least) m.least = extent;
+  }
   for (int k = 0; k < 3; k++) {
     m.center[k] = lo[k] / 2 + hi[k] / 2;
     m.reach = real_max(m.reach, hi[k] / 2 - lo[k] / 2);
@@ -112,7 +124,8 @@ static void copy_map_make(struct copy_map *c, const struct model *model, const s
   }
   const double passes = 2 * c->widest * m->reach * back; /* the ray's nearest point, from the middle; sqrt(3) < 2 */
   c->error = off + 16 * UNIT_ROUNDOFF * stretch * (m->reach + passes);
-  c->good &= stretch <= MOST_STRETCH && c->error <= 0x1p-30 * m->reach; /* NaN is no map either */
+  c->good &= stretch <= MOST_STRETCH && c->error <= MOST_OPEN * m->reach &&
+             c->error <= MOST_OPEN_OF_PATCH * m->least; /* NaN is no map either */
 }
 
 /* Takes the good ones of the object's copies, where they are two or more. */

@@ -169,8 +169,8 @@ static void number_leaves(const struct building *b, struct bvh *bvh, const uint3
   }
 }
 
-static enum status build(const struct building *b, uint32_t index[], size_t count, const double middle[3], double frame,
-                         struct model_tree *out);
+static enum status build(const struct building *b, int depth, uint32_t index[], size_t count, const double middle[3],
+                         double frame, struct model_tree *out);
 
 /* The hierarchy of the boxes that stay in that frame, and of the groups' hulls. */
 static enum status build_outer(const struct building *b, const struct grouping *g, size_t stay, const double middle[3],
@@ -191,7 +191,7 @@ static enum status build_outer(const struct building *b, const struct grouping *
 }
 
 /* The trees of the groups. */
-static enum status build_inner(const struct building *b, const struct grouping *g, struct model_tree *out)
+static enum status build_inner(const struct building *b, int depth, const struct grouping *g, struct model_tree *out)
 {
   out->inner = arena_alloc(b->arena, g->count, sizeof *out->inner);
   if (!out->inner) return STATUS_LIMIT;
@@ -203,21 +203,22 @@ static enum status build_inner(const struct building *b, const struct grouping *
     for (int k = 0; k < 3; k++) center[k] = box_center(&group->hull, k);
     frexp(real_max(box_extent(&group->hull) / 2, LEAST_FRAME), &exponent);
     out->inner_count++;
-    status = build(b, g->index + group->first, group->count, center, ldexp(1, exponent), &out->inner[n]);
+    status = build(b, depth, g->index + group->first, group->count, center, ldexp(1, exponent), &out->inner[n]);
   }
   return status;
 }
 
-/* A tree of boxes[index[0..count-1]] in a frame of size `frame` about `middle`, which is given as they are. */
-static enum status build(const struct building *b, uint32_t index[], size_t count, const double middle[3], double frame,
-                         struct model_tree *out)
+/* A tree of boxes[index[0..count-1]] in a frame of size `frame` about `middle`, which is given as they are, within `depth`
+ * others. */
+static enum status build(const struct building *b, int depth, uint32_t index[], size_t count, const double middle[3],
+                         double frame, struct model_tree *out)
 {
   struct grouping g = {.boxes = b->boxes, .index = index, .frame = frame};
-  const size_t stay = set_apart(&g, count);
+  const size_t stay = depth + 1 < MODEL_FRAMES ? set_apart(&g, count) : count;
   *out = (struct model_tree){.frame = frame};
   for (int k = 0; k < 3; k++) out->origin[k] = b->about[k] + middle[k];
   enum status status = g.failed ? STATUS_LIMIT : build_outer(b, &g, stay, middle, out);
-  if (status == STATUS_OK && g.count > 0) status = build_inner(b, &g, out);
+  if (status == STATUS_OK && g.count > 0) status = build_inner(b, depth + 1, &g, out);
   memory_free(g.groups);
   return status;
 }
@@ -232,7 +233,7 @@ enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count
   uint32_t *index = memory_alloc(count + 1, sizeof *index);
   if (!index) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) index[k] = (uint32_t)k;
-  const enum status status = build(&all, index, count, middle, frame, tree);
+  const enum status status = build(&all, 0, index, count, middle, frame, tree);
   memory_free(index);
   return status;
 }
