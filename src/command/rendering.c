@@ -187,6 +187,7 @@ static enum status encode(struct rendering *rendering, unsigned char **out_bytes
 {
   const struct rendering_request *request = rendering->request;
   struct report_metadata metadata;
+  if (atomic_load(&interrupt_signal) != 0) return STATUS_INTERRUPTED;
   report_metadata_fill(rendering->report, &metadata);
   if (request->pieces != 0)
     return piece_encode(&rendering->piece, metadata.attribute, metadata.count, out_bytes, out_size, message);

@@ -125,10 +125,10 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
 {
   result = STATUS_FILE;
   OIIO::ImageSpec spec = make_spec(picture, encoding);
+  OIIO::Filesystem::IOVecOutput proxy(file); /* outlives the output, which still writes into it when it goes */
   std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(SUFFIXES[encoding.format] + 1);
   if (!output) return "OpenImageIO: " + OIIO::geterror();
   if (!output->supports("ioproxy")) return "this OpenImageIO can not write the format to memory";
-  OIIO::Filesystem::IOVecOutput proxy(file);
   if (!output->set_ioproxy(&proxy)) return "OpenImageIO: " + output->geterror();
   /* The name decides nothing but the format: the proxy takes the bytes. */
   if (!output->open(std::string("memory") + SUFFIXES[encoding.format], spec) ||
