@@ -7,7 +7,6 @@
 #include "base/memory.h"
 #include "base/real.h"
 #include "geometry/vector.h"
-#include "intersect/prepare/patch.h"
 
 /* Boxes no larger than this part of a frame have one of their own where all of them lie within that part: a float is
  * then still some thousand times finer than they are. Choices of speed. */
