@@ -22,7 +22,7 @@ if [ "${1:-}" = missing ]; then
 fi
 
 install_packages "${BUILD_PACKAGES[@]}" gcovr libcmocka-dev
-cmake --preset coverage -G Ninja >"$build.log"
+cmake --preset coverage >"$build.log"
 cmake --build "$build" >>"$build.log"
 
 # count NAME: takes the counters there are, and says "FOLDER NAME lines run branches taken" for each folder.

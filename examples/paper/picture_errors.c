@@ -2,8 +2,8 @@
  *
  *     picture_errors SCENE WIDTH HEIGHT SOLVER NAME
  *
- * Pixels are traced line by line (pictures.h). Writes NAME.png and NAME-map.png. The depth of every pixel by the solver, against the default's, which is certified. Depths are the same within a
- * fiftieth of the depths there are in the picture. Map: blue holes (darker: through to the background), red phantoms
+ * Pixels are traced line by line (pictures.h). Writes NAME.png and NAME-map.png. The depth of every pixel by the solver,
+ * against the default's, which is certified. Depths are the same within a fiftieth of the depths there are in the picture. Map: blue holes (darker: through to the background), red phantoms
  * (darker: in front of nothing), light grey what is right.
  */
 #include <math.h>

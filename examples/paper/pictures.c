@@ -18,22 +18,15 @@ static void tell(void *context, const char *text, size_t length)
   fwrite(text, 1, length, stderr);
 }
 
-static struct ray pixel_ray(const struct scene *scene, size_t width, size_t height, size_t pixel)
-{
-  struct ray ray;
-  const double s = ((double)(pixel % width) + 0.5) / (double)width,
-               t = ((double)(pixel / width) + 0.5) / (double)height;
-  camera_ray(&scene->camera, s, t, &ray);
-  return ray;
-}
-
 /* By two tracers, each of which has its own roots to begin at: of camera rays and of shadow rays. */
 static void trace_lines(const struct scene *scene, struct tracer *tracer[2], size_t width, size_t height,
                         struct picture_pixel out[])
 {
   for (size_t p = 0; p < width * height; p++) {
-    const struct ray ray = pixel_ray(scene, width, height, p);
+    struct ray ray;
     struct hit hit;
+    camera_ray(&scene->camera, ((double)(p % width) + 0.5) / (double)width,
+               ((double)(p / width) + 0.5) / (double)height, &ray);
     tracer_measure(tracer[0], &ray, &hit, &out[p].solver);
     shade_packet(scene, tracer[1], 1, &ray, &hit, &out[p].rgb);
     out[p].depth = hit.patch == HIT_NONE ? INFINITY : hit.t * vector_length(ray.direction);

@@ -2,8 +2,8 @@
  *
  * Aberth's circle (section 3.4 of the paper): the centre is the centroid of the roots, -c[n-1] / (n c[n]); the radius
  * is the positive root of |b[n]| r^n = sum over k < n of |b[k]| r^k, with b the coefficients about the centre, which is
- * Cauchy's bound, to RADIUS_ACCURACY: the circle holds every root, or nearly. The values are spread evenly on it, turned by a quarter of their spacing
- * so that they do not lie in conjugate pairs, which the iteration could not part.
+ * Cauchy's bound, to RADIUS_ACCURACY: the circle holds every root, or nearly. The values are spread evenly on it, turned by a
+ * quarter of their spacing so that they do not lie in conjugate pairs, which the iteration could not part.
  *
  * Newton's polygon (D. Bini, "Numerical computation of polynomial zeros by means of Aberth's method", 1996): the upper
  * convex hull of the points (k, log |c[k]|); an edge from k to l stands for l - k roots of modulus about

@@ -10,16 +10,13 @@ static const struct command_option OPTIONS[] = {COMMAND_HELP_OPTION, COMMAND_OPT
 /* "start cold|previous", "split auto|N" */
 static void print_item(const struct method_item *item)
 {
-  enum { LABEL_SIZE = 80, LABEL_WIDTH = 36 };
+  enum { LABEL_WIDTH = 36 };
   static const char *const number[] = {[METHOD_ITEM_NUMBER] = "X", [METHOD_ITEM_INTEGER] = "N"};
-  char label[LABEL_SIZE];
-  int length = snprintf(label, sizeof label, "%s ", item->name);
+  int width = printf("  %s ", item->name);
   for (size_t k = 0; item->keywords != NULL && item->keywords[k] != NULL; k++)
-    length += snprintf(label + length, sizeof label - (size_t)length, "%s%s", k == 0 ? "" : "|", item->keywords[k]);
-  if (item->kind != METHOD_ITEM_KEYWORD)
-    snprintf(label + length, sizeof label - (size_t)length, "%s%s", item->keywords == NULL ? "" : "|",
-             number[item->kind]);
-  printf("  %-*s  %s\n", LABEL_WIDTH, label, item->summary);
+    width += printf("%s%s", k == 0 ? "" : "|", item->keywords[k]);
+  if (item->kind != METHOD_ITEM_KEYWORD) width += printf("%s%s", item->keywords == NULL ? "" : "|", number[item->kind]);
+  printf("%*s  %s\n", width < LABEL_WIDTH + 2 ? LABEL_WIDTH + 2 - width : 0, "", item->summary);
 }
 
 static void print_solver_help(void)

@@ -132,11 +132,12 @@ static enum status read_channels(struct piece *piece)
 {
   size_t length, bad_length;
   const char *channels = image_metadata(&piece->image, "pscn:channels", &length), *bad;
-  char *list = channels == NULL ? NULL : strndup(channels, length);
-  const bool known = list != NULL && channel_list_parse(list, &piece->channels, &bad, &bad_length);
-  const bool failed = channels != NULL && list == NULL;
+  if (channels == NULL) return STATUS_INPUT;
+  char *list = strndup(channels, length);
+  if (list == NULL) return STATUS_LIMIT;
+  const bool known = channel_list_parse(list, &piece->channels, &bad, &bad_length);
   free(list);
-  return known ? STATUS_OK : failed ? STATUS_LIMIT : STATUS_INPUT;
+  return known ? STATUS_OK : STATUS_INPUT;
 }
 
 /* FNV-1a (Fowler, Noll, Vo; RFC 9923), a word at a time too: no two words give one hash. */

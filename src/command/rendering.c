@@ -162,10 +162,7 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
     status = render_scene(report->scene, intersector, &options, &watch, rendering->piece.image.value, &stats);
     report->render = seconds_since(start);
     progress_end(&rendering->progress);
-    if (atomic_load(&interrupt_signal) != 0) {
-      keep_interrupted(rendering);
-      status = STATUS_INTERRUPTED;
-    }
+    if (atomic_load(&interrupt_signal) != 0) status = STATUS_INTERRUPTED;
     report->counts = stats.counts;
     report->threads = stats.threads;
   }
@@ -214,9 +211,10 @@ static enum status write_results(struct rendering *rendering)
   size_t size;
   char message[IMAGE_MESSAGE_SIZE];
   enum status status = encode(rendering, &bytes, &size, message);
-  if (status == STATUS_INTERRUPTED) keep_interrupted(rendering);
-  else if (status != STATUS_OK) command_error(command, "cannot make '%s': %s", request->output, message);
-  if (status != STATUS_OK) return status;
+  if (status != STATUS_OK) {
+    if (status != STATUS_INTERRUPTED) command_error(command, "cannot make '%s': %s", request->output, message);
+    return status;
+  }
   rendering->report->write = seconds_since(start);
   if (request->stats != NULL) status = report_text(command, report_statistics(rendering->report), &statistics);
   const size_t length = statistics == NULL ? 0 : strlen(statistics);
@@ -224,7 +222,6 @@ static enum status write_results(struct rendering *rendering)
                                       {request->stats, statistics, length},
                                       {rendering->has_part ? request->part : NULL, NULL, 0}};
   if (status == STATUS_OK) status = output_write(command, files, 3);
-  if (status == STATUS_INTERRUPTED) keep_interrupted(rendering);
   free(statistics);
   free(bytes);
   return status;
@@ -252,6 +249,7 @@ static enum status render(const struct command *command, const struct rendering_
   if (status == STATUS_OK) status = begin(&rendering);
   if (status == STATUS_OK) status = make_picture(&rendering, loading);
   if (status == STATUS_OK) status = write_results(&rendering);
+  if (status == STATUS_INTERRUPTED) keep_interrupted(&rendering);
   if (status == STATUS_OK && !request->scene->quiet) report_print(&report);
   piece_destroy(&rendering.piece);
   scene_destroy(scene);

@@ -99,9 +99,9 @@ Bytes native_rows(const image &picture, const image_encoding &encoding, const sr
 }
 
 /* Writes all rows, some at a time: what they are turned into takes little memory, and whoever waits can be told how far it is,
- * and end it: then `result` says so. False where not all is written. */
-bool write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const image &picture,
-                const image_encoding &encoding, status &result)
+ * and end it: STATUS_INTERRUPTED. */
+status write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const image &picture,
+                  const image_encoding &encoding)
 {
   const std::size_t most = 64; /* whole blocks of every way to pack an EXR */
   const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeDesc();
@@ -111,16 +111,14 @@ bool write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const im
     const std::size_t rows = std::min(most, picture.height - row);
     const Bytes pixels = native_rows(picture, encoding, table, row, rows);
     const int y = spec.y + static_cast<int>(row);
-    if (!output.write_scanlines(y, y + static_cast<int>(rows), 0, type, pixels.data())) return false;
+    if (!output.write_scanlines(y, y + static_cast<int>(rows), 0, type, pixels.data())) return STATUS_FILE;
     const double part = static_cast<double>(row + rows) / static_cast<double>(picture.height);
-    if (encoding.progress == nullptr || encoding.progress(encoding.context, part)) continue;
-    result = STATUS_INTERRUPTED;
-    return false;
+    if (encoding.progress != nullptr && !encoding.progress(encoding.context, part)) return STATUS_INTERRUPTED;
   }
-  return true;
+  return STATUS_OK;
 }
 
-/* Encodes into `file`; an empty string or what went wrong, which is STATUS_FILE unless `result` says otherwise. */
+/* Encodes into `file`; an empty string or what went wrong, and of which kind that is. */
 std::string encode(const image &picture, const image_encoding &encoding, Bytes &file, status &result)
 {
   result = STATUS_FILE;
@@ -131,12 +129,13 @@ std::string encode(const image &picture, const image_encoding &encoding, Bytes &
   if (!output->supports("ioproxy")) return "this OpenImageIO can not write the format to memory";
   if (!output->set_ioproxy(&proxy)) return "OpenImageIO: " + output->geterror();
   /* The name decides nothing but the format: the proxy takes the bytes. */
-  if (!output->open(std::string("memory") + SUFFIXES[encoding.format], spec) ||
-      !write_rows(*output, spec, picture, encoding, result) || !output->close())
-    return result == STATUS_INTERRUPTED ? "interrupted" : "OpenImageIO: " + output->geterror();
-  if (file.empty()) return "OpenImageIO wrote nothing";
-  result = STATUS_OK;
-  return "";
+  if (output->open(std::string("memory") + SUFFIXES[encoding.format], spec))
+    result = write_rows(*output, spec, picture, encoding);
+  if (result == STATUS_INTERRUPTED) return "interrupted";
+  if (result == STATUS_OK && !output->close()) result = STATUS_FILE;
+  if (result != STATUS_OK) return "OpenImageIO: " + output->geterror();
+  if (file.empty()) result = STATUS_FILE;
+  return file.empty() ? "OpenImageIO wrote nothing" : "";
 }
 
 /* Where it stands in its picture; what lies outside is taken for a whole. */

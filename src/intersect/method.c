@@ -194,7 +194,8 @@ static struct polynomial resultant(const struct method *method, const struct lea
   return r;
 }
 
-/* Whether r vanishes at u in [0,1] within n roundings of its terms, as eq 11 of the paper asks of a root. */
+/* Whether r vanishes at u in [0,1] within n roundings of its terms, as eq 11 of the paper asks of a root. (polynomial_eq11 asks
+ * it in quadruple precision, which takes as long as to find the roots.) */
 static bool vanishes(const struct polynomial *r, double u)
 {
   const double other = r->basis == BASIS_BERNSTEIN ? 1 - u : 1;

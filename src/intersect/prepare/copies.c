@@ -45,9 +45,11 @@ static struct middle object_middle(const struct scene_object *object)
     double own_lo[3], own_hi[3], extent = 0;
     bounds_empty(own_lo, own_hi);
     bounds_add(object->P[p], own_lo, own_hi);
-    bounds_add(object->P[p], lo, hi);
-    for (int k = 0; k < 3; k++) extent = real_max(extent, own_hi[k] / 2 - own_lo[k] / 2);
-    if (extent > 0 && extent < m.least) m.least = extent;
+    for (int k = 0; k < 3; k++) {
+      extent = real_max(extent, own_hi[k] / 2 - own_lo[k] / 2);
+      lo[k] = real_min(lo[k], own_lo[k]), hi[k] = real_max(hi[k], own_hi[k]);
+    }
+    if (extent > 0) m.least = real_min(m.least, extent);
   }
   for (int k = 0; k < 3; k++) {
     m.center[k] = lo[k] / 2 + hi[k] / 2;

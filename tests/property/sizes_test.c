@@ -1,0 +1,222 @@
+/* Scenes whose parts differ in size and place as far as doubles reach: each part is answered as if there were nothing else. */
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "property/world.h"
+
+enum { SEED = 20261122, RAYS = 24 };
+
+/* How many leaves rays were tried on. */
+static uint64_t tried(const struct world *world) { return tracer_counts(world->tracer)->patches_tested; }
+
+/* Villages, and a patch all by itself, so far apart that floats in the frame of the whole would not tell the patches of one
+ * from one another. */
+enum { VILLAGES = 3, VILLAGE = 60, VILLAGERS = VILLAGES * VILLAGE };
+
+static void village(struct random *random, const double at[3], world_net nets[VILLAGE])
+{
+  for (int p = 0; p < VILLAGE; p++) {
+    double corner[3];
+    for (int k = 0; k < 3; k++) corner[k] = at[k] + random_between(random, -2, 2);
+    for (int n = 0; n < 16; n++) {
+      const double step[3] = {n / 4 * 0.3, n % 4 * 0.3, random_between(random, -0.2, 0.2)};
+      for (int k = 0; k < 3; k++) nets[p][n / 4][n % 4][k] = corner[k] + step[k];
+    }
+  }
+}
+
+/* Rays at a village are answered as if there were nothing else, and by trying no more leaves. */
+static void what_is_far_away_costs_nothing(void **state)
+{
+  (void)state;
+  static world_net nets[VILLAGERS + 1];
+  size_t hits = 0;
+  static const double distances[] = {1e3, 1e6, 1e9, 1e12, 1e15, 1e17, 1e20, 1e30, 1e45, 1e100, 1e300};
+  for (size_t d = 0; d < sizeof distances / sizeof distances[0]; d++) {
+    const double apart = distances[d];
+    struct random random = {SEED};
+    const double at[VILLAGES + 1][3] = {{0, 0, 0}, {apart, 0, 0}, {apart / 3, -apart, 7}, {-apart, apart, apart}};
+    for (int v = 0; v < VILLAGES; v++) village(&random, at[v], nets + VILLAGE * v);
+    for (int n = 0; n < 16; n++)
+      for (int k = 0; k < 3; k++)
+        nets[VILLAGERS][n / 4][n % 4][k] = at[VILLAGES][k] + (k == 0) * (n / 4) + (k == 1) * (n % 4);
+    struct world all, alone;
+    world_open(&all, nets, VILLAGERS + 1, NULL);
+    for (int v = 0; v < (apart > 1e12 ? 1 : VILLAGES); v++) { /* the others are rounded to pieces then */
+      const uint64_t before = tried(&all);
+      world_open(&alone, nets + VILLAGE * v, VILLAGE, NULL);
+      for (int n = 0; n < 10 * RAYS; n++) {
+        struct ray ray = {.t_max = INFINITY};
+        for (int k = 0; k < 3; k++) {
+          ray.origin[k] = at[v][k] + random_between(&random, -5, 5);
+          ray.direction[k] = at[v][k] + random_between(&random, -2, 2) - ray.origin[k];
+        }
+        if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0) continue;
+        struct hit hit = world_closest(&all, &ray);
+        const struct hit other = world_closest(&alone, &ray);
+        if (other.certainty != CERTAINTY_CERTAIN) continue;
+        assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+        if (hit.patch < VILLAGERS && other.patch == HIT_NONE) continue; /* it goes on to another village */
+        if (hit.patch != HIT_NONE) hit.patch -= (uint32_t)(VILLAGE * v);
+        assert_int_equal(hit.patch, other.patch);
+        if (hit.patch != HIT_NONE) assert_true(fabs(hit.t - other.t) <= 0x1p-50 * other.t);
+        hits += hit.patch != HIT_NONE;
+      }
+      const uint64_t took = tried(&all) - before, least = tried(&alone);
+      assert_in_range(took, 0, 2 * least + 10 * RAYS);
+      world_close(&alone);
+    }
+    world_close(&all);
+  }
+  assert_true(hits > 1000);
+}
+
+/* A bumpy square of that size in the plane y = 0, or with a corner there. */
+static void square(double size, bool corner, world_net net)
+{
+  static const double bump[4] = {1, 2, 0, 1}, along[4] = {1, 0, 1, 2};
+  for (int n = 0; n < 16; n++) {
+    const double at[3] = {2 * (n / 4) - 3 * !corner, bump[n / 4] * along[n % 4] / 4, 2 * (n % 4) - 3 * !corner};
+    for (int k = 0; k < 3; k++) net[n / 4][n % 4][k] = size * at[k];
+  }
+}
+
+/* Patches in one place, some of them up to 1e560 times as large as others: each is hit as if it were alone, in whatever order
+ * they come. */
+static void sizes_have_nothing_to_do_with_each_other(void **state)
+{
+  (void)state;
+  enum { SCENES = 400, MOST = 5, LEAST_APART = 3, FARTHEST = 280 };
+  struct random random = {SEED};
+  size_t hits = 0;
+  for (int n = 0; n < SCENES; n++) {
+    world_net nets[MOST];
+    double power[MOST];
+    size_t count = 0;
+    for (int k = 0; k < MOST; k++) {
+      const double here = k == 0 ? 0 : random_between(&random, -FARTHEST, FARTHEST);
+      bool apart = true;
+      for (size_t p = 0; p < count; p++) apart &= fabs(power[p] - here) >= LEAST_APART;
+      if (apart) power[count++] = here;
+    }
+    for (size_t p = 0; p < count; p++) square(pow(10, power[p]), n % 2, nets[p]);
+    struct world all;
+    world_open(&all, nets, count, NULL);
+    for (size_t p = 0; p < count; p++) {
+      struct world alone;
+      world_open(&alone, &nets[p], 1, NULL);
+      const double size = pow(10, power[p]);
+      for (int k = 0; k < RAYS; k++) {
+        struct ray ray = {.t_max = INFINITY, .origin = {0, 8 * size, 0}, .direction = {0, -1, 0}};
+        for (int c = 0; c < 3; c += 2) {
+          ray.origin[c] = size * random_between(&random, -1, 3);
+          if (k % 2) ray.direction[c] = random_between(&random, -0.1, 0.1);
+        }
+        struct hit hit = world_closest(&all, &ray);
+        const struct hit other = world_closest(&alone, &ray);
+        if (other.certainty != CERTAINTY_CERTAIN || other.patch == HIT_NONE) continue;
+        assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+        assert_int_equal(hit.patch, p);
+        assert_true(fabs(hit.t - other.t) <= 0x1p-50 * other.t);
+        hits++;
+      }
+      world_close(&alone);
+    }
+    world_close(&all);
+  }
+  assert_true(hits > SCENES * RAYS);
+}
+
+/* Bowls round 0, each 2^8 times as wide as the next one, from one end of the doubles to the other, and a crowd at the bottom. */
+enum { BOWLS = 240, AT_THE_BOTTOM = 17000, DEEP_RAYS = 16 };
+
+/* What a call may take, as of pscn.h. The sanitizers' frames are larger. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+enum { DEEP_STACK = 12 << 20 };
+#else
+enum { DEEP_STACK = 3 << 19 };
+#endif
+
+struct deep {
+  struct world world;
+  struct ray rays[DEEP_RAYS];
+  struct hit hits[DEEP_RAYS];
+  bool occluded[DEEP_RAYS];
+  size_t listed[DEEP_RAYS];
+};
+
+static void *go_deep(void *context)
+{
+  struct deep *d = context;
+  struct hit_list lists[PACKET_SIZE];
+  for (size_t n = 0; n < DEEP_RAYS; n += PACKET_SIZE) {
+    const size_t count = DEEP_RAYS - n < PACKET_SIZE ? DEEP_RAYS - n : PACKET_SIZE;
+    tracer_closest(d->world.tracer, count, d->rays + n, d->hits + n);
+    tracer_occluded(d->world.tracer, count, d->rays + n, d->occluded + n);
+    if (tracer_all(d->world.tracer, count, d->rays + n, lists) != STATUS_OK) return NULL;
+    for (size_t k = 0; k < count; k++) d->listed[n + k] = lists[k].count;
+  }
+  return d;
+}
+
+static void frames_within_frames_take_little_stack(void **state)
+{
+  (void)state;
+  static world_net nets[BOWLS + AT_THE_BOTTOM];
+  static struct deep d;
+  for (int crowd = 0; crowd < 2; crowd++) { /* with it the rays go apart */
+    for (int k = 0; k < BOWLS; k++) {
+      const double size = exp2(1000 - 8.2 * k);
+      for (int n = 0; n < 16; n++) {
+        const int i = n / 4, j = n % 4;
+        const double at[3] = {(i - 1.5) / 1.5, (j - 1.5) / 1.5, ((i == 1 || i == 2) + (j == 1 || j == 2)) / 4.0 - 1};
+        for (int c = 0; c < 3; c++) nets[k][i][j][c] = size * at[c];
+      }
+    }
+    const double least = exp2(1000 - 8.2 * BOWLS);
+    for (int k = 0; k < AT_THE_BOTTOM; k++)
+      for (int n = 0; n < 16; n++) {
+        const double at[3] = {(n / 4 * 0.01 + 0.1 * (k % 128)) / 128, (n % 4 * 0.01 + 0.1 * (k / 128)) / 128, 1e-6 * k};
+        for (int c = 0; c < 3; c++) nets[BOWLS + k][n / 4][n % 4][c] = least * (at[c] + 0.1);
+      }
+    for (int n = 0; n < DEEP_RAYS; n++) {
+      d.rays[n] = (struct ray){.t_max = INFINITY};
+      for (int c = 0; c < 3; c++) {
+        d.rays[n].origin[c] = least * (n + c) * 1e-3;
+        d.rays[n].direction[c] = (n >> c & 1 ? 1 : -1) * (1 + 0.01 * c + 0.001 * n);
+      }
+    }
+    world_open(&d.world, nets, crowd ? BOWLS + AT_THE_BOTTOM : BOWLS, NULL);
+    pthread_t thread;
+    pthread_attr_t attributes;
+    void *done;
+    assert_int_equal(pthread_attr_init(&attributes), 0);
+    assert_int_equal(pthread_attr_setstacksize(&attributes, DEEP_STACK), 0);
+    assert_int_equal(pthread_create(&thread, &attributes, go_deep, &d), 0);
+    assert_int_equal(pthread_join(thread, &done), 0);
+    pthread_attr_destroy(&attributes);
+    assert_non_null(done);
+    size_t hits = 0;
+    for (int n = 0; n < DEEP_RAYS; n++) {
+      const struct hit alone = world_closest(&d.world, &d.rays[n]);
+      assert_int_equal(d.hits[n].patch, alone.patch);
+      assert_int_equal(d.hits[n].certainty, alone.certainty);
+      assert_int_equal(d.occluded[n], alone.patch != HIT_NONE);
+      hits += alone.patch != HIT_NONE && d.listed[n] > 0;
+    }
+    assert_true(hits >= DEEP_RAYS / 4);
+    world_close(&d.world);
+  }
+}
+
+int main(void)
+{
+  print_message("seed %d\n", SEED);
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_far_away_costs_nothing),
+                                     cmocka_unit_test(sizes_have_nothing_to_do_with_each_other),
+                                     cmocka_unit_test(frames_within_frames_take_little_stack)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
