@@ -1,8 +1,6 @@
 /* Scenes whose parts differ in size and place as far as doubles reach: each part is answered as if there were nothing else. */
 #include <math.h>
 #include <pthread.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "cmocka_test.h"
 #include "property/world.h"
