@@ -34,7 +34,7 @@ QUICK_EFFORT=0.0002 ASAN_EFFORT=0.0002 ALL_EFFORT=0.002
 ASAN_WITHOUT='^(peers-(parity|random|shading|compare-idiff|kinds|examples|farm-slurm)|paper-counts|property-refine'
 ASAN_WITHOUT+='|cli-(merge|resume|povray-fails|render-same))$'
 # Left out of the development build's pass then: the sanitizers' has done the same, and seen more.
-ALL_WITHOUT='^fault-(commands|files)$'
+ALL_WITHOUT='^(fault-(commands|files)|peers-(check-.*|chart|dump|windows)|cli-(chart|compare|habits))$'
 JOBS=$(nproc)
 
 # build PRESET [OPTION...]

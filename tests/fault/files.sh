@@ -1,7 +1,7 @@
 #!/bin/bash
 # What becomes of files when the disk is full or read-only, the name is strange, two write at once, memory is short, or the
 # process is killed at any moment: the file is whole or what it was, no other one is left, the exit code is right.
-# PSCN_SEED=N chooses other moments.
+# PSCN_SEED=N chooses other moments; PSCN_EFFORT=full four times as many.
 set -uo pipefail
 self=$(realpath "$0")
 said=$(mktemp)
@@ -11,6 +11,8 @@ chart="--size 1x1 --rays 1 --rounds 1 --quick --no-peers --quiet"
 check="--size 40x30 --steps 0 --grid 0 --failpercent 100 --failpsnr 0 --failmask 100 --quiet"
 failed=0
 RANDOM=${PSCN_SEED:-1}
+moments=6
+[ "${PSCN_EFFORT:-}" != full ] || moments=24
 
 wrong() { echo "wrong: $*"; failed=1; }
 # expect CODE COMMAND...: the exit code, which is the command's answer; what fails says why
@@ -159,7 +161,7 @@ fi
 # Stopped at any moment.
 "$PSCN" render "$scene" $small -o new.png
 for signal in KILL INT TERM HUP; do
-  for k in $(seq 12); do
+  for k in $(seq $moments); do
     [ $((k % 2)) = 0 ] && rm -f new.png
     "$PSCN" render "$scene" $small -o new.png --stats new.json &
     sleep "0.$(printf %03d $((RANDOM % 200)))"
@@ -184,7 +186,7 @@ done
 export TMPDIR=$folder/tmp
 mkdir "$TMPDIR"
 for signal in KILL TERM; do
-  for k in $(seq 6); do
+  for k in $(seq $((moments / 2))); do
     for command in chart check; do
       mkdir -p results && echo old >results/$command.html
       "$PSCN" $command "$scene" ${!command} -o results &
