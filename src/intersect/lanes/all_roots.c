@@ -104,7 +104,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
 }
 
 /* The lanes of `open` where these are all that the leaf has, by boxes. */
-static lane_mask all_roots_cover(const struct packet *p, const struct candidate *it, const struct all_roots *all,
+static lane_mask all_roots_cover(struct packet *p, const struct candidate *it, const struct all_roots *all,
                                  lane_mask open)
 {
   struct known_root known[TRIED_ROOTS];
@@ -132,6 +132,7 @@ static lane_mask all_roots_solve(struct packet *p, const struct candidate *it, l
   const double settled = options->tolerance > ROOTS_SETTLED ? options->tolerance : ROOTS_SETTLED;
   const lane_mask done = roots_lanes_run(out, active, enough, settled, options->max_iterations);
   p->postponed->sweeps -= out->sweeps;
+  packet_spent(p, active);
   all_roots_keep(out, done, warm);
   for (int k = 0; k < out->degree; k++) p->tracer->counts.roots_found += lanes_count(done & ~out->moving[k]);
   return done;

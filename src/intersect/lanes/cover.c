@@ -123,12 +123,13 @@ static void set_roots(struct cover_ray *ray, int lane, int count, const struct k
   }
 }
 
-lane_mask cover_proves(const struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
+lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2])
 {
   struct cover_box stack[COVER_HALVINGS + 2];
   struct cover_box *leaf = &stack[0];
   struct cover_ray ray = {.leaf = it->leaf, .halvings = halvings};
+  const lane_mask asked = open;
   lanes from, to, off, *splits = &p->postponed->splits;
   /* not where the nearest hit so far is, or answers would depend on the way through the hierarchy */
   ray_ends(p, it, p->t_max, &from, &to, &off);
@@ -149,6 +150,7 @@ lane_mask cover_proves(const struct packet *p, const struct candidate *it, int c
     open &= ~lanes_mask(bits & -bits);
     if (left) left[0][lane] = ray.left[0], left[1][lane] = ray.left[1];
   }
+  packet_spent(p, asked);
   return open;
 }
 

@@ -23,7 +23,7 @@ struct known_root {
 
 /* The lanes of `open` on which all of the leaf's roots that are between the ends of the ray are among `roots`. Of the others:
  * the middle of a box that was not cleared, s and t, where one more root may be; NULL for not. */
-lane_mask cover_proves(const struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
+lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2]);
 
 /* The lanes of `open` on which these two are all, those of them that are proven and not one and the same: they are offered.

@@ -10,6 +10,7 @@
 #define packet_orient KERNEL(packet_orient)
 #define packet_set_patch KERNEL(packet_set_patch)
 #define packet_give_up KERNEL(packet_give_up)
+#define packet_spent KERNEL(packet_spent)
 #define packet_postpone KERNEL(packet_postpone)
 #define packet_postpone_best KERNEL(packet_postpone_best)
 #define packet_enter KERNEL(packet_enter)

@@ -26,15 +26,22 @@ void packet_give_up(struct packet *p, unsigned worn)
   }
 }
 
+void packet_spent(struct packet *p, lane_mask active)
+{
+  const struct postponed *to = p->postponed;
+  if (to->share == SHARE_ALONE) return;
+  const lane_mask spent = active & ((to->splits <= 0) | (to->sweeps <= 0));
+  if (lanes_any(spent)) packet_give_up(p, lanes_bits(spent));
+}
+
 /* Counts the leaves left open. All hits are not gathered any more after too many; else what comes then is left open too. In
- * company a ray whose share of anything has ended is let go. Returns the lanes that go on. */
+ * company a ray whose share of them has ended is let go. Returns the lanes that go on. */
 static lane_mask count_open(struct packet *p, lane_mask open)
 {
   struct postponed *to = p->postponed;
   unsigned worn = 0;
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1)
     if (++to->left[__builtin_ctz(bits)] > to->most_open) worn |= bits & -bits;
-  if (to->share > SHARE_ALONE) worn |= lanes_bits(open & ((to->splits <= 0) | (to->sweeps <= 0)));
   if (!p->gather && to->share == SHARE_ALONE) to->full |= worn;
   else if (worn) packet_give_up(p, worn);
   return to->share > SHARE_ALONE ? open & ~lanes_mask(worn) : open;

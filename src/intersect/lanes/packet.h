@@ -210,6 +210,10 @@ void packet_postpone_best(struct packet *p, lane_mask open);
 /* nearest.c: the rays on these lanes, as bits, go no further: there is more than is known of. */
 void packet_give_up(struct packet *p, unsigned worn);
 
+/* nearest.c: in company, rays of `active` whose share of splits or sweeps has ended are let go, for what is done without is not
+ * what they would get alone. To be called wherever some are taken. */
+void packet_spent(struct packet *p, lane_mask active);
+
 /* copy.c: the rays of `outer` on the lanes of `active`, in the coordinates of the copy's object. */
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner);
 
