@@ -17,7 +17,7 @@ enum { JUDGE_BORDERS_MAX = 16 };
 enum { JUDGE_RIVALS_MAX = 8 };
 
 /* Work is counted in boxes looked at, some 1,300 instructions each; what else is done is worth so many: to take a patch or
- * a part of it to the ray's frame, to start under the glass on a patch, to put a box there, to look for a fold, to sharpen a
+ * a part of it to the ray's frame, to take a patch to fixed point, to zoom a box, to look for a fold, to sharpen a
  * root. Where all hits are asked for each of the first HITS_MOST that are found brings WORK_HIT. What a ray may take in all
  * is summed up in docs/method.md, "The numbers of the last resort". */
 enum {
@@ -86,7 +86,7 @@ double search_near(struct judge *j, const struct exact_region *region);
 /* Turns to the patch: prepared, room and local are of it from here on. */
 void judge_turn(struct judge *j, uint32_t patch);
 
-/* The ray through the patch that it has turned to, under the glass. */
+/* The ray through the patch that it has turned to, in fixed point. */
 struct zoom *judge_zoom(struct judge *j);
 
 /* ---- what a search tells, of the patch that the judge has turned to ---- */

@@ -1,4 +1,4 @@
-/* Boxes of a search at a border that is one point, a pole: put under the glass, divided by the distance to the border
+/* Boxes of a search at a border that is one point, a pole: zoomed, divided by the distance to the border
  * (zoom_pole_box), again and again towards it; and what is told where the ray meets the pole.
  *
  * Along such a border both polynomials are constant, so that a ray that passes the pole closely is tangent, as it were,
@@ -11,7 +11,7 @@
 
 #include "base/real.h"
 
-/* A box is put under the glass where it reaches no farther from the pole than this part of the patch. A choice of speed. */
+/* A box is zoomed where it reaches no farther from the pole than this part of the patch. A choice of speed. */
 #define ZOOM_POLE 0x1p-10
 
 /* It is put there again where it reaches no farther from the border than this part of the box that was; and so often, one in
@@ -46,7 +46,7 @@ bool pole_narrow(const struct search *s, const struct box *box)
 /* How far the box reaches from the border, as a part of the search's whole box. */
 static double reach_from(const struct box *box, int border) { return border < 2 ? box->size_u : box->size_v; }
 
-/* Whether the box is to be put under the glass: as soon as it is near enough to the pole, and again whenever it has become
+/* Whether the box is to be zoomed: as soon as it is near enough to the pole, and again whenever it has become
  * small. */
 static bool asks_zoom(const struct search *s, const struct box *box, int border)
 {

@@ -4,12 +4,12 @@
  * (the convex hull property), solved where the certificate finds a root that is alone in it, and halved otherwise.
  * The box that begins first along the ray is next, and those behind the nearest hit so far are dropped. Where a
  * combination is indistinguishable from zero on a box, the surface is seen edge-on there, nearer to tangency than about
- * 1e-7: a fold is looked for (touch.c), and else the box is searched by itself, with polynomials made for it in wide
- * arithmetic (zoom.h), which scales what is too small to tell. Where some combination is zero in wide arithmetic, all over
+ * 1e-7: a fold is looked for (touch.c), and else the box is searched by itself, with polynomials made for it in fixed
+ * point (zoom.h), which scales what is too small to tell. Where some combination is zero even there, all over
  * the patch, the ray lies in the plane of a flat patch, or as good as that, and meets curves: what comes first on them lies
  * on borders of boxes (curves.h). What even that leaves (a double root, a ray in the surface), and poles met exactly
  * (pole.c), are told to the judge as undecided. docs/method.md, "The numbers of the last resort", says how the constants
- * here, there and under the glass fit together.
+ * here, there and of zoomed boxes fit together.
  */
 #include "intersect/exact/search.h"
 
@@ -30,11 +30,11 @@
 enum { SEARCH_HALVINGS = 104 };
 #define LEAST_SIZE 0x1p-52
 
-/* So many boxes may wait to be looked at in the order in which the ray comes to them: at first, and under the glass. More
+/* So many boxes may wait to be looked at in the order in which the ray comes to them: at first, and zoomed. More
  * than these wait only in the order of halving, and so no more than one box can be halved. */
 enum { SEARCH_AHEAD = 128, CLOSER_AHEAD = 64, SEARCH_STACK = SEARCH_HALVINGS + 2 };
 
-/* A box is put under the glass again where it is so small a part of what was, and so often, one in the other. Poles have
+/* A box is zoomed again where it is so small a part of what was, and so often, one in the other. Poles have
  * their own numbers (pole.c). */
 #define ZOOM_AGAIN 0x1p-16
 enum { TANGENT_DEPTH = 4 };
@@ -103,7 +103,7 @@ void search_run_closer(struct search *closer, const struct zoomed *zoomed)
   search_run(closer, &whole, waiting);
 }
 
-/* Searches the box by itself under the glass. Returns whether that could be done. */
+/* Searches the box by itself, zoomed. Returns whether that could be done. */
 static bool box_zoom(struct search *s, const struct box *box)
 {
   struct search closer = search_closer(s, box);
@@ -117,7 +117,7 @@ static bool box_zoom(struct search *s, const struct box *box)
   return true;
 }
 
-/* Whether a box that double precision cannot decide is to be put under the glass: once, and again where it is a small
+/* Whether a box that double precision cannot decide is to be zoomed: once, and again where it is a small
  * part of what was, for the roots next to a tangency are as far apart as the square root of what separates it from
  * one. */
 static bool box_asks_zoom(const struct search *s, const struct box *box)

@@ -32,7 +32,7 @@ void search_rounding(const struct search *s, const struct box *box, double out[2
  * a small one. A box that is not small is a doubt, whether or not it has such a point. */
 void search_tell_maybe(struct search *s, struct box *box, bool small);
 
-/* The search of the box by itself, and has it run on what that is under the glass. */
+/* The search of the box by itself, and has it run on the zoomed polynomials. */
 struct search search_closer(const struct search *s, const struct box *box);
 void search_run_closer(struct search *closer, const struct zoomed *zoomed);
 
@@ -44,7 +44,7 @@ int pole_of_box(const struct search *s, const struct box *box);
 /* Whether the box, at the pole of its search, is so narrow along the border that it is only to be halved across. */
 bool pole_narrow(const struct search *s, const struct box *box);
 
-/* Searches the box, which lies at that border (pole_of_box), by itself under the glass where that is to be done for the
+/* Searches the box, which lies at that border (pole_of_box), by itself, zoomed, where that is to be done for the
  * pole's sake. Returns whether it was. */
 bool pole_zoom(struct search *s, const struct box *box, int border);
 

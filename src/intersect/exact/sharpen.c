@@ -1,4 +1,4 @@
-/* A ray through a patch under the glass: at points of it, and at its roots, which are made as good as wide arithmetic can by
+/* A ray through a patch in fixed point: at points of it, and at its roots, which are made as good as wide arithmetic can by
  * Newton's process and proven anew. See zoom.h.
  */
 #include "intersect/exact/zoom.h"

@@ -12,7 +12,7 @@
 /* What may be roots and is no farther from a fold than this part of the box is told as one place. */
 #define FOLD_NEAR 0x1p-36
 
-/* The root on one side of the fold; false where it is not proven. error: of the box's nets, or NULL under the glass. */
+/* The root on one side of the fold; false where it is not proven. error: of the box's nets, or NULL where it is zoomed. */
 static bool fold_root(const struct window *window, struct box *box, const struct fold *fold, const double *error,
                       double side, struct exact_root *out)
 {

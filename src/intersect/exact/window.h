@@ -2,7 +2,7 @@
  * ray, and what of them is told to the judge.
  *
  * Internal to src/intersect/exact. A box's depth is what its third net, w, is: x_k in a frame of the patch (local_ray.h),
- * or under the glass x_k less the window's middle.
+ * or zoomed x_k less the window's middle.
  */
 #ifndef PSCN_INTERSECT_EXACT_WINDOW_H
 #define PSCN_INTERSECT_EXACT_WINDOW_H
@@ -12,7 +12,7 @@
 
 struct window {
   struct judge *judge;
-  int zooms;              /* how often it has been put under the glass */
+  int zooms;              /* how often it has been zoomed */
   wide low[2], size[2];   /* in parameters of the patch; a box's are from 0 to 1 of it */
   struct depth_map depth; /* from w to t */
   double depth_error;     /* of w */
@@ -24,7 +24,7 @@ struct window window_of_region(struct judge *j, const struct exact_region *regio
 /* A box of it as a window of its own, but for the start and the errors of its depths, ... */
 struct window window_closer(const struct window *window, const struct box *box);
 
-/* ... which are those of the box under the glass. */
+/* ... which are those of the zoomed box. */
 void window_set_depths(struct window *window, const struct zoomed *zoomed);
 
 /* What dw of depth is of t. */

@@ -1,4 +1,4 @@
-/* A ray through a patch under the glass: over the patch, and over boxes of it. See zoom.h. */
+/* A ray through a patch in fixed point: over the patch, and over boxes of it. See zoom.h. */
 #include "intersect/exact/zoom.h"
 
 #include <math.h>

@@ -3,8 +3,8 @@
  * Internal to src/intersect/exact. Pure; safe on any thread.
  *
  * Where a ray is nearly tangent, some combination of the two plane polynomials is so small all over a box that
- * double precision can not tell it from zero. Its coefficients over just that box, formed in wide arithmetic from
- * the untouched control points and only then rounded to double, are right to their own last places: what was below
+ * double precision can not tell it from zero. Its coefficients over just that box, formed in fixed point (base/fixed.h)
+ * from the untouched control points and only then rounded to double, are right to their own last places: what was below
  * all rounding is a polynomial like any other. How many bits that has, and what they are enough for: docs/method.md, "The
  * numbers of the last resort".
  */
@@ -52,8 +52,8 @@ struct zoomed {
 /* P: the patch's control points in the scene. */
 void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, struct zoom *out);
 
-/* The box of the patch with its low corner at low[0], low[1]. False where a combination is zero as far as wide
- * arithmetic can tell: then *out means nothing. */
+/* The box of the patch with its low corner at low[0], low[1]. False where a combination is zero as far as fixed
+ * point can tell: then *out means nothing. */
 bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out);
 
 /* Where a ray passes a border of the patch that is one point. */
