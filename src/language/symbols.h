@@ -21,9 +21,9 @@ struct value {
   enum value_kind kind;
   unsigned transparent; /* a colour that POV-Ray gives transparency: why, or 0 */
   bool component;       /* of another, or reckoned from one; until parentheses or a name make a number of it */
-  bool open;            /* an axis, or a vector by its name, */
-  bool wide;            /* or a product of one, or a quotient, by which POV-Ray makes a colour before it transparent */
-  bool bare;            /* a colour with a part behind it and neither rgb nor color before */
+  bool open; /* of three parts, which POV-Ray takes for five behind a colour: an axis, a vector by its name */
+  bool wide; /* reckoned from such a one: behind a colour POV-Ray makes that transparent by it */
+  bool bare; /* a colour with a part behind it and neither rgb nor color before */
   double x[3];
   const struct symbol *symbol;
   struct span place;

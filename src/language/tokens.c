@@ -16,19 +16,18 @@ static void tell_too_large(struct language *language)
 
 /* ---- the stream ---- */
 
-/* Words in a solver statement are plain, whatever they mean elsewhere, but in the parentheses of a number. */
-static int raw_word(struct language *language, int token)
+/* A token of a solver statement, from the word `solver` on. */
+static int solver_token(struct tokens *tokens, int token)
 {
-  struct tokens *tokens = language->tokens;
-  switch (tokens->raw_words) {
-  case 0: tokens->raw_words = 1; return token; /* solver */
-  case 1: tokens->raw_words = 2; break;
-  case 2:
-    tokens->raw_words = token == '{' ? 3 : token == PSCN_TOKEN_SOLVER ? 1 : 0;
+  switch (tokens->solver_part) {
+  case SOLVER_OUTSIDE: tokens->solver_part = SOLVER_NAME; return token;
+  case SOLVER_NAME: tokens->solver_part = SOLVER_BEHIND_NAME; break;
+  case SOLVER_BEHIND_NAME:
+    tokens->solver_part = token == '{' ? SOLVER_BLOCK : token == PSCN_TOKEN_SOLVER ? SOLVER_NAME : SOLVER_OUTSIDE;
     tokens->parentheses = 0;
     return token;
-  default:
-    if (token == '}' || token == 0) tokens->raw_words = 0;
+  case SOLVER_BLOCK:
+    if (token == '}' || token == 0) tokens->solver_part = SOLVER_OUTSIDE;
     tokens->parentheses += (token == '(') - (token == ')' && tokens->parentheses > 0);
     if (tokens->parentheses > 0) return token;
     break;
@@ -55,13 +54,12 @@ static void open_brace(struct language *language, struct span place)
   if (++tokens->depth > MAX_NESTING) language_limit(language, place, "blocks are nested more than 200 deep");
 }
 
-/* What is handed out before the text: which grammar it has, and the word `solver` that it goes on from. */
+/* What is handed out before the text: which grammar it has, and of the text of a solver the word that it follows. */
 static int make_up(struct tokens *tokens)
 {
   tokens->last.place = span_of(1, 1);
-  if (tokens->made_up++ == 1) return PSCN_TOKEN_SOLVER;
-  tokens->raw_words = tokens->solver_only;
-  return tokens->solver_only ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_START_SCENE;
+  if (tokens->made_up++ == 0) return tokens->solver_only ? PSCN_TOKEN_START_SOLVER : PSCN_TOKEN_START_SCENE;
+  return solver_token(tokens, PSCN_TOKEN_SOLVER);
 }
 
 /* What stands for a token that is not the grammar's, once that has been told. */
@@ -81,7 +79,7 @@ int tokens_next(struct language *language)
 {
   struct tokens *tokens = language->tokens;
   struct delivered *last = &tokens->last;
-  if (tokens->made_up <= tokens->solver_only) return make_up(tokens);
+  if (tokens->made_up < (tokens->solver_only ? 2 : 1)) return make_up(tokens);
   if (last->again) {
     last->again = false;
     return last->token;
@@ -93,11 +91,11 @@ int tokens_next(struct language *language)
   if (token == 0) last->place = sources_span(frame, frame->source->length, frame->source->length);
   else if (token > TOKEN_FIRST_PRIVATE) token = stand_in(language, token);
   else if (is_number(token) && frame->scan.too_large) tell_too_large(language);
-  if (tokens->raw_words > 0 || token == PSCN_TOKEN_SOLVER) token = raw_word(language, token);
+  if (tokens->solver_part != SOLVER_OUTSIDE || token == PSCN_TOKEN_SOLVER) token = solver_token(tokens, token);
   last->token = token;
   last->depth = tokens->depth;
   const bool passed = language->declaration || tokens->skipping; /* perhaps: a macro called elsewhere is an error */
-  if (token == PSCN_TOKEN_WORD && tokens->raw_words == 0 && passed) macro_called(language, last->place);
+  if (token == PSCN_TOKEN_WORD && tokens->solver_part == SOLVER_OUTSIDE && passed) macro_called(language, last->place);
   if (token == '{') open_brace(language, last->place);
   else if (token == '}' && tokens->depth > 0) tokens->depth--;
   return token;

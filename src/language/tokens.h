@@ -12,13 +12,16 @@ struct delivered {
   bool again; /* it comes next once more */
 };
 
+/* Where in a solver statement the next token stands: there all words are plain, but in the parentheses of a number. */
+enum solver_part { SOLVER_OUTSIDE, SOLVER_NAME, SOLVER_BEHIND_NAME, SOLVER_BLOCK };
+
 /* Zeroed: nothing handed out. */
 struct tokens {
   bool solver_only; /* the text is what follows `solver` */
   int made_up;      /* tokens handed out before those of the text */
-  int raw_words;    /* in a solver statement all words are plain: 1 before the name, 2 after it, 3 in its block */
-  int parentheses;  /* open in its block: there words are what they are elsewhere */
-  int depth;        /* braces open */
+  enum solver_part solver_part;
+  int parentheses; /* open in its block */
+  int depth;       /* braces open */
   struct span braces[MAX_NESTING];
   struct delivered last;
   struct span previous;        /* of the token before the last */
