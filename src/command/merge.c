@@ -55,12 +55,10 @@ static enum status take_option(const struct command *command, void *context, int
   return command_usage(command, "'%s' bits are 8, 16 or 32", argument);
 }
 
-/* From here on the file counts for nothing. */
-static void refuse(struct merge *merge, struct file *file, const char *format, const char *text)
+/* From here on the file counts for nothing; told why. */
+static void refuse(struct merge *merge, struct file *file, const char *before, const char *why)
 {
-  char message[2 * IMAGE_MESSAGE_SIZE];
-  snprintf(message, sizeof message, format, text);
-  command_error(merge->command, "'%s': %s", file->path, message);
+  command_error(merge->command, "'%s': %s%s", file->path, before, why);
   file->good = false;
   merge->strange = true;
 }
@@ -75,17 +73,18 @@ static enum status read_headers(struct merge *merge)
     const enum status status = piece_read(file->path, false, &file->piece, message);
     if (status == STATUS_LIMIT) return status;
     file->good = status == STATUS_OK;
-    if (!file->good) refuse(merge, file, "%s", message);
+    if (!file->good) refuse(merge, file, "", message);
   }
   return STATUS_OK;
 }
 
-/* Of two pieces, which each belong to themselves at least. */
+/* Whether both are pieces of one picture, cut alike; else the message says what parts them. */
 static bool belong(const struct file *a, const struct file *b, char *message, size_t size)
 {
   if (!piece_belongs(&a->piece.image, &b->piece.image, message, size)) return false;
+  if (a->piece.count == b->piece.count) return true;
   snprintf(message, size, "its number of pieces: %zu, not %zu", a->piece.count, b->piece.count);
-  return a->piece.count == b->piece.count;
+  return false;
 }
 
 /* The picture that most files are of; of two with equally many, that of the first file. */
@@ -139,9 +138,9 @@ static void judge_files(struct merge *merge)
   for (size_t k = 0; k < merge->count; k++) {
     struct file *file = &merge->file[k];
     if (file->good && !belong(file, merge->first, message, sizeof message))
-      refuse(merge, file, "is a piece of another picture; %s", message);
+      refuse(merge, file, "is a piece of another picture; ", message);
     if (file->good && !count_tiles(merge, &file->piece))
-      refuse(merge, file, "what it has is in %s too", "a file before it");
+      refuse(merge, file, "", "what it has is in a file before it too");
   }
 }
 
@@ -176,9 +175,9 @@ static enum status read_pixels(struct merge *merge)
     if (!file->good) continue;
     const enum status status = piece_read(file->path, true, &whole, message);
     if (status == STATUS_LIMIT) return status;
-    if (status != STATUS_OK) refuse(merge, file, "%s", message);
-    else if (!is_same(&file->piece, &whole)) refuse(merge, file, "%s", "it was written anew meanwhile");
-    else if (!piece_copy(&whole, &merge->picture.image)) refuse(merge, file, "%s", "it lacks a channel");
+    if (status != STATUS_OK) refuse(merge, file, "", message);
+    else if (!is_same(&file->piece, &whole)) refuse(merge, file, "", "it was written anew meanwhile");
+    else if (!piece_copy(&whole, &merge->picture.image)) refuse(merge, file, "", "it lacks a channel");
     merge->seconds += seconds_of(&whole.image);
     piece_destroy(&whole);
     for (size_t t = 0; t < file->piece.tiles.count && !file->good; t++)

@@ -83,7 +83,22 @@ static void keep_interrupted(struct rendering *rendering)
   fputs("', and --resume goes on from there\n", stderr);
 }
 
-/* Takes what an earlier run has left. */
+/* Takes the tiles of what an earlier run has left; false where it is of something else, and the message says what parts them. */
+static bool take_part(struct rendering *rendering, const struct piece *part, char *message, size_t size)
+{
+  struct piece *piece = &rendering->piece;
+  if (part->number != piece->number || part->count != piece->count) {
+    snprintf(message, size, "its piece: %zu/%zu, not %zu/%zu", part->number, part->count, piece->number, piece->count);
+    return false;
+  }
+  if (!piece_belongs(&part->image, &piece->image, message, size)) return false;
+  snprintf(message, size, "it lacks a channel");
+  if (!piece_copy(part, &piece->image)) return false;
+  for (size_t k = 0; k < part->tiles.count; k++) atomic_store(&piece->tiles.done[k], atomic_load(&part->tiles.done[k]));
+  return true;
+}
+
+/* Goes on with what an earlier run has left, or warns that it is there. */
 static enum status resume(struct rendering *rendering)
 {
   const struct command *command = rendering->command;
@@ -96,26 +111,16 @@ static enum status resume(struct rendering *rendering)
       command_warning(command, "'%s' is left by an earlier run; --resume goes on from there", path);
     return STATUS_OK;
   }
-  enum status status = piece_read(path, true, &part, message);
+  const enum status status = piece_read(path, true, &part, message);
   if (status != STATUS_OK) {
     command_error(command, "cannot go on from '%s': %s", path, message);
     return status;
   }
-  const bool same_piece = part.number == rendering->piece.number && part.count == rendering->piece.count;
-  if (!same_piece)
-    snprintf(message, sizeof message, "its piece: %zu/%zu, not %zu/%zu", part.number, part.count,
-             rendering->piece.number, rendering->piece.count);
-  if (same_piece && piece_belongs(&part.image, &rendering->piece.image, message, sizeof message) &&
-      piece_copy(&part, &rendering->piece.image)) {
-    for (size_t k = 0; k < part.tiles.count; k++)
-      atomic_store(&rendering->piece.tiles.done[k], atomic_load(&part.tiles.done[k]));
-    rendering->has_part = true;
-  } else {
+  rendering->has_part = take_part(rendering, &part, message, sizeof message);
+  if (!rendering->has_part)
     command_error(command, "'%s' is of another picture; %s. Without --resume it begins anew", path, message);
-    status = STATUS_INPUT;
-  }
   piece_destroy(&part);
-  return status;
+  return rendering->has_part ? STATUS_OK : STATUS_INPUT;
 }
 
 /* The picture as it is before anything is rendered now. */
