@@ -42,7 +42,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_OPTIONS_END,
 };
 
-/* Rays that wait for an answer, who answers them, and the answers, which go to stdout many at a time. */
+/* Rays that wait for an answer, and who answers them. */
 struct session {
   const struct request *request;
   const struct scene *scene;
@@ -51,8 +51,6 @@ struct session {
   size_t count;
   struct ray rays[PACKET_SIZE];
   enum status status; /* where it is not STATUS_OK nothing is answered any more */
-  size_t length;
-  char text[OUTPUT_BUFFER];
 };
 
 /* The numbers of an answer, of which the last is for --certainty; a miss has T infinite and PATCH -1. */
@@ -72,19 +70,6 @@ static void answer_values(const struct ray *ray, const struct hit *hit, double o
   }
 }
 
-static void send(struct session *session)
-{
-  fwrite(session->text, 1, session->length, stdout);
-  session->length = 0;
-}
-
-/* Where the next answer is to be written: there is room for it. */
-static char *next_answer(struct session *session)
-{
-  if (session->length > OUTPUT_BUFFER - ANSWER_SIZE) send(session);
-  return session->text + session->length;
-}
-
 /* Ends a line. Returns its end. */
 static char *append_end(bool tells, bool certain, char *to)
 {
@@ -100,12 +85,11 @@ static char *append_double(double value, char *to)
   return to;
 }
 
-static void write_hit(struct session *session, const struct ray *ray, const struct hit *hit)
+static void write_hit(const struct request *request, const struct ray *ray, const struct hit *hit)
 {
-  const struct request *request = session->request;
   const bool missed = hit->patch == HIT_NONE;
   double value[ANSWER_VALUES];
-  char *to = next_answer(session);
+  char answer[ANSWER_SIZE], *to = answer;
   answer_values(ray, hit, value);
   if (request->binary) {
     for (int k = 0; k < ANSWER_VALUES - !request->certainty; k++) to = append_double(value[k], to);
@@ -119,21 +103,23 @@ static void write_hit(struct session *session, const struct ray *ray, const stru
     }
     to = append_end(request->certainty, value[ANSWER_VALUES - 1] == 1, to);
   }
-  session->length = (size_t)(to - session->text);
+  (void)fwrite(answer, 1, (size_t)(to - answer), stdout);
 }
 
 /* What stands before a ray's hits. */
-static void write_count(struct session *session, const struct hit_list *list)
+static void write_count(const struct request *request, const struct hit_list *list)
 {
-  char *to = next_answer(session);
+  char answer[ANSWER_SIZE], *to = answer;
   const double count = (double)list->count;
-  if (session->request->binary) to = append_double(list->certainty == CERTAINTY_CERTAIN, append_double(count, to));
+  if (request->binary) to = append_double(list->certainty == CERTAINTY_CERTAIN, append_double(count, to));
   else to = append_end(true, list->certainty == CERTAINTY_CERTAIN, to + number_write_17(count, to));
-  session->length = (size_t)(to - session->text);
+  (void)fwrite(answer, 1, (size_t)(to - answer), stdout);
 }
 
-static enum status answer(struct session *session)
+/* Answers the rays that wait. */
+static enum status answer(void *context)
 {
+  struct session *session = context;
   const struct request *request = session->request;
   struct hit hits[PACKET_SIZE];
   struct hit_list lists[PACKET_SIZE];
@@ -147,18 +133,11 @@ static enum status answer(struct session *session)
   if (request->all && count > 0) session->status = tracer_all(session->tracer, count, session->rays, lists);
   else if (count > 0) tracer_closest(session->tracer, count, session->rays, hits);
   for (size_t k = 0; k < count && session->status == STATUS_OK; k++) {
-    if (request->all) write_count(session, &lists[k]);
+    if (request->all) write_count(request, &lists[k]);
     else lists[k] = (struct hit_list){.count = 1, .hits = &hits[k]};
-    for (size_t n = 0; n < lists[k].count; n++) write_hit(session, &session->rays[k], &lists[k].hits[n]);
+    for (size_t n = 0; n < lists[k].count; n++) write_hit(request, &session->rays[k], &lists[k].hits[n]);
   }
   return session->status;
-}
-
-static enum status answer_and_send(void *context)
-{
-  const enum status status = answer(context);
-  send(context);
-  return status;
 }
 
 /* Makes a ray of six finite numbers; false where the direction is zero. The direction has a power of two taken out, so
@@ -259,8 +238,7 @@ static enum status trace(const struct command *command, struct request *request)
   if (status == STATUS_OK) {
     start = seconds_now();
     session.scene = scene;
-    const struct stream_reader reader = {take, answer_and_send, &session,
-                                         request->binary ? RAY_VALUES * sizeof(double) : 0};
+    const struct stream_reader reader = {take, answer, &session, request->binary ? RAY_VALUES * sizeof(double) : 0};
     status = stream_read(command, &reader);
     report.render = seconds_since(start);
     report.counts = *tracer_counts(session.tracer);
@@ -281,6 +259,8 @@ static enum status run(const struct command *command, int argc, const char **arg
   struct command_line line;
   enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
   if (status == STATUS_OK && !line.help) {
+    static char buffer[OUTPUT_BUFFER];
+    (void)setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     request.scene.path = line.positional[0];
     status = trace(command, &request);
   }
