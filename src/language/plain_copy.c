@@ -7,12 +7,14 @@
 
 #include "base/memory.h"
 #include "base/source.h"
+#include "language/include_path.h"
 #include "language/sources.h"
 
 enum { MAX_FILES = 10000, MAX_NAME = 4096 };
 
 /* The files met so far; [0] is the scene. Each is copied once, wherever it is included from. */
 struct copies {
+  struct arena *arena; /* of paths */
   struct source **source;
   size_t count, room;
   const char *folder, *name;
@@ -84,39 +86,16 @@ static void blank_until(struct copy *copy, size_t end)
   for (; copy->done < end; copy->done++) put(copy, copy->source->text[copy->done] == '\n' ? "\n" : " ", 1);
 }
 
-/* Reads the file of that name and one of its endings in a folder, which is folder[0 .. length-1]; NULL where it is not
- * there. */
-static struct source *read_in(const char *folder, size_t length, const char *name, size_t name_length,
-                              const char *ending)
-{
-  const bool whole = name_length > 0 && name[0] == '/', slash = !whole && length > 0 && folder[length - 1] != '/';
-  char path[MAX_NAME];
-  struct source *source;
-  const char *reason;
-  if (length + name_length + MAX_ENDING + 2 > sizeof path || memchr(name, '\0', name_length) != NULL) return NULL;
-  snprintf(path, sizeof path, "%.*s%s%.*s%s", whole ? 0 : (int)length, folder, slash ? "/" : "", (int)name_length, name,
-           ending);
-  return source_read(path, INPUT_FILE, &source, &reason) == STATUS_OK ? source : NULL;
-}
-
-static struct source *read_beside(const struct source *other, const char *name, size_t length, const char *ending)
-{
-  const char *slash = strrchr(other->name, '/');
-  return read_in(other->name, slash == NULL ? 0 : (size_t)(slash - other->name) + 1, name, length, ending);
-}
-
 /* Reads the file that the language would include, or answers NULL. */
 static struct source *read_included(const struct copy *copy, const char *name, size_t length)
 {
-  struct source *source = NULL;
-  for (const char *const *ending = include_endings(name, length); *ending != NULL && source == NULL; ending++) {
-    const char *const *folder = copy->all->folders;
-    source = read_beside(copy->all->source[0], name, length, *ending);
-    if (source == NULL) source = read_beside(copy->source, name, length, *ending);
-    for (; source == NULL && folder != NULL && *folder != NULL; folder++)
-      source = read_in(*folder, strlen(*folder), name, length, *ending);
-  }
-  return source;
+  const struct include_folders folders = {copy->all->source[0], copy->source, copy->all->folders};
+  struct source *source;
+  const char *reason;
+  uint64_t device, inode;
+  const char *path = include_path(copy->all->arena, &folders, name, length, &device, &inode);
+  if (path == NULL || inode == 0) return NULL;
+  return source_read(path, INPUT_FILE, &source, &reason) == STATUS_OK ? source : NULL;
 }
 
 /* A file name behind #include. */
@@ -203,14 +182,16 @@ static enum status copy_file(struct copies *copies, size_t index)
 enum status plain_copy(const char *path, const char *const *folders, const char *folder, const char *name,
                        const char **out_reason)
 {
-  struct copies copies = {.folder = folder, .name = name, .folders = folders};
+  struct copies copies = {.arena = arena_create(), .folder = folder, .name = name, .folders = folders};
   struct source *scene = NULL;
-  enum status status = source_read(path, INPUT_FILE_OR_PIPE, &scene, &copies.reason);
+  enum status status = copies.arena == NULL ? STATUS_LIMIT : STATUS_OK;
+  if (status == STATUS_OK) status = source_read(path, INPUT_FILE_OR_PIPE, &scene, &copies.reason);
   if (status == STATUS_OK && add_source(&copies, scene) == MAX_FILES) status = STATUS_LIMIT;
   for (size_t k = 0; k < copies.count && status == STATUS_OK; k++) /* copying adds what is included */
     status = copy_file(&copies, k);
   for (size_t k = 0; k < copies.count; k++) source_destroy(copies.source[k]);
   memory_free(copies.source);
+  arena_destroy(copies.arena);
   *out_reason = copies.reason;
   return status;
 }

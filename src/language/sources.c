@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "language/include_path.h"
 
 enum {
   MAX_INCLUDE_DEPTH = 32,
@@ -163,86 +164,6 @@ void sources_close(struct language *language)
     source_destroy(entry->source);
 }
 
-const char *const *include_endings(const char *name, size_t length)
-{
-  static const char *const as_it_is[] = {"", NULL}, *const longer_first[] = {".inc", ".INC", "", NULL};
-  const char *end = length < 4 ? "" : name + length - 4;
-  return strncmp(end, ".inc", 4) == 0 || strncmp(end, ".INC", 4) == 0 ? as_it_is : longer_first;
-}
-
-/* A file name of an #include, and what is looked for behind it. */
-struct wanted {
-  const char *name, *ending;
-  size_t length;
-};
-
-/* Its path in a folder, which is folder[0 .. length-1] with or without a slash behind it; a name that begins with / is
- * whole. */
-static char *path_in(struct language *language, const char *folder, size_t folder_length, const struct wanted *file)
-{
-  const size_t before = file->name[0] == '/' ? 0 : folder_length, ending = strlen(file->ending);
-  const bool slash = before > 0 && folder[before - 1] != '/';
-  char *path = arena_alloc(language->arena, before + slash + file->length + ending + 1, 1);
-  if (!path) return NULL;
-  memcpy(path, folder, before);
-  if (slash) path[before] = '/';
-  memcpy(path + before + slash, file->name, file->length);
-  memcpy(path + before + slash + file->length, file->ending, ending);
-  return path;
-}
-
-/* The folder of a file, slash included. */
-static size_t folder_length(const struct source *source)
-{
-  const char *slash = strrchr(source->name, '/');
-  return slash ? (size_t)(slash - source->name) + 1 : 0;
-}
-
-/* The k-th folder to look in, or NULL: that of the scene, which POV-Ray is started in, that of the file that includes,
- * those given. */
-static const char *folder_at(const struct language *language, size_t k, size_t *out_length)
-{
-  const struct frame *frame = language->sources->frame;
-  const char *const *folders = language->sources->folders;
-  while (k == 0 && frame->outer) frame = frame->outer;
-  if (k > 1) {
-    const char *folder = folders ? folders[k - 2] : NULL;
-    *out_length = folder ? strlen(folder) : 0;
-    return folder;
-  }
-  *out_length = folder_length(frame->source);
-  return frame->source->name;
-}
-
-/* The path of an included file in the first folder that has it; beside the one that includes it, and *out_inode 0,
- * where none has. NULL where memory is short. */
-static char *path_of(struct language *language, const struct wanted *file, uint64_t *out_device, uint64_t *out_inode)
-{
-  char *beside = NULL;
-  const char *folder;
-  size_t length;
-  for (size_t k = language->sources->frame->outer ? 0 : 1; (folder = folder_at(language, k, &length)) != NULL; k++) {
-    char *path = path_in(language, folder, length, file);
-    if (!path || source_identify(path, out_device, out_inode)) return path;
-    if (k == 1) beside = path;
-  }
-  *out_device = *out_inode = 0;
-  return beside;
-}
-
-/* Each name is looked for in all folders before the next one is. */
-static char *include_path(struct language *language, const char *name, size_t length, uint64_t *out_device,
-                          uint64_t *out_inode)
-{
-  char *path = NULL;
-  *out_inode = 0;
-  for (const char *const *ending = include_endings(name, length); *ending && *out_inode == 0; ending++) {
-    path = path_of(language, &(struct wanted){name, *ending, length}, out_device, out_inode);
-    if (!path) return NULL;
-  }
-  return path;
-}
-
 static bool same_file(const struct source *a, const struct source *b)
 {
   return a->device == b->device && a->inode == b->inode && !(a->device == 0 && a->inode == 0);
@@ -284,6 +205,13 @@ static bool is_open(const struct language *language, const struct source *source
   return f != NULL;
 }
 
+static const struct source *scene_source(const struct sources *sources)
+{
+  const struct frame *frame = sources->frame;
+  while (frame->outer) frame = frame->outer;
+  return frame->source;
+}
+
 /* Reads the file named at `place`, quotes included, or tells an error and answers NULL. */
 static struct source *read_included(struct language *language, struct span place)
 {
@@ -299,7 +227,9 @@ static struct source *read_included(struct language *language, struct span place
     return NULL;
   }
   uint64_t device, inode;
-  const char *path = include_path(language, name, length, &device, &inode);
+  const struct include_folders folders = {scene_source(language->sources), language->sources->frame->source,
+                                          language->sources->folders};
+  const char *path = include_path(language->arena, &folders, name, length, &device, &inode);
   struct source *source = NULL;
   if (!path) {
     language->ended_early = true;

@@ -46,11 +46,6 @@ void sources_include(struct language *language);
 /* At a quote that is not closed. */
 void sources_tell_open_string(struct language *language);
 
-/* What may stand behind the name of an included file, in the order in which it is looked for, up to NULL: as POV-Ray does,
- * .inc and .INC come first where a name ends in neither. */
-enum { MAX_ENDING = 4 };
-const char *const *include_endings(const char *name, size_t length);
-
 /* What has been read so far is needed no more, but for errors: the memory of a long text is given back. */
 void sources_pass(struct language *language);
 
