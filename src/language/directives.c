@@ -24,12 +24,12 @@ static void tell_open_comment(struct language *language)
  * source. `macro`: whose text it is, or NULL. */
 static int skip_branch(struct language *language, bool to_else, bool foreign, struct macro *macro)
 {
-  struct passed passed = {0};
-  if (foreign) declare_passed(language, TOKEN_FOREIGN_OPENER, sources_here(language), &passed);
+  struct naming naming = {0};
+  if (foreign) declare_passed(language, TOKEN_FOREIGN_OPENER, sources_here(language), &naming);
   for (int depth = 0;;) {
     const int token = pscn_scan_next(&language->sources->frame->scan);
     if (macro) macro_note(language, macro, token, sources_here(language));
-    if (foreign) declare_passed(language, token, sources_here(language), &passed);
+    if (foreign) declare_passed(language, token, sources_here(language), &naming);
     if (foreign && token == PSCN_TOKEN_WORD) macro_called(language, sources_here(language));
     switch (token) {
     case 0: return token;

@@ -25,9 +25,9 @@ struct macro {
   bool lasting; /* it may do what no names tell of */
   size_t call;  /* the last one that came to it */
   /* while it is read: */
-  bool headed;      /* its parameters have been */
-  int token;        /* the one before; PSCN_TOKEN_DECLARE: of what a name is changed by */
-  struct name name; /* if that was one */
+  bool headed; /* its parameters have been */
+  struct naming naming;
+  struct name called; /* the word before, which is a call's name where a ( follows; its text is NULL for none */
 };
 
 struct macro *macro_begin(struct language *language) { return language_alloc(language, sizeof(struct macro)); }
@@ -57,27 +57,19 @@ static void add_word(struct language *language, struct macro *macro, enum macro_
 
 void macro_note(struct language *language, struct macro *macro, int token, struct span place)
 {
-  const struct name name = sources_name(language, place);
-  const int before = macro->token;
+  const struct name name = sources_name(language, place), none = {.text = NULL}, before = macro->called;
+  const int directive = naming_next(language, &macro->naming, token, place);
   const bool word = token == PSCN_TOKEN_WORD;
-  if (before == PSCN_TOKEN_DECLARE &&
-      (token == '(' || token == PSCN_TOKEN_DEPRECATED || token == PSCN_TOKEN_ONCE || token == PSCN_TOKEN_STRING))
-    return;
-  macro->token = token;
+  macro->called = word && directive == 0 ? name : none;
   if (!macro->headed) {
     if (word) add_word(language, macro, ROLE_PARAMETER, &name);
     macro->headed = token != '(' && token != ',' && !word;
   } else if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE) {
     macro->lasting = true;
-  } else if (token == TOKEN_UNDEF || (token == TOKEN_FOREIGN_OPENER && words_is_for(name.text, name.length))) {
-    macro->token = PSCN_TOKEN_DECLARE;
-  } else if (word && (before == PSCN_TOKEN_DECLARE || before == PSCN_TOKEN_LOCAL)) {
-    add_word(language, macro, before == PSCN_TOKEN_LOCAL ? ROLE_LOCAL : ROLE_DECLARED, &name);
-    macro->token = 0;
-  } else if (word) {
-    macro->name = name;
-  } else if (token == '(' && before == PSCN_TOKEN_WORD) {
-    add_word(language, macro, ROLE_CALLED, &macro->name);
+  } else if (directive != 0) {
+    add_word(language, macro, directive == PSCN_TOKEN_LOCAL ? ROLE_LOCAL : ROLE_DECLARED, &name);
+  } else if (token == '(' && before.text) {
+    add_word(language, macro, ROLE_CALLED, &before);
   }
 }
 

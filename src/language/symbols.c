@@ -192,25 +192,42 @@ static struct symbol *symbol_begin(struct language *language, const struct name 
   return add(language, name->text, name->length, local ? depth : 0);
 }
 
-void declare_passed(struct language *language, int token, struct span place, struct passed *passed)
+/* Whether a directive is #for. */
+static bool is_for(const struct language *language, struct span place)
 {
-  if (token == PSCN_TOKEN_DECLARE || token == PSCN_TOKEN_LOCAL || token == TOKEN_UNDEF) {
-    *passed = (struct passed){token, place};
-  } else if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE) {
-    language_tell(language, place, "this stands in what pscn has not, and is passed over");
-  } else if (passed->token != 0 && token == PSCN_TOKEN_WORD) {
-    struct declaration *declaration = declare_begin(language, place,
-                                                    passed->token == PSCN_TOKEN_LOCAL ? &passed->place : NULL);
-    language_foreign(language, place, "this is declared in what pscn has not, and passed over");
-    declaration->symbol->lost = true;
-    declare_end(language, declaration);
-    passed->token = 0;
-  } else if (token == TOKEN_FOREIGN_OPENER) { /* the variable of a loop is one that is declared */
-    const struct name name = sources_name(language, place);
-    if (words_is_for(name.text, name.length)) *passed = (struct passed){PSCN_TOKEN_DECLARE, place};
-  } else if (token != PSCN_TOKEN_DEPRECATED && token != PSCN_TOKEN_ONCE && token != PSCN_TOKEN_STRING && token != '(') {
-    passed->token = 0;
+  const struct name text = sources_name(language, place);
+  return words_is_for(text.text, text.length);
+}
+
+int naming_next(const struct language *language, struct naming *naming, int token, struct span place)
+{
+  const int directive = naming->token;
+  switch (token) {
+  case PSCN_TOKEN_DEPRECATED: /* these may stand before the name */
+  case PSCN_TOKEN_ONCE:
+  case PSCN_TOKEN_STRING:
+  case '(': return 0;
+  case PSCN_TOKEN_DECLARE:
+  case PSCN_TOKEN_LOCAL:
+  case TOKEN_UNDEF: *naming = (struct naming){token, place}; return 0;
+  case TOKEN_FOREIGN_OPENER:
+    *naming = (struct naming){is_for(language, place) ? PSCN_TOKEN_DECLARE : 0, place};
+    return 0;
+  default: naming->token = 0; return token == PSCN_TOKEN_WORD ? directive : 0;
   }
+}
+
+void declare_passed(struct language *language, int token, struct span place, struct naming *naming)
+{
+  const int directive = naming_next(language, naming, token, place);
+  if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE)
+    language_tell(language, place, "this stands in what pscn has not, and is passed over");
+  if (directive == 0) return;
+  struct declaration *declaration = declare_begin(language, place,
+                                                  directive == PSCN_TOKEN_LOCAL ? &naming->place : NULL);
+  language_foreign(language, place, "this is declared in what pscn has not, and passed over");
+  declaration->symbol->lost = true;
+  declare_end(language, declaration);
 }
 
 /* POV-Ray loses such a name, or breaks down. */

@@ -87,11 +87,15 @@ struct symbols {
   int depth;                 /* files that include the one being read */
 };
 
-/* A declaration that is passed over, from its directive to its name. */
-struct passed {
-  int token; /* of the directive; 0: none */
+/* A directive of text that is passed over, whose name is still to come. */
+struct naming {
+  int token; /* PSCN_TOKEN_DECLARE, PSCN_TOKEN_LOCAL or TOKEN_UNDEF; 0: none */
   struct span place;
 };
+
+/* One token after the other of such text: the directive's token where this one is the name that it declares or forgets, else
+ * 0. #for counts as the #declare of its variable. */
+int naming_next(const struct language *language, struct naming *naming, int token, struct span place);
 
 /* The beginning and end of an included file, at which its locals are forgotten. */
 void symbols_enter(struct symbols *symbols);
@@ -116,7 +120,7 @@ void symbol_mistaken(struct language *language, struct span place, const struct 
 /* A declaration begins; declarations may stand within each other. `local`: where its #local stands, or NULL. */
 struct declaration *declare_begin(struct language *language, struct span name, const struct span *local);
 /* One token after the other of what is passed over though POV-Ray reads it: names that are declared there are foreign. */
-void declare_passed(struct language *language, int token, struct span place, struct passed *passed);
+void declare_passed(struct language *language, int token, struct span place, struct naming *naming);
 /* Tells of those that a file leaves open which is about to end, and which are of names of that file. */
 void declare_left_open(struct language *language, struct span end);
 /* It ends. Returns the symbol to write to, or NULL where something was held: then it is foreign. */

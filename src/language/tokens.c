@@ -110,7 +110,7 @@ static bool recover(struct language *language)
   const int block = last->depth;
   const bool twice = span_begin(last->place) == span_begin(tokens->recovered);
   int parentheses = 0, before = 0;
-  struct passed passed = {0};
+  struct naming naming = {0};
   tokens->recovered = last->place;
   tokens->last.again = false;
 
@@ -118,7 +118,7 @@ static bool recover(struct language *language)
     const int token = last->token;
     if (token == 0) return false;
     if (token == '(' && !first) parentheses++;
-    if (last->depth != block || parentheses > 0) declare_passed(language, token, last->place, &passed);
+    if (last->depth != block || parentheses > 0) declare_passed(language, token, last->place, &naming);
     if (parentheses > 0) { /* of a function of POV-Ray's: its arguments may be anything */
       parentheses -= token == ')';
       continue;
