@@ -37,22 +37,6 @@ static void encode(struct image *image)
   for (size_t k = 0; k < count; k++) image->value[k] = (float)srgb_encode8(&table, image->value[k]) / 255;
 }
 
-/* Marks the light where it reaches the hits of a packet. */
-static void look_at_light(const struct check *check, struct tracer *tracer, size_t light_index, size_t count,
-                          struct check_pixel pixels[])
-{
-  const struct scene_light *light = &check->scene->lights[light_index];
-  struct ray shadow[PACKET_SIZE];
-  struct check_pixel *asked[PACKET_SIZE];
-  bool hidden[PACKET_SIZE] = {false};
-  size_t rays = 0;
-  for (size_t k = 0; k < count; k++)
-    if (pixels[k].hit.patch != HIT_NONE && shade_shadow_ray(light, &pixels[k].hit, &shadow[rays]))
-      asked[rays++] = &pixels[k];
-  if (rays > 0 && !light->shadowless) tracer_occluded(tracer, rays, shadow, hidden);
-  for (size_t k = 0; k < rays; k++) asked[k]->lights |= (uint64_t)!hidden[k] << light_index;
-}
-
 static void look_at_pixels(struct check *check, struct tracer *tracer)
 {
   const size_t lights = check->scene->light_count < CHECK_LIGHTS ? check->scene->light_count : CHECK_LIGHTS;
@@ -68,7 +52,11 @@ static void look_at_pixels(struct check *check, struct tracer *tracer)
         pixels[k].hit = hits[k];
         pixels[k].distance = hits[k].patch == HIT_NONE ? INFINITY : hits[k].t * vector_length(rays[k].direction);
       }
-      for (size_t light = 0; light < lights; light++) look_at_light(check, tracer, light, count, pixels);
+      for (size_t light = 0; light < lights; light++) {
+        bool lit[PACKET_SIZE];
+        shade_lit(&check->scene->lights[light], tracer, count, hits, lit);
+        for (size_t k = 0; k < count; k++) pixels[k].lights |= (uint64_t)lit[k] << light;
+      }
     }
   }
 }

@@ -78,26 +78,35 @@ bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, st
   return true;
 }
 
+void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t count, const struct hit hits[],
+               bool out_lit[])
+{
+  struct ray shadow[PACKET_SIZE];
+  bool hidden[PACKET_SIZE] = {false};
+  size_t rays = 0;
+  for (size_t k = 0; k < count; k++) {
+    out_lit[k] = hits[k].patch != HIT_NONE && shade_shadow_ray(light, &hits[k], &shadow[rays]);
+    rays += out_lit[k];
+  }
+  if (rays > 0 && !light->shadowless) tracer_occluded(tracer, rays, shadow, hidden);
+  for (size_t k = 0, ray = 0; k < count; k++)
+    if (out_lit[k]) out_lit[k] = !hidden[ray++];
+}
+
 /* One light on the hits of a packet. */
 static void light_packet(const struct scene_light *light, struct tracer *tracer, size_t count,
                          const struct view views[], const struct hit hits[], double out_rgb[][3])
 {
-  size_t lane[PACKET_SIZE], lit = 0;
-  double to_light[PACKET_SIZE][3], cosine[PACKET_SIZE];
-  struct ray shadow[PACKET_SIZE];
+  bool lit[PACKET_SIZE];
+  shade_lit(light, tracer, count, hits, lit);
   for (size_t k = 0; k < count; k++) {
-    if (hits[k].patch == HIT_NONE || !shade_shadow_ray(light, &hits[k], &shadow[lit])) continue;
-    double way[3];
+    double way[3], to_light[3];
+    if (!lit[k]) continue;
     vector_subtract(light->position, hits[k].point, way);
     const double length = vector_length(way);
-    lane[lit] = k;
-    vector_scale(1 / length, way, to_light[lit]);
-    cosine[lit++] = vector_dot(way, views[k].normal) / length;
+    vector_scale(1 / length, way, to_light);
+    add_light(&views[k], light, to_light, vector_dot(way, views[k].normal) / length, out_rgb[k]);
   }
-  bool hidden[PACKET_SIZE] = {false};
-  if (lit > 0 && !light->shadowless) tracer_occluded(tracer, lit, shadow, hidden);
-  for (size_t k = 0; k < lit; k++)
-    if (!hidden[k]) add_light(&views[lane[k]], light, to_light[k], cosine[k], out_rgb[lane[k]]);
 }
 
 void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count, const struct ray rays[],

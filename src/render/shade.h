@@ -23,6 +23,10 @@
  * side; then nothing is written. */
 bool shade_shadow_ray(const struct scene_light *light, const struct hit *hit, struct ray *out);
 
+/* Which of `count` <= PACKET_SIZE hits the light reaches: it is on the viewer's side, and nothing hides it. */
+void shade_lit(const struct scene_light *light, struct tracer *tracer, size_t count, const struct hit hits[],
+               bool out_lit[]);
+
 /* The linear colours of `count` <= PACKET_SIZE rays with their closest hits; shadow rays go through the tracer. */
 void shade_packet(const struct scene *scene, struct tracer *tracer, size_t count, const struct ray rays[],
                   const struct hit hits[], double out_rgb[][3]);
