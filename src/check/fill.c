@@ -41,15 +41,13 @@ static void put_escaped(struct text_buffer *out, const char *text)
   }
 }
 
-/* As printf does, with the point for the locale's comma. */
+/* As printf does: the program's locale is C's. */
 static void put_decimal(struct text_buffer *out, double value, int width, int digits, char letter)
 {
   char text[512]; /* %f of the largest double has 309 digits before the point */
   if (letter == 'f') snprintf(text, sizeof text, "%*.*f", width, digits, value);
   else if (letter == 'e') snprintf(text, sizeof text, "%*.*e", width, digits, value);
   else snprintf(text, sizeof text, "%*.*g", width, digits, value);
-  char *comma = strchr(text, ',');
-  if (comma != NULL) *comma = '.';
   text_buffer_add_text(out, text);
 }
 
