@@ -133,7 +133,7 @@ void declare_macro(struct language *language, const struct name *name, struct ma
 void declare_lost(struct language *language, const struct name *name);
 void declare_gone(struct language *language, const struct name *name); /* #undef */
 
-/* Declares a number, such as the one that tells this program from POV-Ray. The name is kept. */
+/* Declares a number, such as the one that tells this program from POV-Ray. */
 void declare_number(struct language *language, const char *name, size_t length, double number);
 
 #endif

@@ -49,7 +49,8 @@ struct value *value_axis(struct language *language, int axis, struct span place)
   return value;
 }
 
-struct value *value_moved(struct value *value, struct span place)
+/* The same value, which stands there. */
+static struct value *value_moved(struct value *value, struct span place)
 {
   value->place = place;
   return value;

@@ -15,9 +15,7 @@ struct value *value_named(struct language *language, struct span name);
 struct value *value_flat(struct language *language, struct value *x, struct value *y, struct span place);
 struct value *value_of_parts(struct language *language, struct value *x, struct value *y, struct value *z,
                              struct span place);
-/* The same value, which stands there. */
-struct value *value_moved(struct value *value, struct span place);
-/* And is a component of another, or not all of its five parts are its own, no longer. */
+/* The same value, which stands there, and no longer is a component of another, or one whose five parts are not all its own. */
 struct value *value_placed(struct value *value, struct span place);
 struct value *value_binary(struct language *language, char op, struct value *a, struct value *b);
 struct value *value_negative(struct language *language, struct value *a, struct span place);

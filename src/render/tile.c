@@ -59,7 +59,7 @@ static void sample(const struct tile_job *job, struct tracer *tracer, struct tra
                    size_t count, struct pixel pixels[])
 {
   const double n = (double)job->samples;
-  const bool plain = job->channels.count == 1 && job->channels.kind[0] == CHANNEL_RGB; /* asks for no sample's hit */
+  const bool plain = channel_list_is_rgb(&job->channels); /* asks for no sample's hit */
   const bool middle = !plain && i == job->samples / 2 && j == job->samples / 2;
   struct ray rays[PACKET_SIZE];
   struct hit hits[PACKET_SIZE];

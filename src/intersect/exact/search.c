@@ -46,7 +46,8 @@ void search_rounding(const struct search *s, const struct box *box, double out[2
   for (int k = 0; k < 2; k++) out[k] = s->error[k] + box->halvings * 4 * UNIT_ROUNDOFF;
 }
 
-void search_box_error(const struct search *s, const struct box *box, double out[2])
+/* The same with that, at a pole that is met from where roots are told. */
+static void search_box_error(const struct search *s, const struct box *box, double out[2])
 {
   search_rounding(s, box, out);
   if (s->met) pole_add_error(s, pole_told_from(s, box), out);

@@ -22,10 +22,7 @@ struct search {
   bool pole[4];         /* borders of the whole box (geometry/edges.h) that are one point */
 };
 
-/* The bounds on the errors of coefficients of the box's first two nets, at a pole that is met from where roots are told. */
-void search_box_error(const struct search *s, const struct box *box, double out[2]);
-
-/* The same without what the pole adds. */
+/* The bounds on the errors of coefficients of the box's first two nets, without what a pole that is met adds. */
 void search_rounding(const struct search *s, const struct box *box, double out[2]);
 
 /* Tells of a point of a box that cannot be decided: the one next to its middle that is on the ray, which stands for all of

@@ -36,7 +36,8 @@ static struct exact_case lane_case(const struct packet *p, unsigned lane)
                              .work = &p->tracer->counts.work};
 }
 
-struct exact_root finish_root(const struct packet *p, unsigned lane)
+/* The lane's best root, which is certain. */
+static struct exact_root lane_root(const struct packet *p, unsigned lane)
 {
   const struct best *best = &p->best;
   return (struct exact_root){.patch = (uint32_t)best->patch[lane],
@@ -70,7 +71,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
   struct best *best = &p->best;
   struct exact_case asked = lane_case(p, lane);
   const bool hit = best->patch[lane] != NO_PATCH;
-  const struct exact_root known = finish_root(p, lane);
+  const struct exact_root known = lane_root(p, lane);
   const struct exact_maybe maybe = lane_maybe(p, lane);
   if (hit && best->certain[lane]) asked.known = &known;
   else if (hit) asked.maybe = &maybe;
@@ -98,7 +99,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
 /* The hit of a lane whose best root the last step has not made good. */
 static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct hit *out)
 {
-  struct exact_root root = finish_root(p, lane);
+  struct exact_root root = lane_root(p, lane);
   const struct exact_maybe maybe = lane_maybe(p, lane);
   if (p->best.certain[lane]) exact_root_hit(p->model, &p->rays[lane], &root, sure, out);
   else exact_maybe_hit(p->model, &p->rays[lane], &maybe, out);

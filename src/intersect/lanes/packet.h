@@ -228,9 +228,6 @@ unsigned finish_hits(struct packet *p, struct hit out[]);
 /* finish.c: the same, of lanes that have nothing open; those of `written` have their answers. */
 unsigned finish_best(const struct packet *p, unsigned written, struct hit out[]);
 
-/* finish.c: the lane's best root, which is certain. */
-struct exact_root finish_root(const struct packet *p, unsigned lane);
-
 /* finish.c: the lane's best root is one that the last resort has found, and that is not sharp. */
 void finish_set_root(struct packet *p, unsigned lane, const struct exact_root *root);
 
