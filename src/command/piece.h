@@ -43,8 +43,8 @@ bool piece_belongs(const struct image *part, const struct image *picture, char *
  * is missing. */
 bool piece_copy(const struct piece *from, struct image *to);
 
-/* The bytes of the file of a part that has `tiles` of `picture`, described by the attributes; to be freed. While tiles
- * are still rendered, only what is done when it begins is looked at. */
+/* The bytes of the file of a part that has the tiles of the piece that are done, described by the attributes; to be freed. May be
+ * called while others are rendered: it has those that were done when it began. */
 enum status piece_encode(const struct piece *piece, const struct image_attribute *attributes, size_t attribute_count,
                          unsigned char **out_bytes, size_t *out_size, char *message) STATUS_MUST_CHECK;
 
