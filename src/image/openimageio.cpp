@@ -14,6 +14,7 @@ extern "C" {
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace
@@ -211,6 +212,11 @@ template <typename Work> status guarded(char *message, Work work)
   } catch (const std::bad_alloc &) {
     say(message, "out of memory");
     return STATUS_LIMIT;
+  } catch (const std::system_error &problem) { /* no room for a thread of OpenEXR's or OpenImageIO's */
+    const bool limit = problem.code() == std::errc::resource_unavailable_try_again ||
+                       problem.code() == std::errc::not_enough_memory;
+    say(message, limit ? "out of memory or threads" : problem.what());
+    return limit ? STATUS_LIMIT : STATUS_FILE;
   } catch (const std::exception &problem) {
     say(message, problem.what());
     return STATUS_FILE;
