@@ -20,11 +20,11 @@
  * call. Functions answer a status; what was wrong, and where, is kept with the scene until it is asked for.
  *
  * What an answer promises: of all points where the ray meets the patches, as both are given in doubles, the hit is the
- * nearest with t_min < t < t_max, and a miss has none. (Points no farther apart than 2^-95 of their patch, or 2^-105
+ * nearest with t_min < t < t_max, and a miss has none. (Points no farther apart than 2^-95 of their patches, or 2^-105
  * of t, have one t; of these the hit is on the patch that stands first.) `certain` is 1 where this is proven. It is 0,
  * "grazing", where a change of the input within the rounding of the last digits could turn the answer: a tangency, the
  * border of an open surface, a ray that lies in a surface. Then a hit is answered where one cannot be excluded; only
- * one so near t_min or t_max that 113 bits cannot tell on which side it lies is left out. The corner of a patch, or a
+ * what may lie on either side of t_min or t_max is left out. The corner of a patch, or a
  * border that is one point, is a given point: a ray that meets it exactly hits it, and the nearest hit is certain,
  * though the surface may be open there; of all hits it is grazing then, and both are where the ray touches a patch
  * there. What one ray may cost is limited: where that ends first the answer is grazing, and the nearest hit known by

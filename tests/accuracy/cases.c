@@ -1,7 +1,7 @@
 /* Rays that were once answered wrongly, each a scene of tests/accuracy/cases whose first lines say what, the solver, the
  * ray, `from: T` where it begins there and `to: T` where it ends, `certain: yes` where the answer must be that too, or `no`
  * where it must not, `t: T` and `uv: U V` where it must be there, to the last places, `patch: N` where it must be that
- * patch, and `all: N` where there must be N hits in all, certainly; judged by the exact judge. Every file is a scene that
+ * patch, `all: N` where there must be N hits in all, certainly, and `facing: X Y Z` where the normal must be on that side; judged by the exact judge. Every file is a scene that
  * pscn and POV-Ray read. */
 #include <dirent.h>
 #include <math.h>
@@ -13,6 +13,7 @@
 #include "accuracy/exact.h"
 #include "accuracy/trial.h"
 #include "cmocka_test.h"
+#include "geometry/vector.h"
 
 #define FOLDER PSCN_SOURCE_DIR "/tests/accuracy/cases/"
 
@@ -43,6 +44,13 @@ static bool numbers_are(const char *text, size_t count, const double x[])
   return true;
 }
 
+/* Whether the normal is on the side of the vector in `text`, if any. */
+static bool faces(const char *text, const double normal[3])
+{
+  double side[3] = {0};
+  return !text[0] || (sscanf(text, "%lf %lf %lf", &side[0], &side[1], &side[2]) == 3 && vector_dot(side, normal) > 0);
+}
+
 static bool all_good(struct tracer *tracer, const struct ray *ray, const char *count)
 {
   struct hit_list list;
@@ -53,10 +61,10 @@ static bool all_good(struct tracer *tracer, const struct ray *ray, const char *c
 static bool judged_good(const char *path)
 {
   char solver[LINE_SIZE], text[LINE_SIZE], from[LINE_SIZE], to[LINE_SIZE], certain[LINE_SIZE], count[LINE_SIZE],
-    t[LINE_SIZE], uv[LINE_SIZE], patch[LINE_SIZE];
+    t[LINE_SIZE], uv[LINE_SIZE], patch[LINE_SIZE], facing[LINE_SIZE];
   header(path, "solver", solver), header(path, "ray", text), header(path, "from", from), header(path, "to", to);
   header(path, "certain", certain), header(path, "all", count), header(path, "t", t), header(path, "uv", uv),
-    header(path, "patch", patch);
+    header(path, "patch", patch), header(path, "facing", facing);
   struct ray ray = {.t_min = from[0] ? strtod(from, NULL) : 0, .t_max = to[0] ? strtod(to, NULL) : INFINITY};
   double *o = ray.origin, *d = ray.direction;
   assert_int_equal(sscanf(text, "%lf %lf %lf %lf %lf %lf", &o[0], &o[1], &o[2], &d[0], &d[1], &d[2]), 6);
@@ -74,7 +82,7 @@ static bool judged_good(const char *path)
   const bool good = all && certificate.finding <= FINDING_UNDECIDED &&
                     (!certain[0] || (hit.certainty == CERTAINTY_CERTAIN) == !strcmp(certain, "yes")) &&
                     numbers_are(t, 1, &hit.t) && numbers_are(uv, 2, (double[]){hit.u, hit.v}) &&
-                    numbers_are(patch, 1, (double[]){hit.patch});
+                    numbers_are(patch, 1, (double[]){hit.patch}) && faces(facing, hit.normal);
   if (!good)
     printf("%s:%s %s, %s\n", strrchr(path, '/') + 1, all ? "" : " not all, or grazing;",
            hit.certainty == CERTAINTY_CERTAIN ? "certain" : "grazing", finding_names[certificate.finding]);

@@ -252,7 +252,7 @@ static size_t next_in_order(struct judge *j, size_t first, size_t end)
     const struct exact_root *a = &at[next].root, *b = &at[k].root;
     if (k == next || !tie(&at[next], &at[k])) continue;
     if (are_twins(j, a, b) && one_of_equal(j, a, b)) continue;
-    j->doubt |= !judge_tie_fine(j, a, b);
+    j->doubt |= !judge_tie_fine(a, b);
   }
   return next;
 }

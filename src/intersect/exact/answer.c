@@ -135,6 +135,19 @@ static void answer(const struct model *model, const struct ray *ray, uint32_t pa
 /* The parameters of a certain hit are right to this. */
 #define LARGEST_RADIUS 0x1p-20
 
+/* Where the ray and the normal are nearer to a right angle than this, rounding may have turned the normal about. */
+#define SIDE_SURE 0x1p-40
+
+/* Turns the normal of a hit at (u,v) to the side that the ray comes from, if rounding has turned it away. */
+static void face(double (*P)[4][3], const struct ray *ray, wide u, wide v, double normal[3])
+{
+  wide n[3], along = 0, same = 0;
+  const double slant = fabs(vector_dot(normal, ray->direction));
+  if (slant > SIDE_SURE * vector_length(ray->direction) || !wide_across(P, u, v, n)) return;
+  for (int c = 0; c < 3; c++) along += n[c] * ray->direction[c], same += n[c] * normal[c];
+  if (along != 0 && (along > 0) == (same > 0)) vector_scale(-1, normal, normal);
+}
+
 void exact_root_hit(const struct model *model, const struct ray *ray, struct exact_root *root, bool sure,
                     struct hit *out)
 {
@@ -158,6 +171,7 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
   sure = sure && root->radius_u <= LARGEST_RADIUS && root->radius_v <= LARGEST_RADIUS;
   *out = (struct hit){.certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING, .u = u, .v = v};
   answer(model, ray, root->patch, borders, (double)root->t, out);
+  face(P, ray, root->u, root->v, out->normal);
 }
 
 void exact_maybe_hit(const struct model *model, const struct ray *ray, const struct exact_maybe *maybe, struct hit *out)

@@ -34,7 +34,8 @@ struct exact_root {
   wide u, v, t;              /* t in units of the scaled direction */
   double radius_u, radius_v; /* absolute */
   double t_error;            /* absolute */
-  double alone; /* of a sharp one: no other root of the patch has parameters that are both within this of its */
+  double alone;    /* of a sharp one: no other root of the patch has parameters that are both within this of its */
+  bool well_known; /* and its t is as good as TIE_ERRORS (sharpen.c) say */
 };
 
 /* Whether two of one patch may be the same. */

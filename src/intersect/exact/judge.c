@@ -154,7 +154,7 @@ static void add_rival(struct judge *j, const struct exact_root *root)
 
 bool judge_weigh_tie(struct judge *j, const struct exact_root *a, const struct exact_root *b)
 {
-  const bool fine = judge_tie_fine(j, a, b);
+  const bool fine = judge_tie_fine(a, b);
   if (!fine) j->tied_from = real_min(j->tied_from, real_min(least_t(a), least_t(b)));
   return fine;
 }
@@ -258,6 +258,7 @@ static bool point_root(const struct judge *j, const struct net_point *at, struct
   const int k = j->local.axis;
   *out = (struct exact_root){.patch = j->patch,
                              .sharp = true,
+                             .well_known = true,
                              .u = at->u,
                              .v = at->v,
                              .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};

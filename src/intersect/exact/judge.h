@@ -117,8 +117,8 @@ bool judge_sharpen(struct judge *j, struct exact_root *root);
 bool judge_tie(const struct exact_root *a, const struct exact_root *b);
 
 /* Of two such roots, made as sharp as they get: whether it is no matter, t being the same to what wide arithmetic leaves of
- * roots that are not ill-conditioned, and to a rounding. Turns to the patch of a. */
-bool judge_tie_fine(struct judge *j, const struct exact_root *a, const struct exact_root *b);
+ * roots that are not ill-conditioned, each of its patch, and to a rounding. */
+bool judge_tie_fine(const struct exact_root *a, const struct exact_root *b);
 
 /* Returns it, and where it matters has the nearest hit not be certain from the first of the two on. */
 bool judge_weigh_tie(struct judge *j, const struct exact_root *a, const struct exact_root *b);

@@ -105,6 +105,11 @@ static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide
   return true;
 }
 
+/* A root whose t is known to so many errors of wide arithmetic is not ill-conditioned: the ray meets the surface at a slant no
+ * worse than about that. A choice of words: where two are no farther apart than their errors, and one is worse, their order is
+ * called grazing; else they are at one place. */
+#define TIE_ERRORS 256
+
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
 {
   fixed x = fixed_from_wide(2 * root->u - 1), y = fixed_from_wide(2 * root->v - 1);
@@ -138,5 +143,7 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
   root->t_error = error_to_t((double)zoom->to_t, off / zoom->unit[2] + zoom->depth_error) +
                   8 * (double)(WIDE_ROUNDOFF * wide_abs(root->t));
   root->sharp = true;
+  root->well_known = root->t_error <= TIE_ERRORS * (zoom_error(zoom) * fabs((double)zoom->to_t) +
+                                                    (double)(WIDE_ROUNDOFF * wide_abs(root->t)));
   return true;
 }

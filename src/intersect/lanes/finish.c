@@ -56,15 +56,6 @@ static struct exact_maybe lane_maybe(const struct packet *p, unsigned lane)
     .patch = (uint32_t)best->patch[lane], .u = best->u[lane], .v = best->v[lane], .t = best->t[lane]};
 }
 
-void finish_set_root(struct packet *p, unsigned lane, const struct exact_root *root)
-{
-  struct best *best = &p->best;
-  best->patch[lane] = root->patch, best->certain[lane] = -1, best->final[lane] = 0;
-  best->u[lane] = (double)root->u, best->v[lane] = (double)root->v, best->t[lane] = (double)root->t;
-  best->radius_u[lane] = root->radius_u + UNIT_ROUNDOFF, best->radius_v[lane] = root->radius_v + UNIT_ROUNDOFF;
-  p->t_far[lane] = best->t[lane] + root->t_error;
-}
-
 /* Has the last resort decide the lane. Returns whether the answer is written; else it is the lane's best root now. */
 static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
 {
@@ -87,13 +78,10 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
     exact_maybe_hit(p->model, &p->rays[lane], &decision.maybe, out);
     return true;
   }
-  if (root->sharp) {
-    exact_root_hit(p->model, &p->rays[lane], root, !p->model->unproven && !best->doubt[lane], out);
-    return true;
-  }
-  if (asked.known && root->patch == known.patch && root->u == known.u && root->v == known.v) return false;
-  finish_set_root(p, lane, root);
-  return false;
+  if (!root->sharp && asked.known && root->patch == known.patch && root->u == known.u && root->v == known.v)
+    return false;
+  exact_root_hit(p->model, &p->rays[lane], root, !p->model->unproven && !best->doubt[lane], out);
+  return true;
 }
 
 /* The hit of a lane whose best root the last step has not made good. */

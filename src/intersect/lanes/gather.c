@@ -157,20 +157,13 @@ static bool decide(struct packet *p, unsigned lane, const struct gathered *const
 /* The answer to what the last resort has found. */
 static struct hit answer_found(struct packet *p, unsigned lane, const struct exact_found *found)
 {
-  struct hit hits[LANES];
+  struct hit hit;
   struct exact_root root = found->root;
   const struct exact_maybe maybe = {root.patch,     found->borders, (double)root.u,
                                     (double)root.v, (double)root.t, root.t_error};
-  if (found->kind == EXACT_OPEN) {
-    exact_maybe_hit(p->model, &p->rays[lane], &maybe, &hits[lane]);
-  } else if (root.sharp) {
-    exact_root_hit(p->model, &p->rays[lane], &root, !p->model->unproven, &hits[lane]);
-  } else {
-    finish_set_root(p, lane, &root);
-    (void)finish_best(p, 0, hits);
-    forget_best(p, lanes_mask(1u << lane));
-  }
-  return hits[lane];
+  if (found->kind == EXACT_OPEN) exact_maybe_hit(p->model, &p->rays[lane], &maybe, &hit);
+  else exact_root_hit(p->model, &p->rays[lane], &root, !p->model->unproven, &hit);
+  return hit;
 }
 
 static struct hit *add_hits(struct packet *p, size_t count)

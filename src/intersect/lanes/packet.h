@@ -228,9 +228,6 @@ unsigned finish_hits(struct packet *p, struct hit out[]);
 /* finish.c: the same, of lanes that have nothing open; those of `written` have their answers. */
 unsigned finish_best(const struct packet *p, unsigned written, struct hit out[]);
 
-/* finish.c: the lane's best root is one that the last resort has found, and that is not sharp. */
-void finish_set_root(struct packet *p, unsigned lane, const struct exact_root *root);
-
 /* finish.c: the rays that hit anything, as bits: the lanes have found it, or what they have left open is hit, or may be. */
 unsigned finish_occluded(const struct packet *p);
 
