@@ -59,7 +59,8 @@ static bool same_but_for_rounding(const struct hit *a, const struct hit *b)
          fabs(a->v - b->v) <= 0x1p-36;
 }
 
-/* The first of them is the nearest hit, nearly always to the last bit; the others are the nearest ones behind it. */
+/* The first of them is the nearest hit, nearly always to the last bit, but where patches of one plane are hit at once by lines
+ * where leaves meet; the others are the nearest ones behind it. */
 static void one_by_one(struct set_up *s)
 {
   const struct kept *alone = lists_alone(s);
@@ -84,7 +85,7 @@ static void one_by_one(struct set_up *s)
     if (tame && next.patch != HIT_NONE && wrong++ < 2) print_lists("last", s->kind, &ray, all);
   }
   assert_int_equal(wrong, 0);
-  assert_true(equal >= certain - 1 || s->kind == WORLD_DEGENERATE);
+  assert_true(equal >= certain - 1 || s->kind == WORLD_DEGENERATE || s->kind == WORLD_FLAT);
   assert_true(followed > 0 || s->kind == WORLD_DEGENERATE || s->kind == WORLD_FLAT);
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/real.h"
 #include "intersect/explain.h"
+#include "intersect/lanes/nearest.h"
 #include "intersect/prepare/leaf.h"
 
 /* Out of line, for it is rare: a ray that comes by so many leaves runs along something thin, of which the walk's floats
@@ -110,10 +111,20 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
  * proves no root, and the last resort looks at most of the patch in any case. */
 #define BLIND 0x1p-5
 
+/* Of `active`, the lanes on which the patch is not behind the nearest hit so far as a part of its plane. */
+LANES_INLINE lane_mask before_in_plane(const struct packet *p, uint32_t patch, lane_mask active)
+{
+  if (!p->model->plane || p->model->plane[patch] == 0) return active;
+  const lane_mask number = (int64_t)patch + (lane_mask){0};
+  return active & ~(one_plane(p->model, number, p->best.patch, active) & (p->best.patch < number));
+}
+
 void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
                  lane_mask active)
 {
   struct candidate it;
+  if (p->oriented) active = before_in_plane(p, leaf->patch, active);
+  if (!lanes_any(active)) return;
   it.leaf = leaf, it.patch = patch, it.number = number;
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);
   for (unsigned bits = p->axes; bits; bits &= bits - 1) {

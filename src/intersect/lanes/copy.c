@@ -75,9 +75,13 @@ void packet_leave(struct packet *inner)
   const lanes far = (inner->shift + inner->t_far) +
                     4 * UNIT_ROUNDOFF * (lanes_abs(inner->shift) + lanes_abs(inner->t_far));
   const lane_mask hits = found->patch != NO_PATCH;
-  const lane_mask rival = hits & (lanes_abs(t - outer->best.t) <= (far - t) + (outer->t_far - outer->best.t));
-  if (lanes_any(rival)) packet_postpone_best(inner, rival);
-  const lane_mask taken = hits & ~rival & best_after(&outer->best, t, found->patch, found->leaf);
+  lane_mask rival = hits & (lanes_abs(t - outer->best.t) <= (far - t) + (outer->t_far - outer->best.t)), tied = {0};
+  if (lanes_any(rival)) {
+    tied = one_plane(outer->model, found->patch, outer->best.patch, rival), rival &= ~tied;
+    packet_postpone_best(inner, rival);
+  }
+  const lane_mask after = best_after(&outer->best, t, found->patch, found->leaf);
+  const lane_mask taken = hits & ~rival & ((tied & (found->patch < outer->best.patch)) | (~tied & after));
   if (!lanes_any(taken)) return;
   const lanes uv[2] = {found->u, found->v}, radius[2] = {found->radius_u, found->radius_v};
   best_take(&outer->best, taken, uv, radius, t, found->patch, found->leaf);

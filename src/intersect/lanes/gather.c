@@ -173,17 +173,31 @@ static struct hit *add_hits(struct packet *p, size_t count)
   return hits;
 }
 
+/* Puts the root in its place among those from `first` on, with which it is at one t, by their patches: all of them are in one
+ * plane across an axis, and each of another patch. False where that is not so. */
+static bool place_in_plane(const struct model *model, const struct gathered *roots[], size_t first, size_t k)
+{
+  const struct gathered *here = roots[k];
+  const uint32_t plane = model->plane ? model->plane[here->hit.patch] : 0;
+  if (plane == 0 || plane != model->plane[roots[first]->hit.patch]) return false;
+  for (; k > first && here->hit.patch < roots[k - 1]->hit.patch; k--) roots[k] = roots[k - 1];
+  roots[k] = here;
+  return k == first || here->hit.patch != roots[k - 1]->hit.patch;
+}
+
 /* Adds the lane's hits to those of the tracer. Returns the first. */
-static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathered *const roots[], size_t count,
+static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathered *roots[], size_t count,
                              struct hit_list *out)
 {
   struct gather *gather = p->gather;
   bool certain = !p->model->unproven && !p->best.doubt[lane], tie = false;
   double reach = -INFINITY;
+  size_t first = 0; /* of those that reach into one another */
   for (size_t k = 0; k < count; k++) {
     const double t = t_of(roots[k]), error = error_of(roots[k]), far = t + error;
     certain &= roots[k]->certain;
-    tie |= !(t - error > reach);
+    if (t - error > reach) first = k;
+    else tie |= !place_in_plane(p->model, roots, first, k);
     reach = far > reach ? far : reach;
   }
   gather->regions.count = 0;
@@ -209,7 +223,7 @@ bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[]
   size_t begin[LANES + 1];
   order_roots(gather, begin);
   for (unsigned lane = 0; lane < p->count && !gather->failed; lane++) {
-    struct hit *hits = lane_hits(p, lane, (const struct gathered *const *)gather->order.at + begin[lane],
+    struct hit *hits = lane_hits(p, lane, (const struct gathered **)gather->order.at + begin[lane],
                                  begin[lane + 1] - begin[lane], &out[lane]);
     for (size_t k = 0; k < out[lane].count && hits; k++) {
       if (exponents) (void)hit_scale_back(&hits[k], &p->rays[lane], exponents[lane]);

@@ -172,12 +172,16 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   const lanes error = root_t_error(p, it, r, w, at);
   hits &= ~((at < p->t_min - error) | (at - error > lanes_min(p->t_max, p->t_far)));
   if (!lanes_any(hits)) return hits;
-  lane_mask rival = lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t);
-  if (lanes_any(hits & rival)) rival &= ~same_root(p, it, r, patch);
+  const lane_mask none = {0}, first = patch < p->best.patch;
+  lane_mask rival = lanes_abs(at - p->best.t) <= error + (p->t_far - p->best.t), tied = none;
+  if (lanes_any(hits & rival)) {
+    rival &= ~same_root(p, it, r, patch);
+    tied = one_plane(p->model, patch + none, p->best.patch, hits & rival);
+    rival &= ~tied, hits &= ~tied | first;
+  }
   const lane_mask sure = ~on_border(it, r) & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
   if (lanes_any(hits & ~sure)) packet_postpone(p, it->leaf, hits & ~sure);
-  const lane_mask none = {0};
-  const lane_mask taken = hits & sure & best_after(&p->best, at, patch + none, leaf + none);
+  const lane_mask taken = hits & sure & (tied | best_after(&p->best, at, patch + none, leaf + none));
   if (lanes_any(taken)) packet_take(p, it, r, at, error, taken, true);
   return taken;
 }

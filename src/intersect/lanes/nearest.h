@@ -16,6 +16,19 @@ LANES_INLINE lane_mask best_after(const struct best *best, lanes t, lane_mask pa
   return (t < best->t) | ((t == best->t) & first);
 }
 
+/* Lanes of `where` on which these are two patches of the scene that share a plane across an axis: the ray meets both at one t. */
+LANES_INLINE lane_mask one_plane(const struct model *model, lane_mask a, lane_mask b, lane_mask where)
+{
+  lane_mask one = {0};
+  if (!model->plane) return one;
+  for (unsigned bits = lanes_bits(where & (a != b) & (a != NO_PATCH) & (b != NO_PATCH)); bits; bits &= bits - 1) {
+    const int l = __builtin_ctz(bits);
+    const uint32_t plane = model->plane[a[l]];
+    if (plane != 0 && plane == model->plane[b[l]]) one |= lanes_mask(bits & -bits);
+  }
+  return one;
+}
+
 /* Takes over a certain root on the lanes of `taken`. */
 LANES_INLINE void best_take(struct best *best, lane_mask taken, const lanes at[2], const lanes radius[2], lanes t,
                             lane_mask patch, lane_mask leaf)

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/real.h"
+#include "geometry/flats.h"
 #include "geometry/twins.h"
 #include "intersect/prepare/copies.h"
 #include "intersect/prepare/hierarchy.h"
@@ -108,12 +109,27 @@ static enum status mark_twins(struct model *model)
   return status;
 }
 
+/* Finds planes that patches share; not there either. */
+static enum status mark_planes(struct model *model)
+{
+  const struct scene *scene = model->scene;
+  size_t planes;
+  if (model->unproven) return STATUS_OK;
+  uint32_t *plane = memory_alloc(scene->patch_count + 1, sizeof *plane);
+  if (!plane) return STATUS_LIMIT;
+  const enum status status = flats_find(scene->patches, sizeof *scene->patches, scene->patch_count, plane, &planes);
+  if (status == STATUS_OK && planes > 0) model->plane = plane;
+  else memory_free(plane);
+  return status;
+}
+
 static enum status prepare(struct model *model, const struct team *team)
 {
   const struct scene *scene = model->scene;
   model->neighbours = arena_alloc(model->arena, scene->patch_count + 1, 4 * sizeof *model->neighbours);
   if (!model->neighbours) return STATUS_LIMIT;
   enum status status = mark_twins(model);
+  if (status == STATUS_OK) status = mark_planes(model);
   if (status == STATUS_OK)
     status = edges_match(scene->patches, sizeof *scene->patches, scene->patch_count, model->twin,
                          scene->patch_count < TEAM_LEAST ? NULL : team, model->neighbours);
@@ -165,6 +181,7 @@ void model_destroy(struct model *model)
   for (size_t k = 0; k < model->object_count; k++) model_destroy(model->objects[k].model);
   tree_free(&model->tree);
   memory_free(model->oriented_room);
+  memory_free(model->plane);
   arena_destroy(model->arena);
   memory_free(model);
 }

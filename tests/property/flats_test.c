@@ -1,0 +1,132 @@
+/* Flat patches over one another in one plane across an axis: the nearest is the one that stands first, as all hits have it,
+ * and the last resort is not needed to say so. */
+#include <math.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "geometry/flats.h"
+#include "intersect/intersect.h"
+#include "property/world.h"
+
+enum { SEED = 20261126, SCENES = 40, RAYS = 64, PACKET = 8, MOST = 24 };
+
+/* A patch of that plane, somewhere within 2 of the middle: four corners, and bent borders within the plane. */
+static void flat_net(struct random *random, int axis, double value, world_net out)
+{
+  const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+  const double middle[2] = {random_between(random, -1, 1), random_between(random, -1, 1)};
+  for (int n = 0; n < 16; n++) {
+    double *P = out[n / 4][n % 4];
+    P[axis] = random_bits(random) % 2 && value == 0 ? -0.0 : value;
+    P[x] = middle[0] + (n / 4 - 1.5) / 3 + random_between(random, -0.1, 0.1);
+    P[y] = middle[1] + (n % 4 - 1.5) / 3 + random_between(random, -0.1, 0.1);
+  }
+}
+
+/* Bent a little out of it. */
+static void bend_net(struct random *random, int axis, world_net net)
+{
+  for (int n = 0; n < 16; n++) net[n / 4][n % 4][axis] += random_between(random, -0.1, 0.1);
+}
+
+/* From nearby, or so far away that t is not known to its last places. */
+static struct ray ray_at(struct random *random, int axis, double value)
+{
+  struct ray ray = {.t_max = INFINITY};
+  const double far = random_bits(random) % 2 ? 1 : 0x1p40, length = random_between(random, 0.3, 3);
+  for (int k = 0; k < 3; k++) {
+    const double aim = k == axis ? value : random_between(random, -1.2, 1.2), way = random_between(random, -3, 3);
+    ray.origin[k] = aim - far * way, ray.direction[k] = length * way;
+  }
+  return ray;
+}
+
+static void check_rays(struct world *world, const struct ray rays[RAYS], int *hits)
+{
+  for (int n = 0; n < RAYS; n += PACKET) {
+    struct hit together[PACKET];
+    tracer_closest(world->tracer, PACKET, &rays[n], together);
+    for (int l = 0; l < PACKET; l++) {
+      const struct hit alone = world_closest(world, &rays[n + l]);
+      struct hit_list list;
+      assert_same_hit("flats", 0, &rays[n + l], &alone, &together[l]);
+      assert_int_equal(tracer_all(world->tracer, 1, &rays[n + l], &list), STATUS_OK);
+      if (alone.certainty != CERTAINTY_CERTAIN || list.certainty != CERTAINTY_CERTAIN) continue;
+      assert_int_equal(alone.patch != HIT_NONE, list.count > 0);
+      if (list.count == 0) continue;
+      assert_int_equal(alone.patch, list.hits[0].patch);
+      *hits += 1;
+    }
+  }
+}
+
+static void the_first_of_a_plane_is_the_nearest(void **state)
+{
+  (void)state;
+  struct random random = {SEED};
+  int hits = 0;
+  for (int scene = 0; scene < SCENES; scene++) {
+    const int axis = scene % 3;
+    const double value = scene % 4 ? random_between(&random, -1, 1) : 0;
+    world_net nets[MOST];
+    struct world world;
+    struct ray rays[RAYS];
+    for (int p = 0; p < MOST; p++) {
+      flat_net(&random, axis, value, nets[p]);
+      if (p % 4 == 3) bend_net(&random, axis, nets[p]);
+    }
+    world_open(&world, nets, MOST, NULL);
+    for (int n = 0; n < RAYS; n++) rays[n] = ray_at(&random, axis, value);
+    check_rays(&world, rays, &hits);
+    world_close(&world);
+  }
+  assert_true(hits > SCENES * RAYS / 2);
+}
+
+/* Nearly all rays meet several patches of the plane, and few of them a border. */
+static void a_plane_costs_no_last_resort(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 1};
+  world_net nets[MOST];
+  struct world world;
+  for (int p = 0; p < MOST; p++) flat_net(&random, 1, 0.7, nets[p]);
+  world_open(&world, nets, MOST, NULL);
+  for (int n = 0; n < SCENES * RAYS; n++) {
+    const struct ray ray = ray_at(&random, 1, 0.7);
+    (void)world_closest(&world, &ray);
+  }
+  assert_true(tracer_counts(world.tracer)->escalated * 100 < SCENES * RAYS);
+  world_close(&world);
+}
+
+static void planes_are_found(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 2};
+  world_net nets[6];
+  uint32_t plane[6];
+  size_t count;
+  flat_net(&random, 0, 0.5, nets[0]);
+  flat_net(&random, 1, 0.5, nets[1]);
+  flat_net(&random, 1, nextafter(0.5, 1), nets[2]);
+  flat_net(&random, 2, 0, nets[3]);
+  flat_net(&random, 1, 0.5, nets[4]);
+  flat_net(&random, 2, 0, nets[5]);
+  nets[4][3][2][0] = 0.5;
+  assert_int_equal(flats_find(nets, sizeof nets[0], 6, plane, &count), STATUS_OK);
+  assert_int_equal(count, 2);
+  assert_true(plane[0] == 0 && plane[2] == 0);
+  assert_true(plane[1] != 0 && plane[1] == plane[4] && plane[3] != 0 && plane[3] == plane[5] && plane[1] != plane[3]);
+  nets[4][3][3][1] = nextafter(0.5, 1);
+  assert_int_equal(flats_find(nets, sizeof nets[0], 6, plane, &count), STATUS_OK);
+  assert_true(count == 1 && plane[1] == 0 && plane[4] == 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(planes_are_found),
+                                     cmocka_unit_test(the_first_of_a_plane_is_the_nearest),
+                                     cmocka_unit_test(a_plane_costs_no_last_resort)};
+  return cmocka_run_group_tests_name("flats", tests, NULL, NULL);
+}
