@@ -18,6 +18,9 @@ try pscn compare a.png small.png
 try pscn compare a.png a.exr
 try pscn compare a.exr a.exr --channels depth,normal.z -o depth.png
 try pscn compare a.exr a.exr --channels nothing
+try pscn compare a.exr a.exr --channels depth,normal.z -o some.exr --quiet
+try pscn compare some.exr some.exr | head -n 1
+try pscn compare a.exr a.exr --channels $(printf 'R,%.0s' {1..256})R
 try pscn compare a.exr a.exr -o all.png --quiet
 try pscn compare a.png nothing.png
 try pscn compare a.png "$scene"

@@ -16,6 +16,12 @@ try pscn merge p?.exr -o p.png --quiet
 try pscn merge p?.exr -o p16.png --bits 16
 same one.exr all.exr
 grep -ao 'pscn:\(tile\|done\|sum\)' all.exr # what is a piece's own is not the picture's
+# It took as long as they did together; each is made to tell of some seconds.
+for k in 1 2 3 4; do LC_ALL=C sed "s|\(pscn:render_seconds.string.....\)[0-9]|\1$k|" all$k.exr >took$k.exr; done
+pscn merge took?.exr -o took.exr --quiet
+seconds() { LC_ALL=C tr '\0-\37' ' ' <$1 | grep -ao 'pscn:render_seconds string *[0-9.]*' | sed 's/.* //'; }
+sum=$(for k in 1 2 3 4; do seconds took$k.exr; done | LC_ALL=C awk '{ sum += $1 } END { printf "%.3f", sum }')
+[ "$(seconds took.exr)" = $sum ] && echo "took as long as its pieces"
 same one.png p.png
 same one16.png p16.png
 pscn render $scene --crop 37,5,66,80 -o crop.exr

@@ -50,6 +50,10 @@ pscn render $SCENES/bent.pscn --size 90x80 --tile 1/1 -o larger.exr --quiet
 sed 's/90x80/30x20/g; s/0,0,90,80/0,0,30,20/g' larger.exr >small.exr.part.exr
 try pscn render $small -o small.exr --resume
 rm larger.exr small.exr.part.exr
+pscn render $small --crop 5,0,20,20 --tile 1/1 -o beside.exr
+sed 's/5,0,20,20/0,0,20,20/' beside.exr >small.exr.part.exr
+try pscn render $small --crop 0,0,20,20 -o small.exr --resume
+rm beside.exr small.exr.part.exr
 echo no picture >half.exr.part.exr
 pscn render $scene -o half.exr --resume 2>/dev/null; echo "exit $?"
 # Nor without being asked to, but it says so.

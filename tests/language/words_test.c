@@ -78,9 +78,25 @@ static void test_guesses(void **state)
   assert_null(guess.best);
 }
 
+/* A third of the letters may be wrong, of a short word one. */
+static void test_how_wrong(void **state)
+{
+  (void)state;
+  const struct {
+    const char *word, *other;
+    bool meant;
+  } cases[] = {{"camxya", "camera", true}, {"camxyz", "camera", false},        {"anglx", "angle", true},
+               {"angxy", "angle", false},  {"brillxyzce", "brilliance", true}, {"brilwxyzce", "brilliance", false}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    struct guess guess = guess_begin(cases[k].word, strlen(cases[k].word));
+    guess_consider(&guess, cases[k].other, strlen(cases[k].other));
+    assert_int_equal(guess.best != NULL, cases[k].meant);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_lists), cmocka_unit_test(test_order),
-                                     cmocka_unit_test(test_guesses)};
+                                     cmocka_unit_test(test_guesses), cmocka_unit_test(test_how_wrong)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
