@@ -50,6 +50,9 @@ int __wrap_open(const char *path, int flags, ...)
 /* What others may do with the unfinished file when it is flushed to the disk; -1: there is none by any name. */
 static int unfinished_mode;
 
+/* What flushing a regular file fails with; 0: it does not. */
+static int fsync_reason;
+
 int __real_fsync(int descriptor);
 int __wrap_fsync(int descriptor);
 
@@ -58,7 +61,8 @@ int __wrap_fsync(int descriptor)
   struct stat info;
   if (fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode))
     unfinished_mode = info.st_nlink == 0 ? -1 : (int)(info.st_mode & 07777);
-  return __real_fsync(descriptor);
+  errno = fsync_reason;
+  return fsync_reason != 0 ? -1 : __real_fsync(descriptor);
 }
 
 /* A new empty folder for each test, and the process's mask of permissions set to a known value. */
@@ -212,6 +216,38 @@ static void stopped_write_leaves_the_old_file(void **state)
   assert_int_equal(count_entries(), 1);
 }
 
+/* Nor does a file go then for which nothing is written. */
+static void stopped_writing_takes_nothing_away(void **state)
+{
+  (void)state;
+  int reason = 0;
+  atomic_int stop = 1;
+  size_t failed;
+  const struct atomic_file file = {"a", NULL, 0};
+  put("a", "old");
+  assert_int_equal(atomic_files_write(&file, 1, &stop, &failed, &reason), STATUS_INTERRUPTED);
+  expect_text("a", "old");
+}
+
+/* A file system that cannot flush is no failure, a disk that does not is one. */
+static void what_is_not_on_the_disk_is_not_written(void **state)
+{
+  (void)state;
+  int reason = 0;
+  size_t failed;
+  const struct atomic_file file = {"a", "new", 3};
+  put("a", "old");
+  fsync_reason = EIO;
+  assert_int_equal(atomic_files_write(&file, 1, NULL, &failed, &reason), STATUS_FILE);
+  assert_int_equal(reason, EIO);
+  expect_text("a", "old");
+  fsync_reason = EINVAL;
+  assert_int_equal(atomic_files_write(&file, 1, NULL, &failed, &reason), STATUS_OK);
+  fsync_reason = 0;
+  expect_text("a", "new");
+  assert_int_equal(count_entries(), 1);
+}
+
 /* A bell that rings on, since its first stroke may come before anybody waits. */
 static atomic_int rung;
 static void ring(int signal) { atomic_store(&rung, signal); }
@@ -315,6 +351,7 @@ int main(void)
     IN_FOLDER(new_file_has_the_masks_permissions),  IN_FOLDER(old_file_is_replaced_and_keeps_its_permissions),
     IN_FOLDER(symbolic_link_is_followed),           IN_FOLDER(impossible_names_have_their_reasons),
     IN_FOLDER(device_is_written_to_not_replaced),   IN_FOLDER(stopped_write_leaves_the_old_file),
+    IN_FOLDER(stopped_writing_takes_nothing_away),  IN_FOLDER(what_is_not_on_the_disk_is_not_written),
     IN_FOLDER(a_signal_ends_the_wait_for_a_reader), IN_FOLDER(unfinished_files_are_private),
     IN_FOLDER(several_files_appear_together),       IN_FOLDER(a_file_may_go_twice),
     IN_FOLDER(a_failing_name_undoes_those_before),

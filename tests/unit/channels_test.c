@@ -40,11 +40,32 @@ static void wrong_lists_are_refused(void **state)
   }
 }
 
+/* What the solver did is measured where any channel tells of it. */
+static void one_channel_is_enough(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *text;
+    bool measures, rgb;
+  } cases[] = {{"rgb", false, true},    {"rgb,depth,deviation", false, false},
+               {"depth", false, false}, {"iterations", true, false},
+               {"roots", true, false},  {"rgb,residual", true, false}};
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    struct channel_list list;
+    const char *bad;
+    size_t length;
+    assert_true(channel_list_parse(cases[k].text, &list, &bad, &length));
+    assert_int_equal(channel_list_measures(&list), cases[k].measures);
+    assert_int_equal(channel_list_is_rgb(&list), cases[k].rgb);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_channel_is_found),
     cmocka_unit_test(wrong_lists_are_refused),
+    cmocka_unit_test(one_channel_is_enough),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,13 +67,14 @@ static void test_front_noise(void **state)
 static void test_level(void **state)
 {
   (void)state;
-  struct chart_point points[] = {point(300, 1e-15), point(NAN, 1e-15)};
-  points[0].time[RAYS_CAMERA].ratio = 1.5; /* the yardstick took 200 */
-  points[1].time[RAYS_CAMERA].ratio = NAN;
+  struct chart_point points[] = {point(300, 1e-15), point(NAN, 1e-15), point(200, 1e-15)};
+  points[0].time[RAYS_CAMERA].ratio = 1.5;                                     /* the yardstick took 200 */
+  points[1].time[RAYS_CAMERA].ratio = points[2].time[RAYS_CAMERA].ratio = NAN; /* measured without the yardstick */
   points[0].time[RAYS_SHADOW] = points[1].time[RAYS_CAMERA];
   const double yard[RAY_KINDS] = {100, 50};
-  point_level(points, 2, yard);
+  point_level(points, 3, yard);
   assert_true(points[0].time[RAYS_CAMERA].median == 150 && points[0].time[RAYS_CAMERA].upper == 150);
+  assert_true(points[2].time[RAYS_CAMERA].median == 200);
   assert_true(isnan(points[0].time[RAYS_SHADOW].median) && isnan(points[1].time[RAYS_CAMERA].median));
 }
 
@@ -100,8 +101,29 @@ static void test_measure(void **state)
     assert_true(calls[k][RAYS_CAMERA] >= 6 && calls[k][RAYS_SHADOW] == 0);
   }
   assert_true(time[0][RAYS_CAMERA].ratio == 1);
+  assert_int_equal(measure_rounds(runners, 2, counts, 1, NULL, time), STATUS_OK);
+  const double median[2] = {time[0][RAYS_CAMERA].median, time[1][RAYS_CAMERA].median};
+  assert_true(fabs(time[1][RAYS_CAMERA].ratio * median[0] / median[1] - 1) < 1e-12); /* to the first one */
   atomic_int stop = 1;
   assert_int_equal(measure_rounds(runners, 2, counts, 5, &stop, time), STATUS_INTERRUPTED);
+}
+
+/* The truth is known beyond doubles: a third of the way. */
+static void test_truths(void **state)
+{
+  (void)state;
+  struct scene_patch patch = {0};
+  for (int n = 0; n < 16; n++)
+    patch.P[n / 4][n % 4][0] = n % 4 - 1, patch.P[n / 4][n % 4][1] = n / 4 - 1, patch.P[n / 4][n % 4][2] = 1;
+  const struct scene scene = {.patches = &patch, .patch_count = 1};
+  struct ray rays[] = {{.direction = {0, 0, 3}, .t_max = INFINITY}, {.direction = {0, 0, -3}, .t_max = INFINITY}};
+  const struct ray_list list = {.rays = rays, .count = 2};
+  struct truth truths[2];
+  if (!judge_available()) skip();
+  assert_int_equal(judge_truths(&scene, &list, NULL, truths), STATUS_OK);
+  assert_true(truths[0].kind == TRUTH_HIT && truths[0].patch == 0 && !truths[0].shared);
+  assert_true(truths[0].t == 1.0 / 3 && fabs(truths[0].t_rest - 0x1p-54 / 3) < 1e-30);
+  assert_true(truths[1].kind == TRUTH_MISS && isinf(truths[1].t));
 }
 
 static void test_judge(void **state)
@@ -148,6 +170,25 @@ static void test_judge(void **state)
   assert_true(j.hits == 0 && j.invented == 1 && isnan(j.p99_of_all));
 }
 
+/* What is lost, invented or wrong counts as an error of 1, no more; who knows no patches names no other one. */
+static void test_judge_errors(void **state)
+{
+  (void)state;
+  const struct truth truths[] = {{TRUTH_HIT, 2, 0, 4, false}, {TRUTH_MISS, INFINITY, 0, HIT_NONE, false}};
+  const struct answer right[] = {{2, ANSWER_PATCH_UNKNOWN}, {INFINITY, HIT_NONE}}, invented[] = {{2, 4}, {1, 0}},
+                      wrong = {8, 4}, lost = {INFINITY, HIT_NONE};
+  double errors[4];
+  struct judgement j;
+  judge_answers(2, truths, right, errors, &j);
+  assert_true(j.other_patch == 0 && j.wrong == 0 && j.p99_of_all == 0);
+  judge_answers(2, truths, invented, errors, &j);
+  assert_true(j.invented == 1 && j.p99 == 0 && j.p99_of_all == 1);
+  judge_answers(1, truths, &wrong, errors, &j);
+  assert_true(j.wrong == 1 && j.max == 3 && j.p99_of_all == 1);
+  judge_answers(1, truths, &lost, errors, &j);
+  assert_true(j.lost == 1 && isnan(j.max) && j.p99_of_all == 1);
+}
+
 static void test_judge_occluded(void **state)
 {
   (void)state;
@@ -184,7 +225,7 @@ static void test_rays(void **state)
   for (int k = 0; k < WIDTH * HEIGHT; k++) assert_int_equal(seen[k / WIDTH][k % WIDTH], 1);
   size_t packed = 0;
   for (size_t k = 0; k < list.packet_count; k++) {
-    assert_int_equal(list.packets[k].first, packed);
+    assert_true(list.packets[k].first == packed && list.packets[k].count > 0);
     packed += list.packets[k].count;
   }
   assert_int_equal(packed, list.count);
@@ -199,12 +240,45 @@ static void test_rays(void **state)
   arena_destroy(arena);
 }
 
-/* The first is the default; all are different. */
+/* Packet by packet one light after the other, none for a shadowless one. A run of shadow rays begins with the first of
+ * them, though the run's first packets of camera rays may send none. */
+static void test_shadow_rays(void **state)
+{
+  (void)state;
+  enum { LIGHTS = 3, PACKETS = 5, HITS = 3 };
+  struct scene_light lights[] = {{.position = {0, 0, 5}},
+                                 {.position = {0, 0, 9}, .shadowless = true},
+                                 {.position = {0, 0, 6}},
+                                 {.position = {0, 0, 7}}};
+  const struct scene scene = {.lights = lights, .light_count = LIGHTS + 1};
+  struct ray rays[PACKETS] = {{.t_max = 1}};
+  struct ray_packet packets[PACKETS] = {{0, 1, true}, {1, 1, false}, {2, 1, false}, {3, 1, true}, {4, 1, false}};
+  const struct ray_list camera = {.rays = rays, .packets = packets, .count = PACKETS, .packet_count = PACKETS};
+  const struct hit hit = {.patch = 0, .normal = {0, 0, 1}}, miss = {.patch = HIT_NONE};
+  const struct hit hits[PACKETS] = {miss, hit, hit, miss, hit};
+  const bool begins[HITS] = {true, false, true};
+  struct arena *arena = arena_create();
+  struct ray_list shadows;
+  assert_int_equal(rays_of_shadows(&scene, &camera, hits, arena, &shadows), STATUS_OK);
+  assert_int_equal(shadows.count, LIGHTS * HITS);
+  assert_int_equal(shadows.packet_count, LIGHTS * HITS);
+  for (size_t k = 0; k < LIGHTS * HITS; k++) {
+    assert_true(shadows.packets[k].first == k && shadows.packets[k].count == 1);
+    assert_int_equal(shadows.packets[k].new_run, k % LIGHTS == 0 && begins[k / LIGHTS]);
+    assert_true(fabs(shadows.rays[k].direction[2] - (5 + (double)(k % LIGHTS))) < 1e-6);
+  }
+  arena_destroy(arena);
+}
+
+/* The first is the default; all are different. For each power of the tolerance there are polish and no polish, of the
+ * three solvers of all roots both bases, both starts and the paper's forms as well; and whole patches, from each
+ * start. */
 static void test_sweep(void **state)
 {
   (void)state;
   for (int quick = 0; quick < 2; quick++) {
-    const size_t count = point_sweep(quick, NULL);
+    const size_t count = point_sweep(quick, NULL), powers = quick ? 3 : 15;
+    assert_int_equal(count, 1 + (2 * powers + 1) + 3 * ((8 + 2) * powers + 2));
     struct sweep_point *sweep = calloc(count, sizeof *sweep);
     assert_non_null(sweep);
     assert_int_equal(point_sweep(quick, sweep), count);
@@ -224,9 +298,10 @@ static void test_sweep(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_front),   cmocka_unit_test(test_front_noise), cmocka_unit_test(test_level),
-    cmocka_unit_test(test_measure), cmocka_unit_test(test_judge),       cmocka_unit_test(test_judge_occluded),
-    cmocka_unit_test(test_rays),    cmocka_unit_test(test_sweep),
+    cmocka_unit_test(test_front),        cmocka_unit_test(test_front_noise),    cmocka_unit_test(test_level),
+    cmocka_unit_test(test_measure),      cmocka_unit_test(test_truths),         cmocka_unit_test(test_judge),
+    cmocka_unit_test(test_judge_errors), cmocka_unit_test(test_judge_occluded), cmocka_unit_test(test_rays),
+    cmocka_unit_test(test_shadow_rays),  cmocka_unit_test(test_sweep),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

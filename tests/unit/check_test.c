@@ -51,8 +51,12 @@ static void what_stands_before_another_is_a_silhouette(void **state)
   assert_int_equal(between(miss, pixel(0.01, 0, 5, 0, 0, -1)), CHECK_EDGE_SILHOUETTE);
   /* out of the tangent plane */
   assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 6, 0, 0, -1)), CHECK_EDGE_SILHOUETTE);
+  /* out of one of both tangent planes */
+  assert_int_equal(between(pixel(0, 0, 5, 0, 0, -1), pixel(0.01, 0, 5, 0.5, 0, -1)), CHECK_EDGE_SILHOUETTE);
   /* near both tangent planes, but farther away than one surface would be */
   assert_int_equal(between(pixel(0, 0, 5, 1, 0, 0.2), pixel(0.01, 0, 9, 1, 0, 0.2)), CHECK_EDGE_SILHOUETTE);
+  /* farther away than the one would be that is seen less obliquely */
+  assert_int_equal(between(pixel(0, 0, 5, 1, 0, 0.02), pixel(0.01, 0, 6, 1, 0, 0.3)), CHECK_EDGE_SILHOUETTE);
 }
 
 static void shadows_and_creases_are_told_apart(void **state)

@@ -67,6 +67,30 @@ static void numbers_by_definition(void **state)
   image_destroy(&difference);
 }
 
+/* Of equal differences the first is told, row by row. */
+static void the_first_worst_is_told(void **state)
+{
+  const struct compare_pair pair = pair_of(state);
+  struct compare_result result;
+  image_pixel(pair.first, 1, 0)[0] = image_pixel(pair.first, 1, 0)[1] = image_pixel(pair.first, 0, 1)[0] = 0.5f;
+  compare_images(&pair, &result, NULL, 1);
+  assert_true(result.worst_x == 1 && result.worst_y == 0 && result.worst_channel == 0);
+}
+
+/* The peak is the largest value of either picture. */
+static void peak_of_both(void **state)
+{
+  const struct compare_pair pair = pair_of(state);
+  const struct image *const both[] = {pair.first, pair.second};
+  for (int k = 0; k < 2; k++) {
+    struct compare_result result;
+    image_pixel(both[k], 1, 1)[0] = 4;
+    compare_images(&pair, &result, NULL, 1);
+    assert_true(result.max == 4 && fabs(result.psnr - 20 * log10(4 / result.rms)) < 1e-12);
+    image_pixel(both[k], 1, 1)[0] = 0;
+  }
+}
+
 static void values_that_are_not_finite(void **state)
 {
   const struct compare_pair pair = pair_of(state);
@@ -98,6 +122,8 @@ static void limits(void **state)
   assert_true(compare_limit_passed(&both, &result, 6));
   const struct compare_limit any = {.percent = 100, .any = 0.25};
   assert_true(compare_limit_passed(&any, &result, 0));
+  const struct compare_limit same = {.any = 0.3};
+  assert_false(compare_limit_passed(&same, &result, 0));
 }
 
 #define WITH_IMAGES(test) cmocka_unit_test_setup_teardown(test, setup, teardown)
@@ -105,10 +131,8 @@ static void limits(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    WITH_IMAGES(equal_pictures),
-    WITH_IMAGES(numbers_by_definition),
-    WITH_IMAGES(values_that_are_not_finite),
-    cmocka_unit_test(limits),
+    WITH_IMAGES(equal_pictures), WITH_IMAGES(numbers_by_definition),      WITH_IMAGES(the_first_worst_is_told),
+    WITH_IMAGES(peak_of_both),   WITH_IMAGES(values_that_are_not_finite), cmocka_unit_test(limits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

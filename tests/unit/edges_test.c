@@ -127,6 +127,23 @@ static void more_than_two_at_one_border_are_none(void **state)
   }
 }
 
+/* Nobody's neighbour, nor in the way of those that are. */
+static void those_left_out_are_alone(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 6};
+  static const bool left_out[3] = {false, true, false};
+  net P[3];
+  struct edge_neighbour n[12];
+  random_net(&random, P[0]);
+  memcpy(P[1], P[0], sizeof P[1]);
+  random_net(&random, P[2]);
+  glue(P[0], 1, P[2], 3, true);
+  assert_int_equal(edges_match(P, sizeof *P, 3, left_out, NULL, n), STATUS_OK);
+  assert_pair(n, 0, 1, 2, 3, true);
+  assert_int_equal(alone(n, 3), 10);
+}
+
 static void collapsed_borders_are_none(void **state)
 {
   (void)state;
@@ -269,6 +286,7 @@ int main(void)
     cmocka_unit_test(every_pair_of_borders_both_ways),
     cmocka_unit_test(a_patch_may_meet_itself),
     cmocka_unit_test(more_than_two_at_one_border_are_none),
+    cmocka_unit_test(those_left_out_are_alone),
     cmocka_unit_test(collapsed_borders_are_none),
     cmocka_unit_test(nearly_equal_is_not_equal),
     cmocka_unit_test(zeros_of_either_sign_are_equal),

@@ -217,7 +217,7 @@ static void exr_keeps_its_window_and_texts(void **state)
   image_destroy(&image);
 }
 
-static void png_refuses_five_channels(void **state)
+static void png_refuses_five_channels_and_none(void **state)
 {
   (void)state;
   const char *const names[] = {"a", "b", "c", "d", "e"};
@@ -229,7 +229,41 @@ static void png_refuses_five_channels(void **state)
   assert_int_equal(image_encode(&image, &encoding, &bytes, &size, message), STATUS_FILE);
   assert_null(bytes);
   assert_true(message[0] != '\0');
+  image.channel_count = 0;
+  assert_int_equal(image_encode(&image, &encoding, &bytes, &size, message), STATUS_FILE);
+  assert_string_equal(message, "the format can not hold these channels");
   image_destroy(&image);
+}
+
+/* A TIFF of one grey pixel, of which TIFF 6.0 says what each number means; the last two of an entry are where the value
+ * begins. */
+static void tiff_is_read_in_both_orders_of_bytes(void **state)
+{
+  (void)state;
+  enum { ENTRIES = 9, VALUE = 8 + 2 + 12 * ENTRIES + 4 };
+  static const unsigned entries[ENTRIES][2] = {{256, 1},     {257, 1}, {258, 8}, {259, 1}, {262, 1},
+                                               {273, VALUE}, {277, 1}, {278, 1}, {279, 1}};
+  for (int big = 0; big < 2; big++) {
+    unsigned char bytes[VALUE + 1] = {big ? 'M' : 'I', big ? 'M' : 'I', [VALUE] = 51};
+    bytes[big ? 3 : 2] = 42, bytes[big ? 7 : 4] = 8, bytes[big ? 9 : 8] = ENTRIES;
+    for (size_t k = 0; k < ENTRIES; k++) { /* tag, type 3 (of 16 bits), count 1, value */
+      unsigned char *entry = bytes + 10 + 12 * k;
+      const unsigned tag = entries[k][0], value = entries[k][1];
+      entry[big ? 0 : 1] = (unsigned char)(tag >> 8), entry[big ? 1 : 0] = (unsigned char)tag;
+      entry[big ? 3 : 2] = 3, entry[big ? 7 : 4] = 1, entry[big ? 9 : 8] = (unsigned char)value;
+    }
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, sizeof bytes, file), sizeof bytes);
+    assert_int_equal(fclose(file), 0);
+    char message[IMAGE_MESSAGE_SIZE] = "";
+    struct image image;
+    const enum status status = image_read(path, &image, message);
+    if (status != STATUS_OK) print_error("%s\n", message);
+    assert_int_equal(status, STATUS_OK);
+    assert_true(image.width == 1 && image.height == 1 && fabs((double)image.value[0] - 0.2) < FLOAT_SLACK);
+    image_destroy(&image);
+  }
 }
 
 static void unreadable_files_are_told(void **state)
@@ -250,6 +284,12 @@ static void unreadable_files_are_told(void **state)
     assert_true(message[0] != '\0' && strchr(message, '\n') == NULL);
     assert_null(image.value);
   }
+  FILE *file = fopen(path, "wb"); /* the beginning of a JPEG, and no more */
+  assert_non_null(file);
+  fputs("\xff\xd8\xff", file);
+  fclose(file);
+  assert_int_equal(image_read(path, &image, message), STATUS_FILE);
+  assert_string_equal(message, "it is no PNG, EXR, TIFF or JPEG");
 }
 
 /* A file of 65 bytes that asks for 60000 x 60000 pixels, as PNG's reader would give it. */
@@ -357,7 +397,8 @@ int main(void)
     WITH_FILE(exr_keeps_its_window_and_texts),
     WITH_FILE(encoding_is_told),
     WITH_FILE(no_channel_is_opacity),
-    cmocka_unit_test(png_refuses_five_channels),
+    cmocka_unit_test(png_refuses_five_channels_and_none),
+    WITH_FILE(tiff_is_read_in_both_orders_of_bytes),
     WITH_FILE(unreadable_files_are_told),
     WITH_FILE(pictures_without_bounds_are_refused),
     WITH_FILE(damaged_pictures_are_read_or_refused),

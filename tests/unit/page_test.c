@@ -3,6 +3,7 @@
 #include "check/page.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cmocka_test.h"
@@ -81,6 +82,20 @@ static void test_failed(void **state)
   text_buffer_free(&page);
 }
 
+/* There is always room for a NUL. */
+static void test_room(void **state)
+{
+  (void)state;
+  struct text_buffer page = {.text = malloc(8), .room = 8};
+  assert_non_null(page.text);
+  text_buffer_add(&page, "1234567", 7);
+  assert_int_equal(page.room, 8);
+  text_buffer_add(&page, "8", 1);
+  assert_true(page.room > 8);
+  assert_string_equal(page.text, "12345678");
+  text_buffer_free(&page);
+}
+
 /* Every block that a long page asks for fails once: the page says so, and holds no more than it had. */
 static long left = -1;
 void *__real_realloc(void *block, size_t size);
@@ -123,8 +138,8 @@ static void test_memory(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_sections),
-                                     cmocka_unit_test(test_printable), cmocka_unit_test(test_failed),
-                                     cmocka_unit_test(test_memory)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),    cmocka_unit_test(test_sections),
+                                     cmocka_unit_test(test_printable), cmocka_unit_test(test_room),
+                                     cmocka_unit_test(test_failed),    cmocka_unit_test(test_memory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -232,6 +232,27 @@ static void colours_follow_the_formulas(void **state)
   texture = saved;
 }
 
+/* A negative diffuse part takes nothing from the ambient colour. */
+static void nothing_darkens(void **state)
+{
+  (void)state;
+  struct scene scene = scene_of();
+  const struct scene_texture saved = texture;
+  scene.patches = &patches[1];
+  scene.patch_count = 1;
+  texture.finish.diffuse = -1, texture.finish.phong = -1, texture.finish.specular = -1;
+  const struct render_options options = options_of("rgb,patch");
+  struct render_stats stats;
+  float *out = render(&scene, &options, &stats);
+  for (size_t n = 0; n < WIDTH * HEIGHT; n++)
+    for (int c = 0; c < 3 && out[4 * n + 3] == 0; c++)
+      assert_true(
+        is_float(out[4 * n + (size_t)c], texture.finish.ambient[c] * scene.ambient_light[c] * texture.pigment[c]));
+  free(out);
+  assert_true(stats.counts.rays[1] > 0);
+  texture = saved;
+}
+
 /* Powers, colours and products as large as a scene can ask for are too bright for a float at most. */
 static void extreme_colours_are_numbers(void **state)
 {
@@ -410,6 +431,29 @@ static void channels_tell_of_the_solver(void **state)
   assert_true(off > 0 && off < 4 * WIDTH * HEIGHT / 2);
 }
 
+/* The status of a pixel is its answer's, certain by default and not where nothing is polished. */
+static void statuses_are_the_answers(void **state)
+{
+  (void)state;
+  const struct scene scene = scene_of();
+  const struct render_options options = options_of("status,patch");
+  for (int certain = 0; certain < 2; certain++) {
+    if (!certain) method_default(solver_find("newton", 6), &solver);
+    else method_default(solver_at(0), &solver);
+    solver.polish = certain;
+    struct render_stats stats;
+    float *out = render(&scene, &options, &stats);
+    for (size_t n = 0; n < WIDTH * HEIGHT; n++) {
+      const bool hit = out[2 * n + 1] >= 0;
+      const int misses = certain ? CHANNEL_MISS_CERTAIN : CHANNEL_MISS_GRAZING,
+                hits = certain ? CHANNEL_HIT_CERTAIN : CHANNEL_HIT_GRAZING;
+      assert_true(out[2 * n] == (float)(hit ? hits : misses));
+    }
+    free(out);
+    assert_int_equal(certain ? stats.counts.certain : stats.counts.grazing, WIDTH * HEIGHT);
+  }
+}
+
 /* N x N samples are the pixels of a picture N times as large, averaged; data are those of the middle sample. */
 static void samples_are_a_finer_picture(void **state)
 {
@@ -461,11 +505,18 @@ static void a_stopped_rendering_says_so(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(threads_and_crop_change_nothing), cmocka_unit_test(nor_do_they_with_warm_starts),
-    cmocka_unit_test(crop_counts_only_its_rays),       cmocka_unit_test(colours_follow_the_formulas),
-    cmocka_unit_test(extreme_colours_are_numbers),     cmocka_unit_test(shadows_are_cast),
-    cmocka_unit_test(a_light_may_lie_on_a_surface),    cmocka_unit_test(channels_tell_of_the_hit),
-    cmocka_unit_test(channels_tell_of_the_solver),     cmocka_unit_test(samples_are_a_finer_picture),
+    cmocka_unit_test(threads_and_crop_change_nothing),
+    cmocka_unit_test(nor_do_they_with_warm_starts),
+    cmocka_unit_test(crop_counts_only_its_rays),
+    cmocka_unit_test(colours_follow_the_formulas),
+    cmocka_unit_test(nothing_darkens),
+    cmocka_unit_test(extreme_colours_are_numbers),
+    cmocka_unit_test(shadows_are_cast),
+    cmocka_unit_test(a_light_may_lie_on_a_surface),
+    cmocka_unit_test(channels_tell_of_the_hit),
+    cmocka_unit_test(channels_tell_of_the_solver),
+    cmocka_unit_test(statuses_are_the_answers),
+    cmocka_unit_test(samples_are_a_finer_picture),
     cmocka_unit_test(a_stopped_rendering_says_so),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

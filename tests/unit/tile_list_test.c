@@ -90,12 +90,29 @@ static void pieces_are_equally_dear(void **state)
   }
 }
 
+static void pixels_are_counted(void **state)
+{
+  (void)state;
+  const struct rectangle crop = {31, 33, 2, 70};
+  struct tile_list list;
+  assert_int_equal(tile_list_create(&crop, 1, 1, &list), STATUS_OK);
+  assert_true(tile_list_pixels(&list, false) == 140 && tile_list_pixels(&list, true) == 0);
+  size_t done = 0;
+  for (size_t k = 0; k < list.count; k += 2) {
+    atomic_store(&list.done[k], true);
+    done += list.tile[k].width * list.tile[k].height;
+  }
+  assert_true(tile_list_pixels(&list, false) == 140 && tile_list_pixels(&list, true) == done);
+  tile_list_destroy(&list);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(pieces_have_each_pixel_once),
     cmocka_unit_test(the_order_is_a_walk),
     cmocka_unit_test(pieces_are_equally_dear),
+    cmocka_unit_test(pixels_are_counted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

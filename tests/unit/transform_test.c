@@ -140,6 +140,19 @@ static void points_are_rounded_once(void **state)
   }
 }
 
+/* Of two ways whose sum is no double, neither is forgotten: no point is moved by the rounded one. */
+static void ways_are_added_exactly(void **state)
+{
+  (void)state;
+  struct transform one = transform_identity(), two = transform_identity();
+  one.identity = two.identity = false;
+  one.A[3][0].hi = 1, two.A[3][0].hi = 0x1p-53;
+  const struct transform both = transform_then(&one, &two);
+  double point[3] = {0x1p-53, 0, 0};
+  transform_point(&both, point, point);
+  assert_true(point[0] == 1 + 0x1p-52);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -148,6 +161,7 @@ int main(void)
     cmocka_unit_test(whole_degrees_are_what_they_are_alone),
     cmocka_unit_test(all_instruction_sets_round_alike),
     cmocka_unit_test(points_are_rounded_once),
+    cmocka_unit_test(ways_are_added_exactly),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

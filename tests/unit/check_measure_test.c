@@ -1,0 +1,273 @@
+/* What check measures: our own picture, a row of POV-Ray's beside it, the worst pixels and the map of them. POV-Ray's
+ * answers are made up here. */
+#include "check/measure.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+
+enum { MOST_PIXELS = 1200 };
+
+/* What POV-Ray answers, and what it was asked last. */
+static float their_picture[3 * MOST_PIXELS];
+static double their_distance[MOST_PIXELS];
+static unsigned char their_mask[MOST_PIXELS];
+static struct ray asked[MOST_PIXELS];
+static size_t asked_count;
+
+enum status __wrap_povray_render(struct povray *povray, const struct scene *scene, struct povray_picture *out);
+enum status __wrap_povray_render(struct povray *povray, const struct scene *scene, struct povray_picture *out)
+{
+  (void)scene;
+  *out = (struct povray_picture){.time = {1, 1}};
+  assert_int_equal(image_create(povray->width, povray->height, 3, &out->image), STATUS_OK);
+  memcpy(out->image.value, their_picture, 3 * povray->width * povray->height * sizeof *their_picture);
+  return STATUS_OK;
+}
+
+enum status __wrap_povray_ask(struct povray *povray, const struct scene *scene, size_t count, const struct ray rays[],
+                              double out_distance[], unsigned char *out_mask);
+enum status __wrap_povray_ask(struct povray *povray, const struct scene *scene, size_t count, const struct ray rays[],
+                              double out_distance[], unsigned char *out_mask)
+{
+  (void)scene;
+  asked_count = count;
+  memcpy(asked, rays, count * sizeof *rays);
+  memcpy(out_distance, their_distance, count * sizeof *out_distance);
+  if (out_mask != NULL) memcpy(out_mask, their_mask, povray->width * povray->height);
+  return STATUS_OK;
+}
+
+void __wrap_povray_warnings(const struct povray *povray, struct text_buffer *out);
+void __wrap_povray_warnings(const struct povray *povray, struct text_buffer *out) { (void)povray, (void)out; }
+
+static struct scene scene = {.camera = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+static const struct listener nobody;
+static struct check_request request;
+static struct check_pixel pixels[MOST_PIXELS];
+
+/* A check of a picture of that size, black, of which every pixel is hit at distance 1, there as here. */
+static struct check check_of(size_t width, size_t height, size_t grid)
+{
+  request = (struct check_request){.width = width, .height = height, .grid = grid, .fail = {.each = 4.0 / 255}};
+  struct check check = {.request = &request,
+                        .listener = &nobody,
+                        .scene = &scene,
+                        .povray = {.width = width, .height = height},
+                        .ours = {.pixel = pixels}};
+  assert_true(width * height <= MOST_PIXELS);
+  assert_int_equal(image_create(width, height, 3, &check.ours.picture), STATUS_OK);
+  memset(their_picture, 0, sizeof their_picture);
+  for (size_t k = 0; k < width * height; k++) {
+    pixels[k] = (struct check_pixel){.hit = {.patch = 0}, .distance = 1};
+    their_distance[k] = 1;
+    their_mask[k] = 1;
+  }
+  return check;
+}
+
+static void free_check(struct check *check)
+{
+  for (size_t k = 0; k < check->row_count; k++) check_row_free(&check->row[k]);
+  image_destroy(&check->ours.picture);
+}
+
+static struct check_row *measure_row(struct check *check)
+{
+  assert_int_equal(check_measure_row(check, 1), STATUS_OK);
+  return &check->row[check->row_count - 1];
+}
+
+/* Whether that was the ray of the pixel's middle. */
+static bool is_ray_of(const struct check *check, const struct ray *ray, size_t x, size_t y)
+{
+  const double along = ((double)x + 0.5) / (double)check->request->width - 0.5,
+               up = 0.5 - ((double)y + 0.5) / (double)check->request->height;
+  return fabs(ray->direction[0] - along) < 1e-12 && fabs(ray->direction[1] - up) < 1e-12;
+}
+
+/* Beyond a limit, not at it; by what the pixels lie on. */
+static void differences_are_counted(void **state)
+{
+  (void)state;
+  static const int codes[] = {0, 1, 2, 4, 5, 16, 17, 255};
+  static const enum check_edge edges[] = {CHECK_EDGE_NONE,   CHECK_EDGE_NONE,   CHECK_EDGE_NONE, CHECK_EDGE_CREASE,
+                                          CHECK_EDGE_CREASE, CHECK_EDGE_SHADOW, CHECK_EDGE_NONE, CHECK_EDGE_SILHOUETTE};
+  struct check check = check_of(8, 1, 0);
+  for (int k = 0; k < 8; k++) {
+    their_picture[3 * k + k % 3] = (float)codes[k] / 255;
+    pixels[k].edge = edges[k];
+  }
+  const struct check_row *row = measure_row(&check);
+  assert_true(row->over[0] == 6 && row->over[1] == 4 && row->over[2] == 2 && row->over_limit == 4);
+  for (int edge = 0; edge < CHECK_EDGES; edge++) assert_int_equal(row->over_limit_on[edge], 1);
+  assert_true(row->result.max == 1 && row->result.worst_x == 7);
+  free_check(&check);
+}
+
+static void hits_of_one_alone_are_counted(void **state)
+{
+  (void)state;
+  struct check check = check_of(5, 2, 0);
+  pixels[0].hit.patch = pixels[1].hit.patch = HIT_NONE;
+  their_mask[1] = 0; /* a miss of both */
+  for (int k = 5; k < 8; k++) their_mask[k] = 0;
+  const struct check_row *row = measure_row(&check);
+  assert_true(row->mask_theirs == 1 && row->mask_ours == 3);
+  assert_int_equal(asked_count, 0);
+  free_check(&check);
+}
+
+/* Of every second pixel and row, from the second on; and of one where the picture is smaller than the grid. */
+static void distances_are_those_of_a_grid(void **state)
+{
+  (void)state;
+  struct check check = check_of(7, 5, 2);
+  pixels[1 * 7 + 1].distance = 4, their_distance[0] = 5;
+  pixels[1 * 7 + 3].distance = INFINITY;
+  their_distance[2] = INFINITY;
+  pixels[3 * 7 + 1].distance = 8, their_distance[3] = 7;
+  pixels[3 * 7 + 3].distance = their_distance[4] = INFINITY;
+  const struct check_row *row = measure_row(&check);
+  const struct check_distances *found = &row->distances;
+  assert_int_equal(asked_count, 6);
+  for (size_t k = 0; k < 6; k++) assert_true(is_ray_of(&check, &asked[k], 1 + 2 * (k % 3), 1 + 2 * (k / 3)));
+  assert_true(found->rays == 6 && found->only_ours == 1 && found->only_theirs == 1 && found->both == 3);
+  assert_true(found->median == 0.125 && found->max == 0.25 && found->p99 == 0.25);
+  free_check(&check);
+
+  check = check_of(6, 5, 100);
+  pixels[0].distance = INFINITY;
+  row = measure_row(&check);
+  assert_int_equal(asked_count, 1);
+  assert_true(is_ray_of(&check, &asked[0], 0, 0));
+  assert_true(row->distances.both == 0 && isnan(row->distances.median) && isnan(row->distances.max));
+  free_check(&check);
+}
+
+/* The largest differences, none near one that is larger, and what POV-Ray sees there. */
+static void the_worst_are_apart(void **state)
+{
+  (void)state;
+  enum { WIDTH = 40 }; /* so that near is within 5 */
+  static const struct {
+    size_t x, y;
+    int code;
+    bool near;
+  } differing[] = {{20, 10, 200, false}, {25, 15, 190, true}, {26, 10, 180, false}, {20, 16, 170, false},
+                   {14, 10, 160, false}, {15, 5, 150, true},  {39, 29, 10, false},  {0, 0, 1, false}};
+  struct check check = check_of(WIDTH, 30, 0);
+  for (size_t k = 0; k < 8; k++)
+    their_picture[3 * (differing[k].y * WIDTH + differing[k].x) + 1] = (float)differing[k].code / 255;
+  for (size_t k = 0; k < 8; k++) their_distance[k] = 10 + (double)k;
+  (void)measure_row(&check);
+  assert_int_equal(check_find_worst(&check), STATUS_OK);
+  assert_int_equal(check.worst_count, 6);
+  for (size_t k = 0, found = 0; k < 8; k++) {
+    if (differing[k].near) continue;
+    const struct check_worst *worst = &check.worst[found];
+    assert_true(worst->x == differing[k].x && worst->y == differing[k].y);
+    assert_true(worst->difference == (double)((float)differing[k].code / 255));
+    assert_true(worst->distance == 10 + (double)found && is_ray_of(&check, &asked[found], worst->x, worst->y));
+    found++;
+  }
+  free_check(&check);
+}
+
+static bool is_color(const struct image *image, size_t x, size_t y, const float color[3])
+{
+  return memcmp(image_pixel(image, x, y), color, 3 * sizeof *color) == 0;
+}
+
+/* Edges have their colours; what is over the limit has that of its edge, and is larger where it is off all. */
+static void the_map_shows_them(void **state)
+{
+  (void)state;
+  struct check check = check_of(101, 5, 0);
+  image_pixel(&check.ours.picture, 0, 0)[1] = 1;
+  pixels[4].edge = CHECK_EDGE_SHADOW;
+  pixels[2 * 101 + 20].edge = pixels[2 * 101 + 50].edge = CHECK_EDGE_SILHOUETTE;
+  their_picture[1] = 1;
+  their_picture[3 * (2 * 101 + 20)] = their_picture[3 * (2 * 101 + 80)] = 0.5f;
+  struct image map;
+  assert_int_equal(check_map(&check, measure_row(&check), &map), STATUS_OK);
+  assert_true(image_pixel(&map, 0, 0)[0] == 0 && image_pixel(&map, 0, 0)[1] > 0.1f &&
+              image_pixel(&map, 0, 0)[1] < 0.5f);
+  assert_true(is_color(&map, 4, 0, CHECK_EDGE_COLOR[CHECK_EDGE_SHADOW]));
+  assert_true(is_color(&map, 50, 2, CHECK_EDGE_COLOR[CHECK_EDGE_SILHOUETTE]));
+  assert_true(is_color(&map, 20, 2, CHECK_SPOT_COLOR[CHECK_EDGE_SILHOUETTE]));
+  assert_false(is_color(&map, 21, 2, CHECK_SPOT_COLOR[CHECK_EDGE_SILHOUETTE]));
+  for (size_t k = 0; k < 9; k++) assert_true(is_color(&map, 79 + k % 3, 1 + k / 3, CHECK_SPOT_COLOR[CHECK_EDGE_NONE]));
+  assert_false(is_color(&map, 82, 2, CHECK_SPOT_COLOR[CHECK_EDGE_NONE]));
+  image_destroy(&map);
+  free_check(&check);
+}
+
+/* The rectangle x0 <= x <= x1, |y| <= y1 at that depth. */
+static struct scene_patch rectangle(double x0, double x1, double y1, double z)
+{
+  struct scene_patch patch = {0};
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double point[3] = {x0 + (x1 - x0) * j / 3, y1 * (2 * i / 3.0 - 1), z};
+      memcpy(patch.P[i][j], point, sizeof point);
+    }
+  }
+  return patch;
+}
+
+/* The left half of the picture shows a rectangle before a lower one. It hides that from the second light and the third,
+ * which is shadowless; the first one is behind both. */
+static void our_pixels_are_known(void **state)
+{
+  (void)state;
+  enum { WIDTH = 20, HEIGHT = 4, CODE = 124 }; /* of 0.2 */
+  struct method solver;
+  struct scene_patch patches[] = {rectangle(-2, 0, 2, 2), rectangle(-4, 4, 1, 4)};
+  struct scene_light lights[] = {
+    {.position = {0, 0, 10}}, {.position = {-3, 0, 1}}, {.position = {-3, 0, 1}, .shadowless = true}};
+  struct scene_texture texture = {
+    .pigment = {0.2, 0.2, 0.2}, .finish = {.ambient = {1, 1, 1}, .brilliance = 1, .phong_size = 40, .roughness = 0.05}};
+  struct scene seen = {.camera = scene.camera,
+                       .ambient_light = {1, 1, 1},
+                       .lights = lights,
+                       .light_count = 3,
+                       .patches = patches,
+                       .patch_count = 2,
+                       .textures = &texture,
+                       .texture_count = 1,
+                       .solvers = &solver,
+                       .solver_count = 1};
+  method_default(solver_at(0), &solver);
+  request = (struct check_request){.width = WIDTH, .height = HEIGHT, .parse = {1000, 2000}};
+  struct check check = {.request = &request, .listener = &nobody, .scene = &seen};
+  assert_int_equal(check_measure_ours(&check), STATUS_OK);
+  for (size_t k = 0; k < WIDTH * HEIGHT; k++) {
+    const size_t x = k % WIDTH, y = k / WIDTH;
+    const bool left = x < WIDTH / 2, hit = left || y == 1 || y == 2;
+    const double z = left ? 2 : 4, along = ((double)x + 0.5) / WIDTH - 0.5, up = 0.5 - ((double)y + 0.5) / HEIGHT;
+    const struct check_pixel *pixel = &check.ours.pixel[k];
+    assert_int_equal(pixel->hit.patch, left ? 0 : hit ? 1 : HIT_NONE);
+    assert_int_equal(pixel->lights, left ? 6 : hit ? 4 : 0);
+    if (hit) assert_true(fabs(pixel->distance / (z * sqrt(1 + along * along + up * up)) - 1) < 1e-12);
+    else assert_true(isinf(pixel->distance));
+    for (int c = 0; c < 3; c++) assert_true(image_pixel(&check.ours.picture, x, y)[c] == (hit ? (float)CODE / 255 : 0));
+  }
+  assert_true(check.ours.pixel[WIDTH].edge == CHECK_EDGE_NONE);
+  assert_true(check.ours.pixel[WIDTH / 2].edge == CHECK_EDGE_SILHOUETTE);
+  assert_true(check.ours.time.wall >= 1000 && check.ours.time.wall < 1500);
+  assert_true(check.ours.time.cpu >= 2000 && check.ours.time.cpu < 2500);
+  check_ours_free(&check.ours);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(differences_are_counted),
+                                     cmocka_unit_test(hits_of_one_alone_are_counted),
+                                     cmocka_unit_test(distances_are_those_of_a_grid),
+                                     cmocka_unit_test(the_worst_are_apart),
+                                     cmocka_unit_test(the_map_shows_them),
+                                     cmocka_unit_test(our_pixels_are_known)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,75 @@
+/* Threads: each worker works once, and what one of them failed with is not lost. */
+#include "render/threads.h"
+
+#include <stdatomic.h>
+#include <sys/resource.h>
+
+#include "cmocka_test.h"
+
+enum { WORKERS = 5 };
+
+struct work {
+  size_t failing;
+  enum status with;
+  atomic_int times[WORKERS];
+};
+
+static enum status work_once(void *context, size_t worker)
+{
+  struct work *work = context;
+  atomic_fetch_add(&work->times[worker], 1);
+  return worker == work->failing ? work->with : STATUS_OK;
+}
+
+static void a_failure_is_not_lost(void **state)
+{
+  (void)state;
+  for (size_t failing = 0; failing <= WORKERS; failing++) {
+    struct work work = {.failing = failing, .with = STATUS_LIMIT};
+    const struct team team = threads_team(WORKERS);
+    const enum status status = team.run(WORKERS, work_once, &work);
+    assert_int_equal(status, failing < WORKERS ? STATUS_LIMIT : STATUS_OK);
+    for (int k = 0; k < WORKERS; k++) assert_int_equal(work.times[k], 1);
+  }
+}
+
+/* Numbers of threads begin where it is said, and the first that failed is told of. */
+static void they_are_joined(void **state)
+{
+  (void)state;
+  struct thread threads[WORKERS];
+  struct work work = {.failing = 2, .with = STATUS_INTERRUPTED};
+  assert_int_equal(threads_start(threads, 1, WORKERS - 1, work_once, &work), WORKERS - 1);
+  assert_int_equal(threads_join(threads, WORKERS - 1), STATUS_INTERRUPTED);
+  for (int k = 0; k < WORKERS; k++) assert_int_equal(work.times[k], k > 0);
+}
+
+/* With little stack the work is done in a thread that has more. */
+static enum status fill_stack(void *context, size_t worker)
+{
+  volatile char much[3 << 20];
+  (void)worker;
+  for (size_t k = 0; k < sizeof much; k += 1024) much[k] = 1;
+  *(char *)context = much[1024];
+  return STATUS_FILE;
+}
+
+static void there_is_room_for_deep_work(void **state)
+{
+  (void)state;
+  struct rlimit limit, little;
+  char done = 0;
+  assert_int_equal(getrlimit(RLIMIT_STACK, &limit), 0);
+  little = limit, little.rlim_cur = 1 << 20;
+  assert_int_equal(setrlimit(RLIMIT_STACK, &little), 0);
+  assert_int_equal(threads_run_deep(fill_stack, &done), STATUS_FILE);
+  assert_int_equal(setrlimit(RLIMIT_STACK, &limit), 0);
+  assert_int_equal(done, 1);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_failure_is_not_lost), cmocka_unit_test(they_are_joined),
+                                     cmocka_unit_test(there_is_room_for_deep_work)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

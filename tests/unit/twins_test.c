@@ -1,0 +1,73 @@
+/* Nets that are the same in any of the eight orders, in tables so small that searches run over their end. */
+#include "geometry/twins.h"
+
+#include <string.h>
+
+#include "cmocka_test.h"
+#include "random.h"
+
+enum { SEED = 20261126, TRIALS = 2000, NETS = 3 };
+
+typedef double net[4][4][3];
+
+static void random_net(struct random *random, net P)
+{
+  for (int n = 0; n < 48; n++) P[n / 12][n / 3 % 4][n % 3] = random_between(random, -1, 1);
+}
+
+/* The net with its parameters changed for each other where order has 1, u reversed where it has 2, v where it has 4. */
+static void in_order(net P, int order, net out)
+{
+  for (int n = 0; n < 16; n++) {
+    int i = n / 4, j = n % 4;
+    if (order & 1) i = n % 4, j = n / 4;
+    if (order & 2) i = 3 - i;
+    if (order & 4) j = 3 - j;
+    memcpy(out[n / 4][n % 4], P[i][j], sizeof out[0][0]);
+  }
+}
+
+/* Nets, and then a twin of each. */
+static void every_twin_is_found(void **state)
+{
+  (void)state;
+  struct random random = {SEED};
+  for (int trial = 0; trial < TRIALS; trial++) {
+    net P[2 * NETS];
+    bool found[2 * NETS];
+    for (int k = 0; k < NETS; k++) {
+      random_net(&random, P[k]);
+      if (trial % 3 == 0) P[k][1][1][0] = 0;
+      in_order(P[k], (int)(random_bits(&random) % 8), P[NETS + k]);
+      for (int n = 0; n < 48; n++)
+        if (P[NETS + k][n / 12][n / 3 % 4][n % 3] == 0) P[NETS + k][n / 12][n / 3 % 4][n % 3] = -0.0;
+    }
+    assert_int_equal(twins_find(P, sizeof *P, 2 * NETS, found), STATUS_OK);
+    for (int k = 0; k < 2 * NETS; k++) assert_int_equal(found[k], k >= NETS);
+  }
+}
+
+/* One number is not the same: of a border, or of an inner point. */
+static void nearly_is_not_the_same(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 1};
+  for (int n = 0; n < 48; n++) {
+    net P[2];
+    bool found[2];
+    random_net(&random, P[0]);
+    memcpy(P[1], P[0], sizeof P[1]);
+    P[1][n / 12][n / 3 % 4][n % 3] += 0x1p-50;
+    assert_int_equal(twins_find(P, sizeof *P, 2, found), STATUS_OK);
+    assert_true(!found[0] && !found[1]);
+    assert_false(net_twins(P[0], P[1]));
+    assert_true(net_twins(P[0], P[0]) && !net_equal(P[0], P[1]));
+  }
+}
+
+int main(void)
+{
+  print_message("seed %d\n", SEED);
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_twin_is_found), cmocka_unit_test(nearly_is_not_the_same)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
