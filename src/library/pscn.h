@@ -203,7 +203,7 @@ struct pscn_hit {
   double point_error;  /* no further from `point` than this is the exact surface */
   double clearance;    /* see pscn_leave */
   double normal[3];    /* unit, facing the ray's origin; back along the ray where the surface has none */
-  double du[3], dv[3]; /* dS/du, dS/dv */
+  double du[3], dv[3]; /* dS/du, dS/dv, to roundings of the patch's size; no numbers where that is near DBL_MAX */
   uint32_t patch;
   int32_t verdict;  /* enum pscn_verdict */
   int32_t certain;  /* 1: proven; 0: grazing, or no answer */

@@ -49,23 +49,29 @@ static bool take_ray(const struct pscn_ray *ray, struct ray *out)
 
 /* ---- the nearest hit ---- */
 
-/* As patch_evaluate has them, of all three coordinates at a time, which lie side by side. */
+/* The weights of a cubic's control values, and of their differences in its derivative. */
+static void weights_at(double t, double value[4], double difference[3])
+{
+  const double s = 1 - t;
+  double unused[4];
+  patch_weights(t, value, unused);
+  difference[0] = 3 * s * s, difference[1] = 6 * s * t, difference[2] = 3 * t * t;
+}
+
+/* From differences of control points, so that where the patch is does not matter; of all three coordinates at a time, which lie
+ * side by side. */
 static void derivatives(const struct scene_patch *patch, struct pscn_hit *hit)
 {
-  double wu[4], wu_du[4], wv[4], wv_dv[4];
-  patch_weights(hit->u, wu, wu_du);
-  patch_weights(hit->v, wv, wv_dv);
-  for (int j = 0; j < 4; j++) {
-    double across[3] = {0}, across_du[3] = {0};
-    for (int i = 0; i < 4; i++) {
+  double u[4], u_difference[3], v[4], v_difference[3];
+  weights_at(hit->u, u, u_difference);
+  weights_at(hit->v, v, v_difference);
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 4; j++) {
+      const double weight_u = u_difference[i] * v[j], weight_v = u[j] * v_difference[i];
       for (int k = 0; k < 3; k++) {
-        across[k] += wu[i] * patch->P[i][j][k];
-        across_du[k] += wu_du[i] * patch->P[i][j][k];
+        hit->du[k] += weight_u * (patch->P[i + 1][j][k] - patch->P[i][j][k]);
+        hit->dv[k] += weight_v * (patch->P[j][i + 1][k] - patch->P[j][i][k]);
       }
-    }
-    for (int k = 0; k < 3; k++) {
-      hit->du[k] += across_du[k] * wv[j];
-      hit->dv[k] += across[k] * wv_dv[j];
     }
   }
 }

@@ -135,6 +135,33 @@ static void test_hits(void **state)
   assert_true(hits > 100 && misses > 50 && certain > COUNT * 9 / 10);
 }
 
+/* A patch far from the origin has the derivatives that it has there, to roundings of its own size. */
+static void test_derivatives_far_away(void **state)
+{
+  (void)state;
+  double points[2][4][4][3];
+  struct pscn_hit hit[2];
+  struct pscn_scene *scene;
+  uint64_t seed = 3;
+  for (int n = 0; n < 48; n++) {
+    const int i = n / 12, j = n / 3 % 4, k = n % 3;
+    const double flat = k == 0 ? i : k == 1 ? j : 0;
+    points[0][i][j][k] = ldexp(rint(ldexp(flat + 0.3 * random_unit(&seed), 20)), -20);
+    points[1][i][j][k] = points[0][i][j][k] + (k + 1) * 0x1p30;
+  }
+  assert_int_equal(pscn_scene_from_points(**points[0], 2, sizeof *points, sizeof ***points, NULL, &scene), PSCN_OK);
+  for (int at = 0; at < 2; at++) {
+    struct pscn_ray ray = {{1, 2, -5}, {0.125, -0.0625, 1}, 0, INFINITY};
+    for (int k = 0; k < 3; k++) ray.origin[k] += at * (k + 1) * 0x1p30;
+    assert_int_equal(pscn_nearest(scene, 1, &ray, sizeof ray, &hit[at], sizeof hit[at]), PSCN_OK);
+    assert_true(hit[at].verdict == PSCN_HIT && hit[at].patch == (uint32_t)at);
+  }
+  assert_true(fabs(hit[0].u - hit[1].u) < 0x1p-50 && fabs(hit[0].v - hit[1].v) < 0x1p-50);
+  for (int k = 0; k < 3; k++)
+    assert_true(fabs(hit[0].du[k] - hit[1].du[k]) < 0x1p-48 && fabs(hit[0].dv[k] - hit[1].dv[k]) < 0x1p-48);
+  pscn_scene_free(scene);
+}
+
 /* One by one, backwards, and as members of something else. */
 static void test_order_and_strides(void **state)
 {
@@ -401,9 +428,16 @@ static void test_threads(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_hits),       cmocka_unit_test(test_order_and_strides), cmocka_unit_test(test_occluded),
-    cmocka_unit_test(test_ranges),     cmocka_unit_test(test_lengths),           cmocka_unit_test(test_no_answer),
-    cmocka_unit_test(test_arithmetic), cmocka_unit_test(test_previous),          cmocka_unit_test(test_threads),
+    cmocka_unit_test(test_derivatives_far_away),
+    cmocka_unit_test(test_hits),
+    cmocka_unit_test(test_order_and_strides),
+    cmocka_unit_test(test_occluded),
+    cmocka_unit_test(test_ranges),
+    cmocka_unit_test(test_lengths),
+    cmocka_unit_test(test_no_answer),
+    cmocka_unit_test(test_arithmetic),
+    cmocka_unit_test(test_previous),
+    cmocka_unit_test(test_threads),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }
