@@ -221,11 +221,13 @@ void model_make_leaf(const struct model *model, uint32_t number, struct leaf_roo
 
 /* Where `split` is auto a patch is cut until its leaves' derivatives turn by no more than about this fraction of their size, or
  * by `coarse` where there would be more leaves than a picture shows, the second where there still were four times as many, and
- * into so many leaves a side at most: any patch, and one that is bent all over. Choices of speed, not of correctness. */
+ * into so many leaves a side at most: any patch, and one that is bent all over; and where leaves are thicker than they are apart finer
+ * (prepare/crowd.h), while there are no more than `leaves` a patch on average. Choices of speed, not of correctness. */
 enum { COARSER = 2 };
 struct split_limit {
   double turn, coarse[COARSER];
   int any, bent;
+  double leaves;
 };
 
 /* The model of an object: the patches of `nets`, which is borrowed for the call, their boxes wider by `error`. */

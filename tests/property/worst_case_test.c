@@ -363,10 +363,47 @@ static void boxes_and_leaves_made_are_counted(void **state)
   free(nets);
 }
 
+/* ---- stacks of sheets ---- */
+
+/* A sheet bent along u by more than there is to the next one. */
+static void sheet(size_t number, world_net net)
+{
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      net[i][j][0] = i - 1.5, net[i][j][1] = j - 1.5;
+      net[i][j][2] = 0.4 * (i == 1 || i == 2) - 1e-3 * (double)number;
+    }
+}
+
+/* Leaves as thick as they bend would all be in one another's way: one leaf is met, and few others may be tried. */
+static void of_a_stack_few_are_tried(void **state)
+{
+  (void)state;
+  enum { SHEETS = 300, STACK_RAYS = 400, FEW = 5 };
+  world_net *nets = calloc(SHEETS, sizeof *nets);
+  struct random random = {SEED};
+  struct world world;
+  assert_non_null(nets);
+  for (size_t n = 0; n < SHEETS; n++) sheet(n, nets[n]);
+  world_open(&world, nets, SHEETS, NULL);
+  struct intersect_counts before = {.work = 0};
+  for (int n = 0; n < STACK_RAYS; n++) {
+    struct ray ray = {.t_max = INFINITY};
+    towards(&random, (const double[3]){0, 0, 0.2}, 0.8, &ray);
+    assert_int_equal(world_closest(&world, &ray).certainty, CERTAINTY_CERTAIN);
+  }
+  const struct intersect_counts took = counted(&world, &before);
+  print_message("a stack: %.2f leaves a ray\n", (double)took.patches_tested / STACK_RAYS);
+  assert_in_range(took.patches_tested, 1, FEW * STACK_RAYS);
+  world_close(&world);
+  free(nets);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_ray_takes_no_more_than_its_share), cmocka_unit_test(what_is_not_looked_at_hides),
-    cmocka_unit_test(what_is_passed_by_hides_nothing), cmocka_unit_test(boxes_and_leaves_made_are_counted)};
+    cmocka_unit_test(what_is_passed_by_hides_nothing), cmocka_unit_test(boxes_and_leaves_made_are_counted),
+    cmocka_unit_test(of_a_stack_few_are_tried)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

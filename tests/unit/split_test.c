@@ -40,9 +40,16 @@ static double cup(struct random *random, int i, int j)
 /* Leaves of an eighth of it turn by less than a quarter, of a quarter by less than 0.42, of a half by less than 0.84. */
 static double deep_cup(struct random *random, int i, int j) { return 4 * cup(random, i, j); }
 
-/* The split of the first of `count` patches, all of that height and `apart` along x and z; NULL: of random points in a cube. All
- * are cut alike. */
-static int split_of_apart(height *z, size_t count, const double apart[2])
+/* Bent along u only. */
+static double page(struct random *random, int i, int j)
+{
+  (void)random, (void)j;
+  return 0.05 * (i == 1 || i == 2);
+}
+
+/* How the first of `count` patches is cut, all of that height and `apart` along x and z; NULL: of random points in a cube. And
+ * the one in the middle. */
+static void cut_of(height *z, size_t count, const double apart[2], int split[2], int middle[2])
 {
   struct random random = {SEED};
   struct scene scene = {.patch_count = count, .solver_count = 1};
@@ -60,12 +67,21 @@ static int split_of_apart(height *z, size_t count, const double apart[2])
     }
   }
   assert_int_equal(model_create(&scene, NULL, &model), STATUS_OK);
-  const int split = model->cuts[0].split[0];
-  assert_int_equal(model->cuts[0].split[1], split);
+  for (int side = 0; side < 2; side++)
+    split[side] = model->cuts[0].split[side], middle[side] = model->cuts[count / 2].split[side];
   assert_non_null(model->leaves);
   model_destroy(model);
   free(scene.patches);
-  return split;
+}
+
+/* Of patches all of which are cut alike, in both directions. */
+static int split_of_apart(height *z, size_t count, const double apart[2])
+{
+  int split[2], middle[2];
+  cut_of(z, count, apart, split, middle);
+  assert_int_equal(split[1], split[0]);
+  assert_memory_equal(middle, split, sizeof split);
+  return split[0];
 }
 
 static int split_of(height *z, size_t count) { return split_of_apart(z, count, (double[2]){2, 0}); }
@@ -89,25 +105,44 @@ static void many_patches_are_cut_less(void **state)
   assert_int_equal(split_of(NULL, 2 * MANY), 2);
 }
 
-/* Side by side they are small in any picture; one above the other no more of their leaves are seen than of one patch's. */
+/* Side by side they are small in any picture; one above the other, if not so near that their leaves are in one another's boxes, no
+ * more of their leaves are seen than of one patch's. */
 static void patches_side_by_side_are_cut_less(void **state)
 {
   (void)state;
   enum { MANY = 3000 };
   const int one = split_of(cup, 1);
-  print_message("%d; %d, %d\n", one, split_of(cup, MANY), split_of_apart(cup, MANY, (double[2]){0, 1e-3}));
+  print_message("%d; %d, %d\n", one, split_of(cup, MANY), split_of_apart(cup, MANY, (double[2]){0, 0.1}));
   assert_true(one * one * MANY > 1 << 15);
   assert_int_equal(split_of(cup, MANY), one / 2);
-  assert_int_equal(split_of_apart(cup, MANY, (double[2]){0, 1e-3}), one);
+  assert_int_equal(split_of_apart(cup, MANY, (double[2]){0, 0.1}), one);
   assert_int_equal(split_of(deep_cup, 1), 8);
   assert_int_equal(split_of(deep_cup, MANY), 4);
   assert_int_equal(split_of(deep_cup, 10000), 2);
 }
 
+/* Sheets in a stack are in one another's boxes: they are cut finer along what bends, as far as leaves go. */
+static void sheets_in_a_stack_are_cut_finer(void **state)
+{
+  (void)state;
+  enum { SHEETS = 100, MANY = 40000 };
+  int one[2], split[2], middle[2];
+  cut_of(page, 1, (double[2]){0, 0}, one, middle);
+  cut_of(page, SHEETS, (double[2]){0, 0.1}, split, middle);
+  assert_memory_equal(split, one, sizeof one);
+  assert_memory_equal(middle, one, sizeof one);
+  cut_of(page, SHEETS, (double[2]){0, 1e-3}, split, middle);
+  print_message("%d x %d, in a stack %d x %d\n", one[0], one[1], middle[0], middle[1]);
+  assert_in_range(middle[0], 4 * one[0], 16 * one[0]);
+  assert_int_equal(middle[1], one[1]);
+  cut_of(page, MANY, (double[2]){0, 1e-6}, split, middle);
+  assert_in_range(middle[0] * middle[1], 2, (1 << 19) / MANY);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(patches_are_cut_as_far_as_they_bend),
-                                     cmocka_unit_test(many_patches_are_cut_less),
-                                     cmocka_unit_test(patches_side_by_side_are_cut_less)};
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(patches_are_cut_as_far_as_they_bend), cmocka_unit_test(many_patches_are_cut_less),
+    cmocka_unit_test(patches_side_by_side_are_cut_less), cmocka_unit_test(sheets_in_a_stack_are_cut_finer)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

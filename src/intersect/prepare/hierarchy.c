@@ -9,7 +9,9 @@
 #include <stdatomic.h>
 
 #include "base/memory.h"
+#include "base/real.h"
 #include "intersect/prepare/copies.h"
+#include "intersect/prepare/crowd.h"
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/patch.h"
 #include "intersect/prepare/tree.h"
@@ -23,9 +25,10 @@ struct making {
   const struct team *team;
   struct split_limit limit;
   bool keep;               /* patches, and leaves; else they are only looked at */
-  struct arena **arenas;   /* one a thread: of what is kept */
+  struct arena **arenas;   /* one a thread: of what is kept, patches first, then leaves */
   size_t part, part_count; /* patches in a part */
   size_t *leaves;          /* in each part; then before it */
+  struct crowd *crowds;    /* the patches', once they are known */
   struct bvh_box *boxes;   /* where leaves are not kept, as much room as boxes along them take */
   atomic_size_t taken;     /* parts */
 };
@@ -51,6 +54,23 @@ static bool next_room(struct arena *arena, void **room, size_t size)
 {
   if (!*room) *room = arena_alloc(arena, 1, size);
   return *room != NULL;
+}
+
+/* What has been made is the model's, where it is kept. */
+static void end_arenas(struct making *m, bool keep)
+{
+  for (size_t k = 0; m->arenas && k < team_count(m->team); k++) {
+    if (keep) arena_join(m->model->arena, m->arenas[k]);
+    else arena_destroy(m->arenas[k]);
+    m->arenas[k] = NULL;
+  }
+}
+
+static bool begin_arenas(struct making *m)
+{
+  for (size_t k = 0; k < team_count(m->team); k++)
+    if ((m->arenas[k] = arena_create()) == NULL) return false;
+  return true;
 }
 
 /* ---- patches ---- */
@@ -144,9 +164,7 @@ static enum status cut_patches(struct making *m)
   m->part = count / PARTS + 1, m->part_count = (count + m->part - 1) / m->part;
   m->leaves = memory_alloc(m->part_count, sizeof *m->leaves);
   m->arenas = memory_alloc(team_count(m->team), sizeof *m->arenas);
-  if (!m->leaves || !m->arenas) return STATUS_LIMIT;
-  for (size_t k = 0; k < team_count(m->team); k++)
-    if ((m->arenas[k] = arena_create()) == NULL) return STATUS_LIMIT;
+  if (!m->leaves || !m->arenas || !begin_arenas(m)) return STATUS_LIMIT;
   if (m->keep) model->patches = arena_alloc(m->arenas[0], count + 1, sizeof *model->patches);
   if (m->keep && !model->patches) return STATUS_LIMIT;
   const enum status status = do_parts(m, make_patches, count);
@@ -270,8 +288,8 @@ static bool make_room(struct making *m)
     model->places = arena_alloc(model->arena, model->leaf_count, sizeof *model->places);
     return model->places;
   }
-  model->leaves = arena_alloc(model->arena, count, sizeof *model->leaves);
-  void *oriented = arena_alloc(model->arena, count, sizeof *model->oriented);
+  model->leaves = arena_alloc(m->arenas[0], count, sizeof *model->leaves);
+  void *oriented = arena_alloc(m->arenas[0], count, sizeof *model->oriented);
   if (!model->leaves || !oriented) return false;
   memory_used_anywhere(model->leaves, count * sizeof *model->leaves);
   model->oriented = oriented_in(model, oriented);
@@ -314,15 +332,93 @@ static enum status orient(struct making *m)
   return status;
 }
 
-/* What has been made is the model's, where it is kept. */
-static void end_making(struct making *m)
+/* Leaves, and the hierarchy of them. */
+static enum status make_tree(struct making *m)
 {
-  for (size_t k = 0; m->arenas && k < team_count(m->team); k++)
-    if (m->keep) arena_join(m->model->arena, m->arenas[k]);
-    else arena_destroy(m->arenas[k]);
-  memory_free(m->arenas);
-  memory_free(m->leaves);
-  memory_free(m->boxes);
+  struct model *model = m->model;
+  enum status status = begin_arenas(m) && make_room(m) ? do_parts(m, make_leaves, model->leaf_count) : STATUS_LIMIT;
+  if (status != STATUS_OK) return status;
+  /* copies are behind the leaves */
+  for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m->boxes[model->leaf_count + c]);
+  status = tree_build(model->arena, m->boxes, model->leaf_count + model->copy_count, m->team, &model->tree);
+  return status == STATUS_OK ? orient(m) : status;
+}
+
+/* ---- crowds ---- */
+
+/* Patches that are cut as they bend, and no twins of others, who change nothing. */
+static bool may_be_finer(const struct model *model, size_t p)
+{
+  return !model->cuts[p].copied && model->patches[p].method->split == 0 && !(model->twin && model->twin[p]);
+}
+
+static enum status find_crowds(void *context, size_t worker)
+{
+  struct making *m = context;
+  (void)worker;
+  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+    size_t l = m->leaves[part];
+    for (; p < end; p++) {
+      const struct model_cut *cut = &m->model->cuts[p];
+      if (cut->copied) continue;
+      if (may_be_finer(m->model, p)) crowd_find(m->model, p, l, &m->crowds[p]);
+      l += (size_t)cut->split[0] * cut->split[1];
+    }
+  }
+  return STATUS_OK;
+}
+
+/* How many leaves there are when that many of the others stay; patches are cut so where `really`. */
+static size_t cut_crowds(struct making *m, double stay, bool really)
+{
+  struct model *model = m->model;
+  size_t all = 0, part, end;
+  atomic_store(&m->taken, 0);
+  for (size_t p; take_part(m, &part, &p, &end);) {
+    const size_t before = all;
+    for (; p < end; p++) {
+      const struct model_cut *cut = &model->cuts[p];
+      if (cut->copied) continue;
+      uint16_t split[2] = {cut->split[0], cut->split[1]};
+      if (may_be_finer(model, p)) crowd_split(&m->crowds[p], stay, split);
+      if (really) patch_cut_as(model, (uint32_t)p, split, &model->patches[p]);
+      all += (size_t)split[0] * split[1];
+    }
+    if (really) m->leaves[part] = all - before;
+  }
+  return all;
+}
+
+/* Where a ray meets a surface it may be tried in vain on so many leaves before that patch is cut finer; but only where those
+ * beyond are MANY on average over all patches all is done once more: none of the scenes that are measured
+ * (docs/performance.md) has more than half of that, nor books and rolls of paper less than eight times that. Choices of speed. */
+#define STAY 1.0
+#define MANY 0.25
+
+/* Has patches that stand in a crowd cut finer, as far as there may be more leaves: where not twice as many, it is not worth it. */
+static enum status cut_finer(struct making *m)
+{
+  struct model *model = m->model;
+  const size_t count = model->scene->patch_count;
+  size_t own = 0;
+  for (size_t p = 0; p < count; p++) own += may_be_finer(model, p);
+  const double most = m->limit.leaves * (double)own;
+  if (2 * (double)model->leaf_count > most) return STATUS_OK;
+  m->crowds = memory_alloc(count + 1, sizeof *m->crowds);
+  if (!m->crowds) return STATUS_LIMIT;
+  enum status status = do_parts(m, find_crowds, count);
+  double beyond = 0, stay = STAY;
+  for (size_t p = 0; p < count; p++) beyond += real_max((double)m->crowds[p].others - STAY, 0);
+  if (status != STATUS_OK || beyond < MANY * (double)own) return status;
+  size_t all;
+  while ((double)(all = cut_crowds(m, stay, false)) > most) stay *= 1.25;
+  if (all == model->leaf_count) return STATUS_OK;
+  (void)cut_crowds(m, stay, true);
+  number_leaves(m);
+  end_arenas(m, false);
+  tree_free(&model->tree);
+  memory_free(m->boxes), m->boxes = NULL;
+  return make_tree(m);
 }
 
 enum status hierarchy_make(struct model *model, const struct team *team, const struct split_limit *limit, bool keep,
@@ -330,16 +426,15 @@ enum status hierarchy_make(struct model *model, const struct team *team, const s
 {
   struct making m = {.model = model, .team = team, .limit = *limit, .keep = keep};
   enum status status = cut_patches(&m);
-  if (status != STATUS_OK) goto done;
-  if (model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
-  status = make_room(&m) ? do_parts(&m, make_leaves, model->leaf_count) : STATUS_LIMIT;
-  if (status != STATUS_OK) goto done;
-  /* copies are behind the leaves */
-  for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m.boxes[model->leaf_count + c]);
-  status = tree_build(model->arena, m.boxes, model->leaf_count + model->copy_count, team, &model->tree);
-  if (status == STATUS_OK) status = orient(&m);
+  if (status == STATUS_OK && model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
+  end_arenas(&m, m.keep);
+  if (status == STATUS_OK) status = make_tree(&m);
+  if (status == STATUS_OK && m.keep) status = cut_finer(&m);
   if (status == STATUS_OK) tree_set_crossings(model);
-done:
-  end_making(&m);
+  end_arenas(&m, m.keep);
+  memory_free(m.arenas);
+  memory_free(m.leaves);
+  memory_free(m.crowds);
+  memory_free(m.boxes);
   return status;
 }

@@ -67,6 +67,11 @@ static int most_split(int most, size_t patch_count, size_t leaves_max)
   return most;
 }
 
+static double most_leaves(size_t patch_count, size_t leaves_max)
+{
+  return patch_count > 0 ? (double)leaves_max / (double)patch_count : 0;
+}
+
 /* An empty model with its frame. */
 static struct model *model_begin(const struct scene *scene)
 {
@@ -140,11 +145,14 @@ static enum status prepare(struct model *model, const struct team *team)
     if (status != STATUS_OK) return status;
   }
   struct split_limit limit = {AUTO_TURN, COARSE_TURNS, most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
-                              most_split(BENT_SPLIT_MAX, own, BENT_LEAVES_MAX)};
+                              most_split(BENT_SPLIT_MAX, own, BENT_LEAVES_MAX), most_leaves(own, AUTO_LEAVES_MAX)};
   const bool keep = limit.any > 1;
-  if (!keep) limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, OBJECT_LEAVES_MAX);
+  if (!keep) {
+    limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, OBJECT_LEAVES_MAX);
+    limit.leaves = most_leaves(own, OBJECT_LEAVES_MAX);
+  }
   status = copies_prepare(model, team, &limit);
-  if (!keep) limit = (struct split_limit){BOXES_TURN, {BOXES_TURN, BOXES_TURN}, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX};
+  if (!keep) limit = (struct split_limit){BOXES_TURN, {BOXES_TURN, BOXES_TURN}, BOXES_SPLIT_MAX, BOXES_SPLIT_MAX, 0};
   return status == STATUS_OK ? hierarchy_make(model, team, &limit, keep, BENT_LEAVES_MAX) : status;
 }
 

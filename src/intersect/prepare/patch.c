@@ -164,6 +164,13 @@ void patch_cut_again(const struct model *model, uint32_t index, const struct spl
   patch_end(cut, patch);
 }
 
+void patch_cut_as(const struct model *model, uint32_t index, const uint16_t split[2], struct model_patch *patch)
+{
+  struct model_cut *cut = &model->cuts[index];
+  cut->split[0] = split[0], cut->split[1] = split[1];
+  patch_end(cut, patch);
+}
+
 double patch_net_area(const struct model_patch *patch)
 {
   double area = 0;

@@ -43,6 +43,9 @@ void patch_make_first(const struct model *model, uint32_t index, const struct sp
 void patch_cut_again(const struct model *model, uint32_t index, const struct split_limit *limit,
                      struct model_patch *patch);
 
+/* Sets them to what it is cut into. */
+void patch_cut_as(const struct model *model, uint32_t index, const uint16_t split[2], struct model_patch *patch);
+
 /* The area of the patch's control net in its frame: that of the patch, about, and hardly ever less. */
 double patch_net_area(const struct model_patch *patch);
 

@@ -1,0 +1,158 @@
+/* Leaves in one another's boxes.
+ *
+ * A box along a leaf is as thick as the leaf bends, and a ray that meets a surface is tried on all leaves whose boxes hold that
+ * place. How far derivatives turn tells nothing of these: they are counted, at some places of each patch. Where there are many of
+ * them the leaves are made shorter: one half as long is a quarter as thick.
+ */
+#include "intersect/prepare/crowd.h"
+
+#include <math.h>
+
+#include "base/real.h"
+#include "intersect/exact/exact.h"
+#include "intersect/prepare/leaf.h"
+
+/* Looked at are so many leaves of a patch a side, or one where patches are MANY; of each so many boxes and nodes of the hierarchy,
+ * until so many leaves are found. Choices of speed. */
+enum { PLACES = 2, MANY = 4096, LOOKS = 1024, FOUND = 64 };
+
+/* A place that is looked for. */
+struct search {
+  const struct model *model;
+  double x[3];
+  uint32_t own; /* the leaf that it is on */
+  int looks, found;
+};
+
+static bool in_node_box(const struct bvh_node *node, int side, const float at[3])
+{
+  bool in = true;
+  for (int k = 0; k < 3; k++) in &= node->lo[k][side] <= at[k] && at[k] <= node->hi[k][side];
+  return in;
+}
+
+static bool in_leaf_box(const struct oriented_box *box, const float at[3])
+{
+  bool in = true;
+  for (int q = 0; q < 3; q++)
+    in &= fabsf(box->g[0][q] * at[0] + box->g[1][q] * at[1] + box->g[2][q] * at[2] - box->offset[q]) <= box->half[q];
+  return in;
+}
+
+/* A leaf whose surface is no farther from a place than this part of its box's half is no less in the way for being cut. It is
+ * an eighth of the leaf that is a 64th as thick. */
+#define ON_LEAF 0x1p-6
+
+static bool is_on_leaf(const struct model *model, const struct leaf *leaf, const double x[3])
+{
+  const struct model_patch *patch = &model->patches[leaf->patch];
+  const double *c = leaf->quadric.c;
+  double y[3];
+  for (int q = 0; q < 3; q++) {
+    y[q] = -leaf->slab[q].offset;
+    for (int k = 0; k < 3; k++) y[q] += leaf->slab[q].g[k] * ((x[k] - patch->center[k]) / patch->scale);
+  }
+  const double on = c[0] + c[1] * y[1] + c[2] * y[2] + c[3] * y[1] * y[1] + c[4] * y[1] * y[2] + c[5] * y[2] * y[2];
+  return leaf->has_quadric && fabs(y[0] - on) <= ON_LEAF * leaf->slab[0].half;
+}
+
+/* Whether that is another leaf of which rays are told; not so of twins, whose scene is answered as it is without them. */
+static bool is_other(const struct search *s, uint32_t box)
+{
+  const struct model *model = s->model;
+  return box < model->leaf_count && box != s->own && !(model->twin && model->twin[model->oriented[box].patch]);
+}
+
+static void search_tree(struct search *s, const struct model_tree *tree)
+{
+  const struct model *model = s->model;
+  uint32_t wait[BVH_STACK];
+  float at[3];
+  for (int k = 0; k < 3; k++) at[k] = (float)((s->x[k] - tree->origin[k]) / tree->frame);
+  size_t count = 0;
+  for (wait[count++] = 0; count > 0 && s->looks < LOOKS && s->found < FOUND; s->looks++) {
+    const struct bvh_node *node = &tree->bvh.nodes[wait[--count]];
+    for (int side = 0; side < BVH_WIDTH && (side == 0 || node->child[side] != 0); side++) {
+      const uint32_t child = node->child[side], box = child & ~(uint32_t)BVH_LEAF;
+      if (!in_node_box(node, side, at)) continue;
+      if (child == box) wait[count++] = child;
+      else if (model_is_tree(model, box)) search_tree(s, model_inner(model, tree, box));
+      else if (is_other(s, box))
+        s->looks++, s->found += in_leaf_box(&model->oriented[box], at) && !is_on_leaf(model, &model->leaves[box], s->x);
+    }
+  }
+}
+
+/* Second derivatives of the leaf's net across it, the largest of any. */
+static void add_across(const struct leaf *leaf, double across[3])
+{
+  const double *g = leaf->slab[0].g;
+  double z[4][4];
+  for (int n = 0; n < 16; n++) z[n / 4][n % 4] = g[0] * leaf->x[0][n] + g[1] * leaf->x[1][n] + g[2] * leaf->x[2][n];
+  for (int n = 0; n < 8; n++) {
+    const int i = n / 4, j = n % 4;
+    across[0] = real_max(across[0], 6 * fabs(z[i + 2][j] - 2 * z[i + 1][j] + z[i][j]));
+    across[2] = real_max(across[2], 6 * fabs(z[j][i + 2] - 2 * z[j][i + 1] + z[j][i]));
+  }
+  for (int n = 0; n < 9; n++) {
+    const int i = n / 3, j = n % 3;
+    across[1] = real_max(across[1], 9 * fabs(z[i + 1][j + 1] - z[i + 1][j] - z[i][j + 1] + z[i][j]));
+  }
+}
+
+void crowd_find(const struct model *model, size_t number, size_t first, struct crowd *out)
+{
+  const struct model_patch *patch = &model->patches[number];
+  const int most = model->scene->patch_count > MANY ? 1 : PLACES;
+  const int a = patch->split[0], b = patch->split[1], rows = a < most ? a : most, row = b < most ? b : most;
+  double second[3] = {0}, across[3] = {0};
+  int found = 0;
+  for (int k = 0; k < rows * row; k++) {
+    const int u = (2 * (k / row) + 1) * a / (2 * rows), v = (2 * (k % row) + 1) * b / (2 * row);
+    const size_t l = first + (size_t)(u * b + v);
+    const struct leaf *leaf = &model->leaves[l];
+    struct search s = {.model = model, .own = (uint32_t)l};
+    for (int c = 0; c < 3; c++) s.x[c] = patch->center[c] + patch->scale * leaf->parts.base[0][c];
+    search_tree(&s, &model->tree);
+    found += s.found;
+    for (int c = 0; c < 3; c++) second[c] = real_max(second[c], leaf->second[c]);
+    add_across(leaf, across);
+  }
+  const double cells[3] = {a * a, a * b, b * b};
+  out->others = (float)found / (float)(rows * row);
+  for (int c = 0; c < 3; c++)
+    out->second[c] = (float)(second[c] * cells[c]), out->across[c] = (float)(across[c] * cells[c]);
+}
+
+/* That of leaves as thick as these derivatives make them, but for a factor. */
+static double bend_of(const float second[3], const uint16_t split[2])
+{
+  const double a = split[0], b = split[1];
+  return (double)second[0] / (a * a) + 2 * (double)second[1] / (a * b) + (double)second[2] / (b * b);
+}
+
+/* The most leaves a side and of a patch are those of other patches: the last resort has room for them (patch.c). */
+enum { SIDE_MOST = EXACT_REGIONS_MAX / 2, LEAVES_MOST = EXACT_LEAVES };
+
+/* Leaves twice as long along a parameter that bend no more than by this factor may be so. A choice of speed. */
+#define STRAIGHT 1.125
+
+void crowd_split(const struct crowd *crowd, double stay, uint16_t split[2])
+{
+  const double most = stay / (double)crowd->others * bend_of(crowd->across, split);
+  if (!((double)crowd->others > stay)) return;
+  for (int side = 0; side < 2; side++) {
+    uint16_t half[2] = {split[0], split[1]};
+    for (half[side] /= 2; half[side] > 0; half[side] /= 2) {
+      if (!(bend_of(crowd->second, half) <= STRAIGHT * bend_of(crowd->second, split))) break;
+      if (!(bend_of(crowd->across, half) <= STRAIGHT * bend_of(crowd->across, split))) break;
+      split[side] = half[side];
+    }
+  }
+  while (split[0] * split[1] < LEAVES_MOST && bend_of(crowd->across, split) > most) {
+    const double a = split[0], b = split[1];
+    uint16_t *cut = &split[(double)crowd->across[2] / (b * b) > (double)crowd->across[0] / (a * a)];
+    if (2 * *cut > SIDE_MOST) break;
+    *cut = (uint16_t)(2 * *cut);
+  }
+}
