@@ -1,7 +1,6 @@
 /* Nets in planes across the axes, put in order by their planes. */
 #include "geometry/flats.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -13,7 +12,7 @@ struct flat {
 };
 
 /* The axis across which the net lies in a plane, or -1. */
-static int flat_axis(const double P[48])
+static int axis_of(const double P[48])
 {
   for (int axis = 0; axis < 3; axis++) {
     int n = 1;
@@ -34,9 +33,10 @@ enum status flats_find(const void *nets, size_t stride, size_t count, uint32_t o
 {
   size_t flats = 0, planes = 0;
   *out_count = 0;
+  if (count > UINT32_MAX / 4) return STATUS_LIMIT;
   for (size_t p = 0; p < count; p++) {
     const double *P = (const double *)(const void *)((const char *)nets + p * stride);
-    const int axis = flat_axis(P);
+    const int axis = axis_of(P);
     out[p] = (uint32_t)(axis + 1);
     flats += axis >= 0;
   }
@@ -52,10 +52,9 @@ enum status flats_find(const void *nets, size_t stride, size_t count, uint32_t o
     out[p] = 0;
   }
   qsort(flat, flats, sizeof *flat, by_plane);
-  for (size_t k = 1; k < flats; k++) {
-    if (by_plane(&flat[k], &flat[k - 1]) != 0) continue;
-    if (out[flat[k - 1].net] == 0) out[flat[k - 1].net] = (uint32_t)++planes;
-    out[flat[k].net] = (uint32_t)planes;
+  for (size_t k = 0; k < flats; k++) {
+    planes += k == 0 || by_plane(&flat[k], &flat[k - 1]) != 0;
+    out[flat[k].net] = (uint32_t)(3 * planes) + (uint32_t)flat[k].axis;
   }
   memory_free(flat);
   *out_count = planes;

@@ -183,8 +183,8 @@ struct model {
   /* patches that lie exactly on an earlier one (geometry/twins.h), an object's wherever it is copied: never the nearest;
    * NULL for none */
   bool *twin;
-  /* the plane across an axis that a patch shares with others (geometry/flats.h), 0 for none; NULL where there are none. What a
-   * ray meets of one plane is at one t: the patch that stands first is before the others */
+  /* the plane across an axis that a patch lies in (geometry/flats.h), 0 for none; NULL where there are none. What a ray meets of
+   * one plane is at one t: the patch that stands first is before the others */
   uint32_t *plane;
   size_t leaf_count;
   struct model_object *objects;

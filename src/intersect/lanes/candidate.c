@@ -115,8 +115,8 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
 LANES_INLINE lane_mask before_in_plane(const struct packet *p, uint32_t patch, lane_mask active)
 {
   if (!p->model->plane || p->model->plane[patch] == 0) return active;
-  const lane_mask number = (int64_t)patch + (lane_mask){0};
-  return active & ~(one_plane(p->model, number, p->best.patch, active) & (p->best.patch < number));
+  const lane_mask number = (int64_t)patch + (lane_mask){0}, behind = active & (p->best.patch < number);
+  return lanes_any(behind) ? active & ~one_plane(p->model, number, p->best.patch, behind) : active;
 }
 
 void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,

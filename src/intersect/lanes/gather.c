@@ -43,7 +43,10 @@ void gather_best(struct packet *p, lane_mask taken)
   struct hit hits[LANES];
   lanes_store4(best->u, best->v, best->radius_u, best->radius_v, &uv[0][0], 4);
   lanes_store4(best->t, p->t_far - best->t, lanes_all(0), lanes_all(0), &distance[0][0], 4);
+  const lane_mask doubt = best->doubt; /* is the list's, whichever root came first */
+  p->best.doubt = (lane_mask){0};
   (void)finish_best(p, 0, hits);
+  p->best.doubt = doubt;
   struct gathered *root = growing_add(&gather->roots, lanes_count(taken), sizeof *root);
   gather->failed |= !root;
   for (unsigned bits = root ? lanes_bits(taken) : 0; bits; bits &= bits - 1, root++) {

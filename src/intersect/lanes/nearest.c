@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "geometry/flats.h"
 #include "intersect/lanes/gather.h"
 
 /* Makes room in the lane's list, where that was not in vain before. */
@@ -161,6 +162,14 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
          (lanes_abs(uv[1] - best->v) <= radius[1] + best->radius_v);
 }
 
+/* Lanes whose ray starts exactly in the plane across an axis that the patch lies in: it meets that at 0 and nowhere else. */
+static lane_mask starts_in_plane(const struct packet *p, uint32_t patch)
+{
+  const uint32_t plane = p->model->plane ? p->model->plane[patch] : 0;
+  if (plane == 0) return (lane_mask){0};
+  return p->origin[flat_axis(plane)] == p->model->scene->patches[patch].P[0][0][flat_axis(plane)];
+}
+
 /* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where
  * all are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the
  * patch, at an end of the ray or where another root is, is left to the last resort. Returns the lanes that took
@@ -179,8 +188,13 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
     tied = one_plane(p->model, patch + none, p->best.patch, hits & rival);
     rival &= ~tied, hits &= ~tied | first;
   }
-  const lane_mask sure = ~on_border(it, r) & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
-  if (lanes_any(hits & ~sure)) packet_postpone(p, it->leaf, hits & ~sure);
+  const lane_mask within = ~on_border(it, r);
+  const lane_mask sure = within & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
+  if (lanes_any(hits & ~sure)) {
+    const lane_mask start = hits & within & ~sure & starts_in_plane(p, it->leaf->patch);
+    p->best.doubt |= start & (p->t_min <= 0); /* it touches the patch */
+    packet_postpone(p, it->leaf, hits & ~sure & ~start);
+  }
   const lane_mask taken = hits & sure & (tied | best_after(&p->best, at, patch + none, leaf + none));
   if (lanes_any(taken)) packet_take(p, it, r, at, error, taken, true);
   return taken;

@@ -114,7 +114,7 @@ static enum status mark_twins(struct model *model)
   return status;
 }
 
-/* Finds planes that patches share; not there either. */
+/* Finds planes that patches lie in; not there either. */
 static enum status mark_planes(struct model *model)
 {
   const struct scene *scene = model->scene;
