@@ -64,8 +64,11 @@ scenes() {
   examples/generate.sh pearls 4000 >"$folder/pearls.pscn"
   examples/generate.sh floor 1200 >"$folder/floor.pscn"
   examples/generate.sh hills 1600 >"$folder/hills.pscn"
+  examples/generate.sh book 1000 >"$folder/book.pscn"
+  examples/generate.sh roll 6400 >"$folder/roll.pscn"
+  examples/generate.sh marks 100 >"$folder/marks.pscn"
   for name in knots shells knot; do echo "$name 64 $folder/$name.pscn"; done
-  for name in floor hills; do echo "$name 16 $folder/$name.pscn"; done
+  for name in floor hills book roll marks; do echo "$name 16 $folder/$name.pscn"; done
   for name in hair ribbons creature animal confetti pearls; do echo "$name 8 $folder/$name.pscn"; done
 }
 
@@ -219,7 +222,7 @@ cat "$folder/table"
 if [ -n "$page" ] && [ -e "$folder/every" ]; then
   {
     echo "Written by \`examples/benchmark.sh --page\`, by \`beside_embree KIND SCENE\` for each: CPU time of one thread at 800x600,"
-    echo "default solver, medians of $runs turns. Embree has 64 x 64 x 2 triangles a patch, 16 x 16 x 2 in floor and hills and"
+    echo "default solver, medians of $runs turns. Embree has 64 x 64 x 2 triangles a patch, 16 x 16 x 2 in floor, hills, book, roll and marks and"
     echo "8 x 8 x 2 in the last six scenes, of which it would otherwise have millions. Its packets are of 8 rays and, where the"
     echo "processor has the instructions, 16, said to be coherent but for scattered rays; its shadow rays are \`rtcOccluded\`."
     echo "Scattered rays have random places and directions. Up to four rays are answered in registers of AVX2."
@@ -233,6 +236,8 @@ if [ -n "$page" ] && [ -e "$folder/every" ]; then
     echo "| shells | 40 balls of eight patches through one another |"
     echo "| floor | 150 balls of 0.003 to 0.4 on a floor 2,000 wide |"
     echo "| hills | a landscape of 1,600 patches seen along it, under a low sun |"
+    echo "| book, roll | 1,000 curved pages from one spine; 800 turns of a carpet, of eight patches |"
+    echo "| marks | 100 squares on a floor, in its plane |"
     echo "| hair, ribbons | 10,000 patches of 1 : 200; 1,000 of 1 : 1000 |"
     echo "| creature, animal | closed skins of 3,570 and of 11,532 patches |"
     echo "| confetti | 20,000 small patches, each bent another way |"

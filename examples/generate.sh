@@ -10,6 +10,9 @@
 #   examples/generate.sh shells N      N / 8 balls of eight patches through one another
 #   examples/generate.sh pearls N      N / 8 small balls apart from one another
 #   examples/generate.sh floor N       N / 8 balls of very different sizes on a floor 2,000 wide
+#   examples/generate.sh book N        N curved pages from one spine
+#   examples/generate.sh roll N        a carpet roll of N patches, eight a turn
+#   examples/generate.sh marks N       N squares on a floor, in its plane
 #   examples/generate.sh hills N       N patches, a square number, of one smooth landscape, seen along it, the sun as low
 #
 # Of the first three the light stands at the camera: every hit of a camera ray sends one shadow ray, so that counting those
@@ -17,7 +20,7 @@
 set -euo pipefail
 export LC_ALL=C
 
-KINDS='hair ribbons creature knots confetti shells pearls floor hills'
+KINDS='hair ribbons creature knots confetti shells pearls floor book roll marks hills'
 
 kind=${1:?one of: $KINDS}
 count=${2:?how many patches?}
@@ -188,6 +191,50 @@ awk -v kind="$kind" -v n="$count" '
       ball()
     }
   }
+  # The cubic with the points A[i, 0], A[i, 1], as deep as 2 `half`.
+  function ruled(half, i, j) {
+    for (i = 0; i < 4; i++)
+      for (j = 0; j < 4; j++) { P[4 * i + j, 0] = A[i, 0]; P[4 * i + j, 1] = A[i, 1]; P[4 * i + j, 2] = (2 * j / 3 - 1) * half }
+    patch()
+  }
+  function book(k, i, a) {
+    begin(2, 3, -6, 4, 6, -5)
+    for (k = 0; k < n; k++) {
+      a = 3.1415926536 * (k + 0.5) / n
+      for (i = 0; i < 4; i++) { A[i, 0] = 0.6 * i * cos(a); A[i, 1] = 0.6 * i * sin(a) + (i == 1 || i == 2 ? 0.3 : 0) }
+      ruled(1)
+    }
+  }
+  # The point of the roll where it is turned by a, and a third of the way on to the next patch: x, y; dx, dy.
+  function wound(a, step, r) {
+    r = 0.2 + 1.8 * a / (step * n)
+    x = r * cos(a); y = r * sin(a)
+    dx = (1.8 / (step * n) * cos(a) - y) * step / 3; dy = (1.8 / (step * n) * sin(a) + x) * step / 3
+  }
+  function roll(k, step) {
+    begin(0, 3, -6, 4, 6, -5)
+    step = 6.2831853072 / 8
+    for (k = 0; k < n; k++) {
+      wound(k * step, step); A[0, 0] = x; A[0, 1] = y; A[1, 0] = x + dx; A[1, 1] = y + dy
+      wound((k + 1) * step, step); A[3, 0] = x; A[3, 1] = y; A[2, 0] = x - dx; A[2, 1] = y - dy
+      ruled(0.5)
+    }
+  }
+  # A square in the plane y = 0, of that half diagonal, turned by a.
+  function square(half, a, i, u, v) {
+    for (i = 0; i < 16; i++) {
+      u = (2 * int(i / 4) / 3 - 1) / 2; v = (2 * (i % 4) / 3 - 1) / 2
+      P[i, 0] = at[0] + half * ((u + v) * cos(a) + (u - v) * sin(a)); P[i, 1] = 0
+      P[i, 2] = at[2] + half * ((u + v) * sin(a) - (u - v) * cos(a))
+    }
+    patch()
+  }
+  function marks(k) {
+    begin(0, 3, -6, 4, 6, -5)
+    at[0] = at[2] = 0
+    square(14, 0.7853981634)
+    for (k = 0; k < n; k++) { at[0] = between(-3, 3); at[2] = between(-3, 3); square(0.6, between(0, 6.28)) }
+  }
   function hills(side, i, j, x, y) {
     side = int(sqrt(n))
     begin(0, side / 16, -0.7 * side, 7 * side, side / 6, 2.5 * side)
@@ -206,5 +253,6 @@ awk -v kind="$kind" -v n="$count" '
     seed = 20240511
     if (kind == "hair") hair(); else if (kind == "ribbons") ribbons(); else if (kind == "creature") creature()
     else if (kind == "knots") knots(); else if (kind == "confetti") confetti(); else if (kind == "shells") shells()
-    else if (kind == "pearls") pearls(); else if (kind == "floor") floor(); else hills()
+    else if (kind == "pearls") pearls(); else if (kind == "floor") floor()
+    else if (kind == "book") book(); else if (kind == "roll") roll(); else if (kind == "marks") marks(); else hills()
   }'
