@@ -22,6 +22,11 @@ static int axis_of(const double P[48])
   return -1;
 }
 
+static const double *net_at(const void *nets, size_t stride, size_t number)
+{
+  return (const double *)(const void *)((const char *)nets + number * stride);
+}
+
 static int by_plane(const void *a, const void *b)
 {
   const struct flat *x = a, *y = b;
@@ -29,34 +34,36 @@ static int by_plane(const void *a, const void *b)
   return (x->value > y->value) - (x->value < y->value);
 }
 
-enum status flats_find(const void *nets, size_t stride, size_t count, uint32_t out[], size_t *out_count)
+enum status flats_find(const void *nets, size_t stride, size_t count, uint32_t out[], struct flat_plane **out_planes)
 {
-  size_t flats = 0, planes = 0;
-  *out_count = 0;
+  size_t flats = 0;
+  *out_planes = NULL;
   if (count > UINT32_MAX / 4) return STATUS_LIMIT;
   for (size_t p = 0; p < count; p++) {
-    const double *P = (const double *)(const void *)((const char *)nets + p * stride);
-    const int axis = axis_of(P);
-    out[p] = (uint32_t)(axis + 1);
-    flats += axis >= 0;
+    out[p] = (uint32_t)(axis_of(net_at(nets, stride, p)) + 1);
+    flats += out[p] != 0;
   }
   if (flats == 0) return STATUS_OK;
   struct flat *flat = memory_alloc(flats, sizeof *flat);
-  if (!flat) return STATUS_LIMIT;
+  struct flat_plane *plane = flat ? memory_alloc(flats + 1, sizeof *plane) : NULL;
+  if (!plane) {
+    memory_free(flat);
+    return STATUS_LIMIT;
+  }
   flats = 0;
   for (size_t p = 0; p < count; p++) {
     if (out[p] == 0) continue;
     const int axis = (int)out[p] - 1;
-    const double *P = (const double *)(const void *)((const char *)nets + p * stride);
-    flat[flats++] = (struct flat){P[axis], axis, (uint32_t)p};
-    out[p] = 0;
+    flat[flats++] = (struct flat){net_at(nets, stride, p)[axis], axis, (uint32_t)p};
   }
   qsort(flat, flats, sizeof *flat, by_plane);
+  uint32_t number = 0;
   for (size_t k = 0; k < flats; k++) {
-    planes += k == 0 || by_plane(&flat[k], &flat[k - 1]) != 0;
-    out[flat[k].net] = (uint32_t)(3 * planes) + (uint32_t)flat[k].axis;
+    if (k == 0 || by_plane(&flat[k], &flat[k - 1]) != 0) number++;
+    plane[number] = (struct flat_plane){flat[k].value, flat[k].axis};
+    out[flat[k].net] = number;
   }
   memory_free(flat);
-  *out_count = planes;
+  *out_planes = plane;
   return STATUS_OK;
 }

@@ -9,13 +9,16 @@
 
 #include "base/status.h"
 
-/* Sets out[p] to the number of the plane that net p of `count`, at nets + p * stride bytes, lies in: one coordinate of all its
- * control points is the same, to the last bit (0 is -0). 0 where it lies in none. *out_count: how many planes there are.
- * STATUS_LIMIT where memory is short. */
-enum status flats_find(const void *nets, size_t stride, size_t count, uint32_t out[],
-                       size_t *out_count) STATUS_MUST_CHECK;
+/* The plane of all points whose coordinate `axis` is `value`. */
+struct flat_plane {
+  double value;
+  int axis;
+};
 
-/* The axis that a plane of that number is across. */
-static inline int flat_axis(uint32_t plane) { return (int)(plane % 3); }
+/* Sets out[p] to the number of the plane that net p of `count`, at nets + p * stride bytes, lies in: one coordinate of all its
+ * control points is the same, to the last bit (0 is -0). 0 where it lies in none. *out_planes: the planes from number 1 on, to be
+ * freed; NULL where there are none. STATUS_LIMIT where memory is short. */
+enum status flats_find(const void *nets, size_t stride, size_t count, uint32_t out[],
+                       struct flat_plane **out_planes) STATUS_MUST_CHECK;
 
 #endif

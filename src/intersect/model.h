@@ -19,6 +19,7 @@
 #include "base/team.h"
 #include "geometry/bvh.h"
 #include "geometry/edges.h"
+#include "geometry/flats.h"
 #include "intersect/certificate.h"
 #include "scene/scene.h"
 
@@ -186,6 +187,7 @@ struct model {
   /* the plane across an axis that a patch lies in (geometry/flats.h), 0 for none; NULL where there are none. What a ray meets of
    * one plane is at one t: the patch that stands first is before the others */
   uint32_t *plane;
+  struct flat_plane *planes; /* by these numbers */
   size_t leaf_count;
   struct model_object *objects;
   size_t object_count;

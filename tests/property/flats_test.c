@@ -1,7 +1,7 @@
 /* Flat patches over one another in one plane across an axis: the nearest is the one that stands first, as all hits have it,
  * and the last resort is not needed to say so. */
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
 #include "cmocka_test.h"
 #include "geometry/flats.h"
@@ -136,10 +136,11 @@ static void a_plane_costs_no_last_resort(void **state)
 static void planes_are_found(void **state)
 {
   (void)state;
+  static const int axis[] = {0, 1, 1, 2, 1, 2};
   struct random random = {SEED + 2};
   world_net nets[6];
   uint32_t plane[6];
-  size_t count;
+  struct flat_plane *planes;
   flat_net(&random, 0, 0.5, nets[0]);
   flat_net(&random, 1, 0.5, nets[1]);
   flat_net(&random, 1, nextafter(0.5, 1), nets[2]);
@@ -147,16 +148,18 @@ static void planes_are_found(void **state)
   flat_net(&random, 1, 0.5, nets[4]);
   flat_net(&random, 2, 0, nets[5]);
   nets[4][3][2][0] = 0.5;
-  assert_int_equal(flats_find(nets, sizeof nets[0], 6, plane, &count), STATUS_OK);
-  assert_int_equal(count, 4);
-  static const int axis[] = {0, 1, 1, 2, 1, 2};
+  assert_int_equal(flats_find(nets, sizeof nets[0], 6, plane, &planes), STATUS_OK);
   for (int p = 0; p < 6; p++) {
-    assert_true(plane[p] != 0 && flat_axis(plane[p]) == axis[p]);
+    assert_true(plane[p] != 0 && planes[plane[p]].axis == axis[p] && planes[plane[p]].value == nets[p][1][2][axis[p]]);
     for (int q = 0; q < p; q++) assert_int_equal(plane[p] == plane[q], (p == 4 && q == 1) || (p == 5 && q == 3));
   }
+  free(planes);
   nets[4][3][3][1] = nextafter(0.5, 1);
-  assert_int_equal(flats_find(nets, sizeof nets[0], 6, plane, &count), STATUS_OK);
-  assert_true(count == 4 && plane[1] != 0 && plane[4] == 0);
+  assert_int_equal(flats_find(nets, sizeof nets[0], 6, plane, &planes), STATUS_OK);
+  assert_true(plane[1] != 0 && plane[4] == 0);
+  free(planes);
+  assert_int_equal(flats_find(nets[4], sizeof nets[0], 1, plane, &planes), STATUS_OK);
+  assert_true(plane[0] == 0 && planes == NULL);
 }
 
 int main(void)

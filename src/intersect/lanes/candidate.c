@@ -111,10 +111,22 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
  * proves no root, and the last resort looks at most of the patch in any case. */
 #define BLIND 0x1p-5
 
-/* Of `active`, the lanes on which the patch is not behind the nearest hit so far as a part of its plane. */
+/* Lanes whose ray does not come to the plane: it goes away from it, or along it beside it, or leaves it where that is no hit. */
+LANES_INLINE lane_mask leaves_plane(const struct packet *p, const struct flat_plane *plane)
+{
+  const lanes above = p->origin[plane->axis] - plane->value, up = p->direction[plane->axis];
+  const lane_mask touches = (above == 0) & (up != 0);
+  return ((above > 0) & (up >= 0)) | ((above < 0) & (up <= 0)) | (p->any ? touches : touches & (p->t_min > 0));
+}
+
+/* Of `active`, the lanes on which the ray may meet the patch, if it lies in a plane across an axis, and that not behind the
+ * nearest hit so far in that plane. */
 LANES_INLINE lane_mask before_in_plane(const struct packet *p, uint32_t patch, lane_mask active)
 {
-  if (!p->model->plane || p->model->plane[patch] == 0) return active;
+  const uint32_t plane = p->model->plane ? p->model->plane[patch] : 0;
+  if (plane == 0) return active;
+  active &= ~leaves_plane(p, &p->model->planes[plane]);
+  if (!p->oriented) return active;
   const lane_mask number = (int64_t)patch + (lane_mask){0}, behind = active & (p->best.patch < number);
   return lanes_any(behind) ? active & ~one_plane(p->model, number, p->best.patch, behind) : active;
 }
@@ -123,7 +135,7 @@ void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *
                  lane_mask active)
 {
   struct candidate it;
-  if (p->oriented) active = before_in_plane(p, leaf->patch, active);
+  active = before_in_plane(p, leaf->patch, active);
   if (!lanes_any(active)) return;
   it.leaf = leaf, it.patch = patch, it.number = number;
   if (p->patch != it.leaf->patch) packet_set_patch(p, it.patch, it.leaf->patch);

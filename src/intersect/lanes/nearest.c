@@ -6,7 +6,6 @@
 
 #include <math.h>
 
-#include "geometry/flats.h"
 #include "intersect/lanes/gather.h"
 
 /* Makes room in the lane's list, where that was not in vain before. */
@@ -165,9 +164,10 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
 /* Lanes whose ray starts exactly in the plane across an axis that the patch lies in: it meets that at 0 and nowhere else. */
 static lane_mask starts_in_plane(const struct packet *p, uint32_t patch)
 {
-  const uint32_t plane = p->model->plane ? p->model->plane[patch] : 0;
-  if (plane == 0) return (lane_mask){0};
-  return p->origin[flat_axis(plane)] == p->model->scene->patches[patch].P[0][0][flat_axis(plane)];
+  const uint32_t number = p->model->plane ? p->model->plane[patch] : 0;
+  if (number == 0) return (lane_mask){0};
+  const struct flat_plane *plane = &p->model->planes[number];
+  return p->origin[plane->axis] == plane->value;
 }
 
 /* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where

@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "base/real.h"
-#include "geometry/flats.h"
 #include "geometry/twins.h"
 #include "intersect/prepare/copies.h"
 #include "intersect/prepare/hierarchy.h"
@@ -118,12 +117,12 @@ static enum status mark_twins(struct model *model)
 static enum status mark_planes(struct model *model)
 {
   const struct scene *scene = model->scene;
-  size_t planes;
   if (model->unproven) return STATUS_OK;
   uint32_t *plane = memory_alloc(scene->patch_count + 1, sizeof *plane);
   if (!plane) return STATUS_LIMIT;
-  const enum status status = flats_find(scene->patches, sizeof *scene->patches, scene->patch_count, plane, &planes);
-  if (status == STATUS_OK && planes > 0) model->plane = plane;
+  const enum status status = flats_find(scene->patches, sizeof *scene->patches, scene->patch_count, plane,
+                                        &model->planes);
+  if (model->planes) model->plane = plane;
   else memory_free(plane);
   return status;
 }
@@ -190,6 +189,7 @@ void model_destroy(struct model *model)
   tree_free(&model->tree);
   memory_free(model->oriented_room);
   memory_free(model->plane);
+  memory_free(model->planes);
   arena_destroy(model->arena);
   memory_free(model);
 }
