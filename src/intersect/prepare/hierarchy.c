@@ -390,10 +390,10 @@ static size_t cut_crowds(struct making *m, double stay, bool really)
 }
 
 /* Where a ray meets a surface it may be tried in vain on so many leaves before that patch is cut finer; but only where those
- * beyond are MANY on average over all patches all is done once more: none of the scenes that are measured
+ * beyond are CROWDED on average over all patches all is done once more: none of the scenes that are measured
  * (docs/performance.md) has more than half of that, nor books and rolls of paper less than eight times that. Choices of speed. */
 #define STAY 1.0
-#define MANY 0.25
+#define CROWDED 0.25
 
 /* Has patches that stand in a crowd cut finer, as far as there may be more leaves: where not twice as many, it is not worth it. */
 static enum status cut_finer(struct making *m)
@@ -409,7 +409,7 @@ static enum status cut_finer(struct making *m)
   enum status status = do_parts(m, find_crowds, count);
   double beyond = 0, stay = STAY;
   for (size_t p = 0; p < count; p++) beyond += real_max((double)m->crowds[p].others - STAY, 0);
-  if (status != STATUS_OK || beyond < MANY * (double)own) return status;
+  if (status != STATUS_OK || beyond < CROWDED * (double)own) return status;
   size_t all;
   while ((double)(all = cut_crowds(m, stay, false)) > most) stay *= 1.25;
   if (all == model->leaf_count) return STATUS_OK;
