@@ -139,8 +139,8 @@ static bool fits(int code, enum call call)
 }
 
 /* Lets the calls of that kind fail one after the other; or, of a command that takes memory thousands of times and
- * starts programs, the first one of each place that takes memory, or of every third place where the effort is small
- * (PSCN_SEED: of which). Answers how many there are. `old`: what the file to
+ * starts programs, the first one of each place that takes memory. Of commands that make folders, each run of which takes long, every
+ * third one where the effort is small (PSCN_SEED: which), but of processes. Answers how many there are. `old`: what the file to
  * be written, or the page of the folder, held before, or NULL. */
 static long fail_each(const char *const arguments[], enum call call, enum leaves leaves, const char *old)
 {
@@ -150,7 +150,8 @@ static long fail_each(const char *const arguments[], enum call call, enum leaves
   assert_int_equal(run(arguments), STATUS_OK);
   const size_t whole = size_of(output), answered = size_of(answers), files = count_results();
   assert_true(leaves == NOTHING || (leaves == FILES ? whole : files) > 0);
-  const long step = call == ALLOCATE_AT && effort_fraction() < EFFORT_DEFAULT ? 3 : 1;
+  const bool long_run = leaves == FOLDER && call != FORK && call != PIPE;
+  const long step = long_run && effort_fraction() < EFFORT_DEFAULT ? 3 : 1;
   for (long n = (long)(effort_seed(0) % (uint64_t)step);; n += step) {
     prepare(leaves, old);
     atomic_store(left, n);

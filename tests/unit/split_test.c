@@ -125,7 +125,7 @@ static void patches_side_by_side_are_cut_less(void **state)
 static void sheets_in_a_stack_are_cut_finer(void **state)
 {
   (void)state;
-  enum { SHEETS = 100, MANY = 40000 };
+  enum { SHEETS = 100, MANY = 20000 };
   int one[2], split[2], middle[2];
   cut_of(page, 1, (double[2]){0, 0}, one, middle);
   cut_of(page, SHEETS, (double[2]){0, 0.1}, split, middle);
