@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "geometry/patch.h"
 
 struct flat {
   double value; /* of the coordinate */
@@ -20,11 +21,6 @@ static int axis_of(const double P[48])
     if (n == 16) return axis;
   }
   return -1;
-}
-
-static const double *net_at(const void *nets, size_t stride, size_t number)
-{
-  return (const double *)(const void *)((const char *)nets + number * stride);
 }
 
 static int by_plane(const void *a, const void *b)

@@ -8,6 +8,7 @@
 #define PSCN_GEOMETRY_PATCH_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <string.h>
 
 /* The net of the same polynomial over [u0,u1] x [v0,v1], by blossoming. Exact up to a few roundings relative to the
@@ -28,6 +29,12 @@ void patch_reduce(double net[4][4], int m, int n, double out[4][4]);
 /* A unit normal at (u,v): Su x Sv, or where it vanishes its limit along the way into the patch. False where the
  * surface has none (a patch collapsed to a curve or point); then out is zero. */
 bool patch_normal(double x[3][4][4], double u, double v, double out[3]);
+
+/* The 48 numbers of net `number` of those that begin at `nets`, `stride` bytes apart. */
+static inline const double *net_at(const void *nets, size_t stride, size_t number)
+{
+  return (const double *)(const void *)((const char *)nets + number * stride);
+}
 
 /* The weights the four control values of a cubic have in its value (w) and its derivative (dw) at t. */
 static inline void patch_weights(double t, double w[4], double dw[4])

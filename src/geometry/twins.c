@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/real.h"
+#include "geometry/patch.h"
 
 /* So many places of the table are looked at for one net: with half of them free it takes a few, but for a made-up
  * scene, which is not to take long either. */
@@ -65,11 +66,6 @@ static uint64_t inner_hash(const double P[48])
     hash += point;
   }
   return mixed(hash);
-}
-
-static const double *net_at(const void *nets, size_t stride, size_t number)
-{
-  return (const double *)(const void *)((const char *)nets + number * stride);
 }
 
 /* Where a net's search begins. */

@@ -203,6 +203,12 @@ struct model {
 enum status model_create(const struct scene *scene, const struct team *team, struct model **out) STATUS_MUST_CHECK;
 void model_destroy(struct model *model);
 
+/* The number of the plane across an axis that the patch lies in, or 0. */
+static inline uint32_t model_plane(const struct model *model, size_t patch)
+{
+  return model->plane ? model->plane[patch] : 0;
+}
+
 /* Whether a box of the hierarchy, or of a tree in it, is a tree's. */
 static inline bool model_is_tree(const struct model *model, uint32_t box)
 {

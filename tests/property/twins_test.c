@@ -6,22 +6,11 @@
 
 #include "cmocka_test.h"
 #include "geometry/twins.h"
+#include "net_order.h"
 #include "intersect/intersect.h"
 #include "property/world.h"
 
 enum { SEED = 20261122, RAYS = 768, TIMES = 4, MOST = TIMES * WORLD_MAX, FAR = 70000, COPIES = 300 };
-
-/* The net in one of its eight orders. */
-static void in_order(world_net P, int order, world_net out)
-{
-  for (int n = 0; n < 16; n++) {
-    int i = n / 4, j = n % 4;
-    if (order & 1) i = n % 4, j = n / 4;
-    if (order & 2) i = 3 - i;
-    if (order & 4) j = 3 - j;
-    memcpy(out[n / 4][n % 4], P[i][j], sizeof out[0][0]);
-  }
-}
 
 static bool equal(world_net P, world_net Q)
 {

@@ -5,21 +5,8 @@
 
 #include "chart/work.h"
 #include "check/page.h"
-#include "check/plot.h"
 #include "cmocka_test.h"
-
-static json_t *drawn; /* what was to be drawn last */
-
-enum status __wrap_plot_draw(const struct listener *listener, const char *template, const json_t *values,
-                             struct text_buffer *out);
-enum status __wrap_plot_draw(const struct listener *listener, const char *template, const json_t *values,
-                             struct text_buffer *out)
-{
-  (void)listener, (void)template;
-  *out = (struct text_buffer){0};
-  drawn = json_deep_copy(values);
-  return STATUS_OK;
-}
+#include "unit/drawn.h"
 
 enum status __wrap_page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
                               const struct text_buffer content[]);

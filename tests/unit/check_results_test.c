@@ -5,29 +5,18 @@
 
 #include "check/measure.h"
 #include "check/page.h"
-#include "check/plot.h"
 #include "cmocka_test.h"
+#include "unit/drawn.h"
 
 enum { WIDTH = 12, HEIGHT = 2, ROWS = 2, CROP = 15, MOST_PICTURES = 20 };
 
-/* What was written: the numbers, what the figure is drawn from, and of each picture the first and the middle value. */
-static json_t *numbers, *drawn;
+/* What was written: the numbers, and of each picture the first and the middle value. */
+static json_t *numbers;
 static struct {
   size_t width;
   float first, middle;
 } picture[MOST_PICTURES];
 static size_t pictures;
-
-enum status __wrap_plot_draw(const struct listener *listener, const char *template, const json_t *values,
-                             struct text_buffer *out);
-enum status __wrap_plot_draw(const struct listener *listener, const char *template, const json_t *values,
-                             struct text_buffer *out)
-{
-  (void)listener, (void)template;
-  *out = (struct text_buffer){0};
-  drawn = json_deep_copy(values);
-  return STATUS_OK;
-}
 
 enum status __wrap_page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
                               const struct text_buffer pages[]);

@@ -1,5 +1,6 @@
 /* Nets that are the same in any of the eight orders, in tables so small that searches run over their end. */
 #include "geometry/twins.h"
+#include "net_order.h"
 
 #include <string.h>
 
@@ -13,18 +14,6 @@ typedef double net[4][4][3];
 static void random_net(struct random *random, net P)
 {
   for (int n = 0; n < 48; n++) P[n / 12][n / 3 % 4][n % 3] = random_between(random, -1, 1);
-}
-
-/* The net with its parameters changed for each other where order has 1, u reversed where it has 2, v where it has 4. */
-static void in_order(net P, int order, net out)
-{
-  for (int n = 0; n < 16; n++) {
-    int i = n / 4, j = n % 4;
-    if (order & 1) i = n % 4, j = n / 4;
-    if (order & 2) i = 3 - i;
-    if (order & 4) j = 3 - j;
-    memcpy(out[n / 4][n % 4], P[i][j], sizeof out[0][0]);
-  }
 }
 
 /* Nets, and then a twin of each. */

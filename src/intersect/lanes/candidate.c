@@ -123,7 +123,7 @@ LANES_INLINE lane_mask leaves_plane(const struct packet *p, const struct flat_pl
  * nearest hit so far in that plane. */
 LANES_INLINE lane_mask before_in_plane(const struct packet *p, uint32_t patch, lane_mask active)
 {
-  const uint32_t plane = p->model->plane ? p->model->plane[patch] : 0;
+  const uint32_t plane = model_plane(p->model, patch);
   if (plane == 0) return active;
   active &= ~leaves_plane(p, &p->model->planes[plane]);
   if (!p->oriented) return active;

@@ -181,7 +181,7 @@ static struct hit *add_hits(struct packet *p, size_t count)
 static bool place_in_plane(const struct model *model, const struct gathered *roots[], size_t first, size_t k)
 {
   const struct gathered *here = roots[k];
-  const uint32_t plane = model->plane ? model->plane[here->hit.patch] : 0;
+  const uint32_t plane = model_plane(model, here->hit.patch);
   if (plane == 0 || plane != model->plane[roots[first]->hit.patch]) return false;
   for (; k > first && here->hit.patch < roots[k - 1]->hit.patch; k--) roots[k] = roots[k - 1];
   roots[k] = here;

@@ -1,0 +1,20 @@
+/* In the place of gnuplot (-Wl,--wrap=plot_draw): the values that a figure would be drawn from. */
+#ifndef TESTS_UNIT_DRAWN_H
+#define TESTS_UNIT_DRAWN_H
+
+#include "check/plot.h"
+
+static json_t *drawn; /* the last ones */
+
+enum status __wrap_plot_draw(const struct listener *listener, const char *template, const json_t *values,
+                             struct text_buffer *out);
+enum status __wrap_plot_draw(const struct listener *listener, const char *template, const json_t *values,
+                             struct text_buffer *out)
+{
+  (void)listener, (void)template;
+  *out = (struct text_buffer){0};
+  drawn = json_deep_copy(values);
+  return STATUS_OK;
+}
+
+#endif
