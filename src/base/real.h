@@ -2,10 +2,18 @@
 #ifndef PSCN_BASE_REAL_H
 #define PSCN_BASE_REAL_H
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+
+/* Error bounds and sums without error hold only where each operation is rounded by itself, to double, and none is moved. */
+static_assert(FLT_EVAL_METHOD == 0, "doubles are not rounded to double after each operation");
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+  (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "-ffast-math, -Ofast and their parts break every proof: compile without them"
+#endif
 
 /* The unit roundoff of double: one operation is off by at most so much of its result. */
 #define UNIT_ROUNDOFF 0x1p-53
