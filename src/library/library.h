@@ -4,6 +4,7 @@
 
 #include <fenv.h>
 #include <stdbool.h>
+#include <stdint.h>
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -39,11 +40,19 @@ struct pscn_scene {
 struct calm {
   fenv_t callers;
   unsigned control; /* the register */
+  unsigned x87;     /* flags of the x87, where libgcc tells what __float128 over- and underflows */
   bool plain;
 };
 
 #if defined(__SSE2__)
 enum { PLAIN_CONTROL = 0x1f80, CONTROL_FLAGS = 0x3f };
+
+static inline unsigned x87_flags(void)
+{
+  uint16_t status;
+  __asm__ volatile("fnstsw %0" : "=a"(status));
+  return status & FE_ALL_EXCEPT;
+}
 #endif
 
 static inline void calm_begin(struct calm *calm)
@@ -52,6 +61,7 @@ static inline void calm_begin(struct calm *calm)
 #if defined(__SSE2__)
   calm->control = _mm_getcsr();
   calm->plain = (calm->control & ~(unsigned)CONTROL_FLAGS) == PLAIN_CONTROL;
+  calm->x87 = x87_flags();
   if (calm->plain) return;
 #endif
   (void)fegetenv(&calm->callers);
@@ -62,6 +72,8 @@ static inline void calm_end(const struct calm *calm)
 {
 #if defined(__SSE2__)
   if (calm->plain) {
+    const unsigned raised = x87_flags() & ~calm->x87;
+    if (raised) (void)feclearexcept((int)raised); /* of both units */
     if (_mm_getcsr() != calm->control) _mm_setcsr(calm->control);
     return;
   }

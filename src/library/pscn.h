@@ -16,8 +16,8 @@
  * Nothing is ever printed, no signal handled, no thread started, the process never ended. The locale means nothing. Of the
  * environment PSCN_KERNEL is looked at: baseline, avx2, avx512 or avx512_narrow is the instruction set that scenes are made
  * for; where the processor has it not, making one is PSCN_USAGE.
- * The caller's rounding mode, flush-to-zero and floating-point traps mean nothing either, and are as before after each
- * call. Functions answer a status; what was wrong, and where, is kept with the scene until it is asked for.
+ * The caller's rounding mode, flush-to-zero and floating-point traps mean nothing either, and are, with the flags, as before
+ * after each call. Functions answer a status; what was wrong, and where, is kept with the scene until it is asked for.
  *
  * What an answer promises: of all points where the ray meets the patches, as both are given in doubles, the hit is the
  * nearest with t_min < t < t_max, and a miss has none. (Points no farther apart than 2^-95 of their patches, or 2^-105

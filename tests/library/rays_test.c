@@ -334,6 +334,35 @@ static void test_arithmetic(void **state)
   pscn_scene_free(scene);
 }
 
+/* Points so near each other that arithmetic on 128 bits underflows, of which libgcc tells the x87: no flag is left there, for
+ * the first trap that a caller asks for would see it. */
+static void test_underflow(void **state)
+{
+  (void)state;
+  const double size = 1e-300;
+  double net[4][4][3];
+  struct pscn_scene *scene;
+  struct pscn_hit hit;
+  int hits = 0;
+  for (int k = 0; k < 16; k++) {
+    double *point = net[k / 4][k % 4];
+    point[0] = k / 4 * size, point[1] = k % 4 * size, point[2] = (k / 4 * 7 + k % 4 * 5) % 4 * size;
+  }
+  assert_int_equal(pscn_scene_from_points(net[0][0], 1, sizeof net, sizeof net[0][0], NULL, &scene), PSCN_OK);
+  for (int k = 0; k < 16; k++) {
+    const double *point = net[k / 4][k % 4];
+    const struct pscn_ray ray = {.origin = {1.5 * size, size, -3 * size},
+                                 .direction = {point[0] - 1.5 * size, point[1] - size, point[2] + 3 * size},
+                                 .t_max = INFINITY};
+    feclearexcept(FE_ALL_EXCEPT);
+    assert_int_equal(pscn_nearest(scene, 1, &ray, 0, &hit, 0), PSCN_OK);
+    assert_int_equal(fetestexcept(FE_ALL_EXCEPT), 0);
+    hits += hit.verdict == PSCN_HIT;
+  }
+  assert_true(hits >= 8);
+  pscn_scene_free(scene);
+}
+
 /* `start previous` is for one ray after the other; here it is a cold start. */
 static void test_previous(void **state)
 {
@@ -436,6 +465,7 @@ int main(void)
     cmocka_unit_test(test_lengths),
     cmocka_unit_test(test_no_answer),
     cmocka_unit_test(test_arithmetic),
+    cmocka_unit_test(test_underflow),
     cmocka_unit_test(test_previous),
     cmocka_unit_test(test_threads),
   };
