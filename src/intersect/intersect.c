@@ -171,30 +171,24 @@ static void count_again(struct tracer *tracer, const struct intersect_counts *be
   tracer->counts.certain += certain_now, tracer->counts.grazing -= certain_now;
 }
 
-/* Asks for the rays whose answers are not certain one by one (tracer_asks_again). */
-static void ask_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit hits[])
+/* Asks for the rays of these bits one by one (tracer_asks_again). */
+static void ask_alone(struct tracer *tracer, unsigned unsettled, const struct ray rays[], struct hit hits[])
 {
   const struct intersect_counts counts = tracer->counts;
   const struct kernel *kernel = kernel_for(tracer, 1, rays);
   uint64_t certain_now = 0;
-  for (size_t k = 0; k < count; k++) {
-    if (hits[k].certainty == CERTAINTY_CERTAIN) continue;
+  for (; unsettled; unsettled &= unsettled - 1) {
+    const int k = __builtin_ctz(unsettled);
     kernel->closest(tracer, 1, &rays[k], &hits[k]);
     certain_now += hits[k].certainty == CERTAINTY_CERTAIN;
   }
   count_again(tracer, &counts, certain_now);
 }
 
-static bool doubtful(const struct tracer *tracer, size_t count, uint64_t grazing)
-{
-  return tracer->counts.grazing > grazing && tracer_asks_again(tracer, count);
-}
-
 void tracer_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
-  const uint64_t grazing = tracer->counts.grazing;
-  kernel_for(tracer, count, rays)->closest(tracer, count, rays, out_hits);
-  if (doubtful(tracer, count, grazing)) ask_alone(tracer, count, rays, out_hits);
+  const unsigned unsettled = kernel_for(tracer, count, rays)->closest(tracer, count, rays, out_hits);
+  if (unsettled && tracer_asks_again(tracer, count)) ask_alone(tracer, unsettled, rays, out_hits);
 }
 
 void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
@@ -232,7 +226,8 @@ enum status tracer_all(struct tracer *tracer, size_t count, const struct ray ray
   tracer->hits.count = 0;
   if (!kernel_for(tracer, count, rays)->all(tracer, count, rays, out)) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) first[k] = hits, hits += out[k].count;
-  if (doubtful(tracer, count, grazing) && !ask_all_alone(tracer, count, rays, out, first)) return STATUS_LIMIT;
+  const bool again = tracer->counts.grazing > grazing && tracer_asks_again(tracer, count);
+  if (again && !ask_all_alone(tracer, count, rays, out, first)) return STATUS_LIMIT;
   for (size_t k = 0; k < count; k++) out[k].hits = (const struct hit *)tracer->hits.at + first[k];
   return STATUS_OK;
 }

@@ -15,7 +15,8 @@
 /* The entry points of one instruction set. */
 struct kernel {
   const char *name;
-  void (*closest)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
+  /* the rays, as bits, whose answers are not certain and might be others in other company */
+  unsigned (*closest)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
   /* whether some rays were let go */
   bool (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
   /* whether there was memory for it */

@@ -20,7 +20,10 @@ struct answers {
 };
 
 /* Lanes whose answer, whatever it is, is not sure. */
-static unsigned packet_doubt(const struct packet *p) { return p->model->unproven ? ~0u : lanes_bits(p->best.doubt); }
+static unsigned packet_doubt(const struct packet *p)
+{
+  return p->model->unproven ? ~0u : lanes_bits(p->best.doubt | p->best.touches);
+}
 
 /* Where some regions were merged all are, so that the order in which the walk came by them does not show. */
 static struct exact_case lane_case(const struct packet *p, unsigned lane)
@@ -80,7 +83,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
   }
   if (!root->sharp && asked.known && root->patch == known.patch && root->u == known.u && root->v == known.v)
     return false;
-  exact_root_hit(p->model, &p->rays[lane], root, !p->model->unproven && !best->doubt[lane], out);
+  exact_root_hit(p->model, &p->rays[lane], root, !(packet_doubt(p) >> lane & 1), out);
   return true;
 }
 
@@ -237,4 +240,16 @@ unsigned finish_hits(struct packet *p, struct hit out[])
 {
   if (!p->oriented) return write_misses(out, (1u << p->count) - 1, p->model->unproven ? ~0u : 0);
   return finish_best(p, decide_open(p, out), out);
+}
+
+unsigned finish_unsettled(const struct packet *p, const struct hit hits[])
+{
+  unsigned unsettled = 0;
+  for (size_t l = 0; l < p->count; l++)
+    if (hits[l].certainty != CERTAINTY_CERTAIN) unsettled |= 1u << l;
+  if (!p->oriented) return unsettled;
+  const struct best *best = &p->best;
+  const lane_mask known = best->certain | (best->patch == NO_PATCH);
+  const unsigned open = p->postponed->open | packet_let_go(p);
+  return unsettled & ~(lanes_bits(best->touches & known & ~best->doubt) & ~open);
 }

@@ -44,6 +44,7 @@
 #define last_step_take KERNEL(last_step_take)
 #define finish_hits KERNEL(finish_hits)
 #define finish_best KERNEL(finish_best)
+#define finish_unsettled KERNEL(finish_unsettled)
 #define finish_occluded KERNEL(finish_occluded)
 #define gather_start KERNEL(gather_start)
 #define gather_best KERNEL(gather_best)

@@ -32,9 +32,10 @@ struct best {
   lane_mask certain;              /* proven */
   lane_mask final; /* right to the last places, and what follows is set; the others' comes from last_step.h */
   struct surface_point point;
-  lanes normal[3]; /* of any length and sense */
-  lanes tangent;   /* bound on the derivatives' coordinates that the normal is the product of */
-  lane_mask doubt; /* some unproven root could not be told from t_min, and was left out */
+  lanes normal[3];   /* of any length and sense */
+  lanes tangent;     /* bound on the derivatives' coordinates that the normal is the product of */
+  lane_mask doubt;   /* some unproven root could not be told from t_min, and was left out */
+  lane_mask touches; /* the ray starts on a patch: in doubt whatever else is known, in any company */
 };
 
 /* Rays in the frame of a patch, as local_ray.h has one of them. */
@@ -224,6 +225,9 @@ void packet_leave(struct packet *inner);
  * where they are not right to the last places yet; or by the last resort. t is in units of the scaled direction.
  * Returns how many are not certain. */
 unsigned finish_hits(struct packet *p, struct hit out[]);
+
+/* finish.c: the lanes, as bits, whose answers those are not certain and might be others in other company. */
+unsigned finish_unsettled(const struct packet *p, const struct hit hits[]);
 
 /* finish.c: the same, of lanes that have nothing open; those of `written` have their answers. */
 unsigned finish_best(const struct packet *p, unsigned written, struct hit out[]);

@@ -403,9 +403,11 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], st
   bundle_start(b, &tracer->model->tree);
 }
 
-LANES_INLINE void bundle_closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[],
-                                 int share)
+/* Returns the rays whose answers are not settled, as bits. */
+LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const struct ray rays[],
+                                     struct hit out_hits[], int share)
 {
+  unsigned unsettled = 0;
   struct ready ready[PACKETS];
   struct bundle bundle;
   bundle_begin(&bundle, ready, tracer, count, rays, false, share);
@@ -416,9 +418,11 @@ LANES_INLINE void bundle_closest(struct tracer *tracer, size_t count, const stru
     unsigned grazing = finish_hits(packet, hits);
     for (size_t l = 0; l < packet->count && ready[h].copied; l++)
       if (hits[l].patch != HIT_NONE) grazing += hit_scale_back(&hits[l], &packet->rays[l], ready[h].exponent[l]);
+    if (grazing) unsettled |= finish_unsettled(packet, hits) << h * LANES;
     tracer->counts.grazing += grazing, tracer->counts.certain += packet->count - grazing;
     tracer->counts.rays[0] += packet->count;
   }
+  return unsettled;
 }
 
 /* Where nothing is hit all boxes and leaves come to a ray in any order; else it is hit in any, or may be. So its share
@@ -446,15 +450,14 @@ LANES_INLINE int share_of(const struct tracer *tracer, size_t count)
 }
 
 /* One ray is twice in the code, so that it costs no loops over more. */
-static void closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
+static unsigned closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
-  if (count == 1) {
-    bundle_closest(tracer, 1, rays, out_hits, SHARE_ALONE);
-    return;
-  }
+  if (count == 1) return bundle_closest(tracer, 1, rays, out_hits, SHARE_ALONE);
   const int share = share_of(tracer, count);
+  unsigned unsettled = 0;
   for (size_t first = 0; first < count; first += FLOAT_LANES)
-    bundle_closest(tracer, count - first, rays + first, out_hits + first, share);
+    unsettled |= bundle_closest(tracer, count - first, rays + first, out_hits + first, share) << first;
+  return unsettled;
 }
 
 static bool occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
