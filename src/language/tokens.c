@@ -66,8 +66,9 @@ static int make_up(struct tokens *tokens)
 static int stand_in(struct language *language, int token)
 {
   struct tokens *tokens = language->tokens;
-  if (token == TOKEN_SECOND_POINT) {
-    if (!tokens->skipping) language_error(language, tokens->last.place, "a number has one point");
+  if (token == TOKEN_SECOND_POINT || token == TOKEN_OPEN_EXPONENT) { /* whose e POV-Ray takes for part of the number */
+    const char *wrong = token == TOKEN_SECOND_POINT ? "a number has one point" : "the exponent of a number has digits";
+    if (!tokens->skipping) language_error(language, tokens->last.place, "%s", wrong);
     return PSCN_TOKEN_NUMBER;
   }
   if (token != TOKEN_FOREIGN_OPENER) directives_tell(language, token);
