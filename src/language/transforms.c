@@ -61,6 +61,9 @@ const struct transform *transform_scale(struct language *language, struct span p
 
 enum { MATRIX_NUMBERS = 12 };
 
+/* POV-Ray's, absolute: a matrix all of whose numbers for one axis are smaller has none for it. */
+#define EMPTY 1e-10
+
 struct matrix *matrix_begin(struct language *language, const struct value *first)
 {
   struct matrix *matrix = language_alloc(language, sizeof *matrix);
@@ -81,6 +84,14 @@ static struct double_double minor(const double m[12], int i, int j)
   const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
   return dd_add(dd_two_product(m[3 * i1 + j1], m[3 * i2 + j2]),
                 dd_negate(dd_two_product(m[3 * i1 + j2], m[3 * i2 + j1])));
+}
+
+/* Whether POV-Ray takes a column for 0, and a 1 for what stands in the diagonal there. */
+static bool has_empty_column(const double m[12])
+{
+  for (int j = 0; j < 3; j++)
+    if (fabs(m[j]) < EMPTY && fabs(m[3 + j]) < EMPTY && fabs(m[6 + j]) < EMPTY) return true;
+  return false;
 }
 
 /* Whether the determinant is no more than what rounding leaves of a vanishing one: 2^-100 of the size of its terms,
@@ -112,6 +123,8 @@ const struct transform *transform_matrix(struct language *language, struct span 
     language_error(language, place, "matrix needs %d numbers, found %d", MATRIX_NUMBERS, count);
   } else if (is_singular(matrix->number)) {
     language_error(language, place, "this matrix cannot be inverted: it makes everything flat");
+  } else if (has_empty_column(matrix->number)) {
+    language_error(language, place, "POV-Ray leaves an axis as it is of which all numbers are below 1e-10; use scale");
   } else {
     t->identity = t->moves = false;
     for (int i = 0; i < MATRIX_NUMBERS; i++) t->A[i / 3][i % 3] = dd(matrix->number[i]);
