@@ -36,26 +36,34 @@ void camera_begin(struct language *language, struct span place)
   camera->block = language_block(language, place);
 }
 
+/* The version that counts is the one before the first item. */
+static struct camera_items *begin_item(struct language *language)
+{
+  struct camera_items *camera = language->camera;
+  if (!camera->begun) camera->sorted = language->settings->version >= VERSION_SORTED;
+  camera->begun = true;
+  return camera;
+}
+
 void camera_perspective(struct language *language, struct span place)
 {
   if (language->camera->begun) language_error(language, place, "perspective stands first in a camera");
-  language->camera->begun = true;
+  begin_item(language);
 }
 
 /* An item behind another one that POV-Ray would have had to know it. */
 static void tell_late(struct language *language, struct span place)
 {
-  if (language->settings->version < VERSION_SORTED)
+  if (!language->camera->sorted)
     language_error(language, place, "before version 3.5 look_at, angle and transforms stand behind what they change");
 }
 
 void camera_vector(struct language *language, int which, const struct value *value)
 {
-  struct camera_items *camera = language->camera;
-  camera->begun = true;
+  struct camera_items *camera = begin_item(language);
   value_to_vector(language, value, camera->item[which]);
   const bool of_angle = which == CAMERA_DIRECTION || which == CAMERA_RIGHT;
-  if (camera->moved || (camera->look_at && which != CAMERA_LOOK_AT) || (camera->angle > 0 && of_angle))
+  if (camera->moved || camera->look_at || (camera->angle > 0 && of_angle)) /* a look_at begins from another's frame */
     tell_late(language, value->place);
   if (which != CAMERA_LOOK_AT) return;
   camera->look_at = true;
@@ -65,17 +73,19 @@ void camera_vector(struct language *language, int which, const struct value *val
 void camera_angle(struct language *language, const struct value *value)
 {
   double angle;
-  language->camera->begun = true;
-  if (language->camera->moved) tell_late(language, value->place);
+  struct camera_items *camera = begin_item(language);
+  if (camera->moved) tell_late(language, value->place);
   if (!value_to_number(language, value, &angle)) return;
-  if (angle >= 0 && angle < 180) language->camera->angle = angle;
+  if (angle == 0 && !camera->sorted)
+    language_error(language, value->place,
+                   "before version 3.5 the angle must be above 0, which made direction infinite");
+  if (angle >= 0 && angle < 180) camera->angle = angle;
   else language_error(language, value->place, "the angle must be at least 0 and less than 180 degrees");
 }
 
 void camera_transform(struct language *language, const struct transform *transform)
 {
-  struct camera_items *camera = language->camera;
-  camera->begun = true;
+  struct camera_items *camera = begin_item(language);
   camera->moved = true;
   camera->transform = transform_then(&camera->transform, transform);
 }

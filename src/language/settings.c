@@ -24,6 +24,7 @@ void language_version(struct language *language, const struct value *value)
 {
   double *version = &language->settings->version;
   const bool said = value_in_range(language, value, "the version", VERSION_LOW, VERSION_HIGH, false, version);
+  *version = floor(100 * *version + 0.5) / 100; /* POV-Ray knows no more of it */
   if (said && *version < VERSION_READ && language->symbols->depth == 0) {
     diagnostics_warning(language->diagnostics, sources_place(language, value->place),
                         "this is read as version 3.7: colours are linear, whatever gamma the older one had");

@@ -3,8 +3,12 @@
 
 #include <string.h>
 
+#include "language/settings.h"
 #include "language/sources.h"
 #include "language/tokens.h"
+
+/* The first version of which POV-Ray declares a colour's component as a number. */
+#define VERSION_COLOURS 3.5
 
 /* The innermost of that name; with `depth` at least 0, only that of that depth. */
 static struct symbol *find(const struct symbols *symbols, const char *name, size_t length, int depth)
@@ -283,11 +287,31 @@ static void symbol_set(struct symbol *symbol, const struct value *value)
   symbol->value = *value;
 }
 
+static bool is_of_name(char c)
+{
+  return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+/* Whether the text at a place begins with the name of a colour. */
+static bool begins_with_colour(const struct language *language, struct span place)
+{
+  struct name name = sources_name(language, place);
+  const size_t most = name.length;
+  for (name.length = 0; name.length < most && is_of_name(name.text[name.length]);) name.length++;
+  const struct symbol *symbol = symbol_find(language, name.text, name.length);
+  return symbol && symbol->kind == SYMBOL_VALUE && symbol->value.kind == VALUE_COLOUR;
+}
+
 /* A value that is but the name of something else declares another name for it. */
 void declare_value(struct language *language, struct declaration *declaration, const struct value *value)
 {
   if (value->bare)
     language_error(language, value->place, "POV-Ray ends a declaration before the part of a colour; write color first");
+  if (language->settings->version < VERSION_COLOURS && (value->kind == VALUE_NUMBER || value->kind == VALUE_VECTOR) &&
+      begins_with_colour(language, value->place))
+    language_error(
+      language, value->place,
+      "before version 3.5 what begins with a colour's name is declared as a colour; put this in parentheses");
   struct symbol *symbol = declare_end(language, declaration);
   declaration->outer = language->symbols->ended;
   language->symbols->ended = declaration;
