@@ -203,10 +203,22 @@ static bool is_for(const struct language *language, struct span place)
   return words_is_for(text.text, text.length);
 }
 
+/* What names follow a directive of files: #read gives values to several, #fopen declares one, and #fclose forgets it. */
+static int files_naming(const struct language *language, struct span place)
+{
+  struct name text = sources_name(language, place);
+  const enum words_files files = words_files(text.text, text.length);
+  return files == FILES_READ ? TOKEN_FOREIGN_DIRECTIVE : files == FILES_ONE ? PSCN_TOKEN_DECLARE : 0;
+}
+
 int naming_next(const struct language *language, struct naming *naming, int token, struct span place)
 {
   const int directive = naming->token;
+  if (directive == TOKEN_FOREIGN_DIRECTIVE && token < TOKEN_INCLUDE && token != ')' && token != PSCN_TOKEN_DECLARE &&
+      token != PSCN_TOKEN_LOCAL)
+    return token == PSCN_TOKEN_WORD ? PSCN_TOKEN_DECLARE : 0;
   switch (token) {
+  case TOKEN_FOREIGN_DIRECTIVE: *naming = (struct naming){files_naming(language, place), place}; return 0;
   case PSCN_TOKEN_DEPRECATED: /* these may stand before the name */
   case PSCN_TOKEN_ONCE:
   case PSCN_TOKEN_STRING:
@@ -226,9 +238,12 @@ void declare_passed(struct language *language, int token, struct span place, str
   const int directive = naming_next(language, naming, token, place);
   if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE)
     language_tell(language, place, "this stands in what pscn has not, and is passed over");
-  if (directive == 0) return;
-  struct declaration *declaration = declare_begin(language, place,
-                                                  directive == PSCN_TOKEN_LOCAL ? &naming->place : NULL);
+  if (directive != 0) declare_unseen(language, place, directive == PSCN_TOKEN_LOCAL ? &naming->place : NULL);
+}
+
+void declare_unseen(struct language *language, struct span place, const struct span *local)
+{
+  struct declaration *declaration = declare_begin(language, place, local);
   language_foreign(language, place, "this is declared in what pscn has not, and passed over");
   declaration->symbol->lost = true;
   declare_end(language, declaration);

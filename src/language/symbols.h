@@ -89,7 +89,8 @@ struct symbols {
 
 /* A directive of text that is passed over, whose name is still to come. */
 struct naming {
-  int token; /* PSCN_TOKEN_DECLARE, PSCN_TOKEN_LOCAL or TOKEN_UNDEF; 0: none */
+  int
+    token; /* PSCN_TOKEN_DECLARE, PSCN_TOKEN_LOCAL, TOKEN_UNDEF; TOKEN_FOREIGN_DIRECTIVE: #read, of several; 0: none */
   struct span place;
 };
 
@@ -121,6 +122,8 @@ void symbol_mistaken(struct language *language, struct span place, const struct 
 struct declaration *declare_begin(struct language *language, struct span name, const struct span *local);
 /* One token after the other of what is passed over though POV-Ray reads it: names that are declared there are foreign. */
 void declare_passed(struct language *language, int token, struct span place, struct naming *naming);
+/* Such a name. */
+void declare_unseen(struct language *language, struct span place, const struct span *local);
 /* Tells of those that a file leaves open which is about to end, and which are of names of that file. */
 void declare_left_open(struct language *language, struct span end);
 /* It ends. Returns the symbol to write to, or NULL where something was held: then it is foreign. */

@@ -62,6 +62,22 @@ static int make_up(struct tokens *tokens)
   return solver_token(tokens, PSCN_TOKEN_SOLVER);
 }
 
+/* Behind a directive of files: their names, and those that are read from them, stand for what nobody knows here. */
+static void pass_files(struct language *language)
+{
+  const struct span directive = sources_here(language);
+  const struct name text = sources_name(language, directive);
+  const enum words_files files = words_files(text.text, text.length);
+  if (files == FILES_NONE || !(language->declaration || language->tokens->skipping)) return;
+  struct naming naming = {0};
+  (void)naming_next(language, &naming, TOKEN_FOREIGN_DIRECTIVE, directive);
+  while (naming.token != 0) {
+    const int token = pscn_scan_next(&language->sources->frame->scan);
+    const struct span place = sources_here(language);
+    if (naming_next(language, &naming, token, place) != 0) declare_unseen(language, place, NULL);
+  }
+}
+
 /* What stands for a token that is not the grammar's, once that has been told. */
 static int stand_in(struct language *language, int token)
 {
@@ -73,6 +89,7 @@ static int stand_in(struct language *language, int token)
   }
   if (token != TOKEN_FOREIGN_OPENER) directives_tell(language, token);
   tokens->told = tokens->last.place;
+  if (token == TOKEN_FOREIGN_DIRECTIVE) pass_files(language);
   return PSCN_TOKEN_FOREIGN;
 }
 

@@ -108,6 +108,14 @@ bool words_is_for(const char *text, size_t length)
   return length == 3 && memcmp(name, "for", 3) == 0;
 }
 
+enum words_files words_files(const char *text, size_t length)
+{
+  const char *name = words_directive(text, &length);
+  if (length == 4 && memcmp(name, "read", 4) == 0) return FILES_READ;
+  const bool one = (length == 5 && memcmp(name, "fopen", 5) == 0) || (length == 6 && memcmp(name, "fclose", 6) == 0);
+  return one ? FILES_ONE : FILES_NONE;
+}
+
 int words_directive_token(const char *text, size_t length)
 {
   const char *name = words_directive(text, &length);
