@@ -64,7 +64,7 @@ void macro_note(struct language *language, struct macro *macro, int token, struc
   if (!macro->headed) {
     if (word) add_word(language, macro, ROLE_PARAMETER, &name);
     macro->headed = token != '(' && token != ',' && !word;
-  } else if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE) {
+  } else if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE || token == PSCN_TOKEN_VERSION) {
     macro->lasting = true;
   } else if (directive != 0) {
     add_word(language, macro, directive == PSCN_TOKEN_LOCAL ? ROLE_LOCAL : ROLE_DECLARED, &name);

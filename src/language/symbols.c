@@ -236,7 +236,7 @@ int naming_next(const struct language *language, struct naming *naming, int toke
 void declare_passed(struct language *language, int token, struct span place, struct naming *naming)
 {
   const int directive = naming_next(language, naming, token, place);
-  if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE)
+  if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE || token == PSCN_TOKEN_VERSION)
     language_tell(language, place, "this stands in what pscn has not, and is passed over");
   if (directive != 0) declare_unseen(language, place, directive == PSCN_TOKEN_LOCAL ? &naming->place : NULL);
 }
