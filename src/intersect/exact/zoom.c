@@ -229,8 +229,8 @@ static void divide_by_distance(fixed net[4][4], int border)
 }
 
 /* A pole is passed where the ray's distance from it is this many times what rounding leaves unknown of it: then the
- * quotient below is right to 2^-22 of its size, and its slope to 2^-8, at roots no nearer to the border than
- * ZOOM_POLE_NEAREST. */
+ * quotient below is right to 2^-22 of the other combination's slope at any root. What is known of its own slope is
+ * pole.c's to ask (CERTIFICATE_SLOPES). */
 #define POLE_PRECISION (ZOOM_POLE_REACH / 4)
 
 /* Scales the net to a largest coefficient of 1; false where its error is larger. */

@@ -65,10 +65,8 @@ enum zoom_pole {
 /* A pole that is met is no farther from the ray than this many of zoom's errors. */
 #define ZOOM_POLE_REACH 0x1p26
 
-/* As parts of the box, from such a border on: how near to it anything is told where the pole is met, and how near
- * derivatives are good enough for a certificate where it is passed. A root that is nearer asks for a smaller box then. */
+/* How near to such a border anything is told where the pole is met, as a part of the box. */
 #define ZOOM_POLE_MET 0x1p-40
-#define ZOOM_POLE_NEAREST 0x1p-14
 
 /* The same for a box at a border that is one point (geometry/edges.h), where both polynomials are constant: in place of
  * the combination that is zero there, that one divided by the distance d to the border, so that away from it the roots
