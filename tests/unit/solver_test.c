@@ -305,7 +305,6 @@ static void beyond_doubles(void **state)
   }
 }
 
-/* Whatever the iteration limit, an answer comes, and its radii hold. */
 /* Methods that divide by the differences of their values get none that are equal. */
 static void equal_warm_starts_are_parted(void **state)
 {
@@ -320,10 +319,67 @@ static void equal_warm_starts_are_parted(void **state)
   }
 }
 
+/* The steps that all roots took, and the roots themselves. */
+static int steps(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
+                 struct root_set *out)
+{
+  int all = 0;
+  solver_solve(p, options, warm, out);
+  for (int k = 0; k < out->count; k++) all += out->root[k].iterations;
+  return all;
+}
+
+/* `start previous` begins at the roots before, in whatever unit they are sought, and leaves the new ones; `start cold` does
+ * not look at them. */
+static void warm_start_is_where_roots_were(void **state)
+{
+  (void)state;
+  const double plain[] = {-20.0, 22.0, 2.0, -5.0, 1.0}; /* 1, -2, 3 + i, 3 - i */
+  for (size_t s = 0; s < solver_count(); s++) {
+    if (solver_at(s)->real_only) continue; /* it needs no start */
+    for (int size = -40; size <= 40; size += 40) {
+      double c[5];
+      for (int j = 0; j < 5; j++) c[j] = ldexp(plain[j], -j * size);
+      const struct polynomial p = {4, size == 0 ? BASIS_BERNSTEIN : BASIS_POWER, c, NULL};
+      struct solver_options options;
+      solver_options_default(solver_at(s), &options);
+      struct solver_warm warm = {0};
+      struct root_set roots;
+      const int cold = steps(&p, &options, &warm, &roots);
+      assert_int_equal(warm.count, 0);
+      options.start = START_PREVIOUS;
+      assert_int_equal(steps(&p, &options, &warm, &roots), cold);
+      for (int k = 0; k < 4; k++) {
+        double nearest = INFINITY;
+        for (int j = 0; j < warm.count; j++)
+          nearest = fmin(nearest, hypot(warm.re[j] - roots.root[k].re, warm.im[j] - roots.root[k].im));
+        assert_true(nearest <= 2 * roots.root[k].radius); /* where it is within the error a root is put on the axis */
+      }
+      assert_true(2 * steps(&p, &options, &warm, &roots) < cold);
+      options.start = START_COLD;
+      assert_int_equal(steps(&p, &options, &warm, &roots), cold);
+    }
+  }
+}
+
+/* Of 1, 2 and 6 the centroid is 3, and about that Cauchy's equation r^3 = 7 r + 6. */
+static void aberths_circle(void **state)
+{
+  (void)state;
+  const struct root_problem problem = {.degree = 3, .basis = BASIS_POWER, .c = {-12, 20, -9, 1}};
+  double re[3], im[3];
+  start_values(&problem, RADII_CIRCLE, NULL, 3, re, im);
+  for (int i = 0; i < 3; i++) {
+    const double angle = 2 * acos(-1.0) / 3 * (i + 0.25);
+    assert_true(hypot(re[i] - (3 + 3 * cos(angle)), im[i] - 3 * sin(angle)) <= 3 * 1e-2);
+  }
+}
+
+/* Whatever the iteration limit, an answer comes, and its radii hold. */
 static void limits(void **state)
 {
   (void)state;
-  const double c[] = {-0.375, 1.75, -2.375, 1.0};
+  const double c[] = {-0.375, 1.75, -2.375, 1.0}; /* 0.375, 1, 1 */
   for (size_t s = 0; s < solver_count(); s++) {
     struct solver_options options;
     solver_options_default(solver_at(s), &options);
@@ -332,8 +388,9 @@ static void limits(void **state)
     struct root_set roots;
     solver_solve(&p, &options, NULL, &roots);
     for (int k = 0; k < roots.count; k++) {
-      assert_true(roots.root[k].iterations <= 1);
-      assert_true(roots.root[k].radius >= 0.0);
+      const struct root *root = &roots.root[k];
+      assert_true(root->iterations <= 1);
+      assert_true(fmin(hypot(root->re - 0.375, root->im), hypot(root->re - 1.0, root->im)) <= root->radius);
     }
   }
 }
@@ -361,7 +418,9 @@ int main(void)
     cmocka_unit_test(raised_degree),
     cmocka_unit_test(random_roots),
     cmocka_unit_test(warm_start),
+    cmocka_unit_test(warm_start_is_where_roots_were),
     cmocka_unit_test(equal_warm_starts_are_parted),
+    cmocka_unit_test(aberths_circle),
     cmocka_unit_test(limits),
     cmocka_unit_test(division),
     cmocka_unit_test(sizes),
