@@ -255,7 +255,7 @@ enum status check_find_worst(struct check *check)
 enum status check_difference(const struct check *check, const struct check_row *row, double scale, struct image *out)
 {
   const enum status status = image_create(check->request->width, check->request->height, 3, out);
-  if (status != STATUS_OK) return listener_out_of_memory(check->listener);
+  if (status != STATUS_OK) return status;
   const struct compare_pair pair = pair_of(check, row);
   struct compare_result ignored;
   compare_images(&pair, &ignored, out, scale);
