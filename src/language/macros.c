@@ -46,11 +46,9 @@ static void add_word(struct language *language, struct macro *macro, enum macro_
     return;
   }
   struct macro_word *word = language_alloc(language, sizeof *word);
-  /* that of the source may be dropped */
-  char *text = language_afford(language, name->length) ? arena_alloc(language->arena, name->length, 1) : NULL;
-  language->ended_early |= !text;
+  const char *text = language_keep(language, name->text, name->length);
   if (!text) return;
-  *word = (struct macro_word){role, memcpy(text, name->text, name->length), name->length, macro->words};
+  *word = (struct macro_word){role, text, name->length, macro->words};
   macro->words = word;
   macro->count++;
 }

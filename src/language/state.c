@@ -114,3 +114,10 @@ void *language_alloc(struct language *language, size_t size)
   language->spare_used += room;
   return memset(memory, 0, size);
 }
+
+const char *language_keep(struct language *language, const char *text, size_t length)
+{
+  char *kept = language_afford(language, length) ? arena_alloc(language->arena, length, 1) : NULL;
+  language->ended_early |= !kept;
+  return kept ? memcpy(kept, text, length) : NULL;
+}

@@ -133,4 +133,7 @@ bool language_afford(struct language *language, size_t bytes);
 /* zeroed, never NULL: reading ends at the next token instead */
 void *language_alloc(struct language *language, size_t size);
 
+/* A copy of text that may be dropped; NULL where memory is short: reading ends then. */
+const char *language_keep(struct language *language, const char *text, size_t length);
+
 #endif

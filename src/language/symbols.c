@@ -28,15 +28,10 @@ static struct symbol *add(struct language *language, const char *name, size_t le
 {
   struct symbols *symbols = language->symbols;
   struct symbol *symbol = language_alloc(language, sizeof *symbol);
-  /* the text may be dropped */
-  char *kept = language_afford(language, length) ? arena_alloc(language->arena, length, 1) : NULL;
-  language->ended_early |= !kept;
+  const char *kept = language_keep(language, name, length);
   if (language->ended_early) return symbol;
-  *symbol = (struct symbol){.name = memcpy(kept, name, length),
-                            .length = length,
-                            .depth = depth,
-                            .before = symbols->last,
-                            .older = symbols->locals};
+  *symbol = (struct symbol){
+    .name = kept, .length = length, .depth = depth, .before = symbols->last, .older = symbols->locals};
   if (!table_add(&symbols->table, language->arena, &symbol->entry, name, length)) language->ended_early = true;
   else if (depth > 0) symbols->locals = symbol;
   symbols->last = symbol;
