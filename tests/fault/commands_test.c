@@ -120,7 +120,21 @@ static void expect_as_before(enum leaves leaves, const char *old)
   if (leaves == FOLDER) assert_true(old ? count_results() == 1 : access(results, F_OK) != 0);
 }
 
-/* Fails the test with what was told, where the exit code is wrong or a word is missing. */
+/* Whether an error is told more than once. */
+static bool repeats(const char *text)
+{
+  for (const char *line = text, *next; (next = strchr(line, '\n')) != NULL; line = next) {
+    const size_t length = (size_t)(++next - line);
+    for (const char *other = next; (other = strstr(other, ": error: ")) != NULL; other++) {
+      const char *begin = other;
+      while (begin > next && begin[-1] != '\n') begin--;
+      if (strncmp(begin, line, length) == 0) return true;
+    }
+  }
+  return false;
+}
+
+/* Fails the test with what was told, where the exit code is wrong, a word is missing or one too many. */
 static void expect_told(bool right, const char *command, enum call call, long n, int code)
 {
   char text[1000];
@@ -128,7 +142,7 @@ static void expect_told(bool right, const char *command, enum call call, long n,
   const size_t length = file ? fread(text, 1, sizeof text - 1, file) : 0;
   text[length] = '\0';
   if (file) fclose(file);
-  if (!right || strstr(text, ": \n"))
+  if (!right || strstr(text, ": \n") || repeats(text))
     fail_msg("%s: exit code %d where call %ld of kind %d fails: %s", command, code, n, call, text);
 }
 
