@@ -116,6 +116,32 @@ static void test_wrong_solver_texts(void **state)
   }
 }
 
+/* Many different ones, each asked for twice: all are kept, and each once. */
+static void test_textures_and_solvers(void **state)
+{
+  (void)state;
+  enum { COUNT = 100 };
+  static char text[2 * COUNT * 120];
+  size_t length = 0;
+  for (int k = 0; k < 2 * COUNT; k++)
+    length += (size_t)snprintf(text + length, sizeof text - length,
+                               "bicubic_patch { type 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 pigment { rgb %d } "
+                               "solver newton { max_iterations %d } }\n",
+                               k % COUNT, 1 + k % COUNT);
+  assert_true(length < sizeof text - 1);
+  struct scene *scene = NULL;
+  assert_int_equal(load(text, length, &PLAIN, &scene), STATUS_OK);
+  assert_int_equal(scene->patch_count, 2 * COUNT);
+  assert_int_equal(scene->texture_count, COUNT);
+  assert_int_equal(scene->solver_count, 1 + COUNT); /* the scene's own */
+  for (int k = 0; k < 2 * COUNT; k++) {
+    const struct scene_patch *patch = &scene->patches[k];
+    assert_true(scene->textures[patch->texture].pigment[0] == k % COUNT);
+    assert_int_equal(scene->solvers[patch->solver].roots.max_iterations, 1 + k % COUNT);
+  }
+  scene_destroy(scene);
+}
+
 /* --solver replaces every solver statement, --tolerance then that one item of every one. */
 static void test_override(void **state)
 {
@@ -360,6 +386,7 @@ int main(void)
     cmocka_unit_test(test_size),
     cmocka_unit_test(test_solver_text),
     cmocka_unit_test(test_wrong_solver_texts),
+    cmocka_unit_test(test_textures_and_solvers),
     cmocka_unit_test(test_override),
     cmocka_unit_test(test_long_texts),
     cmocka_unit_test(test_many_empty_copies),
