@@ -260,6 +260,37 @@ static void warm_start(void **state)
   }
 }
 
+/* The largest radius of all solvers' roots next to `at`, of that polynomial, as it is and in Bernstein form; INFINITY where one
+ * has another status. */
+static double largest_radius(int degree, const double c[], double at, enum root_status status)
+{
+  const struct polynomial power = {degree, BASIS_POWER, c, NULL};
+  double bernstein[POLYNOMIAL_MAX_DEGREE + 1], error[POLYNOMIAL_MAX_DEGREE + 1], largest = 0.0;
+  polynomial_to_bernstein(&power, bernstein, error);
+  for (size_t s = 0; s < solver_count(); s++) {
+    for (int form = 0; form < 2; form++) {
+      const struct root_set roots = form == 0 ? solve(solver_at(s)->name, degree, BASIS_POWER, c, NULL)
+                                              : solve(solver_at(s)->name, degree, BASIS_BERNSTEIN, bernstein, error);
+      for (int k = 0; k < roots.count; k++) {
+        const struct root *root = &roots.root[k];
+        if (!(hypot(root->re - at, root->im) < 0.1)) continue;
+        largest = fmax(largest, root->status == status ? root->radius : INFINITY);
+      }
+    }
+  }
+  return largest;
+}
+
+/* A radius that is true is of no use if it is large. */
+static void radii_are_small(void **state)
+{
+  (void)state;
+  const double c[] = {-0.5, 1.75, -0.75, -2.0, 1.0}; /* -1, 1/2 twice, 2 */
+  assert_true(largest_radius(4, c, -1.0, ROOT_CONVERGED) < 1e-12);
+  assert_true(largest_radius(4, c, 2.0, ROOT_CONVERGED) < 1e-12);
+  assert_true(largest_radius(4, c, 0.5, ROOT_CLUSTER) < 1e-3);
+}
+
 /* The unknown measured in units of 2^size: the same roots, in those units, with the same statuses, as long as the
  * coefficients are doubles. */
 static void sizes(void **state)
@@ -423,6 +454,7 @@ int main(void)
     cmocka_unit_test(aberths_circle),
     cmocka_unit_test(limits),
     cmocka_unit_test(division),
+    cmocka_unit_test(radii_are_small),
     cmocka_unit_test(sizes),
     cmocka_unit_test(roots_at_one),
     cmocka_unit_test(extremes_beside_the_interval),
