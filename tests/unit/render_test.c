@@ -107,6 +107,24 @@ static void expect_invariance(const struct scene *scene)
   free(whole);
 }
 
+/* A camera sees what is right before it, and to the end of the world. */
+static void all_distances_are_seen(void **state)
+{
+  (void)state;
+  for (int exponent = -20; exponent <= 20; exponent += 20) {
+    struct scene scene = scene_of();
+    patches[1] = square(ldexp(2, exponent), 2, 0);
+    scene.camera.location[2] = 2 - ldexp(1, exponent);
+    scene.patches = &patches[1], scene.patch_count = 1;
+    struct render_options options = options_of("depth");
+    options.crop = (struct rectangle){WIDTH / 2, HEIGHT / 2, 1, 1};
+    struct render_stats stats;
+    float *depth = render(&scene, &options, &stats);
+    assert_true(fabs(ldexp((double)depth[0], -exponent) - 1) < 0.01);
+    free(depth);
+  }
+}
+
 static void threads_and_crop_change_nothing(void **state)
 {
   (void)state;
@@ -505,19 +523,13 @@ static void a_stopped_rendering_says_so(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(threads_and_crop_change_nothing),
-    cmocka_unit_test(nor_do_they_with_warm_starts),
-    cmocka_unit_test(crop_counts_only_its_rays),
-    cmocka_unit_test(colours_follow_the_formulas),
-    cmocka_unit_test(nothing_darkens),
-    cmocka_unit_test(extreme_colours_are_numbers),
-    cmocka_unit_test(shadows_are_cast),
-    cmocka_unit_test(a_light_may_lie_on_a_surface),
-    cmocka_unit_test(channels_tell_of_the_hit),
-    cmocka_unit_test(channels_tell_of_the_solver),
-    cmocka_unit_test(statuses_are_the_answers),
-    cmocka_unit_test(samples_are_a_finer_picture),
-    cmocka_unit_test(a_stopped_rendering_says_so),
+    cmocka_unit_test(all_distances_are_seen),       cmocka_unit_test(threads_and_crop_change_nothing),
+    cmocka_unit_test(nor_do_they_with_warm_starts), cmocka_unit_test(crop_counts_only_its_rays),
+    cmocka_unit_test(colours_follow_the_formulas),  cmocka_unit_test(nothing_darkens),
+    cmocka_unit_test(extreme_colours_are_numbers),  cmocka_unit_test(shadows_are_cast),
+    cmocka_unit_test(a_light_may_lie_on_a_surface), cmocka_unit_test(channels_tell_of_the_hit),
+    cmocka_unit_test(channels_tell_of_the_solver),  cmocka_unit_test(statuses_are_the_answers),
+    cmocka_unit_test(samples_are_a_finer_picture),  cmocka_unit_test(a_stopped_rendering_says_so),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
