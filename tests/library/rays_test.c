@@ -203,6 +203,27 @@ static void test_occluded(void **state)
   }
 }
 
+/* A ray in the plane that a patch touches along a border to the third order, up to a corner that it meets at t: too much to do
+ * for one ray. */
+static void test_occluded_end_of_work(void **state)
+{
+  static const double net[4][4][3] = {{{-3, -3, 3}, {-5, -3, 3}, {-7, -3, 3}, {-9, -3, 3}},
+                                      {{6, -3, 3}, {1, -3, 4}, {-4, -3, 5}, {-9, -3, 6}},
+                                      {{9, -3, 3}, {7, -3, 3}, {5, -3, 3}, {3, -3, 3}},
+                                      {{3, -6, 9}, {3, -5, 7}, {3, -4, 5}, {3, -3, 3}}};
+  (void)state;
+  struct pscn_scene *scene;
+  assert_int_equal(pscn_scene_from_points(net[0][0], 1, sizeof net, sizeof net[0][0], NULL, &scene), PSCN_OK);
+  for (int k = 1; k < 20; k++) {
+    const double t = ldexp(1, -k);
+    const struct pscn_ray ray = {.origin = {-9 + 2 * t, -3, 3 + 2 * t}, .direction = {-2, 0, -2}, .t_max = INFINITY};
+    uint8_t verdict;
+    assert_int_equal(pscn_occluded(scene, 1, &ray, 0, &verdict, 0), PSCN_OK);
+    assert_int_equal(verdict, PSCN_HIT);
+  }
+  pscn_scene_free(scene);
+}
+
 /* From the surface outwards nothing is met, inwards the other side; what t_min and t_max leave over. */
 static void test_ranges(void **state)
 {
@@ -461,6 +482,7 @@ int main(void)
     cmocka_unit_test(test_hits),
     cmocka_unit_test(test_order_and_strides),
     cmocka_unit_test(test_occluded),
+    cmocka_unit_test(test_occluded_end_of_work),
     cmocka_unit_test(test_ranges),
     cmocka_unit_test(test_lengths),
     cmocka_unit_test(test_no_answer),

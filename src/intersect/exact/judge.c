@@ -382,5 +382,5 @@ bool exact_occluded(const struct exact_case *asked)
 {
   struct judge j;
   nearest_run(&j, asked);
-  return j.rivals > 0 || j.doubtful;
+  return j.rivals > 0 || j.doubtful || j.cut_short;
 }

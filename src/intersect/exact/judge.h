@@ -40,6 +40,8 @@ struct judge {
   size_t rivals;
   struct exact_maybe maybe; /* the nearest, where `doubtful` */
   bool doubtful;
+  bool
+    cut_short; /* what may be a hit lies in a box for which the work, or halving, ended, not all of it at the start */
   /* where a root may be that `nearest`, or one before it, could not be told from (judge_tie_fine); infinite for none */
   double tied_from;
   bool doubt; /* of all hits, any doubt; else there were more regions */

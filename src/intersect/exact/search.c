@@ -58,6 +58,8 @@ void search_tell_maybe(struct search *s, struct box *box, bool small)
   double u = 0.5, v = 0.5, error[2];
   search_box_error(s, box, error);
   if (!small) judge_undecided(s->window.judge, box->near);
+  /* Where no point of it is found on the ray, or one at the start, it may hold a hit: what asks for any is told. */
+  if (!small && box->far > s->window.judge->asked->ray->t_min + s->resolution) s->window.judge->cut_short = true;
   if (!box_onto_ray(box, error, &u, &v) && !small) return;
   const double t = t_of_depth(&s->window.depth, patch_evaluate(box->net[2], u, v).value);
   window_tell_maybe(&s->window, box, u, v, t, real_min(box->far - box->near, s->resolution));
