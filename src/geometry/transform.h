@@ -1,7 +1,8 @@
 /* Affine transforms of points, which are row vectors.
  *
  * They are composed in double-double, and a point is rounded once at the end: what comes out is the nearest double of
- * what was said, the same on every machine. Pure; safe on any thread.
+ * what was said, the same on every machine, but where what they leave is 2^-50 of what products on the way are, or less (five
+ * shears by 1e8, and back). Pure; safe on any thread.
  */
 #ifndef PSCN_GEOMETRY_TRANSFORM_H
 #define PSCN_GEOMETRY_TRANSFORM_H

@@ -40,8 +40,7 @@ struct judge {
   size_t rivals;
   struct exact_maybe maybe; /* the nearest, where `doubtful` */
   bool doubtful;
-  bool
-    cut_short; /* what may be a hit lies in a box for which the work, or halving, ended, not all of it at the start */
+  bool cut_short; /* a box beyond the ray's start is left for which the work, or halving, ended: it may hold a hit */
   /* where a root may be that `nearest`, or one before it, could not be told from (judge_tie_fine); infinite for none */
   double tied_from;
   bool doubt; /* of all hits, any doubt; else there were more regions */
