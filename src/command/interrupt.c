@@ -24,6 +24,7 @@ void interrupt_install(void)
   (void)sigaction(SIGINT, &action, NULL);
   (void)sigaction(SIGTERM, &action, NULL);
   (void)signal(SIGXFSZ, SIG_IGN); /* a file that may grow no further is an error of write, told as such */
+  (void)signal(SIGCHLD, SIG_DFL); /* where whoever started us ignores it, we would not learn how a child ended */
   struct sigaction hangup;
   if (sigaction(SIGHUP, NULL, &hangup) == 0 && hangup.sa_handler != SIG_IGN) /* nohup(1) stays in force */
     (void)sigaction(SIGHUP, &action, NULL);

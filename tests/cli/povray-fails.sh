@@ -50,3 +50,5 @@ for MODE in mute fails empty killed slow answers timeless talks; do
 done
 echo "no room:"
 (export TMPDIR=$PWD/none MODE=answers; try pscn check "$scene" $small --povray ./povray -o out 2>&1)
+echo "ends of children are ignored where pscn is started:"
+(trap '' CHLD; export MODE=fails; try pscn check "$scene" $small --povray ./povray -o out 2>&1 | cat -v)
