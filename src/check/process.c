@@ -105,7 +105,7 @@ static bool restrict_program(const struct process_request *request, pid_t parent
 /* In the child: becomes the program, or tells why not through the pipe, which a started program closes. */
 static void become(const struct process_request *request, int report, pid_t parent)
 {
-  static const int OURS[] = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ};
+  static const int OURS[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGXFSZ};
   (void)setpgid(0, 0);
   for (size_t k = 0; k < sizeof OURS / sizeof OURS[0]; k++) (void)signal(OURS[k], SIG_DFL);
   bool ready = redirect(request->output) && (request->folder == NULL || chdir(request->folder) == 0);

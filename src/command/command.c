@@ -26,7 +26,7 @@ const struct command *command_at(size_t index) { return commands[index]; }
 
 const char command_exit_codes[] =
   "Exit codes: 0 done, 1 a comparison failed or parts are missing, 2 usage, 3 scene or input error, 4 file error,\n"
-  "5 memory or a limit, 130, 143 and 129 interrupted.\n";
+  "5 memory or a limit, 130, 143, 129 and 152 interrupted.\n";
 
 const struct command *command_find(const char *name)
 {

@@ -23,7 +23,8 @@ void interrupt_install(void)
   sigemptyset(&action.sa_mask);
   (void)sigaction(SIGINT, &action, NULL);
   (void)sigaction(SIGTERM, &action, NULL);
-  (void)signal(SIGXFSZ, SIG_IGN); /* a file that may grow no further is an error of write, told as such */
+  (void)sigaction(SIGXCPU, &action, NULL); /* the soft limit: some time is left to put away what is done */
+  (void)signal(SIGXFSZ, SIG_IGN);          /* a file that may grow no further is an error of write, told as such */
   (void)signal(SIGCHLD, SIG_DFL); /* where whoever started us ignores it, we would not learn how a child ended */
   struct sigaction hangup;
   if (sigaction(SIGHUP, NULL, &hangup) == 0 && hangup.sa_handler != SIG_IGN) /* nohup(1) stays in force */

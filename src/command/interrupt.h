@@ -1,5 +1,5 @@
-/* SIGINT, SIGTERM and SIGHUP: the process ends with 128 + the signal's number (130, 143, 129) and leaves nothing
- * behind.
+/* SIGINT, SIGTERM, SIGHUP and SIGXCPU: the process ends with 128 + the signal's number (130, 143, 129, 152) and leaves
+ * nothing behind.
  *
  * A signal ends the process at once. Between interrupt_defer and interrupt_resume it only raises the flag, for whoever
  * has something to put away first, and watches it; the command then answers STATUS_INTERRUPTED, of which main makes

@@ -1,7 +1,7 @@
-# SIGINT gives 130, SIGTERM 143; neither touches the picture, and what is done is kept beside it, or nowhere.
+# SIGINT gives 130, SIGTERM 143, SIGXCPU 152; none touches the picture, and what is done is kept beside it, or nowhere.
 scene=$SCENES/bent.pscn
 echo old >a.png
-for signal in INT TERM; do
+for signal in INT TERM XCPU; do
   pscn render "$scene" -o a.png --size 2000x2000 --samples 16 --quiet &
   sleep 1
   kill -$signal $!
