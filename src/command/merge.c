@@ -293,8 +293,12 @@ static enum status check(const struct command *command, struct request *request,
   if (request->bits == 0) request->bits = (size_t)image_format_default_bits(request->format);
   if (!image_format_has_bits(request->format, (int)request->bits))
     return command_usage(command, "'%s' cannot have %zu bits a value", request->output, request->bits);
-  for (size_t k = 0; k < line->positional_count && status == STATUS_OK; k++)
-    status = output_spare(command, request->output, line->positional[k]);
+  for (size_t k = 0; k < line->positional_count && status == STATUS_OK; k++) {
+    const char *piece = line->positional[k];
+    status = output_spare(command, request->output, piece);
+    if (status == STATUS_OK && !output_is_standard(piece)) /* "-" is the name of a file */
+      status = output_spare(command, "-", piece);
+  }
   return status == STATUS_OK ? output_probe(command, request->output) : status;
 }
 

@@ -56,6 +56,10 @@ into rays pscn trace main.pscn <rays
 into polynomials pscn roots <polynomials
 into b.png pscn compare a.png b.png
 into b.png pscn render scene.pscn -o b.png --stats - $small
+pscn render scene.pscn --tile 1/2 -o piece.exr --size 64x48 --quiet
+cksum piece.exr >piece.sum
+into piece.exr pscn merge piece.exr -o c.png
+cksum piece.exr | cmp - piece.sum && rm piece.exr piece.sum
 cat rays polynomials
 cksum a.png | cmp - sum && pscn compare --quiet a.png b.png && [ "$(sums)" = "$before" ] && echo "all is as it was"
 rm rays
