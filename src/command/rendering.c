@@ -35,6 +35,7 @@ struct rendering {
   struct progress progress;
   double kept;   /* when it was last kept, in seconds since the rendering began */
   bool has_part; /* there is a file of what is done */
+  size_t left;   /* pixels of this picture in the file that an earlier run has left, where we do not go on from it */
 };
 
 /* Writes what is done into its file. Whether that could be done: it is told where not. */
@@ -58,13 +59,22 @@ static bool keep(struct rendering *rendering)
   return status == STATUS_OK;
 }
 
+/* Whether more than is done is in the file that an earlier run has left: who forgot --resume and ends the rendering for that
+ * shall still have it. */
+static bool has_less(const struct rendering *rendering)
+{
+  return !rendering->has_part && tile_list_pixels(&rendering->piece.tiles, true) < rendering->left &&
+         access(rendering->request->part, F_OK) == 0;
+}
+
 /* About ten times a second. */
 static void look(void *context, const struct render_progress *progress)
 {
   struct rendering *rendering = context;
   const struct rendering_request *request = rendering->request;
   if (!request->scene->quiet) progress_tell(&rendering->progress, progress);
-  if (request->part == NULL || !(request->checkpoint > 0) || progress->seconds - rendering->kept < request->checkpoint)
+  if (request->part == NULL || !(request->checkpoint > 0) ||
+      progress->seconds - rendering->kept < request->checkpoint || has_less(rendering))
     return;
   const struct seconds start = seconds_now();
   (void)keep(rendering);
@@ -76,22 +86,43 @@ static void keep_interrupted(struct rendering *rendering)
 {
   const size_t done = tile_list_pixels(&rendering->piece.tiles, true),
                all = tile_list_pixels(&rendering->piece.tiles, false);
-  if (rendering->request->part == NULL || done == 0 || !keep(rendering) || rendering->request->scene->quiet) return;
-  fprintf(stderr, "pscn %s: interrupted; the %.0f %% that are done are in '", rendering->command->name,
-          floor(100 * (double)done / (double)all));
+  if (rendering->request->part == NULL) return;
+  const bool less = has_less(rendering);
+  if (!(less || (done > 0 && keep(rendering))) || rendering->request->scene->quiet) return;
+  fprintf(stderr, "pscn %s: interrupted; the %.0f %% that %s in '", rendering->command->name,
+          floor(100 * (double)(less ? rendering->left : done) / (double)all),
+          less ? "an earlier run has done stay" : "are done are");
   command_print(stderr, rendering->request->part);
   fputs("', and --resume goes on from there\n", stderr);
 }
 
-/* Takes the tiles of what an earlier run has left; false where it is of something else, and the message says what parts them. */
-static bool take_part(struct rendering *rendering, const struct piece *part, char *message, size_t size)
+/* Whether what an earlier run has left is of what is rendered now; else the message says what parts them. */
+static bool is_part(const struct piece *piece, const struct piece *part, char *message, size_t size)
 {
-  struct piece *piece = &rendering->piece;
   if (part->number != piece->number || part->count != piece->count) {
     snprintf(message, size, "its piece: %zu/%zu, not %zu/%zu", part->number, part->count, piece->number, piece->count);
     return false;
   }
-  if (!piece_belongs(&part->image, &piece->image, message, size)) return false;
+  return piece_belongs(&part->image, &piece->image, message, size);
+}
+
+/* How many pixels of this picture an earlier run has left; 0 where it is of another one, or cannot be read. */
+static size_t pixels_left(const struct rendering *rendering, const char *path)
+{
+  struct piece part;
+  char message[IMAGE_MESSAGE_SIZE];
+  if (piece_read(path, true, &part, message) != STATUS_OK) return 0; /* with its pixels: a damaged one is of no use */
+  const bool ours = is_part(&rendering->piece, &part, message, sizeof message);
+  const size_t pixels = ours ? tile_list_pixels(&part.tiles, true) : 0;
+  piece_destroy(&part);
+  return pixels;
+}
+
+/* Takes its tiles; false where it is of something else. */
+static bool take_part(struct rendering *rendering, const struct piece *part, char *message, size_t size)
+{
+  struct piece *piece = &rendering->piece;
+  if (!is_part(piece, part, message, size)) return false;
   snprintf(message, size, "it lacks a channel");
   if (!piece_copy(part, &piece->image)) return false;
   for (size_t k = 0; k < part->tiles.count; k++) atomic_store(&piece->tiles.done[k], atomic_load(&part->tiles.done[k]));
@@ -109,6 +140,7 @@ static enum status resume(struct rendering *rendering)
   if (!rendering->request->resume) {
     if (!rendering->request->scene->quiet)
       command_warning(command, "'%s' is left by an earlier run; --resume goes on from there", path);
+    rendering->left = pixels_left(rendering, path);
     return STATUS_OK;
   }
   const enum status status = piece_read(path, true, &part, message);
@@ -225,7 +257,7 @@ static enum status write_results(struct rendering *rendering)
   const size_t length = statistics == NULL ? 0 : strlen(statistics);
   const struct atomic_file files[] = {{request->output, bytes, size},
                                       {request->stats, statistics, length},
-                                      {rendering->has_part ? request->part : NULL, NULL, 0}};
+                                      {rendering->has_part || rendering->left > 0 ? request->part : NULL, NULL, 0}};
   if (status == STATUS_OK) status = output_write(command, files, 3);
   free(statistics);
   free(bytes);

@@ -59,6 +59,18 @@ pscn render $scene -o half.exr --resume 2>/dev/null; echo "exit $?"
 # Nor without being asked to, but it says so.
 cp one.exr half.exr.part.exr
 pscn render $SCENES/flat.pscn --size 20x10 -o half.exr 2>&1 | head -1
+# Who forgot --resume and ends the rendering for that loses nothing; when the picture is complete what was kept of it goes.
+pscn render $scene --tile 1/1 -o all.exr --quiet
+for attempt in {1..20}; do
+  cp all.exr left.exr.part.exr
+  pscn render $scene -o left.exr --threads 1 --checkpoint 0.01 --quiet &
+  sleep 0.7
+  kill -INT $! 2>/dev/null
+  wait $! || break
+done
+cmp all.exr left.exr.part.exr && echo 'what was left is there'
+pscn render $scene -o left.exr --quiet
+rm all.exr
 # Nothing to go on from.
 pscn render $SCENES/flat.pscn --size 20x10 -o new.png --resume --quiet
 LC_ALL=C ls
