@@ -111,7 +111,7 @@ static size_t pixels_left(const struct rendering *rendering, const char *path)
 {
   struct piece part;
   char message[IMAGE_MESSAGE_SIZE];
-  if (piece_read(path, true, &part, message) != STATUS_OK) return 0; /* with its pixels: a damaged one is of no use */
+  if (piece_read(path, false, &part, message) != STATUS_OK) return 0;
   const bool ours = is_part(&rendering->piece, &part, message, sizeof message);
   const size_t pixels = ours ? tile_list_pixels(&part.tiles, true) : 0;
   piece_destroy(&part);
@@ -138,9 +138,11 @@ static enum status resume(struct rendering *rendering)
   char message[IMAGE_MESSAGE_SIZE];
   if (path == NULL || access(path, F_OK) != 0) return STATUS_OK;
   if (!rendering->request->resume) {
-    if (!rendering->request->scene->quiet)
-      command_warning(command, "'%s' is left by an earlier run; --resume goes on from there", path);
     rendering->left = pixels_left(rendering, path);
+    if (!rendering->request->scene->quiet)
+      command_warning(command, "'%s' is left by an earlier run%s", path,
+                      rendering->left > 0 ? "; --resume goes on from there"
+                                          : ", of another picture, which this one replaces");
     return STATUS_OK;
   }
   const enum status status = piece_read(path, true, &part, message);
