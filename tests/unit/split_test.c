@@ -47,9 +47,12 @@ static double page(struct random *random, int i, int j)
   return 0.05 * (i == 1 || i == 2);
 }
 
-/* How the first of `count` patches is cut, all of that height and `apart` along x and z; NULL: of random points in a cube. And
- * the one in the middle. */
-static void cut_of(height *z, size_t count, const double apart[2], int split[2], int middle[2])
+/* A third of a pipe. */
+static double gutter(struct random *random, int i, int j) { return 6 * page(random, i, j); }
+
+/* How the first of `count` patches is cut, all of that height and length and `apart` along x and z; NULL: of random points in a
+ * cube. And the one in the middle. */
+static void cut_of(height *z, double length, size_t count, const double apart[2], int split[2], int middle[2])
 {
   struct random random = {SEED};
   struct scene scene = {.patch_count = count, .solver_count = 1};
@@ -62,7 +65,7 @@ static void cut_of(height *z, size_t count, const double apart[2], int split[2],
     for (int n = 0; n < 16; n++) {
       double *x = scene.patches[p].P[n / 4][n % 4];
       x[0] = z ? n / 4 / 3.0 + apart[0] * (double)p : random_between(&random, -1, 1);
-      x[1] = z ? n % 4 / 3.0 : random_between(&random, -1, 1);
+      x[1] = z ? length * (n % 4 / 3.0) : random_between(&random, -1, 1);
       x[2] = z ? z(&random, n / 4, n % 4) + apart[1] * (double)p : random_between(&random, -1, 1);
     }
   }
@@ -78,7 +81,7 @@ static void cut_of(height *z, size_t count, const double apart[2], int split[2],
 static int split_of_apart(height *z, size_t count, const double apart[2])
 {
   int split[2], middle[2];
-  cut_of(z, count, apart, split, middle);
+  cut_of(z, 1, count, apart, split, middle);
   assert_int_equal(split[1], split[0]);
   assert_memory_equal(middle, split, sizeof split);
   return split[0];
@@ -127,22 +130,40 @@ static void sheets_in_a_stack_are_cut_finer(void **state)
   (void)state;
   enum { SHEETS = 100, MANY = 20000 };
   int one[2], split[2], middle[2];
-  cut_of(page, 1, (double[2]){0, 0}, one, middle);
-  cut_of(page, SHEETS, (double[2]){0, 0.1}, split, middle);
+  cut_of(page, 1, 1, (double[2]){0, 0}, one, middle);
+  cut_of(page, 1, SHEETS, (double[2]){0, 0.1}, split, middle);
   assert_memory_equal(split, one, sizeof one);
   assert_memory_equal(middle, one, sizeof one);
-  cut_of(page, SHEETS, (double[2]){0, 1e-3}, split, middle);
+  cut_of(page, 1, SHEETS, (double[2]){0, 1e-3}, split, middle);
   print_message("%d x %d, in a stack %d x %d\n", one[0], one[1], middle[0], middle[1]);
   assert_in_range(middle[0], 4 * one[0], 16 * one[0]);
   assert_int_equal(middle[1], one[1]);
-  cut_of(page, MANY, (double[2]){0, 1e-6}, split, middle);
+  cut_of(page, 1, MANY, (double[2]){0, 1e-6}, split, middle);
   assert_in_range(middle[0] * middle[1], 2, (1 << 19) / MANY);
+}
+
+/* What bends across a long side is cut across, however long it is; what does not is not. */
+static void rods_are_cut_across(void **state)
+{
+  (void)state;
+  static const double lengths[] = {6, 15, 30, 1000, 1e5};
+  for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
+    int split[2], middle[2];
+    cut_of(gutter, lengths[k], 1, (double[2]){0, 0}, split, middle);
+    print_message("%g long: %d x %d\n", lengths[k], split[0], split[1]);
+    assert_in_range(split[0], 2, 4);
+    assert_in_range(split[1], 2, 4);
+    cut_of(flat, lengths[k], 1, (double[2]){0, 0}, split, middle);
+    assert_int_equal(split[0], 1);
+    assert_int_equal(split[1], 1);
+  }
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(patches_are_cut_as_far_as_they_bend), cmocka_unit_test(many_patches_are_cut_less),
-    cmocka_unit_test(patches_side_by_side_are_cut_less), cmocka_unit_test(sheets_in_a_stack_are_cut_finer)};
+    cmocka_unit_test(patches_side_by_side_are_cut_less), cmocka_unit_test(sheets_in_a_stack_are_cut_finer),
+    cmocka_unit_test(rods_are_cut_across)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,6 +22,11 @@
 #define SLENDER_MOST ((double)SLENDER_SPLIT_MAX * SLENDER_SPLIT_MAX)
 enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 
+/* A rod's side is a patch this many times as long as wide that bends across, as a pipe's quarter does. It is cut into up to so
+ * many leaves either way: along, too, for the box of a long leaf is mostly air. Choices of speed. */
+#define ROD 4.0
+enum { ROD_SPLIT_MAX = 2 };
+
 /* A patch's frame is no smaller than this, so that its reciprocal and all products with it are normal numbers. */
 #define LEAST_SCALE 0x1p-1000
 
@@ -76,22 +81,20 @@ static bool turns_far(const struct model_patch *patch, double turn, int split)
   return far > NEARLY_ALL * all;
 }
 
-/* How many leaves make every leaf nearly flat: second derivatives fall with the square of that number, first ones with the
- * number. A slender patch is cut along its long side only, for only that bends, until its leaves turn as little as the short
- * side wants or are no longer slender. */
-static void auto_split(const struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
+/* How many leaves make every leaf nearly flat beside its long side: second derivatives fall with the square of that number, first
+ * ones with the number. A slender patch is cut along its long side until its leaves turn as little as the short side wants or are no
+ * longer slender. */
+static void split_along(const struct model_patch *patch, const struct split_limit *limit,
+                        const struct patch_part *whole, uint16_t split[2])
 {
-  const struct part_grid grid = {{1, 1}, {1, 1}, 0};
-  struct patch_part whole;
-  patch_parts(patch, &grid, 1, (const uint16_t[1][2]){{0, 0}}, &whole);
-  const double turn = turn_of(whole.second);
-  const int side = whole.first[1] > whole.first[0];
-  const double along = whole.first[side], across = whole.first[1 - side], bend = whole.second[2 * side];
+  const double turn = turn_of(whole->second);
+  const int side = whole->first[1] > whole->first[0];
+  const double along = whole->first[side], across = whole->first[1 - side], bend = whole->second[2 * side];
   split[0] = split[1] = 1;
   if (along > SLENDER * across && along <= SLENDER_MOST * across) {
     uint16_t *cut = &split[side];
     while (2 * *cut <= limit->any * limit->any && 2 * *cut <= SLENDER_SPLIT_MAX && along > 2 * *cut * across &&
-           bend / *cut + 2 * whole.second[1] > 2 * limit->turn * *cut * across)
+           bend / *cut + 2 * whole->second[1] > 2 * limit->turn * *cut * across)
       *cut = (uint16_t)(2 * *cut);
     return;
   }
@@ -102,6 +105,27 @@ static void auto_split(const struct model_patch *patch, const struct split_limit
       most = limit->bent;
   }
   split[1] = split[0];
+}
+
+/* How many a side a rod's side takes at least, for what bends across it turns beside its short side; 1 where it is none. */
+static int rod_split(const struct split_limit *limit, const struct patch_part *whole)
+{
+  const int side = whole->first[1] > whole->first[0];
+  const double along = whole->first[side], across = whole->first[1 - side], bend = whole->second[2 * (1 - side)];
+  int split = 1;
+  while (split < ROD_SPLIT_MAX && along > ROD * across && bend > 2 * limit->turn * split * across) split *= 2;
+  return split;
+}
+
+static void auto_split(const struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
+{
+  const struct part_grid grid = {{1, 1}, {1, 1}, 0};
+  struct patch_part whole;
+  patch_parts(patch, &grid, 1, (const uint16_t[1][2]){{0, 0}}, &whole);
+  split_along(patch, limit, &whole, split);
+  const int rod = rod_split(limit, &whole);
+  for (int k = 0; k < 2; k++)
+    if (split[k] < rod && split[1 - k] * rod <= limit->any * limit->any) split[k] = (uint16_t)rod;
 }
 
 /* What the patch's solver does on lanes: the whole method as it is by default, or nothing. */
