@@ -49,6 +49,12 @@ static void random_map(struct random *random, struct scene_copy *copy)
   }
 }
 
+/* Any such map about 0, of one size: all are deep in one another. */
+static void about_zero(struct random *random, struct scene_copy *copy)
+{
+  for (int n = 0; n < 9; n++) copy->A[n / 3][n % 3] = random_between(random, -1, 1);
+}
+
 /* A shear along one axis, by so much at most, and whole numbers throughout: control points stay exact. */
 #define MOST_SHEAR 512
 
@@ -60,11 +66,13 @@ static void exact_shear(struct random *random, struct scene_copy *copy)
   for (int n = 0; n < 3; n++) copy->b[n] = rint(random_between(random, -4096, 4096));
 }
 
-/* Larger or smaller, about 0. */
+/* Larger or smaller, about 0, and turned some way: not deep in one another, or they would not share, where they are long. */
 static void exact_scale(struct random *random, struct scene_copy *copy)
 {
-  const double size = ldexp(1, (int)(random_bits(random) % 61) - 30);
-  for (int n = 0; n < 9; n++) copy->A[n / 3][n % 3] = n % 4 == 0 ? size : 0;
+  const double size = ldexp(1, (int)(random_bits(random) % 8) - 4);
+  const int turn = (int)(random_bits(random) % 3);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) copy->A[i][j] = (i + turn) % 3 == j ? (random_bits(random) % 2 ? size : -size) : 0;
 }
 
 static void moved(const struct scene_copy *copy, world_net from, world_net to)
@@ -100,7 +108,8 @@ static void put_beside(const struct scene_copy *first, struct random *random, st
 }
 
 /* far: NULL, or a ray whose way leads past the first copy, at t = `at`. beside: 0, or how many stand in one place but for
- * roundings; the rays are aimed at these then. parts: how large all patches but the first are, as a part of what they are. */
+ * roundings; the rays are aimed at these then. parts: how large all patches but the first are, as a part of what they are; the first is
+ * beside them then. */
 static void pair_open(struct pair *pair, int kind, struct random *random, const struct ray *far, double at,
                       size_t beside, place_copy *place, double parts)
 {
@@ -108,8 +117,10 @@ static void pair_open(struct pair *pair, int kind, struct random *random, const 
   memset(pair, 0, sizeof *pair);
   pair->kind = kind;
   const size_t count = world_fill((enum world_kind)kind, random, nets), copies = PATCHES / count;
-  for (size_t n = 16; n < count * 16; n++)
-    for (int k = 0; k < 3; k++) nets[n / 16][n / 4 % 4][n % 4][k] *= parts;
+  for (size_t n = 0; n < count * 16 && parts < 1; n++) {
+    double *x = nets[n / 16][n / 4 % 4][n % 4];
+    for (int k = 0; k < 3; k++) x[k] = n < 16 ? x[k] / 8 + (k == 0 ? 2 : 0.25) : x[k] * parts;
+  }
   pair->object = (struct scene_object){nets, count};
   struct scene *scene = &pair->scene;
   method_default(solver_at(0), &pair->solver);
@@ -131,6 +142,7 @@ static void pair_open(struct pair *pair, int kind, struct random *random, const 
     scene->copy_count = k == 0 ? copies : 0;
     assert_int_equal(intersector_create(scene, &pair->intersector[k]), STATUS_OK);
     assert_int_equal(tracer_create(pair->intersector[k], &pair->tracer[k]), STATUS_OK);
+    if (k == 0) print_message("%zu of %zu copies share leaves\n", pair->tracer[k]->model->copy_count, copies);
   }
   for (int n = 0; n < RAYS; n++) {
     world_net aim[WORLD_MAX];
@@ -357,6 +369,21 @@ static void small_parts_of_copies_are_certain(void **state)
   }
 }
 
+/* Where they are deep in one another they do not share leaves: each ray would be taken to the coordinates of nearly all. */
+static void deep_copies_have_leaves_of_their_own(void **state)
+{
+  (void)state;
+  static struct pair pair;
+  struct random random = {SEED + 10};
+  pair_open(&pair, WORLD_GRID, &random, NULL, 0, 0, random_map, 1);
+  assert_true(pair.tracer[0]->model->copy_count > 2 * pair.scene.copy_count / 3);
+  pair_close(&pair);
+  pair_open(&pair, WORLD_GRID, &random, NULL, 0, 0, about_zero, 1);
+  assert_int_equal(pair.tracer[0]->model->copy_count, 0);
+  compare(&pair);
+  pair_close(&pair);
+}
+
 int main(void)
 {
   print_message("seed %d\n", SEED);
@@ -366,6 +393,7 @@ int main(void)
     cmocka_unit_test(rays_meet_copies_from_very_far_away),
     cmocka_unit_test(nearest_of_copies_beside_each_other),
     cmocka_unit_test(small_parts_of_copies_are_certain),
+    cmocka_unit_test(deep_copies_have_leaves_of_their_own),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,8 +12,9 @@
 #include "intersect/model.h"
 
 /* Sets model->objects and model->copies, the models of the objects excepted, marks their patches, and lowers *own,
- * the number of patches that need leaves, accordingly. */
-enum status copies_choose(struct model *model, size_t *own) STATUS_MUST_CHECK;
+ * the number of patches that need leaves, accordingly. Copies that are deep in one another do not share where *own can
+ * be `most` or less without. */
+enum status copies_choose(struct model *model, size_t most, size_t *own) STATUS_MUST_CHECK;
 
 /* Makes the objects' models. */
 enum status copies_prepare(struct model *model, const struct team *team,

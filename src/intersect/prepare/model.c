@@ -29,6 +29,9 @@ enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
  * and time to make. The limit on the split is halved until they fit. Of patches that are bent all over there may be more. */
 enum { AUTO_LEAVES_MAX = 1 << 18, BENT_LEAVES_MAX = 1 << 19 };
 
+/* As long as that leaves two of them a side, they are kept. */
+enum { KEPT_PATCHES_MAX = AUTO_LEAVES_MAX / 4 };
+
 /* The same of objects that are copied, whose leaves are kept, where those of other patches are not. */
 enum { OBJECT_LEAVES_MAX = 1 << 20 };
 
@@ -140,12 +143,12 @@ static enum status prepare(struct model *model, const struct team *team)
   if (status != STATUS_OK) return status;
   size_t own = scene->patch_count; /* patches that need leaves */
   if (most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX) < AUTO_SPLIT_MAX) {
-    status = copies_choose(model, &own);
+    status = copies_choose(model, KEPT_PATCHES_MAX, &own);
     if (status != STATUS_OK) return status;
   }
   struct split_limit limit = {AUTO_TURN, COARSE_TURNS, most_split(AUTO_SPLIT_MAX, own, AUTO_LEAVES_MAX),
                               most_split(BENT_SPLIT_MAX, own, BENT_LEAVES_MAX), most_leaves(own, AUTO_LEAVES_MAX)};
-  const bool keep = limit.any > 1;
+  const bool keep = own <= KEPT_PATCHES_MAX;
   if (!keep) {
     limit.any = limit.bent = most_split(AUTO_SPLIT_MAX, own, OBJECT_LEAVES_MAX);
     limit.leaves = most_leaves(own, OBJECT_LEAVES_MAX);
