@@ -13,6 +13,8 @@
 #   examples/generate.sh book N        N curved pages from one spine
 #   examples/generate.sh roll N        a carpet roll of N patches, eight a turn
 #   examples/generate.sh marks N       N squares on a floor, in its plane
+#   examples/generate.sh pipes N       N / 4 pipes every way, 1 : 80
+#   examples/generate.sh crown N       a twig of 100 leaves, N / 100 times, turned about its end
 #   examples/generate.sh hills N       N patches, a square number, of one smooth landscape, seen along it, the sun as low
 #
 # Of the first three the light stands at the camera: every hit of a camera ray sends one shadow ray, so that counting those
@@ -20,7 +22,7 @@
 set -euo pipefail
 export LC_ALL=C
 
-KINDS='hair ribbons creature knots confetti shells pearls floor book roll marks hills'
+KINDS='hair ribbons creature knots confetti shells pearls floor book roll marks pipes crown hills'
 
 kind=${1:?one of: $KINDS}
 count=${2:?how many patches?}
@@ -235,6 +237,38 @@ awk -v kind="$kind" -v n="$count" '
     square(14, 0.7853981634)
     for (k = 0; k < n; k++) { at[0] = between(-3, 3); at[2] = between(-3, 3); square(0.6, between(0, 6.28)) }
   }
+  function pipes(k, q, i, j, c, x, y) {
+    begin(0, 1, -9, 6, 9, -8)
+    split("1 1 0.5522847498 0", along, " ")
+    for (k = 0; k < int(n / 4); k++) {
+      direction(); across()
+      for (c = 0; c < 3; c++) at[c] = between(-2, 2)
+      for (q = 0; q < 4; q++) {
+        for (i = 0; i < 4; i++)
+          for (j = 0; j < 4; j++) {
+            x = along[q % 2 ? 4 - j : j + 1] * (q % 3 ? -1 : 1); y = along[q % 2 ? j + 1 : 4 - j] * (q > 1 ? -1 : 1)
+            for (c = 0; c < 3; c++) P[4 * i + j, c] = at[c] + 8 * (i / 3 - 0.5) * D[c] + 0.05 * (x * V[c] + y * W[c])
+          }
+        patch()
+      }
+    }
+  }
+  function crown(k, i, c, x, y) {
+    begin(0, 1, -7, 6, 9, -8)
+    printf "#declare Twig = union {\n"
+    for (k = 0; k < 100; k++) {
+      direction(); across()
+      for (i = 0; i < 16; i++) {
+        x = int(i / 4) / 3; y = (i % 4 / 3 - 0.5) * 4 * x * (1 - x) # pointed
+        for (c = 0; c < 3; c++)
+          P[i, c] = (c == 0) * (0.2 + 0.018 * k) + 0.2 * x * D[c] + 0.1 * y * V[c] + (0.04 * x * x + 0.03 * y * y) * W[c]
+      }
+      patch()
+    }
+    printf "}\n"
+    for (k = 0; k < int(n / 100); k++)
+      printf "object { Twig rotate <%g, %g, %g> }\n", between(0, 360), between(0, 360), between(0, 360)
+  }
   function hills(side, i, j, x, y) {
     side = int(sqrt(n))
     begin(0, side / 16, -0.7 * side, 7 * side, side / 6, 2.5 * side)
@@ -254,5 +288,6 @@ awk -v kind="$kind" -v n="$count" '
     if (kind == "hair") hair(); else if (kind == "ribbons") ribbons(); else if (kind == "creature") creature()
     else if (kind == "knots") knots(); else if (kind == "confetti") confetti(); else if (kind == "shells") shells()
     else if (kind == "pearls") pearls(); else if (kind == "floor") floor()
-    else if (kind == "book") book(); else if (kind == "roll") roll(); else if (kind == "marks") marks(); else hills()
+    else if (kind == "book") book(); else if (kind == "roll") roll(); else if (kind == "marks") marks(); else if (kind == "pipes") pipes()
+    else if (kind == "crown") crown(); else hills()
   }'
