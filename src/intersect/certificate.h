@@ -29,8 +29,11 @@
  * Rheinboldt, Iterative Solution of Nonlinear Equations, 12.6.
  *
  * That no second root exists in a region is a matter of its own: M J, averaged on the way from the root to any point
- * of it, differs from 1 by less than 1. Let q bound twice what second derivatives make of that difference, from where the
- * step went, and be no more than CERTIFICATE_ALONE with CERTIFICATE_SECOND size. Half of that is 0.95. What is not in it:
+ * of it, is not singular. It is 1 + E, where |E_kl| is at most what the length of row k of M is times what column l of J
+ * is off by, and then its determinant is no less than 1 - |E_11| - |E_22|, for the products of these with each other and
+ * of |E_12| with |E_21| are one; or E is less than 1 in the maximum norm. Let q bound twice what second derivatives make of
+ * that sum, or norm, from where the step went, and be no more than CERTIFICATE_ALONE with CERTIFICATE_SECOND size. Half of
+ * that is 0.95. What is not in it, and is no more in the sum than in the norm:
  * second derivatives are differences of coefficients times 24, 36 and 24, each off by the error of a value, twice over
  * for the mixed one, 170 size for 144 of which the half is 13 size; M J at the root, off from M J(z) by bend r <= 6.2 size +
  * 2^-13, where bend <= 2 q <= 3.8; and kappa. Together that is less than 0.05: less than 1.

@@ -249,8 +249,9 @@ static void check_leaf_root(struct subject *s, struct random *random)
   const int k = s->local.axis;
   quad u, v;
   if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts.final) return;
-  const double second = s->leaf->second[0] + 2 * s->leaf->second[1] + s->leaf->second[2];
-  if ((lanes_bits(root.at.alone) & 1) && root.at.size[0] * second > 2 * CERTIFICATE_ALONE) by_quadric++;
+  const double *second = s->leaf->second, size[2] = {root.at.size[0][0], root.at.size[1][0]};
+  const double turn = size[0] * (second[0] + second[1]) + size[1] * (second[1] + second[2]);
+  if ((lanes_bits(root.at.alone) & 1) && turn > 2 * CERTIFICATE_ALONE) by_quadric++;
   /* Off the ray by: one rounding of a coordinate of the patch, of size 1, of the surface's way under the rounding of
    * u and v, and the bend's. */
   const quad at_u = root.at.u[0], at_v = root.at.v[0];
@@ -262,13 +263,14 @@ static void check_leaf_root(struct subject *s, struct random *random)
   const quad start = ((quad)patch->center[k] - s->ray.origin[k]) / patch->scale;
   const struct quad_jet exact = quad_net_jet(&s->truth.x[k], u, v);
   const double place = (double)quad_abs((quad)root.t[0] * s->ray.direction[k] / patch->scale - (exact.value + start));
-  worst_place = fmax(worst_place, place / (UNIT_ROUNDOFF * (root.at.size[0] + (double)quad_abs(exact.value + start))));
+  worst_place = fmax(worst_place,
+                     place / (UNIT_ROUNDOFF * (fmax(size[0], size[1]) + (double)quad_abs(exact.value + start))));
   for (int c = 0; c < 3 && at_u >= 0 && at_u <= 1 && at_v >= 0 && at_v <= 1; c++) {
     const struct quad_jet jet = quad_net_jet(&s->truth.x[c], at_u, at_v);
-    const double size = s->leaf->first[0] + s->leaf->first[1];
+    const double reach = s->leaf->first[0] + s->leaf->first[1];
     worst_point = fmax(worst_point, (double)quad_abs(root.point[c][0] - jet.value) / UNIT_ROUNDOFF);
-    worst_tangent = fmax(worst_tangent, (double)quad_abs(root.su[c][0] - jet.du) / (UNIT_ROUNDOFF * (size + 1)));
-    worst_tangent = fmax(worst_tangent, (double)quad_abs(root.sv[c][0] - jet.dv) / (UNIT_ROUNDOFF * (size + 1)));
+    worst_tangent = fmax(worst_tangent, (double)quad_abs(root.su[c][0] - jet.du) / (UNIT_ROUNDOFF * (reach + 1)));
+    worst_tangent = fmax(worst_tangent, (double)quad_abs(root.sv[c][0] - jet.dv) / (UNIT_ROUNDOFF * (reach + 1)));
   }
 }
 

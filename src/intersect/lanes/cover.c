@@ -13,7 +13,7 @@ enum { COVER_SPLITS = 160 };
 
 /* A proven root of one lane, as struct newton_root has it. */
 struct cover_root {
-  double u, v, radius_u, radius_v, size, bend, off;
+  double u, v, radius_u, radius_v, size[2], bend, off;
 };
 
 /* What is known of one ray on the leaf. */
@@ -42,7 +42,8 @@ LANES_INLINE bool root_is_alone(const struct cover_ray *ray, const struct cover_
   const double *second = ray->leaf->second;
   const double reach_u = real_max(root->u - box->u, (box->u + box->size_u) - root->u);
   const double reach_v = real_max(root->v - box->v, (box->v + box->size_v) - root->v);
-  const double q = root->size * ((second[0] + second[1]) * reach_u + (second[1] + second[2]) * reach_v);
+  const double q = root->size[0] * (second[0] * reach_u + second[1] * reach_v) +
+                   root->size[1] * (second[1] * reach_u + second[2] * reach_v);
   return certificate_alone(q + 6 * root->bend, root->off);
 }
 
@@ -118,8 +119,13 @@ static void set_roots(struct cover_ray *ray, int lane, int count, const struct k
   for (int k = 0; k < count; k++) {
     const struct newton_root *at = roots[k].at;
     if (!roots[k].proven[lane]) continue;
-    ray->root[ray->count++] = (struct cover_root){
-      at->u[lane], at->v[lane], at->radius_u[lane], at->radius_v[lane], at->size[lane], at->bend[lane], at->off[lane]};
+    ray->root[ray->count++] = (struct cover_root){.u = at->u[lane],
+                                                  .v = at->v[lane],
+                                                  .radius_u = at->radius_u[lane],
+                                                  .radius_v = at->radius_v[lane],
+                                                  .size = {at->size[0][lane], at->size[1][lane]},
+                                                  .bend = at->bend[lane],
+                                                  .off = at->off[lane]};
   }
 }
 

@@ -219,10 +219,10 @@ LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const 
   r->radius_u = certificate_radius(bend, step, size_u * error);
   r->radius_v = certificate_radius(bend, step, size_v * error);
   const lanes reach_u = 0.5 + lanes_abs(r->u - 0.5), reach_v = 0.5 + lanes_abs(r->v - 0.5);
-  const lanes q = size *
-                  ((leaf->second[0] + leaf->second[1]) * reach_u + (leaf->second[1] + leaf->second[2]) * reach_v);
+  const lanes q = size_u * (leaf->second[0] * reach_u + leaf->second[1] * reach_v) +
+                  size_v * (leaf->second[1] * reach_u + leaf->second[2] * reach_v);
   r->alone = r->exists & certificate_alone(q, off);
-  r->size = size, r->bend = bend * (step + off), r->off = off;
+  r->size[0] = size_u, r->size[1] = size_v, r->bend = bend * (step + off), r->off = off;
 }
 
 /* Rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size 1:
