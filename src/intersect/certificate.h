@@ -38,6 +38,23 @@
  * for the mixed one, 170 size for 144 of which the half is 13 size; M J at the root, off from M J(z) by bend r <= 6.2 size +
  * 2^-13, where bend <= 2 q <= 3.8; and kappa. Together that is less than 0.05: less than 1.
  *
+ * Nor is it where a border is one point, a pole, though J is singular along it. Let d be the distance from that border, e
+ * the other parameter. As f is constant along the border, f(d,e) - f(d',e') is the mean of f_d from (d',e') to (d,e') times
+ * d - d', and d times the mean of g from (d,e') to (d,e) times e - e', where g = f_e / d is the mean of f_de from the border
+ * to there. Where the matrix of these two means, times M, is not singular, for the root (d',e') and all points with d >= 0,
+ * there is no other root, nor one on the border. Its rows times M are those of M, that of e times d', and second derivatives
+ * make of it twice what they make of f_d, and f_dde and f_dee of g:
+ *
+ *     q = size_d f_dd reach_d + d' size_e (f_dde reach_d + f_dee reach_e)
+ *
+ * with bounds of these derivatives and `size` for the lengths of M's rows. Nor does the root lie where the step went: on that
+ * way, of less than 1.7 (step + size) with the errors' size, f_d turns by f_dd and f_de, and g by f_dde and f_dee; both count
+ * twice against q, and once for the reaches. Rounding: third derivatives are differences of coefficients times 144, together
+ * with second ones (24 and 144 + 144) sqrt 2 size for q; f_d and f_e are off by 16, twice, and d g is f_e at the root, so that
+ * the row of e, times d', has back what d has divided it by: 93 size; outside the leaf that is up to 2.3 times
+ * as much, for which CERTIFICATE_POLE has room. And d' is d of the last point but one but for the step: 2 step over the least of
+ * both, `left`.
+ *
  * Works on doubles and on lanes alike.
  */
 #ifndef PSCN_INTERSECT_CERTIFICATE_H
@@ -59,5 +76,10 @@
 
 /* Whether it is the only one. */
 #define certificate_alone(q, size) ((q) + CERTIFICATE_SECOND * (size) < CERTIFICATE_ALONE)
+
+/* Whether it is, near a pole. `turn`: what f_d and g turn by on a way of length 1, times the rows' lengths. */
+#define CERTIFICATE_POLE 1280
+#define certificate_alone_at_pole(q, turn, step, size, left) \
+  ((q) + 6 * (turn) * ((step) + (size)) + 2 * (step) / (left) + CERTIFICATE_POLE * (size) < CERTIFICATE_ALONE)
 
 #endif

@@ -103,9 +103,11 @@ struct leaf {
   bool v_kept;      /* the form keeps v and eliminates u */
   bool has_quadric; /* one that is not kept gets its quadric when that is first asked for */
   uint8_t zeros[2]; /* r(kept) has this many exact roots at 0 and at 1: collapsed edges */
+  uint8_t pole;     /* 1 + the first border (geometry/edges.h) that is one, 0: none */
   /* bounds on |Suu|, |Suv|, |Svv| over the leaf widened by LEAF_MARGIN, leaf parameters */
   double second[3];
   double first[2]; /* bounds on |Su|, |Sv| there */
+  double third[2]; /* and on |Suuv|, |Suvv|, where there is a pole */
   struct leaf_parts parts;
   double x[3][16]; /* local net over the leaf, x[coordinate][4 * i + j], in the frame of its patch */
   struct leaf_quadric quadric;

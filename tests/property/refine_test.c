@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cmocka_test.h"
+#include "geometry/edges.h"
 #include "intersect/certificate.h"
 #include "intersect/lanes/quadric.h"
 #include "property/world.h"
@@ -51,9 +52,19 @@ struct subject {
   double a[16], b[16];
 };
 
+/* Makes a border one point. */
+static void collapse(world_net net, int border)
+{
+  for (int k = 1; k < 4; k++) {
+    const int at = edge_at(border, k), from = edge_at(border, 0);
+    memcpy(net[at / 4][at % 4], net[from / 4][from % 4], sizeof net[0][0]);
+  }
+}
+
 /* Calls `body` for so many rays at leaves of scenes near and far, cut into split x split of them (0: as it is best), with
- * directions of all sizes the tracer passes on. */
-static void on_all_leaves(uint64_t seed, int split, int cases, void (*body)(struct subject *s, struct random *random))
+ * directions of all sizes the tracer passes on; `poles`: of patches that have one each. */
+static void on_leaves(uint64_t seed, int split, bool poles, int cases,
+                      void (*body)(struct subject *s, struct random *random))
 {
   struct method method;
   method_default(solver_find("bernstein", strlen("bernstein")), &method);
@@ -67,6 +78,7 @@ static void on_all_leaves(uint64_t seed, int split, int cases, void (*body)(stru
       const size_t count = world_fill((enum world_kind)kind, &random, nets);
       for (size_t p = 0; p < count; p++)
         for (int n = 0; n < 48; n++) nets[p][n / 12][n / 3 % 4][n % 3] += offsets[place];
+      for (size_t p = 0; p < count && poles; p++) collapse(nets[p], (int)(random_bits(&random) % 4));
       world_open(&s.world, nets, count, &method);
       s.model = s.world.tracer->model;
       for (int n = 0; n < cases / 12; n++) {
@@ -85,6 +97,11 @@ static void on_all_leaves(uint64_t seed, int split, int cases, void (*body)(stru
       world_close(&s.world);
     }
   }
+}
+
+static void on_all_leaves(uint64_t seed, int split, int cases, void (*body)(struct subject *s, struct random *random))
+{
+  on_leaves(seed, split, false, cases, body);
 }
 
 static double worst_moment, worst_net, worst_t;
@@ -236,6 +253,42 @@ static void proven_roots_are_where_they_are_said_to_be(void **state)
   assert_true(alone > 50);
 }
 
+static struct tally fan_roots;
+static int by_pole; /* alone, though without the pole neither derivatives nor the quadric say so */
+
+static void check_fan(struct subject *s, struct random *random)
+{
+  static const double slants[] = {2, 0.5, 0.2, 0.1};
+  if (s->leaf->pole == 0) return;
+  if (random_bits(random) % 4) aim(s, random, slants[random_bits(random) % 4]);
+  const double start[2] = {random_between(random, -0.6, 0.6), random_between(random, -0.6, 0.6)};
+  struct leaf_root root, plain;
+  quad u, v;
+  solve(s, start, &root);
+  if (!check_root(&s->truth, &root.at, random, &fan_roots, &u, &v)) return;
+  const uint8_t pole = s->leaf->pole;
+  s->leaf->pole = 0;
+  solve(s, start, &plain);
+  s->leaf->pole = pole;
+  if (lanes_bits(root.at.alone & ~plain.at.alone) & 1) by_pole++;
+}
+
+/* Though the Jacobian is singular along the pole. */
+static void roots_next_to_poles_are_alone_where_they_are_said_to_be(void **state)
+{
+  (void)state;
+  static const int splits[] = {3, 8, 32};
+  for (size_t k = 0; k < sizeof splits / sizeof *splits; k++) {
+    fan_roots = (struct tally){0}, by_pole = 0;
+    on_leaves(SEED + 40 + k, splits[k], true, splits[k] * CASES / 8, check_fan);
+    print_message("split %d: %d proven, %d of them alone, %d for the pole\n", splits[k], fan_roots.exist,
+                  fan_roots.alone, by_pole);
+    assert_true(by_pole > 20);
+    assert_int_equal(fan_roots.outside_radius, 0);
+    assert_int_equal(fan_roots.not_alone, 0);
+  }
+}
+
 static struct tally leaf_roots;
 static int by_quadric; /* alone, though the root's derivatives alone do not say so */
 static double worst_residual, worst_place, worst_point, worst_tangent;
@@ -295,6 +348,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_plane_polynomials_are_within_their_error),
     cmocka_unit_test(proven_roots_are_where_they_are_said_to_be),
+    cmocka_unit_test(roots_next_to_poles_are_alone_where_they_are_said_to_be),
     cmocka_unit_test(roots_of_leaves_that_bend_little_are_right_to_the_last_places),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

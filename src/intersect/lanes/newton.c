@@ -205,24 +205,38 @@ LANES_INLINE lanes row_length(lanes p, lanes q, const lanes slope[2])
 /* How far outside the leaf a root may be, for the leaf's bounds to hold on all that the certificate asks. */
 #define NEWTON_MARGIN (LEAF_MARGIN - CERTIFICATE_REACH)
 
+/* Lanes whose root is the only one of a leaf with a pole, as certificate.h has it; size: of the rows of M. */
+LANES_INLINE lane_mask alone_at_pole(const struct leaf *leaf, const struct newton_root *r, const lanes size[2],
+                                     lanes step, lanes off, const lanes reach[2])
+{
+  const int border = leaf->pole - 1, d = border / 2, e = 1 - d;
+  const lanes at = d ? r->v : r->u, away = border & 1 ? 1 - at : at;
+  const lanes left = away - step - (d ? r->radius_v : r->radius_u), of_e = away * size[e];
+  const double *third = leaf->third, dd = leaf->second[2 * d], dde = third[d], dee = third[e];
+  const lanes q = size[d] * (dd * reach[d]) + of_e * (dde * reach[d] + dee * reach[e]);
+  const lanes turn = size[d] * (dd + leaf->second[1]) + of_e * (dde + dee);
+  return (left > 0) & certificate_alone_at_pole(q, turn, step, off, left);
+}
+
 /* The certificate (certificate.h): sets all but u and v of *r, which hold where the process went on the lanes that
  * `settled`. bend is |M| (|Suu| + 2 |Suv| + |Svv|). */
 LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const lanes slope[2], lanes error, lanes step,
                         lane_mask settled, struct newton_root *r)
 {
-  const lanes size_u = row_length(m->ua, m->ub, slope), size_v = row_length(m->va, m->vb, slope);
-  const lanes size = lanes_max(size_u, size_v);
+  const lanes length[2] = {row_length(m->ua, m->ub, slope), row_length(m->va, m->vb, slope)};
+  const lanes size = lanes_max(length[0], length[1]);
   const lanes bend = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
   const lanes off = size * error;
   const lane_mask near = (lanes_abs(r->u - 0.5) < 0.5 + NEWTON_MARGIN) & (lanes_abs(r->v - 0.5) < 0.5 + NEWTON_MARGIN);
   r->exists = settled & near & certificate_holds(bend, step, off);
-  r->radius_u = certificate_radius(bend, step, size_u * error);
-  r->radius_v = certificate_radius(bend, step, size_v * error);
-  const lanes reach_u = 0.5 + lanes_abs(r->u - 0.5), reach_v = 0.5 + lanes_abs(r->v - 0.5);
-  const lanes q = size_u * (leaf->second[0] * reach_u + leaf->second[1] * reach_v) +
-                  size_v * (leaf->second[1] * reach_u + leaf->second[2] * reach_v);
+  r->radius_u = certificate_radius(bend, step, length[0] * error);
+  r->radius_v = certificate_radius(bend, step, length[1] * error);
+  const lanes reach[2] = {0.5 + lanes_abs(r->u - 0.5), 0.5 + lanes_abs(r->v - 0.5)};
+  const lanes q = length[0] * (leaf->second[0] * reach[0] + leaf->second[1] * reach[1]) +
+                  length[1] * (leaf->second[1] * reach[0] + leaf->second[2] * reach[1]);
   r->alone = r->exists & certificate_alone(q, off);
-  r->size[0] = size_u, r->size[1] = size_v, r->bend = bend * (step + off), r->off = off;
+  if (leaf->pole) r->alone |= r->exists & alone_at_pole(leaf, r, length, step, off, reach);
+  r->size[0] = length[0], r->size[1] = length[1], r->bend = bend * (step + off), r->off = off;
 }
 
 /* Rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size 1:

@@ -2,6 +2,8 @@
  *
  * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
  */
+#include <math.h>
+
 #include "intersect/lanes/candidate.h"
 
 /* With e the bound on a plane's error (local_ray.h), u < e/72: a is off by less than 2.5 e, b w by 8u, w by its two roundings
@@ -81,12 +83,33 @@ static lane_mask planes_aligned(struct candidate *it, lane_mask active)
   return active & (u_low <= u_error) & (u_high >= -u_error) & (v_low <= v_error) & (v_high >= -v_error);
 }
 
+/* Lanes that may meet a leaf with a pole, where a and b are constants a0 and b0, up to e. The combination G = a0 b - b0 a is
+ * no more than e (|a0| + |b0|) there. Where all other coefficients of it are beyond that, by m, it has no zero from d = that/m
+ * on, d being the distance from the pole; and nearer to it H = a0 a + b0 b has none where the size of its derivative by d, 6
+ * times that of its coefficients, takes less than H at the pole on that way. */
+static lane_mask planes_at_pole(const struct candidate *it, lane_mask active)
+{
+  const int border = it->leaf->pole - 1, side = border < 2 ? 4 : 1, at = border & 1 ? 3 * side : 0;
+  const lanes a0 = it->a[at], b0 = it->b[at];
+  lanes low = lanes_all(INFINITY), high = lanes_all(-INFINITY);
+  for (int n = 0; n < 16; n++) {
+    if (n / side % 4 == at / side) continue; /* on the border */
+    const lanes g = a0 * it->b[n] - b0 * it->a[n];
+    low = lanes_min(g, low), high = lanes_max(g, high);
+  }
+  const lanes size_a = lanes_abs(a0), size_b = lanes_abs(b0);
+  const lanes off = (it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta)) * (size_a + size_b);
+  const lanes beyond = lanes_max(low, -high) - off, reach = size_a * it->alpha + size_b * it->beta;
+  return active & ~((beyond > 0) & ((a0 * a0 + b0 * b0 - off) * beyond > 8 * reach * off));
+}
+
 lane_mask stage_planes(struct candidate *it, lane_mask open)
 {
   for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->a[n], &it->b[n]);
-  const lane_mask near = planes_hull(it, open);
+  lane_mask near = planes_hull(it, open);
   it->along = (lane_mask){0};
   if (!it->patch->method->polish) return open;
+  if (it->leaf->pole && lanes_any(near)) near = planes_at_pole(it, near);
   return lanes_any(near) ? planes_aligned(it, near) : near;
 }
 

@@ -114,6 +114,10 @@ void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first
     leaves[k].patch = index, leaves[k].column_u = (uint16_t)(number / row),
     leaves[k].column_v = (uint16_t)(number % row);
     leaves[k].has_quadric = false;
+    const uint16_t column[2] = {leaves[k].column_u, leaves[k].column_v}, span[2] = {1, 1};
+    leaves[k].pole = 0;
+    for (int border = 3; border >= 0; border--)
+      if (leaf_border_is_point(patch, column, span, border)) leaves[k].pole = (uint8_t)(border + 1);
   }
   kernel_for(count)->leaves(patch, count, leaves);
 }
