@@ -1,0 +1,92 @@
+/* Rays from very far away: how far their planes are off, in doubles and in fixed point, is within the bounds. */
+#include <math.h>
+
+#include "base/wide.h"
+#include "cmocka_test.h"
+#include "intersect/exact/zoom.h"
+#include "intersect/local_ray.h"
+#include "random.h"
+
+enum { SEED = 20240607, RAYS = 2000 };
+
+/* (q_i d_k - q_k d_i)/d_k in wide arithmetic, q the origin in the frame of the patch: right to a hundredth of what doubles make
+ * of it. */
+static wide moment(const struct model_patch *patch, const struct ray *ray, int i, int k)
+{
+  const double *d = ray->direction, *o = ray->origin;
+  const wide qi = (wide)o[i] - patch->center[i], qk = (wide)o[k] - patch->center[k];
+  return (qi * d[k] - qk * d[i]) / d[k] / patch->scale;
+}
+
+/* What a plane is off by, in units of its bound, where the ray comes from 2^65 patches away: the patch is where rounding has left
+ * the ray. */
+static double off_in_doubles(struct random *random)
+{
+  struct model_patch patch = {.scale = 0x1p-40};
+  struct ray ray = {.t_max = INFINITY};
+  struct local_ray local;
+  double off = 0;
+  const double way = random_between(random, 0x1p24, 0x1p25);
+  for (int k = 0; k < 3; k++) {
+    ray.direction[k] = random_between(random, -1, 1), ray.origin[k] = -way * ray.direction[k];
+    patch.center[k] = fma(way, ray.direction[k], ray.origin[k]) + random_between(random, -0.5, 0.5) * patch.scale;
+  }
+  local_ray_make(&patch, &ray, &local);
+  for (int s = 0; s < 2; s++)
+    off = fmax(off, fabs((double)(moment(&patch, &ray, (local.axis + 1 + s) % 3, local.axis) - local.moment[s])));
+  return off / local.error;
+}
+
+/* A whole number of so many bits, or fewer, of either sign; odd. */
+static double whole(struct random *random, int bits)
+{
+  return 2 * floor(ldexp(random_between(random, -0.5, 0.5), bits)) + 1;
+}
+
+/* The same where the ray passes a corner of the patch, exactly, as all coordinates have few bits, and that is far from the scene's
+ * origin. */
+static double off_in_fixed_point(struct random *random)
+{
+  double P[4][4][3], values[2][3], row[2][2] = {{1, 0}, {0, 1}};
+  const double way = whole(random, 25), size[2] = {1, 1};
+  struct model_patch patch = {.scale = 0x1p-16};
+  struct ray ray = {.t_max = INFINITY};
+  struct zoom zoom;
+  for (int k = 0; k < 3; k++) {
+    const double at = whole(random, 24);
+    patch.center[k] = at + patch.scale / 4;
+    ray.direction[k] = whole(random, 24) * 0x1p-24, ray.origin[k] = at - way * ray.direction[k];
+    for (int n = 0; n < 16; n++)
+      P[n / 4][n % 4][k] = n == 0 ? at : at + random_between(random, -0.5, 0.5) * patch.scale;
+  }
+  zoom_start(&patch, P, &ray, &zoom);
+  const double error = zoom_combinations(&zoom, 0, 0, size, row, values);
+  return fmax(fabs(values[0][0]), fabs(values[1][0])) / error;
+}
+
+static void within_the_bound(double (*off)(struct random *random))
+{
+  struct random random = {SEED};
+  double most = 0;
+  for (int n = 0; n < RAYS; n++) most = fmax(most, off(&random));
+  print_message("off by no more than %.3g of the bound\n", most);
+  assert_true(most <= 1);
+}
+
+static void planes_in_doubles(void **state)
+{
+  (void)state;
+  within_the_bound(off_in_doubles);
+}
+
+static void planes_in_fixed_point(void **state)
+{
+  (void)state;
+  within_the_bound(off_in_fixed_point);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(planes_in_doubles), cmocka_unit_test(planes_in_fixed_point)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
