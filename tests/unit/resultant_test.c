@@ -204,7 +204,7 @@ static void the_bound_of_r_holds(void **state)
         for (int e = 0; e <= 2 * m * n; e++) {
           const double binomial = choose(2 * m * n, e);
           const double rounding = weight * RESULTANT_ROUNDINGS * UNIT_ROUNDOFF;
-          const double all = rounding + weight * n * error * (1 / alpha + 1 / beta);
+          const double all = RESULTANT_ERROR(n, pow(alpha * beta, n), alpha, beta, error);
           size_ratio = fmax(size_ratio, fabs((double)exact[e]) / binomial / weight);
           error_ratio = fmax(error_ratio, fabs((double)(exact[e] - (quad)c[e])) / binomial / rounding);
           blurred_ratio = fmax(blurred_ratio, fabs((double)(blurred[e] - (quad)c[e])) / binomial / all);
@@ -267,8 +267,7 @@ static void a_common_root_is_a_root_of_r(void **state)
       }
       /* Planting rounded each coefficient once; the bound of a coefficient bounds the value: weights sum to 1. */
       const double error = fmax(alpha, beta) * UNIT_ROUNDOFF;
-      const double bound = RESULTANT_WEIGHT[n] * pow(alpha * beta, n) *
-                           (RESULTANT_ROUNDINGS * UNIT_ROUNDOFF + n * error * (1 / alpha + 1 / beta));
+      const double bound = RESULTANT_ERROR(n, pow(alpha * beta, n), alpha, beta, error);
       worst_r = fmax(worst_r, fabs((double)value) / bound);
       double p[4] = {0}, q[4] = {0}, num[2], den[2], better;
       for (int i = 0; i <= m; i++)
