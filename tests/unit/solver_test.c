@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "algebra/deflation.h"
+#include "algebra/root_problem.h"
 #include "algebra/start.h"
 #include "cmocka_test.h"
 #include "random.h"
@@ -336,6 +337,18 @@ static void beyond_doubles(void **state)
   }
 }
 
+/* 2^-354 is the root of x^3 - 2^-1062. A little beside it the cube is rounded to 2^-1062 all the same, by what underflows. */
+static void underflow_is_in_the_radius(void **state)
+{
+  (void)state;
+  const double c[] = {-0x1p-1062, 0.0, 0.0, 1.0}, beside = 0x1p-370;
+  struct evaluation p;
+  evaluation_prepare(3, BASIS_POWER, c, NULL, &p);
+  struct root_set roots = {.count = 1, .root = {{.re = 0x1p-354 + beside, .status = ROOT_CONVERGED}}};
+  validation_judge(&p, false, 0, &roots);
+  assert_true(roots.root[0].radius >= beside);
+}
+
 /* Methods that divide by the differences of their values get none that are equal. */
 static void equal_warm_starts_are_parted(void **state)
 {
@@ -460,6 +473,7 @@ int main(void)
     cmocka_unit_test(extremes_beside_the_interval),
     cmocka_unit_test(roots_next_to_open_ends),
     cmocka_unit_test(beyond_doubles),
+    cmocka_unit_test(underflow_is_in_the_radius),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
