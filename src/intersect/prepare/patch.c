@@ -117,6 +117,18 @@ static int rod_split(const struct split_limit *limit, const struct patch_part *w
   return split;
 }
 
+/* On a leaf that ends in a pole no certificate holds for all of it: all rays that come to it go on to the planes' polynomials. So
+ * it is no larger than such a part of the way from there. A choice of speed. */
+enum { POLE_SPLIT = 8 };
+
+static void split_before_pole(const struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
+{
+  for (int k = 0; k < 2; k++)
+    while ((patch->pole[2 * k] || patch->pole[2 * k + 1]) && split[k] < POLE_SPLIT &&
+           2 * split[0] * split[1] <= limit->any * limit->any)
+      split[k] = (uint16_t)(2 * split[k]);
+}
+
 static void auto_split(const struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
 {
   const struct part_grid grid = {{1, 1}, {1, 1}, 0};
@@ -126,6 +138,7 @@ static void auto_split(const struct model_patch *patch, const struct split_limit
   const int rod = rod_split(limit, &whole);
   for (int k = 0; k < 2; k++)
     if (split[k] < rod && split[1 - k] * rod <= limit->any * limit->any) split[k] = (uint16_t)rod;
+  split_before_pole(patch, limit, split);
 }
 
 /* What the patch's solver does on lanes: the whole method as it is by default, or nothing. */
