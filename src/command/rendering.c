@@ -19,6 +19,7 @@ enum status rendering_check_outputs(const struct command *command, const struct 
 {
   enum status status = output_spare(command, request->stats, request->output);
   if (status == STATUS_OK) status = output_spare(command, request->stats, request->part);
+  if (status == STATUS_OK) status = output_spare(command, request->output, request->part); /* a link to what is kept */
   if (status == STATUS_OK) status = scene_file_spare(command, request->scene, scene, request->part);
   if (status == STATUS_OK) status = scene_file_spare(command, request->scene, scene, request->output);
   return status == STATUS_OK ? scene_file_spare(command, request->scene, scene, request->stats) : status;

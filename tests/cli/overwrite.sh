@@ -17,6 +17,17 @@ for name in hard.png soft.png ./folder/../hard.png; do
 done
 try pscn render scene.pscn -o a.png --stats ./folder/../a.png $small
 try pscn render scene.pscn -o - --stats - $small
+# What is kept of a picture and the picture, by a link either way.
+pscn render scene.pscn -o kept.exr.part.exr --tile 1/1 --size 8x6 --quiet
+ln -s kept.exr.part.exr kept.exr
+ln -s kept.exr.part.exr linked.exr
+ln -s linked.exr linked.exr.part.exr
+cksum kept.exr.part.exr >sum
+for name in kept.exr linked.exr; do
+  try pscn render scene.pscn -o $name $small
+  try pscn render scene.pscn -o $name $small --resume
+done
+cksum kept.exr.part.exr | cmp - sum && rm kept.exr* linked.exr*
 echo '1 0 -1' >polynomials
 try pscn roots --stats polynomials <polynomials
 cat polynomials
