@@ -241,11 +241,28 @@ static void staged_free(struct staged *staged)
 
 static enum status failure(int reason) { return reason == ENOMEM ? STATUS_LIMIT : STATUS_FILE; }
 
+/* Why a file cannot be replaced in its folder, though both may be written: 0, or an errno value. It may be another user's in
+ * a sticky folder, append-only, or something mounted, as containers have single files. */
+static int hindrance(const char *path)
+{
+#if defined(STATX_ATTR_MOUNT_ROOT)
+  struct statx info;
+  if (statx(AT_FDCWD, path, 0, STATX_TYPE, &info) == 0 && (info.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0)
+    return EBUSY;
+#endif
+  /* Whether it may be taken away is what the system asks first; then it refuses, for this is no folder. */
+  return rmdir(path) != 0 && (errno == EPERM || errno == EACCES) ? errno : 0;
+}
+
 enum status atomic_file_probe(const char *path, int *out_errno)
 {
   struct target target;
   *out_errno = target_find(path, &target);
-  if (*out_errno != 0) return failure(*out_errno);
+  if (*out_errno == 0 && target.exists && target.replaceable) *out_errno = hindrance(target.path);
+  if (*out_errno != 0) {
+    free(target.path);
+    return failure(*out_errno);
+  }
   if (target.replaceable) {
     const int descriptor = unnamed_open(&target);
     char *directory = descriptor < 0 && errno == EOPNOTSUPP ? directory_of(target.path) : NULL;

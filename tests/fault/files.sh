@@ -46,6 +46,21 @@ if [ "${1:-}" = inside ]; then
   expect 4 "$PSCN" render "$scene" --size 300x300 --quiet --bits 32 --channels rgb,depth,normal,u,v -o new.exr
   only a.png old.exr polynomials
   mkdir old && echo old | tee old/chart.html old/check.html >/dev/null
+  # What cannot be replaced is told before there is a scene to read: a file that is mounted by itself, another user's in a
+  # sticky folder.
+  touch mounted.png other.png && mount --bind other.png mounted.png
+  expect 4 "$PSCN" render missing.pscn -o mounted.png
+  grep -q "cannot write 'mounted.png'" "$said" || wrong "told too late: $(cat "$said")"
+  umount mounted.png && rm mounted.png other.png
+  mkdir -m 1777 sticky && touch sticky/other.png && chmod 666 sticky/other.png
+  if setpriv --reuid 65534 --clear-groups "$PSCN" dump "$scene" >/dev/null 2>&1; then
+    expect 4 setpriv --reuid 65534 --clear-groups "$PSCN" render missing.pscn -o sticky/other.png
+    grep -q "cannot write 'sticky/other.png'" "$said" || wrong "told too late: $(cat "$said")"
+    setpriv --reuid 65534 --clear-groups touch sticky/own.png
+    expect 4 setpriv --reuid 65534 --clear-groups "$PSCN" render missing.pscn -o sticky/own.png
+    grep -q "missing.pscn: there is no such file" "$said" || wrong "an own file may be replaced: $(cat "$said")"
+  fi
+  rm -r sticky
   head -c 1M /dev/zero >full 2>/dev/null
   expect 4 "$PSCN" render "$scene" $small -o b.png
   expect 4 "$PSCN" compare a.png a.png --quiet -o b.png
@@ -78,6 +93,7 @@ if [ "${1:-}" != within ]; then
 fi
 folder=$2
 cd "$folder"
+chmod 755 . # another user is to come through
 mkdir disk
 if unshare -m true 2>/dev/null; then
   mkdir tool && pretend "$folder/tool"
@@ -139,7 +155,7 @@ if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   for kilobytes in 40000 70000 85000 100000; do
     (ulimit -d $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "with $kilobytes KB of data"
   done
-  chmod 755 "$folder" && chmod 644 copy.png
+  chmod 644 copy.png
   if setpriv --reuid 65534 --clear-groups "$PSCN" compare copy.png copy.png --quiet >"$said" 2>&1; then
     for threads in 1 4; do
       (ulimit -u $threads && expect 5 setpriv --reuid 65534 --clear-groups "$PSCN" compare copy.png copy.png && exit "$failed") ||
