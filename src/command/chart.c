@@ -49,7 +49,7 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
   request->chart.height = request->scene.height;
   enum status status = scene_file_load(request->ear.command, &request->scene, &scene);
   for (size_t k = 0; k < CHART_FILES && status == STATUS_OK; k++)
-    status = scene_file_spare_in(request->ear.command, &request->scene, scene, folder, chart_files[k]);
+    status = scene_file_check_in(request->ear.command, &request->scene, scene, folder, chart_files[k]);
   if (status == STATUS_OK) status = chart_scene(&request->chart, scene, &listener, out_text);
   scene_destroy(scene);
   return status;

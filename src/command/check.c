@@ -128,7 +128,7 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
   for (size_t k = 0; k < CHECK_FILES && status == STATUS_OK; k++) {
     char name[CHECK_NAME_SIZE];
     check_file_name(k, name);
-    status = scene_file_spare_in(request->ear.command, &request->scene, scene, folder, name);
+    status = scene_file_check_in(request->ear.command, &request->scene, scene, folder, name);
   }
   if (status == STATUS_OK) status = check_scene(check, scene, &listener, out_text);
   scene_destroy(scene);

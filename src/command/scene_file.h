@@ -78,8 +78,8 @@ void scene_file_warn(const struct command *command, const struct scene *scene);
 enum status scene_file_spare(const struct command *command, const struct scene_request *request,
                              const struct scene *scene, const char *output) STATUS_MUST_CHECK;
 
-/* The same of a file in a folder, of a scene that has been read. */
-enum status scene_file_spare_in(const struct command *command, const struct scene_request *request,
+/* The same of a file in a folder, of a scene that has been read; and STATUS_FILE, told, where it cannot be written. */
+enum status scene_file_check_in(const struct command *command, const struct scene_request *request,
                                 const struct scene *scene, const char *folder, const char *name) STATUS_MUST_CHECK;
 
 /* Diagnostics that are told on stderr. */

@@ -8,4 +8,10 @@ try env PATH=/nonexistent "$(command -v pscn)" check $SCENES/bent.pscn
 try pscn check $SCENES/bent.pscn --povray ./povray 2>&1 | sed "s|$PWD|HERE|"
 try pscn check $SCENES/bent.pscn --povray /bin/true
 try pscn check - --own-text <$SCENES/bent.pscn
+# A file that cannot be written in the folder is told before the work.
+mkdir -p full/check.html full/chart.csv
+try pscn check $SCENES/bent.pscn --povray ./povray -o full
+try pscn chart $SCENES/bent.pscn --quick --size 1x1 --rays 1 --rounds 1 --no-peers -o full
+ls full
+rm -r full
 ls
