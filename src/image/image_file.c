@@ -135,7 +135,8 @@ static enum status load_module(const struct image_module **out, char *message)
 enum status image_file_ready(char *message)
 {
   const struct image_module *module;
-  return load_module(&module, message);
+  const enum status status = load_module(&module, message);
+  return status == STATUS_OK ? module->begin(message) : status;
 }
 
 enum status image_encode(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,

@@ -14,7 +14,8 @@
 #define IMAGE_MODULE_SYMBOL "image_module"
 
 struct image_module {
-  size_t image_size, encoding_size; /* of what it is handed: a module that has others is of another build */
+  size_t image_size, encoding_size;    /* of what it is handed: a module that has others is of another build */
+  enum status (*begin)(char *message); /* starts what threads it takes: later there may be none to be had */
   enum status (*encode)(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
                         size_t *out_size, char *message);
   enum status (*read)(const char *path, const char *format, bool pixels, struct image *out, char *message);

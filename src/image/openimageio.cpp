@@ -256,7 +256,21 @@ status module_read(const char *path, const char *format, bool pixels, image *out
   return result;
 }
 
+/* OpenEXR's threads are started by who writes or reads its files first, and OpenImageIO passes over it in silence where
+ * there are none: no writer then. That is not to be found out when a picture is done. */
+status module_begin(char *message)
+{
+  return guarded(
+    message,
+    [&] {
+      if (OIIO::ImageOutput::create(SUFFIXES[IMAGE_EXR] + 1)) return STATUS_OK;
+      const std::string problem = OIIO::geterror();
+      say(message, problem.empty() ? "there are too few threads" : "OpenImageIO: " + problem);
+      return problem.empty() ? STATUS_LIMIT : STATUS_FILE;
+    });
+}
+
 } // namespace
 
-extern "C" const struct image_module image_module = {sizeof(struct image), sizeof(struct image_encoding), module_encode,
-                                                     module_read};
+extern "C" const struct image_module image_module = {sizeof(struct image), sizeof(struct image_encoding), module_begin,
+                                                     module_encode, module_read};

@@ -1,7 +1,9 @@
 /* Pictures to and from files. */
+#define _GNU_SOURCE /* pthread_setattr_default_np */
 #include "image/image_file.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,6 +66,32 @@ static struct image there_and_back(const struct image *image, const struct image
   assert_int_equal(back.height, image->height);
   assert_int_equal(back.channel_count, image->channel_count);
   return back;
+}
+
+static void *no_work(void *unused) { return unused; }
+
+/* The first of all tests: what threads OpenEXR takes are there when OpenImageIO is ready, so that a picture can be made where
+ * none is to be had any more. None is: each would have a stack that no machine has room for. */
+static void exr_is_made_without_new_threads(void **state)
+{
+  (void)state;
+  char message[IMAGE_MESSAGE_SIZE];
+  assert_int_equal(image_file_ready(message), STATUS_OK);
+  pthread_attr_t before, huge;
+  pthread_t thread;
+  assert_int_equal(pthread_getattr_default_np(&before), 0);
+  assert_int_equal(pthread_attr_init(&huge), 0);
+  assert_int_equal(pthread_attr_setstacksize(&huge, (size_t)1 << 60), 0);
+  assert_int_equal(pthread_setattr_default_np(&huge), 0);
+  assert_int_not_equal(pthread_create(&thread, NULL, no_work, NULL), 0);
+  const char *const names[] = {"R", "G", "B"};
+  struct image image = picture(3, names);
+  struct image back = there_and_back(&image, &(struct image_encoding){.format = IMAGE_EXR, .bits = 32});
+  assert_int_equal(pthread_setattr_default_np(&before), 0);
+  image_destroy(&image);
+  image_destroy(&back);
+  pthread_attr_destroy(&before);
+  pthread_attr_destroy(&huge);
 }
 
 static void png_holds_the_nearest_codes(void **state)
@@ -391,6 +419,7 @@ static void absurd_sizes_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    WITH_FILE(exr_is_made_without_new_threads),
     WITH_FILE(png_holds_the_nearest_codes),
     WITH_FILE(encoded_values_take_no_curve),
     WITH_FILE(exr_keeps_values_and_names),
