@@ -241,17 +241,27 @@ static void staged_free(struct staged *staged)
 
 static enum status failure(int reason) { return reason == ENOMEM ? STATUS_LIMIT : STATUS_FILE; }
 
-/* Why a file cannot be replaced in its folder, though both may be written: 0, or an errno value. It may be another user's in
- * a sticky folder, append-only, or something mounted, as containers have single files. */
+/* Why a file cannot be replaced in its folder, though both may be written: 0, or an errno value. It may be something mounted,
+ * as containers have single files, append-only, or another user's in a sticky folder. */
 static int hindrance(const char *path)
 {
+  int reason = 0;
 #if defined(STATX_ATTR_MOUNT_ROOT)
-  struct statx info;
-  if (statx(AT_FDCWD, path, 0, STATX_TYPE, &info) == 0 && (info.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0)
-    return EBUSY;
+  struct statx file, folder;
+  char *directory = directory_of(path);
+  if (statx(AT_FDCWD, path, 0, STATX_UID, &file) == 0) {
+    const uid_t user = geteuid();
+    const bool sticky = directory != NULL && statx(AT_FDCWD, directory, 0, STATX_MODE | STATX_UID, &folder) == 0 &&
+                        (folder.stx_mode & S_ISVTX) != 0 && folder.stx_uid != user;
+    if ((file.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0) reason = EBUSY;
+    else if ((file.stx_attributes & STATX_ATTR_APPEND) != 0 || (sticky && user != 0 && file.stx_uid != user))
+      reason = EPERM;
+  }
+  free(directory);
+#else
+  (void)path;
 #endif
-  /* Whether it may be taken away is what the system asks first; then it refuses, for this is no folder. */
-  return rmdir(path) != 0 && (errno == EPERM || errno == EACCES) ? errno : 0;
+  return reason;
 }
 
 enum status atomic_file_probe(const char *path, int *out_errno)

@@ -117,16 +117,19 @@ static int rod_split(const struct split_limit *limit, const struct patch_part *w
   return split;
 }
 
-/* On a leaf that ends in a pole no certificate holds for all of it: all rays that come to it go on to the planes' polynomials. So
- * it is no larger than such a part of the way from there. A choice of speed. */
-enum { POLE_SPLIT = 8 };
+/* A cone's side ends in a pole and bends across the way there: it is cut into so many leaves on that way at least, for on a shorter
+ * one at the pole more roots are alone. A choice of speed. */
+enum { CONE_SPLIT = 4 };
 
-static void split_before_pole(const struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
+static void cone_split(const struct model_patch *patch, const struct split_limit *limit, const struct patch_part *whole,
+                       uint16_t split[2])
 {
-  for (int k = 0; k < 2; k++)
-    while ((patch->pole[2 * k] || patch->pole[2 * k + 1]) && split[k] < POLE_SPLIT &&
-           2 * split[0] * split[1] <= limit->any * limit->any)
+  for (int k = 0; k < 2; k++) {
+    const bool pole = patch->pole[2 * k] || patch->pole[2 * k + 1];
+    if (!pole || !(whole->second[2 * (1 - k)] > 2 * limit->turn * whole->first[1 - k])) continue;
+    while (split[k] < CONE_SPLIT && 2 * split[0] * split[1] <= limit->any * limit->any)
       split[k] = (uint16_t)(2 * split[k]);
+  }
 }
 
 static void auto_split(const struct model_patch *patch, const struct split_limit *limit, uint16_t split[2])
@@ -138,7 +141,7 @@ static void auto_split(const struct model_patch *patch, const struct split_limit
   const int rod = rod_split(limit, &whole);
   for (int k = 0; k < 2; k++)
     if (split[k] < rod && split[1 - k] * rod <= limit->any * limit->any) split[k] = (uint16_t)rod;
-  split_before_pole(patch, limit, split);
+  cone_split(patch, limit, &whole, split);
 }
 
 /* What the patch's solver does on lanes: the whole method as it is by default, or nothing. */
