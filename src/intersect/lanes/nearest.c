@@ -116,14 +116,24 @@ LANES_INLINE lanes depth_to_t(const struct line *line, lanes w)
   return ((w + line->start[1]) + line->start[0]) * line->to_t;
 }
 
+/* How far a point of the surface may be moved within the radii of a root. The derivative along a pole is no more than the mixed
+ * one times the distance from there. */
+LANES_INLINE lanes root_reach(const struct leaf *leaf, const struct newton_root *r)
+{
+  const lanes radius[2] = {r->radius_u, r->radius_v};
+  if (leaf->pole == 0) return leaf->first[0] * radius[0] + leaf->first[1] * radius[1];
+  const int border = leaf->pole - 1, d = border / 2;
+  const lanes at = d ? r->v : r->u, away = lanes_abs(border & 1 ? 1 - at : at) + radius[d];
+  return leaf->first[d] * radius[d] + lanes_min(lanes_all(leaf->first[1 - d]), leaf->second[1] * away) * radius[1 - d];
+}
+
 /* The bound on the error of t of a root within these radii: how far they let x_k move, and the roundings of x_k and
  * it. */
 LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *it, const struct newton_root *r,
                                 lanes w, lanes at)
 {
   const lanes size = lanes_abs(it->line->to_t);
-  return size * (it->leaf->first[0] * r->radius_u + it->leaf->first[1] * r->radius_v + it->line->error +
-                 it->leaf->parts.error) +
+  return size * (root_reach(it->leaf, r) + it->line->error + it->leaf->parts.error) +
          8 * UNIT_ROUNDOFF * (lanes_abs(at) + size * lanes_abs(w)) + p->t_error;
 }
 
@@ -226,7 +236,7 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
 LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candidate *it, const struct leaf_root *root)
 {
   const struct leaf *leaf = it->leaf;
-  const lanes reach = leaf->first[0] * root->at.radius_u + leaf->first[1] * root->at.radius_v;
+  const lanes reach = root_reach(leaf, &root->at);
   const lanes off = leaf->parts.error + TAIL_ERROR + root->left;
   return packet_has_digits(p, it->patch, NEAR_START, root->t) &
          (off * it->patch->scale * reach <=
