@@ -399,11 +399,57 @@ static void of_a_stack_few_are_tried(void **state)
   free(nets);
 }
 
+/* ---- next to poles ---- */
+
+/* An eighth of a ball as large as a planet, its pole at 0. */
+static void planet(size_t number, double radius, world_net net)
+{
+  static const double along[4] = {1, 1, 0.5522847498, 0}, up[4] = {0, 0.5522847498, 1, 1};
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      net[i][j][0] = (number & 1 ? -radius : radius) * along[i] * along[j];
+      net[i][j][1] = (number & 2 ? -radius : radius) * up[i] - radius;
+      net[i][j][2] = (number & 4 ? -radius : radius) * along[i] * up[j];
+    }
+}
+
+/* What stands on a pole, a millionth or less of the ball from it, sees no leaf for whose whole a Jacobian is regular; little is left
+ * to the last resort all the same, from above and from the ground up. */
+static void next_to_poles_little_is_left_open(void **state)
+{
+  (void)state;
+  enum { PLANET_RAYS = 400 };
+  static const double radii[] = {1e3, 1e4, 1e6};
+  struct random random = {SEED + 1};
+  for (size_t k = 0; k < sizeof radii / sizeof radii[0]; k++) {
+    world_net nets[8];
+    struct world world;
+    for (size_t n = 0; n < 8; n++) planet(n, radii[k], nets[n]);
+    world_open(&world, nets, 8, NULL);
+    struct intersect_counts before = {.work = 0};
+    for (int n = 0; n < PLANET_RAYS; n++) {
+      struct ray ray = {.t_max = INFINITY};
+      towards(&random, (const double[3]){0, -0.1, 0}, 0, &ray);
+      ray.origin[1] = random_between(&random, 1, 6);
+      const struct hit hit = world_closest(&world, &ray);
+      assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+      if (hit.patch == HIT_NONE) continue;
+      ray.direction[1] = random_between(&random, 0.1, 1);
+      hit_leave(&hit, ray.direction, ray.origin);
+      assert_int_equal(world_closest(&world, &ray).patch, HIT_NONE);
+    }
+    const struct intersect_counts took = counted(&world, &before);
+    print_message("a ball of %g: %.3f leaves left open a ray\n", radii[k], (double)took.escalated / (2 * PLANET_RAYS));
+    assert_in_range(took.escalated, 0, PLANET_RAYS / 2);
+    world_close(&world);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_ray_takes_no_more_than_its_share), cmocka_unit_test(what_is_not_looked_at_hides),
-    cmocka_unit_test(what_is_passed_by_hides_nothing), cmocka_unit_test(boxes_and_leaves_made_are_counted),
-    cmocka_unit_test(of_a_stack_few_are_tried)};
+    cmocka_unit_test(what_is_passed_by_hides_nothing),    cmocka_unit_test(boxes_and_leaves_made_are_counted),
+    cmocka_unit_test(of_a_stack_few_are_tried),           cmocka_unit_test(next_to_poles_little_is_left_open)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
