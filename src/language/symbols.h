@@ -89,8 +89,8 @@ struct symbols {
 
 /* A directive of text that is passed over, whose name is still to come. */
 struct naming {
-  int
-    token; /* PSCN_TOKEN_DECLARE, PSCN_TOKEN_LOCAL, TOKEN_UNDEF; TOKEN_FOREIGN_DIRECTIVE: #read, of several; 0: none */
+  /* PSCN_TOKEN_DECLARE, PSCN_TOKEN_LOCAL, TOKEN_UNDEF; TOKEN_FOREIGN_DIRECTIVE: #read, of several; 0: none */
+  int token;
   struct span place;
 };
 

@@ -65,12 +65,9 @@ static int make_up(struct tokens *tokens)
 /* Behind a directive of files: their names, and those that are read from them, stand for what nobody knows here. */
 static void pass_files(struct language *language)
 {
-  const struct span directive = sources_here(language);
-  const struct name text = sources_name(language, directive);
-  const enum words_files files = words_files(text.text, text.length);
-  if (files == FILES_NONE || !(language->declaration || language->tokens->skipping)) return;
+  if (!language->declaration && !language->tokens->skipping) return;
   struct naming naming = {0};
-  (void)naming_next(language, &naming, TOKEN_FOREIGN_DIRECTIVE, directive);
+  (void)naming_next(language, &naming, TOKEN_FOREIGN_DIRECTIVE, sources_here(language));
   while (naming.token != 0) {
     const int token = pscn_scan_next(&language->sources->frame->scan);
     const struct span place = sources_here(language);

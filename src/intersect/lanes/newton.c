@@ -209,8 +209,8 @@ LANES_INLINE lanes row_length(lanes p, lanes q, const lanes slope[2])
 LANES_INLINE lane_mask alone_at_pole(const struct leaf *leaf, const struct newton_root *r, const lanes size[2],
                                      lanes step, lanes off, const lanes reach[2])
 {
-  const int border = leaf->pole - 1, d = border / 2, e = 1 - d;
-  const lanes at = d ? r->v : r->u, away = border & 1 ? 1 - at : at;
+  const int d = (leaf->pole - 1) / 2, e = 1 - d;
+  const lanes away = pole_distance(leaf, r);
   const lanes left = away - step - (d ? r->radius_v : r->radius_u), of_e = away * size[e];
   const double *third = leaf->third, dd = leaf->second[2 * d], dde = third[d], dee = third[e];
   const lanes q = size[d] * (dd * reach[d]) + of_e * (dde * reach[d] + dee * reach[e]);

@@ -20,6 +20,14 @@ struct newton_root {
   lanes off;                /* error times the longer one of these */
 };
 
+/* How far the root is from the leaf's pole, in the parameter across it. */
+LANES_INLINE lanes pole_distance(const struct leaf *leaf, const struct newton_root *r)
+{
+  const int border = leaf->pole - 1;
+  const lanes at = border < 2 ? r->u : r->v;
+  return border & 1 ? 1 - at : at;
+}
+
 /* A root on a leaf. Points and derivatives are in the frame of its patch, and of any use where the root is within the
  * leaf's margin. */
 struct leaf_root {

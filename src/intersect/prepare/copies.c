@@ -29,9 +29,9 @@ enum { DEEP = 8, DEEP_SAMPLES = 64 };
 struct copy_map {
   const struct scene_copy *copy;
   double W[3][3], b[3];
-  double error;  /* of its patches and rays in the object's coordinates */
-  double widest; /* largest sum of |A| over a column: how much longer an error is in the scene */
-  double lo[3], hi[3];
+  double error;        /* of its patches and rays in the object's coordinates */
+  double widest;       /* largest sum of |A| over a column: how much longer an error is in the scene */
+  double lo[3], hi[3]; /* its box, where that is asked for */
   bool good;
 };
 
@@ -83,15 +83,13 @@ static bool invert(double A[3][3], double W[3][3])
   return finite;
 }
 
-/* How far from the object's control points the map carries the copy's; sets the copy's box. */
-static double copy_map_excess(struct copy_map *c, const struct model *model, const struct scene_object *object,
+/* How far from the object's control points the map carries the copy's. */
+static double copy_map_excess(const struct copy_map *c, const struct model *model, const struct scene_object *object,
                               const struct middle *m)
 {
   double off = 0;
-  bounds_empty(c->lo, c->hi);
   for (size_t p = 0; p < object->patch_count; p++) {
     double(*P)[4][3] = model->scene->patches[c->copy->first_patch + p].P;
-    bounds_add(P, c->lo, c->hi);
     for (int n = 0; n < 16; n++) {
       for (int j = 0; j < 3; j++) {
         double x = m->center[j] - object->P[p][n / 4][n % 4][j];
@@ -140,7 +138,7 @@ static void copy_map_make(struct copy_map *c, const struct model *model, const s
 /* An object's copies. */
 struct group {
   const struct scene_object *object;
-  const struct copy_map *maps;
+  struct copy_map *maps;
   size_t count;
 };
 
@@ -161,9 +159,19 @@ static bool holds_middle(const struct copy_map *c, const struct copy_map *other)
   return true;
 }
 
-static bool deep(const struct group *g)
+/* The box of the copy whose patches begin there. */
+static void copy_bounds(const struct model *model, const struct scene_object *object, size_t first_patch, double lo[3],
+                        double hi[3])
+{
+  bounds_empty(lo, hi);
+  for (size_t p = 0; p < object->patch_count; p++) bounds_add(model->scene->patches[first_patch + p].P, lo, hi);
+}
+
+static bool deep(const struct model *model, const struct group *g)
 {
   size_t held = 0, samples = 0;
+  for (size_t k = 0; k < g->count; k++)
+    copy_bounds(model, g->object, g->maps[k].copy->first_patch, g->maps[k].lo, g->maps[k].hi);
   for (size_t s = 0; s < g->count; s += g->count / DEEP_SAMPLES + 1, samples++)
     for (size_t k = 0; k < g->count; k++) held += holds_middle(&g->maps[k], &g->maps[s]);
   return held > DEEP * samples;
@@ -199,7 +207,7 @@ static int by_object(const void *a, const void *b)
 }
 
 /* The group that begins at this one of all maps. */
-static struct group group_at(const struct scene *scene, size_t count, const struct copy_map all[], size_t first)
+static struct group group_at(const struct scene *scene, size_t count, struct copy_map all[], size_t first)
 {
   const size_t object = all[first].copy->object;
   struct group g = {&scene->objects[object], &all[first], 0};
@@ -231,7 +239,7 @@ enum status copies_choose(struct model *model, size_t most, size_t *own)
   for (size_t first = 0; first < count; first += g.count) {
     g = group_at(scene, count, all, first);
     const size_t more = spared(&g);
-    if (more > 0 && *own + more <= most && deep(&g)) *own += more;
+    if (more > 0 && *own + more <= most && deep(model, &g)) *own += more;
     else if (more > 0) take(model, &g);
   }
   memory_free(all);
@@ -291,9 +299,7 @@ enum status copies_prepare(struct model *model, const struct team *team, const s
 void copy_box(const struct model *model, const struct model_copy *copy, struct bvh_box *out)
 {
   double lo[3], hi[3];
-  bounds_empty(lo, hi);
-  for (size_t p = 0; p < copy->object->declared->patch_count; p++)
-    bounds_add(model->scene->patches[copy->first_patch + p].P, lo, hi);
+  copy_bounds(model, copy->object->declared, copy->first_patch, lo, hi);
   for (int k = 0; k < 3; k++) {
     const double about = tree_about(&model->tree, k);
     const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo[k]), fabs(hi[k])) + fabs(about));
