@@ -59,10 +59,10 @@ enum { LOOKS_MET = 4, LOOKS_TRIED = 28, LOOKS_DEAR = 480, LOOKS_MADE = 32, LOOKS
 enum { MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
 enum { MOST_SWEEPS = 384 * 18 * 18, MOST_SWEEPS_OF_ALL = 4 * MOST_SWEEPS };
 
-/* How much of that a ray gets alone, and in the company of others: what comes to a ray and in which order depends on those
- * beside it, so that where its share ends does, too. In company one that takes more than this part of it is let go, and asked
- * alone (intersect.c). */
-enum { SHARE_ALONE = 1, SHARE_IN_COMPANY = 8 };
+/* How often that is halved for a ray alone, and in the company of others: what comes to a ray and in which order depends on those
+ * beside it, so that where its share ends does, too. In company one that takes more than its share, an eighth, is let go, and
+ * asked alone (intersect.c). */
+enum { SHARE_ALONE = 0, SHARE_IN_COMPANY = 3 };
 
 /* What the lanes leave open, a list a lane. */
 struct postponed {
@@ -158,12 +158,12 @@ LANES_INLINE unsigned packet_let_go(const struct packet *p)
   return p->postponed->share > SHARE_ALONE ? p->postponed->cut_off : 0;
 }
 
-/* The rays, that have been tried on nothing yet, have that part of so much. */
+/* The rays, that have been tried on nothing yet, have that share of so much. */
 LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int looks, int open, int sweeps)
 {
-  postponed->share = share, postponed->most_looks = looks / share, postponed->most_open = (unsigned)(open / share);
+  postponed->share = share, postponed->most_looks = looks >> share, postponed->most_open = (unsigned)(open >> share);
   postponed->looks = postponed->most_looks + (lane_mask){0};
-  postponed->splits = lanes_all(MOST_SPLITS / share), postponed->sweeps = lanes_all(sweeps / share);
+  postponed->splits = lanes_all(MOST_SPLITS >> share), postponed->sweeps = lanes_all(sweeps >> share);
 }
 
 /* Takes so many looks from what each of the rays has left; returns what that is then. */

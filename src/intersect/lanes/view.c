@@ -21,92 +21,103 @@
 /* What rounding may do to the start of a ray, or to the frame's origin, on the way into the frame: of its coordinates. */
 #define START_ROUNDOFF (16 * UNIT_ROUNDOFF)
 
-/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it
- * and its sum with the slack to float, its product with the reciprocal, and a box's, for the planes are that far off
- * then. */
+/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it, its sum
+ * with the slack and that one's product with the reciprocal to float, and a box's, for the planes are that far off then. */
 #define ORIGIN_SLACK 0x1p-22
 
 /* A stand-in for the reciprocal of 0: so large that all that is beyond the slack ends up beyond the frame, finite so
  * that 0 times it is 0. */
 #define HUGE_INVERSE 0x1p80f
 
-/* The depth where the line of a ray enters the frame, or less. */
-static lanes frame_entry(const lanes from[3], const lanes slack[3], const lanes direction[3])
+/* A packet's rays in the frame. */
+struct placed {
+  lanes from[3], along[3]; /* where they start, and where they go, the longest component 1 */
+  lanes slack;             /* what a coordinate of `from` may be off by */
+  lanes start, unit;       /* the view's */
+};
+
+/* Out of line, for it is rare: rays that start farther away than FRAME_NEAR come to where their lines enter the frame, or before
+ * it; those of the lanes beyond FRAME_FAR in wide arithmetic, as local_ray.h has it. */
+__attribute__((noinline)) static void come_near(const struct packet *p, const struct model_tree *tree, double size,
+                                                lanes farthest, struct placed *it)
 {
   lanes enter = lanes_all(-INFINITY);
   for (int k = 0; k < 3; k++) {
-    const lanes half = FRAME_HALF + slack[k], inverse = 1 / direction[k];
-    enter = lanes_max(lanes_min((-half - from[k]) * inverse, (half - from[k]) * inverse), enter);
+    const lanes half = FRAME_HALF + it->slack, inverse = 1 / it->along[k];
+    enter = lanes_max(lanes_min((-half - it->from[k]) * inverse, (half - it->from[k]) * inverse), enter);
   }
-  return enter;
-}
-
-/* Out of line, for it is rare: where the rays of the lanes `far` come to the frame, as local_ray.h has it. */
-__attribute__((noinline)) static void come_near(const struct packet *p, const struct model_tree *tree, lane_mask far,
-                                                lanes from[3], lanes slack[3], lanes *start)
-{
-  for (unsigned bits = lanes_bits(far); bits; bits &= bits - 1) {
+  it->start = lanes_max(enter, it->start);
+  for (int k = 0; k < 3; k++) it->from[k] += it->start * it->along[k];
+  for (unsigned bits = lanes_bits(~(farthest <= FRAME_FAR)); bits; bits &= bits - 1) {
     const int l = __builtin_ctz(bits);
     struct ray ray = {.t_min = p->t_min[l] - p->t_error[l]};
     double at[3];
     for (int k = 0; k < 3; k++) ray.origin[k] = p->origin[k][l], ray.direction[k] = p->direction[k][l];
-    (*start)[l] = local_ray_enter(&ray, tree->origin, tree->frame, at);
+    it->start[l] = local_ray_enter(&ray, tree->origin, tree->frame, at);
     /* the ray is where it should be, but the frame's origin is rounded */
-    for (int k = 0; k < 3; k++) from[k][l] = at[k], slack[k][l] = START_ROUNDOFF * fabs(tree->origin[k]) / tree->frame;
+    for (int k = 0; k < 3; k++) it->from[k][l] = at[k];
+    it->slack[l] = size;
   }
+}
+
+/* The largest of the three, lane by lane. */
+LANES_INLINE lanes largest(const lanes x[3])
+{
+  return lanes_max(lanes_max(lanes_abs(x[0]), lanes_abs(x[1])), lanes_abs(x[2]));
+}
+
+/* size: START_ROUNDOFF times twice the frame's distance from the world's origin, for that and a ray's own from the frame's is no
+ * less than the ray's from the world's. */
+LANES_INLINE void place(const struct packet *p, const struct model_tree *tree, double to_frame, double size,
+                        struct placed *it)
+{
+  const lanes shrink = 1 / p->longest;
+  for (int k = 0; k < 3; k++) {
+    it->along[k] = p->direction[k] * shrink;
+    it->from[k] = (p->origin[k] - tree->origin[k]) * to_frame;
+  }
+  const lanes farthest = largest(it->from);
+  it->slack = START_ROUNDOFF * farthest + size;
+  it->unit = p->longest * to_frame;
+  /* No ray is in the frame before this depth: its dominant coordinate is outside. In the coordinates of a copy's
+   * object its start is known to t_error only, which from far away is many times the object's size. */
+  it->start = lanes_max((p->t_min - p->t_error) * it->unit, -(farthest + 2));
+  if (lanes_any(~(farthest <= FRAME_NEAR))) come_near(p, tree, size, farthest, it);
+  else
+    for (int k = 0; k < 3; k++) it->from[k] += it->start * it->along[k];
+  it->slack += 8 * UNIT_ROUNDOFF * lanes_abs(it->start) + ORIGIN_SLACK * (1 + largest(it->from));
 }
 
 LANES_INLINE void set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree)
 {
-  view->alike = view->apart = true;
-  const double to_frame = 1 / tree->frame; /* a power of two */
-  lanes low[3][PACKETS], high[3][PACKETS], along[3][PACKETS], from[3][PACKETS], widen[PACKETS];
-  const int last = packets - 1;
-  for (int h = 0; h <= last; h++) {
-    const struct packet *p = &packet[h];
-    const lanes shrink = 1 / p->longest;
-    lanes at[3], slack[3], direction[3], farthest = {0};
-    for (int k = 0; k < 3; k++) {
-      along[k][h] = direction[k] = p->direction[k] * shrink;
-      at[k] = (p->origin[k] - tree->origin[k]) * to_frame;
-      slack[k] = START_ROUNDOFF * (lanes_abs(p->origin[k]) + fabs(tree->origin[k])) * to_frame;
-      farthest = lanes_max(lanes_abs(at[k]), farthest);
-    }
-    view->unit[h] = p->longest * to_frame;
-    /* No ray is in the frame before this depth: its dominant coordinate is outside. In the coordinates of a copy's
-     * object its start is known to t_error only, which from far away is many times the object's size. */
-    lanes start = lanes_max((p->t_min - p->t_error) * view->unit[h], -(farthest + 2));
-    if (lanes_any(farthest > FRAME_NEAR)) start = lanes_max(frame_entry(at, slack, direction), start);
-    for (int k = 0; k < 3; k++) at[k] += start * direction[k], slack[k] += 8 * UNIT_ROUNDOFF * lanes_abs(start);
-    const lane_mask far = ~(farthest <= FRAME_FAR);
-    if (lanes_any(far)) come_near(p, tree, far, at, slack, &start);
-    view->start[h] = start;
-    widen[h] = lanes_all(0);
-    for (int k = 0; k < 3; k++) {
-      slack[k] += ORIGIN_SLACK * (1 + lanes_abs(at[k]));
-      low[k][h] = at[k] + slack[k], high[k][h] = at[k] - slack[k], from[k][h] = at[k];
-      widen[h] = lanes_max(slack[k], widen[h]);
-    }
+  const double *o = tree->origin, to_frame = 1 / tree->frame; /* a power of two */
+  const double size = 2 * START_ROUNDOFF * real_max(real_max(fabs(o[0]), fabs(o[1])), fabs(o[2])) * to_frame;
+  lanes from[3][PACKETS], along[3][PACKETS], slack[PACKETS];
+  for (int h = 0; h < packets; h++) {
+    struct placed it;
+    place(&packet[h], tree, to_frame, size, &it);
+    for (int k = 0; k < 3; k++) from[k][h] = it.from[k], along[k][h] = it.along[k];
+    slack[h] = it.slack, view->start[h] = it.start, view->unit[h] = it.unit;
   }
   for (int h = packets; h < PACKETS; h++) { /* as the last */
-    for (int k = 0; k < 3; k++)
-      low[k][h] = low[k][last], high[k][h] = high[k][last], along[k][h] = along[k][last], from[k][h] = from[k][last];
-    widen[h] = widen[last];
+    for (int k = 0; k < 3; k++) from[k][h] = from[k][packets - 1], along[k][h] = along[k][packets - 1];
+    slack[h] = slack[packets - 1];
   }
+  view->alike = view->apart = true;
+  const float_lanes off = float_lanes_join(slack);
   for (int k = 0; k < 3; k++) {
-    const float_lanes d = float_lanes_join(along[k]);
+    const float_lanes at = float_lanes_join(from[k]), d = float_lanes_join(along[k]);
     const float_lanes huge = float_lanes_select(d < 0, float_lanes_all(-HUGE_INVERSE), float_lanes_all(HUGE_INVERSE));
     const float_lanes inverse = float_lanes_select(float_lanes_abs(d) > 1 / HUGE_INVERSE, 1 / d, huge);
-    const float_lanes to_low = float_lanes_join(low[k]) * -inverse;
-    const float_lanes to_high = float_lanes_join(high[k]) * -inverse;
+    const float_lanes to_low = (at + off) * -inverse, to_high = (at - off) * -inverse;
     const unsigned down = float_lanes_bits(d < 0);
-    view->inverse[k] = inverse, view->from[k] = float_lanes_join(from[k]), view->along[k] = d;
+    view->inverse[k] = inverse, view->from[k] = at, view->along[k] = d;
     view->early[k] = float_lanes_min(to_low, to_high), view->late[k] = float_lanes_max(to_low, to_high);
     const bool same = down == 0 || down == ALL_RAYS;
     view->alike &= same, view->apart &= !same;
     sides_set(&view->sides, k, down != 0);
   }
-  view->widen = WIDE_SLACKS * float_lanes_join(widen);
+  view->widen = WIDE_SLACKS * off;
 }
 
 #if LANES == 4
