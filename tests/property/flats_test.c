@@ -83,6 +83,41 @@ static void the_first_of_a_plane_is_the_nearest(void **state)
   assert_true(hits > SCENES * RAYS / 2);
 }
 
+/* A patch of that plane that is folded over itself, so that a ray meets it up to three times, and Newton's process does not do. */
+static void folded_net(struct random *random, int axis, double value, world_net out)
+{
+  flat_net(random, axis, value, out);
+  const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+  for (int n = 0; n < 16; n++) {
+    out[n / 4][n % 4][x] = random_between(random, -1, 1), out[n / 4][n % 4][y] = random_between(random, -1, 1);
+  }
+}
+
+/* What is open of a patch behind it does not make it grazing, whichever of both the ray comes to first. */
+static void what_stands_behind_in_a_plane_is_no_doubt(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 4};
+  enum { FEW = 3 };
+  int hits = 0;
+  for (int scene = 0; scene < SCENES; scene++) {
+    const int axis = scene % 3;
+    world_net nets[FEW];
+    struct world world;
+    struct ray rays[RAYS];
+    for (int p = 0; p < FEW; p++) folded_net(&random, axis, 0.3, nets[p]);
+    world_open(&world, nets, FEW, NULL);
+    for (int n = 0; n < RAYS; n++) {
+      rays[n] = ray_at(&random, axis, 0.3);
+      if (n % PACKET != 0) continue;
+      rays[n].direction[axis] *= 0x1p-13, rays[n].origin[axis] = 0.3 - rays[n].direction[axis];
+    }
+    check_rays(&world, rays, &hits);
+    world_close(&world);
+  }
+  assert_true(hits > SCENES * RAYS / 8);
+}
+
 /* A ray that starts in a plane exactly meets nothing of it, as one does that starts a little behind it. */
 static void what_starts_in_a_plane_leaves_it(void **state)
 {
@@ -166,6 +201,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(planes_are_found), cmocka_unit_test(the_first_of_a_plane_is_the_nearest),
+    cmocka_unit_test(what_stands_behind_in_a_plane_is_no_doubt),
     cmocka_unit_test(what_starts_in_a_plane_leaves_it), cmocka_unit_test(a_plane_costs_no_last_resort)};
   return cmocka_run_group_tests_name("flats", tests, NULL, NULL);
 }

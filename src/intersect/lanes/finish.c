@@ -59,6 +59,20 @@ static struct exact_maybe lane_maybe(const struct packet *p, unsigned lane)
     .patch = (uint32_t)best->patch[lane], .u = best->u[lane], .v = best->v[lane], .t = best->t[lane]};
 }
 
+/* Leaves out what stands behind that root's patch in its plane: the ray meets it where it meets that, and it is open only where
+ * it came first (candidate.c, before_in_plane). */
+static void leave_out_behind(struct exact_case *asked, uint32_t first)
+{
+  const uint32_t plane = model_plane(asked->model, first);
+  if (plane == 0) return;
+  size_t kept = 0;
+  for (size_t k = 0; k < asked->region_count; k++) {
+    const uint32_t patch = asked->regions[k].patch;
+    if (patch <= first || model_plane(asked->model, patch) != plane) asked->regions[kept++] = asked->regions[k];
+  }
+  asked->region_count = kept;
+}
+
 /* Has the last resort decide the lane. Returns whether the answer is written; else it is the lane's best root now. */
 static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
 {
@@ -67,7 +81,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
   const bool hit = best->patch[lane] != NO_PATCH;
   const struct exact_root known = lane_root(p, lane);
   const struct exact_maybe maybe = lane_maybe(p, lane);
-  if (hit && best->certain[lane]) asked.known = &known;
+  if (hit && best->certain[lane]) asked.known = &known, leave_out_behind(&asked, known.patch);
   else if (hit) asked.maybe = &maybe;
   struct exact_decision decision;
   exact_closest(&asked, &decision);
