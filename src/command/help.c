@@ -22,7 +22,7 @@ static void print_item(const struct method_item *item)
 static void print_solver_help(void)
 {
   puts("usage: solver NAME { ITEM VALUE ... }          in a scene\n"
-       "       --solver 'NAME { ITEM VALUE ... }'       of render, trace and roots\n"
+       "       --solver 'NAME { ITEM VALUE ... }'       of render, trace, roots, dump and check\n"
        "How roots are found, and of what; the braces and each item may be left out.\n\n"
        "Names:");
   for (size_t k = 0; k < solver_count(); k++) printf("  %-15s %s\n", solver_at(k)->name, solver_at(k)->summary);

@@ -213,7 +213,7 @@ const struct command command_render = {
     "The suffix chooses the format. PNG: 8 bits a value (--bits 16 for 16), sRGB. EXR: half floats (--bits 32 for\n"
     "floats), linear, not clipped. Neither --crop nor --threads changes a pixel.\n"
     "\n"
-    "What is done of FILE is kept in FILE.part.exr meanwhile, and stays there where SIGINT, SIGTERM or SIGHUP ends\n"
+    "What is done of FILE is kept in FILE.part.exr meanwhile, and stays where SIGINT, SIGTERM, SIGHUP or SIGXCPU ends\n"
     "the rendering, or the process is killed: --resume goes on with it, pscn merge and viewers read it. It goes when\n"
     "FILE is complete.\n"
     "\n"

@@ -93,7 +93,7 @@ static const struct method_item items[] = {
    METHOD_ITEM_NUMBER, NULL, DBL_MIN, MAX_TOLERANCE, set_tolerance, get_tolerance},
   {"max_iterations", "steps a root may take", METHOD_ITEM_INTEGER, NULL, 1, MAX_ITERATIONS, set_max_iterations,
    get_max_iterations},
-  {"start", "from Aberth's circle, or from the roots of the previous ray on the same patch", METHOD_ITEM_KEYWORD,
+  {"start", "from Aberth's circle, or from the roots of the previous ray on the same leaf", METHOD_ITEM_KEYWORD,
    start_words, 0, 1, set_start, get_start},
   /* form stands before the items it sets, so that a block written in this order reads back the same. */
   {"form", "paper: the paper's way, all of the following; improved: the iterations with all improvements",
