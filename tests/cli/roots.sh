@@ -31,3 +31,5 @@ printf '%s\n' '3 -0.1' '0 0 3 -0.1' | pscn roots --format json | sed 's/.*"eq11"
 for text in 'aberth' 'aberth /* no basis */' 'aberth { basis bernstein }' 'aberth { form paper }' 'aberth { form paper basis bernstein }'; do
   echo '2 -1' | pscn roots --solver "$text" --stats - | grep '"solver"'
 done
+# Of no polynomials there are statistics too.
+pscn roots --stats - </dev/null | grep -v '"solve"'

@@ -99,10 +99,14 @@ static void values_that_are_not_finite(void **state)
   image_pixel(pair.first, 1, 1)[0] = NAN;
   image_pixel(pair.second, 1, 1)[1] = NAN;
   assert_int_equal(compare_count_over(&pair, 0), 0);
+  struct compare_result result;
+  image_pixel(pair.first, 1, 0)[0] = 0.5f;
+  compare_images(&pair, &result, NULL, 1);
+  assert_true(fabs(result.psnr - 20 * log10(1 / result.rms)) < 1e-12); /* an infinity is no peak */
+  image_pixel(pair.first, 1, 0)[0] = 0;
   image_pixel(pair.second, 0, 0)[1] = -INFINITY;
   image_pixel(pair.second, 1, 1)[1] = 0;
   assert_int_equal(compare_count_over(&pair, 1e30), 2);
-  struct compare_result result;
   compare_images(&pair, &result, NULL, 1);
   assert_true(isinf(result.max));
 }
