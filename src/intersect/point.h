@@ -12,8 +12,10 @@
  * included. */
 #define UNDECIDED_ERRORS 5
 
-/* |Su x Sv| relative to the squared derivatives down to which it is the normal without further thought. */
+/* |Su x Sv| relative to the squared derivatives, or to derivatives times SURFACE_LEAST, down to which it is the normal without
+ * further thought: of derivatives in the patch's frame rounding takes some 2^-47, whatever their size. */
 #define SURFACE_SURE 0x1p-20
+#define SURFACE_LEAST 0x1p-8
 
 /* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the
  * sum; in each coordinate, so up to sqrt(3) of it in distance. `tangent` bounds the derivatives' coordinates. */

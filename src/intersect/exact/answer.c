@@ -18,8 +18,8 @@ static void wide_weights(wide t, wide w[4], wide dw[3])
   dw[0] = 3 * s * s, dw[1] = 6 * s * t, dw[2] = 3 * t * t;
 }
 
-/* Su x Sv, over its largest coordinate; false where it vanishes. */
-static bool wide_across(double (*P)[4][3], wide u, wide v, wide n[3])
+/* Su x Sv, over its largest coordinate; false where that is no more than `least`. */
+static bool wide_across(double (*P)[4][3], wide u, wide v, double least, wide n[3])
 {
   wide wu[4], du[3], wv[4], dv[3], su[3] = {0}, sv[3] = {0}, size = 0;
   wide_weights(u, wu, du);
@@ -37,7 +37,7 @@ static bool wide_across(double (*P)[4][3], wide u, wide v, wide n[3])
     size = wide_max(size, wide_abs(n[c]));
   }
   for (int c = 0; c < 3; c++) n[c] /= size;
-  return size > 0;
+  return size > least;
 }
 
 /* t where the ray comes through the tangent plane at (u,v), next to which its root is: right to the last places of the
@@ -45,7 +45,7 @@ static bool wide_across(double (*P)[4][3], wide u, wide v, wide n[3])
 static wide wide_t(double (*P)[4][3], const struct ray *ray, wide u, wide v)
 {
   wide wu[4], wv[4], unused[3], n[3], above = 0, along = 0;
-  if (!wide_across(P, u, v, n)) return 0;
+  if (!wide_across(P, u, v, 0, n)) return 0;
   wide_weights(u, wu, unused);
   wide_weights(v, wv, unused);
   for (int c = 0; c < 3; c++) {
@@ -56,11 +56,11 @@ static wide wide_t(double (*P)[4][3], const struct ray *ray, wide u, wide v)
   return along != 0 ? above / along : 0;
 }
 
-/* Su x Sv at (u,v), of unit length; false where it vanishes. */
-static bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3])
+/* Su x Sv at (u,v), made of unit length; false where it is no longer than `least`. */
+static bool wide_normal(double (*P)[4][3], wide u, wide v, double least, double out[3])
 {
   wide n[3];
-  if (!wide_across(P, u, v, n)) return false;
+  if (!wide_across(P, u, v, least, n)) return false;
   for (int c = 0; c < 3; c++) out[c] = (double)n[c];
   const double length = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
   for (int c = 0; c < 3; c++) out[c] /= length;
@@ -69,8 +69,23 @@ static bool wide_normal(double (*P)[4][3], wide u, wide v, double out[3])
 
 /* ---- the hit ---- */
 
-/* A certain hit of a patch that is nearly a curve has a normal in wide arithmetic; where there is none at all the
- * surface is seen from the front. */
+/* Derivatives whose product is no more than this part of what rounding the control points may make of it are those of a pole
+ * whose points were rounded one by one: there the limit on the way to it is the normal. */
+#define NET_ROUNDINGS 8
+
+/* The normal where the derivatives' product is not sure: of a patch that is nearly a curve, next to a pole or at one. `tangent`
+ * bounds the derivatives' coordinates; where there is none at all the surface is seen from the front. */
+static void unsure_normal(const struct model *model, struct model_patch *patch, const double direction[3],
+                          double tangent, struct hit *out)
+{
+  double(*P)[4][3] = model->scene->patches[out->patch].P, size = patch->scale;
+  for (int c = 0; c < 3; c++) size = real_max(size, fabs(patch->center[c]) + patch->scale);
+  const double rounded = NET_ROUNDINGS * UNIT_ROUNDOFF * size * (tangent * patch->scale);
+  if (!wide_normal(P, out->u, out->v, rounded, out->normal) && !patch_normal(patch->x, out->u, out->v, out->normal) &&
+      !wide_normal(P, out->u, out->v, 0, out->normal))
+    vector_scale(-1 / vector_length(direction), direction, out->normal);
+}
+
 static void set_surface(const struct model *model, const struct ray *ray, struct hit *out)
 {
   struct patch_room room;
@@ -87,14 +102,13 @@ static void set_surface(const struct model *model, const struct ray *ray, struct
   out->point_error = POINT_ERROR(patch->scale, tangent, magnitude);
   /* A patch that is lost in its scene has derivatives whose products are no numbers. */
   int exponent;
-  tangent = frexp(tangent, &exponent);
+  const double part = frexp(tangent, &exponent);
   for (int c = 0; c < 3; c++) su[c] = ldexp(su[c], -exponent), sv[c] = ldexp(sv[c], -exponent);
   vector_cross(su, sv, out->normal);
   const double length = vector_length(out->normal);
-  if (length > SURFACE_SURE * tangent * tangent) vector_scale(1 / length, out->normal, out->normal);
-  else if (!patch_normal(patch->x, out->u, out->v, out->normal) &&
-           !wide_normal(model->scene->patches[out->patch].P, out->u, out->v, out->normal))
-    vector_scale(-1 / vector_length(direction), direction, out->normal);
+  if (length > SURFACE_SURE * part * real_max(part, ldexp(SURFACE_LEAST, -exponent)))
+    vector_scale(1 / length, out->normal, out->normal);
+  else unsure_normal(model, patch, direction, tangent, out);
   if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);
 }
 
@@ -143,7 +157,7 @@ static void face(double (*P)[4][3], const struct ray *ray, wide u, wide v, doubl
 {
   wide n[3], along = 0, same = 0;
   const double slant = fabs(vector_dot(normal, ray->direction));
-  if (slant > SIDE_SURE * vector_length(ray->direction) || !wide_across(P, u, v, n)) return;
+  if (slant > SIDE_SURE * vector_length(ray->direction) || !wide_across(P, u, v, 0, n)) return;
   for (int c = 0; c < 3; c++) along += n[c] * ray->direction[c], same += n[c] * normal[c];
   if (along != 0 && (along > 0) == (same > 0)) vector_scale(-1, normal, normal);
 }

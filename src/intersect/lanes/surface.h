@@ -52,7 +52,7 @@ LANES_INLINE lane_mask surface_normal(const lanes cross[3], lanes tangent, lanes
   const lanes length = lanes_sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
   const lanes inverse = 1 / length;
   for (int c = 0; c < 3; c++) out[c] = cross[c] * inverse;
-  return length > SURFACE_SURE * tangent * tangent;
+  return length > SURFACE_SURE * tangent * lanes_max(tangent, lanes_all(SURFACE_LEAST));
 }
 
 #endif

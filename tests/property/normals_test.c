@@ -1,0 +1,79 @@
+/* Normals of certain hits next to poles, where Su x Sv all but vanishes, to quadruple precision's at the same place. */
+#include <math.h>
+#include <string.h>
+
+#include "reference/quad.h"
+
+#include "cmocka_test.h"
+#include "random.h"
+#include "world.h"
+
+enum { SEED = 20261126, PATCHES = 400, RAYS = 32, FARTHEST = 36 };
+
+/* What a normal may be off by: intersect/point.h. */
+#define SURE 0x1p-18
+
+/* Poles as they come: one border in a point, the row behind it as well, or in part. */
+enum { ONE_ROW, TWO_ROWS, ROW_IN_PART, KINDS };
+
+static void pole(struct random *random, int kind, world_net net)
+{
+  for (int n = 0; n < 48; n++) net[n / 12][n / 3 % 4][n % 3] = random_between(random, -1, 1);
+  for (int j = 1; j < 4; j++) memcpy(net[0][j], net[0][0], sizeof net[0][0]);
+  for (int j = 0; j < 4 && kind == TWO_ROWS; j++) memcpy(net[1][j], net[0][0], sizeof net[0][0]);
+  if (kind == ROW_IN_PART) memcpy(net[1][2], net[1][1], sizeof net[1][1]);
+}
+
+/* S, and Su x Sv of unit length. */
+static void surface(world_net net, double u, double v, double at[3], double normal[3])
+{
+  struct quad_jet jet[3];
+  quad n[3];
+  for (int c = 0; c < 3; c++) {
+    struct quad_net of;
+    for (int k = 0; k < 16; k++) of.c[k / 4][k % 4] = net[k / 4][k % 4][c];
+    jet[c] = quad_net_jet(&of, u, v), at[c] = (double)jet[c].value;
+  }
+  for (int c = 0; c < 3; c++) {
+    const int i = (c + 1) % 3, j = (c + 2) % 3;
+    n[c] = jet[i].du * jet[j].dv - jet[j].du * jet[i].dv;
+  }
+  const quad length = quad_sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (int c = 0; c < 3; c++) normal[c] = (double)(n[c] / length);
+}
+
+static void normals_next_to_poles_are_those_of_the_surface(void **state)
+{
+  (void)state;
+  struct random random = {SEED};
+  int certain[KINDS] = {0};
+  for (int n = 0; n < PATCHES; n++) {
+    world_net net[1];
+    struct world world;
+    pole(&random, n % KINDS, net[0]);
+    world_open(&world, net, 1, NULL);
+    for (int k = 0; k < RAYS; k++) {
+      struct ray ray = {.t_max = INFINITY};
+      double at[3], normal[3], facing = 0, off = 0;
+      const double u = ldexp(random_between(&random, 0.5, 1), -1 - k * FARTHEST / RAYS);
+      surface(net[0], u, random_between(&random, 0.1, 0.9), at, normal);
+      for (int c = 0; c < 3; c++)
+        ray.origin[c] = random_between(&random, -3, 3), ray.direction[c] = at[c] - ray.origin[c];
+      const struct hit hit = world_closest(&world, &ray);
+      if (hit.patch == HIT_NONE || hit.certainty != CERTAINTY_CERTAIN) continue;
+      certain[n % KINDS]++;
+      surface(net[0], hit.u, hit.v, at, normal);
+      for (int c = 0; c < 3; c++) facing += normal[c] * hit.normal[c];
+      for (int c = 0; c < 3; c++) off = fmax(off, fabs(hit.normal[c] - copysign(normal[c], facing * normal[c])));
+      if (!(off <= SURE)) fail_msg("kind %d, u %.3g v %.3g: the normal is off by %.2g", n % KINDS, hit.u, hit.v, off);
+    }
+    world_close(&world);
+  }
+  for (int k = 0; k < KINDS; k++) assert_true(certain[k] > PATCHES / KINDS * RAYS / 4);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(normals_next_to_poles_are_those_of_the_surface)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
