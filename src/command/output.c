@@ -3,6 +3,8 @@
 
 #include <assert.h>
 #include <errno.h>
+#include <stdio.h>
+#include <stdio_ext.h> /* __fpurge */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -10,6 +12,18 @@
 
 #include "base/input.h"
 #include "command/interrupt.h"
+
+/* What is written to standard output. Where files are to follow, a signal, and a reader that is gone, only end the writing:
+ * what they were made of has still to be put away. */
+static enum status write_standard(const struct command *command, const struct atomic_file *output, bool files_follow)
+{
+  if (!files_follow) interrupt_resume(); /* nothing would have to be put away */
+  if (atomic_load(&interrupt_signal) != 0) return STATUS_INTERRUPTED;
+  (void)fwrite(output->bytes, 1, output->size, stdout);
+  if (fflush(stdout) == 0 || atomic_load(&interrupt_signal) == 0) return command_finish_output(command);
+  __fpurge(stdout); /* else the end of the program would wait for the reader again */
+  return STATUS_INTERRUPTED;
+}
 
 /* What follows the last slash. */
 static const char *base_of(const char *path)
@@ -43,16 +57,11 @@ enum status output_write(const struct command *command, const struct atomic_file
   enum status status = STATUS_OK;
   int reason;
   assert(count <= OUTPUT_MOST);
-  for (size_t k = 0; k < count && status == STATUS_OK; k++) {
-    if (outputs[k].path != NULL && output_is_standard(outputs[k].path)) {
-      interrupt_resume(); /* nothing would have to be put away */
-      if (atomic_load(&interrupt_signal) != 0) return STATUS_INTERRUPTED;
-      (void)fwrite(outputs[k].bytes, 1, outputs[k].size, stdout);
-      status = command_finish_output(command);
-    } else if (outputs[k].path != NULL) {
-      files[named++] = outputs[k];
-    }
-  }
+  for (size_t k = 0; k < count; k++)
+    if (outputs[k].path != NULL && !output_is_standard(outputs[k].path)) files[named++] = outputs[k];
+  for (size_t k = 0; k < count && status == STATUS_OK; k++)
+    if (outputs[k].path != NULL && output_is_standard(outputs[k].path))
+      status = write_standard(command, &outputs[k], named > 0);
   if (status != STATUS_OK || named == 0) return status;
   interrupt_defer();
   status = atomic_files_write(files, named, &interrupt_signal, &which, &reason);

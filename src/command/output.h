@@ -14,7 +14,8 @@ bool output_is_standard(const char *path);
 
 /* Asks before the work whether a file can be written, and after it writes the files of a result, OUTPUT_MOST of them at
  * most: all together or none (atomic_file.h). A NULL path is nowhere, "-" standard output, which cannot be taken back
- * and comes first. Errors are told. A signal that comes meanwhile leaves what was there: STATUS_INTERRUPTED. */
+ * and comes first. Errors are told. A signal that comes meanwhile leaves what was there: STATUS_INTERRUPTED, and so does
+ * a standard output that nobody reads any more, where files are to follow. */
 enum { OUTPUT_MOST = 3 };
 enum status output_probe(const struct command *command, const char *path) STATUS_MUST_CHECK;
 enum status output_write(const struct command *command, const struct atomic_file outputs[],

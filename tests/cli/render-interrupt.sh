@@ -32,6 +32,26 @@ grep '"primary"' stats.json
 pscn render "$scene" -o whole.png --size 90x60 --quiet
 pscn compare resumed.png whole.png --fail 0 --quiet; echo "exit $?"
 ls -A
+rm resumed.png stats.json
+# Likewise the statistics, which come before the picture: into a pipe that is full, and where no one reads any more.
+mkfifo full
+for way in full left; do
+  exec 3<>full
+  [ $way = left ] || dd if=/dev/zero of=full bs=4096 count=16 oflag=nonblock status=none
+  exec 4>full
+  [ $way = full ] || exec 3>&-
+  pscn render "$scene" -o $way.png --size 90x60 --stats - 3>&- >&4 &
+  sleep 1
+  [ $way = left ] || kill -TERM $!
+  wait $!
+  echo "exit $?"
+  exec 3>&- 4>&-
+  pscn render "$scene" -o $way.png --size 90x60 --resume --quiet --stats stats.json
+  grep '"primary"' stats.json
+  pscn compare $way.png whole.png --fail 0 --quiet; echo "exit $?"
+done
+ls -A
+rm full* left* stats.json
 # What is done is not kept where it would be waited for, or be gone.
 mkfifo a.png.part.exr
 pscn render "$scene" -o a.png --size 2000x2000 --samples 16 --checkpoint 0.1 &
@@ -39,7 +59,7 @@ sleep 1
 kill -INT $!
 wait $!
 echo "exit $?"
-rm p.png a.png.part.exr resumed.png whole.png stats.json
+rm p.png a.png.part.exr whole.png
 # What was ignored when it was started stays so: SIGHUP under nohup, SIGPIPE under programs that ask write instead.
 (trap '' HUP PIPE
 pscn render "$scene" -o kept.png --size 60x40 --samples 24 --quiet &
