@@ -166,7 +166,9 @@ static bool end_of_source(struct language *language)
   while (frame->conditions > 0) {
     source_recall(frame->source);
     const struct name name = sources_name(language, frame->condition[--frame->conditions].place);
-    language_tell(language, name.place, "%.*s without #end", (int)name.length, name.text);
+    size_t length = name.length;
+    const char *directive = words_directive(name.text, &length);
+    language_tell(language, name.place, "#%.*s without #end", (int)length, directive);
   }
   if (!frame->outer) return false;
   declare_left_open(language, sources_span(frame, frame->source->length, frame->source->length));

@@ -33,6 +33,8 @@ enum {
 struct scan {
   void *scanner;
   size_t begin, end; /* bytes of the last token */
+  size_t length;     /* of the text */
+  bool hash;         /* a # and comments stand before the word that comes next */
   size_t comment_begin;
   int comment_depth;
   size_t bad_end;   /* behind the last characters that mean nothing */
@@ -58,6 +60,9 @@ void scan_digit(struct scan *scan, char digit);
 
 /* Reads `count` numbers out of the last token's text into scan->number. One that is too large becomes the whole token. */
 void scan_numbers(struct scan *scan, const char *text, size_t length, int count);
+
+/* Whether text[0 .. length-1], what stands behind a #, is comments and then a word, as POV-Ray allows. */
+bool scan_comments_lead_to_word(const char *text, size_t length);
 
 /* Whether a token is a word, be it a name or one of the language's or of POV-Ray's. */
 bool scan_is_word(int token);

@@ -97,6 +97,7 @@ bool words_declared(const char *word, size_t length)
 
 const char *words_directive(const char *text, size_t *length)
 {
+  if (*text != '#') return text; /* comments stand between the two */
   do text++, --*length;
   while (strchr(" \t\r\n\f\v", *text));
   return text;

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* What token a word, or a directive with its #, is. */
+/* What token a word, or a directive with its # or behind comments without, is. */
 int words_token(const char *word, size_t length);
 int words_directive_token(const char *text, size_t length);
 
@@ -13,7 +13,7 @@ int words_directive_token(const char *text, size_t length);
  * a condition on them must hold. */
 bool words_declared(const char *word, size_t length);
 
-/* The name of a directive, behind its # and blanks; *length, which was the directive's, becomes its own. */
+/* The name of a directive, behind its # and blanks, if they are in the text; *length, which was the directive's, becomes its own. */
 const char *words_directive(const char *text, size_t *length);
 
 /* What a directive does to names: of files, and of what is read from them. */
