@@ -88,9 +88,8 @@ static void folded_net(struct random *random, int axis, double value, world_net 
 {
   flat_net(random, axis, value, out);
   const int x = (axis + 1) % 3, y = (axis + 2) % 3;
-  for (int n = 0; n < 16; n++) {
+  for (int n = 0; n < 16; n++)
     out[n / 4][n % 4][x] = random_between(random, -1, 1), out[n / 4][n % 4][y] = random_between(random, -1, 1);
-  }
 }
 
 /* What is open of a patch behind it does not make it grazing, whichever of both the ray comes to first. */
@@ -201,7 +200,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(planes_are_found), cmocka_unit_test(the_first_of_a_plane_is_the_nearest),
-    cmocka_unit_test(what_stands_behind_in_a_plane_is_no_doubt),
-    cmocka_unit_test(what_starts_in_a_plane_leaves_it), cmocka_unit_test(a_plane_costs_no_last_resort)};
+    cmocka_unit_test(what_stands_behind_in_a_plane_is_no_doubt), cmocka_unit_test(what_starts_in_a_plane_leaves_it),
+    cmocka_unit_test(a_plane_costs_no_last_resort)};
   return cmocka_run_group_tests_name("flats", tests, NULL, NULL);
 }

@@ -36,6 +36,13 @@ struct placed {
   lanes start, unit;       /* the view's */
 };
 
+/* Goes on to the depth where the rays start. */
+LANES_INLINE void advance(struct placed *it)
+{
+  for (int k = 0; k < 3; k++) it->from[k] += it->start * it->along[k];
+  it->slack += 8 * UNIT_ROUNDOFF * lanes_abs(it->start);
+}
+
 /* Out of line, for it is rare: rays that start farther away than FRAME_NEAR come to where their lines enter the frame, or before
  * it; those of the lanes beyond FRAME_FAR in wide arithmetic, as local_ray.h has it. */
 __attribute__((noinline)) static void come_near(const struct packet *p, const struct model_tree *tree, double size,
@@ -47,7 +54,7 @@ __attribute__((noinline)) static void come_near(const struct packet *p, const st
     enter = lanes_max(lanes_min((-half - it->from[k]) * inverse, (half - it->from[k]) * inverse), enter);
   }
   it->start = lanes_max(enter, it->start);
-  for (int k = 0; k < 3; k++) it->from[k] += it->start * it->along[k];
+  advance(it);
   for (unsigned bits = lanes_bits(~(farthest <= FRAME_FAR)); bits; bits &= bits - 1) {
     const int l = __builtin_ctz(bits);
     struct ray ray = {.t_min = p->t_min[l] - p->t_error[l]};
@@ -83,9 +90,8 @@ LANES_INLINE void place(const struct packet *p, const struct model_tree *tree, d
    * object its start is known to t_error only, which from far away is many times the object's size. */
   it->start = lanes_max((p->t_min - p->t_error) * it->unit, -(farthest + 2));
   if (lanes_any(~(farthest <= FRAME_NEAR))) come_near(p, tree, size, farthest, it);
-  else
-    for (int k = 0; k < 3; k++) it->from[k] += it->start * it->along[k];
-  it->slack += 8 * UNIT_ROUNDOFF * lanes_abs(it->start) + ORIGIN_SLACK * (1 + largest(it->from));
+  else advance(it);
+  it->slack += ORIGIN_SLACK * (1 + largest(it->from));
 }
 
 LANES_INLINE void set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree)
