@@ -150,6 +150,40 @@ static void what_starts_in_a_plane_leaves_it(void **state)
   assert_true(hits > SCENES * RAYS / 8 && touching > SCENES * RAYS / 2);
 }
 
+/* However flat the ray leaves its plane, and whatever is open of what lies there: it meets nothing of that. */
+static void what_leaves_a_plane_slowly_does_not_meet_it(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 5};
+  enum { FEW = 3 };
+  int touching = 0;
+  for (int scene = 0; scene < SCENES; scene++) {
+    const int axis = scene % 3;
+    world_net nets[FEW];
+    struct world world;
+    for (int p = 0; p < FEW; p++) folded_net(&random, axis, 0.3, nets[p]);
+    world_open(&world, nets, FEW, NULL);
+    for (int n = 0; n < RAYS; n++) {
+      struct ray ray = {.t_max = INFINITY};
+      struct hit_list list;
+      bool occluded;
+      for (int k = 0; k < 3; k++)
+        ray.origin[k] = random_between(&random, -1, 1), ray.direction[k] = random_between(&random, -1, 1);
+      ray.origin[axis] = 0.3, ray.direction[axis] = ldexp(ray.direction[axis], -n % 60);
+      const struct hit hit = world_closest(&world, &ray);
+      tracer_occluded(world.tracer, 1, &ray, &occluded);
+      assert_int_equal(hit.patch, HIT_NONE);
+      assert_false(occluded);
+      assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
+      assert_int_equal(list.count, 0);
+      touching += hit.certainty == CERTAINTY_GRAZING;
+    }
+    assert_int_equal(tracer_counts(world.tracer)->escalated, 0);
+    world_close(&world);
+  }
+  assert_in_range(touching, 1, SCENES * RAYS - 1);
+}
+
 /* Nearly all rays meet several patches of the plane, and few of them a border. */
 static void a_plane_costs_no_last_resort(void **state)
 {
@@ -198,9 +232,11 @@ static void planes_are_found(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(planes_are_found), cmocka_unit_test(the_first_of_a_plane_is_the_nearest),
-    cmocka_unit_test(what_stands_behind_in_a_plane_is_no_doubt), cmocka_unit_test(what_starts_in_a_plane_leaves_it),
-    cmocka_unit_test(a_plane_costs_no_last_resort)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(planes_are_found),
+                                     cmocka_unit_test(the_first_of_a_plane_is_the_nearest),
+                                     cmocka_unit_test(what_stands_behind_in_a_plane_is_no_doubt),
+                                     cmocka_unit_test(what_starts_in_a_plane_leaves_it),
+                                     cmocka_unit_test(what_leaves_a_plane_slowly_does_not_meet_it),
+                                     cmocka_unit_test(a_plane_costs_no_last_resort)};
   return cmocka_run_group_tests_name("flats", tests, NULL, NULL);
 }
