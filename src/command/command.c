@@ -143,15 +143,25 @@ struct listener command_listener(struct command_ear *ear)
   return (struct listener){.hear = hear, .context = ear, .stop = &interrupt_signal};
 }
 
+/* Adds an argument as a shell reads it: in quotes where it has more than these characters. Returns where the text ends then. */
+static char *add_argument(char *end, const char *argument)
+{
+  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  const size_t length = strlen(argument);
+  if (length > 0 && strspn(argument, plain) == length) return end + sprintf(end, " %s", argument);
+  end += sprintf(end, " '");
+  for (; *argument != '\0'; argument++) end += sprintf(end, *argument == '\'' ? "'\\''" : "%c", *argument);
+  return end + sprintf(end, "'");
+}
+
 char *command_line_text(int argc, const char **argv)
 {
   size_t size = sizeof "pscn";
-  for (int k = 0; k < argc; k++) size += strlen(argv[k]) + 3; /* a blank and two quotes */
+  for (int k = 0; k < argc; k++) size += 4 * strlen(argv[k]) + 3; /* a blank and two quotes */
   char *text = malloc(size), *end = text;
   if (text == NULL) return NULL;
   end += sprintf(end, "pscn");
-  for (int k = 0; k < argc; k++)
-    end += sprintf(end, strpbrk(argv[k], " \t\n\"\\$*?;&|<>(){}`#~") == NULL ? " %s" : " '%s'", argv[k]);
+  for (int k = 0; k < argc; k++) end = add_argument(end, argv[k]);
   return text;
 }
 

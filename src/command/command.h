@@ -98,7 +98,7 @@ enum status command_line_read(const struct command *command, int argc, const cha
  * command fails anyway. */
 enum status command_finish_output(const struct command *command);
 
-/* The command line as a shell takes it, or nearly; NULL where memory is short. To be freed. */
+/* The command line as a shell takes it; NULL where memory is short. To be freed. */
 char *command_line_text(int argc, const char **argv);
 
 /* A row of the table for an option that the handler is told, and for the one that every command has, which

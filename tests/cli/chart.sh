@@ -51,6 +51,13 @@ for name in nothing aside; do
   ls out4
 done
 
+# The page says the command line as a shell takes it.
+cp nothing.pscn "it's \$x.pscn"
+chart "it's \$x.pscn" $small --povray nowhere/povray --quiet -o out7 2>/dev/null >&2
+eval "set -- $(sed -n "s/&#39;/'/g; s/.*<code>pscn \(.*\)<\/code>.*/\1/p" out7/chart.html)"
+printf '%s\n' "$2"
+rm -r "it's \$x.pscn" out7
+
 # A patch with a solver of its own, which means nothing here.
 {
   cat "$scene"
