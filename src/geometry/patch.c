@@ -144,7 +144,7 @@ static double cross_sum(const double a[3], const double b[3], const double c[3],
   return vector_length(out);
 }
 
-bool patch_normal(double x[3][4][4], double u, double v, double out[3])
+bool patch_normal(double x[3][4][4], double u, double v, double rounded, double out[3])
 {
   /* A derivative is right to some tens of units in the last place of the net's extent; a product of two that is less
    * than this part of the extents' is noise. */
@@ -152,7 +152,7 @@ bool patch_normal(double x[3][4][4], double u, double v, double out[3])
   double extent = 0;
   for (int k = 0; k < 3; k++)
     for (int i = 0; i < 16; i++) extent = real_max(extent, fabs(x[k][i / 4][i % 4] - x[k][0][0]));
-  const double least = noise * extent * extent, zero[3] = {0, 0, 0};
+  const double least = real_max(noise * extent * extent, rounded), zero[3] = {0, 0, 0};
   double su[3], sv[3], suu[3], suv[3], svv[3], nu[3], nv[3];
   derivative(x, u, v, 1, 0, su);
   derivative(x, u, v, 0, 1, sv);

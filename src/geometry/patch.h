@@ -26,9 +26,10 @@ void patch_bidegree(double x[3][4][4], double slack, int *out_m, int *out_n);
  * are the control net of bidegree (m,n). out may be net. */
 void patch_reduce(double net[4][4], int m, int n, double out[4][4]);
 
-/* A unit normal at (u,v): Su x Sv, or where it vanishes its limit along the way into the patch. False where the
- * surface has none (a patch collapsed to a curve or point); then out is zero. */
-bool patch_normal(double x[3][4][4], double u, double v, double out[3]);
+/* A unit normal at (u,v): Su x Sv, or where that is no longer than `rounded`, which is what rounding the control points
+ * may make of it, or vanishes, its limit along the way into the patch. False where the surface has none (a patch
+ * collapsed to a curve or point); then out is zero. */
+bool patch_normal(double x[3][4][4], double u, double v, double rounded, double out[3]);
 
 /* The 48 numbers of net `number` of those that begin at `nets`, `stride` bytes apart. */
 static inline const double *net_at(const void *nets, size_t stride, size_t number)

@@ -1,4 +1,5 @@
-/* Normals of certain hits next to poles, where Su x Sv all but vanishes, to quadruple precision's at the same place. */
+/* Normals of certain hits next to poles, where Su x Sv all but vanishes, to quadruple precision's at the same place; and next to
+ * poles whose points were rounded one by one, to those of the pole. */
 #include <math.h>
 #include <string.h>
 
@@ -72,8 +73,61 @@ static void normals_next_to_poles_are_those_of_the_surface(void **state)
   for (int k = 0; k < KINDS; k++) assert_true(certain[k] > PATCHES / KINDS * RAYS / 4);
 }
 
+enum { ROUNDED_POLES = 600, MOST_AWAY = 20, MOST_EXPONENT = 700 };
+
+/* A pole at 0, as a ball has it; its numbers leave room to be moved as far as MOST_AWAY. */
+static void cap(struct random *random, world_net net)
+{
+  double to[3][3];
+  for (int n = 0; n < 9; n++) to[n / 3][n % 3] = random_between(random, -1, 1);
+  for (int n = 0; n < 48; n++) {
+    const int i = n / 12, j = n / 3 % 4, c = n % 3;
+    const double r = i / 3.0, x = r * cos(j / 2.0), y = r * sin(j / 2.0), z = i > 1 ? -r * r : 0;
+    net[i][j][c] = ldexp(round(ldexp(to[c][0] * x + to[c][1] * y + to[c][2] * z, 30)), -30);
+  }
+}
+
+/* Far from zero, and in scenes of all sizes. */
+static void poles_that_are_rounded_point_by_point_have_their_normals(void **state)
+{
+  (void)state;
+  struct random random = {SEED};
+  int certain = 0;
+  for (int n = 0; n < ROUNDED_POLES; n++) {
+    world_net exact, net[1];
+    const int away = n % (MOST_AWAY + 1), exponent = MOST_EXPONENT * (n % 3 - 1);
+    const double v = random_between(&random, 0.1, 0.9), u = ldexp(1, away - 55);
+    double at[3], normal[3], facing = 0, off = 0;
+    struct ray ray = {.t_max = INFINITY};
+    struct world world;
+    cap(&random, exact);
+    for (int k = 0; k < 48; k++) {
+      const double x = ldexp(1, away) + exact[k / 12][k / 3 % 4][k % 3];
+      const double last = k < 12 ? ldexp((double)(random_bits(&random) % 2), away - 52) : 0;
+      net[0][k / 12][k / 3 % 4][k % 3] = ldexp(x + last, exponent);
+    }
+    surface(net[0], u, v, at, normal);
+    surface(exact, ldexp(1, -40), v, ray.origin, normal);
+    for (int c = 0; c < 3; c++) {
+      ray.direction[c] = -normal[c] + random_between(&random, -0.1, 0.1);
+      ray.origin[c] = at[c] - ldexp(ray.direction[c], exponent);
+    }
+    world_open(&world, net, 1, NULL);
+    const struct hit hit = world_closest(&world, &ray);
+    world_close(&world);
+    if (hit.patch == HIT_NONE || hit.certainty != CERTAINTY_CERTAIN || hit.u > 2 * u) continue;
+    certain++;
+    surface(exact, ldexp(1, -40), hit.v, at, normal);
+    for (int c = 0; c < 3; c++) facing += normal[c] * hit.normal[c];
+    for (int c = 0; c < 3; c++) off = fmax(off, fabs(hit.normal[c] - copysign(normal[c], facing * normal[c])));
+    if (!(off <= SURE)) fail_msg("2^%d away, size 2^%d, u %.3g v %.3g: off by %.2g", away, exponent, hit.u, hit.v, off);
+  }
+  assert_true(certain > ROUNDED_POLES / 16);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(normals_next_to_poles_are_those_of_the_surface)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(normals_next_to_poles_are_those_of_the_surface),
+                                     cmocka_unit_test(poles_that_are_rounded_point_by_point_have_their_normals)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,7 +66,7 @@ static void regular_points(void **state)
     double x[3][4][4], got[3], want[3];
     random_surface(&random, x);
     const double u = random_unit(&random), v = random_unit(&random);
-    assert_true(patch_normal(x, u, v, got));
+    assert_true(patch_normal(x, u, v, 0, got));
     assert_true(exact_normal(x, u, v, want));
     assert_true(fabs(vector_length(got) - 1) < 4 * 0x1p-53);
     assert_true(distance(got, want) < 1e-10);
@@ -85,7 +85,7 @@ static void collapsed_edges(void **state)
     if (border < 2) collapse_row(x, border * 3);
     else collapse_column(x, (border - 2) * 3);
     const double t = random_between(&random, 0.05, 0.95), u = border < 2 ? border : t, v = border < 2 ? t : border - 2;
-    assert_true(patch_normal(x, u, v, got));
+    assert_true(patch_normal(x, u, v, 0, got));
     limit_normal(x, u, v, 0x1p-30, border < 2 ? 1 : 2, want);
     assert_true(distance(got, want) < 1e-6);
   }
@@ -103,7 +103,7 @@ static void near_collapsed_edges(void **state)
     const double v = random_between(&random, 0.1, 0.9);
     for (int k = 1; k <= 60; k++) {
       const double u = ldexp(1, -k);
-      assert_true(patch_normal(x, u, v, got));
+      assert_true(patch_normal(x, u, v, 0, got));
       assert_true(exact_normal(x, u, v, want));
       assert_true(distance(got, want) < 1e-6);
     }
@@ -123,7 +123,7 @@ static void collapsed_corners(void **state)
     for (int k = 0; k < 3; k++)
       if (along_u) x[k][i == 0 ? 1 : 2][j] = x[k][i][j];
       else x[k][i][j == 0 ? 1 : 2] = x[k][i][j];
-    assert_true(patch_normal(x, corner / 2, corner % 2, got));
+    assert_true(patch_normal(x, corner / 2, corner % 2, 0, got));
     limit_normal(x, corner / 2, corner % 2, 0x1p-40, 3, want);
     assert_true(distance(got, want) < 1e-6);
   }
@@ -139,7 +139,7 @@ static void doubly_collapsed_corners(void **state)
     random_surface(&random, x);
     const int corner = n % 4, i = corner / 2 * 3, j = corner % 2 * 3;
     for (int k = 0; k < 3; k++) x[k][i == 0 ? 1 : 2][j] = x[k][i][j == 0 ? 1 : 2] = x[k][i][j];
-    if (!patch_normal(x, corner / 2, corner % 2, got)) fail_msg("no normal in a doubly collapsed corner");
+    if (!patch_normal(x, corner / 2, corner % 2, 0, got)) fail_msg("no normal in a doubly collapsed corner");
     limit_normal(x, corner / 2, corner % 2, 0x1p-40, 3, want);
     assert_true(distance(got, want) < 1e-6);
   }
@@ -159,7 +159,7 @@ static void two_collapsed_edges_in_a_corner(void **state)
       for (int r = 0; r < 4; r++) x[k][r][j] = x[k][i][j];
     /* S - corner is of order st: Su x Sv of order s t (..), the limit along the diagonal. */
     limit_normal(x, corner / 2, corner % 2, 0x1p-40, 3, want);
-    if (patch_normal(x, corner / 2, corner % 2, got)) assert_true(distance(got, want) < 1e-6);
+    if (patch_normal(x, corner / 2, corner % 2, 0, got)) assert_true(distance(got, want) < 1e-6);
     else assert_true(got[0] == 0 && got[1] == 0 && got[2] == 0);
   }
 }
@@ -180,7 +180,7 @@ static void no_normal_where_there_is_no_surface(void **state)
       for (int k = 0; k < 16; k++)
         x[1][k / 4][k % 4] = 0.5 * x[0][k / 4][k % 4], x[2][k / 4][k % 4] = 0.25 * x[0][k / 4][k % 4];
     }
-    assert_false(patch_normal(x, n % 5 / 4.0, random_unit(&random), got));
+    assert_false(patch_normal(x, n % 5 / 4.0, random_unit(&random), 0, got));
     assert_true(got[0] == 0 && got[1] == 0 && got[2] == 0);
   }
 }
@@ -197,7 +197,7 @@ static void size_does_not_matter(void **state)
     const int exponent = n % 3 == 0 ? -200 : n % 3 == 1 ? 200 : 20;
     for (int k = 0; k < 48; k++) y[k / 16][k / 4 % 4][k % 4] = ldexp(x[k / 16][k / 4 % 4][k % 4], exponent);
     const double u = n % 4 ? 0 : 0.3, v = random_unit(&random);
-    assert_true(patch_normal(x, u, v, a) && patch_normal(y, u, v, b));
+    assert_true(patch_normal(x, u, v, 0, a) && patch_normal(y, u, v, 0, b));
     assert_memory_equal(a, b, sizeof a);
   }
 }

@@ -19,7 +19,7 @@ static void wide_weights(wide t, wide w[4], wide dw[3])
 }
 
 /* Su x Sv, over its largest coordinate; false where that is no more than `least`. */
-static bool wide_across(double (*P)[4][3], wide u, wide v, double least, wide n[3])
+static bool wide_across(double (*P)[4][3], wide u, wide v, wide least, wide n[3])
 {
   wide wu[4], du[3], wv[4], dv[3], su[3] = {0}, sv[3] = {0}, size = 0;
   wide_weights(u, wu, du);
@@ -57,7 +57,7 @@ static wide wide_t(double (*P)[4][3], const struct ray *ray, wide u, wide v)
 }
 
 /* Su x Sv at (u,v), made of unit length; false where it is no longer than `least`. */
-static bool wide_normal(double (*P)[4][3], wide u, wide v, double least, double out[3])
+static bool wide_normal(double (*P)[4][3], wide u, wide v, wide least, double out[3])
 {
   wide n[3];
   if (!wide_across(P, u, v, least, n)) return false;
@@ -69,20 +69,23 @@ static bool wide_normal(double (*P)[4][3], wide u, wide v, double least, double 
 
 /* ---- the hit ---- */
 
-/* Derivatives whose product is no more than this part of what rounding the control points may make of it are those of a pole
- * whose points were rounded one by one: there the limit on the way to it is the normal. */
-#define NET_ROUNDINGS 8
+/* Derivatives whose product is no more than what rounding the control points may make of it are those of a pole whose
+ * points were rounded one by one: there the limit on the way to it is the normal. In roundings of a coordinate: two in a
+ * difference of points, three times that in a derivative, two products with one, and room for where that ends. */
+#define NET_ROUNDINGS 16
 
 /* The normal where the derivatives' product is not sure: of a patch that is nearly a curve, next to a pole or at one. `tangent`
  * bounds the derivatives' coordinates; where there is none at all the surface is seen from the front. */
 static void unsure_normal(const struct model *model, struct model_patch *patch, const double direction[3],
                           double tangent, struct hit *out)
 {
-  double(*P)[4][3] = model->scene->patches[out->patch].P, size = patch->scale;
-  for (int c = 0; c < 3; c++) size = real_max(size, fabs(patch->center[c]) + patch->scale);
-  const double rounded = NET_ROUNDINGS * UNIT_ROUNDOFF * size * (tangent * patch->scale);
-  if (!wide_normal(P, out->u, out->v, rounded, out->normal) && !patch_normal(patch->x, out->u, out->v, out->normal) &&
-      !wide_normal(P, out->u, out->v, 0, out->normal))
+  double(*P)[4][3] = model->scene->patches[out->patch].P, far = 1;
+  for (int c = 0; c < 3; c++) far = real_max(far, fabs(patch->center[c]) / patch->scale + 1);
+  const double rounded = NET_ROUNDINGS * UNIT_ROUNDOFF * far * tangent, u = out->u, v = out->v;
+  /* the scene's units: their square may be beyond the doubles */
+  const wide least = (wide)rounded * patch->scale * patch->scale;
+  if (!wide_normal(P, u, v, least, out->normal) && !patch_normal(patch->x, u, v, rounded, out->normal) &&
+      !wide_normal(P, u, v, 0, out->normal) && !patch_normal(patch->x, u, v, 0, out->normal))
     vector_scale(-1 / vector_length(direction), direction, out->normal);
 }
 
