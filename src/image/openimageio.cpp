@@ -199,9 +199,11 @@ std::string read(const char *path, const char *format, bool pixels, image &out, 
     std::snprintf(out.channel[c].name, IMAGE_NAME_SIZE, "%s", spec.channelnames[c].c_str());
   read_window(spec, out);
   read_metadata(spec, out);
-  if (pixels && !input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value)) return input->geterror();
-  result = STATUS_OK;
-  return "";
+  /* Rows of a TIFF or JPEG that is cut off or damaged are made up, and that is said, but not by what is returned. */
+  const bool done = !pixels || input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value);
+  const std::string problem = input->geterror();
+  if (done && problem.empty()) result = STATUS_OK;
+  return problem;
 }
 
 /* Runs work() -> status, which may throw, and turns what it throws into a status and a message. */
