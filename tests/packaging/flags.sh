@@ -1,0 +1,12 @@
+#!/bin/bash
+# flags.sh: library calls know the sizes of arrays; whoever builds pscn may ask for that by flags, and then is not asked twice.
+set -euo pipefail
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+for flags in -D_FORTIFY_SOURCE=3 -O2; do
+  cmake -S "$PSCN_SOURCE_DIR" -B "$folder/build" --fresh -DCMAKE_BUILD_TYPE=Release "-DCMAKE_C_FLAGS=$flags" "-DCMAKE_CXX_FLAGS=$flags" \
+    >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+  commands=$folder/build/compile_commands.json
+  found=$(grep -o -- '-D_FORTIFY_SOURCE' "$commands" | wc -l) files=$(grep -c '"command"' "$commands")
+  [ "$found" = "$files" ] || { echo "with $flags: $files files, _FORTIFY_SOURCE is defined $found times"; exit 1; }
+done
