@@ -1,6 +1,7 @@
 #!/bin/bash
 # folders.sh: libraries and headers that are installed in folders given whole, beside the prefix: pscn.pc names them as they
-# are, and the program looks for its module there. A module of another build is no crash.
+# are, and the program looks for its module there. A module of another build is no crash. Of several builds in one tree each
+# has its module where its program looks for it.
 set -euo pipefail
 command -v pkg-config >/dev/null || { echo "skipped: pkg-config is not installed" >&2; exit 77; }
 folder=$(mktemp -d)
@@ -17,3 +18,9 @@ echo 'char image_module[64] = {1};' | cc -shared -fPIC -x c - -o "$folder/moved/
 status=0
 "$folder/moved/bin/pscn" render "$PSCN_SOURCE_DIR/scenes/dome.pscn" --size 4x3 -o "$folder/a.png" 2>"$folder/said" || status=$?
 [ "$status" = 4 ] && grep -q "is of another build" "$folder/said" || { echo "another module: exit $status, $(cat "$folder/said")"; exit 1; }
+
+command -v ninja >/dev/null || exit 0
+cmake -S "$PSCN_SOURCE_DIR" -B "$folder/many" -G "Ninja Multi-Config" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+for file in command/pscn lib/pscn/pscn_openimageio.so; do
+  grep -q "^build src/Release/$file" "$folder/many/CMakeFiles/impl-Release.ninja" || { echo "several builds: no src/Release/$file"; exit 1; }
+done
