@@ -1,10 +1,28 @@
 /* What is told of a rendering and of a file that is written: a line now and then, or a bar on a terminal. */
 #include "command/progress.h"
 
+#include <stdarg.h>
 #include <stdio.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "cmocka_test.h"
+
+/* How wide the terminal is; 0: none tells. */
+static unsigned short columns;
+
+int __wrap_ioctl(int descriptor, unsigned long request, ...);
+
+int __wrap_ioctl(int descriptor, unsigned long request, ...)
+{
+  va_list arguments;
+  va_start(arguments, request);
+  struct winsize *window = va_arg(arguments, struct winsize *);
+  va_end(arguments);
+  if (descriptor != STDERR_FILENO || request != TIOCGWINSZ || columns == 0) return -1;
+  *window = (struct winsize){.ws_col = columns};
+  return 0;
+}
 
 static struct render_progress rendered = {.pixels_total = 1000};
 
@@ -42,6 +60,7 @@ static void test_rendering(void **state)
                {1, 4000, 1e6, "0 %, 0.0 k rays/s, 99 h 59 min left\n"},
                {100, 40000000, 10, "10 %, 4.00 M rays/s, 1 min 30 s left\n"},
                {500, 1000000, 8, "50 %, 125.0 k rays/s, 8 s left\n"},
+               {500, 1000000, 8.6, "50 %, 116.3 k rays/s, 9 s left\n"},
                {1000, 1000000, 8, "100 %, 125.0 k rays/s, 0 s left\n"}};
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     rendered.pixels = cases[k].pixels, rendered.rays = cases[k].rays, rendered.seconds = cases[k].seconds;
@@ -50,6 +69,28 @@ static void test_rendering(void **state)
   expect(tell_rendered, (struct progress){.told = 4}, ""); /* not so soon again */
   rendered.pixels = 500;
   expect(tell_rendered, bar, "\r[###############...............] 50 %, 125.0 k rays/s, 8 s left\033[K\r\033[K");
+  rendered.seconds = 0.1;
+  expect(tell_rendered, bar, ""); /* nothing was told, and nothing is to be wiped away */
+}
+
+/* The line stays on one row of the terminal, whose last column is left free: first the bar gives way. */
+static void test_narrow_terminals(void **state)
+{
+  (void)state;
+  const struct {
+    unsigned short columns;
+    const char *line;
+  } cases[] = {{38, "\r[##..] 50 %, 125.0 k rays/s, 8 s left\033[K\r\033[K"},
+               {37, "\r50 %, 125.0 k rays/s, 8 s left\033[K\r\033[K"},
+               {31, "\r50 %, 125.0 k rays/s, 8 s left\033[K\r\033[K"},
+               {30, "\r50 %, 125.0 k rays/s, 8 s lef\033[K\r\033[K"},
+               {1, "\r\033[K\r\033[K"}};
+  rendered.pixels = 500, rendered.rays = 1000000, rendered.seconds = 8;
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    columns = cases[k].columns;
+    expect(tell_rendered, (struct progress){.terminal = true}, cases[k].line);
+  }
+  columns = 0;
 }
 
 /* Writing began long ago, or begins now. */
@@ -64,6 +105,7 @@ static void test_writing(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_rendering), cmocka_unit_test(test_writing)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_rendering), cmocka_unit_test(test_narrow_terminals),
+                                     cmocka_unit_test(test_writing)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 
 #include "cmocka_test.h"
 #include "geometry/vector.h"
+#include "render/shade.h"
 
 enum { WIDTH = 70, HEIGHT = 45 }; /* several tiles, none of them whole at the right and lower edges */
 
@@ -302,6 +303,56 @@ static void extreme_colours_are_numbers(void **state)
   lights[0] = light;
 }
 
+/* In a mirror's direction cosines are above 1 by rounding: that to a large power is still 1, not a spot of all there is. */
+static void highlights_are_no_brighter_than_their_light(void **state)
+{
+  (void)state;
+  struct scene scene = scene_of();
+  const struct scene_texture saved = texture;
+  const struct scene_light light = lights[0];
+  scene.patches = &patches[1];
+  scene.patch_count = scene.light_count = 1;
+  struct render_options options = options_of("rgb");
+  lights[0].color[0] = lights[0].color[1] = lights[0].color[2] = 1;
+  for (size_t n = 0; n < 400; n++) {
+    double point[3];
+    options.crop = (struct rectangle){25 + n % 20, 12 + n / 20, 1, 1};
+    point_on_wall(options.crop.x, options.crop.y, point);
+    memcpy(lights[0].position, (const double[3]){2 * point[0], 2 * point[1], -5}, sizeof lights[0].position);
+    texture.finish = (struct scene_finish){.brilliance = 1, .roughness = 1 / (double)FLT_MAX, .phong_size = FLT_MAX};
+    texture.finish.phong = n % 2 == 0, texture.finish.specular = n % 2 == 1;
+    struct render_stats stats;
+    float *out = render(&scene, &options, &stats);
+    for (int c = 0; c < 3; c++) assert_true(out[c] >= 0 && (double)out[c] <= 1);
+    free(out);
+  }
+  texture = saved;
+  lights[0] = light;
+}
+
+/* The shadow ray begins beside the surface, and where the light is just there, it still has a direction. */
+static void a_light_may_be_where_its_shadow_ray_begins(void **state)
+{
+  (void)state;
+  const struct scene scene = scene_of();
+  struct intersector *intersector;
+  struct tracer *tracer;
+  assert_int_equal(intersector_create(&scene, &intersector), STATUS_OK);
+  assert_int_equal(tracer_create(intersector, &tracer), STATUS_OK);
+  const struct ray ray = {.origin = {2, 1, -5}, .direction = {0, 0, 1}, .t_max = INFINITY};
+  struct hit hit;
+  tracer_closest(tracer, 1, &ray, &hit);
+  struct scene_light light = {.position = {2, 1, 1}};
+  struct ray shadow;
+  assert_true(shade_shadow_ray(&light, &hit, &shadow));
+  memcpy(light.position, shadow.origin, sizeof light.position);
+  assert_true(shade_shadow_ray(&light, &hit, &shadow));
+  assert_memory_equal(light.position, shadow.origin, sizeof light.position);
+  assert_true(shadow.direction[2] < 0);
+  tracer_destroy(tracer);
+  intersector_destroy(intersector);
+}
+
 /* What is hidden from the only light has the ambient colour, unless the light is shadowless. */
 static void shadows_are_cast(void **state)
 {
@@ -523,13 +574,22 @@ static void a_stopped_rendering_says_so(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(all_distances_are_seen),       cmocka_unit_test(threads_and_crop_change_nothing),
-    cmocka_unit_test(nor_do_they_with_warm_starts), cmocka_unit_test(crop_counts_only_its_rays),
-    cmocka_unit_test(colours_follow_the_formulas),  cmocka_unit_test(nothing_darkens),
-    cmocka_unit_test(extreme_colours_are_numbers),  cmocka_unit_test(shadows_are_cast),
-    cmocka_unit_test(a_light_may_lie_on_a_surface), cmocka_unit_test(channels_tell_of_the_hit),
-    cmocka_unit_test(channels_tell_of_the_solver),  cmocka_unit_test(statuses_are_the_answers),
-    cmocka_unit_test(samples_are_a_finer_picture),  cmocka_unit_test(a_stopped_rendering_says_so),
+    cmocka_unit_test(all_distances_are_seen),
+    cmocka_unit_test(threads_and_crop_change_nothing),
+    cmocka_unit_test(nor_do_they_with_warm_starts),
+    cmocka_unit_test(crop_counts_only_its_rays),
+    cmocka_unit_test(colours_follow_the_formulas),
+    cmocka_unit_test(nothing_darkens),
+    cmocka_unit_test(extreme_colours_are_numbers),
+    cmocka_unit_test(shadows_are_cast),
+    cmocka_unit_test(a_light_may_lie_on_a_surface),
+    cmocka_unit_test(channels_tell_of_the_hit),
+    cmocka_unit_test(channels_tell_of_the_solver),
+    cmocka_unit_test(statuses_are_the_answers),
+    cmocka_unit_test(highlights_are_no_brighter_than_their_light),
+    cmocka_unit_test(a_light_may_be_where_its_shadow_ray_begins),
+    cmocka_unit_test(samples_are_a_finer_picture),
+    cmocka_unit_test(a_stopped_rendering_says_so),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

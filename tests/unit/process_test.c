@@ -1,0 +1,209 @@
+/* Other programs: what they are given, how they end, and that they do. */
+#include "check/process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cmocka_test.h"
+
+static const char *const OUTPUT = "output";
+
+/* Set by SIGUSR1, by which a program says that it is ready to be stopped. */
+static atomic_int stop;
+static void on_ready(int signal) { atomic_store(&stop, signal); }
+
+static int enter_folder(void **state)
+{
+  char *name = strdup("/tmp/pscn-test-XXXXXX");
+  *state = name;
+  return name == NULL || mkdtemp(name) == NULL || chdir(name) != 0 || mkdir("inside", 0777) != 0;
+}
+
+static int leave_folder(void **state)
+{
+  (void)unlink(OUTPUT), (void)unlink("inside/file"), (void)rmdir("inside");
+  const int result = chdir("/") != 0 || rmdir(*state);
+  free(*state);
+  return result;
+}
+
+static void expect_output(const char *text)
+{
+  char told[200];
+  FILE *file = fopen(OUTPUT, "r");
+  assert_non_null(file);
+  told[fread(told, 1, sizeof told - 1, file)] = '\0';
+  assert_int_equal(fclose(file), 0);
+  assert_string_equal(told, text);
+}
+
+/* A shell that does as the request says but for its program, which is this. */
+static enum status run(struct process_request request, const char *program, struct process_result *out)
+{
+  const char *const arguments[] = {"sh", "-c", program, NULL};
+  request.arguments = arguments, request.output = OUTPUT;
+  atomic_store(&stop, 0);
+  return process_run(&request, &stop, out);
+}
+
+static void output_is_new_and_input_is_empty(void **state)
+{
+  (void)state;
+  struct process_result result;
+  int ours[2];
+  const int saved = dup(STDIN_FILENO);
+  assert_true(saved >= 0 && pipe(ours) == 0 && write(ours[1], "ours\n", 5) == 5 && close(ours[1]) == 0);
+  assert_true(dup2(ours[0], STDIN_FILENO) >= 0 && close(ours[0]) == 0);
+  const enum status first = run((struct process_request){0}, "echo a longer text", &result);
+  const enum status second = run((struct process_request){0}, "cat; echo out; echo error >&2; exit 3", &result);
+  assert_true(dup2(saved, STDIN_FILENO) >= 0 && close(saved) == 0);
+  assert_true(first == STATUS_OK && second == STATUS_OK && result.exit_code == 3);
+  expect_output("out\nerror\n");
+}
+
+static void the_environment_is_changed(void **state)
+{
+  (void)state;
+  struct process_result result;
+  const char *const pairs[] = {"PSCN_TEST_A", NULL, "PSCN_TEST_B", "new", NULL};
+  assert_true(setenv("PSCN_TEST_A", "old", 1) == 0 && setenv("PSCN_TEST_B", "old", 1) == 0);
+  assert_int_equal(run((struct process_request){.environment = pairs, .folder = "inside"},
+                       "echo ${PSCN_TEST_A-unset} $PSCN_TEST_B ${PWD##*/}", &result),
+                   STATUS_OK);
+  expect_output("unset new inside\n");
+}
+
+/* Whatever of these we do not listen to, the program does. */
+static void signals_end_it(void **state)
+{
+  (void)state;
+  const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGXFSZ};
+  for (size_t k = 0; k < sizeof signals / sizeof *signals; k++) {
+    char program[50];
+    struct process_result result;
+    snprintf(program, sizeof program, "kill -%d $$; exit 0", signals[k]);
+    void (*const before)(int) = signal(signals[k], SIG_IGN);
+    const enum status status = run((struct process_request){0}, program, &result);
+    (void)signal(signals[k], before);
+    assert_int_equal(status, STATUS_OK);
+    assert_int_equal(result.exit_code, 128 + signals[k]);
+  }
+}
+
+/* Soft and hard limits; a shell counts addresses by 1024 bytes, and files by 512. */
+static void limits_are_kept(void **state)
+{
+  (void)state;
+  struct process_result result;
+  assert_int_equal(run((struct process_request){.memory = (size_t)1 << 30},
+                       "ulimit -c; ulimit -v; ulimit -f; ulimit -H -v; ulimit -H -f", &result),
+                   STATUS_OK);
+  expect_output("0\n1048576\n2097152\n1048576\n2097152\n");
+}
+
+static void it_writes_in_its_folder_only(void **state)
+{
+  (void)state;
+  struct process_result result;
+  if (!process_can_confine()) skip();
+  assert_int_equal(run((struct process_request){.folder = "inside", .confined = true},
+                       "echo text >file; exec 2>&-; (echo text >../outside) || echo not outside", &result),
+                   STATUS_OK);
+  expect_output("not outside\n");
+  assert_int_equal(access("inside/file", R_OK), 0);
+}
+
+static void what_cannot_be_run_is_missing(void **state)
+{
+  (void)state;
+  const struct {
+    const char *program;
+    int reason;
+  } cases[] = {
+    {"pscn-no-such-program", ENOENT}, {"inside/file", EACCES}, {"inside/file/x", ENOTDIR}, {"./inside", EACCES}};
+  FILE *file = fopen("inside/file", "w");
+  assert_true(file != NULL && fclose(file) == 0);
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    struct process_result result;
+    const char *const arguments[] = {cases[k].program, NULL};
+    const struct process_request request = {.arguments = arguments, .output = OUTPUT};
+    assert_int_equal(process_run(&request, NULL, &result), STATUS_FILE);
+    assert_true(result.missing);
+    assert_int_equal(result.reason, cases[k].reason);
+  }
+}
+
+/* Of what it took only its own: none of those before it. */
+static void time_is_its_own(void **state)
+{
+  (void)state;
+  struct process_result busy, idle;
+  assert_int_equal(run((struct process_request){0}, "k=0; while [ $k -lt 100000 ]; do k=$((k + 1)); done", &busy),
+                   STATUS_OK);
+  assert_int_equal(run((struct process_request){0}, "sleep 0.01", &idle), STATUS_OK);
+  assert_true(busy.time.cpu > idle.time.cpu && idle.time.wall >= 0.01);
+}
+
+/* All of its group are asked to end, and have a while for that: here not the program, but one that it started. */
+static void it_is_asked_to_end(void **state)
+{
+  (void)state;
+  struct process_result result;
+  assert_int_equal(run((struct process_request){0},
+                       "us=$PPID; trap : TERM; (trap 'echo ended; exit' TERM; kill -USR1 $us; while :; do :; done) & "
+                       "wait; wait",
+                       &result),
+                   STATUS_INTERRUPTED);
+  expect_output("ended\n");
+}
+
+/* And made to, whoever does not listen: nobody holds the pipe any more. */
+static void it_is_made_to_end(void **state)
+{
+  (void)state;
+  struct process_result result;
+  int held[2];
+  char byte;
+  assert_int_equal(pipe(held), 0);
+  assert_int_equal(
+    run((struct process_request){0}, "us=$PPID; (trap '' TERM; kill -USR1 $us; exec sleep 1000) & wait", &result),
+    STATUS_INTERRUPTED);
+  assert_int_equal(close(held[1]), 0);
+  struct pollfd end = {.fd = held[0], .events = POLLIN};
+  assert_int_equal(poll(&end, 1, 100000), 1);
+  assert_int_equal(read(held[0], &byte, 1), 0);
+  assert_int_equal(close(held[0]), 0);
+}
+
+static void its_time_is_over(void **state)
+{
+  (void)state;
+  struct process_result result;
+  assert_int_equal(run((struct process_request){.timeout = 0.05}, "sleep 1000", &result), STATUS_LIMIT);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
+
+int main(void)
+{
+  const struct sigaction ready = {.sa_handler = on_ready};
+  if (sigaction(SIGUSR1, &ready, NULL) != 0) return 1;
+  const struct CMUnitTest tests[] = {IN_FOLDER(output_is_new_and_input_is_empty),
+                                     IN_FOLDER(the_environment_is_changed),
+                                     IN_FOLDER(signals_end_it),
+                                     IN_FOLDER(limits_are_kept),
+                                     IN_FOLDER(it_writes_in_its_folder_only),
+                                     IN_FOLDER(what_cannot_be_run_is_missing),
+                                     IN_FOLDER(time_is_its_own),
+                                     IN_FOLDER(it_is_asked_to_end),
+                                     IN_FOLDER(it_is_made_to_end),
+                                     IN_FOLDER(its_time_is_over)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
