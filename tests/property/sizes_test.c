@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "cmocka_test.h"
+#include "intersect/model.h"
 #include "property/world.h"
 
 enum { SEED = 20261122, RAYS = 24 };
@@ -160,6 +161,25 @@ static void *go_deep(void *context)
   return d;
 }
 
+/* How many frames are within one another. */
+static int frames_in(const struct model_tree *tree)
+{
+  int most = 0;
+  for (size_t k = 0; k < tree->inner_count; k++) {
+    const int here = frames_in(&tree->inner[k]);
+    most = here > most ? here : most;
+  }
+  return most + 1;
+}
+
+static void expect_frames(const struct scene *scene, int frames)
+{
+  struct model *model;
+  assert_int_equal(model_create(scene, NULL, &model), STATUS_OK);
+  assert_int_equal(frames_in(&model->tree), frames);
+  model_destroy(model);
+}
+
 static void frames_within_frames_take_little_stack(void **state)
 {
   (void)state;
@@ -188,6 +208,7 @@ static void frames_within_frames_take_little_stack(void **state)
       }
     }
     world_open(&d.world, nets, crowd ? BOWLS + AT_THE_BOTTOM : BOWLS, NULL);
+    expect_frames(&d.world.scene, MODEL_FRAMES);
     pthread_t thread;
     pthread_attr_t attributes;
     void *done;
