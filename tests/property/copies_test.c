@@ -376,11 +376,37 @@ static void deep_copies_have_leaves_of_their_own(void **state)
   static struct pair pair;
   struct random random = {SEED + 10};
   pair_open(&pair, WORLD_GRID, &random, NULL, 0, 0, random_map, 1);
-  assert_true(pair.tracer[0]->model->copy_count > 2 * pair.scene.copy_count / 3);
+  assert_true(pair.tracer[0]->model->copy_count > 2 * (pair.scene.patch_count / pair.object.patch_count) / 3);
   pair_close(&pair);
   pair_open(&pair, WORLD_GRID, &random, NULL, 0, 0, about_zero, 1);
   assert_int_equal(pair.tracer[0]->model->copy_count, 0);
   compare(&pair);
+  pair_close(&pair);
+}
+
+/* The object's leaves are met no farther from a copy's surface than is told, and than who leaves the surface keeps off it: here
+ * at the control points, which are rounded where those of leaves are not. */
+static void leaves_are_no_looser_than_told(void **state)
+{
+  (void)state;
+  static struct pair pair;
+  struct random random = {SEED + 11};
+  pair_open(&pair, WORLD_WILD, &random, NULL, 0, 0, random_map, 1);
+  const struct model *model = pair.tracer[0]->model;
+  const size_t count = pair.object.patch_count;
+  long double farthest = 0;
+  for (size_t c = 0; c < model->copy_count; c++) {
+    const size_t first = model->copies[c].first_patch;
+    const struct scene_copy *copy = &pair.scene.copies[first / count];
+    for (size_t n = 0; n < count * 48; n++) {
+      const size_t p = n / 48, i = n / 12 % 4, j = n / 3 % 4, k = n % 3;
+      long double off = copy->b[k] - (long double)pair.scene.patches[first + p].P[i][j][k];
+      for (int r = 0; r < 3; r++) off += (long double)pair.object.P[p][i][j][r] * copy->A[r][k];
+      assert_true(fabsl(off) <= (long double)model->cuts[first + p].loose);
+      farthest = fmaxl(farthest, fabsl(off));
+    }
+  }
+  assert_true(farthest > 0);
   pair_close(&pair);
 }
 
@@ -394,6 +420,7 @@ int main(void)
     cmocka_unit_test(nearest_of_copies_beside_each_other),
     cmocka_unit_test(small_parts_of_copies_are_certain),
     cmocka_unit_test(deep_copies_have_leaves_of_their_own),
+    cmocka_unit_test(leaves_are_no_looser_than_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
