@@ -133,17 +133,21 @@ static void threads_and_crop_change_nothing(void **state)
   expect_invariance(&scene);
 }
 
+/* Which one of the solvers asks for. */
 static void nor_do_they_with_warm_starts(void **state)
 {
   (void)state;
-  const struct scene scene = scene_of();
+  struct scene scene = scene_of();
+  struct method solvers[2] = {solver};
   const struct solver *aberth = solver_find("aberth", strlen("aberth"));
   assert_non_null(aberth);
-  method_default(aberth, &solver);
-  solver.roots.start = START_PREVIOUS;
-  solver.polish = false;
-  solver.split = 1;
-  solver.roots.tolerance = 0.05; /* coarse, so that answers do depend on where the solver starts */
+  scene.solvers = solvers, scene.solver_count = 2;
+  patches[0].solver = patches[1].solver = 1;
+  method_default(aberth, &solvers[1]);
+  solvers[1].roots.start = START_PREVIOUS;
+  solvers[1].polish = false;
+  solvers[1].split = 1;
+  solvers[1].roots.tolerance = 0.05; /* coarse, so that answers do depend on where the solver starts */
   expect_invariance(&scene);
 }
 
@@ -158,6 +162,8 @@ static void crop_counts_only_its_rays(void **state)
   free(render(&scene, &options, &stats));
   assert_int_equal(stats.counts.rays[0], 9 * 5 * 9);
   assert_true(stats.counts.rays[1] > 0 && stats.counts.rays[1] <= stats.counts.rays[0]);
+  assert_true(stats.counts.patches_tested > 0 && stats.counts.roots_accepted > 0);
+  assert_true(stats.counts.roots_found >= stats.counts.roots_accepted);
 }
 
 /* Where the ray of pixel (x, y) meets the plane z = 2 of the flat square. */
@@ -571,6 +577,41 @@ static void a_stopped_rendering_says_so(void **state)
   intersector_destroy(intersector);
 }
 
+/* What is told while tiles are done: of all pixels, and of all rays, the shadow rays, too. It stops when that has been seen. */
+struct listening {
+  atomic_int stop;
+  size_t total, pixels;
+  bool right;
+};
+
+static void listen(void *context, const struct render_progress *progress)
+{
+  struct listening *heard = context;
+  assert_true(progress->pixels >= heard->pixels && progress->pixels <= progress->pixels_total && progress->seconds > 0);
+  heard->total = progress->pixels_total, heard->pixels = progress->pixels;
+  heard->right |= heard->pixels > 0 && progress->rays > 20 * 20 * heard->pixels;
+  if (heard->right) atomic_store(&heard->stop, 15);
+}
+
+static void progress_is_told(void **state)
+{
+  (void)state;
+  const struct scene scene = scene_of();
+  struct render_options options = options_of("rgb");
+  options.samples = 20;
+  static float out[WIDTH * HEIGHT * 3];
+  struct listening heard = {0};
+  const struct render_watch watch = {.stop = &heard.stop, .progress = listen, .context = &heard};
+  struct render_stats stats;
+  struct intersector *intersector;
+  assert_int_equal(intersector_create(&scene, &intersector), STATUS_OK);
+  const enum status status = render_scene(&scene, intersector, &options, &watch, out, &stats);
+  assert_true(status == STATUS_INTERRUPTED || status == STATUS_OK); /* in the last tile nobody stops any more */
+  assert_int_equal(heard.total, WIDTH * HEIGHT);
+  assert_true(heard.right);
+  intersector_destroy(intersector);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -588,6 +629,7 @@ int main(void)
     cmocka_unit_test(statuses_are_the_answers),
     cmocka_unit_test(highlights_are_no_brighter_than_their_light),
     cmocka_unit_test(a_light_may_be_where_its_shadow_ray_begins),
+    cmocka_unit_test(progress_is_told),
     cmocka_unit_test(samples_are_a_finer_picture),
     cmocka_unit_test(a_stopped_rendering_says_so),
   };
