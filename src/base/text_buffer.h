@@ -19,6 +19,10 @@ void text_buffer_add(struct text_buffer *buffer, const void *bytes, size_t lengt
 void text_buffer_add_text(struct text_buffer *buffer, const char *text);
 void text_buffer_format(struct text_buffer *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Adds those of the numbers from `first` up to but not `end` that `has` tells of, as "0-17,19". */
+void text_buffer_add_runs(struct text_buffer *buffer, size_t first, size_t end,
+                          bool has(const void *context, size_t number), const void *context);
+
 /* Adds foreign text that no terminal obeys: control characters but for the newline, and what is no UTF-8, as \xNN. */
 void text_buffer_add_printable(struct text_buffer *buffer, const char *text, size_t length);
 

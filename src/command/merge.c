@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/text_buffer.h"
 #include "command/command.h"
 #include "command/output.h"
 #include "command/piece.h"
@@ -186,29 +187,25 @@ static enum status read_pixels(struct merge *merge)
   return STATUS_OK;
 }
 
-static bool is_missing(const struct merge *merge, size_t number)
+static bool is_missing(const void *context, size_t number)
 {
+  const struct merge *merge = context;
   const struct tile_list *tiles = &merge->picture.tiles;
   for (size_t k = number - 1; k < tiles->count; k += merge->first->piece.count)
     if (!atomic_load(&tiles->done[k])) return true;
   return false;
 }
 
-/* The numbers of the pieces that are missing, as Slurm's sbatch --array takes them: "2,5-7". Whether there are any. */
-static bool print_missing(const struct merge *merge)
+/* Prints the numbers of the pieces that are missing, if any, as Slurm's sbatch --array takes them: "2,5-7". */
+static enum status print_missing(const struct merge *merge, bool *out_any)
 {
-  const size_t last = merge->first->piece.count;
-  const char *comma = "";
-  for (size_t number = 1; number <= last; number++) {
-    const size_t begin = number;
-    while (number <= last && is_missing(merge, number)) number++;
-    if (number == begin) continue;
-    printf("%s%zu", comma, begin);
-    if (number - 1 > begin) printf("-%zu", number - 1);
-    comma = ",";
-  }
-  if (*comma != '\0') printf("\n");
-  return *comma != '\0';
+  struct text_buffer text = {0};
+  text_buffer_add_runs(&text, 1, merge->first->piece.count + 1, is_missing, merge);
+  *out_any = text.length > 0;
+  const enum status status = text.failed ? command_out_of_memory(merge->command) : STATUS_OK;
+  if (status == STATUS_OK && *out_any) puts(text.text);
+  text_buffer_free(&text);
+  return status;
 }
 
 /* ---- the picture ---- */
@@ -272,7 +269,10 @@ static enum status put_together(struct merge *merge)
   if (status == STATUS_OK) status = read_pixels(merge);
   if (status == STATUS_LIMIT) (void)command_out_of_memory(merge->command);
   if (status != STATUS_OK) return status;
-  if (print_missing(merge) || merge->strange) {
+  bool missing;
+  status = print_missing(merge, &missing);
+  if (status != STATUS_OK) return status;
+  if (missing || merge->strange) {
     status = command_finish_output(merge->command);
     return status == STATUS_OK ? STATUS_DIFFERENT : status;
   }

@@ -238,19 +238,16 @@ bool piece_copy(const struct piece *from, struct image *to)
   return true;
 }
 
+static bool is_done(const void *tiles, size_t number)
+{
+  return atomic_load(&((const struct tile_list *)tiles)->done[number]);
+}
+
 /* Which tiles a part has, by their place in its list, as "0-17,19"; to be freed, NULL where memory is short. */
 static char *done_text(const struct tile_list *tiles)
 {
   struct text_buffer text = {0};
-  const char *comma = "";
-  for (size_t k = 0; k < tiles->count; k++) {
-    const size_t first = k;
-    while (k < tiles->count && atomic_load(&tiles->done[k])) k++;
-    if (k == first) continue;
-    text_buffer_format(&text, "%s%zu", comma, first);
-    if (k - 1 > first) text_buffer_format(&text, "-%zu", k - 1);
-    comma = ",";
-  }
+  text_buffer_add_runs(&text, 0, tiles->count, is_done, tiles);
   text_buffer_add(&text, "", 1); /* so that there is a text */
   if (!text.failed) return text.text;
   text_buffer_free(&text);
