@@ -34,6 +34,15 @@ void text_buffer_add(struct text_buffer *buffer, const void *bytes, size_t lengt
   buffer->text[buffer->length] = '\0';
 }
 
+char *text_buffer_take(struct text_buffer *buffer)
+{
+  text_buffer_add(buffer, "", 0); /* so that there is a text */
+  char *text = buffer->text;
+  if (buffer->failed) memory_free(text), text = NULL;
+  *buffer = (struct text_buffer){0};
+  return text;
+}
+
 void text_buffer_add_text(struct text_buffer *buffer, const char *text) { text_buffer_add(buffer, text, strlen(text)); }
 
 void text_buffer_format(struct text_buffer *buffer, const char *format, ...)

@@ -14,6 +14,10 @@ struct text_buffer {
 
 void text_buffer_free(struct text_buffer *buffer);
 
+/* The text, "" where nothing was added, which is the caller's now (memory_free); NULL where something could not be kept. The
+ * buffer is empty again. */
+char *text_buffer_take(struct text_buffer *buffer);
+
 /* Adds bytes, a text, and text formatted as by printf. */
 void text_buffer_add(struct text_buffer *buffer, const void *bytes, size_t length);
 void text_buffer_add_text(struct text_buffer *buffer, const char *text);

@@ -248,10 +248,7 @@ static char *done_text(const struct tile_list *tiles)
 {
   struct text_buffer text = {0};
   text_buffer_add_runs(&text, 0, tiles->count, is_done, tiles);
-  text_buffer_add(&text, "", 1); /* so that there is a text */
-  if (!text.failed) return text.text;
-  text_buffer_free(&text);
-  return NULL;
+  return text_buffer_take(&text);
 }
 
 /* A copy of the tiles that are done, and of no others: nobody reads what is being written. */

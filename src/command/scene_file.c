@@ -141,10 +141,7 @@ char *scene_request_text(const struct scene_request *request)
     number_write(given->value, number);
     text_buffer_format(&text, " --declare %.*s=%s", (int)given->name_length, given->name, number);
   }
-  text_buffer_add(&text, "", 1); /* so that there is a text */
-  if (!text.failed) return text.text;
-  text_buffer_free(&text);
-  return NULL;
+  return text_buffer_take(&text);
 }
 
 void scene_file_warn(const struct command *command, const struct scene *scene)
