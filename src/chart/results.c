@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/json_text.h"
 #include "chart/templates.h"
 #include "chart/work.h"
 #include "check/fill.h"
@@ -70,9 +71,9 @@ static json_t *time_value(const struct timing *time)
 
 static json_t *shadow_value(const struct judgement *shadow)
 {
-  return json_pack("{s:o,s:o,s:o,s:o,s:o}", "rays", page_of_count(shadow->rays), "hits", page_of_count(shadow->hits),
-                   "undecided", page_of_count(shadow->undecided), "lost", page_of_count(shadow->lost), "invented",
-                   page_of_count(shadow->invented));
+  return json_pack("{s:o,s:o,s:o,s:o,s:o}", "rays", json_count(shadow->rays), "hits", json_count(shadow->hits),
+                   "undecided", json_count(shadow->undecided), "lost", json_count(shadow->lost), "invented",
+                   json_count(shadow->invented));
 }
 
 static json_t *method_value(const struct method *method)
@@ -94,12 +95,12 @@ static json_t *point_value(const struct chart *chart, size_t index)
     family_name(point->family), "name", point->name, "label", point->label, "front", point->front, "time", time,
     "times", time, shadow_time, "shadow_ns", page_of_number(point->time[RAYS_SHADOW].median), "t_median",
     page_of_number(camera->median), "t_99", page_of_number(camera->p99), "t_max", page_of_number(camera->max),
-    "t_99_of_all", page_of_number(camera->p99_of_all), "rays", page_of_count(camera->rays), "hits",
-    page_of_count(camera->hits), "undecided", page_of_count(camera->undecided), "lost", page_of_count(camera->lost),
-    "invented", page_of_count(camera->invented), "wrong", page_of_count(camera->wrong), "other_patch",
-    page_of_count(camera->other_patch), "shadow", point->has_shadow ? shadow_value(&point->shadow) : json_null(),
-    "method", point->ours ? method_value(&point->options) : json_null(), "error", page_of_number(error_of(point)),
-    "label_at", page_of_number(label_place(chart, index)));
+    "t_99_of_all", page_of_number(camera->p99_of_all), "rays", json_count(camera->rays), "hits",
+    json_count(camera->hits), "undecided", json_count(camera->undecided), "lost", json_count(camera->lost), "invented",
+    json_count(camera->invented), "wrong", json_count(camera->wrong), "other_patch", json_count(camera->other_patch),
+    "shadow", point->has_shadow ? shadow_value(&point->shadow) : json_null(), "method",
+    point->ours ? method_value(&point->options) : json_null(), "error", page_of_number(error_of(point)), "label_at",
+    page_of_number(label_place(chart, index)));
 }
 
 /* The points of a family that are all right, or are not, with their look; null where there are none. */
@@ -181,15 +182,15 @@ static json_t *make_values(const struct chart *chart)
   }
   for (size_t k = 0; k < chart->note_count; k++)
     good = json_array_append_new(notes, json_pack("{s:o}", "note", page_of_text(chart->notes[k]))) == 0 && good;
-  json_t *root = json_pack(
-    "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:o,s:O,s:O,s:[{s:b,s:o},{s:b,s:o}]}", "scene",
-    page_of_text(slash == NULL ? request->path : slash + 1), "width", page_of_count(request->width), "height",
-    page_of_count(request->height), "rays", page_of_count(chart->rays[RAYS_CAMERA].count), "shadows",
-    page_of_count(chart->rays[RAYS_SHADOW].count), "rounds", page_of_count(chart->rounds), "undecided",
-    page_of_count(chart->points[0].camera.undecided), "strip_width", (int)STRIP_WIDTH, "strip_height",
-    (int)STRIP_HEIGHT, "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]), "yard_most",
-    page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes, "first", first, "points", points,
-    "tables", "all", 0, "points", first, "all", 1, "points", points);
+  json_t *root = json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:o,s:O,s:O,s:[{s:b,s:o},{s:b,s:o}]}", "scene",
+                           page_of_text(slash == NULL ? request->path : slash + 1), "width", json_count(request->width),
+                           "height", json_count(request->height), "rays", json_count(chart->rays[RAYS_CAMERA].count),
+                           "shadows", json_count(chart->rays[RAYS_SHADOW].count), "rounds", json_count(chart->rounds),
+                           "undecided", json_count(chart->points[0].camera.undecided), "strip_width", (int)STRIP_WIDTH,
+                           "strip_height", (int)STRIP_HEIGHT, "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]),
+                           "yard_most", page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes,
+                           "first", first, "points", points, "tables", "all", 0, "points", first, "all", 1, "points",
+                           points);
   good = root != NULL && good && json_object_update(root, head) == 0 && add_sets(chart, root, points) &&
          add_front(chart, root);
   json_decref(head);

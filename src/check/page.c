@@ -34,8 +34,6 @@ enum status page_write(const struct listener *listener, size_t count, char (*pat
 
 json_t *page_of_number(double value) { return isfinite(value) ? json_real(value) : json_null(); }
 
-json_t *page_of_count(size_t count) { return json_integer((json_int_t)count); }
-
 static json_t *take_text(struct text_buffer *buffer)
 {
   json_t *text = buffer->failed ? NULL : json_stringn_nocheck(buffer->text == NULL ? "" : buffer->text, buffer->length);

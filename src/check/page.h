@@ -15,9 +15,8 @@ enum { PAGE_PATH_SIZE = 4096 };
 enum status page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
                        const struct text_buffer pages[]) STATUS_MUST_CHECK;
 
-/* Values, NULL where memory is short: a number, or null for NAN and infinities; a count; foreign text, printable. */
+/* Values, NULL where memory is short: a number, or null for NAN and infinities; foreign text, printable. */
 json_t *page_of_number(double value);
-json_t *page_of_count(size_t count);
 json_t *page_of_text(const char *text);
 
 /* What every page tells of itself: version, date, machine, command (the command line); and `head`, its first lines. */

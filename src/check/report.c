@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/json_text.h"
 #include "check/page.h"
 #include "library/pscn.h"
 
@@ -14,8 +15,8 @@ static void row_name(const struct check_row *row, char *out, size_t size)
 
 static json_t *distances_json(const struct check_distances *d)
 {
-  return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "rays", page_of_count(d->rays), "both", page_of_count(d->both),
-                   "only_here", page_of_count(d->only_ours), "only_there", page_of_count(d->only_theirs), "median",
+  return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "rays", json_count(d->rays), "both", json_count(d->both),
+                   "only_here", json_count(d->only_ours), "only_there", json_count(d->only_theirs), "median",
                    page_of_number(d->median), "percent_99", page_of_number(d->p99), "max", page_of_number(d->max));
 }
 
@@ -27,15 +28,14 @@ static json_t *row_json(const struct check *check, const struct check_row *row)
   row_name(row, name, sizeof name);
   json_t *root = json_pack(
     "{s:o,s:s,s:{s:o,s:o,s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:[i,i],s:{s:o,s:o,s:o},s:{s:o,s:o},s:{s:f,s:f}}", "u_steps",
-    row->steps == 0 ? json_null() : page_of_count(row->steps), "name", name, "over", "1/255",
-    page_of_count(row->over[0]), "4/255", page_of_count(row->over[1]), "16/255", page_of_count(row->over[2]), "limit",
-    page_of_count(row->over_limit), "over_limit_off_edges", page_of_count(on[CHECK_EDGE_NONE]), "mean",
-    page_of_number(r->mean), "rms", page_of_number(r->rms), "psnr", page_of_number(r->psnr), "max",
-    page_of_number(r->max), "worst", (int)r->worst_x, (int)r->worst_y, "over_limit_on",
-    CHECK_EDGE_NAME[CHECK_EDGE_CREASE], page_of_count(on[CHECK_EDGE_CREASE]), CHECK_EDGE_NAME[CHECK_EDGE_SHADOW],
-    page_of_count(on[CHECK_EDGE_SHADOW]), CHECK_EDGE_NAME[CHECK_EDGE_SILHOUETTE],
-    page_of_count(on[CHECK_EDGE_SILHOUETTE]), "mask", "only_here", page_of_count(row->mask_ours), "only_there",
-    page_of_count(row->mask_theirs), "time", "wall", row->picture.time.wall, "cpu", row->picture.time.cpu);
+    row->steps == 0 ? json_null() : json_count(row->steps), "name", name, "over", "1/255", json_count(row->over[0]),
+    "4/255", json_count(row->over[1]), "16/255", json_count(row->over[2]), "limit", json_count(row->over_limit),
+    "over_limit_off_edges", json_count(on[CHECK_EDGE_NONE]), "mean", page_of_number(r->mean), "rms",
+    page_of_number(r->rms), "psnr", page_of_number(r->psnr), "max", page_of_number(r->max), "worst", (int)r->worst_x,
+    (int)r->worst_y, "over_limit_on", CHECK_EDGE_NAME[CHECK_EDGE_CREASE], json_count(on[CHECK_EDGE_CREASE]),
+    CHECK_EDGE_NAME[CHECK_EDGE_SHADOW], json_count(on[CHECK_EDGE_SHADOW]), CHECK_EDGE_NAME[CHECK_EDGE_SILHOUETTE],
+    json_count(on[CHECK_EDGE_SILHOUETTE]), "mask", "only_here", json_count(row->mask_ours), "only_there",
+    json_count(row->mask_theirs), "time", "wall", row->picture.time.wall, "cpu", row->picture.time.cpu);
   if (root == NULL || check->request->grid == 0) return root;
   if (json_object_set_new(root, "distances", distances_json(&row->distances)) == 0) return root;
   json_decref(root);
@@ -48,7 +48,7 @@ static json_t *worst_json(const struct check *check, const struct check_worst *w
   const bool hit = pixel->hit.patch != HIT_NONE;
   json_t *here = !hit ? json_null()
                       : json_pack("{s:o,s:o,s:f,s:f,s:b}", "distance", page_of_number(pixel->distance), "patch",
-                                  page_of_count(pixel->hit.patch), "u", pixel->hit.u, "v", pixel->hit.v, "certain",
+                                  json_count(pixel->hit.patch), "u", pixel->hit.u, "v", pixel->hit.v, "certain",
                                   pixel->hit.certainty == CERTAINTY_CERTAIN);
   json_t *edge = pixel->edge == CHECK_EDGE_NONE ? json_null() : json_string(CHECK_EDGE_NAME[pixel->edge]);
   return json_pack("{s:[i,i],s:f,s:o,s:o,s:o}", "pixel", (int)worst->x, (int)worst->y, "difference", worst->difference,

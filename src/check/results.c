@@ -106,7 +106,7 @@ static json_t *color_of(const float color[3], const char *name, size_t count)
   return json_pack("{s:o,s:s,s:o}", "color",
                    json_sprintf("rgb(%d, %d, %d)", (int)lroundf(255 * color[0]), (int)lroundf(255 * color[1]),
                                 (int)lroundf(255 * color[2])),
-                   "name", name, "count", page_of_count(count));
+                   "name", name, "count", json_count(count));
 }
 
 static json_t *codes_of(const struct image *image, size_t x, size_t y)
@@ -124,7 +124,7 @@ static void add_rows(struct results *results, json_t *rows)
     for (int c = 0; c < CHECK_CODES; c++)
       append(results, percent, json_pack("{s:f}", "value", 100 * (double)row->over[c] / (double)row->result.pixels));
     set(results, value, "percent", percent);
-    set(results, value, "codes", page_of_count((size_t)lround(255 * row->result.max)));
+    set(results, value, "codes", json_count((size_t)lround(255 * row->result.max)));
     set(results, value, "difference", page_of_png(&results->content[2 + 2 * k]));
     set(results, value, "last", json_boolean(k + 1 == results->check->row_count));
   }
@@ -165,9 +165,9 @@ static void add_worst(struct results *results, json_t *list)
         results, crops,
         json_pack("{s:s,s:o}", "name", pictures[p].name, "picture", crop_of(pictures[p].image, worst->x, worst->y)));
     set(results, value, "crops", crops);
-    set(results, value, "x", page_of_count(worst->x));
-    set(results, value, "y", page_of_count(worst->y));
-    set(results, value, "codes", page_of_count((size_t)lround(255 * worst->difference)));
+    set(results, value, "x", json_count(worst->x));
+    set(results, value, "y", json_count(worst->y));
+    set(results, value, "codes", json_count((size_t)lround(255 * worst->difference)));
     set(results, value, "our_color", codes_of(&check->ours.picture, worst->x, worst->y));
     set(results, value, "their_color", codes_of(&last->picture.image, worst->x, worst->y));
   }
@@ -202,9 +202,9 @@ static enum status make_page(struct results *results, const char *verdict, struc
   results->failed = results->failed || json_object_update(root, head) != 0;
   json_decref(head);
   set(results, root, "verdict", json_string(verdict));
-  set(results, root, "width", page_of_count(request->width));
-  set(results, root, "height", page_of_count(request->height));
-  set(results, root, "grid", request->grid == 0 ? json_null() : page_of_count(request->grid));
+  set(results, root, "width", json_count(request->width));
+  set(results, root, "height", json_count(request->height));
+  set(results, root, "grid", request->grid == 0 ? json_null() : json_count(request->grid));
   set(results, root, "limit", json_real(255 * request->fail.each));
   set(results, root, "magnified", json_real(MAGNIFIED));
   set(results, root, "ours", page_of_png(&results->content[0]));

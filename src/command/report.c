@@ -36,8 +36,6 @@ void report_print(const struct report *report)
           report->build.wall, report->render.wall, report->write.wall);
 }
 
-static json_t *count(uint64_t value) { return json_integer((json_int_t)value); }
-
 /* A path as JSON, which is UTF-8: other bytes of a name become '?'. */
 static json_t *path_text(const char *path)
 {
@@ -60,21 +58,22 @@ json_t *report_statistics(const struct report *report)
     "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:{s:o, s:o, s:o, s:o}, s:o, s:{s:o, s:o}, s:{s:o, s:o}, "
     "s:{s:f, s:f, s:f, s:f}, s:{s:f, s:f, s:f, s:f}}",
     "version", PSCN_VERSION, "scene", path_text(report->scene_path), "solver", solver, "tolerance",
-    report->scene->solvers[0].roots.tolerance, "threads", count(report->threads), "patches",
-    count(report->scene->patch_count), "lights", count(report->scene->light_count), "rays", "primary",
-    count(counts->rays[0]), "shadow", count(counts->rays[1]), "patches_tested", count(counts->patches_tested), "stages",
-    "bilinear", count(counts->stages[STAGE_BILINEAR]), "planes", count(counts->stages[STAGE_PLANES]), "resultant",
-    count(counts->stages[STAGE_RESULTANT]), "roots", count(counts->stages[STAGE_ROOTS]), "subdivided",
-    count(counts->escalated), "roots", "found", count(counts->roots_found), "accepted", count(counts->roots_accepted),
-    "answers", "certain", count(counts->certain), "grazing", count(counts->grazing), "time", "parse",
-    report->parse.wall, "build", report->build.wall, "render", report->render.wall, "write", report->write.wall, "cpu",
-    "parse", report->parse.cpu, "build", report->build.cpu, "render", report->render.cpu, "write", report->write.cpu);
+    report->scene->solvers[0].roots.tolerance, "threads", json_count(report->threads), "patches",
+    json_count(report->scene->patch_count), "lights", json_count(report->scene->light_count), "rays", "primary",
+    json_count(counts->rays[0]), "shadow", json_count(counts->rays[1]), "patches_tested",
+    json_count(counts->patches_tested), "stages", "bilinear", json_count(counts->stages[STAGE_BILINEAR]), "planes",
+    json_count(counts->stages[STAGE_PLANES]), "resultant", json_count(counts->stages[STAGE_RESULTANT]), "roots",
+    json_count(counts->stages[STAGE_ROOTS]), "subdivided", json_count(counts->escalated), "roots", "found",
+    json_count(counts->roots_found), "accepted", json_count(counts->roots_accepted), "answers", "certain",
+    json_count(counts->certain), "grazing", json_count(counts->grazing), "time", "parse", report->parse.wall, "build",
+    report->build.wall, "render", report->render.wall, "write", report->write.wall, "cpu", "parse", report->parse.cpu,
+    "build", report->build.cpu, "render", report->render.cpu, "write", report->write.cpu);
   if (root == NULL || report->picture_path == NULL) return root;
   const struct rectangle *crop = &report->crop;
   json_t *picture = json_pack("{s:o, s:[o, o], s:[o, o, o, o], s:o}", "picture", path_text(report->picture_path),
-                              "size", count(report->width), count(report->height), "crop", count(crop->x),
-                              count(crop->y), count(crop->width), count(crop->height), "samples",
-                              count(report->samples));
+                              "size", json_count(report->width), json_count(report->height), "crop",
+                              json_count(crop->x), json_count(crop->y), json_count(crop->width),
+                              json_count(crop->height), "samples", json_count(report->samples));
   const bool complete = picture != NULL && json_object_update(root, picture) == 0;
   json_decref(picture);
   if (complete) return root;

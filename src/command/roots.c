@@ -308,18 +308,17 @@ static enum status answered(void *context)
 
 static double share(size_t part, size_t whole) { return whole == 0 ? 0 : (double)part / (double)whole; }
 
-static json_t *count(size_t value) { return json_integer((json_int_t)value); }
-
 static json_t *statistics(const struct session *session)
 {
   char solver[METHOD_TEXT_SIZE];
   method_text(&session->method, solver, sizeof solver);
   return json_pack("{s:o, s:o, s:o, s:o, s:f, s:{s:o, s:o, s:o}, s:s, s:f, s:{s:f}}", "polynomials",
-                   count(session->polynomials), "roots", count(session->roots), "missing", count(session->missing),
-                   "iterations", count(session->iterations), "accurate", share(session->accurate, session->roots),
-                   "status", "converged", count(session->statuses[ROOT_CONVERGED]), "cluster",
-                   count(session->statuses[ROOT_CLUSTER]), "limit", count(session->statuses[ROOT_LIMIT]), "solver",
-                   solver, "tolerance", session->method.roots.tolerance, "time", "solve", session->solve);
+                   json_count(session->polynomials), "roots", json_count(session->roots), "missing",
+                   json_count(session->missing), "iterations", json_count(session->iterations), "accurate",
+                   share(session->accurate, session->roots), "status", "converged",
+                   json_count(session->statuses[ROOT_CONVERGED]), "cluster",
+                   json_count(session->statuses[ROOT_CLUSTER]), "limit", json_count(session->statuses[ROOT_LIMIT]),
+                   "solver", solver, "tolerance", session->method.roots.tolerance, "time", "solve", session->solve);
 }
 
 static void print_summary(const struct session *session)
