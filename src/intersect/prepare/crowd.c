@@ -8,13 +8,24 @@
 
 #include <math.h>
 
+#include "base/memory.h"
 #include "base/real.h"
 #include "intersect/exact/exact.h"
 #include "intersect/prepare/leaf.h"
+#include "intersect/prepare/making.h"
+#include "intersect/prepare/patch.h"
 
 /* Looked at are so many leaves of a patch a side, or one where patches are MANY; of each so many boxes and nodes of the hierarchy,
  * until so many leaves are found. Choices of speed. */
 enum { PLACES = 2, MANY = 4096, LOOKS = 1024, FOUND = 64 };
+
+/* What stands about a patch, and how it bends. Its u u, u v and v v derivatives are, in parameters of leaves of a x b, 1/a^2,
+ * 1/(a b) and 1/b^2 of what they are in its own. */
+struct crowd {
+  float others; /* boxes along leaves that hold the middle of one of the patch's, but for its own; on average */
+  float second[3],
+    across[3]; /* bounds on second derivatives, and on what of them is across the patch, where it was looked at */
+};
 
 /* A place that is looked for. */
 struct search {
@@ -100,7 +111,8 @@ static void add_across(const struct leaf *leaf, double across[3])
   }
 }
 
-void crowd_find(const struct model *model, size_t number, size_t first, struct crowd *out)
+/* Of patch number `number`, whose leaves begin at `first`. */
+static void find_crowd(const struct model *model, size_t number, size_t first, struct crowd *out)
 {
   const struct model_patch *patch = &model->patches[number];
   const int most = model->scene->patch_count > MANY ? 1 : PLACES;
@@ -137,7 +149,9 @@ enum { SIDE_MOST = EXACT_REGIONS_MAX / 2, LEAVES_MOST = EXACT_LEAVES };
 /* Leaves twice as long along a parameter that bend no more than by this factor may be so. A choice of speed. */
 #define STRAIGHT 1.125
 
-void crowd_split(const struct crowd *crowd, double stay, uint16_t split[2])
+/* Cuts a patch that more than `stay` stand about finer, so that about so many do: along the parameter that bends the more each
+ * time, and no longer along one that does not. */
+static void split_crowd(const struct crowd *crowd, double stay, uint16_t split[2])
 {
   const double most = stay / (double)crowd->others * bend_of(crowd->across, split);
   if (!((double)crowd->others > stay)) return;
@@ -155,4 +169,83 @@ void crowd_split(const struct crowd *crowd, double stay, uint16_t split[2])
     if (2 * *cut > SIDE_MOST) break;
     *cut = (uint16_t)(2 * *cut);
   }
+}
+
+/* ---- all patches ---- */
+
+/* Patches that are cut as they bend, and no twins of others, who change nothing. */
+static bool may_be_finer(const struct model *model, size_t p)
+{
+  return !model->cuts[p].copied && model->patches[p].method->split == 0 && !(model->twin && model->twin[p]);
+}
+
+static enum status find_crowds(void *context, size_t worker)
+{
+  struct making *m = context;
+  (void)worker;
+  for (size_t part, p, end; making_take_part(m, &part, &p, &end);) {
+    size_t l = m->leaves[part];
+    for (; p < end; p++) {
+      const struct model_cut *cut = &m->model->cuts[p];
+      if (cut->copied) continue;
+      if (may_be_finer(m->model, p)) find_crowd(m->model, p, l, &m->crowds[p]);
+      l += (size_t)cut->split[0] * cut->split[1];
+    }
+  }
+  return STATUS_OK;
+}
+
+/* How many leaves there are when that many of the others stay; patches are cut so where `really`. */
+static size_t cut_crowds(struct making *m, double stay, bool really)
+{
+  struct model *model = m->model;
+  size_t all = 0;
+  for (size_t part = 0; really && part < m->part_count; part++) m->leaves[part] = 0;
+  for (size_t p = 0; p < model->scene->patch_count; p++) {
+    const struct model_cut *cut = &model->cuts[p];
+    if (cut->copied) continue;
+    uint16_t split[2] = {cut->split[0], cut->split[1]};
+    if (may_be_finer(model, p)) split_crowd(&m->crowds[p], stay, split);
+    const size_t count = (size_t)split[0] * split[1];
+    if (really) patch_cut_as(model, (uint32_t)p, split, &model->patches[p]), m->leaves[p / m->part] += count;
+    all += count;
+  }
+  return all;
+}
+
+/* Where a ray meets a surface it may be tried in vain on so many leaves before that patch is cut finer; but only where those
+ * beyond are CROWDED on average over all patches all is done once more: none of the scenes that are measured
+ * (docs/performance.md) has more than half of that, nor books and rolls of paper less than eight times that. Choices of speed. */
+#define STAY 1.0
+#define CROWDED 0.25
+
+/* Patches that are looked at, `own` of them, are cut, so that there are at most so many leaves. */
+static enum status cut_own(struct making *m, size_t own, double most, bool *out)
+{
+  const size_t count = m->model->scene->patch_count;
+  const enum status status = making_do_parts(m, find_crowds, count);
+  double beyond = 0, stay = STAY;
+  for (size_t p = 0; p < count; p++) beyond += real_max((double)m->crowds[p].others - STAY, 0);
+  if (status != STATUS_OK || beyond < CROWDED * (double)own) return status;
+  size_t all;
+  while ((double)(all = cut_crowds(m, stay, false)) > most) stay *= 1.25;
+  *out = all != m->model->leaf_count;
+  if (*out) (void)cut_crowds(m, stay, true);
+  return STATUS_OK;
+}
+
+enum status crowd_cut_finer(struct making *m, bool *out)
+{
+  const struct model *model = m->model;
+  const size_t count = model->scene->patch_count;
+  size_t own = 0;
+  *out = false;
+  for (size_t p = 0; p < count; p++) own += may_be_finer(model, p);
+  const double most = m->limit.leaves * (double)own;
+  if (2 * (double)model->leaf_count > most) return STATUS_OK; /* not twice as many: not worth it */
+  m->crowds = memory_alloc(count + 1, sizeof *m->crowds);
+  if (!m->crowds) return STATUS_LIMIT;
+  const enum status status = cut_own(m, own, most, out);
+  memory_free(m->crowds), m->crowds = NULL;
+  return status;
 }

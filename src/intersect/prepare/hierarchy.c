@@ -6,48 +6,17 @@
 #include "intersect/prepare/hierarchy.h"
 
 #include <assert.h>
-#include <stdatomic.h>
 
 #include "base/memory.h"
-#include "base/real.h"
 #include "intersect/prepare/copies.h"
 #include "intersect/prepare/crowd.h"
 #include "intersect/prepare/leaf.h"
+#include "intersect/prepare/making.h"
 #include "intersect/prepare/patch.h"
 #include "intersect/prepare/tree.h"
 
 /* What threads take at once is this part of the patches. */
 enum { PARTS = 1024 };
-
-/* Patches and their leaves while they are made. */
-struct making {
-  struct model *model;
-  const struct team *team;
-  struct split_limit limit;
-  bool keep;               /* patches, and leaves; else they are only looked at */
-  struct arena **arenas;   /* one a thread: of what is kept, patches first, then leaves */
-  size_t part, part_count; /* patches in a part */
-  size_t *leaves;          /* in each part; then before it */
-  struct crowd *crowds;    /* the patches', once they are known */
-  struct bvh_box *boxes;   /* where leaves are not kept, as much room as boxes along them take */
-  atomic_size_t taken;     /* parts */
-};
-
-/* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
-static bool take_part(struct making *m, size_t *number, size_t *begin, size_t *end)
-{
-  *number = atomic_fetch_add(&m->taken, 1);
-  const size_t count = m->model->scene->patch_count;
-  *begin = *number * m->part, *end = count - *begin < m->part ? count : *begin + m->part;
-  return *number < m->part_count;
-}
-
-/* Has all parts done, by the team where there are so many patches or leaves that it is worth it. */
-static enum status do_parts(struct making *m, team_work *work, size_t count)
-{
-  atomic_store(&m->taken, 0);
-  return team_run(count < TEAM_LEAST ? NULL : m->team, m->part_count, work, m);
-}
 
 /* The next room for what not every patch or leaf has: *room, or new where that has been used. */
 static bool next_room(struct arena *arena, void **room, size_t size)
@@ -81,7 +50,7 @@ static enum status make_patches(void *context, size_t worker)
   struct making *m = context;
   struct model *model = m->model;
   void *rest = NULL;
-  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+  for (size_t part, p, end; making_take_part(m, &part, &p, &end);) {
     for (; p < end; p++) {
       struct patch_room room;
       struct model_patch *patch = m->keep ? &model->patches[p] : &room.patch;
@@ -133,7 +102,7 @@ static enum status cut_part_again(void *context, size_t worker)
   struct making *m = context;
   struct model *model = m->model;
   (void)worker;
-  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+  for (size_t part, p, end; making_take_part(m, &part, &p, &end);) {
     m->leaves[part] = 0;
     for (; p < end; p++) {
       const struct model_cut *cut = &model->cuts[p];
@@ -151,7 +120,7 @@ static enum status cut_coarser(struct making *m)
   size_t most = LAYER_LEAVES;
   for (int k = 0; k < COARSER && status == STATUS_OK && too_many(m->model, most); k++, most *= 4) {
     m->limit.turn = m->limit.coarse[k];
-    status = do_parts(m, cut_part_again, m->model->scene->patch_count);
+    status = making_do_parts(m, cut_part_again, m->model->scene->patch_count);
     number_leaves(m);
   }
   return status;
@@ -167,7 +136,7 @@ static enum status cut_patches(struct making *m)
   if (!m->leaves || !m->arenas || !begin_arenas(m)) return STATUS_LIMIT;
   if (m->keep) model->patches = arena_alloc(m->arenas[0], count + 1, sizeof *model->patches);
   if (m->keep && !model->patches) return STATUS_LIMIT;
-  const enum status status = do_parts(m, make_patches, count);
+  const enum status status = making_do_parts(m, make_patches, count);
   number_leaves(m);
   return status == STATUS_OK && m->keep ? cut_coarser(m) : status;
 }
@@ -254,7 +223,7 @@ static enum status make_leaves(void *context, size_t worker)
 {
   struct making *m = context;
   void *form = NULL;
-  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
+  for (size_t part, p, end; making_take_part(m, &part, &p, &end);) {
     size_t l = m->leaves[part];
     for (; p < end; p++) {
       const struct model_cut *cut = &m->model->cuts[p];
@@ -326,7 +295,7 @@ static enum status orient(struct making *m)
     static_assert(sizeof *m->boxes <= sizeof *model->oriented, "room for these");
     model->oriented_room = m->boxes, m->boxes = NULL;
     model->oriented = oriented_in(model, model->oriented_room);
-    status = do_parts(m, make_leaves, model->leaf_count);
+    status = making_do_parts(m, make_leaves, model->leaf_count);
   }
   if (status == STATUS_OK) orient_inner(model, &model->tree);
   return status;
@@ -336,7 +305,8 @@ static enum status orient(struct making *m)
 static enum status make_tree(struct making *m)
 {
   struct model *model = m->model;
-  enum status status = begin_arenas(m) && make_room(m) ? do_parts(m, make_leaves, model->leaf_count) : STATUS_LIMIT;
+  enum status status = begin_arenas(m) && make_room(m) ? making_do_parts(m, make_leaves, model->leaf_count)
+                                                       : STATUS_LIMIT;
   if (status != STATUS_OK) return status;
   /* copies are behind the leaves */
   for (size_t c = 0; c < model->copy_count; c++) copy_box(model, &model->copies[c], &m->boxes[model->leaf_count + c]);
@@ -344,79 +314,12 @@ static enum status make_tree(struct making *m)
   return status == STATUS_OK ? orient(m) : status;
 }
 
-/* ---- crowds ---- */
-
-/* Patches that are cut as they bend, and no twins of others, who change nothing. */
-static bool may_be_finer(const struct model *model, size_t p)
+/* Leaves and hierarchy once more, of patches that are cut otherwise now. */
+static enum status make_again(struct making *m)
 {
-  return !model->cuts[p].copied && model->patches[p].method->split == 0 && !(model->twin && model->twin[p]);
-}
-
-static enum status find_crowds(void *context, size_t worker)
-{
-  struct making *m = context;
-  (void)worker;
-  for (size_t part, p, end; take_part(m, &part, &p, &end);) {
-    size_t l = m->leaves[part];
-    for (; p < end; p++) {
-      const struct model_cut *cut = &m->model->cuts[p];
-      if (cut->copied) continue;
-      if (may_be_finer(m->model, p)) crowd_find(m->model, p, l, &m->crowds[p]);
-      l += (size_t)cut->split[0] * cut->split[1];
-    }
-  }
-  return STATUS_OK;
-}
-
-/* How many leaves there are when that many of the others stay; patches are cut so where `really`. */
-static size_t cut_crowds(struct making *m, double stay, bool really)
-{
-  struct model *model = m->model;
-  size_t all = 0, part, end;
-  atomic_store(&m->taken, 0);
-  for (size_t p; take_part(m, &part, &p, &end);) {
-    const size_t before = all;
-    for (; p < end; p++) {
-      const struct model_cut *cut = &model->cuts[p];
-      if (cut->copied) continue;
-      uint16_t split[2] = {cut->split[0], cut->split[1]};
-      if (may_be_finer(model, p)) crowd_split(&m->crowds[p], stay, split);
-      if (really) patch_cut_as(model, (uint32_t)p, split, &model->patches[p]);
-      all += (size_t)split[0] * split[1];
-    }
-    if (really) m->leaves[part] = all - before;
-  }
-  return all;
-}
-
-/* Where a ray meets a surface it may be tried in vain on so many leaves before that patch is cut finer; but only where those
- * beyond are CROWDED on average over all patches all is done once more: none of the scenes that are measured
- * (docs/performance.md) has more than half of that, nor books and rolls of paper less than eight times that. Choices of speed. */
-#define STAY 1.0
-#define CROWDED 0.25
-
-/* Has patches that stand in a crowd cut finer, as far as there may be more leaves: where not twice as many, it is not worth it. */
-static enum status cut_finer(struct making *m)
-{
-  struct model *model = m->model;
-  const size_t count = model->scene->patch_count;
-  size_t own = 0;
-  for (size_t p = 0; p < count; p++) own += may_be_finer(model, p);
-  const double most = m->limit.leaves * (double)own;
-  if (2 * (double)model->leaf_count > most) return STATUS_OK;
-  m->crowds = memory_alloc(count + 1, sizeof *m->crowds);
-  if (!m->crowds) return STATUS_LIMIT;
-  enum status status = do_parts(m, find_crowds, count);
-  double beyond = 0, stay = STAY;
-  for (size_t p = 0; p < count; p++) beyond += real_max((double)m->crowds[p].others - STAY, 0);
-  if (status != STATUS_OK || beyond < CROWDED * (double)own) return status;
-  size_t all;
-  while ((double)(all = cut_crowds(m, stay, false)) > most) stay *= 1.25;
-  if (all == model->leaf_count) return STATUS_OK;
-  (void)cut_crowds(m, stay, true);
   number_leaves(m);
   end_arenas(m, false);
-  tree_free(&model->tree);
+  tree_free(&m->model->tree);
   memory_free(m->boxes), m->boxes = NULL;
   return make_tree(m);
 }
@@ -429,12 +332,13 @@ enum status hierarchy_make(struct model *model, const struct team *team, const s
   if (status == STATUS_OK && model->leaf_count > keep_most) m.keep = false, model->patches = NULL;
   end_arenas(&m, m.keep);
   if (status == STATUS_OK) status = make_tree(&m);
-  if (status == STATUS_OK && m.keep) status = cut_finer(&m);
+  bool finer = false;
+  if (status == STATUS_OK && m.keep) status = crowd_cut_finer(&m, &finer);
+  if (status == STATUS_OK && finer) status = make_again(&m);
   if (status == STATUS_OK) tree_set_crossings(model);
   end_arenas(&m, m.keep);
   memory_free(m.arenas);
   memory_free(m.leaves);
-  memory_free(m.crowds);
   memory_free(m.boxes);
   return status;
 }

@@ -1,0 +1,42 @@
+/* Patches and their leaves while they are made.
+ *
+ * Internal to src/intersect/prepare.
+ */
+#ifndef PSCN_INTERSECT_PREPARE_MAKING_H
+#define PSCN_INTERSECT_PREPARE_MAKING_H
+
+#include <stdatomic.h>
+
+#include "intersect/model.h"
+#include "intersect/prepare/hierarchy.h"
+
+struct making {
+  struct model *model;
+  const struct team *team;
+  struct split_limit limit;
+  bool keep;               /* patches, and leaves; else they are only looked at */
+  struct arena **arenas;   /* one a thread: of what is kept, patches first, then leaves */
+  size_t part, part_count; /* patches in a part, which threads take at once */
+  size_t *leaves;          /* in each part; then before it */
+  struct crowd *crowds;    /* the patches', while crowd.c finds them */
+  struct bvh_box *boxes;   /* where leaves are not kept, as much room as boxes along them take */
+  atomic_size_t taken;     /* parts */
+};
+
+/* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
+static inline bool making_take_part(struct making *m, size_t *number, size_t *begin, size_t *end)
+{
+  *number = atomic_fetch_add(&m->taken, 1);
+  const size_t count = m->model->scene->patch_count;
+  *begin = *number * m->part, *end = count - *begin < m->part ? count : *begin + m->part;
+  return *number < m->part_count;
+}
+
+/* Has all parts done, by the team where there are so many patches or leaves that it is worth it. */
+static inline enum status making_do_parts(struct making *m, team_work *work, size_t count)
+{
+  atomic_store(&m->taken, 0);
+  return team_run(count < TEAM_LEAST ? NULL : m->team, m->part_count, work, m);
+}
+
+#endif
