@@ -46,6 +46,14 @@ static inline double complex_norm(struct complex_number a) /* |a|^2 */ { return 
 
 static inline double complex_modulus(struct complex_number a) { return sqrt(complex_norm(a)); }
 
+/* The same to a few roundings however small it is: the squares of parts below 2^-400 underflow, times 2^600 they do not
+ * overflow either. */
+static inline double complex_small_modulus(struct complex_number a)
+{
+  if (fmax(fabs(a.re), fabs(a.im)) >= 0x1p-400) return complex_modulus(a);
+  return complex_modulus(complex_scale(0x1p600, a)) * 0x1p-600;
+}
+
 /* The root with real part >= 0. */
 static inline struct complex_number complex_sqrt(struct complex_number a)
 {

@@ -105,7 +105,7 @@ static inline __attribute__((always_inline)) struct local_values look_inlined(in
     if ((wanted & LOOK_ERROR) != 0) error = error * modulus + (4 * k + 2) * UNIT_ROUNDOFF * fabs(coefficient);
   }
   struct local_values out = {
-    .view = {n, {0.0, 0.0}, {0.0, 0.0}}, .size = complex_modulus(q), .error = error + UNDERFLOW_ERROR};
+    .view = {n, {0.0, 0.0}, {0.0, 0.0}}, .size = complex_small_modulus(q), .error = error + UNDERFLOW_ERROR};
   if ((wanted & LOOK_SLOPE) == 0) return out;
   const struct complex_number g = complex_divide(slope, q), zg = complex_multiply(z, g);
   out.view.slope = reversed ? complex_multiply(z, (struct complex_number){n - zg.re, -zg.im}) : g;

@@ -33,7 +33,7 @@ static struct complex_number step_of(const struct sweep *sweep, int i, bool *res
     step = complex_divide(step, complex_subtract(x, sweep->x[j]));
     if (q.reversed) step = complex_multiply(step, x);
   }
-  *resting = complex_modulus(q.value) <= q.error;
+  *resting = complex_small_modulus(q.value) <= q.error;
   return step;
 }
 

@@ -31,17 +31,6 @@
 /* A slope known to less than half of itself makes the first-order bound poor: then the higher orders are asked too. */
 #define SLOPE_CERTAINTY 0.5
 
-/* Squares of values below this underflow; above it they cannot, times LIFT squared they do not overflow either. */
-#define SMALL 0x1p-400
-#define LIFT 0x1p600
-
-/* |a|, to a few roundings however small. */
-static double modulus(struct complex_number a)
-{
-  const double lift = fmax(fabs(a.re), fabs(a.im)) < SMALL ? LIFT : 1.0;
-  return complex_modulus(complex_scale(lift, a)) * (1.0 / lift);
-}
-
 /* The chart point z = top/low of u, low = w, and whether it is 1/x. */
 struct chart {
   struct complex_number z;
@@ -78,7 +67,7 @@ static struct inclusion include(const struct evaluation *p, struct complex_numbe
 
   const double *c = out.reversed ? p->reverse : p->forward;
   const double *bound = out.reversed ? p->reverse_bound : p->forward_bound;
-  const double size = modulus(out.z);
+  const double size = complex_small_modulus(out.z);
   struct complex_number q = {c[p->degree], 0.0}, slope = {0.0, 0.0};
   double error = bound[p->degree], slope_error = 0.0;
   for (int k = p->degree - 1; k >= 0; k--) {
@@ -89,8 +78,8 @@ static struct inclusion include(const struct evaluation *p, struct complex_numbe
     error = error * size + bound[k];
   }
   /* at an end no arithmetic was done: an exact coefficient is an exact value */
-  const double value = modulus(q), value_error = size == 0.0 ? bound[0] : error + UNDERFLOW_ERROR;
-  const double most = value + value_error, steep = modulus(slope);
+  const double value = complex_small_modulus(q), value_error = size == 0.0 ? bound[0] : error + UNDERFLOW_ERROR;
+  const double most = value + value_error, steep = complex_small_modulus(slope);
   const double sure_slope = steep * (2.0 - BOUND_ROOM) - (slope_error + UNDERFLOW_ERROR);
   out.bound = most == 0.0 ? 0.0 : sure_slope > 0.0 ? p->degree * most / sure_slope * BOUND_ROOM : INFINITY;
   out.doubtful = sure_slope < SLOPE_CERTAINTY * steep && most > 0.0;

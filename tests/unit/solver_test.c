@@ -337,6 +337,28 @@ static void beyond_doubles(void **state)
   }
 }
 
+/* Where roots are far apart, values next to the small ones are, squared, below all doubles: they are no zeros for it. */
+static void small_beside_large(void **state)
+{
+  (void)state;
+  const double s = 0x1p-430, root[] = {s, 2.0 * s, 1.0, -3.0, 1.0 / s};
+  const double q[] = {0.0, -6.0 * s * s, 9.0 * s, -3.0, 2.0, 1.0, 0.0}; /* x times the four small ones' polynomial */
+  double c[6];
+  for (int k = 0; k < 6; k++) c[k] = q[k] - q[k + 1] / s;
+  for (size_t i = 0; i < solver_count(); i++) {
+    if (solver_at(i)->real_only) continue;
+    const struct root_set roots = solve(solver_at(i)->name, 5, BASIS_POWER, c, NULL);
+    assert_int_equal(roots.count, 5);
+    for (int j = 0; j < 5; j++) {
+      double nearest = INFINITY;
+      for (int k = 0; k < 5; k++)
+        if (roots.root[k].radius < 1e-9 * fabs(root[j]))
+          nearest = fmin(nearest, hypot(roots.root[k].re - root[j], roots.root[k].im));
+      assert_true(nearest < 1e-12 * fabs(root[j]));
+    }
+  }
+}
+
 /* 2^-354 is the root of x^3 - 2^-1062. A little beside it the cube is rounded to 2^-1062 all the same, by what underflows. */
 static void underflow_is_in_the_radius(void **state)
 {
@@ -473,6 +495,7 @@ int main(void)
     cmocka_unit_test(extremes_beside_the_interval),
     cmocka_unit_test(roots_next_to_open_ends),
     cmocka_unit_test(beyond_doubles),
+    cmocka_unit_test(small_beside_large),
     cmocka_unit_test(underflow_is_in_the_radius),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
