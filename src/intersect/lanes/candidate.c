@@ -8,6 +8,7 @@
 #include "intersect/explain.h"
 #include "intersect/lanes/nearest.h"
 #include "intersect/prepare/leaf.h"
+#include "intersect/prepare/patch.h"
 
 /* Out of line, for it is rare: a ray that comes by so many leaves runs along something thin, of which the walk's floats
  * tell little. What it passes by to the last places was not tried. Returns the lanes that are done with the leaf, or
@@ -40,6 +41,29 @@ static lane_mask candidate_put_off(struct packet *p, const struct candidate *it,
   return later ? (lane_mask){0} : open;
 }
 
+/* Of `open`, the lanes whose ray starts exactly in the plane across an axis that the patch lies in, but beside the patch's box, and
+ * leaves it: they meet nothing of it. */
+static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask open)
+{
+  const uint32_t number = model_plane(p->model, patch);
+  if (number == 0) return (lane_mask){0};
+  const struct flat_plane *plane = &p->model->planes[number];
+  open &= (p->origin[plane->axis] == plane->value) & (p->direction[plane->axis] != 0);
+  if (!lanes_any(open)) return open;
+  double lo[3], hi[3];
+  bounds_empty(lo, hi), bounds_add(p->model->scene->patches[patch].P, lo, hi);
+  lane_mask inside = open;
+  for (int k = 0; k < 3; k++) inside &= (p->origin[k] >= lo[k]) & (p->origin[k] <= hi[k]);
+  return open & ~inside;
+}
+
+/* What no stage has decided is left to the last resort, which knows of no planes. */
+static void leave_open(struct packet *p, const struct candidate *it, lane_mask open)
+{
+  open &= ~leaves_beside(p, it->leaf->patch, open);
+  if (lanes_any(open)) packet_postpone(p, it->leaf, open);
+}
+
 /* A scene with `polish off` asks for the roots as its solver finds them: nothing is closed before that. */
 static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
 {
@@ -53,7 +77,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (p->postponed->full) {
     const lane_mask full = open & lanes_mask(p->postponed->full);
     (void)packet_spend(p, full & LOOKS_DEAR);
-    packet_postpone(p, it->leaf, full), open &= ~full;
+    leave_open(p, it, full), open &= ~full;
   }
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
@@ -70,7 +94,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   entered[STAGE_PLANES] += lanes_count(open);
   open = stage_planes(it, open);
   if (lanes_any(open & it->along)) /* nothing that follows could decide that */
-    packet_postpone(p, it->leaf, open & it->along), open &= ~it->along;
+    leave_open(p, it, open & it->along), open &= ~it->along;
   if (!lanes_any(open)) return;
   if (patch->lanes == SOLVER_LANES_SIGNS) {
     open = stage_cover(p, it, open);
@@ -83,7 +107,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (patch->lanes == SOLVER_LANES_SIGNS) open = stage_first_root(p, it, open);
   else if (patch->method->polish) open = stage_all_roots(p, it, open);
   else open = stage_bare_roots(p, it, open);
-  if (lanes_any(open)) packet_postpone(p, it->leaf, open);
+  if (lanes_any(open)) leave_open(p, it, open);
 }
 
 /* What came of a candidate of a ray that is to be explained: it is the first one of its packet, and the others are the
@@ -143,7 +167,7 @@ void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *
     it.axis = __builtin_ctz(bits), it.line = &p->line[it.axis];
     const lane_mask at = active & p->on_axis[it.axis], blind = at & ~(it.line->error <= BLIND);
     const lane_mask here = at & ~blind;
-    if (lanes_any(blind)) packet_postpone(p, it.leaf, blind);
+    if (lanes_any(blind)) leave_open(p, &it, blind);
     const bool explained = p->tracer->explainer && lanes_any(at);
     if (explained) explain_before(p->tracer, p->model, it.patch, it.number, p->best.t[0]);
     if (lanes_any(here)) candidate_pass(p, &it, here);

@@ -7,7 +7,6 @@
 #include <math.h>
 
 #include "intersect/lanes/gather.h"
-#include "intersect/prepare/patch.h"
 
 /* Makes room in the lane's list, where that was not in vain before. */
 static void merge_regions(struct postponed *to, unsigned lane)
@@ -67,27 +66,8 @@ static void postpone(struct packet *p, const struct exact_region *region, lane_m
   }
 }
 
-/* Of `open`, the lanes whose ray starts exactly in the plane across an axis that the patch lies in, and leaves it: it meets the
- * patch at 0 and nowhere else. Where it starts in the patch's box it may touch it. */
-static lane_mask leave_at_start(struct packet *p, uint32_t patch, lane_mask open)
-{
-  const uint32_t number = model_plane(p->model, patch);
-  if (number == 0) return (lane_mask){0};
-  const struct flat_plane *plane = &p->model->planes[number];
-  const lane_mask leave = open & (p->origin[plane->axis] == plane->value) & (p->direction[plane->axis] != 0);
-  if (!lanes_any(leave)) return leave;
-  double lo[3], hi[3];
-  bounds_empty(lo, hi), bounds_add(p->model->scene->patches[patch].P, lo, hi);
-  lane_mask inside = leave & (p->t_min <= 0);
-  for (int k = 0; k < 3; k++) inside &= (p->origin[k] >= lo[k]) & (p->origin[k] <= hi[k]);
-  p->best.touches |= inside;
-  return leave;
-}
-
 void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
 {
-  open &= ~leave_at_start(p, leaf->patch, open);
-  if (!lanes_any(open)) return;
   const struct exact_region region = {p->outer || !p->model->leaves ? NULL : leaf,
                                       leaf->patch + (p->outer ? p->copy->first_patch : 0),
                                       {leaf->column_u, leaf->column_v},
@@ -191,6 +171,15 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
          (lanes_abs(uv[1] - best->v) <= radius[1] + best->radius_v);
 }
 
+/* Lanes whose ray starts exactly in the plane across an axis that the patch lies in: it meets that at 0 and nowhere else. */
+static lane_mask starts_in_plane(const struct packet *p, uint32_t patch)
+{
+  const uint32_t number = model_plane(p->model, patch);
+  if (number == 0) return (lane_mask){0};
+  const struct flat_plane *plane = &p->model->planes[number];
+  return p->origin[plane->axis] == plane->value;
+}
+
 /* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where
  * all are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the
  * patch, at an end of the ray or where another root is, is left to the last resort. Returns the lanes that took
@@ -211,7 +200,11 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   }
   const lane_mask within = ~on_border(it, r);
   const lane_mask sure = within & (at > p->t_min + error) & (at < p->t_max - error) & ~rival;
-  if (lanes_any(hits & ~sure)) packet_postpone(p, it->leaf, hits & ~sure);
+  if (lanes_any(hits & ~sure)) {
+    const lane_mask start = hits & within & ~sure & starts_in_plane(p, it->leaf->patch);
+    p->best.touches |= start & (p->t_min <= 0);
+    packet_postpone(p, it->leaf, hits & ~sure & ~start);
+  }
   const lane_mask taken = hits & sure & (tied | best_after(&p->best, at, patch + none, leaf + none));
   if (lanes_any(taken)) packet_take(p, it, r, at, error, taken, true);
   return taken;
