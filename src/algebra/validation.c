@@ -141,9 +141,10 @@ static void set_apart(struct judged *later, const struct judged *earlier)
 {
   if (later->x.re != earlier->x.re || later->x.im != earlier->x.im || !(later->own < INFINITY)) return;
   const double shift = fmax(2.0 * later->own, 4 * DBL_EPSILON * fabs(later->x.re) + DBL_MIN);
+  const double from = later->x.re;
   later->x.re += shift;
-  later->shift += shift * BOUND_ROOM;
-  later->own += shift * BOUND_ROOM;
+  const double moved = (later->x.re - from) * BOUND_ROOM; /* rounding may have moved it farther */
+  later->shift += moved, later->own += moved;
 }
 
 static void find_own(const struct evaluation *p, bool in_u, int count, const struct root root[], struct judged all[])
@@ -164,7 +165,8 @@ static void find_own(const struct evaluation *p, bool in_u, int count, const str
       all[i].width = hypot(1.0 - u.re, u.im);
       all[i].width_square = all[i].width * all[i].width;
       const double x_width = at.reversed ? complex_modulus(all[i].x) : 0.0;
-      all[i].own = radius_in_u(bound, x_width, at.reversed ? x_width * x_width : 1.0);
+      all[i].own = radius_in_u(bound, x_width, at.reversed ? x_width * x_width : 1.0) +
+                   CHART_ROUNDING * complex_modulus(all[i].x); /* of x from u */
     }
     for (int j = 0; j < i; j++) set_apart(&all[i], &all[j]);
   }
