@@ -102,8 +102,8 @@ static bool read_done(const char *text, size_t length, const struct tile_list *t
     if (!value_digits(&text, end, tiles->count, &first)) return false;
     last = first;
     if (value_sign(&text, end, '-') && !value_digits(&text, end, tiles->count, &last)) return false;
-    if (first < next || last < first || last >= tiles->count || !(text == end || value_sign(&text, end, ',')))
-      return false;
+    const bool more = value_sign(&text, end, ',');
+    if (first < next || last < first || last >= tiles->count || more != (text < end)) return false;
     for (size_t k = first; k <= last; k++) atomic_store(&tiles->done[k], true);
     next = last + 1;
   }
