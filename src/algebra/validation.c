@@ -166,7 +166,7 @@ static void find_own(const struct evaluation *p, bool in_u, int count, const str
       all[i].width_square = all[i].width * all[i].width;
       const double x_width = at.reversed ? complex_modulus(all[i].x) : 0.0;
       all[i].own = radius_in_u(bound, x_width, at.reversed ? x_width * x_width : 1.0) +
-                   CHART_ROUNDING * complex_modulus(all[i].x); /* of x from u */
+                   CHART_ROUNDING * hypot(all[i].x.re, all[i].x.im); /* of x from u */
     }
     for (int j = 0; j < i; j++) set_apart(&all[i], &all[j]);
   }
