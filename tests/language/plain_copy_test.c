@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "cmocka_test.h"
+#include "expect_file.h"
 
 static char place[] = "/tmp/pscn-test-XXXXXX";
 
@@ -52,16 +53,6 @@ static void copy(const char *scene)
   assert_int_equal(plain_copy(scene, NULL, "out", "scene.pov", &reason), STATUS_OK);
 }
 
-static void expect(const char *path, const char *expected)
-{
-  char text[200];
-  FILE *file = fopen(path, "r");
-  assert_non_null(file);
-  text[fread(text, 1, sizeof text - 1, file)] = '\0';
-  assert_int_equal(fclose(file), 0);
-  assert_string_equal(text, expected);
-}
-
 static void the_scenes_folder_comes_first(void **state)
 {
   (void)state;
@@ -71,10 +62,10 @@ static void the_scenes_folder_comes_first(void **state)
   put("sub/b.inc", "// beside a.inc\n");
   put("sub/c.inc", "// beside a.inc alone\n");
   copy("scene.pscn");
-  expect("out/scene.pov", "#include \"1-a.inc\"\n");
-  expect("out/1-a.inc", "#include \"2-b.inc\"\n#include \"3-c.inc\"\n");
-  expect("out/2-b.inc", "// beside the scene\n");
-  expect("out/3-c.inc", "// beside a.inc alone\n");
+  expect_file("out/scene.pov", "#include \"1-a.inc\"\n");
+  expect_file("out/1-a.inc", "#include \"2-b.inc\"\n#include \"3-c.inc\"\n");
+  expect_file("out/2-b.inc", "// beside the scene\n");
+  expect_file("out/3-c.inc", "// beside a.inc alone\n");
 }
 
 /* Even one that includes itself in a branch that is never read. */
@@ -84,8 +75,8 @@ static void a_file_is_copied_once(void **state)
   put("scene.pscn", "#include \"d.inc\"\n#include \"d.inc\"\n");
   put("d.inc", "#ifdef (Never) #include \"d.inc\" #end\n");
   copy("scene.pscn");
-  expect("out/scene.pov", "#include \"1-d.inc\"\n#include \"1-d.inc\"\n");
-  expect("out/1-d.inc", "#ifdef (Never) #include \"1-d.inc\" #end\n");
+  expect_file("out/scene.pov", "#include \"1-d.inc\"\n#include \"1-d.inc\"\n");
+  expect_file("out/1-d.inc", "#ifdef (Never) #include \"1-d.inc\" #end\n");
   assert_int_not_equal(access("out/2-d.inc", F_OK), 0);
 }
 

@@ -43,6 +43,16 @@ static void surface(world_net net, double u, double v, double at[3], double norm
   for (int c = 0; c < 3; c++) normal[c] = (double)(n[c] / length);
 }
 
+/* How far the hit's normal, of either sense, is off that of the net there. */
+static double normal_off(world_net net, const struct hit *hit, double u)
+{
+  double at[3], normal[3], facing = 0, off = 0;
+  surface(net, u, hit->v, at, normal);
+  for (int c = 0; c < 3; c++) facing += normal[c] * hit->normal[c];
+  for (int c = 0; c < 3; c++) off = fmax(off, fabs(hit->normal[c] - copysign(normal[c], facing * normal[c])));
+  return off;
+}
+
 static void normals_next_to_poles_are_those_of_the_surface(void **state)
 {
   (void)state;
@@ -55,7 +65,7 @@ static void normals_next_to_poles_are_those_of_the_surface(void **state)
     world_open(&world, net, 1, NULL);
     for (int k = 0; k < RAYS; k++) {
       struct ray ray = {.t_max = INFINITY};
-      double at[3], normal[3], facing = 0, off = 0;
+      double at[3], normal[3];
       const double u = ldexp(random_between(&random, 0.5, 1), -1 - k * FARTHEST / RAYS);
       surface(net[0], u, random_between(&random, 0.1, 0.9), at, normal);
       for (int c = 0; c < 3; c++)
@@ -63,9 +73,7 @@ static void normals_next_to_poles_are_those_of_the_surface(void **state)
       const struct hit hit = world_closest(&world, &ray);
       if (hit.patch == HIT_NONE || hit.certainty != CERTAINTY_CERTAIN) continue;
       certain[n % KINDS]++;
-      surface(net[0], hit.u, hit.v, at, normal);
-      for (int c = 0; c < 3; c++) facing += normal[c] * hit.normal[c];
-      for (int c = 0; c < 3; c++) off = fmax(off, fabs(hit.normal[c] - copysign(normal[c], facing * normal[c])));
+      const double off = normal_off(net[0], &hit, hit.u);
       if (!(off <= SURE)) fail_msg("kind %d, u %.3g v %.3g: the normal is off by %.2g", n % KINDS, hit.u, hit.v, off);
     }
     world_close(&world);
@@ -97,7 +105,7 @@ static void poles_that_are_rounded_point_by_point_have_their_normals(void **stat
     world_net exact, net[1];
     const int away = n % (MOST_AWAY + 1), exponent = MOST_EXPONENT * (n % 3 - 1);
     const double v = random_between(&random, 0.1, 0.9), u = ldexp(1, away - 55);
-    double at[3], normal[3], facing = 0, off = 0;
+    double at[3], normal[3];
     struct ray ray = {.t_max = INFINITY};
     struct world world;
     cap(&random, exact);
@@ -117,9 +125,7 @@ static void poles_that_are_rounded_point_by_point_have_their_normals(void **stat
     world_close(&world);
     if (hit.patch == HIT_NONE || hit.certainty != CERTAINTY_CERTAIN || hit.u > 2 * u) continue;
     certain++;
-    surface(exact, ldexp(1, -40), hit.v, at, normal);
-    for (int c = 0; c < 3; c++) facing += normal[c] * hit.normal[c];
-    for (int c = 0; c < 3; c++) off = fmax(off, fabs(hit.normal[c] - copysign(normal[c], facing * normal[c])));
+    const double off = normal_off(exact, &hit, ldexp(1, -40));
     if (!(off <= SURE)) fail_msg("2^%d away, size 2^%d, u %.3g v %.3g: off by %.2g", away, exponent, hit.u, hit.v, off);
   }
   assert_true(certain > ROUNDED_POLES / 16);

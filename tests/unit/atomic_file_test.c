@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "cmocka_test.h"
+#include "expect_file.h"
 
 /* Renamings that succeed before one fails (the linker hands them over to us); negative: all do. */
 static long rename_left = -1;
@@ -161,17 +162,6 @@ static void put(const char *path, const char *text)
   assert_int_equal(fclose(file), 0);
 }
 
-static void expect_text(const char *path, const char *text)
-{
-  char buffer[64] = "";
-  FILE *file = fopen(path, "r");
-  assert_non_null(file);
-  const size_t length = fread(buffer, 1, sizeof buffer - 1, file);
-  fclose(file);
-  assert_int_equal(length, strlen(text));
-  assert_string_equal(buffer, text);
-}
-
 static mode_t mode_of(const char *path)
 {
   struct stat info;
@@ -195,7 +185,7 @@ static void new_file_has_the_masks_permissions(void **state)
   assert_int_equal(write_text("a", "text", &reason), STATUS_OK);
   assert_int_equal(reason, 0);
   assert_int_equal(folders_flushed, 1); /* or the name may be gone when the power is */
-  expect_text("a", "text");
+  expect_file("a", "text");
   assert_int_equal(mode_of("a"), 0644);
   assert_int_equal(count_entries(), 1);
 }
@@ -208,8 +198,8 @@ static void old_file_is_replaced_and_keeps_its_permissions(void **state)
   assert_int_equal(chmod("a", 04750), 0);
   assert_int_equal(link("a", "other"), 0);
   assert_int_equal(write_text("a", "new", &reason), STATUS_OK);
-  expect_text("a", "new");
-  expect_text("other", "old and longer"); /* never written in place */
+  expect_file("a", "new");
+  expect_file("other", "old and longer"); /* never written in place */
   assert_int_equal(mode_of("a"), 04750);
 }
 
@@ -223,7 +213,7 @@ static void what_may_not_be_written_is_not_replaced(void **state)
   const enum status probed = atomic_file_probe("a", &reason), written = write_text("a", "new", &reason);
   access_reason = 0;
   assert_true(probed == STATUS_FILE && written == STATUS_FILE && reason == EACCES);
-  expect_text("a", "old");
+  expect_file("a", "old");
 }
 
 /* What is mounted, append-only, or another user's in a sticky folder, is told before the work; not so in one's own folder, nor
@@ -278,7 +268,7 @@ static void symbolic_link_is_followed(void **state)
   put("a", "old");
   assert_int_equal(symlink("a", "link"), 0);
   assert_int_equal(write_text("link", "new", &reason), STATUS_OK);
-  expect_text("a", "new");
+  expect_file("a", "new");
   struct stat info;
   assert_int_equal(lstat("link", &info), 0);
   assert_true(S_ISLNK(info.st_mode));
@@ -335,7 +325,7 @@ static void stopped_write_leaves_the_old_file(void **state)
   const struct atomic_file file = {"a", "new", 3};
   put("a", "old");
   assert_int_equal(atomic_files_write(&file, 1, &stop, &failed, &reason), STATUS_INTERRUPTED);
-  expect_text("a", "old");
+  expect_file("a", "old");
   assert_int_equal(count_entries(), 1);
 }
 
@@ -349,7 +339,7 @@ static void stopped_writing_takes_nothing_away(void **state)
   const struct atomic_file file = {"a", NULL, 0};
   put("a", "old");
   assert_int_equal(atomic_files_write(&file, 1, &stop, &failed, &reason), STATUS_INTERRUPTED);
-  expect_text("a", "old");
+  expect_file("a", "old");
 }
 
 /* A file system that cannot flush is no failure, a disk that does not is one. */
@@ -363,11 +353,11 @@ static void what_is_not_on_the_disk_is_not_written(void **state)
   fsync_reason = EIO;
   assert_int_equal(atomic_files_write(&file, 1, NULL, &failed, &reason), STATUS_FILE);
   assert_int_equal(reason, EIO);
-  expect_text("a", "old");
+  expect_file("a", "old");
   fsync_reason = EINVAL;
   assert_int_equal(atomic_files_write(&file, 1, NULL, &failed, &reason), STATUS_OK);
   fsync_reason = 0;
-  expect_text("a", "new");
+  expect_file("a", "new");
   assert_int_equal(count_entries(), 1);
 }
 
@@ -419,17 +409,17 @@ static void several_files_appear_together(void **state)
   assert_int_equal(mkdir("last", 0777), 0);
   assert_int_equal(atomic_files_write(files, 4, NULL, &failed, &reason), STATUS_FILE);
   assert_true(failed == 3 && reason == EISDIR && count_entries() == 3);
-  expect_text("first", "old");
+  expect_file("first", "old");
   assert_int_equal(rmdir("last"), 0);
   assert_int_equal(atomic_files_write(files, 4, NULL, &failed, &reason), STATUS_OK);
   assert_int_equal(count_entries(), 3);
-  expect_text("first", "new");
-  expect_text("second", "new");
-  expect_text("last", "new");
+  expect_file("first", "new");
+  expect_file("second", "new");
+  expect_file("last", "new");
   atomic_int stop = 2;
   files[0].bytes = "two", files[1].bytes = NULL;
   assert_int_equal(atomic_files_write(files, 4, &stop, &failed, &reason), STATUS_INTERRUPTED);
-  expect_text("first", "new");
+  expect_file("first", "new");
   assert_int_equal(count_entries(), 3);
 }
 
@@ -444,7 +434,7 @@ static void a_file_may_go_twice(void **state)
   put("gone", "old");
   assert_int_equal(atomic_files_write(files, 3, NULL, &failed, &reason), STATUS_OK);
   assert_int_equal(count_entries(), 1);
-  expect_text("first", "new");
+  expect_file("first", "new");
 }
 
 /* The same where a name cannot be given in the end. */
@@ -462,9 +452,9 @@ static void a_failing_name_undoes_those_before(void **state)
   assert_int_equal(atomic_files_write(files, 4, NULL, &failed, &reason), STATUS_FILE);
   rename_left = -1;
   assert_true(failed == 3 && reason == EIO && count_entries() == 3);
-  expect_text("kept", "old");
-  expect_text("removed", "old");
-  expect_text("there", "old");
+  expect_file("kept", "old");
+  expect_file("removed", "old");
+  expect_file("there", "old");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)

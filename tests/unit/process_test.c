@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "cmocka_test.h"
+#include "expect_file.h"
 
 static const char *const OUTPUT = "output";
 
@@ -32,16 +33,6 @@ static int leave_folder(void **state)
   const int result = chdir("/") != 0 || rmdir(*state);
   free(*state);
   return result;
-}
-
-static void expect_output(const char *text)
-{
-  char told[200];
-  FILE *file = fopen(OUTPUT, "r");
-  assert_non_null(file);
-  told[fread(told, 1, sizeof told - 1, file)] = '\0';
-  assert_int_equal(fclose(file), 0);
-  assert_string_equal(told, text);
 }
 
 /* A shell that does as the request says but for its program, which is this. */
@@ -65,7 +56,7 @@ static void output_is_new_and_input_is_empty(void **state)
   const enum status second = run((struct process_request){0}, "cat; echo out; echo error >&2; exit 3", &result);
   assert_true(dup2(saved, STDIN_FILENO) >= 0 && close(saved) == 0);
   assert_true(first == STATUS_OK && second == STATUS_OK && result.exit_code == 3);
-  expect_output("out\nerror\n");
+  expect_file(OUTPUT, "out\nerror\n");
 }
 
 static void the_environment_is_changed(void **state)
@@ -77,7 +68,7 @@ static void the_environment_is_changed(void **state)
   assert_int_equal(run((struct process_request){.environment = pairs, .folder = "inside"},
                        "echo ${PSCN_TEST_A-unset} $PSCN_TEST_B ${PWD##*/}", &result),
                    STATUS_OK);
-  expect_output("unset new inside\n");
+  expect_file(OUTPUT, "unset new inside\n");
 }
 
 /* Whatever of these we do not listen to, the program does. */
@@ -105,7 +96,7 @@ static void limits_are_kept(void **state)
   assert_int_equal(run((struct process_request){.memory = (size_t)1 << 30},
                        "ulimit -c; ulimit -v; ulimit -f; ulimit -H -v; ulimit -H -f", &result),
                    STATUS_OK);
-  expect_output("0\n1048576\n2097152\n1048576\n2097152\n");
+  expect_file(OUTPUT, "0\n1048576\n2097152\n1048576\n2097152\n");
 }
 
 static void it_writes_in_its_folder_only(void **state)
@@ -116,7 +107,7 @@ static void it_writes_in_its_folder_only(void **state)
   assert_int_equal(run((struct process_request){.folder = "inside", .confined = true},
                        "echo text >file; exec 2>&-; (echo text >../outside) || echo not outside", &result),
                    STATUS_OK);
-  expect_output("not outside\n");
+  expect_file(OUTPUT, "not outside\n");
   assert_int_equal(access("inside/file", R_OK), 0);
 }
 
@@ -161,7 +152,7 @@ static void it_is_asked_to_end(void **state)
                        "wait; wait",
                        &result),
                    STATUS_INTERRUPTED);
-  expect_output("ended\n");
+  expect_file(OUTPUT, "ended\n");
 }
 
 /* And made to, whoever does not listen: nobody holds the pipe any more. */

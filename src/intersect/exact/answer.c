@@ -89,6 +89,7 @@ static void unsure_normal(const struct model *model, struct model_patch *patch, 
     vector_scale(-1 / vector_length(direction), direction, out->normal);
 }
 
+/* The point with its error, and the normal, which faces the ray. */
 static void set_surface(const struct model *model, const struct ray *ray, struct hit *out)
 {
   struct patch_room room;

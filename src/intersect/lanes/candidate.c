@@ -41,14 +41,19 @@ static lane_mask candidate_put_off(struct packet *p, const struct candidate *it,
   return later ? (lane_mask){0} : open;
 }
 
-/* Of `open`, the lanes whose ray starts exactly in the plane across an axis that the patch lies in, but beside the patch's box, and
- * leaves it: they meet nothing of it. */
+/* Lanes whose ray starts exactly in the plane, and leaves it. */
+LANES_INLINE lane_mask leaves_at_start(const struct packet *p, const struct flat_plane *plane)
+{
+  return (p->origin[plane->axis] == plane->value) & (p->direction[plane->axis] != 0);
+}
+
+/* Of `open`, the lanes whose ray does so, in the plane across an axis that the patch lies in, beside the patch's box: they meet
+ * nothing of it. */
 static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask open)
 {
   const uint32_t number = model_plane(p->model, patch);
   if (number == 0) return (lane_mask){0};
-  const struct flat_plane *plane = &p->model->planes[number];
-  open &= (p->origin[plane->axis] == plane->value) & (p->direction[plane->axis] != 0);
+  open &= leaves_at_start(p, &p->model->planes[number]);
   if (!lanes_any(open)) return open;
   double lo[3], hi[3];
   bounds_empty(lo, hi), bounds_add(p->model->scene->patches[patch].P, lo, hi);
@@ -139,7 +144,7 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
 LANES_INLINE lane_mask leaves_plane(const struct packet *p, const struct flat_plane *plane)
 {
   const lanes above = p->origin[plane->axis] - plane->value, up = p->direction[plane->axis];
-  const lane_mask touches = (above == 0) & (up != 0);
+  const lane_mask touches = leaves_at_start(p, plane);
   return ((above > 0) & (up >= 0)) | ((above < 0) & (up <= 0)) | (p->any ? touches : touches & (p->t_min > 0));
 }
 

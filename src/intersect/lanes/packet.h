@@ -169,11 +169,16 @@ LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int l
 /* Takes so many looks from what each of the rays has left; returns what that is then. */
 LANES_INLINE lane_mask packet_spend(struct packet *p, lane_mask looks) { return p->postponed->looks -= looks; }
 
+/* The largest size of the three. */
+LANES_INLINE lanes largest_of(const lanes x[3])
+{
+  return lanes_max(lanes_max(lanes_abs(x[0]), lanes_abs(x[1])), lanes_abs(x[2]));
+}
+
 /* No leaf has been tried on the rays, whose directions and ends are set. */
 LANES_INLINE void packet_untried(struct packet *p)
 {
-  const lanes *d = p->direction;
-  p->longest = lanes_max(lanes_max(lanes_abs(d[0]), lanes_abs(d[1])), lanes_abs(d[2]));
+  p->longest = largest_of(p->direction);
   p->oriented = p->moved = false, p->patch = UINT32_MAX;
 }
 

@@ -67,12 +67,6 @@ __attribute__((noinline)) static void come_near(const struct packet *p, const st
   }
 }
 
-/* The largest of the three, lane by lane. */
-LANES_INLINE lanes largest(const lanes x[3])
-{
-  return lanes_max(lanes_max(lanes_abs(x[0]), lanes_abs(x[1])), lanes_abs(x[2]));
-}
-
 /* size: START_ROUNDOFF times twice the frame's distance from the world's origin, for that and a ray's own from the frame's is no
  * less than the ray's from the world's. */
 LANES_INLINE void place(const struct packet *p, const struct model_tree *tree, double to_frame, double size,
@@ -83,7 +77,7 @@ LANES_INLINE void place(const struct packet *p, const struct model_tree *tree, d
     it->along[k] = p->direction[k] * shrink;
     it->from[k] = (p->origin[k] - tree->origin[k]) * to_frame;
   }
-  const lanes farthest = largest(it->from);
+  const lanes farthest = largest_of(it->from);
   it->slack = START_ROUNDOFF * farthest + size;
   it->unit = p->longest * to_frame;
   /* No ray is in the frame before this depth: its dominant coordinate is outside. In the coordinates of a copy's
@@ -91,7 +85,7 @@ LANES_INLINE void place(const struct packet *p, const struct model_tree *tree, d
   it->start = lanes_max((p->t_min - p->t_error) * it->unit, -(farthest + 2));
   if (lanes_any(~(farthest <= FRAME_NEAR))) come_near(p, tree, size, farthest, it);
   else advance(it);
-  it->slack += ORIGIN_SLACK * (1 + largest(it->from));
+  it->slack += ORIGIN_SLACK * (1 + largest_of(it->from));
 }
 
 LANES_INLINE void set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree)
