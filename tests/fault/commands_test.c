@@ -154,7 +154,7 @@ static bool fits(int code, enum call call)
 
 /* Lets the calls of that kind fail one after the other; or, of a command that takes memory thousands of times and
  * starts programs, the first one of each place that takes memory. Of commands that make folders, each run of which takes long, every
- * third one where the effort is small (PSCN_SEED: which), but of processes. Answers how many there are. `old`: what the file to
+ * fifth one where the effort is small (PSCN_SEED: which), but of processes. Answers how many there are. `old`: what the file to
  * be written, or the page of the folder, held before, or NULL. */
 static long fail_each(const char *const arguments[], enum call call, enum leaves leaves, const char *old)
 {
@@ -165,7 +165,7 @@ static long fail_each(const char *const arguments[], enum call call, enum leaves
   const size_t whole = size_of(output), answered = size_of(answers), files = count_results();
   assert_true(leaves == NOTHING || (leaves == FILES ? whole : files) > 0);
   const bool long_run = leaves == FOLDER && call != FORK && call != PIPE;
-  const long step = long_run && effort_fraction() < EFFORT_DEFAULT ? 3 : 1;
+  const long step = long_run && effort_fraction() < EFFORT_DEFAULT ? 5 : 1;
   for (long n = (long)(effort_seed(0) % (uint64_t)step);; n += step) {
     prepare(leaves, old);
     atomic_store(left, n);
@@ -216,7 +216,7 @@ static void test_render(void **state)
     "render",   PSCN_SOURCE_DIR "/scenes/nested.pscn", "--size",  "9x7", "--threads", "2",    "--quiet",
     "--solver", "aberth { start previous }",           "--stats", stats, "-o",        output, NULL};
   assert_true(fail_each(plain, ALLOCATE, FILES, NULL) > LEAST);
-  assert_true(fail_each(more, ALLOCATE, FILES, NULL) > LEAST);
+  assert_true(fail_each(more, ALLOCATE_AT, FILES, NULL) > LEAST);
   fail_files(more, FILES);
 }
 
