@@ -163,15 +163,32 @@ void read_metadata(const OIIO::ImageSpec &spec, image &out)
   if (out.metadata == nullptr) throw std::bad_alloc();
 }
 
-/* What is read of a file is all that it has: an empty string, or what it has besides. */
+/* What is read of a file is what it has, and all of it: an empty string, or what is not so. */
 std::string besides(OIIO::ImageInput &input, const OIIO::ImageSpec &spec)
 {
   for (const std::string &name : spec.channelnames)
     if (name.size() >= IMAGE_NAME_SIZE)
       return "a channel has a name of more than " + std::to_string(IMAGE_NAME_SIZE - 1) + " bytes";
+  /* Pixels may share a value of colour there, and a row then has fewer bytes, as stored, than OpenImageIO takes for
+   * pixels: what else is in memory would be read. */
+  if (spec.get_string_attribute("tiff:ColorSpace") == "YCbCr") return "its colours are YCbCr, not red, green and blue";
   if (input.seek_subimage(1, 0)) return "it has several pictures";
   (void)input.geterror(); /* that there is no other one */
   return input.seek_subimage(0, 0) ? "" : input.geterror();
+}
+
+/* All pixels. A TIFF's row by row or tile by tile: where OpenImageIO takes many rows or tiles together it unpacks them by
+ * itself, and of what cannot be unpacked it says nothing: what else is in memory would be read. */
+bool read_pixels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, image &out)
+{
+  OIIO::attribute("tiff:multithread", 0);
+  if (spec.tile_width != 0 || std::strcmp(input.format_name(), "tiff") != 0)
+    return input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value);
+  for (std::size_t row = 0; row < out.height; row++)
+    if (!input.read_scanline(spec.y + static_cast<int>(row), 0, OIIO::TypeDesc::FLOAT,
+                             out.value + row * out.width * out.channel_count))
+      return false;
+  return true;
 }
 
 std::string read(const char *path, const char *format, bool pixels, image &out, status &result)
@@ -200,7 +217,7 @@ std::string read(const char *path, const char *format, bool pixels, image &out, 
   read_window(spec, out);
   read_metadata(spec, out);
   /* Rows of a TIFF or JPEG that is cut off or damaged are made up, and that is said, but not by what is returned. */
-  const bool done = !pixels || input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, out.value);
+  const bool done = !pixels || read_pixels(*input, spec, out);
   const std::string problem = input->geterror();
   if (done && problem.empty()) result = STATUS_OK;
   return problem;
