@@ -29,7 +29,8 @@ STATUS_MUST_CHECK static inline enum status team_run(const struct team *team, si
                                                      void *context)
 {
   const size_t count = team_count(team) < parts ? team_count(team) : parts;
-  assert(count == 1 || memory_is_libcs()); /* what they make is freed by the caller */
+  /* What they make is freed by the caller. Of an empty scene there is no part. */
+  assert(count <= 1 || memory_is_libcs());
   return count > 1 ? team->run(count, work, context) : work(context, 0);
 }
 

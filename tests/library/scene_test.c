@@ -258,7 +258,8 @@ static void test_memory(void **state)
   options.solver = "aberth { polish off }";
   asked_too = &pool;
   const struct pscn_ray ray = {{1.5, 1.5, -5}, {0, 0, 1}, 0, INFINITY};
-  const char *const texts[] = {PATCH, MANY, "camera { loaction 0 }", "#declare A = union { object {", NULL};
+  const char *const texts[] = {
+    PATCH, MANY, "camera { location -9*z }", "camera { loaction 0 }", "#declare A = union { object {", NULL};
   for (const char *const *text = texts; *text; text++) {
     struct pscn_scene *scene;
     struct pscn_hit hit;
