@@ -14,9 +14,9 @@ enum { MAX_RAYS = 1 << 22 };
 /* What the command line says. */
 struct request {
   struct scene_request scene; /* first: scene_request_take is told of it */
+  const struct command *command;
   struct chart_request chart;
   struct output_folder folder;
-  struct command_ear ear;
   bool no_peers;
 };
 
@@ -34,22 +34,23 @@ static const struct command_option OPTIONS[] = {
   COMMAND_TEXT("povray", 0, chart.program, "the program; default povray", "FILE"),
   COMMAND_POSITIVE("timeout", chart.timeout, "number of seconds", "seconds that each run of it may take; default 300",
                    "S"),
-  COMMAND_TRUE("quiet", 'q', ear.quiet, "say nothing unless something is wrong"),
+  COMMAND_TRUE("quiet", 'q', scene.quiet, "say nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
 
 static enum status work(void *context, const char *folder, struct text_buffer *out_text)
 {
   struct request *request = context;
-  const struct listener listener = command_listener(&request->ear);
+  struct command_ear ear = {request->command, request->scene.quiet};
+  const struct listener listener = command_listener(&ear);
   struct scene *scene = NULL;
   request->chart.folder = folder;
   request->chart.memory = scene_request_memory(&request->scene);
   request->chart.width = request->scene.width;
   request->chart.height = request->scene.height;
-  enum status status = scene_file_load(request->ear.command, &request->scene, &scene);
+  enum status status = scene_file_load(request->command, &request->scene, &scene);
   for (size_t k = 0; k < CHART_FILES && status == STATUS_OK; k++)
-    status = scene_file_check_in(request->ear.command, &request->scene, scene, folder, chart_files[k]);
+    status = scene_file_check_in(request->command, &request->scene, scene, folder, chart_files[k]);
   if (status == STATUS_OK) status = chart_scene(&request->chart, scene, &listener, out_text);
   scene_destroy(scene);
   return status;
@@ -58,9 +59,9 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
 static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {.scene = SCENE_REQUEST_DEFAULT,
+                            .command = command,
                             .chart = {.program = "povray", .timeout = POVRAY_TIMEOUT},
-                            .folder = {.suffix = "-chart", .page = "chart.html"},
-                            .ear = {.command = command}};
+                            .folder = {.suffix = "-chart", .page = "chart.html"}};
   struct command_line line;
   char *command_line = command_line_text(argc, argv);
   enum status status = command_line_read(command, argc, argv, 1, scene_request_take, &request, &line);
@@ -68,8 +69,7 @@ static enum status run(const struct command *command, int argc, const char **arg
     request.chart.path = request.scene.path = request.folder.scene = line.positional[0];
     request.chart.command_line = command_line == NULL ? "" : command_line;
     request.chart.peers = !request.no_peers;
-    request.folder.quiet = request.scene.quiet = request.ear.quiet;
-    status = output_folder_fill(command, &request.folder, work, &request);
+    status = output_folder_fill(command, &request.folder, request.scene.quiet, work, &request);
   }
   free(command_line);
   return status;

@@ -19,10 +19,10 @@ enum { MAX_PIXELS = 1 << 26, MAX_GRID = 100000 };
 
 /* What the command line says. */
 struct request {
+  const struct command *command;
   struct scene_request scene;
   struct check_request check;
   struct output_folder folder;
-  struct command_ear ear;
   const char **options; /* owned, not the texts */
 };
 
@@ -46,7 +46,7 @@ static const struct command_option OPTIONS[] = {
   COMMAND_NUMBER("hardfail", check.fail.any, "but none beyond this difference; default none", "E"),
   COMMAND_NUMBER("failpsnr", check.fail_psnr, "the least PSNR; default 40", "DB"),
   COMMAND_NUMBER("failmask", check.fail_mask, "percent of the pixels that only one may hit; default 0.3", "P"),
-  COMMAND_TRUE("quiet", 'q', ear.quiet, "say nothing unless something is wrong"),
+  COMMAND_TRUE("quiet", 'q', scene.quiet, "say nothing unless something is wrong"),
   COMMAND_OPTIONS_END,
 };
 
@@ -112,7 +112,8 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
 {
   struct request *request = context;
   struct check_request *check = &request->check;
-  const struct listener listener = command_listener(&request->ear);
+  struct command_ear ear = {request->command, request->scene.quiet};
+  const struct listener listener = command_listener(&ear);
   const struct seconds start = seconds_now();
   struct scene *scene = NULL;
   check->folder = folder;
@@ -122,13 +123,13 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
   request->scene.height = check->height;
   const char **folders = scene_request_folders(&request->scene);
   check->folders = folders;
-  enum status status = folders == NULL ? command_out_of_memory(request->ear.command)
-                                       : scene_file_load(request->ear.command, &request->scene, &scene);
+  enum status status = folders == NULL ? command_out_of_memory(request->command)
+                                       : scene_file_load(request->command, &request->scene, &scene);
   check->parse = seconds_since(start);
   for (size_t k = 0; k < CHECK_FILES && status == STATUS_OK; k++) {
     char name[CHECK_NAME_SIZE];
     check_file_name(k, name);
-    status = scene_file_check_in(request->ear.command, &request->scene, scene, folder, name);
+    status = scene_file_check_in(request->command, &request->scene, scene, folder, name);
   }
   if (status == STATUS_OK) status = check_scene(check, scene, &listener, out_text);
   scene_destroy(scene);
@@ -138,7 +139,8 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
 
 static enum status run(const struct command *command, int argc, const char **argv)
 {
-  struct request request = {.scene = {.tolerance = NAN},
+  struct request request = {.command = command,
+                            .scene = {.tolerance = NAN},
                             .check = {.width = DEFAULT_WIDTH,
                                       .height = DEFAULT_HEIGHT,
                                       .program = "povray",
@@ -148,8 +150,7 @@ static enum status run(const struct command *command, int argc, const char **arg
                                       .fail = {.each = 4.0 / 255, .percent = 0.3, .any = INFINITY},
                                       .fail_psnr = 40,
                                       .fail_mask = 0.3},
-                            .folder = {.suffix = "-check", .page = "check.html"},
-                            .ear = {.command = command}};
+                            .folder = {.suffix = "-check", .page = "check.html"}};
   struct command_line line;
   char *command_line = command_line_text(argc, argv), *declared = NULL;
   enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
@@ -157,10 +158,9 @@ static enum status run(const struct command *command, int argc, const char **arg
     request.check.path = line.positional[0];
     request.check.command_line = command_line == NULL ? "" : command_line;
     request.folder.scene = request.check.path;
-    request.folder.quiet = request.scene.quiet = request.ear.quiet;
     status = prepare(command, &request.check);
     if (status == STATUS_OK && request.check.own_text) status = declare_numbers(command, &request, &declared);
-    if (status == STATUS_OK) status = output_folder_fill(command, &request.folder, work, &request);
+    if (status == STATUS_OK) status = output_folder_fill(command, &request.folder, request.scene.quiet, work, &request);
   }
   free(command_line);
   free(declared);

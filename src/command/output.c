@@ -115,7 +115,7 @@ static enum status make_folder(const struct command *command, const struct outpu
   return STATUS_FILE;
 }
 
-enum status output_folder_fill(const struct command *command, const struct output_folder *folder,
+enum status output_folder_fill(const struct command *command, const struct output_folder *folder, bool quiet,
                                output_folder_work *work, void *context)
 {
   char *owned;
@@ -130,7 +130,7 @@ enum status output_folder_fill(const struct command *command, const struct outpu
     const bool done = status == STATUS_OK || status == STATUS_DIFFERENT;
     if (!done && made) (void)rmdir(path); /* stays where something is in it after all */
     interrupt_resume();
-    if (done && !folder->quiet) {
+    if (done && !quiet) {
       text_buffer_add_text(&text, "\n");
       text_buffer_add_printable(&text, path, strlen(path));
       printf("%s/%s shows it\n", text.text, folder->page);

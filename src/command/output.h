@@ -37,13 +37,12 @@ char *output_name(const char *scene, const char *suffix);
 struct output_folder {
   const char *path, *scene, *suffix;
   const char *page; /* the file in it that shows the rest */
-  bool quiet;
 };
 
-/* Makes the folder where there is none, has `work` fill it, signals being deferred, and tells its text on standard
- * output; takes a folder it has made away where the work fails. Answers the status of the work. */
+/* Makes the folder where there is none, has `work` fill it, signals being deferred, and unless `quiet` tells its text on
+ * standard output; takes a folder it has made away where the work fails. Answers the status of the work. */
 typedef enum status output_folder_work(void *context, const char *folder, struct text_buffer *out_text);
-enum status output_folder_fill(const struct command *command, const struct output_folder *folder,
+enum status output_folder_fill(const struct command *command, const struct output_folder *folder, bool quiet,
                                output_folder_work *work, void *context) STATUS_MUST_CHECK;
 
 #endif
