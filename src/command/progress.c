@@ -53,9 +53,8 @@ static void tell_terminal(const char *line, size_t length, double done)
   fflush(stderr);
 }
 
-void progress_tell(void *context, const struct render_progress *progress)
+void progress_tell(struct progress *state, const struct render_progress *progress)
 {
-  struct progress *state = context;
   if (progress->seconds - state->told < (state->terminal ? TERMINAL_PERIOD : LINE_PERIOD)) return;
   state->told = progress->seconds;
   const double done = (double)progress->pixels / (double)progress->pixels_total;
@@ -68,9 +67,8 @@ void progress_tell(void *context, const struct render_progress *progress)
   else fprintf(stderr, "%s\n", line);
 }
 
-void progress_write(void *context, double part)
+void progress_write(struct progress *state, double part)
 {
-  struct progress *state = context;
   const double now = clock_seconds(CLOCK_MONOTONIC);
   char line[LINE_SIZE];
   if (state->began == 0) state->began = now;

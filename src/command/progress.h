@@ -14,11 +14,11 @@ struct progress {
 
 struct progress progress_start(void);
 
-/* The progress function of struct render_watch; its context is a struct progress. */
-void progress_tell(void *context, const struct render_progress *progress);
+/* Tells how far the rendering is, where it is time to. */
+void progress_tell(struct progress *state, const struct render_progress *progress);
 
-/* The same for the file that is written: which part of it there is. */
-void progress_write(void *context, double part);
+/* The same for the file that is written: which part of it there is, 0 to 1. */
+void progress_write(struct progress *state, double part);
 
 /* Removes the bar. */
 void progress_end(const struct progress *progress);
