@@ -42,7 +42,7 @@ static uint64_t count_rays(const struct tracer *tracer)
 
 static bool raised(const atomic_int *flag) { return flag != NULL && atomic_load(flag) != 0; }
 
-static bool stopped(struct crew *crew)
+static bool stopped(const struct crew *crew)
 {
   return atomic_load(&crew->aborted) || raised(crew->watch->stop) || raised(crew->watch->failed);
 }
@@ -69,8 +69,9 @@ static enum status work(void *context, size_t index)
 }
 
 /* Waits for the last worker, telling progress. */
-static void watch_crew(struct crew *crew, const struct render_watch *watch, double start)
+static void watch_crew(struct crew *crew, double start)
 {
+  const struct render_watch *watch = crew->watch;
   pthread_mutex_lock(&crew->mutex);
   while (crew->running > 0) {
     struct timespec until;
@@ -92,7 +93,7 @@ static void watch_crew(struct crew *crew, const struct render_watch *watch, doub
 }
 
 /* Runs the workers to their end. */
-static enum status run_crew(struct crew *crew, size_t count, const struct render_watch *watch, double start)
+static enum status run_crew(struct crew *crew, size_t count, double start)
 {
   struct thread *threads = calloc(count + 1, sizeof *threads);
   if (threads == NULL) return STATUS_LIMIT;
@@ -104,7 +105,7 @@ static enum status run_crew(struct crew *crew, size_t count, const struct render
     crew->running -= count - started;
     pthread_mutex_unlock(&crew->mutex);
   }
-  watch_crew(crew, watch, start);
+  watch_crew(crew, start);
   const enum status status = threads_join(threads, started);
   free(threads);
   if (started < count) return STATUS_LIMIT;
@@ -222,7 +223,7 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   if (status == STATUS_OK) status = workers_create(workers, count, intersector, certified.intersector);
   if (status == STATUS_OK) status = crew_synchronise(&crew);
   if (status == STATUS_OK) {
-    status = run_crew(&crew, count, watch, start);
+    status = run_crew(&crew, count, start);
     pthread_cond_destroy(&crew.ended);
     pthread_mutex_destroy(&crew.mutex);
   }
@@ -231,6 +232,5 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
   certified_destroy(&certified);
   tile_list_destroy(&all);
   out_stats->threads = count;
-  out_stats->seconds = clock_seconds(CLOCK_MONOTONIC) - start;
   return status;
 }

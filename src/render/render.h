@@ -41,7 +41,6 @@ struct render_watch {
 struct render_stats {
   struct intersect_counts counts; /* rays[0] primary rays, rays[1] shadow rays */
   size_t threads;                 /* that took part */
-  double seconds;                 /* of the clock */
 };
 
 /* Renders into out[crop.height][crop.width][channels.width]. The same options give the same values, bit for bit, for
