@@ -136,14 +136,14 @@ static void copy_map_make(struct copy_map *c, const struct model *model, const s
 }
 
 /* An object's copies. */
-struct group {
+struct object_copies {
   const struct scene_object *object;
   struct copy_map *maps;
   size_t count;
 };
 
 /* How many patches need no leaves where the good ones share theirs; they are two or more then. */
-static size_t spared(const struct group *g)
+static size_t patches_spared(const struct object_copies *g)
 {
   size_t good = 0;
   for (size_t k = 0; k < g->count; k++) good += g->maps[k].good;
@@ -167,7 +167,7 @@ static void copy_bounds(const struct model *model, const struct scene_object *ob
   for (size_t p = 0; p < object->patch_count; p++) bounds_add(model->scene->patches[first_patch + p].P, lo, hi);
 }
 
-static bool deep(const struct model *model, const struct group *g)
+static bool are_deep(const struct model *model, const struct object_copies *g)
 {
   size_t held = 0, samples = 0;
   for (size_t k = 0; k < g->count; k++)
@@ -178,7 +178,7 @@ static bool deep(const struct model *model, const struct group *g)
 }
 
 /* Has the good ones share. */
-static void take(struct model *model, const struct group *g)
+static void share_leaves(struct model *model, const struct object_copies *g)
 {
   const struct scene_object *object = g->object;
   double error = 0;
@@ -206,11 +206,11 @@ static int by_object(const void *a, const void *b)
   return x->copy->first_patch < y->copy->first_patch ? -1 : x->copy->first_patch > y->copy->first_patch;
 }
 
-/* The group that begins at this one of all maps. */
-static struct group group_at(const struct scene *scene, size_t count, struct copy_map all[], size_t first)
+/* Those whose maps begin at this one of all. */
+static struct object_copies copies_at(const struct scene *scene, size_t count, struct copy_map all[], size_t first)
 {
   const size_t object = all[first].copy->object;
-  struct group g = {&scene->objects[object], &all[first], 0};
+  struct object_copies g = {&scene->objects[object], &all[first], 0};
   while (first + g.count < count && all[first + g.count].copy->object == object) g.count++;
   return g;
 }
@@ -229,18 +229,18 @@ enum status copies_choose(struct model *model, size_t most, size_t *own)
   }
   for (size_t k = 0; k < count; k++) all[k].copy = &scene->copies[k];
   qsort(all, count, sizeof *all, by_object);
-  struct group g;
+  struct object_copies g;
   for (size_t first = 0; first < count; first += g.count) {
-    g = group_at(scene, count, all, first);
+    g = copies_at(scene, count, all, first);
     const struct middle middle = object_middle(g.object);
     for (size_t k = 0; k < g.count; k++) copy_map_make(&all[first + k], model, g.object, &middle);
-    *own -= spared(&g);
+    *own -= patches_spared(&g);
   }
   for (size_t first = 0; first < count; first += g.count) {
-    g = group_at(scene, count, all, first);
-    const size_t more = spared(&g);
-    if (more > 0 && *own + more <= most && deep(model, &g)) *own += more;
-    else if (more > 0) take(model, &g);
+    g = copies_at(scene, count, all, first);
+    const size_t more = patches_spared(&g);
+    if (more > 0 && *own + more <= most && are_deep(model, &g)) *own += more;
+    else if (more > 0) share_leaves(model, &g);
   }
   memory_free(all);
   return STATUS_OK;

@@ -23,8 +23,8 @@ enum { PLACES = 2, MANY = 4096, LOOKS = 1024, FOUND = 64 };
  * 1/(a b) and 1/b^2 of what they are in its own. */
 struct crowd {
   float others; /* boxes along leaves that hold the middle of one of the patch's, but for its own; on average */
-  float second[3],
-    across[3]; /* bounds on second derivatives, and on what of them is across the patch, where it was looked at */
+  /* bounds on second derivatives, and on what of them is across the patch, where it was looked at */
+  float second[3], across[3];
 };
 
 /* A place that is looked for. */
@@ -153,8 +153,8 @@ enum { SIDE_MOST = EXACT_REGIONS_MAX / 2, LEAVES_MOST = EXACT_LEAVES };
  * time, and no longer along one that does not. */
 static void split_crowd(const struct crowd *crowd, double stay, uint16_t split[2])
 {
-  const double most = stay / (double)crowd->others * bend_of(crowd->across, split);
   if (!((double)crowd->others > stay)) return;
+  const double most = stay / (double)crowd->others * bend_of(crowd->across, split);
   for (int side = 0; side < 2; side++) {
     uint16_t half[2] = {split[0], split[1]};
     for (half[side] /= 2; half[side] > 0; half[side] /= 2) {
@@ -189,7 +189,7 @@ static enum status find_crowds(void *context, size_t worker)
       const struct model_cut *cut = &m->model->cuts[p];
       if (cut->copied) continue;
       if (may_be_finer(m->model, p)) find_crowd(m->model, p, l, &m->crowds[p]);
-      l += (size_t)cut->split[0] * cut->split[1];
+      l += cut_leaves(cut);
     }
   }
   return STATUS_OK;

@@ -59,13 +59,14 @@ static enum status make_patches(void *context, size_t worker)
       if (m->keep && !next_room(m->arenas[worker], &rest, sizeof room.rest)) return STATUS_LIMIT;
       patch_make_first(model, (uint32_t)p, &m->limit, patch, m->keep ? rest : room.rest);
       if ((const void *)patch->rest == rest) rest = NULL;
-      if (!cut->copied) m->leaves[part] += (size_t)cut->split[0] * cut->split[1];
+      if (!cut->copied) m->leaves[part] += cut_leaves(cut);
     }
   }
   return STATUS_OK;
 }
 
-static void number_leaves(struct making *m)
+/* From how many leaves are in each part to how many are before it; and how many there are. */
+static void sum_leaves(struct making *m)
 {
   m->model->leaf_count = 0;
   for (size_t k = 0; k < m->part_count; k++) {
@@ -108,7 +109,7 @@ static enum status cut_part_again(void *context, size_t worker)
       const struct model_cut *cut = &model->cuts[p];
       if (cut->copied) continue;
       patch_cut_again(model, (uint32_t)p, &m->limit, &model->patches[p]);
-      m->leaves[part] += (size_t)cut->split[0] * cut->split[1];
+      m->leaves[part] += cut_leaves(cut);
     }
   }
   return STATUS_OK;
@@ -121,7 +122,7 @@ static enum status cut_coarser(struct making *m)
   for (int k = 0; k < COARSER && status == STATUS_OK && too_many(m->model, most); k++, most *= 4) {
     m->limit.turn = m->limit.coarse[k];
     status = making_do_parts(m, cut_part_again, m->model->scene->patch_count);
-    number_leaves(m);
+    sum_leaves(m);
   }
   return status;
 }
@@ -137,7 +138,7 @@ static enum status cut_patches(struct making *m)
   if (m->keep) model->patches = arena_alloc(m->arenas[0], count + 1, sizeof *model->patches);
   if (m->keep && !model->patches) return STATUS_LIMIT;
   const enum status status = making_do_parts(m, make_patches, count);
-  number_leaves(m);
+  sum_leaves(m);
   return status == STATUS_OK && m->keep ? cut_coarser(m) : status;
 }
 
@@ -231,7 +232,7 @@ static enum status make_leaves(void *context, size_t worker)
       if (!m->keep && m->model->oriented) orient_leaves(m, p, l);
       else if (!m->keep) place_leaves(m, p, l);
       else if (keep_leaves(m, m->arenas[worker], p, l, &form) != STATUS_OK) return STATUS_LIMIT;
-      l += (size_t)cut->split[0] * cut->split[1];
+      l += cut_leaves(cut);
     }
     if (m->keep) leaf_quadrics(l - m->leaves[part], &m->model->leaves[m->leaves[part]]);
   }
@@ -317,7 +318,7 @@ static enum status make_tree(struct making *m)
 /* Leaves and hierarchy once more, of patches that are cut otherwise now. */
 static enum status make_again(struct making *m)
 {
-  number_leaves(m);
+  sum_leaves(m);
   end_arenas(m, false);
   tree_free(&m->model->tree);
   memory_free(m->boxes), m->boxes = NULL;

@@ -23,6 +23,9 @@ struct making {
   atomic_size_t taken;     /* parts */
 };
 
+/* How many leaves a patch is cut into. */
+static inline size_t cut_leaves(const struct model_cut *cut) { return (size_t)cut->split[0] * cut->split[1]; }
+
 /* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
 static inline bool making_take_part(struct making *m, size_t *number, size_t *begin, size_t *end)
 {

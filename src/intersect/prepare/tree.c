@@ -28,7 +28,7 @@ static double box_extent(const struct bvh_box *box)
 static double box_center(const struct bvh_box *box, int axis) { return box->lo[axis] / 2 + box->hi[axis] / 2; }
 
 /* Boxes that have a tree of their own: index[first .. first + count - 1]. */
-struct group {
+struct box_group {
   size_t first, count;
   struct bvh_box hull;
 };
@@ -38,14 +38,14 @@ struct grouping {
   const struct bvh_box *boxes;
   uint32_t *index;
   double frame;
-  struct group *groups;
+  struct box_group *groups;
   size_t count, room;
   bool failed; /* memory was short */
 };
 
-static void group_add(struct grouping *g, const struct group *group)
+static void group_add(struct grouping *g, const struct box_group *group)
 {
-  struct group *grown = memory_grow(g->groups, &g->room, g->count + 1, sizeof *grown);
+  struct box_group *grown = memory_grow(g->groups, &g->room, g->count + 1, sizeof *grown);
   g->failed |= !grown;
   if (grown) g->groups = grown, g->groups[g->count++] = *group;
 }
@@ -70,7 +70,7 @@ static size_t larger_first(struct grouping *g, size_t first, size_t count, doubl
 }
 
 /* Those whose centers are on the lower side of that place, first; returns how many there are. */
-static size_t lower_first(struct grouping *g, const struct group *all, int axis, double place)
+static size_t lower_first(struct grouping *g, const struct box_group *all, int axis, double place)
 {
   size_t lower = 0;
   for (size_t k = all->first; k < all->first + all->count; k++) {
@@ -86,7 +86,7 @@ static size_t lower_first(struct grouping *g, const struct group *all, int axis,
 static void find_groups(struct grouping *g, size_t first, size_t count)
 {
   if (count < GROUP_LEAST) return;
-  const struct group all = {first, count, hull_of(g, first, count)};
+  const struct box_group all = {first, count, hull_of(g, first, count)};
   if (box_extent(&all.hull) <= SMALL_PART * g->frame) {
     group_add(g, &all);
     return;
@@ -107,7 +107,7 @@ static size_t groups_last(struct grouping *g, size_t count)
   if (!moved) return count;
   size_t stay = 0, behind = 0, from = 0;
   for (size_t n = 0; n < g->count; n++) {
-    struct group *group = &g->groups[n];
+    struct box_group *group = &g->groups[n];
     memcpy(moved + behind, g->index + group->first, group->count * sizeof *moved);
     for (; from < group->first; from++) g->index[stay++] = g->index[from];
     from += group->count, behind += group->count;
@@ -123,7 +123,7 @@ static size_t groups_last(struct grouping *g, size_t count)
 static size_t set_apart(struct grouping *g, size_t count)
 {
   const size_t large = larger_first(g, 0, count, SMALL_BOX * g->frame);
-  const struct group small = {large, count - large, hull_of(g, large, count - large)};
+  const struct box_group small = {large, count - large, hull_of(g, large, count - large)};
   if (large > 0 && small.count > 1 && box_extent(&small.hull) <= SMALL_PART * g->frame) {
     group_add(g, &small);
     return large;
@@ -156,7 +156,7 @@ struct building {
 };
 
 /* The leaves of the hierarchy get the numbers of their boxes; its last boxes are the hulls of those set apart, if any. */
-static void number_leaves(const struct building *b, struct bvh *bvh, const uint32_t index[], size_t stay)
+static void renumber_leaves(const struct building *b, struct bvh *bvh, const uint32_t index[], size_t stay)
 {
   for (size_t n = 0; n < bvh->node_count; n++) {
     for (int side = 0; side < BVH_WIDTH; side++) {
@@ -185,7 +185,7 @@ static enum status build_outer(const struct building *b, const struct grouping *
   for (size_t k = 0; k < g->count; k++) own[stay + k] = framed(&g->groups[k].hull, middle, g->frame);
   const enum status status = bvh_build(own, stay + g->count, b->team, &out->bvh);
   if (!all) memory_free(own);
-  if (status == STATUS_OK) number_leaves(b, &out->bvh, g->index, stay);
+  if (status == STATUS_OK) renumber_leaves(b, &out->bvh, g->index, stay);
   return status;
 }
 
@@ -196,7 +196,7 @@ static enum status build_inner(const struct building *b, int depth, const struct
   if (!out->inner) return STATUS_LIMIT;
   enum status status = STATUS_OK;
   for (size_t n = 0; n < g->count && status == STATUS_OK; n++) {
-    const struct group *group = &g->groups[n];
+    const struct box_group *group = &g->groups[n];
     double center[3];
     int exponent;
     for (int k = 0; k < 3; k++) center[k] = box_center(&group->hull, k);
