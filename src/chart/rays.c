@@ -7,8 +7,6 @@
 #include "render/shade.h"
 #include "render/tile.h"
 
-enum { PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
-
 static_assert((int)STRIP_HEIGHT == (int)PACKET_HEIGHT && (int)STRIP_WIDTH == (int)TILE_SIZE,
               "a strip is a row of packets in a tile");
 

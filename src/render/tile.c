@@ -7,8 +7,6 @@
 #include "render/camera.h"
 #include "render/shade.h"
 
-enum { PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
-
 /* A pixel while its samples are gathered. */
 struct pixel {
   size_t x, y;

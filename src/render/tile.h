@@ -1,6 +1,6 @@
 /* Tiles: the unit of work of a thread.
  *
- * The grid of tiles, and in each tile the grid of packets of 4 x 4 pixels, is fixed to the picture, and a tracer starts
+ * The grid of tiles, and in each tile the grid of packets, is fixed to the picture, and a tracer starts
  * each tile without memory. So a pixel depends neither on the crop nor on which thread renders it.
  */
 #ifndef PSCN_RENDER_TILE_H
@@ -13,7 +13,8 @@
 #include "render/channels.h"
 #include "scene/scene.h"
 
-enum { TILE_SIZE = 32 }; /* pixels a side; a multiple of a packet's */
+/* Pixels a side of a tile, which is a multiple of a packet's, and of a packet. */
+enum { TILE_SIZE = 32, PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
 
 /* Pixels x .. x + width - 1, y .. y + height - 1. */
 struct rectangle {
