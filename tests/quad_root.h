@@ -1,4 +1,4 @@
-/* The root of two bicubic polynomials by Newton's process in quadruple precision, for tests. */
+/* The root of two bicubic polynomials by Newton's method in quadruple precision, for tests. */
 #ifndef PSCN_TESTS_QUAD_ROOT_H
 #define PSCN_TESTS_QUAD_ROOT_H
 

@@ -1,5 +1,5 @@
 /* The methods that find all roots (eq 7 to 9 of the paper, and Weierstrass's) on several real polynomials at once, one
- * a lane: the roots near enough to the interval [0,1] of u for Newton's process on something else to start from.
+ * a lane: the roots near enough to the interval [0,1] of u for Newton's method on something else to start from.
  *
  * For a caller who proves by himself what he makes of the roots (as with solver_roots): no radii, no error bounds. The
  * paper's iterations as printed, their items, and roots that are to be the answer, are aberth.c's, deflation.c's and

@@ -17,7 +17,7 @@ enum root_fate {
   ROOT_OUTSIDE,     /* its parameter is outside [0,1] */
   ROOT_ELSEWHERE,   /* the other parameter, which follows from it, is far outside */
   ROOT_NO_SOLUTION, /* `polish off`: the two do not solve eq 3 within `residual` */
-  ROOT_OFFERED      /* a point; with polish a start for Newton's process */
+  ROOT_OFFERED      /* a point; with polish a start for Newton's method */
 };
 
 /* The resultant of a candidate, and its roots by the solver of the scene, in no order. */

@@ -11,7 +11,7 @@
 #include "algebra/bezout.h"
 
 /* With polish, a complex root this near to the real axis, or a real one this far outside the leaf, may still start a
- * Newton process that ends in the leaf: rounding moves double roots off the axis by the square root of their error. */
+ * run of Newton's method that ends in the leaf: rounding moves double roots off the axis by the square root of their error. */
 #define START_MARGIN LEAF_MARGIN
 
 /* One form of the leaf's plane polynomials: coefficients of products by convolution. */

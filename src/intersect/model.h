@@ -26,7 +26,7 @@
 /* How far outside [0,1] a leaf's polynomials are still used (its second-derivative bounds hold up to there). */
 #define LEAF_MARGIN 0.125
 
-/* Newton's process on a leaf ends with a step no longer than this, in leaf parameters. */
+/* Newton's method on a leaf ends with a step no longer than this, in leaf parameters. */
 #define NEWTON_LAST_STEP CERTIFICATE_STEP
 
 /* What is found out about a patch once. */

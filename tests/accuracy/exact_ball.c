@@ -6,7 +6,7 @@
 
 #include "accuracy/exact_quick.h"
 
-/* Newton's process starts within the box, so these are plenty. */
+/* Newton's method starts within the box, so these are plenty. */
 enum { NEWTON_STEPS = 40 };
 
 void ball_jet_init(struct ball_jet *jet) { arb_init(jet->value), arb_init(jet->ds), arb_init(jet->dt); }

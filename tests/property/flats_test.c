@@ -83,7 +83,7 @@ static void the_first_of_a_plane_is_the_nearest(void **state)
   assert_true(hits > SCENES * RAYS / 2);
 }
 
-/* A patch of that plane that is folded over itself, so that a ray meets it up to three times, and Newton's process does not do. */
+/* A patch of that plane that is folded over itself, so that a ray meets it up to three times, and Newton's method does not do. */
 static void folded_net(struct random *random, int axis, double value, world_net out)
 {
   flat_net(random, axis, value, out);

@@ -107,7 +107,7 @@ struct surface {
   long double error[2], slope[2], form[3]; /* signs of what rounding makes of values and slopes; shares of turn */
 };
 
-/* The root, by Newton's process; false where there is none near. */
+/* The root, by Newton's method; false where there is none near. */
 static bool surface_root(const struct surface *f, long double w[2])
 {
   const long double *h = f->form;

@@ -60,7 +60,7 @@ static void row_bends(struct box *box, const double m[2], double out[3])
   box_bends(n, out);
 }
 
-/* Whether a root in the middle would be shown to be alone, by M there: else Newton's process is mostly in vain. A choice
+/* Whether a root in the middle would be shown to be alone, by M there: else Newton's method is mostly in vain. A choice
  * of speed. */
 static bool may_be_alone(struct box *box, double m[2][2])
 {

@@ -42,7 +42,7 @@ struct box {
  * `error` bounds the errors of the coefficients of a and of b. */
 enum verdict box_test(struct box *box, const double error[2]);
 
-/* The root that Newton's process finds from `root`, in box parameters with its radii; returns whether it is proven and,
+/* The root that Newton's method finds from `root`, in box parameters with its radii; returns whether it is proven and,
  * where that is asked, alone. */
 bool box_solve(struct box *box, const double error[2], bool alone, double root[2], double radius[2]);
 

@@ -43,7 +43,7 @@ static double cubic_at(const double c[4], double x, double *slope)
 }
 
 /* The root of a cubic that rises from below 0 to above, and whose coefficients are no larger than `most`: by Newton's
- * process where it stays next to it, else by halving. It ends where a value is what rounding makes. */
+ * method where it stays next to it, else by halving. It ends where a value is what rounding makes. */
 static double cubic_root(const double c[4], double most)
 {
   double low = 0, high = 1, x = 0.5, slope;

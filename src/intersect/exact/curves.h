@@ -21,7 +21,7 @@ enum curves {
  * that point's w may be larger than the first one's. error: see box_test. */
 enum curves curves_begin(struct box *box, const double error[2], double way, double *u, double *v, double *off);
 
-/* The point of the curves where w is `depth`, by Newton's process from the middle of the box on. Returns whether it is
+/* The point of the curves where w is `depth`, by Newton's method from the middle of the box on. Returns whether it is
  * found, in the box. */
 bool curves_at(struct box *box, const double error[2], double depth, double *u, double *v);
 

@@ -104,7 +104,7 @@ static bool invert(const double g[3], const double d[3], double m[2][2])
 #define FOLD_ROUNDINGS 256
 #define FOLD_ROUNDING 0x1p-6
 
-/* Newton's process on the map ends at a step whose square is below rounding, or is not one to a fold in the box. */
+/* Newton's method on the map ends at a step whose square is below rounding, or is not one to a fold in the box. */
 #define FOLD_STEP 0x1p-27
 enum { FOLD_STEPS = 8 };
 
@@ -120,7 +120,7 @@ static double step_on(const double g[3], const double d[3], double m[2][2], doub
   return fabs(at[0]) <= 2 && fabs(at[1]) <= 2 ? real_max(fabs(x), fabs(y)) : NAN;
 }
 
-/* The rest of the process, from the second step on. */
+/* The steps from the second on. */
 static bool find(const struct fold_powers *f, const struct fold_powers *g, double step, double at[2])
 {
   for (int n = 1; n < FOLD_STEPS && step > FOLD_STEP; n++) {

@@ -66,7 +66,7 @@ void search_tell_maybe(struct search *s, struct box *box, bool small)
 }
 
 /* Halves across the parameter along which the box is longer as seen along the ray, for that is what hull tests and
- * Newton's process need: at a tangency boxes get long along the ray and narrow across it. Where it is seen as a
+ * Newton's method need: at a tangency boxes get long along the ray and narrow across it. Where it is seen as a
  * point, across the one along which it is longer on the ray; and where the polynomials are dependent, in space. */
 static void box_halve(const struct search *s, struct box *box, struct box out[2])
 {

@@ -1,5 +1,5 @@
 /* A ray through a patch in fixed point: at points of it, and at its roots, which are made as good as wide arithmetic can by
- * Newton's process and proven anew. See zoom.h.
+ * Newton's method and proven anew. See zoom.h.
  */
 #include "intersect/exact/zoom.h"
 
@@ -73,11 +73,11 @@ static double row_bend(struct zoom *zoom, const wide m[2])
   return (double)most * second_bound(row) + CERTIFICATE_SECOND * row_size(zoom, m);
 }
 
-/* Newton's process ends when a step is what rounding makes, or no shorter than half the one before. It starts within the
+/* Newton's method ends when a step is what rounding makes, or no shorter than half the one before. It starts within the
  * root's radius, where it converges quadratically but for the first few steps next to a pole. */
 enum { SHARPEN_STEPS = 24 };
 
-/* The process from (x,y): where it ends, its last step, and the rows of the inverse Jacobian there. These are wide: next
+/* From (x,y): where it ends, its last step, and the rows of the inverse Jacobian there. These are wide: next
  * to a pole all of the determinant is small, and each row is right to its own last places. */
 static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide m[2][2])
 {

@@ -226,7 +226,7 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
 /* Such a root is final where it is off by no more than so many roundings of t. */
 #define FINAL_ROUNDINGS 4
 
-/* What a plane is off by at a root that Newton's process ends at, besides the rest's rounding (leaf_parts.error) and what the last
+/* What a plane is off by at a root that Newton's method ends at, besides the rest's rounding (leaf_parts.error) and what the last
  * step leaves: the products of tails, 2^-27 with s and t of a patch that is one leaf, are 2^-26 of 6 at most in either of two
  * coordinates, and take six roundings each. */
 #define TAIL_ERROR (72 * UNIT_ROUNDOFF * 0x1p-26)

@@ -1,7 +1,7 @@
-/* Newton's process on a leaf, to the last places. See newton.h.
+/* Newton's method on a leaf, to the last places. See newton.h.
  *
  * Compiled once per instruction set, without contraction. The surface is evaluated as the sum of the leaf's parts
- * (model.h), and the planes' residuals keep what their leading terms round away, so the root that the process ends at is
+ * (model.h), and the planes' residuals keep what their leading terms round away, so the root that Newton's method ends at is
  * right to the rounding of the bend of its leaf. Point and normal come from the last evaluation. Parameters are
  * s = u - 1/2 and t = v - 1/2.
  */
@@ -218,7 +218,7 @@ LANES_INLINE lane_mask alone_at_pole(const struct leaf *leaf, const struct newto
   return (left > 0) & certificate_alone_at_pole(q, turn, step, off, left);
 }
 
-/* The certificate (certificate.h): sets all but u and v of *r, which hold where the process went on the lanes that
+/* The certificate (certificate.h): sets all but u and v of *r, which hold where the last step went on the lanes that
  * `settled`. bend is |M| (|Suu| + 2 |Suv| + |Svv|). */
 LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const lanes slope[2], lanes error, lanes step,
                         lane_mask settled, struct newton_root *r)
@@ -243,7 +243,7 @@ LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const 
  * the net, and some twenty operations. */
 #define DERIVATIVE_ROUNDINGS 64
 
-/* ---- the process ---- */
+/* ---- the steps ---- */
 
 /* After the first few a step that is not half of the one before is no progress. */
 enum { MOST_STEPS = 10, FREE_STEPS = 3 };
@@ -276,7 +276,7 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
     step = lanes_max(lanes_abs(step_s), lanes_abs(step_t));
     if (n > FREE_STEPS) moving &= step < 0.5 * before;
     settled = active & (step <= parts->last_step);
-    /* A root far outside the leaf, or no progress (NaN compares false), is no concern of this process. */
+    /* A root far outside the leaf, or no progress (NaN compares false), is not sought any further. */
     moving &= ~settled & (lanes_abs(s - step_s) < 2) & (lanes_abs(t - step_t) < 2);
     if (n == MOST_STEPS || !lanes_any(moving)) break;
     /* A lane that is done stays where it is: what it gets then must not depend on the others. */

@@ -1,4 +1,4 @@
-/* One ray a lane against one leaf: Newton's process in two dimensions, and the test that proves what it ended at.
+/* One ray a lane against one leaf: Newton's method in two dimensions, and the test that proves what it ended at.
  *
  * Internal to src/intersect/lanes.
  * Parameters (u,v) are the leaf's own, [0,1] x [0,1] over the leaf. Norms of parameter vectors are maximum norms.
@@ -8,7 +8,7 @@
 
 #include "intersect/lanes/packet.h"
 
-/* What is known after Newton's process, M being the inverse Jacobian where it ended (certificate.h). The fields mean
+/* What is known after Newton's method, M being the inverse Jacobian where it ended (certificate.h). The fields mean
  * something only where `exists`. */
 struct newton_root {
   lanes u, v;
@@ -37,7 +37,7 @@ struct leaf_root {
   lanes point[3], su[3], sv[3]; /* derivatives by the leaf's parameters; none of these where any hit will do */
 };
 
-/* newton.c: the process on the lanes of `active`, and the test. It starts from start[0], start[1], values of u - 1/2 and
+/* newton.c: the steps on the lanes of `active`, and the test. It starts from start[0], start[1], values of u - 1/2 and
  * v - 1/2, and ends with a step that leaves the root right to the last places of its coordinates. */
 void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, const lanes start[2], lane_mask active,
                   struct leaf_root *out);

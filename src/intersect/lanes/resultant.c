@@ -117,7 +117,7 @@ lanes resultant_eliminated(const struct candidate *it, lanes kept)
   return lanes_select(first, num[0], num[1]) / lanes_select(first, den[0], den[1]);
 }
 
-/* What Newton's process finds from there. */
+/* What Newton's method finds from there. */
 static void resultant_refine(const struct packet *p, const struct candidate *it, bool first, lane_mask active,
                              struct leaf_root *out)
 {

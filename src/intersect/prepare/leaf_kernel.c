@@ -200,7 +200,7 @@ static lanes error_bound(const struct lane_parts *parts, bool rounded)
   return UNIT_ROUNDOFF * (rest + CUT_ROUNDINGS * (1 + whole));
 }
 
-/* Twice what a root may be off by, in the patch's frame, after the last step of Newton's process: well below what
+/* Twice what a root may be off by, in the patch's frame, after the last step of Newton's method: well below what
  * rounds it. */
 #define LAST_STEP_CURVE (UNIT_ROUNDOFF / 32)
 

@@ -16,8 +16,9 @@
 
 enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
 
-/* One Newton process holds on the whole of such a leaf for all but grazing rays. Where there would be very many, and where they
- * are made when a ray comes to them, fewer that turn farther are better; much farther, and rays under a low sun pay for it. */
+/* One run of Newton's method does for the whole of such a leaf for all but grazing rays. Where there would be very many, and
+ * where they are made when a ray comes to them, fewer that turn farther are better; much farther, and rays under a low sun pay
+ * for it. */
 #define AUTO_TURN 0.25
 #define COARSE_TURNS \
   {                  \
