@@ -30,7 +30,7 @@ static const struct hint HINTS[] = {
    "what is rendered is opaque: leave it out"},
   {"gradient checker brick hexagon marble wood granite agate bozo leopard onion spotted crackle wrinkles spherical "
    "cylindrical planar radial boxed mandel julia image_map material_map bump_map image_pattern cells ripples waves "
-   "dents bumps quilted spiral1 spiral2 square cubic color_map colour_map pigment_map texture_map texture_list "
+   "dents bumps quilted spiral1 spiral2 square color_map colour_map pigment_map texture_map texture_list "
    "slope average turbulence warp uv_mapping uv_vectors tiling facets magnet",
    false, "a pigment is one colour"},
   {"quick_color quick_colour", false, "leave it out: the pigment's colour is the one that counts"},

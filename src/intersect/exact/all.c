@@ -125,8 +125,8 @@ static void leave_out_open(struct judge *j, size_t first, size_t end)
 {
   struct exact_found *at = j->list->at;
   for (size_t a = first; a < end; a++) {
-    bool alone = at[a].kind != EXACT_OPEN;
-    for (size_t b = first; b < end && !alone; b++)
+    if (at[a].kind != EXACT_OPEN) continue;
+    for (size_t b = first; b < end; b++)
       if (b != a && at[b].root.patch != LEFT_OUT && (at[b].kind == EXACT_INSIDE || b < a) &&
           judge_tie(&at[a].root, &at[b].root)) {
         at[a].root.patch = LEFT_OUT;
@@ -137,7 +137,7 @@ static void leave_out_open(struct judge *j, size_t first, size_t end)
 
 /* ---- borders ---- */
 
-/* The roots out[0..count-1] of the list are one hit, of the patch that stands first in the scene. */
+/* The roots which[0..count-1] of the list are one hit, of the patch that stands first in the scene. */
 static void count_once(struct judge *j, const size_t which[], size_t count)
 {
   struct exact_found *at = j->list->at, *first = &at[which[0]];
