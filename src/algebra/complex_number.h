@@ -46,12 +46,15 @@ static inline double complex_norm(struct complex_number a) /* |a|^2 */ { return 
 
 static inline double complex_modulus(struct complex_number a) { return sqrt(complex_norm(a)); }
 
-/* The same to a few roundings however small it is: the squares of parts below 2^-400 underflow, times 2^600 they do not
- * overflow either. */
+/* Squares of parts below this underflow; above it they cannot, and times LIFT they do not overflow either. */
+#define COMPLEX_SMALL 0x1p-400
+#define COMPLEX_LIFT 0x1p600
+
+/* The same to a few roundings however small it is. */
 static inline double complex_small_modulus(struct complex_number a)
 {
-  if (fmax(fabs(a.re), fabs(a.im)) >= 0x1p-400) return complex_modulus(a);
-  return complex_modulus(complex_scale(0x1p600, a)) * 0x1p-600;
+  if (fmax(fabs(a.re), fabs(a.im)) >= COMPLEX_SMALL) return complex_modulus(a);
+  return complex_modulus(complex_scale(COMPLEX_LIFT, a)) * (1.0 / COMPLEX_LIFT);
 }
 
 /* The root with real part >= 0. */

@@ -17,16 +17,12 @@ enum { PATIENCE = 2 };
  * too long by chance, one of 8 times is the noise of a vanishing slope. A choice of speed. */
 #define WILD 64.0
 
-/* Squares of values below this underflow; above it they cannot, times LIFT squared they do not overflow either. */
-#define SMALL 0x1p-400
-#define LIFT 0x1p600
-
-/* |re + i im|, to a few roundings however small. */
+/* complex_small_modulus of re + i im. */
 LANES_INLINE lanes modulus_of(lanes re, lanes im)
 {
-  const lane_mask small = lanes_max(lanes_abs(re), lanes_abs(im)) < SMALL;
-  const lanes lift = lanes_select(small, lanes_all(LIFT), lanes_all(1.0));
-  const lanes drop = lanes_select(small, lanes_all(1.0 / LIFT), lanes_all(1.0));
+  const lane_mask small = lanes_max(lanes_abs(re), lanes_abs(im)) < COMPLEX_SMALL;
+  const lanes lift = lanes_select(small, lanes_all(COMPLEX_LIFT), lanes_all(1.0));
+  const lanes drop = lanes_select(small, lanes_all(1.0 / COMPLEX_LIFT), lanes_all(1.0));
   re *= lift;
   im *= lift;
   return lanes_sqrt(re * re + im * im) * drop;
