@@ -7,7 +7,7 @@
 
 #include "base/real.h"
 
-typedef unsigned __int128 wide; /* of gcc and clang on every 64-bit machine */
+typedef unsigned __int128 uint128; /* of gcc and clang on every 64-bit machine */
 
 enum {
   STORED_POWERS = 28, /* 5^27 is the largest power of 5 in 64 bits */
@@ -30,19 +30,19 @@ static const uint64_t POWERS_OF_FIVE[STORED_POWERS] = {FOUR_POWERS(UINT64_C(1)),
 static uint64_t power_of_ten(int n) { return POWERS_OF_FIVE[n] << n; }
 
 /* 5^n for n <= MAX_POWER, exact. */
-static wide power_of_five(int n)
+static uint128 power_of_five(int n)
 {
   const int low = n < STORED_POWERS ? n : STORED_POWERS - 1;
-  return (wide)POWERS_OF_FIVE[low] * POWERS_OF_FIVE[n - low];
+  return (uint128)POWERS_OF_FIVE[low] * POWERS_OF_FIVE[n - low];
 }
 
 /* mantissa x 5^power / 2^shift, rounded to an integer, ties to even. The result must fit in 64 bits. mantissa < 2^53,
  * 1 <= shift < 192. */
 static uint64_t scale(uint64_t mantissa, int power, int shift)
 {
-  const wide five = power_of_five(power);
-  const wide low_product = (wide)(uint64_t)five * mantissa;
-  const wide high = (wide)(uint64_t)(five >> 64) * mantissa + (low_product >> 64); /* of 2^64; < 2^117 */
+  const uint128 five = power_of_five(power);
+  const uint128 low_product = (uint128)(uint64_t)five * mantissa;
+  const uint128 high = (uint128)(uint64_t)(five >> 64) * mantissa + (low_product >> 64); /* of 2^64; < 2^117 */
   const uint64_t low = (uint64_t)low_product;
   uint64_t whole, fraction, rest; /* the fraction's first 64 bits, and whether anything follows */
   if (shift < 64) {
@@ -95,13 +95,13 @@ bool decimal_from_double(double value, int count, uint64_t *out_digits, int *out
 }
 
 /* The double nearest to (value + something in (0,1) if `sticky`) x 2^binary, for 2^63 <= value; in the normal range. */
-static double round_wide(wide value, bool sticky, int binary)
+static double round_wide(uint128 value, bool sticky, int binary)
 {
   const uint64_t top = (uint64_t)(value >> 64);
   const int bits = top != 0 ? 128 - __builtin_clzll(top) : 64;
   const int excess = bits - DBL_MANT_DIG; /* at least 11 */
-  const wide half = (wide)1 << (excess - 1);
-  const wide fraction = value & (2 * half - 1);
+  const uint128 half = (uint128)1 << (excess - 1);
+  const uint128 fraction = value & (2 * half - 1);
   uint64_t whole = (uint64_t)(value >> excess);
   whole += fraction > half || (fraction == half && (sticky || (whole & 1) != 0));
   return ldexp((double)whole, binary + excess);
@@ -113,11 +113,11 @@ bool decimal_to_double(uint64_t digits, int exponent, double *out_value)
   const int zeros = __builtin_clzll(digits);
   const uint64_t shifted = digits << zeros;
   if (exponent >= 0) {
-    *out_value = round_wide((wide)shifted * POWERS_OF_FIVE[exponent], false, exponent - zeros);
+    *out_value = round_wide((uint128)shifted * POWERS_OF_FIVE[exponent], false, exponent - zeros);
   } else {
-    const wide numerator = (wide)shifted << 64;
+    const uint128 numerator = (uint128)shifted << 64;
     const uint64_t five = POWERS_OF_FIVE[-exponent];
-    const wide quotient = numerator / five; /* >= 2^127 / 2^63 */
+    const uint128 quotient = numerator / five; /* >= 2^127 / 2^63 */
     *out_value = round_wide(quotient, quotient * five != numerator, exponent - zeros - 64);
   }
   return true;
