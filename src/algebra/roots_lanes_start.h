@@ -10,7 +10,6 @@
 #define PSCN_ALGEBRA_ROOTS_LANES_START_H
 
 #include <math.h>
-#include <stdbool.h>
 
 #include "algebra/polynomial.h"
 #include "algebra/solver.h"

@@ -1,7 +1,7 @@
 /* The numbers of a check as JSON. */
 #include "check/measure.h"
 
-#include <string.h>
+#include <stdio.h>
 
 #include "base/json_text.h"
 #include "check/page.h"

@@ -10,7 +10,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "accuracy/class_tests.h"
 #include "accuracy/generate.h"

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdio.h>
 
 #include "accuracy/trial.h"
 #include "cmocka_test.h"

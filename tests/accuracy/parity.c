@@ -4,7 +4,6 @@
  * whole patches. Whatever is wrong says that it is grazing. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "accuracy/placed_rays.h"
 #include "cmocka_test.h"

@@ -1,5 +1,4 @@
 /* The text of --solver. What is understood of it reads back from its own text as the same method. */
-#include <math.h>
 #include <string.h>
 
 #include "language/language.h"

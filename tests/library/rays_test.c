@@ -6,7 +6,6 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdbool.h>
-#include <stdio.h>
 #include <string.h>
 #if defined(__SSE2__)
 #include <xmmintrin.h>

@@ -2,7 +2,6 @@
  * trees with many of them are walked. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cmocka_test.h"
 #include "property/world.h"

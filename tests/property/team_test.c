@@ -1,7 +1,6 @@
 /* Scenes that several threads prepare: the model is that of one thread, to the last bit, however the work is shared
  * out; where threads are short there is none. */
 #define _GNU_SOURCE /* pthread_getattr_np */
-#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,6 @@
 #ifndef TESTS_UNIT_RENDERED_H
 #define TESTS_UNIT_RENDERED_H
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

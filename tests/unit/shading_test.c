@@ -1,4 +1,6 @@
 /* Shading: colours by the formulas, and shadows. */
+#include <float.h>
+
 #include "geometry/vector.h"
 #include "render/shade.h"
 #include "unit/rendered.h"

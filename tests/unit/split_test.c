@@ -1,5 +1,4 @@
 /* How far patches are cut where `split` is auto. */
-#include <math.h>
 #include <stdlib.h>
 
 #include "cmocka_test.h"

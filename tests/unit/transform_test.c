@@ -2,7 +2,6 @@
 #include "geometry/transform.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "cmocka_test.h"
 #include "geometry/transform_kernel.h"

@@ -6,7 +6,6 @@
 #define PSCN_INTERSECT_LANES_COVER_NETS_H
 
 #include <stdbool.h>
-#include <string.h>
 
 #include "base/lanes.h"
 #include "base/real.h"

@@ -2,7 +2,6 @@
 #include "intersect/prepare/patch.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/double_double.h"
 #include "base/real.h"
