@@ -185,6 +185,45 @@ static void what_leaves_a_plane_slowly_does_not_meet_it(void **state)
   }
 }
 
+/* What starts in the box of what lies there may touch it, and that is the same however it leaves: no hit, and grazing where one
+ * is that leaves straight across. */
+static void what_leaves_a_plane_slowly_is_judged_where_it_starts(void **state)
+{
+  (void)state;
+  struct random random = {SEED + 6};
+  enum { FEW = 3 };
+  int touching = 0;
+  for (int scene = 0; scene < SCENES; scene++) {
+    const int axis = scene % 3;
+    world_net nets[FEW];
+    struct world world;
+    for (int p = 0; p < FEW; p++) folded_net(&random, axis, 0.3, nets[p]);
+    world_open(&world, nets, FEW, NULL);
+    for (int n = 0; n < RAYS; n++) {
+      struct ray ray = {.t_max = INFINITY}, across;
+      struct hit_list list;
+      bool occluded;
+      for (int k = 0; k < 3; k++) {
+        ray.origin[k] = random_between(&random, -1, 1);
+        ray.direction[k] = random_between(&random, -1, 1);
+      }
+      ray.origin[axis] = 0.3, ray.direction[axis] = 0, across = ray;
+      for (int k = 0; k < 3; k++) across.direction[k] = k == axis;
+      ray.direction[axis] = ldexp(1, -n * 4);
+      const struct hit hit = world_closest(&world, &ray), straight = world_closest(&world, &across);
+      tracer_occluded(world.tracer, 1, &ray, &occluded);
+      assert_int_equal(hit.patch, HIT_NONE);
+      assert_int_equal(hit.certainty, straight.certainty);
+      assert_false(occluded);
+      assert_int_equal(tracer_all(world.tracer, 1, &ray, &list), STATUS_OK);
+      assert_true(list.count == 0 && list.certainty == straight.certainty);
+      touching += hit.certainty == CERTAINTY_GRAZING;
+    }
+    world_close(&world);
+  }
+  assert_true(touching > SCENES * RAYS / 8 && touching < SCENES * RAYS * 7 / 8);
+}
+
 /* Nearly all rays meet several patches of the plane, and few of them a border. */
 static void a_plane_costs_no_last_resort(void **state)
 {
@@ -238,6 +277,7 @@ int main(void)
                                      cmocka_unit_test(what_stands_behind_in_a_plane_is_no_doubt),
                                      cmocka_unit_test(what_starts_in_a_plane_leaves_it),
                                      cmocka_unit_test(what_leaves_a_plane_slowly_does_not_meet_it),
+                                     cmocka_unit_test(what_leaves_a_plane_slowly_is_judged_where_it_starts),
                                      cmocka_unit_test(a_plane_costs_no_last_resort)};
   return cmocka_run_group_tests_name("flats", tests, NULL, NULL);
 }

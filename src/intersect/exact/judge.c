@@ -19,19 +19,34 @@ enum { JUDGE_WORK = 2560 };
  * (regions.c): most answers are grazing then, whatever else is found. */
 enum { JUDGE_MAYBE_WORK = 128 };
 
+/* Has the ray look straight across the plane that the patch lies in, where it starts exactly there and leaves it, be it ever so
+ * slowly: it meets that at 0 and nowhere else, and whether there on the patch depends on its start alone. */
+static void look_across(const struct model *model, uint32_t patch, struct ray *ray)
+{
+  const uint32_t number = model_plane(model, patch);
+  if (number == 0) return;
+  const struct flat_plane *plane = &model->planes[number];
+  const double away = ray->direction[plane->axis];
+  if (ray->origin[plane->axis] != plane->value || away == 0) return;
+  for (int k = 0; k < 3; k++) ray->direction[k] = 0;
+  ray->direction[plane->axis] = copysign(1, away);
+}
+
 void judge_turn(struct judge *j, uint32_t patch)
 {
   if (j->patch == patch) return;
   j->patch = patch, j->zoomed = false;
   j->prepared = model_patch_at(j->asked->model, patch, &j->room);
-  local_ray_make(j->prepared, j->asked->ray, &j->local);
+  j->ray = *j->asked->ray;
+  look_across(j->asked->model, patch, &j->ray);
+  local_ray_make(j->prepared, &j->ray, &j->local);
 }
 
 struct zoom *judge_zoom(struct judge *j)
 {
   double(*P)[4][3] = j->asked->model->scene->patches[j->patch].P;
   if (j->zoomed) return &j->zoom;
-  zoom_start(j->prepared, P, j->asked->ray, &j->zoom);
+  zoom_start(j->prepared, P, &j->ray, &j->zoom);
   judge_spend(j, WORK_ZOOM_START);
   j->zoomed = true;
   return &j->zoom;

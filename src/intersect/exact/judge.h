@@ -53,6 +53,7 @@ struct judge {
   size_t open;  /* places in `list` that may be hits, where all hits are asked for */
   /* of the patch looked at last */
   uint32_t patch;
+  struct ray ray;               /* as it is looked at there: the ray itself, or across a plane that it starts in */
   struct model_patch *prepared; /* in `room` where the model does not keep it */
   struct patch_room room;
   bool zoomed; /* `zoom` is set */

@@ -62,7 +62,7 @@ static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask
   return open & ~inside;
 }
 
-/* What no stage has decided is left to the last resort, which knows of no planes. */
+/* What no stage has decided is left to the last resort. */
 static void leave_open(struct packet *p, const struct candidate *it, lane_mask open)
 {
   open &= ~leaves_beside(p, it->leaf->patch, open);
