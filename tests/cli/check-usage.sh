@@ -1,6 +1,7 @@
 # What check refuses, and a POV-Ray that is not there; none of this leaves a folder behind.
 try pscn check
 try pscn check $SCENES/bent.pscn --size 0x10
+try pscn check $SCENES/bent.pscn --size 8193x8192
 try pscn check $SCENES/bent.pscn --steps 9
 try pscn check $SCENES/bent.pscn --grid x
 try pscn check $SCENES/bent.pscn --fail -1

@@ -7,6 +7,7 @@ for command in render trace dump compare help; do
   try pscn help $command
   pscn $command --help | cmp - <(pscn help $command) && echo "--help is the same"
 done
+pscn help -h | cmp - <(pscn help help) && echo "-h is the same"
 try pscn help nothing
 try pscn help render trace
 try pscn nothing

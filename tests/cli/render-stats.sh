@@ -7,6 +7,26 @@ pscn render "$scene" -o a.png --size 20x10 --samples 2 --threads 1 --tolerance 1
 pscn render "$scene" -o a.png --size 20x10 --crop 2,1,8,4 --stats a.json --solver aberth --quiet
 grep -c -E '"(parse|build|render|write)": *[0-9]' a.json
 grep -E '"(solver|tolerance|primary|samples)"' a.json
+grep -A 4 '"crop"' a.json
+grep -E '"(render|write)": 0\.0,?$' a.json # all takes some time
+# What is told on standard error is the same: where all stages are come to, and where nothing is proven.
+for solver in 'aberth { split 1 }' 'laguerre { form paper }'; do
+  pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.png --size 40x30 --solver "$solver" --stats a.json 2>said
+  LC_ALL=C awk -F '[ :,"]+' '
+    /{$/ { part = $2 == "" ? "" : $2 "."; next }
+    /^  }/ { part = ""; next }
+    { is[part $2] = $3 }
+    END {
+      print "rays     " is["rays.primary"] " primary, " is["rays.shadow"] " shadow"
+      print "answers  " is["answers.certain"] " certain, " is["answers.grazing"] " grazing"
+      print "patches  " is["patches_tested"] " tried, " is["stages.resultant"] \
+        " of them by a resultant of full degree, " is["subdivided"] " by subdivision"
+      print "roots    " is["roots.found"] " found, " is["roots.accepted"] " accepted"
+      printf "time     %.3f s parse, %.3f s build, %.3f s render, %.3f s write\n", is["time.parse"], is["time.build"],
+        is["time.render"], is["time.write"]
+    }' a.json | diff said - | grep '^>'
+  grep -c '"\(planes\|resultant\|grazing\)": [1-9]' a.json
+done
 echo '0 0 -4 0 0 1' | pscn trace "$scene" --stats - | work
 # Names that are no UTF-8.
 cp "$scene" $'fl\xe4t.pscn'

@@ -31,5 +31,13 @@ printf '%s\n' '3 -0.1' '0 0 3 -0.1' | pscn roots --format json | sed 's/.*"eq11"
 for text in 'aberth' 'aberth /* no basis */' 'aberth { basis bernstein }' 'aberth { form paper }' 'aberth { form paper basis bernstein }'; do
   echo '2 -1' | pscn roots --solver "$text" --stats - | grep '"solver"'
 done
+# A radius that is not known is null in JSON; the share of accurate roots is of those that are told, the missing ones aside.
+echo '1 -3 3 -1 0 0 0 1 1' | pscn roots --solver 'laguerre { basis bernstein max_iterations 1 }' --format json |
+  grep -o '"radius":null,"status":"unknown"' | uniq
+for iterations in 2 100; do
+  echo '1 -3 3 -1 0 0 0 1 1' | pscn roots --solver "laguerre { max_iterations $iterations }" --stats - 2>/dev/null |
+    grep '"accurate"'
+done
+echo '1e-320 1 -1' | pscn roots --format json --stats - | grep '"roots": \|"missing": '
 # Of no polynomials there are statistics too.
 pscn roots --stats - </dev/null | grep -v '"solve"'

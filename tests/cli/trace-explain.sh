@@ -42,6 +42,7 @@ for scene in teapot dome wild; do
     pscn trace "$PSCN_SOURCE_DIR/scenes/$scene.pscn" --solver "$solver" --explain <rays
   done
 done >story
+pscn trace "$SCENES/tangled.pscn" --solver 'aberth { split 1 }' --explain <"$SCENES/tangled.rays" >>story
 while read -r words; do
   grep -q -e "$words" story || echo "nobody says: $words"
 done <<'END'
@@ -62,7 +63,12 @@ certificate: none
 certificate: a and b
 answer: hit .* grazing
 answer: miss certain
+ray 47: from
+roots by laguerre$
+roots by aberth, asked for this story
+the nearest so far; a part is left to the last resort
 END
+grep ' [+-]0 i' story # no real root is told as a complex one
 # One whole, on a plane patch, where all numbers are exact.
 printf '0 0 -4 0 0 1\n' | pscn trace "$SCENES/flat.pscn" --explain --solver 'aberth { split 1 }' | grep -v ' root\|= '
 # From so far away that double precision tells nothing.

@@ -55,6 +55,8 @@ sed -n 5p "$SCENES/tangled.rays" | pscn trace "$SCENES/tangled.pscn" >alone
 cmp among alone && cut -d ' ' -f 1,5 alone
 # A corner that is met exactly is a given point; of all hits it is one of an open surface.
 for all in '' --all; do printf '1 1 -4 0 0 1\n1.0000000000000002 1 -4 0 0 1\n' | pscn trace "$scene" --certainty $all; done
+printf "$one$one$minus_four$zero$zero$one" | pscn trace "$scene" --binary --all | LC_ALL=C od -A n -v -t f8 -w16 |
+  sed 's/  */ /g;q'
 # T beyond the doubles is the last of them, which nobody takes for a miss.
 echo '-1.7976931348623157e308 -1.7976931348623157e308 -1.7976931348623157e308 1 1 1' >far
 pscn trace "$scene" --certainty <far | cut -d ' ' -f 1,2,9

@@ -222,7 +222,8 @@ static void exr_keeps_its_window_and_texts(void **state)
 {
   (void)state;
   const char *const names[] = {"R", "G", "B"};
-  const struct image_attribute attributes[] = {{"pscn:scene", "a=b.pscn"}, {"pscn:size", "70x50"}, {"Software", "us"}};
+  const struct image_attribute attributes[] = {
+    {"pscn:scene", "a=b\n.pscn"}, {"pscn:size", "70x50"}, {"Software", "us"}};
   struct image image = picture(3, names);
   image.x = 5;
   image.y = 7;
@@ -235,11 +236,32 @@ static void exr_keeps_its_window_and_texts(void **state)
     size_t length;
     assert_true(back.x == 5 && back.y == 7 && back.full_width == 70 && back.full_height == 50);
     assert_memory_equal(back.value, image.value, WIDTH * HEIGHT * 3 * sizeof *image.value);
-    assert_memory_equal(image_metadata(&back, "pscn:scene", &length), "a=b.pscn", 8);
-    assert_int_equal(length, 8);
+    assert_memory_equal(image_metadata(&back, "pscn:scene", &length), "a=b .pscn", 9);
+    assert_int_equal(length, 9);
     assert_memory_equal(image_metadata(&back, "pscn:size", &length), "70x50", 5);
     assert_null(image_metadata(&back, "Software", &length));
     assert_null(image_metadata(&back, "pscn:siz", &length));
+    image_destroy(&back);
+  }
+  image_destroy(&image);
+}
+
+/* Pixels that lie outside the picture they say they are of, on any side, are a whole. */
+static void exr_outside_its_picture_is_a_whole(void **state)
+{
+  (void)state;
+  const char *const names[] = {"R", "G", "B"};
+  static const int places[][2] = {{-1, 0}, {0, -1}, {6, 0}, {0, 8}, {5, 7} /* the last that is inside */};
+  struct image image = picture(3, names);
+  image.full_width = WIDTH + 5;
+  image.full_height = HEIGHT + 7;
+  for (int k = 0; k < 5; k++) {
+    image.x = (size_t)places[k][0];
+    image.y = (size_t)places[k][1];
+    struct image back = there_and_back(&image, &(struct image_encoding){.format = IMAGE_EXR, .bits = 32});
+    assert_true(k == 4 ? back.x == 5 && back.y == 7 : back.x == 0 && back.y == 0);
+    assert_int_equal(back.full_width, k == 4 ? WIDTH + 5 : 0);
+    assert_memory_equal(back.value, image.value, WIDTH * HEIGHT * 3 * sizeof *image.value);
     image_destroy(&back);
   }
   image_destroy(&image);
@@ -463,6 +485,7 @@ int main(void)
     WITH_FILE(encoded_values_take_no_curve),
     WITH_FILE(exr_keeps_values_and_names),
     WITH_FILE(exr_keeps_its_window_and_texts),
+    WITH_FILE(exr_outside_its_picture_is_a_whole),
     WITH_FILE(encoding_is_told),
     WITH_FILE(no_channel_is_opacity),
     cmocka_unit_test(png_refuses_five_channels_and_none),

@@ -13,8 +13,17 @@ enum { WIDTH = 70, HEIGHT = 45, TILES = 6 };
 
 static const char path[] = "part.exr";
 
-/* Writes a part that says so of itself, and reads what it says. */
-static enum status read_part(const char *tile, const char *done, struct piece *out)
+static void write_file(unsigned char *bytes, size_t size)
+{
+  FILE *file = fopen(path, "wb");
+  assert_non_null(file);
+  assert_int_equal(fwrite(bytes, 1, size, file), size);
+  assert_int_equal(fclose(file), 0);
+  free(bytes);
+}
+
+/* Writes a part that says so of itself, x pixels from the left of a picture as wide as it is, and reads what it says, or all. */
+static enum status read_part_at(size_t x, bool pixels, const char *tile, const char *done, struct piece *out)
 {
   const struct image_attribute said[] = {{"pscn:tile", tile}, {"pscn:channels", "rgb"}, {"pscn:done", done}};
   const struct image_encoding encoding = {
@@ -26,16 +35,18 @@ static enum status read_part(const char *tile, const char *done, struct piece *o
   assert_int_equal(image_create(WIDTH, HEIGHT, 3, &image), STATUS_OK);
   for (int c = 0; c < 3; c++) (void)snprintf(image.channel[c].name, IMAGE_NAME_SIZE, "%c", "RGB"[c]);
   memset(image.value, 0, sizeof(float) * WIDTH * HEIGHT * 3);
-  image.full_width = WIDTH, image.full_height = HEIGHT;
+  image.x = x, image.full_width = WIDTH, image.full_height = HEIGHT;
   assert_int_equal(image_encode(&image, &encoding, &bytes, &size, message), STATUS_OK);
-  FILE *file = fopen(path, "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(bytes, 1, size, file), size);
-  assert_int_equal(fclose(file), 0);
-  free(bytes), image_destroy(&image);
-  const enum status status = piece_read(path, false, out, message);
+  write_file(bytes, size);
+  image_destroy(&image);
+  const enum status status = piece_read(path, pixels, out, message);
   assert_int_equal(remove(path), 0);
   return status;
+}
+
+static enum status read_part(const char *tile, const char *done, struct piece *out)
+{
+  return read_part_at(0, false, tile, done, out);
 }
 
 static void a_part_tells_which_tiles_it_has(void **state)
@@ -68,11 +79,90 @@ static void what_cannot_be_is_no_part(void **state)
   }
   for (size_t k = 0; k < sizeof pieces / sizeof *pieces; k++)
     if (read_part(pieces[k], "0", &piece) != STATUS_INPUT) fail_msg("piece '%s' is believed", pieces[k]);
+  assert_int_equal(read_part_at(1, false, "1/1", "0", &piece), STATUS_INPUT); /* it is not in its picture */
+  assert_int_equal(read_part_at(0, true, "1/1", "0", &piece), STATUS_INPUT);  /* it has no sum */
+}
+
+/* What two parts have in common decides, and a message says which of it they have not. */
+static void parts_of_one_picture_belong_together(void **state)
+{
+  (void)state;
+  static char texts[] = "pscn:size=9x9\npscn:crop=0,0,7,5\npscn:samples=1\npscn:channels=rgb\npscn:text=a\n"
+                        "pscn:options= --solver 'a b'\npscn:version=2\npscn:arithmetic=avx2\npscn:scene=one.pscn\n";
+  static const struct {
+    const char *from, *what;
+  } changes[] = {{"9x9", "size"},          {"0,0", "crop"},   {"=1", "samples"}, {"rgb", "channels"},
+                 {"=a\n", "scene's text"}, {"b'", "options"}, {"=2", "version"}, {"avx2", "arithmetic"}};
+  const struct image picture = {.width = 7, .height = 5, .x = 1, .y = 2, .metadata = texts};
+  struct image part = picture;
+  char message[IMAGE_MESSAGE_SIZE], expected[64], changed[sizeof texts];
+  assert_true(piece_belongs(&part, &picture, message, sizeof message));
+  part.metadata = changed;
+  for (size_t k = 0; k < sizeof changes / sizeof *changes; k++) {
+    memcpy(changed, texts, sizeof texts);
+    changed[strstr(texts, changes[k].from) - texts + 1] = '7';
+    assert_false(piece_belongs(&part, &picture, message, sizeof message));
+    (void)snprintf(expected, sizeof expected, "its %s: '", changes[k].what);
+    assert_memory_equal(message, expected, strlen(expected));
+  }
+  memcpy(changed, texts, sizeof texts);
+  *strstr(changed, "one") = '7'; /* another name of the scene is no other picture */
+  assert_true(piece_belongs(&part, &picture, message, sizeof message));
+  size_t *const window[] = {&part.x, &part.y, &part.width, &part.height};
+  for (size_t k = 0; k < sizeof window / sizeof *window; k++) {
+    ++*window[k];
+    assert_false(piece_belongs(&part, &picture, message, sizeof message));
+    assert_string_equal(message, "its window");
+    --*window[k];
+  }
+}
+
+/* The tiles that are done are taken and written, and no others; not where a channel is not there. A line of text stays one. */
+static void what_is_done_is_copied(void **state)
+{
+  (void)state;
+  const struct render_options options = {.width = WIDTH,
+                                         .height = HEIGHT,
+                                         .crop = {0, 0, WIDTH, HEIGHT},
+                                         .channels = {.count = 1, .width = 3, .kind = {CHANNEL_RGB}}};
+  const struct image_attribute said[] = {{"pscn:options", "a\nb"}, {"Software", "pscn"}};
+  struct piece from, to;
+  assert_int_equal(piece_create(&options, 1, 1, said, 2, &from), STATUS_OK);
+  assert_int_equal(piece_create(&options, 1, 1, NULL, 0, &to), STATUS_OK);
+  assert_string_equal(from.image.metadata, "pscn:options=a b\n");
+  for (size_t k = 0; k < WIDTH * HEIGHT * 3; k++) from.image.value[k] = (float)(k + 1);
+  memset(to.image.value, 0, sizeof(float) * WIDTH * HEIGHT * 3);
+  atomic_store(&from.tiles.done[1], true);
+  assert_true(piece_copy(&from, &to.image));
+  const struct rectangle *tile = &from.tiles.tile[1];
+  for (size_t y = 0; y < HEIGHT; y++) {
+    for (size_t x = 0; x < WIDTH; x++) {
+      const size_t k = 3 * (y * WIDTH + x);
+      const bool in = x - tile->x < tile->width && y - tile->y < tile->height;
+      for (size_t c = 0; c < 3; c++) assert_true(to.image.value[k + c] == (in ? from.image.value[k + c] : 0));
+    }
+  }
+  from.image.channel[2].name[0] = 'Z';
+  assert_false(piece_copy(&from, &to.image));
+  from.image.channel[2].name[0] = 'B';
+  unsigned char *bytes;
+  size_t size;
+  char message[IMAGE_MESSAGE_SIZE];
+  const struct image_attribute channels = {"pscn:channels", "rgb"};
+  assert_int_equal(piece_encode(&from, &channels, 1, &bytes, &size, message), STATUS_OK);
+  piece_destroy(&from);
+  write_file(bytes, size);
+  assert_int_equal(piece_read(path, true, &from, message), STATUS_OK);
+  assert_int_equal(remove(path), 0);
+  for (size_t k = 0; k < TILES; k++) assert_int_equal(atomic_load(&from.tiles.done[k]), k == 1);
+  assert_memory_equal(from.image.value, to.image.value, sizeof(float) * WIDTH * HEIGHT * 3);
+  piece_destroy(&from), piece_destroy(&to);
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_part_tells_which_tiles_it_has),
-                                     cmocka_unit_test(what_cannot_be_is_no_part)};
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_part_tells_which_tiles_it_has), cmocka_unit_test(what_cannot_be_is_no_part),
+    cmocka_unit_test(parts_of_one_picture_belong_together), cmocka_unit_test(what_is_done_is_copied)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
