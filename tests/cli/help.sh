@@ -12,5 +12,7 @@ try pscn help nothing
 try pscn help render trace
 try pscn nothing
 try pscn --nothing
+try pscn --version now
+PSCN_KERNEL=none try pscn dump scene
 # What is no command.
 for topic in solver channels; do try pscn help $topic; done

@@ -15,7 +15,7 @@ for value in 0 1025 two; do
   try pscn render "$scene" --threads "$value"
 done
 for value in 1,2,3 1,2,3,4,5 1,2,0,4 1,2,3,0 -1,2,3,4 800,0,1,1 799,0,2,1 0,0,801,1 0,599,1,2 \
-  9223372036854775807,0,9223372036854775807,1; do
+  9223372036854775807,0,9223372036854775807,1 18446744073709551615,0,2,1; do
   try pscn render "$scene" --crop "$value"
 done
 for value in "" rgb, rgb,rgb z RGB; do

@@ -21,6 +21,7 @@ for text in Level Level= =1 1a=2 x=1 sphere=1 'a b=1' Level=1x Level=1e999; do t
 
 # As many as there is room for.
 folders=$(printf -- '-I nowhere%.0s ' {1..32}) numbers=$(printf -- '--declare N%d=1 ' {1..64})
+try pscn dump scene.pscn $folders ${numbers%--declare*} --declare Level=1 >/dev/null
 try pscn dump scene.pscn $folders $numbers --declare Level=1 >/dev/null
 try pscn dump scene.pscn $folders -I first >/dev/null
 
