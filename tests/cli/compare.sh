@@ -15,6 +15,8 @@ try pscn compare a.png b.png --failpercent 100 --quiet
 try pscn compare a.png b.png --failpercent 100 --hardfail 0.05 --quiet
 try pscn compare a.png b.png --allowfailures 221 --quiet
 try pscn compare a.png small.png
+pscn render "$scene" -o low.png --size 17x6 --quiet
+try pscn compare a.png low.png
 try pscn compare a.png a.exr
 try pscn compare a.exr a.exr --channels depth,normal.z -o depth.png
 try pscn compare a.exr a.exr --channels nothing
@@ -31,6 +33,9 @@ try pscn compare a.png b.png -o diff.jpg
 try pscn compare a.png b.png -o nowhere/diff.png
 try pscn compare a.png b.png -o diff.exr --fail 1 --scale 2 --quiet
 try pscn compare diff.exr diff.exr --quiet
+# Once more than once is once.
+pscn compare a.png b.png -o once.exr --fail 1 | awk '/^max/ { print $1, $2 }' >most
+pscn compare once.exr diff.exr --fail 2 | awk '/^max/ { print $1, $2 }' | cmp - most && echo "scaled"
 pscn compare a.png a.png >/dev/full
 echo "exit $?"
 ls -A

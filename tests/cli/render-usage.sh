@@ -21,7 +21,7 @@ done
 for value in "" rgb, rgb,rgb z RGB; do
   try pscn render "$scene" -o a.exr --channels "$value"
 done
-for value in 0 -1 nan inf 1e999 1/0 1x ""; do
+for value in 0 -1 nan inf 1e999 1/0 1e308/0.1 1x ""; do
   try pscn render "$scene" --tolerance "$value"
 done
 try pscn render "$scene" -o a.png --channels rgb,depth
