@@ -75,3 +75,13 @@ printf '0 0 -4 0 0 1\n' | pscn trace "$SCENES/flat.pscn" --explain --solver 'abe
 printf '%s\n' '-1e31 -1e31 -1e31 1 1 1' | pscn trace "$SCENES/flat.pscn" --explain
 try pscn trace "$SCENES/flat.pscn" --explain --binary </dev/null
 try pscn trace "$SCENES/flat.pscn" --explain --all </dev/null
+# Sheets in one another's boxes are cut finer, so that few are tried; but not where it is said how they are cut.
+for k in $(seq 0 63); do
+  echo "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3"
+  for y in -1 -0.3 0.3 1; do echo "<-1, $y, 0>, <-0.3, $y, 1>, <0.3, $y, 1>, <1, $y, 0>$([ $y = 1 ] || echo ,)"; done
+  echo "translate $k/1000*z }"
+done >sheets.pscn
+echo '0.1 0.2 -4 0 0.01 1' >ray
+pscn trace sheets.pscn --explain <ray | awk '/^candidate/ { n++ } END { print n < 8 ? "few" : n }'
+pscn trace sheets.pscn --explain --solver 'bernstein { split 2 }' <ray |
+  sed -n 's|^candidate.*\(/[0-9]*\) x .*\(/[0-9]*\), .*|\1 \2|p' | sort | uniq -c
