@@ -344,11 +344,53 @@ static void rays_from_a_corner_leave_it(void **state)
   world_close(&world);
 }
 
+/* What such a ray meets beyond, in the same leaf or on borders too, is what one meets that starts before the corner and whose range
+ * begins there; a whole patch is one leaf. Every third patch has a pole in that corner. */
+static void rays_from_a_corner_meet_what_is_beyond(void **state)
+{
+  (void)state;
+  enum { CORNER_SCENES = 600 };
+  struct random random = {SEED + 4};
+  int hits = 0, certain = 0;
+  for (int n = 0; n < CORNER_SCENES; n++) {
+    struct method method;
+    struct world world;
+    world_net net[1];
+    method_default(solver_at(0), &method);
+    if (n % 2) method.split = 1;
+    for (int k = 0; k < 16; k++) { /* small whole numbers, so that starts and ends are exact */
+      double *point = net[0][k / 4][k % 4];
+      point[0] = k / 4, point[1] = k % 4, point[2] = rint(random_between(&random, -4, 4));
+    }
+    net[0][0][0][2] = 0;
+    if (n % 3 == 0) memset(net[0][0], 0, sizeof net[0][0]);
+    world_open(&world, net, 1, &method);
+    const double *to = net[0][random_bits(&random) % 2 ? 3 : 0][3];
+    struct ray ray = {.t_max = INFINITY}, before = {.t_min = 1, .t_max = INFINITY};
+    for (int c = 0; c < 3; c++) {
+      ray.direction[c] = n % 5 < 2 ? rint(random_between(&random, -3, 4)) : to[c];
+      before.direction[c] = ray.direction[c], before.origin[c] = -ray.direction[c];
+    }
+    if (ray.direction[0] != 0 || ray.direction[1] != 0 || ray.direction[2] != 0) {
+      const struct hit hit = world_closest(&world, &ray), other = world_closest(&world, &before);
+      if (hit.patch != other.patch || (hit.patch != HIT_NONE && fabs(hit.t + 1 - other.t) > 1e-15 * other.t)) {
+        world_print_case("from a corner", 0, &ray, &hit, &other);
+        fail();
+      }
+      hits += hit.patch != HIT_NONE, certain += hit.certainty == CERTAINTY_CERTAIN;
+    }
+    world_close(&world);
+  }
+  print_message("%d hits, %d of %d certain\n", hits, certain, CORNER_SCENES);
+  assert_in_range(hits, CORNER_SCENES / 8, CORNER_SCENES);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(patches_lost_in_their_scene_have_normals),
                                      cmocka_unit_test(poles_next_to_the_start_are_told),
                                      cmocka_unit_test(rays_from_a_corner_leave_it),
+                                     cmocka_unit_test(rays_from_a_corner_meet_what_is_beyond),
                                      cmocka_unit_test(far_rays_meet_what_near_ones_meet),
                                      cmocka_unit_test(rays_and_patches_of_all_sizes),
                                      cmocka_unit_test(far_rays_pass_by_what_is_not_on_their_way),

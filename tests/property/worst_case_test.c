@@ -445,11 +445,51 @@ static void next_to_poles_little_is_left_open(void **state)
   }
 }
 
+/* A camera stands exactly on a pole, or in a corner of several patches: its start is known to be no hit, and what goes up from the
+ * ball leaves nothing open. Where the start belongs to the ray it is a hit. */
+static void from_poles_and_corners_nothing_is_left_open(void **state)
+{
+  (void)state;
+  enum { POINT_RAYS = 300, BELOW_AT_LEAST = POINT_RAYS / 10 };
+  static const double points[][3] = {{0, 0, 0}, {1, -1, 0}, {0, -1, -1}}, middle[3] = {0, -1, 0};
+  struct random random = {SEED + 2};
+  world_net nets[8];
+  struct world world;
+  for (size_t n = 0; n < 8; n++) planet(n, 1, nets[n]);
+  world_open(&world, nets, 8, NULL);
+  for (size_t k = 0; k < sizeof points / sizeof points[0]; k++) {
+    unsigned below = 0;
+    for (int n = 0; n < POINT_RAYS; n++) {
+      struct ray ray = {.t_max = INFINITY};
+      double up = 0;
+      for (int c = 0; c < 3; c++) {
+        ray.origin[c] = points[k][c], ray.direction[c] = random_between(&random, -1, 1);
+        up += ray.direction[c] * (points[k][c] - middle[c]);
+      }
+      if (fabs(up) < 0.02) continue;
+      const uint64_t open = tracer_counts(world.tracer)->escalated;
+      const struct hit hit = world_closest(&world, &ray);
+      assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+      assert_int_equal(hit.patch == HIT_NONE, up > 0);
+      assert_true(up < 0.1 || tracer_counts(world.tracer)->escalated == open);
+      assert_true(up > 0 || hit.t > 0.01);
+      below += up < 0;
+      ray.t_min = -0.01;
+      assert_true(world_closest(&world, &ray).t == 0);
+    }
+    assert_in_range(below, BELOW_AT_LEAST, POINT_RAYS);
+  }
+  world_close(&world);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_ray_takes_no_more_than_its_share), cmocka_unit_test(what_is_not_looked_at_hides),
-    cmocka_unit_test(what_is_passed_by_hides_nothing),    cmocka_unit_test(boxes_and_leaves_made_are_counted),
-    cmocka_unit_test(of_a_stack_few_are_tried),           cmocka_unit_test(next_to_poles_little_is_left_open)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_ray_takes_no_more_than_its_share),
+                                     cmocka_unit_test(what_is_not_looked_at_hides),
+                                     cmocka_unit_test(what_is_passed_by_hides_nothing),
+                                     cmocka_unit_test(boxes_and_leaves_made_are_counted),
+                                     cmocka_unit_test(of_a_stack_few_are_tried),
+                                     cmocka_unit_test(next_to_poles_little_is_left_open),
+                                     cmocka_unit_test(from_poles_and_corners_nothing_is_left_open)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

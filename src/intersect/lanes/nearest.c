@@ -180,6 +180,21 @@ static lane_mask starts_in_plane(const struct packet *p, uint32_t patch)
   return p->origin[plane->axis] == plane->value;
 }
 
+/* Lanes whose root is a corner of its patch where the ray starts, exactly: no other one is within its radii, and the start does
+ * not belong to the ray. */
+static lane_mask starts_in_corner(const struct packet *p, const struct candidate *it, const struct newton_root *r)
+{
+  const struct leaf *leaf = it->leaf;
+  lane_mask in = {0};
+  for (int corner = 0; corner < 4; corner++) {
+    const int u = corner / 2, v = corner % 2;
+    if (leaf->column_u != u * (it->patch->split[0] - 1) || leaf->column_v != v * (it->patch->split[1] - 1)) continue;
+    in |= (lanes_abs(r->u - u) <= r->radius_u) & (lanes_abs(r->v - v) <= r->radius_v) &
+          packet_starts_at(p, leaf->patch, 3 * u, 3 * v);
+  }
+  return in;
+}
+
 /* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where
  * all are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the
  * patch, at an end of the ray or where another root is, is left to the last resort. Returns the lanes that took
@@ -203,7 +218,7 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   if (lanes_any(hits & ~sure)) {
     const lane_mask start = hits & within & ~sure & starts_in_plane(p, it->leaf->patch);
     p->best.touches |= start & (p->t_min <= 0);
-    packet_postpone(p, it->leaf, hits & ~sure & ~start);
+    packet_postpone(p, it->leaf, hits & ~sure & ~start & ~starts_in_corner(p, it, r));
   }
   const lane_mask taken = hits & sure & (tied | best_after(&p->best, at, patch + none, leaf + none));
   if (lanes_any(taken)) packet_take(p, it, r, at, error, taken, true);

@@ -202,6 +202,15 @@ LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct mo
   return ~packet_nearer(p, patch, from, t) & (lanes_abs(t) * p->longest <= FAR_START * patch->scale);
 }
 
+/* Lanes whose ray starts exactly in that control point of the patch, which is on the ray's line there and nowhere else, and is no
+ * hit. */
+LANES_INLINE lane_mask packet_starts_at(const struct packet *p, uint32_t patch, int row, int column)
+{
+  if (p->outer) return (lane_mask){0}; /* in an object's coordinates the start is rounded */
+  const double *point = p->model->scene->patches[patch].P[row][column];
+  return (p->origin[0] == point[0]) & (p->origin[1] == point[1]) & (p->origin[2] == point[2]) & (p->t_min >= 0);
+}
+
 /* candidate.c: tries the leaf, of that patch and number, on the lanes of `active`, and keeps what is nearer than the best. */
 void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
                  lane_mask active);

@@ -53,6 +53,13 @@ static lane_mask planes_hull(struct candidate *it, lane_mask active)
   return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
 }
 
+/* Sets the polynomials. Lanes on which neither keeps one sign. */
+static lane_mask planes_make(struct candidate *it, lane_mask active)
+{
+  for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->a[n], &it->b[n]);
+  return planes_hull(it, active);
+}
+
 /* The lanes on which a or b has a value above 0 in one corner and one below in another. */
 LANES_INLINE lane_mask corners_differ(const lanes net[16], lanes e)
 {
@@ -83,30 +90,62 @@ static lane_mask planes_aligned(struct candidate *it, lane_mask active)
   return active & (u_low <= u_error) & (u_high >= -u_error) & (v_low <= v_error) & (v_high >= -v_error);
 }
 
+/* Where the border of a leaf with a pole stands in a net: entry n is on it where n / side % 4 is `row`. */
+struct pole_place {
+  int side, row;
+};
+
+LANES_INLINE struct pole_place pole_place_of(const struct leaf *leaf)
+{
+  const int border = leaf->pole - 1;
+  return (struct pole_place){border < 2 ? 4 : 1, border & 1 ? 3 : 0};
+}
+
+/* The least value of A a + B b on the net but for the pole's border. */
+static lanes least_beyond_pole(const struct candidate *it, lanes A, lanes B)
+{
+  const struct pole_place pole = pole_place_of(it->leaf);
+  lanes least = lanes_all(INFINITY);
+  for (int n = 0; n < 16; n++)
+    if (n / pole.side % 4 != pole.row) least = lanes_min(A * it->a[n] + B * it->b[n], least);
+  return least;
+}
+
 /* Lanes that may meet a leaf with a pole, where a and b are constants a0 and b0, up to e. The combination G = a0 b - b0 a is
  * no more than e (|a0| + |b0|) there. Where all other coefficients of it are beyond that, by m, it has no zero from d = that/m
  * on, d being the distance from the pole; and nearer to it H = a0 a + b0 b has none where the size of its derivative by d, 6
  * times that of its coefficients, takes less than H at the pole on that way. */
 static lane_mask planes_at_pole(const struct candidate *it, lane_mask active)
 {
-  const int border = it->leaf->pole - 1, side = border < 2 ? 4 : 1, at = border & 1 ? 3 * side : 0;
-  const lanes a0 = it->a[at], b0 = it->b[at];
-  lanes low = lanes_all(INFINITY), high = lanes_all(-INFINITY);
-  for (int n = 0; n < 16; n++) {
-    if (n / side % 4 == at / side) continue; /* on the border */
-    const lanes g = a0 * it->b[n] - b0 * it->a[n];
-    low = lanes_min(g, low), high = lanes_max(g, high);
-  }
+  const struct pole_place pole = pole_place_of(it->leaf);
+  const lanes a0 = it->a[pole.row * pole.side], b0 = it->b[pole.row * pole.side];
+  const lanes least = lanes_max(least_beyond_pole(it, -b0, a0), least_beyond_pole(it, b0, -a0));
   const lanes size_a = lanes_abs(a0), size_b = lanes_abs(b0);
   const lanes off = (it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta)) * (size_a + size_b);
-  const lanes beyond = lanes_max(low, -high) - off, reach = size_a * it->alpha + size_b * it->beta;
+  const lanes beyond = least - off, reach = size_a * it->alpha + size_b * it->beta;
   return active & ~((beyond > 0) & ((a0 * a0 + b0 * b0 - off) * beyond > 8 * reach * off));
+}
+
+/* a and b are 0 at the pole, where the ray starts, and one combination of them, which aims at the leaf's middle, is above 0
+ * everywhere else. */
+lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open)
+{
+  if (it->leaf->pole == 0) return open;
+  const struct pole_place pole = pole_place_of(it->leaf);
+  const int at = pole.row * pole.side;
+  const lane_mask starts = open & packet_starts_at(p, it->leaf->patch, at / 4, at % 4);
+  if (!lanes_any(starts)) return open;
+  (void)planes_make(it, starts);
+  lanes A = {0}, B = {0};
+  for (int n = 0; n < 16; n++)
+    if (n / pole.side % 4 != pole.row) A += it->a[n], B += it->b[n];
+  const lanes off = (it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta)) * (lanes_abs(A) + lanes_abs(B));
+  return open & ~(starts & (least_beyond_pole(it, A, B) > off));
 }
 
 lane_mask stage_planes(struct candidate *it, lane_mask open)
 {
-  for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->a[n], &it->b[n]);
-  lane_mask near = planes_hull(it, open);
+  lane_mask near = planes_make(it, open);
   it->along = (lane_mask){0};
   if (!it->patch->method->polish) return open;
   if (it->leaf->pole && lanes_any(near)) near = planes_at_pole(it, near);
