@@ -73,8 +73,8 @@ struct leaf_parts {
 
 #define LEAF_GRAIN 0x1p-24
 
-/* The leaf's net lies where |g x - offset| <= half; |g_x| + |g_y| + |g_z| = 1, but for rounding. Of a leaf whose middle has no
- * normal g is 0 and half infinite. */
+/* The leaf's net lies where |g x - offset| <= half; |g_x| + |g_y| + |g_z| = 1, but for rounding. Of a leaf whose middle is a
+ * point g is 0 and half infinite. */
 struct leaf_slab {
   double g[3], offset, half;
 };

@@ -237,7 +237,30 @@ LANES_INLINE void cross(const lanes a[3], const lanes b[3], lanes out[3])
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* A net whose middle has no normal gets slabs that tell nothing. */
+/* Lanes in which two vectors tell no normal. */
+LANES_INLINE lane_mask without_normal(const lanes a[3], const lanes b[3], lanes normal[1][3])
+{
+  cross(a, b, normal[0]);
+  const lanes area = longest((const lanes(*)[3])normal, 1);
+  return ~(area > LEAST_AREA * (square_of(a) + square_of(b)));
+}
+
+/* Where a leaf is a line, or nearly, the axis that is the farthest from it stands for the shorter of both vectors. */
+__attribute__((noinline)) static void widen_line(lane_mask line, lanes a[3], lanes b[3])
+{
+  const lane_mask b_longer = square_of(b) > square_of(a);
+  lanes size[3], taken = {0};
+  for (int k = 0; k < 3; k++) size[k] = lanes_abs(lanes_select(b_longer, b[k], a[k]));
+  const lanes least = lanes_min(size[0], lanes_min(size[1], size[2]));
+  const lanes length = lanes_max(size[0], lanes_max(size[1], size[2]));
+  for (int k = 0; k < 3; k++) {
+    const lanes across = lanes_select((size[k] == least) & (taken == 0), length, lanes_all(0));
+    taken += across;
+    a[k] = lanes_select(line & b_longer, across, a[k]), b[k] = lanes_select(line & ~b_longer, across, b[k]);
+  }
+}
+
+/* A net whose middle is a point gets slabs that tell nothing. */
 static void set_slabs(lane_net x[3], struct lane_slab out[3])
 {
   lanes along_u[3], along_v[3], normal[1][3];
@@ -246,9 +269,11 @@ static void set_slabs(lane_net x[3], struct lane_slab out[3])
     along_u[k] = 0.5 * ((other[0] - corner[0]) + (other[3] - corner[3]));
     along_v[k] = 0.5 * ((corner[3] - corner[0]) + (other[3] - other[0]));
   }
-  cross(along_u, along_v, normal[0]);
-  const lanes area = longest((const lanes(*)[3])normal, 1);
-  const lane_mask flat = ~(area > LEAST_AREA * (square_of(along_u) + square_of(along_v)));
+  lane_mask flat = without_normal(along_u, along_v, normal);
+  if (lanes_any(flat)) {
+    widen_line(flat, along_u, along_v);
+    flat = without_normal(along_u, along_v, normal);
+  }
   for (int q = 0; q < 3; q++) {
     lanes *g = out[q].g, lo = lanes_all(INFINITY), hi = lanes_all(-INFINITY), of[3];
     if (q == 0) memcpy(of, normal[0], sizeof of);
