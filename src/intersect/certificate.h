@@ -1,7 +1,7 @@
 /* The certificate: the Newton-Kantorovich test, on which every answer that is called certain stands.
  *
- * Theorem. Let f be a pair of polynomials, known up to `error` in each value, J its Jacobian as computed, z the last point
- * but one of Newton's method, M the computed inverse of J(z), step = |M f(z)| the length of the last step, and size_k what
+ * Theorem. Let f be a pair of polynomials, known up to `error` in each value (which beside [0,1]^2 is more than in each
+ * coefficient), J its Jacobian as computed, z the last point but one of Newton's method, M the computed inverse of J(z), step = |M f(z)| the length of the last step, and size_k what
  * rounding adds to the k-th parameter's step: `error` times the sum of the sizes in that row of M, or, what may be less by
  * a factor of sqrt 2, times the row's Euclidean length. Let bend_k be a Lipschitz bound of that row of M J on a convex
  * region that holds the ball of radius 2 (step + size) about z, and so all within CERTIFICATE_REACH of where the step went.
@@ -36,7 +36,8 @@
  * that is 0.95. What is not in it, and is no more in the sum than in the norm:
  * second derivatives are differences of coefficients times 24, 36 and 24, each off by the error of a value, twice over
  * for the mixed one, 170 size for 144 of which the half is 13 size; M J at the root, off from M J(z) by bend r <= 6.2 size +
- * 2^-13, where bend <= 2 q <= 3.8; and kappa. Together that is less than 0.05: less than 1.
+ * 2^-13, where as much of bend as is in that sum, or norm, is at most 2 q <= 3.8; and kappa. Together that is less than 0.05:
+ * less than 1.
  *
  * Nor is it where a border is one point, a pole, though J is singular along it. Let d be the distance from that border, e
  * the other parameter. As f is constant along the border, f(d,e) - f(d',e') is the mean of f_d from (d',e') to (d,e') times
@@ -52,8 +53,8 @@
  * twice against q, and once for the reaches. Rounding: third derivatives are differences of coefficients times 144, together
  * with second ones (24 and 144 + 144) sqrt 2 size for q; f_d and f_e are off by 16, twice, and d g is f_e at the root, so that
  * the row of e, times d', has back what d has divided it by: 93 size; outside the leaf that is up to 2.3 times
- * as much, for which CERTIFICATE_POLE has room. And d' is d of the last point but one but for the step: 2 step over the least of
- * both, `left`.
+ * as much, for which CERTIFICATE_POLE has room. And d' is d of the last point but one but for the step and the radius: twice
+ * these, `far`, over the least of both, `left`.
  *
  * Works on doubles and on lanes alike.
  */
@@ -79,7 +80,7 @@
 
 /* Whether it is, near a pole. `turn`: what f_d and g turn by on a way of length 1, times the rows' lengths. */
 #define CERTIFICATE_POLE 1280
-#define certificate_alone_at_pole(q, turn, step, size, left) \
-  ((q) + 6 * (turn) * ((step) + (size)) + 2 * (step) / (left) + CERTIFICATE_POLE * (size) < CERTIFICATE_ALONE)
+#define certificate_alone_at_pole(q, turn, step, size, far, left) \
+  ((q) + 6 * (turn) * ((step) + (size)) + 2 * (far) / (left) + CERTIFICATE_POLE * (size) < CERTIFICATE_ALONE)
 
 #endif

@@ -70,8 +70,34 @@ static void a_proven_root_is_within_its_radii(void **state)
   assert_int_equal(wrong, 0);
 }
 
+/* Polynomials u - c and v - c, c being as far beside the box as a root may be proven, off the way that moves their values there
+ * farthest. */
+static void a_root_beside_its_box_is_within_its_radii(void **state)
+{
+  (void)state;
+  int proven = 0;
+  for (int n = 0; n < 400; n++) {
+    const bool high = n & 1;
+    const double e = pow(2, -10 - n / 10), c = high ? 1.0604 : -0.0604, error[2] = {e, e};
+    struct subject s = {.box = {.size_u = 1, .size_v = 1}};
+    double root[2] = {0.5, 0.5}, radius[2];
+    for (int m = 0; m < 32; m++) {
+      const int k = m / 16, i = m / 4 % 4, j = m % 4;
+      s.box.net[k][i][j] = (k ? j : i) / 3.0 - c;
+      s.truth[k].c[i][j] = s.box.net[k][i][j] + (quad)((i + j + n / 2) & 1 ? -0.999 : 0.999) * e;
+    }
+    if (!box_solve(&s.box, error, true, root, radius)) continue;
+    quad truth[2] = {root[0], root[1]};
+    proven++;
+    assert_true(quad_root(s.truth, &truth[0], &truth[1]));
+    for (int k = 0; k < 2; k++) assert_true((double)quad_abs(truth[k] - root[k]) <= radius[k]);
+  }
+  assert_true(proven > 350);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_proven_root_is_within_its_radii)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_proven_root_is_within_its_radii),
+                                     cmocka_unit_test(a_root_beside_its_box_is_within_its_radii)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,6 +72,10 @@ static bool may_be_alone(struct box *box, double m[2][2])
   return true;
 }
 
+/* No farther beside the box than this a value is off by (1 + 2/128)^6 = 1.1 times what coefficients are, which the theorem has
+ * over. */
+#define BESIDE 0x1p-7
+
 /* The certificate in the box's own parameters, with the second derivatives of M's rows of the plane polynomials
  * themselves, for a last step that went to `root`. Sets the radii. */
 static bool box_prove(struct box *box, double m[2][2], const double error[2], bool alone, double step,
@@ -81,13 +85,14 @@ static bool box_prove(struct box *box, double m[2][2], const double error[2], bo
   const double out_v = real_max(-root[1], root[1] - 1) + CERTIFICATE_REACH;
   if (!(out_u < BOX_MARGIN && out_v < BOX_MARGIN)) return false;
   const double growth = out_u > 0 || out_v > 0 ? BOX_MARGIN_GROWTH : 1;
+  const double off = real_max(out_u, out_v) > BESIDE + CERTIFICATE_REACH ? BOX_MARGIN_OFF : 1;
   const double reach_u = 0.5 + fabs(root[0] - 0.5), reach_v = 0.5 + fabs(root[1] - 0.5);
   double bends[2], sizes[2], q = 0;
   for (int k = 0; k < 2; k++) {
     double s[3];
     row_bends(box, m[k], s);
     bends[k] = growth * (s[0] + 2 * s[1] + s[2]);
-    sizes[k] = fabs(m[k][0]) * error[0] + fabs(m[k][1]) * error[1];
+    sizes[k] = off * (fabs(m[k][0]) * error[0] + fabs(m[k][1]) * error[1]);
     q = real_max(q, growth * ((s[0] + s[1]) * reach_u + (s[1] + s[2]) * reach_v));
   }
   const double bend = real_max(bends[0], bends[1]), size = real_max(sizes[0], sizes[1]);

@@ -10,10 +10,11 @@
 #include "intersect/point.h"
 
 /* How far outside a box, in its own parameters, its root may lie and still be told from having none (then the
- * neighbour has it); and the growth of second-derivative bounds, quartic in the extent, when they are used that far
- * outside: (1 + 2/16)^4 = 1.602. */
+ * neighbour has it); the growth of second-derivative bounds, quartic in the extent, when they are used that far
+ * outside: (1 + 2/16)^4 = 1.602; and that of what values are off by: (1 + 2/16)^6 = 2.027. */
 #define BOX_MARGIN 0.0625
 #define BOX_MARGIN_GROWTH 1.61
+#define BOX_MARGIN_OFF 2.03
 
 /* A combination whose computed values are within this many of its error bounds all over a box says nothing about it. */
 #define FLAT_ERRORS (UNDECIDED_ERRORS - 1)

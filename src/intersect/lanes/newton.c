@@ -205,33 +205,41 @@ LANES_INLINE lanes row_length(lanes p, lanes q, const lanes slope[2])
 /* How far outside the leaf a root may be, for the leaf's bounds to hold on all that the certificate asks. */
 #define NEWTON_MARGIN (LEAF_MARGIN - CERTIFICATE_REACH)
 
+/* A value m beside the leaf is off by (1 + 2 m)^6 times what coefficients are: as far as this by no more than the theorem has over,
+ * and as far as LEAF_MARGIN by so much. */
+#define NEWTON_BESIDE 0x1p-7
+#define NEWTON_BESIDE_GROWTH 4
+
 /* Lanes whose root is the only one of a leaf with a pole, as certificate.h has it; size: of the rows of M. */
 LANES_INLINE lane_mask alone_at_pole(const struct leaf *leaf, const struct newton_root *r, const lanes size[2],
                                      lanes step, lanes off, const lanes reach[2])
 {
   const int d = (leaf->pole - 1) / 2, e = 1 - d;
   const lanes away = pole_distance(leaf, r);
-  const lanes left = away - step - (d ? r->radius_v : r->radius_u), of_e = away * size[e];
+  const lanes radius = d ? r->radius_v : r->radius_u, far = step + radius, left = away - far;
+  const lanes of_e = (away + radius) * size[e];
   const double *third = leaf->third, dd = leaf->second[2 * d], dde = third[d], dee = third[e];
   const lanes q = size[d] * (dd * reach[d]) + of_e * (dde * reach[d] + dee * reach[e]);
   const lanes turn = size[d] * (dd + leaf->second[1]) + of_e * (dde + dee);
-  return (left > 0) & certificate_alone_at_pole(q, turn, step, off, left);
+  return (left > 0) & certificate_alone_at_pole(q, turn, step, off, far, left);
 }
 
 /* The certificate (certificate.h): sets all but u and v of *r, which hold where the last step went on the lanes that
- * `settled`. bend is |M| (|Suu| + 2 |Suv| + |Svv|). */
-LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const lanes slope[2], lanes error, lanes step,
+ * `settled`. bend is |M| (|Suu| + 2 |Suv| + |Svv|); `bound` is one on what values are off by in the leaf. */
+LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const lanes slope[2], lanes bound, lanes step,
                         lane_mask settled, struct newton_root *r)
 {
+  const lanes away[2] = {lanes_abs(r->u - 0.5), lanes_abs(r->v - 0.5)}, farthest = lanes_max(away[0], away[1]);
+  const lanes error = lanes_select(farthest > 0.5 + NEWTON_BESIDE, NEWTON_BESIDE_GROWTH * bound, bound);
   const lanes length[2] = {row_length(m->ua, m->ub, slope), row_length(m->va, m->vb, slope)};
   const lanes size = lanes_max(length[0], length[1]);
   const lanes bend = size * (leaf->second[0] + 2 * leaf->second[1] + leaf->second[2]);
   const lanes off = size * error;
-  const lane_mask near = (lanes_abs(r->u - 0.5) < 0.5 + NEWTON_MARGIN) & (lanes_abs(r->v - 0.5) < 0.5 + NEWTON_MARGIN);
+  const lane_mask near = (away[0] < 0.5 + NEWTON_MARGIN) & (away[1] < 0.5 + NEWTON_MARGIN);
   r->exists = settled & near & certificate_holds(bend, step, off);
   r->radius_u = certificate_radius(bend, step, length[0] * error);
   r->radius_v = certificate_radius(bend, step, length[1] * error);
-  const lanes reach[2] = {0.5 + lanes_abs(r->u - 0.5), 0.5 + lanes_abs(r->v - 0.5)};
+  const lanes reach[2] = {0.5 + away[0], 0.5 + away[1]};
   const lanes q = length[0] * (leaf->second[0] * reach[0] + leaf->second[1] * reach[1]) +
                   length[1] * (leaf->second[1] * reach[0] + leaf->second[2] * reach[1]);
   r->alone = r->exists & certificate_alone(q, off);
