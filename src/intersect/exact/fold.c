@@ -99,9 +99,12 @@ static bool invert(const double g[3], const double d[3], double m[2][2])
   return fabs(whole) > 0;
 }
 
-/* Rounding in the coefficients of F and G, each off by `error`, moves the map's Jacobian by less than these many times
- * that, and by what D is made of; it may take no more of FOLD_BEND than the rest to its proof leaves. */
-#define FOLD_ROUNDINGS 256
+/* Rounding in the coefficients of F and G, each off by `error`, moves the second derivatives of G on the larger box, and so how far
+ * its row of the map's Jacobian turns, by these many times that: (24 + 2 36 + 24)/4 2^4. The row of D has products. There first
+ * derivatives are off by 96 errors, second ones by 96, 144 and 96, third ones by 48 and 144, and what they are multiplied by is
+ * three times second_sum, that and twice first_most: less than twice as much in all. So rounding takes no more than 2
+ * FOLD_ROUNDING, which with FOLD_BEND is left of it to the proof. */
+#define FOLD_ROUNDINGS 480
 #define FOLD_ROUNDING 0x1p-6
 
 /* Newton's method on the map ends at a step whose square is below rounding, or is not one to a fold in the box. */

@@ -1,0 +1,79 @@
+/* Folds: where one is told to be the only one of its box, the box has the roots that it tells, and no others. Of cubics f(x) on the
+ * line y = 0, whose slope is 0 at two places: one is a fold, and as the other one comes near the box it is more and more bent. */
+#include "intersect/exact/fold.h"
+
+#include <math.h>
+
+#include "base/real.h"
+#include "cmocka_test.h"
+#include "random.h"
+
+enum { SEED = 20261127, CASES = 400000 };
+
+/* f' = (x - r[0]) (x - r[1]) */
+struct cubic {
+  double r[2], low;
+};
+
+static double cubic_at(const struct cubic *f, double x)
+{
+  return f->low + x * (f->r[0] * f->r[1] + x * (-(f->r[0] + f->r[1]) / 2 + x / 3));
+}
+
+/* How many roots it has between -most and most. */
+static int roots_within(const struct cubic *f, double most)
+{
+  const double at[4] = {-most, fmin(fmax(fmin(f->r[0], f->r[1]), -most), most),
+                        fmin(fmax(fmax(f->r[0], f->r[1]), -most), most), most};
+  int roots = 0;
+  for (int k = 0; k < 3; k++) roots += (cubic_at(f, at[k]) > 0) != (cubic_at(f, at[k + 1]) > 0);
+  return roots;
+}
+
+/* As a, and y as b. */
+static void box_make(const struct cubic *f, struct box *box)
+{
+  const double c1 = f->r[0] * f->r[1], c2 = -(f->r[0] + f->r[1]) / 2, c3 = 1.0 / 3;
+  const double row[4] = {f->low - c1 + c2 - c3, f->low - c1 / 3 - c2 / 3 + c3, f->low + c1 / 3 - c2 / 3 - c3,
+                         f->low + c1 + c2 + c3};
+  *box = (struct box){.size_u = 1, .size_v = 1};
+  for (int n = 0; n < 16; n++) box->net[0][n / 4][n % 4] = row[n / 4], box->net[1][n / 4][n % 4] = n % 4 / 1.5 - 1;
+}
+
+static void what_a_fold_tells_is_so(void **state)
+{
+  (void)state;
+  struct random random = {SEED};
+  const double error[2] = {64 * UNIT_ROUNDOFF, 64 * UNIT_ROUNDOFF};
+  int verdicts[3] = {0}, wrong = 0;
+  double most = 0; /* how far the box is bent: the second derivative of D beside its first one in the middle */
+  for (int n = 0; n < CASES; n++) {
+    const double far = random_bits(&random) % 2 ? 1 : 16, side = random_bits(&random) % 2 ? 1 : -1;
+    struct cubic f = {{side * random_between(&random, 0, 1), side * random_between(&random, 0, far)}, 0};
+    /* a value at a fold or at an end of the box that is next to 0 */
+    const double at[4] = {f.r[0], f.r[1], -1, 1}, off = pow(10, -random_between(&random, 1, 8));
+    f.low = -cubic_at(&f, at[random_bits(&random) % 4]) + (random_bits(&random) % 2 ? off : -off);
+    struct box box;
+    struct fold_pair pair;
+    struct fold fold;
+    box_make(&f, &box);
+    fold_combine(&box, &pair);
+    if (!fold_find(&pair, error, &fold)) continue;
+    const enum fold_verdict verdict = fold_weigh_box(&fold, &box, error);
+    verdicts[verdict]++;
+    most = fmax(most, 2 / fabs(f.r[0] + f.r[1]));
+    if (verdict == FOLD_EMPTY) wrong += roots_within(&f, 1) != 0;
+    if (verdict == FOLD_ROOTS) wrong += roots_within(&f, 1 + 2 * BOX_MARGIN) > 2;
+  }
+  print_message("%d empty, %d with two roots, %d open; bent by up to %.3g\n", verdicts[FOLD_EMPTY],
+                verdicts[FOLD_ROOTS], verdicts[FOLD_OPEN], most);
+  assert_int_equal(wrong, 0);
+  assert_true(verdicts[FOLD_EMPTY] > CASES / 400 && verdicts[FOLD_ROOTS] > CASES / 100);
+  assert_true(most > 0.25);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_a_fold_tells_is_so)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
