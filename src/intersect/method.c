@@ -174,6 +174,7 @@ static double largest(const double net[16], int m, int n)
 static double coefficient_error(int n, double alpha, double beta, double error)
 {
   double power = 1;
+  alpha += error, beta += error;
   for (int k = 0; k < n; k++) power *= alpha * beta;
   return RESULTANT_ERROR(n, power, alpha, beta, error);
 }

@@ -6,7 +6,7 @@
 
 #include "intersect/lanes/candidate.h"
 
-/* With e the bound on a plane's error (local_ray.h), u < e/72: a is off by less than 2.5 e, b w by 8u, w by its two roundings
+/* With e the bound on a plane's error (local_ray.h), u <= e/36: a is off by less than 2.5 e, b w by 8u, w by its two roundings
  * and that of the start, what is made of them by e + 6u, the net by 32u. */
 lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open)
 {

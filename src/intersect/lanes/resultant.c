@@ -42,10 +42,11 @@ static lane_mask resultant_varies(struct candidate *it, lane_mask active)
   else bezout_lanes_resultant(m, n, it->fa, it->fb, it->c_store);
   it->c = it->c_store + it->leaf->zeros[0];
   it->degree = 2 * m * n - it->leaf->zeros[0] - it->leaf->zeros[1];
-  const lanes product = it->alpha * it->beta, power = n == 1   ? product
-                                                      : n == 2 ? product * product
-                                                               : product * product * product;
-  const lanes bound = RESULTANT_ERROR(n, power, it->alpha, it->beta, it->form_error);
+  const lanes alpha = it->alpha + it->form_error, beta = it->beta + it->form_error;
+  const lanes product = alpha * beta, power = n == 1   ? product
+                                              : n == 2 ? product * product
+                                                       : product * product * product;
+  const lanes bound = RESULTANT_ERROR(n, power, alpha, beta, it->form_error);
   lanes last = {0}, variations = {0};
   const int full = 2 * m * n;
   double choose = 1;
