@@ -42,7 +42,8 @@ struct local_ray {
 /* Rounding errors, in units of UNIT_ROUNDOFF, of a = (x_i - m) - slope x_k and of its value in Bernstein form, for
  * |x| <= 1: net 8 (two of leaves that are cut exactly; others add what cutting rounds, prepare/leaf.h and
  * leaf_kernel.c), slope 2 (packet.c multiplies by the reciprocal), moment 4|m|, the two operations 2 + |m|, and for the
- * value ten products and sums on coefficients of at most 2 + |m|. */
+ * value ten products and sums on coefficients of at most 2 + |m|. Where it is of weights, as in geometry/patch.h, they are
+ * eighteen: still less than sqrt 2 times this, which the certificate has over for sums of a row. */
 #define PLANE_ERROR(m0, m1) (UNIT_ROUNDOFF * (36 + 16 * ((m0) + (m1))))
 
 /* What double-double leaves unknown of a moment m_i: of q_i d_k and q_k d_i, exact products of the leading parts of the

@@ -19,9 +19,9 @@
 /* What a moment is, times the plane's unit, at most. */
 #define MOST_MOMENT 1
 
-/* Roundings, in double, of what is left of a combination scaled to a sum of 1: conversion and scale 3, to Bernstein form
- * 2 x 4. */
-#define ZOOMED_ROUNDINGS 12
+/* Roundings, in double, of what is left of a combination scaled to a sum of 1, and of its value: conversion and scale 3, to
+ * Bernstein form 2 x 4, weights of a value 2 x 5 and its sums 2 x 4. */
+#define ZOOMED_ROUNDINGS 30
 
 /* Bernstein coefficients with the stride to powers of s = 2t - 1. */
 static void to_powers(fixed *b, int stride)
