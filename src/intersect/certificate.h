@@ -1,11 +1,12 @@
 /* The certificate: the Newton-Kantorovich test, on which every answer that is called certain stands.
  *
  * Theorem. Let f be a pair of polynomials, known up to `error` in each value (which beside [0,1]^2 is more than in each
- * coefficient), J its Jacobian as computed, z the last point but one of Newton's method, M the computed inverse of J(z), step = |M f(z)| the length of the last step, and size_k what
- * rounding adds to the k-th parameter's step: `error` times the sum of the sizes in that row of M, or, what may be less by
- * a factor of sqrt 2, times the row's Euclidean length. Let bend_k be a Lipschitz bound of that row of M J on a convex
- * region that holds the ball of radius 2 (step + size) about z, and so all within CERTIFICATE_REACH of where the step went.
- * Norms of parameter vectors are maximum norms; what has no index is the larger one of both rows. Where
+ * coefficient), J its Jacobian as computed, z the last point but one of Newton's method, M the computed inverse of J(z),
+ * step = |M f(z)| the length of the last step, and size_k what rounding adds to the k-th parameter's step: `error` times the
+ * sum of the sizes in that row of M, or, what may be less by a factor of sqrt 2, times the row's Euclidean length. Let
+ * bend_k be a Lipschitz bound of that row of M J on a convex region that holds the ball of radius 2 (step + size) about z,
+ * and so all within CERTIFICATE_REACH of where the step went. Norms of parameter vectors are maximum norms; what has no
+ * index is the larger one of both rows. Where
  *
  *     bend (step + size) <= CERTIFICATE_BEND,   step <= CERTIFICATE_STEP   and   size <= CERTIFICATE_SIZE
  *
