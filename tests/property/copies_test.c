@@ -6,7 +6,6 @@
 #include "base/wide.h"
 #include "cmocka_test.h"
 #include "effort.h"
-#include "geometry/vector.h"
 #include "intersect/intersect.h"
 #include "intersect/model.h"
 #include "property/world.h"
@@ -159,23 +158,6 @@ static void pair_close(struct pair *pair)
   free(pair->scene.patches);
 }
 
-/* How far two right answers may be apart, as a part of t: last places of a point and of t, over the sine of the
- * angle of incidence. */
-static double tolerance(const struct ray *ray, const struct hit *hit)
-{
-  const double length = vector_length(ray->direction);
-  const double steep = fabs(vector_dot(ray->direction, hit->normal)) / length;
-  return 4 * hit->point_error / (steep * length) + 0x1p-51 * hit->t;
-}
-
-static bool agree(const struct ray *ray, const struct hit *a, const struct hit *b)
-{
-  if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
-  if ((a->patch == HIT_NONE) != (b->patch == HIT_NONE)) return false;
-  if (a->patch == HIT_NONE) return true;
-  return fabs(a->t - b->t) <= tolerance(ray, a) + tolerance(ray, b);
-}
-
 static void compare(struct pair *pair)
 {
   int wrong = 0, hits = 0, certain[2] = {0, 0};
@@ -186,7 +168,7 @@ static void compare(struct pair *pair)
       const struct hit *a = &hits_of[0][l], *b = &hits_of[1][l];
       for (int k = 0; k < 2; k++) certain[k] += hits_of[k][l].certainty == CERTAINTY_CERTAIN;
       hits += a->patch != HIT_NONE;
-      if (agree(&pair->rays[n + l], a, b)) continue;
+      if (hits_agree(&pair->rays[n + l], a, b)) continue;
       if (wrong++ < 3) {
         print_message("kind %d ray %d: patch %u t %.17g u %.17g v %.17g, by itself patch %u t %.17g u %.17g v %.17g\n",
                       pair->kind, n + l, a->patch, a->t, a->u, a->v, b->patch, b->t, b->u, b->v);
@@ -212,7 +194,7 @@ static void compare_all(struct pair *pair)
     bool same = lists[0].count == lists[1].count;
     for (size_t h = 0; same && h < lists[0].count; h++) {
       const struct hit *a = &lists[0].hits[h], *b = &lists[1].hits[h];
-      same = a->patch == b->patch && agree(&pair->rays[n], a, b);
+      same = a->patch == b->patch && hits_agree(&pair->rays[n], a, b);
     }
     certain++;
     if (!same && wrong++ < 3)
@@ -253,7 +235,7 @@ static void leave(struct pair *pair)
     for (int k = 0; k < 3; k++) ray.direction[k] = random_between(&random, -1, 1);
     hit_leave(&hit, ray.direction, ray.origin);
     for (int k = 0; k < 2; k++) tracer_closest(pair->tracer[k], 1, &ray, &next[k]);
-    if (agree(&ray, &next[0], &next[1])) continue;
+    if (hits_agree(&ray, &next[0], &next[1])) continue;
     if (wrong++ < 3) {
       print_message("kind %d ray %d: patch %u t %.17g, by itself patch %u t %.17g; clearance %g\n", pair->kind, n,
                     next[0].patch, next[0].t, next[1].patch, next[1].t, hit.clearance);

@@ -7,6 +7,7 @@
 
 #include "cmocka_test.h"
 #include "geometry/patch.h"
+#include "geometry/vector.h"
 
 /* Rounded to a multiple of 2^-20, so that scaled and moved nets are exact too. */
 static double grain(double x) { return rint(x * 0x1p20) * 0x1p-20; }
@@ -259,6 +260,23 @@ void assert_same_hit(const char *what, int kind, const struct ray *ray, const st
   if (same_hit(a, b)) return;
   world_print_case(what, kind, ray, a, b);
   fail();
+}
+
+/* How far two right answers may be apart, as a part of t: last places of a point and of t, over the sine of the
+ * angle of incidence. */
+static double tolerance(const struct ray *ray, const struct hit *hit)
+{
+  const double length = vector_length(ray->direction);
+  const double steep = fabs(vector_dot(ray->direction, hit->normal)) / length;
+  return 4 * hit->point_error / (steep * length) + 0x1p-51 * hit->t;
+}
+
+bool hits_agree(const struct ray *ray, const struct hit *a, const struct hit *b)
+{
+  if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
+  if ((a->patch == HIT_NONE) != (b->patch == HIT_NONE)) return false;
+  if (a->patch == HIT_NONE) return true;
+  return fabs(a->t - b->t) <= tolerance(ray, a) + tolerance(ray, b);
 }
 
 struct hit world_closest(const struct world *world, const struct ray *ray)

@@ -79,6 +79,9 @@ void world_ask_both(struct tracer *const tracers[2], struct random *random, worl
 /* Whether two hits are the same to the last bit (only the certainty counts for misses). */
 bool same_hit(const struct hit *a, const struct hit *b);
 
+/* Whether two nearest hits of the ray may both be right: where both are certain they are one in all but rounding. */
+bool hits_agree(const struct ray *ray, const struct hit *a, const struct hit *b);
+
 /* The answer to one ray by itself. */
 struct hit world_closest(const struct world *world, const struct ray *ray);
 
