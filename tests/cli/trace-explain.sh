@@ -75,13 +75,24 @@ printf '0 0 -4 0 0 1\n' | pscn trace "$SCENES/flat.pscn" --explain --solver 'abe
 printf '%s\n' '-1e31 -1e31 -1e31 1 1 1' | pscn trace "$SCENES/flat.pscn" --explain
 try pscn trace "$SCENES/flat.pscn" --explain --binary </dev/null
 try pscn trace "$SCENES/flat.pscn" --explain --all </dev/null
-# Sheets in one another's boxes are cut finer, so that few are tried; but not where it is said how they are cut.
-for k in $(seq 0 63); do
+# Sheets in one another's boxes are cut finer, so that few are tried, beside something large as well; but not where it is said how
+# they are cut, nor by what lies on others.
+sheet() { # BEND MOVED...
   echo "bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3"
-  for y in -1 -0.3 0.3 1; do echo "<-1, $y, 0>, <-0.3, $y, 1>, <0.3, $y, 1>, <1, $y, 0>$([ $y = 1 ] || echo ,)"; done
-  echo "translate $k/1000*z }"
-done >sheets.pscn
+  for y in -1 -0.3 0.3 1; do echo "<-1, $y, 0>, <-0.3, $y, $1>, <0.3, $y, $1>, <1, $y, 0>$([ $y = 1 ] || echo ,)"; done
+  shift
+  echo "$* }"
+}
+for k in $(seq 0 63); do sheet 1 translate $k/1000*z; done >sheets.pscn
+(cat sheets.pscn; sheet 1 scale 1e6 translate 2e6*z) >beside.pscn
+for k in $(seq 0 63); do sheet 1 translate $((k % 2))/1000*z; done >twins.pscn
 echo '0.1 0.2 -4 0 0.01 1' >ray
-pscn trace sheets.pscn --explain <ray | awk '/^candidate/ { n++ } END { print n < 8 ? "few" : n }'
-pscn trace sheets.pscn --explain --solver 'bernstein { split 2 }' <ray |
-  sed -n 's|^candidate.*\(/[0-9]*\) x .*\(/[0-9]*\), .*|\1 \2|p' | sort | uniq -c
+for scene in sheets beside; do
+  pscn trace $scene.pscn --explain <ray | awk '/^candidate/ { n++ } END { print n < 8 ? "few" : n }'
+done
+cuts() { sed -n 's|^candidate.*\(/[0-9]*\) x .*\(/[0-9]*\), .*|\1 \2|p' | sort | uniq -c; }
+pscn trace sheets.pscn --explain --solver 'bernstein { split 2 }' <ray | cuts
+pscn trace twins.pscn --explain <ray | cuts
+# No finer than what cannot be decided has room for.
+for k in $(seq 0 79); do sheet 16 translate $k/100000*z; done >rolled.pscn
+pscn trace rolled.pscn --explain <ray | cuts | sed -n 's/.*\///p' | sort -nr | head -n 1
