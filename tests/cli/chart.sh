@@ -13,6 +13,7 @@ head -1 out/chart.csv
 LC_ALL=C awk -F, 'NR == 1 { n = NF; for (k = 1; k <= NF; k++) at[$k] = k; next }
   NF != n { print "fields:", NF, $0 }
   { count[$1]++ }
+  $1 == "embree" || $1 == "povray" { print "a peer:", $0 }
   $at["polish"] == "on" && ($at["lost"] + $at["invented"] + $at["wrong"] > 0 || $at["t_max"] > 1e-12) {
     print "not exact:", $0
   }
@@ -51,6 +52,11 @@ for name in nothing aside; do
   grep -c 'bernstein$' said
   ls out4
 done
+
+# Standard output that takes nothing.
+pscn chart nothing.pscn $small --no-peers -o out8 2>/dev/null >/dev/full
+echo "exit $?"
+ls out8/chart.html && rm -r out8
 
 # The page says the command line as a shell takes it.
 cp nothing.pscn "it's \$x.pscn"

@@ -9,6 +9,10 @@ try env PATH=/nonexistent "$(command -v pscn)" check $SCENES/bent.pscn
 try pscn check $SCENES/bent.pscn --povray ./povray 2>&1 | sed "s|$PWD|HERE|"
 try pscn check $SCENES/bent.pscn --povray /bin/true
 try pscn check - --own-text <$SCENES/bent.pscn
+# Sizes are what the scene's own words for them mean: no divisor is 0.
+echo 'background { rgb 1 / (image_width - 8) / (image_height - 12) }' >sized.pscn
+try pscn check sized.pscn --size 12x8 --povray /bin/true
+rm sized.pscn
 # A file that cannot be written in the folder is told before the work.
 mkdir -p full/check.html full/chart.csv
 try pscn check $SCENES/bent.pscn --povray ./povray -o full

@@ -24,6 +24,7 @@ try pscn compare a.exr a.exr --channels depth,normal.z -o some.exr --quiet
 try pscn compare some.exr some.exr | head -n 1
 try pscn compare a.exr a.exr --channels $(printf 'R,%.0s' {1..256})R
 try pscn compare a.exr a.exr -o all.png --quiet
+try pscn compare a.exr a.exr --channels R,G,B,depth,normal.x -o five.png --quiet
 try pscn compare a.png nothing.png
 try pscn compare a.png "$scene"
 try pscn compare a.png
@@ -36,6 +37,12 @@ try pscn compare diff.exr diff.exr --quiet
 # Once more than once is once.
 pscn compare a.png b.png -o once.exr --fail 1 | awk '/^max/ { print $1, $2 }' >most
 pscn compare once.exr diff.exr --fail 2 | awk '/^max/ { print $1, $2 }' | cmp - most && echo "scaled"
+# What one code parts is not over 1/255, however the two are rounded; a picture of differences holds them as they are: a hundred
+# times one code is a hundred codes.
+for level in 0.52100 0.52712; do echo "background { rgb $level }" | pscn render - -o $level.png --size 1x1 --quiet; done
+pscn compare 0.52100.png 0.52712.png --fail 1 --scale 100 -o by.png | grep 'max\|over 1/'
+pscn compare by.png 0.52100.png --fail 1 | grep max
+rm 0.*.png by.png
 pscn compare a.png a.png >/dev/full
 echo "exit $?"
 ls -A

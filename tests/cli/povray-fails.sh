@@ -48,6 +48,9 @@ for MODE in mute fails empty killed slow answers timeless talks; do
   grep -o 'POV-Ray failed[^<]*\|POV-Ray 3.7.0: errors' chart/chart.html
   ls -A tmp
 done
+echo "beyond a limit:"
+MODE=any try pscn check $SCENES/flat.pscn ${small% --quiet} --failpsnr 100 --povray ./povray -o beyond 2>&1 | grep 'beyond\|exit'
+ls beyond/check.html
 echo "no room:"
 (export TMPDIR=$PWD/none MODE=answers; try pscn check "$scene" $small --povray ./povray -o out 2>&1)
 echo "ends of children are ignored where pscn is started:"

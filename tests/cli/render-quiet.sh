@@ -6,6 +6,8 @@ cp "$SCENES/flat.pscn" .
 small="--size 16x12 --quiet"
 try pscn render flat.pscn $small
 try pscn a.b/scene $small
+cp flat.pscn .scene
+try pscn .scene $small
 try pscn render flat.pscn $small -o 16.PNG --bits 16
 try pscn render flat.pscn $small -o half.exr
 try pscn render flat.pscn $small -o float.Exr --bits 32

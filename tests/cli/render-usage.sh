@@ -33,6 +33,7 @@ try pscn render "$scene" -o a.png --bits x
 try pscn render "$scene" -o a.jpg
 try pscn render "$scene" -o a
 try pscn render "$scene" -o .png
+try pscn render "$scene" -o abcdefghij.pngs
 try pscn render "$scene" -o a.png --stats a.png
 try pscn render "$scene" -o a.png --stats "$scene"
 cp "$scene" scene.png

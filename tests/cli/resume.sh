@@ -1,6 +1,6 @@
 # What ends a rendering costs little of its work: --resume goes on to the same bits, or says what has changed.
 scene="$SCENES/bent.pscn --size 300x200 --samples 7"
-pscn render $scene -o one.exr --quiet
+pscn render $scene -o one.exr --quiet --checkpoint 0.02
 all=$((300 * 200 * 7 * 7))
 # end SIGNAL FILE OPTION...: ends a rendering by the signal when a part of it is done. On a busy machine it may be done
 # before the signal comes; then it is begun again.
@@ -54,6 +54,9 @@ pscn render $small --crop 5,0,20,20 --tile 1/1 -o beside.exr
 sed 's/5,0,20,20/0,0,20,20/' beside.exr >small.exr.part.exr
 try pscn render $small --crop 0,0,20,20 -o small.exr --resume
 rm beside.exr small.exr.part.exr
+pscn render $small --tile 1/2 -o small.exr.part.exr
+try pscn render $small --tile 2/2 -o small.exr --resume
+rm small.exr.part.exr
 echo no picture >half.exr.part.exr
 pscn render $scene -o half.exr --resume 2>/dev/null; echo "exit $?"
 # Nor without being asked to, but it says so.
@@ -69,7 +72,7 @@ for attempt in {1..20}; do
   wait $! || break
 done
 cmp all.exr left.exr.part.exr && echo 'what was left is there'
-pscn render $scene -o left.exr --quiet
+pscn render $scene -o left.exr 2>&1 | grep earlier
 rm all.exr
 # Nothing to go on from.
 pscn render $SCENES/flat.pscn --size 20x10 -o new.png --resume --quiet
