@@ -84,7 +84,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     (void)packet_spend(p, full & LOOKS_DEAR);
     leave_open(p, it, full), open &= ~full;
   }
-  open = stage_pole(p, it, open);
+  if (it->leaf->pole) open = stage_pole(p, it, open);
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
   if (starts_bilinear(it)) {

@@ -40,8 +40,8 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
  * which is enough for all rays but those that come by many leaves. */
 lane_mask stage_box(const struct candidate *it, lane_mask open);
 
-/* planes.c: closed where the ray starts exactly in the leaf's pole and meets no other point of it: there it would go from stage to
- * stage in vain. */
+/* planes.c, of a leaf with a pole: closed where the ray starts exactly in the pole and meets no other point of the leaf. From there
+ * it would go from stage to stage in vain. */
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open);
 
 /* bilinear.c: the root of the leaf's bilinear part, from a resultant of degree 2, made good by Newton's method on the

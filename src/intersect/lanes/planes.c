@@ -130,7 +130,6 @@ static lane_mask planes_at_pole(const struct candidate *it, lane_mask active)
  * everywhere else. */
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open)
 {
-  if (it->leaf->pole == 0) return open;
   const struct pole_place pole = pole_place_of(it->leaf);
   const int at = pole.row * pole.side;
   const lane_mask starts = open & packet_starts_at(p, it->leaf->patch, at / 4, at % 4);
