@@ -12,7 +12,7 @@ try pscn render flat.pscn $small -o 16.PNG --bits 16
 try pscn render flat.pscn $small -o half.exr
 try pscn render flat.pscn $small -o float.Exr --bits 32
 try pscn render flat.pscn $small -o all.exr --channels rgb,coverage,depth,u,v,patch,normal,status
-ls -A . a.b
+LC_ALL=C ls -A . a.b
 # Standard output gets a PNG, or an EXR where that alone holds what is asked for; a scene may be without a command there, too.
 for asked in '' '--bits 16' '--bits 32' '--channels depth' '--tile 1/2'; do
   pscn render flat.pscn $small -o - $asked | head -c 4 | LC_ALL=C od -A n -c
