@@ -166,7 +166,7 @@ static void not_kept_for_a_split(void **state)
 static void not_kept_for_their_number(void **state)
 {
   (void)state;
-  try_teams(260, 0, 2, false);
+  try_teams(257, 0, 2, false);
 }
 
 static void copied(void **state)
