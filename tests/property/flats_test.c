@@ -92,20 +92,26 @@ static void folded_net(struct random *random, int axis, double value, world_net 
     out[n / 4][n % 4][x] = random_between(random, -1, 1), out[n / 4][n % 4][y] = random_between(random, -1, 1);
 }
 
+/* Some of them in one plane. */
+static void open_folded(struct random *random, int axis, double value, struct world *world)
+{
+  enum { FEW = 3 };
+  world_net nets[FEW];
+  for (int p = 0; p < FEW; p++) folded_net(random, axis, value, nets[p]);
+  world_open(world, nets, FEW, NULL);
+}
+
 /* What is open of a patch behind it does not make it grazing, whichever of both the ray comes to first. */
 static void what_stands_behind_in_a_plane_is_no_doubt(void **state)
 {
   (void)state;
   struct random random = {SEED + 4};
-  enum { FEW = 3 };
   int hits = 0;
   for (int scene = 0; scene < SCENES; scene++) {
     const int axis = scene % 3;
-    world_net nets[FEW];
     struct world world;
     struct ray rays[RAYS];
-    for (int p = 0; p < FEW; p++) folded_net(&random, axis, 0.3, nets[p]);
-    world_open(&world, nets, FEW, NULL);
+    open_folded(&random, axis, 0.3, &world);
     for (int n = 0; n < RAYS; n++) {
       rays[n] = ray_at(&random, axis, 0.3);
       if (n % PACKET != 0) continue;
@@ -191,14 +197,11 @@ static void what_leaves_a_plane_slowly_is_judged_where_it_starts(void **state)
 {
   (void)state;
   struct random random = {SEED + 6};
-  enum { FEW = 3 };
   int touching = 0;
   for (int scene = 0; scene < SCENES; scene++) {
     const int axis = scene % 3;
-    world_net nets[FEW];
     struct world world;
-    for (int p = 0; p < FEW; p++) folded_net(&random, axis, 0.3, nets[p]);
-    world_open(&world, nets, FEW, NULL);
+    open_folded(&random, axis, 0.3, &world);
     for (int n = 0; n < RAYS; n++) {
       struct ray ray = {.t_max = INFINITY}, across;
       struct hit_list list;
