@@ -211,6 +211,13 @@ static inline uint32_t model_plane(const struct model *model, size_t patch)
   return model->plane ? model->plane[patch] : 0;
 }
 
+/* That plane; NULL for none. */
+static inline const struct flat_plane *model_flat_plane(const struct model *model, size_t patch)
+{
+  const uint32_t number = model_plane(model, patch);
+  return number ? &model->planes[number] : NULL;
+}
+
 /* Whether a box of the hierarchy, or of a tree in it, is a tree's. */
 static inline bool model_is_tree(const struct model *model, uint32_t box)
 {

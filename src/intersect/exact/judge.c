@@ -23,9 +23,8 @@ enum { JUDGE_MAYBE_WORK = 128 };
  * slowly: it meets that at 0 and nowhere else, and whether there on the patch depends on its start alone. */
 static void look_across(const struct model *model, uint32_t patch, struct ray *ray)
 {
-  const uint32_t number = model_plane(model, patch);
-  if (number == 0) return;
-  const struct flat_plane *plane = &model->planes[number];
+  const struct flat_plane *plane = model_flat_plane(model, patch);
+  if (!plane) return;
   const double away = ray->direction[plane->axis];
   if (ray->origin[plane->axis] != plane->value || away == 0) return;
   for (int k = 0; k < 3; k++) ray->direction[k] = 0;

@@ -44,16 +44,16 @@ static lane_mask candidate_put_off(struct packet *p, const struct candidate *it,
 /* Lanes whose ray starts exactly in the plane, and leaves it. */
 LANES_INLINE lane_mask leaves_at_start(const struct packet *p, const struct flat_plane *plane)
 {
-  return (p->origin[plane->axis] == plane->value) & (p->direction[plane->axis] != 0);
+  return packet_starts_in(p, plane) & (p->direction[plane->axis] != 0);
 }
 
 /* Of `open`, the lanes whose ray does so, in the plane across an axis that the patch lies in, beside the patch's box: they meet
  * nothing of it. */
 static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask open)
 {
-  const uint32_t number = model_plane(p->model, patch);
-  if (number == 0) return (lane_mask){0};
-  open &= leaves_at_start(p, &p->model->planes[number]);
+  const struct flat_plane *plane = model_flat_plane(p->model, patch);
+  if (!plane) return (lane_mask){0};
+  open &= leaves_at_start(p, plane);
   if (!lanes_any(open)) return open;
   double lo[3], hi[3];
   bounds_empty(lo, hi), bounds_add(p->model->scene->patches[patch].P, lo, hi);
@@ -153,9 +153,9 @@ LANES_INLINE lane_mask leaves_plane(const struct packet *p, const struct flat_pl
  * nearest hit so far in that plane. */
 LANES_INLINE lane_mask before_in_plane(const struct packet *p, uint32_t patch, lane_mask active)
 {
-  const uint32_t plane = model_plane(p->model, patch);
-  if (plane == 0) return active;
-  active &= ~leaves_plane(p, &p->model->planes[plane]);
+  const struct flat_plane *plane = model_flat_plane(p->model, patch);
+  if (!plane) return active;
+  active &= ~leaves_plane(p, plane);
   if (!p->oriented) return active;
   const lane_mask number = (int64_t)patch + (lane_mask){0}, behind = active & (p->best.patch < number);
   return lanes_any(behind) ? active & ~one_plane(p->model, number, p->best.patch, behind) : active;

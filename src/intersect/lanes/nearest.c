@@ -174,10 +174,8 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
 /* Lanes whose ray starts exactly in the plane across an axis that the patch lies in: it meets that at 0 and nowhere else. */
 static lane_mask starts_in_plane(const struct packet *p, uint32_t patch)
 {
-  const uint32_t number = model_plane(p->model, patch);
-  if (number == 0) return (lane_mask){0};
-  const struct flat_plane *plane = &p->model->planes[number];
-  return p->origin[plane->axis] == plane->value;
+  const struct flat_plane *plane = model_flat_plane(p->model, patch);
+  return plane ? packet_starts_in(p, plane) : (lane_mask){0};
 }
 
 /* Lanes whose root is a corner of its patch where the ray starts, exactly: no other one is within its radii, and the start does

@@ -202,6 +202,12 @@ LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct mo
   return ~packet_nearer(p, patch, from, t) & (lanes_abs(t) * p->longest <= FAR_START * patch->scale);
 }
 
+/* Lanes whose ray starts exactly in the plane. */
+LANES_INLINE lane_mask packet_starts_in(const struct packet *p, const struct flat_plane *plane)
+{
+  return p->origin[plane->axis] == plane->value;
+}
+
 /* Lanes whose ray starts exactly in that control point of the patch, which is on the ray's line there and nowhere else, and is no
  * hit. */
 LANES_INLINE lane_mask packet_starts_at(const struct packet *p, uint32_t patch, int row, int column)

@@ -90,24 +90,22 @@ static lane_mask planes_aligned(struct candidate *it, lane_mask active)
   return active & (u_low <= u_error) & (u_high >= -u_error) & (v_low <= v_error) & (v_high >= -v_error);
 }
 
-/* Where the border of a leaf with a pole stands in a net: entry n is on it where n / side % 4 is `row`. */
-struct pole_place {
-  int side, row;
-};
-
-LANES_INLINE struct pole_place pole_place_of(const struct leaf *leaf)
+/* Where entry k of a net stands that is so many steps from the pole's border, 0 being on it. */
+LANES_INLINE int from_pole(const struct leaf *leaf, int steps, int k)
 {
   const int border = leaf->pole - 1;
-  return (struct pole_place){border < 2 ? 4 : 1, border & 1 ? 3 : 0};
+  return edge_at(border, k) + steps * edge_inward(border);
 }
 
 /* The least value of A a + B b on the net but for the pole's border. */
 static lanes least_beyond_pole(const struct candidate *it, lanes A, lanes B)
 {
-  const struct pole_place pole = pole_place_of(it->leaf);
   lanes least = lanes_all(INFINITY);
-  for (int n = 0; n < 16; n++)
-    if (n / pole.side % 4 != pole.row) least = lanes_min(A * it->a[n] + B * it->b[n], least);
+  for (int steps = 1; steps < 4; steps++)
+    for (int k = 0; k < 4; k++) {
+      const int n = from_pole(it->leaf, steps, k);
+      least = lanes_min(A * it->a[n] + B * it->b[n], least);
+    }
   return least;
 }
 
@@ -117,8 +115,8 @@ static lanes least_beyond_pole(const struct candidate *it, lanes A, lanes B)
  * times that of its coefficients, takes less than H at the pole on that way. */
 static lane_mask planes_at_pole(const struct candidate *it, lane_mask active)
 {
-  const struct pole_place pole = pole_place_of(it->leaf);
-  const lanes a0 = it->a[pole.row * pole.side], b0 = it->b[pole.row * pole.side];
+  const int at = from_pole(it->leaf, 0, 0);
+  const lanes a0 = it->a[at], b0 = it->b[at];
   const lanes least = lanes_max(least_beyond_pole(it, -b0, a0), least_beyond_pole(it, b0, -a0));
   const lanes size_a = lanes_abs(a0), size_b = lanes_abs(b0);
   const lanes off = (it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta)) * (size_a + size_b);
@@ -130,14 +128,16 @@ static lane_mask planes_at_pole(const struct candidate *it, lane_mask active)
  * everywhere else. */
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open)
 {
-  const struct pole_place pole = pole_place_of(it->leaf);
-  const int at = pole.row * pole.side;
+  const int at = from_pole(it->leaf, 0, 0);
   const lane_mask starts = open & packet_starts_at(p, it->leaf->patch, at / 4, at % 4);
   if (!lanes_any(starts)) return open;
   (void)planes_make(it, starts);
   lanes A = {0}, B = {0};
-  for (int n = 0; n < 16; n++)
-    if (n / pole.side % 4 != pole.row) A += it->a[n], B += it->b[n];
+  for (int steps = 1; steps < 4; steps++)
+    for (int k = 0; k < 4; k++) {
+      const int n = from_pole(it->leaf, steps, k);
+      A += it->a[n], B += it->b[n];
+    }
   const lanes off = (it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta)) * (lanes_abs(A) + lanes_abs(B));
   return open & ~(starts & (least_beyond_pole(it, A, B) > off));
 }
