@@ -262,6 +262,14 @@ void assert_same_hit(const char *what, int kind, const struct ray *ray, const st
   fail();
 }
 
+void world_towards(struct random *random, const double at[3], double off, struct ray *ray)
+{
+  for (int k = 0; k < 3; k++) {
+    ray->origin[k] = random_between(random, -6, 6);
+    ray->direction[k] = at[k] + off * random_between(random, -1, 1) - ray->origin[k];
+  }
+}
+
 /* How far two right answers may be apart, as a part of t: last places of a point and of t, over the sine of the
  * angle of incidence. */
 static double tolerance(const struct ray *ray, const struct hit *hit)

@@ -43,6 +43,9 @@ void world_close(struct world *world);
 enum { RAY_KINDS = 8 };
 struct ray world_ray(struct random *random, world_net *nets, size_t count, int kind);
 
+/* A ray from a place within 6 of 0 along each axis, at a point or off that by so much at most. Sets only these. */
+void world_towards(struct random *random, const double at[3], double off, struct ray *ray);
+
 /* A scene, and rays at it. */
 enum { STAGE_RAYS = 96 };
 struct set_up {

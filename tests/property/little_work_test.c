@@ -1,0 +1,166 @@
+/* Scenes on which rays did far more than they need: few leaves are tried, and little is left to the last resort. */
+#include <math.h>
+
+#include "cmocka_test.h"
+#include "property/world.h"
+
+enum { SEED = 20261122 };
+
+/* ---- stacks of sheets, lines ---- */
+
+/* A sheet bent along u by more than there is to the next one. */
+static void sheet(size_t number, world_net net)
+{
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      net[i][j][0] = i - 1.5, net[i][j][1] = j - 1.5;
+      net[i][j][2] = 0.4 * (i == 1 || i == 2) - 1e-3 * (double)number;
+    }
+}
+
+enum { NETS = 300, NET_RAYS = 400 };
+
+/* Of rays by the middle of these nets, which are all certain, each is tried on `few` leaves at most, on average. */
+static void few_are_tried(const char *name, world_net nets[NETS], double few)
+{
+  struct random random = {SEED};
+  struct world world;
+  world_open(&world, nets, NETS, NULL);
+  for (int n = 0; n < NET_RAYS; n++) {
+    struct ray ray = {.t_max = INFINITY};
+    world_towards(&random, (const double[3]){0, 0, 0.2}, 0.8, &ray);
+    assert_int_equal(world_closest(&world, &ray).certainty, CERTAINTY_CERTAIN);
+  }
+  const double tried = (double)tracer_counts(world.tracer)->patches_tested / NET_RAYS;
+  print_message("%s: %.2f leaves a ray\n", name, tried);
+  assert_true(tried <= few);
+  world_close(&world);
+}
+
+/* Leaves as thick as they bend would all be in one another's way: one leaf is met, and few others may be tried. */
+static void of_a_stack_few_are_tried(void **state)
+{
+  (void)state;
+  world_net nets[NETS];
+  for (size_t n = 0; n < NETS; n++) sheet(n, nets[n]);
+  few_are_tried("a stack", nets, 5);
+}
+
+/* From one point to another: along v, along u, or both ways; or wider than that by far less than it is long. */
+static void thread(struct random *random, size_t number, world_net net)
+{
+  double a[3], b[3], off[3];
+  for (int k = 0; k < 3; k++) {
+    a[k] = random_between(random, -2, 2), b[k] = random_between(random, -2, 2);
+    off[k] = (number % 4 == 3) * random_between(random, -1e-11, 1e-11);
+  }
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++)
+      for (int k = 0; k < 3; k++) {
+        const int at = number % 4 == 1 ? i : number % 4 == 2 ? (i * j) / 3 : j;
+        net[i][j][k] = a[k] + at / 3.0 * (b[k] - a[k]) + i * off[k];
+      }
+}
+
+/* A leaf that is a line has no normal, but a box along it as any other. */
+static void of_lines_few_are_tried(void **state)
+{
+  (void)state;
+  world_net nets[NETS];
+  struct random random = {SEED};
+  for (size_t n = 0; n < NETS; n++) thread(&random, n, nets[n]);
+  few_are_tried("lines", nets, 0.1);
+}
+
+/* ---- next to poles ---- */
+
+/* An eighth of a ball as large as a planet, its pole at 0. */
+static void eighth(size_t number, double radius, world_net net)
+{
+  static const double along[4] = {1, 1, 0.5522847498, 0}, up[4] = {0, 0.5522847498, 1, 1};
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      net[i][j][0] = (number & 1 ? -radius : radius) * along[i] * along[j];
+      net[i][j][1] = (number & 2 ? -radius : radius) * up[i] - radius;
+      net[i][j][2] = (number & 4 ? -radius : radius) * along[i] * up[j];
+    }
+}
+
+static void open_planet(double radius, struct world *world)
+{
+  world_net nets[8];
+  for (size_t n = 0; n < 8; n++) eighth(n, radius, nets[n]);
+  world_open(world, nets, 8, NULL);
+}
+
+/* What stands on a pole, a millionth or less of the ball from it, sees no leaf for whose whole a Jacobian is regular; little is left
+ * to the last resort all the same, from above and from the ground up. */
+static void next_to_poles_little_is_left_open(void **state)
+{
+  (void)state;
+  enum { PLANET_RAYS = 400 };
+  static const double radii[] = {1e3, 1e4, 1e6};
+  struct random random = {SEED + 1};
+  for (size_t k = 0; k < sizeof radii / sizeof radii[0]; k++) {
+    struct world world;
+    open_planet(radii[k], &world);
+    for (int n = 0; n < PLANET_RAYS; n++) {
+      struct ray ray = {.t_max = INFINITY};
+      world_towards(&random, (const double[3]){0, -0.1, 0}, 0, &ray);
+      ray.origin[1] = random_between(&random, 1, 6);
+      const struct hit hit = world_closest(&world, &ray);
+      assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+      if (hit.patch == HIT_NONE) continue;
+      ray.direction[1] = random_between(&random, 0.1, 1);
+      hit_leave(&hit, ray.direction, ray.origin);
+      assert_int_equal(world_closest(&world, &ray).patch, HIT_NONE);
+    }
+    const uint64_t open = tracer_counts(world.tracer)->escalated;
+    print_message("a ball of %g: %.3f leaves left open a ray\n", radii[k], (double)open / (2 * PLANET_RAYS));
+    assert_in_range(open, 0, PLANET_RAYS / 2);
+    world_close(&world);
+  }
+}
+
+/* A camera stands exactly on a pole, or in a corner of several patches: its start is known to be no hit, and what goes up from the
+ * ball leaves nothing open. Where the start belongs to the ray it is a hit. */
+static void from_poles_and_corners_nothing_is_left_open(void **state)
+{
+  (void)state;
+  enum { POINT_RAYS = 300, BELOW_AT_LEAST = POINT_RAYS / 10 };
+  static const double points[][3] = {{0, 0, 0}, {1, -1, 0}, {0, -1, -1}}, middle[3] = {0, -1, 0};
+  struct random random = {SEED + 2};
+  struct world world;
+  open_planet(1, &world);
+  for (size_t k = 0; k < sizeof points / sizeof points[0]; k++) {
+    unsigned below = 0;
+    for (int n = 0; n < POINT_RAYS; n++) {
+      struct ray ray = {.t_max = INFINITY};
+      double up = 0;
+      for (int c = 0; c < 3; c++) {
+        ray.origin[c] = points[k][c], ray.direction[c] = random_between(&random, -1, 1);
+        up += ray.direction[c] * (points[k][c] - middle[c]);
+      }
+      if (fabs(up) < 0.02) continue;
+      const uint64_t open = tracer_counts(world.tracer)->escalated;
+      const struct hit hit = world_closest(&world, &ray);
+      assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+      assert_int_equal(hit.patch == HIT_NONE, up > 0);
+      assert_true(up < 0.1 || tracer_counts(world.tracer)->escalated == open);
+      assert_true(up > 0 || hit.t > 0.01);
+      below += up < 0;
+      ray.t_min = -0.01;
+      assert_true(world_closest(&world, &ray).t == 0);
+    }
+    assert_in_range(below, BELOW_AT_LEAST, POINT_RAYS);
+  }
+  world_close(&world);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(of_a_stack_few_are_tried), cmocka_unit_test(of_lines_few_are_tried),
+    cmocka_unit_test(next_to_poles_little_is_left_open), cmocka_unit_test(from_poles_and_corners_nothing_is_left_open)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
