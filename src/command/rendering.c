@@ -107,12 +107,16 @@ static bool is_part(const struct piece *piece, const struct piece *part, char *m
   return piece_belongs(&part->image, &piece->image, message, size);
 }
 
-/* How many pixels of this picture an earlier run has left; 0 where it is of another one, or cannot be read. */
-static size_t pixels_left(const struct rendering *rendering, const char *path)
+/* How many pixels of this picture an earlier run has left; 0 where it is of another one, or cannot be gone on from. That is
+ * known only when all of it is read: what is damaged shall not be spared for what is done now. */
+static size_t pixels_left(const struct rendering *rendering, const char *path, bool *out_useless)
 {
   struct piece part;
   char message[IMAGE_MESSAGE_SIZE];
-  if (piece_read(path, false, &part, message) != STATUS_OK) return 0;
+  enum status status = piece_read(path, true, &part, message);
+  if (status == STATUS_LIMIT) status = piece_read(path, false, &part, message); /* it is spared where it may be whole */
+  *out_useless = status != STATUS_OK;
+  if (*out_useless) return 0;
   const bool ours = is_part(&rendering->piece, &part, message, sizeof message);
   const size_t pixels = ours ? tile_list_pixels(&part.tiles, true) : 0;
   piece_destroy(&part);
@@ -139,10 +143,12 @@ static enum status resume(struct rendering *rendering)
   char message[IMAGE_MESSAGE_SIZE];
   if (path == NULL || access(path, F_OK) != 0) return STATUS_OK;
   if (!rendering->request->resume) {
-    rendering->left = pixels_left(rendering, path);
+    bool useless;
+    rendering->left = pixels_left(rendering, path, &useless);
     if (!rendering->request->scene->quiet)
       command_warning(command, "'%s' is left by an earlier run%s", path,
                       rendering->left > 0 ? "; --resume goes on from there"
+                      : useless           ? ", cannot be gone on from, and is replaced"
                                           : ", of another picture, which this one replaces");
     return STATUS_OK;
   }
