@@ -18,6 +18,14 @@ enum { BEZOUT_NAME(MAX_DEGREE) = 18 };
 
 #define BEZOUT_INLINE static inline __attribute__((always_inline, unused))
 
+/* Where it does not optimize gcc warns of a loop with two conditions that it shall unroll. */
+#define BEZOUT_PRAGMA(text) _Pragma(#text)
+#ifdef __OPTIMIZE__
+#define BEZOUT_UNROLL(times) BEZOUT_PRAGMA(GCC unroll times)
+#else
+#define BEZOUT_UNROLL(times)
+#endif
+
 /* The binomials C(n,k), n = 1..3. */
 BEZOUT_INLINE double BEZOUT_NAME(binomial)(int n, int k) { return k == 0 || k == n ? 1 : n; }
 
@@ -25,10 +33,10 @@ BEZOUT_INLINE double BEZOUT_NAME(binomial)(int n, int k) { return k == 0 || k ==
 BEZOUT_INLINE void BEZOUT_NAME(minor)(int m, int k, int l, const BEZOUT_REAL A[16], const BEZOUT_REAL B[16],
                                       BEZOUT_REAL out[7])
 {
-#pragma GCC unroll 8
+  BEZOUT_UNROLL(8)
   for (int e = 0; e <= 2 * m; e++) {
     BEZOUT_REAL sum = {0};
-#pragma GCC unroll 4
+    BEZOUT_UNROLL(4)
     for (int i = e > m ? e - m : 0; i <= e && i <= m; i++)
       sum += A[4 * i + k] * B[4 * (e - i) + l] - A[4 * i + l] * B[4 * (e - i) + k];
     out[e] = sum;
@@ -39,10 +47,10 @@ BEZOUT_INLINE void BEZOUT_NAME(minor)(int m, int k, int l, const BEZOUT_REAL A[1
 BEZOUT_INLINE void BEZOUT_NAME(multiply)(int p, int q, const BEZOUT_REAL x[], const BEZOUT_REAL y[], double sign,
                                          int add, BEZOUT_REAL out[])
 {
-#pragma GCC unroll 19
+  BEZOUT_UNROLL(19)
   for (int e = 0; e <= p + q; e++) {
     BEZOUT_REAL sum = {0};
-#pragma GCC unroll 7
+    BEZOUT_UNROLL(7)
     for (int i = e > q ? e - q : 0; i <= e && i <= p; i++) sum += x[i] * y[e - i];
     out[e] = add ? out[e] + sign * sum : sign * sum;
   }

@@ -1,5 +1,6 @@
 #!/bin/bash
 # flags.sh: library calls know the sizes of arrays; whoever builds pscn may ask for that by flags, and then is not asked twice.
+# Where nothing is optimized there is no warning of what would be.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -10,3 +11,8 @@ for flags in -D_FORTIFY_SOURCE=3 -O2; do
   found=$(grep -o -- '-D_FORTIFY_SOURCE' "$commands" | wc -l) files=$(grep -c '"command"' "$commands")
   [ "$found" = "$files" ] || { echo "with $flags: $files files, _FORTIFY_SOURCE is defined $found times"; exit 1; }
 done
+
+cmake -S "$PSCN_SOURCE_DIR" -B "$folder/build" --fresh -DCMAKE_BUILD_TYPE=Debug -DPSCN_WERROR=ON >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+command=$(sed -n 's/.*"command": "\(.*intersect\/method\.c\)",$/\1/p' "$folder/build/compile_commands.json")
+command=${command//\\\"/\"}
+(cd "$folder/build" && mkdir -p CMakeFiles/pscn_lib.dir/src/intersect && eval "$command")
