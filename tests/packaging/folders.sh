@@ -1,13 +1,13 @@
 #!/bin/bash
 # folders.sh: libraries and headers that are installed in folders given whole, beside the prefix: pscn.pc names them as they
-# are, and the program looks for its module there. A module of another build is no crash. Of several builds in one tree each
+# are, and the program looks for its module there, also where no run paths are asked for, as by distributions. A module of another build is no crash. Of several builds in one tree each
 # has its module where its program looks for it.
 set -euo pipefail
 command -v pkg-config >/dev/null || { echo "skipped: pkg-config is not installed" >&2; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cmake -S "$PSCN_SOURCE_DIR" -B "$folder/build" -DCMAKE_INSTALL_PREFIX="$folder/prefix" -DCMAKE_INSTALL_LIBDIR="$folder/lib64" \
-  -DCMAKE_INSTALL_INCLUDEDIR="$folder/headers" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+  -DCMAKE_INSTALL_INCLUDEDIR="$folder/headers" -DCMAKE_SKIP_RPATH=ON -DCMAKE_SKIP_INSTALL_RPATH=ON >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
 said=$(PKG_CONFIG_PATH=$folder/build/src/packaging pkg-config --cflags --libs pscn | sed 's/ *$//')
 [ "$said" = "-I$folder/headers -L$folder/lib64 -lpscn" ] || { echo "pscn.pc says: $said"; exit 1; }
 grep -rqF "ORIGIN/../lib/pscn:$folder/lib64/pscn" "$folder/build" || { echo "the program does not look in $folder/lib64"; exit 1; }
