@@ -110,6 +110,14 @@ static bool read_done(const char *text, size_t length, const struct tile_list *t
   return true;
 }
 
+/* The status, of which the message says why. */
+static enum status told(enum status status, const char *input, char *message)
+{
+  if (status != STATUS_OK)
+    snprintf(message, IMAGE_MESSAGE_SIZE, "%s", status == STATUS_INPUT ? input : "out of memory");
+  return status;
+}
+
 /* What the picture says of its tiles; STATUS_INPUT where that is nothing, or nothing that can be. */
 static enum status read_tiles(struct piece *piece)
 {
@@ -141,7 +149,17 @@ static enum status read_channels(struct piece *piece)
 }
 
 /* FNV-1a (Fowler, Noll, Vo; RFC 9923), a word at a time too: no two words give one hash. */
-static uint64_t hash_add(uint64_t hash, uint32_t word) { return (hash ^ word) * UINT64_C(0x100000001b3); }
+static const uint64_t HASH_PRIME = UINT64_C(0x100000001b3);
+
+static uint64_t hash_add(uint64_t hash, uint32_t word) { return (hash ^ word) * HASH_PRIME; }
+
+/* So many words 0. */
+static uint64_t hash_add_zeros(uint64_t hash, size_t count)
+{
+  for (uint64_t factor = HASH_PRIME; count != 0; count /= 2, factor *= factor)
+    if (count % 2 != 0) hash *= factor;
+  return hash;
+}
 
 /* The upper bits are the better ones. */
 static uint64_t hash_fold(uint64_t hash) { return hash ^ hash >> 32; }
@@ -153,47 +171,110 @@ static uint64_t hash_text(const char *text, size_t length)
   return hash_fold(hash);
 }
 
-/* What a part says of its own pixels, tiles and number, that a byte which has changed since is seen: as a text. The order of
- * the channels, which a file does not keep, is of no account. */
-static void make_sum(const struct image *image, const char *tile, size_t tile_length, const char *done,
-                     size_t done_length, char out[SUM_SIZE])
+static int by_row(const void *a, const void *b)
 {
-  uint64_t sum = hash_text(tile, tile_length) + 2 * hash_text(done, done_length);
-  for (size_t c = 0; c < image->channel_count; c++) {
-    uint64_t hash = hash_text(image->channel[c].name, strlen(image->channel[c].name));
-    for (size_t k = c; k < image->width * image->height * image->channel_count; k += image->channel_count) {
-      uint32_t bits;
-      memcpy(&bits, &image->value[k], sizeof bits);
-      hash = hash_add(hash, bits);
-    }
-    sum += hash_fold(hash);
-  }
-  snprintf(out, SUM_SIZE, "%016" PRIx64, sum);
+  const struct rectangle *p = a, *q = b;
+  return p->y != q->y ? (p->y > q->y) - (p->y < q->y) : (p->x > q->x) - (p->x < q->x);
 }
 
-static bool is_as_written(const struct image *image)
+/* The tiles that are done, row by row, to be freed; NULL where memory is short. */
+static struct rectangle *tiles_by_row(const struct tile_list *tiles, size_t *out_count)
 {
+  struct rectangle *sorted = malloc((tiles->count + 1) * sizeof *sorted);
+  *out_count = 0;
+  if (sorted == NULL) return NULL;
+  for (size_t k = 0; k < tiles->count; k++)
+    if (atomic_load(&tiles->done[k])) sorted[(*out_count)++] = tiles->tile[k];
+  qsort(sorted, *out_count, sizeof *sorted, by_row);
+  return sorted;
+}
+
+/* Of one channel the pixels from `first` on. */
+static uint64_t hash_add_pixels(uint64_t hash, const struct image *image, size_t channel, size_t first, size_t count)
+{
+  const float *value = image->value + first * image->channel_count + channel;
+  for (size_t k = 0; k < count; k++, value += image->channel_count) {
+    uint32_t bits;
+    memcpy(&bits, value, sizeof bits);
+    hash = hash_add(hash, bits);
+  }
+  return hash;
+}
+
+/* One channel of the whole picture, row by row, as if it were 0 beside the tiles, where it may not have been read. */
+static uint64_t hash_channel(const struct image *image, size_t channel, const struct rectangle *tile, size_t count)
+{
+  uint64_t hash = hash_text(image->channel[channel].name, strlen(image->channel[channel].name));
+  size_t next = 0; /* pixel */
+  for (size_t begin = 0, end = 0; begin < count; begin = end) {
+    while (end < count && tile[end].y == tile[begin].y) end++;
+    for (size_t y = 0; y < tile[begin].height; y++) {
+      for (size_t k = begin; k < end; k++) {
+        const size_t first = (tile[k].y - image->y + y) * image->width + tile[k].x - image->x;
+        hash = hash_add_pixels(hash_add_zeros(hash, first - next), image, channel, first, tile[k].width);
+        next = first + tile[k].width;
+      }
+    }
+  }
+  return hash_fold(hash_add_zeros(hash, image->width * image->height - next));
+}
+
+/* What a part says of its own pixels, tiles and number, that a byte which has changed since is seen: as a text. The order of
+ * the channels, which a file does not keep, is of no account. */
+static enum status make_sum(const struct image *image, const struct tile_list *tiles, const char *tile,
+                            size_t tile_length, const char *done, size_t done_length, char out[SUM_SIZE])
+{
+  size_t count;
+  struct rectangle *sorted = tiles_by_row(tiles, &count);
+  if (sorted == NULL) return STATUS_LIMIT;
+  uint64_t sum = hash_text(tile, tile_length) + 2 * hash_text(done, done_length);
+  for (size_t c = 0; c < image->channel_count; c++) sum += hash_channel(image, c, sorted, count);
+  snprintf(out, SUM_SIZE, "%016" PRIx64, sum);
+  free(sorted);
+  return STATUS_OK;
+}
+
+/* Whether its pixels are what was written. */
+static enum status check_sum(const struct piece *piece, char *message)
+{
+  const struct image *image = &piece->image;
   size_t tile_length = 0, done_length = 0, length = 0;
   const char *tile = image_metadata(image, "pscn:tile", &tile_length);
   const char *done = image_metadata(image, "pscn:done", &done_length); /* an empty text is not in the file */
   const char *said = image_metadata(image, "pscn:sum", &length);
   char sum[SUM_SIZE];
-  make_sum(image, tile, tile_length, done == NULL ? "" : done, done_length, sum);
-  return length == SUM_SIZE - 1 && memcmp(said, sum, length) == 0;
+  enum status status = make_sum(image, &piece->tiles, tile, tile_length, done == NULL ? "" : done, done_length, sum);
+  if (status == STATUS_OK && !(length == SUM_SIZE - 1 && memcmp(said, sum, length) == 0)) status = STATUS_INPUT;
+  return told(status, "it is damaged: it is not what was written", message);
+}
+
+/* What a part says of itself, of whose image all but the pixels is read. */
+static enum status read_texts(struct piece *piece, char *message)
+{
+  enum status status = read_tiles(piece);
+  if (status == STATUS_OK) status = read_channels(piece);
+  return told(status, "no piece of a picture", message);
+}
+
+/* Pixels are wanted of its tiles. */
+static enum status wanted_areas(void *piece, const struct image *image, const struct rectangle **out_area,
+                                size_t *out_count, char *message)
+{
+  const struct tile_list *tiles = &((struct piece *)piece)->tiles;
+  (void)image; /* the piece's own */
+  const enum status status = read_texts(piece, message);
+  *out_area = tiles->tile;
+  *out_count = tiles->count;
+  return status;
 }
 
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message)
 {
   *out = (struct piece){0};
-  enum status status = pixels ? image_read(path, &out->image, message) : image_read_header(path, &out->image, message);
-  if (status != STATUS_OK) return status;
-  status = read_tiles(out);
-  if (status == STATUS_OK) status = read_channels(out);
-  snprintf(message, IMAGE_MESSAGE_SIZE, "%s", status == STATUS_INPUT ? "no piece of a picture" : "out of memory");
-  if (status == STATUS_OK && pixels && !is_as_written(&out->image)) {
-    snprintf(message, IMAGE_MESSAGE_SIZE, "it is damaged: it is not what was written");
-    status = STATUS_INPUT;
-  }
+  const struct image_wanted wanted = {wanted_areas, out};
+  enum status status = pixels ? image_read_areas(path, &wanted, &out->image, message)
+                              : image_read_header(path, &out->image, message);
+  if (status == STATUS_OK) status = pixels ? check_sum(out, message) : read_texts(out, message);
   if (status == STATUS_OK) return STATUS_OK;
   piece_destroy(out);
   return status;
@@ -287,16 +368,16 @@ enum status piece_encode(const struct piece *piece, const struct image_attribute
   *out_size = 0;
   enum status status = copy_done(piece, &copy);
   if (status == STATUS_OK) done = done_text(&copy.tiles);
-  if (done == NULL) status = STATUS_LIMIT;
   snprintf(message, IMAGE_MESSAGE_SIZE, "out of memory");
   snprintf(tile, sizeof tile, "%zu/%zu", piece->number, piece->count);
-  if (done != NULL) make_sum(&copy.image, tile, strlen(tile), done, strlen(done), sum);
+  if (done == NULL) status = STATUS_LIMIT;
+  else status = make_sum(&copy.image, &copy.tiles, tile, strlen(tile), done, strlen(done), sum);
   for (size_t k = 0; k < attribute_count; k++) all[k] = attributes[k];
   all[attribute_count] = (struct image_attribute){"pscn:tile", tile};
   all[attribute_count + 1] = (struct image_attribute){"pscn:done", done};
   all[attribute_count + 2] = (struct image_attribute){"pscn:sum", sum};
   const struct image_encoding encoding = {
-    .format = IMAGE_EXR, .bits = 32, .quick = true, .attributes = all, .attribute_count = attribute_count + 3};
+    .format = IMAGE_EXR, .bits = 32, .tile = TILE_SIZE, .attributes = all, .attribute_count = attribute_count + 3};
   if (status == STATUS_OK) status = image_encode(&copy.image, &encoding, out_bytes, out_size, message);
   free(done);
   piece_destroy(&copy);

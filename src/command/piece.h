@@ -1,8 +1,10 @@
 /* Parts of a picture, which say of themselves what they are part of.
  *
  * A part is an EXR of floats with the window of the picture it belongs to, the pixels of the tiles it has, 0 elsewhere,
- * and texts that say what was rendered, how, which tiles these are, and a sum of it all. There is no other form: pieces of a farm
- * (`render --tile`), what an interrupted rendering leaves behind and `--resume` goes on with, and what `merge` reads.
+ * and texts that say what was rendered, how, which tiles these are, and a sum of it all. It is packed in tiles as large as
+ * a rendering's, so that those that a part has can be read without the others; one in rows is read, too. There is no other
+ * form: pieces of a farm (`render --tile`), what an interrupted rendering leaves behind and `--resume` goes on with, and
+ * what `merge` reads.
  */
 #ifndef PSCN_COMMAND_PIECE_H
 #define PSCN_COMMAND_PIECE_H
@@ -32,7 +34,7 @@ enum status piece_create(const struct render_options *options, size_t number, si
                          struct piece *out) STATUS_MUST_CHECK;
 void piece_destroy(struct piece *piece);
 
-/* Reads a part, or only what it says of itself. STATUS_FILE, STATUS_LIMIT; STATUS_INPUT where the file is a picture, but
+/* Reads a part, of whose image the pixels of its tiles count, or only what it says of itself. STATUS_FILE, STATUS_LIMIT; STATUS_INPUT where the file is a picture, but
  * no part that can be understood. Then *out is zero and message[IMAGE_MESSAGE_SIZE] says why. */
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message) STATUS_MUST_CHECK;
 

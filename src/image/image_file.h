@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/rectangle.h"
 #include "base/status.h"
 #include "image/image.h"
 
@@ -33,8 +34,10 @@ struct image_attribute {
 
 struct image_encoding {
   enum image_format format;
-  int bits;     /* of every channel that is not data; data channels of EXR always have 32 */
-  bool quick;   /* EXR: packed as fast as can be, for what is soon read again */
+  int bits; /* of every channel that is not data; data channels of EXR always have 32 */
+  /* EXR: in tiles of so many pixels a side, packed as fast as can be, for what is soon read again by image_read_areas;
+   * 0: in rows. */
+  int tile;
   bool encoded; /* the values are display codes already: PNG takes them without the sRGB curve */
   const struct image_attribute *attributes;
   size_t attribute_count;
@@ -61,5 +64,19 @@ enum status image_read(const char *path, struct image *out, char *message) STATU
 
 /* The same of all but its pixels, whose value is NULL. */
 enum status image_read_header(const char *path, struct image *out, char *message) STATUS_MUST_CHECK;
+
+/* Which pixels of a picture are wanted: `areas` is asked when all but the pixels is known of it. They are counted as in the
+ * picture that it stands in, lie inside of its window, and stay where they are until it is read. Where the answer is no
+ * STATUS_OK nothing more is read. */
+struct image_wanted {
+  enum status (*areas)(void *context, const struct image *image, const struct rectangle **out_area, size_t *out_count,
+                       char *message);
+  void *context;
+};
+
+/* image_read, of these pixels only; what is in the others is not said. Takes less time where the file has tiles that are not
+ * needed. */
+enum status image_read_areas(const char *path, const struct image_wanted *wanted, struct image *out,
+                             char *message) STATUS_MUST_CHECK;
 
 #endif

@@ -18,7 +18,9 @@ struct image_module {
   enum status (*begin)(char *message); /* starts what threads it takes: later there may be none to be had */
   enum status (*encode)(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
                         size_t *out_size, char *message);
-  enum status (*read)(const char *path, const char *format, bool pixels, struct image *out, char *message);
+  /* `wanted` NULL: all pixels. */
+  enum status (*read)(const char *path, const char *format, bool pixels, const struct image_wanted *wanted,
+                      struct image *out, char *message);
 };
 
 extern const struct image_module image_module __attribute__((visibility("default")));

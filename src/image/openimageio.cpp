@@ -47,7 +47,10 @@ OIIO::ImageSpec make_spec(const image &picture, const image_encoding &encoding)
     spec.full_width = static_cast<int>(picture.full_width);
     spec.full_height = static_cast<int>(picture.full_height);
   }
-  if (encoding.quick) spec.attribute("compression", "rle");
+  if (encoding.tile != 0) {
+    spec.tile_width = spec.tile_height = encoding.tile;
+    spec.attribute("compression", "rle");
+  }
   bool mixed = false;
   for (std::size_t c = 0; c < picture.channel_count; c++) {
     spec.channelnames[c] = picture.channel[c].name;
@@ -104,15 +107,18 @@ Bytes native_rows(const image &picture, const image_encoding &encoding, const sr
 status write_rows(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const image &picture,
                   const image_encoding &encoding)
 {
-  const std::size_t most = 64; /* whole blocks of every way to pack an EXR */
+  /* Whole blocks of every way to pack an EXR, or one row of tiles. */
+  const std::size_t most = encoding.tile == 0 ? 64 : static_cast<std::size_t>(encoding.tile);
   const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeDesc();
   srgb_table table;
   srgb_table_fill(&table);
   for (std::size_t row = 0; row < picture.height; row += most) {
     const std::size_t rows = std::min(most, picture.height - row);
     const Bytes pixels = native_rows(picture, encoding, table, row, rows);
-    const int y = spec.y + static_cast<int>(row);
-    if (!output.write_scanlines(y, y + static_cast<int>(rows), 0, type, pixels.data())) return STATUS_FILE;
+    const int y = spec.y + static_cast<int>(row), end = y + static_cast<int>(rows);
+    if (!(encoding.tile == 0 ? output.write_scanlines(y, end, 0, type, pixels.data())
+                             : output.write_tiles(spec.x, spec.x + spec.width, y, end, 0, 1, type, pixels.data())))
+      return STATUS_FILE;
     const double part = static_cast<double>(row + rows) / static_cast<double>(picture.height);
     if (encoding.progress != nullptr && !encoding.progress(encoding.context, part)) return STATUS_INTERRUPTED;
   }
@@ -191,7 +197,53 @@ bool read_pixels(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, image &ou
   return true;
 }
 
-std::string read(const char *path, const char *format, bool pixels, image &out, status &result)
+/* The whole tiles that hold an area, as an area of the rows that `out` has. */
+rectangle tiles_of(const OIIO::ImageSpec &spec, const image &out, const rectangle &area)
+{
+  const auto width = static_cast<std::size_t>(spec.tile_width), height = static_cast<std::size_t>(spec.tile_height);
+  const std::size_t x = (area.x - out.x) / width * width, y = (area.y - out.y) / height * height;
+  const std::size_t right = (area.x - out.x + area.width + width - 1) / width * width;
+  const std::size_t below = (area.y - out.y + area.height + height - 1) / height * height;
+  return {x, y, std::min(right, out.width) - x, std::min(below, out.height) - y};
+}
+
+/* The pixels of an area, by way of those of its tiles. */
+bool read_area(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, const rectangle &area, std::vector<float> &room,
+               image &out)
+{
+  const rectangle tiles = tiles_of(spec, out, area);
+  const int left = spec.x + static_cast<int>(tiles.x), top = spec.y + static_cast<int>(tiles.y);
+  room.resize(tiles.width * tiles.height * out.channel_count);
+  if (!input.read_tiles(0, 0, left, left + static_cast<int>(tiles.width), top, top + static_cast<int>(tiles.height), 0,
+                        1, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, room.data()))
+    return false;
+  const std::size_t x = area.x - out.x;
+  for (std::size_t y = area.y - out.y; y < area.y - out.y + area.height; y++) {
+    const float *from = room.data() + ((y - tiles.y) * tiles.width + x - tiles.x) * out.channel_count;
+    std::copy(from, from + area.width * out.channel_count, image_pixel(&out, x, y));
+  }
+  return true;
+}
+
+/* The areas, where their tiles have fewer pixels than the picture; else all of it. */
+bool read_areas(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, const rectangle *area, std::size_t count,
+                image &out)
+{
+  if (spec.tile_width <= 0 || spec.tile_height <= 0) return read_pixels(input, spec, out);
+  std::size_t left = out.width * out.height; /* out of this, so that no sum is too large */
+  for (std::size_t k = 0; k < count; k++) {
+    const rectangle tiles = tiles_of(spec, out, area[k]);
+    left -= std::min(left, tiles.width * tiles.height);
+  }
+  if (left == 0) return read_pixels(input, spec, out);
+  std::vector<float> room;
+  for (std::size_t k = 0; k < count; k++)
+    if (!read_area(input, spec, area[k], room, out)) return false;
+  return true;
+}
+
+std::string read(const char *path, const char *format, bool pixels, const image_wanted *wanted, image &out,
+                 status &result, char *message)
 {
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) return "OpenImageIO: " + OIIO::geterror();
@@ -216,8 +268,14 @@ std::string read(const char *path, const char *format, bool pixels, image &out, 
     std::snprintf(out.channel[c].name, IMAGE_NAME_SIZE, "%s", spec.channelnames[c].c_str());
   read_window(spec, out);
   read_metadata(spec, out);
+  const rectangle *area = nullptr;
+  std::size_t areas = 0;
+  if (wanted != nullptr) result = wanted->areas(wanted->context, &out, &area, &areas, message);
+  if (wanted != nullptr && result != STATUS_OK) return "";
+  result = STATUS_FILE;
   /* Rows of a TIFF or JPEG that is cut off or damaged are made up, and that is said, but not by what is returned. */
-  const bool done = !pixels || read_pixels(*input, spec, out);
+  const bool done = !pixels ||
+                    (wanted == nullptr ? read_pixels(*input, spec, out) : read_areas(*input, spec, area, areas, out));
   const std::string problem = input->geterror();
   if (done && problem.empty()) result = STATUS_OK;
   return problem;
@@ -263,11 +321,12 @@ status module_encode(const image *picture, const image_encoding *encoding, unsig
     });
 }
 
-status module_read(const char *path, const char *format, bool pixels, image *out, char *message)
+status module_read(const char *path, const char *format, bool pixels, const image_wanted *wanted, image *out,
+                   char *message)
 {
   const status result = guarded(message, [&] {
     status reading = STATUS_FILE;
-    const std::string problem = read(path, format, pixels, *out, reading);
+    const std::string problem = read(path, format, pixels, wanted, *out, reading, message);
     if (!problem.empty()) say(message, problem);
     return reading;
   });

@@ -9,17 +9,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/rectangle.h"
 #include "intersect/explain.h"
 #include "render/channels.h"
 #include "scene/scene.h"
 
 /* Pixels a side of a tile, which is a multiple of a packet's, and of a packet. */
 enum { TILE_SIZE = 32, PACKET_WIDTH = 4, PACKET_HEIGHT = PACKET_SIZE / PACKET_WIDTH };
-
-/* Pixels x .. x + width - 1, y .. y + height - 1. */
-struct rectangle {
-  size_t x, y, width, height;
-};
 
 /* What is to be rendered. Borrowed pointers. */
 struct tile_job {

@@ -78,10 +78,16 @@ LC_ALL=C sed 's|\(pscn:channels.string.....\)rgb|\1rgc|' p1.exr >unknown.exr
 cmp -s p1.exr unknown.exr && echo "nothing is changed"
 try pscn merge unknown.exr p1.exr -o no.png
 try pscn merge p1.exr unknown.exr -o no.png
-# A byte of its pixels that has changed since.
-last=$(tail -c 1 p1.exr | od -An -tu1)
-(head -c -1 p1.exr && printf "\\x$(printf %x $(((last + 1) % 256)))") >changed.exr
-try pscn merge changed.exr -o no.png
+# A byte that has changed since: the last one of a file is of the tile in the lower right corner, which one piece has. In the
+# others it is of nobody's pixels.
+pscn render $scene --samples 2 --tile 3/4 -o p3.exr
+pscn render $scene --samples 2 --tile 2/4 -o p2.exr
+for k in 1 2 3 4; do
+  last=$(tail -c 1 p$k.exr | od -An -tu1)
+  (head -c -1 p$k.exr && printf "\\x$(printf %x $(((last + 1) % 256)))") >changed$k.exr
+done
+try pscn merge changed?.exr -o no.png
+for k in 1 2 3 4; do cmp -s changed$k.exr p$k.exr && echo "nothing is changed"; done
 cp whole3.exr outside.exr
 at=$(grep -abo displayWindow outside.exr | head -n 1 | cut -d: -f1)
 printf '\5' | dd of=outside.exr bs=1 seek=$((at + 24)) conv=notrunc status=none

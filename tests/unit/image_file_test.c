@@ -229,9 +229,9 @@ static void exr_keeps_its_window_and_texts(void **state)
   image.y = 7;
   image.full_width = 70;
   image.full_height = 50;
-  for (int quick = 0; quick < 2; quick++) {
+  for (int tile = 0; tile <= 2; tile += 2) {
     const struct image_encoding encoding = {
-      .format = IMAGE_EXR, .bits = 32, .quick = quick, .attributes = attributes, .attribute_count = 3};
+      .format = IMAGE_EXR, .bits = 32, .tile = tile, .attributes = attributes, .attribute_count = 3};
     struct image back = there_and_back(&image, &encoding);
     size_t length;
     assert_true(back.x == 5 && back.y == 7 && back.full_width == 70 && back.full_height == 50);
@@ -243,6 +243,63 @@ static void exr_keeps_its_window_and_texts(void **state)
     assert_null(image_metadata(&back, "pscn:siz", &length));
     image_destroy(&back);
   }
+  image_destroy(&image);
+}
+
+/* Which pixels are wanted, and how often that was asked. */
+struct question {
+  size_t count, asked;
+  enum status answer;
+};
+
+static enum status answer(void *context, const struct image *image, const struct rectangle **out_area,
+                          size_t *out_count, char *message)
+{
+  static const struct rectangle areas[] = {{6, 7, 1, 2}, {9, 9, 1, 1}, {5, 7, WIDTH, HEIGHT}};
+  struct question *question = context;
+  assert_true(image->width == WIDTH && image->x == 5 && image->full_width == 70);
+  question->asked++;
+  *out_area = areas;
+  *out_count = question->count;
+  (void)snprintf(message, IMAGE_MESSAGE_SIZE, "so it is");
+  return question->answer;
+}
+
+/* Those of the areas are read: of a file in tiles no others, of one in rows, or where all tiles are needed, all. */
+static void areas_of_a_picture_are_read(void **state)
+{
+  (void)state;
+  const char *const names[] = {"R", "G", "B"};
+  static const int first[HEIGHT][WIDTH] = {/* the area that a pixel is in, from 1 */
+                                           {0, 1, 0, 0, 0},
+                                           {0, 1, 0, 0, 0},
+                                           {0, 0, 0, 0, 2}};
+  struct question question = {.answer = STATUS_OK};
+  const struct image_wanted wanted = {answer, &question};
+  char message[IMAGE_MESSAGE_SIZE];
+  struct image image = picture(3, names), back;
+  image.x = 5, image.y = 7, image.full_width = 70, image.full_height = 50;
+  for (size_t k = 0; k < WIDTH * HEIGHT * 3; k++) image.value[k] += 1;
+  for (int tile = 0; tile <= 2; tile += 2) {
+    back = there_and_back(&image, &(struct image_encoding){.format = IMAGE_EXR, .bits = 32, .tile = tile});
+    for (question.count = 0; question.count <= 3; question.count++) {
+      image_destroy(&back);
+      question.asked = 0;
+      assert_int_equal(image_read_areas(path, &wanted, &back, message), STATUS_OK);
+      assert_int_equal(question.asked, 1);
+      const bool all = tile == 0 || question.count == 3;
+      for (size_t k = 0; k < WIDTH * HEIGHT; k++) {
+        const int area = first[k / WIDTH][k % WIDTH];
+        const bool in = all || (area != 0 && area <= (int)question.count);
+        for (size_t c = 0; c < 3; c++) assert_true(back.value[3 * k + c] == (in ? image.value[3 * k + c] : 0));
+      }
+    }
+    image_destroy(&back);
+  }
+  question.answer = STATUS_INPUT; /* by whom is asked */
+  assert_int_equal(image_read_areas(path, &wanted, &back, message), STATUS_INPUT);
+  assert_string_equal(message, "so it is");
+  assert_true(back.value == NULL && back.width == 0);
   image_destroy(&image);
 }
 
@@ -485,6 +542,7 @@ int main(void)
     WITH_FILE(encoded_values_take_no_curve),
     WITH_FILE(exr_keeps_values_and_names),
     WITH_FILE(exr_keeps_its_window_and_texts),
+    WITH_FILE(areas_of_a_picture_are_read),
     WITH_FILE(exr_outside_its_picture_is_a_whole),
     WITH_FILE(encoding_is_told),
     WITH_FILE(no_channel_is_opacity),

@@ -1,6 +1,7 @@
 /* Parts of a picture: what they say of their tiles is believed only where it can be. */
 #include "command/piece.h"
 
+#include <inttypes.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -159,10 +160,61 @@ static void what_is_done_is_copied(void **state)
   piece_destroy(&from), piece_destroy(&to);
 }
 
+static uint64_t hash(uint64_t start, const void *bytes, size_t count, size_t size)
+{
+  for (size_t k = 0; k < count; k++) {
+    uint32_t word = 0;
+    memcpy(&word, (const unsigned char *)bytes + k * size, size);
+    start = (start ^ word) * UINT64_C(0x100000001b3);
+  }
+  return start;
+}
+
+static uint64_t fold(uint64_t sum) { return sum ^ sum >> 32; }
+
+/* The sum is that of all pixels of the picture, a channel at a time, though those beside the tiles are not asked. */
+static void the_sum_is_of_all_pixels(void **state)
+{
+  (void)state;
+  static const unsigned done[] = {63, 45, 6, 32}; /* bit k: tile k */
+  const uint64_t start = UINT64_C(0xcbf29ce484222325);
+  const struct render_options options = {.width = 100,
+                                         .height = 80,
+                                         .crop = {17, 20, WIDTH, HEIGHT},
+                                         .channels = {.count = 1, .width = 3, .kind = {CHANNEL_RGB}}};
+  const struct image_attribute channels = {"pscn:channels", "rgb"};
+  char message[IMAGE_MESSAGE_SIZE], expected[32];
+  float plane[WIDTH * HEIGHT];
+  for (size_t n = 0; n < sizeof done / sizeof *done; n++) {
+    struct piece piece;
+    struct image whole;
+    unsigned char *bytes;
+    size_t size, length;
+    assert_int_equal(piece_create(&options, 1, 1, NULL, 0, &piece), STATUS_OK);
+    for (size_t k = 0; k < WIDTH * HEIGHT * 3; k++) piece.image.value[k] = (float)(k + 1);
+    for (size_t k = 0; k < piece.tiles.count; k++) atomic_store(&piece.tiles.done[k], done[n] >> k & 1);
+    assert_int_equal(piece_encode(&piece, &channels, 1, &bytes, &size, message), STATUS_OK);
+    write_file(bytes, size);
+    piece_destroy(&piece);
+    assert_int_equal(image_read(path, &whole, message), STATUS_OK);
+    const char *text = image_metadata(&whole, "pscn:done", &length);
+    uint64_t sum = fold(hash(start, "1/1", 3, 1)) + 2 * fold(hash(start, text, length, 1));
+    for (size_t c = 0; c < 3; c++) {
+      for (size_t k = 0; k < WIDTH * HEIGHT; k++) plane[k] = whole.value[3 * k + c];
+      sum += fold(hash(fold(hash(start, whole.channel[c].name, 1, 1)), plane, WIDTH * HEIGHT, sizeof *plane));
+    }
+    (void)snprintf(expected, sizeof expected, "%016" PRIx64 "\n", sum);
+    assert_memory_equal(image_metadata(&whole, "pscn:sum", &length), expected, 17);
+    image_destroy(&whole);
+  }
+  assert_int_equal(remove(path), 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_part_tells_which_tiles_it_has), cmocka_unit_test(what_cannot_be_is_no_part),
-    cmocka_unit_test(parts_of_one_picture_belong_together), cmocka_unit_test(what_is_done_is_copied)};
+    cmocka_unit_test(parts_of_one_picture_belong_together), cmocka_unit_test(what_is_done_is_copied),
+    cmocka_unit_test(the_sum_is_of_all_pixels)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
