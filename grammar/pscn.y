@@ -66,7 +66,7 @@ static void pscn_error(struct language *language, const char *message)
 
 %token END 0 "the end of the text"
 %token <place> NUMBER "a number" POINT "a vector" WORD "a name" STRING "a string"
-%token <place> FOREIGN "a word of POV-Ray's" START_SCENE START_SOLVER
+%token <place> FOREIGN "a word of POV-Ray's" FOREIGN_SIGN "a sign of POV-Ray's" START_SCENE START_SOLVER
 %token <place> VERSION "#version" DECLARE "#declare" LOCAL "#local" DEFAULT "#default"
 %token <place> GLOBAL_SETTINGS "global_settings" ASSUMED_GAMMA "assumed_gamma" MAX_TRACE_LEVEL "max_trace_level"
 %token <place> AMBIENT_LIGHT "ambient_light"

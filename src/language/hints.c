@@ -57,6 +57,7 @@ static const struct hint HINTS[] = {
   {"abs acos asin atan atan2 ceil cos degrees div exp floor int ln log max min mod pow radians rand seed select sin "
    "sqrt sqr tan vcross vdot vlength vnormalize vrotate vaxis_rotate t u v defined clock_on now",
    false, "write the number, or give it by --declare NAME=NUMBER"},
+  {"! != & | ? <= >=", false, "write what it amounts to, or choose by #ifdef and #ifndef"},
   {"array function spline dimensions dimension_size str chr concat vstr substr strlen", false,
    "names stand for numbers, vectors, colours, textures and objects"},
   {"break case debug declare default else elseif end error fclose fopen for if ifdef ifndef include local macro range "

@@ -153,7 +153,7 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
     language_tell(language, tokens->braces[tokens->depth - 1], "this brace is not closed");
     return;
   }
-  if (tokens->last.token == PSCN_TOKEN_FOREIGN) {
+  if (tokens->last.token == PSCN_TOKEN_FOREIGN || tokens->last.token == PSCN_TOKEN_FOREIGN_SIGN) {
     char hint[HINT_SIZE];
     hint_write(name.text, name.length, hint, sizeof hint);
     language_foreign(language, place, "%.*s is POV-Ray, but pscn %s", shown(&name), name.text, hint);
