@@ -157,10 +157,47 @@ static void from_poles_and_corners_nothing_is_left_open(void **state)
   world_close(&world);
 }
 
+/* A quarter of a cone whose handles are at their ends, its tip in 0. */
+static void cone_quarter(size_t number, world_net net)
+{
+  static const double k = 0.5522847498, arc[4][2] = {{1, 0}, {1, k}, {k, 1}, {0, 1}};
+  const double x = number & 1 ? -1 : 1, z = number & 2 ? -1 : 1;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++)
+      net[i][j][0] = i / 2 * x * arc[j][0], net[i][j][1] = -(i / 2), net[i][j][2] = i / 2 * z * arc[j][1];
+}
+
+/* No Jacobian is regular in its tip. What starts there and goes up, or down within, is known to leave it all the same. */
+static void from_a_tip_without_handles_nothing_is_left_open(void **state)
+{
+  (void)state;
+  enum { TIP_RAYS = 300, LEAVE_AT_LEAST = TIP_RAYS / 2 };
+  struct random random = {SEED + 3};
+  world_net nets[4];
+  struct world world;
+  for (size_t n = 0; n < 4; n++) cone_quarter(n, nets[n]);
+  world_open(&world, nets, 4, NULL);
+  unsigned left = 0;
+  for (int n = 0; n < TIP_RAYS; n++) {
+    struct ray ray = {.t_max = INFINITY};
+    double *d = ray.direction;
+    for (int c = 0; c < 3; c++) d[c] = random_between(&random, -1, 1);
+    if (fabs(d[1] + hypot(d[0], d[2])) < 0.3) continue;
+    const struct hit hit = world_closest(&world, &ray);
+    assert_int_equal(hit.patch, HIT_NONE);
+    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+    left++;
+  }
+  assert_in_range(left, LEAVE_AT_LEAST, TIP_RAYS);
+  assert_int_equal(tracer_counts(world.tracer)->escalated, 0);
+  world_close(&world);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(of_a_stack_few_are_tried), cmocka_unit_test(of_lines_few_are_tried),
-    cmocka_unit_test(next_to_poles_little_is_left_open), cmocka_unit_test(from_poles_and_corners_nothing_is_left_open)};
+    cmocka_unit_test(next_to_poles_little_is_left_open), cmocka_unit_test(from_poles_and_corners_nothing_is_left_open),
+    cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

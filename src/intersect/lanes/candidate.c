@@ -63,9 +63,10 @@ static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask
 }
 
 /* What no stage has decided is left to the last resort. */
-static void leave_open(struct packet *p, const struct candidate *it, lane_mask open)
+static void leave_open(struct packet *p, struct candidate *it, lane_mask open)
 {
   open &= ~leaves_beside(p, it->leaf->patch, open);
+  if (lanes_any(open)) open &= ~leaves_corner(p, it, open);
   if (lanes_any(open)) packet_postpone(p, it->leaf, open);
 }
 

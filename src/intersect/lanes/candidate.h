@@ -44,6 +44,10 @@ lane_mask stage_box(const struct candidate *it, lane_mask open);
  * it would go from stage to stage in vain. */
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open);
 
+/* planes.c: of `open`, the lanes whose ray starts exactly in a corner of the patch, and meets no other point of the leaf: handles of
+ * no length make a corner one where no Jacobian is regular. Sets the polynomials. */
+lane_mask leaves_corner(const struct packet *p, struct candidate *it, lane_mask open);
+
 /* bilinear.c: the root of the leaf's bilinear part, from a resultant of degree 2, made good by Newton's method on the
  * leaf. Open stays where the ray is so slanted that it is not proven to be the only one. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);

@@ -27,6 +27,7 @@
 #define stage_quadric KERNEL(stage_quadric)
 #define stage_planes KERNEL(stage_planes)
 #define stage_pole KERNEL(stage_pole)
+#define leaves_corner KERNEL(leaves_corner)
 #define stage_cover KERNEL(stage_cover)
 #define stage_resultant KERNEL(stage_resultant)
 #define stage_first_root KERNEL(stage_first_root)

@@ -4,6 +4,7 @@
  */
 #include <math.h>
 
+#include "base/real.h"
 #include "intersect/lanes/candidate.h"
 
 /* With e the bound on a plane's error (local_ray.h), u <= e/36: a is off by less than 2.5 e, b w by 8u, w by its two roundings
@@ -124,22 +125,77 @@ static lane_mask planes_at_pole(const struct candidate *it, lane_mask active)
   return active & ~((beyond > 0) & ((a0 * a0 + b0 * b0 - off) * beyond > 8 * reach * off));
 }
 
-/* a and b are 0 at the pole, where the ray starts, and one combination of them, which aims at the leaf's middle, is above 0
- * everywhere else. */
+/* Whether these control points of the patch are equal numbers. */
+static bool same_points(double P[4][4][3], int m, int n)
+{
+  const double *a = P[m / 4][m % 4], *b = P[n / 4][n % 4];
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* Lanes that meet no point of the leaf but where they start, in the control point `at`: a and b are 0 where the net is `still`
+ * there, and one combination of them, which aims at the middle of the rest, is above 0 on all of that; or all of that is behind,
+ * where two coordinates are off by less than 2 e. */
+static lane_mask leaves_start(const struct packet *p, const struct candidate *it, int at, const bool still[16])
+{
+  const double *x = it->leaf->x[it->axis];
+  lanes A = {0}, B = {0}, least = lanes_all(INFINITY);
+  double low = INFINITY, high = -INFINITY;
+  for (int n = 0; n < 16; n++) {
+    if (still[n]) continue;
+    A += it->a[n], B += it->b[n];
+    low = real_min(low, x[n] - x[at]), high = real_max(high, x[n] - x[at]);
+  }
+  const lanes off = (it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta)) * (lanes_abs(A) + lanes_abs(B));
+  for (int n = 0; n < 16; n++)
+    if (!still[n]) least = lanes_min(A * it->a[n] + B * it->b[n], least);
+  const lanes up = p->direction[it->axis], nearest = lanes_select(up > 0, lanes_all(-high), lanes_all(low));
+  return (least > off) | (nearest > 2 * it->line->error);
+}
+
+/* What is behind the pole's border may be in the pole, too: a cone's handles, where they are at its ends. What is so of the patch
+ * is so of its leaves. */
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open)
 {
   const int at = from_pole(it->leaf, 0, 0);
   const lane_mask starts = open & packet_starts_at(p, it->leaf->patch, at / 4, at % 4);
   if (!lanes_any(starts)) return open;
   (void)planes_make(it, starts);
-  lanes A = {0}, B = {0};
-  for (int steps = 1; steps < 4; steps++)
-    for (int k = 0; k < 4; k++) {
-      const int n = from_pole(it->leaf, steps, k);
-      A += it->a[n], B += it->b[n];
+  double(*P)[4][3] = p->model->scene->patches[it->leaf->patch].P;
+  bool still[16], row = true;
+  for (int steps = 0; steps < 4; steps++) {
+    for (int k = 0; k < 4; k++) row &= same_points(P, from_pole(it->leaf, steps, k), at);
+    for (int k = 0; k < 4; k++) still[from_pole(it->leaf, steps, k)] = row;
+  }
+  return open & ~(starts & leaves_start(p, it, at, still));
+}
+
+/* The same of a corner: what is still there is so in all that lies between. */
+static void still_at_corner(double P[4][4][3], int corner, bool still[16])
+{
+  const int down = corner & 12 ? -4 : 4, right = corner & 3 ? -1 : 1;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      const int n = corner + i * down + j * right;
+      still[n] = same_points(P, n, corner) && (i == 0 || still[n - down]) && (j == 0 || still[n - right]);
     }
-  const lanes off = (it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta)) * (lanes_abs(A) + lanes_abs(B));
-  return open & ~(starts & (least_beyond_pole(it, A, B) > off));
+}
+
+lane_mask leaves_corner(const struct packet *p, struct candidate *it, lane_mask open)
+{
+  const struct leaf *leaf = it->leaf;
+  lane_mask leaves = {0};
+  for (int corner = 0; corner < 4; corner++) {
+    const int u = corner / 2, v = corner % 2;
+    if (leaf->column_u != u * (it->patch->split[0] - 1) || leaf->column_v != v * (it->patch->split[1] - 1)) continue;
+    const lane_mask starts = open & packet_starts_at(p, leaf->patch, 3 * u, 3 * v);
+    if (!lanes_any(starts)) continue;
+    const int at = 12 * u + 3 * v;
+    bool still[16];
+    still_at_corner(p->model->scene->patches[leaf->patch].P, at, still);
+    (void)planes_make(it, starts);
+    leaves |= starts & leaves_start(p, it, at, still);
+  }
+  return leaves;
 }
 
 lane_mask stage_planes(struct candidate *it, lane_mask open)
