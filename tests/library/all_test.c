@@ -60,7 +60,7 @@ static void test_rows(void **state)
     through += counts[n].count > 0;
     for (size_t k = 0; k < MOST; k++) {
       assert_int_equal(hits[n][k].verdict, k < counts[n].count ? PSCN_HIT : PSCN_MISS);
-      if (k >= counts[n].count) assert_true(isinf(hits[n][k].t) && hits[n][k].patch == PSCN_NO_PATCH);
+      if (k >= counts[n].count) assert_true(isinf(hits[n][k].t) && hits[n][k].patch == PSCN_NO_PATCH && hits[n][k].certain == 1);
       else if (k > 0) assert_true(hits[n][k].t > hits[n][k - 1].t);
     }
   }

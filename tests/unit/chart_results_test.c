@@ -7,6 +7,7 @@
 #include "check/page.h"
 #include "cmocka_test.h"
 #include "unit/drawn.h"
+#include "unit/expect_json.h"
 
 enum status __wrap_page_write(const struct listener *listener, size_t count, char (*paths)[PAGE_PATH_SIZE],
                               const struct text_buffer content[]);
@@ -30,7 +31,7 @@ static struct chart_point point(enum family family, double ns, double error, siz
 static json_t *figure_of(struct chart_point *points, size_t count)
 {
   double yard[RAY_KINDS] = {0};
-  const struct chart_request request = {.path = "scene", .folder = "out", .command_line = ""};
+  const struct chart_request request = {.path = "folder/scene", .folder = "out", .command_line = ""};
   const struct chart chart = {
     .request = &request, .yard = {&yard[0], &yard[1]}, .yard_count = 1, .points = points, .point_count = count};
   struct text_buffer table = {0};
@@ -39,6 +40,46 @@ static json_t *figure_of(struct chart_point *points, size_t count)
   assert_non_null(drawn);
   text_buffer_free(&table);
   return drawn;
+}
+
+/* Each number of a point, all different, under its name; a solver's choices by their words; a peer has none. */
+static void numbers_are_in_their_place(void **state)
+{
+  (void)state;
+  struct chart_point points[] = {
+    {.family = FAMILY_ABERTH,
+     .name = "aberth",
+     .ours = true,
+     .time = {{1, 2, 3, 4, 5, 6}, {11, 12, 13, 14, 15, 16}},
+     .camera = {21, 22, 23, 24, 25, 26, 27, 0.5, 0.25, NAN, 0.125},
+     .shadow = {.rays = 31, .undecided = 32, .hits = 33, .lost = 34, .invented = 35},
+     .has_shadow = true},
+    point(FAMILY_EMBREE, 1, 0.5, 0, "8")};
+  method_default(solver_find("aberth", 6), &points[0].options);
+  points[0].options.basis = BASIS_POWER, points[0].options.polish = false, points[0].options.split = 3;
+  points[0].options.roots.start = START_COLD, points[0].options.roots.tolerance = 0.5;
+  json_t *values = figure_of(points, 2), *all = json_object_get(values, "points");
+  expect_json(json_array_get(all, 0),
+              "{\"error\":0.125,\"family\":\"aberth\",\"front\":false,\"hits\":23,\"invented\":25,\"label\":\"\","
+              "\"label_at\":0.125,\"lost\":24,\"method\":{\"basis\":\"power\",\"polish\":\"off\",\"solver\":\"aberth\","
+              "\"split\":\"3\",\"start\":\"cold\",\"tolerance\":0.5},\"name\":\"aberth\",\"other_patch\":27,\"rays\":21,"
+              "\"shadow\":{\"hits\":33,\"invented\":35,\"lost\":34,\"rays\":31,\"undecided\":32},\"shadow_ns\":13.0,"
+              "\"t_99\":0.25,\"t_99_of_all\":0.125,\"t_max\":null,\"t_median\":0.5,\"time\":{\"least\":1.0,\"lower\":2.0,"
+              "\"median\":3.0,\"most\":5.0,\"ratio\":6.0,\"upper\":4.0},\"times\":[{\"least\":1.0,\"lower\":2.0,"
+              "\"median\":3.0,\"most\":5.0,\"ratio\":6.0,\"upper\":4.0},{\"least\":11.0,\"lower\":12.0,\"median\":13.0,"
+              "\"most\":15.0,\"ratio\":16.0,\"upper\":14.0}],\"undecided\":22,\"wrong\":26}");
+  const json_t *peer = json_array_get(all, 1);
+  assert_true(json_is_null(json_object_get(peer, "method")) && json_is_null(json_object_get(peer, "shadow")));
+  assert_int_equal(json_array_size(json_object_get(values, "first")), 1); /* the default, though it is not on the front */
+  expect_json(json_object_get(values, "scene"), "\"scene\"");
+  json_decref(values);
+  points[0].options.basis = BASIS_BERNSTEIN, points[0].options.polish = true, points[0].options.split = 0;
+  points[0].options.roots.start = START_PREVIOUS;
+  values = figure_of(points, 2);
+  expect_json(json_object_get(json_array_get(json_object_get(values, "points"), 0), "method"),
+              "{\"basis\":\"bernstein\",\"polish\":\"on\",\"solver\":\"aberth\",\"split\":\"auto\","
+              "\"start\":\"previous\",\"tolerance\":0.5}");
+  json_decref(values);
 }
 
 static double number(const json_t *from, const char *key) { return json_number_value(json_object_get(from, key)); }
@@ -50,14 +91,15 @@ static void each_family_is_titled_once(void **state)
   (void)state;
   struct chart_point points[] = {point(FAMILY_DEFAULT, 100, 1e-15, 0, ""), point(FAMILY_DEFAULT, 90, 1, 1, ""),
                                  point(FAMILY_NEWTON, 120, 1, 3, ""), point(FAMILY_LAGUERRE, NAN, 1e-15, 0, ""),
-                                 point(FAMILY_DEFAULT, 80, 1e-9, 0, "")};
+                                 point(FAMILY_DEFAULT, 80, 1e-9, 0, ""), point(FAMILY_EMBREE, 50, 1e-9, 0, "")};
+  points[5].camera.invented = 1;
   const struct {
     const char *title;
     int symbol, count;
-  } expected[] = {{"bernstein (default)", 7, 2}, {NULL, 6, 1}, {"newton", 8, 1}};
-  json_t *values = figure_of(points, 5), *sets = json_object_get(values, "sets");
-  assert_int_equal(json_array_size(sets), 3);
-  for (size_t k = 0; k < 3; k++) {
+  } expected[] = {{"bernstein (default)", 7, 2}, {NULL, 6, 1}, {"newton", 8, 1}, {"Embree (triangles a side)", 4, 1}};
+  json_t *values = figure_of(points, 6), *sets = json_object_get(values, "sets");
+  assert_int_equal(json_array_size(sets), 4);
+  for (size_t k = 0; k < 4; k++) {
     const json_t *set = json_array_get(sets, k), *title = json_object_get(set, "title");
     if (expected[k].title == NULL) assert_true(json_is_null(title));
     else assert_string_equal(json_string_value(title), expected[k].title);
@@ -102,7 +144,8 @@ static void labels_make_way(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(each_family_is_titled_once),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_are_in_their_place),
+                                     cmocka_unit_test(each_family_is_titled_once),
                                      cmocka_unit_test(steps_join_the_front), cmocka_unit_test(labels_make_way)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

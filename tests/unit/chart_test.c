@@ -1,6 +1,7 @@
 /* The chart's own arithmetic: the front, the judge, the choice of rays, the sweep. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "chart/judge.h"
 #include "chart/point.h"
@@ -176,7 +177,7 @@ static void test_judge_errors(void **state)
   (void)state;
   const struct truth truths[] = {{TRUTH_HIT, 2, 0, 4, false}, {TRUTH_MISS, INFINITY, 0, HIT_NONE, false}};
   const struct answer right[] = {{2, ANSWER_PATCH_UNKNOWN}, {INFINITY, HIT_NONE}}, invented[] = {{2, 4}, {1, 0}},
-                      wrong = {8, 4}, lost = {INFINITY, HIT_NONE};
+                      wrong = {8, 5}, lost = {INFINITY, HIT_NONE};
   double errors[4];
   struct judgement j;
   judge_answers(2, truths, right, errors, &j);
@@ -184,9 +185,10 @@ static void test_judge_errors(void **state)
   judge_answers(2, truths, invented, errors, &j);
   assert_true(j.invented == 1 && j.p99 == 0 && j.p99_of_all == 1);
   judge_answers(1, truths, &wrong, errors, &j);
-  assert_true(j.wrong == 1 && j.max == 3 && j.p99_of_all == 1);
+  assert_true(j.wrong == 1 && j.max == 3 && j.p99_of_all == 1 && j.other_patch == 0);
+  memset(errors, 0, sizeof errors);
   judge_answers(1, truths, &lost, errors, &j);
-  assert_true(j.lost == 1 && isnan(j.max) && j.p99_of_all == 1);
+  assert_true(j.lost == 1 && isnan(j.median) && isnan(j.p99) && isnan(j.max) && j.p99_of_all == 1);
 }
 
 static void test_judge_occluded(void **state)

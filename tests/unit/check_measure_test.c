@@ -39,8 +39,24 @@ enum status __wrap_povray_ask(struct povray *povray, const struct scene *scene, 
   return STATUS_OK;
 }
 
+/* The scene's own text gives another picture. */
+enum status __wrap_povray_render_file(struct povray *povray, const char *path, const char *const *folders,
+                                      struct povray_picture *out);
+enum status __wrap_povray_render_file(struct povray *povray, const char *path, const char *const *folders,
+                                      struct povray_picture *out)
+{
+  (void)path, (void)folders;
+  const enum status status = __wrap_povray_render(povray, NULL, out);
+  image_pixel(&out->image, 0, 0)[0] = 1;
+  return status;
+}
+
 void __wrap_povray_warnings(const struct povray *povray, struct text_buffer *out);
-void __wrap_povray_warnings(const struct povray *povray, struct text_buffer *out) { (void)povray, (void)out; }
+void __wrap_povray_warnings(const struct povray *povray, struct text_buffer *out)
+{
+  (void)povray;
+  text_buffer_add_text(out, "w");
+}
 
 static struct scene scene = {.camera = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
 static const struct listener nobody;
@@ -70,6 +86,7 @@ static struct check check_of(size_t width, size_t height, size_t grid)
 static void free_check(struct check *check)
 {
   for (size_t k = 0; k < check->row_count; k++) check_row_free(&check->row[k]);
+  text_buffer_free(&check->warnings);
   image_destroy(&check->ours.picture);
 }
 
@@ -117,6 +134,23 @@ static void hits_of_one_alone_are_counted(void **state)
   assert_true(row->mask_theirs == 1 && row->mask_ours == 3);
   assert_int_equal(asked_count, 0);
   free_check(&check);
+}
+
+/* The scene as it is written is read by its own text where that is wanted, and what POV-Ray says of it is told; with other
+ * steps it is not. */
+static void own_text_is_as_written(void **state)
+{
+  (void)state;
+  for (int own = 0; own < 2; own++) {
+    struct check check = check_of(3, 2, 0);
+    request.own_text = own;
+    for (size_t steps = 0; steps < 3; steps++) {
+      assert_int_equal(check_measure_row(&check, steps), STATUS_OK);
+      assert_true(check.row[steps].result.max == (own && steps == 0));
+    }
+    assert_int_equal(check.warnings.length, 1);
+    free_check(&check);
+  }
 }
 
 /* Of every second pixel and row, from the second on; and of one where the picture is smaller than the grid. */
@@ -357,6 +391,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(differences_are_counted),
                                      cmocka_unit_test(hits_of_one_alone_are_counted),
+                                     cmocka_unit_test(own_text_is_as_written),
                                      cmocka_unit_test(distances_are_those_of_a_grid),
                                      cmocka_unit_test(the_worst_are_apart),
                                      cmocka_unit_test(the_map_shows_them),

@@ -1,17 +1,18 @@
 /* The numbers and pictures that check writes, each in its place: of a check whose numbers are all different. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "check/measure.h"
 #include "check/page.h"
 #include "cmocka_test.h"
 #include "unit/drawn.h"
+#include "unit/expect_json.h"
 
 enum { WIDTH = 12, HEIGHT = 2, ROWS = 2, CROP = 15, MOST_PICTURES = 20 };
 
-/* What was written: the numbers, and of each picture the first and the middle value. */
+/* What was written: the numbers, the page, and of each picture the first and the middle value. */
 static json_t *numbers;
+static char page[1 << 16];
 static struct {
   size_t width;
   float first, middle;
@@ -26,6 +27,7 @@ enum status __wrap_page_write(const struct listener *listener, size_t count, cha
   (void)listener;
   for (size_t k = 0; k < count; k++) {
     assert_false(pages[k].failed);
+    if (strstr(paths[k], "html")) snprintf(page, sizeof page, "%s", pages[k].text);
     if (strstr(paths[k], "json")) numbers = json_loadb(pages[k].text, pages[k].length, 0, NULL);
   }
   return STATUS_OK;
@@ -40,14 +42,6 @@ void __wrap_page_png(const struct image *image, struct text_buffer *out)
   picture[pictures].width = image->width;
   picture[pictures].first = image->value[0];
   picture[pictures++].middle = image_pixel(image, image->width / 2, image->height / 2)[0];
-}
-
-static void expect(const json_t *value, const char *text)
-{
-  char *found = json_dumps(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(12));
-  assert_non_null(found);
-  assert_string_equal(found, text);
-  free(found);
 }
 
 static struct check_row row_of(size_t steps, size_t number, float value)
@@ -80,9 +74,11 @@ static void everything_is_in_its_place(void **state)
                                         .fail = {0.5, 100, 3, INFINITY},
                                         .fail_psnr = 40,
                                         .fail_mask = 200};
-  struct check check = {.request = &request, .row_count = ROWS, .worst_count = 2, .ours = {.pixel = pixels}};
+  struct check check = {.request = &request, .row_count = ROWS, .worst_count = 2, .ours = {.pixel = pixels, .time = {3.5, 4.5}}};
   struct text_buffer table = {0};
   check.row[0] = row_of(0, 30, 0.5f), check.row[1] = row_of(3, 1, 0.75f);
+  check.row[1].over[2] = 0;
+  text_buffer_add_text(&check.warnings, "warning");
   assert_int_equal(image_create(WIDTH, HEIGHT, 3, &check.ours.picture), STATUS_OK);
   image_pixel(&check.ours.picture, 2, 1)[0] = 1;
   for (size_t k = 0; k < WIDTH * HEIGHT; k++) pixels[k].hit.patch = HIT_NONE;
@@ -92,36 +88,45 @@ static void everything_is_in_its_place(void **state)
   assert_int_equal(check_write(&check, "verdict", &table), STATUS_OK);
 
   const json_t *worst = json_object_get(numbers, "worst");
-  expect(json_array_get(json_object_get(numbers, "rows"), 1),
+  expect_json(json_array_get(json_object_get(numbers, "rows"), 1),
          "{\"distances\":{\"both\":22,\"max\":null,\"median\":0.125,\"only_here\":23,\"only_there\":24,"
          "\"percent_99\":0.375,\"rays\":21},\"mask\":{\"only_here\":11,\"only_there\":12},\"max\":0.2,\"mean\":0.25,"
-         "\"name\":\"u_steps 3\",\"over\":{\"1/255\":1,\"16/255\":3,\"4/255\":2,\"limit\":6},"
+         "\"name\":\"u_steps 3\",\"over\":{\"1/255\":1,\"16/255\":0,\"4/255\":2,\"limit\":6},"
          "\"over_limit_off_edges\":7,\"over_limit_on\":{\"crease\":8,\"shadow\":9,\"silhouette\":10},\"psnr\":null,"
          "\"rms\":0.5,\"time\":{\"cpu\":2.5,\"wall\":1.5},\"u_steps\":3,\"worst\":[5,1]}");
-  expect(json_object_get(json_array_get(json_object_get(numbers, "rows"), 0), "name"), "\"as written\"");
-  expect(json_array_get(worst, 0),
+  expect_json(json_object_get(json_array_get(json_object_get(numbers, "rows"), 0), "name"), "\"as written\"");
+  expect_json(json_array_get(worst, 0),
          "{\"difference\":0.4,\"edge\":\"crease\",\"here\":{\"certain\":false,\"distance\":4.0,\"patch\":9,\"u\":0.25,"
          "\"v\":0.75},\"pixel\":[2,1],\"there_distance\":5.0}");
-  expect(json_array_get(worst, 1),
+  expect_json(json_array_get(worst, 1),
          "{\"difference\":0.2,\"edge\":null,\"here\":null,\"pixel\":[11,0],\"there_distance\":null}");
-  expect(json_object_get(numbers, "limits"),
+  expect_json(json_object_get(numbers, "limits"),
          "{\"allowfailures\":3.0,\"fail\":0.5,\"failmask\":200.0,\"failpercent\":100.0,\"failpsnr\":40.0,"
          "\"hardfail\":null}");
 
+  expect_json(json_object_get(numbers, "own_text"), "false");
+  expect_json(json_object_get(numbers, "within_limits"), "true");
+  expect_json(json_object_get(numbers, "time"), "{\"cpu\":4.5,\"wall\":3.5}");
+
+  expect_json(json_object_get(drawn, "pixels"), "true");
+  expect_json(json_object_get(drawn, "grid"), "8");
+  expect_json(json_object_get(drawn, "limit"), "127.5");
+  expect_json(json_object_get(drawn, "warnings"), "\"warning\"");
+  assert_int_equal(json_array_size(json_object_get(drawn, "edges")), CHECK_EDGES - 1);
   const json_t *last = json_array_get(json_object_get(drawn, "rows"), 1);
-  expect(json_object_get(last, "percent"), "[{\"value\":4.16666666667},{\"value\":8.33333333333},{\"value\":12.5}]");
-  expect(json_object_get(last, "codes"), "51");
-  expect(json_object_get(last, "last"), "true");
-  expect(json_object_get(drawn, "last_name"), "\"u_steps 3\"");
-  expect(json_object_get(drawn, "ours"), "\"data:image/png;base64,MA==\"");   /* of 0 */
-  expect(json_object_get(drawn, "theirs"), "\"data:image/png;base64,Mw==\""); /* of 3 */
-  expect(json_object_get(last, "difference"), "\"data:image/png;base64,NA==\"");
+  expect_json(json_object_get(last, "percent"), "[{\"value\":4.16666666667},{\"value\":8.33333333333},{\"value\":0.0}]");
+  expect_json(json_object_get(last, "codes"), "51");
+  expect_json(json_object_get(last, "last"), "true");
+  expect_json(json_object_get(drawn, "last_name"), "\"u_steps 3\"");
+  expect_json(json_object_get(drawn, "ours"), "\"data:image/png;base64,MA==\"");   /* of 0 */
+  expect_json(json_object_get(drawn, "theirs"), "\"data:image/png;base64,Mw==\""); /* of 3 */
+  expect_json(json_object_get(last, "difference"), "\"data:image/png;base64,NA==\"");
   for (size_t k = 0; k < CHECK_EDGES; k++) {
     const json_t *spot = json_array_get(json_object_get(drawn, "spots"), CHECK_EDGES - 1 - k);
     assert_int_equal(json_integer_value(json_object_get(spot, "count")), 7 + k);
   }
-  expect(json_object_get(json_array_get(json_object_get(drawn, "worst"), 0), "our_color"), "\"255 0 0\"");
-  expect(json_object_get(json_array_get(json_object_get(drawn, "worst"), 0), "their_color"), "\"191 191 191\"");
+  expect_json(json_object_get(json_array_get(json_object_get(drawn, "worst"), 0), "our_color"), "\"255 0 0\"");
+  expect_json(json_object_get(json_array_get(json_object_get(drawn, "worst"), 0), "their_color"), "\"191 191 191\"");
 
   /* Ours, two of each row, the map; and of each worst pixel a crop of ours, of theirs and of their difference. */
   static const float firsts[] = {0, 0.5f, 8, 0.75f, 12}, middles[] = {1, 0.75f, 4, 0, 0.75f, 12};
@@ -131,7 +136,7 @@ static void everything_is_in_its_place(void **state)
     assert_true(picture[6 + k].width == CROP && picture[6 + k].middle == middles[k]);
     assert_true(picture[6 + k].first == 0); /* beyond the border */
   }
-  text_buffer_free(&table);
+  text_buffer_free(&table), text_buffer_free(&check.warnings);
   json_decref(numbers), json_decref(drawn);
   for (size_t k = 0; k < ROWS; k++) image_destroy(&check.row[k].picture.image);
   image_destroy(&check.ours.picture);
@@ -143,7 +148,7 @@ static void what_is_not_there_is_left_out(void **state)
   (void)state;
   static struct check_pixel pixels[WIDTH * HEIGHT];
   const struct check_request request = {
-    .path = "scene", .folder = "out", .command_line = "", .width = WIDTH, .height = HEIGHT};
+    .path = "scene", .folder = "out", .command_line = "", .own_text = true, .width = WIDTH, .height = HEIGHT};
   struct check check = {.request = &request, .row_count = 1, .ours = {.pixel = pixels}};
   struct text_buffer table = {0};
   check.row[0] = row_of(0, 30, 0.5f);
@@ -152,6 +157,9 @@ static void what_is_not_there_is_left_out(void **state)
   drawn = NULL;
   assert_int_equal(check_write(&check, "verdict", &table), STATUS_OK);
   assert_null(drawn);
+  expect_json(json_object_get(numbers, "own_text"), "true");
+  expect_json(json_object_get(numbers, "within_limits"), "false");
+  assert_null(strstr(page, "<h2>Hits"));
   assert_null(json_object_get(json_array_get(json_object_get(numbers, "rows"), 0), "distances"));
   text_buffer_free(&table);
   json_decref(numbers);

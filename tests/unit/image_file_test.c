@@ -529,6 +529,7 @@ static void absurd_sizes_are_refused(void **state)
   struct image image;
   assert_int_equal(image_create(SIZE_MAX / 2, 3, 3, &image), STATUS_LIMIT);
   assert_int_equal(image_create(SIZE_MAX / 8, 1, 3, &image), STATUS_LIMIT);
+  assert_int_equal(image_create(1, (size_t)IMAGE_MAX_PIXELS + 1, 0, &image), STATUS_LIMIT);
   assert_null(image.value);
 }
 

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -93,10 +94,18 @@ static void limits_are_kept(void **state)
 {
   (void)state;
   struct process_result result;
+  struct rlimit core, file;
+  assert_true(getrlimit(RLIMIT_CORE, &core) == 0 && getrlimit(RLIMIT_FSIZE, &file) == 0);
+  assert_int_equal(setrlimit(RLIMIT_CORE, &(struct rlimit){core.rlim_max, core.rlim_max}), 0);
   assert_int_equal(run((struct process_request){.memory = (size_t)1 << 30},
                        "ulimit -c; ulimit -v; ulimit -f; ulimit -H -v; ulimit -H -f", &result),
                    STATUS_OK);
   expect_file(OUTPUT, "0\n1048576\n2097152\n1048576\n2097152\n");
+  /* A limit that is lower already stays. */
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &(struct rlimit){1 << 20, file.rlim_max}), 0);
+  assert_int_equal(run((struct process_request){.memory = (size_t)1 << 30}, "ulimit -f", &result), STATUS_OK);
+  expect_file(OUTPUT, "2048\n");
+  assert_true(setrlimit(RLIMIT_CORE, &core) == 0 && setrlimit(RLIMIT_FSIZE, &file) == 0);
 }
 
 static void it_writes_in_its_folder_only(void **state)

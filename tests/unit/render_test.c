@@ -1,4 +1,5 @@
 /* Rendering: the same pixels for any threads and crop, channels, samples, what is told meanwhile. */
+#include "base/clock.h"
 #include "unit/rendered.h"
 
 static void expect_invariance(const struct scene *scene)
@@ -246,6 +247,7 @@ static void a_stopped_rendering_says_so(void **state)
 struct listening {
   atomic_int stop;
   size_t total, pixels;
+  double start; /* by the clock */
   bool right;
 };
 
@@ -253,6 +255,7 @@ static void listen(void *context, const struct render_progress *progress)
 {
   struct listening *heard = context;
   assert_true(progress->pixels >= heard->pixels && progress->pixels <= progress->pixels_total && progress->seconds > 0);
+  assert_true(progress->seconds <= clock_seconds(CLOCK_MONOTONIC) - heard->start);
   heard->total = progress->pixels_total, heard->pixels = progress->pixels;
   heard->right |= heard->pixels > 0 && progress->rays > 20 * 20 * heard->pixels;
   if (heard->right) atomic_store(&heard->stop, 15);
@@ -265,7 +268,7 @@ static void progress_is_told(void **state)
   struct render_options options = options_of("rgb");
   options.samples = 20;
   static float out[WIDTH * HEIGHT * 3];
-  struct listening heard = {0};
+  struct listening heard = {.start = clock_seconds(CLOCK_MONOTONIC)};
   const struct render_watch watch = {.stop = &heard.stop, .progress = listen, .context = &heard};
   struct render_stats stats;
   struct intersector *intersector;
