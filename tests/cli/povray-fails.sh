@@ -12,6 +12,8 @@ echo "POV-Ray 3.7.0"
 [ "\$1" = --version ] && exit
 case \$MODE in
   fails) printf 'Parse Error: \\033[31mno\\377 <b>\\n'; exit 1 ;;
+  raves | parses) seq 100; echo '==== [Parsing'; [ \$MODE = parses ] || seq 2000; echo 'Parse Error: no'; exit 1 ;;
+  steps) ! grep 'u_steps 2' scene.pov || exit 1 ;;
   empty) exit 0 ;;
   other) cp $PWD/other.png picture.png; exit ;;
   broken) echo broken >picture.png; exit ;;
@@ -48,6 +50,18 @@ for MODE in mute fails empty killed slow answers timeless talks; do
   grep -o 'POV-Ray failed[^<]*\|POV-Ray 3.7.0: errors' chart/chart.html
   ls -A tmp
 done
+echo "where it begins to read, and no more than the end of much:"
+for MODE in parses raves; do
+  try pscn check "$scene" $small --povray ./povray -o out >said 2>&1
+  grep -v 'povray: [0-9]' said
+  grep -c 'povray: [0-9]' said
+done
+echo "steps, and no flatness of the scene's:"
+sed 's/flatness 0 /flatness 0.5 /' $SCENES/flat.pscn >rough.pscn
+MODE=steps try pscn check rough.pscn $small --steps 2 --povray ./povray -o rough 2>&1
+echo "within the limits:"
+MODE=any try pscn check rough.pscn $small --povray ./povray -o rough
+grep -o 'Within the limits[^<]*' rough/check.html
 echo "beyond a limit:"
 MODE=any try pscn check $SCENES/flat.pscn ${small% --quiet} --failpsnr 100 --povray ./povray -o beyond 2>&1 | grep 'beyond\|exit'
 ls beyond/check.html
