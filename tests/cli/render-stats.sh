@@ -4,9 +4,9 @@ work() {
 }
 scene=$SCENES/flat.pscn
 pscn render "$scene" -o a.png --size 20x10 --samples 2 --threads 1 --tolerance 1e-9 --stats - --quiet | work
-pscn render "$scene" -o a.png --size 20x10 --crop 2,1,8,4 --stats a.json --solver aberth --quiet
+pscn render "$scene" -o a.png --size 20x10 --crop 2,1,8,4 --threads 5 --stats a.json --solver aberth --quiet
 grep -c -E '"(parse|build|render|write)": *[0-9]' a.json
-grep -E '"(solver|tolerance|primary|samples)"' a.json
+grep -E '"(solver|tolerance|threads|primary|samples)"' a.json
 grep -A 4 '"crop"' a.json
 grep -E '"(render|write)": 0\.0,?$' a.json # all takes some time
 # What is told on standard error is the same: where all stages are come to, and where nothing is proven.
@@ -25,7 +25,7 @@ for solver in 'aberth { split 1 }' 'laguerre { form paper }'; do
       printf "time     %.3f s parse, %.3f s build, %.3f s render, %.3f s write\n", is["time.parse"], is["time.build"],
         is["time.render"], is["time.write"]
     }' a.json | diff said - | grep '^>'
-  grep -c '"\(planes\|resultant\|grazing\)": [1-9]' a.json
+  grep -c '"\(planes\|resultant\|subdivided\|grazing\)": [1-9]' a.json
 done
 echo '0 0 -4 0 0 1' | pscn trace "$scene" --stats - | work
 # Names that are no UTF-8.

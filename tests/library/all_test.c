@@ -60,7 +60,8 @@ static void test_rows(void **state)
     through += counts[n].count > 0;
     for (size_t k = 0; k < MOST; k++) {
       assert_int_equal(hits[n][k].verdict, k < counts[n].count ? PSCN_HIT : PSCN_MISS);
-      if (k >= counts[n].count) assert_true(isinf(hits[n][k].t) && hits[n][k].patch == PSCN_NO_PATCH && hits[n][k].certain == 1);
+      if (k >= counts[n].count)
+        assert_true(isinf(hits[n][k].t) && hits[n][k].patch == PSCN_NO_PATCH && hits[n][k].certain == 1);
       else if (k > 0) assert_true(hits[n][k].t > hits[n][k - 1].t);
     }
   }
@@ -76,6 +77,26 @@ static void test_rows(void **state)
     struct pscn_hits rest;
     assert_int_equal(pscn_all(scene, 1, &ray, 0, &rest, 0, NULL, 0, 0), PSCN_OK);
     assert_int_equal(rest.count, counts[n].count - 2);
+  }
+  pscn_scene_free(scene);
+}
+
+/* Neither the number nor the hit is proven where a ray meets the border of an open surface. */
+static void test_grazing(void **state)
+{
+  (void)state;
+  double points[4][4][3];
+  for (int n = 0; n < 16; n++)
+    points[n / 4][n % 4][0] = n % 4, points[n / 4][n % 4][1] = n / 4, points[n / 4][n % 4][2] = 0;
+  const struct pscn_ray rays[] = {{{3, 1, -4}, {0, 0, 1}, 0, INFINITY}, {{2, 1, -4}, {0, 0, 1}, 0, INFINITY}};
+  struct pscn_hits counts[2];
+  struct pscn_hit hits[2];
+  struct pscn_scene *scene;
+  assert_int_equal(pscn_scene_from_points(**points, 1, sizeof points, sizeof(double[3]), NULL, &scene), PSCN_OK);
+  assert_int_equal(pscn_all(scene, 2, rays, sizeof *rays, counts, sizeof *counts, hits, sizeof *hits, 1), PSCN_OK);
+  for (int k = 0; k < 2; k++) {
+    assert_true(counts[k].count == 1 && counts[k].verdict == PSCN_HIT && hits[k].verdict == PSCN_HIT);
+    assert_true(counts[k].certain == k && hits[k].certain == k);
   }
   pscn_scene_free(scene);
 }
@@ -154,7 +175,7 @@ static void test_memory(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_arguments),
-                                     cmocka_unit_test(test_memory)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_grazing),
+                                     cmocka_unit_test(test_arguments), cmocka_unit_test(test_memory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

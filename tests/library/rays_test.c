@@ -307,6 +307,7 @@ static void test_no_answer(void **state)
   assert_int_equal(pscn_nearest(broken, 7, rays->ray, sizeof *all, hits, sizeof *hits), PSCN_USAGE);
   for (int k = 0; k < 7; k++) assert_memory_equal(&hits[k], &none, sizeof none);
   assert_int_equal(pscn_nearest(NULL, 1, rays->ray, 0, &hit, 0), PSCN_USAGE);
+  assert_int_equal(pscn_nearest(NULL, 0, rays->ray, 0, &hit, 0), PSCN_USAGE);
   assert_int_equal(pscn_nearest(rays->scene, 1, NULL, 0, &hit, 0), PSCN_USAGE);
   assert_memory_equal(&hit, &none, sizeof none);
   assert_int_equal(pscn_nearest(rays->scene, 1, rays->ray, 0, NULL, 0), PSCN_USAGE);

@@ -46,31 +46,32 @@ static json_t *figure_of(struct chart_point *points, size_t count)
 static void numbers_are_in_their_place(void **state)
 {
   (void)state;
-  struct chart_point points[] = {
-    {.family = FAMILY_ABERTH,
-     .name = "aberth",
-     .ours = true,
-     .time = {{1, 2, 3, 4, 5, 6}, {11, 12, 13, 14, 15, 16}},
-     .camera = {21, 22, 23, 24, 25, 26, 27, 0.5, 0.25, NAN, 0.125},
-     .shadow = {.rays = 31, .undecided = 32, .hits = 33, .lost = 34, .invented = 35},
-     .has_shadow = true},
-    point(FAMILY_EMBREE, 1, 0.5, 0, "8")};
+  struct chart_point points[] = {{.family = FAMILY_ABERTH,
+                                  .name = "aberth",
+                                  .ours = true,
+                                  .time = {{1, 2, 3, 4, 5, 6}, {11, 12, 13, 14, 15, 16}},
+                                  .camera = {21, 22, 23, 24, 25, 26, 27, 0.5, 0.25, NAN, 0.125},
+                                  .shadow = {.rays = 31, .undecided = 32, .hits = 33, .lost = 34, .invented = 35},
+                                  .has_shadow = true},
+                                 point(FAMILY_EMBREE, 1, 0.5, 0, "8")};
   method_default(solver_find("aberth", 6), &points[0].options);
   points[0].options.basis = BASIS_POWER, points[0].options.polish = false, points[0].options.split = 3;
   points[0].options.roots.start = START_COLD, points[0].options.roots.tolerance = 0.5;
   json_t *values = figure_of(points, 2), *all = json_object_get(values, "points");
-  expect_json(json_array_get(all, 0),
-              "{\"error\":0.125,\"family\":\"aberth\",\"front\":false,\"hits\":23,\"invented\":25,\"label\":\"\","
-              "\"label_at\":0.125,\"lost\":24,\"method\":{\"basis\":\"power\",\"polish\":\"off\",\"solver\":\"aberth\","
-              "\"split\":\"3\",\"start\":\"cold\",\"tolerance\":0.5},\"name\":\"aberth\",\"other_patch\":27,\"rays\":21,"
-              "\"shadow\":{\"hits\":33,\"invented\":35,\"lost\":34,\"rays\":31,\"undecided\":32},\"shadow_ns\":13.0,"
-              "\"t_99\":0.25,\"t_99_of_all\":0.125,\"t_max\":null,\"t_median\":0.5,\"time\":{\"least\":1.0,\"lower\":2.0,"
-              "\"median\":3.0,\"most\":5.0,\"ratio\":6.0,\"upper\":4.0},\"times\":[{\"least\":1.0,\"lower\":2.0,"
-              "\"median\":3.0,\"most\":5.0,\"ratio\":6.0,\"upper\":4.0},{\"least\":11.0,\"lower\":12.0,\"median\":13.0,"
-              "\"most\":15.0,\"ratio\":16.0,\"upper\":14.0}],\"undecided\":22,\"wrong\":26}");
+  expect_json(
+    json_array_get(all, 0),
+    "{\"error\":0.125,\"family\":\"aberth\",\"front\":false,\"hits\":23,\"invented\":25,\"label\":\"\","
+    "\"label_at\":0.125,\"lost\":24,\"method\":{\"basis\":\"power\",\"polish\":\"off\",\"solver\":\"aberth\","
+    "\"split\":\"3\",\"start\":\"cold\",\"tolerance\":0.5},\"name\":\"aberth\",\"other_patch\":27,\"rays\":21,"
+    "\"shadow\":{\"hits\":33,\"invented\":35,\"lost\":34,\"rays\":31,\"undecided\":32},\"shadow_ns\":13.0,"
+    "\"t_99\":0.25,\"t_99_of_all\":0.125,\"t_max\":null,\"t_median\":0.5,\"time\":{\"least\":1.0,\"lower\":2.0,"
+    "\"median\":3.0,\"most\":5.0,\"ratio\":6.0,\"upper\":4.0},\"times\":[{\"least\":1.0,\"lower\":2.0,"
+    "\"median\":3.0,\"most\":5.0,\"ratio\":6.0,\"upper\":4.0},{\"least\":11.0,\"lower\":12.0,\"median\":13.0,"
+    "\"most\":15.0,\"ratio\":16.0,\"upper\":14.0}],\"undecided\":22,\"wrong\":26}");
   const json_t *peer = json_array_get(all, 1);
   assert_true(json_is_null(json_object_get(peer, "method")) && json_is_null(json_object_get(peer, "shadow")));
-  assert_int_equal(json_array_size(json_object_get(values, "first")), 1); /* the default, though it is not on the front */
+  assert_int_equal(json_array_size(json_object_get(values, "first")),
+                   1); /* the default, though it is not on the front */
   expect_json(json_object_get(values, "scene"), "\"scene\"");
   json_decref(values);
   points[0].options.basis = BASIS_BERNSTEIN, points[0].options.polish = true, points[0].options.split = 0;
@@ -90,8 +91,8 @@ static void each_family_is_titled_once(void **state)
 {
   (void)state;
   struct chart_point points[] = {point(FAMILY_DEFAULT, 100, 1e-15, 0, ""), point(FAMILY_DEFAULT, 90, 1, 1, ""),
-                                 point(FAMILY_NEWTON, 120, 1, 3, ""), point(FAMILY_LAGUERRE, NAN, 1e-15, 0, ""),
-                                 point(FAMILY_DEFAULT, 80, 1e-9, 0, ""), point(FAMILY_EMBREE, 50, 1e-9, 0, "")};
+                                 point(FAMILY_NEWTON, 120, 1, 3, ""),      point(FAMILY_LAGUERRE, NAN, 1e-15, 0, ""),
+                                 point(FAMILY_DEFAULT, 80, 1e-9, 0, ""),   point(FAMILY_EMBREE, 50, 1e-9, 0, "")};
   points[5].camera.invented = 1;
   const struct {
     const char *title;

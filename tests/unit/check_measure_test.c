@@ -389,14 +389,11 @@ static void our_pixels_are_known(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(differences_are_counted),
-                                     cmocka_unit_test(hits_of_one_alone_are_counted),
-                                     cmocka_unit_test(own_text_is_as_written),
-                                     cmocka_unit_test(distances_are_those_of_a_grid),
-                                     cmocka_unit_test(the_worst_are_apart),
-                                     cmocka_unit_test(the_map_shows_them),
-                                     cmocka_unit_test(edges_are_told_apart),
-                                     cmocka_unit_test(silhouettes_are_round_a_miss),
-                                     cmocka_unit_test(our_pixels_are_known)};
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(differences_are_counted), cmocka_unit_test(hits_of_one_alone_are_counted),
+    cmocka_unit_test(own_text_is_as_written),  cmocka_unit_test(distances_are_those_of_a_grid),
+    cmocka_unit_test(the_worst_are_apart),     cmocka_unit_test(the_map_shows_them),
+    cmocka_unit_test(edges_are_told_apart),    cmocka_unit_test(silhouettes_are_round_a_miss),
+    cmocka_unit_test(our_pixels_are_known)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,7 +74,8 @@ static void everything_is_in_its_place(void **state)
                                         .fail = {0.5, 100, 3, INFINITY},
                                         .fail_psnr = 40,
                                         .fail_mask = 200};
-  struct check check = {.request = &request, .row_count = ROWS, .worst_count = 2, .ours = {.pixel = pixels, .time = {3.5, 4.5}}};
+  struct check check = {
+    .request = &request, .row_count = ROWS, .worst_count = 2, .ours = {.pixel = pixels, .time = {3.5, 4.5}}};
   struct text_buffer table = {0};
   check.row[0] = row_of(0, 30, 0.5f), check.row[1] = row_of(3, 1, 0.75f);
   check.row[1].over[2] = 0;
@@ -88,21 +89,23 @@ static void everything_is_in_its_place(void **state)
   assert_int_equal(check_write(&check, "verdict", &table), STATUS_OK);
 
   const json_t *worst = json_object_get(numbers, "worst");
-  expect_json(json_array_get(json_object_get(numbers, "rows"), 1),
-         "{\"distances\":{\"both\":22,\"max\":null,\"median\":0.125,\"only_here\":23,\"only_there\":24,"
-         "\"percent_99\":0.375,\"rays\":21},\"mask\":{\"only_here\":11,\"only_there\":12},\"max\":0.2,\"mean\":0.25,"
-         "\"name\":\"u_steps 3\",\"over\":{\"1/255\":1,\"16/255\":0,\"4/255\":2,\"limit\":6},"
-         "\"over_limit_off_edges\":7,\"over_limit_on\":{\"crease\":8,\"shadow\":9,\"silhouette\":10},\"psnr\":null,"
-         "\"rms\":0.5,\"time\":{\"cpu\":2.5,\"wall\":1.5},\"u_steps\":3,\"worst\":[5,1]}");
+  expect_json(
+    json_array_get(json_object_get(numbers, "rows"), 1),
+    "{\"distances\":{\"both\":22,\"max\":null,\"median\":0.125,\"only_here\":23,\"only_there\":24,"
+    "\"percent_99\":0.375,\"rays\":21},\"mask\":{\"only_here\":11,\"only_there\":12},\"max\":0.2,\"mean\":0.25,"
+    "\"name\":\"u_steps 3\",\"over\":{\"1/255\":1,\"16/255\":0,\"4/255\":2,\"limit\":6},"
+    "\"over_limit_off_edges\":7,\"over_limit_on\":{\"crease\":8,\"shadow\":9,\"silhouette\":10},\"psnr\":null,"
+    "\"rms\":0.5,\"time\":{\"cpu\":2.5,\"wall\":1.5},\"u_steps\":3,\"worst\":[5,1]}");
   expect_json(json_object_get(json_array_get(json_object_get(numbers, "rows"), 0), "name"), "\"as written\"");
-  expect_json(json_array_get(worst, 0),
-         "{\"difference\":0.4,\"edge\":\"crease\",\"here\":{\"certain\":false,\"distance\":4.0,\"patch\":9,\"u\":0.25,"
-         "\"v\":0.75},\"pixel\":[2,1],\"there_distance\":5.0}");
+  expect_json(
+    json_array_get(worst, 0),
+    "{\"difference\":0.4,\"edge\":\"crease\",\"here\":{\"certain\":false,\"distance\":4.0,\"patch\":9,\"u\":0.25,"
+    "\"v\":0.75},\"pixel\":[2,1],\"there_distance\":5.0}");
   expect_json(json_array_get(worst, 1),
-         "{\"difference\":0.2,\"edge\":null,\"here\":null,\"pixel\":[11,0],\"there_distance\":null}");
+              "{\"difference\":0.2,\"edge\":null,\"here\":null,\"pixel\":[11,0],\"there_distance\":null}");
   expect_json(json_object_get(numbers, "limits"),
-         "{\"allowfailures\":3.0,\"fail\":0.5,\"failmask\":200.0,\"failpercent\":100.0,\"failpsnr\":40.0,"
-         "\"hardfail\":null}");
+              "{\"allowfailures\":3.0,\"fail\":0.5,\"failmask\":200.0,\"failpercent\":100.0,\"failpsnr\":40.0,"
+              "\"hardfail\":null}");
 
   expect_json(json_object_get(numbers, "own_text"), "false");
   expect_json(json_object_get(numbers, "within_limits"), "true");
@@ -114,7 +117,8 @@ static void everything_is_in_its_place(void **state)
   expect_json(json_object_get(drawn, "warnings"), "\"warning\"");
   assert_int_equal(json_array_size(json_object_get(drawn, "edges")), CHECK_EDGES - 1);
   const json_t *last = json_array_get(json_object_get(drawn, "rows"), 1);
-  expect_json(json_object_get(last, "percent"), "[{\"value\":4.16666666667},{\"value\":8.33333333333},{\"value\":0.0}]");
+  expect_json(json_object_get(last, "percent"),
+              "[{\"value\":4.16666666667},{\"value\":8.33333333333},{\"value\":0.0}]");
   expect_json(json_object_get(last, "codes"), "51");
   expect_json(json_object_get(last, "last"), "true");
   expect_json(json_object_get(drawn, "last_name"), "\"u_steps 3\"");

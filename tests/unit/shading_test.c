@@ -63,9 +63,10 @@ static void colours_follow_the_formulas(void **state)
      .roughness = 0.1},
   };
   const struct render_options options = options_of("rgb");
-  for (size_t f = 0; f < sizeof finishes / sizeof finishes[0]; f++) {
+  for (size_t k = 0; k < 2 * sizeof finishes / sizeof finishes[0]; k++) {
+    const size_t f = k / 2;
     texture.finish = finishes[f];
-    lights[0].position[2] = f % 2 == 0 ? -6 : 1; /* high above, and grazing */
+    lights[0].position[2] = k % 2 == 0 ? -6 : 1; /* high above, and grazing: the mirrored ray may lead away from it */
     lights[1].position[2] = f == 3 ? 3 : -6;     /* behind the surface it gives nothing */
     struct render_stats stats;
     float *out = render(&scene, &options, &stats);
