@@ -28,6 +28,8 @@ for solver in 'aberth { split 1 }' 'laguerre { form paper }'; do
   grep -c '"\(planes\|resultant\|subdivided\|grazing\)": [1-9]' a.json
 done
 echo '0 0 -4 0 0 1' | pscn trace "$scene" --stats - | work
+echo '0 0 -4 0 0 1' | pscn trace "$scene" --stats a.json >/dev/null
+grep -E '"(parse|build|render)": 0\.0,?$' a.json
 # Names that are no UTF-8.
 cp "$scene" $'fl\xe4t.pscn'
 try pscn render $'fl\xe4t.pscn' -o $'\xc3\xa4\xff.png' --size 4x3 --quiet --stats name.json

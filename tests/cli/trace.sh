@@ -60,6 +60,10 @@ printf "$one$one$minus_four$zero$zero$one" | pscn trace "$scene" --binary --all 
 # T beyond the doubles is the last of them, which nobody takes for a miss.
 echo '-1.7976931348623157e308 -1.7976931348623157e308 -1.7976931348623157e308 1 1 1' >far
 pscn trace "$scene" --certainty <far | cut -d ' ' -f 1,2,9
+# It is not proven then, though the hit is.
+(sed -n '/^camera/p;/^light/p' "$scene"; patch 1 | sed 's/pigment/scale 1e306 pigment/') >huge.pscn
+printf '%s\n' '-1.7e308 -1.7e308 -1.7e308 1.715 1.7075 1.71' '0 0 -1e306 1.5 0.75 2' |
+  pscn trace huge.pscn --certainty | cut -d ' ' -f 1,2,9
 # What was asked once more, alone, is counted as it was answered.
 for all in '' --all; do
   printf '0 0.6 0 0 0.41954981558864002 0\n0 0.6 0 -0.0024937655860348684 0.41954981558864002 0\n' |
