@@ -66,11 +66,15 @@ pscn render $SCENES/flat.pscn --size 20x10 -o half.exr 2>&1 | head -1
 pscn render $scene --tile 1/1 -o all.exr --quiet
 for attempt in {1..20}; do
   cp all.exr left.exr.part.exr
-  pscn render $scene -o left.exr --threads 1 --checkpoint 0.01 --quiet &
-  sleep 0.7
+  rm -f said
+  pscn render $scene -o left.exr --threads 1 --checkpoint 0.01 2>said &
+  for wait in {1..200}; do [ -s said ] && break || sleep 0.05; done # it tells what is left where it begins
+  sleep 0.3
   kill -INT $! 2>/dev/null
   wait $! || break
 done
+grep interrupted said
+rm said
 cmp all.exr left.exr.part.exr && echo 'what was left is there'
 pscn render $scene -o left.exr 2>&1 | grep earlier
 # What is damaged is not spared for what is done now.
@@ -85,6 +89,16 @@ done
 sed -n 's/the [0-9]* %/so many %/p; /earlier/p' said
 resumed cut.exr
 rm all.exr said
+# --checkpoint 0: what is there stays as it is while the picture is rendered.
+pscn render $SCENES/flat.pscn --size 20x10 --tile 1/1 -o other.exr --quiet
+cp other.exr never.exr.part.exr
+pscn render $scene -o never.exr --threads 1 --checkpoint 0 2>said &
+for wait in {1..200}; do [ -s said ] && break || sleep 0.05; done
+sleep 0.3
+kill -KILL $! 2>/dev/null
+wait $! 2>/dev/null
+cmp other.exr never.exr.part.exr && echo 'nothing is kept'
+rm -f other.exr never.exr* said
 # Nothing to go on from.
 pscn render $SCENES/flat.pscn --size 20x10 -o new.png --resume --quiet
 LC_ALL=C ls

@@ -25,6 +25,8 @@ try pscn trace "$scene" <&-
 try pscn trace "$scene" < .
 echo "$good" | pscn trace "$scene" >/dev/full
 echo "exit $?"
+# What cannot be written is told before anything is answered.
+echo "$good" | try pscn trace "$scene" --stats nowhere/a.json
 try pscn trace
 try pscn trace "$scene" "$scene"
 try pscn trace "$scene" --tolerance 0
