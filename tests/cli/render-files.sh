@@ -8,6 +8,9 @@ try pscn render "$scene" -o nowhere/a.png $small
 try pscn render "$scene" -o folder.png $small
 try pscn render "$scene" -o a.png --stats nowhere/a.json $small
 try pscn render "$scene" -o a.png --stats folder.png $small
+# That is told before the scene is read.
+try pscn render nothing.pscn -o nowhere/a.png $small
+try pscn render nothing.pscn -o a.png --stats nowhere/a.json $small
 echo "kept" >old.png
 ln -s /dev/full full.png
 try pscn render "$scene" -o full.png $small

@@ -44,6 +44,7 @@ try pscn render $scene -o half.exr --resume --samples 3
 try pscn render $scene -o half.exr --resume --size 30x20
 try pscn render $scene -o half.exr --resume --tile 1/2
 try pscn render $scene -o half.exr --resume --solver newton
+try pscn render $scene -o half.exr --resume --tolerance 1e-3
 # What says that it is of this picture but has another size is no part of it.
 small="$SCENES/bent.pscn --size 30x20 --quiet"
 pscn render $SCENES/bent.pscn --size 90x80 --tile 1/1 -o larger.exr --quiet
@@ -60,6 +61,8 @@ rm small.exr.part.exr
 echo no picture >half.exr.part.exr
 pscn render $scene -o half.exr --resume 2>/dev/null; echo "exit $?"
 # Nor without being asked to, but it says so.
+cp one.exr half.exr.part.exr
+pscn render $SCENES/flat.pscn --size 20x10 -o half.exr --quiet
 cp one.exr half.exr.part.exr
 pscn render $SCENES/flat.pscn --size 20x10 -o half.exr 2>&1 | head -1
 # Who forgot --resume and ends the rendering for that loses nothing; when the picture is complete what was kept of it goes.
