@@ -13,6 +13,7 @@ echo "POV-Ray 3.7.0"
 case \$MODE in
   fails) printf 'Parse Error: \\033[31mno\\377 <b>\\n'; exit 1 ;;
   raves | parses) seq 100; echo '==== [Parsing'; [ \$MODE = parses ] || seq 2000; echo 'Parse Error: no'; exit 1 ;;
+  declares) printf '%s\n' "\$@" | grep Declare; exit 1 ;;
   steps) ! grep 'u_steps 2' scene.pov || exit 1 ;;
   empty) exit 0 ;;
   other) cp $PWD/other.png picture.png; exit ;;
@@ -56,12 +57,14 @@ for MODE in parses raves; do
   grep -v 'povray: [0-9]' said
   grep -c 'povray: [0-9]' said
 done
+echo "what is declared for the scene's own text:"
+MODE=declares try pscn check "$scene" $small --own-text --declare A=0.1 --declare Longer=-3 --povray ./povray -o out 2>&1
 echo "steps, and no flatness of the scene's:"
 sed 's/flatness 0 /flatness 0.5 /' $SCENES/flat.pscn >rough.pscn
 MODE=steps try pscn check rough.pscn $small --steps 2 --povray ./povray -o rough 2>&1
 echo "within the limits:"
 MODE=any try pscn check rough.pscn $small --povray ./povray -o rough
-grep -o 'Within the limits[^<]*' rough/check.html
+grep -o 'Within the limits[^<]*\|pscn check [^<]*' rough/check.html
 echo "beyond a limit:"
 MODE=any try pscn check $SCENES/flat.pscn ${small% --quiet} --failpsnr 100 --povray ./povray -o beyond 2>&1 | grep 'beyond\|exit'
 ls beyond/check.html
