@@ -39,6 +39,7 @@ pscn compare again.png one.png --fail 0 --quiet && echo 'again.png is one.png'
 # What is kept is a piece of the picture.
 end INT half.exr
 pscn merge half.exr.part.exr -o no.png; echo "exit $?"
+cp half.exr.part.exr some.exr
 # It goes on with nothing else.
 try pscn render $scene -o half.exr --resume --samples 3
 try pscn render $scene -o half.exr --resume --size 30x20
@@ -65,8 +66,11 @@ cp one.exr half.exr.part.exr
 pscn render $SCENES/flat.pscn --size 20x10 -o half.exr --quiet
 cp one.exr half.exr.part.exr
 pscn render $SCENES/flat.pscn --size 20x10 -o half.exr 2>&1 | head -1
-# Who forgot --resume and ends the rendering for that loses nothing; when the picture is complete what was kept of it goes.
+# A file that has some tiles twice counts for none: what is missing without it is told.
 pscn render $scene --tile 1/1 -o all.exr --quiet
+try pscn merge some.exr all.exr -o no.png
+rm some.exr
+# Who forgot --resume and ends the rendering for that loses nothing; when the picture is complete what was kept of it goes.
 for attempt in {1..20}; do
   cp all.exr left.exr.part.exr
   rm -f said
