@@ -175,7 +175,6 @@ enum status process_run(const struct process_request *request, const atomic_int 
     out->missing = out->reason == ENOENT || out->reason == EACCES || out->reason == ENOTDIR;
     return STATUS_FILE;
   }
-  out->reason = 0;
   out->time = (struct seconds){clock_seconds(CLOCK_MONOTONIC) - start, children_seconds() - cpu_start};
   out->exit_code = WIFSIGNALED(state) ? EXIT_SIGNAL + WTERMSIG(state) : WEXITSTATUS(state);
   return STATUS_OK;
