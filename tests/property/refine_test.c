@@ -293,6 +293,18 @@ static struct tally leaf_roots;
 static int by_quadric; /* alone, though the root's derivatives alone do not say so */
 static double worst_residual, worst_place, worst_point, worst_tangent;
 
+/* Of the rows of the inverse Jacobian there, as covectors of space. */
+static void row_lengths(const struct subject *s, quad u, quad v, double out[2])
+{
+  const struct quad_jet a = quad_net_jet(&s->truth.net[0], u, v), b = quad_net_jet(&s->truth.net[1], u, v);
+  const double *slope = s->local.slope, inverse = (double)(1 / (a.du * b.dv - a.dv * b.du));
+  const double rows[2][2] = {{(double)b.dv, -(double)a.dv}, {-(double)b.du, (double)a.du}};
+  for (int k = 0; k < 2; k++) {
+    const double p = rows[k][0] * inverse, q = rows[k][1] * inverse, r = p * slope[0] + q * slope[1];
+    out[k] = sqrt(p * p + q * q + r * r);
+  }
+}
+
 static void check_leaf_root(struct subject *s, struct random *random)
 {
   static const double slants[] = {0.5, 0.2, 0.1, 0.05}, middle[2] = {0, 0};
@@ -302,7 +314,9 @@ static void check_leaf_root(struct subject *s, struct random *random)
   const int k = s->local.axis;
   quad u, v;
   if (!check_root(&s->truth, &root.at, random, &leaf_roots, &u, &v) || !s->leaf->parts.final) return;
-  const double *second = s->leaf->second, size[2] = {root.at.size[0][0], root.at.size[1][0]};
+  const double *second = s->leaf->second;
+  double size[2];
+  row_lengths(s, u, v, size);
   const double turn = size[0] * (second[0] + second[1]) + size[1] * (second[1] + second[2]);
   if ((lanes_bits(root.at.alone) & 1) && turn > 2 * CERTIFICATE_ALONE) by_quadric++;
   /* Off the ray by: one rounding of a coordinate of the patch, of size 1, of the surface's way under the rounding of

@@ -4,23 +4,17 @@
  */
 #include "intersect/lanes/cover.h"
 
-#include "intersect/certificate.h"
 #include "intersect/lanes/cover_nets.h"
 #include "intersect/lanes/nearest.h"
 
 /* A choice of speed, as COVER_HALVINGS. */
 enum { COVER_SPLITS = 160 };
 
-/* A proven root of one lane, as struct newton_root has it. */
-struct cover_root {
-  double u, v, radius_u, radius_v, size[2], bend, off;
-};
-
 /* What is known of one ray on the leaf. */
 struct cover_ray {
   const struct leaf *leaf;
-  int count;
-  struct cover_root root[TRIED_ROOTS];
+  int lane, count;
+  const struct known_root *roots;
   double size, error;     /* of the coefficients of a and b: a bound, and what they are off by */
   struct cover_net depth; /* x_k of the leaf, k the ray's axis */
   double from, to;        /* between these x_k the ray looks for roots, what it has hit apart: see ray_ends */
@@ -34,23 +28,14 @@ struct cover_box {
   int halvings;
 };
 
-/* Whether the root is alone on the box and itself together. As in newton.c, but where the box is small q does not outweigh
- * the rest: M J at the root is off from 1 by 2 bend, which counts twice against a bound on q, and the root by 2 (|step| + e)
- * from where q takes it, which may make q larger by 2 bend. */
-LANES_INLINE bool root_is_alone(const struct cover_ray *ray, const struct cover_box *box, const struct cover_root *root)
+/* Whether that root of the ray is proven, and in the box. */
+LANES_INLINE bool root_is_in(const struct cover_ray *ray, const struct cover_box *box, const struct known_root *root)
 {
-  const double *second = ray->leaf->second;
-  const double reach_u = real_max(root->u - box->u, (box->u + box->size_u) - root->u);
-  const double reach_v = real_max(root->v - box->v, (box->v + box->size_v) - root->v);
-  const double q = root->size[0] * (second[0] * reach_u + second[1] * reach_v) +
-                   root->size[1] * (second[1] * reach_u + second[2] * reach_v);
-  return certificate_alone(q + 6 * root->bend, root->off);
-}
-
-LANES_INLINE bool root_is_in(const struct cover_box *box, const struct cover_root *root)
-{
-  return root->u - root->radius_u >= box->u && root->u + root->radius_u <= box->u + box->size_u &&
-         root->v - root->radius_v >= box->v && root->v + root->radius_v <= box->v + box->size_v;
+  if (!root->proven[ray->lane]) return false;
+  const double u = root->at->u[ray->lane], radius_u = root->at->radius_u[ray->lane];
+  const double v = root->at->v[ray->lane], radius_v = root->at->radius_v[ray->lane];
+  return u - radius_u >= box->u && u + radius_u <= box->u + box->size_u && v - radius_v >= box->v &&
+         v + radius_v <= box->v + box->size_v;
 }
 
 /* The weights of a cubic's coefficients. */
@@ -74,10 +59,7 @@ LANES_INLINE bool box_is_seen(const struct cover_ray *ray, const struct cover_bo
 LANES_INLINE bool box_is_open(const struct cover_ray *ray, const struct cover_box *box)
 {
   bool has_root = false;
-  for (int k = 0; k < ray->count; k++) {
-    if (root_is_alone(ray, box, &ray->root[k])) return false;
-    has_root |= root_is_in(box, &ray->root[k]);
-  }
+  for (int k = 0; k < ray->count; k++) has_root |= root_is_in(ray, box, &ray->roots[k]);
   /* each halving adds three roundings, of values of the leaf's size */
   const double error = ray->error + box->halvings * 4 * UNIT_ROUNDOFF * ray->size;
   return nets_full(&box->a, &box->b, has_root, ray->size, error) && box_is_seen(ray, box);
@@ -112,29 +94,12 @@ static bool cover(struct cover_ray *ray, struct cover_box stack[COVER_HALVINGS +
   return true;
 }
 
-/* The lane's. */
-static void set_roots(struct cover_ray *ray, int lane, int count, const struct known_root roots[])
-{
-  ray->count = 0;
-  for (int k = 0; k < count; k++) {
-    const struct newton_root *at = roots[k].at;
-    if (!roots[k].proven[lane]) continue;
-    ray->root[ray->count++] = (struct cover_root){.u = at->u[lane],
-                                                  .v = at->v[lane],
-                                                  .radius_u = at->radius_u[lane],
-                                                  .radius_v = at->radius_v[lane],
-                                                  .size = {at->size[0][lane], at->size[1][lane]},
-                                                  .bend = at->bend[lane],
-                                                  .off = at->off[lane]};
-  }
-}
-
 lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2])
 {
   struct cover_box stack[COVER_HALVINGS + 2];
   struct cover_box *leaf = &stack[0];
-  struct cover_ray ray = {.leaf = it->leaf, .halvings = halvings};
+  struct cover_ray ray = {.leaf = it->leaf, .count = count, .roots = roots, .halvings = halvings};
   const lane_mask asked = open;
   lanes from, to, off, *splits = &p->postponed->splits;
   /* not where the nearest hit so far is, or answers would depend on the way through the hierarchy */
@@ -142,10 +107,9 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
   off += 2 * it->line->error;
   memcpy(&ray.depth, it->leaf->x[it->axis], sizeof ray.depth);
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
+    const int lane = ray.lane = __builtin_ctz(bits);
     for (int n = 0; n < 16; n++) leaf->a.c[n / 4][n % 4] = it->a[n][lane], leaf->b.c[n / 4][n % 4] = it->b[n][lane];
     leaf->u = leaf->v = 0, leaf->size_u = leaf->size_v = 1, leaf->halvings = 0;
-    set_roots(&ray, lane, count, roots);
     ray.size = real_max(net_size(&leaf->a), net_size(&leaf->b)), ray.error = it->line->error[lane];
     ray.from = from[lane] - off[lane], ray.to = to[lane] + off[lane];
     const int given = (int)real_min((*splits)[lane], COVER_SPLITS);

@@ -1,10 +1,9 @@
 /* Whether known roots are all that a leaf has, by boxes that cover it, for one ray after the other: few need it.
  *
  * Internal to src/intersect/lanes. A box of parameters is cleared where a plane polynomial or one of the combinations
- * that aim along u and v keeps one sign on its net (as planes.c does with the leaf's), or where a proven root is alone:
- * on the box and itself together, by the certificate, or, where it is in the box, by the differences of those nets; or
- * where no root would be between the ends of the ray. Other boxes are halved. What exact/search.c does in the last resort;
- * this ends most cases before.
+ * that aim along u and v keeps one sign on its net (as planes.c does with the leaf's), or where a proven root is in it and
+ * is alone by the differences of those nets; or where no root would be between the ends of the ray. Other boxes are halved.
+ * What exact/search.c does in the last resort; this ends most cases before.
  */
 #ifndef PSCN_INTERSECT_LANES_COVER_H
 #define PSCN_INTERSECT_LANES_COVER_H

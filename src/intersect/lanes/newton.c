@@ -244,7 +244,6 @@ LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const 
                   length[1] * (leaf->second[1] * reach[0] + leaf->second[2] * reach[1]);
   r->alone = r->exists & certificate_alone(q, off);
   if (leaf->pole) r->alone |= r->exists & alone_at_pole(leaf, r, length, step, off, reach);
-  r->size[0] = length[0], r->size[1] = length[1], r->bend = bend * (step + off), r->off = off;
 }
 
 /* Rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size 1:

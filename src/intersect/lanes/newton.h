@@ -15,9 +15,6 @@ struct newton_root {
   lanes radius_u, radius_v; /* the exact root is within */
   lane_mask exists;         /* exactly one root of the exact polynomials within the radii */
   lane_mask alone;          /* and no other in the leaf */
-  lanes size[2];            /* the rows of M as covectors of space, their lengths */
-  lanes bend;               /* bend (step + off), half of how far M J is at most from 1 at the root */
-  lanes off;                /* error times the longer one of these */
 };
 
 /* How far the root is from the leaf's pole, in the parameter across it. */
