@@ -29,19 +29,6 @@ static inline double vector_length(const double a[3])
   return ldexp(sqrt(vector_dot(b, b)), exponent);
 }
 
-/* The largest |v[k]|, by one square root. */
-static inline double vector_longest(const double v[][3], int count)
-{
-  double square = 0, length = 0;
-  for (int k = 0; k < count; k++) {
-    const double s = vector_dot(v[k], v[k]);
-    square = s > square ? s : square;
-  }
-  if (square >= VECTOR_SQUARE_MIN && square <= VECTOR_SQUARE_MAX) return sqrt(square);
-  for (int k = 0; k < count; k++) length = fmax(length, vector_length(v[k]));
-  return length;
-}
-
 /* out = a - b. out may be a or b. */
 static inline void vector_subtract(const double a[3], const double b[3], double out[3])
 {

@@ -67,32 +67,16 @@ static void cut_nets(const struct patch_halves *patch, const lanes column[2], co
 
 LANES_INLINE lanes square_of(const lanes v[3]) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-/* vector_longest of the lanes of `odd`, whose squares over- or underflow or are 0. */
-__attribute__((noinline)) static lanes odd_longest(const lanes v[][3], int count, lane_mask odd, lanes length)
-{
-  lanes largest = {0};
-  for (int n = 0; n < count; n++)
-    for (int k = 0; k < 3; k++) largest = lanes_max(lanes_abs(v[n][k]), largest);
-  length = lanes_select(odd, largest, length);
-  for (unsigned bits = lanes_bits(odd & (largest != 0)); bits; bits &= bits - 1) {
-    const int lane = __builtin_ctz(bits);
-    double one[1][3];
-    length[lane] = 0;
-    for (int n = 0; n < count; n++) {
-      for (int k = 0; k < 3; k++) one[0][k] = v[n][k][lane];
-      length[lane] = real_max(vector_longest(one, 1), length[lane]);
-    }
-  }
-  return length;
-}
-
+/* A bound on the longest: its length where squares lose nothing, which they do below some 2^-450 of the patch. */
 LANES_INLINE lanes longest(const lanes v[][3], int count)
 {
-  lanes square = {0};
+  lanes square = {0}, largest = {0};
   for (int n = 0; n < count; n++) square = lanes_max(square_of(v[n]), square);
-  const lane_mask odd = ~((square >= VECTOR_SQUARE_MIN) & (square <= VECTOR_SQUARE_MAX));
-  const lanes length = lanes_sqrt(square);
-  return lanes_any(odd) ? odd_longest(v, count, odd, length) : length;
+  const lane_mask tiny = square < VECTOR_SQUARE_MIN;
+  if (!lanes_any(tiny)) return lanes_sqrt(square);
+  for (int n = 0; n < count; n++)
+    for (int k = 0; k < 3; k++) largest = lanes_max(lanes_abs(v[n][k]), largest);
+  return lanes_select(tiny, 2 * largest, lanes_sqrt(square));
 }
 
 static void first_bounds(lane_net x[3], lanes out[2])
