@@ -298,11 +298,8 @@ enum status copies_prepare(struct model *model, const struct team *team, const s
 
 void copy_box(const struct model *model, const struct model_copy *copy, struct bvh_box *out)
 {
-  double lo[3], hi[3];
-  copy_bounds(model, copy->object->declared, copy->first_patch, lo, hi);
-  for (int k = 0; k < 3; k++) {
-    const double about = tree_about(&model->tree, k);
-    const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(lo[k]), fabs(hi[k])) + fabs(about));
-    out->lo[k] = lo[k] - about - slack, out->hi[k] = hi[k] - about + slack;
-  }
+  double about[3];
+  for (int k = 0; k < 3; k++) about[k] = tree_about(&model->tree, k);
+  copy_bounds(model, copy->object->declared, copy->first_patch, out->lo, out->hi);
+  tree_box(about, 1, out);
 }

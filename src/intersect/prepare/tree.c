@@ -135,15 +135,12 @@ static size_t set_apart(struct grouping *g, size_t count)
   return g->count > 0 ? groups_last(g, count) : count;
 }
 
-/* The box in that frame, wider by what rounding it may do. */
-static struct bvh_box framed(const struct bvh_box *box, const double middle[3], double frame)
+void tree_box(const double middle[3], double frame, struct bvh_box *box)
 {
-  struct bvh_box out;
   for (int k = 0; k < 3; k++) {
     const double slack = 4 * UNIT_ROUNDOFF * (real_max(fabs(box->lo[k]), fabs(box->hi[k])) + fabs(middle[k]));
-    out.lo[k] = (box->lo[k] - middle[k] - slack) / frame, out.hi[k] = (box->hi[k] - middle[k] + slack) / frame;
+    box->lo[k] = (box->lo[k] - middle[k] - slack) / frame, box->hi[k] = (box->hi[k] - middle[k] + slack) / frame;
   }
-  return out;
 }
 
 /* What the trees are built from: all boxes, as tree_about has them. */
@@ -180,9 +177,10 @@ static enum status build_outer(const struct building *b, const struct grouping *
   if (!own) return STATUS_LIMIT;
   for (size_t k = 0; k < stay; k++) {
     if (all) g->index[k] = (uint32_t)k;
-    own[k] = framed(&b->boxes[g->index[k]], middle, g->frame);
+    own[k] = b->boxes[g->index[k]];
+    tree_box(middle, g->frame, &own[k]);
   }
-  for (size_t k = 0; k < g->count; k++) own[stay + k] = framed(&g->groups[k].hull, middle, g->frame);
+  for (size_t k = 0; k < g->count; k++) own[stay + k] = g->groups[k].hull, tree_box(middle, g->frame, &own[stay + k]);
   const enum status status = bvh_build(own, stay + g->count, b->team, &out->bvh);
   if (!all) memory_free(own);
   if (status == STATUS_OK) renumber_leaves(b, &out->bvh, g->index, stay);

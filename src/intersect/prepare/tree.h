@@ -21,6 +21,9 @@ static inline double tree_about(const struct model_tree *whole, int k)
   return fabs(whole->origin[k]) > 4 * whole->frame ? whole->origin[k] : 0;
 }
 
+/* The box about `middle`, in a frame of that size: wider by what rounding it may do. */
+void tree_box(const double middle[3], double frame, struct bvh_box *box);
+
 /* Builds over boxes[0..count), a model's leaves' and then its copies', which are used up: in the scene less tree_about, over the
  * frame that the tree has already. STATUS_LIMIT where memory is short, or threads are; then there may be nodes to free. */
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
