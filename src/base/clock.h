@@ -24,10 +24,11 @@ static inline struct seconds seconds_now(void)
   return (struct seconds){clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
-static inline struct seconds seconds_since(struct seconds start)
+static inline struct seconds seconds_between(struct seconds start, struct seconds end)
 {
-  const struct seconds now = seconds_now();
-  return (struct seconds){now.wall - start.wall, now.cpu - start.cpu};
+  return (struct seconds){end.wall - start.wall, end.cpu - start.cpu};
 }
+
+static inline struct seconds seconds_since(struct seconds start) { return seconds_between(start, seconds_now()); }
 
 #endif

@@ -178,6 +178,19 @@ static enum status begin(struct rendering *rendering)
 
 /* ---- the picture ---- */
 
+/* Now, and since then, as if nothing were loaded beside. */
+static struct seconds now(const struct image_loading *loading)
+{
+  struct seconds now = seconds_now();
+  now.cpu -= image_loading_seconds(loading);
+  return now;
+}
+
+static struct seconds since(struct seconds start, const struct image_loading *loading)
+{
+  return seconds_between(start, now(loading));
+}
+
 /* Waits until pictures can be written; tells it where they cannot. */
 static enum status loaded(const struct command *command, struct image_loading *loading)
 {
@@ -196,17 +209,17 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
   const struct render_watch watch = {
     .progress = look, .context = rendering, .stop = &interrupt_signal, .failed = &loading->failed};
   struct render_stats stats = {0};
-  struct seconds start = seconds_now();
+  struct seconds start = now(loading);
   options.tiles = &rendering->piece.tiles;
   rendering->progress = progress_start();
   const struct team team = threads_team(options.threads);
   enum status status = intersector_create_by(report->scene, &team, &intersector);
-  report->build = seconds_since(start);
+  report->build = since(start, loading);
   if (status == STATUS_OK) {
     interrupt_defer();
-    start = seconds_now();
+    start = now(loading);
     status = render_scene(report->scene, intersector, &options, &watch, rendering->piece.image.value, &stats);
-    report->render = seconds_since(start);
+    report->render = since(start, loading);
     progress_end(&rendering->progress);
     if (atomic_load(&interrupt_signal) != 0) status = STATUS_INTERRUPTED;
     report->counts = stats.counts;
@@ -214,6 +227,7 @@ static enum status make_picture(struct rendering *rendering, struct image_loadin
   }
   if (status == STATUS_LIMIT) command_error(rendering->command, "out of memory or threads");
   else if (atomic_load(&interrupt_signal) == 0) status = loaded(rendering->command, loading);
+  report->loading = image_loading_seconds(loading);
   intersector_destroy(intersector);
   return status;
 }
@@ -277,7 +291,7 @@ static enum status render(const struct command *command, const struct rendering_
                           struct image_loading *loading)
 {
   struct scene *scene = NULL;
-  const struct seconds start = seconds_now();
+  const struct seconds start = now(loading);
   enum status status = scene_file_load(command, request->scene, &scene);
   if (status == STATUS_OK && !request->scene->quiet) scene_file_warn(command, scene);
   struct report report = {.scene_path = request->scene->path,
@@ -289,7 +303,7 @@ static enum status render(const struct command *command, const struct rendering_
                           .channels = request->channels,
                           .options = request->how,
                           .samples = request->options.samples,
-                          .parse = seconds_since(start)};
+                          .parse = since(start, loading)};
   struct rendering rendering = {.command = command, .request = request, .report = &report};
   if (status == STATUS_OK) status = rendering_check_outputs(command, request, scene);
   if (status == STATUS_OK) status = begin(&rendering);

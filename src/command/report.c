@@ -56,7 +56,7 @@ json_t *report_statistics(const struct report *report)
   method_text(&report->scene->solvers[0], solver, sizeof solver);
   json_t *root = json_pack(
     "{s:s, s:o, s:s, s:f, s:o, s:o, s:o, s:{s:o, s:o}, s:o, s:{s:o, s:o, s:o, s:o}, s:o, s:{s:o, s:o}, s:{s:o, s:o}, "
-    "s:{s:f, s:f, s:f, s:f}, s:{s:f, s:f, s:f, s:f}}",
+    "s:{s:f, s:f, s:f, s:f}, s:{s:f, s:f, s:f, s:f, s:f}}",
     "version", PSCN_VERSION, "scene", path_text(report->scene_path), "solver", solver, "tolerance",
     report->scene->solvers[0].roots.tolerance, "threads", json_count(report->threads), "patches",
     json_count(report->scene->patch_count), "lights", json_count(report->scene->light_count), "rays", "primary",
@@ -67,7 +67,7 @@ json_t *report_statistics(const struct report *report)
     json_count(counts->roots_found), "accepted", json_count(counts->roots_accepted), "answers", "certain",
     json_count(counts->certain), "grazing", json_count(counts->grazing), "time", "parse", report->parse.wall, "build",
     report->build.wall, "render", report->render.wall, "write", report->write.wall, "cpu", "parse", report->parse.cpu,
-    "build", report->build.cpu, "render", report->render.cpu, "write", report->write.cpu);
+    "build", report->build.cpu, "render", report->render.cpu, "write", report->write.cpu, "load", report->loading);
   if (root == NULL || report->picture_path == NULL) return root;
   const struct rectangle *crop = &report->crop;
   json_t *picture = json_pack("{s:o, s:[o, o], s:[o, o, o, o], s:o}", "picture", path_text(report->picture_path),

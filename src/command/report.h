@@ -22,6 +22,7 @@ struct report {
     *options; /* as on the command line: --channels LIST, and what else says how the scene is read */
   struct intersect_counts counts;
   struct seconds parse, build, render, write; /* write: what the bytes of the picture took */
+  double loading; /* CPU seconds that image_loading.h has taken beside them, and are in none */
 };
 
 /* A few lines on stderr. */

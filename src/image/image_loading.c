@@ -3,11 +3,15 @@
 
 #include <sys/resource.h>
 
+#include "base/clock.h"
+
 static void *load_beside(void *argument)
 {
   struct image_loading *loading = argument;
+  const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   loading->status = image_file_ready(loading->message);
   if (loading->status != STATUS_OK) atomic_store(&loading->failed, 1);
+  atomic_store(&loading->seconds, clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start);
   return NULL;
 }
 
@@ -21,9 +25,20 @@ static bool is_limited(int resource)
 void image_loading_begin(struct image_loading *loading)
 {
   atomic_init(&loading->failed, 0);
+  atomic_init(&loading->seconds, 0);
   loading->running = !is_limited(RLIMIT_AS) && !is_limited(RLIMIT_DATA) &&
                      pthread_create(&loading->thread, NULL, load_beside, loading) == 0;
   if (!loading->running) (void)load_beside(loading);
+}
+
+double image_loading_seconds(const struct image_loading *loading)
+{
+  clockid_t clock;
+  struct timespec now;
+  const bool runs = loading->running && pthread_getcpuclockid(loading->thread, &clock) == 0 &&
+                    clock_gettime(clock, &now) == 0; /* else it has ended */
+  const double all = atomic_load(&loading->seconds);
+  return all > 0 || !runs ? all : (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 enum status image_loading_end(struct image_loading *loading, const char **out_message)
