@@ -178,11 +178,13 @@ static enum status begin(struct rendering *rendering)
 
 /* ---- the picture ---- */
 
-/* Now, and since then, as if nothing were loaded beside. */
+/* Now, and since then, as if nothing were loaded beside. The thread is asked before the process, whose clock has what it was asked of
+ * others last. */
 static struct seconds now(const struct image_loading *loading)
 {
+  const double beside = image_loading_seconds(loading);
   struct seconds now = seconds_now();
-  now.cpu -= image_loading_seconds(loading);
+  now.cpu -= beside;
   return now;
 }
 
