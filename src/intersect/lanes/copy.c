@@ -66,6 +66,16 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
                    8 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_min));
 }
 
+/* Sends for the copies' own patches, on which the last step will be taken. */
+static void fetch_patches(const struct model *model, lane_mask patch, unsigned taken)
+{
+  enum { CACHE_LINE = 64 };
+  for (; model->patches && taken; taken &= taken - 1) {
+    const char *of = (const char *)&model->patches[patch[__builtin_ctz(taken)]];
+    for (size_t at = 0; at < sizeof *model->patches; at += CACHE_LINE) __builtin_prefetch(of + at);
+  }
+}
+
 void packet_leave(struct packet *inner)
 {
   struct packet *outer = inner->outer;
@@ -87,5 +97,6 @@ void packet_leave(struct packet *inner)
   best_take(&outer->best, taken, uv, radius, t, found->patch, found->leaf);
   outer->t_far = lanes_select(taken, lanes_min(far, outer->t_far), outer->t_far);
   if (outer->any) outer->live &= ~taken;
+  else fetch_patches(outer->model, found->patch, lanes_bits(taken));
   outer->moved = true;
 }

@@ -11,16 +11,18 @@
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
 static void bundle_walk_all(struct bundle *b, const struct model_tree *tree);
 
+/* Packets none of whose rays come there stay outside. */
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
+  const unsigned all = (1u << LANES) - 1;
   struct bundle inner;
-  inner.packets = b->packets, inner.depth = b->depth + 1;
-  for (int h = 0; h < b->packets; h++)
-    packet_enter(&b->packet[h], copy, lanes_mask(active >> h * LANES), &inner.packet[h]);
+  inner.packets = 0, inner.depth = b->depth + 1;
+  for (struct packet *p = b->packet; active; p++, active >>= LANES)
+    if (active & all) packet_enter(p, copy, lanes_mask(active & all), &inner.packet[inner.packets++]);
   bundle_set_later(&inner, b->packet[0].any);
   bundle_start(&inner, &copy->object->model->tree);
   bundle_walk_all(&inner, &copy->object->model->tree);
-  for (int h = 0; h < b->packets; h++) packet_leave(&inner.packet[h]);
+  for (int h = 0; h < inner.packets; h++) packet_leave(&inner.packet[h]);
 }
 
 /* The same rays in the frame of a tree in a tree. */
