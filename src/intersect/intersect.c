@@ -71,10 +71,18 @@ static const struct kernel *kernel_for(const struct tracer *tracer, size_t count
 
 bool intersector_kernel_here(void) { return kernel_chosen() != NULL; }
 
+/* The baseline fuses products and sums where the user's flags are for a processor that can. */
+#ifdef __FMA__
+enum { BASELINE_FUSES = 1 };
+#else
+enum { BASELINE_FUSES = 0 };
+#endif
+
 /* ARITHMETIC_BUILT: the processor and the compiler, which choose what the baseline fuses, too (CMakeLists.txt). */
 const char *intersector_arithmetic(void)
 {
-  return kernel_chosen() == &kernel_baseline ? "baseline, " ARITHMETIC_BUILT : "fused, " ARITHMETIC_BUILT;
+  const bool fused = BASELINE_FUSES || kernel_chosen() != &kernel_baseline;
+  return fused ? "fused, " ARITHMETIC_BUILT : "baseline, " ARITHMETIC_BUILT;
 }
 
 enum status intersector_create(const struct scene *scene, struct intersector **out)
