@@ -259,8 +259,7 @@ done
   echo
   echo "### Threads"
   echo
-  echo "100 teapots at 1600x1200 on a machine of $(nproc) processors, seconds by the clock, the least of $TURNS turns."
-  echo "One more thread loads OpenImageIO meanwhile, for some 0.2 s:"
+  echo "100 teapots at 1600x1200 on a machine of $(nproc) processors, seconds by the clock, the least of $TURNS turns:"
   echo
   echo "| threads | render s | times as fast | POV-Ray: trace s | times as fast |"
   echo "|---|---|---|---|---|"
