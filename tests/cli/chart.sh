@@ -53,6 +53,13 @@ for name in nothing aside; do
   ls out4
 done
 
+# What is small in the picture is met by more rays, unless their number is asked for.
+sed 's/location <[^>]*>/location <0, 0.4, -20>/; s/look_at <[^>]*>/look_at <5, 2, 0>/' "$SCENES/flat.pscn" >small.pscn
+for rays in '' '--rays 1024'; do
+  chart small.pscn --quick --size 320x240 $rays --rounds 1 --no-peers --quiet -o out5
+  LC_ALL=C awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k } NR == 2 { print ($at["rays"] > 1024), ($at["hits"] > 0) }' out5/chart.csv
+done
+
 # Standard output that takes nothing.
 pscn chart nothing.pscn $small --no-peers -o out8 2>/dev/null >/dev/full
 echo "exit $?"
