@@ -70,7 +70,7 @@ static void leave_open(struct packet *p, struct candidate *it, lane_mask open)
   if (lanes_any(open)) packet_postpone(p, it->leaf, open);
 }
 
-/* A scene with `polish off` asks for the roots as its solver finds them: nothing is closed before that. */
+/* A scene with `polish off` asks for the roots as its solver finds them: nothing but the slab closes a leaf before that. */
 static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
 {
   const struct model_patch *patch = it->patch;
@@ -85,7 +85,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     (void)packet_spend(p, full & LOOKS_DEAR);
     leave_open(p, it, full), open &= ~full;
   }
-  if (it->leaf->pole) open = stage_pole(p, it, open);
+  if (it->leaf->pole && patch->method->polish) open = stage_pole(p, it, open);
   if (!lanes_any(open)) return;
   p->tracer->counts.patches_tested += lanes_count(open);
   if (starts_bilinear(it)) {
