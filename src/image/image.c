@@ -5,22 +5,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum status image_create(size_t width, size_t height, size_t channel_count, struct image *out)
+enum status image_create_header(size_t width, size_t height, size_t channel_count, struct image *out)
 {
   *out = (struct image){0};
   if (width != 0 && height > IMAGE_MAX_PIXELS / width) return STATUS_LIMIT;
   const size_t pixels = width * height;
   if (channel_count != 0 && pixels > SIZE_MAX / sizeof(float) / channel_count) return STATUS_LIMIT;
-  const size_t values = pixels * channel_count;
-  struct image image = {.width = width, .height = height, .channel_count = channel_count};
-  image.channel = calloc(channel_count == 0 ? 1 : channel_count, sizeof *image.channel);
-  image.value = calloc(values == 0 ? 1 : values, sizeof *image.value);
-  if (image.channel == NULL || image.value == NULL) {
-    image_destroy(&image);
-    return STATUS_LIMIT;
-  }
-  *out = image;
+  struct image_channel *channel = calloc(channel_count == 0 ? 1 : channel_count, sizeof *channel);
+  if (channel == NULL) return STATUS_LIMIT;
+  *out = (struct image){.width = width, .height = height, .channel_count = channel_count, .channel = channel};
   return STATUS_OK;
+}
+
+enum status image_create(size_t width, size_t height, size_t channel_count, struct image *out)
+{
+  const enum status status = image_create_header(width, height, channel_count, out);
+  if (status != STATUS_OK) return status;
+  const size_t values = width * height * channel_count;
+  out->value = calloc(values == 0 ? 1 : values, sizeof *out->value);
+  if (out->value != NULL) return STATUS_OK;
+  image_destroy(out);
+  return STATUS_LIMIT;
 }
 
 void image_destroy(struct image *image)

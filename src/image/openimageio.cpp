@@ -256,14 +256,11 @@ std::string read(const char *path, const char *format, bool pixels, const image_
     return "not a flat picture of at most " + std::to_string(IMAGE_MAX_CHANNELS) + " channels";
   const std::string more = besides(*input, spec);
   if (!more.empty()) return more;
-  result = image_create(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
-                        static_cast<std::size_t>(spec.nchannels), &out);
+  const auto create = pixels ? image_create : image_create_header;
+  result = create(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
+                  static_cast<std::size_t>(spec.nchannels), &out);
   if (result != STATUS_OK) return "there is too little memory for its pixels, or they are too many";
   result = STATUS_FILE;
-  if (!pixels) {
-    std::free(out.value);
-    out.value = nullptr;
-  }
   for (std::size_t c = 0; c < out.channel_count; c++)
     std::snprintf(out.channel[c].name, IMAGE_NAME_SIZE, "%s", spec.channelnames[c].c_str());
   read_window(spec, out);

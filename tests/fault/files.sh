@@ -150,6 +150,14 @@ if (ulimit -v 1000000 && "$PSCN" --version >"$said" 2>&1); then
   for kilobytes in 50000 200000 300000 395000 410000 425000 440000; do
     (ulimit -v $kilobytes && expect 5 "$PSCN" render "$scene" $small -o a.png && exit "$failed") || wrong "in $kilobytes KB"
   done
+  # What an earlier run has left is no less whole where only the room for its pixels is missing.
+  large="--size 6000x4000 --tile 1/23000"
+  expect 0 "$PSCN" render "$scene" $large -o large.exr.part.exr
+  kilobytes=440000
+  until (ulimit -v $kilobytes && "$PSCN" render "$scene" $small -o b.png) >"$said" 2>&1; do kilobytes=$((kilobytes + 20000)); done
+  (ulimit -v $((kilobytes + 300000)) && "$PSCN" render "$scene" $large -o large.exr) >"$said" 2>&1
+  grep -q -e '--resume goes on' "$said" || wrong "a part that there is no room for is called useless"
+  rm -f b.png large.exr*
   # Little memory for data, few threads, little stack, which OpenImageIO would not come up with and a hard ray would not end
   # with (likewise).
   for kilobytes in 40000 70000 85000 100000; do
