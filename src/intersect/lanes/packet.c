@@ -5,7 +5,6 @@
 #include <assert.h>
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 #include "intersect/lanes/packet.h"
 
@@ -21,9 +20,7 @@ static void packet_start(struct packet *p, struct tracer *tracer, const struct r
                          int share, struct postponed *postponed)
 {
   p->postponed = postponed;
-  postponed->open = postponed->full = postponed->merged = postponed->crowded = postponed->cut_off = 0;
-  memset(postponed->count, 0, sizeof postponed->count), memset(postponed->left, 0, sizeof postponed->left);
-  packet_set_share(postponed, share, tracer->most_looks, MOST_OPEN, MOST_SWEEPS);
+  packet_set_ready(postponed, tracer, share);
   p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
   p->outer = NULL, p->gather = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);

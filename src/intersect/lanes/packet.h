@@ -166,6 +166,14 @@ LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int l
   postponed->splits = lanes_all(MOST_SPLITS >> share), postponed->sweeps = lanes_all(sweeps >> share);
 }
 
+/* Nothing is left open, and all of the rays' share is there. */
+LANES_INLINE void packet_set_ready(struct postponed *postponed, const struct tracer *tracer, int share)
+{
+  postponed->open = postponed->full = postponed->merged = postponed->crowded = postponed->cut_off = 0;
+  for (int l = 0; l < LANES; l++) postponed->count[l] = postponed->left[l] = 0;
+  packet_set_share(postponed, share, tracer->most_looks, MOST_OPEN, MOST_SWEEPS);
+}
+
 /* Takes so many looks from what each of the rays has left; returns what that is then. */
 LANES_INLINE lane_mask packet_spend(struct packet *p, lane_mask looks) { return p->postponed->looks -= looks; }
 
