@@ -190,7 +190,9 @@ static struct seconds now(const struct image_loading *loading)
 
 static struct seconds since(struct seconds start, const struct image_loading *loading)
 {
-  return seconds_between(start, now(loading));
+  struct seconds taken = seconds_between(start, now(loading));
+  taken.cpu = fmax(taken.cpu, 0); /* both clocks are not read at once */
+  return taken;
 }
 
 /* Waits until pictures can be written; tells it where they cannot. */
