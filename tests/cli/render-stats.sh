@@ -13,7 +13,7 @@ grep -E '"(render|write|load)": 0\.0,?$' a.json # all takes some time
 TIMEFORMAT='%U %S'
 time (pscn render "$PSCN_SOURCE_DIR/scenes/waves.pscn" -o a.png --size 800x600 --threads 1 --stats a.json --quiet 2>&3) \
   3>&2 2>taken
-LC_ALL=C awk -F '[ :,]+' 'NR == FNR { split($0, t, " "); process = t[1] + t[2]; next }
+LC_ALL=C awk -F '[ :,]+' 'NR == FNR { gsub(",", "."); split($0, t, " "); process = t[1] + t[2]; next }
   /"cpu"/ { on = 1; next } /}/ { on = 0 } on { sum += $3 }
   END { print sum < process + 0.01 ? "as much as the process" : sum " of " process }' taken a.json
 # What is told on standard error is the same: where all stages are come to, and where nothing is proven.
