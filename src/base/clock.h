@@ -4,13 +4,15 @@
 
 #include <time.h>
 
+static inline double clock_value(struct timespec now) { return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec; }
+
 /* Seconds since the clock's own start: CLOCK_MONOTONIC; CLOCK_PROCESS_CPUTIME_ID; CLOCK_THREAD_CPUTIME_ID, of the
  * calling thread. Only differences mean anything. */
 static inline double clock_seconds(clockid_t clock)
 {
   struct timespec now;
   clock_gettime(clock, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+  return clock_value(now);
 }
 
 /* Time taken, in seconds: by the clock, and of the processor by all threads of the process. */

@@ -38,7 +38,7 @@ double image_loading_seconds(const struct image_loading *loading)
   const bool runs = loading->running && pthread_getcpuclockid(loading->thread, &clock) == 0 &&
                     clock_gettime(clock, &now) == 0; /* else it has ended */
   const double all = atomic_load(&loading->seconds);
-  return all > 0 || !runs ? all : (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+  return all > 0 || !runs ? all : clock_value(now);
 }
 
 enum status image_loading_end(struct image_loading *loading, const char **out_message)

@@ -79,7 +79,7 @@ LANES_INLINE unsigned bundle_put_off(struct bundle *b, uint32_t index, unsigned 
   const unsigned others = rays & ~view_starts(&b->view, &model->oriented[index]);
   unsigned now = 0;
   for (int h = 0; h < PACKETS; h++) {
-    const unsigned all = ((1u << LANES) - 1) << h * LANES;
+    const unsigned all = (unsigned)ALL_LANES << h * LANES;
     if (others & all) now |= rays & all;
   }
   return rays != now && later_add(&b->later, index, rays & ~now) ? now : rays;

@@ -69,11 +69,8 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
 /* Sends for the copies' own patches, on which the last step will be taken. */
 static void fetch_patches(const struct model *model, lane_mask patch, unsigned taken)
 {
-  enum { CACHE_LINE = 64 };
-  for (; model->patches && taken; taken &= taken - 1) {
-    const char *of = (const char *)&model->patches[patch[__builtin_ctz(taken)]];
-    for (size_t at = 0; at < sizeof *model->patches; at += CACHE_LINE) __builtin_prefetch(of + at);
-  }
+  for (; model->patches && taken; taken &= taken - 1)
+    fetch(&model->patches[patch[__builtin_ctz(taken)]], sizeof *model->patches);
 }
 
 void packet_leave(struct packet *inner)

@@ -125,7 +125,7 @@ unsigned finish_occluded(const struct packet *p)
 }
 
 /* A hit's numbers are eleven doubles in a row. */
-enum { HIT_STRIDE = sizeof(struct hit) / sizeof(double), ALL_LANES = (1 << LANES) - 1 };
+enum { HIT_STRIDE = sizeof(struct hit) / sizeof(double) };
 static_assert(HIT_STRIDE == 12 && offsetof(struct hit, t) == sizeof(double) &&
                 offsetof(struct hit, point) == 4 * sizeof(double) &&
                 offsetof(struct hit, clearance) == 8 * sizeof(double),

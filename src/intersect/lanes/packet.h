@@ -13,6 +13,16 @@
 
 #define NO_PATCH INT64_MAX
 
+enum { ALL_LANES = (1 << LANES) - 1 };
+
+/* Sends for so many bytes, of a size that is known when it is compiled. */
+LANES_INLINE void fetch(const void *from, size_t size)
+{
+  enum { CACHE_LINE = 64 };
+#pragma GCC unroll 16
+  for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch((const char *)from + at);
+}
+
 /* Roots nearer to the ray's start than this part of their patch's frame want more digits: the last step leaves 2^-72 of the
  * frame. */
 #define NEAR_START 0x1p-16

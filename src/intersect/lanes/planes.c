@@ -69,6 +69,12 @@ LANES_INLINE lane_mask corners_differ(const lanes net[16], lanes e)
   return (low < -e) & (high > e);
 }
 
+/* What A a + B b is off by, over |A| + |B|. */
+LANES_INLINE lanes combination_error(const struct candidate *it)
+{
+  return it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta);
+}
+
 /* The same of the two combinations of a and b that aim along the leaf's parameters: near the middle they are like u -
  * u0 and v - v0 for the point (u0,v0) where the ray meets the tangent plane, so they tell a ray that passes the leaf
  * by. Where both are nothing but rounding all over the leaf a and b are one polynomial, and the ray meets curves. */
@@ -84,7 +90,7 @@ static lane_mask planes_aligned(struct candidate *it, lane_mask active)
     v_low = lanes_min(v, v_low), v_high = lanes_max(v, v_high);
   }
   /* The combination's own three roundings, on top of the coefficients' error. */
-  const lanes e = it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta);
+  const lanes e = combination_error(it);
   const lanes u_error = e * (lanes_abs(bv) + lanes_abs(av)), v_error = e * (lanes_abs(au) + lanes_abs(bu));
   it->along = active & (u_low >= -u_error) & (u_high <= u_error) & (v_low >= -v_error) & (v_high <= v_error);
   if (lanes_any(it->along)) it->along &= corners_differ(a, e) | corners_differ(b, e);
@@ -120,7 +126,7 @@ static lane_mask planes_at_pole(const struct candidate *it, lane_mask active)
   const lanes a0 = it->a[at], b0 = it->b[at];
   const lanes least = lanes_max(least_beyond_pole(it, -b0, a0), least_beyond_pole(it, b0, -a0));
   const lanes size_a = lanes_abs(a0), size_b = lanes_abs(b0);
-  const lanes off = (it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta)) * (size_a + size_b);
+  const lanes off = combination_error(it) * (size_a + size_b);
   const lanes beyond = least - off, reach = size_a * it->alpha + size_b * it->beta;
   return active & ~((beyond > 0) & ((a0 * a0 + b0 * b0 - off) * beyond > 8 * reach * off));
 }
@@ -145,7 +151,7 @@ static lane_mask leaves_start(const struct packet *p, const struct candidate *it
     A += it->a[n], B += it->b[n];
     low = real_min(low, x[n] - x[at]), high = real_max(high, x[n] - x[at]);
   }
-  const lanes off = (it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta)) * (lanes_abs(A) + lanes_abs(B));
+  const lanes off = combination_error(it) * (lanes_abs(A) + lanes_abs(B));
   for (int n = 0; n < 16; n++)
     if (!still[n]) least = lanes_min(A * it->a[n] + B * it->b[n], least);
   const lanes up = p->direction[it->axis], nearest = lanes_select(up > 0, lanes_all(-high), lanes_all(low));

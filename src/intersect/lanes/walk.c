@@ -14,11 +14,10 @@ static void bundle_walk_all(struct bundle *b, const struct model_tree *tree);
 /* Packets none of whose rays come there stay outside. */
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
-  const unsigned all = (1u << LANES) - 1;
   struct bundle inner;
   inner.packets = 0, inner.depth = b->depth + 1;
   for (struct packet *p = b->packet; active; p++, active >>= LANES)
-    if (active & all) packet_enter(p, copy, lanes_mask(active & all), &inner.packet[inner.packets++]);
+    if (active & ALL_LANES) packet_enter(p, copy, lanes_mask(active & ALL_LANES), &inner.packet[inner.packets++]);
   bundle_set_later(&inner, b->packet[0].any);
   bundle_start(&inner, &copy->object->model->tree);
   bundle_walk_all(&inner, &copy->object->model->tree);
@@ -63,9 +62,8 @@ LANES_INLINE unsigned box_passed(const struct bundle *b, uint32_t index, unsigne
 static void bundle_try(struct bundle *b, uint32_t index, struct leaf *leaf, const struct model_patch *patch,
                        unsigned active)
 {
-  const unsigned all = (1u << LANES) - 1;
   for (struct packet *p = b->packet; active; p++, active >>= LANES)
-    if (active & all) packet_leaf(p, leaf, patch, index, lanes_mask(active & all));
+    if (active & ALL_LANES) packet_leaf(p, leaf, patch, index, lanes_mask(active & ALL_LANES));
 }
 
 /* A leaf that is not kept. Out of line for the room it takes. */
@@ -96,13 +94,6 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
   bool moved = false;
   for (int h = 0; h < b->packets; h++) moved |= b->packet[h].moved, b->packet[h].moved = false;
   if (moved) bundle_update(b);
-}
-
-LANES_INLINE void fetch(const void *from, size_t size)
-{
-  enum { CACHE_LINE = 64 };
-#pragma GCC unroll 16
-  for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch((const char *)from + at);
 }
 
 /* What a leaf's first stages read of it and of its patch, or what it is made of. */
