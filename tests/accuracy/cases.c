@@ -51,10 +51,14 @@ static bool faces(const char *text, const double normal[3])
   return !text[0] || (sscanf(text, "%lf %lf %lf", &side[0], &side[1], &side[2]) == 3 && vector_dot(side, normal) > 0);
 }
 
-static bool all_good(struct tracer *tracer, const struct ray *ray, const char *count)
+/* Of all hits as many as in `count`, if any; where they are certain the first of them is the nearest. */
+static bool all_good(struct tracer *tracer, const struct ray *ray, const struct hit *nearest, const char *count)
 {
   struct hit_list list;
   assert_int_equal(tracer_all(tracer, 1, ray, &list), STATUS_OK);
+  if (list.certainty == CERTAINTY_CERTAIN && nearest->certainty == CERTAINTY_CERTAIN &&
+      (list.count > 0 ? list.hits[0].patch : HIT_NONE) != nearest->patch)
+    return false;
   return !count[0] || (list.certainty == CERTAINTY_CERTAIN && list.count == strtoul(count, NULL, 10));
 }
 
@@ -78,7 +82,7 @@ static bool judged_good(const char *path)
   certifier_create(&certifier, scene, trial.reference);
   tracer_closest(trial.tracer, 1, &ray, &hit);
   certify(&certifier, &ray, &hit, &certificate);
-  const bool all = all_good(trial.tracer, &ray, count);
+  const bool all = all_good(trial.tracer, &ray, &hit, count);
   const bool good = all && certificate.finding <= FINDING_UNDECIDED &&
                     (!certain[0] || (hit.certainty == CERTAINTY_CERTAIN) == !strcmp(certain, "yes")) &&
                     numbers_are(t, 1, &hit.t) && numbers_are(uv, 2, (double[]){hit.u, hit.v}) &&

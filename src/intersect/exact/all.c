@@ -231,22 +231,30 @@ static void tell_apart(struct judge *j, struct exact_found *a, struct exact_foun
   if (!twins) a->tied = b->tied = true;
 }
 
+/* What t may be off by of what others may be behind. What may be a hit has its place by t. */
+static double end_error(const struct exact_found *found) { return found->kind == EXACT_OPEN ? 0 : found->root.t_error; }
+
+/* Whether the first, a root, is proven to be behind the other: by judge_tie's difference, for sums of t and its error are
+ * rounded. */
+static bool behind(const struct exact_found *a, const struct exact_found *b)
+{
+  return a->root.t - b->root.t > a->root.t_error + end_error(b);
+}
+
 /* Of those from `first` on, which are sorted by t, the one that comes next: of all that are proven to be behind none of them
  * the one that stands first. That it is before the others that it cannot be told from has to be no matter. */
 static size_t next_in_order(struct judge *j, size_t first, size_t end)
 {
   const struct exact_found *at = j->list->at;
-  size_t next = first;
-  wide reach = INFINITY; /* what begins behind it is behind one of them */
+  size_t next = first, ends = first; /* what is behind one of them is behind the one that ends first */
+  wide reach = INFINITY;
   for (size_t k = first; k < end && at[k].least <= reach; k++) {
-    const struct exact_root *root = &at[k].root;
-    const wide most = at[k].kind == EXACT_OPEN ? root->t : root->t + root->t_error;
-    if (most < reach) reach = most;
+    if (at[k].root.t - at[ends].root.t < (wide)end_error(&at[ends]) - end_error(&at[k])) ends = k;
+    reach = at[ends].root.t + end_error(&at[ends]);
   }
   for (size_t k = first + 1; k < end && at[k].least <= reach; k++) {
-    const struct exact_root *root = &at[k].root;
-    if (at[k].kind == EXACT_OPEN || root->t - root->t_error > reach) continue;
-    if (at[next].kind != EXACT_OPEN && judge_stands_before(root, &at[next].root)) next = k;
+    if (at[k].kind == EXACT_OPEN || behind(&at[k], &at[ends])) continue;
+    if (at[next].kind != EXACT_OPEN && judge_stands_before(&at[k].root, &at[next].root)) next = k;
   }
   for (size_t k = first; k < end && at[k].least <= reach && !j->doubt; k++) {
     const struct exact_root *a = &at[next].root, *b = &at[k].root;
