@@ -388,6 +388,36 @@ static void test_touching(void **state)
   world_close(&world);
 }
 
+/* What may be a hit is one for all hits and for the nearest wherever the ray's ends are, though t's double is at an end: a tip,
+ * and an open border. */
+static void test_next_to_an_end(void **state)
+{
+  (void)state;
+  world_net net[1];
+  for (int n = 0; n < 16; n++) { /* from the tip (0,0,0) to an open border in x = 3 */
+    net[0][n / 4][n % 4][0] = n / 4, net[0][n / 4][n % 4][1] = (n / 4) * (n % 4);
+    net[0][n / 4][n % 4][2] = n / 4 == 3 ? 0 : (n / 4) * (n % 4 - 1.5);
+  }
+  struct world world;
+  world_open(&world, net, 1, NULL);
+  static const struct ray third = {{0, 0, 1}, {0, 0, -3}, 1.0 / 3, INFINITY}, /* of a double below it */
+    fifth = {{0, 0, 1}, {0, 0, -5}, 0, 1.0 / 5};                              /* above it */
+  for (int border = 0; border < 2; border++) {
+    for (int n = 0; n < 2; n++) {
+      struct ray ray = n ? fifth : third;
+      if (border) ray.origin[0] = 3, ray.origin[1] = 4;
+      const struct hit nearest = world_closest(&world, &ray);
+      const struct hit_list list = list_of(&world, &ray);
+      assert_int_equal(nearest.patch, 0);
+      assert_int_equal(nearest.certainty, border ? CERTAINTY_GRAZING : CERTAINTY_CERTAIN);
+      assert_int_equal(list.certainty, CERTAINTY_GRAZING);
+      assert_int_equal(list.count, 1);
+      assert_true(list.hits[0].t > ray.t_min && list.hits[0].t < ray.t_max);
+    }
+  }
+  world_close(&world);
+}
+
 /* Six patches that go twice round a point: a ray through it meets two sheets there, which is not one hit. A ray beside
  * it has two. */
 static void test_twice_round(void **state)
@@ -462,6 +492,7 @@ int main(void)
     cmocka_unit_test(test_stack),
     cmocka_unit_test(test_standing_on),
     cmocka_unit_test(test_touching),
+    cmocka_unit_test(test_next_to_an_end),
     cmocka_unit_test(test_twice_round),
     cmocka_unit_test(test_worn),
   };

@@ -198,13 +198,14 @@ void judge_keep(struct judge *j, struct exact_root *root)
   set_limit(j);
 }
 
-/* `from`: where along the ray what may be a hit begins. */
-static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double from)
+/* `from`: where along the ray what may be a hit begins. `in_range`: its t is proven to be the ray's, though that may be so near
+ * to an end that its double is not. */
+static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double from, bool in_range)
 {
   const struct ray *ray = j->asked->ray;
-  if (maybe->t < ray->t_min - maybe->t_error || maybe->t > ray->t_max + maybe->t_error) return;
+  if (!in_range && (maybe->t < ray->t_min - maybe->t_error || maybe->t > ray->t_max + maybe->t_error)) return;
   judge_undecided(j, from);
-  if (!(maybe->t > ray->t_min + maybe->t_error && maybe->t < ray->t_max)) return;
+  if (!in_range && !(maybe->t > ray->t_min + maybe->t_error && maybe->t < ray->t_max)) return;
   if (j->all) {
     judge_add_open(j, maybe);
     return;
@@ -226,13 +227,14 @@ static void tell_maybe(struct judge *j, unsigned borders, const struct exact_roo
     t_error += 16 * UNIT_ROUNDOFF * (fabs(t) + fabs(j->local.depth.unit * j->local.depth.to_t));
   }
   const struct exact_maybe maybe = {j->patch, borders, u, v, t, t_error};
-  keep_maybe(j, &maybe, root->sharp ? least_t(root) : t - t_error);
+  keep_maybe(j, &maybe, root->sharp ? least_t(root) : t - t_error,
+             root->sharp && root_in_range(j, root) == SIDE_INSIDE);
 }
 
 void judge_maybe(struct judge *j, double u, double v, double t, double t_error, double from)
 {
   const struct exact_maybe maybe = {j->patch, 0, u, v, t, t_error};
-  keep_maybe(j, &maybe, from);
+  keep_maybe(j, &maybe, from, false);
 }
 
 void judge_open(struct judge *j, const struct exact_found *border)
@@ -302,7 +304,7 @@ bool judge_pole(struct judge *j, int border, double reach)
   const double t = (double)((j->prepared->x[zoom->axis][at.row][at.column] - zoom->origin) * zoom->to_t);
   const double t_error = 16 * UNIT_ROUNDOFF * fabs(t) + ZOOM_POLE_REACH * zoom->depth_error * fabs((double)zoom->to_t);
   const struct exact_maybe maybe = {j->patch, 1u << border, at.u, at.v, t, t_error};
-  keep_maybe(j, &maybe, t - t_error - reach);
+  keep_maybe(j, &maybe, t - t_error - reach, false);
   return false;
 }
 
@@ -365,7 +367,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct
     if (asked->known) add_rival(j, asked->known);
   }
   set_limit(j);
-  if (!all && asked->maybe) keep_maybe(j, asked->maybe, asked->maybe->t);
+  if (!all && asked->maybe) keep_maybe(j, asked->maybe, asked->maybe->t, false);
   judge_search(j);
 }
 
