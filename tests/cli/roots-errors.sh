@@ -21,6 +21,7 @@ try pscn roots --stats nowhere/stats.json </dev/null
 try pscn roots --format csv </dev/null
 # A root beyond what a double holds; 25 such lines.
 printf '%s\n' '2 -1' '1e-320 1 -1' | try pscn roots
+printf '%s\n' '2 -1' '1e-320 1 -1' '4 -1' | pscn roots 2>&1 # each error behind its line
 (for k in $(seq 25); do echo '1e-320 1 -1'; done) | pscn roots | wc -l
 # Values that nothing is known of, since the iterations ended; the largest coefficients in the other basis.
 echo '1 -3 3 -1 0 0 0 1 1' | pscn roots --solver 'laguerre { basis bernstein max_iterations 1 }' | wc -w

@@ -6,10 +6,13 @@ printf '4 -1\r\n1\t-1' | try pscn roots
 for solver in bernstein newton laguerre aberth 'aberth { basis bernstein }' 'newton { form paper }'; do
   printf '1 -0.25 0\n4 -1\n8 -1 0 0\n' | try pscn roots --solver "$solver"
 done
+# Of one real part they come by the imaginary part.
+echo '1 0 5 0 4' | try pscn roots --solver laguerre
 # Only the real roots in [0,1]; a pair that is none has an empty line.
 printf '1 1 1\n1 -3 0\n' | try pscn roots --solver bernstein
 printf '2 -1\n1 0 0\n' | pscn roots --stats stats.json --tolerance 1e-3 | wc -l
 grep -v '"solve"' stats.json
+grep -c '"solve": 0\.0$' stats.json
 printf '2 -1\n' | pscn roots --stats - --solver 'laguerre { form paper max_iterations 5 }' | grep -v '"solve"'
 # Answers come before the input ends.
 coproc pscn roots
