@@ -67,7 +67,15 @@ ray 47: from
 roots by laguerre$
 roots by aberth, asked for this story
 the nearest so far; a part is left to the last resort
+= [^ ]* [+-][0-9.e-]* i, [0-9]* iterations, .* refused: not real
 END
+# How many candidates are left to the last resort is counted ray by ray.
+awk '
+  /^ray/ { left = candidates = 0 }
+  /^candidate/ { candidates++ }
+  /left to the last resort/ { left++ }
+  /^last resort:/ { several += left > 1; wrong += $3 != left || $5 != candidates }
+  END { print (several > 0 ? "several" : "never several") ", " wrong + 0 " wrong" }' story
 grep ' [+-]0 i' story # no real root is told as a complex one
 # One whole, on a plane patch, where all numbers are exact.
 printf '0 0 -4 0 0 1\n' | pscn trace "$SCENES/flat.pscn" --explain --solver 'aberth { split 1 }' | grep -v ' root\|= '
