@@ -2,6 +2,7 @@
 #include "base/diagnostics.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -104,6 +105,35 @@ static void lines_before_a_text_count(void **state)
   assert_string_equal(told.text, "<stdin>:1099511627777:3: error: this is no number\n  1 x 3\n    ^\n");
 }
 
+static void keep_all(void *context, const char *text, size_t length)
+{
+  struct told *told = context;
+  const size_t before = strlen(told->text);
+  assert_true(before + length < sizeof told->text);
+  memcpy(told->text + before, text, length);
+}
+
+/* Behind the last that is shown a line says so, once; more are only counted, errors and warnings each for themselves. */
+static void so_many_are_shown(void **state)
+{
+  (void)state;
+  const struct place nowhere = {NULL, 0, 0};
+  struct told told = {.diagnostics = {.tell = keep_all}};
+  char expected[sizeof told.text] = "";
+  told.diagnostics.context = &told;
+  for (int k = 1; k <= 23; k++) {
+    assert_int_equal(diagnostics_full(&told.diagnostics), k > 20);
+    diagnostics_error(&told.diagnostics, nowhere, "no %d", k);
+    diagnostics_warning(&told.diagnostics, nowhere, "no %d", k);
+    char *end = expected + strlen(expected);
+    const size_t room = sizeof expected - strlen(expected);
+    if (k <= 20) (void)snprintf(end, room, "error: no %d\nwarning: no %d\n", k, k);
+    if (k == 21) (void)snprintf(end, room, "20 errors: no more are shown\n20 warnings: no more are shown\n");
+  }
+  assert_string_equal(told.text, expected);
+  assert_true(told.diagnostics.error_count == 23 && told.diagnostics.warning_count == 23);
+}
+
 /* What UTF-8 is, by the edges of its table (RFC 3629, section 4). */
 static void characters_are_well_formed(void **state)
 {
@@ -143,7 +173,7 @@ static void characters_are_well_formed(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_said_is_lost),
-                                     cmocka_unit_test(lines_before_a_text_count),
+                                     cmocka_unit_test(lines_before_a_text_count), cmocka_unit_test(so_many_are_shown),
                                      cmocka_unit_test(characters_are_well_formed)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
