@@ -28,8 +28,8 @@ static void test_values(void **state)
   expect("a {{b}} c", "{\"b\":\"<i>&'\\\"\"}", "a &lt;i&gt;&amp;&#39;&quot; c");
   expect("{{&b}}|{{b:4s}}|{{b:-4s}}|", "{\"b\":\"<x\"}", "<x|  <x|<x  |");
   expect("{{n}} {{n:5d}} {{n:.2f}}", "{\"n\":42}", "42    42 42.00");
-  expect("{{x}} {{x:6}} {{x:.3g}} {{x:9.2e}} {{x:8.3f}}", "{\"x\":0.00012345678}",
-         "0.00012345678 0.000123457 0.000123  1.23e-04    0.000");
+  expect("{{x}} {{x:1}} {{x:6}} {{x:.3g}} {{x:9.2e}} {{x:8.3f}}", "{\"x\":0.00012345678}",
+         "0.00012345678 0.0001 0.000123457 0.000123  1.23e-04    0.000");
   expect("[{{nothing}}{{null}}]", "{\"null\":null}", "[]");
   expect("{{}} {{ {b}", "{\"b\":1}", " {{ {b}");
 }
@@ -39,6 +39,8 @@ static void test_sections(void **state)
   (void)state;
   expect("{{#rows}}<{{a}}{{b}}>{{/rows}}", "{\"b\":9,\"rows\":[{\"a\":1},{\"a\":2,\"b\":3}]}", "<19><23>");
   expect("{{#o}}{{#p}}{{x}}{{y}}{{/p}}{{/o}}", "{\"x\":0,\"o\":{\"x\":1,\"p\":{\"y\":2}}}", "12");
+  expect("{{#o}}{{x}}{{/o}}{{x}}", "{\"x\":0,\"o\":{\"x\":1}}", "10"); /* a name has its outer meaning again */
+  expect("{{#a}}-{{/a}}", "{\"a\":[1,2,3,4,5,6,7,8,9,10]}", "----------");
   const char *const nothing[] = {"{}", "{\"s\":null}", "{\"s\":false}", "{\"s\":[]}"};
   for (size_t k = 0; k < sizeof nothing / sizeof nothing[0]; k++)
     expect("{{#s}}yes{{/s}}{{^s}}no{{/s}}", nothing[k], "no");
