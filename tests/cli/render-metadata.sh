@@ -10,3 +10,10 @@ for name in Software pscn:version pscn:scene pscn:solver pscn:tolerance pscn:siz
 done
 grep -a -o 'flat\.pscn' a.png
 grep -a -o sRGB a.png
+# What they say is what was asked for, and of the picture.
+pscn render "$scene" -o b.png --size 20x10 --crop 3,2,9,7 --samples 2 --quiet --solver 'newton { polish off }' \
+  --tolerance 1e-9 --declare A=0.25 --declare B=-3e19
+for text in 'solver=newton { tolerance 1e-9 polish off }' tolerance=1e-9 size=20x10 crop=3,2,9,7 samples=2 channels=rgb \
+            "options= --solver 'newton { polish off }' --tolerance 1e-9 --declare A=0.25 --declare B=-3e19"; do
+  LC_ALL=C tr '\0' '=' <b.png | grep -a -o -F "pscn:$text"
+done
