@@ -64,3 +64,32 @@ declaring_macros() {
   echo '}'
 }
 declaring_macros | within pscn dump - --max-memory 100M 2>&1 | grep 'rror\|exit'
+# So many different words of a macro are looked at; of what has more it is told.
+many_words() {
+  for count in 250 251; do
+    echo "#macro Calls$count()"
+    printf 'M%d()\n' $(seq $count)
+    echo '#end'
+    echo "#declare Unused = union { Calls$count() }"
+  done
+}
+many_words | within pscn dump - 2>&1 | grep 'rror\|Calls\|exit'
+# Macros that call one another are followed once each, not on every way through them.
+calling_macros() {
+  for macro in {A..T}; do echo "#macro $macro()" {A..T}'()' '#end'; done
+  echo '#declare Unused = union { A() }'
+}
+calling_macros | within pscn dump - | grep -c camera
+# Of a long file the memory is given back while it is read; what is told of is read again.
+long_scene() {
+  local blanks k
+  printf -v blanks '%60000s' ''
+  for k in {1..300}; do
+    [ $((k % 100)) != 50 ] || echo "#declare M$k = sphere { 0, 1 }"
+    echo "bicubic_patch { type 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 }$blanks"
+  done
+  echo 'light_source { <M50, M150, M250>, rgb 1 }'
+}
+long_scene >long.pscn
+within pscn dump long.pscn
+long_scene | pscn dump - 2>&1 | sed 's/^stdin/long.pscn/' | cmp - <(pscn dump long.pscn 2>&1) && echo same
