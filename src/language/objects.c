@@ -32,7 +32,6 @@ struct node *node_end(struct language *language, struct span brace)
   struct node *node = language->objects->open;
   node->whole = span_join(node->block.place, brace);
   language->objects->open = node->outer;
-  node->outer = NULL;
   return node;
 }
 
@@ -121,7 +120,7 @@ void patch_end(struct language *language)
 /* ---- unions ---- */
 
 /* Patches are counted, never built, until all text has been read. */
-static void count_patches(struct language *language, struct node *parent, struct span place)
+static void count_patches(struct language *language, const struct node *parent, struct span place)
 {
   char text[100];
   const size_t affordable = language->max_memory / PATCH_BYTES;
@@ -130,7 +129,6 @@ static void count_patches(struct language *language, struct node *parent, struct
   snprintf(text, sizeof text, "the scene has more than %zu patches%s", most,
            affordable < MAX_PATCHES ? "; --max-memory allows more" : "");
   language_limit(language, place, text);
-  parent->patch_count = most;
 }
 
 /* What holds no patch is not listed: copies of the parent, which may be many, would each be looked through for nothing. */
