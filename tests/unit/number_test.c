@@ -64,6 +64,9 @@ static void what_is_a_number(void **state)
   size_t used;
   assert_true(number_read("1e5", 2, &value, &used) == NUMBER_FINITE && value == 1 && used == 1);
   assert_true(number_read("12345", 3, &value, &used) == NUMBER_FINITE && value == 123 && used == 3);
+  assert_true(number_read("1.2345", 4, &value, &used) == NUMBER_FINITE && value == 1.23 && used == 4);
+  assert_true(number_read("0.00", 3, &value, &used) == NUMBER_FINITE && value == 0 && used == 3);
+  assert_true(number_read("1.5e12", 5, &value, &used) == NUMBER_FINITE && value == 15 && used == 5);
 }
 
 /* Digits, a point somewhere or nowhere, and an exponent or none: as strtod reads it. */
