@@ -223,12 +223,15 @@ static enum status place(const struct atomic_file *file, bool alone, const atomi
 }
 
 /* Leaves nothing but the final name: with what is placed where all went well, else as it was before. */
-static void settle(struct staged *staged, bool well)
+static void settle(const struct atomic_file *file, struct staged *staged, bool well)
 {
   const bool undo = !well && staged->placed;
+  char byte;
   if (staged->old != NULL) (void)(undo ? rename(staged->old, staged->target.path) : unlink(staged->old));
   else if (undo && !staged->target.exists) (void)unlink(staged->target.path);
   if (!staged->placed && staged->fresh != NULL) (void)unlink(staged->fresh);
+  /* A link to what is gone would be a name too, and one that cannot be written to. */
+  if (well && staged->placed && file->bytes == NULL && readlink(file->path, &byte, 1) >= 0) (void)unlink(file->path);
 }
 
 static void staged_free(struct staged *staged)
@@ -302,7 +305,7 @@ enum status atomic_files_write(const struct atomic_file *files, size_t count, co
     status = place(&files[k], count == 1, stop, &staged[k], out_errno);
   }
   /* Other names are gone before the disk is waited for: who is killed then leaves none. */
-  for (size_t k = 0; staged != NULL && k < count; k++) settle(&staged[k], status == STATUS_OK);
+  for (size_t k = 0; staged != NULL && k < count; k++) settle(&files[k], &staged[k], status == STATUS_OK);
   for (size_t k = 0; staged != NULL && k < count; k++) {
     if (status == STATUS_OK && staged[k].placed) sync_directory(staged[k].target.path);
     staged_free(&staged[k]);

@@ -19,7 +19,7 @@
 /* Whether a file of this name could be written now; leaves nothing behind. To be asked before long work starts. */
 enum status atomic_file_probe(const char *path, int *out_errno) STATUS_MUST_CHECK;
 
-/* One of several files. Without bytes (NULL) there is to be none of that name afterwards. */
+/* One of several files. Without bytes (NULL) there is to be none of that name afterwards, and no symbolic link. */
 struct atomic_file {
   const char *path;
   const void *bytes;
