@@ -36,6 +36,7 @@ struct rendering {
   struct progress progress;
   double kept;   /* when it was last kept, in seconds since the rendering began */
   bool has_part; /* there is a file of what is done */
+  bool has_old;  /* there was one that we do not go on from */
   size_t left;   /* pixels of this picture in the file that an earlier run has left, where we do not go on from it */
 };
 
@@ -145,6 +146,7 @@ static enum status resume(struct rendering *rendering)
   if (!rendering->request->resume) {
     bool useless;
     rendering->left = pixels_left(rendering, path, &useless);
+    rendering->has_old = true;
     if (!rendering->request->scene->quiet)
       command_warning(command, "'%s' is left by an earlier run%s", path,
                       rendering->left > 0 ? "; --resume goes on from there"
@@ -284,7 +286,7 @@ static enum status write_results(struct rendering *rendering)
   const size_t length = statistics == NULL ? 0 : strlen(statistics);
   const struct atomic_file files[] = {{request->output, bytes, size},
                                       {request->stats, statistics, length},
-                                      {rendering->has_part || rendering->left > 0 ? request->part : NULL, NULL, 0}};
+                                      {rendering->has_part || rendering->has_old ? request->part : NULL, NULL, 0}};
   if (status == STATUS_OK) status = output_write(command, files, 3);
   free(statistics);
   free(bytes);

@@ -61,11 +61,16 @@ try pscn render $small --tile 2/2 -o small.exr --resume
 rm small.exr.part.exr
 echo no picture >half.exr.part.exr
 pscn render $scene -o half.exr --resume 2>/dev/null; echo "exit $?"
-# Nor without being asked to, but it says so.
-cp one.exr half.exr.part.exr
-pscn render $SCENES/flat.pscn --size 20x10 -o half.exr --quiet
-cp one.exr half.exr.part.exr
-pscn render $SCENES/flat.pscn --size 20x10 -o half.exr 2>&1 | head -1
+# Nor without being asked to, but it says so. It goes when the picture is complete: a part of another picture too.
+for part in one.exr some.exr; do
+  cp $part half.exr.part.exr
+  pscn render $SCENES/flat.pscn --size 20x10 -o half.exr --quiet
+  [ -e half.exr.part.exr ] && echo "$part is still there"
+  cp $part half.exr.part.exr
+  pscn render $SCENES/flat.pscn --size 20x10 -o half.exr 2>said
+  head -n 1 said
+done
+rm said
 # A file that has some tiles twice counts for none: what is missing without it is told.
 pscn render $scene --tile 1/1 -o all.exr --quiet
 try pscn merge some.exr all.exr -o no.png
