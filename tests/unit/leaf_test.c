@@ -13,13 +13,13 @@
 enum { SEED = 20261123, MOST_LEAVES = 32 * 32 };
 
 static const int splits[][2] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {16, 16}, {32, 32}, {1, 64}, {64, 1}};
-enum { SPLITS = sizeof splits / sizeof *splits, KINDS = 6 };
+enum { SPLITS = sizeof splits / sizeof *splits, KINDS = 8 };
 
 /* Of any shape; flat, so that second derivatives are 0; so thin that squares underflow; a border that is a point; all one
- * point; of few bits, so that cutting into a power of two is exact. */
+ * point; of few bits, so that cutting into a power of two is exact; on one line; so small that squares underflow. */
 static void make_patch(struct random *random, int kind, struct model_patch *patch, double rest[3][4][4])
 {
-  *patch = (struct model_patch){.scale = 1, .m = 3, .n = 3, .rest = (const double(*)[4][4])rest};
+  *patch = (struct model_patch){.scale = 1, .m = 3, .n = 3, .rest = (const double(*)[4][4])rest, .pole[2] = kind == 3};
   for (int k = 0; k < 3; k++) {
     for (int n = 0; n < 16; n++) {
       double x = random_between(random, -1, 1);
@@ -27,6 +27,8 @@ static void make_patch(struct random *random, int kind, struct model_patch *patc
       if (kind == 2) x *= k == 0 ? 1 : 0x1p-500;
       if (kind == 3 && n % 4 == 0) x = k / 4.0;
       if (kind == 4) x = 0.25;
+      if (kind == 6 && k > 0) x = 0;
+      if (kind == 7) x *= 0x1p-530;
       if (kind == 5) x = rint(x * 0x1p12) * 0x1p-12;
       patch->x[k][n / 4][n % 4] = x;
       rest[k][n / 4][n % 4] = kind == 0 ? random_between(random, -1, 1) * fabs(x) * 0x1p-54 : 0;

@@ -15,7 +15,7 @@
 #define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
 
 /* The narrowest that has room for so many: wide registers with most lanes empty take longer. */
-static const struct leaf_kernel *kernel_for(size_t count)
+static const struct leaf_kernel *lanes_for(size_t count)
 {
 #if defined(PSCN_HAS_AVX512)
   if (count > 4 && KERNEL_RUNS_AVX512) return &leaf_kernel_avx512;
@@ -25,6 +25,14 @@ static const struct leaf_kernel *kernel_for(size_t count)
 #endif
   (void)count;
   return &leaf_kernel_baseline;
+}
+
+static const struct leaf_kernel *kernel_for(size_t count)
+{
+#if defined(PSCN_HAS_AVX2)
+  if (count == 1 && KERNEL_RUNS_AVX2) return &leaf_kernel_one;
+#endif
+  return lanes_for(count);
 }
 
 void patch_parts(const struct model_patch *patch, const struct part_grid *grid, size_t count,
@@ -122,7 +130,7 @@ void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first
   kernel_for(count)->leaves(patch, count, leaves);
 }
 
-void leaf_quadrics(size_t count, struct leaf leaves[]) { kernel_for(count)->quadrics(count, leaves); }
+void leaf_quadrics(size_t count, struct leaf leaves[]) { lanes_for(count)->quadrics(count, leaves); }
 
 /* What rounding `half` to a float, and what it is compared with, may do: see lanes/view.h. */
 #define HALF_GROWTH (1 + 0x1p-20)

@@ -22,4 +22,7 @@ struct leaf_kernel {
 
 extern const struct leaf_kernel leaf_kernel_baseline, leaf_kernel_avx2, leaf_kernel_avx512;
 
+/* For one part or leaf, with AVX2; no quadrics. */
+extern const struct leaf_kernel leaf_kernel_one;
+
 #endif
