@@ -129,10 +129,8 @@ static enum status read_tiles(struct piece *piece)
     return STATUS_INPUT;
   const enum status status = tile_list_create(&crop, piece->number, piece->count, &piece->tiles);
   if (status != STATUS_OK) return status;
-  const char *done = image_metadata(image, "pscn:done", &length);
-  if (done != NULL) return read_done(done, length, &piece->tiles) ? STATUS_OK : STATUS_INPUT;
-  for (size_t k = 0; k < piece->tiles.count; k++) atomic_store(&piece->tiles.done[k], true);
-  return STATUS_OK;
+  const char *done = image_metadata(image, "pscn:done", &length); /* an empty text is not in the file: none is done */
+  return done == NULL || read_done(done, length, &piece->tiles) ? STATUS_OK : STATUS_INPUT;
 }
 
 /* What the picture says of its channels, likewise. */

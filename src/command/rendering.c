@@ -76,7 +76,8 @@ static void look(void *context, const struct render_progress *progress)
   const struct rendering_request *request = rendering->request;
   if (!request->scene->quiet) progress_tell(&rendering->progress, progress);
   if (request->part == NULL || !(request->checkpoint > 0) ||
-      progress->seconds - rendering->kept < request->checkpoint || has_less(rendering))
+      progress->seconds - rendering->kept < request->checkpoint ||
+      tile_list_pixels(&rendering->piece.tiles, true) == 0 || has_less(rendering))
     return;
   const struct seconds start = seconds_now();
   (void)keep(rendering);

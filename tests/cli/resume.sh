@@ -111,6 +111,13 @@ kill -KILL $! 2>/dev/null
 wait $! 2>/dev/null
 cmp other.exr never.exr.part.exr && echo 'nothing is kept'
 rm -f other.exr never.exr* said
+# Nor is what has no tile yet: all of this is in one.
+pscn render $SCENES/bent.pscn --size 32x32 --samples 99 -o none.exr --threads 1 --checkpoint 0.05 --quiet &
+sleep 0.5
+kill -KILL $! 2>/dev/null
+wait $! 2>/dev/null
+[ -e none.exr.part.exr ] && echo 'nothing is kept as something'
+rm -f none.exr*
 # Nothing to go on from.
 pscn render $SCENES/flat.pscn --size 20x10 -o new.png --resume --quiet
 LC_ALL=C ls
