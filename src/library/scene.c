@@ -87,7 +87,10 @@ const char *pscn_scene_messages(const struct pscn_scene *scene)
 {
   if (!scene) return "error: memory is short\n";
   if (!scene->messages) return "";
-  return scene->text ? scene->text : scene->messages->shown;
+  if (scene->text) return scene->text;
+  const struct message *message = scene->messages; /* no memory for all: the first error */
+  while (message->is.warning && message->next) message = message->next;
+  return message->shown;
 }
 
 size_t pscn_message_count(const struct pscn_scene *scene) { return scene ? scene->message_count : 0; }

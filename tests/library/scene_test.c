@@ -117,6 +117,7 @@ static void test_arguments(void **state)
     {{.size = sizeof(struct pscn_options), .tolerance = 7}, "the tolerance is a number from"},
     {{.size = sizeof(struct pscn_options), .tolerance = NAN}, "the tolerance is no number"},
     {{.size = sizeof(struct pscn_options), .image_width = -1}, "negative"},
+    {{.size = sizeof(struct pscn_options), .image_height = -1}, "negative"},
     {{.size = sizeof(struct pscn_options), .number_count = 1}, "numbers is NULL"},
     {{.size = sizeof(struct pscn_options), .numbers = &named_so, .number_count = 1}, "cannot be declared"},
     {{.size = sizeof(struct pscn_options), .numbers = &infinite, .number_count = 1}, "not finite"},
@@ -139,6 +140,12 @@ static void test_arguments(void **state)
                    PSCN_INPUT);
   assert_string_equal(pscn_scene_messages(scene), "error: patch 5: control point [1][2] is not finite\n");
   assert_int_equal(pscn_patch_count(scene), 0);
+  struct pscn_camera camera, none = {{0}, {0}, {0}, {0}};
+  memset(&camera, 0xff, sizeof camera);
+  pscn_scene_camera(scene, &camera);
+  assert_memory_equal(&camera, &none, sizeof none);
+  pscn_scene_free(scene);
+  assert_int_equal(pscn_scene_from_text("x", NULL, 1, NULL, &scene), PSCN_USAGE);
   pscn_scene_free(scene);
   assert_int_equal(pscn_scene_from_file(NULL, NULL, &scene), PSCN_USAGE);
   pscn_scene_free(scene);
@@ -236,15 +243,18 @@ void *__wrap_arena_alloc(struct arena *arena, size_t count, size_t size)
   return asked_too && asked_too->asked++ == asked_too->fails ? NULL : __real_arena_alloc(arena, count, size);
 }
 
-/* Copies of objects in unions, moved and turned, textures and solvers of their own, a light and a camera. */
-static const char MANY[] =
-  "#declare Gold = texture { pigment { rgb <1, Low, 0> } finish { phong 1 } }\n"
-  "#declare A = bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3\n"
-  "<0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,1> <3,1,0>\n"
-  "<0,2,0> <1,2,1> <2,2,1> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0.5> }\n"
-  "#declare B = union { object { A } object { A translate 3*x solver newton } texture { Gold } }\n"
-  "object { B } object { B rotate <10, 20, 30> } union { object { B scale 2 } object { A } }\n"
-  "light_source { <0, 9, -9>, 1 } camera { location -9*z look_at 0 }\n";
+/* Copies of objects in unions, moved and turned, textures and solvers of their own, a light and a camera; and a warning. */
+static const char MANY[] = "#version 3.5;\n"
+                           "#declare Gold = texture { pigment { rgb <1, Low, 0> } finish { phong 1 } }\n"
+                           "#declare A = bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3\n"
+                           "<0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,1> <3,1,0>\n"
+                           "<0,2,0> <1,2,1> <2,2,1> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,0.5> }\n"
+                           "#declare C = bicubic_patch { type 1 flatness 0 u_steps 3 v_steps 3\n"
+                           "<3,0,0> <4,0,0> <5,0,0> <6,0,0> <3,1,0> <4,1,1> <5,1,1> <6,1,0>\n"
+                           "<3,2,0> <4,2,1> <5,2,1> <6,2,0> <3,3,0> <4,3,0> <5,3,0> <6,3,0.5> solver newton }\n"
+                           "#declare B = union { object { A } object { C translate z } texture { Gold } }\n"
+                           "object { B } object { B rotate <10, 20, 30> } union { object { B scale 2 } object { A } }\n"
+                           "light_source { <0, 9, -9>, 1 } camera { location -9*z look_at 0 }\n";
 
 static void test_memory(void **state)
 {
@@ -258,13 +268,19 @@ static void test_memory(void **state)
   options.solver = "aberth { polish off }";
   asked_too = &pool;
   const struct pscn_ray ray = {{1.5, 1.5, -5}, {0, 0, 1}, 0, INFINITY};
-  const char *const texts[] = {
-    PATCH, MANY, "camera { location -9*z }", "camera { loaction 0 }", "#declare A = union { object {", NULL};
-  for (const char *const *text = texts; *text; text++) {
+  const struct {
+    const char *text;
+    enum pscn_status status;
+  } scenes[] = {{PATCH, PSCN_OK},
+                {MANY, PSCN_OK},
+                {"camera { location -9*z }", PSCN_OK},
+                {"#version 3.5;\ncamera { loaction 0 }", PSCN_INPUT},
+                {"#declare A = union { object {", PSCN_INPUT}};
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
     struct pscn_scene *scene;
     struct pscn_hit hit;
     pool = (struct pool){0, 0, -1};
-    const enum pscn_status as_ever = from_text(*text, &options, &scene);
+    assert_int_equal(from_text(scenes[k].text, &options, &scene), scenes[k].status);
     assert_true(pool.blocks > 0);
     (void)pscn_nearest(scene, 1, &ray, 0, &hit, 0);
     pscn_scene_free(scene);
@@ -272,9 +288,9 @@ static void test_memory(void **state)
     const long all = pool.asked;
     for (long fails = 0; fails < all; fails++) {
       pool = (struct pool){0, 0, fails};
-      const enum pscn_status status = from_text(*text, &options, &scene);
+      const enum pscn_status status = from_text(scenes[k].text, &options, &scene);
       /* Only a message is a thing that can be missing without harm. */
-      assert_true(status == PSCN_LIMIT || (status == as_ever && (status == PSCN_INPUT || scene)));
+      assert_true(status == PSCN_LIMIT || (status == scenes[k].status && (status == PSCN_INPUT || scene)));
       assert_true(status == PSCN_OK || strstr(pscn_scene_messages(scene), "error: "));
       pscn_scene_free(scene);
       assert_int_equal(pool.blocks, 0);
