@@ -69,10 +69,12 @@ pscn render $scene --samples 2 --tile 2/4 --declare Unused=1 -o named.exr
 sed 's/Unused=1/\x1b[31m=1 /' named.exr >p2.exr
 try pscn merge p?.exr $'\x1b[31m\xc2\x9bé\xff.exr' -o no.png
 # What a piece says of itself and cannot be, in as many bytes; and one that stands outside its own picture.
+said=()
 for text in 0-4:4-0 0-4:3,1 0-4:0-9 '0-4:0;4' 0-4:x-4 0-4:0-x 3/4:5/4 3/4:0/4 3/4:3/0 '3/4:3;4' 3/4:x/4 3/4:3/x; do
-  sed "s|${text%:*}|${text#*:}|" whole3.exr >said.exr
-  pscn merge said.exr -o no.png 2>&1 | sed "s|^|$text: |"
+  said+=("said ${text//\//:}.exr")
+  sed "s|${text%:*}|${text#*:}|" whole3.exr >"${said[-1]}"
 done
+try pscn merge "${said[@]}" -o no.png 2>&1
 # In whatever order they come.
 LC_ALL=C sed 's|\(pscn:channels.string.....\)rgb|\1rgc|' p1.exr >unknown.exr
 cmp -s p1.exr unknown.exr && echo "nothing is changed"
@@ -114,5 +116,6 @@ try pscn merge p1.exr -o no.png --bits 32
 try pscn merge p1.exr -o no.png --bits 7
 try pscn render $scene --tile 1/4 -o no.png
 try pscn render $scene --tile 5/4 -o no.exr
+try pscn render $scene --tile 0/4 -o no.exr
 try pscn render $scene --tile 1/4 --bits 16 -o no.exr
 try pscn render $scene --resume -o -
