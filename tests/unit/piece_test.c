@@ -160,6 +160,25 @@ static void what_is_done_is_copied(void **state)
   piece_destroy(&from), piece_destroy(&to);
 }
 
+/* Whatever the bits of colours are, data are kept as floats. */
+static void channels_are_colours_or_data(void **state)
+{
+  (void)state;
+  static const char *const names[] = {"R", "G", "B", "depth", "normal.x", "normal.y", "normal.z"};
+  const struct render_options options = {
+    .width = WIDTH,
+    .height = HEIGHT,
+    .crop = {0, 0, WIDTH, HEIGHT},
+    .channels = {.count = 3, .width = 7, .kind = {CHANNEL_RGB, CHANNEL_DEPTH, CHANNEL_NORMAL}}};
+  struct piece piece;
+  assert_int_equal(piece_create(&options, 1, 1, NULL, 0, &piece), STATUS_OK);
+  for (size_t c = 0; c < 7; c++) {
+    assert_string_equal(piece.image.channel[c].name, names[c]);
+    assert_int_equal(piece.image.channel[c].data, c >= 3);
+  }
+  piece_destroy(&piece);
+}
+
 static uint64_t hash(uint64_t start, const void *bytes, size_t count, size_t size)
 {
   for (size_t k = 0; k < count; k++) {
@@ -214,8 +233,8 @@ static void the_sum_is_of_all_pixels(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_part_tells_which_tiles_it_has), cmocka_unit_test(what_cannot_be_is_no_part),
+    cmocka_unit_test(a_part_tells_which_tiles_it_has),      cmocka_unit_test(what_cannot_be_is_no_part),
     cmocka_unit_test(parts_of_one_picture_belong_together), cmocka_unit_test(what_is_done_is_copied),
-    cmocka_unit_test(the_sum_is_of_all_pixels)};
+    cmocka_unit_test(channels_are_colours_or_data),         cmocka_unit_test(the_sum_is_of_all_pixels)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
