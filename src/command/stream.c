@@ -77,7 +77,7 @@ int stream_number(const struct stream_line *line, size_t *at, double *out_value,
   while (*at < line->length && is_blank(line->text[*at])) ++*at;
   size_t end = *at, used;
   while (end < line->length && !is_blank(line->text[end])) end++;
-  *out_end = end > *at ? end : end + 1;
+  *out_end = end;
   *out_fault = (struct stream_fault){NULL, *at, *out_end};
   if (*at == line->length) return 0;
   const enum number_kind kind = number_read(line->text + *at, end - *at, out_value, &used);
