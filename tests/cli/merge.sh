@@ -28,6 +28,13 @@ pscn render $scene --crop 37,5,66,80 -o crop.exr
 for k in 1 2; do pscn render $scene --crop 37,5,66,80 --tile $k/2 -o crop$k.exr; done
 pscn merge crop?.exr -o cropped.exr --quiet
 same crop.exr cropped.exr
+window() { # NAME FILE: the attribute with its type, its size and four numbers
+  local at=$(LC_ALL=C grep -abo $1 $2 | head -n 1 | cut -d: -f1)
+  tail -c +$((at + 1)) $2 | head -c $((${#1} + 27)) | od -An -tx1
+}
+for name in displayWindow dataWindow; do
+  [ "$(window $name crop.exr)" = "$(window $name cropped.exr)" ] || echo "another $name"
+done
 # More pieces than tiles.
 for k in 1 2 3; do pscn render $scene --crop 0,0,40,20 --tile $k/3 -o tiny$k.exr; done
 try pscn merge tiny?.exr -o tiny.exr --quiet
