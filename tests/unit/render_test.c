@@ -234,12 +234,14 @@ static void a_stopped_rendering_says_so(void **state)
   const struct render_options options = options_of("rgb");
   static float out[WIDTH * HEIGHT * 3];
   const atomic_int stop = 15;
-  const struct render_watch watch = {.stop = &stop};
+  const struct render_watch watches[] = {{.stop = &stop}, {.failed = &stop}}; /* it could not be written */
   struct render_stats stats;
   struct intersector *intersector;
   assert_int_equal(intersector_create(&scene, &intersector), STATUS_OK);
-  assert_int_equal(render_scene(&scene, intersector, &options, &watch, out, &stats), STATUS_INTERRUPTED);
-  assert_int_equal(stats.counts.rays[0], 0);
+  for (size_t k = 0; k < sizeof watches / sizeof *watches; k++) {
+    assert_int_equal(render_scene(&scene, intersector, &options, &watches[k], out, &stats), STATUS_INTERRUPTED);
+    assert_int_equal(stats.counts.rays[0], 0);
+  }
   intersector_destroy(intersector);
 }
 
