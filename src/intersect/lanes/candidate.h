@@ -60,6 +60,10 @@ lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask 
  * Where these are one polynomial `along` is set: no stage behind can decide that. */
 lane_mask stage_planes(struct candidate *it, lane_mask open);
 
+/* planes.c: of `open`, the lanes whose ray meets the pole of the leaf within its range, as far as double precision can tell: no
+ * stage behind can decide that. The polynomials are set. */
+lane_mask meets_pole(const struct packet *p, const struct candidate *it, lane_mask open);
+
 /* bilinear.c: by the default method, closed where boxes show that the leaf has no root but the one that stage_bilinear
  * has found, and one more, which is sought where they do not. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
