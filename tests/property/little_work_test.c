@@ -122,6 +122,29 @@ static void next_to_poles_little_is_left_open(void **state)
   }
 }
 
+/* What meets a pole exactly is for the last resort to decide: no resultant is formed before, of any leaf there. */
+static void of_what_meets_a_pole_no_resultant_is_formed(void **state)
+{
+  (void)state;
+  enum { POLE_RAYS = 200 };
+  struct random random = {SEED + 4};
+  struct world world;
+  open_planet(1, &world);
+  for (int n = 0; n < POLE_RAYS; n++) {
+    struct ray ray = {.t_max = INFINITY};
+    for (int c = 0; c < 3; c++) {
+      ray.origin[c] = c == 1 ? random_between(&random, 1, 2) : random_between(&random, -1, 1);
+      ray.direction[c] = -ray.origin[c];
+    }
+    const struct hit hit = world_closest(&world, &ray);
+    assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+    assert_true(hit.t == 1);
+  }
+  assert_true(tracer_counts(world.tracer)->escalated >= POLE_RAYS);
+  assert_int_equal(tracer_counts(world.tracer)->stages[STAGE_RESULTANT], 0);
+  world_close(&world);
+}
+
 /* A camera stands exactly on a pole, or in a corner of several patches: its start is known to be no hit, and what goes up from the
  * ball leaves nothing open. Where the start belongs to the ray it is a hit. */
 static void from_poles_and_corners_nothing_is_left_open(void **state)
@@ -195,9 +218,11 @@ static void from_a_tip_without_handles_nothing_is_left_open(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(of_a_stack_few_are_tried), cmocka_unit_test(of_lines_few_are_tried),
-    cmocka_unit_test(next_to_poles_little_is_left_open), cmocka_unit_test(from_poles_and_corners_nothing_is_left_open),
-    cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(of_a_stack_few_are_tried),
+                                     cmocka_unit_test(of_lines_few_are_tried),
+                                     cmocka_unit_test(next_to_poles_little_is_left_open),
+                                     cmocka_unit_test(of_what_meets_a_pole_no_resultant_is_formed),
+                                     cmocka_unit_test(from_poles_and_corners_nothing_is_left_open),
+                                     cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
