@@ -20,6 +20,7 @@
 #include "command/command.h"
 #include "effort.h"
 #include "fault/calls.h"
+#include "files.h"
 
 enum { LEAST = 8, MOST_ARGUMENTS = 24 };
 
@@ -57,13 +58,6 @@ static int run(const char *const arguments[])
   fflush(NULL);
   for (int k = 0; k < 3; k++) dup2(saved[k], k), close(saved[k]);
   return code;
-}
-
-static void put(const char *path, const char *text)
-{
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
 }
 
 static void expect_no_litter(void)
@@ -108,7 +102,7 @@ static void prepare(enum leaves leaves, const char *old)
   remove(output), remove(stats), remove_results();
   if (!old) return;
   if (leaves == FOLDER) assert_int_equal(mkdir(results, 0700), 0);
-  put(leaves == FOLDER ? page : output, old);
+  put_text(leaves == FOLDER ? page : output, old);
 }
 
 /* After a command that failed all is as it was. */
@@ -205,7 +199,7 @@ static void fail_files(const char *const arguments[], enum leaves leaves)
   }
 }
 
-static void feed(const char *text) { put(input, text); }
+static void feed(const char *text) { put_text(input, text); }
 
 static void test_render(void **state)
 {
@@ -329,7 +323,7 @@ static void make_povray(void)
 {
   char text[sizeof POVRAY + sizeof picture];
   snprintf(text, sizeof text, POVRAY, picture);
-  put(povray, text);
+  put_text(povray, text);
   assert_int_equal(chmod(povray, 0700), 0);
 }
 

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "cmocka_test.h"
+#include "files.h"
 #include "language/language.h"
 #include "scene/dump.h"
 
@@ -27,10 +28,7 @@ static void tell(void *context, const char *text, size_t length)
 static bool is_expected(const char *path, const char *text, size_t length)
 {
   if (getenv("PSCN_UPDATE")) {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, length, file), length);
-    assert_int_equal(fclose(file), 0);
+    put_bytes(path, text, length);
     return true;
   }
   FILE *file = fopen(path, "rb");

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "cmocka_test.h"
-#include "expect_file.h"
+#include "files.h"
 
 static char place[] = "/tmp/pscn-test-XXXXXX";
 
@@ -38,14 +38,6 @@ static int remove_folders(void **state)
          rmdir(place);
 }
 
-static void put(const char *path, const char *text)
-{
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  assert_true(fputs(text, file) >= 0);
-  assert_int_equal(fclose(file), 0);
-}
-
 static void copy(const char *scene)
 {
   const char *reason;
@@ -55,11 +47,11 @@ static void copy(const char *scene)
 static void the_scenes_folder_comes_first(void **state)
 {
   (void)state;
-  put("scene.pscn", "#include \"sub/a.inc\"\n");
-  put("sub/a.inc", "#include \"b.inc\"\n#include \"c.inc\"\n");
-  put("b.inc", "// beside the scene\n");
-  put("sub/b.inc", "// beside a.inc\n");
-  put("sub/c.inc", "// beside a.inc alone\n");
+  put_text("scene.pscn", "#include \"sub/a.inc\"\n");
+  put_text("sub/a.inc", "#include \"b.inc\"\n#include \"c.inc\"\n");
+  put_text("b.inc", "// beside the scene\n");
+  put_text("sub/b.inc", "// beside a.inc\n");
+  put_text("sub/c.inc", "// beside a.inc alone\n");
   copy("scene.pscn");
   expect_file("out/scene.pov", "#include \"1-a.inc\"\n");
   expect_file("out/1-a.inc", "#include \"2-b.inc\"\n#include \"3-c.inc\"\n");
@@ -71,8 +63,8 @@ static void the_scenes_folder_comes_first(void **state)
 static void a_file_is_copied_once(void **state)
 {
   (void)state;
-  put("scene.pscn", "#include \"d.inc\"\n#include \"d.inc\"\n");
-  put("d.inc", "#ifdef (Never) #include \"d.inc\" #end\n");
+  put_text("scene.pscn", "#include \"d.inc\"\n#include \"d.inc\"\n");
+  put_text("d.inc", "#ifdef (Never) #include \"d.inc\" #end\n");
   copy("scene.pscn");
   expect_file("out/scene.pov", "#include \"1-d.inc\"\n#include \"1-d.inc\"\n");
   expect_file("out/1-d.inc", "#ifdef (Never) #include \"1-d.inc\" #end\n");

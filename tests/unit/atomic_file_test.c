@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 #include "cmocka_test.h"
-#include "expect_file.h"
+#include "files.h"
 
 /* Renamings that succeed before one fails (the linker hands them over to us); negative: all do. */
 static long rename_left = -1;
@@ -154,14 +154,6 @@ static int count_entries(void)
   return count;
 }
 
-static void put(const char *path, const char *text)
-{
-  FILE *file = fopen(path, "w");
-  assert_non_null(file);
-  assert_true(fputs(text, file) >= 0);
-  assert_int_equal(fclose(file), 0);
-}
-
 static mode_t mode_of(const char *path)
 {
   struct stat info;
@@ -194,7 +186,7 @@ static void old_file_is_replaced_and_keeps_its_permissions(void **state)
 {
   (void)state;
   int reason;
-  put("a", "old and longer");
+  put_text("a", "old and longer");
   assert_int_equal(chmod("a", 04750), 0);
   assert_int_equal(link("a", "other"), 0);
   assert_int_equal(write_text("a", "new", &reason), STATUS_OK);
@@ -208,7 +200,7 @@ static void what_may_not_be_written_is_not_replaced(void **state)
 {
   (void)state;
   int reason = 0;
-  put("a", "old");
+  put_text("a", "old");
   access_reason = EACCES; /* root may write all files */
   const enum status probed = atomic_file_probe("a", &reason), written = write_text("a", "new", &reason);
   access_reason = 0;
@@ -232,7 +224,7 @@ static void what_cannot_be_replaced_is_known_before(void **state)
                {{0, 01777, 8, 9, 8}, 0},
                {{0, 01777, 9, 8, 8}, 0},
                {{0, 0777, 9, 9, 8}, 0}};
-  put("a", "old");
+  put_text("a", "old");
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     int reason = -1;
     told = &cases[k].told;
@@ -265,7 +257,7 @@ static void symbolic_link_is_followed(void **state)
 {
   (void)state;
   int reason;
-  put("a", "old");
+  put_text("a", "old");
   assert_int_equal(symlink("a", "link"), 0);
   assert_int_equal(write_text("link", "new", &reason), STATUS_OK);
   expect_file("a", "new");
@@ -323,7 +315,7 @@ static void stopped_write_leaves_the_old_file(void **state)
   atomic_int stop = 1;
   size_t failed;
   const struct atomic_file file = {"a", "new", 3};
-  put("a", "old");
+  put_text("a", "old");
   assert_int_equal(atomic_files_write(&file, 1, &stop, &failed, &reason), STATUS_INTERRUPTED);
   expect_file("a", "old");
   assert_int_equal(count_entries(), 1);
@@ -337,7 +329,7 @@ static void stopped_writing_takes_nothing_away(void **state)
   atomic_int stop = 1;
   size_t failed;
   const struct atomic_file file = {"a", NULL, 0};
-  put("a", "old");
+  put_text("a", "old");
   assert_int_equal(atomic_files_write(&file, 1, &stop, &failed, &reason), STATUS_INTERRUPTED);
   expect_file("a", "old");
 }
@@ -349,7 +341,7 @@ static void what_is_not_on_the_disk_is_not_written(void **state)
   int reason = 0;
   size_t failed;
   const struct atomic_file file = {"a", "new", 3};
-  put("a", "old");
+  put_text("a", "old");
   fsync_reason = EIO;
   assert_int_equal(atomic_files_write(&file, 1, NULL, &failed, &reason), STATUS_FILE);
   assert_int_equal(reason, EIO);
@@ -389,7 +381,7 @@ static void unfinished_files_are_private(void **state)
 {
   (void)state;
   int reason;
-  put("a", "old");
+  put_text("a", "old");
   assert_int_equal(chmod("a", 0600), 0);
   assert_int_equal(write_text("a", "new", &reason), STATUS_OK);
   assert_int_equal(made_mode, 0600); /* at once: who has opened it can read it */
@@ -404,8 +396,8 @@ static void several_files_appear_together(void **state)
   struct atomic_file files[] = {{"first", "new", 3}, {"second", "new", 3}, {"gone", NULL, 0}, {"last", "new", 3}};
   size_t failed;
   int reason;
-  put("first", "old");
-  put("gone", "old");
+  put_text("first", "old");
+  put_text("gone", "old");
   assert_int_equal(mkdir("last", 0777), 0);
   assert_int_equal(atomic_files_write(files, 4, NULL, &failed, &reason), STATUS_FILE);
   assert_true(failed == 3 && reason == EISDIR && count_entries() == 3);
@@ -430,8 +422,8 @@ static void a_file_may_go_twice(void **state)
   const struct atomic_file files[] = {{"first", "new", 3}, {"gone", NULL, 0}, {"gone", NULL, 0}};
   size_t failed;
   int reason;
-  put("first", "old");
-  put("gone", "old");
+  put_text("first", "old");
+  put_text("gone", "old");
   assert_int_equal(atomic_files_write(files, 3, NULL, &failed, &reason), STATUS_OK);
   assert_int_equal(count_entries(), 1);
   expect_file("first", "new");
@@ -445,9 +437,9 @@ static void a_failing_name_undoes_those_before(void **state)
     {"kept", "new", 3}, {"made", "new", 3}, {"removed", NULL, 0}, {"there", "new", 3}};
   size_t failed;
   int reason;
-  put("kept", "old");
-  put("removed", "old");
-  put("there", "old");
+  put_text("kept", "old");
+  put_text("removed", "old");
+  put_text("there", "old");
   rename_left = no_unnamed != 0 ? 2 : 1; /* of kept, and of made unless it is linked; that of there fails */
   assert_int_equal(atomic_files_write(files, 4, NULL, &failed, &reason), STATUS_FILE);
   rename_left = -1;
@@ -464,7 +456,7 @@ static void a_link_goes_with_its_file(void **state)
   struct atomic_file files[] = {{"link", NULL, 0}, {"last", "new", 3}};
   size_t failed;
   int reason;
-  put("far", "old");
+  put_text("far", "old");
   assert_int_equal(symlink("far", "link"), 0);
   assert_int_equal(mkdir("last", 0777), 0);
   assert_int_equal(atomic_files_write(files, 2, NULL, &failed, &reason), STATUS_FILE);

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "cmocka_test.h"
+#include "files.h"
 #include "image/srgb.h"
 #include "random.h"
 
@@ -53,10 +54,7 @@ static struct image there_and_back(const struct image *image, const struct image
   const enum status encoded = image_encode(image, encoding, &bytes, &size, message);
   if (encoded != STATUS_OK) print_error("%s\n", message);
   assert_int_equal(encoded, STATUS_OK);
-  FILE *file = fopen(path, "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(bytes, 1, size, file), size);
-  assert_int_equal(fclose(file), 0);
+  put_bytes(path, bytes, size);
   free(bytes);
   struct image back;
   const enum status status = image_read(path, &back, message);
@@ -365,11 +363,7 @@ static void write_tiff(const struct tiff *tiff, size_t lacking)
     entry[big ? 3 : 2] = 3, entry[big ? 7 : 4] = 1, entry[big ? 9 : 8] = (unsigned char)value;
   }
   memset(bytes + VALUE, 51, MOST);
-  FILE *file = fopen(path, "wb");
-  assert_non_null(file);
-  const size_t size = VALUE + tiff->bytes - lacking;
-  assert_int_equal(fwrite(bytes, 1, size, file), size);
-  assert_int_equal(fclose(file), 0);
+  put_bytes(path, bytes, VALUE + tiff->bytes - lacking);
 }
 
 /* Two grey pixels. Where the file is cut off it is refused, though OpenImageIO makes up the pixels that are missing. */
@@ -422,18 +416,12 @@ static void unreadable_files_are_told(void **state)
   assert_int_equal(image_read(path, &image, message), STATUS_FILE);
   assert_string_equal(message, "there is no such file");
   for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    fputs(texts[k], file);
-    fclose(file);
+    put_text(path, texts[k]);
     assert_int_equal(image_read(path, &image, message), STATUS_FILE);
     assert_true(message[0] != '\0' && strchr(message, '\n') == NULL);
     assert_null(image.value);
   }
-  FILE *file = fopen(path, "wb"); /* the beginning of a JPEG, and no more */
-  assert_non_null(file);
-  fputs("\xff\xd8\xff", file);
-  fclose(file);
+  put_text(path, "\xff\xd8\xff"); /* the beginning of a JPEG, and no more */
   assert_int_equal(image_read(path, &image, message), STATUS_FILE);
   assert_string_equal(message, "it is no PNG, EXR, TIFF or JPEG");
 }
@@ -448,10 +436,7 @@ static void pictures_without_bounds_are_refused(void **state)
                                         137, 210, 0,  0,  0,  0,   73, 69,  78,  68, 174, 66, 96,  130};
   char message[IMAGE_MESSAGE_SIZE];
   struct image image;
-  FILE *file = fopen(path, "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(large, 1, sizeof large, file), sizeof large);
-  fclose(file);
+  put_bytes(path, large, sizeof large);
   assert_int_equal(image_read(path, &image, message), STATUS_LIMIT);
   assert_int_equal(image_read_header(path, &image, message), STATUS_LIMIT);
   assert_null(image.value);
@@ -495,11 +480,7 @@ static void damaged_pictures_are_read_or_refused(void **state)
         const size_t at = (size_t)(random_bits(&random) % size);
         if (!is_size(bytes, size, at)) damaged[at] ^= (unsigned char)(1u << random_bits(&random) % 8);
       }
-      FILE *file = fopen(path, "wb");
-      assert_non_null(file);
-      const size_t whole = round % 10 == 0 ? (size_t)(random_bits(&random) % size) : size;
-      assert_int_equal(fwrite(damaged, 1, whole, file), whole);
-      assert_int_equal(fclose(file), 0);
+      put_bytes(path, damaged, round % 10 == 0 ? (size_t)(random_bits(&random) % size) : size);
       const enum status status = image_read(path, &back, message);
       assert_true(status == STATUS_OK || (message[0] != '\0' && strchr(message, '\n') == NULL && back.value == NULL));
       if (status == STATUS_OK) assert_true(back.width == WIDTH && back.height == HEIGHT && ++read);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cmocka_test.h"
+#include "files.h"
 
 /* 3 x 2 tiles, the last ones of a row or column not whole. */
 enum { WIDTH = 70, HEIGHT = 45, TILES = 6 };
@@ -16,10 +17,7 @@ static const char path[] = "part.exr";
 
 static void write_file(unsigned char *bytes, size_t size)
 {
-  FILE *file = fopen(path, "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(bytes, 1, size, file), size);
-  assert_int_equal(fclose(file), 0);
+  put_bytes(path, bytes, size);
   free(bytes);
 }
 

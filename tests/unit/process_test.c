@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "cmocka_test.h"
-#include "expect_file.h"
+#include "files.h"
 
 static const char *const OUTPUT = "output";
 
@@ -128,8 +128,7 @@ static void what_cannot_be_run_is_missing(void **state)
     int reason;
   } cases[] = {
     {"pscn-no-such-program", ENOENT}, {"inside/file", EACCES}, {"inside/file/x", ENOTDIR}, {"./inside", EACCES}};
-  FILE *file = fopen("inside/file", "w");
-  assert_true(file != NULL && fclose(file) == 0);
+  put_text("inside/file", "");
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     struct process_result result;
     const char *const arguments[] = {cases[k].program, NULL};

@@ -1,0 +1,34 @@
+/* Files that tests write, and what is in a file. */
+#ifndef TESTS_FILES_H
+#define TESTS_FILES_H
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cmocka_test.h"
+
+/* Makes the file hold these bytes, or this text, and nothing else. */
+static inline void put_bytes(const char *path, const void *bytes, size_t size)
+{
+  FILE *file = fopen(path, "wb");
+  assert_non_null(file);
+  assert_int_equal(fwrite(bytes, 1, size, file), size);
+  assert_int_equal(fclose(file), 0);
+}
+
+static inline void put_text(const char *path, const char *text) { put_bytes(path, text, strlen(text)); }
+
+/* Asserts that the file holds this text, of less than 256 bytes, and nothing else. */
+static inline void expect_file(const char *path, const char *text)
+{
+  char held[256];
+  FILE *file = fopen(path, "r");
+  assert_non_null(file);
+  const size_t length = fread(held, 1, sizeof held - 1, file);
+  held[length] = '\0';
+  assert_int_equal(fclose(file), 0);
+  assert_int_equal(length, strlen(text));
+  assert_string_equal(held, text);
+}
+
+#endif
