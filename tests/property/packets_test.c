@@ -197,21 +197,7 @@ static void occluded_is_whether_there_is_a_hit(void **state)
   on_all_stages(SEED + 1, SCENES, occlusion);
 }
 
-/* The kernels may round differently. Where both are certain they agree on hit or miss, and on t to its condition:
- * the rounding of the plane polynomials over the sine of the angle at which the ray meets the surface, so grazing
- * hits are given more. */
-#define KERNEL_T 1e-13
-
-static bool kernels_same(const struct ray *ray, const struct hit *a, const struct hit *b)
-{
-  if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
-  if (a->patch == HIT_NONE || b->patch == HIT_NONE) return a->patch == b->patch;
-  const double *d = ray->direction, size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  const double steep = fabs(d[0] * a->normal[0] + d[1] * a->normal[1] + d[2] * a->normal[2]) / size;
-  return fabs(a->t - b->t) * steep <= KERNEL_T * fmax(a->t, 1 / size); /* the scenes' size over |d| is t's unit */
-}
-
-/* Every kernel that the processor can run, against the plainest, which is the last of them. */
+/* Every kernel that the processor can run, against the plainest, which is the last of them; they may round differently. */
 static void kernels(struct set_up *s)
 {
   static struct hit answers[KERNELS_MAX][STAGE_RAYS];
@@ -227,7 +213,7 @@ static void kernels(struct set_up *s)
   for (size_t k = 0; k + 1 < count; k++) {
     for (size_t n = 0; n < STAGE_RAYS; n++) {
       const struct hit *a = &answers[k][n], *b = &answers[count - 1][n];
-      if (!kernels_same(&s->rays[n], a, b) && wrong++ < 3) world_print_case(here[k]->name, s->kind, &s->rays[n], a, b);
+      if (!hits_agree(&s->rays[n], a, b) && wrong++ < 3) world_print_case(here[k]->name, s->kind, &s->rays[n], a, b);
     }
   }
   assert_int_equal(wrong, 0);

@@ -1,6 +1,5 @@
 /* The methods on lanes (all_roots.c), whole patches and leaves: their answers are the default's, and a ray's answer
  * does not depend on the rays beside it. */
-#include <math.h>
 #include <string.h>
 
 #include "cmocka_test.h"
@@ -19,18 +18,6 @@ static struct method method_of(const char *name, enum start start, int split)
 static void answer(struct world *world, const struct ray rays[RAYS], struct hit hits[RAYS])
 {
   for (size_t n = 0; n < RAYS; n += PACKET_SIZE) tracer_closest(world->tracer, PACKET_SIZE, rays + n, hits + n);
-}
-
-/* The paths may round differently: as packets_test.c has it of kernels. Hits at one t may be of either patch. */
-#define PATH_T 1e-13
-
-static bool same_answer(const struct ray *ray, const struct hit *a, const struct hit *b)
-{
-  if (a->certainty != CERTAINTY_CERTAIN || b->certainty != CERTAINTY_CERTAIN) return true;
-  if (a->patch == HIT_NONE || b->patch == HIT_NONE) return a->patch == b->patch;
-  const double *d = ray->direction, size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  const double steep = fabs(d[0] * a->normal[0] + d[1] * a->normal[1] + d[2] * a->normal[2]) / size;
-  return fabs(a->t - b->t) * steep <= PATH_T * fmax(a->t, 1 / size);
 }
 
 static int certain_hits(const struct hit hits[RAYS])
@@ -80,7 +67,7 @@ static void answers_are_the_defaults(void **state)
       escalated[way] += tracer_counts(world.tracer)->escalated;
       world_close(&world);
       for (int n = 0; way > 0 && n < RAYS; n++)
-        if (!same_answer(&rays[n], &got[n], &want[n]) && wrong++ < 5)
+        if (!hits_agree(&rays[n], &got[n], &want[n]) && wrong++ < 5)
           world_print_case(ways[way - 1].name, kind, &rays[n], &want[n], &got[n]);
     }
   }
