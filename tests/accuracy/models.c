@@ -3,14 +3,12 @@
  * CAGD). */
 #include "accuracy/models.h"
 
-#include <ctype.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cmocka_test.h"
 #include "geometry/edges.h"
+#include "teapot.h"
 
 #define ARC 0.5522847498307936 /* 4/3 (sqrt 2 - 1): inner points of the cubic nearest to a quarter circle */
 
@@ -66,34 +64,15 @@ void model_torus(struct model *out)
 }
 
 /* The control points as they stand in the scene file: 48 numbers behind each "bicubic_patch". */
-static void read_teapot(struct model *out)
-{
-  enum { PATCHES = 32 };
-  char text[1 << 15];
-  FILE *file = fopen(PSCN_SOURCE_DIR "/scenes/teapot.pscn", "r");
-  assert_non_null(file);
-  text[fread(text, 1, sizeof text - 1, file)] = '\0';
-  fclose(file);
-  char *at = text;
-  for (out->count = 0; out->count < PATCHES; out->count++) {
-    at = strstr(at, "bicubic_patch {");
-    assert_non_null(at);
-    at = strchr(at, '\n');
-    for (int k = 0; k < 48; k++) {
-      at += strcspn(at, "<,") + 1;
-      while (isspace((unsigned char)*at) || *at == '<') at++;
-      out->P[out->count][k / 12][k / 3 % 4][k % 3] = strtod(at, &at) / 2;
-    }
-  }
-}
-
 void model_teapot(struct model *out)
 {
   enum { WALL = 12, BOTTOM = 28 }; /* rim and body come first, handle, spout and lid between */
   struct edge_neighbour neighbour[4 * MODEL_MOST_PATCHES];
   memset(out, 0, sizeof *out);
   out->name = "teapot";
-  read_teapot(out);
+  out->count = TEAPOT_PATCHES;
+  teapot_read(out->P);
+  for (size_t n = 0; n < 48 * out->count; n++) out->P[n / 48][n / 12 % 4][n / 3 % 4][n % 3] /= 2;
   assert_int_equal(edges_match(out->P, sizeof out->P[0], out->count, NULL, NULL, neighbour), 0);
   for (size_t n = 0; n < out->count; n++) {
     out->other[n] = n >= WALL && n < BOTTOM;

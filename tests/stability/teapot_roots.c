@@ -2,10 +2,7 @@
  * true (u,v) in [0,1]^2 it finds to 1e-11 with `polish off`, in Bernstein form, and that with `polish on` the nearest
  * hit is always right. The paper's own form is measured beside it and printed.
  */
-#include <ctype.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cmocka_test.h"
@@ -14,8 +11,9 @@
 #include "intersect/method.h"
 #include "random.h"
 #include "reference/search.h"
+#include "teapot.h"
 
-enum { TEAPOT_PATCHES = 32, PAIRS = 100000, LEAST_PAIRS = 20000 };
+enum { PAIRS = 100000, LEAST_PAIRS = 20000 };
 
 /* Both parameters of a found root must be this near to the true one, absolute. */
 #define FOUND_WITHIN 1e-11
@@ -25,32 +23,6 @@ enum { TEAPOT_PATCHES = 32, PAIRS = 100000, LEAST_PAIRS = 20000 };
 
 /* Relative error of T with polish. */
 #define POLISHED_WITHIN 1e-9
-
-static double teapot[TEAPOT_PATCHES][4][4][3];
-
-/* The control points as they stand in the scene file: 48 numbers behind each "bicubic_patch". */
-static int read_teapot(void **state)
-{
-  (void)state;
-  FILE *file = fopen(PSCN_SOURCE_DIR "/scenes/teapot.pscn", "r");
-  static char text[1 << 18];
-  if (file == NULL) return -1;
-  text[fread(text, 1, sizeof text - 1, file)] = '\0';
-  fclose(file);
-  int count = 0;
-  for (char *at = strstr(text, "bicubic_patch {"); at != NULL && count < TEAPOT_PATCHES;
-       at = strstr(at, "bicubic_patch {")) {
-    at = strchr(at, '\n');
-    double *out = &teapot[count][0][0][0];
-    for (int k = 0; k < 48; k++) {
-      at += strcspn(at, "<,") + 1;
-      while (isspace((unsigned char)*at) || *at == '<') at++;
-      out[k] = strtod(at, &at);
-    }
-    count++;
-  }
-  return count == TEAPOT_PATCHES ? 0 : -1;
-}
 
 /* One patch as a scene, its intersector and a tracer. */
 struct target {
@@ -136,9 +108,11 @@ static bool inside(const struct search_root *root)
 static void roots_of_the_teapot(void **state)
 {
   (void)state;
+  static double teapot[TEAPOT_PATCHES][4][4][3];
   const size_t pairs = effort_count(PAIRS, LEAST_PAIRS);
   struct random random = {3};
   size_t roots = 0, undecided = 0, found = 0, found_by_paper = 0, hits = 0, right = 0;
+  teapot_read(teapot);
   for (int patch = 0; patch < TEAPOT_PATCHES; patch++) {
     struct target plain, paper, polished;
     target_create(&plain, teapot[patch], aberth(false, false));
@@ -190,5 +164,5 @@ static void roots_of_the_teapot(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(roots_of_the_teapot)};
-  return cmocka_run_group_tests(tests, read_teapot, NULL);
+  return cmocka_run_group_tests(tests, NULL, NULL);
 }
