@@ -15,7 +15,8 @@
 #include "scene/dump.h"
 
 /* In our folder; POV-Ray runs in RUN, which is new for each run. */
-static const char LOG[] = "povray.log", HOME[] = "home", RUN[] = "run";
+static const char LOG[] = "povray.log", HOME[] = "home";
+#define RUN "run"
 
 /* In RUN. */
 #define TEXT "scene.pov"
@@ -30,13 +31,6 @@ static enum status cannot_write(const struct povray *povray, const char *name)
 {
   return listener_fail(povray->listener, STATUS_FILE, "cannot write '%s/%s': %s", povray->folder.path, name,
                        strerror(errno));
-}
-
-static void run_path(const struct povray *povray, const char *name, char out[SCRATCH_PATH_SIZE])
-{
-  char inner[64];
-  snprintf(inner, sizeof inner, "%s/%s", RUN, name);
-  scratch_path(&povray->folder, inner, out);
 }
 
 /* ---- what it says ---- */
@@ -225,7 +219,7 @@ static enum status run_on_text(struct povray *povray, const char *what, bool pic
 static enum status read_picture(const struct povray *povray, struct image *out)
 {
   char path[SCRATCH_PATH_SIZE], message[IMAGE_MESSAGE_SIZE];
-  run_path(povray, PICTURE, path);
+  scratch_path(&povray->folder, RUN "/" PICTURE, path);
   const enum status status = image_read(path, out, message);
   if (status != STATUS_OK) return listener_fail(povray->listener, status, "cannot read POV-Ray's picture: %s", message);
   if (out->width == povray->width && out->height == povray->height && out->channel_count >= 3) {
@@ -259,11 +253,9 @@ typedef enum status text_writer(const struct question *question, FILE *file);
 /* Writes TEXT: by `write`, which answers as scene_dump does. */
 static enum status write_text(const struct povray *povray, text_writer *write, const struct question *question)
 {
-  char path[SCRATCH_PATH_SIZE];
   enum status status = begin_run(povray);
   if (status != STATUS_OK) return status;
-  run_path(povray, TEXT, path);
-  FILE *file = fopen(path, "w");
+  FILE *file = scratch_open(&povray->folder, RUN "/" TEXT);
   if (file == NULL) return cannot_write(povray, TEXT);
   status = write(question, file);
   if (scratch_close(file) != STATUS_OK || status == STATUS_FILE) return cannot_write(povray, TEXT);
@@ -357,11 +349,9 @@ static enum status write_questions(const struct question *question, FILE *file)
 
 static enum status read_answers(const struct povray *povray, size_t count, double out_distance[])
 {
-  char name[64];
   char *text;
   size_t length, at = 0, read = 0;
-  snprintf(name, sizeof name, "%s/%s", RUN, ANSWERS);
-  const enum status status = scratch_read(&povray->folder, name, &text, &length);
+  const enum status status = scratch_read(&povray->folder, RUN "/" ANSWERS, &text, &length);
   if (status == STATUS_LIMIT) return listener_out_of_memory(povray->listener);
   while (text != NULL && read < count && at < length) {
     double value;

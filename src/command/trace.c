@@ -247,8 +247,8 @@ static enum status trace(const struct command *command, struct request *request)
     status = report_write(command, report_statistics(&report), request->stats);
   if (status == STATUS_OK && !request->scene.quiet && isatty(STDERR_FILENO) == 1) report_print(&report);
 done:
-  if (session.tracer != NULL) tracer_destroy(session.tracer);
-  if (intersector != NULL) intersector_destroy(intersector);
+  tracer_destroy(session.tracer);
+  intersector_destroy(intersector);
   scene_destroy(scene);
   return status;
 }
