@@ -26,6 +26,9 @@ void patch_bidegree(double x[3][4][4], double slack, int *out_m, int *out_n);
  * are the control net of bidegree (m,n). out may be net. */
 void patch_reduce(double net[4][4], int m, int n, double out[4][4]);
 
+/* Bounds on the net's second derivatives by u u, u v and v v, on [0,1]^2. */
+void patch_bends(double net[4][4], double out[3]);
+
 /* A unit normal at (u,v): Su x Sv, or where that is no longer than `rounded`, which is what rounding the control points
  * may make of it, or vanishes, its limit along the way into the patch. False where the surface has none (a patch
  * collapsed to a curve or point); then out is zero. */

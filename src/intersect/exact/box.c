@@ -40,24 +40,12 @@ enum verdict box_test(struct box *box, const double error[2])
   return !flat ? VERDICT_OPEN : steep ? VERDICT_FLAT : VERDICT_POINT;
 }
 
-void box_bends(double n[4][4], double out[3])
-{
-  out[0] = out[1] = out[2] = 0;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      if (i < 2) out[0] = real_max(out[0], 6 * fabs(n[i + 2][j] - 2 * n[i + 1][j] + n[i][j]));
-      if (i < 3 && j < 3) out[1] = real_max(out[1], 9 * fabs(n[i + 1][j + 1] - n[i + 1][j] - n[i][j + 1] + n[i][j]));
-      if (j < 2) out[2] = real_max(out[2], 6 * fabs(n[i][j + 2] - 2 * n[i][j + 1] + n[i][j]));
-    }
-  }
-}
-
 /* A row of M times the polynomials: bounds on its second derivatives. */
 static void row_bends(struct box *box, const double m[2], double out[3])
 {
   double n[4][4];
   for (int c = 0; c < 16; c++) n[c / 4][c % 4] = m[0] * box->net[0][c / 4][c % 4] + m[1] * box->net[1][c / 4][c % 4];
-  box_bends(n, out);
+  patch_bends(n, out);
 }
 
 /* Whether a root in the middle would be shown to be alone, by M there: else Newton's method is mostly in vain. A choice

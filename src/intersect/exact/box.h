@@ -47,9 +47,6 @@ enum verdict box_test(struct box *box, const double error[2]);
  * where that is asked, alone. */
 bool box_solve(struct box *box, const double error[2], bool alone, double root[2], double radius[2]);
 
-/* The largest second derivatives of each kind, of a net on its box. */
-void box_bends(double net[4][4], double out[3]);
-
 /* Moves (u,v), box parameters, onto the ray, as far as that can be done within the box: by Gauss and Newton's shortest
  * steps, for the two polynomials may be nearly dependent. Returns whether the point is on it as far as can be told. */
 bool box_onto_ray(struct box *box, const double error[2], double *u, double *v);

@@ -56,7 +56,7 @@ struct exact_root window_root(const struct window *window, struct box *box, cons
 {
   const struct patch_jet w = patch_evaluate(box->net[2], at[0], at[1]);
   double bend[3];
-  box_bends(box->net[2], bend);
+  patch_bends(box->net[2], bend);
   const double t = t_of_depth(&window->depth, w.value), sum = radius[0] + radius[1];
   const double off = fabs(w.du) * radius[0] + fabs(w.dv) * radius[1] +
                      BOX_MARGIN_GROWTH * (bend[0] + 2 * bend[1] + bend[2]) * sum * sum;

@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "base/real.h"
+#include "geometry/patch.h"
 #include "intersect/exact/exact.h"
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/making.h"
@@ -94,21 +95,13 @@ static void search_tree(struct search *s, const struct model_tree *tree)
   }
 }
 
-/* Second derivatives of the leaf's net across it, the largest of any. */
-static void add_across(const struct leaf *leaf, double across[3])
+/* Bounds on the second derivatives of the leaf's net across it. */
+static void bends_across(const struct leaf *leaf, double out[3])
 {
   const double *g = leaf->slab[0].g;
   double z[4][4];
   for (int n = 0; n < 16; n++) z[n / 4][n % 4] = g[0] * leaf->x[0][n] + g[1] * leaf->x[1][n] + g[2] * leaf->x[2][n];
-  for (int n = 0; n < 8; n++) {
-    const int i = n / 4, j = n % 4;
-    across[0] = real_max(across[0], 6 * fabs(z[i + 2][j] - 2 * z[i + 1][j] + z[i][j]));
-    across[2] = real_max(across[2], 6 * fabs(z[j][i + 2] - 2 * z[j][i + 1] + z[j][i]));
-  }
-  for (int n = 0; n < 9; n++) {
-    const int i = n / 3, j = n % 3;
-    across[1] = real_max(across[1], 9 * fabs(z[i + 1][j + 1] - z[i + 1][j] - z[i][j + 1] + z[i][j]));
-  }
+  patch_bends(z, out);
 }
 
 /* Of patch number `number`, whose leaves begin at `first`. */
@@ -127,8 +120,10 @@ static void find_crowd(const struct model *model, size_t number, size_t first, s
     for (int c = 0; c < 3; c++) s.x[c] = patch->center[c] + patch->scale * leaf->parts.base[0][c];
     search_tree(&s, &model->tree);
     found += s.found;
-    for (int c = 0; c < 3; c++) second[c] = real_max(second[c], leaf->second[c]);
-    add_across(leaf, across);
+    double bends[3];
+    bends_across(leaf, bends);
+    for (int c = 0; c < 3; c++)
+      second[c] = real_max(second[c], leaf->second[c]), across[c] = real_max(across[c], bends[c]);
   }
   const double cells[3] = {a * a, a * b, b * b};
   out->others = (float)found / (float)(rows * row);
