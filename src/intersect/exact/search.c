@@ -20,7 +20,6 @@
 #include "geometry/patch.h"
 #include "intersect/exact/curves.h"
 #include "intersect/prepare/leaf.h"
-#include "intersect/point.h"
 
 /* The fraction of the patch's extent below which an undecidable box is not halved further: UNDECIDED_ERRORS of some
  * hundred roundings each, the distance from the ray at which the planes tell nothing any more. */

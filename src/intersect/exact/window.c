@@ -5,7 +5,6 @@
 
 #include "base/real.h"
 #include "geometry/patch.h"
-#include "intersect/point.h"
 
 /* columns/split, without the slow division where a double has it exactly. */
 static wide part_of(int columns, int split)

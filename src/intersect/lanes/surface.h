@@ -7,7 +7,6 @@
 
 #include "base/lanes.h"
 #include "intersect/point.h"
-#include "intersect/tracer.h"
 
 LANES_INLINE lanes surface_clamp(lanes t) { return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1)); }
 
