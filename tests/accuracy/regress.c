@@ -33,18 +33,20 @@ static void bowl(net P)
   }
 }
 
+/* A flat square, 3 `scale` a side, across z at that height; the origin is so many thirds of it from the corner. */
+static void flat(double scale, double from_x, double from_y, double z, net P)
+{
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) P[i][j][0] = scale * (i - from_x), P[i][j][1] = scale * (j - from_y), P[i][j][2] = z;
+}
+
 /* A ray that starts next to the surface, flat: whether it meets it is told by less than the error of the leaf's
  * polynomials. */
 static void test_start(void **state)
 {
   (void)state;
   net P;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      const double p[3] = {i - 1.5, j - 1.5, 0};
-      memcpy(P[i][j], p, sizeof p);
-    }
-  }
+  flat(1, 1.5, 1.5, 0, P);
   struct trial trial;
   trial_create(&trial, (const double(*)[4][4][3]) & P, 1, NULL);
   const double direction[3] = {1, 0.25, 0x1p-7};
@@ -190,12 +192,7 @@ static void test_beside_met_pole(void **state)
   for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
     net P[3];
     ball_top(P);
-    for (int i = 0; i < 4; i++) {
-      for (int j = 0; j < 4; j++) {
-        const double across[3] = {0x1p-18 * (i - 1.25), 0x1p-18 * (j - 1.75), cases[n].wall};
-        memcpy(P[2][i][j], across, sizeof across);
-      }
-    }
+    flat(0x1p-18, 1.25, 1.75, cases[n].wall, P[2]);
     struct trial trial;
     trial_create(&trial, (const double(*)[4][4][3])P, 3, NULL);
     const double direction[3] = {0x1.753eap+0, cases[n].slope, 0x1.934f82p-1}, back = cases[n].back;
@@ -228,12 +225,7 @@ static void test_between_doubles(void **state)
 {
   (void)state;
   net P;
-  for (int i = 0; i < 4; i++) {
-    for (int j = 0; j < 4; j++) {
-      const double p[3] = {i - 1.25, j - 1.75, 0};
-      memcpy(P[i][j], p, sizeof p);
-    }
-  }
+  flat(1, 1.25, 1.75, 0, P);
   struct trial trial;
   trial_create(&trial, (const double(*)[4][4][3]) & P, 1, NULL);
   const struct ray ray = {{0, 0, -4}, {0, 0, 1 - DOUBLE_UNIT}, 4, nextafter(4, INFINITY)};
