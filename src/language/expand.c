@@ -86,21 +86,20 @@ static bool all_finite(const double *x, size_t count)
 static void expand_points(struct expansion *e, const struct node *node, const struct transform *transform,
                           struct scene_patch *patch)
 {
-  for (int i = 0; i < 4; i++) transform_points(transform, node->P[i], patch->P[i]);
+  for (int i = 0; i < 4; i++) transform_points(transform, node->net->P[i], patch->P[i]);
   if (all_finite((const double *)patch->P, sizeof patch->P / sizeof(double)) || e->told) return;
   e->told = true;
-  language_error(e->language, node->block.place,
-                 "with its transforms applied, a control point is too large for numbers");
+  language_error(e->language, node->place, "with its transforms applied, a control point is too large for numbers");
 }
 
 static bool expand_patch(struct expansion *e, const struct node *node, const struct inherited *with)
 {
   struct scene_patch *patch = &e->scene->patches[e->scene->patch_count++];
   expand_points(e, node, with->transform, patch);
-  patch->type = (int)node->setting[PATCH_TYPE];
-  patch->flatness = node->setting[PATCH_FLATNESS];
-  patch->u_steps = (int)node->setting[PATCH_U_STEPS];
-  patch->v_steps = (int)node->setting[PATCH_V_STEPS];
+  patch->type = (int)node->net->setting[PATCH_TYPE];
+  patch->flatness = node->net->setting[PATCH_FLATNESS];
+  patch->u_steps = (int)node->net->setting[PATCH_U_STEPS];
+  patch->v_steps = (int)node->net->setting[PATCH_V_STEPS];
   return intern(e, &e->textures, &with->texture->is, &patch->texture) &&
          intern(e, &e->methods, with->method, &patch->solver);
 }
@@ -109,8 +108,8 @@ static bool expand_patch(struct expansion *e, const struct node *node, const str
 static double (*collect_nets(const struct node *node, const struct transform *transform,
                              double (*out)[4][4][3]))[4][4][3]
 {
-  if (node->P) {
-    for (int i = 0; i < 4; i++) transform_points(transform, node->P[i], (*out)[i]);
+  if (node->net) {
+    for (int i = 0; i < 4; i++) transform_points(transform, node->net->P[i], (*out)[i]);
     return out + 1;
   }
   for (const struct node *child = node->first; child; child = child->next) {
@@ -157,7 +156,7 @@ static bool expand(struct expansion *e, const struct node *node, const struct in
   if (is_copy && !begin_copy(e, node, with.transform)) return false;
   e->in_copy |= is_copy;
   bool whole = true;
-  if (node->P) whole = expand_patch(e, node, &with);
+  if (node->net) whole = expand_patch(e, node, &with);
   for (const struct node *child = node->first; whole && child; child = child->next) whole = expand(e, child, &with);
   e->in_copy &= !is_copy;
   return whole;
@@ -175,7 +174,7 @@ enum status objects_expand(struct language *language, const struct method *metho
                .count = &scene->copy_count,
                .size = sizeof *scene->copies,
                .expected = language->objects->copies}};
-  const struct node *all = &language->objects->scene;
+  const struct node *all = &language->objects->scene.node;
   const struct transform identity = transform_identity();
   const struct inherited nothing = {&identity, NULL, method};
   uint32_t first;

@@ -19,19 +19,28 @@ enum {
   MAX_STEPS = 16 /* POV-Ray halves a patch so many times in each direction */
 };
 
-static struct node *open_node(struct language *language, struct span place)
+static struct open_node *open_node(struct language *language, struct span place)
 {
-  struct node *node = language_alloc(language, sizeof *node);
-  node->block = language_block(language, place);
-  node->outer = language->objects->open;
-  return language->objects->open = node;
+  struct objects *objects = language->objects;
+  struct open_node *open = objects->closed;
+  if (open) objects->closed = open->outer;
+  else open = language_alloc(language, sizeof *open);
+  *open = (struct open_node){.outer = objects->open, .node.place = place, .block = language_block(language, place)};
+  return objects->open = open;
 }
 
+/* Its memory is the next one's; not that which stands in for memory that there is not. */
 struct node *node_end(struct language *language, struct span brace)
 {
-  struct node *node = language->objects->open;
-  node->whole = span_join(node->block.place, brace);
-  language->objects->open = node->outer;
+  struct objects *objects = language->objects;
+  struct open_node *open = objects->open;
+  struct node *node = language_alloc(language, sizeof *node);
+  *node = open->node;
+  objects->whole = span_join(node->place, brace);
+  objects->open = open->outer;
+  if (language->ended_early) return node;
+  open->outer = objects->closed;
+  objects->closed = open;
   return node;
 }
 
@@ -39,8 +48,8 @@ struct node *node_end(struct language *language, struct span brace)
 
 void patch_begin(struct language *language, struct span place)
 {
-  struct node *node = open_node(language, place);
-  node->P = language_alloc(language, 4 * sizeof *node->P);
+  struct node *node = &open_node(language, place)->node;
+  node->net = language_alloc(language, sizeof *node->net);
   node->patch_count = 1;
 }
 
@@ -52,51 +61,52 @@ void patch_number(struct language *language, int which, struct span item, const 
     bool whole;
   } settings[PATCH_SETTINGS] = {
     {"type", 1, true}, {"flatness", INFINITY, false}, {"u_steps", MAX_STEPS, true}, {"v_steps", MAX_STEPS, true}};
-  struct node *node = language->objects->open;
-  if (node->stage != STAGE_SETTINGS) {
+  struct open_node *open = language->objects->open;
+  if (open->stage != STAGE_SETTINGS) {
     language_error(language, item, "the settings of a bicubic_patch stand before its control points");
     return;
   }
-  if (node->after_comma) language_error(language, item, "a comma stands between control points only");
-  node->after_comma = false;
-  node->has_type |= which == PATCH_TYPE;
+  if (open->after_comma) language_error(language, item, "a comma stands between control points only");
+  open->after_comma = false;
+  open->has_type |= which == PATCH_TYPE;
   value_in_range(language, value, settings[which].name, 0, settings[which].high, settings[which].whole,
-                 &node->setting[which]);
+                 &open->node.net->setting[which]);
 }
 
 void patch_point(struct language *language, const struct value *value)
 {
-  struct node *node = language->objects->open;
-  if (node->stage == STAGE_MODIFIERS) {
+  struct open_node *open = language->objects->open;
+  if (open->stage == STAGE_MODIFIERS) {
     language_error(language, value->place,
                    "the control points of a bicubic_patch stand before its texture and transforms");
     return;
   }
-  node->stage = STAGE_BODY;
-  node->after_comma = false;
-  if (node->points < PATCH_POINTS) value_to_vector(language, value, node->P[node->points / 4][node->points % 4]);
-  node->points++;
+  open->stage = STAGE_BODY;
+  open->after_comma = false;
+  if (open->points < PATCH_POINTS)
+    value_to_vector(language, value, open->node.net->P[open->points / 4][open->points % 4]);
+  open->points++;
 }
 
 void patch_comma(struct language *language, struct span place)
 {
-  struct node *node = language->objects->open;
-  if (node->stage == STAGE_MODIFIERS || node->after_comma)
+  struct open_node *open = language->objects->open;
+  if (open->stage == STAGE_MODIFIERS || open->after_comma)
     language_error(language, place, "a comma stands between control points only");
-  node->after_comma = true;
+  open->after_comma = true;
 }
 
 static void points_end(struct language *language)
 {
-  struct node *node = language->objects->open;
-  if (node->stage == STAGE_MODIFIERS) return;
-  node->stage = STAGE_MODIFIERS;
-  if (!language_sound(language, &node->block)) return;
-  if (node->points != PATCH_POINTS) {
-    language_error(language, node->block.place, "bicubic_patch needs %d control points, found %d", PATCH_POINTS,
-                   node->points);
-  } else if (node->after_comma) {
-    language_error(language, node->block.place, "a comma stands behind the last control point of this bicubic_patch");
+  struct open_node *open = language->objects->open;
+  if (open->stage == STAGE_MODIFIERS) return;
+  open->stage = STAGE_MODIFIERS;
+  if (!language_sound(language, &open->block)) return;
+  if (open->points != PATCH_POINTS) {
+    language_error(language, open->block.place, "bicubic_patch needs %d control points, found %d", PATCH_POINTS,
+                   open->points);
+  } else if (open->after_comma) {
+    language_error(language, open->block.place, "a comma stands behind the last control point of this bicubic_patch");
   }
 }
 
@@ -105,15 +115,15 @@ void patch_modified(struct language *language) { points_end(language); }
 void patch_solver(struct language *language)
 {
   points_end(language);
-  language->objects->open->method = language->method;
+  language->objects->open->node.method = language->method;
 }
 
 void patch_end(struct language *language)
 {
-  const struct node *node = language->objects->open;
+  const struct open_node *open = language->objects->open;
   points_end(language);
-  if (!node->has_type)
-    language_error_in(language, &node->block, node->block.place, "bicubic_patch needs its type, 0 or 1");
+  if (!open->has_type)
+    language_error_in(language, &open->block, open->block.place, "bicubic_patch needs its type, 0 or 1");
   sources_pass(language);
 }
 
@@ -132,29 +142,31 @@ static void count_patches(struct language *language, const struct node *parent, 
 }
 
 /* What holds no patch is not listed: copies of the parent, which may be many, would each be looked through for nothing. */
-static void add_child(struct language *language, struct node *parent, struct node *child)
+static void add_child(struct language *language, struct open_node *open, struct node *child)
 {
+  const struct objects *objects = language->objects;
+  struct node *parent = &open->node;
   if (child->patch_count > 0) {
-    if (parent->last) parent->last->next = child;
+    if (open->last) open->last->next = child;
     else parent->first = child;
-    parent->last = child;
+    open->last = child;
   }
   parent->patch_count += child->patch_count;
-  count_patches(language, parent, child->whole);
+  count_patches(language, parent, objects->whole);
   if (child->height >= parent->height) parent->height = child->height + 1;
-  if (parent->height == MAX_NESTING && parent != &language->objects->scene)
-    language_limit(language, child->whole, "objects are nested more than 200 deep");
+  if (parent->height == MAX_NESTING && open != &objects->scene)
+    language_limit(language, objects->whole, "objects are nested more than 200 deep");
 }
 
 void union_begin(struct language *language, struct span place) { open_node(language, place); }
 
 void union_add(struct language *language, struct node *object)
 {
-  struct node *node = language->objects->open;
-  if (node->stage == STAGE_MODIFIERS)
-    language_error_in(language, &node->block, object->whole,
+  struct open_node *open = language->objects->open;
+  if (open->stage == STAGE_MODIFIERS)
+    language_error_in(language, &open->block, language->objects->whole,
                       "the objects of a union stand before its texture and transforms");
-  add_child(language, node, object);
+  add_child(language, open, object);
 }
 
 void union_modified(struct language *language) { language->objects->open->stage = STAGE_MODIFIERS; }
@@ -171,23 +183,23 @@ void copy_begin(struct language *language, struct span place) { open_node(langua
 
 static void take_object(struct language *language, struct span place, const struct node *object)
 {
-  struct node *node = language->objects->open;
-  if (node->has_object || node->stage == STAGE_MODIFIERS) {
+  struct open_node *open = language->objects->open;
+  if (open->has_object || open->stage == STAGE_MODIFIERS) {
     language_error(language, place, "object has one object, which stands first; union has several");
     return;
   }
-  struct node *outer = node->outer;
-  const struct block block = node->block;
-  *node = *object;
-  node->next = NULL;
-  node->outer = outer;
-  node->block = block;
-  node->stage = STAGE_BODY;
-  node->has_object = true;
-  node->own_transform = false;
+  const struct span begin = open->node.place;
+  open->node = *object;
+  open->node.next = NULL;
+  open->node.place = begin;
+  open->stage = STAGE_BODY;
+  open->has_object = true;
 }
 
-void copy_object(struct language *language, const struct node *object) { take_object(language, object->whole, object); }
+void copy_object(struct language *language, const struct node *object)
+{
+  take_object(language, language->objects->whole, object);
+}
 
 void copy_named(struct language *language, struct span place)
 {
@@ -203,16 +215,16 @@ void copy_named(struct language *language, struct span place)
 
 void copy_modified(struct language *language, struct span place)
 {
-  struct node *node = language->objects->open;
-  if (!node->has_object) language_error_in(language, &node->block, place, "object wants its object first");
-  node->stage = STAGE_MODIFIERS;
+  struct open_node *open = language->objects->open;
+  if (!open->has_object) language_error_in(language, &open->block, place, "object wants its object first");
+  open->stage = STAGE_MODIFIERS;
 }
 
 void copy_end(struct language *language)
 {
-  const struct node *node = language->objects->open;
-  if (!node->has_object)
-    language_error_in(language, &node->block, node->block.place, "this object has no object in it");
+  const struct open_node *open = language->objects->open;
+  if (!open->has_object)
+    language_error_in(language, &open->block, open->block.place, "this object has no object in it");
 }
 
 void declare_object(struct language *language, struct declaration *declaration, struct node *object)
@@ -229,21 +241,22 @@ void declare_object(struct language *language, struct declaration *declaration, 
 /* Copies share transforms and textures, so a changed one is a new one. */
 void node_transform(struct language *language, const struct transform *transform)
 {
-  struct node *node = language->objects->open;
+  struct open_node *open = language->objects->open;
+  struct node *node = &open->node;
   if (transform->identity) return;
   const struct transform all = node->transform ? transform_then(node->transform, transform) : *transform;
   if (!transform_finite(&all)) {
     language_error(language, language->transform_place, "the transforms up to here are too large for numbers");
     return;
   }
-  if (!node->own_transform) node->transform = language_alloc(language, sizeof *node->transform);
-  node->own_transform = true;
+  if (!open->own_transform) node->transform = language_alloc(language, sizeof *node->transform);
+  open->own_transform = true;
   *node->transform = all;
 }
 
 void node_texture(struct language *language, struct texture *texture)
 {
-  struct node *node = language->objects->open;
+  struct node *node = &language->objects->open->node;
   struct texture all = node->texture ? *node->texture : *language->texture_default;
   texture_apply(&all, texture);
   *texture = all; /* it is nobody else's */

@@ -17,23 +17,32 @@ struct sharing {
   uint32_t object; /* one more than its index in scene.objects, once it is there */
 };
 
-/* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same
- * points or children. */
-struct node {
-  struct node *next, *first, *last; /* the list it stands in; its own children */
-  struct node *outer;               /* while its block is open */
-  struct block block;
-  struct span whole; /* once it is closed */
-  double (*P)[4][3]; /* NULL: a union */
+/* What a patch says itself, shared by its copies. */
+struct net {
+  double P[4][4][3];
   double setting[PATCH_SETTINGS];
+};
+
+/* A patch or a union, with what was said of it. Declared ones are shared: a copy has a node of its own, but the same
+ * net or children. Scenes have millions of them. */
+struct node {
+  struct node *next, *first;     /* the list it stands in; its own children */
+  struct net *net;               /* NULL: a union */
   struct transform *transform;   /* NULL: none */
   const struct texture *texture; /* NULL: none of its own */
   const struct method *method;   /* NULL: none of its own */
   struct sharing *sharing;       /* of the declared object that it is or copies; NULL: neither */
   size_t patch_count;            /* in it and below */
+  struct span place;             /* of the word it begins with */
   int height;                    /* unions below it within each other */
+};
 
-  /* While it is open. */
+/* One whose block is open. */
+struct open_node {
+  struct open_node *outer;
+  struct node node;  /* what it is to be */
+  struct node *last; /* of its children */
+  struct block block;
   enum stage stage;
   int points;
   bool has_type, has_object, after_comma, own_transform;
@@ -41,9 +50,11 @@ struct node {
 
 /* Zeroed: no objects. */
 struct objects {
-  struct node *open; /* the innermost */
-  struct node scene; /* the union of all objects */
-  size_t copies;     /* how often declared ones are named */
+  struct open_node *open;   /* the innermost */
+  struct open_node *closed; /* for the next ones */
+  struct span whole;        /* of the last that was closed */
+  struct open_node scene;   /* the union of all objects */
+  size_t copies;            /* how often declared ones are named */
 };
 
 /* Actions of the grammar, in the order of the text: what begins is open until its end, which node_end follows, and what is
