@@ -11,12 +11,19 @@
 /* More than these of one declaration are not told. */
 enum { MOST_HELD = 20 };
 
+bool language_holds_enough(const struct language *language)
+{
+  return language->declaration && language->declaration->held_count >= MOST_HELD;
+}
+
 /* Where to hold one more, or NULL where it is only counted. */
 static struct held *hold(struct language *language, struct span place)
 {
   struct declaration *declaration = language->declaration;
   language->held_count++;
-  if (declaration->held_count++ >= MOST_HELD) return NULL;
+  const bool enough = language_holds_enough(language);
+  declaration->held_count++;
+  if (enough) return NULL;
   struct held *held = *declaration->held_end = language_alloc(language, sizeof *held);
   declaration->held_end = &held->next;
   held->place = place;

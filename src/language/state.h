@@ -115,6 +115,9 @@ void language_foreign(struct language *language, struct span place, const char *
 /* Whether language_error holds what it gets now. */
 bool language_holds(const struct language *language);
 
+/* Whether the declaration being read holds so much that language_foreign only counts what it gets now. */
+bool language_holds_enough(const struct language *language);
+
 /* The same of a name that was declared so. */
 void language_hold(struct language *language, struct span place, struct held *of);
 

@@ -154,8 +154,8 @@ void syntax_error(struct language *language, bool is_word, const char *const exp
     return;
   }
   if (tokens->last.token == PSCN_TOKEN_FOREIGN || tokens->last.token == PSCN_TOKEN_FOREIGN_SIGN) {
-    char hint[HINT_SIZE];
-    hint_write(name.text, name.length, hint, sizeof hint);
+    char hint[HINT_SIZE] = "";
+    if (!language_holds_enough(language)) hint_write(name.text, name.length, hint, sizeof hint);
     language_foreign(language, place, "%.*s is POV-Ray, but pscn %s", shown(&name), name.text, hint);
     return;
   }

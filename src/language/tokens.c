@@ -139,11 +139,11 @@ static bool recover(struct language *language)
       continue;
     }
     /* What was refused where it stands may begin the next item; refused there too, it is dropped. */
-    if (!(first && twice)) {
+    if (last->depth == block && !(first && twice)) {
       const bool begins = block == 0 ? words_begin_statement(token) : words_begin_item(token);
       const bool in_value = before == '+' || before == '-' || before == '*' || before == '/' || before == ',';
       const bool foreign = token == PSCN_TOKEN_FOREIGN && !first && !in_value;
-      if (last->depth == block && (begins || foreign || (token == '}' && block > 0))) {
+      if (begins || foreign || (token == '}' && block > 0)) {
         tokens->last.again = true;
         return true;
       }
