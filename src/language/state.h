@@ -92,6 +92,7 @@ struct language {
   const struct texture *texture_default; /* what #default has said last */
   struct transform *transform;           /* the last statement's */
   struct span transform_place;           /* and where it stands */
+  struct matrix *matrix;                 /* the numbers of the last one */
   struct transform_angles *angles;       /* of rotations */
   struct method *method;                 /* of the last solver statement */
   struct objects *objects;

@@ -66,7 +66,9 @@ enum { MATRIX_NUMBERS = 12 };
 
 struct matrix *matrix_begin(struct language *language, const struct value *first)
 {
-  struct matrix *matrix = language_alloc(language, sizeof *matrix);
+  if (!language->matrix) language->matrix = language_alloc(language, sizeof *language->matrix);
+  struct matrix *matrix = language->matrix;
+  matrix->count = 0;
   matrix_add(language, matrix, first);
   return matrix;
 }

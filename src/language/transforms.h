@@ -10,7 +10,7 @@ const struct transform *transform_translate(struct language *language, struct sp
 const struct transform *transform_rotate(struct language *language, struct span place, const struct value *by);
 const struct transform *transform_scale(struct language *language, struct span place, const struct value *by);
 
-/* The numbers of a matrix statement; NULL: it has but three, as one vector. */
+/* The numbers of a matrix statement, until the next one; NULL: it has but three, as one vector. */
 struct matrix {
   double number[12];
   int count;
