@@ -35,7 +35,8 @@ enum status piece_create(const struct render_options *options, size_t number, si
 void piece_destroy(struct piece *piece);
 
 /* Reads a part, of whose image the pixels of its tiles count, or only what it says of itself. STATUS_FILE, STATUS_LIMIT;
- * STATUS_INPUT where the file is a picture, but no part that can be understood. Then *out is zero and message[IMAGE_MESSAGE_SIZE] says why. */
+ * STATUS_INPUT where the file is a picture, but no part that can be understood. Then *out is zero and
+ * message[IMAGE_MESSAGE_SIZE] says why. */
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message) STATUS_MUST_CHECK;
 
 /* Whether both are parts of one picture, by what they say and by the window they have; else `out` says what parts them. */

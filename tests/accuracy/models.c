@@ -63,7 +63,6 @@ void model_torus(struct model *out)
   }
 }
 
-/* The control points as they stand in the scene file: 48 numbers behind each "bicubic_patch". */
 void model_teapot(struct model *out)
 {
   enum { WALL = 12, BOTTOM = 28 }; /* rim and body come first, handle, spout and lid between */

@@ -63,7 +63,7 @@ static void rays_that_meet_what_it_stands_for_are_not_told_to_miss(void **state)
       it.line = &p->line[it.axis];
       slab += lanes_count(here & ~stage_slab(p, &it, here));
       box += lanes_count(here & ~stage_box(&it, here));
-      planes += lanes_count(here & ~(stage_planes(&it, here) | it.along));
+      planes += lanes_count(here & ~(stage_planes(p, &it, here) | it.along));
     }
   }
   print_message("%u, %u and %u of %d lost by slab, box and planes\n", slab, box, planes, CASES * LANES);

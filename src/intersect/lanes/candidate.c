@@ -99,11 +99,9 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   }
   (void)packet_spend(p, open & LOOKS_DEAR); /* the next leaf asks what is left */
   entered[STAGE_PLANES] += lanes_count(open);
-  open = stage_planes(it, open);
-  if (!lanes_any(open)) return;
-  lane_mask never = open & it->along; /* nothing that follows could decide that */
-  if (it->leaf->pole && patch->method->polish) never |= meets_pole(p, it, open);
-  if (lanes_any(never)) leave_open(p, it, never), open &= ~never;
+  open = stage_planes(p, it, open);
+  if (lanes_any(open & it->along)) /* nothing that follows could decide that */
+    leave_open(p, it, open & it->along), open &= ~it->along;
   if (!lanes_any(open)) return;
   if (patch->lanes == SOLVER_LANES_SIGNS) {
     open = stage_cover(p, it, open);

@@ -21,7 +21,7 @@ struct candidate {
   const struct line *line; /* the packet's for that axis */
   struct leaf_root first;  /* the root found first; only where it exists */
   lanes a[16], b[16];      /* the nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
-  lane_mask along;         /* the ray meets a curve on the leaf, as far as double precision can tell */
+  lane_mask along;         /* the ray meets a curve on the leaf, or its pole, as far as double precision can tell */
   lanes alpha, beta;       /* largest |a|, |b| of the nets, then of the form */
   lanes form_error;        /* of a coefficient of the form */
   lanes form_a[16], form_b[16]; /* where the form is not the leaf's own net */
@@ -57,12 +57,9 @@ lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open)
 lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask open);
 
 /* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net.
- * Where these are one polynomial `along` is set: no stage behind can decide that. */
-lane_mask stage_planes(struct candidate *it, lane_mask open);
-
-/* planes.c: of `open`, the lanes whose ray meets the pole of the leaf within its range, as far as double precision can tell: no
- * stage behind can decide that. The polynomials are set. */
-lane_mask meets_pole(const struct packet *p, const struct candidate *it, lane_mask open);
+ * Where these are one polynomial, or the ray meets the leaf's pole within its range, `along` is set: no stage behind can decide
+ * that. */
+lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask open);
 
 /* bilinear.c: by the default method, closed where boxes show that the leaf has no root but the one that stage_bilinear
  * has found, and one more, which is sought where they do not. */

@@ -28,7 +28,6 @@
 #define stage_planes KERNEL(stage_planes)
 #define stage_pole KERNEL(stage_pole)
 #define leaves_corner KERNEL(leaves_corner)
-#define meets_pole KERNEL(meets_pole)
 #define stage_cover KERNEL(stage_cover)
 #define stage_resultant KERNEL(stage_resultant)
 #define stage_first_root KERNEL(stage_first_root)

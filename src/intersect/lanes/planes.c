@@ -131,18 +131,6 @@ static lane_mask planes_at_pole(const struct candidate *it, lane_mask active)
   return active & ~((beyond > 0) & ((a0 * a0 + b0 * b0 - off) * beyond > 8 * reach * off));
 }
 
-/* Boxes are left over at the pole, for a and b keep their value along its border, in every combination less than what it is off
- * by; and r has a coefficient there that may be zero. */
-lane_mask meets_pole(const struct packet *p, const struct candidate *it, lane_mask open)
-{
-  const int at = from_pole(it->leaf, 0, 0);
-  const lanes e = it->line->error, depth = lanes_all(it->leaf->x[it->axis][at]);
-  lanes from, to, off;
-  ray_ends(p, it, p->t_max, &from, &to, &off);
-  off += 2 * e;
-  return open & (lanes_abs(it->a[at]) <= e) & (lanes_abs(it->b[at]) <= e) & (depth >= from - off) & (depth <= to + off);
-}
-
 /* Whether these control points of the patch are equal numbers. */
 static bool same_points(double P[4][4][3], int m, int n)
 {
@@ -216,13 +204,27 @@ lane_mask leaves_corner(const struct packet *p, struct candidate *it, lane_mask 
   return leaves;
 }
 
-lane_mask stage_planes(struct candidate *it, lane_mask open)
+/* Boxes are left over at the pole, for a and b keep their value along its border, in every combination less than what it is off
+ * by; and r has a coefficient there that may be zero. */
+static lane_mask meets_pole(const struct packet *p, const struct candidate *it, lane_mask open)
+{
+  const int at = from_pole(it->leaf, 0, 0);
+  const lanes e = it->line->error, depth = lanes_all(it->leaf->x[it->axis][at]);
+  lanes from, to, off;
+  ray_ends(p, it, p->t_max, &from, &to, &off);
+  off += 2 * e;
+  return open & (lanes_abs(it->a[at]) <= e) & (lanes_abs(it->b[at]) <= e) & (depth >= from - off) & (depth <= to + off);
+}
+
+lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask open)
 {
   lane_mask near = planes_make(it, open);
   it->along = (lane_mask){0};
   if (!it->patch->method->polish) return open;
   if (it->leaf->pole && lanes_any(near)) near = planes_at_pole(it, near);
-  return lanes_any(near) ? planes_aligned(it, near) : near;
+  if (lanes_any(near)) near = planes_aligned(it, near);
+  if (it->leaf->pole && lanes_any(near)) it->along |= meets_pole(p, it, near);
+  return near;
 }
 
 LANES_INLINE void weights_at(lanes t, lanes w[4])

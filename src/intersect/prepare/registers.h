@@ -50,6 +50,13 @@ LANES_INLINE lanes lane_min(lanes x)
   return lanes_min(x, _mm256_permute_pd(x, 5));
 }
 
+/* The square of the vector's length, in all lanes. */
+LANES_INLINE lanes square_of(const lanes v[REGISTERS])
+{
+  const lanes square = v[0] * v[0];
+  return lanes_all(square[0]) + lanes_all(square[1]) + lanes_all(square[2]);
+}
+
 /* The largest square of the vectors' lengths. */
 LANES_INLINE lanes largest_square(const lanes v[][REGISTERS], int count)
 {
@@ -107,11 +114,12 @@ LANES_INLINE void cross(const lanes a[REGISTERS], const lanes b[REGISTERS], lane
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+LANES_INLINE lanes square_of(const lanes v[REGISTERS]) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
 LANES_INLINE lanes largest_square(const lanes v[][REGISTERS], int count)
 {
   lanes largest = {0};
-  for (int n = 0; n < count; n++)
-    largest = lanes_max(v[n][0] * v[n][0] + v[n][1] * v[n][1] + v[n][2] * v[n][2], largest);
+  for (int n = 0; n < count; n++) largest = lanes_max(square_of(v[n]), largest);
   return largest;
 }
 
@@ -136,13 +144,6 @@ LANES_INLINE lanes coordinates_sum(const lanes v[REGISTERS])
 LANES_INLINE lanes coordinates_max(const lanes v[REGISTERS])
 {
   return lanes_max(coordinate(v, 0), lanes_max(coordinate(v, 1), coordinate(v, 2)));
-}
-
-LANES_INLINE lanes square_of(const lanes v[REGISTERS])
-{
-  lanes square[REGISTERS];
-  for (int k = 0; k < REGISTERS; k++) square[k] = v[k] * v[k];
-  return coordinates_sum(square);
 }
 
 #endif
