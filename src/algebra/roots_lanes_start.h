@@ -137,8 +137,8 @@ static void roots_lanes_start_quadratic(struct roots_lanes *a)
   const lanes *p = a->p, mean = lanes_sqrt(lanes_abs(p[0] / p[2]));
   const lane_mask real = p[1] * p[1] > 4 * lanes_abs(p[0] * p[2]);
   for (int k = 0; k < 2; k++) {
-    const lanes edge = lanes_min(lanes_max(-p[k] / p[k + 1], lanes_all(-ROOTS_FAR)), lanes_all(ROOTS_FAR));
-    const lanes radius = lanes_min(lanes_max(mean, lanes_all(1 / ROOTS_FAR)), lanes_all(ROOTS_FAR));
+    const lanes edge = lanes_clamp(-p[k] / p[k + 1], -ROOTS_FAR, ROOTS_FAR);
+    const lanes radius = lanes_clamp(mean, 1 / ROOTS_FAR, ROOTS_FAR);
     a->zr[k] = lanes_select(real, edge, radius * ROOTS_DIRECTION[k][0]);
     a->zi[k] = lanes_select(real, lanes_all(0), radius * ROOTS_DIRECTION[k][1]);
   }

@@ -135,6 +135,12 @@ LANES_INLINE lanes lanes_max(lanes a, lanes b)
 #endif
 }
 
+/* Lane k: x within [lo, hi], or the end that it is beyond; lo where it is NaN. */
+LANES_INLINE lanes lanes_clamp(lanes x, double lo, double hi)
+{
+  return lanes_min(lanes_max(x, lanes_all(lo)), lanes_all(hi));
+}
+
 LANES_INLINE lanes lanes_abs(lanes a) { return (lanes)((lane_mask)a & (INT64_MAX - (lane_mask){0})); }
 
 /* Lane k: the square root. */

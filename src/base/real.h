@@ -22,6 +22,9 @@ static_assert(FLT_EVAL_METHOD == 0, "doubles are not rounded to double after eac
 static inline double real_min(double a, double b) { return a < b ? a : b; }
 static inline double real_max(double a, double b) { return a > b ? a : b; }
 
+/* x within [lo, hi], or the end that it is beyond; lo where it is NaN. */
+static inline double real_clamp(double x, double lo, double hi) { return real_min(real_max(x, lo), hi); }
+
 /* 2^exponent, or the largest power of two that is a double. */
 static inline double real_power_of_two(int exponent)
 {

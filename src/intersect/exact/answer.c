@@ -144,7 +144,7 @@ static void answer(const struct model *model, const struct ray *ray, uint32_t pa
                    struct hit *out)
 {
   out->patch = patch;
-  out->u = real_min(real_max(out->u, 0), 1), out->v = real_min(real_max(out->v, 0), 1);
+  out->u = real_clamp(out->u, 0, 1), out->v = real_clamp(out->v, 0, 1);
   out->t = t_within(t, ray->t_min, ray->t_max);
   set_surface(model, ray, out);
   out->clearance = clearance(model, patch, borders, out);

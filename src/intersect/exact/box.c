@@ -122,8 +122,8 @@ bool box_onto_ray(struct box *box, const double error[2], double *u, double *v)
     const double determinant = aa * bb - ab * ab;
     if (!(determinant > 0)) break;
     const double p = (bb * a.value - ab * b.value) / determinant, q = (aa * b.value - ab * a.value) / determinant;
-    *u = real_min(real_max(*u - (p * a.du + q * b.du), 0), 1);
-    *v = real_min(real_max(*v - (p * a.dv + q * b.dv), 0), 1);
+    *u = real_clamp(*u - (p * a.du + q * b.du), 0, 1);
+    *v = real_clamp(*v - (p * a.dv + q * b.dv), 0, 1);
   }
   return false;
 }

@@ -51,7 +51,7 @@ static double cubic_root(const double c[4], double most)
     const double value = cubic_at(c, x, &slope), next = x - value / slope;
     if (value < 0) low = x;
     else high = x;
-    if (fabs(value) <= 4 * UNIT_ROUNDOFF * most) return real_min(real_max(next, low), high);
+    if (fabs(value) <= 4 * UNIT_ROUNDOFF * most) return real_clamp(next, low, high);
     x = next > low && next < high ? next : 0.5 * (low + high);
   }
   return x;

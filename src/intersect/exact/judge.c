@@ -219,7 +219,7 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double 
 /* What may be a hit at a root that is not known to be in its patch: the point next to it, and its place on the ray. */
 static void tell_maybe(struct judge *j, unsigned borders, const struct exact_root *root)
 {
-  const double u = real_min(real_max((double)root->u, 0), 1), v = real_min(real_max((double)root->v, 0), 1);
+  const double u = real_clamp((double)root->u, 0, 1), v = real_clamp((double)root->v, 0, 1);
   const double w = patch_evaluate(j->prepared->x[j->local.axis], u, v).value;
   double t = (double)root->t, t_error = root->t_error;
   if (!root->sharp) {

@@ -57,7 +57,7 @@ static bool fold_maybe(const struct window *window, struct box *box, const struc
   if (!(reach <= FOLD_NEAR)) return false;
   for (int k = 0; k < 2; k++) {
     if (fabs(fold->at[k]) > 1 + reach) return true;
-    at[k] = 0.5 + 0.5 * real_min(real_max(fold->at[k], -1), 1);
+    at[k] = 0.5 + 0.5 * real_clamp(fold->at[k], -1, 1);
   }
   const struct patch_jet w = patch_evaluate(box->net[2], at[0], at[1]);
   const double t = t_of_depth(&window->depth, w.value), off = (fabs(w.du) + fabs(w.dv)) * reach;

@@ -11,10 +11,7 @@ LANES_INLINE lanes plane_of(const struct line *line, int axis, int number, const
 }
 
 /* 0 where t is not a number, and within the leaf. */
-LANES_INLINE lanes near_middle(lanes t)
-{
-  return lanes_min(lanes_max(lanes_select(t == t, t, lanes_all(0)), lanes_all(-0.5)), lanes_all(0.5));
-}
+LANES_INLINE lanes near_middle(lanes t) { return lanes_clamp(lanes_select(t == t, t, lanes_all(0)), -0.5, 0.5); }
 
 /* The root of the bilinear parts a = a0 + s a1 + t a2 + st a3, b alike, that is nearer to the middle: t eliminated by
  * Bezout's determinant (a0 + s a1)(b2 + s b3) - (a2 + s a3)(b0 + s b1) = r0 + r1 s + r2 s^2. A pair of complex roots

@@ -104,8 +104,8 @@ LANES_INLINE void ray_ends(const struct packet *p, const struct candidate *it, l
 {
   const lanes along = p->direction[it->axis] * (1 / it->patch->scale), start = it->line->start[0];
   const lanes at_min = p->t_min * along - start, at_far = far * along - start;
-  *from = lanes_min(lanes_max(lanes_min(at_min, at_far), lanes_all(-FRAME_END)), lanes_all(FRAME_END));
-  *to = lanes_min(lanes_max(lanes_max(at_min, at_far), lanes_all(-FRAME_END)), lanes_all(FRAME_END));
+  *from = lanes_clamp(lanes_min(at_min, at_far), -FRAME_END, FRAME_END);
+  *to = lanes_clamp(lanes_max(at_min, at_far), -FRAME_END, FRAME_END);
   *off = 2 * (p->t_error * lanes_abs(along) + 16 * UNIT_ROUNDOFF * lanes_abs(start));
 }
 
@@ -139,10 +139,6 @@ LANES_INLINE bool resultant_counts(const struct candidate *it)
 }
 
 /* t within [0,1], or the middle where it is not a number. */
-LANES_INLINE lanes start_within(lanes t)
-{
-  t = lanes_select(t == t, t, lanes_all(0.5));
-  return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1));
-}
+LANES_INLINE lanes start_within(lanes t) { return lanes_clamp(lanes_select(t == t, t, lanes_all(0.5)), 0, 1); }
 
 #endif

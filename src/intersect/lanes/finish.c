@@ -173,7 +173,7 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
 {
   const struct best *best = &p->best;
   struct answers a;
-  a.u = surface_clamp(best->u), a.v = surface_clamp(best->v), a.t = best->t;
+  a.u = lanes_clamp(best->u, 0, 1), a.v = lanes_clamp(best->v, 0, 1), a.t = best->t;
   a.done = surface_normal(best->normal, best->tangent, a.normal);
   a.point = best->point;
   return write_hits(p, group, &a, out);
@@ -188,7 +188,7 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, s
   struct last_step step;
   step.patch = patch, step.axis = axis, step.origin = p->origin, step.direction = p->direction, step.near = near;
   step.improves = lanes_mask(group) & best->certain;
-  step.u = surface_clamp(best->u), step.v = surface_clamp(best->v), step.t = best->t;
+  step.u = lanes_clamp(best->u, 0, 1), step.v = lanes_clamp(best->v, 0, 1), step.t = best->t;
   last_step_take(&step);
   struct answers a = {.u = step.u, .v = step.v, .t = step.t, .done = step.done};
   a.done &= (lanes_abs(step.u - best->u) <= best->radius_u) & (lanes_abs(step.v - best->v) <= best->radius_v) &

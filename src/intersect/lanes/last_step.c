@@ -182,7 +182,8 @@ void last_step_take(struct last_step *l)
   const lanes t = depth * inverse, left = off - lanes_product_error(t, dk, way[k].hi);
   l->t = lanes_select(moving, (t + left * inverse) * patch->scale, l->t);
   const lane_mask lost = l->improves & ~moving;
-  l->u = surface_clamp(lanes_select(lost, l->u, u + du)), l->v = surface_clamp(lanes_select(lost, l->v, v + dv));
+  l->u = lanes_clamp(lanes_select(lost, l->u, u + du), 0, 1);
+  l->v = lanes_clamp(lanes_select(lost, l->v, v + dv), 0, 1);
   const lanes to_u = l->u - u, to_v = l->v - v;
   for (int c = 0; c < 3; c++) l->point[c] = jet.s[c].hi + (jet.s[c].lo + (jet.du[c] * to_u + jet.dv[c] * to_v));
   last_step_normal(l, &jet);

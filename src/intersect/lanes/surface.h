@@ -8,8 +8,6 @@
 #include "base/lanes.h"
 #include "intersect/point.h"
 
-LANES_INLINE lanes surface_clamp(lanes t) { return lanes_min(lanes_max(t, lanes_all(0)), lanes_all(1)); }
-
 /* Bound on the derivatives' coordinates. */
 LANES_INLINE lanes surface_tangent(const lanes su[3], const lanes sv[3])
 {
