@@ -42,7 +42,7 @@ LANES_INLINE bool is_twin(const struct packet *p, uint32_t index)
   const struct model *model = p->model;
   if (!model->twin || p->gather) return false;
   if (index >= model->leaf_count) return model->copies[index - model->leaf_count].twin;
-  return model->twin[model->leaves ? model->leaves[index].patch : model->places[index].patch];
+  return model->twin[model->oriented[index].patch];
 }
 
 /* Those of the rays that may be in the box along a leaf. */
