@@ -103,10 +103,7 @@ static int by_distance(const void *a, const void *b)
 {
   const struct ordered *x = a, *y = b;
   if (x->near != y->near) return x->near < y->near ? -1 : 1;
-  if (x->region->patch != y->region->patch) return x->region->patch < y->region->patch ? -1 : 1;
-  const uint16_t *a_column = x->region->column, *b_column = y->region->column;
-  if (a_column[0] != b_column[0]) return a_column[0] < b_column[0] ? -1 : 1;
-  return a_column[1] < b_column[1] ? -1 : a_column[1] > b_column[1];
+  return by_region(x->region, y->region);
 }
 
 /* Searches the region with its share of the work that is set apart, and with all that is shared unless something may be a
