@@ -16,14 +16,13 @@ struct explainer {
   double t_before;
   bool warmed; /* `warm` holds what the candidate's solver was to start from */
   struct solver_warm warm;
-  bool by_solver; /* story.found is told */
   struct explained_candidate story;
 };
 
 struct explained_roots *explain_roots(struct tracer *tracer)
 {
   if (tracer->explainer == NULL) return NULL;
-  tracer->explainer->by_solver = true;
+  tracer->explainer->story.by_solver = true;
   return &tracer->explainer->story.found;
 }
 
@@ -33,7 +32,7 @@ void explain_before(struct tracer *tracer, const struct model *model, const stru
   struct explainer *explainer = tracer->explainer;
   explainer->before = tracer->counts;
   explainer->t_before = t;
-  explainer->warmed = explainer->by_solver = false;
+  explainer->warmed = explainer->story.by_solver = false;
   if (model != tracer->model) return;
   const struct solver_warm *warm = tracer_warm(tracer, patch->method, leaf);
   explainer->warmed = warm != NULL;
@@ -76,7 +75,7 @@ static void tell_algebra(struct explainer *explainer, const struct explained_ray
   }
   if (!story->solved) return;
   struct method_roots points;
-  if (!explainer->by_solver)
+  if (!story->by_solver)
     method_find(patch->method, explainer->warmed ? &explainer->warm : NULL, leaf, story->a, story->b, error, &points,
                 &story->found);
   place_points(&local, w, ray, story);
@@ -93,7 +92,6 @@ void explain_after(struct tracer *tracer, const struct explained_ray *ray)
   for (int k = 0; k < STAGE_COUNT; k++)
     if (after->stages[k] > before->stages[k]) story->reached = (enum stage)k;
   story->solved = !story->blind && (story->reached == STAGE_BILINEAR || story->reached == STAGE_ROOTS);
-  story->by_solver = explainer->by_solver;
   tell_algebra(explainer, ray);
   story->left_open = story->blind || after->escalated > before->escalated;
   story->taken = ray->t != explainer->t_before;

@@ -69,10 +69,9 @@ struct model;
 struct model_patch;
 struct leaf;
 
-/* What the lanes tell of a candidate's ray, which is the only one of its packet: in the coordinates of `model`, whose
+/* What the lanes tell of a candidate's ray, which is the only one of its packet: in the coordinates of the leaf's model, whose
  * first patch is first_patch of the scene's; t of the scene is shift + t. */
 struct explained_ray {
-  const struct model *model;
   const struct leaf *leaf;
   const struct model_patch *patch; /* the leaf's */
   uint32_t first_patch;

@@ -122,8 +122,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
 static void candidate_explain(const struct packet *p, const struct candidate *it, bool blind)
 {
   const struct best *best = &p->best;
-  struct explained_ray told = {.model = p->model,
-                               .leaf = it->leaf,
+  struct explained_ray told = {.leaf = it->leaf,
                                .patch = it->patch,
                                .first_patch = p->outer ? p->copy->first_patch : 0,
                                .shift = p->outer ? p->shift[0] : 0,
