@@ -84,7 +84,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
     if (!lanes_any(open)) continue;
     const lanes start[2] = {starts->u[k] - 0.5, starts->v[k] - 0.5};
     newton_solve(p, it->leaf, it->axis, start, open, &all->root[k]);
-    *proven = open & r->exists;
+    *proven = r->exists;
     for (int j = 0; j < k; j++) {
       const struct newton_root *old = &all->root[j].at;
       const lane_mask same = all->proven[j] & (lanes_abs(old->u - r->u) <= old->radius_u + r->radius_u) &
@@ -95,7 +95,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
     found += lanes_select(*proven, lanes_all(1), lanes_all(0));
     within += lanes_select(*proven & (parameter > radius) & (1 - parameter > radius), lanes_all(1), lanes_all(0));
     /* whatever else was found is this root again */
-    const lane_mask only = open & r->alone;
+    const lane_mask only = r->alone;
     for (int j = 0; j < k; j++) all->proven[j] &= ~only;
     *proven |= only;
     alone |= only;

@@ -89,6 +89,6 @@ lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open)
   if (!lanes_any(open)) return open;
   struct leaf_root second;
   newton_solve(p, it->leaf, it->axis, left, open, &second);
-  const lane_mask more = open & second.at.exists;
+  const lane_mask more = second.at.exists;
   return lanes_any(more) ? open & ~cover_two(p, it, &it->first, &second, more) & p->live : open;
 }

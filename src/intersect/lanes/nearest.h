@@ -41,7 +41,7 @@ LANES_INLINE void best_take(struct best *best, lane_mask taken, const lanes at[2
   best->certain |= taken, best->final &= ~taken;
 }
 
-/* Lanes whose proven root is in the leaf, or may be. */
+/* Lanes whose root is proven, and in the leaf, or may be. */
 LANES_INLINE lane_mask inside(const struct newton_root *r)
 {
   return r->exists & (r->u >= -r->radius_u) & (r->u - 1 <= r->radius_u) & (r->v >= -r->radius_v) &

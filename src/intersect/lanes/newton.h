@@ -9,7 +9,7 @@
 #include "intersect/lanes/packet.h"
 
 /* What is known after Newton's method, M being the inverse Jacobian where it ended (certificate.h). The fields mean
- * something only where `exists`. */
+ * something only where `exists`, which is on no lane that was not asked for. */
 struct newton_root {
   lanes u, v;
   lanes radius_u, radius_v; /* the exact root is within */

@@ -120,7 +120,6 @@ static lane_mask other_root(struct packet *p, const struct candidate *it, const 
   open = other_start(a, it, open, start);
   if (!lanes_any(open)) return open;
   newton_solve(p, it->leaf, it->axis, start, open, &second);
-  open &= second.at.exists;
   const lane_mask all = quadric_closes_two(a, it, &it->first, &second, open);
   offer_root(p, it, &it->first, all & inside(&it->first.at));
   offer_root(p, it, &second, (p->any ? open : all) & inside(&second.at));
@@ -132,7 +131,7 @@ lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask 
   struct quadric_along along;
   if (!it->leaf->has_quadric) leaf_quadrics(1, it->leaf);
   const lane_mask asked = quadric_along(p, it, open, &along), closed = quadric_closes(&along, it, &it->first, asked);
-  offer_root(p, it, &it->first, closed & it->first.at.exists & inside(&it->first.at));
+  offer_root(p, it, &it->first, closed & inside(&it->first.at));
   open &= ~closed & p->live;
   if (it->patch->lanes != SOLVER_LANES_SIGNS) return open;
   p->tracer->counts.roots_found += lanes_count(closed & it->first.at.exists);

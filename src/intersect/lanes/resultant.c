@@ -137,7 +137,6 @@ static lane_mask resultant_cover(struct packet *p, const struct candidate *it, c
   struct leaf_root second;
   second.at.exists = (lane_mask){0};
   if (lanes_any(more)) resultant_refine(p, it, true, more, &second);
-  second.at.exists &= more;
   return cover_two(p, it, root, &second, open);
 }
 
@@ -154,7 +153,7 @@ lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask act
   lane_mask single = {0};
   if (resultant_counts(it)) single = (it->variations == 1) & r->exists & (k > radius) & (1 - k > radius);
   const lane_mask decided = active & (r->alone | single);
-  offer_root(p, it, &root, (p->any ? active & r->exists : decided) & inside(r));
+  offer_root(p, it, &root, (p->any ? active : decided) & inside(r));
   const lane_mask open = active & ~decided & p->live;
   return lanes_any(open) ? open & ~resultant_cover(p, it, &root, open) : open;
 }
