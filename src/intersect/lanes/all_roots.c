@@ -85,12 +85,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
     const lanes start[2] = {starts->u[k] - 0.5, starts->v[k] - 0.5};
     newton_solve(p, it->leaf, it->axis, start, open, &all->root[k]);
     *proven = r->exists;
-    for (int j = 0; j < k; j++) {
-      const struct newton_root *old = &all->root[j].at;
-      const lane_mask same = all->proven[j] & (lanes_abs(old->u - r->u) <= old->radius_u + r->radius_u) &
-                             (lanes_abs(old->v - r->v) <= old->radius_v + r->radius_v);
-      *proven &= ~same;
-    }
+    for (int j = 0; j < k; j++) *proven &= ~(all->proven[j] & roots_meet(&all->root[j].at, r));
     const lanes parameter = v_kept ? r->v : r->u, radius = v_kept ? r->radius_v : r->radius_u;
     found += lanes_select(*proven, lanes_all(1), lanes_all(0));
     within += lanes_select(*proven & (parameter > radius) & (1 - parameter > radius), lanes_all(1), lanes_all(0));

@@ -128,9 +128,8 @@ lane_mask cover_two(struct packet *p, const struct candidate *it, const struct l
                     const struct leaf_root *second, lane_mask open)
 {
   const struct newton_root *one = &first->at, *two = &second->at;
-  const lane_mask apart = ~one->exists | (lanes_abs(one->u - two->u) > one->radius_u + two->radius_u + UNIT_ROUNDOFF) |
-                          (lanes_abs(one->v - two->v) > one->radius_v + two->radius_v + UNIT_ROUNDOFF);
-  const struct known_root known[2] = {{one, open & one->exists}, {two, open & two->exists & apart}};
+  const lane_mask same = one->exists & roots_meet(one, two);
+  const struct known_root known[2] = {{one, open & one->exists}, {two, open & two->exists & ~same}};
   open &= known[0].proven | known[1].proven;
   if (!lanes_any(open)) return open;
   const int count = lanes_any(known[1].proven) ? 2 : 1;

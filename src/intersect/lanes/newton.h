@@ -17,6 +17,13 @@ struct newton_root {
   lane_mask alone;          /* and no other in the leaf */
 };
 
+/* Lanes on which two roots of a leaf may be one: their enclosures meet. */
+LANES_INLINE lane_mask roots_meet(const struct newton_root *a, const struct newton_root *b)
+{
+  return (lanes_abs(a->u - b->u) <= a->radius_u + b->radius_u + UNIT_ROUNDOFF) &
+         (lanes_abs(a->v - b->v) <= a->radius_v + b->radius_v + UNIT_ROUNDOFF);
+}
+
 /* How far the root is from the leaf's pole, in the parameter across it. */
 LANES_INLINE lanes pole_distance(const struct leaf *leaf, const struct newton_root *r)
 {
