@@ -14,13 +14,11 @@ static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(d
                 offsetof(struct ray, t_min) == 6 * sizeof(double),
               "read as two fours");
 
-/* The rays, of which there are LANES, those from `count` on as the first; of a single one there may be one. *postponed,
- * which the packet borrows, is emptied. */
-static void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
-                         int share, struct postponed *postponed)
+/* The rays, of which there are LANES, those from `count` on as the first; of a single one there may be one. */
+LANES_INLINE void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
+                               struct postponed *postponed)
 {
   p->postponed = postponed;
-  packet_set_ready(postponed, tracer, share);
   p->tracer = tracer, p->model = tracer->model, p->rays = rays, p->count = count, p->any = any;
   p->outer = NULL, p->gather = NULL, p->net_error = 0, p->t_error = lanes_all(0);
   p->live = lanes_mask((1u << count) - 1);
@@ -69,7 +67,7 @@ static bool scaling_lost(const struct ray *ray, const struct ray *scaled, int ex
 
 /* Out of line, for it is rare: the packet from copies of its rays. */
 __attribute__((noinline)) static void packet_copied(struct packet *p, struct ready *ready, struct tracer *tracer,
-                                                    size_t count, const struct ray rays[], bool any, int share)
+                                                    size_t count, const struct ray rays[], bool any)
 {
   unsigned lost = 0;
   ready->copied = true;
@@ -78,7 +76,7 @@ __attribute__((noinline)) static void packet_copied(struct packet *p, struct rea
     if (scaling_lost(&rays[l], &ready->copy[l], ready->exponent[l])) lost |= 1u << l;
   }
   for (size_t l = count; l < LANES; l++) ready->copy[l] = ready->copy[0];
-  packet_start(p, tracer, ready->copy, count, any, share, &ready->postponed);
+  packet_start(p, tracer, ready->copy, count, any, &ready->postponed);
   if (lost) packet_orient(p), p->best.doubt = lanes_mask(lost);
 }
 
@@ -86,13 +84,14 @@ void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, 
                   bool any, int share)
 {
   ready->copied = false;
+  packet_set_ready(&ready->postponed, tracer, share);
   if (count == 1 || count == LANES) {
-    packet_start(p, tracer, rays, count, any, share, &ready->postponed);
+    packet_start(p, tracer, rays, count, any, &ready->postponed);
     lane_mask scaled = (p->longest < DIRECTION_MIN) | (p->longest > DIRECTION_MAX);
     for (int k = 0; k < 3; k++) scaled |= lanes_abs(p->origin[k]) > ORIGIN_MAX;
     if (!lanes_any(scaled)) return;
   }
-  packet_copied(p, ready, tracer, count, rays, any, share);
+  packet_copied(p, ready, tracer, count, rays, any);
 }
 
 void packet_orient(struct packet *p)
