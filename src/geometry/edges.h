@@ -32,6 +32,12 @@ static inline int edge_at(int border, int k)
 /* From there to the one next to it, away from the border. */
 static inline int edge_inward(int border) { return (border < 2 ? 4 : 1) * (border & 1 ? -1 : 1); }
 
+/* The place (u,v) on a border where its running parameter is `along`. */
+static inline void edge_place(int border, double along, double out[2])
+{
+  out[border / 2] = border & 1, out[1 - border / 2] = along;
+}
+
 /* The four control points of border `border` of the net P[i][j], in the order of the running parameter. */
 void edge_points(double P[4][4][3], int border, double out[4][3]);
 

@@ -13,15 +13,15 @@
 /* The side of the border's curve, as seen along d, on which the patch lies at `along`: the sign of det(d, tangent,
  * inward), 0 where it is too small a part of what it could be to be sure of. The tangent runs along the border's
  * parameter. */
-static int inner_side(struct model_patch *patch, unsigned border, double along, const double d[3])
+static int inner_side(struct model_patch *patch, int border, double along, const double d[3])
 {
   /* Derivatives are right to some units in the last place of the patch's size 1; the side is sure well above that. */
   static const double sure = 0x1p-40;
-  const double u = border == 0 ? 0 : border == 1 ? 1 : along, v = border == 2 ? 0 : border == 3 ? 1 : along;
-  const double inward = border == 0 || border == 2 ? 1 : -1;
-  double tangent[3], in[3], normal[3];
+  const double inward = border & 1 ? -1 : 1;
+  double at[2], tangent[3], in[3], normal[3];
+  edge_place(border, along, at);
   for (int c = 0; c < 3; c++) {
-    const struct patch_jet jet = patch_evaluate(patch->x[c], u, v);
+    const struct patch_jet jet = patch_evaluate(patch->x[c], at[0], at[1]);
     tangent[c] = border < 2 ? jet.dv : jet.du;
     in[c] = inward * (border < 2 ? jet.du : jet.dv);
   }
@@ -30,7 +30,7 @@ static int inner_side(struct model_patch *patch, unsigned border, double along, 
   return side > least ? 1 : side < -least ? -1 : 0;
 }
 
-static double along_border(const struct exact_root *root, unsigned border)
+static double along_border(const struct exact_root *root, int border)
 {
   return (double)(border < 2 ? root->v : root->u);
 }
@@ -54,8 +54,8 @@ bool judge_across(const struct judge *j, const struct exact_found *a, const stru
   const struct model *model = j->asked->model;
   const struct exact_root *one = &a->root, *two = &b->root;
   if (a->borders & (a->borders - 1) || b->borders & (b->borders - 1)) return false; /* a corner */
-  const unsigned here = (unsigned)__builtin_ctz(a->borders), there = (unsigned)__builtin_ctz(b->borders);
-  const struct edge_neighbour *other = &model->neighbours[4 * (size_t)one->patch + here];
+  const int here = __builtin_ctz(a->borders), there = __builtin_ctz(b->borders);
+  const struct edge_neighbour *other = &model->neighbours[4 * (size_t)one->patch + (size_t)here];
   if (other->patch != two->patch || other->border != there || !one_t(one, two)) return false;
   const double along = along_border(one, here), along_two = along_border(two, there);
   if (!(fabs(along - (other->reversed ? 1 - along_two : along_two)) <= ONE_PLACE)) return false;

@@ -252,8 +252,9 @@ struct net_point {
 /* Of a border that is one point, the middle standing for all of it. */
 static struct net_point pole_point(int border)
 {
-  const double u = border == 0 ? 0 : border == 1 ? 1 : 0.5, v = border == 2 ? 0 : border == 3 ? 1 : 0.5;
-  return (struct net_point){edge_at(border, 0) / 4, edge_at(border, 0) % 4, u, v};
+  double at[2];
+  edge_place(border, 0.5, at);
+  return (struct net_point){edge_at(border, 0) / 4, edge_at(border, 0) % 4, at[0], at[1]};
 }
 
 /* The corner next to the root. */
