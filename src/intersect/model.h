@@ -218,6 +218,12 @@ static inline const struct flat_plane *model_flat_plane(const struct model *mode
   return number ? &model->planes[number] : NULL;
 }
 
+/* What is across a border (geometry/edges.h) of the patch. */
+static inline const struct edge_neighbour *model_neighbour(const struct model *model, uint32_t patch, int border)
+{
+  return &model->neighbours[4 * (size_t)patch + (size_t)border];
+}
+
 /* Whether a box of the hierarchy, or of a tree in it, is a tree's. */
 static inline bool model_is_tree(const struct model *model, uint32_t box)
 {

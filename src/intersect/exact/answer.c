@@ -122,7 +122,7 @@ static double clearance(const struct model *model, uint32_t patch, unsigned bord
   struct patch_room room;
   double scale = model_patch_at(model, patch, &room)->scale, loose = model->cuts[patch].loose, magnitude = 0;
   for (int border = 0; border < 4; border++) {
-    const uint32_t other = model->neighbours[4 * (size_t)patch + (size_t)border].patch;
+    const uint32_t other = model_neighbour(model, patch, border)->patch;
     if (!(borders >> border & 1) || other == EDGE_NONE) continue;
     scale = real_max(scale, model_patch_at(model, other, &room)->scale);
     loose = real_max(loose, model->cuts[other].loose);

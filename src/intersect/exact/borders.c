@@ -55,7 +55,7 @@ bool judge_across(const struct judge *j, const struct exact_found *a, const stru
   const struct exact_root *one = &a->root, *two = &b->root;
   if (a->borders & (a->borders - 1) || b->borders & (b->borders - 1)) return false; /* a corner */
   const int here = __builtin_ctz(a->borders), there = __builtin_ctz(b->borders);
-  const struct edge_neighbour *other = &model->neighbours[4 * (size_t)one->patch + (size_t)here];
+  const struct edge_neighbour *other = model_neighbour(model, one->patch, here);
   if (other->patch != two->patch || other->border != there || !one_t(one, two)) return false;
   const double along = along_border(one, here), along_two = along_border(two, there);
   if (!(fabs(along - (other->reversed ? 1 - along_two : along_two)) <= ONE_PLACE)) return false;
@@ -97,8 +97,8 @@ static bool at_nearest(struct judge *j, const struct exact_root *root)
 /* Whether the ray crosses the border of the root there, the nearest hit being the other patch's. */
 static bool crosses_at_nearest(const struct judge *j, const struct exact_found *found)
 {
-  const unsigned here = (unsigned)__builtin_ctz(found->borders);
-  const struct edge_neighbour *other = &j->asked->model->neighbours[4 * (size_t)found->root.patch + here];
+  const int here = __builtin_ctz(found->borders);
+  const struct edge_neighbour *other = model_neighbour(j->asked->model, found->root.patch, here);
   const struct exact_found nearest = {.root = j->nearest, .borders = 1u << other->border};
   return judge_across(j, found, &nearest);
 }

@@ -43,7 +43,7 @@ static int out_end(const struct wedge *w) { return w->pole >= 0 ? w->end : w->in
 /* The wedge across the border `out`; false where nothing is there. */
 static bool next_wedge(const struct model *model, const struct wedge *w, struct wedge *out)
 {
-  const struct edge_neighbour *other = &model->neighbours[4 * (size_t)w->patch + (size_t)w->out];
+  const struct edge_neighbour *other = model_neighbour(model, w->patch, w->out);
   if (other->patch == EDGE_NONE) return false;
   *out = wedge_at(model, other->patch, other->border, other->reversed ? 1 - out_end(w) : out_end(w));
   return true;
