@@ -225,9 +225,7 @@ static void tell_apart(struct judge *j, struct exact_found *a, struct exact_foun
 {
   const bool twins = are_twins(j, &a->root, &b->root);
   if (!tie(a, b) || (twins && one_of_equal(j, &a->root, &b->root))) return;
-  struct exact_root one = a->root, two = b->root;
-  if (judge_sharpen(j, &one)) a->root = one;
-  if (judge_sharpen(j, &two)) b->root = two;
+  judge_improve(j, &a->root), judge_improve(j, &b->root);
   if (!twins) a->tied = b->tied = true;
 }
 

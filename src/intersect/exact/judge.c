@@ -123,13 +123,6 @@ static double most_t(const struct exact_root *root)
   return (double)t < t ? nextafter((double)t, INFINITY) : (double)t;
 }
 
-/* Makes the root sharp where that can be done; else it stays as it is, and may still be told from another. */
-static void sharpen(struct judge *j, struct exact_root *root)
-{
-  struct exact_root sharp = *root;
-  if (judge_sharpen(j, &sharp)) *root = sharp;
-}
-
 /* Whether the first of two rivals is nearest wherever the second could be: it stands before it, and what it is behind the second
  * is behind as well. */
 static bool stands_for(const struct exact_root *a, const struct exact_root *b)
@@ -183,7 +176,7 @@ void judge_keep(struct judge *j, struct exact_root *root)
   for (size_t k = 0; k < j->rivals; k++)
     if (root->patch == at[k].patch && exact_roots_meet(root, &at[k])) return;
   for (size_t k = 0; k < j->rivals; k++)
-    if (judge_tie(root, &at[k])) sharpen(j, &at[k]), sharpen(j, root);
+    if (judge_tie(root, &at[k])) judge_improve(j, &at[k]), judge_improve(j, root);
   judge_turn(j, root->patch); /* whose region is being searched */
   for (size_t k = 0; k < j->rivals; k++)
     if (!judge_tie(root, &at[k]) && at[k].t <= root->t) return;
@@ -386,7 +379,7 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
   struct judge j;
   nearest_run(&j, asked);
   /* How well the nearest is known depends on what it was found beside. */
-  if (j.rivals > 0 && !(j.undecided > most_t(&j.nearest))) sharpen(&j, &j.nearest);
+  if (j.rivals > 0 && !(j.undecided > most_t(&j.nearest))) judge_improve(&j, &j.nearest);
   const double to = j.rivals > 0 ? most_t(&j.nearest) : INFINITY;
   *out = (struct exact_decision){.verdict = EXACT_MISS,
                                  .sure = !j.doubt && (j.undecided > to || j.undecided == INFINITY)};

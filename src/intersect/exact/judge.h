@@ -112,8 +112,11 @@ static inline void judge_undecided(struct judge *j, double near)
 
 /* ---- roots beside each other ---- */
 
-/* Makes the root as good as wide arithmetic can; returns whether it is. Turns to its patch. */
+/* Makes the root as good as wide arithmetic can; returns whether it is: else its place may have moved. Turns to its patch. */
 bool judge_sharpen(struct judge *j, struct exact_root *root);
+
+/* The same; where that cannot be done the root stays as it is, and may still be told from another. */
+void judge_improve(struct judge *j, struct exact_root *root);
 
 /* Whether the two cannot be told apart by t. */
 bool judge_tie(const struct exact_root *a, const struct exact_root *b);

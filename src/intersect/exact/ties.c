@@ -12,6 +12,12 @@ bool judge_sharpen(struct judge *j, struct exact_root *root)
   return zoom_sharpen(judge_zoom(j), root);
 }
 
+void judge_improve(struct judge *j, struct exact_root *root)
+{
+  struct exact_root sharp = *root;
+  if (judge_sharpen(j, &sharp)) *root = sharp;
+}
+
 bool judge_tie(const struct exact_root *a, const struct exact_root *b)
 {
   return wide_abs(a->t - b->t) <= a->t_error + b->t_error;
