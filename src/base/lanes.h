@@ -37,25 +37,31 @@ typedef int64_t lane_mask __attribute__((vector_size(8 * LANES)));
 /* Lane k: x. (x - 0 keeps every x, -0 and NaN included.) */
 LANES_INLINE lanes lanes_all(double x) { return x - (lanes){0}; }
 
-#if defined(__AVX__)
-LANES_INLINE void lanes_turn_square(__m256d x[4])
+/* Four doubles, whatever a register holds. */
+typedef double four_doubles __attribute__((vector_size(32)));
+
+/* Number k of row n becomes number n of row k. */
+LANES_INLINE void four_doubles_turn(four_doubles x[4])
 {
-  const __m256d a = _mm256_unpacklo_pd(x[0], x[1]), b = _mm256_unpackhi_pd(x[0], x[1]);
-  const __m256d c = _mm256_unpacklo_pd(x[2], x[3]), d = _mm256_unpackhi_pd(x[2], x[3]);
-  x[0] = _mm256_permute2f128_pd(a, c, 0x20), x[1] = _mm256_permute2f128_pd(b, d, 0x20);
-  x[2] = _mm256_permute2f128_pd(a, c, 0x31), x[3] = _mm256_permute2f128_pd(b, d, 0x31);
+  const four_doubles a = __builtin_shufflevector(x[0], x[1], 0, 4, 2, 6),
+                     b = __builtin_shufflevector(x[0], x[1], 1, 5, 3, 7);
+  const four_doubles c = __builtin_shufflevector(x[2], x[3], 0, 4, 2, 6),
+                     d = __builtin_shufflevector(x[2], x[3], 1, 5, 3, 7);
+  x[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5), x[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  x[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7), x[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
-LANES_INLINE void lanes_load_square(const double *from, size_t stride, __m256d x[4])
+#if defined(__AVX__)
+LANES_INLINE void lanes_load_square(const double *from, size_t stride, four_doubles x[4])
 {
   x[0] = _mm256_loadu_pd(from), x[1] = _mm256_loadu_pd(from + stride);
   x[2] = _mm256_loadu_pd(from + 2 * stride), x[3] = _mm256_loadu_pd(from + 3 * stride);
-  lanes_turn_square(x);
+  four_doubles_turn(x);
 }
 
-LANES_INLINE void lanes_store_square(__m256d x[4], double *to, size_t stride)
+LANES_INLINE void lanes_store_square(four_doubles x[4], double *to, size_t stride)
 {
-  lanes_turn_square(x);
+  four_doubles_turn(x);
   _mm256_storeu_pd(to, x[0]), _mm256_storeu_pd(to + stride, x[1]);
   _mm256_storeu_pd(to + 2 * stride, x[2]), _mm256_storeu_pd(to + 3 * stride, x[3]);
 }
@@ -65,14 +71,14 @@ LANES_INLINE void lanes_store_square(__m256d x[4], double *to, size_t stride)
 LANES_INLINE void lanes_load4(const double *from, size_t stride, lanes *a, lanes *b, lanes *c, lanes *d)
 {
 #if LANES == 8
-  __m256d x[4], y[4];
+  four_doubles x[4], y[4];
   lanes_load_square(from, stride, x), lanes_load_square(from + 4 * stride, stride, y);
   *a = _mm512_insertf64x4(_mm512_castpd256_pd512(x[0]), y[0], 1);
   *b = _mm512_insertf64x4(_mm512_castpd256_pd512(x[1]), y[1], 1);
   *c = _mm512_insertf64x4(_mm512_castpd256_pd512(x[2]), y[2], 1);
   *d = _mm512_insertf64x4(_mm512_castpd256_pd512(x[3]), y[3], 1);
 #elif LANES == 4
-  __m256d x[4];
+  four_doubles x[4];
   lanes_load_square(from, stride, x);
   *a = x[0], *b = x[1], *c = x[2], *d = x[3];
 #else
@@ -87,13 +93,13 @@ LANES_INLINE void lanes_load4(const double *from, size_t stride, lanes *a, lanes
 LANES_INLINE void lanes_store4(lanes a, lanes b, lanes c, lanes d, double *to, size_t stride)
 {
 #if LANES == 8
-  __m256d x[4] = {_mm512_castpd512_pd256(a), _mm512_castpd512_pd256(b), _mm512_castpd512_pd256(c),
-                  _mm512_castpd512_pd256(d)};
-  __m256d y[4] = {_mm512_extractf64x4_pd(a, 1), _mm512_extractf64x4_pd(b, 1), _mm512_extractf64x4_pd(c, 1),
-                  _mm512_extractf64x4_pd(d, 1)};
+  four_doubles x[4] = {_mm512_castpd512_pd256(a), _mm512_castpd512_pd256(b), _mm512_castpd512_pd256(c),
+                       _mm512_castpd512_pd256(d)};
+  four_doubles y[4] = {_mm512_extractf64x4_pd(a, 1), _mm512_extractf64x4_pd(b, 1), _mm512_extractf64x4_pd(c, 1),
+                       _mm512_extractf64x4_pd(d, 1)};
   lanes_store_square(x, to, stride), lanes_store_square(y, to + 4 * stride, stride);
 #elif LANES == 4
-  __m256d x[4] = {a, b, c, d};
+  four_doubles x[4] = {a, b, c, d};
   lanes_store_square(x, to, stride);
 #else
   for (size_t k = 0; k < LANES; k++) {

@@ -10,8 +10,8 @@
 #include "base/lanes.h"
 #include "base/real.h"
 
-/* Four doubles, whatever a register holds. */
-typedef double row __attribute__((vector_size(32)));
+/* A row of a net, its coefficients side by side. */
+typedef four_doubles row;
 typedef int64_t row_mask __attribute__((vector_size(32)));
 
 LANES_INLINE row row_all(double x) { return x - (row){0}; }
@@ -23,15 +23,6 @@ LANES_INLINE bool row_any(row_mask mask)
 #else
   return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 #endif
-}
-
-/* Number k of row n becomes number n of row k. */
-LANES_INLINE void rows_turn(row x[4])
-{
-  const row a = __builtin_shufflevector(x[0], x[1], 0, 4, 2, 6), b = __builtin_shufflevector(x[0], x[1], 1, 5, 3, 7);
-  const row c = __builtin_shufflevector(x[2], x[3], 0, 4, 2, 6), d = __builtin_shufflevector(x[2], x[3], 1, 5, 3, 7);
-  x[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5), x[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-  x[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7), x[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
 /* A polynomial in Bernstein form, coefficient (i,j) in row i. */
@@ -52,9 +43,9 @@ LANES_INLINE void rows_halve(row c[4], row high[4])
 /* The net becomes that of the lower half of its box, across u or v. */
 LANES_INLINE void net_halve(struct cover_net *net, bool across_u, struct cover_net *high)
 {
-  if (!across_u) rows_turn(net->c);
+  if (!across_u) four_doubles_turn(net->c);
   rows_halve(net->c, high->c);
-  if (!across_u) rows_turn(net->c), rows_turn(high->c);
+  if (!across_u) four_doubles_turn(net->c), four_doubles_turn(high->c);
 }
 
 /* The largest coefficient. */
@@ -98,7 +89,7 @@ LANES_INLINE bool nets_one_to_one(const struct cover_net *along_u, double error_
 {
   struct cover_net turned_u = *along_u, turned_v = *along_v;
   double least_u, least_v, most_u, most_v;
-  rows_turn(turned_u.c), rows_turn(turned_v.c);
+  four_doubles_turn(turned_u.c), four_doubles_turn(turned_v.c);
   rows_slopes(along_u->c, turned_u.c, error_u, &least_u, &most_u);
   rows_slopes(turned_v.c, along_v->c, error_v, &least_v, &most_v);
   return least_u > 0 && least_v > 0 && least_u * least_v > (1 + 8 * UNIT_ROUNDOFF) * (most_u * most_v);

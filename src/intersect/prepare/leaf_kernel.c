@@ -287,7 +287,7 @@ LANES_INLINE void store_nets(const struct cut *cut, size_t here, double (*to)[16
   for (int i = 0; i < 4; i++) {
     lanes x[4];
     memcpy(x, cut->x[0][i], sizeof x);
-    lanes_turn_square(x);
+    four_doubles_turn(x);
     for (int k = 0; k < 3; k++) _mm256_storeu_pd(&to[k][4 * i], x[k]);
   }
 }

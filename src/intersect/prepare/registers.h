@@ -30,7 +30,7 @@ LANES_INLINE void load_net(const double x[3][16], int k, lanes out[4][4])
   for (int i = 0; i < 4; i++) {
     for (int c = 0; c < 3; c++) out[i][c] = _mm256_loadu_pd(&x[c][4 * i]);
     out[i][3] = lanes_all(0);
-    lanes_turn_square(out[i]);
+    four_doubles_turn(out[i]);
   }
 }
 
@@ -64,7 +64,7 @@ LANES_INLINE lanes largest_square(const lanes v[][REGISTERS], int count)
   for (int n = 0; n < count; n += 4) { /* four at once; the last ones more than once */
     lanes x[4];
     for (int k = 0; k < 4; k++) x[k] = v[n + k < count ? n + k : count - 1][0];
-    lanes_turn_square(x);
+    four_doubles_turn(x);
     largest = lanes_max(x[0] * x[0] + x[1] * x[1] + x[2] * x[2], largest);
   }
   return lane_max(largest);
@@ -77,7 +77,7 @@ LANES_INLINE void net_range(const lanes g[REGISTERS], lanes x[REGISTERS][4][4], 
   *lo = lanes_all(INFINITY), *hi = lanes_all(-INFINITY);
   for (int i = 0; i < 4; i++) {
     lanes of[4] = {x[0][i][0], x[0][i][1], x[0][i][2], x[0][i][3]};
-    lanes_turn_square(of);
+    four_doubles_turn(of);
     const lanes value = a * of[0] + b * of[1] + c * of[2];
     *lo = lanes_min(*lo, value), *hi = lanes_max(*hi, value);
   }
