@@ -128,17 +128,7 @@ static enum status write_difference(const struct command *command, const struct 
                                     enum image_format format, const struct image *difference)
 {
   const struct image_encoding encoding = {.format = format, .bits = format == IMAGE_PNG ? 8 : 32, .encoded = true};
-  unsigned char *bytes;
-  size_t size;
-  char message[IMAGE_MESSAGE_SIZE];
-  enum status status = image_encode(difference, &encoding, &bytes, &size, message);
-  if (status != STATUS_OK) {
-    command_error(command, "cannot make '%s': %s", request->output, message);
-    return status;
-  }
-  status = output_write(command, &(struct atomic_file){request->output, bytes, size}, 1);
-  free(bytes);
-  return status;
+  return output_picture(command, difference, &encoding, request->output);
 }
 
 /* The table on stdout. */
@@ -193,11 +183,8 @@ static enum status compare(const struct command *command, const struct request *
 {
   enum image_format format = IMAGE_PNG;
   if (request->output != NULL && output_format(command, request->output, &format) != STATUS_OK) return STATUS_USAGE;
-  enum status status = output_spare(command, request->output, request->first);
-  if (status == STATUS_OK) status = output_spare(command, request->output, request->second);
-  const char *const pictures[2] = {request->first, request->second}; /* files: "-" is the name of one */
-  for (int k = 0; k < 2 && status == STATUS_OK; k++)
-    if (!output_is_standard(pictures[k])) status = output_spare(command, "-", pictures[k]);
+  enum status status = output_spare_input(command, request->output, request->first);
+  if (status == STATUS_OK) status = output_spare_input(command, request->output, request->second);
   if (status == STATUS_OK) status = output_probe(command, request->output);
   if (status != STATUS_OK) return status;
   struct subject subject = {0};

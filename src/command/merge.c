@@ -240,9 +240,7 @@ static enum status write_picture(const struct merge *merge)
 {
   const struct request *request = merge->request;
   struct image_attribute texts[MOST_TEXTS];
-  char message[IMAGE_MESSAGE_SIZE], date[REPORT_DATE_SIZE], seconds[32], *lines;
-  unsigned char *bytes = NULL;
-  size_t size;
+  char date[REPORT_DATE_SIZE], seconds[32], *lines;
   report_date(date);
   snprintf(seconds, sizeof seconds, "%.3f", merge->seconds);
   lines = strdup(merge->first->piece.image.metadata);
@@ -251,10 +249,7 @@ static enum status write_picture(const struct merge *merge)
                                           .bits = (int)request->bits,
                                           .attributes = texts,
                                           .attribute_count = list_texts(lines, date, seconds, texts)};
-  enum status status = image_encode(&merge->picture.image, &encoding, &bytes, &size, message);
-  if (status != STATUS_OK) command_error(merge->command, "cannot make '%s': %s", request->output, message);
-  else status = output_write(merge->command, &(struct atomic_file){request->output, bytes, size}, 1);
-  free(bytes);
+  const enum status status = output_picture(merge->command, &merge->picture.image, &encoding, request->output);
   free(lines);
   return status;
 }
@@ -293,12 +288,8 @@ static enum status check(const struct command *command, struct request *request,
   if (request->bits == 0) request->bits = (size_t)image_format_default_bits(request->format);
   if (!image_format_has_bits(request->format, (int)request->bits))
     return command_usage(command, "'%s' cannot have %zu bits a value", request->output, request->bits);
-  for (size_t k = 0; k < line->positional_count && status == STATUS_OK; k++) {
-    const char *piece = line->positional[k];
-    status = output_spare(command, request->output, piece);
-    if (status == STATUS_OK && !output_is_standard(piece)) /* "-" is the name of a file */
-      status = output_spare(command, "-", piece);
-  }
+  for (size_t k = 0; k < line->positional_count && status == STATUS_OK; k++)
+    status = output_spare_input(command, request->output, line->positional[k]);
   return status == STATUS_OK ? output_probe(command, request->output) : status;
 }
 

@@ -68,6 +68,19 @@ enum status output_write(const struct command *command, const struct atomic_file
   return told(command, files[which].path, status, reason);
 }
 
+enum status output_picture(const struct command *command, const struct image *image,
+                           const struct image_encoding *encoding, const char *path)
+{
+  unsigned char *bytes = NULL;
+  size_t size;
+  char message[IMAGE_MESSAGE_SIZE];
+  enum status status = image_encode(image, encoding, &bytes, &size, message);
+  if (status != STATUS_OK) command_error(command, "cannot make '%s': %s", path, message);
+  else status = output_write(command, &(struct atomic_file){path, bytes, size}, 1);
+  free(bytes);
+  return status;
+}
+
 enum status output_format(const struct command *command, const char *path, enum image_format *out)
 {
   if (image_format_of(path, out)) return STATUS_OK;
@@ -84,6 +97,12 @@ enum status output_spare(const struct command *command, const char *path, const 
   const char *file = output_is_standard(path) && !output_is_standard(other) ? "/dev/stdout" : path;
   if (strcmp(file, other) != 0 && !input_same(file, other)) return STATUS_OK;
   return command_usage(command, "'%s' and '%s' are one file and must be two", file, other);
+}
+
+enum status output_spare_input(const struct command *command, const char *path, const char *input)
+{
+  const enum status status = output_spare(command, path, input);
+  return status == STATUS_OK && !output_is_standard(input) ? output_spare(command, "-", input) : status;
 }
 
 char *output_name(const char *scene, const char *suffix)

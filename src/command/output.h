@@ -21,12 +21,19 @@ enum status output_probe(const struct command *command, const char *path) STATUS
 enum status output_write(const struct command *command, const struct atomic_file outputs[],
                          size_t count) STATUS_MUST_CHECK;
 
+/* Encodes a picture and writes it; told where it cannot be made. */
+enum status output_picture(const struct command *command, const struct image *image,
+                           const struct image_encoding *encoding, const char *path) STATUS_MUST_CHECK;
+
 /* The format of a picture, by its suffix; STATUS_USAGE, told, where it has none that is known. */
 enum status output_format(const struct command *command, const char *path, enum image_format *out) STATUS_MUST_CHECK;
 
 /* STATUS_USAGE, told, where `path` would overwrite `other`, an input or another output: the same file, by whatever name.
  * "-" is the file that standard output goes to. NULLs and devices overwrite nothing. */
 enum status output_spare(const struct command *command, const char *path, const char *other) STATUS_MUST_CHECK;
+
+/* The same of `path` and of standard output, where `input` is a file that is read: "-" is the name of one. */
+enum status output_spare_input(const struct command *command, const char *path, const char *input) STATUS_MUST_CHECK;
 
 /* The scene's name with `suffix` instead of its own: "scenes/teapot.pscn" gives "scenes/teapot.png", beside the scene,
  * and "-" stays what it is. To be freed; NULL where memory is short. */

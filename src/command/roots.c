@@ -360,8 +360,7 @@ static enum status roots(const struct command *command, const struct request *re
   const struct stream_reader reader = {.take = take, .answer = answered, .context = &session};
   if (request->iterates && request->format != FORMAT_PLAIN)
     return command_usage(command, "--iterates has a format of its own");
-  enum status status = output_spare(command, request->stats, "/dev/stdin");
-  if (status == STATUS_OK) status = output_spare(command, "-", "/dev/stdin");
+  enum status status = output_spare_input(command, request->stats, "/dev/stdin");
   if (status == STATUS_OK) status = output_probe(command, request->stats);
   if (status == STATUS_OK) status = choose_solver(command, request, &session.method);
   if (status == STATUS_OK && request->iterates) begin_iterates(&session);

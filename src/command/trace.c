@@ -210,8 +210,7 @@ static enum status check_request(const struct command *command, struct request *
   if (output_is_standard(request->scene.path))
     return command_usage(command, "the rays come from standard input, the scene from a file");
   enum status status = scene_file_spare(command, &request->scene, NULL, request->stats);
-  if (status == STATUS_OK) status = output_spare(command, request->stats, "/dev/stdin");
-  if (status == STATUS_OK) status = output_spare(command, "-", "/dev/stdin");
+  if (status == STATUS_OK) status = output_spare_input(command, request->stats, "/dev/stdin");
   if (status == STATUS_OK) status = output_probe(command, request->stats);
   return status;
 }
