@@ -55,10 +55,10 @@ static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask
   if (!plane) return (lane_mask){0};
   open &= leaves_at_start(p, plane);
   if (!lanes_any(open)) return open;
-  double lo[3], hi[3];
-  bounds_empty(lo, hi), bounds_add(p->model->scene->patches[patch].P, lo, hi);
+  struct bvh_box box = BVH_EMPTY;
+  box_add_net(&box, p->model->scene->patches[patch].P);
   lane_mask inside = open;
-  for (int k = 0; k < 3; k++) inside &= (p->origin[k] >= lo[k]) & (p->origin[k] <= hi[k]);
+  for (int k = 0; k < 3; k++) inside &= (p->origin[k] >= box.lo[k]) & (p->origin[k] <= box.hi[k]);
   return open & ~inside;
 }
 

@@ -29,9 +29,9 @@ enum { DEEP = 8, DEEP_SAMPLES = 64 };
 struct copy_map {
   const struct scene_copy *copy;
   double W[3][3], b[3];
-  double error;        /* of its patches and rays in the object's coordinates */
-  double widest;       /* largest sum of |A| over a column: how much longer an error is in the scene */
-  double lo[3], hi[3]; /* its box, where that is asked for */
+  double error;       /* of its patches and rays in the object's coordinates */
+  double widest;      /* largest sum of |A| over a column: how much longer an error is in the scene */
+  struct bvh_box box; /* its own, where that is asked for */
   bool good;
 };
 
@@ -44,21 +44,18 @@ struct middle {
 static struct middle object_middle(const struct scene_object *object)
 {
   struct middle m = {{0}, 0, INFINITY};
-  double lo[3], hi[3];
-  bounds_empty(lo, hi);
+  struct bvh_box all = BVH_EMPTY;
   for (size_t p = 0; p < object->patch_count; p++) {
-    double own_lo[3], own_hi[3], extent = 0;
-    bounds_empty(own_lo, own_hi);
-    bounds_add(object->P[p], own_lo, own_hi);
-    for (int k = 0; k < 3; k++) {
-      extent = real_max(extent, own_hi[k] / 2 - own_lo[k] / 2);
-      lo[k] = real_min(lo[k], own_lo[k]), hi[k] = real_max(hi[k], own_hi[k]);
-    }
+    struct bvh_box own = BVH_EMPTY;
+    double extent = 0;
+    box_add_net(&own, object->P[p]);
+    for (int k = 0; k < 3; k++) extent = real_max(extent, own.hi[k] / 2 - own.lo[k] / 2);
+    bvh_box_add(&all, &own);
     if (extent > 0) m.least = real_min(m.least, extent);
   }
   for (int k = 0; k < 3; k++) {
-    m.center[k] = lo[k] / 2 + hi[k] / 2;
-    m.reach = real_max(m.reach, hi[k] / 2 - lo[k] / 2);
+    m.center[k] = box_center(&all, k);
+    m.reach = real_max(m.reach, all.hi[k] / 2 - all.lo[k] / 2);
   }
   return m;
 }
@@ -153,25 +150,24 @@ static size_t patches_spared(const struct object_copies *g)
 static bool holds_middle(const struct copy_map *c, const struct copy_map *other)
 {
   for (int k = 0; k < 3; k++) {
-    const double middle = other->lo[k] / 2 + other->hi[k] / 2;
-    if (middle < c->lo[k] || middle > c->hi[k]) return false;
+    const double middle = box_center(&other->box, k);
+    if (middle < c->box.lo[k] || middle > c->box.hi[k]) return false;
   }
   return true;
 }
 
 /* The box of the copy whose patches begin there. */
-static void copy_bounds(const struct model *model, const struct scene_object *object, size_t first_patch, double lo[3],
-                        double hi[3])
+static struct bvh_box copy_bounds(const struct model *model, const struct scene_object *object, size_t first_patch)
 {
-  bounds_empty(lo, hi);
-  for (size_t p = 0; p < object->patch_count; p++) bounds_add(model->scene->patches[first_patch + p].P, lo, hi);
+  struct bvh_box box = BVH_EMPTY;
+  for (size_t p = 0; p < object->patch_count; p++) box_add_net(&box, model->scene->patches[first_patch + p].P);
+  return box;
 }
 
 static bool are_deep(const struct model *model, const struct object_copies *g)
 {
   size_t held = 0, samples = 0;
-  for (size_t k = 0; k < g->count; k++)
-    copy_bounds(model, g->object, g->maps[k].copy->first_patch, g->maps[k].lo, g->maps[k].hi);
+  for (size_t k = 0; k < g->count; k++) g->maps[k].box = copy_bounds(model, g->object, g->maps[k].copy->first_patch);
   for (size_t s = 0; s < g->count; s += g->count / DEEP_SAMPLES + 1, samples++)
     for (size_t k = 0; k < g->count; k++) held += holds_middle(&g->maps[k], &g->maps[s]);
   return held > DEEP * samples;
@@ -300,6 +296,6 @@ void copy_box(const struct model *model, const struct model_copy *copy, struct b
 {
   double about[3];
   for (int k = 0; k < 3; k++) about[k] = tree_about(&model->tree, k);
-  copy_bounds(model, copy->object->declared, copy->first_patch, out->lo, out->hi);
+  *out = copy_bounds(model, copy->object->declared, copy->first_patch);
   tree_box(about, 1, out);
 }

@@ -85,16 +85,16 @@ static bool too_many(const struct model *model, size_t most)
 {
   if (model->leaf_count <= most) return false;
   const double frame = model->tree.frame;
-  double lo[3], hi[3], area = 0;
-  bounds_empty(lo, hi);
+  struct bvh_box box = BVH_EMPTY;
+  double area = 0;
   for (size_t p = 0; p < model->scene->patch_count; p++) {
     if (model->cuts[p].copied) continue;
-    bounds_add(model->scene->patches[p].P, lo, hi);
+    box_add_net(&box, model->scene->patches[p].P);
     const double scale = model->patches[p].scale / frame;
     area += scale * scale * patch_net_area(&model->patches[p]);
   }
-  for (int k = 0; k < 3; k++) lo[k] /= frame, hi[k] /= frame;
-  const double layers = 2 * area / box_surface(lo, hi);
+  for (int k = 0; k < 3; k++) box.lo[k] /= frame, box.hi[k] /= frame;
+  const double layers = 2 * area / box_surface(&box);
   return (double)model->leaf_count > (double)most * (layers > 1 ? layers : 1);
 }
 

@@ -48,17 +48,17 @@ enum { BOXES_SPLIT_MAX = 2 };
 static void set_frame(struct model *model)
 {
   const struct scene *scene = model->scene;
-  double lo[3] = {0}, hi[3] = {0};
-  if (scene->patch_count > 0) bounds_empty(lo, hi);
+  struct bvh_box box = {{0}, {0}};
+  if (scene->patch_count > 0) box = BVH_EMPTY;
   for (size_t p = 0; p < scene->patch_count; p++) {
-    bounds_add(scene->patches[p].P, lo, hi);
+    box_add_net(&box, scene->patches[p].P);
     model->unproven |= !scene->solvers[scene->patches[p].solver].polish;
   }
-  for (int k = 0; k < 3; k++) model->size = real_max(model->size, real_max(fabs(lo[k]), fabs(hi[k])));
+  for (int k = 0; k < 3; k++) model->size = real_max(model->size, real_max(fabs(box.lo[k]), fabs(box.hi[k])));
   model->unproven |= model->size > LARGEST_SIZE;
   double extent = model->size > 0 ? real_max(LEAST_EXTENT * model->size, LEAST_FRAME) : 1;
   for (int k = 0; k < 3; k++)
-    model->tree.origin[k] = lo[k] / 2 + hi[k] / 2, extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
+    model->tree.origin[k] = box_center(&box, k), extent = real_max(extent, box.hi[k] / 2 - box.lo[k] / 2);
   int exponent;
   frexp(extent, &exponent); /* extent < 2^exponent */
   model->tree.frame = real_power_of_two(exponent);

@@ -35,7 +35,7 @@ static double patch_frame(double P[4][4][3], double scene_size, struct model_pat
                           bool *rounded)
 {
   double largest = 0, extent = 0, lo[3], hi[3];
-  for (int k = 0; k < 3; k++) { /* as bounds_add does, which takes longer here, and rays wait for this, too */
+  for (int k = 0; k < 3; k++) { /* as box_add_net does, which takes longer here, and rays wait for this, too */
     lo[k] = INFINITY, hi[k] = -INFINITY;
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) lo[k] = real_min(lo[k], P[i][j][k]), hi[k] = real_max(hi[k], P[i][j][k]);

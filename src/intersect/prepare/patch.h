@@ -5,27 +5,20 @@
 #ifndef PSCN_INTERSECT_PREPARE_PATCH_H
 #define PSCN_INTERSECT_PREPARE_PATCH_H
 
-#include <math.h>
-
 #include "base/real.h"
+#include "geometry/bvh.h"
 #include "intersect/model.h"
 
 /* A patch smaller than this part of its coordinates, or of the scene's where these are zeros, is framed as if it were that
  * large: one that is a single point has no size of its own, and a frame too small would overflow. */
 #define LEAST_EXTENT 0x1p-100
 
-/* lo[k] ... hi[k] become nothing, along each axis, ... */
-static inline void bounds_empty(double lo[3], double hi[3])
-{
-  for (int k = 0; k < 3; k++) lo[k] = INFINITY, hi[k] = -INFINITY;
-}
-
-/* ... and are widened to a patch's control points. */
-static inline void bounds_add(double P[4][4][3], double lo[3], double hi[3])
+/* Makes `box` the least one that holds a patch's control points, too. */
+static inline void box_add_net(struct bvh_box *box, double P[4][4][3])
 {
   for (int n = 0; n < 16; n++) {
     const double *c = P[n / 4][n % 4];
-    for (int k = 0; k < 3; k++) lo[k] = real_min(lo[k], c[k]), hi[k] = real_max(hi[k], c[k]);
+    for (int k = 0; k < 3; k++) box->lo[k] = real_min(box->lo[k], c[k]), box->hi[k] = real_max(box->hi[k], c[k]);
   }
 }
 

@@ -25,8 +25,6 @@ static double box_extent(const struct bvh_box *box)
   return extent;
 }
 
-static double box_center(const struct bvh_box *box, int axis) { return box->lo[axis] / 2 + box->hi[axis] / 2; }
-
 /* Boxes that have a tree of their own: index[first .. first + count - 1]. */
 struct box_group {
   size_t first, count;
@@ -270,10 +268,9 @@ static void set_crossings(const struct model *model, struct model_tree *tree)
     for (int k = 0; k < 3; k++) box.lo[k] = (double)node->lo[k][side], box.hi[k] = (double)node->hi[k][side];
     if (child == 0) continue;
     if (n < BVH_WIDTH) bvh_box_add(&whole, &box);
-    if (child & (uint32_t)BVH_LEAF)
-      sum += crossings_in(model, tree, child & ~(uint32_t)BVH_LEAF, box_surface(box.lo, box.hi));
+    if (child & (uint32_t)BVH_LEAF) sum += crossings_in(model, tree, child & ~(uint32_t)BVH_LEAF, box_surface(&box));
   }
-  const double surface = box_surface(whole.lo, whole.hi);
+  const double surface = box_surface(&whole);
   tree->crossings = surface > 0 ? sum / surface : 0;
 }
 

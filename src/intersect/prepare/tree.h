@@ -29,9 +29,11 @@ void tree_box(const double middle[3], double frame, struct bvh_box *box);
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree) STATUS_MUST_CHECK;
 
-static inline double box_surface(const double lo[3], const double hi[3])
+static inline double box_center(const struct bvh_box *box, int axis) { return box->lo[axis] / 2 + box->hi[axis] / 2; }
+
+static inline double box_surface(const struct bvh_box *box)
 {
-  const double d[3] = {hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]};
+  const double d[3] = {box->hi[0] - box->lo[0], box->hi[1] - box->lo[1], box->hi[2] - box->lo[2]};
   return 2 * (d[0] * d[1] + d[1] * d[2] + d[2] * d[0]);
 }
 
