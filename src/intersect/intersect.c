@@ -103,7 +103,7 @@ enum status intersector_create_by(const struct scene *scene, const struct team *
     return status;
   }
   intersector->kernel = kernel;
-  for (size_t k = 0; k < scene->solver_count; k++) intersector->warm |= scene->solvers[k].roots.start == START_PREVIOUS;
+  intersector->warm = scene_starts_warm(scene);
   *out = intersector;
   return STATUS_OK;
 }

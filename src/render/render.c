@@ -126,13 +126,6 @@ static enum status crew_synchronise(struct crew *crew)
   return status;
 }
 
-static bool warm_starts(const struct scene *scene)
-{
-  for (size_t k = 0; k < scene->solver_count; k++)
-    if (scene->solvers[k].roots.start == START_PREVIOUS) return true;
-  return false;
-}
-
 /* The same scene by the default solver, whose answers are proven. Borrows the scene. */
 struct certified {
   struct scene scene;
@@ -147,8 +140,8 @@ static enum status certified_create(const struct scene *scene, const struct team
   if (out->scene.patches == NULL) return STATUS_LIMIT;
   memcpy(out->scene.patches, scene->patches, scene->patch_count * sizeof *scene->patches);
   method_default(solver_at(0), &out->method);
-  out->scene.solvers = &out->method, out->scene.solver_count = 1;
-  for (size_t p = 0; p < scene->patch_count; p++) out->scene.patches[p].solver = 0;
+  out->scene.solvers = &out->method;
+  scene_override_solver(&out->scene, &out->method);
   return intersector_create_by(&out->scene, team, &out->intersector);
 }
 
@@ -205,7 +198,7 @@ enum status render_scene(const struct scene *scene, const struct intersector *in
                                .height = options->height,
                                .samples = options->samples,
                                .crop = options->crop,
-                               .every_pixel = warm_starts(scene),
+                               .every_pixel = scene_starts_warm(scene),
                                .channels = options->channels,
                                .out = out};
   struct tile_list all = {0};

@@ -8,6 +8,13 @@ void scene_override_solver(struct scene *scene, const struct method *method)
   for (size_t i = 0; i < scene->patch_count; i++) scene->patches[i].solver = 0;
 }
 
+bool scene_starts_warm(const struct scene *scene)
+{
+  for (size_t k = 0; k < scene->solver_count; k++)
+    if (scene->solvers[k].roots.start == START_PREVIOUS) return true;
+  return false;
+}
+
 void scene_destroy(struct scene *scene)
 {
   /* The scene itself lies in its arena. */

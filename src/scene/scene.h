@@ -88,6 +88,9 @@ struct scene {
 /* Makes `method` the solver of every patch (--solver and --tolerance on the command line). */
 void scene_override_solver(struct scene *scene, const struct method *method);
 
+/* Whether some solver has `start previous`, so that a ray may depend on the one before it. */
+bool scene_starts_warm(const struct scene *scene);
+
 /* Frees the scene's arena. NULL is allowed. */
 void scene_destroy(struct scene *scene);
 
