@@ -9,12 +9,7 @@
 
 enum { LONGEST_SHOWN = 40 };
 
-static bool is_one_of(const char *name, const char *const list[])
-{
-  for (; *list; list++)
-    if (strcmp(name, *list) == 0) return true;
-  return false;
-}
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 static bool contains(const char *const names[], int count, const char *wanted)
 {
@@ -28,32 +23,22 @@ static bool contains(const char *const names[], int count, const char *wanted)
 static void list_expected(const char *const expected[], int count, char *out, size_t size)
 {
   enum { MOST_LISTED = 10 };
-  static const char *const in_values[] = {"a number",    "a vector",     "x",    "y",     "z",       "pi",
-                                          "image_width", "image_height", "'('",  "'<'",   "'+'",     "'-'",
-                                          "rgb",         "color",        "rgbf", "rgbft", "version", NULL};
-  static const char *const parts[] = {"red", "green", "blue", "filter", NULL}; /* which may follow any colour */
-  static const char *const anywhere[] = {"'+'",
-                                         "'-'",
-                                         "'*'",
-                                         "'/'",
-                                         "'.'",
-                                         "','",
-                                         "#declare",
-                                         "#local",
-                                         "#version",
-                                         "#default",
-                                         "the end of the text",
-                                         "deprecated",
-                                         NULL};
+  static const char *const in_values[] = {"a number",    "a vector",     "x",    "y",     "z",      "pi",
+                                          "image_width", "image_height", "'('",  "'<'",   "'+'",    "'-'",
+                                          "rgb",         "color",        "rgbf", "rgbft", "version"};
+  static const char *const parts[] = {"red", "green", "blue", "filter"}; /* which may follow any colour */
+  static const char *const anywhere[] = {
+    "'+'",       "'-'", "'*'", "'/'", "'.'", "','", "#declare", "#local", "#version", "#default", "the end of the text",
+    "deprecated"};
   const char *list[MOST_LISTED];
   int listed = 0;
   const bool value = contains(expected, count, "image_width"), objects = contains(expected, count, "object");
   const bool part = contains(expected, count, "filter");
   if (value) list[listed++] = "a value";
   for (int k = 0; k < count; k++) {
-    if (value && (is_one_of(expected[k], in_values) || strcmp(expected[k], "a name") == 0)) continue;
-    if (count > 1 && is_one_of(expected[k], anywhere)) continue;
-    if (part && is_one_of(expected[k], parts)) continue;
+    if (value && (contains(in_values, COUNT(in_values), expected[k]) || strcmp(expected[k], "a name") == 0)) continue;
+    if (count > 1 && contains(anywhere, COUNT(anywhere), expected[k])) continue;
+    if (part && contains(parts, COUNT(parts), expected[k])) continue;
     if (objects && strcmp(expected[k], "solver") == 0) continue; /* understood there, but never right */
     if (listed == MOST_LISTED) return;
     list[listed++] = expected[k];
