@@ -18,6 +18,7 @@ struct intersector {
 /* What a register of AVX2 holds. A choice of speed. */
 enum { FEW_RAYS = 4 };
 
+/* The end of lanes/walk.c, as each compilation of src/intersect/lanes names it (lanes/names.h). */
 extern const struct kernel kernel_baseline, kernel_avx2, kernel_avx512, kernel_avx512_narrow;
 
 size_t kernels_here(const struct kernel *out[KERNELS_MAX])

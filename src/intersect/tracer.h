@@ -12,7 +12,8 @@
 #include "intersect/local_ray.h"
 #include "intersect/model.h"
 
-/* The entry points of one instruction set. */
+/* The entry points of one instruction set: closest, occluded and all of lanes/walk.c, which tracer_closest and its like call
+ * (intersect.c). */
 struct kernel {
   const char *name;
   /* the rays, as bits, whose answers are not certain and might be others in other company */

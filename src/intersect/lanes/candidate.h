@@ -12,18 +12,22 @@
 
 enum { RESULTANT_MAX_DEGREE = 18 };
 
-/* What the stages tell each other. */
+/* What the stages tell each other, in the order in which they set it. */
 struct candidate {
+  /* packet_leaf: */
   struct leaf *leaf; /* constant but for its quadric, where it has none yet: then it is the tracer's own */
   const struct model_patch *patch; /* the leaf's */
   int64_t number;                  /* the leaf's, in its model */
   int axis;
   const struct line *line; /* the packet's for that axis */
-  struct leaf_root first;  /* the root found first; only where it exists */
-  lanes a[16], b[16];      /* the nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
-  lane_mask along;         /* the ray meets a curve on the leaf, or its pole, as far as double precision can tell */
-  lanes alpha, beta;       /* largest |a|, |b| of the nets, then of the form */
-  lanes form_error;        /* of a coefficient of the form */
+  /* stage_bilinear: */
+  struct leaf_root first; /* the root found first; only where it exists */
+  /* stage_planes: */
+  lanes a[16], b[16]; /* the nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
+  lane_mask along;    /* the ray meets a curve on the leaf, or its pole, as far as double precision can tell */
+  lanes alpha, beta;  /* largest |a|, |b| of the nets, then of the form */
+  /* stage_resultant: */
+  lanes form_error;             /* of a coefficient of the form */
   lanes form_a[16], form_b[16]; /* where the form is not the leaf's own net */
   const lanes *fa, *fb;
   int degree; /* of r, exact roots at the ends taken off */

@@ -184,7 +184,8 @@ LANES_INLINE void packet_set_ready(struct postponed *postponed, const struct tra
   packet_set_share(postponed, share, tracer->most_looks, MOST_OPEN, MOST_SWEEPS);
 }
 
-/* Takes so many looks from what each of the rays has left; returns what that is then. */
+/* Takes so many looks from what each of the rays has left; returns what that is then. A mask & a number is that number on the
+ * lanes of the mask, 0 on the others. */
 LANES_INLINE lane_mask packet_spend(struct packet *p, lane_mask looks) { return p->postponed->looks -= looks; }
 
 /* The largest size of the three. */

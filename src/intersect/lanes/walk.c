@@ -1,5 +1,10 @@
 /* Rays through the hierarchy: some packets at a time, their rays side by side as floats.
  *
+ * From the face at the end of the file a bundle of packets goes to bundle_walk, which chooses one of three ways through a tree:
+ * together_walk (all rays on a node's boxes at once, until few are left), rays_walk (each by itself, a step in turn, in large
+ * scenes) and ray_walk (one ray to its end). All come by bundle_leaf with what a box stands for: a leaf, which packet_leaf
+ * (candidate.c) tries, a copy, or a tree in a frame of its own, and so to bundle_walk again.
+ *
  * Compiled once per instruction set; the table of this compilation is KERNEL(kernel), see names.h.
  */
 #include "intersect/lanes/bundle.h"
