@@ -128,6 +128,14 @@ LANES_INLINE void plane_values(const struct line *line, int axis, const double x
   *b = (j - line->moment[1]) - line->slope[1] * k;
 }
 
+/* Lanes whose ray starts exactly in the corner (u,v) of the patch, 0 or 1 each; none where the leaf does not have it. */
+LANES_INLINE lane_mask starts_at_corner(const struct packet *p, const struct candidate *it, int u, int v)
+{
+  const struct leaf *leaf = it->leaf;
+  const bool has = leaf->column_u == u * (it->patch->split[0] - 1) && leaf->column_v == v * (it->patch->split[1] - 1);
+  return has ? packet_starts_at(p, leaf->patch, 12 * u + 3 * v) : (lane_mask){0};
+}
+
 /* planes.c: x_k of the points (u,v). */
 lanes plane_depth(const struct candidate *it, lanes u, lanes v);
 

@@ -182,13 +182,10 @@ static lane_mask starts_in_plane(const struct packet *p, uint32_t patch)
  * not belong to the ray. */
 static lane_mask starts_in_corner(const struct packet *p, const struct candidate *it, const struct newton_root *r)
 {
-  const struct leaf *leaf = it->leaf;
   lane_mask in = {0};
   for (int corner = 0; corner < 4; corner++) {
     const int u = corner / 2, v = corner % 2;
-    if (leaf->column_u != u * (it->patch->split[0] - 1) || leaf->column_v != v * (it->patch->split[1] - 1)) continue;
-    in |= (lanes_abs(r->u - u) <= r->radius_u) & (lanes_abs(r->v - v) <= r->radius_v) &
-          packet_starts_at(p, leaf->patch, 3 * u, 3 * v);
+    in |= starts_at_corner(p, it, u, v) & (lanes_abs(r->u - u) <= r->radius_u) & (lanes_abs(r->v - v) <= r->radius_v);
   }
   return in;
 }

@@ -227,12 +227,12 @@ LANES_INLINE lane_mask packet_starts_in(const struct packet *p, const struct fla
   return p->origin[plane->axis] == plane->value;
 }
 
-/* Lanes whose ray starts exactly in that control point of the patch, which is on the ray's line there and nowhere else, and is no
- * hit. */
-LANES_INLINE lane_mask packet_starts_at(const struct packet *p, uint32_t patch, int row, int column)
+/* Lanes whose ray starts exactly in that control point of the patch, as edge_at numbers them, which is on the ray's line there and
+ * nowhere else, and is no hit. */
+LANES_INLINE lane_mask packet_starts_at(const struct packet *p, uint32_t patch, int at)
 {
   if (p->outer) return (lane_mask){0}; /* in an object's coordinates the start is rounded */
-  const double *point = p->model->scene->patches[patch].P[row][column];
+  const double *point = p->model->scene->patches[patch].P[at / 4][at % 4];
   return (p->origin[0] == point[0]) & (p->origin[1] == point[1]) & (p->origin[2] == point[2]) & (p->t_min >= 0);
 }
 

@@ -163,7 +163,7 @@ static lane_mask leaves_start(const struct packet *p, const struct candidate *it
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open)
 {
   const int at = from_pole(it->leaf, 0, 0);
-  const lane_mask starts = open & packet_starts_at(p, it->leaf->patch, at / 4, at % 4);
+  const lane_mask starts = open & packet_starts_at(p, it->leaf->patch, at);
   if (!lanes_any(starts)) return open;
   (void)planes_make(it, starts);
   double(*P)[4][3] = p->model->scene->patches[it->leaf->patch].P;
@@ -188,16 +188,13 @@ static void still_at_corner(double P[4][4][3], int corner, bool still[16])
 
 lane_mask leaves_corner(const struct packet *p, struct candidate *it, lane_mask open)
 {
-  const struct leaf *leaf = it->leaf;
   lane_mask leaves = {0};
   for (int corner = 0; corner < 4; corner++) {
-    const int u = corner / 2, v = corner % 2;
-    if (leaf->column_u != u * (it->patch->split[0] - 1) || leaf->column_v != v * (it->patch->split[1] - 1)) continue;
-    const lane_mask starts = open & packet_starts_at(p, leaf->patch, 3 * u, 3 * v);
+    const int u = corner / 2, v = corner % 2, at = 12 * u + 3 * v;
+    const lane_mask starts = open & starts_at_corner(p, it, u, v);
     if (!lanes_any(starts)) continue;
-    const int at = 12 * u + 3 * v;
     bool still[16];
-    still_at_corner(p->model->scene->patches[leaf->patch].P, at, still);
+    still_at_corner(p->model->scene->patches[it->leaf->patch].P, at, still);
     (void)planes_make(it, starts);
     leaves |= starts & leaves_start(p, it, at, still);
   }
