@@ -318,8 +318,7 @@ __attribute__((noinline)) static void bundle_walk_nearer(struct bundle *b, struc
 {
   struct packet *p = &b->packet[0];
   const lane_mask doubt = p->best.doubt;
-  const struct best *best = &p->best;
-  if (!(lanes_bits(p->live & best->certain & (best->patch != NO_PATCH)) & 1)) return;
+  if (!(lanes_bits(p->live & p->best.certain) & 1)) return;
   packet_set_ready(p->postponed, tracer, SHARE_ALONE);
   packet_orient(p);
   p->best.doubt = doubt, p->patch = UINT32_MAX;
