@@ -1,4 +1,5 @@
-/* Two stages: the slab across a leaf, and its plane polynomials (paper eq 2 and 3).
+/* What a ray's two planes tell of a leaf: of the slabs along it, of its polynomials a and b (paper eq 2 and 3), and of rays that
+ * start in its pole or in a corner of the patch.
  *
  * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
  */
