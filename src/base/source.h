@@ -21,10 +21,10 @@ struct source {
   bool shared;              /* the text belongs to another source of the same file */
   struct source_rest *rest; /* of a long file, or NULL */
   size_t length;
-  size_t lines_before;               /* of a text that is a part of another one: how many stand there before it */
-  uint64_t device, inode;            /* what file it is; 0,0 for text */
-  const struct source *includer;     /* the source whose #include opened this one, or NULL */
-  size_t include_begin, include_end; /* the bytes of the file name in the includer's text */
+  size_t lines_before;           /* of a text that is a part of another one: how many stand there before it */
+  uint64_t device, inode;        /* what file it is; 0,0 for text */
+  const struct source *includer; /* the source whose #include opened this one, or NULL */
+  size_t include_begin;          /* where the file name stands in the includer's text */
 };
 
 /* Bytes begin .. end-1 of a source. A NULL source means "no place". */

@@ -289,7 +289,6 @@ void sources_include(struct language *language)
   }
   source->includer = language->sources->frame->source;
   source->include_begin = language->sources->frame->scan.begin;
-  source->include_end = language->sources->frame->scan.end;
   if (!sources_open(language, source)) language->ended_early = true;
   else symbols_enter(language->symbols);
 }
