@@ -54,7 +54,7 @@ static enum status run_gnuplot(const struct listener *listener, const struct scr
   if (status == STATUS_INTERRUPTED) return status;
   if (status == STATUS_OK && result.exit_code == 0) read_figure(folder, out);
   if (out->length == 0 && result.missing) {
-    listener_tell(listener, TOLD_WARNING,
+    listener_tell(listener, TOLD_PROGRESS,
                   "gnuplot is not installed, so there is no figure; the numbers are written "
                   "all the same. On Debian 'apt-get install gnuplot-nox' installs it.");
   } else if (out->length == 0) {
