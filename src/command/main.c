@@ -62,7 +62,8 @@ int main(int argc, char **argv)
     return STATUS_USAGE;
   }
   const char *name = argv[1];
-  if ((strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0 || strcmp(name, "-v") == 0) && argc == 2) {
+  if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0 || strcmp(name, "-v") == 0) {
+    if (argc > 2) return (int)command_usage(NULL, "one argument too many: '%s'", argv[2]);
     printf("pscn %s\n", PSCN_VERSION);
     return (int)command_finish_output(NULL);
   }
