@@ -34,11 +34,17 @@ static const char *base_of(const char *path)
 
 bool output_is_standard(const char *path) { return strcmp(path, "-") == 0; }
 
+const char *output_reason(const char *path, int reason)
+{
+  char byte;
+  return reason == ENOENT && readlink(path, &byte, 1) >= 0 ? "it is a link to what is not there" : strerror(reason);
+}
+
 /* Tells why a file was not probed or written. */
 static enum status told(const struct command *command, const char *path, enum status status, int reason)
 {
   if (status == STATUS_FILE || status == STATUS_LIMIT)
-    command_error(command, "cannot write '%s': %s", path, strerror(reason));
+    command_error(command, "cannot write '%s': %s", path, output_reason(path, reason));
   return status;
 }
 

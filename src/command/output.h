@@ -25,6 +25,9 @@ enum status output_write(const struct command *command, const struct atomic_file
 enum status output_picture(const struct command *command, const struct image *image,
                            const struct image_encoding *encoding, const char *path) STATUS_MUST_CHECK;
 
+/* What an errno value says of a file that is to be written. */
+const char *output_reason(const char *path, int reason);
+
 /* The format of a picture, by its suffix; STATUS_USAGE, told, where it has none that is known. */
 enum status output_format(const struct command *command, const char *path, enum image_format *out) STATUS_MUST_CHECK;
 

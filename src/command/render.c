@@ -163,7 +163,7 @@ static enum status check_part(const struct command *command, struct rendering_re
   if (status == STATUS_LIMIT) return command_out_of_memory(command);
   if (!picture->scene->quiet)
     command_warning(command, "nothing is kept of what is done, for '%s' cannot be written: %s", picture->part,
-                    special ? "it is no file" : strerror(reason));
+                    special ? "it is no file" : output_reason(picture->part, reason));
   picture->part = NULL;
   return STATUS_OK;
 }

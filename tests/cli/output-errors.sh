@@ -9,3 +9,13 @@ echo "exit $?"
 # A reader that goes away ends the program without a word.
 pscn dump "$scene" | head -c 1
 echo
+# A link to what is not there is told from a folder that is not there.
+ln -s nothing.png link.png
+ln -s nothing.exr b.png.part.exr
+mkdir nowhere && ln -s "$PWD/nowhere" gone && rmdir nowhere
+for picture in link.png nowhere/a.png gone/a.png; do
+  pscn render "$scene" -o $picture --size 4x3 --quiet
+  echo "exit $?"
+done
+pscn render "$scene" -o b.png --size 4x3 2>&1 | grep kept
+ls -A
