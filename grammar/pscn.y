@@ -135,12 +135,13 @@ default_item:
 
 declaration:
     VERSION value ';'                          { language_version(language, $2); }
-  | declare shade ';'                          { declare_value(language, $1, $2); }
+  | declared_value semicolon
   | declare object                             { declare_object(language, $1, $2); } semicolon
   | declare texture_block                      { declare_texture(language, $1, $2); } layers semicolon
     { language->layered = NULL; }
   | declare part_block                         { declare_texture(language, $1, $2); } semicolon
   ;
+declared_value: declare shade ';'              { declare_value(language, $1, $2); };
 layers: %empty | layers TEXTURE '{' { layer_begin(language, $2); } texture_items '}' { layer_end(language); };
 declare: DECLARE old WORD '='                  { $$ = declare_begin(language, $3, NULL); }
   | LOCAL old WORD '='                         { $$ = declare_begin(language, $3, &$1); };
