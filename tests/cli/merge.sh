@@ -45,9 +45,10 @@ pscn render $scene --solver $'aberth {\n polish off }' --tile 2/2 -o line2.exr
 try pscn merge line?.exr -o no.png
 # What is missing, strange or there twice is told, and no picture is made.
 try pscn merge p2.exr -o no.png
+pscn merge p2.exr -o no.png >/dev/full; echo "exit $?"
 try pscn merge p1.exr p3.exr p4.exr p3.exr -o no.png
 try pscn merge p?.exr p2.exr -o no.png
-try pscn merge p?.exr all2.exr -o no.png
+try pscn merge all2.exr p?.exr -o no.png # most are of another picture than the first
 pscn render $scene --samples 2 --tile 3/4 --declare Unused=1 -o p3.exr
 try pscn merge p?.exr -o no.png
 cp p3.exr other3.exr
@@ -117,7 +118,7 @@ done
 # The command line.
 try pscn merge -o no.png
 try pscn merge p1.exr
-try pscn merge p1.exr -o p1.exr
+try pscn merge p1.exr p2.exr -o p1.exr
 try pscn merge p1.exr -o no.jpg
 try pscn merge p1.exr -o no.png --bits 32
 try pscn merge p1.exr -o no.png --bits 7
