@@ -54,8 +54,8 @@ if command -v script >/dev/null; then
   done
   script -qec "pscn render flat.pscn -o -" /dev/null | tr -d '\r'
   # What was done is told on a terminal.
-  printf '1 0 -1\n1 -2 1\n' >polynomials
-  script -qec "pscn roots <polynomials >/dev/null" /dev/null | tr -d '\r' | sed 's/;.*//'
+  printf '2 -1\n1 0 0\n' >polynomials
+  script -qec "pscn roots <polynomials >/dev/null" /dev/null | tr -d '\r' | sed 's/; [0-9.]* s$//'
   script -qec "pscn roots -q <polynomials >/dev/null" /dev/null
   echo '0 0 -9 0 0 1' >rays
   script -qec "pscn trace $SCENES/bent.pscn <rays >/dev/null" /dev/null | tr -d '\r' | grep -v '^time'
