@@ -17,9 +17,10 @@ kill -INT $!
 wait $!
 echo "exit $?"
 ls -A
-# While the file is written, too: here into a pipe that nobody reads.
+# While the file is written, too: here into a pipe that nobody reads. With a small stack it is another thread that waits
+# there.
 mkfifo p.png
-pscn render "$scene" -o p.png --size 90x60 &
+(ulimit -s 2048 && exec pscn render "$scene" -o p.png --size 90x60) &
 sleep 1
 kill -TERM $!
 wait $!

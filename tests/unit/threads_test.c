@@ -1,6 +1,9 @@
 /* Threads: each worker works once, and what one of them failed with is not lost. */
 #include "render/threads.h"
 
+#include <errno.h>
+#include <limits.h>
+#include <signal.h>
 #include <stdatomic.h>
 #include <sys/resource.h>
 
@@ -33,6 +36,28 @@ static void a_failure_is_not_lost(void **state)
   }
 }
 
+/* Of the calls of pthread_create so many go well. */
+static int startable = INT_MAX;
+
+int __real_pthread_create(pthread_t *id, const pthread_attr_t *attributes, void *(*run)(void *), void *argument);
+int __wrap_pthread_create(pthread_t *id, const pthread_attr_t *attributes, void *(*run)(void *), void *argument);
+int __wrap_pthread_create(pthread_t *id, const pthread_attr_t *attributes, void *(*run)(void *), void *argument)
+{
+  return startable-- > 0 ? __real_pthread_create(id, attributes, run, argument) : EAGAIN;
+}
+
+/* A team that is not complete fails: what its missing members would have done is not done. */
+static void a_missing_thread_is_told(void **state)
+{
+  (void)state;
+  struct work work = {.failing = WORKERS};
+  startable = WORKERS - 2;
+  const enum status status = threads_team(WORKERS).run(WORKERS, work_once, &work);
+  startable = INT_MAX;
+  assert_int_equal(status, STATUS_LIMIT);
+  for (int k = 0; k < WORKERS; k++) assert_int_equal(work.times[k], k > 0 && k < WORKERS - 1);
+}
+
 /* Numbers of threads begin where it is said, and the first that failed is told of. */
 static void they_are_joined(void **state)
 {
@@ -44,32 +69,37 @@ static void they_are_joined(void **state)
   for (int k = 0; k < WORKERS; k++) assert_int_equal(work.times[k], k > 0);
 }
 
-/* With little stack the work is done in a thread that has more. */
+/* With little stack the work is done in a thread that has more; signals come as before when it has ended. */
 static enum status fill_stack(void *context, size_t worker)
 {
   volatile char much[3 << 20];
-  (void)worker;
   for (size_t k = 0; k < sizeof much; k += 1024) much[k] = 1;
   *(char *)context = much[1024];
-  return STATUS_FILE;
+  return worker == 0 ? STATUS_FILE : STATUS_OK;
 }
 
 static void there_is_room_for_deep_work(void **state)
 {
   (void)state;
   struct rlimit limit, little;
+  sigset_t before, after;
   char done = 0;
+  assert_int_equal(pthread_sigmask(SIG_SETMASK, NULL, &before), 0);
   assert_int_equal(getrlimit(RLIMIT_STACK, &limit), 0);
   little = limit, little.rlim_cur = 1 << 20;
   assert_int_equal(setrlimit(RLIMIT_STACK, &little), 0);
   assert_int_equal(threads_run_deep(fill_stack, &done), STATUS_FILE);
   assert_int_equal(setrlimit(RLIMIT_STACK, &limit), 0);
   assert_int_equal(done, 1);
+  assert_int_equal(pthread_sigmask(SIG_SETMASK, NULL, &after), 0);
+  for (int number = 1; number < 32; number++)
+    assert_int_equal(sigismember(&after, number), sigismember(&before, number));
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(a_failure_is_not_lost), cmocka_unit_test(they_are_joined),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_failure_is_not_lost),
+                                     cmocka_unit_test(a_missing_thread_is_told), cmocka_unit_test(they_are_joined),
                                      cmocka_unit_test(there_is_room_for_deep_work)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
