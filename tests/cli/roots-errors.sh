@@ -15,7 +15,7 @@ try pscn roots <&-
 echo "$good" | pscn roots >/dev/full
 echo "exit $?"
 try pscn roots scene </dev/null
-try pscn roots --solver nothing </dev/null
+try pscn roots --iterates --solver nothing </dev/null
 try pscn roots --tolerance 0 </dev/null
 try pscn roots --stats nowhere/stats.json </dev/null
 try pscn roots --format csv </dev/null

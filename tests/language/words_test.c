@@ -70,6 +70,11 @@ static void test_guesses(void **state)
   guess = guess_begin("Same", 4);
   guess_consider(&guess, "Same", 4);
   assert_null(guess.best);
+  /* Of those that are as near the first is meant. */
+  guess = guess_begin("camere", 6);
+  guess_consider(&guess, "camera", 6);
+  guess_consider(&guess, "cameru", 6);
+  assert_string_equal(guess.best, "camera");
   /* What is longer than anybody types is compared with nothing. */
   char large[5000];
   memset(large, 'a', sizeof large);
@@ -78,7 +83,7 @@ static void test_guesses(void **state)
   assert_null(guess.best);
 }
 
-/* A third of the letters may be wrong, of a short word one. */
+/* A third of the letters may be wrong, of a short word one; two that are exchanged are one. */
 static void test_how_wrong(void **state)
 {
   (void)state;
@@ -86,7 +91,8 @@ static void test_how_wrong(void **state)
     const char *word, *other;
     bool meant;
   } cases[] = {{"camxya", "camera", true}, {"camxyz", "camera", false},        {"anglx", "angle", true},
-               {"angxy", "angle", false},  {"brillxyzce", "brilliance", true}, {"brilwxyzce", "brilliance", false}};
+               {"angxy", "angle", false},  {"brillxyzce", "brilliance", true}, {"brilwxyzce", "brilliance", false},
+               {"anlge", "angle", true},   {"anxge", "angle", false},          {"anlxe", "angle", false}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     struct guess guess = guess_begin(cases[k].word, strlen(cases[k].word));
     guess_consider(&guess, cases[k].other, strlen(cases[k].other));
