@@ -26,6 +26,9 @@ done
 # A radius is rounded up: the root of the second row is at 3.3404e-152.
 echo '1e300 -6.680801335744067e148 0.0011158276623035757' |
   try pscn roots --solver 'aberth { basis bernstein }' --format table
+# What is lost where coefficients are made smaller is in the radius: the first has roots at +-1e-300, which are given as 0.
+printf '%s\n' '1e300 0 -1e-300' '1 0 0' |
+  pscn roots --solver 'aberth { basis bernstein }' --format json | grep -c '"radius":0.0,.*"radius":0.0,'
 # Zeros that a polynomial begins with are not missing in the other basis either, where a root at 1 is known as well; and
 # they do not count as degrees in eq 11.
 printf '%s\n' '1 -1' '0 4 -4' '0 0 5' '0 0 2 -1' '1 -2 1' | try pscn roots --solver 'aberth { basis bernstein }'
