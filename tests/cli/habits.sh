@@ -57,6 +57,8 @@ if command -v script >/dev/null; then
   printf '2 -1\n1 0 0\n' >polynomials
   script -qec "pscn roots <polynomials >/dev/null" /dev/null | tr -d '\r' | sed 's/; [0-9.]* s$//'
   script -qec "pscn roots -q <polynomials >/dev/null" /dev/null
+  echo 7 >polynomials # of what ends with an error nothing
+  script -qec "pscn roots <polynomials >/dev/null" /dev/null | tr -d '\r'
   echo '0 0 -9 0 0 1' >rays
   script -qec "pscn trace $SCENES/bent.pscn <rays >/dev/null" /dev/null | tr -d '\r' | grep -v '^time'
   script -qec "pscn trace -q $SCENES/bent.pscn <rays >/dev/null" /dev/null

@@ -92,7 +92,8 @@ static void test_how_wrong(void **state)
     bool meant;
   } cases[] = {{"camxya", "camera", true}, {"camxyz", "camera", false},        {"anglx", "angle", true},
                {"angxy", "angle", false},  {"brillxyzce", "brilliance", true}, {"brilwxyzce", "brilliance", false},
-               {"anlge", "angle", true},   {"anxge", "angle", false},          {"anlxe", "angle", false}};
+               {"angleab", "angle", true}, {"brillia", "brilliant", true},     {"anlge", "angle", true},
+               {"anxge", "angle", false},  {"anlxe", "angle", false}};
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     struct guess guess = guess_begin(cases[k].word, strlen(cases[k].word));
     guess_consider(&guess, cases[k].other, strlen(cases[k].other));
