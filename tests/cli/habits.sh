@@ -54,8 +54,9 @@ if command -v script >/dev/null; then
   done
   script -qec "pscn render flat.pscn -o -" /dev/null | tr -d '\r'
   # What was done is told on a terminal.
-  printf '2 -1\n1 0 0\n' >polynomials
-  script -qec "pscn roots <polynomials >/dev/null" /dev/null | tr -d '\r' | sed 's/; [0-9.]* s$//'
+  printf '%s\n' '2 -1' '1 0 0' '1e300 -6.680801335744067e148 0.0011158276623035757' >polynomials
+  script -qec "pscn roots --solver 'aberth { basis bernstein }' <polynomials >/dev/null" /dev/null | tr -d '\r' |
+    sed 's/; [0-9.]* s$//'
   script -qec "pscn roots -q <polynomials >/dev/null" /dev/null
   echo 7 >polynomials # of what ends with an error nothing
   script -qec "pscn roots <polynomials >/dev/null" /dev/null | tr -d '\r'
