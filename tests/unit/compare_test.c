@@ -75,6 +75,9 @@ static void the_first_worst_is_told(void **state)
   image_pixel(pair.first, 1, 0)[0] = image_pixel(pair.first, 1, 0)[1] = image_pixel(pair.first, 0, 1)[0] = 0.5f;
   compare_images(&pair, &result, NULL, 1);
   assert_true(result.worst_x == 1 && result.worst_y == 0 && result.worst_channel == 0);
+  image_pixel(pair.first, 0, 1)[1] = 1;
+  compare_images(&pair, &result, NULL, 1);
+  assert_true(result.worst_x == 0 && result.worst_y == 1 && result.worst_channel == 1);
 }
 
 /* The peak is the largest value of either picture. */
