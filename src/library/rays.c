@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "geometry/patch.h"
+#include "geometry/tangents.h"
 #include "intersect/tracer.h"
 #include "library/library.h"
 
@@ -49,33 +49,6 @@ static bool take_ray(const struct pscn_ray *ray, struct ray *out)
 
 /* ---- the nearest hit ---- */
 
-/* The weights of a cubic's control values, and of their differences in its derivative. */
-static void weights_at(double t, double value[4], double difference[3])
-{
-  const double s = 1 - t;
-  double unused[4];
-  patch_weights(t, value, unused);
-  difference[0] = 3 * s * s, difference[1] = 6 * s * t, difference[2] = 3 * t * t;
-}
-
-/* From differences of control points, so that where the patch is does not matter; of all three coordinates at a time, which lie
- * side by side. */
-static void derivatives(const struct scene_patch *patch, struct pscn_hit *hit)
-{
-  double u[4], u_difference[3], v[4], v_difference[3];
-  weights_at(hit->u, u, u_difference);
-  weights_at(hit->v, v, v_difference);
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 4; j++) {
-      const double weight_u = u_difference[i] * v[j], weight_v = u[j] * v_difference[i];
-      for (int k = 0; k < 3; k++) {
-        hit->du[k] += weight_u * (patch->P[i + 1][j][k] - patch->P[i][j][k]);
-        hit->dv[k] += weight_v * (patch->P[j][i + 1][k] - patch->P[j][i][k]);
-      }
-    }
-  }
-}
-
 static struct pscn_hit make_hit(const struct call *call, const struct hit *from)
 {
   struct pscn_hit hit = NO_HIT;
@@ -92,7 +65,7 @@ static struct pscn_hit make_hit(const struct call *call, const struct hit *from)
     hit.point[k] = from->point[k];
     hit.normal[k] = from->normal[k];
   }
-  derivatives(&call->scene->patches[hit.patch], &hit);
+  patch_tangents(call->scene->patches[hit.patch].P, hit.u, hit.v, hit.du, hit.dv);
   return hit;
 }
 
