@@ -1,7 +1,7 @@
 #!/bin/bash
 # paper_counts.sh PROGRAMS: the counts in the committed files of docs/paper are those of the code, times aside: all of the
 # random polynomials, the patch at eps = 1e-6, and nearly those of some pictures. Where this fails, examples/paper.sh makes the page
-# again. PROGRAMS is the folder of examples/paper in the build tree; PSCN_SOURCE_DIR the source tree.
+# again. The page says what its template says. PROGRAMS is the folder of examples/paper in the build tree; PSCN_SOURCE_DIR the source tree.
 set -euo pipefail
 export LC_ALL=C
 programs=$1
@@ -45,6 +45,14 @@ picture() { # FIGURE SCENE METHOD EPS
   "$programs/picture_errors" "scenes/$2.pscn" 320 240 \
     "$3 { form paper start previous max_iterations 500 tolerance $4 }" "$folder/picture"
 }
+
+# The page is that of the template and the files; what is changed by hand is in both.
+awk -v data=docs/paper -f examples/paper/fill.awk examples/paper/paper.md.in >"$folder/page"
+if ! diff docs/paper.md "$folder/page" >"$folder/diff"; then
+  echo "docs/paper.md (<) is not what examples/paper.sh page makes (>)"
+  head -8 "$folder/diff"
+  failed=1
+fi
 
 same degrees 1-3 . "$programs/random_experiments" degrees once
 same tolerances 1-3,5,7,8 . "$programs/random_experiments" tolerances once
