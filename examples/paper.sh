@@ -52,6 +52,7 @@ random() {
 claims() {
   "$programs/claims" lower | keep lower.csv
   "$programs/claims" nearest "$data" | keep nearest.csv
+  "$programs/claims" starts | keep starts.csv
   "$programs/claims" slopes | keep slopes.csv
   "$programs/claims" steps | awk 'NR == 1 || NR % 20 == 0' | keep steps.csv
   polynomial='1 -0.3 0.7 0.2 -0.5 0.9 -0.1 0.4 -0.6'

@@ -2,6 +2,7 @@
  *
  *     claims lower             2.1: patches of lower degree cost less
  *     claims nearest FOLDER    3.2: Laguerre's method goes to the root nearest to the start; maps of where starts go
+ *     claims starts            3.3: Aberth's method converges from any distinct starts
  *     claims slopes            3.1 to 3.3: the orders of convergence, from the iterates
  *     claims steps             the same, a row a step: the points of the chart
  */
@@ -186,6 +187,57 @@ static bool nearest(const char *folder)
   return true;
 }
 
+/* ---- 3.3 ---- */
+
+enum { MOST_SWEEPS = 2000 };
+
+/* Eq 9 alone, all values moved in every sweep from the values of the last, without any care. Whether all have come to rest. */
+static bool all_rest(const struct root_problem *problem, struct complex_number z[])
+{
+  const int n = problem->degree;
+  const struct complex_number one = {1, 0};
+  for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
+    struct complex_number move[PAPER_DEGREE];
+    double longest = 0;
+    for (int i = 0; i < n; i++) {
+      const struct complex_number newton = plain_step(PAPER_NEWTON, problem, z[i]); /* -N_i */
+      struct complex_number sum = {0, 0};
+      for (int j = 0; j < n; j++)
+        if (j != i) sum = complex_add(sum, complex_divide(one, complex_subtract(z[i], z[j])));
+      move[i] = complex_divide(newton, complex_add(one, complex_multiply(newton, sum)));
+      longest = fmax(longest, complex_modulus(move[i]) / fmax(1, complex_modulus(z[i])));
+    }
+    if (!isfinite(longest)) return false;
+    for (int i = 0; i < n; i++) z[i] = complex_add(z[i], move[i]);
+    if (longest < 1e-10) return true;
+  }
+  return false;
+}
+
+static void starts(void)
+{
+  static const char *const kinds[] = {"complex", "real"};
+  printf("degree,starts,rest\n");
+  for (int degree = BASIN_DEGREE; degree <= PAPER_DEGREE; degree += PAPER_DEGREE - BASIN_DEGREE) {
+    for (int kind = 0; kind < 2; kind++) {
+      uint64_t seed = 13;
+      int rest = 0;
+      for (int p = 0; p < 4 * POLYNOMIALS; p++) {
+        struct root_problem problem = {.degree = degree, .basis = BASIS_POWER};
+        struct complex_number z[PAPER_DEGREE];
+        measure_random_polynomial(&seed, degree, problem.c);
+        for (int i = 0; i < degree; i++) {
+          z[i].re = 4 * measure_random(&seed) - 2;
+          z[i].im = 4 * measure_random(&seed) - 2;
+          if (kind == 1) z[i].im = 0;
+        }
+        rest += all_rest(&problem, z);
+      }
+      printf("%d,%s,%.4f\n", degree, kinds[kind], rest / (4.0 * POLYNOMIALS));
+    }
+  }
+}
+
 /* ---- the orders ---- */
 
 /* All values of one solve. */
@@ -272,8 +324,9 @@ int main(int argc, char **argv)
   const char *what = argc > 1 ? argv[1] : "";
   if (argc == 2 && strcmp(what, "lower") == 0) return lower(), 0;
   if (argc == 3 && strcmp(what, "nearest") == 0) return nearest(argv[2]) ? 0 : 4;
+  if (argc == 2 && strcmp(what, "starts") == 0) return starts(), 0;
   if (argc == 2 && strcmp(what, "slopes") == 0) return orders(false), 0;
   if (argc == 2 && strcmp(what, "steps") == 0) return orders(true), 0;
-  fputs("usage: claims lower | nearest FOLDER | slopes | steps\n", stderr);
+  fputs("usage: claims lower | nearest FOLDER | starts | slopes | steps\n", stderr);
   return 2;
 }

@@ -60,6 +60,7 @@ same order 1-5 . "$programs/random_experiments" order
 same improvements 1-4,6-8 . "$programs/random_experiments" improvements once
 same caps 1-6 . "$programs/random_experiments" caps once
 same footing_degrees 1-4,8-11 . "$programs/footing" degrees once
+same starts 1-3 . "$programs/claims" starts
 same slopes 1-3 . "$programs/claims" slopes
 same patch 1-4,6,7 '^1e-6,' "$programs/patch_experiments" scenes/paper.pscn 100 75 6
 near pictures '^fig16,newton' picture fig16 paper newton 1e-2
