@@ -185,8 +185,9 @@ PSCN_API void pscn_scene_camera(const struct pscn_scene *scene, struct pscn_came
 struct pscn_ray {
   double origin[3];
   double direction[3]; /* any length but 0: points origin + t direction */
-  /* 0 <= t_min; points with t_min < t < t_max are met, so none where t_max <= t_min. Where no double lies between the two t
-   * of a hit is t_max. */
+  /* 0 <= t_min; points with t_min < t < t_max are met, so none where t_max <= t_min. That is asked of the exact t. A hit's is
+   * rounded, so a ray that goes on from there, t_min being that, may meet it once more, one double farther (pscn_leave goes on
+   * behind it, pscn_all has all). Where no double lies between the two t of a hit is t_max. */
   double t_min, t_max;
 };
 
