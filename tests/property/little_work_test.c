@@ -216,6 +216,60 @@ static void from_a_tip_without_handles_nothing_is_left_open(void **state)
   world_close(&world);
 }
 
+/* ---- contacts of the third order ---- */
+
+/* z = w^2/4 + s w + s^3, (s, w) being (x, y) turned by the angle; each power of x and y is a product of blossoms, that of x^i
+ * at the node n of 0..3 the mean of what i of n of -1..1 give. */
+static void saddle(double angle, world_net net)
+{
+  static const double blossom[4][4] = {
+    {1, 1, 1, 1}, {-1, -1 / 3.0, 1 / 3.0, 1}, {1, -1 / 3.0, -1 / 3.0, 1}, {-1, 1, -1, 1}};
+  const double c = cos(angle), n = sin(angle);
+  double power[4][4] = {{0}};
+  power[2][0] = n * n / 4 - c * n, power[1][1] = c * c - n * n - c * n / 2, power[0][2] = c * c / 4 + c * n;
+  power[3][0] = c * c * c, power[2][1] = 3 * c * c * n, power[1][2] = 3 * c * n * n, power[0][3] = n * n * n;
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < 4; j++) {
+      net[i][j][0] = blossom[1][i], net[i][j][1] = blossom[1][j], net[i][j][2] = 0;
+      for (int k = 0; k < 16; k++) net[i][j][2] += power[k / 4][k % 4] * blossom[k / 4][i] * blossom[k % 4][j];
+    }
+}
+
+/* A ray that touches the surface where it does not bend that way meets it once, where s^3 is how far it passes above; along the
+ * parameters or aslant, however little that is, that takes no more work than other rays may. */
+static void of_what_touches_to_the_third_order_little_is_looked_at(void **state)
+{
+  (void)state;
+  enum { ANGLES = 24, WORK_MOST = 1200 };
+  struct random random = {SEED + 5};
+  uint64_t most = 0;
+  for (int k = 0; k < ANGLES; k++) {
+    const double angle = k < 4 ? k * acos(0) : random_between(&random, 0, 4 * acos(0)), c = cos(angle), n = sin(angle);
+    world_net net;
+    struct world world;
+    saddle(angle, net);
+    world_open(&world, &net, 1, NULL);
+    for (int exponent = 2; exponent <= 17; exponent++) {
+      const double off = (exponent % 2 ? -1 : 1) * pow(10, -exponent), w = random_between(&random, -0.2, 0.2),
+                   start = 3;
+      /* along s, through w at s = 0 */
+      const struct ray ray = {.origin = {-start * c - n * w, -start * n + c * w, w * w / 4 - start * w + off},
+                              .direction = {c, n, w},
+                              .t_max = INFINITY};
+      const uint64_t before = tracer_counts(world.tracer)->work;
+      const struct hit hit = world_closest(&world, &ray);
+      const uint64_t work = tracer_counts(world.tracer)->work - before;
+      most = work > most ? work : most;
+      assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+      const double s = hit.t - start;
+      assert_true(fabs(s * s * s - off) <= 0x1p-46);
+    }
+    world_close(&world);
+  }
+  print_message("contacts of the third order: work %d at most\n", (int)most);
+  assert_in_range(most, 0, WORK_MOST);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(of_a_stack_few_are_tried),
@@ -223,6 +277,7 @@ int main(void)
                                      cmocka_unit_test(next_to_poles_little_is_left_open),
                                      cmocka_unit_test(of_what_meets_a_pole_no_resultant_is_formed),
                                      cmocka_unit_test(from_poles_and_corners_nothing_is_left_open),
-                                     cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open)};
+                                     cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open),
+                                     cmocka_unit_test(of_what_touches_to_the_third_order_little_is_looked_at)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -152,8 +152,23 @@ void fold_combine(struct box *box, struct fold_pair *out)
 }
 
 /* Roundings in the powers of F and G and in what is made of them, of the largest coefficient of a and b: 8 in each of the
- * powers that sum up to 25, 3 in the combination, 6 in F - m G, 25 in a sum of all. */
+ * powers that sum up to 25, 3 in the combination, 2 in the straighter G, 6 in F - m G, 25 in a sum of all. */
 #define BENT_ROUNDINGS 2048
+
+static double squares(double x, double y, double z) { return x * x + y * y + z * z; }
+
+/* G + share F with as little of second derivatives in the middle as can be, beside G's, and of F's first ones beside G's, of which
+ * they are no more than half: for where G bends it brings terms of the third degree into F - m G. Returns share. */
+static double straighten(const struct fold_powers *f, const struct fold_powers *g, struct fold_powers *out)
+{
+  const double(*F)[4] = f->c, (*G)[4] = g->c;
+  const double first_f = squares(F[1][0], F[0][1], 0), second_f = squares(F[2][0], F[1][1], F[0][2]);
+  const double first_g = squares(G[1][0], G[0][1], 0), second_g = squares(G[2][0], G[1][1], G[0][2]);
+  const double both = F[2][0] * G[2][0] + F[1][1] * G[1][1] + F[0][2] * G[0][2];
+  const double whole = second_f + first_f * second_g / first_g, share = whole > 0 ? -both / whole : 0;
+  combine(g, f, 1, share, out);
+  return share;
+}
 
 /* The polynomial m, of degree 1, by which F - m G has as little of first and second derivatives in the middle as can be: all
  * but those along G = 0. */
@@ -168,12 +183,14 @@ static void bent_factor(const struct fold_powers *f, const struct fold_powers *g
   m[0] = start - G[0][0] * (m[1] * x + m[2] * y) / square;
 }
 
-bool fold_bent_apart(const struct fold_pair *pair, struct box *box, const double error[2])
+enum fold_bent fold_bent_test(const struct fold_pair *pair, struct box *box, const double error[2])
 {
-  const double(*f)[4] = pair->f.c, (*g)[4] = pair->g.c;
+  struct fold_powers straight;
+  const double(*f)[4] = pair->f.c, (*g)[4] = straight.c;
   double m[3], largest = 0, sum = 0, wider_f[5][5] = {{0}}, wider_g[6][6] = {{0}};
-  if (!pair->any) return false;
-  bent_factor(&pair->f, &pair->g, m);
+  if (!pair->any) return BENT_OPEN;
+  const double share = straighten(&pair->f, &pair->g, &straight);
+  bent_factor(&pair->f, &straight, m);
   for (int n = 0; n < 16; n++) {
     wider_f[n / 4][n % 4] = f[n / 4][n % 4], wider_g[1 + n / 4][1 + n % 4] = g[n / 4][n % 4];
     largest = real_max(largest, real_max(fabs(box->net[0][n / 4][n % 4]), fabs(box->net[1][n / 4][n % 4])));
@@ -181,8 +198,10 @@ bool fold_bent_apart(const struct fold_pair *pair, struct box *box, const double
   for (int i = 0; i < 5; i++)
     for (int j = 0; j < 5; j++)
       sum += fabs(wider_f[i][j] - m[0] * wider_g[i + 1][j + 1] - m[1] * wider_g[i][j + 1] - m[2] * wider_g[i + 1][j]);
-  const double middle = fabs(f[0][0] - m[0] * g[0][0]), most = 1 + fabs(m[0]) + fabs(m[1]) + fabs(m[2]);
-  return 2 * middle > sum + most * (error[0] + error[1] + BENT_ROUNDINGS * UNIT_ROUNDOFF * largest);
+  const double middle = fabs(f[0][0] - m[0] * g[0][0]),
+               most = 1 + (1 + fabs(share)) * (fabs(m[0]) + fabs(m[1]) + fabs(m[2]));
+  const double off = most * (error[0] + error[1] + BENT_ROUNDINGS * UNIT_ROUNDOFF * largest);
+  return 2 * middle > sum + off ? BENT_APART : sum <= FLAT_ERRORS * off ? BENT_FLAT : BENT_OPEN;
 }
 
 bool fold_find(const struct fold_pair *pair, const double error[2], struct fold *out)

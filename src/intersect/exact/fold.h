@@ -57,10 +57,15 @@ struct fold {
 /* Those two of the box. */
 void fold_combine(struct box *box, struct fold_pair *out);
 
-/* Whether the box has no root, by a combination whose factor is not a number but a polynomial of degree 1: where the ray
- * touches the surface along a direction in which that does not bend, no other one is far enough from 0. error: see
- * box_test. */
-bool fold_bent_apart(const struct fold_pair *pair, struct box *box, const double error[2]);
+enum fold_bent {
+  BENT_APART, /* no root in the box */
+  BENT_FLAT,  /* it is indistinguishable from 0 all over the box: of parts on G = 0 it tells no more */
+  BENT_OPEN
+};
+
+/* What a combination tells of the box whose factor is not a number but a polynomial of degree 1: where the ray touches the
+ * surface along a direction in which that does not bend, no other one is far enough from 0. error: see box_test. */
+enum fold_bent fold_bent_test(const struct fold_pair *pair, struct box *box, const double error[2]);
 
 /* The fold of that box; false where the theorem does not hold, or none is in the box. error: see box_test. */
 bool fold_find(const struct fold_pair *pair, const double error[2], struct fold *out);

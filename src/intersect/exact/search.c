@@ -119,14 +119,16 @@ static bool box_zoom(struct search *s, const struct box *box)
   return true;
 }
 
-/* Whether a box that double precision cannot decide is to be zoomed: once, and again where it is a small
- * part of what was, for the roots next to a tangency are as far apart as the square root of what separates it from
- * one. */
-static bool box_asks_zoom(const struct search *s, const struct box *box)
+/* Whether a box that double precision cannot decide is to be zoomed: one that a combination is flat on once, and again where
+ * it is a small part of what was, for the roots next to a tangency are as far apart as the square root of what separates it
+ * from one; a bent one, on which there is none yet, where it is as small either way: long ones become flat. */
+static bool box_asks_zoom(const struct search *s, const struct box *box, bool flat)
 {
   if (s->dependent) return false;
-  if (s->divided != NO_BORDER) return s->window.zooms == 1;
-  return s->window.zooms == 0 || (s->window.zooms < TANGENT_DEPTH && box->size_u * box->size_v <= ZOOM_AGAIN);
+  if (s->divided != NO_BORDER) return flat && s->window.zooms == 1;
+  if (flat && s->window.zooms == 0) return true;
+  const double longer = real_max(box->size_u, box->size_v), part = flat ? box->size_u * box->size_v : longer * longer;
+  return s->window.zooms < TANGENT_DEPTH && part <= ZOOM_AGAIN;
 }
 
 /* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as
@@ -177,9 +179,11 @@ static bool box_decide(struct search *s, struct box *box)
     judge_root(s->window.judge, &found);
     return true;
   }
-  if (!s->dependent && window_touched(&s->window, box, error, s->window.zooms == 0 && border == NO_BORDER)) return true;
-  const bool small = verdict != VERDICT_OPEN && box_small(s, box, verdict);
-  if (verdict != VERDICT_OPEN && box_asks_zoom(s, box) && border == NO_BORDER && box_zoom(s, box)) return true;
+  bool bent_flat = false;
+  if (!s->dependent && window_touched(&s->window, box, error, s->window.zooms == 0 && border == NO_BORDER, &bent_flat))
+    return true;
+  const bool flat = verdict != VERDICT_OPEN, small = flat && box_small(s, box, verdict);
+  if ((flat || bent_flat) && box_asks_zoom(s, box, flat) && border == NO_BORDER && box_zoom(s, box)) return true;
   if (!small && box->halvings < SEARCH_HALVINGS) return false;
   search_tell_maybe(s, box, small);
   return true;

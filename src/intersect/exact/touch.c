@@ -88,9 +88,11 @@ static bool box_fold(const struct window *window, struct box *box, const struct 
   return fold_maybe(window, box, &fold);
 }
 
-bool window_touched(const struct window *window, struct box *box, const double error[2], bool folds)
+bool window_touched(const struct window *window, struct box *box, const double error[2], bool folds, bool *flat)
 {
   struct fold_pair pair;
   fold_combine(box, &pair);
-  return fold_bent_apart(&pair, box, error) || (folds && box_fold(window, box, &pair, error));
+  const enum fold_bent bent = fold_bent_test(&pair, box, error);
+  *flat = bent == BENT_FLAT;
+  return bent == BENT_APART || (folds && box_fold(window, box, &pair, error));
 }

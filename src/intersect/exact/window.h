@@ -50,7 +50,8 @@ void window_tell_maybe(const struct window *window, const struct box *box, doubl
                        double t_error);
 
 /* touch.c: decides the box where the ray touches the surface, or nearly: it has no root, or `folds` and those on either
- * side of its fold, or that may be a hit, are all. Returns whether it is decided, and told. */
-bool window_touched(const struct window *window, struct box *box, const double error[2], bool folds);
+ * side of its fold, or that may be a hit, are all. Returns whether it is decided, and told; else *flat is set where a bent
+ * combination (fold.h) is flat. */
+bool window_touched(const struct window *window, struct box *box, const double error[2], bool folds, bool *flat);
 
 #endif
