@@ -113,13 +113,13 @@ static enum pscn_status wrong(struct pscn_scene *scene, const char *text)
 }
 
 /* The caller's options as this version knows them: shorter ones, of an older version, ask for nothing more; longer
- * ones, of a newer, must not. */
+ * ones, of a newer, must not. None ends within a pointer. */
 static bool take_options(const struct pscn_options *options, struct pscn_options *out)
 {
   *out = (struct pscn_options)PSCN_OPTIONS;
   if (!options) return true;
   const size_t known = sizeof *out;
-  if (options->size < sizeof options->size) return false;
+  if (options->size == 0 || options->size % _Alignof(struct pscn_options) != 0) return false;
   memcpy(out, options, options->size < known ? options->size : known);
   for (size_t k = known; k < options->size; k++)
     if (((const unsigned char *)options)[k]) return false;

@@ -112,7 +112,9 @@ static void test_arguments(void **state)
     struct pscn_options options;
     const char *says;
   } wrong[] = {
+    {{.size = 0}, "not of this version"},
     {{.size = 3}, "not of this version"},
+    {{.size = sizeof(size_t) + 3, .solver = "aberth"}, "not of this version"},
     {{.size = sizeof(struct pscn_options), .solver = "abert"}, "did you mean 'aberth'?"},
     {{.size = sizeof(struct pscn_options), .tolerance = 7}, "the tolerance is a number from"},
     {{.size = sizeof(struct pscn_options), .tolerance = NAN}, "the tolerance is no number"},
