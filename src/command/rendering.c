@@ -84,15 +84,15 @@ static void look(void *context, const struct render_progress *progress)
   rendering->kept = progress->seconds + seconds_since(start).wall;
 }
 
-/* What is done when a signal ends the rendering. */
-static void keep_interrupted(struct rendering *rendering)
+/* What is done when a signal ends the rendering, or when its results cannot be written. */
+static void keep_rest(struct rendering *rendering, bool interrupted)
 {
   const size_t done = tile_list_pixels(&rendering->piece.tiles, true),
                all = tile_list_pixels(&rendering->piece.tiles, false);
   if (rendering->request->part == NULL) return;
   const bool less = has_less(rendering);
   if (!(less || (done > 0 && keep(rendering))) || rendering->request->scene->quiet) return;
-  fprintf(stderr, "pscn %s: interrupted; the %.0f %% that %s in '", rendering->command->name,
+  fprintf(stderr, "pscn %s: %sthe %.0f %% that %s in '", rendering->command->name, interrupted ? "interrupted; " : "",
           floor(100 * (double)(less ? rendering->left : done) / (double)all),
           less ? "an earlier run has done stay" : "are done are");
   command_print(stderr, rendering->request->part);
@@ -315,8 +315,10 @@ static enum status render(const struct command *command, const struct rendering_
   if (status == STATUS_OK) status = rendering_check_outputs(command, request, scene);
   if (status == STATUS_OK) status = begin(&rendering);
   if (status == STATUS_OK) status = make_picture(&rendering, loading);
-  if (status == STATUS_OK) status = write_results(&rendering);
-  if (status == STATUS_INTERRUPTED) keep_interrupted(&rendering);
+  const bool made = status == STATUS_OK;
+  if (made) status = write_results(&rendering);
+  const bool interrupted = status == STATUS_INTERRUPTED;
+  if (interrupted || (made && status != STATUS_OK)) keep_rest(&rendering, interrupted);
   if (status == STATUS_OK && !request->scene->quiet) report_print(&report);
   piece_destroy(&rendering.piece);
   scene_destroy(scene);

@@ -4,8 +4,12 @@ for command in "help" "help render" "--version" "dump $scene" "render --help"; d
   pscn $command >/dev/full
   echo "exit $?"
 done
-pscn render "$scene" -o a.png --size 4x3 --quiet --stats - >/dev/full
+# What is rendered is kept then.
+pscn render "$scene" -o a.png --size 4x3 --stats - >/dev/full
 echo "exit $?"
+ls
+pscn render "$scene" -o a.png --size 4x3 --quiet --resume --stats - | grep primary
+rm a.png
 # A reader that goes away ends the program without a word.
 pscn dump "$scene" | head -c 1
 echo

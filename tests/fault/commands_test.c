@@ -26,6 +26,7 @@ enum { LEAST = 8, MOST_ARGUMENTS = 24 };
 
 static char folder[] = "/tmp/pscn-fault-XXXXXX";
 static char input[64], output[64], errors[64], answers[64], stats[64], results[64], page[80], povray[64], picture[64];
+static char kept[80]; /* what is rendered of `output` and could not be written there */
 
 /* What jansson asks for, where it is to count as ours. */
 static void *json_block(size_t size) { return malloc(size); }
@@ -99,7 +100,7 @@ static size_t count_results(void)
 /* What was there before: nothing, or an old file of that name. */
 static void prepare(enum leaves leaves, const char *old)
 {
-  remove(output), remove(stats), remove_results();
+  remove(output), remove(kept), remove(stats), remove_results();
   if (!old) return;
   if (leaves == FOLDER) assert_int_equal(mkdir(results, 0700), 0);
   put_text(leaves == FOLDER ? page : output, old);
@@ -406,6 +407,7 @@ int main(int argc, char **argv)
   setenv("TMPDIR", folder, 1);
   snprintf(input, sizeof input, "%s/input", folder);
   snprintf(output, sizeof output, "%s/output.png", folder);
+  snprintf(kept, sizeof kept, "%s.part.exr", output);
   snprintf(errors, sizeof errors, "%s/errors", folder);
   snprintf(answers, sizeof answers, "%s/answers", folder);
   snprintf(stats, sizeof stats, "%s/stats", folder);
