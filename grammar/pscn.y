@@ -166,9 +166,9 @@ expression:
   | IMAGE_HEIGHT                               { $$ = value_of_number(language, language->height, $1); }
   | VERSION_WORD                               { $$ = value_of_number(language, language->settings->version, $1); }
   | '(' expression ')'                         { $$ = value_alone(language, $2, span_join($1, $3)); }
-  | '<' expression comma expression comma expression '>'
-                                               { $$ = value_of_parts(language, $2, $4, $6, span_join($1, $7)); }
-  | '<' expression comma expression '>'        { $$ = value_flat(language, $2, $4, span_join($1, $5)); }
+  | '<' expression comma expression comma expression comma '>'
+                                               { $$ = value_of_parts(language, $2, $4, $6, span_join($1, $8)); }
+  | '<' expression comma expression comma '>'  { $$ = value_flat(language, $2, $4, span_join($1, $6)); }
   | expression '+' expression                  { $$ = value_binary(language, '+', $1, $3); }
   | expression '-' expression                  { $$ = value_binary(language, '-', $1, $3); }
   | expression '*' expression                  { $$ = value_binary(language, '*', $1, $3); }
@@ -207,8 +207,8 @@ colour:
                                                { $$ = value_part(language, $1, $2, $3, span_join($1->place, $3->place)); }
   ;
 part: RED { $$ = 0; } | GREEN { $$ = 1; } | BLUE { $$ = 2; } | FILTER { $$ = 3; };
-four: '<' expression comma expression comma expression comma expression '>'
-                                               { $$ = value_wide(language, $2, $4, $6, $8, NULL, span_join($1, $9)); };
+four: '<' expression comma expression comma expression comma expression comma '>'
+                                               { $$ = value_wide(language, $2, $4, $6, $8, NULL, span_join($1, $10)); };
 five: '<' expression comma expression comma expression comma expression comma expression '>'
                                                { $$ = value_wide(language, $2, $4, $6, $8, $10, span_join($1, $11)); };
 
