@@ -157,7 +157,8 @@ static enum status resume(struct rendering *rendering)
   }
   const enum status status = piece_read(path, true, &part, message);
   if (status != STATUS_OK) {
-    command_error(command, "cannot go on from '%s': %s", path, message);
+    command_error(command, "cannot go on from '%s'%s: %s", path,
+                  status == STATUS_LIMIT ? "" : " (without --resume it begins anew)", message);
     return status;
   }
   rendering->has_part = take_part(rendering, &part, message, sizeof message);

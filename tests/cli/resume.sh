@@ -60,7 +60,7 @@ pscn render $small --tile 1/2 -o small.exr.part.exr
 try pscn render $small --tile 2/2 -o small.exr --resume
 rm small.exr.part.exr
 echo no picture >half.exr.part.exr
-pscn render $scene -o half.exr --resume 2>/dev/null; echo "exit $?"
+pscn render $scene -o half.exr --resume 2>&1; echo "exit $?"
 # Nor without being asked to, but it says so. It goes when the picture is complete: a part of another picture too.
 for part in one.exr some.exr; do
   cp $part half.exr.part.exr
