@@ -1,5 +1,6 @@
 /* Where POV-Ray's triangles can give another colour than the surface they stand for: beside silhouettes, the edges of
- * shadows and creases, half a pixel's difference of the shape is a difference of the whole colour. */
+ * shadows, creases and borders between textures, half a pixel's difference of the shape is a difference of the whole
+ * colour. */
 #include "check/measure.h"
 
 #include <math.h>
@@ -28,8 +29,13 @@ static bool jumps(const double location[3], const struct check_pixel *a, const s
   return jump * facing / a->distance > MANY * aside;
 }
 
+static bool have_one_texture(const struct scene *scene, uint32_t a, uint32_t b)
+{
+  return a == b || scene->patches[a].texture == scene->patches[b].texture;
+}
+
 /* What there is between two pixels. A smooth surface seen by pixels beside each other turns little and stays near both
- * tangent planes. */
+ * tangent planes. A border between textures counts as a crease. */
 static enum check_edge edge_between(const struct check *check, const struct check_pixel *a, const struct check_pixel *b)
 {
   static const double TURN = 0.9;  /* cosine of 26 degrees */
@@ -43,7 +49,9 @@ static enum check_edge edge_between(const struct check *check, const struct chec
       jumps(check->scene->camera.location, a, b))
     return CHECK_EDGE_SILHOUETTE;
   if (a->lights != b->lights) return CHECK_EDGE_SHADOW;
-  return vector_dot(a->hit.normal, b->hit.normal) < TURN ? CHECK_EDGE_CREASE : CHECK_EDGE_NONE;
+  const bool creased = vector_dot(a->hit.normal, b->hit.normal) < TURN ||
+                       !have_one_texture(check->scene, a->hit.patch, b->hit.patch);
+  return creased ? CHECK_EDGE_CREASE : CHECK_EDGE_NONE;
 }
 
 void check_find_edges(struct check *check)

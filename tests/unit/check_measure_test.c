@@ -299,6 +299,17 @@ static void edges_are_told_apart(void **state)
   for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) pixels[k].lights = k % EDGE_WIDTH < 2 ? 5 : 4;
   assert_true(only_between(&check, CHECK_EDGE_SHADOW));
 
+  /* two patches of one texture, two of two textures */
+  struct scene_patch patches[2] = {{.texture = 1}, {.texture = 1}};
+  scene.patches = patches;
+  for (uint32_t texture = 1; texture <= 2; texture++) {
+    patches[1].texture = texture;
+    check = surface_of(flat, none);
+    for (size_t k = 0; k < EDGE_WIDTH * EDGE_HEIGHT; k++) pixels[k].hit.patch = k % EDGE_WIDTH < 2;
+    assert_true(only_between(&check, texture == 1 ? CHECK_EDGE_NONE : CHECK_EDGE_CREASE));
+  }
+  scene.patches = NULL;
+
   /* a plane seen obliquely, and another one so far behind it that one could be the other's continuation */
   static const double oblique[EDGE_WIDTH] = {10, 10.32, 10.64, 10.96, 11.28}, slope[] = {3.2, 3.2, 3.2, 3.2, 3.2};
   static const double behind[EDGE_WIDTH] = {10, 10.32, 20, 20.32, 20.64};
