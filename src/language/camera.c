@@ -62,6 +62,7 @@ void camera_vector(struct language *language, int which, const struct value *val
 {
   struct camera_items *camera = begin_item(language);
   value_to_vector(language, value, camera->item[which]);
+  camera->unknown |= value->kind == VALUE_UNKNOWN;
   const bool of_angle = which == CAMERA_DIRECTION || which == CAMERA_RIGHT;
   if (camera->moved || camera->look_at || (camera->angle > 0 && of_angle)) /* a look_at begins from another's frame */
     tell_late(language, value->place);
@@ -94,7 +95,8 @@ void camera_transform(struct language *language, const struct transform *transfo
 void camera_end(struct language *language)
 {
   struct scene_camera unused;
-  if (language_sound(language, &language->camera->block)) camera_fold(language, language->camera, &unused);
+  if (!language->camera->unknown && language_sound(language, &language->camera->block))
+    camera_fold(language, language->camera, &unused);
 }
 
 /* The length of v, and v of length 1; 0 for a zero vector, whose direction is not written. Nothing over- or

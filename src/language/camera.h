@@ -10,9 +10,10 @@ enum { CAMERA_LOCATION, CAMERA_DIRECTION, CAMERA_RIGHT, CAMERA_UP, CAMERA_SKY, C
 
 struct camera_items {
   double item[6][3];
-  bool said;   /* there is a camera statement */
-  bool begun;  /* an item has come */
-  bool sorted; /* POV-Ray sorts them, whatever order they come in */
+  bool said;    /* there is a camera statement */
+  bool unknown; /* a vector is, by an error before the camera */
+  bool begun;   /* an item has come */
+  bool sorted;  /* POV-Ray sorts them, whatever order they come in */
   bool look_at;
   bool moved;                 /* a transform has come */
   double angle;               /* degrees, 0 where not given */
