@@ -209,8 +209,8 @@ static int files_naming(const struct language *language, struct span place)
 int naming_next(const struct language *language, struct naming *naming, int token, struct span place)
 {
   const int directive = naming->token;
-  if (directive == TOKEN_FOREIGN_DIRECTIVE && token < TOKEN_INCLUDE && token != ')' && token != PSCN_TOKEN_DECLARE &&
-      token != PSCN_TOKEN_LOCAL)
+  if (directive == TOKEN_FOREIGN_DIRECTIVE && token != 0 && token < TOKEN_INCLUDE && token != ')' &&
+      token != PSCN_TOKEN_DECLARE && token != PSCN_TOKEN_LOCAL)
     return token == PSCN_TOKEN_WORD ? PSCN_TOKEN_DECLARE : 0;
   switch (token) {
   case TOKEN_FOREIGN_DIRECTIVE: *naming = (struct naming){files_naming(language, place), place}; return 0;
