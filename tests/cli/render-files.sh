@@ -1,4 +1,4 @@
-# What can not be read or written: exit code 4, and nothing is left behind.
+# What can not be read or written: exit code 4, and nothing is left behind but what was rendered, as a part.
 scene=$SCENES/flat.pscn
 small="--size 16x12 --quiet"
 mkdir folder.png
