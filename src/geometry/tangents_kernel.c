@@ -4,11 +4,12 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "geometry/patch.h"
 
 enum { SIDE = 4, POINTS = SIDE * SIDE, COORDINATES = 3 };
 
 /* A point's coordinates side by side; the fourth number means nothing. */
-typedef double point __attribute__((vector_size(32)));
+typedef patch_row point;
 
 /* One of the points that stand one behind the other. */
 static inline point point_at(const double *points, int number)
@@ -26,8 +27,11 @@ struct weights {
 
 static struct weights weights_at(double t)
 {
-  const double s = 1 - t, ss = s * s, st = s * t, tt = t * t;
-  return (struct weights){{ss * s, 3 * ss * t, 3 * st * t, tt * t}, {3 * ss, 6 * st, 3 * tt}};
+  const double s = 1 - t;
+  struct weights w = {.difference = {3 * (s * s), 6 * (s * t), 3 * (t * t)}};
+  double unused[4];
+  patch_weights(t, w.value, unused);
+  return w;
 }
 
 /* From a point to one further on; from differences of control points, so that where the patch is does not matter. */

@@ -1,8 +1,6 @@
 /* dS/du and dS/dv: beside quadruple precision, anywhere in space, and the same bits by each instruction set. */
 #include <math.h>
-#include <string.h>
 
-#include "base/kernel.h"
 #include "base/real.h"
 #include "geometry/tangents.h"
 #include "geometry/tangents_kernel.h"
