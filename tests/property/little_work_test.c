@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "cmocka_test.h"
+#include "power_net.h"
 #include "property/world.h"
 
 enum { SEED = 20261122 };
@@ -218,21 +219,18 @@ static void from_a_tip_without_handles_nothing_is_left_open(void **state)
 
 /* ---- contacts of the third order ---- */
 
-/* z = w^2/4 + s w + s^3, (s, w) being (x, y) turned by the angle; each power of x and y is a product of blossoms, that of x^i
- * at the node n of 0..3 the mean of what i of n of -1..1 give. */
+/* z = w^2/4 + s w + s^3, (s, w) being (x, y) turned by the angle. */
 static void saddle(double angle, world_net net)
 {
-  static const double blossom[4][4] = {
-    {1, 1, 1, 1}, {-1, -1 / 3.0, 1 / 3.0, 1}, {1, -1 / 3.0, -1 / 3.0, 1}, {-1, 1, -1, 1}};
   const double c = cos(angle), n = sin(angle);
-  double power[4][4] = {{0}};
-  power[2][0] = n * n / 4 - c * n, power[1][1] = c * c - n * n - c * n / 2, power[0][2] = c * c / 4 + c * n;
-  power[3][0] = c * c * c, power[2][1] = 3 * c * c * n, power[1][2] = 3 * c * n * n, power[0][3] = n * n * n;
-  for (int i = 0; i < 4; i++)
-    for (int j = 0; j < 4; j++) {
-      net[i][j][0] = blossom[1][i], net[i][j][1] = blossom[1][j], net[i][j][2] = 0;
-      for (int k = 0; k < 16; k++) net[i][j][2] += power[k / 4][k % 4] * blossom[k / 4][i] * blossom[k % 4][j];
-    }
+  double power[3][4][4] = {{{0}}}, x[4][4], (*z)[4] = power[2];
+  power[0][1][0] = power[1][0][1] = 1;
+  z[2][0] = n * n / 4 - c * n, z[1][1] = c * c - n * n - c * n / 2, z[0][2] = c * c / 4 + c * n;
+  z[3][0] = c * c * c, z[2][1] = 3 * c * c * n, z[1][2] = 3 * c * n * n, z[0][3] = n * n * n;
+  for (int k = 0; k < 3; k++) {
+    power_net(power[k], x);
+    for (int e = 0; e < 16; e++) net[e / 4][e % 4][k] = x[e / 4][e % 4];
+  }
 }
 
 /* A ray that touches the surface where it does not bend that way meets it once, where s^3 is how far it passes above; along the

@@ -6,6 +6,7 @@
 
 #include "base/real.h"
 #include "cmocka_test.h"
+#include "power_net.h"
 #include "random.h"
 
 enum { SEED = 20261127, CASES = 400000, BENT_CASES = 100000 };
@@ -74,17 +75,6 @@ static void what_a_fold_tells_is_so(void **state)
 
 /* ---- bent combinations ---- */
 
-/* The net of a polynomial of degree 2 in x and y in [-1,1]: power[i][j] of x^i y^j. */
-static void net_of(double power[3][3], double net[4][4])
-{
-  static const double blossom[3][4] = {{1, 1, 1, 1}, {-1, -1 / 3.0, 1 / 3.0, 1}, {1, -1 / 3.0, -1 / 3.0, 1}};
-  for (int n = 0; n < 16; n++) {
-    net[n / 4][n % 4] = 0;
-    for (int k = 0; k < 9; k++)
-      net[n / 4][n % 4] += power[k / 3][k % 3] * blossom[k / 3][n / 4] * blossom[k % 3][n % 4];
-  }
-}
-
 /* a is a product of two lines, and b one of them, bent by a part of a: all of that line is roots. As long as both nets are off by
  * no more than their bounds it is not told that there is none; where they are off by more it is, as a rule. */
 static void what_a_bent_combination_tells_is_so(void **state)
@@ -98,21 +88,21 @@ static void what_a_bent_combination_tells_is_so(void **state)
     const double line[3] = {middle * random_between(&random, -0.5, 0.5), cos(turn), sin(turn)};
     const double part = (random_bits(&random) % 2 ? 1 : -1) * pow(10, random_between(&random, -2, 3));
     const double slope = pow(10, random_between(&random, -3, 0));
-    double product[3][3] = {{0}}, bent[3][3] = {{0}}, m[3];
+    double product[4][4] = {{0}}, bent[4][4] = {{0}}, m[3];
     const bool along = random_bits(&random) % 2; /* the other line is beside this one: a is extremal in the middle */
     for (int k = 0; k < 3; k++)
       m[k] = slope * (along ? (k > 0 ? line[k] : -line[k]) : random_between(&random, -1, 1) * (k > 0 ? 1 : middle));
     product[0][0] = m[0] * line[0], product[1][0] = m[0] * line[1] + m[1] * line[0];
     product[0][1] = m[0] * line[2] + m[2] * line[0], product[1][1] = m[1] * line[2] + m[2] * line[1];
     product[2][0] = m[1] * line[1], product[0][2] = m[2] * line[2];
-    for (int k = 0; k < 9; k++) bent[k / 3][k % 3] = part * product[k / 3][k % 3];
+    for (int k = 0; k < 16; k++) bent[k / 4][k % 4] = part * product[k / 4][k % 4];
     bent[0][0] += line[0], bent[1][0] += line[1], bent[0][1] += line[2];
     const bool within = random_bits(&random) % 2;
     const double off = bound * (within ? 1 : random_between(&random, 30, 300));
     product[0][0] += random_bits(&random) % 2 ? off : -off, bent[0][0] += random_bits(&random) % 2 ? off : -off;
     struct box box = {.size_u = 1, .size_v = 1};
     struct fold_pair pair;
-    net_of(product, box.net[0]), net_of(bent, box.net[1]);
+    power_net(product, box.net[0]), power_net(bent, box.net[1]);
     fold_combine(&box, &pair);
     const enum fold_bent told = fold_bent_test(&pair, &box, error);
     if (within) assert_true(told != BENT_APART), flat += told == BENT_FLAT;
