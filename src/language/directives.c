@@ -20,12 +20,12 @@ static void tell_open_comment(struct language *language)
 /* ---- conditions ---- */
 
 /* Skips to the #end of a condition, or if `to_else` to its #else; what is skipped may hold conditions of its own,
- * also those that only POV-Ray has. `foreign`: POV-Ray may read it. Answers the token it stopped at; 0 is the end of the
- * source. `macro`: whose text it is, or NULL. */
-static int skip_branch(struct language *language, bool to_else, bool foreign, struct macro *macro)
+ * also those that only POV-Ray has. `foreign`: the directive of POV-Ray's that is skipped, which may read it; else 0. Answers
+ * the token it stopped at; 0 is the end of the source. `macro`: whose text it is, or NULL. */
+static int skip_branch(struct language *language, bool to_else, int foreign, struct macro *macro)
 {
   struct naming naming = {0};
-  if (foreign) declare_passed(language, TOKEN_FOREIGN_OPENER, sources_here(language), &naming);
+  if (foreign) declare_passed(language, foreign, sources_here(language), &naming);
   for (int depth = 0;;) {
     const int token = pscn_scan_next(&language->sources->frame->scan);
     if (macro) macro_note(language, macro, token, sources_here(language));
@@ -38,7 +38,8 @@ static int skip_branch(struct language *language, bool to_else, bool foreign, st
     case TOKEN_IFDEF:
     case TOKEN_IFNDEF:
     case TOKEN_MACRO:
-    case TOKEN_FOREIGN_OPENER: depth++; break;
+    case TOKEN_FOREIGN_OPENER:
+    case TOKEN_FOR: depth++; break;
     case TOKEN_ELSE:
       if (depth == 0 && to_else) return token;
       break;
@@ -85,7 +86,7 @@ static void begin_condition(struct language *language, bool wanted)
   }
   frame->condition[frame->conditions++] = (struct condition){place, false};
   if (holds) return;
-  const int stopped = skip_branch(language, true, false, NULL);
+  const int stopped = skip_branch(language, true, 0, NULL);
   if (stopped == TOKEN_ELSE) frame->condition[frame->conditions - 1].seen_else = true;
   if (stopped == TOKEN_ENDIF) frame->conditions--;
 }
@@ -102,7 +103,7 @@ static void end_condition(struct language *language, int token)
   if (token == TOKEN_ELSE) {
     if (condition->seen_else) language_tell(language, sources_here(language), "a second #else for the same #ifdef");
     condition->seen_else = true;
-    if (skip_branch(language, false, false, NULL) != TOKEN_ENDIF) return;
+    if (skip_branch(language, false, 0, NULL) != TOKEN_ENDIF) return;
   }
   frame->conditions--;
 }
@@ -129,7 +130,7 @@ static void skip_macro(struct language *language)
   struct name name;
   struct macro *macro = macro_begin(language);
   if (next_name(language, "#macro", &name)) declare_macro(language, &name, macro);
-  if (skip_branch(language, false, false, macro) != TOKEN_ENDIF) language_tell(language, place, "#macro without #end");
+  if (skip_branch(language, false, 0, macro) != TOKEN_ENDIF) language_tell(language, place, "#macro without #end");
 }
 
 static void undeclare(struct language *language)
@@ -202,8 +203,9 @@ bool directives_pass(struct language *language, int token)
     if (!language->tokens->skipping) language_error(language, sources_here(language), "this means nothing here");
     return true;
   case TOKEN_FOREIGN_OPENER:
+  case TOKEN_FOR:
     directives_tell(language, token);
-    skip_branch(language, false, true, NULL);
+    skip_branch(language, false, token, NULL);
     return language->tokens->last.token != '='; /* behind which it stands for a value, and is no more passed over */
   case TOKEN_MACRO: skip_macro(language); return true;
   case TOKEN_UNDEF: undeclare(language); return true;

@@ -56,7 +56,7 @@ static void add_word(struct language *language, struct macro *macro, enum macro_
 void macro_note(struct language *language, struct macro *macro, int token, struct span place)
 {
   const struct name name = sources_name(language, place), none = {.text = NULL}, before = macro->called;
-  const int directive = naming_next(language, &macro->naming, token, place);
+  const int directive = naming_next(&macro->naming, token, place);
   const bool word = token == PSCN_TOKEN_WORD;
   macro->called = word && directive == 0 ? name : none;
   if (!macro->headed) {

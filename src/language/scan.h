@@ -23,7 +23,10 @@ enum {
   TOKEN_MACRO,
   TOKEN_UNDEF,
   TOKEN_FOREIGN_OPENER,    /* a directive of POV-Ray's that is not in the language and has an #end: #if, #while ... */
+  TOKEN_FOR,               /* #for, which declares its variable besides */
   TOKEN_FOREIGN_DIRECTIVE, /* one that has none */
+  TOKEN_FILE,              /* #fopen, which declares a name, or #fclose, which forgets it */
+  TOKEN_READ,              /* #read, which gives values to several */
   TOKEN_UNKNOWN_DIRECTIVE,
   TOKEN_SECOND_POINT, /* a number with a point too many, and what follows it; scan->number[0] is 1 */
   TOKEN_OPEN_EXPONENT /* a number with an exponent that has no digits, and the word that begins there; likewise */

@@ -191,46 +191,30 @@ static struct symbol *symbol_begin(struct language *language, const struct name 
   return add(language, name->text, name->length, local ? depth : 0);
 }
 
-/* Whether a directive is #for. */
-static bool is_for(const struct language *language, struct span place)
-{
-  const struct name text = sources_name(language, place);
-  return words_is_for(text.text, text.length);
-}
-
-/* What names follow a directive of files: #read gives values to several, #fopen declares one, and #fclose forgets it. */
-static int files_naming(const struct language *language, struct span place)
-{
-  struct name text = sources_name(language, place);
-  const enum words_files files = words_files(text.text, text.length);
-  return files == FILES_READ ? TOKEN_FOREIGN_DIRECTIVE : files == FILES_ONE ? PSCN_TOKEN_DECLARE : 0;
-}
-
-int naming_next(const struct language *language, struct naming *naming, int token, struct span place)
+int naming_next(struct naming *naming, int token, struct span place)
 {
   const int directive = naming->token;
-  if (directive == TOKEN_FOREIGN_DIRECTIVE && token != 0 && token < TOKEN_INCLUDE && token != ')' &&
-      token != PSCN_TOKEN_DECLARE && token != PSCN_TOKEN_LOCAL)
+  if (directive == TOKEN_READ && token != 0 && token < TOKEN_INCLUDE && token != ')' && token != PSCN_TOKEN_DECLARE &&
+      token != PSCN_TOKEN_LOCAL)
     return token == PSCN_TOKEN_WORD ? PSCN_TOKEN_DECLARE : 0;
   switch (token) {
-  case TOKEN_FOREIGN_DIRECTIVE: *naming = (struct naming){files_naming(language, place), place}; return 0;
   case PSCN_TOKEN_DEPRECATED: /* these may stand before the name */
   case PSCN_TOKEN_ONCE:
   case PSCN_TOKEN_STRING:
   case '(': return 0;
   case PSCN_TOKEN_DECLARE:
   case PSCN_TOKEN_LOCAL:
-  case TOKEN_UNDEF: *naming = (struct naming){token, place}; return 0;
-  case TOKEN_FOREIGN_OPENER:
-    *naming = (struct naming){is_for(language, place) ? PSCN_TOKEN_DECLARE : 0, place};
-    return 0;
+  case TOKEN_UNDEF:
+  case TOKEN_READ: *naming = (struct naming){token, place}; return 0;
+  case TOKEN_FOR:
+  case TOKEN_FILE: *naming = (struct naming){PSCN_TOKEN_DECLARE, place}; return 0;
   default: naming->token = 0; return token == PSCN_TOKEN_WORD ? directive : 0;
   }
 }
 
 void declare_passed(struct language *language, int token, struct span place, struct naming *naming)
 {
-  const int directive = naming_next(language, naming, token, place);
+  const int directive = naming_next(naming, token, place);
   if (token == PSCN_TOKEN_DEFAULT || token == TOKEN_INCLUDE || token == PSCN_TOKEN_VERSION)
     language_tell(language, place, "this stands in what pscn has not, and is passed over");
   if (directive != 0) declare_unseen(language, place, directive == PSCN_TOKEN_LOCAL ? &naming->place : NULL);

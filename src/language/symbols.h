@@ -89,14 +89,13 @@ struct symbols {
 
 /* A directive of text that is passed over, whose name is still to come. */
 struct naming {
-  /* PSCN_TOKEN_DECLARE, PSCN_TOKEN_LOCAL, TOKEN_UNDEF; TOKEN_FOREIGN_DIRECTIVE: #read, of several; 0: none */
-  int token;
+  int token; /* PSCN_TOKEN_DECLARE, PSCN_TOKEN_LOCAL, TOKEN_UNDEF; TOKEN_READ: of several; 0: none */
   struct span place;
 };
 
 /* One token after the other of such text: the directive's token where this one is the name that it declares or forgets, else
- * 0. #for counts as the #declare of its variable. */
-int naming_next(const struct language *language, struct naming *naming, int token, struct span place);
+ * 0. #for counts as the #declare of its variable, #fopen and #fclose as that of their name. */
+int naming_next(struct naming *naming, int token, struct span place);
 
 /* The beginning and end of an included file, at which its locals are forgotten. */
 void symbols_enter(struct symbols *symbols);

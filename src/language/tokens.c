@@ -63,15 +63,15 @@ static int make_up(struct tokens *tokens)
 }
 
 /* Behind a directive of files: their names, and those that are read from them, stand for what nobody knows here. */
-static void pass_files(struct language *language)
+static void pass_files(struct language *language, int directive)
 {
   if (!language->declaration && !language->tokens->skipping) return;
   struct naming naming = {0};
-  (void)naming_next(language, &naming, TOKEN_FOREIGN_DIRECTIVE, sources_here(language));
+  (void)naming_next(&naming, directive, sources_here(language));
   while (naming.token != 0) {
     const int token = pscn_scan_next(&language->sources->frame->scan);
     const struct span place = sources_here(language);
-    if (naming_next(language, &naming, token, place) != 0) declare_unseen(language, place, NULL);
+    if (naming_next(&naming, token, place) != 0) declare_unseen(language, place, NULL);
   }
 }
 
@@ -84,9 +84,9 @@ static int stand_in(struct language *language, int token)
     if (!tokens->skipping) language_error(language, tokens->last.place, "%s", wrong);
     return PSCN_TOKEN_NUMBER;
   }
-  if (token != TOKEN_FOREIGN_OPENER) directives_tell(language, token);
+  if (token != TOKEN_FOREIGN_OPENER && token != TOKEN_FOR) directives_tell(language, token);
   tokens->told = tokens->last.place;
-  if (token == TOKEN_FOREIGN_DIRECTIVE) pass_files(language);
+  if (token == TOKEN_FILE || token == TOKEN_READ) pass_files(language, token);
   return PSCN_TOKEN_FOREIGN;
 }
 

@@ -35,17 +35,25 @@ static const struct keyword DIRECTIVES[] = {{"declare", PSCN_TOKEN_DECLARE},
                                             {"version", PSCN_TOKEN_VERSION}};
 
 /* POV-Ray 3.7's other directives. */
-static const struct keyword FOREIGN_DIRECTIVES[] = {
-  {"break", TOKEN_FOREIGN_DIRECTIVE},   {"case", TOKEN_FOREIGN_DIRECTIVE},
-  {"debug", TOKEN_FOREIGN_DIRECTIVE},   {"elseif", TOKEN_ELSEIF},
-  {"error", TOKEN_FOREIGN_DIRECTIVE},   {"fclose", TOKEN_FOREIGN_DIRECTIVE},
-  {"fopen", TOKEN_FOREIGN_DIRECTIVE},   {"for", TOKEN_FOREIGN_OPENER},
-  {"if", TOKEN_FOREIGN_OPENER},         {"macro", TOKEN_MACRO},
-  {"range", TOKEN_FOREIGN_DIRECTIVE},   {"read", TOKEN_FOREIGN_DIRECTIVE},
-  {"render", TOKEN_FOREIGN_DIRECTIVE},  {"statistics", TOKEN_FOREIGN_DIRECTIVE},
-  {"switch", TOKEN_FOREIGN_OPENER},     {"undef", TOKEN_UNDEF},
-  {"warning", TOKEN_FOREIGN_DIRECTIVE}, {"while", TOKEN_FOREIGN_OPENER},
-  {"write", TOKEN_FOREIGN_DIRECTIVE}};
+static const struct keyword FOREIGN_DIRECTIVES[] = {{"break", TOKEN_FOREIGN_DIRECTIVE},
+                                                    {"case", TOKEN_FOREIGN_DIRECTIVE},
+                                                    {"debug", TOKEN_FOREIGN_DIRECTIVE},
+                                                    {"elseif", TOKEN_ELSEIF},
+                                                    {"error", TOKEN_FOREIGN_DIRECTIVE},
+                                                    {"fclose", TOKEN_FILE},
+                                                    {"fopen", TOKEN_FILE},
+                                                    {"for", TOKEN_FOR},
+                                                    {"if", TOKEN_FOREIGN_OPENER},
+                                                    {"macro", TOKEN_MACRO},
+                                                    {"range", TOKEN_FOREIGN_DIRECTIVE},
+                                                    {"read", TOKEN_READ},
+                                                    {"render", TOKEN_FOREIGN_DIRECTIVE},
+                                                    {"statistics", TOKEN_FOREIGN_DIRECTIVE},
+                                                    {"switch", TOKEN_FOREIGN_OPENER},
+                                                    {"undef", TOKEN_UNDEF},
+                                                    {"warning", TOKEN_FOREIGN_DIRECTIVE},
+                                                    {"while", TOKEN_FOREIGN_OPENER},
+                                                    {"write", TOKEN_FOREIGN_DIRECTIVE}};
 
 #define COUNT(table) (sizeof(table) / sizeof *(table))
 
@@ -101,20 +109,6 @@ const char *words_directive(const char *text, size_t *length)
   do text++, --*length;
   while (strchr(" \t\r\n\f\v", *text));
   return text;
-}
-
-bool words_is_for(const char *text, size_t length)
-{
-  const char *name = words_directive(text, &length);
-  return length == 3 && memcmp(name, "for", 3) == 0;
-}
-
-enum words_files words_files(const char *text, size_t length)
-{
-  const char *name = words_directive(text, &length);
-  if (length == 4 && memcmp(name, "read", 4) == 0) return FILES_READ;
-  const bool one = (length == 5 && memcmp(name, "fopen", 5) == 0) || (length == 6 && memcmp(name, "fclose", 6) == 0);
-  return one ? FILES_ONE : FILES_NONE;
 }
 
 int words_directive_token(const char *text, size_t length)

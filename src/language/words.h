@@ -16,12 +16,6 @@ bool words_declared(const char *word, size_t length);
 /* The name of a directive, behind its # and blanks, if they are in the text; *length, which was the directive's, becomes its own. */
 const char *words_directive(const char *text, size_t *length);
 
-/* What a directive does to names: of files, and of what is read from them. */
-enum words_files { FILES_NONE, FILES_ONE, FILES_READ };
-enum words_files words_files(const char *text, size_t length);
-/* Whether it is #for. */
-bool words_is_for(const char *text, size_t length);
-
 /* Whether a token begins a statement, or an item of a block and not a value. */
 bool words_begin_statement(int token);
 bool words_begin_item(int token);
