@@ -10,6 +10,7 @@
  */
 #include "algebra/root_kernel.h"
 #include "algebra/start.h"
+#include "base/kernel.h"
 
 /* The values that the sweep has moved; number 0: the start. */
 static void tell_sweep(const struct aberth *a, const struct root_problem *problem, const struct solver_options *options,
@@ -23,7 +24,7 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
                  const struct solver_warm *warm, struct root_estimates *out)
 {
   const int n = problem->degree;
-  root_kernel *const sweep = root_kernel_best();
+  root_kernel *const sweep = KERNEL_BEST(root_kernel);
   struct aberth a;
   /* The bound of the stop is that of rounding alone: coefficient errors say nothing about where to stop. */
   evaluation_prepare(n, problem->basis, problem->c, NULL, &a.p);

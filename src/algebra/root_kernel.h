@@ -1,6 +1,6 @@
 /* Aberth's method for one polynomial, several roots side by side. Internal to src/algebra.
  *
- * root_kernel.c is compiled once per instruction set; root_kernel_best picks at run time. All of them round alike (no
+ * root_kernel.c is compiled once per instruction set (KERNEL_BEST). All of them round alike (no
  * contraction of multiply and add), so an answer does not depend on the machine.
  */
 #ifndef PSCN_ALGEBRA_ROOT_KERNEL_H
@@ -26,6 +26,5 @@ typedef void root_kernel(struct aberth *a, const struct solver_options *options,
                          struct root_estimates *out);
 
 root_kernel root_kernel_baseline, root_kernel_avx2;
-root_kernel *root_kernel_best(void);
 
 #endif

@@ -6,8 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "algebra/root_kernel.h"
-#include "base/kernel.h"
+#include "algebra/root_problem.h"
 
 /* eps of eq 10, absolute in the unknown: the least at which the paper's plain iterations still stop by it, as values of
  * size 100 do not move by less. It and the steps a root may take decide when to stop, never what is true: radii and
@@ -59,14 +58,6 @@ void solver_options_default(const struct solver *solver, struct solver_options *
   *out = (struct solver_options){
     .solver = solver, .tolerance = solver->tolerance, .max_iterations = solver->max_iterations, .start = START_COLD};
   solver_options_form(out, true);
-}
-
-root_kernel *root_kernel_best(void)
-{
-#if defined(PSCN_HAS_AVX2)
-  if (KERNEL_RUNS_AVX2) return root_kernel_avx2;
-#endif
-  return root_kernel_baseline;
 }
 
 /* Whether there is something to solve; where there is not, out says why. */

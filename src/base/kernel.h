@@ -2,7 +2,8 @@
  *
  * In them PSCN_KERNEL is the name of the set: baseline, avx2, avx512 or avx512_narrow; KERNEL(name) is a name of one compilation and
  * KERNEL_NAME the set's as a text. Elsewhere PSCN_HAS_AVX2 and PSCN_HAS_AVX512 say which sets there are besides the
- * baseline, and KERNEL_RUNS_... whether this processor has them.
+ * baseline, and KERNEL_RUNS_... whether this processor has them; KERNEL_BEST(name) is the best of a function or object that
+ * is compiled for the baseline and AVX2.
  */
 #ifndef PSCN_BASE_KERNEL_H
 #define PSCN_BASE_KERNEL_H
@@ -21,5 +22,10 @@
 #define KERNEL_RUNS_AVX512                                                                        \
   (KERNEL_RUNS_AVX2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && \
    __builtin_cpu_supports("avx512vl"))
+#if defined(PSCN_HAS_AVX2)
+#define KERNEL_BEST(name) (*(KERNEL_RUNS_AVX2 ? &name##_avx2 : &name##_baseline))
+#else
+#define KERNEL_BEST(name) name##_baseline
+#endif
 
 #endif

@@ -15,14 +15,6 @@ struct plain_newton {
   volatile double sink;
 };
 
-static plain_newton_packet *best_kernel(void)
-{
-#if defined(PSCN_HAS_AVX2)
-  if (KERNEL_RUNS_AVX2) return plain_newton_avx2;
-#endif
-  return plain_newton_baseline;
-}
-
 static bool build(struct plain_model *plain, const struct scene *scene)
 {
   const size_t side = PLAIN_NEWTON_SPLIT, count = scene->patch_count * side * side;
@@ -56,7 +48,7 @@ struct plain_newton *plain_newton_create(const struct scene *scene, const struct
   struct plain_newton *plain = calloc(1, sizeof *plain);
   if (plain == NULL) return NULL;
   plain->rays = rays;
-  plain->packet = best_kernel();
+  plain->packet = KERNEL_BEST(plain_newton);
   if (build(&plain->model, scene)) return plain;
   plain_newton_destroy(plain);
   return NULL;

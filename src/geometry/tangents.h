@@ -4,6 +4,10 @@
 
 /* dS/du and dS/dv at (u,v) of the patch of the control points P[i][j], u runs across the rows i; to roundings of its size,
  * wherever it is. The same bits on every processor. Any thread. */
-void patch_tangents(const double P[4][4][3], double u, double v, double out_du[3], double out_dv[3]);
+typedef void tangents_function(const double P[4][4][3], double u, double v, double out_du[3], double out_dv[3]);
+tangents_function patch_tangents;
+
+/* That, compiled once per instruction set: with AVX the three coordinates of a point are one register. */
+tangents_function patch_tangents_baseline, patch_tangents_avx2;
 
 #endif

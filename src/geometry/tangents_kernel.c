@@ -1,5 +1,5 @@
 /* The arithmetic of tangents.h. Compiled once per instruction set. */
-#include "geometry/tangents_kernel.h"
+#include "geometry/tangents.h"
 
 #include <string.h>
 

@@ -14,21 +14,13 @@ struct transform transform_identity(void)
   return identity;
 }
 
-static const struct transform_kernel *best(void)
-{
-#if defined(PSCN_HAS_AVX2)
-  if (KERNEL_RUNS_AVX2) return &transform_kernel_avx2;
-#endif
-  return &transform_kernel_baseline;
-}
-
 struct transform transform_then(const struct transform *first, const struct transform *second)
 {
   if (first->identity) return *second;
   if (second->identity) return *first;
   struct transform r;
   if (!first->moves || !second->moves) {
-    best()->compose(first, second, &r);
+    KERNEL_BEST(transform_kernel).compose(first, second, &r);
     return r;
   }
   r = *first;
@@ -50,7 +42,7 @@ bool transform_finite(const struct transform *transform)
 void transform_points(const struct transform *transform, const transform_row p, transform_row out)
 {
   if (!transform->moves) {
-    best()->apply(transform, p, out);
+    KERNEL_BEST(transform_kernel).apply(transform, p, out);
     return;
   }
   if (transform->identity) {
@@ -89,7 +81,7 @@ void transform_rotation(const double degrees[3], struct transform_angles *angles
   if (!turn->known || memcmp(turn->degrees, degrees, sizeof turn->degrees) != 0) {
     turn->known = true;
     memcpy(turn->degrees, degrees, sizeof turn->degrees);
-    best()->rotation(degrees, angles, &turn->turned);
+    KERNEL_BEST(transform_kernel).rotation(degrees, angles, &turn->turned);
   }
   *out = turn->turned;
 }

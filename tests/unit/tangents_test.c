@@ -3,7 +3,6 @@
 
 #include "base/real.h"
 #include "geometry/tangents.h"
-#include "geometry/tangents_kernel.h"
 
 #include "cmocka_test.h"
 #include "random.h"
