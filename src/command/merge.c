@@ -105,15 +105,11 @@ static void choose_picture(struct merge *merge)
 /* The picture, still black, and what is common to all pieces. */
 static enum status create_picture(struct merge *merge)
 {
-  const struct image *image = &merge->first->piece.image;
-  const struct render_options options = {.width = image->full_width,
-                                         .height = image->full_height,
-                                         .crop = {image->x, image->y, image->width, image->height},
-                                         .channels = merge->first->piece.channels};
-  if (merge->request->format == IMAGE_PNG && !channel_list_is_rgb(&options.channels))
+  const struct file *first = merge->first;
+  if (merge->request->format == IMAGE_PNG && !channel_list_is_rgb(&first->piece.channels))
     return command_usage(merge->command, "a PNG holds the channel rgb only, and '%s' has others: they need an .exr",
-                         merge->first->path);
-  return piece_create(&options, 1, 1, NULL, 0, &merge->picture);
+                         first->path);
+  return piece_create_like(&first->piece, 1, 1, &merge->picture);
 }
 
 /* Where a tile of a piece stands in the list of the whole picture (tile_list.h). */

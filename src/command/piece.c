@@ -85,6 +85,16 @@ enum status piece_create(const struct render_options *options, size_t number, si
   return image->metadata == NULL ? STATUS_LIMIT : STATUS_OK;
 }
 
+enum status piece_create_like(const struct piece *piece, size_t number, size_t count, struct piece *out)
+{
+  const struct image *image = &piece->image;
+  const struct render_options options = {.width = image->full_width,
+                                         .height = image->full_height,
+                                         .crop = {image->x, image->y, image->width, image->height},
+                                         .channels = piece->channels};
+  return piece_create(&options, number, count, NULL, 0, out);
+}
+
 void piece_destroy(struct piece *piece)
 {
   image_destroy(&piece->image);
@@ -333,24 +343,11 @@ static char *done_text(const struct tile_list *tiles)
 /* A copy of the tiles that are done, and of no others: nobody reads what is being written. */
 static enum status copy_done(const struct piece *piece, struct piece *out)
 {
-  const struct image *image = &piece->image;
-  const struct rectangle crop = {image->x, image->y, image->width, image->height};
-  *out = (struct piece){.number = piece->number, .count = piece->count};
-  enum status status = image_create(image->width, image->height, image->channel_count, &out->image);
-  if (status == STATUS_OK) status = tile_list_create(&crop, piece->number, piece->count, &out->tiles);
+  const enum status status = piece_create_like(piece, piece->number, piece->count, out);
   if (status != STATUS_OK) return status;
-  memcpy(out->image.channel, image->channel, image->channel_count * sizeof *image->channel);
-  out->image.x = image->x;
-  out->image.y = image->y;
-  out->image.full_width = image->full_width;
-  out->image.full_height = image->full_height;
-  size_t channel[IMAGE_MAX_CHANNELS];
-  for (size_t c = 0; c < image->channel_count; c++) channel[c] = c;
-  for (size_t k = 0; k < out->tiles.count; k++) {
-    if (!atomic_load(&piece->tiles.done[k])) continue;
-    copy_tile(image, &out->tiles.tile[k], channel, &out->image);
-    atomic_store(&out->tiles.done[k], true);
-  }
+  for (size_t k = 0; k < out->tiles.count; k++) atomic_store(&out->tiles.done[k], atomic_load(&piece->tiles.done[k]));
+  const struct piece done = {.image = piece->image, .tiles = out->tiles};
+  (void)piece_copy(&done, &out->image); /* it has the channels */
   return STATUS_OK;
 }
 

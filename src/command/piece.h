@@ -32,6 +32,9 @@ bool piece_number(const char *text, size_t length, size_t *out_number, size_t *o
 enum status piece_create(const struct render_options *options, size_t number, size_t count,
                          const struct image_attribute *attributes, size_t attribute_count,
                          struct piece *out) STATUS_MUST_CHECK;
+/* The same of the picture that `piece` is of, without metadata. */
+enum status piece_create_like(const struct piece *piece, size_t number, size_t count,
+                              struct piece *out) STATUS_MUST_CHECK;
 void piece_destroy(struct piece *piece);
 
 /* Reads a part, of whose image the pixels of its tiles count, or only what it says of itself. STATUS_FILE, STATUS_LIMIT;
