@@ -60,7 +60,7 @@ static void tell_algebra(struct explainer *explainer, const struct explained_ray
   const struct leaf *leaf = ray->leaf;
   const struct model_patch *patch = ray->patch;
   story->patch = ray->first_patch + leaf->patch;
-  memcpy(story->split, patch->split, sizeof story->split);
+  for (int k = 0; k < 2; k++) story->split[k] = patch->cut.split[k];
   story->column_u = leaf->column_u, story->column_v = leaf->column_v;
   story->v_kept = leaf->v_kept;
   story->kept_degree = leaf->kept_degree, story->other_degree = leaf->eliminated_degree;

@@ -42,10 +42,9 @@ struct model_patch {
   double x[3][4][4]; /* local control net, x[coordinate][i][j], |x| <= 1 */
   /* rest[3][4][4], what its rounding has taken away: x + rest is exact. Nothing of most patches, who share the zeros */
   const double (*rest)[4][4];
-  bool pole[4];       /* borders (geometry/edges.h) that are one point exactly: in x ones that nearly are may be, too */
-  int m, n, split[2]; /* as of its cut */
+  bool pole[4]; /* borders (geometry/edges.h) that are one point exactly: in x ones that nearly are may be, too */
+  struct model_cut cut;
   enum solver_lanes lanes; /* of its method, polished; NONE: tried on one ray after the other */
-  double loose;            /* as of its cut */
   const struct method *method;
 };
 

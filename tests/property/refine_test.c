@@ -29,7 +29,7 @@ static void truth_make(const struct model *model, const struct leaf *leaf, const
   for (int c = 0; c < 3; c++) {
     struct quad_net whole;
     for (int n = 0; n < 16; n++) whole.c[n / 4][n % 4] = ((quad)P[n / 4][n % 4][c] - patch->center[c]) / patch->scale;
-    const quad step[2] = {(quad)1 / patch->split[0], (quad)1 / patch->split[1]};
+    const quad step[2] = {(quad)1 / patch->cut.split[0], (quad)1 / patch->cut.split[1]};
     quad_net_restrict(&whole, leaf->column_u * step[0], step[0], leaf->column_v * step[1], step[1], &x[c]);
     q[c] = ((quad)ray->origin[c] - patch->center[c]) / patch->scale;
   }

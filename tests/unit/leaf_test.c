@@ -12,14 +12,15 @@
 
 enum { SEED = 20261123, MOST_LEAVES = 32 * 32 };
 
-static const int splits[][2] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {16, 16}, {32, 32}, {1, 64}, {64, 1}};
+static const uint16_t splits[][2] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {16, 16}, {32, 32}, {1, 64}, {64, 1}};
 enum { SPLITS = sizeof splits / sizeof *splits, KINDS = 8 };
 
 /* Of any shape; flat, so that second derivatives are 0; so thin that squares underflow; a border that is a point; all one
  * point; of few bits, so that cutting into a power of two is exact; on one line; so small that squares underflow. */
 static void make_patch(struct random *random, int kind, struct model_patch *patch, double rest[3][4][4])
 {
-  *patch = (struct model_patch){.scale = 1, .m = 3, .n = 3, .rest = (const double(*)[4][4])rest, .pole[2] = kind == 3};
+  *patch = (struct model_patch){
+    .scale = 1, .cut = {.m = 3, .n = 3}, .rest = (const double(*)[4][4])rest, .pole[2] = kind == 3};
   for (int k = 0; k < 3; k++) {
     for (int n = 0; n < 16; n++) {
       double x = random_between(random, -1, 1);
@@ -47,7 +48,7 @@ static void for_patches(unsigned long seed, patch_test *test)
       struct model_patch patch;
       double rest[3][4][4];
       make_patch(&random, kind, &patch, rest);
-      patch.split[0] = splits[n][0], patch.split[1] = splits[n][1];
+      patch.cut.split[0] = splits[n][0], patch.cut.split[1] = splits[n][1];
       test(&random, kind, &patch);
     }
   }
@@ -63,7 +64,7 @@ static struct leaf *no_leaves(void)
 static void leaves_of_any_company(struct random *random, int kind, const struct model_patch *patch)
 {
   (void)kind;
-  const size_t count = (size_t)(patch->split[0] * patch->split[1]);
+  const size_t count = (size_t)(patch->cut.split[0] * patch->cut.split[1]);
   struct leaf *together = no_leaves(), *apart = no_leaves();
   leaves_make(patch, 7, 0, count, together), leaf_quadrics(count, together);
   for (size_t first = 0, here; first < count; first += here) {
@@ -75,7 +76,7 @@ static void leaves_of_any_company(struct random *random, int kind, const struct 
   for (size_t k = 0; k < count; k++) {
     leaves_make(patch, 7, (uint32_t)k, 1, &apart[0]), leaf_quadrics(1, &apart[0]);
     assert_memory_equal(&together[k], &apart[0], sizeof *together);
-    assert_int_equal(together[k].column_u * patch->split[1] + together[k].column_v, k);
+    assert_int_equal(together[k].column_u * patch->cut.split[1] + together[k].column_v, k);
     assert_int_equal(together[k].patch, 7);
   }
   free(together);
@@ -92,7 +93,7 @@ static void leaves_do_not_depend_on_their_neighbours(void **state)
 static void parts_as_cut_one_by_one(struct random *random, int kind, const struct model_patch *patch)
 {
   if (kind != 5) return;
-  const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, 0};
+  const struct part_grid grid = {{patch->cut.split[0], patch->cut.split[1]}, {1, 1}, 0};
   enum { PARTS = 13 };
   uint16_t column[PARTS][2];
   struct patch_part part[PARTS];
@@ -144,19 +145,20 @@ static void leaf_is_its_part(struct random *random, int kind, const struct model
   struct quad_net exact[3];
   exact_nets(patch, exact);
   for (int n = 0; n < 30; n++) {
-    const uint32_t number = (uint32_t)(random_bits(random) % (uint64_t)(patch->split[0] * patch->split[1]));
+    const uint32_t number = (uint32_t)(random_bits(random) % (uint64_t)(patch->cut.split[0] * patch->cut.split[1]));
     struct leaf leaf;
     leaves_make(patch, 0, number, 1, &leaf);
     const double u = random_between(random, -LEAF_MARGIN, 1 + LEAF_MARGIN);
     const double v = random_between(random, -LEAF_MARGIN, 1 + LEAF_MARGIN);
-    const quad at[2] = {(leaf.column_u + (quad)u) / patch->split[0], (leaf.column_v + (quad)v) / patch->split[1]};
+    const quad at[2] = {(leaf.column_u + (quad)u) / patch->cut.split[0],
+                        (leaf.column_v + (quad)v) / patch->cut.split[1]};
     double x[3], slope[2] = {0, 0};
     for (int k = 0; k < 3; k++) {
       const struct quad_jet jet = quad_net_jet(&exact[k], at[0], at[1]);
       x[k] = (double)jet.value;
       const double off = (double)quad_abs(parts_value(&leaf.parts, k, (quad)u - 0.5, (quad)v - 0.5) - jet.value);
       worst_value = fmax(worst_value, off / UNIT_ROUNDOFF);
-      const double su = (double)jet.du / patch->split[0], sv = (double)jet.dv / patch->split[1];
+      const double su = (double)jet.du / patch->cut.split[0], sv = (double)jet.dv / patch->cut.split[1];
       slope[0] += su * su, slope[1] += sv * sv;
     }
     for (int side = 0; side < 2 && leaf.first[side] > 0x1p-400; side++)
@@ -188,8 +190,8 @@ static void forms_at(const struct quad_net exact[3], const struct model_patch *p
 {
   quad x[3];
   for (int k = 0; k < 3; k++)
-    x[k] = quad_net_jet(&exact[k], (leaf->column_u + (quad)u) / patch->split[0],
-                        (leaf->column_v + (quad)v) / patch->split[1])
+    x[k] = quad_net_jet(&exact[k], (leaf->column_u + (quad)u) / patch->cut.split[0],
+                        (leaf->column_v + (quad)v) / patch->cut.split[1])
              .value;
   for (int q = 0; q < 3; q++) {
     const struct leaf_slab *slab = &leaf->slab[q];
@@ -214,7 +216,8 @@ static void leaf_lies_along_its_quadric(struct random *random, int kind, const s
   exact_nets(patch, exact);
   for (int n = 0; n < 30; n++) {
     struct leaf leaf;
-    leaves_make(patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(patch->split[0] * patch->split[1])), 1, &leaf);
+    leaves_make(patch, 0, (uint32_t)(random_bits(random) % (uint64_t)(patch->cut.split[0] * patch->cut.split[1])), 1,
+                &leaf);
     leaf_quadrics(1, &leaf);
     const struct leaf_quadric *of = &leaf.quadric;
     if (isinf(of->off)) continue;

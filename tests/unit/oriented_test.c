@@ -48,8 +48,9 @@ static double leaf_size(const struct subject *s)
 /* Of any shape, or flat, or slender, as many leaves or few; as it is, or off by up to an eighth of its size. */
 static void make_leaf(struct random *random, bool off, struct subject *s)
 {
-  const int kind = (int)(random_bits(random) % 3), side = 1 << random_bits(random) % 6;
-  s->patch = (struct model_patch){.scale = power(random, -30, 30), .m = 3, .n = 3, .split = {side, side}};
+  const int kind = (int)(random_bits(random) % 3);
+  const uint16_t side = (uint16_t)(1 << random_bits(random) % 6);
+  s->patch = (struct model_patch){.scale = power(random, -30, 30), .cut = {.m = 3, .n = 3, .split = {side, side}}};
   s->patch.rest = (const double(*)[4][4])s->rest;
   memset(s->rest, 0, sizeof s->rest);
   for (int k = 0; k < 3; k++) {

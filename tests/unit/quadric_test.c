@@ -118,7 +118,7 @@ static void make_s_shape(struct random *random, struct subject *s)
   const double size = exp2(random_between(random, -6, 0)) / 48;
   do subject_make(random, HALVINGS, ROUGH, s);
   while (!s->over_a_plane);
-  s->patch.split[0] = s->patch.split[1] = 1;
+  s->patch.cut.split[0] = s->patch.cut.split[1] = 1;
   for (int n = 0; n < 16; n++) s->patch.x[2][n / 4][n % 4] = (mirrored ? -size : size) * height[n / 4];
   leaves_make(&s->patch, 0, 0, 1, &s->leaf);
   leaf_quadrics(1, &s->leaf);

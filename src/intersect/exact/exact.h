@@ -19,7 +19,7 @@
 #include "intersect/intersect.h"
 #include "intersect/model.h"
 
-/* A part of a patch: the columns of a leaf, of patch->split a side. */
+/* A part of a patch: the columns of a leaf, of patch->cut.split a side. */
 struct exact_region {
   const struct leaf *leaf; /* its leaf; NULL where that is not kept, or a copy has none of its own */
   uint32_t patch;          /* index into the scene's patches */

@@ -32,9 +32,9 @@ static void region_widen(struct judge *j, struct exact_region *r)
   const struct exact_region narrow = *r;
   for (int border = 0; border < 4; border++) {
     const int across = 1 - border / 2;
-    if (patch->split[across] == 1 || !leaf_border_is_point(patch, narrow.column, narrow.span, border)) continue;
+    if (patch->cut.split[across] == 1 || !leaf_border_is_point(patch, narrow.column, narrow.span, border)) continue;
     if (!passes_near(j, r->patch, border)) continue;
-    r->column[across] = 0, r->span[across] = (uint16_t)patch->split[across], r->leaf = NULL;
+    r->column[across] = 0, r->span[across] = patch->cut.split[across], r->leaf = NULL;
   }
 }
 

@@ -238,12 +238,13 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
   if (region->leaf) {
     memcpy(part.x, region->leaf->x, sizeof part.x), memcpy(part.first, region->leaf->first, sizeof part.first);
   } else {
-    const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]},
+    const struct part_grid grid = {{patch->cut.split[0], patch->cut.split[1]},
                                    {region->span[0], region->span[1]},
                                    is_leaf(j->asked->model, region) ? LEAF_MARGIN : 0};
     patch_parts(patch, &grid, 1, (const uint16_t(*)[2])region->column, &part);
   }
-  const double cut = split_is_exact(patch->split[0] * patch->split[1]) ? 0 : 2 * CUT_ERROR; /* in x_i and slope x_k */
+  const int leaves = patch->cut.split[0] * patch->cut.split[1];
+  const double cut = split_is_exact(leaves) ? 0 : 2 * CUT_ERROR; /* in x_i and slope x_k */
   *s = (struct search){.window = window_of_region(j, region),
                        .extent = {part.first[0], part.first[1]},
                        .ahead = j->all ? 0 : SEARCH_AHEAD,

@@ -16,8 +16,8 @@ struct window window_of_region(struct judge *j, const struct exact_region *regio
 {
   struct window window = {.judge = j, .depth = j->local.depth, .depth_error = PLANE_ERROR(0, 0)};
   for (int k = 0; k < 2; k++)
-    window.low[k] = part_of(region->column[k], j->prepared->split[k]),
-    window.size[k] = part_of(region->span[k], j->prepared->split[k]);
+    window.low[k] = part_of(region->column[k], j->prepared->cut.split[k]),
+    window.size[k] = part_of(region->span[k], j->prepared->cut.split[k]);
   return window;
 }
 

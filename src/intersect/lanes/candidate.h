@@ -132,7 +132,8 @@ LANES_INLINE void plane_values(const struct line *line, int axis, const double x
 LANES_INLINE lane_mask starts_at_corner(const struct packet *p, const struct candidate *it, int u, int v)
 {
   const struct leaf *leaf = it->leaf;
-  const bool has = leaf->column_u == u * (it->patch->split[0] - 1) && leaf->column_v == v * (it->patch->split[1] - 1);
+  const bool has = leaf->column_u == u * (it->patch->cut.split[0] - 1) &&
+                   leaf->column_v == v * (it->patch->cut.split[1] - 1);
   return has ? packet_starts_at(p, leaf->patch, 12 * u + 3 * v) : (lane_mask){0};
 }
 

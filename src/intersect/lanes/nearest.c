@@ -101,7 +101,7 @@ void packet_postpone_best(struct packet *p, lane_mask open)
 /* Lanes whose root may lie on a border of the patch. */
 static lane_mask on_border(const struct candidate *it, const struct newton_root *r)
 {
-  const int *split = it->patch->split;
+  const uint16_t *split = it->patch->cut.split;
   lane_mask border = {0};
   if (it->leaf->column_u == 0) border |= r->u <= r->radius_u;
   if (it->leaf->column_u == split[0] - 1) border |= 1 - r->u <= r->radius_u;
@@ -140,7 +140,7 @@ LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *
 /* The root and its radii in parameters of the patch. */
 LANES_INLINE void root_uv(const struct candidate *it, const struct newton_root *r, lanes uv[2], lanes radius[2])
 {
-  const double part[2] = {1.0 / it->patch->split[0], 1.0 / it->patch->split[1]};
+  const double part[2] = {1.0 / it->patch->cut.split[0], 1.0 / it->patch->cut.split[1]};
   uv[0] = (it->leaf->column_u + r->u) * part[0], uv[1] = (it->leaf->column_v + r->v) * part[1];
   radius[0] = r->radius_u * part[0] + UNIT_ROUNDOFF, radius[1] = r->radius_v * part[1] + UNIT_ROUNDOFF;
 }
@@ -262,7 +262,7 @@ LANES_INLINE void packet_keep(struct packet *p, const struct candidate *it, cons
   lanes normal[3];
   surface_cross(root->su, root->sv, normal);
   const lanes tangent = surface_tangent(root->su, root->sv);
-  const int most = patch->split[0] > patch->split[1] ? patch->split[0] : patch->split[1];
+  const int most = patch->cut.split[0] > patch->cut.split[1] ? patch->cut.split[0] : patch->cut.split[1];
   const struct surface_point point = surface_point(patch, root->point, most * tangent);
   for (int c = 0; c < 3; c++) {
     best->point.at[c] = lanes_select(taken, point.at[c], best->point.at[c]);

@@ -39,7 +39,7 @@ LANES_INLINE struct surface_point surface_point(const struct model_patch *patch,
     magnitude = lanes_max(lanes_abs(point.at[c]), magnitude);
   }
   point.error = POINT_ERROR(patch->scale, tangent, magnitude);
-  point.clearance = point.error + CLEARANCE(patch->scale, patch->loose, magnitude);
+  point.clearance = point.error + CLEARANCE(patch->scale, patch->cut.loose, magnitude);
   return point;
 }
 

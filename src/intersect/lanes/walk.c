@@ -107,7 +107,7 @@ LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
   const uint32_t patch = model->oriented[index].patch;
   if (model->leaves) {
     __builtin_prefetch(&model->patches[patch].center);
-    __builtin_prefetch(&model->patches[patch].split);
+    __builtin_prefetch(&model->patches[patch].cut);
     fetch(&model->leaves[index], offsetof(struct leaf, x));
   } else {
     __builtin_prefetch(&model->places[index]);

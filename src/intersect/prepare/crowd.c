@@ -109,7 +109,7 @@ static void find_crowd(const struct model *model, size_t number, size_t first, s
 {
   const struct model_patch *patch = &model->patches[number];
   const int most = model->scene->patch_count > MANY ? 1 : PLACES;
-  const int a = patch->split[0], b = patch->split[1], rows = a < most ? a : most, row = b < most ? b : most;
+  const int a = patch->cut.split[0], b = patch->cut.split[1], rows = a < most ? a : most, row = b < most ? b : most;
   double second[3] = {0}, across[3] = {0};
   int found = 0;
   for (int k = 0; k < rows * row; k++) {

@@ -155,7 +155,7 @@ struct leaf_run {
 /* The leaves that follow the run's, which is {0} at first; false where there are none. */
 static bool next_run(const struct model_patch *patch, struct leaf_run *run)
 {
-  const size_t row = (size_t)patch->split[1], all = (size_t)patch->split[0] * row;
+  const size_t row = patch->cut.split[1], all = patch->cut.split[0] * row;
   run->first += run->count;
   run->count = all - run->first < LEAVES_AT_ONCE ? all - run->first : LEAVES_AT_ONCE;
   for (size_t k = 0; k < run->count; k++)
@@ -190,7 +190,7 @@ static void place_leaves(struct making *m, size_t p, size_t l)
   struct patch_room room;
   const struct model_patch *patch = &room.patch;
   patch_make(model, (uint32_t)p, &room.patch, room.rest);
-  const struct part_grid grid = {{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, 0};
+  const struct part_grid grid = {{patch->cut.split[0], patch->cut.split[1]}, {1, 1}, 0};
   for (struct leaf_run run = {0}; next_run(patch, &run);) {
     struct patch_part part[LEAVES_AT_ONCE];
     patch_parts(patch, &grid, run.count, (const uint16_t(*)[2])run.column, part);

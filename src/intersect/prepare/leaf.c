@@ -49,7 +49,7 @@ void leaf_slabs(const struct model_patch *patch, size_t count, const uint16_t co
 bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column[2], const uint16_t span[2], int border)
 {
   const int side = border / 2, end = column[side] + span[side];
-  return (border & 1 ? end == patch->split[side] : column[side] == 0) && patch->pole[border];
+  return (border & 1 ? end == patch->cut.split[side] : column[side] == 0) && patch->pole[border];
 }
 
 /* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other
@@ -62,7 +62,7 @@ static bool keep_v(const struct model_patch *patch, double x[3][4][4])
   const int columns = patch_border_is_point((const double(*)[4][4])x, 2) +
                       patch_border_is_point((const double(*)[4][4])x, 3);
   if (rows != columns) return columns > rows;
-  return patch->n > patch->m;
+  return patch->cut.n > patch->cut.m;
 }
 
 /* How far the polynomial of bidegree (m,n) with the net r is from the bicubic x, on [0,1]^2: the largest distance of
@@ -91,19 +91,19 @@ void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct le
   double x[3][4][4];
   memcpy(x, leaf->x, sizeof x);
   leaf->v_kept = keep_v(patch, x);
-  const int kept = leaf->v_kept ? patch->n : patch->m, eliminated = leaf->v_kept ? patch->m : patch->n;
+  const int kept = leaf->v_kept ? patch->cut.n : patch->cut.m, eliminated = leaf->v_kept ? patch->cut.m : patch->cut.n;
   leaf->kept_degree = (uint8_t)kept, leaf->eliminated_degree = (uint8_t)eliminated;
   const uint16_t column[2] = {leaf->column_u, leaf->column_v}, span[2] = {1, 1};
   const bool low = leaf_border_is_point(patch, column, span, leaf->v_kept ? 2 : 0);
   const bool high = leaf_border_is_point(patch, column, span, leaf->v_kept ? 3 : 1);
   leaf->zeros[0] = (uint8_t)(low ? eliminated : 0), leaf->zeros[1] = (uint8_t)(high ? eliminated : 0);
   leaf->form = NULL;
-  if (patch->m == 3 && patch->n == 3 && !leaf->v_kept) return;
+  if (patch->cut.m == 3 && patch->cut.n == 3 && !leaf->v_kept) return;
   form->size = 1, form->excess = 0;
   for (int k = 0; k < 3; k++) {
     double r[4][4];
-    patch_reduce(x[k], patch->m, patch->n, r);
-    form->excess = real_max(form->excess, reduction_excess(r, patch->m, patch->n, x[k]));
+    patch_reduce(x[k], patch->cut.m, patch->cut.n, r);
+    form->excess = real_max(form->excess, reduction_excess(r, patch->cut.m, patch->cut.n, x[k]));
     for (int i = 0; i < 4; i++) {
       for (int j = 0; j < 4; j++) {
         form->x[k][4 * i + j] = leaf->v_kept ? r[j][i] : r[i][j];
@@ -116,7 +116,7 @@ void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct le
 
 void leaves_make(const struct model_patch *patch, uint32_t index, uint32_t first, size_t count, struct leaf leaves[])
 {
-  const uint32_t row = (uint32_t)patch->split[1];
+  const uint32_t row = patch->cut.split[1];
   for (size_t k = 0; k < count; k++) {
     const uint32_t number = first + (uint32_t)k;
     leaves[k].patch = index, leaves[k].column_u = (uint16_t)(number / row),

@@ -351,7 +351,7 @@ static void parts(const struct model_patch *patch, const struct part_grid *grid,
 
 static struct part_grid leaf_grid(const struct model_patch *patch)
 {
-  return (struct part_grid){{(uint16_t)patch->split[0], (uint16_t)patch->split[1]}, {1, 1}, LEAF_MARGIN};
+  return (struct part_grid){{patch->cut.split[0], patch->cut.split[1]}, {1, 1}, LEAF_MARGIN};
 }
 
 static void slabs(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3])

@@ -168,16 +168,10 @@ static double patch_begin(const struct model *model, uint32_t index, struct mode
   return largest;
 }
 
-static void patch_end(const struct model_cut *cut, struct model_patch *out)
-{
-  out->m = cut->m, out->n = cut->n, out->split[0] = cut->split[0], out->split[1] = cut->split[1];
-  out->loose = cut->loose;
-}
-
 void patch_make(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4])
 {
   (void)patch_begin(model, index, out, rest);
-  patch_end(&model->cuts[index], out);
+  out->cut = model->cuts[index];
 }
 
 void patch_make_first(const struct model *model, uint32_t index, const struct split_limit *limit,
@@ -192,7 +186,7 @@ void patch_make_first(const struct model *model, uint32_t index, const struct sp
     if (out->method->split > 0) cut->split[0] = cut->split[1] = (uint16_t)out->method->split;
     else auto_split(out, limit, cut->split);
   }
-  patch_end(cut, out);
+  out->cut = *cut;
 }
 
 void patch_cut_again(const struct model *model, uint32_t index, const struct split_limit *limit,
@@ -200,14 +194,14 @@ void patch_cut_again(const struct model *model, uint32_t index, const struct spl
 {
   struct model_cut *cut = &model->cuts[index];
   if (patch->method->split == 0) auto_split(patch, limit, cut->split);
-  patch_end(cut, patch);
+  patch->cut = *cut;
 }
 
 void patch_cut_as(const struct model *model, uint32_t index, const uint16_t split[2], struct model_patch *patch)
 {
   struct model_cut *cut = &model->cuts[index];
   cut->split[0] = split[0], cut->split[1] = split[1];
-  patch_end(cut, patch);
+  patch->cut = *cut;
 }
 
 double patch_net_area(const struct model_patch *patch)
