@@ -65,19 +65,20 @@ static void tell_algebra(struct explainer *explainer, const struct explained_ray
   story->v_kept = leaf->v_kept;
   story->kept_degree = leaf->kept_degree, story->other_degree = leaf->eliminated_degree;
   struct local_ray local;
-  double w[16], unused[16], error;
+  struct method_planes planes = {.leaf = leaf};
+  double w[16], unused[16];
   local_ray_make(patch, &ray->ray, &local);
-  local_ray_nets(&local, leaf->x, story->a, story->b, w);
-  error = local.error;
+  local_ray_nets(&local, leaf->x, planes.a, planes.b, w);
+  planes.error = local.error;
   if (leaf->form != NULL) {
-    local_ray_nets(&local, leaf->form->x, story->a, story->b, unused);
-    error = error * leaf->form->size + 2 * leaf->form->excess;
+    local_ray_nets(&local, leaf->form->x, planes.a, planes.b, unused);
+    planes.error = planes.error * leaf->form->size + 2 * leaf->form->excess;
   }
+  memcpy(story->a, planes.a, sizeof story->a), memcpy(story->b, planes.b, sizeof story->b);
   if (!story->solved) return;
   struct method_roots points;
   if (!story->by_solver)
-    method_find(patch->method, explainer->warmed ? &explainer->warm : NULL, leaf, story->a, story->b, error, &points,
-                &story->found);
+    method_find(patch->method, &planes, explainer->warmed ? &explainer->warm : NULL, &points, &story->found);
   place_points(&local, w, ray, story);
 }
 

@@ -180,17 +180,18 @@ static double coefficient_error(int n, double alpha, double beta, double error)
 }
 
 /* r of the leaf's form, exact roots at its ends taken off. */
-static struct polynomial resultant(const struct method *method, const struct leaf *leaf, const struct form *form,
-                                   const double size[2], double error, double c[19], double bound[19])
+static struct polynomial resultant(const struct method *method, const struct method_planes *planes,
+                                   const struct form *form, const double size[2], double c[19], double bound[19])
 {
+  const uint8_t *zeros = planes->leaf->zeros;
   if (method->resultant == RESULTANT_SYLVESTER) sylvester_determinant(form->m, form->n, form->A, form->B, c);
   else bezout_determinant(form->m, form->n, form->A, form->B, c);
   struct polynomial r = {2 * form->m * form->n, method->basis, c, NULL};
   if (method->basis == BASIS_BERNSTEIN) {
-    double choose = coefficient_error(form->n, size[0], size[1], error);
+    double choose = coefficient_error(form->n, size[0], size[1], planes->error);
     for (int k = 0; k <= r.degree; k++) bound[k] = choose, choose = choose * (r.degree - k) / (k + 1);
-    r.c = c + leaf->zeros[0], r.error = bound + leaf->zeros[0];
-    r.degree -= leaf->zeros[0] + leaf->zeros[1];
+    r.c = c + zeros[0], r.error = bound + zeros[0];
+    r.degree -= zeros[0] + zeros[1];
   }
   return r;
 }
@@ -230,15 +231,16 @@ static enum root_fate substitute(const struct method *method, const struct form 
   return method->polish || solves_planes(form, method, size, root->re, v) ? ROOT_OFFERED : ROOT_NO_SOLUTION;
 }
 
-void method_find(const struct method *method, struct solver_warm *warm, const struct leaf *leaf, const double a[16],
-                 const double b[16], double error, struct method_roots *out, struct explained_roots *story)
+void method_find(const struct method *method, const struct method_planes *planes, struct solver_warm *warm,
+                 struct method_roots *out, struct explained_roots *story)
 {
+  const struct leaf *leaf = planes->leaf;
   struct form form = {leaf->kept_degree, leaf->eliminated_degree, {0}, {0}};
-  form_net(form.m, form.n, method->basis, a, form.A);
-  form_net(form.m, form.n, method->basis, b, form.B);
-  const double size[2] = {largest(a, form.m, form.n), largest(b, form.m, form.n)};
+  form_net(form.m, form.n, method->basis, planes->a, form.A);
+  form_net(form.m, form.n, method->basis, planes->b, form.B);
+  const double size[2] = {largest(planes->a, form.m, form.n), largest(planes->b, form.m, form.n)};
   double c[19], bound[19];
-  const struct polynomial r = resultant(method, leaf, &form, size, error, c, bound);
+  const struct polynomial r = resultant(method, planes, &form, size, c, bound);
   struct root_set roots = {.count = 0};
   out->count = out->found = 0;
   if (r.degree > 0) solver_roots(&r, &method->roots, warm, &roots);
@@ -255,12 +257,4 @@ void method_find(const struct method *method, struct solver_warm *warm, const st
     out->u[out->count] = leaf->v_kept ? other : roots.root[k].re;
     out->v[out->count++] = leaf->v_kept ? roots.root[k].re : other;
   }
-}
-
-void method_solve(struct tracer *tracer, const struct method *method, const struct leaf *leaf, int64_t number,
-                  const double a[16], const double b[16], double error, struct method_roots *out)
-{
-  struct solver_warm *warm = tracer_warm(tracer, method, number);
-  method_find(method, warm, leaf, a, b, error, out, explain_roots(tracer));
-  tracer->counts.roots_found += (unsigned)out->found;
 }

@@ -19,13 +19,16 @@ struct method_roots {
   double u[METHOD_MAX_ROOTS], v[METHOD_MAX_ROOTS]; /* leaf parameters, near or in [0,1] */
 };
 
-/* Forms r from the nets a, b of the form of leaf `number` with its patch's method, finds its roots with that solver
- * and substitutes back. Counts the roots. Starting points only: nothing here is proven. */
-void method_solve(struct tracer *tracer, const struct method *method, const struct leaf *leaf, int64_t number,
-                  const double a[16], const double b[16], double error, struct method_roots *out);
+/* A leaf's polynomials on a ray. */
+struct method_planes {
+  const struct leaf *leaf;
+  double a[16], b[16]; /* the nets of its form, a[4 * i + j], i of the kept parameter */
+  double error;        /* bound on that of a coefficient */
+};
 
-/* The same of any model's leaf, for whoever asks what became of r: `story` may be NULL. Counts nothing. */
-void method_find(const struct method *method, struct solver_warm *warm, const struct leaf *leaf, const double a[16],
-                 const double b[16], double error, struct method_roots *out, struct explained_roots *story);
+/* Forms r from the planes, finds its roots by the method's solver, from `warm` where that is not NULL, and substitutes back.
+ * Starting points only: nothing here is proven. `story`, or NULL, is told what became of r. */
+void method_find(const struct method *method, const struct method_planes *planes, struct solver_warm *warm,
+                 struct method_roots *out, struct explained_roots *story);
 
 #endif

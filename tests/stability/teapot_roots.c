@@ -71,10 +71,12 @@ static void find_roots(struct target *target, const struct ray *ray, struct meth
   const struct model *model = target->tracer->model;
   const struct leaf *leaf = &model->leaves[0];
   struct local_ray local;
-  double a[16], b[16], w[16];
+  struct method_planes planes = {.leaf = leaf};
+  double w[16];
   local_ray_make(&model->patches[0], ray, &local);
-  local_ray_nets(&local, leaf->form != NULL ? leaf->form->x : leaf->x, a, b, w);
-  method_solve(target->tracer, model->patches[0].method, leaf, 0, a, b, local.error, out);
+  local_ray_nets(&local, leaf->form != NULL ? leaf->form->x : leaf->x, planes.a, planes.b, w);
+  planes.error = local.error;
+  method_find(model->patches[0].method, &planes, NULL, out, NULL);
 }
 
 static bool among(const struct method_roots *found, const struct search_root *root)

@@ -7,11 +7,13 @@
 
 static void lane_solve(const struct packet *p, const struct candidate *it, unsigned lane, struct method_roots *out)
 {
-  double a[16], b[16];
+  const struct method *method = it->patch->method;
+  struct method_planes planes = {.leaf = it->leaf, .error = it->form_error[lane]};
   for (int i = 0; i <= it->leaf->kept_degree; i++)
     for (int j = 0; j <= it->leaf->eliminated_degree; j++)
-      a[4 * i + j] = it->fa[4 * i + j][lane], b[4 * i + j] = it->fb[4 * i + j][lane];
-  method_solve(p->tracer, it->patch->method, it->leaf, it->number, a, b, it->form_error[lane], out);
+      planes.a[4 * i + j] = it->fa[4 * i + j][lane], planes.b[4 * i + j] = it->fb[4 * i + j][lane];
+  method_find(method, &planes, tracer_warm(p->tracer, method, it->number), out, explain_roots(p->tracer));
+  p->tracer->counts.roots_found += (unsigned)out->found;
 }
 
 void method_starts(const struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out)
