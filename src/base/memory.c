@@ -49,6 +49,14 @@ void *memory_grow(void *block, size_t *room, size_t needed, size_t size)
   return grown;
 }
 
+void *growing_add(struct growing *list, size_t more, size_t size)
+{
+  void *at = memory_grow(list->at, &list->room, list->count + more, size);
+  if (!at) return NULL;
+  list->at = at, list->count += more;
+  return (char *)at + size * (list->count - more);
+}
+
 char *memory_copy_text(const char *text)
 {
   const size_t size = strlen(text) + 1;

@@ -34,6 +34,17 @@ void *memory_resize(void *block, size_t size);
  * as they were, where memory is short or the product overflows. */
 void *memory_grow(void *block, size_t *room, size_t needed, size_t size);
 
+/* A list of anything that grows and is used again and again, by one thread at a time. One of zeros is empty. Owned:
+ * memory_free `at`. */
+struct growing {
+  void *at;
+  size_t count, room; /* elements, all of one size */
+};
+
+/* Room for `more` elements of `size` bytes at the end, which are counted, not zeroed, and stay where they are until the
+ * next call; NULL where memory is short, and then the list is as it was. */
+void *growing_add(struct growing *list, size_t more, size_t size);
+
 /* A copy of the text, or NULL. */
 char *memory_copy_text(const char *text);
 

@@ -6,7 +6,7 @@
 #define PSCN_INTERSECT_TRACER_H
 
 #include "algebra/solver.h"
-#include "base/growing.h"
+#include "base/memory.h"
 #include "intersect/exact/exact.h"
 #include "intersect/intersect.h"
 #include "intersect/local_ray.h"
