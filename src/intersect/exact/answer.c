@@ -150,9 +150,6 @@ static void answer(const struct model *model, const struct ray *ray, uint32_t pa
   out->clearance = clearance(model, patch, borders, out);
 }
 
-/* The parameters of a certain hit are right to this. */
-#define LARGEST_RADIUS 0x1p-20
-
 /* Where the ray and the normal are nearer to a right angle than this, rounding may have turned the normal about. */
 #define SIDE_SURE 0x1p-40
 
@@ -186,7 +183,7 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
   unsigned borders = 0;
   for (unsigned k = 0; k < 4; k++) borders |= (unsigned)at[k] << k;
   /* What is certain has a place. */
-  sure = sure && root->radius_u <= LARGEST_RADIUS && root->radius_v <= LARGEST_RADIUS;
+  sure = sure && exact_root_placed(root);
   *out = (struct hit){.certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING, .u = u, .v = v};
   answer(model, ray, root->patch, borders, (double)root->t, out);
   face(P, ray, root->u, root->v, out->normal);

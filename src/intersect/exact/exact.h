@@ -38,6 +38,14 @@ struct exact_root {
   bool well_known; /* and its t is as good as TIE_ERRORS (sharpen.c) say */
 };
 
+/* The parameters of a certain hit are right to this. */
+#define LARGEST_RADIUS 0x1p-20
+
+static inline bool exact_root_placed(const struct exact_root *root)
+{
+  return root->radius_u <= LARGEST_RADIUS && root->radius_v <= LARGEST_RADIUS;
+}
+
 /* Whether two of one patch may be the same. */
 static inline bool exact_roots_meet(const struct exact_root *a, const struct exact_root *b)
 {

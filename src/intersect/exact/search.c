@@ -131,6 +131,13 @@ static bool box_asks_zoom(const struct search *s, const struct box *box, bool fl
   return s->window.zooms < TANGENT_DEPTH && part <= ZOOM_AGAIN;
 }
 
+/* Whether a box whose root is proven, but not placed well, is to be zoomed again for that: what is zoomed is rounded by the size of
+ * its whole, of which the box may be a small part. A root that was not zoomed is the judge's, who has it made sharp. */
+static bool root_asks_zoom(const struct search *s, const struct exact_root *root, int border)
+{
+  return !exact_root_placed(root) && border == NO_BORDER && s->window.zooms > 0 && s->window.zooms < TANGENT_DEPTH;
+}
+
 /* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as
  * seen. */
 static bool box_small(const struct search *s, const struct box *box, enum verdict verdict)
@@ -176,6 +183,7 @@ static bool box_decide(struct search *s, struct box *box)
   double root[2] = {0.5, 0.5}, radius[2];
   if (verdict == VERDICT_OPEN && box_solve(box, error, true, root, radius) && pole_far(s, box, root)) {
     struct exact_root found = window_root(&s->window, box, root, radius);
+    if (root_asks_zoom(s, &found, border) && box_zoom(s, box)) return true;
     judge_root(s->window.judge, &found);
     return true;
   }
