@@ -36,16 +36,24 @@ struct pscn_scene {
 };
 
 /* Arithmetic as ours counts on: rounding to nearest, no flush to zero, no traps. Between calm_begin and calm_end.
- * Where it is so already, which x86-64 says in one register, no more is done than is worth it for a single ray. */
+ * Where it is so already, which x86-64 says in two registers, for the x87 has traps of its own, no more is done than is
+ * worth it for a single ray. */
 struct calm {
   fenv_t callers;
-  unsigned control; /* the register */
+  unsigned control; /* the register of SSE */
   unsigned x87;     /* flags of the x87, where libgcc tells what __float128 over- and underflows */
   bool plain;
 };
 
 #if defined(__SSE2__)
-enum { PLAIN_CONTROL = 0x1f80, CONTROL_FLAGS = 0x3f };
+enum { PLAIN_CONTROL = 0x1f80, CONTROL_FLAGS = 0x3f, PLAIN_X87_CONTROL = 0x37f };
+
+static inline unsigned x87_control(void)
+{
+  uint16_t control;
+  __asm__ volatile("fnstcw %0" : "=m"(control));
+  return control;
+}
 
 static inline unsigned x87_flags(void)
 {
@@ -60,7 +68,7 @@ static inline void calm_begin(struct calm *calm)
   calm->plain = false;
 #if defined(__SSE2__)
   calm->control = _mm_getcsr();
-  calm->plain = (calm->control & ~(unsigned)CONTROL_FLAGS) == PLAIN_CONTROL;
+  calm->plain = (calm->control & ~(unsigned)CONTROL_FLAGS) == PLAIN_CONTROL && x87_control() == PLAIN_X87_CONTROL;
   calm->x87 = x87_flags();
   if (calm->plain) return;
 #endif
