@@ -134,7 +134,7 @@ default_item:
   ;
 
 declaration:
-    VERSION value ';'                          { language_version(language, $2); }
+    VERSION value semicolon                    { language_version(language, $2); }
   | declared_value semicolon
   | declare object                             { declare_object(language, $1, $2); } semicolon
   | declare texture_block                      { declare_texture(language, $1, $2); } layers semicolon
