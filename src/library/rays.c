@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "geometry/tangents.h"
+#include "geometry/control_points.h"
 #include "intersect/tracer.h"
 #include "library/library.h"
 
@@ -65,7 +65,7 @@ static struct pscn_hit make_hit(const struct call *call, const struct hit *from)
     hit.point[k] = from->point[k];
     hit.normal[k] = from->normal[k];
   }
-  patch_tangents(call->scene->patches[hit.patch].P, hit.u, hit.v, hit.du, hit.dv);
+  points_tangents(call->scene->patches[hit.patch].P, hit.u, hit.v, hit.du, hit.dv);
   return hit;
 }
 

@@ -55,12 +55,10 @@ bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column
 /* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other
  * would leave r identically zero at the apex; otherwise the one of higher degree, for the determinant is the smaller
  * then. */
-static bool keep_v(const struct model_patch *patch, double x[3][4][4])
+static bool keep_v(const struct model_patch *patch, const double x[3][4][4])
 {
-  const int rows = patch_border_is_point((const double(*)[4][4])x, 0) +
-                   patch_border_is_point((const double(*)[4][4])x, 1);
-  const int columns = patch_border_is_point((const double(*)[4][4])x, 2) +
-                      patch_border_is_point((const double(*)[4][4])x, 3);
+  const int rows = patch_border_is_point(x, 0) + patch_border_is_point(x, 1);
+  const int columns = patch_border_is_point(x, 2) + patch_border_is_point(x, 3);
   if (rows != columns) return columns > rows;
   return patch->cut.n > patch->cut.m;
 }
@@ -88,9 +86,8 @@ static double reduction_excess(double r[4][4], int m, int n, double x[4][4])
 
 void leaf_set_form(const struct model_patch *patch, struct leaf *leaf, struct leaf_form *form)
 {
-  double x[3][4][4];
-  memcpy(x, leaf->x, sizeof x);
-  leaf->v_kept = keep_v(patch, x);
+  double(*x)[4][4] = (double(*)[4][4])leaf->x;
+  leaf->v_kept = keep_v(patch, (const double(*)[4][4])x);
   const int kept = leaf->v_kept ? patch->cut.n : patch->cut.m, eliminated = leaf->v_kept ? patch->cut.m : patch->cut.n;
   leaf->kept_degree = (uint8_t)kept, leaf->eliminated_degree = (uint8_t)eliminated;
   const uint16_t column[2] = {leaf->column_u, leaf->column_v}, span[2] = {1, 1};

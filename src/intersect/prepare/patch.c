@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "base/double_double.h"
 #include "base/real.h"
 #include "geometry/patch.h"
 #include "geometry/vector.h"
@@ -31,33 +30,25 @@ enum { ROD_SPLIT_MAX = 2 };
 
 /* The patch in its frame; `rest` gets what rounding its net takes away, *rounded whether that is anything. Returns the
  * largest |coordinate| in the scene. */
-static double patch_frame(double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4],
+static double patch_frame(const double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4],
                           bool *rounded)
 {
   double largest = 0, extent = 0, lo[3], hi[3];
-  for (int k = 0; k < 3; k++) { /* as box_add_net does, which takes longer here, and rays wait for this, too */
-    lo[k] = INFINITY, hi[k] = -INFINITY;
-    for (int i = 0; i < 4; i++)
-      for (int j = 0; j < 4; j++) lo[k] = real_min(lo[k], P[i][j][k]), hi[k] = real_max(hi[k], P[i][j][k]);
+  points_range(P, lo, hi);
+  for (int k = 0; k < 3; k++) {
     extent = real_max(extent, hi[k] / 2 - lo[k] / 2);
     largest = real_max(largest, real_max(fabs(lo[k]), fabs(hi[k])));
   }
   if (scene_size > 0)
     extent = real_max(extent, real_max(LEAST_EXTENT * (largest > 0 ? largest : scene_size), LEAST_SCALE));
-  *rounded = false;
   int exponent = 0;                             /* all of the scene is the origin: any scale will do */
   if (extent > 0) frexp(extent, &exponent);     /* extent < 2^exponent */
   out->scale = real_power_of_two(exponent + 1); /* the center may be a grain off the middle */
-  const double unit = 1 / out->scale;           /* a power of two, so that products with it are exact */
   for (int k = 0; k < 3; k++) {
     const double middle = lo[k] / 2 + hi[k] / 2, grain = out->scale / 4;
     out->center[k] = fabs(middle) < grain * 0x1p50 ? real_coarse(middle, grain) : middle;
-    for (int n = 0; n < 16; n++) {
-      const struct double_double x = dd_two_sum(P[n / 4][n % 4][k], -out->center[k]);
-      out->x[k][n / 4][n % 4] = x.hi * unit, rest[k][n / 4][n % 4] = x.lo * unit;
-      *rounded |= x.lo != 0;
-    }
   }
+  *rounded = points_frame(P, out->center, 1 / out->scale, out->x, rest);
   return largest;
 }
 
@@ -160,7 +151,7 @@ static double patch_begin(const struct model *model, uint32_t index, struct mode
   static const double none[3][4][4];
   struct scene_patch *source = &model->scene->patches[index];
   bool rounded;
-  const double largest = patch_frame(source->P, model->size, out, rest, &rounded);
+  const double largest = patch_frame((const double(*)[4][3])source->P, model->size, out, rest, &rounded);
   out->rest = rounded ? (const double(*)[4][4])rest : none;
   for (int k = 0; k < 4; k++) out->pole[k] = edge_is_point(source->P, k);
   out->method = &model->scene->solvers[source->solver];

@@ -7,6 +7,7 @@
 
 #include "base/real.h"
 #include "geometry/bvh.h"
+#include "geometry/control_points.h"
 #include "intersect/model.h"
 
 /* A patch smaller than this part of its coordinates, or of the scene's where these are zeros, is framed as if it were that
@@ -16,10 +17,9 @@
 /* Makes `box` the least one that holds a patch's control points, too. */
 static inline void box_add_net(struct bvh_box *box, double P[4][4][3])
 {
-  for (int n = 0; n < 16; n++) {
-    const double *c = P[n / 4][n % 4];
-    for (int k = 0; k < 3; k++) box->lo[k] = real_min(box->lo[k], c[k]), box->hi[k] = real_max(box->hi[k], c[k]);
-  }
+  double lo[3], hi[3];
+  points_range((const double(*)[4][3])P, lo, hi);
+  for (int k = 0; k < 3; k++) box->lo[k] = real_min(box->lo[k], lo[k]), box->hi[k] = real_max(box->hi[k], hi[k]);
 }
 
 /* Whether patches with this method are tried on lanes of rays at once. */
