@@ -57,7 +57,9 @@ struct held {
   struct span place;
   const char *text; /* or, where that is NULL, */
   struct held *of;  /* all of a name that was used there */
-  bool told;
+  /* Of the first of a list: */
+  bool told;          /* the list is, or is about to be */
+  struct held *after; /* the list that is told after it */
 };
 
 /* A declaration that is being read. */

@@ -140,13 +140,15 @@ static void tell_foreign(struct language *language, const struct name *name, str
   }
   language_error(language, name->place, "'%.*s' is declared with what pscn has not, or within it", (int)name->length,
                  name->text);
-  for (struct held *list = symbol->held, *next; list; list = next) {
-    next = NULL;
-    for (struct held *held = list; held; held = held->next) {
-      if (held->of && !next) next = held->of;
-      if (held->text && !held->told)
-        diagnostics_error(language->diagnostics, sources_place(language, held->place), "%s", held->text);
-      held->told = true;
+  struct held *list = symbol->held->told ? NULL : symbol->held, *last = list;
+  symbol->held->told = true;
+  for (; list; list = list->after) {
+    for (const struct held *held = list; held; held = held->next) {
+      if (held->of && !held->of->told) {
+        held->of->told = true;
+        last = last->after = held->of;
+      }
+      if (held->text) diagnostics_error(language->diagnostics, sources_place(language, held->place), "%s", held->text);
     }
   }
   symbol->kind = SYMBOL_BROKEN;
