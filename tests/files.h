@@ -18,10 +18,10 @@ static inline void put_bytes(const char *path, const void *bytes, size_t size)
 
 static inline void put_text(const char *path, const char *text) { put_bytes(path, text, strlen(text)); }
 
-/* Asserts that the file holds this text, of less than 256 bytes, and nothing else. */
+/* Asserts that the file holds this text, of less than 512 bytes, and nothing else. */
 static inline void expect_file(const char *path, const char *text)
 {
-  char held[256];
+  char held[512];
   FILE *file = fopen(path, "r");
   assert_non_null(file);
   const size_t length = fread(held, 1, sizeof held - 1, file);

@@ -10,7 +10,11 @@
 #include "language/include_path.h"
 #include "language/sources.h"
 
-enum { MAX_FILES = 10000, MAX_NAME = 4096 };
+enum {
+  MAX_FILES = 10000,
+  MAX_NAME = 4096,
+  MOST_KEPT = 250 /* bytes of a file's name: with its number and the - it has the 255 that a file system takes */
+};
 
 /* The files met so far; [0] is the scene. Each is copied once, wherever it is included from. */
 struct copies {
@@ -40,7 +44,7 @@ static void copy_name(const struct copies *copies, size_t index, char out[MAX_NA
     return;
   }
   const char *path = copies->source[index]->name, *slash = strrchr(path, '/');
-  snprintf(out, MAX_NAME, "%zu-%.255s", index, slash == NULL ? path : slash + 1);
+  snprintf(out, MAX_NAME, "%zu-%.*s", index, MOST_KEPT, slash == NULL ? path : slash + 1);
 }
 
 /* Takes a source over. Its index, also where the file is there already; MAX_FILES where there is no room. */
@@ -94,7 +98,7 @@ static struct source *read_included(const struct copy *copy, const char *name, s
   const char *reason;
   uint64_t device, inode;
   const char *path = include_path(copy->all->arena, &folders, name, length, &device, &inode);
-  if (path == NULL || inode == 0) return NULL;
+  if (path == NULL) return NULL;
   return source_read(path, INPUT_FILE, &source, &reason) == STATUS_OK ? source : NULL;
 }
 
@@ -116,7 +120,7 @@ static void copy_include(struct copy *copy)
   copy->done = end - 1;
 }
 
-/* At the word `solver`: drops it with the solver's name and block. Answers the token behind. */
+/* At the word `solver`: drops it with the solver's name and block. Answers the token behind, or the } of the block. */
 static int drop_solver(struct copy *copy)
 {
   const size_t begin = copy->scan.begin;
@@ -127,7 +131,6 @@ static int drop_solver(struct copy *copy)
   if (token == '{') {
     while (token != '}' && token != 0) token = pscn_scan_next(&copy->scan);
     end = copy->scan.end;
-    token = pscn_scan_next(&copy->scan);
   }
   put_until(copy, begin);
   blank_until(copy, end);

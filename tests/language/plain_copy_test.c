@@ -2,6 +2,7 @@
 #include "language/plain_copy.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -59,21 +60,101 @@ static void the_scenes_folder_comes_first(void **state)
   expect_file("out/3-c.inc", "// beside a.inc alone\n");
 }
 
-/* Even one that includes itself in a branch that is never read. */
+/* Even one that includes itself, or the scene, in a branch that is never read. */
 static void a_file_is_copied_once(void **state)
 {
   (void)state;
   put_text("scene.pscn", "#include \"d.inc\"\n#include \"d.inc\"\n");
-  put_text("d.inc", "#ifdef (Never) #include \"d.inc\" #end\n");
+  put_text("d.inc", "#ifdef (Never) #include \"d.inc\" #include \"scene.pscn\" #end\n");
   copy("scene.pscn");
   expect_file("out/scene.pov", "#include \"1-d.inc\"\n#include \"1-d.inc\"\n");
-  expect_file("out/1-d.inc", "#ifdef (Never) #include \"1-d.inc\" #end\n");
+  expect_file("out/1-d.inc", "#ifdef (Never) #include \"1-d.inc\" #include \"scene.pov\" #end\n");
   assert_int_not_equal(access("out/2-d.inc", F_OK), 0);
+}
+
+/* A name as long as a file system takes, to which a number is added. */
+static void a_long_name_is_cut(void **state)
+{
+  (void)state;
+  char name[300], scene[600];
+  snprintf(name, sizeof name, "sub/%0251d.inc", 0);
+  put_text(name, "// long\n");
+  snprintf(scene, sizeof scene, "#include \"%s\"", name);
+  put_text("scene.pscn", scene);
+  copy("scene.pscn");
+  snprintf(name, sizeof name, "out/1-%0250d", 0);
+  expect_file(name, "// long\n");
+  snprintf(scene, sizeof scene, "#include \"1-%0250d\"", 0);
+  expect_file("out/scene.pov", scene);
+}
+
+/* Blanks stand for them, so that POV-Ray's messages name the scene's lines. */
+static void solver_statements_are_left_out(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *scene, *copy;
+  } cases[] = {
+    {"a solver newton b", "a               b"},
+    {"a solver newton", "a              "},
+    {"solver aberth { form paper } b", "                             b"},
+    {"a solver\n aberth\n { polish on\n } b\n", "a       \n       \n            \n   b\n"},
+    {"solver newton solver aberth{}{ }", "                             { }"},
+    {"a { solver newton } b", "a {               } b"},
+    {"solver newton #include \"e.inc\"", "              #include \"1-e.inc\""},
+    {"solver aberth { polish on", "                         "},
+    /* What is none. */
+    {"// solver newton", "// solver newton"},
+    {"\"solver newton\" solver", "\"solver newton\" solver"},
+    {"solver 1 solver { } b", "solver 1 solver { } b"},
+    {"solver #include \"e.inc\"", "solver #include \"1-e.inc\""},
+  };
+  put_text("e.inc", "");
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    put_text("scene.pscn", cases[k].scene);
+    copy("scene.pscn");
+    expect_file("out/scene.pov", cases[k].copy);
+  }
+}
+
+/* POV-Ray may have it. */
+static void what_is_not_found_is_left_to_povray(void **state)
+{
+  (void)state;
+  static const char scene[] = "#include \"colors.inc\" #include Name #include \"out\" #include";
+  put_text("scene.pscn", scene);
+  copy("scene.pscn");
+  expect_file("out/scene.pov", scene);
+}
+
+static void a_disk_that_is_full_is_told(void **state)
+{
+  (void)state;
+  static char text[1 << 20];
+  const char *reason = NULL;
+  assert_int_equal(plain_copy("scene.pscn", NULL, "none", "scene.pov", &reason), STATUS_FILE);
+  assert_string_equal(reason, strerror(ENOENT));
+  assert_int_equal(plain_copy("none.pscn", NULL, "out", "scene.pov", &reason), STATUS_FILE);
+  assert_non_null(reason);
+  memset(text, ' ', sizeof text - 1);
+  assert_int_equal(symlink("/dev/full", "out/full.pov"), 0);
+  for (size_t length = 1; length < sizeof text; length *= 1000000) {
+    put_text("scene.pscn", text + sizeof text - 1 - length);
+    reason = NULL;
+    assert_int_equal(plain_copy("scene.pscn", NULL, "out", "full.pov", &reason), STATUS_FILE);
+    assert_string_equal(reason, strerror(ENOSPC));
+  }
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_scenes_folder_comes_first),
-                                     cmocka_unit_test(a_file_is_copied_once)};
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_scenes_folder_comes_first),
+    cmocka_unit_test(a_file_is_copied_once),
+    cmocka_unit_test(a_long_name_is_cut),
+    cmocka_unit_test(solver_statements_are_left_out),
+    cmocka_unit_test(what_is_not_found_is_left_to_povray),
+    cmocka_unit_test(a_disk_that_is_full_is_told),
+  };
   return cmocka_run_group_tests(tests, make_folders, remove_folders);
 }
