@@ -93,3 +93,12 @@ long_scene() {
 long_scene >long.pscn
 within pscn dump long.pscn
 long_scene | pscn dump - 2>&1 | sed 's/^stdin/long.pscn/' | cmp - <(pscn dump long.pscn 2>&1) && echo same
+# So deep may files be included, and so many, of which one is held once.
+for k in {1..33}; do echo "#include \"deep$((k + 1)).inc\"" >deep$k.inc; done
+touch deep34.inc
+for k in 2 1; do within pscn dump deep$k.inc 2>&1 | grep 'rror\|exit\|background'; done
+printf '%4000s' '' >blank.inc
+for count in 9999 10000; do
+  yes '#include "blank.inc"' | head -n $count >often.pscn
+  within pscn dump often.pscn --max-memory 20M 2>&1 | grep 'rror\|exit\|background'
+done

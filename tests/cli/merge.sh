@@ -15,7 +15,9 @@ try pscn merge all3.exr all1.exr all4.exr all2.exr -o all.exr --bits 32 --quiet
 try pscn merge p?.exr -o p.png --quiet
 try pscn merge p?.exr -o p16.png --bits 16
 same one.exr all.exr
-grep -ao 'pscn:\(tile\|done\|sum\)' all.exr # what is a piece's own is not the picture's
+# It says of itself what that says, but for an empty text; what is a piece's own is not the picture's.
+texts() { grep -ao 'pscn:[a-z_]*\|Software\|DateTime' $1 | grep -v options | sort; }
+cmp <(texts one.exr) <(texts all.exr) && echo "$(texts all.exr | wc -l) texts"
 # It took as long as they did together; each is made to tell of some seconds.
 for k in 1 2 3 4; do LC_ALL=C sed "s|\(pscn:render_seconds.string.....\)[0-9]|\1$k|" all$k.exr >took$k.exr; done
 pscn merge took?.exr -o took.exr --quiet
@@ -38,6 +40,9 @@ done
 # More pieces than tiles.
 for k in 1 2 3; do pscn render $scene --crop 0,0,40,20 --tile $k/3 -o tiny$k.exr; done
 try pscn merge tiny?.exr -o tiny.exr --quiet
+# A piece of one tile that is damaged is missing.
+sed 's/\(pscn:sum.string.....\)./\1x/' tiny1.exr >hurt.exr
+try pscn merge hurt.exr tiny2.exr tiny3.exr -o no.png
 # Texts of several lines are compared to their end.
 for k in 1 2; do pscn render $scene --solver $'aberth {\n polish on }' --tile $k/2 -o line$k.exr; done
 try pscn merge line?.exr -o line.exr --quiet

@@ -1,6 +1,7 @@
 # No command writes over what it reads, or twice to one file, by whatever name.
 cp "$SCENES/flat.pscn" scene.pscn
-printf '#include "scene.pscn"\n' >main.pscn
+touch empty.inc
+printf '#include "scene.pscn"\n#include "empty.inc"\n#include "empty.inc"\n' >main.pscn
 ln scene.pscn hard.png
 ln -s scene.pscn soft.png
 mkdir folder

@@ -132,10 +132,24 @@ static void test_ok(void **state)
   run_folder("ok", "dump", ok_case);
 }
 
+/* Pieces of a picture may be rendered on different machines, so the hash is the same on all of them. This one is a Python
+ * program's. */
+static void test_hash(void **state)
+{
+  (void)state;
+  static const char text[] = "background { rgb <1, 0.5, 0.25> } // \xc3\xa4\xc3\xb6\xc3\xbc\n";
+  struct diagnostics diagnostics = {.tell = tell, .context = stderr};
+  struct scene *scene = NULL;
+  assert_int_equal(language_load_text("<text>", text, sizeof text - 1, &SETTINGS, &diagnostics, &scene), STATUS_OK);
+  assert_string_equal(scene->text_hash, "1384bce67a8bde7f78487bf0bba79e90");
+  scene_destroy(scene);
+}
+
 int main(void)
 {
   /* Names in what is told are relative to this folder. */
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_bad), cmocka_unit_test(test_ok)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_bad), cmocka_unit_test(test_ok),
+                                     cmocka_unit_test(test_hash)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
