@@ -166,7 +166,7 @@ void sources_close(struct language *language)
 
 static bool same_file(const struct source *a, const struct source *b)
 {
-  return a->device == b->device && a->inode == b->inode && !(a->device == 0 && a->inode == 0);
+  return a->device == b->device && a->inode == b->inode;
 }
 
 /* The names from the outermost reading of the file to the one that includes it again, as "a.pscn -> b.inc -> ". */
@@ -174,13 +174,12 @@ static void tell_cycle(struct language *language, struct span place, const struc
 {
   const struct frame *chain[MAX_INCLUDE_DEPTH + 1];
   int count = 0;
-  for (const struct frame *f = language->sources->frame; f && count <= MAX_INCLUDE_DEPTH; f = f->outer) {
+  for (const struct frame *f = language->sources->frame; f; f = f->outer) {
     chain[count++] = f;
     if (same_file(f->source, again)) break;
   }
   char text[1000];
   size_t used = 0;
-  text[0] = '\0';
   while (count-- > 0 && used < sizeof text)
     used += (size_t)snprintf(text + used, sizeof text - used, "%s -> ", chain[count]->source->name);
   language_tell(language, place, "files include each other: %s%s", text, again->name);

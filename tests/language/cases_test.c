@@ -145,11 +145,29 @@ static void test_hash(void **state)
   scene_destroy(scene);
 }
 
+/* A file that is not there is no file; nor is a text. */
+static void test_missing(void **state)
+{
+  (void)state;
+  static const char text[] = "#include \"none.inc\"";
+  char *said = NULL;
+  size_t length;
+  FILE *memory = open_memstream(&said, &length);
+  assert_non_null(memory);
+  struct diagnostics diagnostics = {.tell = tell, .context = memory};
+  struct scene *scene = NULL;
+  assert_int_equal(language_load_text("<text>", text, sizeof text - 1, &SETTINGS, &diagnostics, &scene), STATUS_INPUT);
+  assert_int_equal(fclose(memory), 0);
+  assert_non_null(strstr(said, "cannot include 'none.inc': "));
+  assert_int_equal(diagnostics.error_count, 1);
+  free(said);
+}
+
 int main(void)
 {
   /* Names in what is told are relative to this folder. */
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_bad), cmocka_unit_test(test_ok),
-                                     cmocka_unit_test(test_hash)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_bad), cmocka_unit_test(test_ok), cmocka_unit_test(test_hash),
+                                     cmocka_unit_test(test_missing)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
