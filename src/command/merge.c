@@ -118,27 +118,19 @@ static atomic_bool *place_of(const struct merge *merge, const struct piece *piec
   return &merge->picture.tiles.done[tile * piece->count + piece->number - 1];
 }
 
-/* Marks the tiles that a piece has as done, or none where one of them is already. */
-static bool count_tiles(const struct merge *merge, const struct piece *piece)
+/* Whether one of its tiles is done already. */
+static bool has_twice(const struct merge *merge, const struct piece *piece)
 {
   bool twice = false;
   for (size_t t = 0; t < piece->tiles.count; t++)
     twice |= atomic_load(&piece->tiles.done[t]) && atomic_load(place_of(merge, piece, t));
-  for (size_t t = 0; t < piece->tiles.count && !twice; t++)
-    if (atomic_load(&piece->tiles.done[t])) atomic_store(place_of(merge, piece, t), true);
-  return !twice;
+  return twice;
 }
 
-static void judge_files(struct merge *merge)
+static void count_tiles(const struct merge *merge, const struct piece *piece)
 {
-  char message[IMAGE_MESSAGE_SIZE];
-  for (size_t k = 0; k < merge->count; k++) {
-    struct file *file = &merge->file[k];
-    if (file->good && !belong(file, merge->first, message, sizeof message))
-      refuse(merge, file, "is a piece of another picture; ", message);
-    if (file->good && !count_tiles(merge, &file->piece))
-      refuse(merge, file, "", "what it has is in a file before it too");
-  }
+  for (size_t t = 0; t < piece->tiles.count; t++)
+    if (atomic_load(&piece->tiles.done[t])) atomic_store(place_of(merge, piece, t), true);
 }
 
 /* ---- pixels ---- */
@@ -163,22 +155,25 @@ static bool is_same(const struct piece *header, const struct piece *whole)
   return same;
 }
 
-static enum status read_pixels(struct merge *merge)
+/* What a file has counts as soon as its pixels are there, so that a damaged one stands in no other one's way. */
+static enum status read_files(struct merge *merge)
 {
   char message[IMAGE_MESSAGE_SIZE];
   for (size_t k = 0; k < merge->count; k++) {
     struct file *file = &merge->file[k];
     struct piece whole;
+    if (file->good && !belong(file, merge->first, message, sizeof message))
+      refuse(merge, file, "is a piece of another picture; ", message);
+    if (file->good && has_twice(merge, &file->piece)) refuse(merge, file, "", "what it has is in a file before it too");
     if (!file->good) continue;
     const enum status status = piece_read(file->path, true, &whole, message);
     if (status == STATUS_LIMIT) return status;
     if (status != STATUS_OK) refuse(merge, file, "", message);
     else if (!is_same(&file->piece, &whole)) refuse(merge, file, "", "it was written anew meanwhile");
     else if (!piece_copy(&whole, &merge->picture.image)) refuse(merge, file, "", "it lacks a channel");
+    else count_tiles(merge, &whole);
     merge->seconds += seconds_of(&whole.image);
     piece_destroy(&whole);
-    for (size_t t = 0; t < file->piece.tiles.count && !file->good; t++)
-      atomic_store(place_of(merge, &file->piece, t), false);
   }
   return STATUS_OK;
 }
@@ -256,8 +251,7 @@ static enum status put_together(struct merge *merge)
   if (status == STATUS_OK) choose_picture(merge);
   if (status == STATUS_OK && merge->first == NULL) return STATUS_FILE;
   if (status == STATUS_OK) status = create_picture(merge);
-  if (status == STATUS_OK) judge_files(merge);
-  if (status == STATUS_OK) status = read_pixels(merge);
+  if (status == STATUS_OK) status = read_files(merge);
   if (status == STATUS_LIMIT) (void)command_out_of_memory(merge->command);
   if (status != STATUS_OK) return status;
   bool missing;

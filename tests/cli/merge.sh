@@ -75,6 +75,12 @@ head -c 3000 whole3.exr >p3.exr
 pscn merge p?.exr -o no.png 2>/dev/null; echo "exit $?"
 try pscn merge p1.exr gone.exr one.exr crop.exr -o no.png
 try pscn merge gone.exr one.png -o no.png
+# A damaged file stands in the way of no good copy of it, wherever it comes.
+cp p3.exr cut3.exr
+cp whole3.exr p3.exr
+for files in "cut3.exr p1.exr p2.exr" "p1.exr p2.exr p3.exr cut3.exr" "cut3.exr p1.exr p2.exr p3.exr"; do
+  pscn merge $files p4.exr -o no.png 2>/dev/null; echo "$files: exit $?"
+done
 [ ! -e no.png ] || echo "there is a picture"
 # Nothing that a piece or a name says steers a terminal.
 cp whole3.exr p3.exr
