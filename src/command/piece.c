@@ -128,14 +128,27 @@ static enum status told(enum status status, const char *input, char *message)
   return status;
 }
 
-/* What the picture says of its tiles; STATUS_INPUT where that is nothing, or nothing that can be. */
+/* Whether it stands where it says that it does: no sum is made of the windows that the file has. */
+static bool stands_in_place(const struct image *image)
+{
+  char size[48], crop[96];
+  size_t size_length = 0, crop_length = 0;
+  const char *said_size = image_metadata(image, "pscn:size", &size_length);
+  const char *said_crop = image_metadata(image, "pscn:crop", &crop_length);
+  snprintf(size, sizeof size, "%zux%zu", image->full_width, image->full_height);
+  snprintf(crop, sizeof crop, "%zu,%zu,%zu,%zu", image->x, image->y, image->width, image->height);
+  return size_length == strlen(size) && memcmp(said_size, size, size_length) == 0 && crop_length == strlen(crop) &&
+         memcmp(said_crop, crop, crop_length) == 0;
+}
+
+/* What the picture says of its place and its tiles; STATUS_INPUT where that is nothing, or nothing that can be. */
 static enum status read_tiles(struct piece *piece)
 {
   const struct image *image = &piece->image;
   const struct rectangle crop = {image->x, image->y, image->width, image->height};
   size_t length;
   const char *tile = image_metadata(image, "pscn:tile", &length);
-  if (tile == NULL || image->full_width == 0 || !piece_number(tile, length, &piece->number, &piece->count))
+  if (tile == NULL || !stands_in_place(image) || !piece_number(tile, length, &piece->number, &piece->count))
     return STATUS_INPUT;
   const enum status status = tile_list_create(&crop, piece->number, piece->count, &piece->tiles);
   if (status != STATUS_OK) return status;
@@ -299,9 +312,7 @@ bool piece_belongs(const struct image *part, const struct image *picture, char *
     snprintf(out, size, "its %s: '%.*s', not '%.*s'", COMMON[k].what, (int)here, a, (int)there, b);
     return false;
   }
-  snprintf(out, size, "its window");
-  return part->x == picture->x && part->y == picture->y && part->width == picture->width &&
-         part->height == picture->height;
+  return true;
 }
 
 /* The values of one tile, of which `channel` says for each of to's channels which of from's it is. */

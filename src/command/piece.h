@@ -42,7 +42,7 @@ void piece_destroy(struct piece *piece);
  * message[IMAGE_MESSAGE_SIZE] says why. */
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message) STATUS_MUST_CHECK;
 
-/* Whether both are parts of one picture, by what they say and by the window they have; else `out` says what parts them. */
+/* Whether both are parts of one picture, by what they say; else `out` says what parts them. */
 bool piece_belongs(const struct image *part, const struct image *picture, char *out, size_t size);
 
 /* Copies the tiles that `from` has, which stands where `to` does; the channels are found by their names. False where one

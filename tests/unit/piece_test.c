@@ -21,10 +21,16 @@ static void write_file(unsigned char *bytes, size_t size)
   free(bytes);
 }
 
-/* Writes a part that says so of itself, x pixels from the left of a picture as wide as it is, and reads what it says, or all. */
-static enum status read_part_at(size_t x, bool pixels, const char *tile, const char *done, struct piece *out)
+/* Writes a part that says so of itself, and that it is all of its picture, which it is where x = 0 and the picture's width is
+ * WIDTH; reads what it says, or all. */
+static enum status read_part_at(size_t x, size_t width, bool pixels, const char *tile, const char *done,
+                                struct piece *out)
 {
-  const struct image_attribute said[] = {{"pscn:tile", tile}, {"pscn:channels", "rgb"}, {"pscn:done", done}};
+  const struct image_attribute said[] = {{"pscn:size", "70x45"},
+                                         {"pscn:crop", "0,0,70,45"},
+                                         {"pscn:tile", tile},
+                                         {"pscn:channels", "rgb"},
+                                         {"pscn:done", done}};
   const struct image_encoding encoding = {
     .format = IMAGE_EXR, .bits = 32, .attributes = said, .attribute_count = sizeof said / sizeof *said};
   char message[IMAGE_MESSAGE_SIZE];
@@ -34,7 +40,7 @@ static enum status read_part_at(size_t x, bool pixels, const char *tile, const c
   assert_int_equal(image_create(WIDTH, HEIGHT, 3, &image), STATUS_OK);
   for (int c = 0; c < 3; c++) (void)snprintf(image.channel[c].name, IMAGE_NAME_SIZE, "%c", "RGB"[c]);
   memset(image.value, 0, sizeof(float) * WIDTH * HEIGHT * 3);
-  image.x = x, image.full_width = WIDTH, image.full_height = HEIGHT;
+  image.x = x, image.full_width = width, image.full_height = HEIGHT;
   assert_int_equal(image_encode(&image, &encoding, &bytes, &size, message), STATUS_OK);
   write_file(bytes, size);
   image_destroy(&image);
@@ -45,7 +51,7 @@ static enum status read_part_at(size_t x, bool pixels, const char *tile, const c
 
 static enum status read_part(const char *tile, const char *done, struct piece *out)
 {
-  return read_part_at(0, false, tile, done, out);
+  return read_part_at(0, WIDTH, false, tile, done, out);
 }
 
 static void a_part_tells_which_tiles_it_has(void **state)
@@ -78,8 +84,11 @@ static void what_cannot_be_is_no_part(void **state)
   }
   for (size_t k = 0; k < sizeof pieces / sizeof *pieces; k++)
     if (read_part(pieces[k], "0", &piece) != STATUS_INPUT) fail_msg("piece '%s' is believed", pieces[k]);
-  assert_int_equal(read_part_at(1, false, "1/1", "0", &piece), STATUS_INPUT); /* it is not in its picture */
-  assert_int_equal(read_part_at(0, true, "1/1", "0", &piece), STATUS_INPUT);  /* it has no sum */
+  assert_int_equal(read_part_at(1, WIDTH, false, "1/1", "0", &piece), STATUS_INPUT); /* it is not in its picture */
+  assert_int_equal(read_part_at(0, WIDTH, true, "1/1", "0", &piece), STATUS_INPUT);  /* it has no sum */
+  /* Its windows are not what it says. */
+  assert_int_equal(read_part_at(0, WIDTH + 1, false, "1/1", "0", &piece), STATUS_INPUT);
+  assert_int_equal(read_part_at(1, WIDTH + 1, false, "1/1", "0", &piece), STATUS_INPUT);
 }
 
 /* What two parts have in common decides, and a message says which of it they have not. */
@@ -92,7 +101,7 @@ static void parts_of_one_picture_belong_together(void **state)
     const char *from, *what;
   } changes[] = {{"9x9", "size"},          {"0,0", "crop"},   {"=1", "samples"}, {"rgb", "channels"},
                  {"=a\n", "scene's text"}, {"b'", "options"}, {"=2", "version"}, {"avx2", "arithmetic"}};
-  const struct image picture = {.width = 7, .height = 5, .x = 1, .y = 2, .metadata = texts};
+  const struct image picture = {.metadata = texts};
   struct image part = picture;
   char message[IMAGE_MESSAGE_SIZE], expected[64], changed[sizeof texts];
   assert_true(piece_belongs(&part, &picture, message, sizeof message));
@@ -107,13 +116,6 @@ static void parts_of_one_picture_belong_together(void **state)
   memcpy(changed, texts, sizeof texts);
   *strstr(changed, "one") = '7'; /* another name of the scene is no other picture */
   assert_true(piece_belongs(&part, &picture, message, sizeof message));
-  size_t *const window[] = {&part.x, &part.y, &part.width, &part.height};
-  for (size_t k = 0; k < sizeof window / sizeof *window; k++) {
-    ++*window[k];
-    assert_false(piece_belongs(&part, &picture, message, sizeof message));
-    assert_string_equal(message, "its window");
-    --*window[k];
-  }
 }
 
 /* The tiles that are done are taken and written, and no others; not where a channel is not there. A line of text stays one. */
@@ -147,8 +149,8 @@ static void what_is_done_is_copied(void **state)
   unsigned char *bytes;
   size_t size;
   char message[IMAGE_MESSAGE_SIZE];
-  const struct image_attribute channels = {"pscn:channels", "rgb"};
-  assert_int_equal(piece_encode(&from, &channels, 1, &bytes, &size, message), STATUS_OK);
+  const struct image_attribute texts[] = {{"pscn:size", "70x45"}, {"pscn:crop", "0,0,70,45"}, {"pscn:channels", "rgb"}};
+  assert_int_equal(piece_encode(&from, texts, 3, &bytes, &size, message), STATUS_OK);
   piece_destroy(&from);
   write_file(bytes, size);
   assert_int_equal(piece_read(path, true, &from, message), STATUS_OK);
