@@ -25,6 +25,7 @@ struct exact_region {
   uint32_t patch;          /* index into the scene's patches */
   uint16_t column[2];      /* along u, v: the first, and how many */
   uint16_t span[2];
+  double near; /* what is open there begins at this t or behind, of the ray's nearest hit */
 };
 
 /* A proven root, in parameters of the whole patch: exactly one root of the exact ray lies within the radii. */
@@ -59,9 +60,8 @@ static inline bool exact_region_equal(const struct exact_region *a, const struct
          a->span[0] == b->span[0] && a->span[1] == b->span[1];
 }
 
-/* regions.c: puts the least rectangle of leaves that has them all in the place of a patch's regions, where there are more
- * than `most` of them. Returns how many are left, sorted. */
-size_t exact_regions_merge(struct exact_region regions[], size_t count, size_t most);
+/* regions.c: the region becomes the least rectangle of leaves that has both, which are of one patch. */
+void exact_region_join(struct exact_region *region, const struct exact_region *other);
 
 /* A place that may be a hit or none: a point of a patch, and how far along the ray it may be off. */
 struct exact_maybe {
@@ -70,8 +70,8 @@ struct exact_maybe {
   double u, v, t, t_error;
 };
 
-/* Of one ray whose nearest hit is asked for; where there are more they are merged, and one that meets more patches than
- * half as many is decided as far as they go. */
+/* Of one ray whose nearest hit is asked for; where there are more each patch has one, and of more patches those that begin
+ * first. */
 enum { EXACT_REGIONS_MAX = 128 };
 
 /* What is found on a ray. */
@@ -105,8 +105,8 @@ struct exact_case {
   const struct exact_maybe *maybe; /* the same where it is not proven; NULL */
   struct exact_region *regions;    /* in any order; put into another one */
   size_t region_count;
-  bool cut_off;   /* there were more: the answer is not certain */
-  uint64_t *work; /* what it takes is added, in boxes looked at (judge.h) */
+  double cut_from; /* what was left out begins there or behind, as does any doubt; infinite for nothing */
+  uint64_t *work;  /* what it takes is added, in boxes looked at (judge.h) */
 };
 
 enum exact_verdict {
@@ -125,7 +125,7 @@ struct exact_decision {
 /* The nearest hit of the ray. */
 void exact_closest(const struct exact_case *asked, struct exact_decision *out);
 
-/* all.c: all hits of the ray, of which *list has those that the lanes took, `known`, `maybe` and `cut_off` are not
+/* all.c: all hits of the ray, of which *list has those that the lanes took, `known`, `maybe` and `cut_from` are not
  * looked at, and of regions there may be any number. *list becomes the hits in their order, roots inside patches and open
  * ones. Returns whether it is proven. */
 bool exact_all(const struct exact_case *asked, struct exact_list *list);

@@ -15,8 +15,8 @@
  * come there. */
 enum { JUDGE_WORK = 2560 };
 
-/* Where something may be a hit no more than so much is done in its region, and in the others what they have for themselves
- * (regions.c): most answers are grazing then, whatever else is found. */
+/* Where something may be a hit no more than so much is done in its region, or what that has for itself, as the others have then
+ * (regions.c), in whatever order they come: most answers are grazing then, whatever else is found. */
 enum { JUDGE_MAYBE_WORK = 128 };
 
 /* Has the ray look straight across the plane that the patch lies in, where it starts exactly there and leaves it, be it ever so
@@ -205,7 +205,8 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double 
   }
   if (j->doubtful && !(maybe->t < j->maybe.t || (maybe->t == j->maybe.t && maybe->patch < j->maybe.patch))) return;
   j->maybe = *maybe, j->doubtful = true;
-  if (j->work > JUDGE_MAYBE_WORK) j->work = JUDGE_MAYBE_WORK;
+  const int most = j->own > JUDGE_MAYBE_WORK ? j->own : JUDGE_MAYBE_WORK;
+  if (j->work > most) j->work = most;
   set_limit(j);
 }
 
@@ -357,7 +358,7 @@ void judge_run(struct judge *j, const struct exact_case *asked, bool all, struct
                       .tied_from = INFINITY,
                       .patch = UINT32_MAX};
   if (!all) {
-    j->doubt = asked->cut_off;
+    j->undecided = asked->cut_from;
     if (asked->known) add_rival(j, asked->known);
   }
   set_limit(j);
@@ -381,8 +382,7 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
   /* How well the nearest is known depends on what it was found beside. */
   if (j.rivals > 0 && !(j.undecided > most_t(&j.nearest))) judge_improve(&j, &j.nearest);
   const double to = j.rivals > 0 ? most_t(&j.nearest) : INFINITY;
-  *out = (struct exact_decision){.verdict = EXACT_MISS,
-                                 .sure = !j.doubt && (j.undecided > to || j.undecided == INFINITY)};
+  *out = (struct exact_decision){.verdict = EXACT_MISS, .sure = j.undecided > to || j.undecided == INFINITY};
   if (j.doubtful && !(j.rivals > 0 && j.nearest.t <= j.maybe.t))
     *out = (struct exact_decision){.verdict = EXACT_MAYBE, .maybe = j.maybe};
   else if (j.rivals > 0) out->verdict = EXACT_ROOT, out->root = j.nearest, out->sure &= j.tied_from > to;

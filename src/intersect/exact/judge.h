@@ -43,13 +43,14 @@ struct judge {
   bool cut_short; /* a box beyond the ray's start is left for which the work, or halving, ended: it may hold a hit */
   /* where a root may be that `nearest`, or one before it, could not be told from (judge_tie_fine); infinite for none */
   double tied_from;
-  bool doubt; /* of all hits, any doubt; else there were more regions */
-  /* what may be a hit begins here or behind, known as such, left out at an end of the ray, or undecided for want of work;
-   * infinite for none */
+  bool doubt; /* where all hits are asked for, any */
+  /* what may be a hit begins here or behind, known as such, left out at an end of the ray, undecided for want of work, or never
+   * told of; infinite for none */
   double undecided;
   double limit; /* nothing beyond this t matters */
   int work;     /* that may still be done, see WORK_REGION */
   int apart;    /* the same besides, for regions by themselves (regions.c) */
+  int own;      /* what the region that is searched has of that */
   size_t open;  /* places in `list` that may be hits, where all hits are asked for */
   /* of the patch looked at last */
   uint32_t patch;
@@ -81,9 +82,6 @@ void judge_search(struct judge *j);
  * decided. Where no work is left, only of a place that may be one, and of a doubt. The judge has turned to the region's
  * patch. */
 void search_region(struct judge *j, const struct exact_region *region);
-
-/* search.c: where along the ray the region begins, or less. */
-double search_near(struct judge *j, const struct exact_region *region);
 
 /* Turns to the patch: prepared, room and local are of it from here on. */
 void judge_turn(struct judge *j, uint32_t patch);

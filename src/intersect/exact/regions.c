@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/real.h"
 #include "intersect/exact/judge.h"
 #include "intersect/prepare/leaf.h"
 
@@ -49,42 +50,36 @@ static int by_region(const void *a, const void *b)
   return 0;
 }
 
-/* The least rectangle that has them all. */
-static struct exact_region hull_of(const struct exact_region regions[], size_t count)
+void exact_region_join(struct exact_region *region, const struct exact_region *other)
 {
-  struct exact_region hull = regions[0];
-  hull.leaf = NULL;
+  region->near = real_min(region->near, other->near);
+  if (exact_region_equal(region, other)) return;
+  region->leaf = NULL;
   for (int k = 0; k < 2; k++) {
-    uint16_t last = 0;
-    for (size_t n = 0; n < count; n++) {
-      const uint16_t end = (uint16_t)(regions[n].column[k] + regions[n].span[k]);
-      if (regions[n].column[k] < hull.column[k]) hull.column[k] = regions[n].column[k];
-      if (end > last) last = end;
-    }
-    hull.span[k] = (uint16_t)(last - hull.column[k]);
+    const int end = region->column[k] + region->span[k], other_end = other->column[k] + other->span[k];
+    if (other->column[k] < region->column[k]) region->column[k] = other->column[k];
+    region->span[k] = (uint16_t)((end > other_end ? end : other_end) - region->column[k]);
   }
-  return hull;
-}
-
-size_t exact_regions_merge(struct exact_region regions[], size_t count, size_t most)
-{
-  size_t kept = 0;
-  if (count > 1) qsort(regions, count, sizeof *regions, by_region);
-  for (size_t first = 0, end; first < count; first = end) {
-    for (end = first + 1; end < count && regions[end].patch == regions[first].patch;) end++;
-    if (end - first > most) {
-      regions[kept++] = hull_of(&regions[first], end - first);
-      continue;
-    }
-    for (size_t k = first; k < end; k++) /* each once */
-      if (k == first || !exact_region_equal(&regions[kept - 1], &regions[k])) regions[kept++] = regions[k];
-  }
-  return kept;
 }
 
 /* More regions of a patch than these are searched as one: it lies along the ray, or the ray starts so far away that
  * double precision tells nothing of it. A choice of speed. */
 enum { REGIONS_APART = 8 };
+
+/* Joins a patch's regions where there are more than REGIONS_APART of them. Returns how many are left, sorted. */
+static size_t merge(struct exact_region regions[], size_t count)
+{
+  size_t kept = 0;
+  if (count > 1) qsort(regions, count, sizeof *regions, by_region);
+  for (size_t first = 0, end; first < count; first = end) {
+    for (end = first + 1; end < count && regions[end].patch == regions[first].patch;) end++;
+    const bool apart = end - first <= REGIONS_APART;
+    for (size_t k = first; k < end; k++) /* each once */
+      if (k == first || (apart && !exact_region_equal(&regions[kept - 1], &regions[k]))) regions[kept++] = regions[k];
+      else exact_region_join(&regions[kept - 1], &regions[k]);
+  }
+  return kept;
+}
 
 /* Work that is set apart for regions by themselves, the same for each and no more than REGION_WORK: so one that the ray lies
  * in does not leave the others undecided. All of it is less than a millisecond. */
@@ -93,24 +88,18 @@ enum { APART_WORK = 1536, REGION_WORK = 512 };
 /* With less than this a region is not begun: a root and what comes next to it at one t, made sharp. */
 enum { LEAST_WORK = 64 };
 
-/* A region and where the ray comes to it. */
-struct ordered {
-  double near;
-  const struct exact_region *region;
-};
-
 static int by_distance(const void *a, const void *b)
 {
-  const struct ordered *x = a, *y = b;
+  const struct exact_region *x = a, *y = b;
   if (x->near != y->near) return x->near < y->near ? -1 : 1;
-  return by_region(x->region, y->region);
+  return by_region(x, y);
 }
 
 /* Searches the region with its share of the work that is set apart, and with all that is shared unless something may be a
  * hit. What it leaves of its share is for the next ones. left: how many regions there are from this one on. */
 static void search(struct judge *j, const struct exact_region *region, size_t left)
 {
-  const int part = (int)((size_t)j->apart / left), own = part < REGION_WORK ? part : REGION_WORK;
+  const int part = (int)((size_t)j->apart / left), own = j->own = part < REGION_WORK ? part : REGION_WORK;
   const int shared = j->doubtful ? 0 : j->work;
   const uint64_t before = *j->asked->work;
   const size_t found = j->list->count;
@@ -124,27 +113,13 @@ static void search(struct judge *j, const struct exact_region *region, size_t le
   if (j->all && j->list->count <= HITS_MOST) j->work += WORK_HIT * (int)(j->list->count - found);
 }
 
-static void search_nearest(struct judge *j, const struct exact_region regions[], size_t count)
-{
-  struct ordered order[EXACT_REGIONS_MAX];
-  for (size_t k = 0; k < count; k++) {
-    order[k] = (struct ordered){-INFINITY, &regions[k]};
-    if (count == 1) break;
-    judge_turn(j, regions[k].patch);
-    order[k].near = search_near(j, &regions[k]);
-  }
-  qsort(order, count, sizeof *order, by_distance);
-  for (size_t k = 0; k < count && order[k].near <= j->limit; k++) search(j, order[k].region, count - k);
-}
-
 void judge_search(struct judge *j)
 {
   struct exact_region *regions = j->asked->regions;
   size_t count = j->asked->region_count;
   for (size_t k = 0; k < count; k++) region_widen(j, &regions[k]);
-  count = exact_regions_merge(regions, count, REGIONS_APART);
+  count = merge(regions, count);
   j->apart = APART_WORK;
-  if (!j->all) search_nearest(j, regions, count);
-  else
-    for (size_t k = 0; k < count; k++) search(j, &regions[k], count - k);
+  if (!j->all && count > 1) qsort(regions, count, sizeof *regions, by_distance);
+  for (size_t k = 0; k < count && (j->all || regions[k].near <= j->limit); k++) search(j, &regions[k], count - k);
 }

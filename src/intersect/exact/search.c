@@ -267,14 +267,7 @@ static void search_begin(struct judge *j, const struct exact_region *region, str
   const double slack = window_length(&s->window, s->window.depth_error) +
                        8 * UNIT_ROUNDOFF * real_max(fabs(whole->near), fabs(whole->far));
   s->resolution = real_max((whole->far - whole->near) * SEARCH_RESOLUTION, 4 * slack);
-}
-
-double search_near(struct judge *j, const struct exact_region *region)
-{
-  struct search search;
-  struct box whole;
-  search_begin(j, region, &search, &whole);
-  return whole.near;
+  whole->near = real_max(whole->near, region->near);
 }
 
 void search_region(struct judge *j, const struct exact_region *region)

@@ -67,7 +67,7 @@ static void leave_open(struct packet *p, struct candidate *it, lane_mask open)
 {
   open &= ~leaves_beside(p, it->leaf->patch, open);
   if (lanes_any(open)) open &= ~leaves_corner(p, it, open);
-  if (lanes_any(open)) packet_postpone(p, it->leaf, open);
+  if (lanes_any(open)) packet_postpone(p, it, open);
 }
 
 /* A scene with `polish off` asks for the roots as its solver finds them: nothing but the slab closes a leaf before that. */
@@ -82,7 +82,6 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (lanes_any(many)) open &= ~candidate_worn(p, it, many);
   if (p->postponed->full) {
     const lane_mask full = open & lanes_mask(p->postponed->full);
-    (void)packet_spend(p, full & LOOKS_DEAR);
     leave_open(p, it, full), open &= ~full;
   }
   if (it->leaf->pole && patch->method->polish) open = stage_pole(p, it, open);

@@ -40,6 +40,9 @@ struct candidate {
  * nearest hit. */
 lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open);
 
+/* planes.c: the t at which the ray comes to the box along the leaf, or less. */
+lanes slab_begin(const struct packet *p, const struct candidate *it);
+
 /* planes.c: the box along the leaf, to the last places; closed where the ray passes it by. The walk has looked at it in floats,
  * which is enough for all rays but those that come by many leaves. */
 lane_mask stage_box(const struct candidate *it, lane_mask open);

@@ -25,17 +25,14 @@ static unsigned packet_doubt(const struct packet *p)
   return p->model->unproven ? ~0u : lanes_bits(p->best.doubt | p->best.touches);
 }
 
-/* Where some regions were merged all are, so that the order in which the walk came by them does not show. */
 static struct exact_case lane_case(const struct packet *p, unsigned lane)
 {
   struct postponed *postponed = p->postponed;
-  if (postponed->merged >> lane & 1)
-    postponed->count[lane] = (unsigned)exact_regions_merge(postponed->region[lane], postponed->count[lane], 1);
   return (struct exact_case){.model = p->model,
                              .ray = &p->rays[lane],
                              .regions = postponed->region[lane],
                              .region_count = postponed->count[lane],
-                             .cut_off = postponed->cut_off >> lane & 1,
+                             .cut_from = postponed->cut_from[lane],
                              .work = &p->tracer->counts.work};
 }
 
@@ -115,7 +112,7 @@ static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct
 unsigned finish_occluded(const struct packet *p)
 {
   if (!p->oriented) return 0;
-  unsigned hit = lanes_bits(p->best.patch != NO_PATCH) | p->postponed->cut_off;
+  unsigned hit = lanes_bits(p->best.patch != NO_PATCH) | packet_cut_off(p);
   for (unsigned bits = p->postponed->open & ~hit; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     const struct exact_case asked = lane_case(p, lane);

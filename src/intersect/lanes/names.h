@@ -23,6 +23,7 @@
 #define offer_unproven KERNEL(offer_unproven)
 #define stage_box KERNEL(stage_box)
 #define stage_slab KERNEL(stage_slab)
+#define slab_begin KERNEL(slab_begin)
 #define stage_bilinear KERNEL(stage_bilinear)
 #define stage_quadric KERNEL(stage_quadric)
 #define stage_planes KERNEL(stage_planes)

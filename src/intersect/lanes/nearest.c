@@ -6,20 +6,12 @@
 
 #include <math.h>
 
+#include "base/real.h"
 #include "intersect/lanes/gather.h"
-
-/* Makes room in the lane's list, where that was not in vain before. */
-static void merge_regions(struct postponed *to, unsigned lane)
-{
-  const unsigned bit = 1u << lane;
-  if (to->crowded & bit) return;
-  to->merged |= bit, to->count[lane] = (unsigned)exact_regions_merge(to->region[lane], to->count[lane], 1);
-  if (to->count[lane] > EXACT_REGIONS_MAX / 2) to->crowded |= bit;
-}
 
 void packet_give_up(struct packet *p, unsigned worn)
 {
-  p->postponed->cut_off |= worn;
+  p->postponed->let_go |= worn;
   for (struct packet *q = p; q; q = q->outer) {
     q->live &= ~lanes_mask(worn), q->moved = true;
     if (!q->outer) q->best.doubt |= lanes_mask(worn);
@@ -34,22 +26,72 @@ void packet_spent(struct packet *p, lane_mask active)
   if (lanes_any(spent)) packet_give_up(p, lanes_bits(spent));
 }
 
-/* Counts the leaves left open. All hits are not gathered any more after too many; else what comes then is left open too. In
- * company a ray whose share of them has ended is let go. Returns the lanes that go on. */
+/* Counts the leaves left open. All hits are not gathered any more after too many; else what comes then is left open too, and takes
+ * as many looks as if it were tried. In company a ray whose share of them has ended is let go. Returns the lanes that go on. */
 static lane_mask count_open(struct packet *p, lane_mask open)
 {
   struct postponed *to = p->postponed;
   unsigned worn = 0;
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1)
     if (++to->left[__builtin_ctz(bits)] > to->most_open) worn |= bits & -bits;
-  if (!p->gather && to->share == SHARE_ALONE) to->full |= worn;
+  if (!p->gather && to->share == SHARE_ALONE) to->full |= worn, (void)packet_spend(p, lanes_mask(worn) & LOOKS_DEAR);
   else if (worn) packet_give_up(p, worn);
   return to->share > SHARE_ALONE ? open & ~lanes_mask(worn) : open;
 }
 
-static void postpone(struct packet *p, const struct exact_region *region, lane_mask open)
+/* Joins the region to its patch's, where the list has one. */
+static bool join_region(struct exact_region list[], unsigned count, const struct exact_region *region)
+{
+  for (unsigned k = 0; k < count; k++) {
+    if (list[k].patch != region->patch) continue;
+    exact_region_join(&list[k], region);
+    return true;
+  }
+  return false;
+}
+
+/* Out of line, for it is rare: from here on a patch's regions are one. */
+__attribute__((noinline)) static void merge_regions(struct postponed *to, unsigned lane)
+{
+  struct exact_region *list = to->region[lane];
+  unsigned kept = 0;
+  for (unsigned k = 0; k < to->count[lane]; k++)
+    if (!join_region(list, kept, &list[k])) list[kept++] = list[k];
+  to->count[lane] = kept, to->merged |= 1u << lane;
+}
+
+/* Of the patches on the full list and one more, leaves out the one that begins last. What begins there or behind is left out from
+ * then on: so that is where the first of all begins that has no room, in whatever order they come. */
+static void leave_out_last(struct postponed *to, unsigned lane, const struct exact_region *region)
+{
+  struct exact_region *last = to->region[lane];
+  for (unsigned k = 1; k < EXACT_REGIONS_MAX; k++)
+    if (to->region[lane][k].near > last->near) last = &to->region[lane][k];
+  to->cut_from[lane] = real_max(last->near, region->near);
+  if (region->near < last->near) *last = *region;
+}
+
+static void list_region(struct postponed *to, unsigned lane, const struct exact_region *region)
+{
+  const unsigned *count = &to->count[lane];
+  struct exact_region *list = to->region[lane];
+  if (*count > 0 && exact_region_equal(&list[*count - 1], region)) {
+    exact_region_join(&list[*count - 1], region);
+    return;
+  }
+  if (*count == EXACT_REGIONS_MAX && !(to->merged >> lane & 1)) merge_regions(to, lane);
+  if (to->merged >> lane & 1 && join_region(list, *count, region)) return;
+  if (*count < EXACT_REGIONS_MAX) list[to->count[lane]++] = *region;
+  else leave_out_last(to, lane, region);
+}
+
+/* What is open there begins at `near`. That there is more behind what was left out need not be known. */
+static void postpone(struct packet *p, const struct exact_region *region, lanes near, lane_mask open)
 {
   struct postponed *to = p->postponed;
+  if (p->outer) near = (p->shift + near) - 4 * UNIT_ROUNDOFF * (lanes_abs(p->shift) + lanes_abs(near));
+  near = lanes_max(near, lanes_all(-INFINITY)); /* or not a number */
+  if (!p->gather) open &= ~(near >= to->cut_from);
   p->tracer->counts.escalated += lanes_count(open);
   open = count_open(p, open);
   if (p->gather) {
@@ -58,21 +100,21 @@ static void postpone(struct packet *p, const struct exact_region *region, lane_m
   }
   to->open |= lanes_bits(open);
   for (unsigned bits = lanes_bits(open); bits; bits &= bits - 1) {
-    const unsigned lane = (unsigned)__builtin_ctz(bits), count = to->count[lane];
-    if (count > 0 && exact_region_equal(&to->region[lane][count - 1], region)) continue;
-    if (count == EXACT_REGIONS_MAX) merge_regions(to, lane);
-    if (to->count[lane] < EXACT_REGIONS_MAX) to->region[lane][to->count[lane]++] = *region;
-    else to->cut_off |= 1u << lane;
+    const unsigned lane = (unsigned)__builtin_ctz(bits);
+    struct exact_region here = *region;
+    here.near = near[lane];
+    list_region(to, lane, &here);
   }
 }
 
-void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open)
+void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open)
 {
-  const struct exact_region region = {p->outer || !p->model->leaves ? NULL : leaf,
-                                      leaf->patch + (p->outer ? p->copy->first_patch : 0),
-                                      {leaf->column_u, leaf->column_v},
-                                      {1, 1}};
-  postpone(p, &region, open);
+  const struct leaf *leaf = it->leaf;
+  const struct exact_region region = {.leaf = p->outer || !p->model->leaves ? NULL : leaf,
+                                      .patch = leaf->patch + (p->outer ? p->copy->first_patch : 0),
+                                      .column = {leaf->column_u, leaf->column_v},
+                                      .span = {1, 1}};
+  postpone(p, &region, slab_begin(p, it), open);
 }
 
 /* The column of `split` that a parameter is in, or is nearest to. */
@@ -94,7 +136,7 @@ void packet_postpone_best(struct packet *p, lane_mask open)
       region.column[k] = column_at(at[k] - radius[k], split);
       region.span[k] = (uint16_t)(column_at(at[k] + radius[k], split) - region.column[k] + 1);
     }
-    postpone(p, &region, lanes_mask(1u << lane));
+    postpone(p, &region, best->t - (p->t_far - best->t), lanes_mask(1u << lane));
   }
 }
 
@@ -213,7 +255,7 @@ LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const
   if (lanes_any(hits & ~sure)) {
     const lane_mask start = hits & within & ~sure & starts_in_plane(p, it->leaf->patch);
     p->best.touches |= start & (p->t_min <= 0);
-    packet_postpone(p, it->leaf, hits & ~sure & ~start & ~starts_in_corner(p, it, r));
+    packet_postpone(p, it, hits & ~sure & ~start & ~starts_in_corner(p, it, r));
   }
   const lane_mask taken = hits & sure & (tied | best_after(&p->best, at, patch + none, leaf + none));
   if (lanes_any(taken)) packet_take(p, it, r, at, error, taken, true);

@@ -48,6 +48,13 @@ LANES_INLINE lane_mask inside(const struct newton_root *r)
          (r->v - 1 <= r->radius_v);
 }
 
+/* Leaves what is open of the leaf, or of the same one of a copy, to the last resort (exact.h). */
+void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open);
+
+/* The same of all leaves of a copy that the best root of these lanes may be in: next to a border between two leaves
+ * what is known of it in the object's coordinates does not tell in which. */
+void packet_postpone_best(struct packet *p, lane_mask open);
+
 /* Proven roots of several lanes. */
 void offer_root(struct packet *p, const struct candidate *it, const struct leaf_root *root, lane_mask hits);
 

@@ -79,10 +79,10 @@ struct postponed {
   int share; /* SHARE_ALONE or SHARE_IN_COMPANY */
   int64_t most_looks;
   unsigned most_open;
-  /* bit k, of lane k: it has a list; that has most_open leaves; some of it was merged; merging once more would make too
-   * little room; there were more than there is room for */
-  unsigned open, full, merged, crowded, cut_off;
+  /* bit k, of lane k: it has a list; that has most_open leaves; a patch has one region there; the ray goes no further */
+  unsigned open, full, merged, let_go;
   unsigned count[LANES];
+  lanes cut_from;       /* nothing that begins there or behind is on the list; infinite where all is */
   lane_mask looks;      /* how many more a ray may take; below 0 it goes no further */
   unsigned left[LANES]; /* how many leaves were left open */
   lanes splits;         /* how many more there may be to cover leaves (cover.h) */
@@ -165,7 +165,13 @@ void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, 
 /* The rays that were let go to be asked alone, as bits: nothing they have left open need be looked at. */
 LANES_INLINE unsigned packet_let_go(const struct packet *p)
 {
-  return p->postponed->share > SHARE_ALONE ? p->postponed->cut_off : 0;
+  return p->postponed->share > SHARE_ALONE ? p->postponed->let_go : 0;
+}
+
+/* The rays that have left more open than there is room for, or go no further. */
+LANES_INLINE unsigned packet_cut_off(const struct packet *p)
+{
+  return lanes_bits(p->postponed->cut_from < INFINITY) | p->postponed->let_go;
 }
 
 /* The rays, that have been tried on nothing yet, have that share of so much. */
@@ -179,7 +185,8 @@ LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int l
 /* Nothing is left open, and all of the rays' share is there. */
 LANES_INLINE void packet_set_ready(struct postponed *postponed, const struct tracer *tracer, int share)
 {
-  postponed->open = postponed->full = postponed->merged = postponed->crowded = postponed->cut_off = 0;
+  postponed->open = postponed->full = postponed->merged = postponed->let_go = 0,
+  postponed->cut_from = lanes_all(INFINITY);
   for (int l = 0; l < LANES; l++) postponed->count[l] = postponed->left[l] = 0;
   packet_set_share(postponed, share, tracer->most_looks, MOST_OPEN, MOST_SWEEPS);
 }
@@ -239,13 +246,6 @@ LANES_INLINE lane_mask packet_starts_at(const struct packet *p, uint32_t patch, 
 /* candidate.c: tries the leaf, of that patch and number, on the lanes of `active`, and keeps what is nearer than the best. */
 void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
                  lane_mask active);
-
-/* nearest.c: leaves what is open of the leaf, or of the same leaf of a copy, to the last resort (exact.h). */
-void packet_postpone(struct packet *p, const struct leaf *leaf, lane_mask open);
-
-/* nearest.c: the same of all leaves of a copy that the best root of these lanes may be in: next to a border between two leaves
- * what is known of it in the object's coordinates does not tell in which. */
-void packet_postpone_best(struct packet *p, lane_mask open);
 
 /* nearest.c: the rays on these lanes, as bits, go no further: there is more than is known of. */
 void packet_give_up(struct packet *p, unsigned worn);

@@ -22,6 +22,25 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
   return open & ~((lanes_min(at[0], at[1]) > out) | (lanes_max(at[0], at[1]) < -out));
 }
 
+/* Along the ray, y = w to_t/|to_t|, a slab begins at -(a sign + its half)/|b|. With the errors of stage_slab, the quotient's three
+ * roundings are 6u of |y| <= FRAME_END, which the error of x_k has room for, and t is as of a root there. */
+lanes slab_begin(const struct packet *p, const struct candidate *it)
+{
+  const struct line *line = it->line;
+  lanes begin = lanes_all(-FRAME_END);
+  for (int q = 0; q < 3; q++) {
+    lanes a, b;
+    slab_values(line, it->axis, &it->leaf->slab[q], &a, &b);
+    const lanes along = lanes_select(line->to_t < 0, -b, b), out = it->leaf->slab[q].half + 10 * line->error;
+    const lanes at = (-lanes_select(along < 0, -a, a) - out) / lanes_abs(b);
+    begin = lanes_select((at > begin) & (lanes_abs(b) > 0), at, begin);
+  }
+  const lanes w = lanes_min(begin, lanes_all(FRAME_END)), size = lanes_abs(line->to_t);
+  const lanes at = (lanes_select(line->to_t < 0, -w, w) + line->start[1] + line->start[0]) * line->to_t;
+  return lanes_max(at - (size * line->error + 8 * UNIT_ROUNDOFF * (lanes_abs(at) + FRAME_END * size) + p->t_error),
+                   p->t_min);
+}
+
 /* Two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With e as above A is off by 2 e and B
  * by 4u, where |A| u <= e/4 and |B| <= 1: the products by 8 e in all, and the right side by less than that. */
 lane_mask stage_box(const struct candidate *it, lane_mask open)

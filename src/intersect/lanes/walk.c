@@ -311,21 +311,6 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], st
   bundle_start(b, &tracer->model->tree);
 }
 
-/* A ray that has left more open than there is room for goes once more, and no farther than to its nearest hit: most of what was
- * open is behind that where it was come to first, and then what is answered must not be less than in company that came by in
- * another order. Out of line, for it is rare. */
-__attribute__((noinline)) static void bundle_walk_nearer(struct bundle *b, struct tracer *tracer)
-{
-  struct packet *p = &b->packet[0];
-  const lane_mask doubt = p->best.doubt;
-  if (!(lanes_bits(p->live & p->best.certain) & 1)) return;
-  packet_set_ready(p->postponed, tracer, SHARE_ALONE);
-  packet_orient(p);
-  p->best.doubt = doubt, p->patch = UINT32_MAX;
-  bundle_start(b, &tracer->model->tree);
-  bundle_walk(b, &tracer->model->tree, b->live);
-}
-
 /* Returns the rays whose answers are not settled, as bits. */
 LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const struct ray rays[],
                                      struct hit out_hits[], int share)
@@ -335,7 +320,6 @@ LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const 
   struct bundle bundle;
   bundle_begin(&bundle, ready, tracer, count, rays, false, share);
   bundle_walk(&bundle, &tracer->model->tree, bundle.live);
-  if (count == 1 && ready[0].postponed.cut_off) bundle_walk_nearer(&bundle, tracer);
   for (size_t h = 0; h < packets_of(count); h++) {
     struct packet *packet = &bundle.packet[h];
     struct hit *hits = out_hits + h * LANES;
@@ -361,7 +345,7 @@ LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const str
   bool let_go = false;
   for (size_t h = 0; h < packets_of(count); h++) {
     const struct packet *packet = &bundle.packet[h];
-    const unsigned lists = ready[h].postponed.cut_off | (count > 1 ? ready[h].postponed.merged : 0);
+    const unsigned lists = packet_cut_off(packet) | (count > 1 ? ready[h].postponed.merged : 0);
     const unsigned hit = finish_occluded(packet) | lists;
     let_go |= lists != 0;
     for (size_t l = 0; l < packet->count; l++) out_occluded[h * LANES + l] = hit >> l & 1;
