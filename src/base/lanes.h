@@ -67,6 +67,14 @@ LANES_INLINE void lanes_store_square(four_doubles x[4], double *to, size_t strid
 }
 #endif
 
+/* Lane k: from[k * stride]. */
+LANES_INLINE lanes lanes_load_every(const double *from, size_t stride)
+{
+  lanes x = {0};
+  for (size_t k = 0; k < LANES; k++) x[k] = from[k * stride];
+  return x;
+}
+
 /* Lane k of *a, *b, *c, *d: from[k * stride] and the three numbers behind it. */
 LANES_INLINE void lanes_load4(const double *from, size_t stride, lanes *a, lanes *b, lanes *c, lanes *d)
 {

@@ -16,10 +16,7 @@ enum { SIDE = 4, POINTS = SIDE * SIDE, COORDINATES = 3 };
 /* Coordinate k of point `number` and of those behind it, as many as there are lanes. */
 static inline lanes coordinate_at(const double P[4][4][3], int number, int k)
 {
-  const double *at = &P[0][0][0] + COORDINATES * number + k;
-  lanes x = {0};
-  for (int n = 0; n < LANES; n++) x[n] = at[COORDINATES * n];
-  return x;
+  return lanes_load_every(&P[0][0][0] + COORDINATES * number + k, COORDINATES);
 }
 
 void KERNEL(points_range)(const double P[4][4][3], double out_lo[3], double out_hi[3])

@@ -67,19 +67,11 @@ static void compose(const struct transform *first, const struct transform *secon
   }
 }
 
-/* Of as many points as there are lanes. */
-static lanes coordinate(const double (*p)[3], int k)
-{
-  lanes x = {0};
-  for (size_t n = 0; n < LANES; n++) x[n] = p[n][k];
-  return x;
-}
-
 static void apply(const struct transform *transform, const transform_row p, transform_row out)
 {
   for (size_t row = 0; row < ROWS; row += LANES) {
-    lanes to[3];
-    const lanes from[3] = {coordinate(&p[row], 0), coordinate(&p[row], 1), coordinate(&p[row], 2)};
+    lanes from[3], to[3];
+    for (int k = 0; k < 3; k++) from[k] = lanes_load_every(&p[row][k], 3);
     for (int j = 0; j < 3; j++) {
       const struct double_double *b = &transform->A[3][j];
       struct double_lanes q = {lanes_all(b->hi), lanes_all(b->lo)};
