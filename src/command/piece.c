@@ -269,35 +269,33 @@ static enum status check_sum(const struct piece *piece, char *message)
   return told(status, "it is damaged: it is not what was written", message);
 }
 
-/* What a part says of itself, of whose image all but the pixels is read. */
-static enum status read_texts(struct piece *piece, char *message)
-{
-  enum status status = read_tiles(piece);
-  if (status == STATUS_OK) status = read_channels(piece);
-  return told(status, "no piece of a picture", message);
-}
+/* What is read of a part: all that it says of itself, and with `pixels` those of its tiles. */
+struct reading {
+  struct piece *piece;
+  bool pixels;
+};
 
-/* Pixels are wanted of its tiles. */
-static enum status wanted_areas(void *piece, const struct image *image, const struct rectangle **out_area,
+static enum status wanted_areas(void *context, const struct image *image, const struct rectangle **out_area,
                                 size_t *out_count, char *message)
 {
-  const struct tile_list *tiles = &((struct piece *)piece)->tiles;
+  const struct reading *reading = context;
+  struct piece *piece = reading->piece;
   (void)image; /* the piece's own */
-  const enum status status = read_texts(piece, message);
-  *out_area = tiles->tile;
-  *out_count = tiles->count;
-  return status;
+  enum status status = read_tiles(piece);
+  if (status == STATUS_OK) status = read_channels(piece);
+  *out_area = piece->tiles.tile;
+  *out_count = reading->pixels ? piece->tiles.count : 0;
+  return told(status, "no piece of a picture", message);
 }
 
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message)
 {
   *out = (struct piece){0};
-  const struct image_wanted wanted = {wanted_areas, out};
-  enum status status = pixels ? image_read_areas(path, &wanted, &out->image, message)
-                              : image_read_header(path, &out->image, message);
-  if (status == STATUS_OK) status = pixels ? check_sum(out, message) : read_texts(out, message);
-  if (status == STATUS_OK) return STATUS_OK;
-  piece_destroy(out);
+  struct reading reading = {out, pixels};
+  const struct image_wanted wanted = {wanted_areas, &reading};
+  enum status status = image_read_areas(path, &wanted, &out->image, message);
+  if (status == STATUS_OK && pixels) status = check_sum(out, message);
+  if (status != STATUS_OK) piece_destroy(out);
   return status;
 }
 

@@ -17,15 +17,19 @@ enum status image_create_header(size_t width, size_t height, size_t channel_coun
   return STATUS_OK;
 }
 
+enum status image_add_pixels(struct image *image)
+{
+  const size_t values = image->width * image->height * image->channel_count;
+  image->value = calloc(values == 0 ? 1 : values, sizeof *image->value);
+  return image->value == NULL ? STATUS_LIMIT : STATUS_OK;
+}
+
 enum status image_create(size_t width, size_t height, size_t channel_count, struct image *out)
 {
-  const enum status status = image_create_header(width, height, channel_count, out);
-  if (status != STATUS_OK) return status;
-  const size_t values = width * height * channel_count;
-  out->value = calloc(values == 0 ? 1 : values, sizeof *out->value);
-  if (out->value != NULL) return STATUS_OK;
-  image_destroy(out);
-  return STATUS_LIMIT;
+  enum status status = image_create_header(width, height, channel_count, out);
+  if (status == STATUS_OK) status = image_add_pixels(out);
+  if (status != STATUS_OK) image_destroy(out);
+  return status;
 }
 
 void image_destroy(struct image *image)

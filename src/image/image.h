@@ -35,8 +35,10 @@ struct image {
  * are more than IMAGE_MAX_PIXELS; then *out is zero. */
 enum status image_create(size_t width, size_t height, size_t channel_count, struct image *out) STATUS_MUST_CHECK;
 
-/* The same of all but its pixels, whose value is NULL, and which take no memory. */
+/* The same of all but its pixels, whose value is NULL, and which take no memory; and these, later: STATUS_LIMIT leaves the
+ * picture as it is. */
 enum status image_create_header(size_t width, size_t height, size_t channel_count, struct image *out) STATUS_MUST_CHECK;
+enum status image_add_pixels(struct image *image) STATUS_MUST_CHECK;
 
 /* Frees what image_create made and zeroes *image; a zero image is allowed. */
 void image_destroy(struct image *image);

@@ -178,8 +178,7 @@ static const char *format_of_content(int file)
   return NULL;
 }
 
-static enum status read_file(const char *path, bool pixels, const struct image_wanted *wanted, struct image *out,
-                             char *message)
+enum status image_read_areas(const char *path, const struct image_wanted *wanted, struct image *out, char *message)
 {
   *out = (struct image){0};
   const char *reason;
@@ -191,20 +190,10 @@ static enum status read_file(const char *path, bool pixels, const struct image_w
   }
   const struct image_module *module;
   const enum status status = load_module(&module, message);
-  return status == STATUS_OK ? module->read(path, format, pixels, wanted, out, message) : status;
+  return status == STATUS_OK ? module->read(path, format, wanted, out, message) : status;
 }
 
 enum status image_read(const char *path, struct image *out, char *message)
 {
-  return read_file(path, true, NULL, out, message);
-}
-
-enum status image_read_header(const char *path, struct image *out, char *message)
-{
-  return read_file(path, false, NULL, out, message);
-}
-
-enum status image_read_areas(const char *path, const struct image_wanted *wanted, struct image *out, char *message)
-{
-  return read_file(path, true, wanted, out, message);
+  return image_read_areas(path, NULL, out, message);
 }

@@ -62,12 +62,9 @@ enum status image_encode(const struct image *image, const struct image_encoding 
  * then *out is zero. */
 enum status image_read(const char *path, struct image *out, char *message) STATUS_MUST_CHECK;
 
-/* The same of all but its pixels, whose value is NULL. */
-enum status image_read_header(const char *path, struct image *out, char *message) STATUS_MUST_CHECK;
-
 /* Which pixels of a picture are wanted: `areas` is asked when all but the pixels is known of it. They are counted as in the
- * picture that it stands in, lie inside of its window, and stay where they are until it is read. Where the answer is no
- * STATUS_OK nothing more is read. */
+ * picture that it stands in, lie inside of its window, and stay where they are until it is read. Where there are none its
+ * value is NULL; where the answer is no STATUS_OK nothing more is read. */
 struct image_wanted {
   enum status (*areas)(void *context, const struct image *image, const struct rectangle **out_area, size_t *out_count,
                        char *message);

@@ -19,8 +19,8 @@ struct image_module {
   enum status (*encode)(const struct image *image, const struct image_encoding *encoding, unsigned char **out_bytes,
                         size_t *out_size, char *message);
   /* `wanted` NULL: all pixels. */
-  enum status (*read)(const char *path, const char *format, bool pixels, const struct image_wanted *wanted,
-                      struct image *out, char *message);
+  enum status (*read)(const char *path, const char *format, const struct image_wanted *wanted, struct image *out,
+                      char *message);
 };
 
 extern const struct image_module image_module __attribute__((visibility("default")));

@@ -242,8 +242,8 @@ bool read_areas(OIIO::ImageInput &input, const OIIO::ImageSpec &spec, const rect
   return true;
 }
 
-std::string read(const char *path, const char *format, bool pixels, const image_wanted *wanted, image &out,
-                 status &result, char *message)
+std::string read(const char *path, const char *format, const image_wanted *wanted, image &out, status &result,
+                 char *message)
 {
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) return "OpenImageIO: " + OIIO::geterror();
@@ -256,11 +256,10 @@ std::string read(const char *path, const char *format, bool pixels, const image_
     return "not a flat picture of at most " + std::to_string(IMAGE_MAX_CHANNELS) + " channels";
   const std::string more = besides(*input, spec);
   if (!more.empty()) return more;
-  const auto create = pixels ? image_create : image_create_header;
-  result = create(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
-                  static_cast<std::size_t>(spec.nchannels), &out);
-  if (result != STATUS_OK) return "there is too little memory for its pixels, or they are too many";
-  result = STATUS_FILE;
+  const char *const too_large = "there is too little memory for its pixels, or they are too many";
+  result = image_create_header(static_cast<std::size_t>(spec.width), static_cast<std::size_t>(spec.height),
+                               static_cast<std::size_t>(spec.nchannels), &out);
+  if (result != STATUS_OK) return too_large;
   for (std::size_t c = 0; c < out.channel_count; c++)
     std::snprintf(out.channel[c].name, IMAGE_NAME_SIZE, "%s", spec.channelnames[c].c_str());
   read_window(spec, out);
@@ -268,13 +267,13 @@ std::string read(const char *path, const char *format, bool pixels, const image_
   const rectangle *area = nullptr;
   std::size_t areas = 0;
   if (wanted != nullptr) result = wanted->areas(wanted->context, &out, &area, &areas, message);
-  if (wanted != nullptr && result != STATUS_OK) return "";
-  result = STATUS_FILE;
+  if (result != STATUS_OK || (wanted != nullptr && areas == 0)) return "";
+  result = image_add_pixels(&out);
+  if (result != STATUS_OK) return too_large;
   /* Rows of a TIFF or JPEG that is cut off or damaged are made up, and that is said, but not by what is returned. */
-  const bool done = !pixels ||
-                    (wanted == nullptr ? read_pixels(*input, spec, out) : read_areas(*input, spec, area, areas, out));
+  const bool done = wanted == nullptr ? read_pixels(*input, spec, out) : read_areas(*input, spec, area, areas, out);
   const std::string problem = input->geterror();
-  if (done && problem.empty()) result = STATUS_OK;
+  if (!done || !problem.empty()) result = STATUS_FILE;
   return problem;
 }
 
@@ -318,12 +317,11 @@ status module_encode(const image *picture, const image_encoding *encoding, unsig
     });
 }
 
-status module_read(const char *path, const char *format, bool pixels, const image_wanted *wanted, image *out,
-                   char *message)
+status module_read(const char *path, const char *format, const image_wanted *wanted, image *out, char *message)
 {
   const status result = guarded(message, [&] {
     status reading = STATUS_FILE;
-    const std::string problem = read(path, format, pixels, wanted, *out, reading, message);
+    const std::string problem = read(path, format, wanted, *out, reading, message);
     if (!problem.empty()) say(message, problem);
     return reading;
   });

@@ -285,11 +285,13 @@ static void areas_of_a_picture_are_read(void **state)
       question.asked = 0;
       assert_int_equal(image_read_areas(path, &wanted, &back, message), STATUS_OK);
       assert_int_equal(question.asked, 1);
+      assert_true((back.value == NULL) == (question.count == 0));
       const bool all = tile == 0 || question.count == 3;
       for (size_t k = 0; k < WIDTH * HEIGHT; k++) {
         const int area = first[k / WIDTH][k % WIDTH];
         const bool in = all || (area != 0 && area <= (int)question.count);
-        for (size_t c = 0; c < 3; c++) assert_true(back.value[3 * k + c] == (in ? image.value[3 * k + c] : 0));
+        for (size_t c = 0; c < 3 && question.count != 0; c++)
+          assert_true(back.value[3 * k + c] == (in ? image.value[3 * k + c] : 0));
       }
     }
     image_destroy(&back);
@@ -438,7 +440,6 @@ static void pictures_without_bounds_are_refused(void **state)
   struct image image;
   put_bytes(path, large, sizeof large);
   assert_int_equal(image_read(path, &image, message), STATUS_LIMIT);
-  assert_int_equal(image_read_header(path, &image, message), STATUS_LIMIT);
   assert_null(image.value);
 }
 
