@@ -11,7 +11,6 @@
 #include "command/command.h"
 #include "command/output.h"
 #include "command/scene_file.h"
-#include "command/values.h"
 #include "image/image_file.h"
 
 enum { OPTION_POVRAY_OPTION = 1 };
@@ -83,12 +82,8 @@ static enum status declare_numbers(const struct command *command, struct request
 static enum status take_option(const struct command *command, void *context, int val, const char *argument)
 {
   struct request *request = context;
-  struct check_request *check = &request->check;
-  if (val == OPTION_POVRAY_OPTION) return take_povray_option(command, request, argument);
-  if (val != OPTION_SIZE) return scene_request_take(command, &request->scene, val, argument);
-  if (value_size(argument, MAX_SIDE, &check->width, &check->height) && check->height <= MAX_PIXELS / check->width)
-    return STATUS_OK;
-  return command_usage(command, "'%s' is no size WxH of at most %d pixels", argument, MAX_PIXELS);
+  return val == OPTION_POVRAY_OPTION ? take_povray_option(command, request, argument)
+                                     : scene_request_take(command, &request->scene, val, argument);
 }
 
 /* ---- the work ---- */
@@ -98,6 +93,9 @@ static enum status prepare(const struct command *command, const struct check_req
 {
   struct stat info;
   char message[IMAGE_MESSAGE_SIZE];
+  if (request->height > MAX_PIXELS / request->width)
+    return command_usage(command, "%zux%zu pixels are more than the %d that are compared", request->width,
+                         request->height, MAX_PIXELS);
   if (request->own_text &&
       (output_is_standard(request->path) || (stat(request->path, &info) == 0 && !S_ISREG(info.st_mode)))) {
     command_error(command, "--own-text reads the scene twice, and '%s' is no regular file", request->path);
@@ -118,9 +116,6 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
   struct scene *scene = NULL;
   check->folder = folder;
   check->memory = scene_request_memory(&request->scene);
-  request->scene.path = check->path;
-  request->scene.width = check->width;
-  request->scene.height = check->height;
   const char **folders = scene_request_folders(&request->scene);
   check->folders = folders;
   enum status status = folders == NULL ? command_out_of_memory(request->command)
@@ -140,10 +135,8 @@ static enum status work(void *context, const char *folder, struct text_buffer *o
 static enum status run(const struct command *command, int argc, const char **argv)
 {
   struct request request = {.command = command,
-                            .scene = {.tolerance = NAN},
-                            .check = {.width = DEFAULT_WIDTH,
-                                      .height = DEFAULT_HEIGHT,
-                                      .program = "povray",
+                            .scene = SCENE_REQUEST_DEFAULT,
+                            .check = {.program = "povray",
                                       .timeout = POVRAY_TIMEOUT,
                                       .steps = 6,
                                       .grid = 8,
@@ -155,9 +148,10 @@ static enum status run(const struct command *command, int argc, const char **arg
   char *command_line = command_line_text(argc, argv), *declared = NULL;
   enum status status = command_line_read(command, argc, argv, 1, take_option, &request, &line);
   if (status == STATUS_OK && !line.help) {
-    request.check.path = line.positional[0];
+    request.check.path = request.scene.path = request.folder.scene = line.positional[0];
+    request.check.width = request.scene.width;
+    request.check.height = request.scene.height;
     request.check.command_line = command_line == NULL ? "" : command_line;
-    request.folder.scene = request.check.path;
     status = prepare(command, &request.check);
     if (status == STATUS_OK && request.check.own_text) status = declare_numbers(command, &request, &declared);
     if (status == STATUS_OK) status = output_folder_fill(command, &request.folder, request.scene.quiet, work, &request);
