@@ -1,12 +1,31 @@
-/* JSON as a text, and counts in it. */
+/* JSON as a text, and what it is made of: whole, or NULL. */
 #ifndef PSCN_BASE_JSON_TEXT_H
 #define PSCN_BASE_JSON_TEXT_H
 
 #include <jansson.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 
 static inline json_t *json_count(uint64_t value) { return json_integer((json_int_t)value); }
+
+/* The list with the value at its end, the object with the members of another one: NULL where memory is short, or either
+ * is NULL. They take both over. So does json_pack what it is given. */
+static inline json_t *json_append(json_t *list, json_t *value)
+{
+  if (json_array_append_new(list, value) == 0) return list;
+  json_decref(list);
+  return NULL;
+}
+
+static inline json_t *json_join(json_t *object, json_t *other)
+{
+  const bool whole = json_object_update(object, other) == 0;
+  json_decref(other);
+  if (whole) return object;
+  json_decref(object);
+  return NULL;
+}
 
 /* The text, ended by NUL and with one byte to spare; to be freed. NULL where memory is short, or json is NULL. jansson's
  * json_dumps leaves parts out where its text cannot grow (2.14: a key); a buffer that has room for all gets all. */

@@ -103,16 +103,17 @@ static json_t *point_value(const struct chart *chart, size_t index)
     page_of_number(label_place(chart, index)));
 }
 
-/* The points of a family that are all right, or are not, with their look; null where there are none. */
+/* The points of a family that are all right, or are not, with their look; null where there are none, NULL where memory is
+ * short. */
 static json_t *set_value(const struct chart *chart, const json_t *points, enum family family, bool right, bool titled)
 {
   json_t *list = json_array();
   for (size_t k = 0; k < chart->point_count; k++) {
     const struct chart_point *point = &chart->points[k];
     if (point->family == family && drawn(point) && all_right(point) == right)
-      json_array_append(list, json_array_get(points, k));
+      list = json_append(list, json_incref(json_array_get(points, k)));
   }
-  if (json_array_size(list) == 0) {
+  if (list != NULL && json_array_size(list) == 0) {
     json_decref(list);
     return json_null();
   }
@@ -122,20 +123,18 @@ static json_t *set_value(const struct chart *chart, const json_t *points, enum f
                    titled ? json_string(look->title) : json_null(), "points", list);
 }
 
-static bool add_sets(const struct chart *chart, json_t *root, const json_t *points)
+static json_t *sets_value(const struct chart *chart, const json_t *points)
 {
   json_t *sets = json_array();
-  bool good = true;
   for (int family = 0; family < FAMILIES; family++) {
     bool titled = true;
     for (int right = 1; right >= 0; right--) {
       json_t *set = set_value(chart, points, (enum family)family, right != 0, titled);
       titled = titled && json_is_null(set);
-      good = (json_is_null(set) || json_array_append(sets, set) == 0) && good;
-      json_decref(set);
+      if (!json_is_null(set)) sets = json_append(sets, set);
     }
   }
-  return json_object_set_new(root, "sets", sets) == 0 && good;
+  return sets;
 }
 
 static int by_error(const void *a, const void *b)
@@ -146,24 +145,23 @@ static int by_error(const void *a, const void *b)
 }
 
 /* The front from the most exact to the fastest, step by step: between points that are all right, and others. */
-static bool add_front(const struct chart *chart, json_t *root)
+static json_t *front_value(const struct chart *chart)
 {
   const struct chart_point **front = calloc(chart->point_count + 1, sizeof *front);
-  json_t *lists[2] = {json_array(), json_array()};
   size_t count = 0;
-  bool good = front != NULL;
-  for (size_t k = 0; good && k < chart->point_count; k++)
+  if (front == NULL) return NULL;
+  json_t *lists[2] = {json_array(), json_array()};
+  for (size_t k = 0; k < chart->point_count; k++)
     if (chart->points[k].front) front[count++] = &chart->points[k];
-  if (good) qsort(front, count, sizeof *front, by_error);
+  qsort(front, count, sizeof *front, by_error);
   for (size_t k = 0; k + 1 < count; k++) {
     const bool right = all_right(front[k]) && all_right(front[k + 1]);
     json_t *step = json_pack("{s:f,s:f,s:f,s:f}", "x1", error_of(front[k]), "y1", front[k]->time[RAYS_CAMERA].median,
                              "x2", error_of(front[k + 1]), "y2", front[k + 1]->time[RAYS_CAMERA].median);
-    good = json_array_append_new(lists[right], step) == 0 && good;
+    lists[right] = json_append(lists[right], step);
   }
   free(front);
-  good = json_object_set_new(root, "pale_steps", lists[0]) == 0 && good;
-  return json_object_set_new(root, "steps", lists[1]) == 0 && good;
+  return json_pack("{s:o,s:o}", "pale_steps", lists[0], "steps", lists[1]);
 }
 
 /* ---- the page ---- */
@@ -174,29 +172,22 @@ static json_t *make_values(const struct chart *chart)
   const struct chart_request *request = chart->request;
   const char *slash = strrchr(request->path, '/');
   json_t *points = json_array(), *first = json_array(), *notes = json_array();
-  json_t *head = page_of_head(request->command_line);
-  bool good = true;
   for (size_t k = 0; k < chart->point_count; k++) {
-    good = json_array_append_new(points, point_value(chart, k)) == 0 && good;
-    if (chart->points[k].front || k == 0) good = json_array_append(first, json_array_get(points, k)) == 0 && good;
+    points = json_append(points, point_value(chart, k));
+    if (chart->points[k].front || k == 0) first = json_append(first, json_incref(json_array_get(points, k)));
   }
   for (size_t k = 0; k < chart->note_count; k++)
-    good = json_array_append_new(notes, json_pack("{s:o}", "note", page_of_text(chart->notes[k]))) == 0 && good;
-  json_t *root = json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:o,s:O,s:O,s:[{s:b,s:o},{s:b,s:o}]}", "scene",
-                           page_of_text(slash == NULL ? request->path : slash + 1), "width", json_count(request->width),
-                           "height", json_count(request->height), "rays", json_count(chart->rays[RAYS_CAMERA].count),
-                           "shadows", json_count(chart->rays[RAYS_SHADOW].count), "rounds", json_count(chart->rounds),
-                           "undecided", json_count(chart->points[0].camera.undecided), "strip_width", (int)STRIP_WIDTH,
-                           "strip_height", (int)STRIP_HEIGHT, "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]),
-                           "yard_most", page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes,
-                           "first", first, "points", points, "tables", "all", 0, "points", first, "all", 1, "points",
-                           points);
-  good = root != NULL && good && json_object_update(root, head) == 0 && add_sets(chart, root, points) &&
-         add_front(chart, root);
-  json_decref(head);
-  if (good) return root;
-  json_decref(root);
-  return NULL;
+    notes = json_append(notes, json_pack("{s:o}", "note", page_of_text(chart->notes[k])));
+  json_t *root = json_pack(
+    "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:i,s:i,s:o,s:o,s:o,s:O,s:O,s:o,s:[{s:b,s:o},{s:b,s:o}]}", "scene",
+    page_of_text(slash == NULL ? request->path : slash + 1), "width", json_count(request->width), "height",
+    json_count(request->height), "rays", json_count(chart->rays[RAYS_CAMERA].count), "shadows",
+    json_count(chart->rays[RAYS_SHADOW].count), "rounds", json_count(chart->rounds), "undecided",
+    json_count(chart->points[0].camera.undecided), "strip_width", (int)STRIP_WIDTH, "strip_height", (int)STRIP_HEIGHT,
+    "yard_least", page_of_number(chart->yard[RAYS_CAMERA][0]), "yard_most",
+    page_of_number(chart->yard[RAYS_CAMERA][chart->yard_count - 1]), "notes", notes, "first", first, "points", points,
+    "sets", sets_value(chart, points), "tables", "all", 0, "points", first, "all", 1, "points", points);
+  return json_join(json_join(root, front_value(chart)), page_of_head(request->command_line));
 }
 
 enum { CSV, SVG, PAGE, FILES = CHART_FILES };

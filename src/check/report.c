@@ -37,9 +37,7 @@ static json_t *row_json(const struct check *check, const struct check_row *row)
     json_count(on[CHECK_EDGE_SILHOUETTE]), "mask", "only_here", json_count(row->mask_ours), "only_there",
     json_count(row->mask_theirs), "time", "wall", row->picture.time.wall, "cpu", row->picture.time.cpu);
   if (root == NULL || check->request->grid == 0) return root;
-  if (json_object_set_new(root, "distances", distances_json(&row->distances)) == 0) return root;
-  json_decref(root);
-  return NULL;
+  return json_join(root, json_pack("{s:o}", "distances", distances_json(&row->distances)));
 }
 
 static json_t *worst_json(const struct check *check, const struct check_worst *worst)
@@ -60,12 +58,9 @@ json_t *check_json(const struct check *check)
   const struct check_request *request = check->request;
   json_t *rows = json_array(), *worst = json_array();
   char message[256];
-  bool good = true;
-  for (size_t k = 0; k < check->row_count; k++)
-    good = json_array_append_new(rows, row_json(check, &check->row[k])) == 0 && good;
-  for (size_t k = 0; k < check->worst_count; k++)
-    good = json_array_append_new(worst, worst_json(check, &check->worst[k])) == 0 && good;
-  json_t *root = json_pack(
+  for (size_t k = 0; k < check->row_count; k++) rows = json_append(rows, row_json(check, &check->row[k]));
+  for (size_t k = 0; k < check->worst_count; k++) worst = json_append(worst, worst_json(check, &check->worst[k]));
+  return json_pack(
     "{s:s,s:s,s:o,s:b,s:[i,i],s:{s:o,s:o,s:o,s:o,s:o,s:o},s:b,s:o,s:o,s:{s:f,s:f}}", "version", PSCN_VERSION, "povray",
     check->povray.version, "scene", page_of_text(request->path), "own_text", request->own_text, "size",
     (int)request->width, (int)request->height, "limits", "fail", page_of_number(request->fail.each), "failpercent",
@@ -73,7 +68,4 @@ json_t *check_json(const struct check *check)
     page_of_number(request->fail.any), "failpsnr", page_of_number(request->fail_psnr), "failmask",
     page_of_number(request->fail_mask), "within_limits", check_within_limits(check, message, sizeof message), "rows",
     rows, "worst", worst, "time", "wall", check->ours.time.wall, "cpu", check->ours.time.cpu);
-  if (good) return root;
-  json_decref(root);
-  return NULL;
 }

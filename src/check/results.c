@@ -197,9 +197,7 @@ static enum status make_page(struct results *results, const char *verdict, struc
   const struct check *check = results->check;
   const struct check_request *request = check->request;
   const struct text_buffer *theirs = &results->content[1 + 2 * (check->row_count - 1)];
-  json_t *root = check_json(check), *head = page_of_head(request->command_line);
-  results->failed = results->failed || json_object_update(root, head) != 0;
-  json_decref(head);
+  json_t *root = json_join(check_json(check), page_of_head(request->command_line));
   set(results, root, "verdict", json_string(verdict));
   set(results, root, "width", json_count(request->width));
   set(results, root, "height", json_count(request->height));

@@ -48,7 +48,6 @@ static json_t *path_text(const char *path)
   return text;
 }
 
-/* json_pack releases what it was given where memory is short. */
 json_t *report_statistics(const struct report *report)
 {
   const struct intersect_counts *counts = &report->counts;
@@ -74,11 +73,7 @@ json_t *report_statistics(const struct report *report)
                               "size", json_count(report->width), json_count(report->height), "crop",
                               json_count(crop->x), json_count(crop->y), json_count(crop->width),
                               json_count(crop->height), "samples", json_count(report->samples));
-  const bool complete = picture != NULL && json_object_update(root, picture) == 0;
-  json_decref(picture);
-  if (complete) return root;
-  json_decref(root);
-  return NULL;
+  return json_join(root, picture);
 }
 
 enum status report_text(const struct command *command, json_t *statistics, char **out_text)

@@ -175,17 +175,16 @@ static json_t *finite_or_null(double value) { return isfinite(value) ? json_real
 static char *json_line(const struct answer *answer)
 {
   json_t *roots = json_array();
-  bool complete = true;
   for (int k = 0; k < answer->roots.count; k++) {
     const struct root *root = &answer->roots.root[k];
     json_t *row = json_pack("{s:f, s:f, s:o, s:s, s:i, s:o}", "re", root->re, "im", root->im, "radius",
                             finite_or_null(root->radius), "status", status_word(root), "iterations", root->iterations,
                             "eq11", finite_or_null(eq11_of(answer, root)));
-    complete &= json_array_append_new(roots, row) == 0;
+    roots = json_append(roots, row);
   }
   json_t *whole = json_pack("{s:I, s:i, s:o, s:i}", "line", (json_int_t)answer->line, "degree", answer->power.degree,
                             "roots", roots, "missing", answer->roots.missing);
-  char *text = complete ? json_text(whole, JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII) : NULL;
+  char *text = json_text(whole, JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENSURE_ASCII);
   json_decref(whole);
   return text;
 }
