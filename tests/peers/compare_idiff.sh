@@ -1,14 +1,8 @@
 #!/bin/bash
 # The numbers of `pscn compare` and of OpenImageIO's idiff on the same files. idiff prints six digits, so they agree
 # when they differ by less than RELATIVE of themselves; pixels and counts agree exactly.
-set -euo pipefail
 RELATIVE=0.00001
-
-{ command -v idiff && command -v oiiotool; } >/dev/null || { echo "skipped: idiff is not installed" >&2; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-export LC_ALL=C
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" idiff oiiotool
 scene=$PSCN_SOURCE_DIR/tests/cli/scenes/bent.pscn
 render() { "$PSCN" render "$scene" --size 90x60 --quiet "$@"; }
 render -o a.png

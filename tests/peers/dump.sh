@@ -2,14 +2,9 @@
 # POV-Ray's picture of every scene and of its dump: the same but for what rounding does to an edge. A transform is
 # applied to the points by pscn in the dump, by POV-Ray in the scene, so a point may differ in its last digit, and with
 # it which triangle a ray through an edge meets: such pixels are at most PERCENT of all, in each scene.
-set -euo pipefail
 PERCENT=0.1
 LIMIT=1/255
-
-command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-export HOME=$folder # POV-Ray wants to write there
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
 cd "$PSCN_SOURCE_DIR/scenes"
 failed=0
 count=0

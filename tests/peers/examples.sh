@@ -2,9 +2,7 @@
 # Patches nobody here wrote, from Debian's povray-examples: the teapot's file included as it is, in a scene with its
 # names declared, and the patch of the Bezier example, in a plain texture. Both programs render them, and agree within
 # `pscn check`'s own limits when POV-Ray cuts the patches finely.
-set -euo pipefail
-
-command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
 find_example() { # FILE: its place, wherever the package puts it, packed or not
   { dpkg -L povray-examples 2>/dev/null || find /usr/share/doc/povray* -type f 2>/dev/null; } |
     grep -E "/$1(\.gz)?$" | head -1
@@ -12,10 +10,6 @@ find_example() { # FILE: its place, wherever the package puts it, packed or not
 teapot=$(find_example advanced/teapot/teapot.inc || true)
 bezier=$(find_example objects/bezier.pov || true)
 [ -n "$teapot" ] && [ -n "$bezier" ] || { echo "skipped: povray-examples is not installed" >&2; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-export HOME=$folder LC_ALL=C
 failed=0
 
 zcat -f "$teapot" >teapot.inc

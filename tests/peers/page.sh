@@ -1,15 +1,9 @@
 #!/bin/bash
 # The page of `pscn check` in headless Chromium: nothing on its console, nothing asked of a network, and a screenshot
 # that shows both pictures where they stand on the page.
-set -euo pipefail
-
-command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
 browser=$(command -v chromium || command -v chromium-browser || true)
 [ -n "$browser" ] || { echo "skipped: chromium is not installed" >&2; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-export LC_ALL=C HOME=$folder
 failed=0
 fail() { echo "$*"; failed=1; }
 

@@ -2,15 +2,9 @@
 # One small scene for each keyword of finishes, lights, cameras, transforms and colours, by both programs. All patches
 # are flat, so that POV-Ray's triangles are the exact surface: no pixel may differ by more than 1/255 but for what
 # rounding does to an edge, MOST pixels of a picture.
-set -euo pipefail
 JOBS=16 # POV-Ray mostly waits for itself
 MOST=2
-
-command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-export LC_ALL=C
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
 
 KEY='light_source { <-3, 5, -4>, rgb <1, 0.95, 0.9> }'
 CAMERA='camera { location <0.4, 2.2, -5> look_at <0.1, 0.2, 0> angle 42 }'

@@ -2,17 +2,12 @@
 # Scenes nobody has thought of: finishes, lights, backgrounds, cameras, transforms, textures and colours at random, by
 # both programs. All patches are flat, so that POV-Ray's triangles are the exact surface: no pixel may differ by more
 # than 1/255 but for what rounding does to an edge, MOST pixels of a picture. PSCN_SEED makes other scenes.
-set -euo pipefail
 JOBS=16 # POV-Ray mostly waits for itself
 MOST=3
 SCENES=24
 SEED=$((${PSCN_SEED:-0} * SCENES))
-
-command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
-export LC_ALL=C MOST
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
+export MOST
 
 cat >parts.inc <<'END'
 #declare Square = bicubic_patch { type 1 flatness 0 u_steps 2 v_steps 2

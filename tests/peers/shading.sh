@@ -2,14 +2,8 @@
 # The colours of a flat patch that fills the picture, by pscn and by POV-Ray, for each keyword of a finish alone and
 # together, and for lights before, behind, and without shadow. Both write 16 bits; they may differ by LIMIT, which
 # leaves room for each program's rounding to 1/65535 and for POV-Ray's single-precision colours.
-set -euo pipefail
 LIMIT=0.05/255
-
-command -v povray >/dev/null || { echo "skipped: povray is not installed" >&2; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-export HOME=$folder # POV-Ray wants to write there
-cd "$folder"
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" povray
 
 # scene FINISH LIGHTS [GLOBAL_SETTINGS]
 scene() {

@@ -1,11 +1,7 @@
 #!/bin/bash
 # EXR crops stand where they belong: OpenImageIO's own tool puts two of them together, and it is the whole picture; each has the
 # picture for its display window.
-set -euo pipefail
-command -v oiiotool >/dev/null || { echo "skipped: oiiotool is not installed" >&2; exit 77; }
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
+. "$PSCN_SOURCE_DIR/tests/peers/begin.sh" oiiotool
 scene="$PSCN_SOURCE_DIR/scenes/teapot.pscn --size 64x48 --quiet"
 "$PSCN" render $scene -o whole.exr
 "$PSCN" render $scene --crop 0,0,30,48 -o left.exr
