@@ -1,4 +1,4 @@
-/* A bundle: the packets whose rays go together, where they are in a tree, what each may still look at, and the leaves that
+/* A bundle: packets whose rays go through a tree together, their view of it, their share of work, and the leaves that
  * they put off.
  *
  * Internal to src/intersect/lanes: walk.c includes it.
@@ -13,11 +13,11 @@ struct bundle {
   int packets; /* those that are not empty */
   struct later later;
   struct view view;
-  unsigned live; /* bit k: ray k still looks for a hit */
-  int depth;     /* of the tree that it is in: how many frames are around it, those around the copy too */
+  unsigned live; /* bit k: ray k still seeks a hit */
+  int depth;     /* of its tree: the number of frames around it, including those around the copy */
 };
 
-/* Takes over where its packets' rays end now. */
+/* Takes over the ends of its packets' rays. */
 static void bundle_update(struct bundle *b)
 {
   b->live = 0;
@@ -25,14 +25,14 @@ static void bundle_update(struct bundle *b)
   view_set_ends(&b->view, b->packet, b->packets);
 }
 
-/* The rays in the frame of that tree from now on. */
+/* Converts the rays to the frame of that tree. */
 static void bundle_start(struct bundle *b, const struct model_tree *tree)
 {
   view_set(&b->view, b->packet, b->packets, tree);
   bundle_update(b);
 }
 
-/* Out of line, for it is rare: these rays have taken all they may. */
+/* Gives up rays that have used up their looks. Out of line, because it is rare. */
 __attribute__((noinline)) static void bundle_let_go(struct bundle *b, unsigned rays)
 {
   for (struct packet *p = b->packet; rays; p++, rays >>= LANES) {
@@ -43,8 +43,8 @@ __attribute__((noinline)) static void bundle_let_go(struct bundle *b, unsigned r
   bundle_update(b);
 }
 
-/* The rays have looked at so many boxes together: each is told to have looked at all of them, for what a ray looks at
- * alone is among them. */
+/* Counts boxes that the rays have looked at together. Each ray is charged for all of them, for those that it would look
+ * at alone are among them. */
 static void bundle_looked(struct bundle *b, int64_t looks)
 {
   unsigned worn = 0;
@@ -55,7 +55,7 @@ static void bundle_looked(struct bundle *b, int64_t looks)
   if (worn & b->live) bundle_let_go(b, worn & b->live);
 }
 
-/* One ray looks at a box. Returns whether it may. */
+/* Counts a box that one ray looks at. Returns whether it may. */
 LANES_INLINE bool ray_looks(struct bundle *b, unsigned lane)
 {
   if (--b->packet[lane / LANES].postponed->looks[lane % LANES] >= 0) return true;
@@ -63,7 +63,7 @@ LANES_INLINE bool ray_looks(struct bundle *b, unsigned lane)
   return false;
 }
 
-/* Whether leaves are put off from here on. */
+/* Sets whether leaves are put off from here on. */
 LANES_INLINE void bundle_set_later(struct bundle *b, bool later)
 {
   b->later.count = 0;
@@ -71,7 +71,7 @@ LANES_INLINE void bundle_set_later(struct bundle *b, bool later)
     b->packet[h].later = later ? &b->later : NULL, b->packet[h].first_ray = (unsigned)h * LANES;
 }
 
-/* Puts the leaf off for packets whose rays all start in its slab. Returns the rays that are to be tried on it now. */
+/* Puts the leaf off for packets all of whose rays start in its slab. Returns the rays to be tried on it now. */
 LANES_INLINE unsigned bundle_put_off(struct bundle *b, uint32_t index, unsigned rays)
 {
   const struct model *model = b->packet[0].model;

@@ -1,9 +1,9 @@
-/* One candidate: a leaf and the rays of a packet that may pass its boxes, on the lanes that share a dominant axis.
+/* A candidate: a leaf, and those rays of a packet that may pass its boxes and share a dominant axis.
  *
- * Internal to src/intersect/lanes. A candidate passes a line of stages, which candidate.c shows. All stages have one
- * shape: they take the lanes that are still open, may offer roots (nearest.h), and return the lanes that are open
- * after them. A lane is closed where the leaf is proven to be missed, or all of its roots have been offered. What is
- * open in the end goes to the last resort (exact.h).
+ * Internal to src/intersect/lanes. A candidate goes through a sequence of stages; candidate.c shows their order. All
+ * stages have one shape: they take the lanes that are still open, may offer roots (nearest.h), and return the lanes
+ * that are open after them. A stage closes a lane once the leaf is proven to be missed, or all of its roots have been
+ * offered. The last resort (exact.h) decides what is open at the end.
  */
 #ifndef PSCN_INTERSECT_LANES_CANDIDATE_H
 #define PSCN_INTERSECT_LANES_CANDIDATE_H
@@ -12,100 +12,102 @@
 
 enum { RESULTANT_MAX_DEGREE = 18 };
 
-/* What the stages tell each other, in the order in which they set it. */
+/* What the stages pass on to later ones, in the order in which they set it. */
 struct candidate {
   /* packet_leaf: */
-  struct leaf *leaf; /* constant but for its quadric, where it has none yet: then it is the tracer's own */
+  struct leaf *leaf;               /* constant, except that a leaf without a quadric, the tracer's own, may get one */
   const struct model_patch *patch; /* the leaf's */
   int64_t number;                  /* the leaf's, in its model */
   int axis;
-  const struct line *line; /* the packet's for that axis */
+  const struct line *line; /* the packet's, for that axis */
   /* stage_bilinear: */
-  struct leaf_root first; /* the root found first; only where it exists */
+  struct leaf_root first; /* the first root found; meaningful only where it exists */
   /* stage_planes: */
-  lanes a[16], b[16]; /* the nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
-  lane_mask along;    /* the ray meets a curve on the leaf, or its pole, as far as double precision can tell */
-  lanes alpha, beta;  /* largest |a|, |b| of the nets, then of the form */
+  lanes a[16], b[16]; /* nets of the planes' polynomials, a[4 * i + j]; each is off by line->error at most */
+  lane_mask along;    /* in double precision, the ray seems to meet a curve on the leaf, or its pole */
+  lanes alpha, beta;  /* largest |a|, |b|, of the nets at first, then of the form */
   /* stage_resultant: */
   lanes form_error;             /* of a coefficient of the form */
-  lanes form_a[16], form_b[16]; /* where the form is not the leaf's own net */
+  lanes form_a[16], form_b[16]; /* used if the form is not the leaf's own net */
   const lanes *fa, *fb;
-  int degree; /* of r, exact roots at the ends taken off */
+  int degree; /* of r, without its exact roots at the ends */
   lanes c_store[RESULTANT_MAX_DEGREE + 1];
   const lanes *c;   /* c[0..degree] */
-  lanes variations; /* sign variations of c, at most; -1 where they are not counted */
+  lanes variations; /* upper bound on the sign variations of c; -1: not counted */
 };
 
-/* planes.c: the slab across the leaf, to the last places; closed where it lies before the ray's start or behind its end or
- * nearest hit. */
+/* planes.c: tests the slab across the leaf to the last places. Closes lanes where it lies before the ray's start,
+ * behind its end, or behind the nearest hit so far. */
 lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open);
 
-/* planes.c: the t at which the ray comes to the box along the leaf, or less. */
+/* planes.c: a lower bound on the t at which the ray enters the box along the leaf. */
 lanes slab_begin(const struct packet *p, const struct candidate *it);
 
-/* planes.c: the box along the leaf, to the last places; closed where the ray passes it by. The walk has looked at it in floats,
- * which is enough for all rays but those that come by many leaves. */
+/* planes.c: tests the box along the leaf to the last places. Closes lanes that miss it. The walk has tested this box in
+ * floats, which is enough for all rays but those that come past many leaves. */
 lane_mask stage_box(const struct candidate *it, lane_mask open);
 
-/* planes.c, of a leaf with a pole: closed where the ray starts exactly in the pole and meets no other point of the leaf. From there
- * it would go from stage to stage in vain. */
+/* planes.c, for a leaf with a pole: closes lanes whose ray starts exactly in the pole and meets no other point of the
+ * leaf. Such a lane would go through all stages in vain. */
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open);
 
-/* planes.c: of `open`, the lanes whose ray starts exactly in a corner of the patch, and meets no other point of the leaf: handles of
- * no length make a corner one where no Jacobian is regular. Sets the polynomials. */
+/* planes.c: returns the lanes of `open` whose ray starts exactly in a corner of the patch and meets no other point of
+ * the leaf. At a corner whose handles have no length no Jacobian is regular. Sets the polynomials. */
 lane_mask leaves_corner(const struct packet *p, struct candidate *it, lane_mask open);
 
-/* bilinear.c: the root of the leaf's bilinear part, from a resultant of degree 2, made good by Newton's method on the
- * leaf. Open stays where the ray is so slanted that it is not proven to be the only one. */
+/* bilinear.c: finds the root of the leaf's bilinear part by a resultant of degree 2, and refines it by Newton's method
+ * on the leaf. A lane stays open if the ray is so slanted that the root is not proven to be the only one. */
 lane_mask stage_bilinear(struct packet *p, struct candidate *it, lane_mask open);
 
-/* quadric.c: closed where the quadric that the leaf lies along tells that it has no root but the one that stage_bilinear has found,
- * or none; with the default method also where it has just one more, which is sought. */
+/* quadric.c: closes lanes where the leaf's quadric proves that there is no root, or none besides that of
+ * stage_bilinear. The default method also seeks one more root, and closes lanes where these two are all. */
 lane_mask stage_quadric(struct packet *p, const struct candidate *it, lane_mask open);
 
-/* planes.c: the plane polynomials a, b: closed where one of them, or a combination, keeps one sign on its whole net.
- * Where these are one polynomial, or the ray meets the leaf's pole within its range, `along` is set: no stage behind can decide
- * that. */
+/* planes.c: sets the plane polynomials a and b. Closes lanes where one of them, or a combination of them, keeps one
+ * sign on its whole net. Sets `along` where they are one polynomial, or where the ray meets the leaf's pole within its
+ * range: no later stage can decide that. */
 lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask open);
 
-/* bilinear.c: by the default method, closed where boxes show that the leaf has no root but the one that stage_bilinear
- * has found, and one more, which is sought where they do not. */
+/* bilinear.c, default method: closes lanes where boxes show that the leaf has no root besides that of stage_bilinear.
+ * Where they do not, one more root is sought, and the boxes are examined with both. */
 lane_mask stage_cover(struct packet *p, struct candidate *it, lane_mask open);
 
-/* resultant.c: Bezout's resultant r of a and b in Bernstein form: closed where it has no sign variation. */
+/* resultant.c: forms Bezout's resultant r of a and b in Bernstein form. Closes lanes where it has no sign variation. */
 lane_mask stage_resultant(struct candidate *it, lane_mask open);
 
-/* resultant.c: one root of r, from its control polygon, and where it is not alone another one. Closed where these are
- * proven to be all. */
+/* resultant.c: finds one root of r from its control polygon, and another one if that is not alone. Closes lanes where
+ * these are proven to be all. */
 lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask open);
 
-/* all_roots.c: the roots of r by the method that the scene asks for; closed where they are proven to be all. */
+/* all_roots.c: finds the roots of r by the method that the scene asks for. Closes lanes where they are proven to be
+ * all. */
 lane_mask stage_all_roots(struct packet *p, struct candidate *it, lane_mask open);
 
-/* all_roots.c: the real root of r0 + r1 s + r2 s^2 that is nearest to 0, or the real part of a pair, by that method;
- * takes lanes out of *open where it finds none. */
+/* all_roots.c: returns the real root of r0 + r1 s + r2 s^2 nearest to 0, or the real part of a complex pair, by that
+ * method. Removes lanes from *open where it finds none. */
 lanes method_quadratic_root(struct packet *p, const struct candidate *it, const lanes r[3], lane_mask *open);
 
-/* How many roots near [0,1] a lane may try: of 18, more are real in [0,1] next to never. A choice of speed. */
+/* The most roots near [0,1] that are tried on a lane: of 18 roots, more are hardly ever real and in [0,1]. A choice of
+ * speed. */
 enum { TRIED_ROOTS = 8 };
 
-/* Where to start from: the k-th of every lane, in leaf parameters, where it has so many. */
+/* Start values in leaf parameters: the k-th of every lane that has so many. */
 struct root_starts {
   int count;
   lanes u[TRIED_ROOTS], v[TRIED_ROOTS];
   lane_mask has[TRIED_ROOTS];
 };
 
-/* one_by_one.c: from the roots of r by a method that is not for lanes. *out has none. */
+/* one_by_one.c: takes start values from the roots of r by a method that does not run on lanes. *out is empty before. */
 void method_starts(const struct packet *p, const struct candidate *it, lane_mask open, struct root_starts *out);
 
 /* one_by_one.c: without polish the roots of r are the answer, proven or not. */
 lane_mask stage_bare_roots(struct packet *p, struct candidate *it, lane_mask open);
 
-/* All of a patch is within |w| < 1 in its frame: a ray is not looked at beyond this. */
+/* A patch lies within |w| < 1 in its frame; a ray is not examined beyond this. */
 #define FRAME_END 2.0
 
-/* Between these w = x_k the ray is where it looks for a root up to t = far, but for `off`. */
+/* The ray seeks a root up to t = far between these values of w = x_k, each off by `off` at most. */
 LANES_INLINE void ray_ends(const struct packet *p, const struct candidate *it, lanes far, lanes *from, lanes *to,
                            lanes *off)
 {
@@ -116,7 +118,7 @@ LANES_INLINE void ray_ends(const struct packet *p, const struct candidate *it, l
   *off = 2 * (p->t_error * lanes_abs(along) + 16 * UNIT_ROUNDOFF * lanes_abs(start));
 }
 
-/* On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w the slab's form is a + b w. */
+/* On the ray x_i = m0 + s0 w, x_j = m1 + s1 w, x_k = w, the slab's form g x - offset is a + b w. */
 LANES_INLINE void slab_values(const struct line *line, int k, const struct leaf_slab *slab, lanes *a, lanes *b)
 {
   const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -131,7 +133,8 @@ LANES_INLINE void plane_values(const struct line *line, int axis, const double x
   *b = (j - line->moment[1]) - line->slope[1] * k;
 }
 
-/* Lanes whose ray starts exactly in the corner (u,v) of the patch, 0 or 1 each; none where the leaf does not have it. */
+/* Lanes whose ray starts exactly in the corner (u,v) of the patch, with u and v 0 or 1; none if the corner is not the
+ * leaf's. */
 LANES_INLINE lane_mask starts_at_corner(const struct packet *p, const struct candidate *it, int u, int v)
 {
   const struct leaf *leaf = it->leaf;
@@ -146,15 +149,16 @@ lanes plane_depth(const struct candidate *it, lanes u, lanes v);
 /* resultant.c: the eliminated parameter at a root of r. */
 lanes resultant_eliminated(const struct candidate *it, lanes kept);
 
-/* Whether r is of the leaf's own polynomials, so that it has a root for each of the leaf's. Of polynomials of a lower degree,
- * which are off by form->excess, each of those is a root when both are moved so that it is one: no two need be roots of the
- * same r, whose sign variations tell that there is none, but not how many there are. */
+/* Whether r is made of the leaf's own polynomials, and so has a root for each of the leaf's. Polynomials of a lower
+ * degree are off by form->excess. Moved by a constant they have any one root of the leaf as their root, but two roots
+ * may need different constants, and so different r. The sign variations of r then prove that there is no root, but do
+ * not bound how many there are. */
 LANES_INLINE bool resultant_counts(const struct candidate *it)
 {
   return !it->leaf->form || it->leaf->form->excess == 0;
 }
 
-/* t within [0,1], or the middle where it is not a number. */
+/* t clamped to [0,1], or the middle if it is not a number. */
 LANES_INLINE lanes start_within(lanes t) { return lanes_clamp(lanes_select(t == t, t, lanes_all(0.5)), 0, 1); }
 
 #endif

@@ -1,32 +1,33 @@
-/* Whether known roots are all that a leaf has, by boxes that cover it, for one ray after the other: few need it.
+/* Whether the known roots are all that a leaf has, by boxes that cover it, for one ray after the other: few need it.
  *
- * Internal to src/intersect/lanes. A box of parameters is cleared where a plane polynomial or one of the combinations
- * that aim along u and v keeps one sign on its net (as planes.c does with the leaf's), or where a proven root is in it and
- * is alone by the differences of those nets; or where no root would be between the ends of the ray. Other boxes are halved.
- * What exact/search.c does in the last resort; this ends most cases before.
+ * Internal to src/intersect/lanes. A box of parameters is cleared if a plane polynomial, or one of the combinations
+ * that aim along u and v, keeps one sign on its net (planes.c tests the leaf's so); if a proven root is in the box and
+ * is alone by the differences of those nets; or if no root in it would be between the ends of the ray. Other boxes are
+ * halved. exact/search.c does the same in the last resort; this ends most cases before.
  */
 #ifndef PSCN_INTERSECT_LANES_COVER_H
 #define PSCN_INTERSECT_LANES_COVER_H
 
 #include "intersect/lanes/candidate.h"
 
-/* How often a leaf is halved at most: before its resultant is formed, and when all is known that the lanes find. Choices of
+/* The most halvings of a leaf: before its resultant is formed, and when the lanes have found all they can. Choices of
  * speed. */
 enum { COVER_EARLY = 8, COVER_HALVINGS = 16 };
 
-/* A proven root of every lane, in the order they were found. */
+/* A proven root of every lane, in the order in which they were found. */
 struct known_root {
   const struct newton_root *at;
   lane_mask proven;
 };
 
-/* The lanes of `open` on which all of the leaf's roots that are between the ends of the ray are among `roots`. Of the others:
- * the middle of a box that was not cleared, s and t, where one more root may be; NULL for not. */
+/* The lanes of `open` on which all of the leaf's roots between the ends of the ray are among `roots`. On the others
+ * `left`, if not NULL, gets the middle, in s and t, of a box that was not cleared, where one more root may be. */
 lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, const struct known_root roots[],
                        int halvings, lane_mask open, lanes left[2]);
 
-/* The lanes of `open` on which these two are all, those of them that are proven and not one and the same: they are offered.
- * Where neither is proven the ray nearly touches the leaf, and boxes would do one time in ten. */
+/* Offers the two roots, as far as they are proven and distinct, on the lanes of `open` where they are all, and returns
+ * these. Lanes where neither is proven are not tried: there the ray nearly touches the leaf, and boxes would do one
+ * time in ten. */
 lane_mask cover_two(struct packet *p, const struct candidate *it, const struct leaf_root *first,
                     const struct leaf_root *second, lane_mask open);
 

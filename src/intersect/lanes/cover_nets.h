@@ -1,6 +1,7 @@
 /* The plane polynomials of one ray on a box of a leaf's parameters, their coefficients side by side.
  *
- * Internal to src/intersect/lanes: cover.c includes it. Not ray by ray on lanes, for boxes are looked at for one ray or two.
+ * Internal to src/intersect/lanes: cover.c includes it. The lanes are not rays here, because boxes are examined for
+ * only one ray or two.
  */
 #ifndef PSCN_INTERSECT_LANES_COVER_NETS_H
 #define PSCN_INTERSECT_LANES_COVER_NETS_H
@@ -30,7 +31,7 @@ struct cover_net {
   row c[4];
 };
 
-/* Four cubics become their lower halves. */
+/* Replaces four cubics by their lower halves. */
 LANES_INLINE void rows_halve(row c[4], row high[4])
 {
   const row c0 = c[0], c1 = c[1], c2 = c[2], c3 = c[3];
@@ -40,7 +41,7 @@ LANES_INLINE void rows_halve(row c[4], row high[4])
   high[0] = s, high[1] = r1, high[2] = q2, high[3] = c3;
 }
 
-/* The net becomes that of the lower half of its box, across u or v. */
+/* Replaces the net by that of the lower half of its box, across u or v. */
 LANES_INLINE void net_halve(struct cover_net *net, bool across_u, struct cover_net *high)
 {
   if (!across_u) four_doubles_turn(net->c);
@@ -48,7 +49,7 @@ LANES_INLINE void net_halve(struct cover_net *net, bool across_u, struct cover_n
   if (!across_u) four_doubles_turn(net->c), four_doubles_turn(high->c);
 }
 
-/* The largest coefficient. */
+/* The largest absolute value of a coefficient. */
 LANES_INLINE double net_size(const struct cover_net *net)
 {
   double size = 0;
@@ -56,7 +57,7 @@ LANES_INLINE double net_size(const struct cover_net *net)
   return size;
 }
 
-/* Whether it does not keep one sign, where its coefficients are off by `error`. */
+/* Whether the net, its coefficients off by `error`, may change sign. */
 LANES_INLINE bool net_changes(const struct cover_net *net, double error)
 {
   const row *c = net->c, e = row_all(error);
@@ -70,7 +71,8 @@ LANES_INLINE void net_combine(const struct cover_net *a, const struct cover_net 
   for (int n = 0; n < 4; n++) out->c[n] = p * a->c[n] + q * b->c[n];
 }
 
-/* How four cubics grow at least, and how others change at most, as differences of neighbours. */
+/* Bounds the least growth of four cubics and the largest change of others, by differences of neighbouring
+ * coefficients. */
 LANES_INLINE void rows_slopes(const row grow[4], const row move[4], double error, double *least, double *most)
 {
   *least = INFINITY, *most = 0;
@@ -81,9 +83,9 @@ LANES_INLINE void rows_slopes(const row grow[4], const row move[4], double error
   *least -= 2 * error, *most += 2 * error;
 }
 
-/* Whether two polynomials, that aim along u and v, take no pair of values twice: from one point to another they change by
- * their derivatives, averaged on the way, times it; those are within their differences, three times over, and so no
- * singular matrix, its diagonal's product being larger than that of the other elements. */
+/* Whether two polynomials, which aim along u and v, take no pair of values twice. Between two points the values change
+ * by the mean Jacobian on the way, times it. Its elements lie within three times the coefficients' differences. So it
+ * is not singular if the product of its diagonal exceeds that of the other elements. */
 LANES_INLINE bool nets_one_to_one(const struct cover_net *along_u, double error_u, const struct cover_net *along_v,
                                   double error_v)
 {
@@ -95,8 +97,9 @@ LANES_INLINE bool nets_one_to_one(const struct cover_net *along_u, double error_
   return least_u > 0 && least_v > 0 && least_u * least_v > (1 + 8 * UNIT_ROUNDOFF) * (most_u * most_v);
 }
 
-/* Whether neither a nor b nor one of two combinations, which aim along the box's parameters, keeps one sign on the box, nor
- * both together have no value twice where the box has a root. `size` bounds the coefficients, `error` what they are off by. */
+/* Whether the box is not cleared: none of a, b and two combinations, which aim along the box's parameters, keeps one
+ * sign on it, and the combinations may take a pair of values twice if it has a root. `size` bounds the coefficients,
+ * `error` their errors. */
 LANES_INLINE bool nets_full(const struct cover_net *a, const struct cover_net *b, bool has_root, double size,
                             double error)
 {

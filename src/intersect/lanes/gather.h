@@ -1,4 +1,4 @@
-/* All roots of the rays of a packet, where nearest.h would keep only the first of each; and their answers.
+/* All roots of the rays of a packet, where nearest.h would keep only the nearest of each, and their answers.
  *
  * Internal to src/intersect/lanes.
  */
@@ -7,33 +7,33 @@
 
 #include "intersect/lanes/packet.h"
 
-/* One root, as it was taken: u, v and their radii, t and its error; and the hit that it is. */
+/* A root as it was taken: u, v and their radii, t and its error, and its hit. */
 struct gathered {
-  double uv[4], distance[4]; /* as lanes_store4 writes them; of the second two are used */
+  double uv[4], distance[4]; /* as lanes_store4 writes them; only distance[0] and [1] are used */
   struct hit hit;
-  int64_t leaf; /* that and the hit's patch order roots of equal t, as struct best's */
+  int64_t leaf; /* with the hit's patch, it orders roots of equal t, as in struct best */
   uint8_t lane;
   bool certain;
 };
 
-/* What was left open, of a lane. */
+/* What a lane left open. */
 struct gathered_region {
   struct exact_region region;
   unsigned lane;
 };
 
-/* The packet, which has just been started, gathers there from now on, beginning with nothing. */
+/* Has the packet, which has just been started, gather there, beginning with nothing. */
 void gather_start(struct packet *p, struct gather *gather);
 
-/* Adds the packet's best roots, which are those just taken on the lanes of `taken`, with their answers; then there is
- * no best again. */
+/* Adds the packet's best roots, which were just taken on the lanes of `taken`, with their answers. Then there is no
+ * best again. */
 void gather_best(struct packet *p, lane_mask taken);
 
-/* Leaves a region to the last resort on these lanes, as bits. */
+/* Leaves a region to the last resort on these lanes, given as bits. */
 void gather_postpone(struct gather *gather, const struct exact_region *region, unsigned on);
 
-/* The lists of the packet's rays but for `hits`, which are added to tracer->hits one behind the other; t times
- * 2^-exponents[lane] where that is not NULL. Returns whether there was memory. */
+/* Writes the lists of the packet's rays, except for `hits`: these are added to tracer->hits, one list after the other.
+ * t is multiplied by 2^-exponents[lane] if `exponents` is not NULL. Returns whether there was memory. */
 bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[]);
 
 #endif

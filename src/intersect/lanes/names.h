@@ -1,5 +1,5 @@
-/* Names of one compilation (base/kernel.h): what one file of the room calls in another is called by the name of the
- * instruction set too.
+/* Names of one compilation (base/kernel.h): a function that one file of this folder calls in another has the
+ * instruction set's name in its own.
  */
 #ifndef PSCN_INTERSECT_LANES_NAMES_H
 #define PSCN_INTERSECT_LANES_NAMES_H

@@ -1,22 +1,23 @@
-/* The nearest root of every lane, or all (gather.h): the one place where roots are taken or refused.
+/* The nearest root of every lane, or all roots (gather.h): the one place where roots are taken or refused.
  *
- * Internal to src/intersect/lanes. A root is taken where double precision leaves no question; where one may lie on a
- * border of its patch, at an end of the ray or where another root is, the leaf is left to the last resort.
+ * Internal to src/intersect/lanes. A root is taken if double precision leaves no question. If it may lie on a border of
+ * its patch, at an end of the ray, or where another root is, its leaf is left to the last resort.
  */
 #ifndef PSCN_INTERSECT_LANES_NEAREST_H
 #define PSCN_INTERSECT_LANES_NEAREST_H
 
 #include "intersect/lanes/candidate.h"
 
-/* Lanes where a root at t comes before the best: nearer, or as near to the last bit and of a lower patch or leaf. That
- * orders all roots, so the answer is the same in whatever order they come. */
+/* Lanes where a root at t comes before the best: it is nearer, or at the same t to the last bit and of a lower patch or
+ * leaf. This orders all roots, so the answer does not depend on the order in which they come. */
 LANES_INLINE lane_mask best_after(const struct best *best, lanes t, lane_mask patch, lane_mask leaf)
 {
   const lane_mask first = (patch < best->patch) | ((patch == best->patch) & (leaf < best->leaf));
   return (t < best->t) | ((t == best->t) & first);
 }
 
-/* Lanes of `where` on which these are two patches of the scene that share a plane across an axis: the ray meets both at one t. */
+/* Lanes of `where` on which a and b are two patches of the scene in one plane across an axis: the ray meets both at one
+ * t. */
 LANES_INLINE lane_mask one_plane(const struct model *model, lane_mask a, lane_mask b, lane_mask where)
 {
   lane_mask one = {0};
@@ -29,7 +30,7 @@ LANES_INLINE lane_mask one_plane(const struct model *model, lane_mask a, lane_ma
   return one;
 }
 
-/* Takes over a certain root on the lanes of `taken`. */
+/* Makes a certain root the best on the lanes of `taken`. */
 LANES_INLINE void best_take(struct best *best, lane_mask taken, const lanes at[2], const lanes radius[2], lanes t,
                             lane_mask patch, lane_mask leaf)
 {
@@ -41,24 +42,24 @@ LANES_INLINE void best_take(struct best *best, lane_mask taken, const lanes at[2
   best->certain |= taken, best->final &= ~taken;
 }
 
-/* Lanes whose root is proven, and in the leaf, or may be. */
+/* Lanes whose root is proven, and is in the leaf or may be. */
 LANES_INLINE lane_mask inside(const struct newton_root *r)
 {
   return r->exists & (r->u >= -r->radius_u) & (r->u - 1 <= r->radius_u) & (r->v >= -r->radius_v) &
          (r->v - 1 <= r->radius_v);
 }
 
-/* Leaves what is open of the leaf, or of the same one of a copy, to the last resort (exact.h). */
+/* Postpones the leaf, or the same leaf of a copy, on the lanes of `open`: the last resort decides it (exact.h). */
 void packet_postpone(struct packet *p, const struct candidate *it, lane_mask open);
 
-/* The same of all leaves of a copy that the best root of these lanes may be in: next to a border between two leaves
- * what is known of it in the object's coordinates does not tell in which. */
+/* Postpones all leaves of a copy that the best root of these lanes may be in. Next to a border between two leaves, the
+ * object's coordinates do not tell which of them it is in. */
 void packet_postpone_best(struct packet *p, lane_mask open);
 
-/* Proven roots of several lanes. */
+/* Offers proven roots of several lanes. */
 void offer_root(struct packet *p, const struct candidate *it, const struct leaf_root *root, lane_mask hits);
 
-/* Points in the leaf that nobody has proven anything of. */
+/* Offers points in the leaf of which nothing is proven. */
 void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes v, lane_mask hits);
 
 #endif

@@ -1,4 +1,4 @@
-/* A packet: as many rays as a register has lanes, where they look, and what they have found.
+/* A packet: as many rays as a register has lanes, where they go, and what they have found.
  *
  * Internal to src/intersect; included by the sources that are compiled once per instruction set.
  */
@@ -15,7 +15,7 @@
 
 enum { ALL_LANES = (1 << LANES) - 1 };
 
-/* Sends for so many bytes, of a size that is known when it is compiled. */
+/* Prefetches `size` bytes, a number known at compile time. */
 LANES_INLINE void fetch(const void *from, size_t size)
 {
   enum { CACHE_LINE = 64 };
@@ -23,85 +23,87 @@ LANES_INLINE void fetch(const void *from, size_t size)
   for (size_t at = 0; at < size; at += CACHE_LINE) __builtin_prefetch((const char *)from + at);
 }
 
-/* Roots nearer to the ray's start than this part of their patch's frame want more digits: the last step leaves 2^-72 of the
- * frame. */
+/* Roots nearer to the ray's start than this part of their patch's frame need more digits than the last step gives,
+ * 2^-72 of the frame. */
 #define NEAR_START 0x1p-16
 
-/* Those that the last step leaves if it is taken from there: 2^-100. */
+/* The last step on control points relative to the start, right to 2^-100, is enough for roots as near as this. */
 #define NEAREST_START 0x1p-44
 
-/* And so do roots farther from it: the moments of a ray that starts there, in double-double, are no better than 2^-60
- * (MOMENT_ERROR). */
+/* Roots farther from the start than this need more digits, too: the moments of such a ray, in double-double, are no
+ * better than 2^-60 (MOMENT_ERROR). */
 #define FAR_START 0x1p40
 
 /* The best root of every lane. */
 struct best {
   lanes u, v, radius_u, radius_v; /* parameters of the whole patch; the exact root is within the radii */
-  lanes t;                        /* infinite where there is none */
-  lane_mask patch, leaf;          /* where it is; NO_PATCH where there is none. They order roots of equal t */
+  lanes t;                        /* infinite: none */
+  lane_mask patch, leaf;          /* where it is, NO_PATCH: nowhere; they order roots of equal t */
   lane_mask certain;              /* proven */
-  lane_mask final; /* right to the last places, and what follows is set; the others' comes from last_step.h */
+  lane_mask final; /* right to the last places, and the members below are set; others get them from last_step.h */
   struct surface_point point;
   lanes normal[3];   /* of any length and sense */
-  lanes tangent;     /* bound on the derivatives' coordinates that the normal is the product of */
-  lane_mask doubt;   /* some unproven root could not be told from t_min, and was left out */
-  lane_mask touches; /* the ray starts on a patch: in doubt whatever else is known, in any company */
+  lanes tangent;     /* bound on the coordinates of the derivatives whose product is the normal */
+  lane_mask doubt;   /* unsure: a root near t_min was left out unproven, work ran out, or scaling lost digits */
+  lane_mask touches; /* the ray starts on a patch: in doubt whatever else is known, whatever the other rays are */
 };
 
-/* Rays in the frame of a patch, as local_ray.h has one of them. */
+/* Rays in the frame of a patch; local_ray.h describes one of them. */
 struct line {
-  lanes slope[2], slope_rest[2]; /* 0 on lanes of another axis; slope_rest: what its rounding took away */
+  lanes slope[2], slope_rest[2]; /* 0 on lanes of another axis; slope_rest: what rounding the slope took away */
   lanes moment[2], moment_rest[2];
   lanes start[2], to_t;
   lanes error;
 };
 
-/* What counts as so many of the looks that a ray may take (MOST_LOOKS): a leaf that it meets, whose boxes it passes; besides,
- * one whose slab it does not pass by in doubles, either, so that it is tried, 65,536 of them in all; one that the quadric leaves
- * open, so that dear stages decide it, 4,096 of them; and to make one that is not kept. Where hits are gathered, which take
- * their time themselves, there are so many times as many. */
+/* Costs, in looks (MOST_LOOKS): meeting a leaf, whose boxes the ray passes; being tried on it, once the slab test in
+ * doubles passes too (at most 65,536 leaves per ray); reaching the expensive stages, because the quadric left the leaf
+ * open (at most 4,096 per ray); making a leaf that is not kept. LOOKS_OF_ALL multiplies the limit where hits are
+ * gathered, which costs time itself. */
 enum { LOOKS_MET = 4, LOOKS_TRIED = 28, LOOKS_DEAR = 480, LOOKS_MADE = 32, LOOKS_OF_ALL = 4 };
 
-/* What else it may cost: leaves that are left open, after which the others are left open as they are, for the last
- * resort looks at all of a patch's at once (where hits are gathered they are told as known then); the splits of boxes
- * that cover a leaf, after which the last resort has what comes; and the sweeps of methods that find all roots, each as
- * dear as the degree squared, after which boxes have it. */
+/* Further limits. Leaves left open: further ones are left open untried, for the last resort examines all leaves of a
+ * patch together; where hits are gathered, the ray is given up with what is known by then. Splits of boxes that cover a
+ * leaf: the last resort decides further leaves. Sweeps of methods that find all roots, each as expensive as the square
+ * of the degree: boxes decide further leaves. */
 enum { MOST_OPEN = 512, MOST_OPEN_OF_ALL = 1024, MOST_SPLITS = 1536 };
 enum { MOST_SWEEPS = 384 * 18 * 18, MOST_SWEEPS_OF_ALL = 4 * MOST_SWEEPS };
 
-/* How often that is halved for a ray alone, and in the company of others: what comes to a ray and in which order depends on those
- * beside it, so that where its share ends does, too. In company one that takes more than its share, an eighth, is let go, and
- * asked alone (intersect.c). */
+/* The limits are halved this often, for a ray alone and for one in a packet. In a packet, the leaves that reach a ray,
+ * and their order, depend on its neighbours; so would the point where its share of work ends. A ray that exceeds its
+ * share there, an eighth, is let go, and asked again alone (intersect.c). */
 enum { SHARE_ALONE = 0, SHARE_IN_COMPANY = 3 };
 
-/* What the lanes leave open, a list a lane. */
+/* What the lanes leave open: a list for each lane. */
 struct postponed {
   int share; /* SHARE_ALONE or SHARE_IN_COMPANY */
   int64_t most_looks;
   unsigned most_open;
-  /* bit k, of lane k: it has a list; that has most_open leaves; a patch has one region there; the ray goes no further */
+  /* bit k is of lane k: it has a list; has most_open leaves open; each patch has one region there; the ray has given
+   * up */
   unsigned open, full, merged, let_go;
   unsigned count[LANES];
-  lanes cut_from;       /* nothing that begins there or behind is on the list; infinite where all is */
-  lane_mask looks;      /* how many more a ray may take; below 0 it goes no further */
+  lanes cut_from;       /* nothing that begins at or behind this t is on the list; infinite: the list is complete */
+  lane_mask looks;      /* how many more a ray may take; below 0 it gives up */
   unsigned left[LANES]; /* how many leaves were left open */
-  lanes splits;         /* how many more there may be to cover leaves (cover.h) */
-  lanes sweeps;         /* how many more there may be over all roots */
+  lanes splits;         /* how many more boxes may be split to cover leaves (cover.h) */
+  lanes sweeps;         /* how many more sweeps over all roots there may be */
   struct exact_region region[LANES][EXACT_REGIONS_MAX];
 };
 
-/* Leaves that are put off until all others have been tried, where any hit will do: those that rays start in, which few of them
- * hit, and those that only dear stages decide. Rays that have hit something by then need not be tried on them. */
+/* For any hit: leaves that are put off until all others have been tried. These are leaves that rays start in, and
+ * seldom hit, and leaves that only expensive stages decide. A ray that has found a hit by then need not be tried on
+ * them. */
 enum { MOST_LATER = 32 };
 struct later {
   unsigned count;
   struct {
     uint32_t leaf;
-    unsigned rays; /* of all packets that go together, as bits */
+    unsigned rays; /* as bits, of all packets of the bundle */
   } at[MOST_LATER];
 };
 
-/* Puts the leaf off for these rays; false where there is no room. */
+/* Puts the leaf off for these rays. Returns false if there is no room. */
 static inline bool later_add(struct later *later, uint32_t leaf, unsigned rays)
 {
   unsigned k = 0;
@@ -117,40 +119,40 @@ struct packet {
   const struct model *model;
   const struct ray *rays; /* directions scaled to about 1 */
   size_t count;
-  /* of the scene's rays, where these are the same in an object's coordinates; else NULL */
+  /* the packet of the scene's rays, if these are the same rays in an object's coordinates; else NULL */
   struct packet *outer;
-  const struct model_copy *copy;          /* then the object's copy */
-  lanes shift;                            /* then t of the scene is shift + t */
+  const struct model_copy *copy;          /* if so, the object's copy */
+  lanes shift;                            /* if so, t of the scene is shift + t */
   bool any;                               /* any hit will do */
-  struct later *later;                    /* where leaves are put off; NULL where they are not, or not any more */
-  unsigned first_ray;                     /* there */
+  struct later *later;                    /* where leaves are put off to; NULL: they are not, or no longer */
+  unsigned first_ray;                     /* the bit of lane 0 in its `rays` */
   struct gather *gather;                  /* all hits are asked for, and gathered here; else NULL */
-  lanes t_end;                            /* then what t_far is, but while a root is taken */
-  bool moved;                             /* live or t_far is not what it was */
-  lane_mask live;                         /* lanes with a ray that still looks for a hit */
+  lanes t_end;                            /* if so, the value of t_far, except while a root is taken */
+  bool moved;                             /* live or t_far has changed */
+  lane_mask live;                         /* lanes whose ray still seeks a hit */
   lanes origin[3], direction[3], longest; /* longest: the largest component of the direction */
   lanes t_min, t_max, t_far;              /* t_far: the nearest hit so far plus its error, or the ray's end */
-  /* what control points and rays are off by besides their rounding in a patch's frame */
+  /* error of control points and rays, besides their rounding in a patch's frame */
   double net_error;
-  lanes t_error;               /* what that, and the shift, makes of t */
-  struct postponed *postponed; /* not used where all hits are asked for */
-  uint32_t patch;              /* the one tried last, UINT32_MAX for none */
-  bool oriented;               /* by packet_orient, without which nothing of what follows is set: */
-  lane_mask on_axis[3];        /* lanes whose dominant axis this is */
-  unsigned axes;               /* bit k: some lane's */
+  lanes t_error;               /* error of t that this and the shift cause */
+  struct postponed *postponed; /* not used if all hits are asked for */
+  uint32_t patch;              /* of the last leaf tried; UINT32_MAX: none */
+  bool oriented;               /* packet_orient has run; before, the members below are not set */
+  lane_mask on_axis[3];        /* lanes with this dominant axis */
+  unsigned axes;               /* bit k: some lane has axis k */
   lanes reciprocal[3];         /* of the direction, per axis */
-  struct line line[3];         /* per axis; but for the slopes of the patch tried last */
+  struct line line[3];         /* per axis; all but the slopes belong to the patch tried last */
   struct best best;
 };
 
-/* The dominant axis of a lane that looks for a hit. */
+/* The dominant axis of a lane that seeks a hit. */
 static inline int packet_axis(const struct packet *p, unsigned lane)
 {
   return p->on_axis[0][lane] ? 0 : p->on_axis[1][lane] ? 1 : 2;
 }
 
-/* What a packet borrows: copies of its rays where some need scaling, or there are too few and not one; what it leaves
- * open. */
+/* Storage that a packet borrows: what it leaves open, and copies of its rays if some need scaling, or if they are fewer
+ * than LANES but more than one. */
 struct ready {
   struct postponed postponed;
   bool copied;
@@ -158,23 +160,24 @@ struct ready {
   int exponent[LANES];
 };
 
-/* packet.c: up to LANES rays, none of which has hit anything yet, with that share of work. The packet borrows *ready. */
+/* packet.c: loads up to LANES rays, none of which has hit anything yet, with that share of work. The packet borrows
+ * *ready. */
 void packet_begin(struct packet *p, struct ready *ready, struct tracer *tracer, size_t count, const struct ray rays[],
                   bool any, int share);
 
-/* The rays that were let go to be asked alone, as bits: nothing they have left open need be looked at. */
+/* As bits, the rays that were let go to be asked again alone; what they have left open need not be examined. */
 LANES_INLINE unsigned packet_let_go(const struct packet *p)
 {
   return p->postponed->share > SHARE_ALONE ? p->postponed->let_go : 0;
 }
 
-/* The rays that have left more open than there is room for, or go no further. */
+/* As bits, the rays that have left more open than there is room for, or have given up. */
 LANES_INLINE unsigned packet_cut_off(const struct packet *p)
 {
   return lanes_bits(p->postponed->cut_from < INFINITY) | p->postponed->let_go;
 }
 
-/* The rays, that have been tried on nothing yet, have that share of so much. */
+/* Gives rays that have been tried on nothing yet their share of these limits. */
 LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int looks, int open, int sweeps)
 {
   postponed->share = share, postponed->most_looks = looks >> share, postponed->most_open = (unsigned)(open >> share);
@@ -182,7 +185,7 @@ LANES_INLINE void packet_set_share(struct postponed *postponed, int share, int l
   postponed->splits = lanes_all(MOST_SPLITS >> share), postponed->sweeps = lanes_all(sweeps >> share);
 }
 
-/* Nothing is left open, and all of the rays' share is there. */
+/* Empties the lists, and gives the rays their full share. */
 LANES_INLINE void packet_set_ready(struct postponed *postponed, const struct tracer *tracer, int share)
 {
   postponed->open = postponed->full = postponed->merged = postponed->let_go = 0,
@@ -191,38 +194,39 @@ LANES_INLINE void packet_set_ready(struct postponed *postponed, const struct tra
   packet_set_share(postponed, share, tracer->most_looks, MOST_OPEN, MOST_SWEEPS);
 }
 
-/* Takes so many looks from what each of the rays has left; returns what that is then. A mask & a number is that number on the
- * lanes of the mask, 0 on the others. */
+/* Takes `looks` from what each ray has left. Returns what is left then. (A mask & a number is that number on the lanes
+ * of the mask, and 0 on the others.) */
 LANES_INLINE lane_mask packet_spend(struct packet *p, lane_mask looks) { return p->postponed->looks -= looks; }
 
-/* The largest size of the three. */
+/* The largest absolute value of the three. */
 LANES_INLINE lanes largest_of(const lanes x[3])
 {
   return lanes_max(lanes_max(lanes_abs(x[0]), lanes_abs(x[1])), lanes_abs(x[2]));
 }
 
-/* No leaf has been tried on the rays, whose directions and ends are set. */
+/* Marks the packet as tried on no leaf. Directions and ends are set. */
 LANES_INLINE void packet_untried(struct packet *p)
 {
   p->longest = largest_of(p->direction);
   p->oriented = p->moved = false, p->patch = UINT32_MAX;
 }
 
-/* packet.c: where the rays look, from their directions, and no hit yet. Many packets never come near a leaf: this is
- * done for the first one. */
+/* packet.c: sets what follows from the rays' directions, and that there is no hit yet. Done for the first leaf, because
+ * many packets never come near one. */
 void packet_orient(struct packet *p);
 
-/* packet.c: turns to the frame of a patch, as local_ray.c makes it for one ray; orients the packet first where no leaf
- * was tried before. */
+/* packet.c: sets the lines in the frame of a patch, as local_ray.c does for one ray. Orients the packet first, if no
+ * leaf was tried before. */
 void packet_set_patch(struct packet *p, const struct model_patch *patch, uint32_t index);
 
-/* Lanes whose root at t, in units of the packet's directions, is nearer to the ray's start than that part of the patch's frame. */
+/* Lanes whose root at t, in units of the packet's directions, is nearer to the ray's start than `part` of the patch's
+ * frame. */
 LANES_INLINE lane_mask packet_nearer(const struct packet *p, const struct model_patch *patch, double part, lanes t)
 {
   return lanes_abs(t) * p->longest < part * patch->scale;
 }
 
-/* Lanes where it is as far as that, and not too far. */
+/* Lanes whose root is at least `from` of the frame away, and no farther than FAR_START. */
 LANES_INLINE lane_mask packet_has_digits(const struct packet *p, const struct model_patch *patch, double from, lanes t)
 {
   return ~packet_nearer(p, patch, from, t) & (lanes_abs(t) * p->longest <= FAR_START * patch->scale);
@@ -234,44 +238,46 @@ LANES_INLINE lane_mask packet_starts_in(const struct packet *p, const struct fla
   return p->origin[plane->axis] == plane->value;
 }
 
-/* Lanes whose ray starts exactly in that control point of the patch, as edge_at numbers them, which is on the ray's line there and
- * nowhere else, and is no hit. */
+/* Lanes whose ray starts exactly in control point `at` of the patch, numbered as by edge_at. The ray's line passes that
+ * point at the start only, where it is no hit. */
 LANES_INLINE lane_mask packet_starts_at(const struct packet *p, uint32_t patch, int at)
 {
-  if (p->outer) return (lane_mask){0}; /* in an object's coordinates the start is rounded */
+  if (p->outer) return (lane_mask){0}; /* the start is rounded there */
   const double *point = p->model->scene->patches[patch].P[at / 4][at % 4];
   return (p->origin[0] == point[0]) & (p->origin[1] == point[1]) & (p->origin[2] == point[2]) & (p->t_min >= 0);
 }
 
-/* candidate.c: tries the leaf, of that patch and number, on the lanes of `active`, and keeps what is nearer than the best. */
+/* candidate.c: tries the leaf, with this patch and number, on the lanes of `active`, and keeps roots that come before
+ * the best. */
 void packet_leaf(struct packet *p, struct leaf *leaf, const struct model_patch *patch, uint32_t number,
                  lane_mask active);
 
-/* nearest.c: the rays on these lanes, as bits, go no further: there is more than is known of. */
+/* nearest.c: the rays on these lanes, as bits, give up. There is more than they know of. */
 void packet_give_up(struct packet *p, unsigned worn);
 
-/* nearest.c: in company, rays of `active` whose share of splits or sweeps has ended are let go, for what is done without is not
- * what they would get alone. To be called wherever some are taken. */
+/* nearest.c: in a packet, lets go the rays of `active` whose share of splits or sweeps has ended. Without these they
+ * would not get what they get alone. To be called wherever some are taken. */
 void packet_spent(struct packet *p, lane_mask active);
 
-/* copy.c: the rays of `outer` on the lanes of `active`, in the coordinates of the copy's object. */
+/* copy.c: sets up *inner, the rays of `outer` on the lanes of `active` in the coordinates of the copy's object. */
 void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask active, struct packet *inner);
 
-/* copy.c: what was found there becomes the outer packet's best where it is nearer. */
+/* copy.c: takes over what was found there into the outer packet, where it is nearer. */
 void packet_leave(struct packet *inner);
 
-/* finish.c: the answers of the packet's rays: from their best roots, improved by a Newton step on the patch itself
- * where they are not right to the last places yet; or by the last resort. t is in units of the scaled direction.
- * Returns how many are not certain. */
+/* finish.c: writes the answers of the packet's rays. The last resort decides some; the others come from the best roots,
+ * improved by a Newton step on the patch itself unless they are right to the last places already. t is in units of the
+ * scaled direction. Returns how many are not certain. */
 unsigned finish_hits(struct packet *p, struct hit out[]);
 
-/* finish.c: the lanes, as bits, whose answers those are not certain and might be others in other company. */
+/* finish.c: the lanes, as bits, whose answers are not certain and might differ beside other rays. */
 unsigned finish_unsettled(const struct packet *p, const struct hit hits[]);
 
-/* finish.c: the same, of lanes that have nothing open; those of `written` have their answers. */
+/* finish.c: finish_hits for lanes that have nothing open; the lanes of `written` have their answers already. */
 unsigned finish_best(const struct packet *p, unsigned written, struct hit out[]);
 
-/* finish.c: the rays that hit anything, as bits: the lanes have found it, or what they have left open is hit, or may be. */
+/* finish.c: as bits, the rays that hit anything: the lanes have found a hit, or something left open is a hit or may
+ * be. */
 unsigned finish_occluded(const struct packet *p);
 
 #endif

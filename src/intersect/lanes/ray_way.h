@@ -1,4 +1,4 @@
-/* How rays go from node to node of a tree: in which order, what is sent for from memory, and one ray's way.
+/* How rays go from node to node of a tree: in which order, what is prefetched, and the way of a single ray.
  *
  * Internal to src/intersect/lanes: walk.c includes it.
  */
@@ -8,8 +8,8 @@
 #include "intersect/lanes/bundle.h"
 #include "intersect/lanes/waiting.h"
 
-/* What is on the stack is wanted soon, and the rays of a large scene come by other boxes than those before them: it is
- * brought from memory meanwhile. */
+/* What goes on the stack is needed soon, and rays of a large scene visit other boxes than those before them. So it is
+ * prefetched meanwhile. */
 LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, uint32_t child)
 {
   const uint32_t box = child & ~(uint32_t)BVH_LEAF;
@@ -21,9 +21,9 @@ LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, 
   }
 }
 
-/* Where rays cross so many surfaces, what waits is taken in the order in which rays come to it, whatever node it is below, so
- * that little is tried that lies behind a hit. Elsewhere that is not worth the sorting; and any hit is found the sooner the
- * less waits. */
+/* From this many surfaces on that a line crosses, rays take what waits in the order in which they reach it, whichever
+ * node it is below, so that little is tried behind a hit. With fewer crossings the sorting does not pay. Any hit is
+ * found the sooner the less waits. */
 enum { MANY_CROSSINGS = 4 };
 
 LANES_INLINE bool nearest_first(const struct bundle *b, const struct model_tree *tree)
@@ -31,15 +31,15 @@ LANES_INLINE bool nearest_first(const struct bundle *b, const struct model_tree 
   return tree->crossings >= MANY_CROSSINGS && !b->packet[0].any && !b->packet[0].gather;
 }
 
-/* From where on what comes to the `top` that wait is sorted in: in that order no more than BVH_STACK may wait, and what is below
- * one of them then goes node by node. */
+/* The place in the stack, with `top` entries waiting, from which new ones are sorted in. No more than BVH_STACK may
+ * wait in that order; beyond that, what is below one of them goes node by node. */
 LANES_INLINE size_t sorted_from(bool nearest, size_t top) { return nearest && top < BVH_STACK ? 0 : top; }
 
-/* One ray on its way through what is below some node. */
+/* One ray on its way through a subtree. */
 struct ray_way {
   struct ray_view ray;
   unsigned lane;
-  bool nearest;   /* see nearest_first */
+  bool nearest;   /* nearest_first */
   uint32_t child; /* where it is */
   size_t top;
   struct {
@@ -55,8 +55,8 @@ LANES_INLINE void ray_begin(const struct bundle *b, const struct model_tree *tre
   way->nearest = nearest_first(b, tree);
 }
 
-/* From a leaf, or a node none of whose children is passed, to what is nearest of what is on the stack. Returns whether the ray
- * goes on. */
+/* Goes on from a leaf, or from a node none of whose children is passed, to the nearest entry of the stack. Returns
+ * whether there is one that the ray reaches. */
 LANES_INLINE bool ray_next(const struct bundle *b, struct ray_way *way)
 {
   do {
@@ -74,8 +74,8 @@ LANES_INLINE void ray_wait(struct ray_way *way, size_t from, float near, uint32_
   way->stack[n].near = near, way->stack[n].child = child;
 }
 
-/* From a node to the nearest of its children, four boxes at a time instead of all rays; the others wait. Returns whether the ray
- * goes on. */
+/* Goes down from a node to the nearest of its children, testing one ray on four boxes; the other children wait. Returns
+ * whether the ray goes on. */
 LANES_INLINE bool ray_down(const struct bundle *b, const struct bvh *bvh, struct ray_way *way)
 {
   const struct bvh_node *node = &bvh->nodes[way->child];

@@ -24,12 +24,12 @@ LANES_INLINE void surface_cross(const lanes su[3], const lanes sv[3], lanes out[
   }
 }
 
-/* A point in the scene, its error and clearance as of struct hit. */
+/* A point in the scene, with its error and clearance as in struct hit. */
 struct surface_point {
   lanes at[3], error, clearance;
 };
 
-/* From a point in the frame of the patch; `tangent` as of POINT_ERROR. */
+/* Converts a point in the patch's frame; `tangent` is that of POINT_ERROR. */
 LANES_INLINE struct surface_point surface_point(const struct model_patch *patch, const lanes local[3], lanes tangent)
 {
   struct surface_point point;
@@ -43,7 +43,7 @@ LANES_INLINE struct surface_point surface_point(const struct model_patch *patch,
   return point;
 }
 
-/* The unit normal from the cross product of derivatives; lanes where it is sure. */
+/* Computes the unit normal from the derivatives' cross product. Returns the lanes where it is sure. */
 LANES_INLINE lane_mask surface_normal(const lanes cross[3], lanes tangent, lanes out[3])
 {
   const lanes length = lanes_sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);

@@ -1,11 +1,11 @@
-/* Rays as the frame of a tree sees them, and the slab test in it: all of them on a box, or one on four boxes.
+/* Rays in the frame of a tree, and the slab tests there: of all rays on a box, or of one ray on four boxes.
  *
- * Internal to src/intersect/lanes; what every step of a walk asks is inlined there.
+ * Internal to src/intersect/lanes. What every step of a walk calls is inline here.
  *
- * The boxes lie in the frame (world - origin)/frame, all within about [-1,1]. A ray is looked at there by its depth:
- * the distance along its dominant axis, counted from where it enters the frame, so that few bits are enough wherever
- * it comes from. Every rounding widens the boxes: an absolute slack for the origin's, a relative one for those of
- * the distances (Ize, Robust BVH Ray Traversal, 2013). So a box may be told as passed for nothing, but none is missed.
+ * The boxes lie in the frame (world - origin)/frame, all within about [-1,1]. A ray's position there is its depth: the
+ * distance along its dominant axis, counted from where it enters the frame, so that few bits are enough wherever it
+ * comes from. Every rounding widens the boxes: those of the origin by an absolute slack, those of the distances by a
+ * relative one (Ize, Robust BVH Ray Traversal, 2013). So the test may pass a box in vain, but never misses one.
  */
 #ifndef PSCN_INTERSECT_LANES_VIEW_H
 #define PSCN_INTERSECT_LANES_VIEW_H
@@ -18,30 +18,30 @@
 
 #define FLOAT_ROUNDOFF 0x1p-24f
 
-/* Growth of a depth that others are compared with: three roundings in each of the two (direction, reciprocal, sum), one
- * in the end of the ray, and those of growing. */
+/* Growth of a depth that others are compared with. It covers three roundings in each of the two depths (direction,
+ * reciprocal, sum), one in the end of the ray, and those of the growth itself. */
 #define DEPTH_GROWTH (1 + 16 * FLOAT_ROUNDOFF)
 
-/* Where in a node the planes stand that a ray comes to first and last along each axis, in bytes. */
+/* The byte offsets, in a node, of the planes that a ray meets first and last along each axis. */
 struct sides {
   size_t first[3], last[3];
 };
 
-/* The rays of some packets, one behind the other as floats. A ray passes the plane x_k = c at a depth from c inverse
- * + early to c inverse + late. */
+/* The rays of some packets, side by side as floats. A ray passes the plane x_k = c at a depth between c inverse + early
+ * and c inverse + late. */
 struct view {
   float_lanes inverse[3], early[3], late[3];
-  float_lanes far;                     /* where the rays end, by view_set_ends */
+  float_lanes far;                     /* where the rays end; view_set_ends sets it */
   lanes start[PACKETS], unit[PACKETS]; /* of each packet: depth = t unit - start */
   float_lanes from[3], along[3];       /* a ray's point at a depth: from + along depth */
-  float_lanes widen;                   /* oriented boxes are wider by so much for it */
+  float_lanes widen;                   /* oriented boxes are widened by this for each ray */
   bool apart;                          /* along each axis some rays go up and some down */
-  bool alike;                          /* all rays enter boxes by the same sides: */
+  bool alike;                          /* all rays enter boxes by the same sides, `sides` */
   struct sides sides;
 };
 
-/* What the rays make of a node: where they enter its children, and their bits where they pass one before their ends, those of child k
- * from bit SIDE_BITS k on. */
+/* What the rays find at a node: the depths where they enter its children, and a bit for each ray and child that it
+ * passes before its end. The bits of child k begin at bit SIDE_BITS k. */
 struct entries {
   float_lanes near[BVH_WIDTH];
   uint64_t rays;
@@ -50,10 +50,10 @@ struct entries {
 enum { SIDE_BITS = 16 };
 static_assert(FLOAT_LANES <= SIDE_BITS && SIDE_BITS * BVH_WIDTH == 64, "room for all rays of all children");
 
-/* These rays, for each child. */
+/* The bits of these rays for every child. */
 LANES_INLINE uint64_t rays_of_sides(unsigned rays) { return rays * UINT64_C(0x0001000100010001); }
 
-/* All rays, for each child that there is. */
+/* The bits of all rays for every child that exists. */
 LANES_INLINE uint64_t node_sides(const struct bvh_node *node)
 {
   four_mask child;
@@ -61,14 +61,14 @@ LANES_INLINE uint64_t node_sides(const struct bvh_node *node)
   return four_mask_words(child != 0);
 }
 
-/* A child of a node, and those of the rays that enter it. */
+/* A child of a node, and the rays that enter it. */
 struct entered {
   int side;
   unsigned rays;
-  float first; /* where the first of them does */
+  float first; /* where the first of them enters */
 };
 
-/* Takes the first child out of *sides, which are not 0. */
+/* Takes the first child out of *sides, which is not 0. */
 LANES_INLINE struct entered take_side(const struct entries *in, uint64_t *sides)
 {
   const int at = __builtin_ctzll(*sides), side = at / SIDE_BITS;
@@ -78,23 +78,23 @@ LANES_INLINE struct entered take_side(const struct entries *in, uint64_t *sides)
   return child;
 }
 
-/* One ray of them, four times over. */
+/* One of the rays, repeated in four lanes. */
 struct ray_view {
   four_floats inverse[3], early[3], late[3];
   struct sides sides;
 };
 
-/* view.c: the rays of these packets, one to PACKETS, in the tree's frame; all but their ends. Of a ray by itself no lane but the
- * first need be set, which ray_view_of asks for. */
+/* view.c: sets all but the ends of the rays of these 1 to PACKETS packets, in the tree's frame. For a single ray only
+ * lane 0 is set; ray_view_of reads no other. */
 void view_set(struct view *view, const struct packet packet[], int packets, const struct model_tree *tree);
 
-/* view.c: the ends of the same rays, as they are now. */
+/* view.c: sets the current ends of the same rays. */
 void view_set_ends(struct view *view, const struct packet packet[], int packets);
 
-/* view.c: view_boxes, of rays that enter boxes by different sides. */
+/* view.c: view_boxes for rays that enter boxes by different sides. */
 void view_boxes_unlike(const struct view *view, const struct bvh_node *node, struct entries *out);
 
-/* A row of four planes of a node, one for each child. */
+/* The size of a row of four planes of a node, one for each child. */
 enum { NODE_ROW = sizeof(float[BVH_WIDTH]) };
 
 LANES_INLINE const float *node_row(const struct bvh_node *node, size_t at)
@@ -108,7 +108,7 @@ LANES_INLINE void sides_set(struct sides *sides, int k, bool down)
   sides->first[k] = (down ? hi : lo) + at, sides->last[k] = (down ? lo : hi) + at;
 }
 
-/* `alike`: the view's. */
+/* `alike` is view->alike, known at compile time. */
 LANES_INLINE void view_boxes_as(const struct view *view, const struct bvh_node *node, bool alike, struct entries *out)
 {
   float_lanes near[BVH_WIDTH], far[BVH_WIDTH];
@@ -134,7 +134,7 @@ LANES_INLINE void view_boxes_as(const struct view *view, const struct bvh_node *
   out->rays = rays & node_sides(node);
 }
 
-/* All rays on the boxes of a node. */
+/* Tests all rays on the boxes of a node. */
 LANES_INLINE void view_boxes(const struct view *view, const struct bvh_node *node, struct entries *out)
 {
   if (view->alike) view_boxes_as(view, node, true, out);
@@ -143,21 +143,21 @@ LANES_INLINE void view_boxes(const struct view *view, const struct bvh_node *nod
 
 /* ---- oriented boxes ---- */
 
-/* For a box's slab |g x - offset| <= half a ray has A + B depth, A = g from - offset and B = g along. With |g| at most 1 in sum
- * and R the largest coordinate of `from`, which is the frame's size away from all boxes at most, roundings to floats and of
- * sums, fused or not, move A by less than 2^-21 (R + 1) and B by 2^-21: A + B depth where the ray is in the frame, its depth
- * no more than R + 2, by 2^-20 (R + 2) in all. What is made of them is off by an eighth of that, and half is rounded as
- * leaf_orient has it. The ray's slack (view.c) is at least 2^-22 (1 + R), and has what else `from` is off by. */
+/* For a box's slab |g x - offset| <= half, a ray has A + B depth, with A = g from - offset and B = g along. |g| is at
+ * most 1 in sum; let R be the largest coordinate of `from`. Roundings to floats and of sums, fused or not, move A by
+ * less than 2^-21 (R + 1) and B by 2^-21. Where the ray is in the frame, its depth is no more than R + 2, so they move
+ * A + B depth by 2^-20 (R + 2) in all. What is made of A and B is off by an eighth of that; leaf_orient allows for the
+ * rounding of half. The ray's slack (view.c) is at least 2^-22 (1 + R), and includes the other errors of `from`. */
 #define WIDE_SLACKS 8
 
-/* No less than R + 2. */
+/* `widen` times this, plus 1, is no less than R + 2. */
 #define WIDE_REACH 0x1p19f
 
-/* More than what floats below the normal ones lose. */
+/* More than underflow of floats can lose. */
 #define WIDE_LEAST 0x1p-110f
 
-/* The rays that may be in the box before their ends, as bits: two slabs have a depth in common where |A_q B_r - A_r B_q| <=
- * half_q |B_r| + half_r |B_q|; and the slab across the leaf is met between the ray's ends. */
+/* As bits, the rays that may be in the box before their ends. Two slabs have a depth in common where |A_q B_r - A_r
+ * B_q| <= half_q |B_r| + half_r |B_q|; and the ray must meet the slab across the leaf before its end. */
 LANES_INLINE unsigned view_oriented(const struct view *view, const struct oriented_box *box)
 {
   float_lanes a[3], b[3], size[3], half[3];
@@ -176,7 +176,7 @@ LANES_INLINE unsigned view_oriented(const struct view *view, const struct orient
   return ~float_lanes_bits(out);
 }
 
-/* The rays that start in the slab across the leaf, as far as floats tell, as bits. */
+/* As bits, the rays that start in the slab across the leaf, as far as floats tell. */
 LANES_INLINE unsigned view_starts(const struct view *view, const struct oriented_box *box)
 {
   const float_lanes a = view->from[0] * box->g[0][0] +
@@ -191,7 +191,7 @@ LANES_INLINE four_floats four_floats_load(const float *from)
   return x;
 }
 
-/* The same of one of the rays, the three slabs side by side. */
+/* view_oriented for one ray, with the three slabs side by side. */
 LANES_INLINE bool view_oriented_one(const struct view *view, unsigned lane, const struct oriented_box *box)
 {
   const four_floats g0 = four_floats_load(box->g[0]), g1 = four_floats_load(box->g[1]),
@@ -220,7 +220,8 @@ LANES_INLINE struct ray_view ray_view_of(const struct view *view, unsigned lane)
   return ray;
 }
 
-/* The node's children that the ray passes before `end`, as bits, and where it enters them; as view_boxes. */
+/* The node's children, as bits, that the ray passes before `end`, and where it enters them. The test is that of
+ * view_boxes. */
 LANES_INLINE unsigned ray_view_boxes(const struct ray_view *ray, float end, const struct bvh_node *node,
                                      float out_near[BVH_WIDTH])
 {

@@ -1,4 +1,4 @@
-/* What rays that go together through a hierarchy have still to go to, in the order in which they come to it.
+/* What rays that go through a hierarchy together have yet to visit, in the order in which they reach it.
  *
  * Internal to src/intersect/lanes: walk.c includes it.
  */
@@ -8,22 +8,22 @@
 #include "base/float_lanes.h"
 #include "geometry/bvh.h"
 
-/* Twice what a walk of node by node may leave, and the children of one more node. */
+/* Twice what a node-by-node walk may leave, and the children of one more node. */
 enum { MOST_WAITING = 2 * BVH_STACK + BVH_WIDTH };
 
-/* Where rays that go together have still to go. What comes next is on top; `room` tells where near[] has the places at which the rays
- * enter, so that sorting moves little. The rooms of keys from `top` to `rooms` are free. */
+/* A stack of what the rays have yet to visit; what comes next is on top. `room` is the place in near[] of the depths at
+ * which the rays enter, so that sorting moves only keys. The rooms of keys from `top` to `rooms` are free. */
 struct waiting {
   size_t top, rooms;
   struct waiting_key {
     float first;   /* where the first of the rays enters */
-    unsigned rays; /* a leaf's test on one ray must not depend on its neighbours, so each ray goes its own way */
+    unsigned rays; /* those that enter: what is tried on a ray must not depend on its neighbours */
     uint32_t child, room;
   } key[MOST_WAITING];
   float_lanes near[MOST_WAITING];
 };
 
-/* Puts it on, from `from` on in the order in which it is come to. */
+/* Pushes the key, sorted by depth into the entries from `from` on. */
 LANES_INLINE void waiting_add(struct waiting *w, size_t from, struct waiting_key key, const float_lanes *near)
 {
   size_t n = w->top++;
