@@ -1,4 +1,4 @@
-/* The roots of r by the method that the scene asks for, on all lanes of a packet at once or one by one, and what can be
+/* The roots of r by the method that the scene asks for, on all lanes of a packet at once or one by one, and what is
  * proven of them.
  *
  * Compiled once per instruction set.
@@ -9,17 +9,17 @@
 #include "intersect/lanes/cover.h"
 #include "intersect/lanes/nearest.h"
 
-/* How often the leaf is halved to see that the ray passes it by before any root is sought. A choice of speed. */
+/* The most halvings of the leaf to show that the ray passes it by, before any root is sought. A choice of speed. */
 enum { MISS_HALVINGS = 3 };
 
-/* The roots tried, k-th of every lane. */
+/* The roots tried: the k-th of every lane. */
 struct all_roots {
   int count;
   struct leaf_root root[TRIED_ROOTS];
-  lane_mask proven[TRIED_ROOTS]; /* a root that none before it is */
+  lane_mask proven[TRIED_ROOTS]; /* a root, and none of those before it */
 };
 
-/* Start values on the lanes of `active`: the roots kept, taken off the real axis, or cold. */
+/* Sets start values on the lanes of `active`: the roots that were kept, moved off the real axis, or cold ones. */
 static void all_roots_start(struct roots_lanes *a, const struct solver_warm *warm, lane_mask active)
 {
   if (!warm || warm->count != a->degree) {
@@ -32,7 +32,7 @@ static void all_roots_start(struct roots_lanes *a, const struct solver_warm *war
   }
 }
 
-/* Keeps the roots on one of the lanes for the next rays. */
+/* Keeps the roots of one lane for the next rays. */
 static void all_roots_keep(const struct roots_lanes *a, lane_mask done, struct solver_warm *warm)
 {
   const unsigned bits = lanes_bits(done);
@@ -43,7 +43,7 @@ static void all_roots_keep(const struct roots_lanes *a, lane_mask done, struct s
   for (int k = 0; k < a->degree; k++) warm->re[k] = 0.5 + 0.5 * a->zr[k][lane], warm->im[k] = 0.5 * a->zi[k][lane];
 }
 
-/* The roots near [0,1], collected lane by lane. */
+/* Collects the roots near [0,1], lane by lane. */
 static void all_roots_near(const struct candidate *it, const struct roots_lanes *a, lane_mask done,
                            struct root_starts *out)
 {
@@ -66,8 +66,8 @@ static void all_roots_near(const struct candidate *it, const struct roots_lanes 
   }
 }
 
-/* Makes the roots exact and proven. Returns the lanes that are decided: one root is alone in the leaf, or there are
- * as many as r has sign variations. */
+/* Refines the roots by Newton's method, and proves them. Returns the lanes that are decided: one root is alone in the
+ * leaf, or there are as many roots as r has sign variations. */
 static lane_mask all_roots_prove(const struct packet *p, const struct candidate *it, const struct root_starts *starts,
                                  struct all_roots *all)
 {
@@ -89,7 +89,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
     const lanes parameter = v_kept ? r->v : r->u, radius = v_kept ? r->radius_v : r->radius_u;
     found += lanes_select(*proven, lanes_all(1), lanes_all(0));
     within += lanes_select(*proven & (parameter > radius) & (1 - parameter > radius), lanes_all(1), lanes_all(0));
-    /* whatever else was found is this root again */
+    /* all other roots found are this one again */
     const lane_mask only = r->alone;
     for (int j = 0; j < k; j++) all->proven[j] &= ~only;
     *proven |= only;
@@ -98,7 +98,7 @@ static lane_mask all_roots_prove(const struct packet *p, const struct candidate 
   return resultant_counts(it) ? alone | ((found > 0) & (within == it->variations)) : alone;
 }
 
-/* The lanes of `open` where these are all that the leaf has, by boxes. */
+/* The lanes of `open` where boxes prove these roots to be all of the leaf's. */
 static lane_mask all_roots_cover(struct packet *p, const struct candidate *it, const struct all_roots *all,
                                  lane_mask open)
 {
@@ -112,7 +112,7 @@ static lane_mask all_roots_cover(struct packet *p, const struct candidate *it, c
   return cover_proves(p, it, count, known, COVER_HALVINGS, open, NULL);
 }
 
-/* The roots of the polynomial that is set, on the lanes of `active` where the method finds them: see
+/* Finds the roots of the polynomial that is set. Returns the lanes of `active` where the method succeeds: see
  * roots_lanes_run. */
 static lane_mask all_roots_solve(struct packet *p, const struct candidate *it, lane_mask active, lanes enough,
                                  struct roots_lanes *out)
@@ -144,12 +144,12 @@ lanes method_quadratic_root(struct packet *p, const struct candidate *it, const 
   return 0.5 * lanes_select(second, a.zr[1], a.zr[0]);
 }
 
-/* The roots by a method for lanes, and the lanes of `active` that are missed. */
+/* Finds roots by a method for lanes. Returns the lanes of `active` that are missed. */
 static lane_mask all_roots_find(struct packet *p, const struct candidate *it, lane_mask active, struct root_starts *out)
 {
   struct roots_lanes a;
   if (it->degree < 1) return (lane_mask){0};
-  /* One sign variation is a root, which mostly is a hit. */
+  /* One sign variation means a root, which is mostly a hit. */
   const lane_mask doubtful = active & (it->variations != 1);
   lane_mask missed = {0};
   if (lanes_any(doubtful)) missed = cover_proves(p, it, 0, NULL, MISS_HALVINGS, doubtful, NULL);

@@ -1,4 +1,4 @@
-/* The root that a candidate is tried for first, from the bilinear part of its leaf, and what boxes prove of it.
+/* The root that is tried first on a candidate, from the bilinear part of its leaf, and what boxes prove of it.
  *
  * Compiled once per instruction set, without contraction. Parameters are s = u - 1/2 and t = v - 1/2.
  */
@@ -10,13 +10,13 @@ LANES_INLINE lanes plane_of(const struct line *line, int axis, int number, const
   return base[n][(axis + 1 + number) % 3] - line->slope[number] * base[n][axis];
 }
 
-/* 0 where t is not a number, and within the leaf. */
+/* t clamped to the leaf, or 0 if it is not a number. */
 LANES_INLINE lanes near_middle(lanes t) { return lanes_clamp(lanes_select(t == t, t, lanes_all(0)), -0.5, 0.5); }
 
-/* The root of the bilinear parts a = a0 + s a1 + t a2 + st a3, b alike, that is nearer to the middle: t eliminated by
- * Bezout's determinant (a0 + s a1)(b2 + s b3) - (a2 + s a3)(b0 + s b1) = r0 + r1 s + r2 s^2. A pair of complex roots
- * is replaced by its real part. By the default method in closed form; takes lanes out of *open where another one finds
- * none. */
+/* The root of the bilinear parts a = a0 + s a1 + t a2 + st a3, and b likewise, that is nearer to the middle. Bezout's
+ * determinant (a0 + s a1)(b2 + s b3) - (a2 + s a3)(b0 + s b1) = r0 + r1 s + r2 s^2 eliminates t. A pair of complex
+ * roots is replaced by its real part. The default method is in closed form; another one removes lanes from *open where
+ * it finds no root. */
 LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, lane_mask *open, lanes start[2])
 {
   lanes a[4], b[4], s;
@@ -40,11 +40,11 @@ LANES_INLINE void bilinear_root(struct packet *p, const struct candidate *it, la
   start[0] = s, start[1] = near_middle(-value / lanes_select(steep, slope_a, slope_b));
 }
 
-/* A root is near a pole in this part of the leaf: there it is where the fan of the tangents at the pole has one, while the
- * bilinear part, which is of the middle, has its pole elsewhere. A choice of speed. */
+/* A root this near to a pole is where the fan of the tangents at the pole has one. The bilinear part, which is that of
+ * the middle, has its pole elsewhere. A choice of speed. */
 #define NEAR_POLE 0.25
 
-/* The fan's root where it is near the pole, d away from it, between its first and its last tangent. */
+/* Takes the fan's root where that is near the pole, at distance d, between the first and the last tangent. */
 LANES_INLINE void fan_root(const struct candidate *it, lanes start[2])
 {
   const int border = it->leaf->pole - 1, inward = edge_inward(border);

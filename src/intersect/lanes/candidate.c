@@ -1,6 +1,6 @@
 /* The way of a candidate: the order of its stages.
  *
- * Compiled once per instruction set. This is the page to open first: what a stage does stands in candidate.h.
+ * Compiled once per instruction set. Read this file first; candidate.h says what each stage does.
  */
 #include "intersect/lanes/candidate.h"
 
@@ -10,9 +10,9 @@
 #include "intersect/prepare/leaf.h"
 #include "intersect/prepare/patch.h"
 
-/* Out of line, for it is rare: a ray that comes by so many leaves runs along something thin, of which the walk's floats
- * tell little. What it passes by to the last places was not tried. Returns the lanes that are done with the leaf, or
- * with all. */
+/* Out of line, because it is rare. A ray that comes past so many leaves runs along something thin, of which the walk's
+ * floats tell little. A leaf whose box it misses to the last places does not count as tried. Returns the lanes that are
+ * done with the leaf, or with all leaves. */
 __attribute__((noinline)) static lane_mask candidate_worn(struct packet *p, const struct candidate *it, lane_mask many)
 {
   const lane_mask passed = many & ~stage_box(it, many), left = packet_spend(p, passed & -LOOKS_TRIED);
@@ -21,11 +21,12 @@ __attribute__((noinline)) static lane_mask candidate_worn(struct packet *p, cons
   return passed | worn;
 }
 
-/* A leaf whose derivatives turn by more than this fraction of their size has its root far from that of its bilinear part: where that
- * takes an iteration it is in vain, and the next one's warm start is lost. A choice of speed: what comes of it is proven. */
+/* A leaf whose derivatives turn by more than this fraction of their size has its root far from that of its bilinear
+ * part. An iteration for the latter is then in vain, and the next one's warm start is lost. A choice of speed, because
+ * the result is proven. */
 #define BENT_TURN 2.0
 
-/* Whether the bilinear part is worth its root. */
+/* Whether finding the root of the bilinear part is worth its cost. */
 static bool starts_bilinear(const struct candidate *it)
 {
   const double *first = it->leaf->first;
@@ -34,7 +35,7 @@ static bool starts_bilinear(const struct candidate *it)
   return turn_of(it->leaf->second) <= BENT_TURN * real_min(first[0], first[1]);
 }
 
-/* Puts the leaf off, where that is done. Returns the lanes that go on now. */
+/* Puts the leaf off, if leaves are. Returns the lanes that go on now. */
 static lane_mask candidate_put_off(struct packet *p, const struct candidate *it, lane_mask open)
 {
   const bool later = p->later && later_add(p->later, (uint32_t)it->number, lanes_bits(open) << p->first_ray);
@@ -47,8 +48,8 @@ LANES_INLINE lane_mask leaves_at_start(const struct packet *p, const struct flat
   return packet_starts_in(p, plane) & (p->direction[plane->axis] != 0);
 }
 
-/* Of `open`, the lanes whose ray does so, in the plane across an axis that the patch lies in, beside the patch's box: they meet
- * nothing of it. */
+/* The lanes of `open` whose ray starts in the plane across an axis that the patch lies in, leaves it, and starts beside
+ * the patch's box: they meet nothing of the patch. */
 static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask open)
 {
   const struct flat_plane *plane = model_flat_plane(p->model, patch);
@@ -62,7 +63,7 @@ static lane_mask leaves_beside(const struct packet *p, uint32_t patch, lane_mask
   return open & ~inside;
 }
 
-/* What no stage has decided is left to the last resort. */
+/* Leaves to the last resort what no stage has decided. */
 static void leave_open(struct packet *p, struct candidate *it, lane_mask open)
 {
   open &= ~leaves_beside(p, it->leaf->patch, open);
@@ -70,7 +71,8 @@ static void leave_open(struct packet *p, struct candidate *it, lane_mask open)
   if (lanes_any(open)) packet_postpone(p, it, open);
 }
 
-/* A scene with `polish off` asks for the roots as its solver finds them: nothing but the slab closes a leaf before that. */
+/* A scene with `polish off` asks for the roots as its solver finds them. There only the slab closes a leaf before
+ * that. */
 static void candidate_pass(struct packet *p, struct candidate *it, lane_mask open)
 {
   const struct model_patch *patch = it->patch;
@@ -96,10 +98,10 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
     open = candidate_put_off(p, it, open);
     if (!lanes_any(open)) return;
   }
-  (void)packet_spend(p, open & LOOKS_DEAR); /* the next leaf asks what is left */
+  (void)packet_spend(p, open & LOOKS_DEAR); /* the next leaf checks what is left */
   entered[STAGE_PLANES] += lanes_count(open);
   open = stage_planes(p, it, open);
-  if (lanes_any(open & it->along)) /* nothing that follows could decide that */
+  if (lanes_any(open & it->along)) /* no later stage could decide that */
     leave_open(p, it, open & it->along), open &= ~it->along;
   if (!lanes_any(open)) return;
   if (patch->lanes == SOLVER_LANES_SIGNS) {
@@ -116,7 +118,7 @@ static void candidate_pass(struct packet *p, struct candidate *it, lane_mask ope
   if (lanes_any(open)) leave_open(p, it, open);
 }
 
-/* What came of a candidate of a ray that is to be explained: it is the first one of its packet, and the others are the
+/* Reports what came of a candidate for a ray that is to be explained. It is in lane 0, and the other lanes are the
  * same. */
 static void candidate_explain(const struct packet *p, const struct candidate *it, bool blind)
 {
@@ -136,11 +138,12 @@ static void candidate_explain(const struct packet *p, const struct candidate *it
   explain_after(p->tracer, &told);
 }
 
-/* Where the plane polynomials of a patch are known no better than this, the ray starting so far away, double precision
- * proves no root, and the last resort looks at most of the patch in any case. */
+/* If the plane polynomials of a patch are known no better than this, because the ray starts far away, double precision
+ * proves no root, and the last resort examines most of the patch in any case. */
 #define BLIND 0x1p-5
 
-/* Lanes whose ray does not come to the plane: it goes away from it, or along it beside it, or leaves it where that is no hit. */
+/* Lanes whose ray does not come to the plane: it goes away from it, runs beside it, or starts in it and leaves it,
+ * where that is no hit. */
 LANES_INLINE lane_mask leaves_plane(const struct packet *p, const struct flat_plane *plane)
 {
   const lanes above = p->origin[plane->axis] - plane->value, up = p->direction[plane->axis];
@@ -148,7 +151,7 @@ LANES_INLINE lane_mask leaves_plane(const struct packet *p, const struct flat_pl
   return ((above > 0) & (up >= 0)) | ((above < 0) & (up <= 0)) | (p->any ? touches : touches & (p->t_min > 0));
 }
 
-/* Of `active`, the lanes on which the ray may meet the patch, if it lies in a plane across an axis, and that not behind the
+/* The lanes of `active` on which the ray may meet the patch, if that lies in a plane across an axis, and not behind the
  * nearest hit so far in that plane. */
 LANES_INLINE lane_mask before_in_plane(const struct packet *p, uint32_t patch, lane_mask active)
 {

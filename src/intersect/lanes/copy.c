@@ -1,17 +1,17 @@
 /* A packet in the coordinates of an object, and back. Compiled once per instruction set and without contraction.
  *
- * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, before it is taken to the
- * object's coordinates, and all of that in about twice the precision, or more where it starts very far away: so it is
- * right to its last places near the object. copies.c bounds what rounding is left, model_object.error.
+ * A ray o + t d is moved along itself to o + shift d, where it passes the middle of the copy, and then taken to the
+ * object's coordinates. All that is in about twice the precision, or more if the ray starts very far away, so the ray
+ * is right to its last places near the object. copies.c bounds the rounding that is left, model_object.error.
  */
 #include "base/double_lanes.h"
 #include "intersect/lanes/nearest.h"
 
-/* Twice the precision leaves less unknown than an object's error counts, for a start up to this many of that away, in
- * the object's coordinates: 2^-104 of the way, by a map that may stretch errors by 2^10 (copies.c). */
+/* For a start up to this many times the object's error away, in the object's coordinates, twice the precision leaves
+ * less unknown than that error: 2^-104 of the way, by a map that may stretch errors by 2^10 (copies.c). */
 #define FARTHEST_WAY 0x1p88
 
-/* Out of line, for it is rare: as local_ray.h has it. */
+/* Sets these lanes' starts and shifts as in local_ray.h. Out of line, because it is rare. */
 __attribute__((noinline)) static void enter_from_far(struct packet *inner, lane_mask far)
 {
   for (unsigned bits = lanes_bits(far); bits; bits &= bits - 1) {
@@ -66,7 +66,7 @@ void packet_enter(struct packet *outer, const struct model_copy *copy, lane_mask
                    8 * UNIT_ROUNDOFF * (lanes_abs(shift) + lanes_abs(outer->t_min));
 }
 
-/* Sends for the copies' own patches, on which the last step will be taken. */
+/* Prefetches the copies' own patches, on which the last step will be taken. */
 static void fetch_patches(const struct model *model, lane_mask patch, unsigned taken)
 {
   for (; model->patches && taken; taken &= taken - 1)

@@ -7,7 +7,7 @@
 #include "intersect/lanes/cover_nets.h"
 #include "intersect/lanes/nearest.h"
 
-/* A choice of speed, as COVER_HALVINGS. */
+/* The most boxes split on a leaf. A choice of speed, as COVER_HALVINGS. */
 enum { COVER_SPLITS = 160 };
 
 /* What is known of one ray on the leaf. */
@@ -15,10 +15,10 @@ struct cover_ray {
   const struct leaf *leaf;
   int lane, count;
   const struct known_root *roots;
-  double size, error;     /* of the coefficients of a and b: a bound, and what they are off by */
-  struct cover_net depth; /* x_k of the leaf, k the ray's axis */
-  double from, to;        /* between these x_k the ray looks for roots, what it has hit apart: see ray_ends */
-  int halvings, splits;   /* how often a box may be halved, and how many more may be */
+  double size, error;     /* of the coefficients of a and b: a bound, and their errors */
+  struct cover_net depth; /* x_k of the leaf, k being the ray's axis */
+  double from, to;        /* the ray seeks roots between these x_k, whatever it has hit: see ray_ends */
+  int halvings, splits;   /* how often a box may be halved, and how many more boxes may be */
   double left[2];         /* out: the middle of a box that was not cleared */
 };
 
@@ -28,7 +28,7 @@ struct cover_box {
   int halvings;
 };
 
-/* Whether that root of the ray is proven, and in the box. */
+/* Whether that root of the ray is proven and in the box. */
 LANES_INLINE bool root_is_in(const struct cover_ray *ray, const struct cover_box *box, const struct known_root *root)
 {
   if (!root->proven[ray->lane]) return false;
@@ -45,7 +45,7 @@ LANES_INLINE row weights_at(double t)
   return (row){s * s * s, 3 * (s * s * t), 3 * (s * t * t), t * t * t};
 }
 
-/* Whether the box is where the ray looks for roots. */
+/* Whether the box may be where the ray seeks roots. */
 LANES_INLINE bool box_is_seen(const struct cover_ray *ray, const struct cover_box *box)
 {
   const double half_u = 0.5 * box->size_u, half_v = 0.5 * box->size_v, *first = ray->leaf->first;
@@ -55,7 +55,7 @@ LANES_INLINE bool box_is_seen(const struct cover_ray *ray, const struct cover_bo
   return middle + reach >= ray->from && middle - reach <= ray->to;
 }
 
-/* Whether the box may have a root that is not known. */
+/* Whether the box may have an unknown root. */
 LANES_INLINE bool box_is_open(const struct cover_ray *ray, const struct cover_box *box)
 {
   bool has_root = false;
@@ -65,7 +65,7 @@ LANES_INLINE bool box_is_open(const struct cover_ray *ray, const struct cover_bo
   return nets_full(&box->a, &box->b, has_root, ray->size, error) && box_is_seen(ray, box);
 }
 
-/* Halves the box across the parameter along which it is longer. It becomes its own lower half. */
+/* Halves the box across the parameter along which it is longer. *box becomes the lower half. */
 LANES_INLINE void box_split(const struct leaf *leaf, struct cover_box *box, struct cover_box *high)
 {
   const bool across_u = leaf->first[0] * box->size_u >= leaf->first[1] * box->size_v;
@@ -78,7 +78,7 @@ LANES_INLINE void box_split(const struct leaf *leaf, struct cover_box *box, stru
   net_halve(&box->b, across_u, &high->b);
 }
 
-/* Whether all boxes are cleared. stack[0], the leaf, is set. Counts what it takes. */
+/* Whether all boxes are cleared. stack[0], the leaf, is set. Counts the splits. */
 static bool cover(struct cover_ray *ray, struct cover_box stack[COVER_HALVINGS + 2])
 {
   for (int top = 1; top > 0;) {
@@ -102,7 +102,7 @@ lane_mask cover_proves(struct packet *p, const struct candidate *it, int count, 
   struct cover_ray ray = {.leaf = it->leaf, .count = count, .roots = roots, .halvings = halvings};
   const lane_mask asked = open;
   lanes from, to, off, *splits = &p->postponed->splits;
-  /* not where the nearest hit so far is, or answers would depend on the way through the hierarchy */
+  /* up to t_max and not the nearest hit so far, or answers would depend on the way through the hierarchy */
   ray_ends(p, it, p->t_max, &from, &to, &off);
   off += 2 * it->line->error;
   memcpy(&ray.depth, it->leaf->x[it->axis], sizeof ray.depth);

@@ -1,5 +1,4 @@
-/* From the winning roots to the answers: the last Newton step, the point, the normal; and what goes to the last
- * resort. */
+/* From the best roots to the answers: the last Newton step, the point, the normal; and what goes to the last resort. */
 #include <assert.h>
 #include <stddef.h>
 
@@ -7,8 +6,8 @@
 #include "intersect/lanes/last_step.h"
 #include "intersect/lanes/packet.h"
 
-/* A root as far from where it is as this, in patch parameters, is seen so nearly edge-on that what the last step
- * leaves, 2^-27 of it, shows in the last places of t. */
+/* A root with a radius larger than this, in patch parameters, is seen so nearly edge-on that what the last step leaves,
+ * 2^-27 of that, shows in the last places of t. */
 #define BLURRED_RADIUS 0x1p-28
 
 /* The answers of a packet's lanes. */
@@ -16,10 +15,10 @@ struct answers {
   lanes u, v, t;
   struct surface_point point;
   lanes normal[3]; /* of unit length and either sense */
-  lane_mask done;  /* point and normal are sure, and the root has gone no farther than its radius */
+  lane_mask done;  /* point and normal are sure, and the root has moved no farther than its radius */
 };
 
-/* Lanes whose answer, whatever it is, is not sure. */
+/* Lanes whose answer is in doubt, whatever it is. */
 static unsigned packet_doubt(const struct packet *p)
 {
   return p->model->unproven ? ~0u : lanes_bits(p->best.doubt | p->best.touches);
@@ -56,8 +55,8 @@ static struct exact_maybe lane_maybe(const struct packet *p, unsigned lane)
     .patch = (uint32_t)best->patch[lane], .u = best->u[lane], .v = best->v[lane], .t = best->t[lane]};
 }
 
-/* Leaves out what stands behind that root's patch in its plane: the ray meets it where it meets that, and it is open only where
- * it came first (candidate.c, before_in_plane). */
+/* Drops regions of later patches in the plane of that root's patch: the ray meets them at the same t. They are open
+ * only where they came first (candidate.c, before_in_plane). */
 static void leave_out_behind(struct exact_case *asked, uint32_t first)
 {
   const uint32_t plane = model_plane(asked->model, first);
@@ -70,7 +69,8 @@ static void leave_out_behind(struct exact_case *asked, uint32_t first)
   asked->region_count = kept;
 }
 
-/* Has the last resort decide the lane. Returns whether the answer is written; else it is the lane's best root now. */
+/* Has the last resort decide the lane. Returns whether the answer is written; otherwise it is now the lane's best
+ * root. */
 static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
 {
   struct best *best = &p->best;
@@ -98,7 +98,7 @@ static bool lane_decide(struct packet *p, unsigned lane, struct hit *out)
   return true;
 }
 
-/* The hit of a lane whose best root the last step has not made good. */
+/* Writes the hit of a lane whose best root the last step did not make good. */
 static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct hit *out)
 {
   struct exact_root root = lane_root(p, lane);
@@ -107,8 +107,8 @@ static void lane_finish(const struct packet *p, unsigned lane, bool sure, struct
   else exact_maybe_hit(p->model, &p->rays[lane], &maybe, out);
 }
 
-/* A ray that was let go, or left more open than there is room for, may hit what was not looked at. To say so of every one,
- * whatever else it meets, is to say the same in any company. */
+/* A ray that was let go, or left more open than there is room for, may hit what was not examined. Every such ray counts
+ * as hit, whatever else it meets, so that its answer does not depend on its neighbours. */
 unsigned finish_occluded(const struct packet *p)
 {
   if (!p->oriented) return 0;
@@ -165,7 +165,7 @@ LANES_INLINE unsigned write_hits(const struct packet *p, unsigned group, const s
   return grazing;
 }
 
-/* The lanes of `group`, whose best roots are final. */
+/* Finishes the lanes of `group`, whose best roots are final. */
 static unsigned finish_final(const struct packet *p, unsigned group, struct hit out[])
 {
   const struct best *best = &p->best;
@@ -176,8 +176,8 @@ static unsigned finish_final(const struct packet *p, unsigned group, struct hit 
   return write_hits(p, group, &a, out);
 }
 
-/* The lanes of `group`, whose best roots are on one patch, whose rays share an axis and have them all near their starts, or
- * none. */
+/* Finishes the lanes of `group`. Their best roots are on one patch, their rays share an axis, and the roots are all
+ * near the rays' starts, or none is. */
 static unsigned finish_group(const struct packet *p, unsigned group, int axis, struct model_patch *patch, bool near,
                              struct hit out[])
 {
@@ -195,7 +195,7 @@ static unsigned finish_group(const struct packet *p, unsigned group, int axis, s
   return write_hits(p, group, &a, out);
 }
 
-/* Has the last resort decide what is open. Returns the lanes whose answers are written, as bits. */
+/* Has the last resort decide what is open. Returns the lanes, as bits, whose answers are written. */
 static unsigned decide_open(struct packet *p, struct hit out[])
 {
   unsigned written = 0;
@@ -206,11 +206,10 @@ static unsigned decide_open(struct packet *p, struct hit out[])
   return written;
 }
 
-/* Writes that the rays of these lanes hit nothing, and on which of them that is in doubt. Returns how many those
- * are. */
+/* Writes misses for these rays, grazing on the lanes of `doubt`. Returns how many of them are grazing. */
 static unsigned write_misses(struct hit out[], unsigned misses, unsigned doubt)
 {
-  if (misses == ALL_LANES && !doubt) { /* the same, and no loop */
+  if (misses == ALL_LANES && !doubt) { /* the same without a loop */
     for (int l = 0; l < LANES; l++) out[l].patch = HIT_NONE, out[l].certainty = CERTAINTY_CERTAIN;
     return 0;
   }

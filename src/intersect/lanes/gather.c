@@ -1,8 +1,8 @@
 /* All roots of the rays of a packet. See gather.h.
  *
- * Compiled once per instruction set and without contraction. A root gets its answer where it is found, as the nearest
- * one's is made, together with those that other lanes find there. A lane that has left nothing open, and whose roots
- * are clearly one behind the other, is done then but for their order; the last resort decides the others (exact_all).
+ * Compiled once per instruction set and without contraction. A root gets its answer where it is found, just as the
+ * nearest one does, together with those that other lanes find there. A lane that has left nothing open, and whose roots
+ * are clearly one behind the other, then only needs them in order; the last resort decides the others (exact_all).
  */
 #include "intersect/lanes/gather.h"
 
@@ -20,7 +20,7 @@ void gather_start(struct packet *p, struct gather *gather)
   gather->failed = gather->list.failed = false;
 }
 
-/* There is no best on the lanes of `taken` any more. */
+/* Removes the best roots of the lanes of `taken`. */
 static void forget_best(struct packet *p, lane_mask taken)
 {
   p->best.t = lanes_select(taken, lanes_all(INFINITY), p->best.t);
@@ -43,7 +43,7 @@ void gather_best(struct packet *p, lane_mask taken)
   struct hit hits[LANES];
   lanes_store4(best->u, best->v, best->radius_u, best->radius_v, &uv[0][0], 4);
   lanes_store4(best->t, p->t_far - best->t, lanes_all(0), lanes_all(0), &distance[0][0], 4);
-  const lane_mask doubt = best->doubt, touches = best->touches; /* are the list's, whichever root came first */
+  const lane_mask doubt = best->doubt, touches = best->touches; /* belong to the list, whichever root came first */
   p->best.doubt = p->best.touches = (lane_mask){0};
   (void)finish_best(p, 0, hits);
   p->best.doubt = doubt, p->best.touches = touches;
@@ -73,7 +73,7 @@ void gather_postpone(struct gather *gather, const struct exact_region *region, u
 static double t_of(const struct gathered *root) { return root->distance[0]; }
 static double error_of(const struct gathered *root) { return root->distance[1]; }
 
-/* In the order in which nearest.h prefers them, which does not depend on the walk. */
+/* The order in which nearest.h prefers roots, which does not depend on the walk. */
 static int by_t(const void *a, const void *b)
 {
   const struct gathered *x = *(const struct gathered *const *)a, *y = *(const struct gathered *const *)b;
@@ -82,7 +82,7 @@ static int by_t(const void *a, const void *b)
   return x->leaf < y->leaf ? -1 : x->leaf > y->leaf;
 }
 
-/* Few are put in order faster one by one: the walk comes by them nearly so. */
+/* Up to this many are sorted faster by insertion, because the walk finds them nearly in order. */
 enum { SORTED_ONE_BY_ONE = 24 };
 
 static void sort_roots(const struct gathered *roots[], size_t count)
@@ -99,7 +99,7 @@ static void sort_roots(const struct gathered *roots[], size_t count)
   }
 }
 
-/* All lanes' roots in order: lane l has those from begin[l] to begin[l + 1] of gather->order. */
+/* Orders the roots of all lanes: those of lane l are from begin[l] to begin[l + 1] of gather->order. */
 static void order_roots(struct gather *gather, size_t begin[LANES + 1])
 {
   const struct gathered *roots = gather->roots.at;
@@ -127,8 +127,8 @@ static void collect_regions(struct gather *gather, unsigned lane)
   }
 }
 
-/* Has the last resort decide which hits the lane has, of whose roots the lanes have taken `count`: then gather->list
- * has them. Returns whether that is proven. */
+/* Has the last resort decide which hits the lane has; `count` roots were taken by the lanes. gather->list gets the
+ * hits. Returns whether they are proven. */
 static bool decide(struct packet *p, unsigned lane, const struct gathered *const roots[], size_t count)
 {
   struct gather *gather = p->gather;
@@ -145,7 +145,7 @@ static bool decide(struct packet *p, unsigned lane, const struct gathered *const
                                                .t_error = error_of(roots[k])},
                                       .kind = roots[k]->certain ? EXACT_INSIDE : EXACT_OPEN,
                                       .taken = (int64_t)k};
-    (void)exact_list_add(list, &found); /* or it has failed */
+    (void)exact_list_add(list, &found); /* on failure, list->failed is set */
   }
   const struct exact_case asked = {.model = p->model,
                                    .ray = &p->rays[lane],
@@ -157,7 +157,7 @@ static bool decide(struct packet *p, unsigned lane, const struct gathered *const
   return sure;
 }
 
-/* The answer to what the last resort has found. */
+/* The answer for what the last resort has found. */
 static struct hit answer_found(struct packet *p, unsigned lane, const struct exact_found *found)
 {
   struct hit hit;
@@ -176,8 +176,8 @@ static struct hit *add_hits(struct packet *p, size_t count)
   return hits;
 }
 
-/* Puts the root in its place among those from `first` on, with which it is at one t, by their patches: all of them are in one
- * plane across an axis, and each of another patch. False where that is not so. */
+/* Sorts root k by patch into the roots from `first` on, with which it shares one t. Returns false unless all of them
+ * are in one plane across an axis, and each is of another patch. */
 static bool place_in_plane(const struct model *model, const struct gathered *roots[], size_t first, size_t k)
 {
   const struct gathered *here = roots[k];
@@ -188,14 +188,14 @@ static bool place_in_plane(const struct model *model, const struct gathered *roo
   return k == first || here->hit.patch != roots[k - 1]->hit.patch;
 }
 
-/* Adds the lane's hits to those of the tracer. Returns the first. */
+/* Adds the lane's hits to the tracer's. Returns the first of them. */
 static struct hit *lane_hits(struct packet *p, unsigned lane, const struct gathered *roots[], size_t count,
                              struct hit_list *out)
 {
   struct gather *gather = p->gather;
   bool certain = !p->model->unproven && !(p->best.doubt | p->best.touches)[lane], tie = false;
   double reach = -INFINITY;
-  size_t first = 0; /* of those that reach into one another */
+  size_t first = 0; /* of those whose errors overlap */
   for (size_t k = 0; k < count; k++) {
     const double t = t_of(roots[k]), error = error_of(roots[k]), far = t + error;
     certain &= roots[k]->certain;
@@ -230,7 +230,7 @@ bool gather_finish(struct packet *p, const int *exponents, struct hit_list out[]
                                  begin[lane + 1] - begin[lane], &out[lane]);
     for (size_t k = 0; k < out[lane].count && hits; k++) {
       if (exponents) (void)hit_scale_back(&hits[k], &p->rays[lane], exponents[lane]);
-      /* What comes later is no nearer, though the last bits may say so. */
+      /* Later hits are no nearer, though their last bits may say so. */
       if (k > 0 && hits[k].t < hits[k - 1].t) hits[k].t = hits[k - 1].t;
       if (hits[k].certainty != CERTAINTY_CERTAIN) out[lane].certainty = CERTAINTY_GRAZING;
     }

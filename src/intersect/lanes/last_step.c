@@ -1,12 +1,12 @@
 /* The last Newton step. Compiled once per instruction set and without contraction.
  *
- * A root comes from a leaf's net, cut from the patch and rounded: where the ray is steep it is right to
- * a few last places, where it grazes rounding is magnified. A Newton step on the patch itself, its residuals a(u,v),
- * b(u,v) as if computed in half as much precision again, makes all of them right to the last places. The sums are
- * exact in their leading parts because those have few bits on a common grid (as in Rump, Ogita and Oishi, Accurate
- * Floating-Point Summation, 2008, and Ozaki and others, Error-free transformations of matrix multiplication, 2012):
- * one multiply-add a product, where sums that keep track of their error take ten. Those are what roots next to the ray's
- * start take, from control points as seen from there.
+ * A root comes from a leaf's net, which is cut from the patch and rounded. Where the ray is steep, it is right to a few
+ * last places; where the ray grazes, rounding is magnified. A Newton step on the patch itself makes all roots right to
+ * the last places. Its residuals a(u,v), b(u,v) are as if computed in half as much precision again. The leading parts
+ * have few bits on a common grid, so their sums are exact (as in Rump, Ogita and Oishi, Accurate Floating-Point
+ * Summation, 2008, and Ozaki and others, Error-free transformations of matrix multiplication, 2012). That takes one
+ * multiply-add a product, where sums that keep track of their error take ten. Roots near the ray's start use the
+ * latter, on control points relative to the start.
  */
 #include "intersect/lanes/last_step.h"
 
@@ -16,16 +16,16 @@
 
 enum { LAST_STEPS_MAX = 3 };
 
-/* A step longer than this, in patch parameters, is followed by another: the derivatives that the point and the
- * normal are taken from are off by about as much, relative to the second derivatives. */
+/* A step longer than this, in patch parameters, is followed by another one: the derivatives that give point and normal
+ * are off by about as much, relative to the second derivatives. */
 #define LAST_STEP_LONGEST 0x1p-44
 
-/* And one next to the ray's start, where t is as short as 2^-44 of the patch (NEAREST_START): what the step leaves is its square
+/* The same near the ray's start, where t is as short as 2^-44 of the patch (NEAREST_START): the step leaves its square
  * times the second derivatives. */
 #define LAST_STEP_LONGEST_NEAR 0x1p-52
 
-/* Splits a number of size at most 1: so the product of two heads, and a sum of such products of size at most 2, is a
- * multiple of 2^-52 and exact; what the tails add to it is 2^-26 of it, and so is its rounding. */
+/* Splits a number of absolute value at most 1. The product of two heads, and a sum of such products up to 2, is then a
+ * multiple of 2^-52 and exact. The tails add 2^-26 of it, and their rounding is smaller by as much. */
 LANES_INLINE struct split_lanes last_step_split(struct double_lanes x)
 {
   struct split_lanes split = split_lanes_of(x.hi);
@@ -33,7 +33,7 @@ LANES_INLINE struct split_lanes last_step_split(struct double_lanes x)
   return split;
 }
 
-/* A patch's control net, split; read with one coefficient on all lanes. */
+/* A patch's control net, split; coefficients are read one at a time, for all lanes. */
 struct last_step_net {
   const double *x;
   double head[48], tail[48];
@@ -51,14 +51,14 @@ LANES_INLINE void last_step_split_net(const struct model_patch *patch, struct la
   }
 }
 
-/* Position as hi + lo, |lo| up to 2^-24, and derivatives at (u,v), in the frame of the patch; the way there from the ray's
- * start. */
+/* Position as hi + lo, |lo| up to 2^-24, and derivatives at (u,v), in the patch's frame; and the way there from the
+ * ray's start. */
 struct last_step_jet {
   struct double_lanes s[3], way[3];
   lanes du[3], dv[3];
 };
 
-/* Weights w_i of cubic Bernstein polynomials, and their derivatives. */
+/* The weights w_i, cubic Bernstein polynomials, and their derivatives. */
 LANES_INLINE void last_step_weights(lanes t, struct double_lanes w[4], lanes dw[4])
 {
   const struct double_lanes s = double_lanes_sum(lanes_all(1), -t), tt = double_lanes_product(t, t);
@@ -104,7 +104,8 @@ LANES_INLINE void last_step_evaluate(const struct last_step_net *net, const stru
   }
 }
 
-/* The same of control points as seen from the ray's start, in double-double: the way right to some 2^-100. */
+/* last_step_evaluate on control points relative to the ray's start, in double-double: the way is right to some
+ * 2^-100. */
 static void last_step_evaluate_near(const struct model_patch *patch, const struct double_lanes start[3], lanes u,
                                     lanes v, struct last_step_jet *out)
 {
@@ -175,7 +176,7 @@ void last_step_take(struct last_step *l)
     du = lanes_select(moving, du, lanes_all(0)), dv = lanes_select(moving, dv, lanes_all(0));
     again = moving & (size > (l->near ? LAST_STEP_LONGEST_NEAR : LAST_STEP_LONGEST));
     if (n + 1 == LAST_STEPS_MAX || !lanes_any(again)) break;
-    /* A lane that is done stays where it is: what it gets then must not depend on the others. */
+    /* A lane that is done stays where it is, so that its result does not depend on the others. */
     u = lanes_select(again, u + du, u), v = lanes_select(again, v + dv, v);
   }
   const lanes off = way[k].lo + (jet.du[k] * du + jet.dv[k] * dv), depth = way[k].hi + off;

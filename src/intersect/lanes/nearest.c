@@ -1,4 +1,4 @@
-/* Roots offered, taken, refused and left open. See nearest.h.
+/* How roots are offered, taken, refused, or left open. See nearest.h.
  *
  * Compiled once per instruction set.
  */
@@ -26,8 +26,9 @@ void packet_spent(struct packet *p, lane_mask active)
   if (lanes_any(spent)) packet_give_up(p, lanes_bits(spent));
 }
 
-/* Counts the leaves left open. All hits are not gathered any more after too many; else what comes then is left open too, and takes
- * as many looks as if it were tried. In company a ray whose share of them has ended is let go. Returns the lanes that go on. */
+/* Counts the leaves left open. After too many, a ray that gathers hits gives up; otherwise further leaves are left open
+ * untried, and cost as many looks as one that reaches the expensive stages. A ray in a packet whose share has ended is
+ * let go. Returns the lanes that go on. */
 static lane_mask count_open(struct packet *p, lane_mask open)
 {
   struct postponed *to = p->postponed;
@@ -39,7 +40,7 @@ static lane_mask count_open(struct packet *p, lane_mask open)
   return to->share > SHARE_ALONE ? open & ~lanes_mask(worn) : open;
 }
 
-/* Joins the region to its patch's, where the list has one. */
+/* Joins the region to that of its patch, if the list has one. */
 static bool join_region(struct exact_region list[], unsigned count, const struct exact_region *region)
 {
   for (unsigned k = 0; k < count; k++) {
@@ -50,7 +51,7 @@ static bool join_region(struct exact_region list[], unsigned count, const struct
   return false;
 }
 
-/* Out of line, for it is rare: from here on a patch's regions are one. */
+/* Merges the regions of each patch; from here on it has one. Out of line, because it is rare. */
 __attribute__((noinline)) static void merge_regions(struct postponed *to, unsigned lane)
 {
   struct exact_region *list = to->region[lane];
@@ -60,8 +61,8 @@ __attribute__((noinline)) static void merge_regions(struct postponed *to, unsign
   to->count[lane] = kept, to->merged |= 1u << lane;
 }
 
-/* Of the patches on the full list and one more, leaves out the one that begins last. What begins there or behind is left out from
- * then on: so that is where the first of all begins that has no room, in whatever order they come. */
+/* Leaves out the one that begins last, of the patches on the full list and one more. From then on, what begins there or
+ * behind is left out. So, in whatever order they come, cut_from is where the first one without room begins. */
 static void leave_out_last(struct postponed *to, unsigned lane, const struct exact_region *region)
 {
   struct exact_region *last = to->region[lane];
@@ -85,7 +86,8 @@ static void list_region(struct postponed *to, unsigned lane, const struct exact_
   else leave_out_last(to, lane, region);
 }
 
-/* What is open there begins at `near`. That there is more behind what was left out need not be known. */
+/* Postpones the region, in which what is open begins at `near`. What begins at a list's cut_from or behind is
+ * ignored. */
 static void postpone(struct packet *p, const struct exact_region *region, lanes near, lane_mask open)
 {
   struct postponed *to = p->postponed;
@@ -117,7 +119,7 @@ void packet_postpone(struct packet *p, const struct candidate *it, lane_mask ope
   postpone(p, &region, slab_begin(p, it), open);
 }
 
-/* The column of `split` that a parameter is in, or is nearest to. */
+/* The column of `split` that a parameter is in, or the nearest one. */
 static uint16_t column_at(double at, unsigned split)
 {
   const double column = floor(at * split);
@@ -158,8 +160,8 @@ LANES_INLINE lanes depth_to_t(const struct line *line, lanes w)
   return ((w + line->start[1]) + line->start[0]) * line->to_t;
 }
 
-/* How far a point of the surface may be moved within the radii of a root. The derivative along a pole is no more than the mixed
- * one times the distance from there. */
+/* How far a point of the surface moves at most within the radii of a root. Along a pole's border, the derivative is no
+ * more than the mixed one times the distance from the pole. */
 LANES_INLINE lanes root_reach(const struct leaf *leaf, const struct newton_root *r)
 {
   const lanes radius[2] = {r->radius_u, r->radius_v};
@@ -169,8 +171,7 @@ LANES_INLINE lanes root_reach(const struct leaf *leaf, const struct newton_root 
   return leaf->first[d] * radius[d] + lanes_min(lanes_all(leaf->first[1 - d]), leaf->second[1] * away) * radius[1 - d];
 }
 
-/* The bound on the error of t of a root within these radii: how far they let x_k move, and the roundings of x_k and
- * it. */
+/* Bounds the error of t of a root within these radii: how far they let x_k move, and the roundings of x_k and of t. */
 LANES_INLINE lanes root_t_error(const struct packet *p, const struct candidate *it, const struct newton_root *r,
                                 lanes w, lanes at)
 {
@@ -202,7 +203,7 @@ LANES_INLINE void packet_take(struct packet *p, const struct candidate *it, cons
   p->moved = true;
 }
 
-/* Lanes where the root is the best one again, as another leaf has found it. */
+/* Lanes where the root is the best one again, found by another leaf. */
 static lane_mask same_root(const struct packet *p, const struct candidate *it, const struct newton_root *r,
                            int64_t patch)
 {
@@ -213,15 +214,16 @@ static lane_mask same_root(const struct packet *p, const struct candidate *it, c
          (lanes_abs(uv[1] - best->v) <= radius[1] + best->radius_v);
 }
 
-/* Lanes whose ray starts exactly in the plane across an axis that the patch lies in: it meets that at 0 and nowhere else. */
+/* Lanes whose ray starts exactly in the plane across an axis that the patch lies in. It meets that plane at 0 and
+ * nowhere else. */
 static lane_mask starts_in_plane(const struct packet *p, uint32_t patch)
 {
   const struct flat_plane *plane = model_flat_plane(p->model, patch);
   return plane ? packet_starts_in(p, plane) : (lane_mask){0};
 }
 
-/* Lanes whose root is a corner of its patch where the ray starts, exactly: no other one is within its radii, and the start does
- * not belong to the ray. */
+/* Lanes whose ray starts exactly in a corner of the patch, and whose root is that corner: there is no other root within
+ * its radii, and the start does not belong to the ray. */
 static lane_mask starts_in_corner(const struct packet *p, const struct candidate *it, const struct newton_root *r)
 {
   lane_mask in = {0};
@@ -232,10 +234,9 @@ static lane_mask starts_in_corner(const struct packet *p, const struct candidate
   return in;
 }
 
-/* Proven roots of several lanes, at x_k = w and on the ray at `at`, become the best where they come before it; where
- * all are gathered there was no best, and the caller has it taken away again. One that may lie on a border of the
- * patch, at an end of the ray or where another root is, is left to the last resort. Returns the lanes that took
- * theirs. */
+/* Proven roots of several lanes, at x_k = w and t = `at`, become the best where they come before it. Where all hits are
+ * gathered there was no best, and the caller removes it again. A root that may lie on a border of the patch, at an end
+ * of the ray, or where another root is, is left to the last resort. Returns the lanes that took theirs. */
 LANES_INLINE lane_mask offer(struct packet *p, const struct candidate *it, const struct newton_root *r, lanes w,
                              lanes at, lane_mask hits)
 {
@@ -275,16 +276,17 @@ void offer_unproven(struct packet *p, const struct candidate *it, lanes u, lanes
   if (p->gather) gather_best(p, taken);
 }
 
-/* Such a root is final where it is off by no more than so many roundings of t. */
+/* A root is final if it is off by no more than this many roundings of t. */
 #define FINAL_ROUNDINGS 4
 
-/* What a plane is off by at a root that Newton's method ends at, besides the rest's rounding (leaf_parts.error) and what the last
- * step leaves: the products of tails, 2^-27 with s and t of a patch that is one leaf, are 2^-26 of 6 at most in either of two
- * coordinates, and take six roundings each. */
+/* The error of a plane at a root that Newton's method ends at, besides the rest's rounding (leaf_parts.error) and what
+ * the last step leaves. The products of tails, 2^-27 with s and t of a patch that is one leaf, are 2^-26 of 6 at most
+ * in either of two coordinates, and take six roundings each. */
 #define TAIL_ERROR (72 * UNIT_ROUNDOFF * 0x1p-26)
 
-/* Lanes whose root is. The radii are no less than 72 u |M| for the inverse Jacobian M (PLANE_ERROR), so they tell what M makes of
- * an error: seen edge-on the root may be off by far more than rounding the input makes, where the patch is thin. */
+/* The lanes whose root is final. The radii are no less than 72 u |M| for the inverse Jacobian M (PLANE_ERROR), so they
+ * tell how M magnifies an error. On a thin patch seen edge-on, the root may be off by far more than rounding the input
+ * causes. */
 LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candidate *it, const struct leaf_root *root)
 {
   const struct leaf *leaf = it->leaf;
@@ -295,7 +297,7 @@ LANES_INLINE lane_mask root_is_final(const struct packet *p, const struct candid
           72 * FINAL_ROUNDINGS * UNIT_ROUNDOFF * UNIT_ROUNDOFF * (lanes_abs(root->t) * p->longest));
 }
 
-/* Keeps what a leaf's root says of the surface. */
+/* Keeps point and normal at a leaf's root. */
 LANES_INLINE void packet_keep(struct packet *p, const struct candidate *it, const struct leaf_root *root,
                               lane_mask taken)
 {

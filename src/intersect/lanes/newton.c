@@ -1,9 +1,9 @@
 /* Newton's method on a leaf, to the last places. See newton.h.
  *
  * Compiled once per instruction set, without contraction. The surface is evaluated as the sum of the leaf's parts
- * (model.h), and the planes' residuals keep what their leading terms round away, so the root that Newton's method ends at is
- * right to the rounding of the bend of its leaf. Point and normal come from the last evaluation. Parameters are
- * s = u - 1/2 and t = v - 1/2.
+ * (model.h), and the planes' residuals keep what their leading terms lose to rounding. So Newton's method ends at a
+ * root that is right to the rounding of the bend of its leaf. Point and normal come from the last evaluation.
+ * Parameters are s = u - 1/2 and t = v - 1/2.
  */
 #include <math.h>
 
@@ -14,18 +14,20 @@
 
 /* ---- the surface ---- */
 
-/* One coordinate of the leaf: its value as hi + lo, |lo| of the size of the leaf's bend, and derivatives. */
+/* One coordinate of the leaf: its derivatives, and its value as hi + lo, where |lo| is of the size of the leaf's
+ * bend. */
 struct coordinate {
   lanes hi, lo, ds, dt;
 };
 
-/* The products of heads of size at most 4 with multiples of LEAF_GRAIN, and their sums of size at most 8, are exact. */
+/* A point, split. The products of heads of absolute value at most 4 with multiples of LEAF_GRAIN are exact, and so are
+ * their sums up to 8. */
 struct split_point {
   lanes s, t;
   struct split_lanes split_s, split_t, split_st;
 };
 
-/* A term of coordinate c; of all three, side by side, where c is SIDE_BY_SIDE. */
+/* A term of coordinate c, or of all three, side by side, if c is SIDE_BY_SIDE. */
 enum { SIDE_BY_SIDE = 3 };
 
 LANES_INLINE lanes term(const double of[3], int c)
@@ -46,7 +48,7 @@ LANES_INLINE struct coordinate coordinate_at(const struct leaf_parts *parts, int
   x.lo = lanes_multiply_add(at->split_t.tail, B, at->split_s.tail * A);
   x.lo = lanes_multiply_add(at->split_st.tail, C, x.lo);
   x.ds = lanes_multiply_add(t, C, A), x.dt = lanes_multiply_add(s, C, B);
-  /* Horner's scheme, of each row and of the rows, and its derivative. */
+  /* Horner's scheme and its derivative, in each row and over the rows. */
   lanes bend = {0}, bend_ds = {0}, bend_dt = {0};
 #pragma GCC unroll 4
   for (int i = 3; i >= 0; i--) {
@@ -70,7 +72,7 @@ LANES_INLINE struct split_point split_point_of(lanes s, lanes t)
   return at;
 }
 
-/* Out of line: inlined into a loop, its coefficients are all copied to the stack first. */
+/* Out of line: inlined into a loop, it would first copy all coefficients to the stack. */
 __attribute__((noinline)) static void surface_of_many(const struct leaf_parts *parts, lanes s, lanes t,
                                                       struct coordinate out[3])
 {
@@ -103,15 +105,15 @@ LANES_INLINE struct curvature curvature_at(const struct leaf_parts *parts, int c
   return x;
 }
 
-/* Out of line for the same reason. */
+/* Out of line, as surface_of_many. */
 __attribute__((noinline)) static void curvatures_of_many(const struct leaf_parts *parts, lanes s, lanes t,
                                                          struct curvature out[3])
 {
   for (int c = 0; c < 3; c++) out[c] = curvature_at(parts, c, s, t);
 }
 
-/* The lanes that points are wanted of, as bits, where they are so few that a point's coordinates go side by side; 0: lane by
- * lane. The same operations for each coordinate, and the same bits. */
+/* The lanes whose points are wanted, as bits, if they are so few that a point's coordinates are computed side by side;
+ * otherwise 0, for lane by lane. Each coordinate takes the same operations, and gets the same bits. */
 LANES_INLINE unsigned few_lanes(lane_mask active)
 {
   const unsigned bits = lanes_bits(active);
@@ -156,7 +158,7 @@ LANES_INLINE void curvatures_at(const struct leaf_parts *parts, lanes s, lanes t
   curvatures_of_many(parts, s, t, out);
 }
 
-/* Moves the derivatives from (s,t) on by (to_s,to_t), by second derivatives. */
+/* Moves the derivatives from (s,t) by (to_s,to_t), by second derivatives. */
 LANES_INLINE void surface_turn(const struct leaf_parts *parts, lanes s, lanes t, lanes to_s, lanes to_t,
                                lane_mask where, struct coordinate x[3])
 {
@@ -170,7 +172,7 @@ LANES_INLINE void surface_turn(const struct leaf_parts *parts, lanes s, lanes t,
 
 /* ---- the planes ---- */
 
-/* Of the plane x_i - slope x_k = moment: its polynomial's value and derivatives. */
+/* Value and derivatives of the polynomial of the plane x_i - slope x_k = moment. */
 struct plane {
   lanes value, ds, dt;
 };
@@ -194,7 +196,7 @@ struct inverse {
   lanes ua, ub, va, vb;
 };
 
-/* A row of the inverse Jacobian as a covector of space: its length bounds how fast that parameter moves with the
+/* The length of a row of the inverse Jacobian as a covector of space: a bound on how fast that parameter moves with the
  * surface. */
 LANES_INLINE lanes row_length(lanes p, lanes q, const lanes slope[2])
 {
@@ -202,15 +204,15 @@ LANES_INLINE lanes row_length(lanes p, lanes q, const lanes slope[2])
   return lanes_sqrt(p * p + q * q + r * r);
 }
 
-/* How far outside the leaf a root may be, for the leaf's bounds to hold on all that the certificate asks. */
+/* A root may be this far outside the leaf: then the leaf's bounds hold wherever the certificate needs them. */
 #define NEWTON_MARGIN (LEAF_MARGIN - CERTIFICATE_REACH)
 
-/* A value m beside the leaf is off by (1 + 2 m)^6 times what coefficients are: as far as this by no more than the theorem has over,
- * and as far as LEAF_MARGIN by so much. */
+/* A value at a distance m beside the leaf is off by (1 + 2 m)^6 times the error of coefficients. As far as
+ * NEWTON_BESIDE the theorem has room for that, and as far as LEAF_MARGIN it is at most NEWTON_BESIDE_GROWTH. */
 #define NEWTON_BESIDE 0x1p-7
 #define NEWTON_BESIDE_GROWTH 4
 
-/* Lanes whose root is the only one of a leaf with a pole, as certificate.h has it; size: of the rows of M. */
+/* Lanes whose root is the only one of a leaf with a pole, by certificate.h. size: lengths of the rows of M. */
 LANES_INLINE lane_mask alone_at_pole(const struct leaf *leaf, const struct newton_root *r, const lanes size[2],
                                      lanes step, lanes off, const lanes reach[2])
 {
@@ -224,8 +226,8 @@ LANES_INLINE lane_mask alone_at_pole(const struct leaf *leaf, const struct newto
   return (left > 0) & certificate_alone_at_pole(q, turn, step, off, far, left);
 }
 
-/* The certificate (certificate.h): sets all but u and v of *r, which hold where the last step went on the lanes that
- * `settled`. bend is |M| (|Suu| + 2 |Suv| + |Svv|); `bound` is one on what values are off by in the leaf. */
+/* The certificate (certificate.h). Sets all but u and v of *r, which are where the last step went on the lanes that
+ * `settled`. bend is |M| (|Suu| + 2 |Suv| + |Svv|); `bound` bounds the errors of values in the leaf. */
 LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const lanes slope[2], lanes bound, lanes step,
                         lane_mask settled, struct newton_root *r)
 {
@@ -246,16 +248,16 @@ LANES_INLINE void prove(const struct leaf *leaf, const struct inverse *m, const 
   if (leaf->pole) r->alone |= r->exists & alone_at_pole(leaf, r, length, step, off, reach);
 }
 
-/* Rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size 1:
- * the net, and some twenty operations. */
+/* The rounding of a derivative and of its products with a row of M, in units of UNIT_ROUNDOFF, for derivatives of size
+ * 1: that of the net, and some twenty operations. */
 #define DERIVATIVE_ROUNDINGS 64
 
 /* ---- the steps ---- */
 
-/* After the first few a step that is not half of the one before is no progress. */
+/* After FREE_STEPS a step that is not less than half of the one before is no progress. */
 enum { MOST_STEPS = 10, FREE_STEPS = 3 };
 
-/* 1/2 + s - step to one rounding, so that nothing of a small parameter is lost. */
+/* 1/2 + s - step with one rounding, so that a small parameter loses nothing. */
 LANES_INLINE lanes from_middle(lanes s, lanes step)
 {
   const lanes moved = 0.5 + s;
@@ -283,10 +285,10 @@ void newton_solve(const struct packet *p, const struct leaf *leaf, int axis, con
     step = lanes_max(lanes_abs(step_s), lanes_abs(step_t));
     if (n > FREE_STEPS) moving &= step < 0.5 * before;
     settled = active & (step <= parts->last_step);
-    /* A root far outside the leaf, or no progress (NaN compares false), is not sought any further. */
+    /* A root far outside the leaf is not sought further, nor one without progress (NaN compares false). */
     moving &= ~settled & (lanes_abs(s - step_s) < 2) & (lanes_abs(t - step_t) < 2);
     if (n == MOST_STEPS || !lanes_any(moving)) break;
-    /* A lane that is done stays where it is: what it gets then must not depend on the others. */
+    /* A lane that is done stays where it is, so that its result does not depend on the others. */
     s = lanes_select(moving, s - step_s, s), t = lanes_select(moving, t - step_t, t);
   }
   out->at.u = from_middle(s, step_s), out->at.v = from_middle(t, step_t);

@@ -1,4 +1,4 @@
-/* The rays of a packet: loaded, turned to where they look, taken to the frame of a patch.
+/* The rays of a packet: loaded, oriented, and taken to the frame of a patch.
  *
  * Compiled once per instruction set.
  */
@@ -14,7 +14,8 @@ static_assert(RAY_STRIDE == 8 && offsetof(struct ray, direction) == 3 * sizeof(d
                 offsetof(struct ray, t_min) == 6 * sizeof(double),
               "read as two fours");
 
-/* The rays, of which there are LANES, those from `count` on as the first; of a single one there may be one. */
+/* Loads the rays. The array has LANES of them, of which those from `count` on repeat the first, or a single one if
+ * `count` is 1. */
 LANES_INLINE void packet_start(struct packet *p, struct tracer *tracer, const struct ray *rays, size_t count, bool any,
                                struct postponed *postponed)
 {
@@ -34,9 +35,9 @@ LANES_INLINE void packet_start(struct packet *p, struct tracer *tracer, const st
   packet_untried(p);
 }
 
-/* Directions whose longest component is outside these are scaled by a power of two to one from 1 to 2, so that no
- * product over- or underflows and no t is larger than a distance: of a ray that starts at the end of the doubles any
- * that is shorter than 1. */
+/* Directions whose longest component is outside these are scaled by a power of two, to a longest component from 1 to 2.
+ * Then no product over- or underflows and no t is larger than a distance. For a ray that starts at the end of the
+ * doubles, any direction shorter than 1 is scaled. */
 #define DIRECTION_MIN 0x1p-16
 #define DIRECTION_MAX 0x1p16
 #define ORIGIN_MAX 0x1p1000
@@ -55,8 +56,8 @@ static struct ray ray_scaled(const struct ray *ray, int *out_exponent)
   return r;
 }
 
-/* Whether that has taken digits at an end of the doubles: what is found is another ray's then. An end beyond them is as good as
- * none. */
+/* Whether scaling has lost digits at an end of the doubles; then what is found is another ray's. An infinite end is as
+ * good as none. */
 static bool scaling_lost(const struct ray *ray, const struct ray *scaled, int exponent)
 {
   bool same = ldexp(scaled->t_min, -exponent) == ray->t_min;
@@ -65,7 +66,7 @@ static bool scaling_lost(const struct ray *ray, const struct ray *scaled, int ex
   return !same;
 }
 
-/* Out of line, for it is rare: the packet from copies of its rays. */
+/* Makes the packet from copies of its rays. Out of line, because it is rare. */
 __attribute__((noinline)) static void packet_copied(struct packet *p, struct ready *ready, struct tracer *tracer,
                                                     size_t count, const struct ray rays[], bool any)
 {
@@ -99,7 +100,7 @@ void packet_orient(struct packet *p)
   lanes size[3];
   for (int k = 0; k < 3; k++) size[k] = lanes_abs(p->direction[k]);
   p->oriented = true, p->t_end = p->t_far;
-  /* As dominant_axis has it. */
+  /* As dominant_axis does. */
   const lane_mask first = (size[0] >= size[1]) & (size[0] >= size[2]), second = ~first & (size[1] >= size[2]);
   p->on_axis[0] = p->live & first, p->on_axis[1] = p->live & second, p->on_axis[2] = p->live & ~first & ~second;
   p->axes = 0;

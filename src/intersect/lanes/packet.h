@@ -79,7 +79,7 @@ struct postponed {
   int share; /* SHARE_ALONE or SHARE_IN_COMPANY */
   int64_t most_looks;
   unsigned most_open;
-  /* bit k is of lane k: it has a list; has most_open leaves open; each patch has one region there; the ray has given
+  /* bit k is of lane k: it has a list; more than most_open leaves are open; each patch has one region; the ray gave
    * up */
   unsigned open, full, merged, let_go;
   unsigned count[LANES];

@@ -1,5 +1,5 @@
-/* What a ray's two planes tell of a leaf: of the slabs along it, of its polynomials a and b (paper eq 2 and 3), and of rays that
- * start in its pole or in a corner of the patch.
+/* What a ray's two planes tell of a leaf: of the slabs along it, of its polynomials a and b (paper eq 2 and 3), and of
+ * rays that start in its pole or in a corner of the patch.
  *
  * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
  */
@@ -8,8 +8,8 @@
 #include "base/real.h"
 #include "intersect/lanes/candidate.h"
 
-/* With e the bound on a plane's error (local_ray.h), u <= e/36: a is off by less than 2.5 e, b w by 8u, w by its two roundings
- * and that of the start, what is made of them by e + 6u, the net by 32u. */
+/* Let e be the bound on a plane's error (local_ray.h), so that u <= e/36. Then a is off by less than 2.5 e, b w by 8u,
+ * w by its two roundings and that of the start, what is made of them by e + 6u, and the net by 32u. */
 lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_mask open)
 {
   const struct leaf_slab *slab = &it->leaf->slab[0];
@@ -22,8 +22,9 @@ lane_mask stage_slab(const struct packet *p, const struct candidate *it, lane_ma
   return open & ~((lanes_min(at[0], at[1]) > out) | (lanes_max(at[0], at[1]) < -out));
 }
 
-/* Along the ray, y = w to_t/|to_t|, a slab begins at -(a sign + its half)/|b|. With the errors of stage_slab, the quotient's three
- * roundings are 6u of |y| <= FRAME_END, which the error of x_k has room for, and t is as of a root there. */
+/* In y = w to_t/|to_t|, which grows along the ray, a slab begins at -(a sign + its half)/|b|, the sign being b's in y.
+ * Errors are those of stage_slab. The quotient's three roundings are 6u of |y| <= FRAME_END, for which the error of x_k
+ * has room. The error of t is that of a root there. */
 lanes slab_begin(const struct packet *p, const struct candidate *it)
 {
   const struct line *line = it->line;
@@ -41,8 +42,8 @@ lanes slab_begin(const struct packet *p, const struct candidate *it)
                    p->t_min);
 }
 
-/* Two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With e as above A is off by 2 e and B
- * by 4u, where |A| u <= e/4 and |B| <= 1: the products by 8 e in all, and the right side by less than that. */
+/* Two slabs have a common w where |A_q B_r - A_r B_q| <= half_q |B_r| + half_r |B_q|. With e as above, A is off by 2 e
+ * and B by 4u, while |A| u <= e/4 and |B| <= 1. So the products are off by 8 e in all, and the right side by less. */
 lane_mask stage_box(const struct candidate *it, lane_mask open)
 {
   const struct leaf_slab *slab = it->leaf->slab;
@@ -60,7 +61,7 @@ lane_mask stage_box(const struct candidate *it, lane_mask open)
   return open;
 }
 
-/* Lanes on which neither polynomial keeps one sign on the whole net. */
+/* Lanes on which neither polynomial keeps one sign on its whole net. */
 static lane_mask planes_hull(struct candidate *it, lane_mask active)
 {
   lanes a_low, a_high, b_low, b_high;
@@ -74,14 +75,14 @@ static lane_mask planes_hull(struct candidate *it, lane_mask active)
   return active & (a_low <= e) & (a_high >= -e) & (b_low <= e) & (b_high >= -e);
 }
 
-/* Sets the polynomials. Lanes on which neither keeps one sign. */
+/* Sets the polynomials. Returns the lanes on which neither keeps one sign. */
 static lane_mask planes_make(struct candidate *it, lane_mask active)
 {
   for (int n = 0; n < 16; n++) plane_values(it->line, it->axis, it->leaf->x, n, &it->a[n], &it->b[n]);
   return planes_hull(it, active);
 }
 
-/* The lanes on which a or b has a value above 0 in one corner and one below in another. */
+/* Lanes on which the net is above 0 in one corner and below in another. */
 LANES_INLINE lane_mask corners_differ(const lanes net[16], lanes e)
 {
   const lanes low = lanes_min(lanes_min(net[0], net[3]), lanes_min(net[12], net[15]));
@@ -89,15 +90,16 @@ LANES_INLINE lane_mask corners_differ(const lanes net[16], lanes e)
   return (low < -e) & (high > e);
 }
 
-/* What A a + B b is off by, over |A| + |B|. */
+/* The error of A a + B b, over |A| + |B|. */
 LANES_INLINE lanes combination_error(const struct candidate *it)
 {
   return it->line->error + 4 * UNIT_ROUNDOFF * (it->alpha + it->beta);
 }
 
-/* The same of the two combinations of a and b that aim along the leaf's parameters: near the middle they are like u -
- * u0 and v - v0 for the point (u0,v0) where the ray meets the tangent plane, so they tell a ray that passes the leaf
- * by. Where both are nothing but rounding all over the leaf a and b are one polynomial, and the ray meets curves. */
+/* The lanes on which neither of the two combinations of a and b that aim along the leaf's parameters keeps one sign.
+ * Near the middle they are like u - u0 and v - v0, for the point (u0,v0) where the ray meets the tangent plane, so they
+ * detect rays that miss the leaf. Where both are nothing but rounding all over the leaf, a and b are one polynomial,
+ * and the ray meets curves. */
 static lane_mask planes_aligned(struct candidate *it, lane_mask active)
 {
   const lanes *a = it->a, *b = it->b;
@@ -109,7 +111,7 @@ static lane_mask planes_aligned(struct candidate *it, lane_mask active)
     u_low = lanes_min(u, u_low), u_high = lanes_max(u, u_high);
     v_low = lanes_min(v, v_low), v_high = lanes_max(v, v_high);
   }
-  /* The combination's own three roundings, on top of the coefficients' error. */
+  /* The combination's own three roundings come on top of the coefficients' error. */
   const lanes e = combination_error(it);
   const lanes u_error = e * (lanes_abs(bv) + lanes_abs(av)), v_error = e * (lanes_abs(au) + lanes_abs(bu));
   it->along = active & (u_low >= -u_error) & (u_high <= u_error) & (v_low >= -v_error) & (v_high <= v_error);
@@ -117,14 +119,14 @@ static lane_mask planes_aligned(struct candidate *it, lane_mask active)
   return active & (u_low <= u_error) & (u_high >= -u_error) & (v_low <= v_error) & (v_high >= -v_error);
 }
 
-/* Where entry k of a net stands that is so many steps from the pole's border, 0 being on it. */
+/* The place in a net of entry k of the row `steps` away from the pole's border. */
 LANES_INLINE int from_pole(const struct leaf *leaf, int steps, int k)
 {
   const int border = leaf->pole - 1;
   return edge_at(border, k) + steps * edge_inward(border);
 }
 
-/* The least value of A a + B b on the net but for the pole's border. */
+/* The least value of A a + B b on the net without the pole's border. */
 static lanes least_beyond_pole(const struct candidate *it, lanes A, lanes B)
 {
   lanes least = lanes_all(INFINITY);
@@ -136,10 +138,10 @@ static lanes least_beyond_pole(const struct candidate *it, lanes A, lanes B)
   return least;
 }
 
-/* Lanes that may meet a leaf with a pole, where a and b are constants a0 and b0, up to e. The combination G = a0 b - b0 a is
- * no more than e (|a0| + |b0|) there. Where all other coefficients of it are beyond that, by m, it has no zero from d = that/m
- * on, d being the distance from the pole; and nearer to it H = a0 a + b0 b has none where the size of its derivative by d, 6
- * times that of its coefficients, takes less than H at the pole on that way. */
+/* Lanes that may meet a leaf with a pole. On its border a and b are constants a0 and b0, up to e, and the combination G
+ * = a0 b - b0 a is no more than e (|a0| + |b0|). Let d be the distance from the pole. Where all other coefficients of G
+ * are beyond that bound, by m, G has no zero from d = bound/m on. Nearer to the pole H = a0 a + b0 b has none, if its
+ * derivative by d, at most 6 times its coefficients, takes less than H at the pole on that way. */
 static lane_mask planes_at_pole(const struct candidate *it, lane_mask active)
 {
   const int at = from_pole(it->leaf, 0, 0);
@@ -158,9 +160,9 @@ static bool same_points(double P[4][4][3], int m, int n)
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Lanes that meet no point of the leaf but where they start, in the control point `at`: a and b are 0 where the net is `still`
- * there, and one combination of them, which aims at the middle of the rest, is above 0 on all of that; or all of that is behind,
- * where two coordinates are off by less than 2 e. */
+/* Lanes whose ray starts in control point `at` and meets no other point of the leaf. Where the net is `still` there, a
+ * and b are 0. Either one combination of them, which aims at the middle of the rest, is above 0 on all of the rest; or
+ * all of the rest is behind, where a difference of two coordinates is off by less than 2 e. */
 static lane_mask leaves_start(const struct packet *p, const struct candidate *it, int at, const bool still[16])
 {
   const double *x = it->leaf->x[it->axis];
@@ -178,8 +180,8 @@ static lane_mask leaves_start(const struct packet *p, const struct candidate *it
   return (least > off) | (nearest > 2 * it->line->error);
 }
 
-/* What is behind the pole's border may be in the pole, too: a cone's handles, where they are at its ends. What is so of the patch
- * is so of its leaves. */
+/* Rows behind the pole's border may be in the pole, too: a cone's handles, where they are at its ends. What holds for
+ * the patch holds for its leaves. */
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open)
 {
   const int at = from_pole(it->leaf, 0, 0);
@@ -195,7 +197,7 @@ lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask ope
   return open & ~(starts & leaves_start(p, it, at, still));
 }
 
-/* The same of a corner: what is still there is so in all that lies between. */
+/* Sets `still` for a corner: the points that equal it, as do all between. */
 static void still_at_corner(double P[4][4][3], int corner, bool still[16])
 {
   const int down = corner & 12 ? -4 : 4, right = corner & 3 ? -1 : 1;
@@ -221,8 +223,9 @@ lane_mask leaves_corner(const struct packet *p, struct candidate *it, lane_mask 
   return leaves;
 }
 
-/* Boxes are left over at the pole, for a and b keep their value along its border, in every combination less than what it is off
- * by; and r has a coefficient there that may be zero. */
+/* Lanes whose ray meets the pole, as far as doubles tell. Boxes at the pole are never cleared, because a and b are
+ * constant along its border, and every combination is less than its error there. Also r has a coefficient there that
+ * may be zero. */
 static lane_mask meets_pole(const struct packet *p, const struct candidate *it, lane_mask open)
 {
   const int at = from_pole(it->leaf, 0, 0);

@@ -1,4 +1,4 @@
-/* Roots and a leaf's quadric. See quadric.h.
+/* The test of quadric.h, and the roots that it decides.
  *
  * Compiled once per instruction set. The error bounds hold with and without fused multiply-add.
  */
@@ -7,10 +7,10 @@
 #include "intersect/lanes/nearest.h"
 #include "intersect/prepare/leaf.h"
 
-/* In place of a slope of 0: over |w| <= FRAME_END it moves nothing by more than a plane's error. */
+/* Stands in for a slope of 0. For |w| <= FRAME_END it moves nothing by more than a plane's error. */
 #define LEAST_SLOPE 0x1p-60
 
-/* The slab |a + b w| <= half leaves no more than this. */
+/* Narrows the range to where |a + b w| <= half. */
 LANES_INLINE void within_slab(lanes a, lanes b, lanes half, struct quadric_along *out)
 {
   const lanes least = lanes_all(LEAST_SLOPE), inverse = 1 / lanes_select(lanes_abs(b) < least, least, b);
@@ -33,12 +33,12 @@ lane_mask quadric_along(const struct packet *p, const struct candidate *it, lane
   out->f[1] = dz - (dy1 * by_1 + y1 * turn_1 + dy2 * by_2 + y2 * turn_2);
   out->f[2] = -(dy1 * turn_1 + dy2 * turn_2);
   out->slope[0] = dy1, out->slope[1] = dy2;
-  const double rounded = 8 * UNIT_ROUNDOFF; /* what dy1 and dy2 are off by at most */
+  const double rounded = 8 * UNIT_ROUNDOFF; /* bound on the errors of dy1 and dy2 */
   const lanes way_1 = lanes_abs(dy1) + rounded, way_2 = lanes_abs(dy2) + rounded;
   out->turn = quadric->turn[0] * way_1 + (quadric->turn[1] * way_2 + quadric->slack);
   out->turn_wide = quadric->turn_wide[0] * way_1 + (quadric->turn_wide[1] * way_2 + quadric->slack);
   lanes off;
-  /* not where the ray's nearest hit so far is: what the ray has met before would show in the last places of what it meets */
+  /* up to t_max and not the nearest hit so far: else earlier hits would show in the last places of later ones */
   ray_ends(p, it, p->t_max, &out->from, &out->to, &off);
   out->from -= off, out->to += off, off = 10 * it->line->error;
   within_slab(y1, dy1, leaf->slab[1].half + off, out);
@@ -52,17 +52,17 @@ LANES_INLINE lanes value_at(const struct quadric_along *a, lanes w) { return a->
 LANES_INLINE lane_mask passes_by(const struct quadric_along *a, double off)
 {
   const lanes first = value_at(a, a->from), last = value_at(a, a->to);
-  /* where f is extremal, or the end that is next to it */
+  /* where f is extremal, or the end next to that */
   const lanes turns = lanes_min(lanes_max(-0.5 * a->f[1] / a->f[2], a->from), a->to), extreme = value_at(a, turns);
   const lanes low = lanes_min(lanes_min(first, last), extreme), high = lanes_max(lanes_max(first, last), extreme);
   return (low > off) | (high < -off);
 }
 
-/* A proven root as the quadric asks for it. */
+/* A proven root, as the tests of the quadric use it. */
 struct known_place {
   lane_mask near; /* it exists, on the widened leaf */
-  lanes w, reach; /* where it is, but for so much */
-  lanes turn;     /* as of struct quadric_along, for that root and any other one on the leaf */
+  lanes w, reach; /* where it is, and a bound on that one's error */
+  lanes turn;     /* as in struct quadric_along, for that root and any other one on the leaf */
 };
 
 LANES_INLINE struct known_place place_of(const struct quadric_along *a, const struct candidate *it,
@@ -93,8 +93,8 @@ lane_mask quadric_closes_two(const struct quadric_along *a, const struct candida
   return asked & one.near & two.near & (lanes_abs(a->f[2]) * apart > (1 + 8 * UNIT_ROUNDOFF) * (one.turn + two.turn));
 }
 
-/* Where to look for another root: where f has the value again that it has at the known one, by the derivatives in the middle of the
- * leaf. Returns the lanes where that is near the leaf. */
+/* Start values for another root: where f has the same value as at the known one, by the derivatives in the middle of
+ * the leaf. Returns the lanes where they are near the leaf. */
 static lane_mask other_start(const struct quadric_along *a, const struct candidate *it, lane_mask open, lanes start[2])
 {
   const struct leaf *leaf = it->leaf;
@@ -112,7 +112,7 @@ static lane_mask other_start(const struct quadric_along *a, const struct candida
   return open & it->first.at.exists & (lanes_abs(start[0]) <= end) & (lanes_abs(start[1]) <= end);
 }
 
-/* Seeks another root beside the one that was found first. Returns the lanes on which these two are all. */
+/* Seeks another root besides the first. Returns the lanes on which these two are all. */
 static lane_mask other_root(struct packet *p, const struct candidate *it, const struct quadric_along *a, lane_mask open)
 {
   struct leaf_root second;

@@ -27,14 +27,14 @@ static void set_form(struct candidate *it)
     }
   }
   it->fa = it->form_a, it->fb = it->form_b;
-  /* Where the ray meets the leaf the form's polynomials are off by their excess, twice for a plane of slope 1. Both
-   * moved by a constant, which moves every coefficient by it, have their common root there: so it counts as an error
-   * of coefficients. */
+  /* Where the ray meets the leaf, the form's polynomials are off by their excess, twice that for a plane of slope 1. If
+   * each is moved by a constant, which moves all its coefficients alike, they have their common root there. So the
+   * excess counts as an error of coefficients. */
   it->form_error = it->line->error * form->size + 2 * form->excess;
 }
 
-/* r and the sign variations of its coefficients, at most: one that may have either sign is given the one that
- * makes more of them. Lanes that may meet the leaf. */
+/* Sets r and an upper bound on the sign variations of its coefficients: one of uncertain sign gets the sign that makes
+ * more variations. Returns the lanes that may meet the leaf. */
 static lane_mask resultant_varies(struct candidate *it, lane_mask active)
 {
   const int m = it->leaf->kept_degree, n = it->leaf->eliminated_degree;
@@ -70,8 +70,7 @@ lane_mask stage_resultant(struct candidate *it, lane_mask open)
   return it->patch->method->polish ? resultant_varies(it, open) : open;
 }
 
-/* The value of the kept parameter where the control polygon of r crosses zero the first or the last time, improved by
- * Newton on r. */
+/* The kept parameter where the control polygon of r crosses zero first or last, improved by Newton's method on r. */
 static lanes resultant_root(const struct candidate *it, bool first)
 {
   const int d = it->degree;
@@ -86,7 +85,8 @@ static lanes resultant_root(const struct candidate *it, bool first)
     at = lanes_select(crosses, (k - 1 + before / (before - here)) / d, at);
     before = here;
   }
-  /* r(u) = (1-u)^d sum c_k x^k with x = u/(1-u); the half of the range near 1 reads the coefficients backwards. */
+  /* r(u) = (1-u)^d sum c_k x^k with x = u/(1-u). In the half of the range near 1, the coefficients are read
+   * backwards. */
   const lane_mask back = at > 0.5;
   const lanes near = lanes_select(back, 1 - at, at);
   lanes x = near / (1 - near);
@@ -118,7 +118,7 @@ lanes resultant_eliminated(const struct candidate *it, lanes kept)
   return lanes_select(first, num[0], num[1]) / lanes_select(first, den[0], den[1]);
 }
 
-/* What Newton's method finds from there. */
+/* Refines that root, with its eliminated parameter, by Newton's method on the leaf. */
 static void resultant_refine(const struct packet *p, const struct candidate *it, bool first, lane_mask active,
                              struct leaf_root *out)
 {
@@ -128,8 +128,8 @@ static void resultant_refine(const struct packet *p, const struct candidate *it,
   newton_solve(p, it->leaf, it->axis, start, active, out);
 }
 
-/* Lanes of `open` where it is proven that the leaf has no roots on the ray but this one, where it is proven, and another
- * one, where there is one: those are offered. */
+/* Offers this root and, if r may have another one, that one, as far as they are proven, where boxes prove that the leaf
+ * has no other on the ray. Returns those lanes of `open`. */
 static lane_mask resultant_cover(struct packet *p, const struct candidate *it, const struct leaf_root *root,
                                  lane_mask open)
 {
@@ -140,8 +140,8 @@ static lane_mask resultant_cover(struct packet *p, const struct candidate *it, c
   return cover_two(p, it, root, &second, open);
 }
 
-/* Where r has several sign variations, the start is one of its roots, or none; what is found from it still decides the
- * leaf where it is proven to be alone, or any hit will do. Boxes decide most of the others. */
+/* Where r has several sign variations, the start need not be one of its roots. What is found from it still decides the
+ * leaf if it is proven to be alone, or for any hit. Boxes decide most of the others. */
 lane_mask stage_first_root(struct packet *p, struct candidate *it, lane_mask active)
 {
   p->tracer->counts.roots_found += lanes_count(active);

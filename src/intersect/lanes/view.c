@@ -1,4 +1,4 @@
-/* Rays taken to the frame of a tree, from doubles to floats.
+/* Rays converted to the frame of a tree, from doubles to floats.
  *
  * Compiled once per instruction set.
  */
@@ -8,43 +8,46 @@
 #include "base/real.h"
 #include "intersect/lanes/view.h"
 
-/* All rays' bits. */
+/* The bits of all rays. */
 #define ALL_RAYS ((1u << (FLOAT_LANES - 1) << 1) - 1)
 
-/* All boxes, and the roundings of making them. */
+/* The half width of a cube that holds all boxes, with the roundings of making them. */
 #define FRAME_HALF 1.0625
 
-/* A ray that starts farther away is moved up to the frame first; in wide arithmetic where that would lose it. */
+/* A ray that starts farther away than FRAME_NEAR is moved up to the frame first; beyond FRAME_FAR, where doubles would
+ * lose it, in wide arithmetic. */
 #define FRAME_NEAR 16.0
 #define FRAME_FAR 0x1p30
 
-/* What rounding may do to the start of a ray, or to the frame's origin, on the way into the frame: of its coordinates. */
+/* Bound on the rounding of a ray's start, or of the frame's origin, on the way into the frame, relative to its
+ * coordinates. */
 #define START_ROUNDOFF (16 * UNIT_ROUNDOFF)
 
-/* What may be wrong with the origin besides its own roundings, relative to its size in the frame or to 1: rounding it, its sum
- * with the slack and that one's product with the reciprocal to float, and a box's, for the planes are that far off then. */
+/* Further errors of the origin, relative to its size in the frame or to 1. They are the roundings to float of the
+ * origin, of its sum with the slack, and of that sum's product with the reciprocal; and of a box, whose planes are off
+ * by as much. */
 #define ORIGIN_SLACK 0x1p-22
 
-/* A stand-in for the reciprocal of 0: so large that all that is beyond the slack ends up beyond the frame, finite so
- * that 0 times it is 0. */
+/* Stands in for the reciprocal of 0. It is so large that whatever is beyond the slack ends up beyond the frame, but
+ * finite, so that 0 times it is 0. */
 #define HUGE_INVERSE 0x1p80f
 
 /* A packet's rays in the frame. */
 struct placed {
-  lanes from[3], along[3]; /* where they start, and where they go, the longest component 1 */
-  lanes slack;             /* what a coordinate of `from` may be off by */
+  lanes from[3], along[3]; /* where they start, and their directions, the longest component being 1 */
+  lanes slack;             /* bound on the error of a coordinate of `from` */
   lanes start, unit;       /* the view's */
 };
 
-/* Goes on to the depth where the rays start. */
+/* Moves on to the depth where the rays start. */
 LANES_INLINE void advance(struct placed *it)
 {
   for (int k = 0; k < 3; k++) it->from[k] += it->start * it->along[k];
   it->slack += 8 * UNIT_ROUNDOFF * lanes_abs(it->start);
 }
 
-/* Out of line, for it is rare: rays that start farther away than FRAME_NEAR come to where their lines enter the frame, or before
- * it; those of the lanes beyond FRAME_FAR in wide arithmetic, as local_ray.h has it. */
+/* Moves rays that start farther away than FRAME_NEAR to where their lines enter the frame, or before it; those on lanes
+ * beyond FRAME_FAR in wide arithmetic, as in local_ray.h. Out of line, because it is rare. */
 __attribute__((noinline)) static void come_near(const struct packet *p, const struct model_tree *tree, double size,
                                                 lanes farthest, struct placed *it)
 {
@@ -61,14 +64,14 @@ __attribute__((noinline)) static void come_near(const struct packet *p, const st
     double at[3];
     for (int k = 0; k < 3; k++) ray.origin[k] = p->origin[k][l], ray.direction[k] = p->direction[k][l];
     it->start[l] = local_ray_enter(&ray, tree->origin, tree->frame, at);
-    /* the ray is where it should be, but the frame's origin is rounded */
+    /* the ray is exactly placed, but the frame's origin is rounded */
     for (int k = 0; k < 3; k++) it->from[k][l] = at[k];
     it->slack[l] = size;
   }
 }
 
-/* size: START_ROUNDOFF times twice the frame's distance from the world's origin, for that and a ray's own from the frame's is no
- * less than the ray's from the world's. */
+/* size: START_ROUNDOFF times twice the distance from the world's origin to the frame's. One half is for the frame's
+ * origin. The other, with the ray's distance from the frame's origin, covers its distance from the world's. */
 LANES_INLINE void place(const struct packet *p, const struct model_tree *tree, double to_frame, double size,
                         struct placed *it)
 {
@@ -80,8 +83,8 @@ LANES_INLINE void place(const struct packet *p, const struct model_tree *tree, d
   const lanes farthest = largest_of(it->from);
   it->slack = START_ROUNDOFF * farthest + size;
   it->unit = p->longest * to_frame;
-  /* No ray is in the frame before this depth: its dominant coordinate is outside. In the coordinates of a copy's
-   * object its start is known to t_error only, which from far away is many times the object's size. */
+  /* No ray is in the frame before this depth, because its dominant coordinate is outside. In the coordinates of a
+   * copy's object the start is known only to t_error, which from far away is many times the object's size. */
   it->start = lanes_max((p->t_min - p->t_error) * it->unit, -(farthest + 2));
   if (lanes_any(~(farthest <= FRAME_NEAR))) come_near(p, tree, size, farthest, it);
   else advance(it);
@@ -121,8 +124,8 @@ LANES_INLINE void set(struct view *view, const struct packet packet[], int packe
 }
 
 #if LANES == 4
-/* The same of one ray, all that lane 0 wants, with its coordinates side by side. Returns false where it starts so far away
- * that there is more to be done. */
+/* set for one ray, its coordinates side by side; writes only lane 0. Returns false if the ray starts so far away that
+ * more is needed. */
 static bool set_one(struct view *view, const struct packet *p, const struct model_tree *tree)
 {
   const double to_frame = 1 / tree->frame, longest = p->longest[0], unit = longest * to_frame;
@@ -156,7 +159,7 @@ static bool set_one(struct view *view, const struct packet *p, const struct mode
 }
 #endif
 
-/* Twice in the code, so that one packet costs no loops over more; out of line for the room they take. */
+/* Two calls, so that one packet costs no loops over more. Out of line because of the room that they take. */
 __attribute__((noinline)) static void set_many(struct view *view, const struct packet packet[], int packets,
                                                const struct model_tree *tree)
 {
@@ -188,7 +191,7 @@ void view_set_ends(struct view *view, const struct packet packet[], int packets)
   view->far = float_lanes_join(far) * DEPTH_GROWTH;
 }
 
-/* Out of line, or the compiler takes the products that both forms have in front of them, and fuses none. */
+/* Out of line: otherwise the compiler hoists the products that both forms share, and fuses none of them. */
 void view_boxes_unlike(const struct view *view, const struct bvh_node *node, struct entries *out)
 {
   view_boxes_as(view, node, false, out);

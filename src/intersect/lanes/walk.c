@@ -1,9 +1,10 @@
 /* Rays through the hierarchy: some packets at a time, their rays side by side as floats.
  *
- * From the face at the end of the file a bundle of packets goes to bundle_walk, which chooses one of three ways through a tree:
- * together_walk (all rays on a node's boxes at once, until few are left), rays_walk (each by itself, a step in turn, in large
- * scenes) and ray_walk (one ray to its end). All come by bundle_leaf with what a box stands for: a leaf, which packet_leaf
- * (candidate.c) tries, a copy, or a tree in a frame of its own, and so to bundle_walk again.
+ * The entry points at the end of the file pass a bundle of packets to bundle_walk. It chooses one of three ways through
+ * a tree: together_walk (all rays on a node's boxes at once, until few are left), rays_walk (each ray by itself, one
+ * step in turn, in large scenes) or ray_walk (one ray to its end). All of them call bundle_leaf with what a box stands
+ * for: a leaf, which packet_leaf (candidate.c) tries, a copy, or a tree in a frame of its own, which leads to
+ * bundle_walk again.
  *
  * Compiled once per instruction set; the table of this compilation is KERNEL(kernel), see names.h.
  */
@@ -16,7 +17,7 @@
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays);
 static void bundle_walk_all(struct bundle *b, const struct model_tree *tree);
 
-/* Packets none of whose rays come there stay outside. */
+/* Walks a copy with those packets that have rays there. */
 static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigned active)
 {
   struct bundle inner;
@@ -29,7 +30,7 @@ static void bundle_copy(struct bundle *b, const struct model_copy *copy, unsigne
   for (int h = 0; h < inner.packets; h++) packet_leave(&inner.packet[h]);
 }
 
-/* The same rays in the frame of a tree in a tree. */
+/* Walks a tree in a tree with the same rays, in its frame. */
 static void bundle_inner(struct bundle *b, const struct model_tree *inner, unsigned active)
 {
   const struct view outer = b->view;
@@ -41,7 +42,7 @@ static void bundle_inner(struct bundle *b, const struct model_tree *inner, unsig
   bundle_update(b);
 }
 
-/* Whether all in that box lies exactly on what stands before it in the scene, whose hit is the nearest then. */
+/* Whether all in that box lies exactly on something earlier in the scene, whose hit is then the nearest. */
 LANES_INLINE bool is_twin(const struct packet *p, uint32_t index)
 {
   const struct model *model = p->model;
@@ -57,7 +58,7 @@ LANES_INLINE unsigned leaf_passed(const struct bundle *b, const struct oriented_
   return view_oriented_one(&b->view, (unsigned)__builtin_ctz(rays), box) ? rays : 0;
 }
 
-/* The same of box `index` of the tree, where that is a leaf. */
+/* leaf_passed for box `index` of the tree, if that is a leaf's. */
 LANES_INLINE unsigned box_passed(const struct bundle *b, uint32_t index, unsigned rays)
 {
   const struct model *model = b->packet[0].model;
@@ -71,7 +72,7 @@ static void bundle_try(struct bundle *b, uint32_t index, struct leaf *leaf, cons
     if (active & ALL_LANES) packet_leaf(p, leaf, patch, index, lanes_mask(active & ALL_LANES));
 }
 
-/* A leaf that is not kept. Out of line for the room it takes. */
+/* Tries a leaf that is not kept. Out of line because of the stack that it takes. */
 __attribute__((noinline)) static void bundle_make(struct bundle *b, uint32_t index, unsigned active)
 {
   struct leaf_room room;
@@ -80,7 +81,7 @@ __attribute__((noinline)) static void bundle_make(struct bundle *b, uint32_t ind
   bundle_try(b, index, &made->leaf, &made->of.patch, active);
 }
 
-/* Tries what box `index` of the tree stands for, which is passed. */
+/* Tries what box `index` of the tree, which is passed, stands for. */
 static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_t index, unsigned active)
 {
   const struct model *model = b->packet[0].model;
@@ -101,7 +102,7 @@ static void bundle_leaf(struct bundle *b, const struct model_tree *tree, uint32_
   if (moved) bundle_update(b);
 }
 
-/* What a leaf's first stages read of it and of its patch, or what it is made of. */
+/* Prefetches what a leaf's first stages read of it and of its patch, or what it is made of. */
 LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
 {
   const uint32_t patch = model->oriented[index].patch;
@@ -115,7 +116,7 @@ LANES_INLINE void fetch_leaf(const struct model *model, uint32_t index)
   }
 }
 
-/* Whether the ray passes that leaf's box and is to be tried on the leaf now, which is sent for then. */
+/* Whether the ray passes that leaf's box and is to be tried on the leaf now. If so, the leaf is prefetched. */
 LANES_INLINE bool ray_passes(struct bundle *b, uint32_t box, unsigned lane)
 {
   const struct model *model = b->packet[0].model;
@@ -124,7 +125,7 @@ LANES_INLINE bool ray_passes(struct bundle *b, uint32_t box, unsigned lane)
   return true;
 }
 
-/* One ray through what is below `child`. */
+/* Takes one ray through what is below `child`. */
 static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t child, unsigned lane)
 {
   struct ray_way way;
@@ -140,13 +141,13 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
   }
 }
 
-/* The rays through all of the tree, a step of each in turn: where one goes next is brought from memory while the others
- * take their steps. One that passes a leaf's box waits there for its next turn, and for others that come there meanwhile. Out of
- * line for the room it takes. */
+/* Takes the rays through all of the tree, one step of each in turn: what a ray needs next is fetched from memory while
+ * the others take their steps. A ray that passes a leaf's box waits there for its next turn, and for others that arrive
+ * meanwhile. Out of line because of the stack that it takes. */
 __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
   struct ray_way ways[FLOAT_LANES];
-  uint32_t waits_at[FLOAT_LANES] = {0}; /* a leaf child; 0 for none */
+  uint32_t waits_at[FLOAT_LANES] = {0}; /* a leaf child; 0: nowhere */
   for (unsigned bits = rays; bits; bits &= bits - 1) {
     const unsigned lane = (unsigned)__builtin_ctz(bits);
     ray_begin(b, tree, 0, lane, &ways[lane]);
@@ -178,18 +179,18 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
   }
 }
 
-/* So few rays go their ways one by one: four boxes, or a leaf's, are a third of the work for one of them; and those that go
- * different ways come to what is nearest to them first. */
+/* Rays as few as this go one by one. Four boxes, or a leaf's, cost a single ray a third of the work; and rays that go
+ * different ways then reach first what is nearest to each. */
 enum { FEW_TOGETHER = 2, FEW_APART = FLOAT_LANES / 2 };
 
-/* Warm starts go from ray to ray, all together. */
+/* Warm starts pass from ray to ray, so all go together. */
 LANES_INLINE int most_alone(const struct bundle *b)
 {
   return b->packet[0].tracer->warm ? 1 : b->view.apart ? FEW_APART : FEW_TOGETHER;
 }
 
-/* So many leaves, of some 1.1 KB each, are in no processor's own caches. Where the rays have nothing in common there,
- * waiting for memory is more than what they could share. */
+/* This many leaves, of some 1.1 KB each, exceed any processor's own caches. If the rays have nothing in common there,
+ * waiting for memory costs more than they could share. */
 enum { MANY_LEAVES = 1 << 14 };
 
 static bool rays_apart(const struct bundle *b)
@@ -198,7 +199,8 @@ static bool rays_apart(const struct bundle *b)
   return b->view.apart && model->leaf_count >= MANY_LEAVES && !b->packet[0].tracer->warm;
 }
 
-/* From a node to the nearest of its children; the others wait. Returns whether it is to be gone to at once. */
+/* Goes down from a node to the nearest of its children; the others wait. Returns whether that child is visited at
+ * once. */
 LANES_INLINE bool together_down(const struct bundle *b, const struct bvh *bvh, bool nearest, struct waiting *w,
                                 unsigned *rays, uint32_t *child)
 {
@@ -227,7 +229,7 @@ LANES_INLINE bool together_down(const struct bundle *b, const struct bvh *bvh, b
   return true;
 }
 
-/* To what is nearest of what waits. Returns whether there is any. */
+/* Goes to the nearest of what waits. Returns whether there is any. */
 LANES_INLINE bool together_next(const struct bundle *b, struct waiting *w, unsigned *rays, uint32_t *child)
 {
   do {
@@ -239,10 +241,11 @@ LANES_INLINE bool together_next(const struct bundle *b, struct waiting *w, unsig
   return true;
 }
 
-/* What rays have looked at together is counted when it is so many boxes. */
+/* What rays have looked at together is counted once it is this many boxes. */
 enum { LOOKS_AT_ONCE = 64 };
 
-/* The rays together, as long as there are several. Out of line for the room it takes. */
+/* Takes the rays through the tree together, as long as there are several. Out of line because of the stack that it
+ * takes. */
 __attribute__((noinline)) static void together_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
 {
   struct waiting waiting;
@@ -270,8 +273,9 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
   bundle_looked(b, looks);
 }
 
-/* In frames within so many others each ray goes by itself, which takes a tenth of the stack: 7 KB a frame, where rays together
- * take up to 60 (AVX-512). With MODEL_FRAMES in the scene and in an object that is copied, it is 1.1 MB at most. */
+/* In frames nested deeper than this, each ray goes by itself. That takes a tenth of the stack: 7 KB a frame, where rays
+ * together take up to 60 KB (AVX-512). With MODEL_FRAMES in the scene, and in an object that is copied, it is 1.1 MB at
+ * most. */
 enum { TOGETHER_DEEP = 6 };
 
 static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigned rays)
@@ -283,7 +287,7 @@ static void bundle_walk(struct bundle *b, const struct model_tree *tree, unsigne
   else together_walk(b, tree, rays);
 }
 
-/* All of the tree, and then the leaves that were put off. */
+/* Walks all of the tree, and then tries the leaves that were put off. */
 static void bundle_walk_all(struct bundle *b, const struct model_tree *tree)
 {
   bundle_walk(b, tree, b->live);
@@ -311,7 +315,7 @@ LANES_INLINE void bundle_begin(struct bundle *b, struct ready ready[PACKETS], st
   bundle_start(b, &tracer->model->tree);
 }
 
-/* Returns the rays whose answers are not settled, as bits. */
+/* Returns the rays, as bits, whose answers are not settled. */
 LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const struct ray rays[],
                                      struct hit out_hits[], int share)
 {
@@ -333,9 +337,10 @@ LANES_INLINE unsigned bundle_closest(struct tracer *tracer, size_t count, const 
   return unsettled;
 }
 
-/* Where nothing is hit all boxes and leaves come to a ray in any order; else it is hit in any, or may be. So its share
- * may end where it does; but one that has had what others looked at counted, too, is asked alone. So is one that has left so
- * much open that some was merged: whether there is room for the rest depends on the order. */
+/* Whatever the order, a ray that hits nothing visits all its boxes and leaves, and one that hits, or may hit, does so.
+ * So each has the share of a ray alone, and that may end anywhere. But a ray given up after it was charged for what
+ * others looked at is asked again alone. So is one that left so much open that regions were merged: whether there is
+ * room for the rest depends on the order. */
 LANES_INLINE bool bundle_occluded(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[])
 {
   struct ready ready[PACKETS];
@@ -359,7 +364,7 @@ LANES_INLINE int share_of(const struct tracer *tracer, size_t count)
   return tracer_asks_again(tracer, count) ? SHARE_IN_COMPANY : SHARE_ALONE;
 }
 
-/* One ray is twice in the code, so that it costs no loops over more. */
+/* A single ray has a call of its own, so that it costs no loops over more. */
 static unsigned closest(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[])
 {
   if (count == 1) return bundle_closest(tracer, 1, rays, out_hits, SHARE_ALONE);
@@ -379,7 +384,8 @@ static bool occluded(struct tracer *tracer, size_t count, const struct ray rays[
   return let_go;
 }
 
-/* Adds the lists' hits to tracer->hits one behind the other; where they are is known when all of them are there. */
+/* Adds the lists' hits to tracer->hits, one list after the other. Where they are is known when all of them are
+ * there. */
 static bool all(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[])
 {
   const int share = share_of(tracer, count);
