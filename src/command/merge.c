@@ -72,9 +72,9 @@ static enum status read_headers(struct merge *merge)
   for (size_t k = 0; k < merge->count; k++) {
     struct file *file = &merge->file[k];
     const enum status status = piece_read(file->path, false, &file->piece, message);
-    if (status == STATUS_LIMIT) return status;
     file->good = status == STATUS_OK;
     if (!file->good) refuse(merge, file, "", message);
+    if (status == STATUS_LIMIT) return status;
   }
   return STATUS_OK;
 }
@@ -109,7 +109,8 @@ static enum status create_picture(struct merge *merge)
   if (merge->request->format == IMAGE_PNG && !channel_list_is_rgb(&first->piece.channels))
     return command_usage(merge->command, "a PNG holds the channel rgb only, and '%s' has others: they need an .exr",
                          first->path);
-  return piece_create_like(&first->piece, 1, 1, &merge->picture);
+  const enum status status = piece_create_like(&first->piece, 1, 1, &merge->picture);
+  return status == STATUS_OK ? status : command_out_of_memory(merge->command);
 }
 
 /* Where a tile of a piece stands in the list of the whole picture (tile_list.h). */
@@ -167,13 +168,13 @@ static enum status read_files(struct merge *merge)
     if (file->good && has_twice(merge, &file->piece)) refuse(merge, file, "", "what it has is in a file before it too");
     if (!file->good) continue;
     const enum status status = piece_read(file->path, true, &whole, message);
-    if (status == STATUS_LIMIT) return status;
     if (status != STATUS_OK) refuse(merge, file, "", message);
     else if (!is_same(&file->piece, &whole)) refuse(merge, file, "", "it was written anew meanwhile");
     else if (!piece_copy(&whole, &merge->picture.image)) refuse(merge, file, "", "it lacks a channel");
     else count_tiles(merge, &whole);
     merge->seconds += seconds_of(&whole.image);
     piece_destroy(&whole);
+    if (status == STATUS_LIMIT) return status;
   }
   return STATUS_OK;
 }
@@ -252,7 +253,6 @@ static enum status put_together(struct merge *merge)
   if (status == STATUS_OK && merge->first == NULL) return STATUS_FILE;
   if (status == STATUS_OK) status = create_picture(merge);
   if (status == STATUS_OK) status = read_files(merge);
-  if (status == STATUS_LIMIT) (void)command_out_of_memory(merge->command);
   if (status != STATUS_OK) return status;
   bool missing;
   status = print_missing(merge, &missing);

@@ -75,6 +75,9 @@ head -c 3000 whole3.exr >p3.exr
 pscn merge p?.exr -o no.png 2>/dev/null; echo "exit $?"
 try pscn merge p1.exr gone.exr one.exr crop.exr -o no.png
 try pscn merge gone.exr one.png -o no.png
+# What asks for more memory than may be, here for 60000 x 60000 pixels, is told by name.
+printf '\x89PNG\r\n\x1a\n\0\0\0\15IHDR\0\0\xea\x60\0\0\xea\x60\10\0\0\0\0\xa5\xb9\x2a\x9e\0\0\0\0IDAT' >large.png
+try pscn merge p1.exr large.png -o no.png
 # A damaged file stands in the way of no good copy of it, wherever it comes.
 cp p3.exr cut3.exr
 cp whole3.exr p3.exr
