@@ -9,7 +9,7 @@ enum { BALL_PATCHES = 8 };
 /* Fills points with the control nets [patch][i][j][coordinate]. */
 static inline void ball_points(double points[BALL_PATCHES][4][4][3])
 {
-  const double k = 0.5522847498, c = k * k;
+  const double k = 0.5522847498, c = 0.5522847498 * 0.5522847498; /* a constant, whatever the arithmetic here */
   const double quarter[4][4][3] = {{{0, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}},
                                    {{k, 1, 0}, {k, 1, c}, {c, 1, k}, {0, 1, k}},
                                    {{1, k, 0}, {1, k, k}, {k, k, 1}, {0, k, 1}},
