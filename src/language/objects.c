@@ -99,7 +99,6 @@ void patch_comma(struct language *language, struct span place)
 static void points_end(struct language *language)
 {
   struct open_node *open = language->objects->open;
-  if (open->stage == STAGE_MODIFIERS) return;
   open->stage = STAGE_MODIFIERS;
   if (!language_sound(language, &open->block)) return;
   if (open->points != PATCH_POINTS) {
@@ -190,7 +189,6 @@ static void take_object(struct language *language, struct span place, const stru
   }
   const struct span begin = open->node.place;
   open->node = *object;
-  open->node.next = NULL;
   open->node.place = begin;
   open->stage = STAGE_BODY;
   open->has_object = true;

@@ -116,8 +116,7 @@ void light_comma(struct language *language, struct span place)
 static struct light_node *modified_light(struct language *language, struct span place)
 {
   struct light_node *light = language->settings->light;
-  if (light->values == 0 && !light->modified)
-    language_error_in(language, &light->block, place, "light_source begins with its position");
+  if (light->values == 0) language_error_in(language, &light->block, place, "light_source begins with its position");
   light->modified = true;
   return light;
 }

@@ -104,7 +104,6 @@ static bool is_singular(const double matrix[12])
   for (int i = 0; i < 3; i++) {
     const double *row = &matrix[3 * i];
     const double largest = fmax(fabs(row[0]), fmax(fabs(row[1]), fabs(row[2])));
-    if (largest == 0) return true;
     int exponent;
     frexp(largest, &exponent);
     for (int j = 0; j < 3; j++) m[3 * i + j] = ldexp(row[j], -exponent);

@@ -149,7 +149,7 @@ struct value *value_binary(struct language *language, char op, struct value *a, 
 {
   const struct span place = span_join(a->place, b->place);
   value_last(language, b);
-  if (a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER && !(op == '/' && b->x[0] == 0)) { /* as most are */
+  if (a->kind == VALUE_NUMBER && b->kind == VALUE_NUMBER) { /* as most are */
     const double x = operate(op, a->x[0], b->x[0]);
     if (isfinite(x)) return value_moved(set(a, x, x, x), place);
   }
@@ -275,7 +275,6 @@ struct value *value_of_parts(struct language *language, struct value *x, struct 
   value_last(language, z);
   if (!known) return become_unknown(x, place);
   x->kind = VALUE_VECTOR;
-  x->transparent = 0;
   return value_placed(x, place);
 }
 
