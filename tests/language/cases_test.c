@@ -6,6 +6,7 @@
  * With PSCN_UPDATE set in the environment the expected files are written instead; look at what changed.
  */
 #include <dirent.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -163,11 +164,54 @@ static void test_missing(void **state)
   free(said);
 }
 
+/* Whether the patches of a copy are its object's, moved, within the rounding of three products, their sum and what is summed. */
+static bool is_moved(const struct scene *scene, const struct scene_copy *copy)
+{
+  const struct scene_object *object = &scene->objects[copy->object];
+  bool same = true;
+  for (size_t n = 0; n < object->patch_count * 48; n++) {
+    const size_t patch = n / 48, i = n / 12 % 4, j = n / 3 % 4, k = n % 3;
+    const double *p = object->P[patch][i][j];
+    double sum = copy->b[k], size = fabs(copy->b[k]);
+    for (size_t m = 0; m < 3; m++) {
+      sum += p[m] * copy->A[m][k];
+      size += fabs(p[m] * copy->A[m][k]);
+    }
+    same &= fabs(scene->patches[copy->first_patch + patch].P[i][j][k] - sum) <= 8 * DBL_EPSILON * size;
+  }
+  return same;
+}
+
+/* What stands in a scene several times is told, the outermost object alone, and how it is moved. */
+static void test_copies(void **state)
+{
+  (void)state;
+  static const char text[] =
+    "#declare A = bicubic_patch { type 0 <0,0,0> <1,0,0> <2,0,0> <3,0,0> <0,1,0> <1,1,1> <2,1,0> <3,1,0>"
+    " <0,2,0> <1,2,0> <2,2,2> <3,2,0> <0,3,0> <1,3,0> <2,3,0> <3,3,4> }"
+    "#declare B = union { object { A } union { object { A scale 2 translate x } rotate 90*z scale <1, 2, 4> } }"
+    "#declare C = union { object { A } }"
+    "object { B } object { C } object { B rotate <10, 20, 30> translate y } object { A }";
+  static const size_t first[] = {0, 2, 3, 5}, object[] = {0, 1, 0, 1}, patches[] = {2, 1};
+  struct diagnostics diagnostics = {.tell = tell, .context = stderr};
+  struct scene *scene = NULL;
+  assert_int_equal(language_load_text("<text>", text, sizeof text - 1, &SETTINGS, &diagnostics, &scene), STATUS_OK);
+  assert_int_equal(scene->object_count, 2);
+  assert_int_equal(scene->copy_count, 4);
+  for (size_t n = 0; n < 4; n++) {
+    assert_int_equal(scene->copies[n].first_patch, first[n]);
+    assert_int_equal(scene->copies[n].object, object[n]);
+    assert_int_equal(scene->objects[object[n]].patch_count, patches[object[n]]);
+    assert_true(is_moved(scene, &scene->copies[n]));
+  }
+  scene_destroy(scene);
+}
+
 int main(void)
 {
   /* Names in what is told are relative to this folder. */
   if (chdir(PSCN_SOURCE_DIR "/tests/language") != 0) return 1;
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_bad), cmocka_unit_test(test_ok), cmocka_unit_test(test_hash),
-                                     cmocka_unit_test(test_missing)};
+                                     cmocka_unit_test(test_missing), cmocka_unit_test(test_copies)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
