@@ -3,7 +3,8 @@
 scene=$SCENES/bent.pscn
 small="--size 8x6 --steps 0 --grid 2 --failpercent 100 --failpsnr 0 --failmask 100 --quiet"
 pscn render "$scene" --size 8x6 --quiet -o answer.png
-pscn render "$scene" --size 6x8 --quiet -o other.png
+pscn render "$scene" --size 8x5 --quiet -o other.png
+pscn render "$scene" --size 9x6 --quiet -o wide.png
 cat >povray <<END
 #!/bin/bash
 [ "\$MODE" = mute ] && exit
@@ -14,9 +15,10 @@ case \$MODE in
   fails) printf 'Parse Error: \\033[31mno\\377 <b>\\n'; exit 1 ;;
   raves | parses) seq 100; echo '==== [Parsing'; [ \$MODE = parses ] || seq 2000; echo 'Parse Error: no'; exit 1 ;;
   declares) printf '%s\n' "\$@" | grep Declare; exit 1 ;;
+  told) echo "\$*, HOME \${HOME##*/}, POVINI \${POVINI-none}"; cat "\$HOME/.povray/3.7/povray.conf"; exit 1 ;;
   steps) ! grep 'u_steps 2' scene.pov || exit 1 ;;
   empty) exit 0 ;;
-  other) cp $PWD/other.png picture.png; exit ;;
+  other | wide) cp $PWD/\$MODE.png picture.png; exit ;;
   broken) echo broken >picture.png; exit ;;
   killed) kill -KILL \$\$ ;;
   slow) sleep 60 ;;
@@ -34,7 +36,7 @@ chmod +x povray
 mkdir out && echo old >out/check.html
 export MODE TMPDIR=$PWD/tmp
 mkdir tmp
-for MODE in mute fails empty other broken killed slow deaf answers fewer; do
+for MODE in mute fails empty other wide broken killed slow deaf answers fewer; do
   echo "$MODE:"
   try timeout 60 pscn check "$scene" $small --povray ./povray --timeout 1 -o out 2>&1 | cat -v | sed "s|$PWD|HERE|g"
   ls -A tmp out
@@ -59,6 +61,8 @@ for MODE in parses raves; do
 done
 echo "what is declared for the scene's own text:"
 MODE=declares try pscn check "$scene" $small --own-text --declare A=0.1 --declare Longer=-3 --povray ./povray -o out 2>&1
+echo "what it is to do, whatever its own settings are, and where it may read and write:"
+POVINI=any.ini MODE=told try pscn check "$scene" $small --povray ./povray -o out 2>&1
 echo "steps, and no flatness of the scene's:"
 sed 's/flatness 0 /flatness 0.5 /' $SCENES/flat.pscn >rough.pscn
 MODE=steps try pscn check rough.pscn $small --steps 2 --povray ./povray -o rough 2>&1
