@@ -217,6 +217,44 @@ static void from_a_tip_without_handles_nothing_is_left_open(void **state)
   world_close(&world);
 }
 
+/* A light in a cone's tip: shadow rays end just before it, and meet nothing on their way from below, within the cone or outside;
+ * nor do rays that start just behind the tip. The cone's handles are at thirds, or at their ends. */
+static void next_to_a_tip_nothing_is_left_open(void **state)
+{
+  (void)state;
+  enum { LIT_RAYS = 300, LIT_AT_LEAST = LIT_RAYS / 2 };
+  struct random random = {SEED + 6};
+  for (int handles = 0; handles < 2; handles++) {
+    world_net nets[4];
+    struct world world;
+    for (size_t n = 0; n < 4; n++) {
+      cone_quarter(n, nets[n]);
+      for (int e = 4; e < 12 && !handles; e++)
+        for (int k = 0; k < 3; k++) nets[n][e / 4][e % 4][k] = nets[n][3][e % 4][k] * (e / 4) / 3;
+    }
+    world_open(&world, nets, 4, NULL);
+    unsigned lit = 0;
+    for (int n = 0; n < LIT_RAYS; n++) {
+      struct ray ray = {.t_max = 1 - 0x1p-26};
+      ray.origin[1] = -1.5;
+      for (int c = 0; c < 3; c += 2) ray.origin[c] = random_between(&random, -3, 3);
+      for (int c = 0; c < 3; c++) ray.direction[c] = -ray.origin[c];
+      if (fabs(hypot(ray.origin[0], ray.origin[2]) + ray.origin[1]) < 0.3) continue;
+      struct ray on = ray;
+      on.t_min = 1 + 0x1p-26, on.t_max = INFINITY;
+      for (int k = 0; k < 2; k++) {
+        const struct hit hit = world_closest(&world, k ? &on : &ray);
+        assert_int_equal(hit.patch, HIT_NONE);
+        assert_int_equal(hit.certainty, CERTAINTY_CERTAIN);
+      }
+      lit++;
+    }
+    assert_int_equal(tracer_counts(world.tracer)->escalated, 0);
+    assert_in_range(lit, LIT_AT_LEAST, LIT_RAYS);
+    world_close(&world);
+  }
+}
+
 /* ---- contacts of the third order ---- */
 
 /* z = w^2/4 + s w + s^3, (s, w) being (x, y) turned by the angle. */
@@ -276,6 +314,7 @@ int main(void)
                                      cmocka_unit_test(of_what_meets_a_pole_no_resultant_is_formed),
                                      cmocka_unit_test(from_poles_and_corners_nothing_is_left_open),
                                      cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open),
+                                     cmocka_unit_test(next_to_a_tip_nothing_is_left_open),
                                      cmocka_unit_test(of_what_touches_to_the_third_order_little_is_looked_at)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -160,40 +160,61 @@ static bool same_points(double P[4][4][3], int m, int n)
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
+/* Sets a combination A a + B b that aims at the middle of what is not `still` of the net. Returns its least value there. */
+static lanes aim(const struct candidate *it, const bool still[16], lanes *out_A, lanes *out_B)
+{
+  lanes A = {0}, B = {0}, least = lanes_all(INFINITY);
+  for (int n = 0; n < 16; n++)
+    if (!still[n]) A += it->a[n], B += it->b[n];
+  for (int n = 0; n < 16; n++)
+    if (!still[n]) least = lanes_min(A * it->a[n] + B * it->b[n], least);
+  *out_A = A, *out_B = B;
+  return least;
+}
+
+/* How far x_k of what is not `still` reaches below and above that of the control point `at`. */
+static void depth_range(const struct candidate *it, const bool still[16], int at, double *out_low, double *out_high)
+{
+  const double *x = it->leaf->x[it->axis];
+  *out_low = INFINITY, *out_high = -INFINITY;
+  for (int n = 0; n < 16; n++)
+    if (!still[n]) *out_low = real_min(*out_low, x[n] - x[at]), *out_high = real_max(*out_high, x[n] - x[at]);
+}
+
 /* Lanes whose ray starts in control point `at` and meets no other point of the leaf. Where the net is `still` there, a
  * and b are 0. Either one combination of them, which aims at the middle of the rest, is above 0 on all of the rest; or
  * all of the rest is behind, where a difference of two coordinates is off by less than 2 e. */
 static lane_mask leaves_start(const struct packet *p, const struct candidate *it, int at, const bool still[16])
 {
-  const double *x = it->leaf->x[it->axis];
-  lanes A = {0}, B = {0}, least = lanes_all(INFINITY);
-  double low = INFINITY, high = -INFINITY;
-  for (int n = 0; n < 16; n++) {
-    if (still[n]) continue;
-    A += it->a[n], B += it->b[n];
-    low = real_min(low, x[n] - x[at]), high = real_max(high, x[n] - x[at]);
-  }
+  lanes A, B;
+  double low, high;
+  const lanes least = aim(it, still, &A, &B);
+  depth_range(it, still, at, &low, &high);
   const lanes off = combination_error(it) * (lanes_abs(A) + lanes_abs(B));
-  for (int n = 0; n < 16; n++)
-    if (!still[n]) least = lanes_min(A * it->a[n] + B * it->b[n], least);
   const lanes up = p->direction[it->axis], nearest = lanes_select(up > 0, lanes_all(-high), lanes_all(low));
   return (least > off) | (nearest > 2 * it->line->error);
 }
 
 /* Rows behind the pole's border may be in the pole, too: a cone's handles, where they are at its ends. What holds for
  * the patch holds for its leaves. */
+static void still_at_pole(const struct packet *p, const struct candidate *it, bool still[16])
+{
+  double(*P)[4][3] = p->model->scene->patches[it->leaf->patch].P;
+  bool row = true;
+  for (int steps = 0; steps < 4; steps++) {
+    for (int k = 0; k < 4; k++) row &= same_points(P, from_pole(it->leaf, steps, k), from_pole(it->leaf, 0, 0));
+    for (int k = 0; k < 4; k++) still[from_pole(it->leaf, steps, k)] = row;
+  }
+}
+
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open)
 {
   const int at = from_pole(it->leaf, 0, 0);
   const lane_mask starts = open & packet_starts_at(p, it->leaf->patch, at);
   if (!lanes_any(starts)) return open;
   (void)planes_make(it, starts);
-  double(*P)[4][3] = p->model->scene->patches[it->leaf->patch].P;
-  bool still[16], row = true;
-  for (int steps = 0; steps < 4; steps++) {
-    for (int k = 0; k < 4; k++) row &= same_points(P, from_pole(it->leaf, steps, k), at);
-    for (int k = 0; k < 4; k++) still[from_pole(it->leaf, steps, k)] = row;
-  }
+  bool still[16];
+  still_at_pole(p, it, still);
   return open & ~(starts & leaves_start(p, it, at, still));
 }
 
@@ -223,17 +244,32 @@ lane_mask leaves_corner(const struct packet *p, struct candidate *it, lane_mask 
   return leaves;
 }
 
-/* Lanes whose ray meets the pole, as far as doubles tell. Boxes at the pole are never cleared, because a and b are
- * constant along its border, and every combination is less than its error there. Also r has a coefficient there that
+/* Lanes that may meet a leaf with a pole within the ray's range. A shadow ray whose light is in a cone's tip does not: it
+ * ends just before the pole. Let G be the combination that aims at what is not still in the pole, m its least value there
+ * and g its size in the pole, with errors. With W the weight of what is not still, G is above 0 from W = g/m on. Nearer to
+ * the pole, x_k differs from the pole's by at most W times the most that it does anywhere. The factor 2 is for roundings.
+ *
+ * Where the ray meets the pole, as far as doubles tell, it is `along`. Boxes at the pole are never cleared, because a and b
+ * are constant along its border, and every combination is less than its error there. Also r has a coefficient there that
  * may be zero. */
-static lane_mask meets_pole(const struct packet *p, const struct candidate *it, lane_mask open)
+static lane_mask planes_near_pole(const struct packet *p, struct candidate *it, lane_mask open)
 {
   const int at = from_pole(it->leaf, 0, 0);
   const lanes e = it->line->error, depth = lanes_all(it->leaf->x[it->axis][at]);
   lanes from, to, off;
   ray_ends(p, it, p->t_max, &from, &to, &off);
   off += 2 * e;
-  return open & (lanes_abs(it->a[at]) <= e) & (lanes_abs(it->b[at]) <= e) & (depth >= from - off) & (depth <= to + off);
+  const lanes outside = lanes_max(from - off - depth, depth - to - off);
+  it->along |= open & (lanes_abs(it->a[at]) <= e) & (lanes_abs(it->b[at]) <= e) & (outside <= 0);
+  if (!lanes_any(open & (outside > 0))) return open;
+  bool still[16];
+  lanes A, B;
+  double low, high;
+  still_at_pole(p, it, still);
+  const lanes least = aim(it, still, &A, &B), wrong = combination_error(it) * (lanes_abs(A) + lanes_abs(B));
+  depth_range(it, still, at, &low, &high);
+  const lanes beyond = least - wrong, g = lanes_abs(A * it->a[at] + B * it->b[at]) + wrong;
+  return open & ~((outside > 0) & (beyond > 0) & (outside * beyond > 2 * real_max(-low, high) * g));
 }
 
 lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask open)
@@ -243,7 +279,7 @@ lane_mask stage_planes(const struct packet *p, struct candidate *it, lane_mask o
   if (!it->patch->method->polish) return open;
   if (it->leaf->pole && lanes_any(near)) near = planes_at_pole(it, near);
   if (lanes_any(near)) near = planes_aligned(it, near);
-  if (it->leaf->pole && lanes_any(near)) it->along |= meets_pole(p, it, near);
+  if (it->leaf->pole && lanes_any(near)) near = planes_near_pole(p, it, near);
   return near;
 }
 
