@@ -1,5 +1,5 @@
-/* Binned SAH builder (Wald 2007), iterative, children's boxes stored in the parent. Large ranges are divided round by
- * round, those of a round by all threads; where nodes lie depends on the boxes only. */
+/* Binned SAH builder (Wald 2007), iterative, with the children's boxes in the parent. Large ranges are divided in
+ * rounds, each round by all threads; where nodes lie depends on the boxes only. */
 #include "geometry/bvh.h"
 
 #include <assert.h>
@@ -12,15 +12,15 @@
 
 enum {
   BIN_COUNT = 16,
-  WHOLE_COUNT = 4096 /* a range of no more boxes is built as a whole, by one thread */
+  WHOLE_COUNT = 4096 /* a range of at most this many boxes is built whole, by one thread */
 };
 
-/* Some boxes, whose subtree has the nodes from `node` on, node_limit(count) at most. */
+/* Some boxes. Their subtree has the nodes from `node` on, at most node_limit(count). */
 struct range {
   uint32_t first, count, depth, node;
 };
 
-/* Corners as nodes have them, rounded outwards; the fourth number is 0. */
+/* Corners as in nodes, rounded outwards; the fourth number is 0. */
 struct float_box {
   four_floats lo, hi;
 };
@@ -29,7 +29,7 @@ static const struct float_box NOTHING = {{INFINITY, INFINITY, INFINITY, 0}, {-IN
 
 struct builder {
   struct float_box *boxes; /* a range of them is a subtree */
-  uint32_t *numbers;       /* which of the caller's boxes each is */
+  uint32_t *numbers;       /* the numbers of the caller's boxes */
   struct bvh_node *nodes;
 };
 
@@ -81,22 +81,22 @@ static struct float_box range_box(const struct builder *b, const struct range *r
   return box;
 }
 
-/* Where centres lie, along each axis in equal parts. */
+/* The bins of centres, equally wide along each axis. */
 struct bins {
   four_floats lo, scale;
-  int count; /* of the parts: few for few boxes */
+  int count; /* bins along each axis; fewer for few boxes */
   struct float_box box[3][BIN_COUNT];
   uint32_t boxes[3][BIN_COUNT];
 };
 
-/* The scale may be infinite where all centres are within a subnormal distance. */
+/* The scale may be infinite if all centres are within a subnormal distance. */
 static four_mask bins_of(const struct bins *bins, const struct float_box *box)
 {
   const four_floats at = (box_center(box) - bins->lo) * bins->scale, last = four_floats_all((float)(bins->count - 1));
   return __builtin_convertvector(four_floats_min(four_floats_max(at, four_floats_all(0)), last), four_mask);
 }
 
-/* The cheapest plane between an axis' bins; *cost is lowered where one beats it. Returns whether one did. */
+/* The cheapest plane between an axis' bins. Lowers *cost if one is cheaper; returns whether one is. */
 static bool best_plane(const struct bins *bins, int axis, uint32_t count, double *cost, int *plane)
 {
   double right_area[BIN_COUNT];
@@ -173,8 +173,8 @@ static void set_child(struct bvh_node *node, int side, const struct float_box *b
   for (int k = 0; k < 3; k++) node->lo[k][side] = box->lo[k], node->hi[k][side] = box->hi[k];
 }
 
-/* A node's children: each box by itself where they are no more than BVH_WIDTH; else the range, halved until they are
- * so many, each time the one with the largest box. Returns how many there are. */
+/* A node's children. At most BVH_WIDTH boxes are a child each. A larger range is split, each time the part with the
+ * largest box, until there are BVH_WIDTH parts. Returns how many there are. */
 static int divide(const struct builder *b, const struct range *r, struct range out[BVH_WIDTH],
                   struct float_box box[BVH_WIDTH])
 {
@@ -200,11 +200,11 @@ static int divide(const struct builder *b, const struct range *r, struct range o
   return count;
 }
 
-/* With four children, or one for each box: by induction no more nodes than this. */
+/* No tree has more nodes than this, by induction: a node has four children, or one for each box. */
 static uint32_t node_limit(uint32_t count) { return count < 2 ? 1 : (uint32_t)((2 * (uint64_t)count - 1) / 3); }
 
-/* Makes the node of a range; the ranges of its inner children are written to out, and have their nodes at *next, where
- * `sparse` is false one after the other, else so that each has room for all. Returns how many. */
+/* Makes the node of a range, and writes the ranges of its inner children to out. Their nodes are at *next: one after
+ * the other, or, if `sparse`, so that each has room for its whole subtree. Returns how many there are. */
 static int make_node(const struct builder *b, const struct range *r, bool sparse, uint32_t *next,
                      struct range out[BVH_WIDTH])
 {
@@ -269,14 +269,14 @@ static enum status build(const struct builder *b, uint32_t count, const struct t
   return status;
 }
 
-/* The boxes as floats, in the same memory, and their numbers behind them. */
+/* Stores the boxes as floats, in the same memory, and their numbers behind them. */
 static void take_boxes(struct bvh_box *boxes, size_t count, struct builder *out)
 {
   static_assert(sizeof *out->boxes + sizeof *out->numbers <= sizeof *boxes, "there is room");
   out->boxes = (void *)boxes, out->numbers = (void *)(out->boxes + count);
   for (size_t k = 0; k < count; k++) {
     struct bvh_box box;
-    memcpy(&box, &boxes[k], sizeof box); /* for the compiler, which may take it that doubles are no floats */
+    memcpy(&box, &boxes[k], sizeof box); /* for the compiler, which may assume that doubles are no floats */
     const struct float_box rounded = float_box(&box);
     memcpy(&out->boxes[k], &rounded, sizeof rounded);
   }

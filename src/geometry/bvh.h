@@ -1,9 +1,9 @@
 /* A bounding volume hierarchy over axis-aligned boxes, up to four children a node.
  *
- * Built by binned surface-area heuristic (Wald, On fast Construction of SAH-based Bounding Volume Hierarchies,
+ * Built by the binned surface-area heuristic (Wald, On fast Construction of SAH-based Bounding Volume Hierarchies,
  * 2007; four children: Wald, Benthin and Boulos, Getting Rid of Packets, 2008). Read-only once built; any number of
- * threads may walk it. The caller gives boxes in a frame of its choice (near the origin is best, for the stored boxes are
- * single precision, rounded outwards: a stored box always contains the given one).
+ * threads may walk it. The caller chooses the frame of the boxes, best near the origin: stored boxes are single
+ * precision, rounded outwards, and always contain the given ones.
  */
 #ifndef PSCN_GEOMETRY_BVH_H
 #define PSCN_GEOMETRY_BVH_H
@@ -17,16 +17,16 @@
 #include "base/status.h"
 #include "base/team.h"
 
-/* Aligned as what becomes of it in a builder's hands. */
+/* Aligned as the float box that the builder puts in its place. */
 struct bvh_box {
   alignas(16) double lo[3];
   double hi[3];
 };
 
-/* The box of nothing: any other one added to it is what comes out. */
+/* The empty box: the sum with any other box is that box. */
 static const struct bvh_box BVH_EMPTY = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-/* Makes `sum` the least box that holds both. */
+/* Grows `sum` to the least box that holds both. */
 static inline void bvh_box_add(struct bvh_box *sum, const struct bvh_box *box)
 {
   for (int k = 0; k < 3; k++)
@@ -35,19 +35,19 @@ static inline void bvh_box_add(struct bvh_box *sum, const struct bvh_box *box)
 
 enum { BVH_WIDTH = 4 };
 
-/* The children's boxes stand in their parent, so a walk reads one node a step; side by side, so that one ray is tried on
- * all of them at once. */
+/* A node has its children's boxes, so that a walk reads one node a step; side by side, so that one ray is tested
+ * against all of them at once. */
 struct bvh_node {
   float lo[3][BVH_WIDTH], hi[3][BVH_WIDTH];
-  /* inner child: index of its node; leaf child: BVH_LEAF | index of the box; behind the last child, whose boxes mean
-   * nothing: 0, the root, which is nobody's child */
+  /* inner child: index of its node; leaf child: BVH_LEAF | index of the box; behind the last child: 0, the root, which
+   * is nobody's child, with a box that means nothing */
   uint32_t child[BVH_WIDTH];
 };
 
 enum { BVH_LEAF = INT32_MIN }; /* the top bit of a child */
 
-/* The depth that no tree built here passes, and what a walk's stack must hold that puts a node's children on it before
- * it takes the next from it. */
+/* The depth that no tree built here exceeds, and the stack of a walk that puts all children of a node on it before it
+ * takes the next one. */
 enum { BVH_MAX_DEPTH = 64, BVH_STACK = (BVH_WIDTH - 1) * BVH_MAX_DEPTH + 1 };
 
 struct bvh {
@@ -55,12 +55,10 @@ struct bvh {
   size_t node_count;      /* 0 for no boxes; some of them, all zero, are nobody's child */
 };
 
-/* Builds over boxes[0..count), count < 2^31, which are used up: nothing can be read there any more. The same tree by any
- * team. A single box gives one node with one child. STATUS_LIMIT where memory is short, or threads are; then *out is
- * empty. */
+/* Builds over boxes[0..count), count < 2^31, and uses them up: they cannot be read afterwards. Any team builds the same
+ * tree. A single box gives one node with one child. STATUS_LIMIT if memory or threads are short; *out is then empty. */
 enum status bvh_build(struct bvh_box *boxes, size_t count, const struct team *team, struct bvh *out) STATUS_MUST_CHECK;
 
-/* Frees the nodes. */
 void bvh_free(struct bvh *bvh);
 
 #endif

@@ -1,4 +1,4 @@
-/* Chooses what the processor has. */
+/* Chooses the processor's best kernel. */
 #include "geometry/control_points.h"
 
 #include "base/kernel.h"

@@ -13,7 +13,7 @@ enum { SIDE = 4, POINTS = SIDE * SIDE, COORDINATES = 3 };
 
 /* ---- a coordinate of several points side by side ---- */
 
-/* Coordinate k of point `number` and of those behind it, as many as there are lanes. */
+/* Coordinate k of point `number` and those behind it, one to a lane. */
 static inline lanes coordinate_at(const double P[4][4][3], int number, int k)
 {
   return lanes_load_every(&P[0][0][0] + COORDINATES * number + k, COORDINATES);
@@ -52,7 +52,7 @@ bool KERNEL(points_frame)(const double P[4][4][3], const double center[3], doubl
 /* The fourth number means nothing. */
 typedef patch_row point;
 
-/* One of the points that stand one behind the other. */
+/* Point `number` of points that are stored one after the other. */
 static inline point point_at(const double *points, int number)
 {
   const double *at = points + COORDINATES * number;
@@ -75,7 +75,7 @@ static struct weights weights_at(double t)
   return w;
 }
 
-/* From a point to one further on; from differences of control points, so that where the patch is does not matter. */
+/* The difference of a point and one further on; with differences it does not matter where the patch is. */
 static inline point step(const double *points, int number, int further)
 {
   return point_at(points, number + further) - point_at(points, number);

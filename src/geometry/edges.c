@@ -1,7 +1,7 @@
-/* Shared borders, by a table of all borders that is looked up by their control points: open addressing with linear
- * probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L). Each thread has a part of the table to itself,
- * and fills in the borders that belong there. Slots are by a hash with random keys, or a made-up scene could have all of
- * its borders in one of them; which patches share which borders does not depend on it. */
+/* Finds shared borders by a table of all borders, looked up by their control points: open addressing with linear
+ * probing (Knuth, The Art of Computer Programming 3, 6.4, algorithm L). Each thread has its own part of the table, and
+ * enters the borders that belong there. Slots are chosen by a hash with random keys, or a made-up scene could have all
+ * of its borders in one of them; which patches share which borders does not depend on the keys. */
 #include "geometry/edges.h"
 
 #include <stdatomic.h>
@@ -16,7 +16,7 @@ struct border {
   bool reversed;      /* against the running parameter */
 };
 
-/* The first border of those points, counted from 1, or 0 for a free slot; with MANY where there are more than two of
+/* The first border with these points, counted from 1, or 0 for a free slot; with MANY if more than two borders have
  * them. */
 struct slot {
   uint32_t border;
@@ -27,10 +27,10 @@ struct slot {
 
 static const struct edge_neighbour alone = {EDGE_NONE, 0, false};
 
-/* Two for each number of a border, and one. */
+/* Two for each number of a border, and one more. */
 enum { KEYS = 2 * 12 + 1 };
 
-/* What the threads share: they write to slots of their own and to what belongs to the borders in them. */
+/* What the threads share. They write to their own slots and to what belongs to the borders in them. */
 struct matching {
   const char *nets;
   size_t stride, count;
@@ -44,7 +44,7 @@ struct matching {
   struct edge_neighbour *out;
 };
 
-/* A point of a border of the net that begins there. */
+/* Control point k of a border of this net. */
 static const double *border_point(const double *net, int border, int k) { return net + 3 * edge_at(border, k); }
 
 void edge_points(double P[4][4][3], int border, double out[4][3])
@@ -88,8 +88,9 @@ bool edge_is_point(double P[4][4][3], int border)
   return collapsed(&point[0][0]);
 }
 
-/* Of equal numbers the same, though there are two zeros. With keys that nobody knows the upper halves of any two borders'
- * are the same once in 2^32 times (Lemire and Kaser, Strongly universal string hashing is fast, 2014: multilinear). */
+/* The same for equal numbers, although there are two zeros. With keys that nobody knows, the upper halves of any two
+ * borders' hashes are equal once in 2^32 times (Lemire and Kaser, Strongly universal string hashing is fast, 2014:
+ * multilinear). */
 static uint64_t border_hash(const struct border *b, const uint64_t key[KEYS])
 {
   uint64_t hash = key[KEYS - 1];
@@ -100,7 +101,7 @@ static uint64_t border_hash(const struct border *b, const uint64_t key[KEYS])
   return hash;
 }
 
-/* Where there are no random numbers keys that are as good for scenes that nobody made to be slow. */
+/* Without random numbers, keys that are as good for scenes that nobody made to be slow. */
 static void choose_keys(uint64_t key[KEYS])
 {
   const size_t size = KEYS * sizeof *key;
@@ -108,7 +109,7 @@ static void choose_keys(uint64_t key[KEYS])
   for (uint64_t k = 0; k < KEYS; k++) key[k] = (2 * k + 1) * UINT64_C(0x9e3779b97f4a7c15);
 }
 
-/* The worker's share of `count` things, from its first one on. */
+/* Where the worker's share of `count` things begins. */
 static size_t share(const struct matching *m, size_t worker, size_t count)
 {
   return count / m->workers * worker + count % m->workers * worker / m->workers;
@@ -126,7 +127,7 @@ static enum status hash_borders(void *context, size_t worker)
   return STATUS_OK;
 }
 
-/* One more border of the points of the first one in that slot. */
+/* Enters one more border with the points of the first one in this slot. */
 static void meet(struct matching *m, struct slot *slot, size_t index, const struct border *b,
                  const struct border *first)
 {
@@ -144,7 +145,7 @@ static void meet(struct matching *m, struct slot *slot, size_t index, const stru
   m->out[index] = (struct edge_neighbour){(uint32_t)(k / 4), (uint8_t)(k % 4), reversed};
 }
 
-/* Puts the border into one of `count` slots; false where all are taken. */
+/* Puts the border into one of `count` slots; false if all are taken. */
 static bool place_border(struct matching *m, size_t index, struct slot *slots, size_t count, size_t home)
 {
   const uint32_t tag = (uint32_t)m->hash[index];
@@ -195,7 +196,7 @@ enum status edges_match(const void *nets, size_t stride, size_t count, const boo
   m.slots = memory_alloc(m.slot_count, sizeof *m.slots);
   enum status status = m.hash && m.slots ? team_run(team, m.workers, hash_borders, &m) : STATUS_LIMIT;
   if (status == STATUS_OK) status = team_run(team, m.workers, match_borders, &m);
-  if (status == STATUS_OK && atomic_load(&m.overflowed)) { /* by chance, or malice: all of the table is room enough */
+  if (status == STATUS_OK && atomic_load(&m.overflowed)) { /* by chance, or malice: the whole table has enough room */
     memset(m.slots, 0, m.slot_count * sizeof *m.slots);
     m.workers = 1;
     (void)hash_borders(&m, 0);

@@ -1,4 +1,4 @@
-/* Which borders of patches are shared: equal control points, to the last bit (0 is -0), in the same or the opposite order.
+/* Which borders patches share: equal control points, to the last bit (0 is -0), in the same or the opposite order.
  *
  * Border 0 is u = 0, 1 is u = 1 (both run along v), 2 is v = 0, 3 is v = 1 (both run along u).
  */
@@ -14,22 +14,23 @@
 
 enum { EDGE_NONE = UINT32_MAX };
 
-/* The border that shares its control points with this one. A border met by more than one other, or collapsed to a
- * point, has patch EDGE_NONE, as one met by none. */
+/* The border that shares its control points with this one. patch is EDGE_NONE if there is none, if there are several,
+ * or if the border is collapsed to a point. */
 struct edge_neighbour {
   uint32_t patch; /* may be the patch itself */
   uint8_t border;
   bool reversed;
 };
 
-/* Where control point k of a border, 0..3 in the order of the running parameter, stands in a net of 16, row after row. */
+/* The index of control point k of a border, 0..3 in the order of the running parameter, in a net of 16, row after
+ * row. */
 static inline int edge_at(int border, int k)
 {
   const int first = border == 1 ? 12 : border == 3 ? 3 : 0;
   return first + (border < 2 ? k : 4 * k);
 }
 
-/* From there to the one next to it, away from the border. */
+/* From this index to that of the next control point away from the border. */
 static inline int edge_inward(int border) { return (border < 2 ? 4 : 1) * (border & 1 ? -1 : 1); }
 
 /* The place (u,v) on a border where its running parameter is `along`. */
@@ -44,8 +45,8 @@ void edge_points(double P[4][4][3], int border, double out[4][3]);
 /* Whether the border is one point: its control points are equal numbers. */
 bool edge_is_point(double P[4][4][3], int border);
 
-/* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes, the same by any team. Those that
- * are left_out, where that is not NULL, are nobody's neighbours. STATUS_LIMIT where memory is short, or threads are. */
+/* Fills out[4 * patch + border] for `count` nets, net p at nets + p * stride bytes; any team gives the same. Nets that
+ * are left_out, unless it is NULL, are nobody's neighbours. STATUS_LIMIT if memory or threads are short. */
 enum status edges_match(const void *nets, size_t stride, size_t count, const bool left_out[], const struct team *team,
                         struct edge_neighbour *out) STATUS_MUST_CHECK;
 

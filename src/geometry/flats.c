@@ -1,4 +1,4 @@
-/* Nets in planes across the axes, put in order by their planes. */
+/* Finds nets in planes across the axes, and sorts them by their planes. */
 #include "geometry/flats.h"
 
 #include <stdlib.h>

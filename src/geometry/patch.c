@@ -42,7 +42,7 @@ void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, 
   }
 }
 
-/* Takes a cubic whose true degree is `degree` to that degree's Bezier form. */
+/* Reduces a cubic whose true degree is `degree` to that degree's Bezier form. */
 static void cubic_reduce(const double c[4], int degree, double out[4])
 {
   const double first = c[0], last = c[3];
@@ -123,8 +123,9 @@ static void bernstein(int n, double t, double w[4])
   if (n == 3) w[0] = s * s * s, w[1] = 3 * s * s * t, w[2] = 3 * s * t * t, w[3] = t * t * t;
 }
 
-/* The partial derivative of order (p,q), p + q <= 2, as a vector: from the differences of control points, which are
- * exactly zero along a collapsed edge, so that what vanishes with the distance to it keeps its relative accuracy. */
+/* The partial derivative of order (p,q), p + q <= 2, as a vector. It is made from differences of control points, which
+ * are exactly zero along a collapsed edge, so that what vanishes with the distance to the edge keeps its relative
+ * accuracy. */
 static void derivative(double x[3][4][4], double u, double v, int p, int q, double out[3])
 {
   static const double factor[3] = {1, 3, 6};
@@ -158,8 +159,8 @@ static double cross_sum(const double a[3], const double b[3], const double c[3],
 
 bool patch_normal(double x[3][4][4], double u, double v, double rounded, double out[3])
 {
-  /* A derivative is right to some tens of units in the last place of the net's extent; a product of two that is less
-   * than this part of the extents' is noise. */
+  /* A derivative is right to some tens of units in the last place of the net's extent; a product of two derivatives
+   * that is less than this part of the squared extent is noise. */
   static const double noise = 0x1p-44;
   double extent = 0;
   for (int k = 0; k < 3; k++)
@@ -170,7 +171,8 @@ bool patch_normal(double x[3][4][4], double u, double v, double rounded, double 
   derivative(x, u, v, 0, 1, sv);
   double length = cross_sum(su, sv, zero, zero, out);
   if (!(length > least)) {
-    /* Su x Sv vanishes here, as at a collapsed edge: its limit on the way into the patch is its derivative that way. */
+    /* Su x Sv vanishes here, as at a collapsed edge: its limit on the way into the patch is its derivative in that
+     * direction. */
     derivative(x, u, v, 2, 0, suu);
     derivative(x, u, v, 1, 1, suv);
     derivative(x, u, v, 0, 2, svv);
@@ -181,7 +183,8 @@ bool patch_normal(double x[3][4][4], double u, double v, double rounded, double 
     vector_add_scaled(nu, 1, nv, out);
     length = vector_length(out);
     if (!(length > least)) {
-      /* Both vanish where both derivatives do, as in a corner with two collapsed edges: the second-order limit. */
+      /* That derivative vanishes, too, if Su and Sv do, as in a corner with two collapsed edges: the second-order
+       * limit. */
       double nuv[3];
       cross_sum(suu, suv, suv, svv, out);
       vector_cross(suu, svv, nuv);

@@ -1,8 +1,8 @@
-/* The tensor-product Bezier patch, bicubic, one coordinate at a time.
+/* The bicubic tensor-product Bezier patch, one coordinate at a time.
  *
- * A net is double[4][4] of one coordinate (or of any other function of the surface): net[i][j], u runs across the
- * rows i, v along a row j, S(u,v) = sum B_i(u) B_j(v) net[i][j] (paper eq 1, in Bernstein instead of power form).
- * All functions are pure and safe on any thread. Parameters are not clamped: outside [0,1] the polynomial goes on.
+ * A net is double[4][4] of one coordinate (or of any other function of the surface): net[i][j], u runs across the rows
+ * i, v along a row j, S(u,v) = sum B_i(u) B_j(v) net[i][j] (paper eq 1, in Bernstein instead of power form). All
+ * functions are pure and safe on any thread. Parameters are not clamped: outside [0,1] the polynomial continues.
  */
 #ifndef PSCN_GEOMETRY_PATCH_H
 #define PSCN_GEOMETRY_PATCH_H
@@ -12,35 +12,35 @@
 #include <string.h>
 
 /* The net of the same polynomial over [u0,u1] x [v0,v1], by blossoming. Exact up to a few roundings relative to the
- * largest |net| where the range lies in [0,1]; u0 = 0, u1 = 1 copy exactly. out may be net. */
+ * largest |net| if the range lies in [0,1]; with u0 = 0, u1 = 1 a copy. out may be net. */
 void patch_subnet(double net[4][4], double u0, double u1, double v0, double v1, double out[4][4]);
 
-/* Whether a border (numbered as in geometry/edges.h) is one point, its control points equal numbers. */
+/* Whether a border (numbered as in geometry/edges.h) is one point: its control points are equal numbers. */
 bool patch_border_is_point(const double x[3][4][4], int border);
 
 /* The least bidegree (m in u, n in v, each at least 1) that represents all three coordinate nets within `slack`
  * (absolute, in the nets' units) of every control value. */
 void patch_bidegree(double x[3][4][4], double slack, int *out_m, int *out_n);
 
-/* Degree-reduces a net that patch_bidegree has found to be of bidegree (m,n): the first m+1 rows and n+1 columns of out
- * are the control net of bidegree (m,n). out may be net. */
+/* Degree-reduces a net for which patch_bidegree found bidegree (m,n): the first m+1 rows and n+1 columns of out are the
+ * control net of that bidegree. out may be net. */
 void patch_reduce(double net[4][4], int m, int n, double out[4][4]);
 
-/* Bounds on the net's second derivatives by u u, u v and v v, on [0,1]^2. */
+/* Bounds on the net's second derivatives uu, uv and vv on [0,1]^2. */
 void patch_bends(double net[4][4], double out[3]);
 
-/* A unit normal at (u,v): Su x Sv, or where that is no longer than `rounded`, which is what rounding the control points
- * may make of it, or vanishes, its limit along the way into the patch. False where the surface has none (a patch
- * collapsed to a curve or point); then out is zero. */
+/* A unit normal at (u,v): Su x Sv; or, if that vanishes or is no longer than `rounded`, what rounding the control
+ * points may make of it, its limit along the way into the patch. False if the surface has none (a patch collapsed to a
+ * curve or point); out is then zero. */
 bool patch_normal(double x[3][4][4], double u, double v, double rounded, double out[3]);
 
-/* The 48 numbers of net `number` of those that begin at `nets`, `stride` bytes apart. */
+/* The 48 numbers of net `number`; nets begin at `nets`, `stride` bytes apart. */
 static inline const double *net_at(const void *nets, size_t stride, size_t number)
 {
   return (const double *)(const void *)((const char *)nets + number * stride);
 }
 
-/* The weights the four control values of a cubic have in its value (w) and its derivative (dw) at t. */
+/* The weights of a cubic's four control values in its value (w) and its derivative (dw) at t. */
 static inline void patch_weights(double t, double w[4], double dw[4])
 {
   const double s = 1 - t, ss = s * s, tt = t * t, st = s * t;
@@ -53,7 +53,7 @@ struct patch_jet {
   double value, du, dv;
 };
 
-/* A row of the net at once: compilers keep it in one or two registers. */
+/* A row of the net: compilers keep it in one or two registers. */
 typedef double patch_row __attribute__((vector_size(32)));
 
 static inline struct patch_jet patch_evaluate(double net[4][4], double u, double v)

@@ -67,7 +67,7 @@ void transform_direction(const struct transform *transform, const double p[3], d
   transform_point(&fixed, p, out);
 }
 
-/* One place by the bits of all three. */
+/* A rotation's place in the cache, by bits. */
 static struct transform_turn *place_of(const double degrees[3], struct transform_angles *angles)
 {
   uint64_t hash = 0;

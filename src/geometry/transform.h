@@ -1,8 +1,8 @@
 /* Affine transforms of points, which are row vectors.
  *
- * They are composed in double-double, and a point is rounded once at the end: what comes out is the nearest double of
- * what was said, the same on every machine, but where what they leave is 2^-50 of what products on the way are, or less (five
- * shears by 1e8, and back). Pure; safe on any thread.
+ * They are composed in double-double, and a point is rounded once at the end. The result is the double nearest to the
+ * exact one, the same on every machine, unless it is at most 2^-50 of the products on the way (five shears by 1e8, and
+ * back). Pure; safe on any thread.
  */
 #ifndef PSCN_GEOMETRY_TRANSFORM_H
 #define PSCN_GEOMETRY_TRANSFORM_H
@@ -11,8 +11,8 @@
 
 #include "base/double_double.h"
 
-/* p' = (p, 1) A. `identity` where nothing has been applied, so that points stay as they are to the bit; `moves` where the
- * first three rows are the identity and the last one is of doubles. */
+/* p' = (p, 1) A. `identity`: nothing has been applied, and points keep their bits. `moves`: the first three rows are
+ * the identity and the last one is of doubles. */
 struct transform {
   bool identity, moves;
   struct double_double A[4][3];
@@ -26,12 +26,12 @@ bool transform_finite(const struct transform *transform);
 /* Four points, a row of a control net. */
 typedef double transform_row[4][3];
 
-/* out may be p; a direction is not moved. */
+/* out may be p. Directions are not translated. */
 void transform_points(const struct transform *transform, const transform_row p, transform_row out);
 void transform_point(const struct transform *transform, const double p[3], double out[3]);
 void transform_direction(const struct transform *transform, const double p[3], double out[3]);
 
-/* Angles whose sines and cosines are known, and rotations: most scenes have few. Zeroed: none. */
+/* A cache of rotations and of the sines and cosines of angles: most scenes have few. Empty when zeroed. */
 enum { TRANSFORM_ANGLE_BITS = 8, TRANSFORM_TURN_BITS = 4 };
 struct transform_angles {
   struct transform_turn {

@@ -5,12 +5,12 @@
 #include "base/kernel.h"
 #include "base/real.h"
 
-/* Of a transform, and of points: as many are done at once as there are lanes. */
+/* The rows of a transform, and the points of a row; LANES of them are done at once. */
 enum { ROWS = 4 };
 
 static const struct double_lanes ZERO = {{0}, {0}};
 
-/* As in double_double.h, in several lanes. */
+/* As in double_double.h, on several lanes. */
 static struct double_lanes normal(lanes hi, lanes lo)
 {
   const lanes s = hi + lo;
@@ -24,7 +24,7 @@ static struct double_lanes add(struct double_lanes a, struct double_lanes b)
   return normal(r.hi, r.lo + t.lo);
 }
 
-/* sum + a b. Most of what transforms are made of is 0, which is left out. */
+/* sum + a b. Most entries of transforms are 0, and are left out. */
 static struct double_lanes add_product(struct double_lanes sum, struct double_lanes a, struct double_double b)
 {
   if (b.hi == 0) return sum;
@@ -34,7 +34,7 @@ static struct double_lanes add_product(struct double_lanes sum, struct double_la
   return (struct double_lanes){lanes_select(zero, sum.hi, more.hi), lanes_select(zero, sum.lo, more.lo)};
 }
 
-/* The columns of so many rows, from `row` on. */
+/* The columns of LANES rows, from `row` on. */
 static void load_columns(const struct transform *transform, size_t row, struct double_lanes out[3])
 {
   const double *from = &transform->A[row][0].hi;
@@ -96,8 +96,8 @@ static struct double_double divide(double a, double error, double b)
   return dd_normal(q, ((a - back.hi) - back.lo + error) / b);
 }
 
-/* The sum of (-1)^n x^(2n+1) / (2n+1)! for |x| <= pi/4, up to a term that is less than what rounds the sum. From the
- * first term below 2^-53 of the sum on they are doubles, whose own rounding is below 2^-106 of it. */
+/* The sum of (-1)^n x^(2n+1) / (2n+1)! for |x| <= pi/4, up to a term that is less than the rounding of the sum. From
+ * the first term below 2^-53 of the sum on, terms are doubles, whose own rounding is below 2^-106 of it. */
 static struct double_double sine(struct double_double x)
 {
   const struct double_double square = dd_negate(dd_multiply(x, x));
@@ -115,7 +115,7 @@ static struct double_double sine(struct double_double x)
   return dd_normal(sum.hi, sum.lo + tail);
 }
 
-/* The cosine to that sine, which is at least sqrt(1/2): 1 - s^2 by one step of Newton's iteration. */
+/* The cosine for that sine, at least sqrt(1/2): the root of 1 - s^2 by one step of Newton's iteration. */
 static struct double_double cosine(struct double_double s)
 {
   const struct double_double square = dd_add((struct double_double){1, 0}, dd_negate(dd_multiply(s, s)));
@@ -124,13 +124,13 @@ static struct double_double cosine(struct double_double s)
   return dd_normal(root, ((square.hi - back.hi) - back.lo + square.lo) / (2 * root));
 }
 
-/* An angle has one place, by its bits (Knuth, The Art of Computer Programming 3, 6.4, multiplicative hashing). */
+/* Each angle has one place, by its bits (Knuth, The Art of Computer Programming 3, 6.4, multiplicative hashing). */
 static struct transform_angle *place_of(double degrees, struct transform_angles *angles)
 {
   return &angles->known[real_bits(degrees) * UINT64_C(0x9e3779b97f4a7c15) >> (64 - TRANSFORM_ANGLE_BITS)];
 }
 
-/* Of at most 45 degrees. */
+/* An angle of at most 45 degrees. */
 static struct transform_angle small_angle(double degrees, struct transform_angles *angles)
 {
   static const struct double_double radians_a_degree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
@@ -143,7 +143,7 @@ static struct transform_angle small_angle(double degrees, struct transform_angle
   return *angle;
 }
 
-/* Exact at multiples of 90 degrees. Of many angles, as those of whole degrees, few are left when quarters are taken off. */
+/* Exact at multiples of 90 degrees. Many angles, such as those of whole degrees, become few without their quarters. */
 static struct transform_angle known_angle(double degrees, struct transform_angles *angles)
 {
   struct transform_angle *angle = place_of(degrees, angles);

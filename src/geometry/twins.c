@@ -1,6 +1,6 @@
-/* Nets that are the same, by a table of all nets that is looked up by their four inner control points, which stay
- * where they are, together, in whatever order the net is read: open addressing with linear probing (Knuth, The Art of
- * Computer Programming 3, 6.4, algorithm L). */
+/* Finds equal nets by a table of all nets, looked up by their four inner control points, which stay together in the
+ * middle in whatever order the net is read: open addressing with linear probing (Knuth, The Art of Computer Programming
+ * 3, 6.4, algorithm L). */
 #include "geometry/twins.h"
 
 #include <stdint.h>
@@ -9,11 +9,11 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 
-/* So many places of the table are looked at for one net: with half of them free it takes a few, but for a made-up
- * scene, which is not to take long either. */
+/* At most this many places of the table are examined for one net. As half of them are free, it takes a few, except in a
+ * made-up scene, which must not take long either. */
 enum { MOST_PLACES = 64 };
 
-/* So many nets are looked up behind those whose places are being brought from memory. */
+/* A net is looked up this many nets after its place is fetched from memory. */
 enum { AHEAD = 16 };
 
 /* A place of the table. */
@@ -22,7 +22,7 @@ struct place {
   uint32_t tag; /* bits of the hash */
 };
 
-/* The eight orders: a net, or its transpose, and of that one parameter or both reversed. */
+/* The eight orders: a net or its transpose, with one parameter or both reversed, or none. */
 enum { TRANSPOSED = 1, U_REVERSED = 2, V_REVERSED = 4, ORDERS = 8 };
 
 static bool equal_as(const double P[48], const double Q[48], int order)
@@ -55,7 +55,7 @@ static uint64_t mixed(uint64_t x)
   return x ^ x >> 29;
 }
 
-/* The same in whatever order they are read: a sum over the points. */
+/* The same in any order of the points: a sum over them. */
 static uint64_t inner_hash(const double P[48])
 {
   uint64_t hash = 0;
@@ -71,7 +71,7 @@ static uint64_t inner_hash(const double P[48])
 /* Where a net's search begins. */
 static size_t home(uint64_t hash, size_t places) { return (size_t)((hash >> 32) * places >> 32); }
 
-/* Whether there is an earlier twin of net p; else it is placed. */
+/* Whether net p has an earlier twin; if not, it is placed. */
 static bool meets_twin(const void *nets, size_t stride, size_t p, uint64_t hash, struct place table[], size_t places)
 {
   size_t at = home(hash, places);
