@@ -1,4 +1,4 @@
-/* Objects that share their leaves with all their copies: maps and their error bounds. */
+/* Objects whose leaves serve their copies: maps and their error bounds. */
 #include "intersect/prepare/copies.h"
 
 #include <math.h>
@@ -10,32 +10,33 @@
 #include "intersect/prepare/patch.h"
 #include "intersect/prepare/tree.h"
 
-/* A map that stretches errors more than this is no gain: what is undecidable in the object would be decided twice. */
+/* A map that stretches errors more than this is no gain: what is undecided in the object would be decided twice. */
 #define MOST_STRETCH 0x1p10
 
-/* A map whose numbers, or whose inverse's, are larger than this could overflow with the rays that are let in
+/* A map whose numbers, or whose inverse's, are larger than this could overflow with the rays that are accepted
  * (packet.c). */
 #define MOST_SIZE 0x1p100
 
-/* Nor is one that leaves more of the object open than this part of it, or of its smallest patch. */
+/* A map is no gain either if it leaves open more than this part of the object, or of its smallest patch. */
 #define MOST_OPEN 0x1p-30
 #define MOST_OPEN_OF_PATCH 0x1p-24
 
-/* Copies are deep in one another where the middle of one is in the boxes of this many, itself one of them, on the average of some:
- * a ray is taken to the coordinates of as many then. Choices of speed: 40 ns each, where an object's leaves take 50 us a patch. */
+/* Copies are deep in one another if the middle of one is in the boxes of more than DEEP, its own included, on average
+ * over some of them: a ray is then taken to the coordinates of as many. Choices of speed: that takes 40 ns each, while
+ * making an object's leaves takes 50 us a patch. */
 enum { DEEP = 8, DEEP_SAMPLES = 64 };
 
-/* How one copy may share the object's leaves, while its object is looked at. */
+/* How one copy may share the object's leaves, while copies_choose decides. */
 struct copy_map {
   const struct scene_copy *copy;
   double W[3][3], b[3];
-  double error;       /* of its patches and rays in the object's coordinates */
+  double error;       /* of patches and rays in the object's coordinates */
   double widest;      /* largest sum of |A| over a column: how much longer an error is in the scene */
-  struct bvh_box box; /* its own, where that is asked for */
+  struct bvh_box box; /* its own, for are_deep */
   bool good;
 };
 
-/* The object's nets about the middle of their box, how far they reach from it, and how large the smallest is that is no
+/* The middle of the box of the object's nets, how far they reach from it, and the size of the smallest net that is no
  * point. */
 struct middle {
   double center[3], reach, least;
@@ -60,7 +61,7 @@ static struct middle object_middle(const struct scene_object *object)
   return m;
 }
 
-/* The inverse, by cofactors; false where there is none to speak of. It need not be exact. */
+/* The inverse, by cofactors; false if there is none to speak of. It need not be exact. */
 static bool invert(double A[3][3], double W[3][3])
 {
   double size = 0;
@@ -80,7 +81,7 @@ static bool invert(double A[3][3], double W[3][3])
   return finite;
 }
 
-/* How far from the object's control points the map carries the copy's. */
+/* How far from the object's control points the map takes the copy's. */
 static double copy_map_excess(const struct copy_map *c, const struct model *model, const struct scene_object *object,
                               const struct middle *m)
 {
@@ -98,10 +99,9 @@ static double copy_map_excess(const struct copy_map *c, const struct model *mode
   return off;
 }
 
-/* The map of a copy, and its error in the object's coordinates: how far from the object's control points it
- * carries the copy's, the rounding of finding that out, and that of a ray near the object (copy.c): of its origin, which
- * is moved to where the ray passes the middle of the copy, and of its direction on the way from there through the
- * object. */
+/* Sets the map of a copy, and its error in the object's coordinates: how far from the object's control points it takes
+ * the copy's, the rounding of computing that, and that of a ray near the object (copy.c): of its origin, which is moved
+ * to where the ray passes the middle of the copy, and of its direction on the way from there through the object. */
 static void copy_map_make(struct copy_map *c, const struct model *model, const struct scene_object *object,
                           const struct middle *m)
 {
@@ -129,7 +129,7 @@ static void copy_map_make(struct copy_map *c, const struct model *model, const s
   const double passes = 2 * c->widest * m->reach * back; /* the ray's nearest point, from the middle; sqrt(3) < 2 */
   c->error = off + 16 * UNIT_ROUNDOFF * stretch * (m->reach + passes);
   c->good &= stretch <= MOST_STRETCH && c->error <= MOST_OPEN * m->reach &&
-             c->error <= MOST_OPEN_OF_PATCH * m->least; /* NaN is no map either */
+             c->error <= MOST_OPEN_OF_PATCH * m->least; /* NaN is no good map either */
 }
 
 /* An object's copies. */
@@ -139,7 +139,7 @@ struct object_copies {
   size_t count;
 };
 
-/* How many patches need no leaves where the good ones share theirs; they are two or more then. */
+/* How many patches need no leaves if the good copies, which must be two or more, share theirs. */
 static size_t patches_spared(const struct object_copies *g)
 {
   size_t good = 0;
@@ -156,7 +156,7 @@ static bool holds_middle(const struct copy_map *c, const struct copy_map *other)
   return true;
 }
 
-/* The box of the copy whose patches begin there. */
+/* The box of the copy whose patches begin at `first_patch`. */
 static struct bvh_box copy_bounds(const struct model *model, const struct scene_object *object, size_t first_patch)
 {
   struct bvh_box box = BVH_EMPTY;
@@ -173,7 +173,7 @@ static bool are_deep(const struct model *model, const struct object_copies *g)
   return held > DEEP * samples;
 }
 
-/* Has the good ones share. */
+/* Makes the good copies share. */
 static void share_leaves(struct model *model, const struct object_copies *g)
 {
   const struct scene_object *object = g->object;
@@ -202,7 +202,7 @@ static int by_object(const void *a, const void *b)
   return x->copy->first_patch < y->copy->first_patch ? -1 : x->copy->first_patch > y->copy->first_patch;
 }
 
-/* Those whose maps begin at this one of all. */
+/* The copies of one object, whose maps begin at `first`. */
 static struct object_copies copies_at(const struct scene *scene, size_t count, struct copy_map all[], size_t first)
 {
   const size_t object = all[first].copy->object;
@@ -242,7 +242,7 @@ enum status copies_choose(struct model *model, size_t most, size_t *own)
   return STATUS_OK;
 }
 
-/* Marks what lies on earlier patches: this copy where all of it does, and of the object's patches those that do in every
+/* Marks twins: this copy if all of its patches are twins, and of the object's patches those that are twins in every
  * copy. */
 static enum status mark_twins_of_copy(const struct model *model, struct model_copy *copy)
 {
@@ -256,7 +256,7 @@ static enum status mark_twins_of_copy(const struct model *model, struct model_co
   return STATUS_OK;
 }
 
-/* The model of an object, from its nets about their middle; the solver is that of a copy. */
+/* Makes the model of an object from its nets about their middle; the solver is that of a copy. */
 static enum status prepare_object(const struct model *model, const struct team *team, const struct model_copy *copy,
                                   const struct split_limit *limit, struct model_object *object)
 {

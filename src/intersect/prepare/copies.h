@@ -1,19 +1,18 @@
 /* Which copies of declared objects share leaves, and the maps from the scene to the objects' coordinates.
  *
- * Internal to src/intersect. A ray is taken to the object's coordinates by x -> (x - b) W, which is exact as a map:
- * W and b are doubles, and what they are is no matter, as long as they carry the copy's patches to the object's. How
- * well they do, W, b and all nets being rounded, is measured, and counts as an error of the object's control points;
- * so do the roundings of the ray on its way. What that makes undecidable in the object is decided in the scene, on a
- * leaf cut for it.
+ * Internal to src/intersect. A ray is taken to the object's coordinates by x -> (x - b) W. W and b are doubles, and the
+ * map is exact; any values do, as long as they carry the copy's patches to the object's. Because W, b and all nets are
+ * rounded, how well they do is measured, and counts as an error of the object's control points; so do the roundings of
+ * the ray on its way. What this leaves undecided in the object is decided in the scene, on a leaf cut for it.
  */
 #ifndef PSCN_INTERSECT_PREPARE_COPIES_H
 #define PSCN_INTERSECT_PREPARE_COPIES_H
 
 #include "intersect/model.h"
 
-/* Sets model->objects and model->copies, the models of the objects excepted, marks their patches, and lowers *own,
- * the number of patches that need leaves, accordingly. Copies that are deep in one another do not share where *own can
- * be `most` or less without. */
+/* Sets model->objects, except for their models, and model->copies, marks the patches of these, and lowers *own, the
+ * number of patches that need leaves, accordingly. Copies that are deep in one another do not share if *own can be at
+ * most `most` without. */
 enum status copies_choose(struct model *model, size_t most, size_t *own) STATUS_MUST_CHECK;
 
 /* Makes the objects' models. */

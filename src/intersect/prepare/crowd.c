@@ -1,8 +1,8 @@
 /* Leaves in one another's boxes.
  *
- * A box along a leaf is as thick as the leaf bends, and a ray that meets a surface is tried on all leaves whose boxes hold that
- * place. How far derivatives turn tells nothing of these: they are counted, at some places of each patch. Where there are many of
- * them the leaves are made shorter: one half as long is a quarter as thick.
+ * A box along a leaf is as thick as the leaf bends, and a ray that meets a surface is tried on all leaves whose boxes
+ * hold that place. How far derivatives turn tells nothing of these leaves, so they are counted at some places of each
+ * patch. Where there are many, the leaves are made shorter: one half as long is a quarter as thick.
  */
 #include "intersect/prepare/crowd.h"
 
@@ -16,19 +16,19 @@
 #include "intersect/prepare/making.h"
 #include "intersect/prepare/patch.h"
 
-/* Looked at are so many leaves of a patch a side, or one where patches are MANY; of each so many boxes and nodes of the hierarchy,
- * until so many leaves are found. Choices of speed. */
+/* PLACES leaves of a patch a side are examined, or one if there are more than MANY patches; for each, LOOKS boxes and
+ * nodes of the hierarchy at most, until FOUND leaves are found. Choices of speed. */
 enum { PLACES = 2, MANY = 4096, LOOKS = 1024, FOUND = 64 };
 
-/* What stands about a patch, and how it bends. Its u u, u v and v v derivatives are, in parameters of leaves of a x b, 1/a^2,
- * 1/(a b) and 1/b^2 of what they are in its own. */
+/* What stands about a patch, and how the patch bends. In parameters of its leaves, if it is cut into a x b, its second
+ * derivatives uu, uv and vv are 1/a^2, 1/(a b) and 1/b^2 of those in its own. */
 struct crowd {
-  float others; /* boxes along leaves that hold the middle of one of the patch's, but for its own; on average */
-  /* bounds on second derivatives, and on what of them is across the patch, where it was looked at */
+  float others; /* boxes along leaves that hold the middle of one of the patch's, except its own; on average */
+  /* bounds on second derivatives, and on their part across the patch, on the leaves examined */
   float second[3], across[3];
 };
 
-/* A place that is looked for. */
+/* A place, and the count of the boxes that hold it. */
 struct search {
   const struct model *model;
   double x[3];
@@ -51,8 +51,8 @@ static bool in_leaf_box(const struct oriented_box *box, const float at[3])
   return in;
 }
 
-/* A leaf whose surface is no farther from a place than this part of its box's half is no less in the way for being cut. It is
- * an eighth of the leaf that is a 64th as thick. */
+/* If a place is no farther from a leaf's surface than this part of its box's half, cutting the leaf does not help: this
+ * is how thick an eighth of the leaf is, a 64th. */
 #define ON_LEAF 0x1p-6
 
 static bool is_on_leaf(const struct model *model, const struct leaf *leaf, const double x[3])
@@ -68,7 +68,8 @@ static bool is_on_leaf(const struct model *model, const struct leaf *leaf, const
   return leaf->has_quadric && fabs(y[0] - on) <= ON_LEAF * leaf->slab[0].half;
 }
 
-/* Whether that is another leaf of which rays are told; not so of twins, whose scene is answered as it is without them. */
+/* Whether the box is that of another leaf that counts; twins do not, because a scene is answered as it is without
+ * them. */
 static bool is_other(const struct search *s, uint32_t box)
 {
   const struct model *model = s->model;
@@ -95,7 +96,7 @@ static void search_tree(struct search *s, const struct model_tree *tree)
   }
 }
 
-/* Bounds on the second derivatives of the leaf's net across it. */
+/* Bounds on the second derivatives of the leaf's net across the leaf. */
 static void bends_across(const struct leaf *leaf, double out[3])
 {
   const double *g = leaf->slab[0].g;
@@ -104,7 +105,7 @@ static void bends_across(const struct leaf *leaf, double out[3])
   patch_bends(z, out);
 }
 
-/* Of patch number `number`, whose leaves begin at `first`. */
+/* Examines patch number `number`, whose leaves begin at `first`. */
 static void find_crowd(const struct model *model, size_t number, size_t first, struct crowd *out)
 {
   const struct model_patch *patch = &model->patches[number];
@@ -131,21 +132,21 @@ static void find_crowd(const struct model *model, size_t number, size_t first, s
     out->second[c] = (float)(second[c] * cells[c]), out->across[c] = (float)(across[c] * cells[c]);
 }
 
-/* That of leaves as thick as these derivatives make them, but for a factor. */
+/* The thickness of leaves with these derivatives, up to a factor. */
 static double bend_of(const float second[3], const uint16_t split[2])
 {
   const double a = split[0], b = split[1];
   return (double)second[0] / (a * a) + 2 * (double)second[1] / (a * b) + (double)second[2] / (b * b);
 }
 
-/* The most leaves a side and of a patch are those of other patches: the last resort has room for them (patch.c). */
+/* The most leaves a side and of a patch, as for other patches: the last resort has room for them (patch.c). */
 enum { SIDE_MOST = EXACT_REGIONS_MAX / 2, LEAVES_MOST = EXACT_LEAVES };
 
-/* Leaves twice as long along a parameter that bend no more than by this factor may be so. A choice of speed. */
+/* Leaves may be twice as long along a parameter if they then bend by at most this factor more. A choice of speed. */
 #define STRAIGHT 1.125
 
-/* Cuts a patch that more than `stay` stand about finer, so that about so many do: along the parameter that bends the more each
- * time, and no longer along one that does not. */
+/* Cuts a patch that more than `stay` leaves stand about finer, so that about `stay` do: each time along the parameter
+ * that bends more. Along one that does not bend it is cut less. */
 static void split_crowd(const struct crowd *crowd, double stay, uint16_t split[2])
 {
   if (!((double)crowd->others > stay)) return;
@@ -168,7 +169,7 @@ static void split_crowd(const struct crowd *crowd, double stay, uint16_t split[2
 
 /* ---- all patches ---- */
 
-/* Patches that are cut as they bend, and no twins of others, who change nothing. */
+/* Whether the patch is cut as it bends, and is no twin, which would change nothing. */
 static bool may_be_finer(const struct model *model, size_t p)
 {
   return !model->cuts[p].copied && model->patches[p].method->split == 0 && !(model->twin && model->twin[p]);
@@ -190,7 +191,7 @@ static enum status find_crowds(void *context, size_t worker)
   return STATUS_OK;
 }
 
-/* How many leaves there are when that many of the others stay; patches are cut so where `really`. */
+/* How many leaves there are if `stay` of the others stay; also cuts the patches so if `really`. */
 static size_t cut_crowds(struct making *m, double stay, bool really)
 {
   struct model *model = m->model;
@@ -208,13 +209,13 @@ static size_t cut_crowds(struct making *m, double stay, bool really)
   return all;
 }
 
-/* Where a ray meets a surface it may be tried in vain on so many leaves before that patch is cut finer; but only where those
- * beyond are CROWDED on average over all patches all is done once more: none of the scenes that are measured
- * (docs/performance.md) has more than half of that, nor books and rolls of paper less than eight times that. Choices of speed. */
+/* A ray that meets a patch may be tried in vain on STAY leaves before the patch is cut finer; but all is done once more
+ * only if those beyond are CROWDED on average over all patches. No scene that is measured (docs/performance.md) has
+ * more than half of that; books and rolls of paper have at least eight times that. Choices of speed. */
 #define STAY 1.0
 #define CROWDED 0.25
 
-/* Patches that are looked at, `own` of them, are cut, so that there are at most so many leaves. */
+/* Examines the patches, `own` of which may be cut, and cuts them so that there are at most `most` leaves. */
 static enum status cut_own(struct making *m, size_t own, double most, bool *out)
 {
   const size_t count = m->model->scene->patch_count;

@@ -11,9 +11,9 @@
 
 struct making;
 
-/* Cuts patches that stand in a crowd finer, as far as there may be more leaves, and says how many leaves each part of the patches
- * has now. The leaves, which are kept, and the hierarchy are there, and are those of before: *out, whether they are to be made
- * anew. STATUS_LIMIT where memory is short, or threads are. */
+/* Cuts patches in a crowd finer, as far as there may be more leaves, and sets how many leaves each part of the patches
+ * has then. The leaves, which are kept, and the hierarchy exist and are unchanged; *out: whether they must be made
+ * anew. STATUS_LIMIT if memory or threads are short. */
 enum status crowd_cut_finer(struct making *m, bool *out) STATUS_MUST_CHECK;
 
 #endif

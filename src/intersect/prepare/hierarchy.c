@@ -1,7 +1,7 @@
-/* From patches to the hierarchy: each patch is cut, its leaves are made, their boxes are put in order.
+/* From patches to the hierarchy: patches are cut, their leaves are made, the leaves' boxes are put in order.
  *
- * Threads of a team take parts of the patches, one after the other, first to cut them, then, once it is known where each
- * one's leaves begin, to make these. What they make are the same bits however many they are.
+ * Threads of a team take parts of the patches, one after the other: first to cut the patches; then, once it is known
+ * where each patch's leaves begin, to make these. Any number of threads makes the same bits.
  */
 #include "intersect/prepare/hierarchy.h"
 
@@ -15,17 +15,17 @@
 #include "intersect/prepare/patch.h"
 #include "intersect/prepare/tree.h"
 
-/* What threads take at once is this part of the patches. */
+/* Threads take one of this many parts of the patches at once. */
 enum { PARTS = 1024 };
 
-/* The next room for what not every patch or leaf has: *room, or new where that has been used. */
+/* Room for what not every patch or leaf has: *room, or new room if that is used up. */
 static bool next_room(struct arena *arena, void **room, size_t size)
 {
   if (!*room) *room = arena_alloc(arena, 1, size);
   return *room != NULL;
 }
 
-/* What has been made is the model's, where it is kept. */
+/* Gives the model what has been made, if it is kept; else frees it. */
 static void end_arenas(struct making *m, bool keep)
 {
   for (size_t k = 0; m->arenas && k < team_count(m->team); k++) {
@@ -44,7 +44,7 @@ static bool begin_arenas(struct making *m)
 
 /* ---- patches ---- */
 
-/* Patches, how far each is cut, and how many leaves there are. */
+/* Makes the patches, cuts each, and counts the leaves. */
 static enum status make_patches(void *context, size_t worker)
 {
   struct making *m = context;
@@ -65,7 +65,7 @@ static enum status make_patches(void *context, size_t worker)
   return STATUS_OK;
 }
 
-/* From how many leaves are in each part to how many are before it; and how many there are. */
+/* Turns the number of leaves in each part into the number before it, and sets the total. */
 static void sum_leaves(struct making *m)
 {
   m->model->leaf_count = 0;
@@ -76,11 +76,13 @@ static void sum_leaves(struct making *m)
   }
 }
 
-/* A picture shows a layer of the surfaces that a line crosses. With more leaves than this in a layer few rays of a packet meet
- * the same one, and none of them finds a leaf in the processor's caches: what fewer and larger ones cost each is less. */
+/* A picture shows one layer of the surfaces that a line crosses. With more leaves than this in a layer, few rays of a
+ * packet meet the same leaf, and none finds a leaf in the processor's caches: fewer and larger leaves, although each
+ * costs more, cost less. */
 enum { LAYER_LEAVES = 1 << 15 };
 
-/* Whether there are more than `most` in a layer, of patches that are kept; layers as tree_set_crossings has them, by patches. */
+/* Whether there are more than `most` leaves in a layer, of patches that are kept. Layers are those of
+ * tree_set_crossings, computed from patches. */
 static bool too_many(const struct model *model, size_t most)
 {
   if (model->leaf_count <= most) return false;
@@ -144,7 +146,7 @@ static enum status cut_patches(struct making *m)
 
 /* ---- leaves ---- */
 
-/* Leaves of one patch that are made one after the other without a look at anything else. */
+/* Leaves of one patch that are made together before anything else is touched. */
 enum { LEAVES_AT_ONCE = 32 };
 
 struct leaf_run {
@@ -152,7 +154,7 @@ struct leaf_run {
   uint16_t column[LEAVES_AT_ONCE][2];
 };
 
-/* The leaves that follow the run's, which is {0} at first; false where there are none. */
+/* The leaves after the run's; the run is {0} at first. False if there are none. */
 static bool next_run(const struct model_patch *patch, struct leaf_run *run)
 {
   const size_t row = patch->cut.split[1], all = patch->cut.split[0] * row;
@@ -163,7 +165,7 @@ static bool next_run(const struct model_patch *patch, struct leaf_run *run)
   return run->count > 0;
 }
 
-/* Leaves that are kept: from number l on those of patch p. */
+/* Makes leaves that are kept: those of patch p, from number l on. */
 static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, size_t l, void **form)
 {
   struct model *model = m->model;
@@ -183,7 +185,7 @@ static enum status keep_leaves(struct making *m, struct arena *arena, size_t p, 
   return STATUS_OK;
 }
 
-/* Of leaves that are not kept: only where they are, and their boxes. */
+/* For leaves that are not kept, sets only where they are, and their boxes. */
 static void place_leaves(struct making *m, size_t p, size_t l)
 {
   struct model *model = m->model;
@@ -201,7 +203,7 @@ static void place_leaves(struct making *m, size_t p, size_t l)
   }
 }
 
-/* The boxes along them. */
+/* Makes the boxes along leaves that are not kept. */
 static void orient_leaves(struct making *m, size_t p, size_t l)
 {
   const struct model *model = m->model;
@@ -218,8 +220,8 @@ static void orient_leaves(struct making *m, size_t p, size_t l)
   }
 }
 
-/* The leaves of all patches, from where they begin on; where they are not kept first their boxes for the hierarchy, and once
- * that is built, so that model->oriented has its room, those along them. */
+/* Makes the leaves of all patches, from where they begin on. If leaves are not kept: first their boxes for the
+ * hierarchy; once that is built, and model->oriented has its room, the boxes along them. */
 static enum status make_leaves(void *context, size_t worker)
 {
   struct making *m = context;
@@ -239,7 +241,7 @@ static enum status make_leaves(void *context, size_t worker)
   return STATUS_OK;
 }
 
-/* Where boxes along leaves begin, each in one line of the caches, in room for one more. */
+/* Where boxes along leaves begin, each in one line of the caches, in room for one box more. */
 static struct oriented_box *oriented_in(struct model *model, void *room)
 {
   enum { LINE = sizeof(struct oriented_box) };
@@ -247,7 +249,7 @@ static struct oriented_box *oriented_in(struct model *model, void *room)
   return (struct oriented_box *)(void *)((char *)room + (LINE - (uintptr_t)room % LINE) % LINE);
 }
 
-/* Room for leaves that are kept and their boxes, in huge pages; or for the places of others. */
+/* Room for leaves that are kept and their boxes, in huge pages; or for the places of those that are not kept. */
 static bool make_room(struct making *m)
 {
   struct model *model = m->model;
@@ -268,7 +270,7 @@ static bool make_room(struct making *m)
 
 /* ---- the hierarchy ---- */
 
-/* Boxes of trees in the tree are in these trees' frames. */
+/* Makes the boxes along the leaves of inner trees anew, in these trees' frames. */
 static void orient_inner(struct model *model, const struct model_tree *whole)
 {
   for (size_t k = 0; k < whole->inner_count; k++) {
@@ -286,8 +288,8 @@ static void orient_inner(struct model *model, const struct model_tree *whole)
   }
 }
 
-/* The boxes along leaves that are not known yet. Where leaves are not kept they take the place of those that the hierarchy was
- * built from, and has used up: there would not be room for both. */
+/* Makes the boxes along leaves that are still missing. If leaves are not kept, these take the memory of the boxes that
+ * the hierarchy was built from and has used up: there would not be room for both. */
 static enum status orient(struct making *m)
 {
   struct model *model = m->model;
@@ -302,7 +304,7 @@ static enum status orient(struct making *m)
   return status;
 }
 
-/* Leaves, and the hierarchy of them. */
+/* Makes the leaves, and the hierarchy of them. */
 static enum status make_tree(struct making *m)
 {
   struct model *model = m->model;
@@ -315,7 +317,7 @@ static enum status make_tree(struct making *m)
   return status == STATUS_OK ? orient(m) : status;
 }
 
-/* Leaves and hierarchy once more, of patches that are cut otherwise now. */
+/* Makes leaves and hierarchy once more, after patches were cut anew. */
 static enum status make_again(struct making *m)
 {
   sum_leaves(m);

@@ -10,9 +10,9 @@
 /* Fewer patches or leaves are done before another thread has begun: one takes a microsecond or two. */
 enum { TEAM_LEAST = 1024 };
 
-/* Cuts the patches, but for those that are copied, makes their leaves, and builds model->tree, whose frame is set. Patches
- * and leaves are kept where `keep` and there are no more than `keep_most` leaves; it makes rays a quarter faster, at 1.5 KB
- * a patch of one leaf. STATUS_LIMIT where memory is short, or threads are; model_destroy gives back what there is then. */
+/* Cuts the patches that are not copied, makes their leaves, and builds model->tree, whose frame is set. Patches and
+ * leaves are kept if `keep` and there are at most `keep_most` leaves; this makes rays a quarter faster, at 1.5 KB for a
+ * patch of one leaf. STATUS_LIMIT if memory or threads are short; model_destroy then frees what there is. */
 enum status hierarchy_make(struct model *model, const struct team *team, const struct split_limit *limit, bool keep,
                            size_t keep_most) STATUS_MUST_CHECK;
 

@@ -1,4 +1,4 @@
-/* Preparing leaves: which parameter to keep, boxes; and the kernel that makes their numbers. */
+/* Prepares leaves: which parameter to keep, boxes, and the choice of the kernel that makes their numbers. */
 #include "intersect/prepare/leaf.h"
 
 #include <math.h>
@@ -10,11 +10,11 @@
 #include "intersect/prepare/leaf_kernel.h"
 #include "intersect/prepare/tree.h"
 
-/* Rounding of the local net itself: of P - center (half a unit), and of cutting leaves (six lerps of two roundings
- * each in either direction on values below one). Used for the boxes. */
+/* Rounding of the local net itself: of P - center (half a unit), and of cutting leaves (in either direction six lerps
+ * of two roundings each, on values below one). Used for the boxes. */
 #define LEAF_NET_ERROR (32 * UNIT_ROUNDOFF)
 
-/* The narrowest that has room for so many: wide registers with most lanes empty take longer. */
+/* The narrowest kernel with room for `count`: wide registers with most lanes empty take longer. */
 static const struct leaf_kernel *lanes_for(size_t count)
 {
 #if defined(PSCN_HAS_AVX512)
@@ -52,9 +52,8 @@ bool leaf_border_is_point(const struct model_patch *patch, const uint16_t column
   return (border & 1 ? end == patch->cut.split[side] : column[side] == 0) && patch->pole[border];
 }
 
-/* Whether rows must be kept (true) or columns: the parameter along which an edge collapses is kept, for the other
- * would leave r identically zero at the apex; otherwise the one of higher degree, for the determinant is the smaller
- * then. */
+/* Whether v is kept, not u. u is kept if an edge u = 0 or 1 is collapsed, because r(v) would be identically zero at the
+ * apex; v the other way round; otherwise the parameter of higher degree, because the determinant is smaller then. */
 static bool keep_v(const struct model_patch *patch, const double x[3][4][4])
 {
   const int rows = patch_border_is_point(x, 0) + patch_border_is_point(x, 1);
@@ -63,8 +62,8 @@ static bool keep_v(const struct model_patch *patch, const double x[3][4][4])
   return patch->cut.n > patch->cut.m;
 }
 
-/* How far the polynomial of bidegree (m,n) with the net r is from the bicubic x, on [0,1]^2: the largest distance of
- * x from r's net raised to (3,3), whose own roundings (two degrees twice, three each) are added. */
+/* How far, on [0,1]^2, the polynomial of bidegree (m,n) with the net r is from the bicubic x: the largest distance of x
+ * from r's net raised to (3,3), plus the roundings of raising it (two degrees twice, three each). */
 static double reduction_excess(double r[4][4], int m, int n, double x[4][4])
 {
   double up[4][4], excess = 0, size = 0;

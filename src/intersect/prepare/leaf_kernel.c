@@ -1,7 +1,8 @@
-/* The numbers of leaves: nets, bounds, Taylor polynomials, boxes along them. A leaf a lane, or one leaf (registers.h).
+/* The numbers of leaves: nets, bounds, Taylor polynomials, boxes along them. One leaf to a lane, or a single leaf
+ * (registers.h).
  *
- * Compiled once per instruction set, and once for one leaf, without contraction and without fused multiply-add, so that every
- * leaf has the same bits.
+ * Compiled once per instruction set, and once for one leaf, without contraction and without fused multiply-add, so that
+ * every leaf has the same bits.
  */
 #include "intersect/prepare/leaf_kernel.h"
 
@@ -17,9 +18,9 @@
 
 static int head_bits(int leaves) { return leaves <= 256 ? 20 : 16; }
 
-/* The patch's net as head + tail. The head is a coordinate's first bits, which are cut exactly where split_is_exact; the
- * tail, which is smaller by as many bits and has what x is rounded by, is rounded: by less than the planes' own errors
- * by about as many. */
+/* The patch's net as head + tail. The head is a coordinate's first bits, and cutting it is exact if split_is_exact. The
+ * tail is smaller by as many bits and includes what x is rounded by. Cutting rounds it, by less than the planes' own
+ * errors by about as many bits. */
 struct patch_halves {
   double head[3][16], tail[3][16];
 };
@@ -35,7 +36,7 @@ static void patch_halve(const struct model_patch *patch, int leaves, struct patc
   }
 }
 
-/* Parts, and what is known of them. */
+/* Parts of a patch, and what is known of them. */
 struct cut {
   lane_net head[REGISTERS], tail[REGISTERS], x[REGISTERS]; /* x: their sum */
   lanes first[2], second[3], third[2];
@@ -44,7 +45,7 @@ struct cut {
 static struct lane_range range_of(lanes column, int span, int split)
 {
   const double parts = split;
-  /* quotients: the last one is 1 whatever the split */
+  /* quotients: the last one is 1 for any split */
   const lanes to = (column + span) / parts;
   return (struct lane_range){column / parts, to, span == split, lanes_any(to == 1)};
 }
@@ -65,7 +66,8 @@ static void cut_nets(const struct patch_halves *patch, const lanes column[2], co
 
 /* ---- bounds ---- */
 
-/* A bound on the longest: its length where squares lose nothing, which they do below some 2^-450 of the patch. */
+/* A bound on the length of the longest: the length itself unless squares lose digits, below some 2^-450 of the
+ * patch. */
 LANES_INLINE lanes longest(const lanes v[][REGISTERS], int count)
 {
   const lanes square = largest_square(v, count);
@@ -123,7 +125,7 @@ static void third_bounds(lane_net x[REGISTERS], lanes out[2])
   out[0] = longest(uuv, 6), out[1] = longest(uvv, 6);
 }
 
-/* Of the parts widened by `margin`, in their own parameters; of third derivatives where `third`. */
+/* Bounds for the parts widened by `margin`, in their own parameters; also on third derivatives if `third`. */
 static void bounds(double margin, bool third, struct cut *cut)
 {
   cut->third[0] = cut->third[1] = lanes_all(0);
@@ -146,23 +148,23 @@ static void bounds(double margin, bool third, struct cut *cut)
 #define REACH (0.5 + LEAF_MARGIN)
 static const double REACH_POWER[4] = {1, REACH, (REACH) * (REACH), (REACH) * (REACH) * (REACH)};
 
-/* As struct leaf_parts has them. */
+/* As struct leaf_parts. */
 struct lane_parts {
   lanes base[4 * REGISTERS], rest[16 * REGISTERS];
   lanes error, last_step, slope_step;
 };
 
-/* What rounding adds to the value of a plane's polynomial. Of each term of the rest, in either of two coordinates: one
- * rounding of the coefficient, without fused multiply-add two for each of its powers and two more in Horner's scheme, and
- * one of the sum; and eight in the plane. Where the cut rounds the net, and the Taylor coefficients are rounded when they
- * are made: their differences lose some fifteen roundings of the sum of all terms but the constant one, and of the net's
- * size 1, in either coordinate. First derivatives are off by no more than 3/REACH times that, well below what the
- * certificate has. */
+/* What rounding adds to the value of a plane's polynomial. For each term of the rest, in either of two coordinates: one
+ * rounding of the coefficient; without fused multiply-add, two for each of its powers and two more in Horner's scheme;
+ * and one of the sum. To these come eight in the plane. If the cut rounds the net, Taylor coefficients are rounded when
+ * they are made, too: their differences lose some fifteen roundings of the sum of all terms but the constant one, and
+ * of the net's size 1, in either coordinate. First derivatives are off by at most 3/REACH times that, well below what
+ * the certificate allows. */
 #define TERM_ROUNDINGS(powers) (16 + 4 * (powers))
 #define CUT_ROUNDINGS 32
 
-/* Points on a leaf whose rest adds no more than this to a plane are as good as POINT_ERROR has them: half of it is a
- * coordinate's. */
+/* If the rest adds at most this to a plane, points on the leaf are as good as POINT_ERROR says: half of it is in one
+ * coordinate. */
 #define FINAL_ERROR (16 * UNIT_ROUNDOFF)
 
 static lanes error_bound(const struct lane_parts *parts, bool rounded)
@@ -181,8 +183,7 @@ static lanes error_bound(const struct lane_parts *parts, bool rounded)
   return UNIT_ROUNDOFF * (coordinates_max(rest) + CUT_ROUNDINGS * (1 + coordinates_max(whole)));
 }
 
-/* Twice what a root may be off by, in the patch's frame, after the last step of Newton's method: well below what
- * rounds it. */
+/* Twice the error of a root, in the patch's frame, after the last step of Newton's method: well below its rounding. */
 #define LAST_STEP_CURVE (UNIT_ROUNDOFF / 32)
 
 static void set_parts(const struct cut *cut, bool exact, struct lane_parts *out)
@@ -208,13 +209,13 @@ static void set_parts(const struct cut *cut, bool exact, struct lane_parts *out)
 
 /* ---- the box along a leaf ---- */
 
-/* |Su x Sv| relative to the squared derivatives below which a box along the leaf is not worth its rounding. */
+/* A box along the leaf is not worth its rounding if |Su x Sv| is less than this part of the squared derivatives. */
 #define LEAST_AREA 0x1p-30
 
-/* And one below which it has no reciprocal, of a net that is nearly a point. */
+/* Below this |Su x Sv| has no reciprocal, for the net is nearly a point. */
 #define LEAST_NORMAL 0x1p-1000
 
-/* Lanes in which two vectors tell no normal. */
+/* The lanes on which two vectors tell no normal. */
 LANES_INLINE lane_mask without_normal(const lanes a[REGISTERS], const lanes b[REGISTERS], lanes normal[1][REGISTERS])
 {
   cross(a, b, normal[0]);
@@ -222,7 +223,7 @@ LANES_INLINE lane_mask without_normal(const lanes a[REGISTERS], const lanes b[RE
   return ~(area > lanes_max(LEAST_AREA * (square_of(a) + square_of(b)), lanes_all(LEAST_NORMAL)));
 }
 
-/* Where a leaf is a line, or nearly, the axis that is the farthest from it stands for the shorter of both vectors. */
+/* If a leaf is a line, or nearly, the axis farthest from it replaces the shorter of both vectors. */
 __attribute__((noinline)) static void widen_line(lane_mask line, lanes u[REGISTERS], lanes v[REGISTERS])
 {
   const lane_mask b_longer = square_of(v) > square_of(u);
@@ -241,7 +242,7 @@ __attribute__((noinline)) static void widen_line(lane_mask line, lanes u[REGISTE
   from_coordinates(a, u), from_coordinates(b, v);
 }
 
-/* A net whose middle is a point gets slabs that tell nothing. */
+/* Sets the slabs. They tell nothing if the net's corners tell no direction in its middle. */
 static void set_slabs(lane_net x[REGISTERS], struct lane_slab out[3])
 {
   lanes along_u[REGISTERS], along_v[REGISTERS], normal[1][REGISTERS];
@@ -271,14 +272,14 @@ static void set_slabs(lane_net x[REGISTERS], struct lane_slab out[3])
 
 /* ---- the face ---- */
 
-/* The columns of up to LANES parts, `stride` numbers from one to the next; lanes without a part have the first's. */
+/* The columns of up to LANES parts, `stride` numbers apart; lanes without a part have the first's. */
 static void load_columns(const uint16_t *column, size_t stride, size_t count, lanes out[2])
 {
   for (size_t lane = 0; lane < LANES; lane++)
     for (int side = 0; side < 2; side++) out[side][lane] = column[(lane < count ? lane : 0) * stride + (size_t)side];
 }
 
-/* Nets, boxes along them and Taylor coefficients of `here` parts go to places so many numbers apart. */
+/* Store nets, boxes along them and Taylor coefficients of `here` parts, `stride` or LEAF doubles apart. */
 #ifdef PSCN_ONE_LEAF
 
 LANES_INLINE void store_nets(const struct cut *cut, size_t here, double (*to)[16], size_t stride)
@@ -301,7 +302,7 @@ LANES_INLINE void store_slabs(const struct lane_slab slab[3], size_t here, struc
   }
 }
 
-/* Writes a number too many, over the next one, which is stored later. */
+/* Writes one number too many, over the next one, which is stored later. */
 LANES_INLINE void store_taylor(const struct lane_parts *parts, size_t here, struct leaf *leaves)
 {
   (void)here;

@@ -1,7 +1,7 @@
-/* The numbers of leaves, several at once: a leaf a lane.
+/* The numbers of leaves, several at once: one leaf to a lane.
  *
- * Internal to src/intersect/prepare; leaf.h is the face. leaf_kernel.c is compiled once per instruction set, and all of them
- * make the same bits, of whatever leaves are made together.
+ * Internal to src/intersect/prepare; leaf.h is the interface. leaf_kernel.c is compiled once per instruction set; all
+ * of them make the same bits, whatever leaves are made together.
  */
 #ifndef PSCN_INTERSECT_PREPARE_LEAF_KERNEL_H
 #define PSCN_INTERSECT_PREPARE_LEAF_KERNEL_H
@@ -14,7 +14,7 @@ struct leaf_kernel {
                 struct patch_part out[]);
   /* leaf_slabs, leaf.h. */
   void (*slabs)(const struct model_patch *patch, size_t count, const uint16_t column[][2], struct leaf_slab out[][3]);
-  /* All of a leaf that is doubles but its quadric, and `final`, of leaves of one patch whose columns are set. */
+  /* All doubles of a leaf except its quadric, and `final`, for leaves of one patch whose columns are set. */
   void (*leaves)(const struct model_patch *patch, size_t count, struct leaf leaves[]);
   /* leaf_quadrics, leaf.h. */
   void (*quadrics)(size_t count, struct leaf leaves[]);
@@ -22,7 +22,7 @@ struct leaf_kernel {
 
 extern const struct leaf_kernel leaf_kernel_baseline, leaf_kernel_avx2, leaf_kernel_avx512;
 
-/* For one part or leaf, with AVX2; no quadrics. */
+/* For one part or leaf, with AVX2; makes no quadrics. */
 extern const struct leaf_kernel leaf_kernel_one;
 
 #endif

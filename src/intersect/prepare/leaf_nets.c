@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* From here on as geometry/patch.c does it for one net, to the last bit. `ends`: t may be 1. */
+/* What follows does as geometry/patch.c does for one net, to the last bit. `ends`: t may be 1. */
 LANES_INLINE lanes mix(lanes a, lanes b, lanes t, bool ends)
 {
   const lanes mixed = a + t * (b - a);

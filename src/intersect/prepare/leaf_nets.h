@@ -1,7 +1,7 @@
-/* Nets of several leaves, a leaf a lane: what the sources share that make the numbers of leaves.
+/* Nets of several leaves, one leaf to a lane: shared by the sources that make the numbers of leaves.
  *
- * Internal to src/intersect/prepare; included by sources that are compiled once per instruction set, without contraction and
- * without fused multiply-add, so that every leaf has the same bits.
+ * Internal to src/intersect/prepare; included by sources that are compiled once per instruction set, without
+ * contraction and without fused multiply-add, so that every leaf has the same bits.
  */
 #ifndef PSCN_INTERSECT_PREPARE_LEAF_NETS_H
 #define PSCN_INTERSECT_PREPARE_LEAF_NETS_H
@@ -14,24 +14,24 @@
 #include "intersect/model.h"
 #include "intersect/prepare/registers.h"
 
-/* One of three coordinates, or of any other function of the surface: net[i][j], as in geometry/patch.h. */
+/* One of three coordinates, or any other function of the surface: net[i][j], as in geometry/patch.h. */
 typedef lanes lane_net[4][4];
 
-/* As struct leaf_slab has it. */
+/* As struct leaf_slab. */
 struct lane_slab {
   lanes g[REGISTERS], offset, half;
 };
 
 /* ---- parts ---- */
 
-/* A range of a parameter, from < 1; the whole of [0,1], for all lanes, copies. */
+/* A range of a parameter, from < 1. `whole`: [0,1] on all lanes, so that nets are copied. */
 struct lane_range {
   lanes from, to;
   bool whole;
-  bool ends; /* on some lane at 1 */
+  bool ends; /* on some lane `to` is 1 */
 };
 
-/* leaf_nets.c: the net over these ranges, by blossoms, to the last bit as geometry/patch.c has it. */
+/* leaf_nets.c: the net over these ranges, by blossoms, equal to the last bit to that of geometry/patch.c. */
 #define subnet KERNEL(subnet)
 void subnet(const lane_net net, const struct lane_range *u, const struct lane_range *v, lane_net out);
 
@@ -41,14 +41,14 @@ void subnet_widened(const lane_net net, double margin, lane_net out);
 
 /* ---- Taylor's polynomial ---- */
 
-/* Coefficients about the middle, of a cubic in Bernstein form. */
+/* Coefficients about the middle of a cubic in Bernstein form. */
 LANES_INLINE void taylor(lanes b0, lanes b1, lanes b2, lanes b3, lanes out[4])
 {
   out[0] = ((b0 + b3) + 3 * (b1 + b2)) / 8, out[1] = 0.75 * ((b3 - b0) + (b2 - b1));
   out[2] = 1.5 * ((b0 + b3) - (b1 + b2)), out[3] = (b3 - b0) - 3 * (b2 - b1);
 }
 
-/* That of s^i t^j at out[4 * i + j]. */
+/* The coefficient of s^i t^j goes to out[4 * i + j]. */
 LANES_INLINE void taylor_net(const lane_net x, lanes out[16])
 {
   lanes rows[4][4], column[4];
@@ -64,7 +64,8 @@ LANES_INLINE void taylor_net(const lane_net x, lanes out[16])
 enum { LEAF = sizeof(struct leaf) / sizeof(double) };
 static_assert(sizeof(struct leaf) == LEAF * sizeof(double), "leaves are so many doubles apart");
 
-/* Writes value[k] of the first lanes, `here` of them, to to[k], and `stride` doubles on for each lane; count is at least 4. */
+/* Writes value[k] of the first `here` lanes to to[k], each lane `stride` doubles behind the one before; count is at
+ * least 4. */
 LANES_INLINE void lanes_scatter(const lanes value[], int count, size_t here, double *to, size_t stride)
 {
   for (int k = 0; k < count && here == LANES; k += 4) {
@@ -75,7 +76,7 @@ LANES_INLINE void lanes_scatter(const lanes value[], int count, size_t here, dou
     for (int k = 0; k < count; k++) to[lane * stride + (size_t)k] = value[k][lane];
 }
 
-/* Reads what that writes. Lanes without any have the first's. */
+/* Reads what lanes_scatter writes. Lanes from `here` on get the first's. */
 LANES_INLINE void lanes_gather(lanes value[], int count, size_t here, const double *from, size_t stride)
 {
   for (size_t lane = 0; lane < LANES; lane++)

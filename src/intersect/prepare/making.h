@@ -14,19 +14,19 @@ struct making {
   struct model *model;
   const struct team *team;
   struct split_limit limit;
-  bool keep;               /* patches, and leaves; else they are only looked at */
-  struct arena **arenas;   /* one a thread: of what is kept, patches first, then leaves */
-  size_t part, part_count; /* patches in a part, which threads take at once */
-  size_t *leaves;          /* in each part; then before it */
+  bool keep;               /* whether patches and leaves are kept */
+  struct arena **arenas;   /* one a thread, for what is kept: patches first, then leaves */
+  size_t part, part_count; /* patches in a part; threads take whole parts */
+  size_t *leaves;          /* in each part; later before it */
   struct crowd *crowds;    /* the patches', while crowd.c finds them */
-  struct bvh_box *boxes;   /* where leaves are not kept, as much room as boxes along them take */
+  struct bvh_box *boxes;   /* if leaves are not kept, with room for boxes along them */
   atomic_size_t taken;     /* parts */
 };
 
 /* How many leaves a patch is cut into. */
 static inline size_t cut_leaves(const struct model_cut *cut) { return (size_t)cut->split[0] * cut->split[1]; }
 
-/* The patches [*begin, *end) of a part that nobody has taken; false where there is none. */
+/* Takes a part that nobody has taken: its patches are [*begin, *end). False if there is none. */
 static inline bool making_take_part(struct making *m, size_t *number, size_t *begin, size_t *end)
 {
   *number = atomic_fetch_add(&m->taken, 1);
@@ -35,7 +35,7 @@ static inline bool making_take_part(struct making *m, size_t *number, size_t *be
   return *number < m->part_count;
 }
 
-/* Has all parts done, by the team where there are so many patches or leaves that it is worth it. */
+/* Has all parts done, by the team if there are enough patches or leaves. */
 static inline enum status making_do_parts(struct making *m, team_work *work, size_t count)
 {
   atomic_store(&m->taken, 0);

@@ -1,5 +1,5 @@
-/* Preparing a scene: its frame, how far patches may be cut, twins, neighbours, what copies share; the leaves are made and
- * put in order by hierarchy.c. */
+/* Prepares a scene: its frame, how far patches may be cut, twins, neighbours, and what copies share. hierarchy.c makes
+ * the leaves and puts them in order. */
 #include "intersect/model.h"
 
 #include <math.h>
@@ -16,9 +16,9 @@
 
 enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
 
-/* One run of Newton's method does for the whole of such a leaf for all but grazing rays. Where there would be very many, and
- * where they are made when a ray comes to them, fewer that turn farther are better; much farther, and rays under a low sun pay
- * for it. */
+/* On a leaf that turns by AUTO_TURN, one run of Newton's method is enough for all but grazing rays. If there would be
+ * very many leaves, and if they are made when a ray comes to them, fewer that turn farther are better; much farther,
+ * and rays under a low sun pay for it. */
 #define AUTO_TURN 0.25
 #define COARSE_TURNS \
   {                  \
@@ -26,25 +26,25 @@ enum { AUTO_SPLIT_MAX = 16, BENT_SPLIT_MAX = 32 };
   }
 #define BOXES_TURN 1.0
 
-/* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory
- * and time to make. The limit on the split is halved until they fit. Of patches that are bent all over there may be more. */
+/* Leaves of all patches with `split auto` together: large scenes have small patches, and their leaves cost memory and
+ * time to make. The limit on the split is halved until they fit. If patches are bent all over there may be more
+ * leaves. */
 enum { AUTO_LEAVES_MAX = 1 << 18, BENT_LEAVES_MAX = 1 << 19 };
 
-/* As long as that leaves two of them a side, they are kept. */
+/* Patches are kept as long as they can have two leaves a side. */
 enum { KEPT_PATCHES_MAX = AUTO_LEAVES_MAX / 4 };
 
-/* The same of objects that are copied, whose leaves are kept, where those of other patches are not. */
+/* The limit for objects that are copied, if leaves of other patches are not kept; theirs are. */
 enum { OBJECT_LEAVES_MAX = 1 << 20 };
 
-/* Leaves that are not kept are no more than their boxes, an eighth of a leaf. With so many columns a side, or the square of
- * that along the long side of a slender patch, a patch takes a kilobyte at most. */
+/* Leaves that are not kept take only their boxes, an eighth of a leaf. With this many columns a side, or its square
+ * along the long side of a slender patch, a patch takes a kilobyte at most. */
 enum { BOXES_SPLIT_MAX = 2 };
 
-/* Of a scene that reaches farther not even its own size is a number that can be squared, or doubled: nothing is
- * proven. */
+/* In a scene that reaches farther, sums and products of its own size overflow: nothing is proven. */
 #define LARGEST_SIZE 0x1p1020
 
-/* The frame of the hierarchy, whose boxes are not made yet. */
+/* Sets the frame of the hierarchy, whose boxes are not made yet. */
 static void set_frame(struct model *model)
 {
   const struct scene *scene = model->scene;
@@ -75,7 +75,7 @@ static double most_leaves(size_t patch_count, size_t leaves_max)
   return patch_count > 0 ? (double)leaves_max / (double)patch_count : 0;
 }
 
-/* An empty model with its frame. */
+/* A model with its frame, otherwise empty. */
 static struct model *model_begin(const struct scene *scene)
 {
   struct model *model = memory_alloc(1, sizeof *model);
@@ -105,7 +105,8 @@ enum status model_create_object(const struct scene *nets, const struct team *tea
   return status;
 }
 
-/* Marks patches that lie on earlier ones; not where roots as their solvers find them are the answers. */
+/* Marks patches that lie on earlier ones; not if nothing is proven, as where the solvers' bare roots are the
+ * answers. */
 static enum status mark_twins(struct model *model)
 {
   const struct scene *scene = model->scene;
@@ -117,7 +118,7 @@ static enum status mark_twins(struct model *model)
   return status;
 }
 
-/* Finds planes that patches lie in; not there either. */
+/* Finds the planes that patches lie in; not then, either. */
 static enum status mark_planes(struct model *model)
 {
   const struct scene *scene = model->scene;

@@ -9,27 +9,27 @@
 #include "intersect/exact/exact.h"
 #include "intersect/prepare/leaf.h"
 
-/* A declared control point carries half a unit in the last place of its decimal form and a few of its transforms: a
- * patch whose excess over a lower degree is no more than this, relative to its largest coordinate, was meant to be
- * of that degree. */
+/* A declared control point carries half a unit in the last place from its decimal form and a few from its transforms. A
+ * patch whose excess over a lower degree is at most this, relative to its largest coordinate, was meant to be of that
+ * degree. */
 #define DEGREE_SLACK (8 * UNIT_ROUNDOFF)
 
-/* A patch this many times as long as wide is slender, and up to SLENDER_MOST times: it takes the root of that many leaves along
- * it to make it good. All of them may lie in the plane of a ray, and exact.h must have room for them. */
+/* A slender patch is SLENDER to SLENDER_MOST times as long as wide. The root of that many leaves along it make it good.
+ * All of them may lie in the plane of a ray, and exact.h must have room for them. */
 #define SLENDER 16.0
 #define SLENDER_MOST ((double)SLENDER_SPLIT_MAX * SLENDER_SPLIT_MAX)
 enum { SLENDER_SPLIT_MAX = EXACT_REGIONS_MAX / 2 };
 
-/* A rod's side is a patch this many times as long as wide that bends across, as a pipe's quarter does. It is cut into up to so
- * many leaves either way: along, too, for the box of a long leaf is mostly air. Choices of speed. */
+/* A rod's side is a patch this many times as long as wide that bends across, as a pipe's quarter does. It is cut into
+ * up to ROD_SPLIT_MAX leaves either way; along, too, because the box of a long leaf is mostly air. Choices of speed. */
 #define ROD 4.0
 enum { ROD_SPLIT_MAX = 2 };
 
 /* A patch's frame is no smaller than this, so that its reciprocal and all products with it are normal numbers. */
 #define LEAST_SCALE 0x1p-1000
 
-/* The patch in its frame; `rest` gets what rounding its net takes away, *rounded whether that is anything. Returns the
- * largest |coordinate| in the scene. */
+/* Sets the patch's frame and net. `rest` gets what rounding the net takes away, *rounded whether that is anything.
+ * Returns the largest |coordinate| in the scene. */
 static double patch_frame(const double P[4][4][3], double scene_size, struct model_patch *out, double rest[3][4][4],
                           bool *rounded)
 {
@@ -41,7 +41,7 @@ static double patch_frame(const double P[4][4][3], double scene_size, struct mod
   }
   if (scene_size > 0)
     extent = real_max(extent, real_max(LEAST_EXTENT * (largest > 0 ? largest : scene_size), LEAST_SCALE));
-  int exponent = 0;                             /* all of the scene is the origin: any scale will do */
+  int exponent = 0;                             /* if all of the scene is the origin, any scale will do */
   if (extent > 0) frexp(extent, &exponent);     /* extent < 2^exponent */
   out->scale = real_power_of_two(exponent + 1); /* the center may be a grain off the middle */
   for (int k = 0; k < 3; k++) {
@@ -52,8 +52,9 @@ static double patch_frame(const double P[4][4][3], double scene_size, struct mod
   return largest;
 }
 
-/* Whether nearly all leaves of a patch that is cut into `split` a side turn by more than `turn`, as some larger parts of it
- * tell. Where only some do, more leaves cost all rays more than they save those that meet these. Choices of speed. */
+/* Whether nearly all leaves of a patch that is cut into `split` a side turn by more than `turn`, judged by some larger
+ * parts of it. If only some do, more leaves cost all rays more than they save the rays that meet these. Choices of
+ * speed. */
 enum { PARTS_MOST = 8 };
 #define NEARLY_ALL 0.84
 
@@ -71,9 +72,9 @@ static bool turns_far(const struct model_patch *patch, double turn, int split)
   return far > NEARLY_ALL * all;
 }
 
-/* How many leaves make every leaf nearly flat beside its long side: second derivatives fall with the square of that number, first
- * ones with the number. A slender patch is cut along its long side until its leaves turn as little as the short side wants or are no
- * longer slender. */
+/* How many leaves make every leaf nearly flat relative to its long side: second derivatives fall with the square of
+ * that number, first ones with the number. A slender patch is cut along its long side until its leaves turn as little
+ * as the short side demands or are no longer slender. */
 static void split_along(const struct model_patch *patch, const struct split_limit *limit,
                         const struct patch_part *whole, uint16_t split[2])
 {
@@ -97,7 +98,8 @@ static void split_along(const struct model_patch *patch, const struct split_limi
   split[1] = split[0];
 }
 
-/* How many a side a rod's side takes at least, for what bends across it turns beside its short side; 1 where it is none. */
+/* How many leaves a side a rod's side needs at least, because what bends across it turns relative to its short side; 1
+ * for other patches. */
 static int rod_split(const struct split_limit *limit, const struct patch_part *whole)
 {
   const int side = whole->first[1] > whole->first[0];
@@ -107,8 +109,8 @@ static int rod_split(const struct split_limit *limit, const struct patch_part *w
   return split;
 }
 
-/* A cone's side ends in a pole and bends across the way there: it is cut into so many leaves on that way at least, for on a shorter
- * one at the pole more roots are alone. A choice of speed. */
+/* A cone's side ends in a pole and bends across the way there. It is cut into at least this many leaves on that way,
+ * because in a shorter leaf at the pole more roots are alone. A choice of speed. */
 enum { CONE_SPLIT = 4 };
 
 static void cone_split(const struct model_patch *patch, const struct split_limit *limit, const struct patch_part *whole,
@@ -134,7 +136,7 @@ static void auto_split(const struct model_patch *patch, const struct split_limit
   cone_split(patch, limit, &whole, split);
 }
 
-/* What the patch's solver does on lanes: the whole method as it is by default, or nothing. */
+/* How the patch's solver works on lanes: with the whole method as it is by default, or not at all. */
 static enum solver_lanes lanes_of(const struct method *s)
 {
   const bool all = s->basis == BASIS_BERNSTEIN && s->resultant == RESULTANT_BEZOUT &&
@@ -145,7 +147,7 @@ static enum solver_lanes lanes_of(const struct method *s)
 
 bool patch_on_lanes(const struct method *method) { return lanes_of(method) != SOLVER_LANES_NONE; }
 
-/* All but what its cut says. Returns the largest |coordinate| of a control point. */
+/* Sets all but the cut. Returns the largest |coordinate| of a control point. */
 static double patch_begin(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4])
 {
   static const double none[3][4][4];

@@ -10,11 +10,11 @@
 #include "geometry/control_points.h"
 #include "intersect/model.h"
 
-/* A patch smaller than this part of its coordinates, or of the scene's where these are zeros, is framed as if it were that
- * large: one that is a single point has no size of its own, and a frame too small would overflow. */
+/* A patch smaller than this part of its coordinates, or of the scene's if these are zeros, is framed as if it were that
+ * large: a single point has no size of its own, and a frame too small would overflow. */
 #define LEAST_EXTENT 0x1p-100
 
-/* Makes `box` the least one that holds a patch's control points, too. */
+/* Grows `box` to hold a patch's control points, too. */
 static inline void box_add_net(struct bvh_box *box, double P[4][4][3])
 {
   double lo[3], hi[3];
@@ -25,21 +25,21 @@ static inline void box_add_net(struct bvh_box *box, double P[4][4][3])
 /* Whether patches with this method are tried on lanes of rays at once. */
 bool patch_on_lanes(const struct method *method);
 
-/* The patch of the scene; its rest, where it has one, in `rest`. */
+/* Makes the patch of the scene; its rest, if it has one, in `rest`. */
 void patch_make(const struct model *model, uint32_t index, struct model_patch *out, double rest[3][4][4]);
 
-/* The same the first time: unless it is copied, finds out degree and split, and sets its cut. */
+/* The same the first time: unless the patch is copied, also finds degree and split, and sets its cut. */
 void patch_make_first(const struct model *model, uint32_t index, const struct split_limit *limit,
                       struct model_patch *out, double rest[3][4][4]);
 
-/* Sets split and cut of a patch that is not copied once more, where `split` is auto. */
+/* Sets split and cut anew, for a patch that is not copied, if `split` is auto. */
 void patch_cut_again(const struct model *model, uint32_t index, const struct split_limit *limit,
                      struct model_patch *patch);
 
-/* Sets them to what it is cut into. */
+/* Sets them to this split. */
 void patch_cut_as(const struct model *model, uint32_t index, const uint16_t split[2], struct model_patch *patch);
 
-/* The area of the patch's control net in its frame: that of the patch, about, and hardly ever less. */
+/* The area of the patch's control net in its frame: about that of the patch, and hardly ever less. */
 double patch_net_area(const struct model_patch *patch);
 
 #endif

@@ -1,7 +1,7 @@
 /* The quadric that a leaf lies along. See struct leaf_quadric (model.h).
  *
  * Compiled once per instruction set, without contraction and without fused multiply-add. Parameters are those of a net,
- * s and t within [-1/2,1/2], of the leaf or the leaf widened: nothing that is kept depends on how a parameter is scaled.
+ * of the leaf or the leaf widened, s and t within [-1/2,1/2]: no result depends on how a parameter is scaled.
  */
 #include <math.h>
 
@@ -10,7 +10,7 @@
 /* z, y1 and y2 of struct leaf_quadric, as nets. */
 enum { Z, Y1, Y2 };
 
-/* Where taylor_net has what goes with s, t, s^2 ... */
+/* Where taylor_net puts the coefficients of s, t, s^2 ... */
 enum { S = 4, T = 1, SS = 8, ST = 5, TT = 2, SSS = 12, SST = 9, STT = 6, TTT = 3 };
 
 static void set_forms(const lane_net x[3], const struct lane_slab slab[3], lane_net out[3])
@@ -24,13 +24,13 @@ static void set_forms(const lane_net x[3], const struct lane_slab slab[3], lane_
   }
 }
 
-/* A choice of what is small, of which rest_bounds finds out how small it is: second derivatives in the middle of the leaf as
- * the surface has them, and of what third ones leave of value and derivatives the linear part that halves it. */
+/* Chooses a quadric whose rest is small; rest_bounds finds out how small. It has the surface's second derivatives in
+ * the middle of the leaf, and the linear part that halves what third derivatives leave of value and derivatives. */
 static void fit(const lane_net of[3], lanes c[6])
 {
   lanes z[16], p[16], q[16];
   taylor_net(of[Z], z), taylor_net(of[Y1], p), taylor_net(of[Y2], q);
-  /* (s,t) is k (y1,y2) but for terms of higher order. */
+  /* (s,t) is k (y1,y2) up to terms of higher order. */
   const lanes inverse = 1 / (p[S] * q[T] - p[T] * q[S]);
   const lanes k[2][2] = {{q[T] * inverse, -p[T] * inverse}, {-q[S] * inverse, p[S] * inverse}};
   lanes along_1 = k[0][0] * z[S] + k[1][0] * z[T], along_2 = k[0][1] * z[S] + k[1][1] * z[T];
@@ -52,7 +52,8 @@ static void fit(const lane_net of[3], lanes c[6])
   c[1] = along_1 - 2 * c[3] * p[0] - c[4] * q[0], c[2] = along_2 - c[4] * p[0] - 2 * c[5] * q[0];
 }
 
-/* Adds or takes away, in Bernstein form of degree (6,6) but for the factor C(6,i) C(6,j), the product of two bicubics. */
+/* Adds, or with sign -1 subtracts, the product of two bicubics, in Bernstein form of degree (6,6) times C(6,i)
+ * C(6,j). */
 static void add_product(double sign, const lane_net a, const lane_net b, lanes out[7][7])
 {
   static const double binomial[4] = {1, 3, 3, 1};
@@ -64,7 +65,7 @@ static void add_product(double sign, const lane_net a, const lane_net b, lanes o
   }
 }
 
-/* What is left of z: in Bernstein form of degree (6,6). */
+/* z minus the quadric, in Bernstein form of degree (6,6). */
 static void rest(const lane_net of[3], const lanes c[6], lanes out[7][7])
 {
   static const double binomial[7] = {1, 6, 15, 20, 15, 6, 1};
@@ -83,7 +84,8 @@ static void rest(const lane_net of[3], const lanes c[6], lanes out[7][7])
 
 LANES_INLINE lanes largest(lanes a, lanes b) { return lanes_max(lanes_abs(a), b); }
 
-/* Bounds on a form: its value, its smallest derivative by its own parameter, S or T, its largest by the other, and by either. */
+/* Bounds on a form: its value, its smallest derivative by its own parameter, S or T, its largest by the other, and by
+ * either. */
 struct form_bounds {
   lanes most, least, cross, steepest;
 };
@@ -100,17 +102,18 @@ static struct form_bounds form_bounds(const lane_net y, int own)
   return b;
 }
 
-/* With E = QUADRIC_ERROR: coefficients of the exact patch's forms are off from the net's by E at most, those of the widened
- * leaf, which are mixed six times with weights of 1.125 and -0.125, by 3.9 E, its derivatives by 6 times that. A ray's forms are
- * off by 3 E. All roundings here, and those of a ray's forms, of size 4 at most, in the quadric, are far less. */
+/* With E = QUADRIC_ERROR: coefficients of the exact patch's forms differ from the net's by at most E; those of the
+ * widened leaf, which are mixed six times with weights of 1.125 and -0.125, by 3.9 E; its derivatives by 6 times that.
+ * A ray's forms are off by 3 E. All roundings here, and those of a ray's forms, of size 4 at most, in the quadric, are
+ * far less. */
 #define FORM_SLACK (36 * QUADRIC_ERROR)
 
-/* Forms are told to turn into each other no more than so: the area of a step in both is this part of the product of its sides or
- * more, and what rounds it, and what is made of it, is within the growth. */
+/* A bound on how far the forms turn into each other: the area of a step in both must be at least this part of the
+ * product of its sides. The growth covers the rounding of the area and of what is made of it. */
 #define LEAST_SHARE 0x1p-10
 #define AREA_GROWTH (1 + 0x1p-30)
 
-/* Of what is left of z: its range, by how much it turns, and what QUADRIC_ERROR may do to all of that and to a derivative along a
+/* Of the rest: its range, how much it turns, and what QUADRIC_ERROR may do to all of that and to a derivative along a
  * ray. */
 struct rest_bounds {
   lanes low, high, turn[2], slack;
@@ -129,13 +132,13 @@ static void rest_bounds(const lane_net of[3], const lanes c[6], struct rest_boun
   }
   const struct form_bounds one = form_bounds(of[Y1], S);
   const struct form_bounds two = form_bounds(of[Y2], T);
-  /* How much z less the quadric moves where forms do; the same of its derivatives. */
+  /* How much z minus the quadric moves if the forms do; then the same of its derivatives. */
   const lanes square_1 = lanes_abs(c[3]), mixed = lanes_abs(c[4]), square_2 = lanes_abs(c[5]);
   const lanes moves = 1 + (lanes_abs(c[1]) + 2 * square_1 * one.most + mixed * two.most) +
                       (lanes_abs(c[2]) + mixed * one.most + 2 * square_2 * two.most);
   out->slack = FORM_SLACK * (moves + 2 * (square_1 + mixed + square_2) * (1 + one.steepest + two.steepest));
   by_s += out->slack, by_t += out->slack;
-  /* From one point to another y1 and y2 change by their derivatives, averaged on the way: a matrix that has an inverse. */
+  /* From one point to another y1 and y2 change by their derivatives, averaged on the way: an invertible matrix. */
   const lanes least_1 = one.least - FORM_SLACK, least_2 = two.least - FORM_SLACK;
   const lanes cross_1 = one.cross + FORM_SLACK, cross_2 = two.cross + FORM_SLACK;
   const lanes area = least_1 * least_2 - cross_1 * cross_2, inverse = AREA_GROWTH / area;
@@ -144,7 +147,7 @@ static void rest_bounds(const lane_net of[3], const lanes c[6], struct rest_boun
   out->turn[1] = lanes_select(sound, (by_s * cross_1 + by_t * least_1) * inverse, lanes_all(INFINITY));
 }
 
-/* As struct leaf_quadric has it. */
+/* As struct leaf_quadric. */
 struct lane_quadric {
   lanes c[6], off, turn[2], turn_wide[2], slack;
 };
@@ -163,7 +166,7 @@ static void quadric_set(const lane_net x[3], const lane_net wide[3], const struc
   out->c[0] += 0.5 * (leaf.low + leaf.high);
   out->off = 0.5 * (leaf.high - leaf.low) + leaf.slack, out->slack = around.slack;
   for (int k = 0; k < 2; k++) out->turn[k] = leaf.turn[k], out->turn_wide[k] = around.turn[k];
-  /* What is not a number, or where no forms are, tells nothing. */
+  /* Where something is not a number, or there are no forms, the quadric tells nothing. */
   const lane_mask tells = (out->off < 4) & (out->slack < 4);
   for (int n = 0; n < 6; n++) out->c[n] = lanes_select(tells, out->c[n], lanes_all(0));
   out->off = lanes_select(tells, out->off, lanes_all(INFINITY));

@@ -1,8 +1,8 @@
-/* Vectors of three coordinates while the numbers of leaves are made.
+/* Vectors of three coordinates for making the numbers of leaves.
  *
- * Internal to src/intersect/prepare. A coordinate has a register, and a lane is a leaf; with PSCN_ONE_LEAF there is one leaf, and its
- * coordinates lie side by side in one register of AVX2, the fourth number being 0. Both do the same operations on each coordinate in
- * the same order, without contraction, so that both make the same bits.
+ * Internal to src/intersect/prepare. Each coordinate has a register, and each lane is a leaf. With PSCN_ONE_LEAF there
+ * is one leaf, whose coordinates are side by side in one AVX2 register, the fourth number being 0. Both do the same
+ * operations on each coordinate in the same order, without contraction, so that both make the same bits.
  */
 #ifndef PSCN_INTERSECT_PREPARE_REGISTERS_H
 #define PSCN_INTERSECT_PREPARE_REGISTERS_H
@@ -23,10 +23,10 @@ LANES_INLINE void from_coordinates(const lanes x[3], lanes out[REGISTERS])
   out[0] = (lanes){x[0][0], x[1][0], x[2][0], 0};
 }
 
-/* What register k has of a net. */
+/* What register k holds of a net. */
 LANES_INLINE void load_net(const double x[3][16], int k, lanes out[4][4])
 {
-  (void)k; /* there is one */
+  (void)k; /* there is only one */
   for (int i = 0; i < 4; i++) {
     for (int c = 0; c < 3; c++) out[i][c] = _mm256_loadu_pd(&x[c][4 * i]);
     out[i][3] = lanes_all(0);
@@ -135,7 +135,7 @@ LANES_INLINE void net_range(const lanes g[REGISTERS], lanes x[REGISTERS][4][4], 
 
 #endif
 
-/* In all lanes of one leaf. */
+/* These two in all lanes, also with one leaf. */
 LANES_INLINE lanes coordinates_sum(const lanes v[REGISTERS])
 {
   return coordinate(v, 0) + coordinate(v, 1) + coordinate(v, 2);

@@ -8,13 +8,13 @@
 #include "base/real.h"
 #include "geometry/vector.h"
 
-/* Boxes no larger than this part of a frame have one of their own where all of them lie within that part: a float is
- * then still some thousand times finer than they are. Choices of speed. */
+/* Boxes no larger than this part of a frame get a tree of their own if all of them lie within SMALL_PART of it: a float
+ * is then still some thousand times finer than they are. Choices of speed. */
 #define SMALL_BOX 0x1p-8
 #define SMALL_PART 0x1p-6
 
-/* Where they do not, those that are no larger than that, of which floats tell little (what is added to a box is 2^-21 of the
- * frame), have several: so many or more that lie within such a part. */
+/* If they do not, boxes no larger than this, of which floats tell little (2^-21 of the frame is added to a box), get
+ * several trees: one for each GROUP_LEAST or more that lie within such a part. */
 #define TINY_BOX 0x1p-16
 enum { GROUP_LEAST = 8 };
 
@@ -25,13 +25,13 @@ static double box_extent(const struct bvh_box *box)
   return extent;
 }
 
-/* Boxes that have a tree of their own: index[first .. first + count - 1]. */
+/* Boxes that get their own tree: index[first .. first + count - 1]. */
 struct box_group {
   size_t first, count;
   struct bvh_box hull;
 };
 
-/* The boxes of a tree, and those of them that are set apart. */
+/* The boxes of a tree, and the groups of them that are set apart. */
 struct grouping {
   const struct bvh_box *boxes;
   uint32_t *index;
@@ -55,7 +55,7 @@ static struct bvh_box hull_of(const struct grouping *g, size_t first, size_t cou
   return hull;
 }
 
-/* Moves boxes larger than that to the front; returns how many there are. */
+/* Moves boxes larger than `extent` to the front; returns how many there are. */
 static size_t larger_first(struct grouping *g, size_t first, size_t count, double extent)
 {
   size_t large = 0;
@@ -67,7 +67,7 @@ static size_t larger_first(struct grouping *g, size_t first, size_t count, doubl
   return large;
 }
 
-/* Those whose centers are on the lower side of that place, first; returns how many there are. */
+/* Moves boxes whose centers are below `place` on the axis to the front; returns how many there are. */
 static size_t lower_first(struct grouping *g, const struct box_group *all, int axis, double place)
 {
   size_t lower = 0;
@@ -79,8 +79,8 @@ static size_t lower_first(struct grouping *g, const struct box_group *all, int a
   return lower;
 }
 
-/* Finds the groups among these boxes, which are tiny, by halving the space that they are in: both halves have some, for the
- * hull is far larger than the boxes. */
+/* Finds the groups among these boxes, which are tiny, by halving the space that they fill. Both halves have some,
+ * because the hull is far larger than the boxes. */
 static void find_groups(struct grouping *g, size_t first, size_t count)
 {
   if (count < GROUP_LEAST) return;
@@ -97,7 +97,7 @@ static void find_groups(struct grouping *g, size_t first, size_t count)
   find_groups(g, first + lower, count - lower);
 }
 
-/* Moves the groups, which are in their order, behind all other boxes; returns how many these are. */
+/* Moves the groups, which are in order, behind all other boxes; returns how many these are. */
 static size_t groups_last(struct grouping *g, size_t count)
 {
   uint32_t *moved = memory_alloc(count, sizeof *moved);
@@ -117,7 +117,7 @@ static size_t groups_last(struct grouping *g, size_t count)
   return stay;
 }
 
-/* Finds what is to be set apart, and moves it to the end; returns how many stay. */
+/* Finds the groups to set apart, and moves them to the end; returns how many boxes stay. */
 static size_t set_apart(struct grouping *g, size_t count)
 {
   const size_t large = larger_first(g, 0, count, SMALL_BOX * g->frame);
@@ -129,7 +129,7 @@ static size_t set_apart(struct grouping *g, size_t count)
   const size_t larger = large + larger_first(g, large, small.count, TINY_BOX * g->frame);
   find_groups(g, larger, count - larger);
   if (g->count == 1 && g->groups->count == count)
-    g->count = 0; /* all of them: the frame is as fine as doubles tell already */
+    g->count = 0; /* all of them: the frame is as fine as doubles can tell */
   return g->count > 0 ? groups_last(g, count) : count;
 }
 
@@ -141,7 +141,7 @@ void tree_box(const double middle[3], double frame, struct bvh_box *box)
   }
 }
 
-/* What the trees are built from: all boxes, as tree_about has them. */
+/* What the trees are built from: all boxes, given less tree_about. */
 struct building {
   struct arena *arena;
   struct bvh_box *boxes;
@@ -150,7 +150,7 @@ struct building {
   const struct team *team;
 };
 
-/* The leaves of the hierarchy get the numbers of their boxes; its last boxes are the hulls of those set apart, if any. */
+/* Gives the leaves of the hierarchy the numbers of their boxes. Its last boxes are the hulls of groups, if any. */
 static void renumber_leaves(const struct building *b, struct bvh *bvh, const uint32_t index[], size_t stay)
 {
   for (size_t n = 0; n < bvh->node_count; n++) {
@@ -166,11 +166,11 @@ static void renumber_leaves(const struct building *b, struct bvh *bvh, const uin
 static enum status build(const struct building *b, int depth, uint32_t index[], size_t count, const double middle[3],
                          double frame, struct model_tree *out);
 
-/* The hierarchy of the boxes that stay in that frame, and of the groups' hulls. */
+/* Builds the hierarchy of the boxes that stay in that frame, and of the groups' hulls. */
 static enum status build_outer(const struct building *b, const struct grouping *g, size_t stay, const double middle[3],
                                struct model_tree *out)
 {
-  const bool all = stay == b->count; /* nobody else wants the boxes: no copies of them */
+  const bool all = stay == b->count; /* nobody else needs the boxes: no copies of them */
   struct bvh_box *own = all ? b->boxes : memory_alloc(stay + g->count + 1, sizeof *own);
   if (!own) return STATUS_LIMIT;
   for (size_t k = 0; k < stay; k++) {
@@ -185,7 +185,7 @@ static enum status build_outer(const struct building *b, const struct grouping *
   return status;
 }
 
-/* The trees of the groups. */
+/* Builds the trees of the groups. */
 static enum status build_inner(const struct building *b, int depth, const struct grouping *g, struct model_tree *out)
 {
   out->inner = arena_alloc(b->arena, g->count, sizeof *out->inner);
@@ -203,8 +203,8 @@ static enum status build_inner(const struct building *b, int depth, const struct
   return status;
 }
 
-/* A tree of boxes[index[0..count-1]] in a frame of size `frame` about `middle`, which is given as they are, within `depth`
- * others. */
+/* Builds a tree of boxes[index[0..count-1]], within `depth` others, in a frame of size `frame` about `middle`, which is
+ * given as they are. */
 static enum status build(const struct building *b, int depth, uint32_t index[], size_t count, const double middle[3],
                          double frame, struct model_tree *out)
 {
@@ -235,7 +235,7 @@ enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count
 
 /* ---- crossings ---- */
 
-/* The area of a leaf: of the face across its normal of the box along it. */
+/* The area of a leaf: that of the face, across its normal, of the box along it. */
 static double leaf_area(const struct oriented_box *box)
 {
   double g[3][3], normal[3];
@@ -247,7 +247,7 @@ static double leaf_area(const struct oriented_box *box)
   return isfinite(area) ? area : 0;
 }
 
-/* Of what is in a leaf child's box, times its surface. */
+/* The crossings in a leaf child's box, times the surface of the box. */
 static double crossings_in(const struct model *model, const struct model_tree *tree, uint32_t box, double surface)
 {
   if (model_is_tree(model, box)) return model_inner(model, tree, box)->crossings * surface;

@@ -10,22 +10,22 @@
 #include "base/arena.h"
 #include "intersect/model.h"
 
-/* A frame no smaller than this: its reciprocal times a direction is finite. */
+/* No frame is smaller than this, so that its reciprocal times a direction is finite. */
 #define LEAST_FRAME 0x1p-1000
 
-/* What boxes are given about, in coordinate k of the scene: the scene's own zero, for doubles are finest there, and what is tiny
- * next to the whole would be rounded away about the middle of that; of a scene that lies far from its zero the middle, next to
- * which all differences are exact. */
+/* The coordinate k of the scene about which boxes are given. It is the scene's zero, where doubles are finest: about
+ * the middle of the scene, what is tiny next to the whole would be rounded away. In a scene far from its zero it is the
+ * middle, near which all differences are exact. */
 static inline double tree_about(const struct model_tree *whole, int k)
 {
   return fabs(whole->origin[k]) > 4 * whole->frame ? whole->origin[k] : 0;
 }
 
-/* The box about `middle`, in a frame of that size: wider by what rounding it may do. */
+/* Takes the box to a frame of that size about `middle`, widened by what that may round. */
 void tree_box(const double middle[3], double frame, struct bvh_box *box);
 
-/* Builds over boxes[0..count), a model's leaves' and then its copies', which are used up: in the scene less tree_about, over the
- * frame that the tree has already. STATUS_LIMIT where memory is short, or threads are; then there may be nodes to free. */
+/* Builds over boxes[0..count), a model's leaves' and then its copies', given less tree_about, in the frame that the
+ * tree has already. Uses the boxes up. STATUS_LIMIT if memory or threads are short; then there may be nodes to free. */
 enum status tree_build(struct arena *arena, struct bvh_box boxes[], size_t count, const struct team *team,
                        struct model_tree *tree) STATUS_MUST_CHECK;
 
@@ -37,9 +37,9 @@ static inline double box_surface(const struct bvh_box *box)
   return 2 * (d[0] * d[1] + d[1] * d[2] + d[2] * d[0]);
 }
 
-/* Sets `crossings` of the model's tree and of those in it, when boxes along leaves and the trees of objects are there: a convex
- * body of surface S has 2 A / S of them, where A is the area of what is in it (Crofton's formula). Of leaves whose boxes tell
- * nothing there is none. */
+/* Sets `crossings` of the model's tree and of those in it, once boxes along leaves and the objects' trees exist. A line
+ * through a convex body of surface S makes 2 A / S of them on average, where A is the area of what is in it (Crofton's
+ * formula). Leaves whose boxes tell nothing count as none. */
 void tree_set_crossings(struct model *model);
 
 /* Frees the nodes of this tree and of those in it. */
