@@ -1,4 +1,4 @@
-/* What becomes of a ray. See explain.h. */
+/* Tells what becomes of a ray. See explain.h. */
 #include "intersect/explain.h"
 
 #include <math.h>
@@ -8,13 +8,13 @@
 #include "intersect/local_ray.h"
 #include "intersect/method.h"
 
-/* Somebody is told. */
+/* The listener, and the candidate under way. */
 struct explainer {
   explain_listener *tell;
   void *context;
-  struct intersect_counts before; /* of the candidate that is under way */
+  struct intersect_counts before; /* at the start of the candidate */
   double t_before;
-  bool warmed; /* `warm` holds what the candidate's solver was to start from */
+  bool warmed; /* `warm` holds the warm start of the candidate's solver */
   struct solver_warm warm;
   struct explained_candidate story;
 };
@@ -39,7 +39,7 @@ void explain_before(struct tracer *tracer, const struct model *model, const stru
   if (warm != NULL) explainer->warm = *warm;
 }
 
-/* The places on the ray of the points that are offered. */
+/* The positions along the ray of the points that are offered. */
 static void place_points(const struct local_ray *local, const double w[16], const struct explained_ray *ray,
                          struct explained_candidate *story)
 {
@@ -53,7 +53,7 @@ static void place_points(const struct local_ray *local, const double w[16], cons
   }
 }
 
-/* The leaf, its a and b, and what the solver makes of them where it has not been told already. */
+/* The leaf, its a and b, and what the solver makes of them if it has not been told already. */
 static void tell_algebra(struct explainer *explainer, const struct explained_ray *ray)
 {
   struct explained_candidate *story = &explainer->story;
@@ -88,7 +88,7 @@ void explain_after(struct tracer *tracer, const struct explained_ray *ray)
   const struct intersect_counts *before = &explainer->before, *after = &tracer->counts;
   struct explained_candidate *story = &explainer->story;
   story->blind = ray->blind;
-  /* Its box along the leaf is passed by. */
+  /* Not tried: closed by its slab or pole, or left open at once. */
   if (!story->blind && after->patches_tested == before->patches_tested) return;
   for (int k = 0; k < STAGE_COUNT; k++)
     if (after->stages[k] > before->stages[k]) story->reached = (enum stage)k;
@@ -113,7 +113,7 @@ void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listen
 
 /* ---- numbers ---- */
 
-/* A root that a hit may be. */
+/* A root that may be the hit. */
 struct measured_root {
   uint32_t patch;
   int split[2], column_u, column_v;
@@ -121,9 +121,9 @@ struct measured_root {
   double re, im, residual;
 };
 
-enum { MEASURED_ROOTS = 256 }; /* of one ray; those beyond are not looked at */
+enum { MEASURED_ROOTS = 256 }; /* of one ray; those beyond are ignored */
 
-/* Roots farther than this from the kept parameter's range are no hit's. */
+/* Roots farther than this outside the kept parameter's range are not the hit. */
 #define MEASURED_MARGIN 0.125
 
 struct measured {
@@ -154,7 +154,7 @@ static void measure_candidate(void *context, const struct explained_candidate *c
   }
 }
 
-/* How far the root is from the hit's kept parameter, of a leaf that holds the hit; infinite of another. */
+/* How far the root is from the hit's kept parameter, if its leaf holds the hit; else infinite. */
 static double distance_to(const struct measured_root *root, const struct hit *hit)
 {
   const double u = hit->u * root->split[0] - root->column_u, v = hit->v * root->split[1] - root->column_v;

@@ -1,7 +1,7 @@
-/* What becomes of a ray, told while it is traced: its candidates in the order in which it comes to them, the polynomial
- * of each, the roots that the solver finds, and what is taken.
+/* Tells what becomes of a ray while it is traced: its candidates in the order in which it comes to them, the polynomial
+ * of each, the roots that the solver finds, and which root is taken.
  *
- * A tracer that nobody has told to explain is not slowed down by it.
+ * A tracer that is not asked to explain is not slowed down.
  */
 #ifndef PSCN_INTERSECT_EXPLAIN_H
 #define PSCN_INTERSECT_EXPLAIN_H
@@ -13,34 +13,34 @@ enum { EXPLAIN_COEFFICIENTS = 19 };
 
 /* What the back-substitution makes of a root of r. */
 enum root_fate {
-  ROOT_COMPLEX,     /* not real, as far as is told (section 2.2 of the paper) */
+  ROOT_COMPLEX,     /* not real within the tolerance (section 2.2 of the paper) */
   ROOT_OUTSIDE,     /* its parameter is outside [0,1] */
   ROOT_ELSEWHERE,   /* the other parameter, which follows from it, is far outside */
   ROOT_NO_SOLUTION, /* `polish off`: the two do not solve eq 3 within `residual` */
-  ROOT_OFFERED      /* a point; with polish a start for Newton's method */
+  ROOT_OFFERED      /* a point; with polish, a start for Newton's method */
 };
 
-/* The resultant of a candidate, and its roots by the solver of the scene, in no order. */
+/* The resultant of a candidate, and its roots by the scene's solver, in no order. */
 struct explained_roots {
   enum basis basis;               /* scaled Bernstein: c are also powers of x = z/(1-z), z the kept parameter */
-  int degree;                     /* 0 and less: there is nothing to solve */
-  double c[EXPLAIN_COEFFICIENTS]; /* c[0..degree], exact roots at the ends taken off */
+  int degree;                     /* 0 or less: there is nothing to solve */
+  double c[EXPLAIN_COEFFICIENTS]; /* c[0..degree], exact roots at the ends removed */
   struct root_set roots;          /* radii mean nothing */
   enum root_fate fate[POLYNOMIAL_MAX_DEGREE];
-  double other[POLYNOMIAL_MAX_DEGREE]; /* the other parameter, but of ROOT_COMPLEX and ROOT_OUTSIDE */
+  double other[POLYNOMIAL_MAX_DEGREE]; /* the other parameter, except for ROOT_COMPLEX and ROOT_OUTSIDE */
 };
 
-/* A leaf whose boxes the ray passes: a part of a patch, with parameters of its own. */
+/* A leaf whose boxes the ray passes: a part of a patch, with its own parameters. */
 struct explained_candidate {
   uint32_t patch;                   /* of the scene */
   int split[2], column_u, column_v; /* the leaf is [column, column + 1]/split, along u and v */
-  bool v_kept;                      /* r is one of v, and u follows; otherwise the other way round */
+  bool v_kept;                      /* r is a polynomial in v, and u follows; otherwise the other way round */
   int kept_degree, other_degree;
-  bool blind; /* the ray starts too far away for double precision: left to the last resort, and nothing follows */
+  bool blind; /* the ray starts too far away for double precision: left to the last resort, and no stage follows */
   double a[16], b[16]; /* eq 3: Bernstein coefficients [4 i + j], i of the kept parameter */
   enum stage reached;  /* the last stage it came to (intersect.h) */
   bool solved;         /* it came to STAGE_BILINEAR or STAGE_ROOTS; the rest is what the solver makes of r */
-  bool by_solver;      /* these very roots were used; else the lanes of the kernel came to theirs on a shorter way */
+  bool by_solver;      /* these very roots were used; else the kernel's lanes found theirs by a shorter way */
   struct explained_roots found;
   double t[POLYNOMIAL_MAX_DEGREE];                /* of the points that are ROOT_OFFERED, units of |direction| */
   bool left_open;                                 /* something was left to the last resort */
@@ -51,14 +51,14 @@ struct explained_candidate {
 
 typedef void explain_listener(void *context, const struct explained_candidate *candidate);
 
-/* As tracer_closest of one ray; `tell` is told of every candidate. */
+/* As tracer_closest for one ray; calls `tell` for every candidate. */
 void tracer_explain(struct tracer *tracer, const struct ray *ray, explain_listener *tell, void *context,
                     struct hit *out_hit);
 
-/* As tracer_closest of one ray, with what the solver did for it, over all of its candidates. */
+/* As tracer_closest for one ray; sums what the solver did for it over all of its candidates. */
 struct explained_numbers {
   double iterations, roots; /* sums */
-  double residual; /* eq 11's ratio of the root nearest to the hit; 0 of a miss, infinite where there is none */
+  double residual; /* eq 11's ratio for the root nearest to the hit; 0 for a miss, infinite if there is no root */
 };
 void tracer_measure(struct tracer *tracer, const struct ray *ray, struct hit *out_hit,
                     struct explained_numbers *out_numbers);
@@ -69,8 +69,8 @@ struct model;
 struct model_patch;
 struct leaf;
 
-/* What the lanes tell of a candidate's ray, which is the only one of its packet: in the coordinates of the leaf's model, whose
- * first patch is first_patch of the scene's; t of the scene is shift + t. */
+/* What the lanes tell of a candidate's ray, which is the only one of its packet, in the coordinates of the leaf's
+ * model. That model's first patch is first_patch in the scene; t in the scene is shift + t. */
 struct explained_ray {
   const struct leaf *leaf;
   const struct model_patch *patch; /* the leaf's */
@@ -81,10 +81,10 @@ struct explained_ray {
   double t, u, v, radius_u, radius_v; /* the nearest so far */
 };
 
-/* Where method.c puts what becomes of a candidate's r; NULL where nobody asks. */
+/* Where method.c puts what becomes of a candidate's r; NULL if nobody asks. */
 struct explained_roots *explain_roots(struct tracer *tracer);
 
-/* Before and after a candidate, of a tracer that is to explain. */
+/* Called before and after a candidate, if the tracer is to explain. */
 void explain_before(struct tracer *tracer, const struct model *model, const struct model_patch *patch, int64_t leaf,
                     double t);
 void explain_after(struct tracer *tracer, const struct explained_ray *ray);

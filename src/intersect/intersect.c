@@ -1,4 +1,4 @@
-/* The face of the intersector: the prepared scene, the tracers, and which instruction set they use. */
+/* The intersector's interface: the prepared scene, the tracers, and the choice of an instruction set. */
 #include "intersect/intersect.h"
 
 #include <stdlib.h>
@@ -15,10 +15,10 @@ struct intersector {
   bool warm; /* some patch asks for `start previous` */
 };
 
-/* What a register of AVX2 holds. A choice of speed. */
+/* As many rays as an AVX2 register holds. A choice of speed. */
 enum { FEW_RAYS = 4 };
 
-/* The end of lanes/walk.c, as each compilation of src/intersect/lanes names it (lanes/names.h). */
+/* Each is at the end of one compilation of lanes/walk.c (lanes/names.h). */
 extern const struct kernel kernel_baseline, kernel_avx2, kernel_avx512, kernel_avx512_narrow;
 
 size_t kernels_here(const struct kernel *out[KERNELS_MAX])
@@ -34,7 +34,7 @@ size_t kernels_here(const struct kernel *out[KERNELS_MAX])
   return count;
 }
 
-/* The best one, or the one that the environment asks for; NULL where that is not here. */
+/* The best kernel, or the one that the environment asks for; NULL if that is not here. */
 static const struct kernel *kernel_chosen(void)
 {
   const struct kernel *kernels[KERNELS_MAX];
@@ -46,7 +46,7 @@ static const struct kernel *kernel_chosen(void)
 }
 
 #if defined(PSCN_HAS_AVX512)
-/* Whether along each axis some rays go up and some down: then few of them come to one leaf. */
+/* Whether along each axis some rays go up and some down: few of them then come to one leaf. */
 static bool go_apart(size_t count, const struct ray rays[])
 {
   for (int k = 0; k < 3; k++) {
@@ -58,8 +58,8 @@ static bool go_apart(size_t count, const struct ray rays[])
 }
 #endif
 
-/* The one that answers these rays: what they leave empty of wide registers is worked on all the same, and sets that round
- * alike answer alike, but for warm starts. */
+/* The kernel that answers these rays. Wide registers work on empty lanes, too; and sets that round alike answer alike,
+ * except with warm starts. */
 static const struct kernel *kernel_for(const struct tracer *tracer, size_t count, const struct ray rays[])
 {
 #if defined(PSCN_HAS_AVX512) /* then AVX2 is there too: base/kernel.h */
@@ -72,14 +72,14 @@ static const struct kernel *kernel_for(const struct tracer *tracer, size_t count
 
 bool intersector_kernel_here(void) { return kernel_chosen() != NULL; }
 
-/* The baseline fuses products and sums where the user's flags are for a processor that can. */
+/* The baseline fuses products and sums if the user's flags are for a processor that can. */
 #ifdef __FMA__
 enum { BASELINE_FUSES = 1 };
 #else
 enum { BASELINE_FUSES = 0 };
 #endif
 
-/* ARITHMETIC_BUILT: the processor and the compiler, which choose what the baseline fuses, too (CMakeLists.txt). */
+/* ARITHMETIC_BUILT: the processor and the compiler, which also choose what the baseline fuses (CMakeLists.txt). */
 const char *intersector_arithmetic(void)
 {
   const bool fused = BASELINE_FUSES || kernel_chosen() != &kernel_baseline;
@@ -173,14 +173,14 @@ struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct lea
 
 void tracer_forget(struct tracer *tracer) { tracer->epoch++; }
 
-/* What rays that are asked again take is not counted, but which answers they get. */
+/* Does not count the work on rays that are asked again, only their new answers. */
 static void count_again(struct tracer *tracer, const struct intersect_counts *before, uint64_t certain_now)
 {
   tracer->counts = *before;
   tracer->counts.certain += certain_now, tracer->counts.grazing -= certain_now;
 }
 
-/* Asks for the rays of these bits one by one (tracer_asks_again). */
+/* Asks for these rays, given as bits, one by one (tracer_asks_again). */
 static void ask_alone(struct tracer *tracer, unsigned unsettled, const struct ray rays[], struct hit hits[])
 {
   const struct intersect_counts counts = tracer->counts;
@@ -210,7 +210,7 @@ void tracer_occluded(struct tracer *tracer, size_t count, const struct ray rays[
   tracer->counts = counts;
 }
 
-/* As ask_alone; list k's hits begin at first[k] of the tracer's. Returns whether there was memory. */
+/* The same for all hits; list k's hits begin at first[k] of the tracer's. Returns whether there was enough memory. */
 static bool ask_all_alone(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list lists[],
                           size_t first[])
 {

@@ -15,7 +15,7 @@ static double moment(struct double_double qi, struct double_double qk, double di
   return (s.hi + (s.lo + (p.lo - r.lo) + (qi.lo * dk - qk.lo * di))) / dk;
 }
 
-/* The largest power of two at most 1 by which a number of size `largest` over `scale` can be had. */
+/* The largest power of two, at most 1, times which `largest` over `scale` does not overflow. */
 static double unit_for(double largest, double scale)
 {
   int exponent, scale_exponent;
@@ -46,8 +46,8 @@ void local_ray_make(const struct model_patch *patch, const struct ray *ray, stru
   out->error = PLANE_ERROR(fabs(out->moment[0]), fabs(out->moment[1])) + real_max(far[0], far[1]) / unit;
 }
 
-/* The point of the ray's line on the plane x_k = middle_k across its dominant axis k, less `middle`; the line's moments
- * about the origin are differences of exact products. Returns t there. */
+/* The point of the ray's line on the plane x_k = middle_k across its dominant axis k, minus `middle`. The line's
+ * moments about the origin are differences of exact products. Returns t there. */
 static wide line_at(const struct ray *ray, const double middle[3], wide out[3])
 {
   const double *d = ray->direction, *o = ray->origin;
@@ -73,7 +73,7 @@ double local_ray_enter(const struct ray *ray, const double origin[3], double fra
   wide at[3];
   const wide unit = (wide)longest / frame, ahead = line_at(ray, origin, at) * unit, begin = ray->t_min * unit;
   const wide off = 4 * WIDE_ROUNDOFF * (wide_abs(ahead) + begin), start = begin - ahead - off;
-  const wide past = start > -2 ? start : -2; /* the middle */
+  const wide past = start > -2 ? start : -2; /* the middle, in frames */
   for (int c = 0; c < 3; c++)
     out_at[c] = cut_off(at[c] / frame + past * (ray->direction[c] / (wide)longest), FARTHEST_AT);
   return cut_off(ahead + past, FARTHEST_ENTRY);

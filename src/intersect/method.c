@@ -11,16 +11,17 @@
 #include "algebra/bezout.h"
 
 /* With polish, a complex root this near to the real axis, or a real one this far outside the leaf, may still start a
- * run of Newton's method that ends in the leaf: rounding moves double roots off the axis by the square root of their error. */
+ * run of Newton's method that ends in the leaf: rounding moves double roots off the axis by the square root of their
+ * error. */
 #define START_MARGIN LEAF_MARGIN
 
-/* One form of the leaf's plane polynomials: coefficients of products by convolution. */
+/* The leaf's plane polynomials in scaled Bernstein or in power form, in which products are convolutions. */
 struct form {
   int m, n;
   double A[16], B[16];
 };
 
-/* Bernstein coefficients b[0..n] with the stride to power coefficients. */
+/* Converts Bernstein coefficients b[0..n], `stride` apart, to power coefficients. */
 static void to_power(int n, double *b, int stride)
 {
   const double b0 = b[0], b1 = b[stride], b2 = n > 1 ? b[2 * stride] : 0, b3 = n > 2 ? b[3 * stride] : 0;
@@ -40,7 +41,7 @@ static void form_net(int m, int n, enum basis basis, const double net[16], doubl
   for (int j = 0; j <= n; j++) to_power(m, out + j, 4);
 }
 
-/* The coefficients in v at u: plain Bernstein or power, as the form's basis is. */
+/* The coefficients in v at u: plain Bernstein or power, by the form's basis. */
 static void at_kept(const struct form *form, enum basis basis, double u, const double A[16], double out[4])
 {
   for (int j = 0; j <= form->n; j++) {
@@ -56,7 +57,7 @@ static void at_kept(const struct form *form, enum basis basis, double u, const d
   }
 }
 
-/* v by Euclid's algorithm: the remainders of two power polynomials of degree n, down to a linear one. */
+/* v by Euclid's algorithm: remainders of two power polynomials of degree n, down to a linear one. */
 static double euclid(int n, const double p_in[4], const double q_in[4])
 {
   double p[4] = {0}, q[4] = {0};
@@ -79,7 +80,7 @@ static double euclid(int n, const double p_in[4], const double q_in[4])
   return dq == 1 ? -q[0] / q[1] : p[1] != 0 && dp == 1 ? -p[0] / p[1] : NAN;
 }
 
-/* A polynomial of degree n <= 3 with plain Bernstein coefficients c, at v, by de Casteljau. */
+/* Value and slope at v of a polynomial of degree n <= 3 with plain Bernstein coefficients c, by de Casteljau. */
 static void value_and_slope(int n, const double c[4], double v, double *value, double *slope)
 {
   double b[4] = {0};
@@ -90,9 +91,9 @@ static void value_and_slope(int n, const double c[4], double v, double *value, d
   *value = b[0] + v * (b[1] - b[0]);
 }
 
-/* Where two roots nearly share u, the null vector is nearly not unique and v is off by far more than u is. It is
- * near enough for Gauss and Newton, at this u, on both plane polynomials. A step longer than the reach means that it
- * was not. A choice, of starting points only: two such steps from within it end at 1e-12, where the curve they
+/* Where two roots nearly share u, the null vector is nearly ambiguous, and v is off by far more than u. From there the
+ * Gauss-Newton method on both plane polynomials, at this u, still finds v. A step longer than the reach means that v
+ * was too far off. A choice, of starting points only: two steps from within the reach end at 1e-12 if the curve they
  * follow bends by 1. */
 enum { NULL_VECTOR_STEPS = 2 };
 #define NULL_VECTOR_REACH 1e-3
@@ -138,11 +139,11 @@ static double eliminated_at(const struct form *form, const struct method *method
   return null_vector(form->n, p, q);
 }
 
-/* With `polish off` nothing looks at an answer again, and Euclid's v may solve neither plane polynomial: eq 3 must hold
- * within this part of their largest coefficients, that is, the ray passes the point within this part of the patch's
- * size. The last step was shorter than eps (eq 10), and what is left is a part of it: a quarter leaves fewer phantoms
- * than a fifth of the holes with every solver (docs/paper.md). And nobody sees less than 2^-10 of a patch, a pixel
- * where it fills the picture. */
+/* With `polish off` nothing checks an answer again, and Euclid's v may solve neither plane polynomial. So eq 3 must
+ * hold within this part of their largest coefficients: the ray then passes the point within this part of the patch's
+ * size. The last step was shorter than eps (eq 10), and the remaining error is a part of it: a quarter leaves fewer
+ * phantoms than a fifth of the holes with every solver (docs/paper.md). Less than 2^-10 of a patch is not seen: it is a
+ * pixel where the patch fills the picture. */
 #define LEAST_RESIDUAL 0x1p-10
 #define RESIDUAL_OF_STEP 0.25
 
@@ -170,7 +171,7 @@ static double largest(const double net[16], int m, int n)
   return size;
 }
 
-/* The bound on the coefficients of r, for nets of size alpha and beta. */
+/* The bound on the errors of r's coefficients, for nets of size alpha and beta. */
 static double coefficient_error(int n, double alpha, double beta, double error)
 {
   double power = 1;
@@ -179,7 +180,7 @@ static double coefficient_error(int n, double alpha, double beta, double error)
   return RESULTANT_ERROR(n, power, alpha, beta, error);
 }
 
-/* r of the leaf's form, exact roots at its ends taken off. */
+/* r of the leaf's form, without its exact roots at the ends. */
 static struct polynomial resultant(const struct method *method, const struct method_planes *planes,
                                    const struct form *form, const double size[2], double c[19], double bound[19])
 {
@@ -196,8 +197,8 @@ static struct polynomial resultant(const struct method *method, const struct met
   return r;
 }
 
-/* Whether r vanishes at u in [0,1] within n roundings of its terms, as eq 11 of the paper asks of a root. (polynomial_eq11 asks
- * it in quadruple precision, which takes as long as to find the roots.) */
+/* Whether r vanishes at u in [0,1] within n roundings of its terms, as eq 11 of the paper asks of a root.
+ * (polynomial_eq11 checks it in quadruple precision, which takes as long as finding the roots.) */
 static bool vanishes(const struct polynomial *r, double u)
 {
   const double other = r->basis == BASIS_BERNSTEIN ? 1 - u : 1;
@@ -210,16 +211,16 @@ static bool vanishes(const struct polynomial *r, double u)
   return fabs(value) <= 2 * r->degree * UNIT_ROUNDOFF * size;
 }
 
-/* Paper 2.2: the real ones, as far as eps tells. Where eps asks for less than a rounding, a method ends beside the axis by
- * what its roundings are: those that deflate put most of their roots on it (deflation.c), those that move all at once none. A
- * ray that passes a silhouette by some 1e-6 of the patch may be told a hit for it. */
+/* Paper 2.2: the real roots, within eps. If eps is less than a rounding, a method's roundings leave its roots off the
+ * axis: methods that deflate put most of their roots on the axis (deflation.c), those that move all roots at once none.
+ * A ray that passes a silhouette at some 1e-6 of the patch may get a hit there. */
 static bool is_real(const struct method *method, const struct polynomial *r, const struct root *root)
 {
   if (method->polish) return fabs(root->im) <= START_MARGIN;
   return fabs(root->im) <= method->roots.tolerance || (root->re >= 0 && root->re <= 1 && vanishes(r, root->re));
 }
 
-/* What becomes of a root of r, and the other parameter that follows from it. */
+/* What becomes of a root of r, and the other parameter, which follows from it. */
 static enum root_fate substitute(const struct method *method, const struct form *form, const double size[2],
                                  const struct polynomial *r, const struct root *root, double *out_other)
 {

@@ -1,8 +1,8 @@
 /* The scene's own method on one ray and leaf: resultant, roots, back-substitution (paper 2.1 and 2.2).
  *
- * Internal to src/intersect. Everything a `solver` statement can choose happens here: the basis, the determinant, the
- * solver, its start, and how v follows from u. What comes out are starting points; with `polish on` the caller proves
- * them. A solver without items that change its numbers has a way of its own on all lanes at once (lanes/resultant.c,
+ * Internal to src/intersect. Everything that a `solver` statement can choose happens here: the basis, the determinant,
+ * the solver, its start, and how v follows from u. The results are starting points; with `polish on` the caller proves
+ * them. A solver without items that change its numbers runs on all lanes at once instead (lanes/resultant.c,
  * lanes/all_roots.c).
  */
 #ifndef PSCN_INTERSECT_METHOD_H
@@ -23,11 +23,11 @@ struct method_roots {
 struct method_planes {
   const struct leaf *leaf;
   double a[16], b[16]; /* the nets of its form, a[4 * i + j], i of the kept parameter */
-  double error;        /* bound on that of a coefficient */
+  double error;        /* bound on the error of a coefficient */
 };
 
-/* Forms r from the planes, finds its roots by the method's solver, from `warm` where that is not NULL, and substitutes back.
- * Starting points only: nothing here is proven. `story`, or NULL, is told what became of r. */
+/* Forms r from the planes, finds its roots by the method's solver, from `warm` if that is not NULL, and substitutes
+ * back. The results are starting points only: nothing here is proven. `story`, if not NULL, gets what became of r. */
 void method_find(const struct method *method, const struct method_planes *planes, struct solver_warm *warm,
                  struct method_roots *out, struct explained_roots *story);
 

@@ -1,4 +1,4 @@
-/* Error bounds of points on a patch, as the answers state them.
+/* Error bounds of points on a patch, as answers state them.
  *
  * Internal to src/intersect.
  */
@@ -8,24 +8,26 @@
 #include "intersect/local_ray.h"
 #include "intersect/model.h"
 
-/* The last resort gives up on a box where a plane polynomial stays within this many error bounds of zero, its own
+/* The last resort gives up on a box where a plane's polynomial stays within this many error bounds of zero, its own
  * included. */
 #define UNDECIDED_ERRORS 5
 
-/* |Su x Sv| relative to the squared derivatives, or to derivatives times SURFACE_LEAST, down to which it is the normal without
- * further thought: of derivatives in the patch's frame rounding takes some 2^-47, whatever their size. */
+/* Su x Sv is the normal without further thought if it is longer than SURFACE_SURE times the squared derivatives and
+ * SURFACE_SURE times SURFACE_LEAST times the derivatives: rounding takes some 2^-47 of derivatives in the patch's
+ * frame, whatever their size. */
 #define SURFACE_SURE 0x1p-20
 #define SURFACE_LEAST 0x1p-8
 
-/* The point: its value (ten roundings on coefficients below one), the last places of u and v, one rounding of the
- * sum; in each coordinate, so up to sqrt(3) of it in distance. `tangent` bounds the derivatives' coordinates. */
+/* The error of a point: of its value (ten roundings on coefficients below one), the last places of u and v, one
+ * rounding of the sum. Each is in every coordinate, so up to sqrt(3) of it in distance. `tangent` bounds the
+ * derivatives' coordinates. */
 #define POINT_ERROR(scale, tangent, magnitude) \
   (2 * ((12 + 2 * (tangent)) * UNIT_ROUNDOFF * (scale) + UNIT_ROUNDOFF * (magnitude)))
 
-/* A ray that starts nearer to the surface than this and the point's own error cannot be told from one that starts on
- * it: the rounding of the new origin, and the distance within which the last resort cannot exclude a root:
+/* A ray that starts nearer to the surface than this plus the point's own error cannot be told from one that starts on
+ * it: the rounding of the new origin, and the distance within which the last resort cannot exclude a root,
  * UNDECIDED_ERRORS error bounds of either plane, with moments of at most 2 as for all rays that start in the patch's
- * box, and what a copy is loose by; doubled for the planes' being oblique. */
+ * box, and what a copy is loose by; doubled because the planes are oblique. */
 #define CLEARANCE(scale, loose, magnitude) \
   (4 * UNIT_ROUNDOFF * (magnitude) + 2 * UNDECIDED_ERRORS * (PLANE_ERROR(2, 2) * (scale) + 2 * (loose)))
 

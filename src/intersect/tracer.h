@@ -12,33 +12,33 @@
 #include "intersect/local_ray.h"
 #include "intersect/model.h"
 
-/* The entry points of one instruction set: closest, occluded and all of lanes/walk.c, which tracer_closest and its like call
- * (intersect.c). */
+/* The entry points of one instruction set: closest, occluded and all of lanes/walk.c, which tracer_closest,
+ * tracer_occluded and tracer_all call (intersect.c). */
 struct kernel {
   const char *name;
-  /* the rays, as bits, whose answers are not certain and might be others in other company */
+  /* returns, as bits, the rays whose answers are not certain and might differ in another packet */
   unsigned (*closest)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit out_hits[]);
-  /* whether some rays were let go */
+  /* returns whether it gave up some rays */
   bool (*occluded)(struct tracer *tracer, size_t count, const struct ray rays[], bool out_occluded[]);
-  /* whether there was memory for it */
+  /* returns whether there was enough memory */
   bool (*all)(struct tracer *tracer, size_t count, const struct ray rays[], struct hit_list out[]);
 };
 
 enum { KERNELS_MAX = 4 };
 
-/* intersect.c: the kernels that this processor can run, the best first; returns how many. */
+/* intersect.c: the kernels that this processor can run, best first; returns how many. */
 size_t kernels_here(const struct kernel *out[KERNELS_MAX]);
 
-/* Warm starts of one leaf, valid where `epoch` is the tracer's. */
+/* The warm start of one leaf, valid if `epoch` is the tracer's. */
 struct warm_leaf {
   uint64_t epoch;
   struct solver_warm warm;
 };
 
-/* As many packets are side by side (base/float_lanes.h). */
+/* At most this many packets are side by side (base/float_lanes.h). */
 enum { PACKETS_MAX = 4 };
 
-/* Leaves that the model does not keep, made lately. */
+/* Leaves that the model does not keep, made recently. */
 enum { MADE_BITS = 9 };
 struct made_leaf {
   bool made;
@@ -46,18 +46,19 @@ struct made_leaf {
   struct leaf_room is;
 };
 
-/* All that is found on the rays of a packet, where all hits are asked for (lanes/gather.h). */
+/* All that is found on the rays of a packet, if all hits are asked for (lanes/gather.h). */
 struct gather {
   struct growing roots;   /* struct gathered, as the lanes took them */
-  struct growing open;    /* struct gathered_region: what they left open */
+  struct growing open;    /* struct gathered_region: what the lanes left open */
   struct growing order;   /* const struct gathered *: the roots, lane by lane, in their order */
-  struct growing regions; /* struct exact_region, one lane's */
-  struct exact_list list; /* what the last resort makes of one lane's */
+  struct growing regions; /* struct exact_region: one lane's */
+  struct exact_list list; /* what the last resort makes of one lane's regions */
   bool failed;            /* memory was short */
 };
 
-/* How often a ray may look at a box, of the hierarchy or along a leaf, before it is told as it is known then, grazing:
- * 15 to 60 ns each, by where they are in memory. Leaves count as more than one (packet.h). A tenth of a second at most. */
+/* How many looks at boxes, of the hierarchy or along leaves, a ray may take before it is given up: its answer is then
+ * what is known so far, and grazing. A look takes 15 to 60 ns, depending on where the box is in memory, so all take a
+ * tenth of a second at most. A leaf costs more than one look (packet.h). */
 enum { MOST_LOOKS = 1 << 21 };
 
 struct tracer {
@@ -65,21 +66,21 @@ struct tracer {
   const struct kernel *kernel;
   struct intersect_counts counts;
   uint64_t epoch;
-  struct warm_leaf *warm;            /* one a leaf, NULL where no patch asks for it */
-  struct made_leaf *made;            /* 2^MADE_BITS; NULL where leaves are kept, or each is made whenever asked for */
+  struct warm_leaf *warm;            /* one for each leaf; NULL if no patch asks for it */
+  struct made_leaf *made;            /* 2^MADE_BITS; NULL if leaves are kept, or made anew for each request */
   struct gather gather[PACKETS_MAX]; /* of packets side by side */
-  struct growing hits;               /* struct hit: of all lists of the last call of tracer_all */
-  int most_looks;                    /* MOST_LOOKS; tests make it less */
-  struct explainer *explainer;       /* explain.c; NULL where nobody asks */
+  struct growing hits;               /* struct hit: all lists of the last call of tracer_all */
+  int most_looks;                    /* MOST_LOOKS; less in tests */
+  struct explainer *explainer;       /* explain.c; NULL if nobody asks */
 };
 
-/* intersect.c: a tracer in memory of the caller's, without warm starts, whatever the scene asks for. */
+/* intersect.c: a tracer in the caller's memory, without warm starts, whatever the scene asks for. */
 void tracer_begin(const struct intersector *intersector, struct tracer *out);
 
-/* Whether of so many rays together those are asked once more, alone, whose answers are not certain or would take much: what
- * the last resort tells of a ray, and where its share of work ends, depends on the leaves that came to it, and those on how
- * soon the rays beside had the walk find something nearer. Warm starts go from ray to ray in any case, and where nothing is
- * proven all would be asked twice. */
+/* Whether, of `count` rays together, those are asked again alone whose answers are not certain or would take much work.
+ * What the last resort finds out about a ray, and where its share of work ends, depends on the leaves that came to it;
+ * these depend on how soon the rays beside it made the walk find something nearer. Not with warm starts, which go from
+ * ray to ray in any case, nor if nothing is proven, when all would be asked twice. */
 static inline bool tracer_asks_again(const struct tracer *tracer, size_t count)
 {
   return count > 1 && !tracer->warm && !tracer->model->unproven;
@@ -88,11 +89,11 @@ static inline bool tracer_asks_again(const struct tracer *tracer, size_t count)
 /* intersect.c: a leaf of the tracer's model that is not kept, perhaps in `room`; valid until the next call. */
 struct leaf_room *tracer_leaf(struct tracer *tracer, uint32_t number, struct leaf_room *room);
 
-/* intersect.c: gives back what tracer_all has taken for it, by memory_free, so on a thread with the same hooks. Not
- * asked for all hits, a tracer has nothing. */
+/* intersect.c: frees what tracer_all has allocated, by memory_free, so on a thread with the same hooks. A tracer that
+ * was never asked for all hits has nothing to free. */
 void tracer_end(struct tracer *tracer);
 
-/* The warm start of a leaf of the tracer's model by its number; NULL where the method asks for none. */
+/* The warm start of the leaf with this number in the tracer's model; NULL if the method asks for none. */
 static inline struct solver_warm *tracer_warm(struct tracer *tracer, const struct method *method, int64_t leaf)
 {
   if (method->roots.start != START_PREVIOUS || !tracer->warm) return NULL;
