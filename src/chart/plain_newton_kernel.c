@@ -145,8 +145,8 @@ static void walk(const struct plain_model *model, const struct ray_lanes *ray, b
     const uint32_t at = stack[--top].at;
     if (!lanes_any(best->t > stack[top].enter)) continue;
     if (any && !lanes_any((best->t == t_max) & (ray->t_min < t_max))) return;
-    if (at & (uint32_t)BVH_LEAF) {
-      try_part(model, &model->parts[at & ~(uint32_t)BVH_LEAF], ray, best);
+    if (at & BVH_LEAF) {
+      try_part(model, &model->parts[at & ~BVH_LEAF], ray, best);
       continue;
     }
     const struct bvh_node *node = &model->bvh.nodes[at];

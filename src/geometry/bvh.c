@@ -215,7 +215,7 @@ static int make_node(const struct builder *b, const struct range *r, bool sparse
   int inner = 0;
   for (int side = 0; side < children; side++) {
     set_child(node, side, &box[side]);
-    node->child[side] = part[side].count > 1 ? *next : (uint32_t)BVH_LEAF | b->numbers[part[side].first];
+    node->child[side] = part[side].count > 1 ? *next : BVH_LEAF | b->numbers[part[side].first];
     if (part[side].count == 1) continue;
     part[side].node = *next;
     *next += sparse ? node_limit(part[side].count) : 1;

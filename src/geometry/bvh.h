@@ -44,7 +44,7 @@ struct bvh_node {
   uint32_t child[BVH_WIDTH];
 };
 
-enum { BVH_LEAF = INT32_MIN }; /* the top bit of a child */
+#define BVH_LEAF UINT32_C(0x80000000) /* the top bit of a child */
 
 /* The depth that no tree built here exceeds, and the stack of a walk that puts all children of a node on it before it
  * takes the next one. */

@@ -30,8 +30,8 @@ static bool contains(const struct bvh_node *node, int side, const struct bvh_box
 static struct bvh_box walk(struct walk *w, uint32_t child, int depth)
 {
   if (depth > w->depth) w->depth = depth;
-  if (child & (uint32_t)BVH_LEAF) {
-    const uint32_t index = child & ~(uint32_t)BVH_LEAF;
+  if (child & BVH_LEAF) {
+    const uint32_t index = child & ~BVH_LEAF;
     w->seen[index]++;
     return w->boxes[index];
   }
@@ -99,7 +99,7 @@ static void none_one_two(void **state)
   assert_int_equal(bvh_build(&given, 1, NULL, &bvh), STATUS_OK);
   assert_int_equal(bvh.node_count, 1);
   assert_true(contains(&bvh.nodes[0], 0, &boxes[0]));
-  assert_int_equal(bvh.nodes[0].child[0], (uint32_t)BVH_LEAF);
+  assert_int_equal(bvh.nodes[0].child[0], BVH_LEAF);
   for (int side = 1; side < BVH_WIDTH; side++) assert_int_equal(bvh.nodes[0].child[side], 0);
   bvh_free(&bvh);
   check(boxes, 2);

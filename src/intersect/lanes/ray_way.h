@@ -12,7 +12,7 @@
  * prefetched meanwhile. */
 LANES_INLINE void fetch_child(const struct model *model, const struct bvh *bvh, uint32_t child)
 {
-  const uint32_t box = child & ~(uint32_t)BVH_LEAF;
+  const uint32_t box = child & ~BVH_LEAF;
   if (child == box) {
     __builtin_prefetch(&bvh->nodes[child]);
     __builtin_prefetch(&bvh->nodes[child].child);

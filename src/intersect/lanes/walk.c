@@ -131,7 +131,7 @@ static void ray_walk(struct bundle *b, const struct model_tree *tree, uint32_t c
   struct ray_way way;
   ray_begin(b, tree, child, lane, &way);
   for (bool on = true; on && ray_looks(b, lane);) {
-    const uint32_t box = way.child & ~(uint32_t)BVH_LEAF;
+    const uint32_t box = way.child & ~BVH_LEAF;
     if (way.child == box) {
       on = ray_down(b, &tree->bvh, &way);
     } else {
@@ -156,7 +156,7 @@ __attribute__((noinline)) static void rays_walk(struct bundle *b, const struct m
     for (unsigned bits = rays; bits; bits &= bits - 1) {
       const unsigned lane = (unsigned)__builtin_ctz(bits);
       struct ray_way *way = &ways[lane];
-      const uint32_t child = way->child, box = child & ~(uint32_t)BVH_LEAF;
+      const uint32_t child = way->child, box = child & ~BVH_LEAF;
       if (waits_at[lane] == 0 && !ray_looks(b, lane)) {
         rays &= ~(1u << lane);
       } else if (child == box) {
@@ -256,8 +256,8 @@ __attribute__((noinline)) static void together_walk(struct bundle *b, const stru
   int looks = 0;
   for (bool on = true; on;) {
     looks++;
-    if (child & (uint32_t)BVH_LEAF) {
-      const uint32_t box = child & ~(uint32_t)BVH_LEAF;
+    if (child & BVH_LEAF) {
+      const uint32_t box = child & ~BVH_LEAF;
       rays = box_passed(b, box, rays);
       if (rays) rays = bundle_put_off(b, box, rays);
       if (rays && box < b->packet[0].model->leaf_count) fetch_leaf(b->packet[0].model, box);

@@ -65,7 +65,7 @@ static bool is_on_leaf(const struct model *model, const struct leaf *leaf, const
     for (int k = 0; k < 3; k++) y[q] += leaf->slab[q].g[k] * ((x[k] - patch->center[k]) / patch->scale);
   }
   const double on = c[0] + c[1] * y[1] + c[2] * y[2] + c[3] * y[1] * y[1] + c[4] * y[1] * y[2] + c[5] * y[2] * y[2];
-  return leaf->has_quadric && fabs(y[0] - on) <= ON_LEAF * leaf->slab[0].half;
+  return fabs(y[0] - on) <= ON_LEAF * leaf->slab[0].half;
 }
 
 /* Whether the box is that of another leaf that counts; twins do not, because a scene is answered as it is without
@@ -86,7 +86,7 @@ static void search_tree(struct search *s, const struct model_tree *tree)
   for (wait[count++] = 0; count > 0 && s->looks < LOOKS && s->found < FOUND; s->looks++) {
     const struct bvh_node *node = &tree->bvh.nodes[wait[--count]];
     for (int side = 0; side < BVH_WIDTH && (side == 0 || node->child[side] != 0); side++) {
-      const uint32_t child = node->child[side], box = child & ~(uint32_t)BVH_LEAF;
+      const uint32_t child = node->child[side], box = child & ~BVH_LEAF;
       if (!in_node_box(node, side, at)) continue;
       if (child == box) wait[count++] = child;
       else if (model_is_tree(model, box)) search_tree(s, model_inner(model, tree, box));

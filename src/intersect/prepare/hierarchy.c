@@ -277,7 +277,7 @@ static void orient_inner(struct model *model, const struct model_tree *whole)
     const struct model_tree *tree = &whole->inner[k];
     orient_inner(model, tree);
     for (size_t n = 0; n < BVH_WIDTH * tree->bvh.node_count; n++) {
-      const uint32_t child = tree->bvh.nodes[n / BVH_WIDTH].child[n % BVH_WIDTH], box = child & ~(uint32_t)BVH_LEAF;
+      const uint32_t child = tree->bvh.nodes[n / BVH_WIDTH].child[n % BVH_WIDTH], box = child & ~BVH_LEAF;
       if (child == box || box >= model->leaf_count) continue;
       struct leaf_room room;
       if (!model->leaves) model_make_leaf(model, box, &room);

@@ -156,9 +156,9 @@ static void renumber_leaves(const struct building *b, struct bvh *bvh, const uin
   for (size_t n = 0; n < bvh->node_count; n++) {
     for (int side = 0; side < BVH_WIDTH; side++) {
       uint32_t *child = &bvh->nodes[n].child[side];
-      const uint32_t box = *child & ~(uint32_t)BVH_LEAF;
+      const uint32_t box = *child & ~BVH_LEAF;
       const uint32_t number = box < stay ? index[box] : (uint32_t)(b->count + (box - stay));
-      if (*child & (uint32_t)BVH_LEAF) *child = (uint32_t)BVH_LEAF | number;
+      if (*child & BVH_LEAF) *child = BVH_LEAF | number;
     }
   }
 }
@@ -268,7 +268,7 @@ static void set_crossings(const struct model *model, struct model_tree *tree)
     for (int k = 0; k < 3; k++) box.lo[k] = (double)node->lo[k][side], box.hi[k] = (double)node->hi[k][side];
     if (child == 0) continue;
     if (n < BVH_WIDTH) bvh_box_add(&whole, &box);
-    if (child & (uint32_t)BVH_LEAF) sum += crossings_in(model, tree, child & ~(uint32_t)BVH_LEAF, box_surface(&box));
+    if (child & BVH_LEAF) sum += crossings_in(model, tree, child & ~BVH_LEAF, box_surface(&box));
   }
   const double surface = box_surface(&whole);
   tree->crossings = surface > 0 ? sum / surface : 0;
