@@ -1,18 +1,18 @@
 /* Aberth's method: all roots at once, each pushed off by the others.
  *
- * Eq 9 of the paper, z_i <- z_i - N_i / (1 - N_i sum over j != i of 1/(z_i - z_j)) with N_i = P(z_i)/P'(z_i); the paper
- * prints P'/P'' for N_i, an erratum: with it the fixed points would be the roots of P'. Here the same step is written
- * 1 / (P'/P - sum), which needs one inversion less. Stop: eq 10, a step below the tolerance in u.
+ * Eq 9 of the paper is z_i <- z_i - N_i / (1 - N_i sum over j != i of 1/(z_i - z_j)) with N_i = P(z_i)/P'(z_i). The
+ * paper prints P'/P'' for N_i, an erratum: with it the fixed points would be the roots of P'. Here the same step is
+ * written 1 / (P'/P - sum), which needs one inversion less. The stop is eq 10, a step below the tolerance in u.
  *
- * Beyond the paper: `stop rounding` ends a root whose value is below its own rounding bound as soon as its steps no
- * longer shrink; `rest on` leaves roots that are done alone, though they still push the others; `update gauss_seidel`
- * takes the newest values of the others.
+ * Beyond the paper: `stop rounding` ends a root whose value is below its own rounding bound once its steps no longer
+ * shrink. `rest on` leaves roots that are done alone, though they still push the others. `update gauss_seidel` takes
+ * the newest values of the others.
  */
 #include "algebra/root_kernel.h"
 #include "algebra/start.h"
 #include "base/kernel.h"
 
-/* The values that the sweep has moved; number 0: the start. */
+/* Tells the watcher the values that the sweep has moved; number 0 is the start. */
 static void tell_sweep(const struct aberth *a, const struct root_problem *problem, const struct solver_options *options,
                        int number, const struct root_estimates *out)
 {
@@ -26,7 +26,7 @@ void aberth_find(const struct root_problem *problem, const struct solver_options
   const int n = problem->degree;
   root_kernel *const sweep = KERNEL_BEST(root_kernel);
   struct aberth a;
-  /* The bound of the stop is that of rounding alone: coefficient errors say nothing about where to stop. */
+  /* The stop uses the rounding bound alone: coefficient errors say nothing about where to stop. */
   evaluation_prepare(n, problem->basis, problem->c, NULL, &a.p);
   a.reversed_above = root_problem_reversed_above(options, n);
   start_values(problem, options->radii, warm, n, a.zr, a.zi);

@@ -1,14 +1,14 @@
 /* Real roots in [0,1]: sign variations in Bernstein form, bisection, and bracketed Newton.
  *
- * By Descartes' rule in Bernstein form the sign variations of the coefficients over an interval bound its number of
+ * By Descartes' rule in Bernstein form, the sign variations of the coefficients over an interval bound its number of
  * roots and have its parity: 0 proves none, 1 exactly one. Other intervals are halved by de Casteljau's algorithm. A
- * coefficient within its own error bound has no sign; an interval that cannot be decided because of that is halved
- * until it can, or until nothing in it has a sign (the polynomial is not told from zero there): a tangency, a multiple
- * root, or no root at all by less than the error. Such intervals are not lost but answered as clusters, by the local
+ * coefficient within its own error bound has no sign. An interval that this leaves undecided is halved until it is
+ * decided, or until nothing in it has a sign (the polynomial is not told from zero there): a tangency, a multiple root,
+ * or no root at all by less than the error. Such intervals are not lost but answered as clusters, by the local
  * parabola.
  *
- * Every real root in [0,1] is within the reach of an answer: of a bracketed one what lies between points where p surely
- * has the signs of the ends, of a cluster its stretch, and of what is next to an end without a sign what
+ * Every real root in [0,1] is within the reach of an answer. The reach of a bracketed root is what lies between points
+ * where p surely has the signs of the ends; of a cluster, its stretch; of a root next to an end without a sign, what
  * `open_end_reach` says.
  */
 #include <float.h>
@@ -16,10 +16,10 @@
 
 #include "algebra/root_problem.h"
 
-/* Halving ends at 2^-48: below, an interval near 1 has too few doubles in it to be halved. */
+/* Halving ends at 2^-48: a smaller interval near 1 has too few doubles in it to be halved. */
 enum { DEEPEST = 48 };
 
-/* Intervals looked at before the rest is given back as undecided. Decided ones need 2 DEEPEST a root at most. */
+/* Intervals examined before the rest is answered as undecided. Decided ones need at most 2 DEEPEST per root. */
 enum { MOST_INTERVALS = 2 * DEEPEST * POLYNOMIAL_MAX_DEGREE };
 
 struct interval {
@@ -31,16 +31,16 @@ struct interval {
 
 struct search {
   const struct solver_options *options;
-  struct evaluation p, sure; /* with the bounds of rounding alone, and of the coefficients as well */
+  struct evaluation p, sure; /* with the bounds of rounding alone; with those of the coefficients too */
   int degree;
   struct root_estimates *out;
-  double joint;      /* where the interval to the left ended in a root not told from its end; -1 where it did not */
-  double joint_from; /* that root is no farther left */
+  double joint;      /* the end of the interval to the left, if it has a root not told from that end; otherwise -1 */
+  double joint_from; /* the farthest left that root may be */
   double cluster_low, cluster_high; /* pending undecided intervals, joined; none while low > high */
-  double cluster_from, cluster_to;  /* its roots may lie a little outside */
+  double cluster_from, cluster_to;  /* where its roots may lie: a little outside too */
 };
 
-/* p in a chart of its own: z = u/(1-u), (1-u)/u, or u itself in the power basis. */
+/* The chart in which p is evaluated: z = u/(1-u), (1-u)/u, or u itself in the power basis. */
 struct chart {
   bool reversed, power;
 };
@@ -84,10 +84,10 @@ static struct probe probe_at(const struct search *search, double u)
   return out;
 }
 
-/* Tells whoever looks on of a step of the root that is sought. */
+/* Tells the watcher of a step of the root that is sought. */
 static void tell_step(const struct search *search, int step, double u)
 {
-  root_problem_tell(search->options, BASIS_POWER, search->out->count, step, u, 0.0); /* u already */
+  root_problem_tell(search->options, BASIS_POWER, search->out->count, step, u, 0.0); /* in u already */
 }
 
 static struct evaluation_real look(const struct search *search, double u)
@@ -96,8 +96,8 @@ static struct evaluation_real look(const struct search *search, double u)
   return evaluation_at_real(&search->sure, chart_from_u(chart, u), chart.reversed);
 }
 
-/* How far from u, on its way to `end`, p surely has the sign that it has there: in steps that double, from `first`. A chart
- * point has some roundings. */
+/* The distance from u, towards `end`, at which p surely has the sign that it has at `end`. Tried in steps that double,
+ * from `first`. A chart point has some roundings. */
 static double sure_sign(const struct search *search, double u, double end, double first, int sign)
 {
   const double most = fabs(end - u);
@@ -115,7 +115,7 @@ static double bracket_reach(const struct search *search, double low, double high
   const double first = 2.0 * DBL_EPSILON * u + DBL_TRUE_MIN;
   const struct probe probe = probe_at(search, u);
   const struct evaluation_real q = look(search, u);
-  const double noise = fabs(probe.newton * (2.5 * q.error / q.value));           /* of a step, and room */
+  const double noise = fabs(probe.newton * (2.5 * q.error / q.value));           /* of a step, with room */
   const double step = fmin(fmax(first, fabs(probe.newton) + noise), high - low); /* a NaN becomes `first` */
   return fmax(sure_sign(search, u, low, step, low_sign), sure_sign(search, u, high, step, -low_sign));
 }
@@ -132,7 +132,7 @@ static void bracketed_newton(struct search *search, const struct interval *part,
     spent++;
     const struct probe probe = probe_at(search, u);
     double next = u - probe.newton;
-    if (probe.sign == 0) { /* below the rounding bound: on while the steps shrink, see STEEP_FALL */
+    if (probe.sign == 0) { /* below the rounding bound: go on while the steps shrink, see STEEP_FALL */
       const double step = fabs(probe.newton);
       const bool noise = !(next > low && next < high) || step >= last_step;
       converged = noise || step * step < STEEP_FALL * last_step * last_step || step < search->options->tolerance;
@@ -152,7 +152,7 @@ static void bracketed_newton(struct search *search, const struct interval *part,
   search->out->reach[search->out->count - 1] = bracket_reach(search, part->low, part->low + part->width, low_sign, u);
 }
 
-/* Where the control polygon of the interval crosses zero, given that it does so once. */
+/* Where the control polygon of the interval crosses zero, which it does once. */
 static double polygon_crossing(const struct interval *part, int n)
 {
   int k = 1;
@@ -162,10 +162,10 @@ static double polygon_crossing(const struct interval *part, int n)
   return part->low + part->width * (k - 1 + inside) / n;
 }
 
-/* How far from an end without a sign the interval may have a root, where the coefficients `near` to `far`, seen from that
- * end, have one sign, and none has the other but those of the ends. With e the most by which the end's has it, p is
- * (1-t)^n times -e + sum C(n,k) b[k] (t/(1-t))^k there, and any term of the sum ends that; the other end may ask for one
- * half of it. */
+/* How far from an end without a sign the interval may have a root. The coefficients `near` to `far`, counted from that
+ * end, have one sign, and none has the other one except at the ends. Let e be the most by which the end's coefficient
+ * has it. Then p is (1-t)^n times -e + sum C(n,k) b[k] (t/(1-t))^k there, and any term of the sum that reaches 2 e ends
+ * the reach: one half of it outweighs e, and the other end may need the other half. */
 static double open_end_reach(const struct interval *part, int n, bool at_high, int near, int far)
 {
   const int end = at_high ? n : 0, inwards = at_high ? -1 : 1;
@@ -178,15 +178,15 @@ static double open_end_reach(const struct interval *part, int n, bool at_high, i
   return ratio < INFINITY ? part->width * (ratio / (1.0 + ratio)) * BOUND_ROOM : part->width;
 }
 
-/* What root `index` stands for may be at u too. */
+/* Extends the reach of root `index` to u. */
 static void reach_out(struct search *search, int index, double u)
 {
   double *reach = &search->out->reach[index];
   *reach = fmax(*reach, fabs(u - search->out->re[index]) * BOUND_ROOM);
 }
 
-/* A root within the error of the point u, an end of an interval on which p is monotone there, or no farther from it than
- * `reach`, which is negative to the left. */
+/* Adds a root at u within its error, or no farther from u than `reach`, which is negative to the left. u is an end of
+ * an interval, where p is monotone. */
 static void add_end_root(struct search *search, double u, double width, double reach)
 {
   int spent = 0;
@@ -207,7 +207,7 @@ static void add_end_root(struct search *search, double u, double width, double r
   reach_out(search, search->out->count - 1, u + reach);
 }
 
-/* Answers the pending undecided stretch: the two roots of the parabola that p is like there, or its vertex. */
+/* Answers the pending undecided stretch: the two roots of the local parabola of p, its vertex, or the middle. */
 static void flush_cluster(struct search *search)
 {
   if (search->cluster_low > search->cluster_high) return;
@@ -257,7 +257,7 @@ static void add_undecided(struct search *search, const struct interval *part)
   search->cluster_high = search->cluster_to = part->low + part->width;
 }
 
-/* Tells what the signs over an interval say; true where it has to be halved. */
+/* Does what the signs over an interval say. Returns whether it has to be halved. */
 static bool examine(struct search *search, const struct interval *part)
 {
   const int n = search->degree;
@@ -275,7 +275,8 @@ static bool examine(struct search *search, const struct interval *part)
     if (variations == 1) bracketed_newton(search, part, part->b[0] > 0.0 ? 1 : -1, polygon_crossing(part, n));
     return variations > 1;
   }
-  /* Undecided ends and one sign between them: at most a root at either. The interval on the other side sees it too. */
+  /* Ends without a sign, and one sign between them: at most one root at either. The interval beyond the end sees it
+   * too. */
   const int first = low_open ? 1 : 0, last = high_open ? n - 1 : n;
   if (last <= first && n > 1) return true;
   const int inner = polynomial_sign_variations(last - first, part->b + first, part->error + first);
@@ -295,7 +296,7 @@ static bool examine(struct search *search, const struct interval *part)
   return false;
 }
 
-/* De Casteljau at the middle. The errors go the same way, and each mean of two adds a rounding, or what underflows. */
+/* De Casteljau at the middle. The errors go the same way; each mean of two adds a rounding, or what underflows. */
 static void halve(struct interval *part, int n, struct interval *out_right)
 {
   out_right->width = part->width = 0.5 * part->width;
@@ -336,7 +337,7 @@ static void first_interval(const struct root_problem *problem, struct interval *
 void bernstein_find(const struct root_problem *problem, const struct solver_options *options,
                     const struct solver_warm *warm, struct root_estimates *out)
 {
-  (void)warm; /* nothing to start from: the signs lead to every root */
+  (void)warm; /* nothing to start from is needed: the signs lead to every root */
   out->count = 0;
   if (problem->basis == BASIS_BERNSTEIN && polynomial_sign_variations(problem->degree, problem->c, problem->error) == 0)
     return; /* end coefficients are not zero here, and all have one sign */

@@ -1,12 +1,12 @@
 /* Bezout's resultant of two polynomials in two parameters, in scaled Bernstein form.
  *
- * a and b are nets a[4 * i + j], i = 0..m the degree that is kept (u), j = 0..n the one that is eliminated (v), 1 <=
- * m, n <= 3, plain Bernstein coefficients. With A_ij = C(m,i) C(n,j) a_ij products are convolutions (Farouki and
- * Rajan 1988). With the minors [kl] = A_k B_l - A_l B_k of the v-coefficients, each of degree 2m in u, r(u) is the
- * determinant of
+ * a and b are nets a[4 * i + j] of plain Bernstein coefficients, 1 <= m, n <= 3; i = 0..m is for the parameter that is
+ * kept (u), j = 0..n for the one that is eliminated (v). With A_ij = C(m,i) C(n,j) a_ij, products are convolutions
+ * (Farouki and Rajan 1988). The minors [kl] = A_k B_l - A_l B_k of the v-coefficients have degree 2m in u, and r(u) is
+ * the determinant of
  *   n = 1: [01]    n = 2: |01 02; 02 12|    n = 3: |01 02 03; 02 03+12 13; 03 13 23|
- * of degree 2 m n, r(u) = sum c_k u^k (1-u)^(2mn-k) (paper eq 4-6, in Bezout's form instead of Sylvester's).
- * Where r(u) = 0 the matrix has the null vector (s^(n-1), ..., t^(n-1)), v = t/(s+t).
+ * of degree 2 m n, r(u) = sum c_k u^k (1-u)^(2mn-k) (paper eq 4-6, in Bezout's form instead of Sylvester's). Where r(u)
+ * = 0, the matrix has the null vector (s^(n-1), ..., t^(n-1)), and v = t/(s+t).
  *
  * The same source serves one double and a register of lanes: BEZOUT_REAL is the type. All functions are pure.
  */
@@ -18,7 +18,7 @@ enum { BEZOUT_NAME(MAX_DEGREE) = 18 };
 
 #define BEZOUT_INLINE static inline __attribute__((always_inline, unused))
 
-/* Where it does not optimize gcc warns of a loop with two conditions that it shall unroll. */
+/* Without optimization, gcc warns of a loop with two conditions that it is told to unroll. */
 #define BEZOUT_PRAGMA(text) _Pragma(#text)
 #ifdef __OPTIMIZE__
 #define BEZOUT_UNROLL(times) BEZOUT_PRAGMA(GCC unroll times)
@@ -43,7 +43,7 @@ BEZOUT_INLINE void BEZOUT_NAME(minor)(int m, int k, int l, const BEZOUT_REAL A[1
   }
 }
 
-/* out[0..p+q] = x y, degrees p and q; with `add`, added to out. */
+/* out[0..p+q] = sign x y, for x and y of degrees p and q; with `add`, out += sign x y. */
 BEZOUT_INLINE void BEZOUT_NAME(multiply)(int p, int q, const BEZOUT_REAL x[], const BEZOUT_REAL y[], double sign,
                                          int add, BEZOUT_REAL out[])
 {
@@ -56,8 +56,8 @@ BEZOUT_INLINE void BEZOUT_NAME(multiply)(int p, int q, const BEZOUT_REAL x[], co
   }
 }
 
-/* c[0..2mn] of the determinant, for coefficients of products by convolution: A and B in scaled Bernstein form give c
- * in scaled Bernstein form, in power form (power of u times power of v) power form. */
+/* c[0..2mn] of the determinant, for coefficients whose products are convolutions. A and B in scaled Bernstein form give
+ * c in that form; in power form (power of u times power of v) they give power form. */
 BEZOUT_INLINE void BEZOUT_NAME(determinant)(int m, int n, const BEZOUT_REAL A[16], const BEZOUT_REAL B[16],
                                             BEZOUT_REAL c[BEZOUT_NAME(MAX_DEGREE) + 1])
 {
@@ -91,7 +91,7 @@ BEZOUT_INLINE void BEZOUT_NAME(determinant)(int m, int n, const BEZOUT_REAL A[16
   BEZOUT_NAME(multiply)(d, 2 * d, m03, k2, 1, 1, c);
 }
 
-/* c[0..2mn] of r for nets a, b in plain Bernstein form. */
+/* c[0..2mn] of r, for nets a and b in plain Bernstein form. */
 BEZOUT_INLINE void BEZOUT_NAME(resultant)(int m, int n, const BEZOUT_REAL a[16], const BEZOUT_REAL b[16],
                                           BEZOUT_REAL c[BEZOUT_NAME(MAX_DEGREE) + 1])
 {
@@ -105,13 +105,13 @@ BEZOUT_INLINE void BEZOUT_NAME(resultant)(int m, int n, const BEZOUT_REAL a[16],
   BEZOUT_NAME(determinant)(m, n, A, B, c);
 }
 
-/* The v of the null vector at a root u, for the values p[0..n], q[0..n] that the plain Bernstein v-coefficients of a
- * and b take there: two ways to write it, row 0 and row 1, each v = num[.]/den[.]; row 0 is the better one where
+/* The v of the null vector at a root u. p[0..n] and q[0..n] are the values there of the plain Bernstein v-coefficients
+ * of a and b. Row 0 and row 1 are two ways to write it, each v = num[.]/den[.]; row 0 is the better one where
  * `first_better` > 0. den may be 0 (the root v is at infinity, or two hits share u). */
 BEZOUT_INLINE void BEZOUT_NAME(null_vector)(int n, const BEZOUT_REAL p[4], const BEZOUT_REAL q[4], BEZOUT_REAL num[2],
                                             BEZOUT_REAL den[2], BEZOUT_REAL *first_better)
 {
-  if (n == 1) { /* p0 s + p1 t = 0, and the same of q */
+  if (n == 1) { /* p0 s + p1 t = 0, and q0 s + q1 t = 0 */
     num[0] = p[0], den[0] = p[0] - p[1];
     num[1] = q[0], den[1] = q[0] - q[1];
     *first_better = den[0] * den[0] - den[1] * den[1];
@@ -128,7 +128,7 @@ BEZOUT_INLINE void BEZOUT_NAME(null_vector)(int n, const BEZOUT_REAL p[4], const
   const BEZOUT_REAL m02 = 3 * (p[0] * q[2] - p[2] * q[0]), m03 = p[0] * q[3] - p[3] * q[0];
   const BEZOUT_REAL m12 = 9 * (p[1] * q[2] - p[2] * q[1]), m13 = 3 * (p[1] * q[3] - p[3] * q[1]);
   const BEZOUT_REAL m23 = 3 * (p[2] * q[3] - p[3] * q[2]), middle = m03 + m12;
-  /* The adjugate is (s^2, st, t^2) times itself transposed; its first row divided by s^2, its last one by t^2. */
+  /* The adjugate is (s^2, st, t^2) times its own transpose. Its first row is divided by s^2, its last one by t^2. */
   const BEZOUT_REAL a00 = middle * m23 - m13 * m13, a01 = m03 * m13 - m02 * m23;
   const BEZOUT_REAL a12 = m02 * m03 - m01 * m13, a22 = m01 * middle - m02 * m02;
   num[0] = a01, den[0] = a00 + a01;

@@ -9,7 +9,7 @@ struct complex_number {
   double re, im;
 };
 
-/* exp(i), a turn by one radian: an angle that no symmetry shares. */
+/* exp(i), a turn by one radian, an angle that no symmetry shares. */
 #define COMPLEX_RADIAN_RE 0.5403023058681398
 #define COMPLEX_RADIAN_IM 0.8414709848078965
 
@@ -33,7 +33,7 @@ static inline struct complex_number complex_scale(double s, struct complex_numbe
   return (struct complex_number){s * a.re, s * a.im};
 }
 
-/* a / b; not finite where b is zero. Scaled by |b|'s larger part, so that no square over- or underflows. */
+/* a / b; not finite where b is zero. b is scaled by |re| + |im|, so no square overflows or underflows. */
 static inline struct complex_number complex_divide(struct complex_number a, struct complex_number b)
 {
   const double scale = 1.0 / (fabs(b.re) + fabs(b.im));
@@ -46,11 +46,11 @@ static inline double complex_norm(struct complex_number a) /* |a|^2 */ { return 
 
 static inline double complex_modulus(struct complex_number a) { return sqrt(complex_norm(a)); }
 
-/* Squares of parts below this underflow; above it they cannot, and times LIFT they do not overflow either. */
+/* Squares of parts below this may underflow, above it they cannot; times LIFT, parts below it do not overflow. */
 #define COMPLEX_SMALL 0x1p-400
 #define COMPLEX_LIFT 0x1p600
 
-/* The same to a few roundings however small it is. */
+/* |a| to a few roundings, however small it is. */
 static inline double complex_small_modulus(struct complex_number a)
 {
   if (fmax(fabs(a.re), fabs(a.im)) >= COMPLEX_SMALL) return complex_modulus(a);

@@ -1,13 +1,13 @@
 /* One root at a time: the loop that Newton's and Laguerre's methods share (sections 3.1 and 3.2 of the paper).
  *
- * A root is sought in what is left of the polynomial after the roots before it were divided out, from its first start
- * value (or from the i-th root of the polynomial before, with `start previous`). Forward division (from the highest
- * power, the paper's) is stable for roots found in order of increasing modulus, backward division for the opposite; the
- * composite takes each where it is stable and joins them at the largest terms |c[k] a^k| (Peters and Wilkinson,
- * "Practical problems arising in the solution of polynomial equations", 1971).
+ * A root is sought in the polynomial from which the roots before it have been divided out. The search begins at the
+ * first start value of that (or at the i-th root of the previous polynomial, with `start previous`). Forward division
+ * (from the highest power, the paper's) is stable for roots found in order of increasing modulus, backward division for
+ * the opposite order. The composite takes each where it is stable, and joins them at the largest terms |c[k] a^k|
+ * (Peters and Wilkinson, "Practical problems arising in the solution of polynomial equations", 1971).
  *
- * A value is taken for a real root where dropping its imaginary part does not raise |p| above what it was or above its
- * rounding bound; the paper does not say how it decides.
+ * A value is taken for a real root if dropping its imaginary part does not raise |p| above its previous value or above
+ * its rounding bound. The paper does not say how it decides.
  */
 #include "algebra/deflation.h"
 
@@ -15,26 +15,26 @@
 
 #include "algebra/start.h"
 
-/* No step is longer than this many times |x| + the mean modulus of the roots: where p' nearly vanishes the way back
+/* No step is longer than this many times |x| + the mean modulus of the roots. Where p' nearly vanishes, the way back
  * would take hundreds of steps. */
 #define LONGEST_STEP 8.0
 
-/* A step that is no shorter than this much of the one so many steps before is turned by one radian, and from there on
- * steps are at most half as long as before, the first time 1/2 of |x| + the mean modulus: a real start on a polynomial
- * without real roots would never leave the axis, and Laguerre's method jumps to and fro between the middle of roots on
- * a circle and far outside. On its way from afar Newton's method shortens its steps by 1/n each: at degree 64 the
- * seventh is still 0.9 of the first. */
+/* A step that is no shorter than TURN_STUCK times the one TURN_STEPS before is turned by one radian. From there on,
+ * steps are at most half as long as before, the first time 1/2 of |x| + the mean modulus. Otherwise a real start on a
+ * polynomial without real roots would never leave the axis, and Laguerre's method may jump to and fro between the
+ * middle of roots on a circle and far outside. Newton's method, coming from afar, shortens each step by 1/n: at degree
+ * 64 the seventh is still 0.9 of the first. */
 enum { TURN_STEPS = 7 };
 #define TURN_STUCK 0.9
 
-/* A term this much of the largest one counts as nearly the largest: two that tie, or three of a double root. */
+/* A term of this fraction of the largest one counts as nearly the largest: two that tie, or three of a double root. */
 #define NEARLY 0.25
 
 /* Steps of `refine` on the whole polynomial. */
 enum { REFINE_STEPS = 2 };
 
-/* Where the halves of a quotient meet: in the middle of the terms |c[k]| modulus^k that are nearly the largest. On
- * either side of such a term a half is still exact to rounding, and beyond the last one it is not. */
+/* Where the halves of a quotient meet: in the middle of the terms |c[k]| modulus^k that are nearly the largest. A half
+ * is still exact to rounding on either side of such a term, but not beyond the last one. */
 static int joint(int n, const double c[], double modulus)
 {
   double term[POLYNOMIAL_MAX_DEGREE + 1], largest = 0.0, power = 1.0;
@@ -54,7 +54,7 @@ static int joint(int n, const double c[], double modulus)
 void deflation_divide_linear(enum deflation how, int n, double c[], double a)
 {
   double forward[POLYNOMIAL_MAX_DEGREE + 1], backward[POLYNOMIAL_MAX_DEGREE + 1];
-  const int join = how == DEFLATION_COMPOSITE && a != 0.0 ? joint(n, c, a) : 0; /* forward from here on */
+  const int join = how == DEFLATION_COMPOSITE && a != 0.0 ? joint(n, c, a) : 0; /* the forward half begins here */
   forward[n - 1] = c[n];
   for (int k = n - 1; k > join; k--) forward[k - 1] = c[k] + a * forward[k];
   for (int k = 0; k < join; k++) backward[k] = ((k > 0 ? backward[k - 1] : 0.0) - c[k]) / a;
@@ -75,17 +75,17 @@ void deflation_divide_quadratic(enum deflation how, int n, double c[], double su
   memcpy(c + join, forward + join, sizeof c[0] * (size_t)(n - 1 - join));
 }
 
-/* One polynomial at one point. */
+/* The values of one polynomial at one point. */
 struct local_values {
   struct local_view view;
   double size, error; /* |q| in the chart, and its rounding bound */
 };
 
-/* What is wanted of `look`: constants at every call, so that each gets loops of its own. */
+/* The results asked of `look`. They are constants at every call, so that each gets loops of its own. */
 enum look_for { LOOK_VALUE = 0, LOOK_SLOPE = 1, LOOK_CURVATURE = 2, LOOK_ERROR = 4 };
 
-/* Chart as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g) and
- * (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
+/* The chart is as in evaluation.h: z = x or 1/x. With g = q'/q and h = q''/q, in the reversed chart p'/p = z (n - z g)
+ * and (p'/p)^2 - p''/p = z^2 (n - 2 z g - z^2 (h - g^2)). */
 static inline __attribute__((always_inline)) struct local_values look_inlined(int n, const double c[],
                                                                               struct complex_number x,
                                                                               double reversed_above, int wanted)
@@ -118,7 +118,7 @@ static inline __attribute__((always_inline)) struct local_values look_inlined(in
   return out;
 }
 
-/* What a method's step needs, and the error bound. */
+/* The values that a method's step needs, and the error bound. */
 static struct local_values look_with_error(const struct deflation_method *method, int n, const double c[],
                                            struct complex_number x, double reversed_above)
 {
@@ -126,7 +126,7 @@ static struct local_values look_with_error(const struct deflation_method *method
                         : look_inlined(n, c, x, reversed_above, LOOK_SLOPE | LOOK_ERROR);
 }
 
-/* What a method's step needs. */
+/* The values that a method's step needs. */
 static struct local_values look(const struct deflation_method *method, int n, const double c[], struct complex_number x,
                                 double reversed_above)
 {
@@ -145,7 +145,7 @@ struct sought {
   bool converged;
 };
 
-/* The paper's iteration, from `start`, for the root of that number. */
+/* Runs the paper's iteration from `start`, for root number `number`. */
 static struct sought seek(const struct root_problem *problem, const struct solver_options *options,
                           const struct deflation_method *method, struct complex_number start, int number)
 {
@@ -202,7 +202,7 @@ static bool taken_for_real(int n, const double c[], struct complex_number x)
   return on_axis.size <= on_axis.error || on_axis.size * pow(ratio, 0.5 * n) <= at.size;
 }
 
-/* Steps on the polynomial before deflation, each taken only where it lowers |p|. */
+/* Takes steps on the polynomial before deflation, each only if it lowers |p|. */
 static struct complex_number refined(const struct root_problem *problem, const struct deflation_method *method,
                                      struct complex_number x)
 {
@@ -239,7 +239,7 @@ void deflation_find(const struct root_problem *problem, const struct solver_opti
   const bool cold = warm == NULL || warm->count != problem->degree;
   int n = problem->degree;
   while (n > problem->degree - wanted) {
-    /* A cold start is the first start value of what is left, whose circle holds all of its roots. */
+    /* A cold start is the first start value of the remaining polynomial; its circle holds all remaining roots. */
     const int order = cold ? 0 : problem->degree - n;
     rest.degree = n;
     if (cold && n < problem->degree) start_values(&rest, options->radii, NULL, 1, re, im);

@@ -1,10 +1,10 @@
-/* Durand-Kerner, Weierstrass's method: all roots at once, the simplest iteration that does it (K. Weierstrass 1891; E.
- * Durand 1960; I. Kerner 1966). The baseline that Aberth's method is measured against.
+/* Durand-Kerner, Weierstrass's method: the simplest iteration for all roots at once (K. Weierstrass 1891; E. Durand
+ * 1960; I. Kerner 1966). It is the baseline for Aberth's method.
  *
- * z_i <- z_i - P(z_i) / (c_n product over j != i of (z_i - z_j)): Newton's method with P' replaced by what it would be
- * if the others were the roots. It needs no derivative and converges quadratically (Aberth's method: cubically) to
- * simple roots, linearly to multiple ones. In the reversed chart P = x^n q(1/x), and each factor of the product takes
- * one x.
+ * z_i <- z_i - P(z_i) / (c_n product over j != i of (z_i - z_j)) is Newton's method with P' replaced by what it would
+ * be if the others were the roots. It needs no derivative, and converges quadratically to simple roots (Aberth's
+ * method: cubically), linearly to multiple ones. In the reversed chart P = x^n q(1/x), and each factor of the product
+ * takes one x.
  */
 #include "algebra/root_problem.h"
 #include "algebra/start.h"
@@ -17,7 +17,7 @@ struct sweep {
   int number; /* from 1 */
   struct complex_number x[POLYNOMIAL_MAX_DEGREE], next[POLYNOMIAL_MAX_DEGREE];
   double last[POLYNOMIAL_MAX_DEGREE];    /* |step|^2 in u */
-  double checked[POLYNOMIAL_MAX_DEGREE]; /* the same when it was last looked at whether the root is stuck */
+  double checked[POLYNOMIAL_MAX_DEGREE]; /* the same at the last look for stuck roots */
 };
 
 /* -P / (c_n product); `resting` where |P| is below its own rounding bound. */
@@ -37,7 +37,7 @@ static struct complex_number step_of(const struct sweep *sweep, int i, bool *res
   return step;
 }
 
-/* Moves root i. True when it is done. */
+/* Moves root i. Returns whether it is done. */
 static bool move(struct sweep *sweep, int i)
 {
   const struct solver_options *options = sweep->options;
@@ -47,7 +47,7 @@ static bool move(struct sweep *sweep, int i)
   struct complex_number step = step_of(sweep, i, &resting);
   const double length = root_problem_step_in_u(sweep->p.basis, x, step);
   const double square = root_problem_square_in_u(sweep->p.basis, x);
-  if (!isfinite(step.re) || !isfinite(step.im) || isnan(length)) { /* two values are equal: part them */
+  if (!isfinite(step.re) || !isfinite(step.im) || isnan(length)) { /* two values are equal: separate them */
     sweep->next[i] = (struct complex_number){x.re + 0.25 * x.re - 0.125 * x.im, x.im + 0.25 * x.im + 0.125 * x.re};
     sweep->last[i] = INFINITY;
     return false;

@@ -1,9 +1,9 @@
-/* Preparing a polynomial for evaluation: both orders of its coefficients, and the weights of its error bound. */
+/* Prepares a polynomial for evaluation: both orders of its coefficients, and the weights of its error bound. */
 #include "algebra/evaluation.h"
 
 #include <stddef.h>
 
-/* Room in a caller's bound for the rounding of the sums it goes into: 2^-40 relative, over 4000 roundings. */
+/* Room in a caller's bound for the rounding of the sums that use it: 2^-40 relative, over 4000 roundings. */
 #define CALLER_BOUND_ROOM (1.0 + 0x1p-40)
 
 void evaluation_prepare(int degree, enum basis basis, const double c[], const double error[], struct evaluation *out)

@@ -1,14 +1,15 @@
-/* A polynomial made ready to be evaluated at many points, with a bound on every value. Internal to src/algebra.
+/* A polynomial prepared for evaluation at many points, with a bound on the error of every value. Internal to
+ * src/algebra.
  *
- * Charts. Either basis is a plain polynomial q of one variable: q(u) itself in the power basis, and in scaled Bernstein
- * form q(x) with x = u/(1-u), because p(u) = (1-u)^n q(x). Where the variable is larger than 1 in modulus the reversed
- * polynomial in its reciprocal is used, so that no power ever overflows: the chart variable z always has |z| <= 1 (up
- * to rounding).
+ * Charts. In either basis the polynomial is a plain one, q, of one variable: q(u) itself in the power basis, and q(x)
+ * with x = u/(1-u) in scaled Bernstein form, because p(u) = (1-u)^n q(x). Where the variable is larger than 1 in
+ * modulus, the reversed polynomial in its reciprocal is used, so no power ever overflows. The chart variable z always
+ * has |z| <= 1 (up to rounding).
  *
- * Bounds. A complex product has a relative error below sqrt(5) U, a sum below U (U = 2^-53), so that c[k], which passes
- * k products and k + 1 sums, brings at most (3.24 k + 1) U |c[k]| |z|^k of error; the weights (4 k + 2) U |c[k]| leave
- * room for the rounding of the bound itself and for |z| exceeding its true value by a few U. The same paths lead to the
- * derivative, so the derivative of the bound polynomial bounds the error of the derivative.
+ * Bounds. A complex product has a relative error below sqrt(5) U, a sum below U (U = 2^-53). c[k] passes k products and
+ * k + 1 sums, so it contributes at most (3.24 k + 1) U |c[k]| |z|^k of error. The weights (4 k + 2) U |c[k]| leave room
+ * for the rounding of the bound itself, and for |z| exceeding its true value by a few U. The derivative is computed by
+ * the same operations, so the derivative of the bound polynomial bounds its error.
  */
 #ifndef PSCN_ALGEBRA_EVALUATION_H
 #define PSCN_ALGEBRA_EVALUATION_H
@@ -20,10 +21,10 @@
 #include "algebra/polynomial.h"
 #include "base/real.h"
 
-/* The room left for rounding in sums of positive bounds (over 200 operations). */
+/* Room for rounding in sums of positive bounds (over 200 operations). */
 #define BOUND_ROOM (1.0 + 0x1p-44)
 
-/* All underflow in one evaluation of coefficients scaled to at most 1: under 65 * 65 * 16 operations of 2^-1074
+/* All underflow in one evaluation of coefficients scaled to at most 1: fewer than 65 * 65 * 16 operations, 2^-1074
  * each. */
 #define UNDERFLOW_ERROR 0x1p-1057
 
@@ -61,8 +62,8 @@ static inline struct evaluation_real evaluation_at_real(const struct evaluation 
   return out;
 }
 
-/* q of the chart polynomial at a chart point z known to 8 U relative, and a bound on its error, that of z included:
- * (8 k) U in the term of z^k, twice its weight in the bound at most. */
+/* q of the chart polynomial at a chart point z that is known to 8 U relative, and a bound on the error of q. That of z
+ * is included: it is 8 k U in the term of z^k, at most twice the term's weight in the bound. */
 struct evaluation_complex {
   struct complex_number z, value;
   double error;
@@ -87,7 +88,7 @@ static inline struct evaluation_complex evaluation_in_chart(const struct evaluat
   return out;
 }
 
-/* The same at the chart point of x: x, or 1/x where |x|^2 > reversed_above. */
+/* As evaluation_in_chart, at the chart point of x: x, or 1/x where |x|^2 > reversed_above. */
 static inline struct evaluation_complex evaluation_at_complex(const struct evaluation *p, struct complex_number x,
                                                               double reversed_above)
 {

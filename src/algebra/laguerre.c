@@ -1,7 +1,7 @@
 /* Laguerre: z <- z - n P / (P' +- sqrt(H)), H = (n-1) [(n-1) P'^2 - n P P''], eq 8 of the paper, with deflation.
  *
- * Divided by P: with G = P'/P and K = G^2 - P''/P the step is -n / (G +- sqrt((n-1) (n K - G^2))), the sign being the
- * one that makes the denominator larger in modulus.
+ * Divided by P, with G = P'/P and K = G^2 - P''/P, the step is -n / (G +- sqrt((n-1) (n K - G^2))). The sign is the one
+ * that makes the denominator larger in modulus.
  */
 #include "algebra/deflation.h"
 

@@ -1,4 +1,4 @@
-/* Polynomials in two bases: change of basis, eq 11, Descartes' count of sign changes. */
+/* Polynomials in two bases: change of basis, eq 11, and Descartes' count of sign changes. */
 #include "algebra/polynomial.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ double polynomial_binomial(int n, int k)
 {
   if (k < 0 || k > n) return 0.0;
   k = k < n - k ? k : n - k;
-  /* Every division is exact; C(64,32) * 64 passes 64 bits. */
+  /* Every division is exact. C(64,32) * 64 exceeds 64 bits. */
   unsigned __int128 value = 1;
   for (int i = 1; i <= k; i++) value = value * (unsigned)(n - k + i) / (unsigned)i;
   return (double)value;
@@ -43,10 +43,10 @@ void polynomial_to_bernstein(const struct polynomial *p, double out_c[], double 
 /* "unit" of eq 11: beta^-(s-1). */
 #define PAPER_UNIT 0x1p-52
 
-/* |P| and the largest term in double cannot be told from their own rounding where it matters, near 1: so in `wide`. */
+/* In `wide`: where the ratio matters, near 1, |P| in double would be lost in its own rounding. */
 double polynomial_eq11(const struct polynomial *p, double re, double im)
 {
-  /* As in evaluation.h: the variable of the terms is z = top/low, or low/top where that is smaller; the common factor
+  /* As in evaluation.h, the variable of the terms is z = top/low, or low/top where that is smaller. The common factor
    * of all terms cancels. */
   const bool power = p->basis == BASIS_POWER;
   int n = p->degree;
@@ -76,8 +76,8 @@ double polynomial_eq11(const struct polynomial *p, double re, double im)
   return isnan(ratio) ? INFINITY : ratio;
 }
 
-/* `gap` uncertain signs between two certain ones can hide at most gap + 1 changes: an even number of them where the two
- * are equal, an odd number where they differ. At either end of the sequence they can hide gap. */
+/* `gap` uncertain signs between two certain ones hide at most gap + 1 changes: an even number if the two are equal, an
+ * odd number if they differ. At either end of the sequence they hide at most gap. */
 int polynomial_sign_variations(int degree, const double c[], const double error[])
 {
   int most = 0, last = 0, gap = 0;

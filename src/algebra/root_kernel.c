@@ -10,11 +10,10 @@
 #include "base/kernel.h"
 #include "base/lanes.h"
 
-/* Steps of noise a root may meet before it is done: the others are still moving, and the next step may be a good
- * one. */
+/* Noise steps that a root may take before it is done: the others still move, and the next step may be a good one. */
 enum { PATIENCE = 2 };
-/* Noise this much longer than the last good step, squared, is not even tried: a step that is noise may be some times
- * too long by chance, one of 8 times is the noise of a vanishing slope. A choice of speed. */
+/* A noise step is not taken if its square is this many times that of the last good step. Noise may be a few times too
+ * long by chance; 8 times is the noise of a vanishing slope. A choice of speed. */
 #define WILD 64.0
 
 /* complex_small_modulus of re + i im. */
@@ -34,7 +33,7 @@ struct evaluation_lanes {
   lanes re, im, slope_re, slope_im, error;
 };
 
-/* `bounded` is a constant at every call; without it the error is left 0. */
+/* `bounded` is a constant at every call. Without it the error is 0. */
 LANES_INLINE void evaluation_at_lanes(const struct evaluation *p, lanes zr, lanes zi, lane_mask reversed, bool bounded,
                                       struct evaluation_lanes *out)
 {
@@ -77,7 +76,7 @@ struct aberth_step {
   lanes re, im;
   lanes step_square; /* |step|^2 in u */
   lanes square;      /* |u|^2 */
-  lane_mask resting; /* P is 0, or (where asked for) |P| below its rounding bound */
+  lane_mask resting; /* P is 0, or (if asked for) |P| below its rounding bound */
 };
 
 /* The step of eq 9 for a few roots. `bounded` is a constant at every call. */
@@ -119,8 +118,8 @@ LANES_INLINE void step_lanes(const struct aberth *a, lanes xr, lanes xi, bool bo
   }
 }
 
-/* What one root does with its step, of which `square` is |step|^2 in u; eq 10 is met where that is below `limit`. True
- * when it is done. */
+/* Takes the step of one root. `square` is |step|^2 in u, and eq 10 holds where it is below `limit`. Returns whether the
+ * root is done. */
 static bool take_step(struct aberth *a, const struct solver_options *options, bool turning, int i, double dx, double dy,
                       double square, double limit, bool resting)
 {

@@ -1,7 +1,7 @@
 /* Aberth's method for one polynomial, several roots side by side. Internal to src/algebra.
  *
- * root_kernel.c is compiled once per instruction set (KERNEL_BEST). All of them round alike (no
- * contraction of multiply and add), so an answer does not depend on the machine.
+ * root_kernel.c is compiled once per instruction set (KERNEL_BEST). All versions round alike (no contraction of
+ * multiply and add), so an answer does not depend on the machine.
  */
 #ifndef PSCN_ALGEBRA_ROOT_KERNEL_H
 #define PSCN_ALGEBRA_ROOT_KERNEL_H
@@ -15,7 +15,7 @@ struct aberth {
   double zr[POLYNOMIAL_MAX_DEGREE], zi[POLYNOMIAL_MAX_DEGREE];
   double next_zr[POLYNOMIAL_MAX_DEGREE], next_zi[POLYNOMIAL_MAX_DEGREE];
   double last_step[POLYNOMIAL_MAX_DEGREE]; /* |step|^2 in u */
-  double checked[POLYNOMIAL_MAX_DEGREE];   /* |step|^2 in u when it was last looked at whether the root is stuck */
+  double checked[POLYNOMIAL_MAX_DEGREE];   /* |step|^2 in u at the last look for stuck roots */
   int noisy[POLYNOMIAL_MAX_DEGREE];        /* steps that were noise */
   int active[POLYNOMIAL_MAX_DEGREE];       /* the roots still moving */
   int active_count;

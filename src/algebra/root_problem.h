@@ -1,12 +1,11 @@
-/* What a solver of the table works on, and what it answers. Internal to src/algebra.
+/* The input of the table's solvers, and their output. Internal to src/algebra.
  *
  * solver_solve scales the polynomial (largest coefficient in [1/2, 1)), takes out the roots that zero coefficients at
- * its ends show, and leaves the rest as a polynomial q of degree 1 or more in x, with c[0] and c[degree] not zero. In
- * the power basis x = u, where solver_solve has chosen the unit of u; in scaled Bernstein form x = u/(1-u), and the
- * same numbers c are the scaled Bernstein coefficients in u.
+ * its ends show, and leaves the rest: a polynomial q in x of degree 1 or more, with c[0] and c[degree] not zero. In the
+ * power basis x = u, in a unit that solver_solve has chosen. In scaled Bernstein form x = u/(1-u), and the same numbers
+ * c are the scaled Bernstein coefficients in u.
  *
- * A solver answers estimates of roots in u. What they are worth is judged afterwards, from the polynomial, in
- * validation.c.
+ * A solver estimates roots in u. validation.c judges the estimates afterwards, from the polynomial.
  */
 #ifndef PSCN_ALGEBRA_ROOT_PROBLEM_H
 #define PSCN_ALGEBRA_ROOT_PROBLEM_H
@@ -27,12 +26,12 @@ struct root_estimates {
   int iterations[POLYNOMIAL_MAX_DEGREE];
   bool converged[POLYNOMIAL_MAX_DEGREE]; /* the stopping rule was met, not the iteration limit */
   bool cluster[POLYNOMIAL_MAX_DEGREE];   /* of unknown multiplicity, or a pair that may not be real */
-  double reach[POLYNOMIAL_MAX_DEGREE];   /* the roots it stands for may be as far away, in u */
+  double reach[POLYNOMIAL_MAX_DEGREE];   /* how far away, in u, the roots that it stands for may be */
 };
 
-/* `stop rounding`: where |p| is below its rounding bound, which is never sharp, steps go on while they shrink. One not
- * shorter than the last is noise; after one that has shrunk by this much (its square against the last one's),
- * the next would be noise. */
+/* `stop rounding`: the rounding bound of |p| is never sharp, so below it steps go on while they shrink. A step not
+ * shorter than the last is noise. After a step that has shrunk by this much (its square against the last one's), the
+ * next would be noise. */
 #define STEEP_FALL 1e-4
 
 /* |x|^2 above which values are computed in powers of 1/x: 1, or with plain Horner as far as |x|^n does not overflow. */
@@ -41,7 +40,7 @@ static inline double root_problem_reversed_above(const struct solver_options *op
   return options->horner == HORNER_CHARTS ? 1.0 : exp2(fmin(1600.0 / degree, 900.0));
 }
 
-/* Between u and x. The point at infinity of either comes out as infinite or as NaN. */
+/* Convert x to u, and u to x. The point at infinity of either comes out infinite or NaN. */
 static inline void root_problem_u_from_x(enum basis basis, double *re, double *im)
 {
   if (basis == BASIS_POWER) return;
@@ -69,7 +68,7 @@ static inline void root_problem_x_from_u(enum basis basis, double *re, double *i
   *re = x;
 }
 
-/* |u|^2 at x, and |step|^2 in u of a step from there: du = dx / ((1 + x) (1 + x + dx)) in Bernstein form. */
+/* |u|^2 at x, and |step|^2 in u of a step from x: du = dx / ((1 + x) (1 + x + dx)) in Bernstein form. */
 static inline double root_problem_square_in_u(enum basis basis, struct complex_number x)
 {
   const double square = complex_norm(x);
@@ -85,7 +84,7 @@ static inline double root_problem_step_in_u(enum basis basis, struct complex_num
   return complex_norm(step) / (complex_norm(x) * complex_norm(complex_add(x, step)));
 }
 
-/* Tells whoever looks on that a root is at x now. */
+/* Tells the watcher, if there is one, that a root is now at x. */
 static inline void root_problem_tell(const struct solver_options *options, enum basis basis, int root, int step,
                                      double re, double im)
 {
@@ -94,8 +93,8 @@ static inline void root_problem_tell(const struct solver_options *options, enum 
   options->watch->tell(options->watch->context, root, step, re, im);
 }
 
-/* The table of solvers, one row each: name (NAME_find is the method), summary, real roots in [0,1] only, form on lanes,
- * steps a root may take. The first is the default. */
+/* The table of solvers. A row is: name (NAME_find is the method), summary, real roots in [0,1] only, form on lanes,
+ * steps allowed per root. The first is the default. */
 #define SOLVERS(ROW)                                                                                                   \
   ROW(bernstein, "real roots in [0,1] by sign variations in Bernstein form and bracketed Newton", true, SIGNS, 64)     \
   ROW(newton, "one root after the other by Newton-Raphson, with deflation (eq 7 of the paper)", false, NEWTON, 200)    \
@@ -111,7 +110,7 @@ static inline void root_problem_tell(const struct solver_options *options, enum 
 SOLVERS(SOLVER_FIND)
 #undef SOLVER_FIND
 
-/* Adds an estimate; one too many is dropped. */
+/* Adds an estimate, or drops it if there is no room. */
 static inline void root_estimates_add(struct root_estimates *out, double re, double im, int iterations, bool converged,
                                       bool cluster)
 {
@@ -126,9 +125,9 @@ static inline void root_estimates_add(struct root_estimates *out, double re, dou
   }
 }
 
-/* Sets radius, status and im of the roots from number `exact` on, the values for the roots of p, from the polynomial
- * with its coefficient errors, and drops those that cannot be told from infinity. On entry status is as the solver
- * found it, and radius the reach of the estimate. `all_sought`: there should be a value for every root. */
+/* Judges the roots from number `exact` on, which are the estimates for the roots of p. Sets their radius, status and im
+ * from the polynomial and its coefficient errors, and drops those that cannot be told from infinity. On entry, status
+ * is the solver's and radius the reach of the estimate. `all_sought`: there should be a value for every root. */
 void validation_judge(const struct evaluation *p, bool all_sought, int exact, struct root_set *roots);
 
 #endif

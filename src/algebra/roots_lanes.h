@@ -1,20 +1,21 @@
 /* The methods that find all roots (eq 7 to 9 of the paper, and Weierstrass's) on several real polynomials at once, one
- * a lane: the roots near enough to the interval [0,1] of u for Newton's method on something else to start from.
+ * per lane. They find the roots near enough to the interval [0,1] of u to start Newton's method on something else.
  *
- * For a caller who proves by himself what he makes of the roots (as with solver_roots): no radii, no error bounds. The
- * paper's iterations as printed, their items, and roots that are to be the answer, are aberth.c's, deflation.c's and
- * durand_kerner.c's. Against those:
+ * For a caller who proves by himself what he makes of the roots (as with solver_roots): there are no radii and no error
+ * bounds. The paper's iterations as printed, their items, and roots that are to be the answer, are in aberth.c,
+ * deflation.c and durand_kerner.c. The differences to those are:
  * - Powers of y, and start values, are those of roots_lanes_start.h.
- * - The polynomials are real: P, P' and P'' by division by a real quadratic, half the products of Horner's scheme.
+ * - The polynomials are real. P, P' and P'' come from division by a real quadratic, with half the products of Horner's
+ *   scheme.
  * - A sweep moves all roots from the same values, so every difference of two roots serves both.
- * - A root is done when it is a good start, or, where all move at once, plainly none for [0,1]; then it stays, and
- *   pushes the others. All are where there are as many roots in [0,1] as the caller says that there can be.
- * - One root after the other is Aberth's iteration with one value that moves, and is pushed by the roots before it: with P
- *   divided by those, P'/P is sum over j of 1/(z - z_j) less (implicit deflation; H. J. Maehly, "Zur iterativen
- *   Auflösung algebraischer Gleichungen", 1954), and nothing that rounding did to a root is handed on.
+ * - A root is done when it is a good start or, where all move at once, plainly not on its way to [0,1]. It then stays,
+ *   and pushes the others. All are done when [0,1] has as many roots as the caller says that there can be.
+ * - One root after the other is Aberth's iteration with one moving value, pushed by the roots before it. Dividing P by
+ *   those subtracts sum over j of 1/(z - z_j) from P'/P (implicit deflation; H. J. Maehly, "Zur iterativen Auflösung
+ *   algebraischer Gleichungen", 1954), and no rounding error of a root is passed on.
  *
- * Included by sources that are compiled once per instruction set. A lane's roots do not depend on the other lanes,
- * not in the last bit.
+ * Included by sources that are compiled once per instruction set. A lane's roots do not depend on the other lanes, not
+ * even in the last bit.
  */
 #ifndef PSCN_ALGEBRA_ROOTS_LANES_H
 #define PSCN_ALGEBRA_ROOTS_LANES_H
@@ -22,24 +23,24 @@
 #include "algebra/complex_number.h"
 #include "algebra/roots_lanes_start.h"
 
-/* All lengths here are choices of speed, in y. A step shorter than this leaves a root, after it, off by about its
- * square: near enough for Newton. */
+/* All lengths here are choices of speed, in y. A step shorter than this leaves a root with an error of about the step's
+ * square: near enough for Newton's method. */
 #define ROOTS_SETTLED 0x1p-8
-/* A value this far, and this many of its own steps, away from [-1,1] is not on its way there, ... */
+/* A value farther than this, plus this many of its own steps, from [-1,1] is not on its way there, ... */
 #define ROOTS_MARGIN 0.25
 #define ROOTS_AWAY 4.0
-/* ... where a step is less than this much of the way: in the first sweeps values are anywhere. */
+/* ... if a step is less than this fraction of the way: in the first sweeps values are anywhere. */
 #define ROOTS_CALM 0.0625
-/* A real value can only move along the real axis: previous roots are taken off it by this much. And one that has come
- * as near to it by itself is real. */
+/* A real value can only move along the real axis, so previous roots are moved off it by this much. A value that has
+ * come as near to it by itself is real. */
 #define ROOTS_LIFT 0x1p-10
-/* Of one root after the other no step is longer than this many times 1 + |z|: where P' nearly vanishes the way back
+/* One root after the other: no step is longer than this many times 1 + |z|. Where P' nearly vanishes, the way back
  * would take hundreds of steps. */
 #define ROOTS_LONGEST 2.0
-/* And one that has not come to rest after so many steps goes round in a circle: it is turned about 0 by one radian. */
+/* A value that has not come to rest after so many steps goes round in a circle. It is turned about 0 by one radian. */
 enum { ROOTS_PATIENCE = 24 };
-/* All at once are mostly there after some ten sweeps; after so many some are multiple, and boxes and the last resort are
- * sooner done. */
+/* All at once, roots are mostly found after some ten sweeps. If after this many they are not, some are multiple, and
+ * boxes and the last resort are done sooner. */
 enum { ROOTS_SWEEPS = 48 };
 
 /* 1/x to about 20 bits; 0 where x is above 1e38. */
@@ -55,12 +56,13 @@ LANES_INLINE lanes roots_lanes_inverse(lanes x)
 }
 
 struct roots_lanes_value {
-  lanes re, im, slope_re, slope_im, half_re, half_im; /* P, P', and where asked for P''/2 */
+  lanes re, im, slope_re, slope_im, half_re, half_im; /* P, P', and if asked for P''/2 */
 };
 
-/* P and its derivatives at `number` values, so that one is worked on while another waits: with P = D Q + b1 y + b0, D = y^2
- * - s y + t, where z is a root of D, P(z) = b1 z + b0, P'(z) = b1 + D'(z) Q(z) and P''(z)/2 = Q(z) + D'(z) Q'(z), D'(z) =
- * 2 z - s = 2 i im z; Q' by the same division of Q. `number` and `curved` are constants at every call. */
+/* P and its derivatives at `number` values, so that one is computed while another waits. Let P = D Q + b1 y + b0, D =
+ * y^2 - s y + t, and z a root of D. Then P(z) = b1 z + b0, P'(z) = b1 + D'(z) Q(z) and P''(z)/2 = Q(z) + D'(z) Q'(z),
+ * with D'(z) = 2 z - s = 2 i im z. Q' comes from the same division of Q. `number` and `curved` are constants at every
+ * call. */
 LANES_INLINE void roots_lanes_evaluate(const struct roots_lanes *a, int n, const int at[], int number, bool curved,
                                        struct roots_lanes_value out[])
 {
@@ -100,13 +102,13 @@ LANES_INLINE void roots_lanes_evaluate(const struct roots_lanes *a, int n, const
   }
 }
 
-/* 1/(z_i - z_j) is (dx - i dy) push; values that fall together do not push. */
+/* 1/(z_i - z_j) is (dx - i dy) push. Values that coincide do not push each other. */
 LANES_INLINE lanes roots_lanes_push(lanes dx, lanes dy)
 {
   return roots_lanes_inverse(lanes_max(dx * dx + dy * dy, lanes_all(0x1p-100)));
 }
 
-/* A complex number a lane. */
+/* A complex number per lane. */
 struct roots_lanes_complex {
   lanes re, im;
 };
@@ -116,7 +118,7 @@ LANES_INLINE struct roots_lanes_complex roots_lanes_times(struct roots_lanes_com
   return (struct roots_lanes_complex){x.re * y.re - x.im * y.im, x.re * y.im + x.im * y.re};
 }
 
-/* sum over j != i of 1/(z_i - z_j) for the roots i of `active`, the terms always in order of j: so a lane's sums do
+/* sum over j != i of 1/(z_i - z_j) for the roots i of `active`. The terms are always in order of j, so a lane's sums do
  * not depend on which roots other lanes still move. */
 LANES_INLINE void roots_lanes_sums(const struct roots_lanes *a, int n, const int active[], int count,
                                    struct roots_lanes_complex sum[ROOTS_LANES_DEGREE])
@@ -148,7 +150,7 @@ LANES_INLINE void roots_lanes_sums(const struct roots_lanes *a, int n, const int
   }
 }
 
-/* What -P is divided by. Eq 7 and 9: P' - P sum. */
+/* The divisor of -P in a step. In eq 7 and 9 it is P' - P sum. */
 LANES_INLINE struct roots_lanes_complex roots_lanes_pushed(const struct roots_lanes_value *value,
                                                            struct roots_lanes_complex sum)
 {
@@ -156,8 +158,8 @@ LANES_INLINE struct roots_lanes_complex roots_lanes_pushed(const struct roots_la
                                       value->slope_im - (value->re * sum.im + value->im * sum.re)};
 }
 
-/* Eq 8 for the m roots that are left: with G = P'/P - sum and H = (P'/P)^2 - P''/P - sum of squares it is
- * (G +- sqrt((m-1) (m H - G^2))) P/m, the sign being the one that makes it larger. */
+/* In eq 8, for the m roots that are left, with G = P'/P - sum and H = (P'/P)^2 - P''/P - sum of squares, it is (G +-
+ * sqrt((m-1) (m H - G^2))) P/m. The sign is the one that makes it larger. */
 LANES_INLINE struct roots_lanes_complex roots_lanes_laguerre(const struct roots_lanes_value *value, int m,
                                                              struct roots_lanes_complex sum,
                                                              struct roots_lanes_complex squares)
@@ -179,8 +181,8 @@ LANES_INLINE struct roots_lanes_complex roots_lanes_laguerre(const struct roots_
   return (struct roots_lanes_complex){(g.re + re) * (1.0 / m), (g.im + im) * (1.0 / m)};
 }
 
-/* Weierstrass's: c_n product over j != i of (z_i - z_j), where others that are at the limit stand for roots at
- * infinity. */
+/* In Weierstrass's method it is c_n product over j != i of (z_i - z_j), where other roots that are at the limit stand
+ * for roots at infinity. */
 LANES_INLINE struct roots_lanes_complex roots_lanes_product(const struct roots_lanes *a, int i)
 {
   struct roots_lanes_complex product = {lanes_all(1), {0}};
@@ -197,8 +199,8 @@ LANES_INLINE struct roots_lanes_complex roots_lanes_product(const struct roots_l
   return (struct roots_lanes_complex){lead * product.re, lead * product.im};
 }
 
-/* The step -P/by of one root on the lanes where it moves; then whether it is done. Returns those where it is now.
- * `in_order` is a constant. */
+/* Takes the step -P/by of one root on the lanes where it moves, and then checks whether it is done. Returns the lanes
+ * where it now is. `in_order` is a constant. */
 LANES_INLINE lane_mask roots_lanes_move(struct roots_lanes *a, int i, const struct roots_lanes_value *value,
                                         struct roots_lanes_complex by, bool in_order, double settled)
 {
@@ -213,9 +215,9 @@ LANES_INLINE lane_mask roots_lanes_move(struct roots_lanes *a, int i, const stru
     const lanes part = lanes_select(step > longest, longest / step, lanes_all(1));
     dx *= part, dy *= part;
   }
-  /* A value that was sent as far as that by chance is sent back by its next step. */
+  /* A value that was sent this far by chance is sent back by its next step. */
   const lane_mask far = lanes_max(lanes_abs(zr), lanes_abs(zi)) >= ROOTS_FAR;
-  /* the pushes cancel P'/P: go somewhere else nearby */
+  /* where the pushes cancel P'/P, go somewhere else nearby */
   dx = lanes_select(usable, dx, 0.25 * zr - 0.125 * zi), dy = lanes_select(usable, dy, 0.25 * zi + 0.125 * zr);
   const lanes xr = lanes_max(lanes_min(zr + dx, lanes_all(ROOTS_FAR)), lanes_all(-ROOTS_FAR));
   const lanes xi = lanes_max(lanes_min(zi + dy, lanes_all(ROOTS_FAR)), lanes_all(-ROOTS_FAR));
@@ -229,21 +231,21 @@ LANES_INLINE lane_mask roots_lanes_move(struct roots_lanes *a, int i, const stru
   return found;
 }
 
-/* Lanes where root number i, which is found, is real. */
+/* Lanes where root number i, already found, is real. */
 LANES_INLINE lane_mask roots_lanes_real(const struct roots_lanes *a, int i)
 {
   return lanes_abs(a->zi[i]) <= ROOTS_LIFT * lanes_max(lanes_abs(a->zr[i]), lanes_all(1));
 }
 
-/* Root number i is found on these lanes. */
+/* Counts root number i, found on these lanes. */
 LANES_INLINE void roots_lanes_count(struct roots_lanes *a, int i, lane_mask found)
 {
   const lane_mask inside = found & roots_lanes_real(a, i) & (lanes_abs(a->zr[i]) <= 1);
   a->enough -= lanes_select(inside, lanes_all(1), lanes_all(0));
 }
 
-/* All at once, in `most` sweeps at most. Takes lanes that are done out of those that seek. Inlined, for degree 2 has
- * loops of its own. */
+/* Moves all roots at once, in at most `most` sweeps. Removes lanes that are done from `seeking`. Inlined, so that
+ * degree 2 has loops of its own. */
 LANES_INLINE void roots_lanes_at_once(struct roots_lanes *a, int n, double settled, int most)
 {
   int active[ROOTS_LANES_DEGREE], count = n;
@@ -272,7 +274,7 @@ LANES_INLINE void roots_lanes_at_once(struct roots_lanes *a, int n, double settl
     int still = 0;
     for (int k = 0; k < count; k++) {
       const int i = active[k];
-      /* Without P' a short step says something only where all others are short as well. */
+      /* Without P', a short step means something only if all others are short too. */
       if (a->method == SOLVER_LANES_DURAND_KERNER) a->moving[i] |= a->seeking;
       if (lanes_any(a->moving[i] & a->seeking)) active[still++] = i;
     }
@@ -280,7 +282,7 @@ LANES_INLINE void roots_lanes_at_once(struct roots_lanes *a, int n, double settl
   }
 }
 
-/* Root number i, those before it being known. */
+/* Seeks root number i; those before it are known. */
 LANES_INLINE void roots_lanes_seek(struct roots_lanes *a, int i, bool curved, double settled, int most)
 {
   for (int step = 0; step < most && lanes_any(a->moving[i] & a->seeking); step++) {
@@ -306,8 +308,8 @@ LANES_INLINE void roots_lanes_seek(struct roots_lanes *a, int i, bool curved, do
   }
 }
 
-/* One after the other, each with its conjugate, in `most` steps each at most. Lanes where one is sought in vain are
- * what is left of those that seek. */
+/* Finds one root after the other, each with its conjugate, in at most `most` steps each. `seeking` becomes the lanes
+ * where a root was sought in vain. */
 static void roots_lanes_in_turn(struct roots_lanes *a, double settled, int most)
 {
   const int n = a->degree;
@@ -329,8 +331,8 @@ static void roots_lanes_in_turn(struct roots_lanes *a, double settled, int most)
   a->seeking = failed;
 }
 
-/* From the start values to the roots, on the lanes of `wanted`, in `most` steps a root at most, until all are found or
- * `enough` real ones in [-1,1]: these are not `moving` any more. Returns the lanes where it has come to that. */
+/* Goes from the start values to the roots, on the lanes of `wanted`, in at most `most` steps per root, until all are
+ * found or `enough` real ones in [-1,1]. Roots found are no longer `moving`. Returns the lanes that come to that. */
 static lane_mask roots_lanes_run(struct roots_lanes *a, lane_mask wanted, lanes enough, double settled, int most)
 {
   const int sweeps = most < ROOTS_SWEEPS ? most : ROOTS_SWEEPS;

@@ -1,10 +1,10 @@
-/* Real polynomials, one a lane, and the values from which the iterations of roots_lanes.h start.
+/* Real polynomials, one per lane, and the values from which the iterations of roots_lanes.h start.
  *
- * Polynomials in scaled Bernstein form are taken to powers of y = 2u - 1: all that matters has |y| <= 1, and what
- * rounding does there (1e-11 of a root mostly, 1e-6 at worst) is little for a start.
+ * Polynomials in scaled Bernstein form are converted to powers of y = 2u - 1. All roots that matter have |y| <= 1, and
+ * the rounding there (mostly 1e-11 of a root, 1e-6 at worst) is small for a start value.
  *
- * Included by sources that are compiled once per instruction set. What a lane gets does not depend on the other lanes, not
- * in the last bit.
+ * Included by sources that are compiled once per instruction set. A lane's results do not depend on the other lanes,
+ * not even in the last bit.
  */
 #ifndef PSCN_ALGEBRA_ROOTS_LANES_START_H
 #define PSCN_ALGEBRA_ROOTS_LANES_START_H
@@ -18,10 +18,10 @@
 
 enum { ROOTS_LANES_DEGREE = 18 };
 
-/* Values are kept within this; roots beyond are as good as at infinity. */
+/* Values are kept within this; roots beyond count as infinite. */
 #define ROOTS_FAR 0x1p20
-/* p[k] is off by some roundings of C(n,k) sum |c|. Highest powers below this much of that are noise, and their roots,
- * far away, of nobody's interest. */
+/* p[k] is off by some roundings of C(n,k) sum |c|. Highest powers below this fraction of that are noise, and their far
+ * roots are of no interest. */
 #define ROOTS_NOISE 0x1p-48
 
 struct roots_lanes {
@@ -32,11 +32,11 @@ struct roots_lanes {
   lane_mask moving[ROOTS_LANES_DEGREE];                 /* not found */
   lane_mask seeking;                                    /* lanes that are not done */
   lanes enough;                                         /* real roots in [-1,1] that are not found, at most */
-  lanes sweeps;                                         /* over all roots, each as dear as the degree squared */
+  lanes sweeps;                                         /* work so far; a sweep over all roots counts degree^2 */
 };
 
-/* p = sum over k of c[k] (1+y)^k (1-y)^(n-k) in powers of y, and choose[j] = C(n,j). Terms k and n-k are together
- * (1-y^2)^k sum over j of C(n-2k,j) y^j (c[n-k] + c[k]), the difference where j is odd; and 1-y^2 is taken out as in
+/* p = sum over k of c[k] (1+y)^k (1-y)^(n-k) in powers of y, and choose[j] = C(n,j). Terms k and n-k together are
+ * (1-y^2)^k sum over j of C(n-2k,j) y^j (c[n-k] + c[k]), with the difference where j is odd. 1-y^2 is taken out as in
  * Horner's scheme. */
 LANES_INLINE void roots_lanes_powers(int n, const lanes c[], lanes p[], double choose[])
 {
@@ -56,7 +56,7 @@ LANES_INLINE void roots_lanes_powers(int n, const lanes c[], lanes p[], double c
   }
 }
 
-/* Scales p[0..n], each of which is off by some roundings of choose[k] sum. Lanes where that can be done. */
+/* Scales p[0..n], each of which is off by some roundings of choose[k] sum. Returns the lanes where that is possible. */
 LANES_INLINE lane_mask roots_lanes_scale(struct roots_lanes *a, int n, const double choose[], lanes sum)
 {
   lanes *p = a->p, largest = {0};
@@ -73,26 +73,26 @@ LANES_INLINE lane_mask roots_lanes_scale(struct roots_lanes *a, int n, const dou
   return able;
 }
 
-/* sum c[k] u^k (1-u)^(n-k) times 2^n in powers of y, scaled. Lanes where that can be done. */
+/* Sets p to sum c[k] u^k (1-u)^(n-k) times 2^n in powers of y, scaled. Returns the lanes where that is possible. */
 static lane_mask roots_lanes_set(struct roots_lanes *a, int n, const lanes c[])
 {
   lanes sum = {0};
   double choose[ROOTS_LANES_DEGREE + 1];
-  if (n == ROOTS_LANES_DEGREE) roots_lanes_powers(ROOTS_LANES_DEGREE, c, a->p, choose); /* constants then */
+  if (n == ROOTS_LANES_DEGREE) roots_lanes_powers(ROOTS_LANES_DEGREE, c, a->p, choose); /* with constant bounds */
   else roots_lanes_powers(n, c, a->p, choose);
   for (int k = 0; k <= n; k++) sum += lanes_abs(c[k]);
   return roots_lanes_scale(a, n, choose, sum);
 }
 
-/* q0 + q1 y + q2 y^2, scaled. Lanes where that can be done. */
+/* Sets p to q0 + q1 y + q2 y^2, scaled. Returns the lanes where that is possible. */
 static lane_mask roots_lanes_set_quadratic(struct roots_lanes *a, lanes q0, lanes q1, lanes q2)
 {
   a->p[0] = q0, a->p[1] = q1, a->p[2] = q2;
   return roots_lanes_scale(a, 2, (double[3]){1, 1, 1}, lanes_abs(q0) + (lanes_abs(q1) + lanes_abs(q2)));
 }
 
-/* Directions of the start values, turned by the golden angle from one to the next: no two are conjugate, and any few
- * in a row are well spread. */
+/* Directions of the start values, each turned from the one before by the golden angle: no two are conjugate, and any
+ * few in a row are well spread. */
 static const double ROOTS_DIRECTION[ROOTS_LANES_DEGREE][2] = {
   {0.82534080538904664, 0.56463488641755022},   {-0.98998600927849123, 0.14116551077670156},
   {0.63462894056078134, -0.77281699502708934},  {0.054074749483818782, 0.99853689038926463},
@@ -105,7 +105,7 @@ static const double ROOTS_DIRECTION[ROOTS_LANES_DEGREE][2] = {
   {0.2672187687668745, 0.96363589058249366},    {-0.84796549501763319, -0.53005143076827954},
 };
 
-/* Start values on one lane: on circles by Newton's polygon (start.c), with log2 to a tenth. */
+/* Start values on one lane, on circles by Newton's polygon (start.c), with log2 to a tenth. */
 static void roots_lanes_start_lane(struct roots_lanes *a, unsigned lane)
 {
   const int n = a->degree;
@@ -119,7 +119,7 @@ static void roots_lanes_start_lane(struct roots_lanes *a, unsigned lane)
   }
   for (int edge = -1; edge < corners; edge++) {
     const int low = edge < 0 ? 0 : corner[edge], high = edge + 1 < corners ? corner[edge + 1] : n;
-    /* roots at 0, and at infinity, where coefficients at the ends vanish */
+    /* roots at 0 and at infinity, where coefficients at the ends vanish */
     double radius = edge < 0 ? 1 / ROOTS_FAR : ROOTS_FAR;
     if (edge >= 0 && edge + 1 < corners) radius = exp2((height[low] - height[high]) / (high - low));
     radius = fmin(fmax(radius, 1 / ROOTS_FAR), ROOTS_FAR);
@@ -130,8 +130,8 @@ static void roots_lanes_start_lane(struct roots_lanes *a, unsigned lane)
   }
 }
 
-/* Of degree 2, on all lanes: where the corner of Newton's polygon is so sharp that both roots are real, the real roots
- * of its edges, otherwise on the one circle there is. */
+/* Start values of degree 2, on all lanes. Where the corner of Newton's polygon is so sharp that both roots are real,
+ * they are the real roots of its edges; otherwise they are on the polygon's only circle. */
 static void roots_lanes_start_quadratic(struct roots_lanes *a)
 {
   const lanes *p = a->p, mean = lanes_sqrt(lanes_abs(p[0] / p[2]));
@@ -144,7 +144,7 @@ static void roots_lanes_start_quadratic(struct roots_lanes *a)
   }
 }
 
-/* Start values on the lanes of `wanted`. */
+/* Sets start values on the lanes of `wanted`. */
 static void roots_lanes_start(struct roots_lanes *a, lane_mask wanted)
 {
   if (a->degree == 2) {

@@ -1,4 +1,4 @@
-/* The table of solvers, and the way every polynomial goes: scaled, stripped, solved, judged. */
+/* The table of solvers, and what is done with every polynomial: it is scaled, stripped, solved and judged. */
 #include "algebra/solver.h"
 
 #include <float.h>
@@ -8,8 +8,8 @@
 
 #include "algebra/root_problem.h"
 
-/* eps of eq 10, absolute in the unknown: the least at which the paper's plain iterations still stop by it, as values of
- * size 100 do not move by less. It and the steps a root may take decide when to stop, never what is true: radii and
+/* eps of eq 10, absolute in the unknown: the smallest at which the paper's plain iterations still stop, because values
+ * of size 100 do not move by less. eps and the steps a root may take decide when to stop, never what is true: radii and
  * certificates are made afterwards. */
 #define STOP_TOLERANCE 1e-12
 
@@ -60,7 +60,7 @@ void solver_options_default(const struct solver *solver, struct solver_options *
   solver_options_form(out, true);
 }
 
-/* Whether there is something to solve; where there is not, out says why. */
+/* Whether there is something to solve. If not, out says why. */
 static bool worth_solving(const struct polynomial *p, struct root_set *out)
 {
   bool finite = true, zero = true;
@@ -75,8 +75,9 @@ static bool worth_solving(const struct polynomial *p, struct root_set *out)
   return finite && !zero;
 }
 
-/* Whether the coefficients stand for a root whose modulus is beyond 2^exponent at the end `from`, near 0 or near infinity
- * (Newton's polygon): |c[from]| is less than that of another one k steps inwards by more than 2^(k exponent). */
+/* Whether the coefficients imply a root at the end `from` with a modulus beyond 2^exponent, or below 2^-exponent
+ * near 0 (Newton's polygon): a coefficient k steps inwards is larger than |c[from]| by a factor of more than 2^(k
+ * exponent). */
 static bool end_is_beyond(double exponent, const double c[], int from, int inwards, int count)
 {
   for (int k = 1; k <= count; k++)
@@ -84,12 +85,13 @@ static bool end_is_beyond(double exponent, const double c[], int from, int inwar
   return false;
 }
 
-/* A root whose modulus is beyond 2^FARTHEST, either way, is no double. */
+/* A root with a modulus beyond 2^FARTHEST, or below its inverse, is no double. */
 #define FARTHEST 1075.0
 
-/* The exponent of the unit in which roots are sought, of x with u = 2^unit x. In powers of u it is next to the mean
- * modulus of the roots that are doubles, so that no size of u makes values, their bounds or their squares over- or
- * underflow. The paper's tolerance is one in u, and [0,1] an interval of u: there the unit is 1, as in Bernstein form. */
+/* The exponent of the unit in which roots are sought: of x with u = 2^unit x. In powers of u the unit is next to the
+ * mean modulus of the roots that are doubles, so no size of u makes values, their bounds or their squares overflow or
+ * underflow. The paper's tolerance is in u, and [0,1] is an interval of u: for these the unit is 1, as in Bernstein
+ * form. */
 static int unit_of(const struct root_problem *problem, const struct solver_options *options)
 {
   const double *c = problem->c;
@@ -101,7 +103,7 @@ static int unit_of(const struct root_problem *problem, const struct solver_optio
   return isfinite(mean) ? (int)lrint(mean) : 0;
 }
 
-/* The same polynomial in x with u = 2^unit x, times a power of two so that its largest coefficient lies in [1/2, 1). */
+/* Changes to x with u = 2^unit x, and scales by a power of two so that the largest coefficient lies in [1/2, 1). */
 static void scale_problem(struct root_problem *problem, int unit)
 {
   int largest = INT_MIN;
@@ -116,7 +118,7 @@ static void scale_problem(struct root_problem *problem, int unit)
     problem->c[k] = ldexp(c, exponent);
     problem->error[k] = ldexp(error, exponent) * (1.0 + DBL_EPSILON);
     if (error > 0.0 || ldexp(problem->c[k], -exponent) != c)
-      problem->error[k] += 2 * DBL_TRUE_MIN; /* what underflow may have taken */
+      problem->error[k] += 2 * DBL_TRUE_MIN; /* what underflow may have lost */
   }
 }
 
@@ -125,7 +127,7 @@ static void add_root(struct root_set *out, double re, double im, int iterations,
   if (out->count < POLYNOMIAL_MAX_DEGREE) out->root[out->count++] = (struct root){re, im, 0.0, iterations, status};
 }
 
-/* The same polynomial without its first `low` coefficients and those behind `high`. */
+/* Cuts off the first `low` coefficients and those behind `high`. */
 static void cut_problem(struct root_problem *problem, int low, int high)
 {
   problem->degree = high - low;
@@ -148,11 +150,11 @@ static int strip_ends(struct root_problem *problem, struct root_set *out)
   return problem->basis == BASIS_BERNSTEIN ? 0 : above;
 }
 
-/* Values whose modulus is beyond 2^EXTREME, either way, are not for the iterations, whose squares would over- or
- * underflow. */
+/* The squares of values with a modulus beyond 2^EXTREME, or below its inverse, would overflow or underflow in the
+ * iterations. */
 #define EXTREME 500.0
 
-/* Takes out coefficients at the ends that vanish within their errors or against the others, with first guesses of their
+/* Takes out end coefficients that are 0, but with an error, or vanish against the others. Adds first guesses of their
  * roots: near 0, and near 1 or infinity. */
 static void strip_extremes(struct root_problem *problem, struct root_set *out)
 {
@@ -188,7 +190,7 @@ static void scale_warm(struct solver_warm *warm, int unit)
   }
 }
 
-/* Who looks on is told values in u. */
+/* Passes values on to a watcher in u. */
 struct unit_watch {
   const struct solver_watch *told;
   int unit;
@@ -204,7 +206,7 @@ static void tell_in_u(void *context, int root, int step, double re, double im)
 struct task {
   struct root_problem rest; /* the polynomial without its exact roots at the ends */
   int unit;
-  int exact; /* how many of those are in the answer, where they are the first */
+  int exact; /* how many of those are in the answer, as the first ones */
 };
 
 static void ask_solver(const struct root_problem *problem, int unit, const struct solver_options *options,
@@ -223,7 +225,7 @@ static void ask_solver(const struct root_problem *problem, int unit, const struc
   scale_warm(warm, -unit);
 }
 
-/* The roots in x, each with the radius of what it stands for. False where there is nothing to solve. */
+/* Finds the roots in x, with their reach as radius. Returns false where there is nothing to solve. */
 static bool find_roots(const struct polynomial *p, const struct solver_options *options, struct solver_warm *warm,
                        struct task *task, struct root_set *out)
 {
@@ -238,7 +240,7 @@ static bool find_roots(const struct polynomial *p, const struct solver_options *
   task->unit = unit_of(rest, options);
   scale_problem(rest, task->unit);
   struct root_problem problem = *rest;
-  /* not of a solver of [0,1], whose answer is every root there and no other, while a guess is what it is */
+  /* not for a solver of [0,1]: its answer is every root there and no other, which a guess may not be */
   if (!options->solver->real_only) strip_extremes(&problem, out);
   if (problem.degree > 0) {
     struct root_estimates estimates;
@@ -257,7 +259,7 @@ static bool find_roots(const struct polynomial *p, const struct solver_options *
   return true;
 }
 
-/* From x to u. What is too large for a double there is missing. */
+/* Converts the roots from x to u. Those too large for a double there are missing. */
 static void roots_in_u(int unit, bool real_only, struct root_set *out)
 {
   int kept = 0;
@@ -267,7 +269,7 @@ static void roots_in_u(int unit, bool real_only, struct root_set *out)
     const struct root in_u = {ldexp(root.re, unit), ldexp(root.im, unit), radius, root.iterations, root.status};
     if (!isfinite(in_u.re) || !isfinite(in_u.im)) continue;
     out->root[kept] = in_u;
-    /* what underflow may have taken, of the radius and of the value */
+    /* what underflow may have lost, of the radius and of the value */
     if (ldexp(in_u.re, -unit) != root.re || ldexp(in_u.im, -unit) != root.im || ldexp(radius, -unit) < root.radius)
       out->root[kept].radius += 3 * DBL_TRUE_MIN;
     kept++;

@@ -1,12 +1,12 @@
 /* Start values: Aberth's circle, Newton's polygon, and the roots of the previous polynomial.
  *
- * Aberth's circle (section 3.4 of the paper): the centre is the centroid of the roots, -c[n-1] / (n c[n]); the radius
- * is the positive root of |b[n]| r^n = sum over k < n of |b[k]| r^k, with b the coefficients about the centre, which is
- * Cauchy's bound, to RADIUS_ACCURACY: the circle holds every root, or nearly. The values are spread evenly on it, turned by a
- * quarter of their spacing so that they do not lie in conjugate pairs, which the iteration could not part.
+ * Aberth's circle (section 3.4 of the paper): the centre is the centroid of the roots, -c[n-1] / (n c[n]). The radius
+ * is Cauchy's bound, to RADIUS_ACCURACY: the positive root of |b[n]| r^n = sum over k < n of |b[k]| r^k, with b the
+ * coefficients about the centre. So the circle holds every root, or nearly. The values are spread evenly on it, turned
+ * by a quarter of their spacing, so that they are not in conjugate pairs, which the iteration could not part.
  *
- * Newton's polygon (D. Bini, "Numerical computation of polynomial zeros by means of Aberth's method", 1996): the upper
- * convex hull of the points (k, log |c[k]|); an edge from k to l stands for l - k roots of modulus about
+ * Newton's polygon (D. Bini, "Numerical computation of polynomial zeros by means of Aberth's method", 1996) is the
+ * upper convex hull of the points (k, log |c[k]|). An edge from k to l stands for l - k roots of modulus about
  * |c[k]/c[l]|^(1/(l-k)), and as many values are spread on the circle of that radius about 0.
  */
 #include "algebra/start.h"
@@ -14,14 +14,14 @@
 #include <float.h>
 #include <string.h>
 
-/* Newton on Cauchy's equation, in 1/r, comes down from above, and passes the root by a part of the accuracy at last; this is far
- * more than it takes. */
+/* Newton's method on Cauchy's equation, in 1/r, steps below the root at once, then rises, and ends below it by a part
+ * of the accuracy. This is more steps than it takes. */
 enum { RADIUS_STEPS = 60 };
 #define RADIUS_ACCURACY 1e-2 /* relative; a start radius needs no more */
 
-/* Warm starts nearer to each other than this, relative to their modulus, are moved apart by as much. Values of a
- * double root are uncertain by the square root of 2^-53, 1e-8, so nothing known is lost; and differences of 1e-9
- * keep seven digits. */
+/* Warm starts nearer to each other than this, relative to their modulus, are moved apart by as much. The values of a
+ * double root are uncertain by the square root of 2^-53, 1e-8, so nothing known is lost. Differences of 1e-9 keep seven
+ * digits. */
 #define COINCIDENCE 1e-9
 
 /* Cauchy's bound. The first guess, the largest of (n |b[k]/b[n]|)^(1/(n-k)), is not below it. */
@@ -33,7 +33,7 @@ static double cauchy_radius(int n, const double b[])
     if (b[k] != 0.0) height = fmax(height, (more + log2(fabs(b[k])) - top) / (n - k));
   double radius = exp2(height);
   for (int step = 0; step < RADIUS_STEPS && radius > 0.0; step++) {
-    /* f(r) = |b[n]| - sum |b[k]| r^(k-n), in powers of 1/r */
+    /* f(r) = sum |b[k]| r^(k-n) - |b[n]|, in powers of 1/r */
     const double w = 1.0 / radius;
     double f = fabs(b[0]), slope = 0.0;
     for (int k = 1; k <= n; k++) {
@@ -65,7 +65,7 @@ static void circle_values(const struct root_problem *problem, int wanted, double
     for (int k = n - 1; k >= j; k--) b[k] += b[k + 1] * centre;
   double radius = cauchy_radius(n, b);
   if (!(radius > 0.0 && radius < sqrt(DBL_MAX)) || !(fabs(centre) < sqrt(DBL_MAX))) {
-    /* All roots equal, or the centre overflows: the mean modulus about 0 is always finite and positive. */
+    /* All roots are equal, or the centre overflows. The mean modulus about 0 is always finite and positive. */
     centre = 0.0;
     radius = start_mean_modulus(problem);
   }
@@ -92,7 +92,7 @@ static void polygon_values(const struct root_problem *problem, int wanted, doubl
     const int low = corner[edge], count = corner[edge + 1] - low;
     const double radius = exp2((height[low] - height[low + count]) / count);
     for (int k = 0; k < count && i < wanted; k++, i++) {
-      /* Each circle is turned by its own angle, so that neither conjugates nor rows of values arise. */
+      /* Each circle is turned by its own angle, so that values are not conjugate and do not line up. */
       const double angle = full_turn * ((k + 0.25) / count + (double)edge / n);
       out_re[i] = radius * cos(angle);
       out_im[i] = radius * sin(angle);

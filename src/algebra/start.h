@@ -4,8 +4,8 @@
 
 #include "algebra/root_problem.h"
 
-/* Writes problem->degree distinct finite values in x: those of `warm` where it holds as many (equal ones moved apart),
- * otherwise new ones by `radii`, of which the first `wanted` are enough. warm may be NULL. */
+/* Writes problem->degree distinct finite values in x: those of `warm`, if it holds that many (equal ones are moved
+ * apart), otherwise new ones by `radii`. The first `wanted` of these are enough. warm may be NULL. */
 void start_values(const struct root_problem *problem, enum radii radii, const struct solver_warm *warm, int wanted,
                   double out_re[], double out_im[]);
 

@@ -1,4 +1,4 @@
-/* What a root is worth: one judge for all solvers, who looks at nothing but the value and the polynomial.
+/* Validates roots: one judge for all solvers, which uses nothing but the value and the polynomial.
  *
  * For a polynomial q of degree n with Taylor coefficients q_j at z, each |q_j / q_0| is an elementary symmetric
  * function of the n reciprocal distances from z to the roots, at most C(n,j) / d^j with d the smallest distance. So for
@@ -6,18 +6,18 @@
  * and |q_j| rounded down by their bounds (evaluation.h), this holds for the true polynomial. Roots at infinity only
  * make it safer.
  *
- * The bound is taken in the chart variable z and carried to u, both ways of Moebius: if z = s/w, with w the chart's
- * denominator at u, the disc of radius r about z lies within r |w|^2 / (1 - r |w|) of u, or reaches infinity if r |w|
- * >= 1.
+ * The bound is taken in the chart variable z and carried to u; both charts are Moebius maps. If z = s/w, with w the
+ * chart's denominator at u, the disc of radius r about z lies within r |w|^2 / (1 - r |w|) of u, or reaches infinity if
+ * r |w| >= 1.
  *
- * That a disc holds a root does not say that no root is left over. For that, where there are n values x_i, all
- * different: the discs of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) about them cover all roots,
- * and a group of k of them that is apart from the rest holds exactly k (B. T. Smith, "Error bounds for zeros of a
- * polynomial based upon Gerschgorin's theorems", 1970). Here x is that of root_problem.h, or u itself, with p for q. So
- * in every group, values are taken in the order of their own bounds: one whose disc is apart from those taken before
- * has a root of its own; the roots left over are somewhere in the group, and the other values get radii that reach all
- * of it. Then roots and values can be paired, each root within the radius of its value. Without n values only those
- * with discs of their own are known.
+ * That a disc holds a root does not say that no root is left over. To say that, n different values x_i are needed. The
+ * discs about them of radius n |q(x_i)| / (|c_n| product over j != i of |x_i - x_j|) cover all roots, and a group of k
+ * discs that is apart from the rest holds exactly k (B. T. Smith, "Error bounds for zeros of a polynomial based upon
+ * Gerschgorin's theorems", 1970). Here x is that of root_problem.h, or u itself, with p for q. In every group, values
+ * are taken in the order of their own bounds. A value whose disc is apart from those taken before has a root of its
+ * own. The roots left over are somewhere in the group, and the other values get radii that reach all of it. Then roots
+ * and values can be paired, each root within the radius of its value. With fewer than n values, only those with discs
+ * of their own are known.
  */
 #include <float.h>
 #include <math.h>
@@ -28,10 +28,10 @@
 /* The chart point is computed from u with a difference, a reciprocal of a square and products: under 10 roundings. */
 #define CHART_ROUNDING (10 * UNIT_ROUNDOFF)
 
-/* A slope known to less than half of itself makes the first-order bound poor: then the higher orders are asked too. */
+/* A slope known to less than half of itself makes the first-order bound poor; the higher orders are then tried too. */
 #define SLOPE_CERTAINTY 0.5
 
-/* The chart point z = top/low of u, low = w, and whether it is 1/x. */
+/* The chart point z = top/low of u, with low = w, and whether z is 1/x. */
 struct chart {
   struct complex_number z;
   double width_square; /* |w|^2 */
@@ -50,13 +50,13 @@ static struct chart chart_of(enum basis basis, struct complex_number u)
   return out;
 }
 
-/* What the first-order bound says of one value. */
+/* The first-order bound of one value. */
 struct inclusion {
   struct complex_number z;    /* chart point */
   double bound;               /* of the distance from z to the nearest root; may be infinite or NaN */
   double width, width_square; /* |w| and |w|^2 of the chart at u; width is 0 where z = u */
   bool reversed;
-  bool doubtful; /* the slope is hardly told from zero: higher orders may bound better */
+  bool doubtful; /* the slope is hardly told from zero; higher orders may bound better */
 };
 
 static struct inclusion include(const struct evaluation *p, struct complex_number u)
@@ -77,7 +77,7 @@ static struct inclusion include(const struct evaluation *p, struct complex_numbe
     slope_error = slope_error * size + error;
     error = error * size + bound[k];
   }
-  /* at an end no arithmetic was done: an exact coefficient is an exact value */
+  /* at an end no arithmetic is done, so the value of an exact coefficient is exact */
   const double value = complex_small_modulus(q), value_error = size == 0.0 ? bound[0] : error + UNDERFLOW_ERROR;
   const double most = value + value_error, steep = complex_small_modulus(slope);
   const double sure_slope = steep * (2.0 - BOUND_ROOM) - (slope_error + UNDERFLOW_ERROR);
@@ -116,7 +116,7 @@ static double all_orders_bound(const struct evaluation *p, struct complex_number
   return best;
 }
 
-/* From a bound in z to one in u. */
+/* Converts a bound in z to one in u. */
 static double radius_in_u(double bound, double width, double width_square)
 {
   const double room = 1.0 - bound * width * BOUND_ROOM;
@@ -124,19 +124,19 @@ static double radius_in_u(double bound, double width, double width_square)
   return room > 0.0 && radius >= 0.0 ? radius : INFINITY; /* NaN ends here too */
 }
 
-/* One value and what is known of it; lengths in the plane of the discs but where it says so. */
+/* One value and what is known of it. Lengths are in the plane of the discs, except where a comment says otherwise. */
 struct judged {
-  struct complex_number x; /* the value, or where two are equal a point beside it */
+  struct complex_number x; /* the value, or a point beside it if two are equal */
   double shift;            /* how far beside */
   double own;              /* some root is within it */
   double shared;           /* Smith's disc; INFINITY where there is none */
   double own_in_u;
   double width, width_square; /* |w| and |w|^2 of the plane as a chart of u; 0 and 1 where it is that of u */
   int group;                  /* the least index of its group */
-  bool taken;                 /* the root within `own` is nobody else's */
+  bool taken;                 /* the root within `own` belongs to no other value */
 };
 
-/* Smith's theorem wants centres that differ: of two equal ones the later goes aside by about its own uncertainty. */
+/* Smith's theorem needs different centres. Of two equal ones, the later is moved aside by about its own uncertainty. */
 static void set_apart(struct judged *later, const struct judged *earlier)
 {
   if (later->x.re != earlier->x.re || later->x.im != earlier->x.im || !(later->own < INFINITY)) return;
@@ -166,7 +166,7 @@ static void find_own(const struct evaluation *p, bool in_u, int count, const str
       all[i].width_square = all[i].width * all[i].width;
       const double x_width = at.reversed ? complex_modulus(all[i].x) : 0.0;
       all[i].own = radius_in_u(bound, x_width, at.reversed ? x_width * x_width : 1.0) +
-                   CHART_ROUNDING * hypot(all[i].x.re, all[i].x.im); /* of x from u */
+                   CHART_ROUNDING * hypot(all[i].x.re, all[i].x.im); /* the rounding of x from u */
     }
     for (int j = 0; j < i; j++) set_apart(&all[i], &all[j]);
   }
@@ -175,7 +175,7 @@ static void find_own(const struct evaluation *p, bool in_u, int count, const str
 /* Room for the rounding of a sum of 200 logarithms to base 2, each below 2^17. */
 #define LOG_ROOM 0x1p-20
 
-/* log2 of a bound on |q(x)|, or on |p(u)|. Behind a chart point of u are a difference and a quotient: 7 roundings. */
+/* log2 of a bound on |q(x)|, or on |p(u)|. A chart point comes from u by a difference and a quotient: 7 roundings. */
 static double log_value(const struct evaluation *p, bool in_u, struct complex_number x)
 {
   if (in_u && p->basis == BASIS_BERNSTEIN) {
@@ -187,16 +187,16 @@ static double log_value(const struct evaluation *p, bool in_u, struct complex_nu
   return log2(hypot(q.value.re, q.value.im) + q.error) + (q.reversed ? p->degree * log2(hypot(x.re, x.im)) : 0.0);
 }
 
-/* The leading coefficient, and a bound on its error: in powers of x it is the last of q, in powers of u, where p is in
- * Bernstein form, the value of q at x = -1. */
+/* The leading coefficient, and a bound on its error. In powers of x it is the last of q; in powers of u, with p in
+ * Bernstein form, it is the value of q at x = -1. */
 static struct evaluation_real leading_of(const struct evaluation *p, bool in_u)
 {
   if (in_u && p->basis == BASIS_BERNSTEIN) return evaluation_at_real(p, -1.0, false);
   return (struct evaluation_real){.value = p->forward[p->degree], .error = p->forward_bound[p->degree]};
 }
 
-/* Whether to draw the discs in the plane of u. That of x has its point at infinity at u = 1: near a root no disc is
- * known there, and the leading coefficient is hardly told from zero. */
+/* Whether to draw the discs in the plane of u. The plane of x has its point at infinity at u = 1. Near a root there, no
+ * disc is known, and the leading coefficient is hardly told from zero. */
 static bool better_in_u(const struct evaluation *p)
 {
   const struct evaluation_real u = leading_of(p, true), x = leading_of(p, false);
@@ -214,7 +214,7 @@ static bool discs_meet(const struct judged *a, double a_radius, const struct jud
   return !(2.0 * half_distance(a, b) > (a_radius + b_radius) * BOUND_ROOM);
 }
 
-/* Smith's discs, and the groups they form. */
+/* Finds Smith's discs, and the groups they form. */
 static void find_groups(const struct evaluation *p, bool in_u, int count, struct judged all[])
 {
   const struct evaluation_real last = leading_of(p, in_u);
@@ -236,7 +236,7 @@ static void find_groups(const struct evaluation *p, bool in_u, int count, struct
   }
 }
 
-/* Gives roots to the values whose discs are apart from those taken before, the smallest first. */
+/* Gives roots to the values whose discs are apart from those taken before, in order of size, smallest first. */
 static void take_own(int count, struct judged all[])
 {
   bool seen[POLYNOMIAL_MAX_DEGREE] = {false};
@@ -268,8 +268,8 @@ static double final_radius(int i, int count, const struct judged all[])
   return radius_in_u((reach + here->shift) * BOUND_ROOM + rounding, here->width, here->width_square);
 }
 
-/* The bound n |p/p'| is n times what Newton's method would guess of the error of a simple root; a value whose imaginary
- * part is within this many such guesses is moved to the real axis. */
+/* The bound n |p/p'| is n times Newton's guess of the error of a simple root. A value whose imaginary part is within
+ * this many such guesses is moved to the real axis. */
 #define SNAP_GUESSES 2.0
 
 static void set_radii(const struct evaluation *p, bool all_sought, int count, struct root root[])
@@ -291,7 +291,7 @@ static void set_radii(const struct evaluation *p, bool all_sought, int count, st
   }
 }
 
-/* Discs that meet are one cluster. */
+/* Marks discs that meet as clusters. */
 static void mark_clusters(struct root_set *roots)
 {
   for (int i = 0; i < roots->count; i++) {
@@ -307,8 +307,8 @@ static void mark_clusters(struct root_set *roots)
   }
 }
 
-/* Whether p may have a root at infinity: its leading coefficient in powers of u is not told from zero. In Bernstein
- * form that is the value of q at x = -1. */
+/* Whether p may have a root at infinity: its leading coefficient in powers of u, which in Bernstein form is the value
+ * of q at x = -1, is not told from zero. */
 static bool may_reach_infinity(const struct evaluation *p)
 {
   const bool power = p->basis == BASIS_POWER;
