@@ -1,4 +1,4 @@
-/* An arena: a list of chunks, each filled from its beginning; blocks too large for a chunk get their own. */
+/* An arena: a list of chunks, each filled from its beginning. Blocks too large for a chunk get their own. */
 #include "base/arena.h"
 
 #include <stdalign.h>
@@ -8,7 +8,7 @@
 
 enum {
   FIRST_CHUNK_BYTES = 4096,
-  LAST_CHUNK_BYTES = 1 << 24, /* chunks double up to this size, so that small scenes stay small */
+  LAST_CHUNK_BYTES = 1 << 24, /* chunks double up to this size, so small scenes stay small */
   BLOCK_ALIGNMENT = alignof(max_align_t)
 };
 
@@ -50,7 +50,7 @@ void *arena_alloc(struct arena *arena, size_t count, size_t size)
     return block;
   }
   if (arena->chunks && bytes > arena->next_size / 4) {
-    /* A block of its own, behind the chunk being filled. */
+    /* a block of its own, behind the chunk being filled */
     struct chunk *own = chunk_create(bytes);
     if (!own) return NULL;
     own->next = arena->chunks->next;

@@ -1,6 +1,6 @@
-/* Memory of one lifetime, freed once.
+/* Memory of one lifetime, freed all at once.
  *
- * An arena hands out zeroed blocks aligned for any object type. Nothing is freed one by one; arena_destroy frees all.
+ * An arena hands out zeroed blocks aligned for any object type. No block is freed by itself; arena_destroy frees all.
  * An arena is used by one thread at a time.
  */
 #ifndef PSCN_BASE_ARENA_H
@@ -16,11 +16,11 @@ struct arena *arena_create(void);
 /* `count` zeroed elements of `size` bytes each, or NULL where memory is short or the product overflows. */
 void *arena_alloc(struct arena *arena, size_t count, size_t size);
 
-/* Gives all that `other`, whose memory comes from the same hooks (memory.h), has handed out to the arena, and frees `other`.
- * NULL is allowed. */
+/* Gives the arena all blocks that `other` has handed out, and frees `other`. The memory of both comes from the same
+ * hooks (memory.h). NULL is allowed. */
 void arena_join(struct arena *arena, struct arena *other);
 
-/* Frees the arena and all it handed out. NULL is allowed. */
+/* Frees the arena and all its blocks. NULL is allowed. */
 void arena_destroy(struct arena *arena);
 
 #endif

@@ -1,5 +1,5 @@
 /* Files that appear whole or not at all: a file without a name in the same folder, fsync, link, rename. Where the file
- * system knows only files with names, it has one from the beginning that nobody can guess. */
+ * system has only files with names, the file has one from the beginning that nobody can guess. */
 #define _GNU_SOURCE /* O_TMPFILE, realpath */
 #include "base/atomic_file.h"
 
@@ -16,12 +16,12 @@
 #include <unistd.h>
 
 enum {
-  CHUNK = 1 << 20,    /* bytes written between two looks at `stop` */
-  NAME_ATTEMPTS = 10, /* temporary names tried: of 2^64, so that one is enough but where somebody guesses */
+  CHUNK = 1 << 20,    /* bytes written between two checks of `stop` */
+  NAME_ATTEMPTS = 10, /* temporary names tried, of 2^64: one is enough, except where somebody guesses */
   NAME_SPACE = 64     /* room for the temporary file's own name, "/.pscn-" + 16 digits + ".tmp" */
 };
 
-/* What the final name is before we write. */
+/* The state of the final name before writing. */
 struct target {
   char *path; /* with symbolic links resolved; owned */
   bool exists;
@@ -29,7 +29,7 @@ struct target {
   mode_t mode;
 };
 
-/* The directory part of path, "." where there is none, with NAME_SPACE bytes to spare. NULL where memory is short. */
+/* The directory part of path, "." if there is none, with NAME_SPACE bytes to spare. NULL where memory is short. */
 static char *directory_of(const char *path)
 {
   const char *slash = strrchr(path, '/');
@@ -43,14 +43,14 @@ static char *directory_of(const char *path)
   return directory;
 }
 
-/* Fills the target; 0 or an errno value, and then nothing is owned. */
+/* Fills the target. Returns 0, or an errno value, and then nothing is owned. */
 static int target_find(const char *path, struct target *out)
 {
   struct stat info;
   *out = (struct target){.replaceable = true};
   if (stat(path, &info) != 0) {
     if (errno != ENOENT || path[0] == '\0') return errno;
-    if (lstat(path, &info) == 0) return ENOENT; /* a link to nothing: its target is not ours to invent */
+    if (lstat(path, &info) == 0) return ENOENT; /* a link to nothing: creating its target is not our business */
     out->path = strdup(path);
     return out->path == NULL ? ENOMEM : 0;
   }
@@ -63,11 +63,11 @@ static int target_find(const char *path, struct target *out)
   return out->path == NULL ? errno : 0;
 }
 
-/* Nobody else can read the new file before it has its name; an old one's permissions are given to it then. */
+/* A file that replaces another can be read by nobody else until it gets the old one's permissions, before its name. */
 static mode_t first_mode(const struct target *target) { return target->exists ? 0600 : 0666; }
 
-/* A file without a name in the target's folder: its descriptor, or -1 with errno set, EOPNOTSUPP where the file system
- * has none of these. Naming it goes through /proc. */
+/* A file without a name in the target's folder: its descriptor, or -1 with errno set, to EOPNOTSUPP if the file system
+ * has no such files. Naming it goes through /proc. */
 static int unnamed_open(const struct target *target)
 {
   char *directory = directory_of(target->path);
@@ -81,8 +81,8 @@ static int unnamed_open(const struct target *target)
   return descriptor;
 }
 
-/* Makes a new name next to the target: of the file `same`, or where that is NULL of a new one, whose descriptor is
- * *out_descriptor. Answers the name, owned by the caller, or NULL with errno set. */
+/* Makes a new name next to the target: of the file `same` or, if that is NULL, of a new file, with its descriptor in
+ * *out_descriptor. Returns the name, owned by the caller, or NULL with errno set. */
 static char *temporary_name(const struct target *target, const char *same, int *out_descriptor)
 {
   char *name = directory_of(target->path);
@@ -124,7 +124,7 @@ static enum status write_all(int descriptor, const unsigned char *bytes, size_t 
   return STATUS_OK;
 }
 
-/* Makes the new name in the folder durable. The file itself is safe already, so a folder that can not be synced is no
+/* Makes the new name in the folder durable. The file itself is safe already, so a folder that cannot be synced is no
  * error. */
 static void sync_directory(const char *path)
 {
@@ -142,7 +142,7 @@ static enum status write_through(const struct target *target, const unsigned cha
                                  const atomic_int *stop, int *out_errno)
 {
   int descriptor;
-  do { /* a pipe that nobody reads makes us wait here */
+  do { /* waits here while nobody reads a pipe */
     if (stop != NULL && atomic_load(stop) != 0) return STATUS_INTERRUPTED;
     descriptor = open(target->path, O_WRONLY | O_CLOEXEC);
   } while (descriptor < 0 && errno == EINTR);
@@ -161,13 +161,13 @@ static enum status write_through(const struct target *target, const unsigned cha
 /* A file on its way to its name. */
 struct staged {
   struct target target;
-  int descriptor; /* of the new file, complete and on the disk; -1 where there is none */
-  char *fresh;    /* the name it has so far, or NULL; owned, as is `old` */
-  char *old;      /* another name of the old file, for the case that a later one fails; or NULL */
-  bool placed;    /* the name has what it is to have */
+  int descriptor; /* of the new file, complete and on the disk; -1 if there is none */
+  char *fresh;    /* its name so far, or NULL; owned, as is `old` */
+  char *old;      /* another name of the old file, in case a later file fails; or NULL */
+  bool placed;    /* the final name has its final state */
 };
 
-/* Writes the new file beside the name. */
+/* Writes the new file, next to the final name. */
 static enum status stage_bytes(const struct atomic_file *file, const atomic_int *stop, struct staged *out,
                                int *out_errno)
 {
@@ -193,7 +193,7 @@ static enum status stage(const struct atomic_file *file, const atomic_int *stop,
   return file->bytes != NULL && out->target.replaceable ? stage_bytes(file, stop, out, out_errno) : STATUS_OK;
 }
 
-/* Gives the new file its name: at once where that is free, else by way of another one. */
+/* Gives the new file its name: directly if that is free, otherwise through another name. */
 static bool replace(struct staged *staged)
 {
   const struct target *target = &staged->target;
@@ -206,7 +206,7 @@ static bool replace(struct staged *staged)
   return staged->fresh != NULL && rename(staged->fresh, target->path) == 0;
 }
 
-/* Gives the name what it is to have. `alone`: no other one can fail after it, so the old file need not be kept. */
+/* Brings the name to its final state. `alone`: no other file can fail after it, so the old one need not be kept. */
 static enum status place(const struct atomic_file *file, bool alone, const atomic_int *stop, struct staged *staged,
                          int *out_errno)
 {
@@ -216,13 +216,13 @@ static enum status place(const struct atomic_file *file, bool alone, const atomi
   if (target->exists && !alone)
     staged->old = temporary_name(target, target->path, NULL); /* a file system without links keeps none */
   if (file->bytes != NULL) staged->placed = replace(staged);
-  else staged->placed = !target->exists || unlink(target->path) == 0 || errno == ENOENT; /* it has gone by itself */
+  else staged->placed = !target->exists || unlink(target->path) == 0 || errno == ENOENT; /* it is gone already */
   if (staged->placed) return STATUS_OK;
   *out_errno = errno;
   return STATUS_FILE;
 }
 
-/* Leaves nothing but the final name: with what is placed where all went well, else as it was before. */
+/* Leaves nothing but the final name: with the new state if all went well, otherwise with the old one. */
 static void settle(const struct atomic_file *file, struct staged *staged, bool well)
 {
   const bool undo = !well && staged->placed;
@@ -230,7 +230,7 @@ static void settle(const struct atomic_file *file, struct staged *staged, bool w
   if (staged->old != NULL) (void)(undo ? rename(staged->old, staged->target.path) : unlink(staged->old));
   else if (undo && !staged->target.exists) (void)unlink(staged->target.path);
   if (!staged->placed && staged->fresh != NULL) (void)unlink(staged->fresh);
-  /* A link to what is gone would be a name too, and one that cannot be written to. */
+  /* A link to a file that is gone would still be a name, and one that cannot be written to. */
   if (well && staged->placed && file->bytes == NULL && readlink(file->path, &byte, 1) >= 0) (void)unlink(file->path);
 }
 
@@ -244,8 +244,8 @@ static void staged_free(struct staged *staged)
 
 static enum status failure(int reason) { return reason == ENOMEM ? STATUS_LIMIT : STATUS_FILE; }
 
-/* Why a file cannot be replaced in its folder, though both may be written: 0, or an errno value. It may be something mounted,
- * as containers have single files, append-only, or another user's in a sticky folder. */
+/* Why a file cannot be replaced in its folder, though both may be written: 0, or an errno value. It may be a mount
+ * point, as single files in containers are, append-only, or another user's in a sticky folder. */
 static int hindrance(const char *path)
 {
   int reason = 0;
@@ -304,7 +304,7 @@ enum status atomic_files_write(const struct atomic_file *files, size_t count, co
     *out_failed = k;
     status = place(&files[k], count == 1, stop, &staged[k], out_errno);
   }
-  /* Other names are gone before the disk is waited for: who is killed then leaves none. */
+  /* Other names are removed before waiting for the disk, so a process killed during that leaves none. */
   for (size_t k = 0; staged != NULL && k < count; k++) settle(&files[k], &staged[k], status == STATUS_OK);
   for (size_t k = 0; staged != NULL && k < count; k++) {
     if (status == STATUS_OK && staged[k].placed) sync_directory(staged[k].target.path);

@@ -6,8 +6,8 @@
 
 static inline double clock_value(struct timespec now) { return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec; }
 
-/* Seconds since the clock's own start: CLOCK_MONOTONIC; CLOCK_PROCESS_CPUTIME_ID; CLOCK_THREAD_CPUTIME_ID, of the
- * calling thread. Only differences mean anything. */
+/* Seconds since the clock's own start. The clock is CLOCK_MONOTONIC, CLOCK_PROCESS_CPUTIME_ID or
+ * CLOCK_THREAD_CPUTIME_ID, of the calling thread. Only differences mean anything. */
 static inline double clock_seconds(clockid_t clock)
 {
   struct timespec now;
@@ -15,12 +15,12 @@ static inline double clock_seconds(clockid_t clock)
   return clock_value(now);
 }
 
-/* Time taken, in seconds: by the clock, and of the processor by all threads of the process. */
+/* Time taken, in seconds: on the wall clock, and of the processor by all threads of the process. */
 struct seconds {
   double wall, cpu;
 };
 
-/* A moment, and what has passed since one. */
+/* A moment, and the time since one. */
 static inline struct seconds seconds_now(void)
 {
   return (struct seconds){clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID)};

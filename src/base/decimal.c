@@ -1,4 +1,4 @@
-/* Between doubles and decimal digits, in integers. */
+/* Conversion between doubles and decimal digits, in integers. */
 #include "base/decimal.h"
 
 #include <assert.h>
@@ -15,7 +15,7 @@ enum {
   MAX_DIGITS = 17
 };
 
-/* A power of 5 and the three behind it. */
+/* A power of 5 and the next three. */
 #define FOUR_POWERS(power) power, 5 * power, 25 * power, 125 * power
 
 static const uint64_t POWERS_OF_FIVE[STORED_POWERS] = {FOUR_POWERS(UINT64_C(1)),
@@ -79,8 +79,8 @@ bool decimal_from_double(double value, int count, uint64_t *out_digits, int *out
     const int power = count - 1 - first; /* digits = value x 10^power */
     const int shift = -(binary + power);
     if (power < 0 || power > MAX_POWER || shift < 1) return false;
-    assert(shift < 192); /* else the value were less than one digit */
-    /* Before rounding, the digits must be fewer than 10^count; with one too small an exponent they are at most ten
+    assert(shift < 192); /* otherwise the value would be less than one digit */
+    /* Before rounding, the digits must be fewer than 10^count. With an exponent one too small they are at most ten
      * times as many, which still fits. */
     uint64_t digits = scale(mantissa, power, shift);
     if (digits > power_of_ten(count)) continue;

@@ -1,4 +1,4 @@
-/* Diagnostics: one error becomes one block of lines. Where memory is too short for them, what is wrong is told without its
+/* Diagnostics: one error becomes one block of lines. If memory is too short for them, the message is told without its
  * place. */
 #include "base/diagnostics.h"
 
@@ -10,13 +10,13 @@
 
 enum {
   MESSAGE_BYTES = 2000,   /* longer messages are cut */
-  KIND_BYTES = 16,        /* before them, and the end of the line behind them */
+  KIND_BYTES = 16,        /* before them; and the end of the line after them */
   SHOWN_CHARACTERS = 110, /* of the source line; longer lines are shown around the place */
-  SHOWN_BEFORE = 60,      /* of those, at most so many before the place */
+  SHOWN_BEFORE = 60,      /* of those, at most this many before the place */
   MAX_INCLUDE_LINES = 64  /* the language allows fewer levels */
 };
 
-/* Adds text whose control characters and malformed UTF-8 become '?', so that a scene cannot steer a terminal. */
+/* Adds text with control characters and malformed UTF-8 replaced by '?', so that a scene cannot steer a terminal. */
 static void add_clean(struct text_buffer *block, const char *text, size_t length)
 {
   for (size_t i = 0; i < length;) {
@@ -27,7 +27,7 @@ static void add_clean(struct text_buffer *block, const char *text, size_t length
   }
 }
 
-/* Returns where the name ends. */
+/* Adds the name and the position. Returns where the name ends. */
 static size_t add_position(struct text_buffer *block, const struct source *source, struct source_position at)
 {
   add_clean(block, source->name, strlen(source->name));
@@ -55,7 +55,7 @@ static size_t step_forward(const char *text, size_t i, size_t end)
   return i + (bytes ? bytes : 1);
 }
 
-/* The source line and the line of the caret. The caret line repeats the tabs, so both stand in the same columns. */
+/* Adds the source line and the line of the caret. The caret line repeats the tabs, so both are in the same columns. */
 static void add_line(struct text_buffer *block, struct place place, struct source_position at)
 {
   const char *text = place.source->text;
@@ -94,11 +94,11 @@ static void tell_closing_line(struct diagnostics *diagnostics, bool warnings)
   diagnostics->tell(diagnostics->context, text, (size_t)length);
 }
 
-/* The error without its place, which needs no memory. */
+/* Tells the error without its place, which needs no memory. */
 static void tell_bare(struct diagnostics *diagnostics, const char *kind, const char *message)
 {
   char memory[MESSAGE_BYTES + KIND_BYTES];
-  struct text_buffer block = {.text = memory, .room = sizeof memory}; /* has room for all: nothing is allocated */
+  struct text_buffer block = {.text = memory, .room = sizeof memory}; /* room for all of it: nothing is allocated */
   text_buffer_add_text(&block, kind);
   const size_t begin = block.length;
   add_clean(&block, message, strlen(message));
@@ -140,7 +140,7 @@ static void tell(struct diagnostics *diagnostics, struct place place, const char
   text_buffer_free(&block);
 }
 
-/* Whether to tell one more, of which there were `before`; the first that is too much is told by the closing line. */
+/* Whether to tell one more, after `before` of them. For the first one too many, tells the closing line. */
 static bool room_for(struct diagnostics *diagnostics, size_t before, bool warning)
 {
   if (!diagnostics->tell || before > DIAGNOSTICS_MAX_ERRORS) return false;

@@ -1,8 +1,7 @@
 /* Double-double arithmetic on lanes: base/double_double.h, several numbers side by side.
  *
- * Only what the last places of a hit need. Sums are kept as they come (hi, lo), |lo| a few units in the last place
- * of hi, and are not brought to normal form in between. Needs compilation without contraction; double_lanes_sum alone
- * does not.
+ * Contains only what the last places of a hit need. Sums are kept as they arise (hi, lo), |lo| a few units in the last
+ * place of hi, and are not normalised in between. Needs compilation without contraction, except for double_lanes_sum.
  */
 #ifndef PSCN_BASE_DOUBLE_LANES_H
 #define PSCN_BASE_DOUBLE_LANES_H
@@ -50,8 +49,8 @@ LANES_INLINE struct double_lanes double_lanes_subtract(struct double_lanes a, st
   return double_lanes_add(a, (struct double_lanes){-b.hi, -b.lo});
 }
 
-/* A number of size up to 2^24 as head + tail, exactly, the head a multiple of 2^-26: products of heads with numbers of
- * few bits are exact, and so are their sums. */
+/* A number of size up to 2^24 as head + tail, exactly, the head being a multiple of 2^-26. Products of heads with
+ * numbers of few bits are exact, and so are their sums. */
 struct split_lanes {
   lanes head, tail;
 };

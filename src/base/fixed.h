@@ -1,6 +1,6 @@
-/* Fixed-point numbers: whole multiples of FIXED_UNIT, 2^-117, of a size below 512. Sums and differences are the
- * language's own, and exact; a product takes four multiplications of the processor. So where numbers are of one size,
- * and errors absolute, there are more digits than in `wide`, at an eighth of the time. Pure; the same on every machine.
+/* Fixed-point numbers: whole multiples of FIXED_UNIT, 2^-117, smaller than 512 in size. Sums and differences are the
+ * language's own, and exact; a product takes four multiplications of the processor. Where numbers are of one size and
+ * errors are absolute, this gives more digits than `wide`, at an eighth of the time. Pure; the same on every machine.
  */
 #ifndef PSCN_BASE_FIXED_H
 #define PSCN_BASE_FIXED_H
@@ -15,7 +15,7 @@ __extension__ typedef unsigned __int128 fixed_bits;
 #define FIXED_UNIT 0x1p-117
 enum { FIXED_POINT = 117 };
 
-/* Each is off by less than FIXED_UNIT. */
+/* Each has an error below FIXED_UNIT. */
 static inline fixed fixed_from(double x) { return (fixed)(x * (1 / FIXED_UNIT)); }
 static inline fixed fixed_from_wide(wide x) { return (fixed)(x * (wide)(1 / FIXED_UNIT)); }
 
@@ -26,7 +26,7 @@ static inline wide fixed_wide(fixed a) { return (wide)a * (wide)FIXED_UNIT; }
 static inline fixed fixed_size(fixed a) { return a < 0 ? -a : a; }
 static inline fixed fixed_max(fixed a, fixed b) { return a > b ? a : b; }
 
-/* Towards zero: off by less than 2 FIXED_UNIT. */
+/* Rounded towards zero: the error is below 2 FIXED_UNIT. */
 static inline fixed fixed_product(fixed a, fixed b)
 {
   const fixed_bits p = (fixed_bits)fixed_size(a), q = (fixed_bits)fixed_size(b);

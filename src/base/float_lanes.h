@@ -1,8 +1,8 @@
-/* Floats side by side, as many as a register holds: one ray a lane, where few bits will do. Their doubles are those of several
- * packets, of LANES rays each (base/lanes.h).
+/* Floats side by side, as many as a register holds: one ray per lane, where few bits will do. As doubles they fill
+ * several packets of LANES rays each (base/lanes.h).
  *
- * Plain GCC/clang vector extensions. Arithmetic operators work lane by lane; a comparison gives a mask whose lanes
- * are 0 or -1.
+ * Plain GCC/clang vector extensions. Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are
+ * 0 or -1.
  */
 #ifndef PSCN_BASE_FLOAT_LANES_H
 #define PSCN_BASE_FLOAT_LANES_H
@@ -19,7 +19,7 @@
 #endif
 #endif
 
-/* How many packets that is. */
+/* The number of these packets. */
 enum { PACKETS = FLOAT_LANES / LANES };
 
 typedef float float_lanes __attribute__((vector_size(4 * FLOAT_LANES)));
@@ -35,7 +35,7 @@ LANES_INLINE __m256 float_lanes_of_two(const lanes x[2])
 }
 #endif
 
-/* The doubles of all packets, rounded to nearest: x[0] in the first LANES lanes. */
+/* The doubles of all packets, rounded to nearest. x[0] goes to the first LANES lanes. */
 LANES_INLINE float_lanes float_lanes_join(const lanes x[PACKETS])
 {
 #if LANES == 8
@@ -88,7 +88,7 @@ LANES_INLINE float_lanes float_lanes_max(float_lanes a, float_lanes b)
 #endif
 }
 
-/* Four floats side by side, whatever the register holds: one ray, four boxes. As above. */
+/* Four floats side by side, whatever the register holds: one ray, four boxes. Functions as above. */
 typedef float four_floats __attribute__((vector_size(16)));
 typedef int32_t four_mask __attribute__((vector_size(16)));
 
@@ -122,7 +122,7 @@ LANES_INLINE four_floats four_floats_abs(four_floats a)
   return (four_floats)((four_mask)a & (INT32_MAX - (four_mask){0}));
 }
 
-/* Lanes 1, 2, 0 of x, in this order; the last one is its own. */
+/* Lanes 1, 2, 0 of x, in this order; the last lane stays. */
 LANES_INLINE four_floats four_floats_next(four_floats x) { return __builtin_shufflevector(x, x, 1, 2, 0, 3); }
 
 LANES_INLINE unsigned four_mask_bits(four_mask mask)
@@ -136,7 +136,7 @@ LANES_INLINE unsigned four_mask_bits(four_mask mask)
 #endif
 }
 
-/* The mask as 16 bits for each lane, all of them the same. */
+/* The mask as 16 bits per lane, all of them the same. */
 LANES_INLINE uint64_t four_mask_words(four_mask mask)
 {
 #if defined(LANES_OP) && defined(__x86_64__)
@@ -162,7 +162,7 @@ LANES_INLINE unsigned float_lanes_bits(float_mask mask)
 #endif
 }
 
-/* Bit k: whether lane k of a is at most that of b. */
+/* Bit k: whether lane k of a is at most lane k of b. */
 LANES_INLINE unsigned float_lanes_up_to(float_lanes a, float_lanes b)
 {
 #if FLOAT_LANES == 16

@@ -1,4 +1,4 @@
-/* What is read. */
+/* Opens files for reading. */
 #include "base/input.h"
 
 #include <errno.h>
@@ -28,17 +28,17 @@ int input_open(const char *path, enum input_kind kind, const char **out_reason)
   struct stat info;
   int file = -1;
   *out_reason = NULL;
-  if (stat(path, &info) != 0) /* before opening, which may wait, or do things to a device */
+  if (stat(path, &info) != 0) /* before opening, which may wait, or have effects on a device */
     *out_reason = input_reason(errno);
   else if (S_ISDIR(info.st_mode)) *out_reason = input_reason(EISDIR);
   else if (S_ISFIFO(info.st_mode) && kind == INPUT_FILE) *out_reason = "it is a pipe";
   else if (!S_ISREG(info.st_mode) && !S_ISFIFO(info.st_mode)) *out_reason = "it is a device";
   else if ((file = open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | (S_ISREG(info.st_mode) ? O_NONBLOCK : 0))) < 0)
-    *out_reason = input_reason(errno); /* not to wait at a file that is none, such as /proc/kmsg */
+    *out_reason = input_reason(errno); /* so as not to wait at a file that is none, such as /proc/kmsg */
   return file;
 }
 
-/* The folder that a name stands in, and where the name in it begins. */
+/* The folder that a name is in, and where the name in it begins. */
 static bool folder_of(const char *path, struct stat *out_info, const char **out_name)
 {
   const char *slash = strrchr(path, '/');

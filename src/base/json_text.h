@@ -1,4 +1,4 @@
-/* JSON as a text, and what it is made of: whole, or NULL. */
+/* JSON values and their text: whole, or NULL. */
 #ifndef PSCN_BASE_JSON_TEXT_H
 #define PSCN_BASE_JSON_TEXT_H
 
@@ -9,8 +9,8 @@
 
 static inline json_t *json_count(uint64_t value) { return json_integer((json_int_t)value); }
 
-/* The list with the value at its end, the object with the members of another one: NULL where memory is short, or either
- * is NULL. They take both over. So does json_pack what it is given. */
+/* The list with the value appended, and the object with the members of another one; NULL where memory is short, or
+ * either argument is NULL. They take over both arguments, as json_pack does. */
 static inline json_t *json_append(json_t *list, json_t *value)
 {
   if (json_array_append_new(list, value) == 0) return list;
@@ -27,8 +27,9 @@ static inline json_t *json_join(json_t *object, json_t *other)
   return NULL;
 }
 
-/* The text, ended by NUL and with one byte to spare; to be freed. NULL where memory is short, or json is NULL. jansson's
- * json_dumps leaves parts out where its text cannot grow (2.14: a key); a buffer that has room for all gets all. */
+/* The text, ended by NUL and with one byte to spare; the caller frees it. NULL where memory is short, or json is NULL.
+ * jansson's json_dumps leaves parts out where its text cannot grow (2.14: a key), so the text goes to a buffer with
+ * room for all of it. */
 static inline char *json_text(const json_t *json, size_t flags)
 {
   const size_t length = json_dumpb(json, NULL, 0, flags);

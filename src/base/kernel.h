@@ -1,9 +1,9 @@
 /* Sources compiled once per instruction set and linked into one program (pscn_kernels in CMakeLists.txt).
  *
- * In them PSCN_KERNEL is the name of the set: baseline, avx2, avx512 or avx512_narrow; KERNEL(name) is a name of one compilation and
- * KERNEL_NAME the set's as a text. Elsewhere PSCN_HAS_AVX2 and PSCN_HAS_AVX512 say which sets there are besides the
- * baseline, and KERNEL_RUNS_... whether this processor has them; KERNEL_BEST(name) is the best of a function or object that
- * is compiled for the baseline and AVX2.
+ * In these sources, PSCN_KERNEL is the name of the set: baseline, avx2, avx512 or avx512_narrow. KERNEL(name) is the
+ * name that one compilation gives, and KERNEL_NAME the set's name as a text. Elsewhere, PSCN_HAS_AVX2 and
+ * PSCN_HAS_AVX512 say which sets there are besides the baseline, and KERNEL_RUNS_... whether this processor has them.
+ * KERNEL_BEST(name) is the best version of a function or object that is compiled for the baseline and AVX2.
  */
 #ifndef PSCN_BASE_KERNEL_H
 #define PSCN_BASE_KERNEL_H

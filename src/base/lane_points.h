@@ -1,12 +1,12 @@
-/* Points with their three coordinates side by side in a register, where few rays leave most lanes of base/lanes.h empty:
- * point k has lanes 4k to 4k + 2, what is in lane 4k + 3 means nothing.
+/* Points with their three coordinates side by side in a register, for when few rays leave most lanes of base/lanes.h
+ * empty. Point k has lanes 4k to 4k + 2; lane 4k + 3 means nothing.
  */
 #ifndef PSCN_BASE_LANE_POINTS_H
 #define PSCN_BASE_LANE_POINTS_H
 
 #include "base/lanes.h"
 
-/* How many there is room for; with none there are no functions. */
+/* How many points there is room for; if none, there are no functions. */
 #define LANE_POINTS (LANES / 4)
 
 #if LANE_POINTS > 0
@@ -27,7 +27,7 @@ LANES_INLINE struct lane_points lane_points_of(unsigned bits)
 #if LANES == 8
   const int last = 31 - __builtin_clz(bits);
   const __m512i lane = _mm512_setr_epi64(0, 1, 2, 3, 4, 5, 6, 7), one = _mm512_set1_epi64(first);
-  const __m512i other = _mm512_set1_epi64(last); /* the same where there is one */
+  const __m512i other = _mm512_set1_epi64(last); /* the same for a single point */
   return (struct lane_points){_mm512_mask_blend_epi64(0xf0, one, other),
                               _mm512_maskz_set1_epi64(_mm512_cmpeq_epi64_mask(lane, other), 4)};
 #else
@@ -45,7 +45,7 @@ LANES_INLINE lanes lane_points_spread(const struct lane_points *points, lanes x)
 #endif
 }
 
-/* Coordinate c of each point, in the lane it belongs to; in other lanes some point's. */
+/* Coordinate c of each point, in the lane that the point belongs to; in other lanes some point's. */
 LANES_INLINE lanes lane_points_collect(const struct lane_points *points, lanes x, int c)
 {
 #if LANES == 8
@@ -56,7 +56,7 @@ LANES_INLINE lanes lane_points_collect(const struct lane_points *points, lanes x
 #endif
 }
 
-/* The three numbers, for every point; the fourth is read, and means nothing. */
+/* The three numbers, for every point. The fourth is read, and means nothing. */
 LANES_INLINE lanes lane_points_load(const double from[3])
 {
 #if LANES == 8

@@ -1,9 +1,10 @@
-/* A few doubles side by side: one ray a lane.
+/* A few doubles side by side: one ray per lane.
  *
- * Plain GCC/clang vector extensions, so one source serves every instruction set; LANES is what one register of the
- * target holds (vectors wider than that are taken apart into single doubles by the compiler, which costs more than
- * it saves); with PSCN_NARROW half as many, for where most lanes would be empty. Arithmetic operators work lane by lane; a comparison gives a mask whose lanes are 0 or -1. A source
- * that uses this is compiled once per instruction set (base/kernel.h).
+ * Plain GCC/clang vector extensions, so one source serves every instruction set. LANES is what one register of the
+ * target holds; the compiler takes wider vectors apart into single doubles, which costs more than they save.
+ * PSCN_NARROW halves LANES, for work that would leave most lanes empty. Arithmetic operators work lane by lane; a
+ * comparison gives a mask whose lanes are 0 or -1. A source that uses this is compiled once per instruction set
+ * (base/kernel.h).
  */
 #ifndef PSCN_BASE_LANES_H
 #define PSCN_BASE_LANES_H
@@ -15,7 +16,7 @@
 #include <immintrin.h>
 #endif
 
-/* LANES_OP(min_pd) is the intrinsic of that name for the whole register; without SSE2 there are none. */
+/* LANES_OP(min_pd) is the intrinsic of that name for the whole register. Without SSE2 there are none. */
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && !defined(PSCN_NARROW)
 #define LANES 8
 #define LANES_OP(name) _mm512_##name
@@ -40,7 +41,7 @@ LANES_INLINE lanes lanes_all(double x) { return x - (lanes){0}; }
 /* Four doubles, whatever a register holds. */
 typedef double four_doubles __attribute__((vector_size(32)));
 
-/* Number k of row n becomes number n of row k. */
+/* Transposes: number k of row n becomes number n of row k. */
 LANES_INLINE void four_doubles_turn(four_doubles x[4])
 {
   const four_doubles a = __builtin_shufflevector(x[0], x[1], 0, 4, 2, 6),
@@ -75,7 +76,7 @@ LANES_INLINE lanes lanes_load_every(const double *from, size_t stride)
   return x;
 }
 
-/* Lane k of *a, *b, *c, *d: from[k * stride] and the three numbers behind it. */
+/* Lane k of *a, *b, *c, *d: from[k * stride] and the three numbers after it. */
 LANES_INLINE void lanes_load4(const double *from, size_t stride, lanes *a, lanes *b, lanes *c, lanes *d)
 {
 #if LANES == 8
@@ -97,7 +98,7 @@ LANES_INLINE void lanes_load4(const double *from, size_t stride, lanes *a, lanes
 #endif
 }
 
-/* The other way: to[k * stride] and the three behind it are lane k of a, b, c, d. */
+/* The inverse of lanes_load4: to[k * stride] and the three numbers after it are lane k of a, b, c, d. */
 LANES_INLINE void lanes_store4(lanes a, lanes b, lanes c, lanes d, double *to, size_t stride)
 {
 #if LANES == 8
@@ -149,7 +150,7 @@ LANES_INLINE lanes lanes_max(lanes a, lanes b)
 #endif
 }
 
-/* Lane k: x within [lo, hi], or the end that it is beyond; lo where it is NaN. */
+/* Lane k: x clamped to [lo, hi]; lo if it is NaN. */
 LANES_INLINE lanes lanes_clamp(lanes x, double lo, double hi)
 {
   return lanes_min(lanes_max(x, lanes_all(lo)), lanes_all(hi));
@@ -168,7 +169,7 @@ LANES_INLINE lanes lanes_sqrt(lanes a)
 #endif
 }
 
-/* Lane k: the nearest whole number, of two the even one. */
+/* Lane k: the nearest whole number, ties to even. */
 LANES_INLINE lanes lanes_rint(lanes a)
 {
 #if LANES == 8
@@ -181,7 +182,7 @@ LANES_INLINE lanes lanes_rint(lanes a)
 #endif
 }
 
-/* Lane k: a b - product, with one rounding: exactly where product = a b rounded, whose error it is. Written so that no
+/* Lane k: a b - product, with one rounding. If product is a b rounded, this is its error, exactly. Written so that no
  * contraction of multiply and add by the compiler can change it. */
 LANES_INLINE lanes lanes_product_error(lanes a, lanes b, lanes product)
 {
@@ -217,7 +218,7 @@ LANES_INLINE unsigned lanes_bits(lane_mask mask)
 #endif
 }
 
-/* The mask whose bits these are. */
+/* The mask with these bits. */
 LANES_INLINE lane_mask lanes_mask(unsigned bits)
 {
 #if LANES == 8

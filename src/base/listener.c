@@ -1,4 +1,4 @@
-/* Telling whoever listens. */
+/* Formats texts for a listener. */
 #include "base/listener.h"
 
 #include <stdarg.h>

@@ -1,6 +1,6 @@
-/* Who follows long work: hears what goes on and what is wrong, and may stop it.
+/* A listener follows long work: it hears of progress and problems, and may stop the work.
  *
- * The library never prints; what is told here a command shows. A text has no newline at its end. One thread at a time.
+ * The library never prints; a command shows what is told here. A text has no newline at its end. One thread at a time.
  */
 #ifndef PSCN_BASE_LISTENER_H
 #define PSCN_BASE_LISTENER_H
@@ -11,7 +11,7 @@
 #include "base/status.h"
 
 enum told {
-  TOLD_PROGRESS, /* what goes on; nothing is lost to whoever does not hear it */
+  TOLD_PROGRESS, /* what goes on; a listener may ignore it */
   TOLD_WARNING,
   TOLD_ERROR,
   TOLD_DETAIL /* lines that belong to the error before them */
@@ -27,7 +27,7 @@ struct listener {
 void listener_tell(const struct listener *listener, enum told what, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* Tells an error, and answers its status. */
+/* Tells an error, and returns its status. */
 enum status listener_fail(const struct listener *listener, enum status status, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 

@@ -70,7 +70,7 @@ void memory_used_anywhere(void *block, size_t size)
   const size_t before = -(uintptr_t)block % HUGE_PAGE_BYTES;
   if (hooks_now.resize || size < before + HUGE_PAGE_BYTES) return;
   const size_t whole = (size - before) / HUGE_PAGE_BYTES * HUGE_PAGE_BYTES;
-  (void)madvise((char *)block + before, whole, MADV_HUGEPAGE); /* where there are none, nothing comes of it */
+  (void)madvise((char *)block + before, whole, MADV_HUGEPAGE); /* no effect where there are none */
 #else
   (void)block, (void)size;
 #endif

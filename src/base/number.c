@@ -1,7 +1,7 @@
-/* Numbers as text. Reading: digits are gathered into an integer and a power of ten; where both are exact in double
- * one multiplication or division rounds correctly (Clinger 1990, "How to read floating point numbers accurately").
- * Numbers of everyday size are otherwise read and written in integers (decimal.h), the rest by strtod and printf,
- * without a decimal point, which means the same in every locale. */
+/* Numbers as text. Reading gathers the digits into an integer and a power of ten. If both are exact in double, one
+ * multiplication or division rounds correctly (Clinger 1990, "How to read floating point numbers accurately"). Other
+ * numbers of everyday size are read and written in integers (decimal.h), the rest by strtod and printf, without a
+ * decimal point, so that they mean the same in every locale. */
 #include "base/number.h"
 
 #include <float.h>
@@ -14,10 +14,10 @@
 #include "base/decimal.h"
 
 enum {
-  EXACT_DIGITS = 19,      /* an integer of so many decimal digits fits in 64 bits */
-  WHOLE_DIGITS = 15,      /* and one of so many is a double */
+  EXACT_DIGITS = 19,      /* an integer of this many decimal digits fits in 64 bits */
+  WHOLE_DIGITS = 15,      /* and one of this many is a double */
   EXACT_POWER = 22,       /* 10^22 is the largest power of ten that is a double */
-  DECISIVE_DIGITS = 770,  /* no double lies nearer to a tie than 768 digits can say; what follows only breaks ties */
+  DECISIVE_DIGITS = 770,  /* a tie between doubles has at most 768 digits; further ones only break ties */
   EXPONENT_LIMIT = 100000 /* beyond it only the sign of the exponent matters, whatever the digits */
 };
 
@@ -27,15 +27,15 @@ static const double POWERS_OF_TEN[EXACT_POWER + 1] = {1e0,  1e1,  1e2,  1e3,  1e
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/* The decimal digits of a number as they stand in the text, and what they are worth. */
+/* The decimal digits of a number in the text, and their value. */
 struct decimal {
   size_t digits_begin, digits_end; /* of the text: digits and at most one point */
-  uint64_t mantissa;               /* the first EXACT_DIGITS digits from the first that is not 0 */
-  int64_t significant;             /* digits from the first that is not 0 */
+  uint64_t mantissa;               /* the first EXACT_DIGITS digits from the first nonzero one */
+  int64_t significant;             /* number of digits from the first nonzero one */
   int64_t exponent;                /* the value is the digits as one integer, times 10^exponent */
 };
 
-/* Digits from text[i] on; returns where they end. */
+/* Adds the digits from text[i] on. Returns where they end. */
 static size_t add_digits(const char *text, size_t length, size_t i, struct decimal *out)
 {
   uint64_t mantissa = out->mantissa;
@@ -75,7 +75,7 @@ static size_t read_exponent(const char *text, size_t length, size_t i, struct de
   return j;
 }
 
-/* "e", up to EXPONENT_LIMIT, and a NUL. Returns the length without that. */
+/* Writes "e", the exponent, up to EXPONENT_LIMIT, and a NUL. Returns the length without the NUL. */
 static size_t write_exponent(int exponent, char *out)
 {
   char *to = out;
@@ -88,7 +88,7 @@ static size_t write_exponent(int exponent, char *out)
   return (size_t)(to - out);
 }
 
-/* Correct for any digits: strtod is given at most DECISIVE_DIGITS of them, and a last 1 for what was left out. */
+/* Correct for any digits: strtod gets at most DECISIVE_DIGITS of them, and a last 1 for those left out. */
 static double convert_slowly(const char *text, struct decimal decimal)
 {
   char digits[DECISIVE_DIGITS + 40];
@@ -115,7 +115,7 @@ static double convert_slowly(const char *text, struct decimal decimal)
   return strtod(digits, NULL);
 }
 
-/* A whole number of few digits from text[i] on, without point or exponent; most are. Returns where it ends, or i. */
+/* Reads a whole number of few digits at text[i], without point or exponent; most are. Returns where it ends, or i. */
 static size_t read_whole(const char *text, size_t length, size_t i, double *out_value)
 {
   uint64_t value = 0;
@@ -164,7 +164,7 @@ enum number_kind number_read(const char *text, size_t length, double *out_value,
   return isfinite(value) ? NUMBER_FINITE : NUMBER_OVERFLOW;
 }
 
-/* Lays out digits d.ddd times 10^exponent: plainly where that is short, else with an exponent. */
+/* Lays out digits d.ddd times 10^exponent: plainly where that is short, otherwise with an exponent. */
 static size_t lay_out(bool negative, const char *digits, int count, int exponent, char *out)
 {
   enum { PLAIN_BELOW = 17, PLAIN_FROM = -5 };
@@ -193,13 +193,13 @@ static size_t lay_out(bool negative, const char *digits, int count, int exponent
 }
 
 /* `count` correctly rounded significant digits of a finite value other than 0. The decimal point of "%e" depends on the
- * locale and may be several bytes; it is stepped over. */
+ * locale and may be several bytes; it is skipped. */
 static void round_to_digits(double value, int count, char *out_digits, int *out_exponent)
 {
   uint64_t integer;
   if (decimal_from_double(fabs(value), count, &integer, out_exponent)) {
     *out_exponent += count - 1;
-    /* The last eight digits do not wait for the others, nor these for them. */
+    /* The last eight digits and the others do not wait for each other. */
     uint32_t part[2] = {(uint32_t)(integer % 100000000), (uint32_t)(integer / 100000000)};
     for (int k = count - 1; k >= 0; k--) {
       uint32_t *left = &part[k < count - 8];

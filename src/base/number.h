@@ -11,18 +11,18 @@
 enum { NUMBER_TEXT_SIZE = 32 };
 
 enum number_kind {
-  NUMBER_NONE,    /* no number stands at the beginning */
-  NUMBER_FINITE,  /* the nearest double, ties to even; what is too small for a double is 0 or subnormal */
+  NUMBER_NONE,    /* no number at the beginning */
+  NUMBER_FINITE,  /* the nearest double, ties to even; a number too small for a double is 0 or subnormal */
   NUMBER_OVERFLOW /* a number too large for a double */
 };
 
-/* Reads [+-] digits [. digits] [e|E [+-] digits] at the beginning of text[0 .. length-1], with digits on at least
- * one side of the point. out_used is how many bytes belong to it; both results are written unless NUMBER_NONE. No
- * blanks are skipped; inf, nan and hexadecimal are no numbers. */
+/* Reads [+-] digits [. digits] [e|E [+-] digits] at the beginning of text[0 .. length-1], with digits on at least one
+ * side of the point. *out_used is how many bytes belong to it. Both results are written unless the answer is
+ * NUMBER_NONE. No blanks are skipped; inf, nan and hexadecimal are no numbers. */
 enum number_kind number_read(const char *text, size_t length, double *out_value, size_t *out_used);
 
-/* Writes the shortest decimal number that reads back as the same finite double; `out` holds NUMBER_TEXT_SIZE bytes.
- * Returns the length. Not finite: "inf", "-inf", "nan". */
+/* Writes the fewest correctly rounded digits that read back as the same finite double; `out` holds NUMBER_TEXT_SIZE
+ * bytes. Returns the length. Not finite: "inf", "-inf", "nan". */
 size_t number_write(double value, char *out);
 
 /* Writes with 17 significant digits, trailing zeros dropped (the same value as %.17g prints). Not finite: as above. */

@@ -1,4 +1,4 @@
-/* Small things about doubles that the standard library has not, or slower. */
+/* Small functions on doubles that the standard library lacks, or has slower. */
 #ifndef PSCN_BASE_REAL_H
 #define PSCN_BASE_REAL_H
 
@@ -8,21 +8,21 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Error bounds and sums without error hold only where each operation is rounded by itself, to double, and none is moved. */
+/* Error bounds and exact sums hold only if each operation is rounded by itself, to double, and none is moved. */
 static_assert(FLT_EVAL_METHOD == 0, "doubles are not rounded to double after each operation");
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
   (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "-ffast-math, -Ofast and their parts break every proof: compile without them"
 #endif
 
-/* The unit roundoff of double: one operation is off by at most so much of its result. */
+/* The unit roundoff of double: the most that one operation's relative error can be. */
 #define UNIT_ROUNDOFF 0x1p-53
 
-/* The smaller and the larger of two doubles, as one instruction each. Unlike fmin and fmax: b where either is NaN. */
+/* The smaller and the larger of two doubles, as one instruction each. Unlike fmin and fmax: b if either is NaN. */
 static inline double real_min(double a, double b) { return a < b ? a : b; }
 static inline double real_max(double a, double b) { return a > b ? a : b; }
 
-/* x within [lo, hi], or the end that it is beyond; lo where it is NaN. */
+/* x clamped to [lo, hi]; lo if it is NaN. */
 static inline double real_clamp(double x, double lo, double hi) { return real_min(real_max(x, lo), hi); }
 
 /* 2^exponent, or the largest power of two that is a double. */
@@ -31,7 +31,7 @@ static inline double real_power_of_two(int exponent)
   return ldexp(1, exponent < DBL_MAX_EXP ? exponent : DBL_MAX_EXP - 1);
 }
 
-/* x as it is stored, IEEE 754's binary64: sign, exponent, fraction from the top bit down. */
+/* x as it is stored, in IEEE 754's binary64: sign, exponent, fraction from the top bit down. */
 static inline uint64_t real_bits(double x)
 {
   uint64_t bits;
@@ -39,8 +39,8 @@ static inline uint64_t real_bits(double x)
   return bits;
 }
 
-/* 0 where x is finite: an exponent of ones, which only infinities and NaN have, runs over into the sign. Of many numbers
- * what they give may be joined by |. */
+/* 0 if x is finite. Only infinities and NaN have an exponent of ones, which carries into the sign. The results of many
+ * numbers may be joined by |. */
 static inline uint64_t real_infinite(double x) { return ((real_bits(x) & INT64_MAX) + (UINT64_C(1) << 52)) >> 63; }
 
 /* x rounded to a multiple of the power of two `grain`. */

@@ -1,5 +1,5 @@
-/* Source text: reading a file whole, and finding lines and columns in it. Positions are only wanted for errors, so
- * they are counted from the beginning each time instead of being kept for every token. */
+/* Source text: reads a file whole, and finds lines and columns in it. Only errors need positions, so they are counted
+ * from the beginning each time instead of being kept for every token. */
 #define _DEFAULT_SOURCE /* madvise */
 #include "base/source.h"
 
@@ -13,14 +13,14 @@
 #include "base/memory.h"
 
 enum {
-  TEXT_PADDING = 2,          /* the NULs behind the text, for scanners that want a sentinel */
-  READ_STEP_BYTES = 1 << 16, /* first guess for what has no size, such as a pipe */
+  TEXT_PADDING = 2,          /* the NULs after the text, for scanners that want a sentinel */
+  READ_STEP_BYTES = 1 << 16, /* first guess for an input without a size, such as a pipe */
   LONG_BYTES = 1 << 24,      /* a file longer than this stays open, so that its text can be dropped ... */
   DROP_STEP_BYTES = 1 << 20, /* ... in pieces of this size or more */
-  DROP_ALIGNMENT = 1 << 16   /* whole pages, of any size; what stays before the end, at least */
+  DROP_ALIGNMENT = 1 << 16   /* covers whole pages of any size; at least this much before the end stays */
 };
 
-/* A file that stays open, for text[begin .. end-1] has been dropped. */
+/* A file that stays open, because text[begin .. end-1] has been dropped. */
 struct source_rest {
   int file; /* -1: nothing is dropped any more */
   size_t begin, end;
@@ -48,7 +48,7 @@ static enum status grow_text(struct source *source, size_t *capacity, size_t wan
   return STATUS_OK;
 }
 
-/* Reads to the end of the file; the size known beforehand is only a guess, but if it is too large so is the file. */
+/* Reads to the end of the file. The size known beforehand is only a guess, but if it is too large, so is the file. */
 static enum status read_all(struct source *source, int file, size_t guess, const char **out_reason)
 {
   size_t capacity;
@@ -178,7 +178,7 @@ size_t source_character(const char *text, size_t length)
   if (byte[0] < 0xC2 || byte[0] > 0xF4 || count > length) return 0;
   for (size_t i = 1; i < count; i++)
     if ((byte[i] & 0xC0) != 0x80) return 0;
-  /* Overlong forms, surrogates, and what lies beyond U+10FFFF (RFC 3629). */
+  /* Overlong forms, surrogates, and values beyond U+10FFFF (RFC 3629). */
   if ((byte[0] == 0xE0 && byte[1] < 0xA0) || (byte[0] == 0xED && byte[1] > 0x9F)) return 0;
   if ((byte[0] == 0xF0 && byte[1] < 0x90) || (byte[0] == 0xF4 && byte[1] > 0x8F)) return 0;
   return count;
@@ -201,8 +201,8 @@ size_t source_skip(const char *text, size_t length)
   return eight & UINT64_C(0x8080808080808080) ? 0 : sizeof eight;
 }
 
-/* Line ends are counted in blocks of so many bytes, without a look at where they are; so many bytes of a line are looked at
- * behind the place, more than are shown. */
+/* Line ends are counted in blocks of COUNTED bytes, without finding where they are. Of a line, LINE_AFTER bytes after
+ * the place are examined, more than are shown. */
 enum { COUNTED = 4096, LINE_AFTER = 4096 };
 
 struct source_position source_locate(const struct source *source, size_t offset)

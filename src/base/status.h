@@ -13,7 +13,7 @@ enum status {
   STATUS_INPUT = 3,        /* a scene or an input line is wrong; diagnostics say where */
   STATUS_FILE = 4,         /* a file cannot be opened, read, written or renamed */
   STATUS_LIMIT = 5,        /* out of memory, or a stated limit was passed */
-  STATUS_INTERRUPTED = 130 /* SIGINT; 143 for SIGTERM is made by the command */
+  STATUS_INTERRUPTED = 130 /* SIGINT; for SIGTERM the command answers 143 */
 };
 
 #define STATUS_MUST_CHECK __attribute__((warn_unused_result))

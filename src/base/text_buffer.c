@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "base/source.h"
 
-/* Room for `more` bytes and a NUL at the end. */
+/* Makes room for `more` bytes and a NUL at the end. */
 static bool reserve(struct text_buffer *buffer, size_t more)
 {
   if (more < buffer->room - buffer->length) return true;

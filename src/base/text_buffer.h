@@ -1,11 +1,11 @@
-/* Text that grows. What cannot be kept for lack of memory is dropped and remembered in `failed`. */
+/* Text that grows. Text that cannot be kept for lack of memory is dropped, and `failed` remembers that. */
 #ifndef PSCN_BASE_TEXT_BUFFER_H
 #define PSCN_BASE_TEXT_BUFFER_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* One of zeros is empty and may be freed. */
+/* A buffer of zeros is empty and may be freed. */
 struct text_buffer {
   char *text; /* owned, base/memory.h's; length bytes, then a NUL; NULL while nothing was added */
   size_t length, room;
@@ -14,8 +14,8 @@ struct text_buffer {
 
 void text_buffer_free(struct text_buffer *buffer);
 
-/* The text, "" where nothing was added, which is the caller's now (memory_free); NULL where something could not be kept. The
- * buffer is empty again. */
+/* The text, "" if nothing was added. It is then the caller's (memory_free), and the buffer is empty again. NULL if
+ * something could not be kept. */
 char *text_buffer_take(struct text_buffer *buffer);
 
 /* Adds bytes, a text, and text formatted as by printf. */
@@ -23,11 +23,11 @@ void text_buffer_add(struct text_buffer *buffer, const void *bytes, size_t lengt
 void text_buffer_add_text(struct text_buffer *buffer, const char *text);
 void text_buffer_format(struct text_buffer *buffer, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Adds those of the numbers from `first` up to but not `end` that `has` tells of, as "0-17,19". */
+/* Adds the numbers from `first` up to but not `end` for which `has` is true, as "0-17,19". */
 void text_buffer_add_runs(struct text_buffer *buffer, size_t first, size_t end,
                           bool has(const void *context, size_t number), const void *context);
 
-/* Adds foreign text that no terminal obeys: control characters but for the newline, and what is no UTF-8, as \xNN. */
+/* Adds foreign text that no terminal obeys: control characters except the newline, and malformed UTF-8, as \xNN. */
 void text_buffer_add_printable(struct text_buffer *buffer, const char *text, size_t length);
 
 #endif

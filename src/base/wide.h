@@ -1,5 +1,5 @@
-/* The widest floating-point type the compiler has: IEEE binary128 on x86-64 and arm64. Slow (software): for what
- * double cannot decide. Elsewhere long double as it is, whose precision WIDE_ROUNDOFF states. */
+/* The widest floating-point type of the compiler: IEEE binary128 on x86-64 and arm64. Slow (software): for what double
+ * cannot decide. Elsewhere long double as it is; WIDE_ROUNDOFF states its precision. */
 #ifndef PSCN_BASE_WIDE_H
 #define PSCN_BASE_WIDE_H
 
