@@ -1,10 +1,10 @@
-/* A box on which a and b are one polynomial but for a factor, as they are where the ray lies in the plane of a flat patch:
- * what is on the ray are curves.
+/* A box on which a and b are one polynomial up to a factor, as they are if the ray lies in the plane of a flat patch.
+ * The ray then meets curves.
  *
  * Internal to src/intersect/exact. Pure; safe on any thread.
  *
- * Where that polynomial and w are coordinates of the box (their Jacobian keeps its sign), along each curve w only grows or
- * only falls, so what comes first is on a border of the box, a root of a cubic.
+ * Where that polynomial and w are coordinates of the box (their Jacobian keeps its sign), w is monotone along each
+ * curve. So what comes first lies on a border of the box, and is a root of a cubic.
  */
 #ifndef PSCN_INTERSECT_EXACT_CURVES_H
 #define PSCN_INTERSECT_EXACT_CURVES_H
@@ -13,16 +13,16 @@
 
 enum curves {
   CURVES_NONE,   /* no point of the box is on the ray */
-  CURVES_BEGIN,  /* of all that are the one at (u,v), on a border of the box, comes first */
-  CURVES_UNKNOWN /* that is not known */
+  CURVES_BEGIN,  /* the curves' first point on the ray is (u,v), on a border of the box */
+  CURVES_UNKNOWN /* not known */
 };
 
-/* Where the curves of the box begin along the ray: way is 1 where t grows with w, -1 where it falls. *off: a bound on what
- * that point's w may be larger than the first one's. error: see box_test. */
+/* Finds where the curves of the box begin along the ray. way: 1 if t grows with w, -1 if it falls. *off bounds how
+ * far, in w, that point may lie behind the first one. error: see box_test. */
 enum curves curves_begin(struct box *box, const double error[2], double way, double *u, double *v, double *off);
 
-/* The point of the curves where w is `depth`, by Newton's method from the middle of the box on. Returns whether it is
- * found, in the box. */
+/* Finds the point of the curves at which w is `depth`, by Newton's method from the middle of the box. Returns whether
+ * it finds one in the box. */
 bool curves_at(struct box *box, const double error[2], double depth, double *u, double *v);
 
 #endif

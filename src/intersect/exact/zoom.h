@@ -2,11 +2,11 @@
  *
  * Internal to src/intersect/exact. Pure; safe on any thread.
  *
- * Where a ray is nearly tangent, some combination of the two plane polynomials is so small all over a box that
- * double precision can not tell it from zero. Its coefficients over just that box, formed in fixed point (base/fixed.h)
- * from the untouched control points and only then rounded to double, are right to their own last places: what was below
- * all rounding is a polynomial like any other. How many bits that has, and what they are enough for: docs/method.md, "The
- * numbers of the last resort".
+ * Where a ray is nearly tangent, some combination of the two plane polynomials is so small all over a box that double
+ * precision cannot tell it from zero. Its coefficients over just that box are therefore formed in fixed point
+ * (base/fixed.h) from the unrounded control points, and only then rounded to double. They are right to their own last
+ * places: what was below all rounding becomes a polynomial like any other. docs/method.md, "The numbers of the last
+ * resort", states how many bits it has, and what they suffice for.
  */
 #ifndef PSCN_INTERSECT_EXACT_ZOOM_H
 #define PSCN_INTERSECT_EXACT_ZOOM_H
@@ -17,64 +17,69 @@
 #include "base/fixed.h"
 #include "intersect/exact/exact.h"
 
-/* A ray through a whole patch: a, b and x_k as powers of 2u - 1 and 2v - 1, each times a power of two, as large as the
- * patch is thin that way. */
+/* A ray through a whole patch: a, b and x_k in powers of 2u - 1 and 2v - 1. Each is scaled by a power of two, which is
+ * larger the thinner the patch is that way. */
 struct zoom {
-  int axis; /* k: the one along which the ray is longest, or where the patch is very thin the ray beside the patch is */
+  /* k: the axis along which the ray is longest, or for a very thin patch longest relative to the patch */
+  int axis;
   fixed power[3][4][4];
   double unit[3]; /* those powers of two */
   wide origin;    /* (origin_k - center_k)/scale */
   wide to_t;      /* t = (x_k - origin) to_t */
-  double error; /* bound on the rounding of a or b, so multiplied, on the patch, or of their coefficients over a box */
-  double depth_error; /* the same of x_k, as it is */
+  /* bound on the rounding of the scaled a or b on the patch, or of their coefficients over a box */
+  double error;
+  double depth_error; /* the same for x_k, unscaled */
 };
 
-/* What an error of x_k is of t: below the normal numbers rounded up, and so is what little is added to it. */
+/* The error of t that an error of x_k makes. Below the normal numbers it is rounded up, with the little that may be
+ * added to it. */
 static inline double error_to_t(double to_t, double error) { return fabs(to_t) * error + DBL_TRUE_MIN; }
 
-/* What rounding may do in the frame of the patch. */
+/* Bound on rounding in the patch's frame. */
 static inline double zoom_error(const struct zoom *zoom)
 {
   const double *unit = zoom->unit;
   return zoom->depth_error + zoom->error / (unit[0] < unit[1] ? unit[0] : unit[1]);
 }
 
-/* The same over a box, in the box's own parameters. */
+/* The same over a box, in the box's parameters. */
 struct zoomed {
-  /* two combinations of a and b with the same common roots, at most 1 in size; x_k less the middle's */
+  /* two combinations of a and b with the same common roots, at most 1 in size; x_k less that of the box's middle */
   double net[3][4][4];
-  double error[2]; /* bounds on the errors of coefficients of the first two */
-  double met[2];   /* of zoom_pole_box, where the pole is met but not exactly: what they are off by besides, over the
-                    * distance from the border, of the box */
-  wide start;      /* t = (w + start) scale/d_k for w of net[2] */
+  double error[2]; /* bounds on the errors of the first two nets' coefficients */
+  /* of zoom_pole_box, if the pole is met but not exactly: their additional errors, over the distance from the border,
+   * as a part of the box */
+  double met[2];
+  wide start; /* t = (w + start) scale/d_k for w of net[2] */
 };
 
-/* P: the patch's control points in the scene. */
+/* P: the patch's control points, in the scene. */
 void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct ray *ray, struct zoom *out);
 
-/* The box of the patch with its low corner at low[0], low[1]. False where a combination is zero as far as fixed
- * point can tell: then *out means nothing. */
+/* The box of the patch with low corner (low[0], low[1]). Returns false if a combination is zero as far as fixed point
+ * can tell; then *out means nothing. */
 bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], struct zoomed *out);
 
-/* Where a ray passes a border of the patch that is one point. */
+/* How a ray passes a border of the patch that is one point. */
 enum zoom_pole {
-  POLE_PASSED, /* by */
+  POLE_PASSED, /* past it */
   POLE_MET     /* as far as wide arithmetic can tell */
 };
 
-/* A pole that is met is no farther from the ray than this many of zoom's errors. */
+/* A met pole is no farther from the ray than this many of the zoom's errors. */
 #define ZOOM_POLE_REACH 0x1p26
 
-/* How near to such a border anything is told where the pole is met, as a part of the box. */
+/* If the pole is met, nothing is told of what is nearer to its border than this, as a part of the box. */
 #define ZOOM_POLE_MET 0x1p-40
 
-/* The same for a box at a border that is one point (geometry/edges.h), where both polynomials are constant: in place of
- * the combination that is zero there, that one divided by the distance d to the border, so that away from it the roots
- * are the same, and simple ones however near the ray passes. Where the pole is met both are divided. */
+/* The same for a box at a border that is one point (geometry/edges.h), where both polynomials are constant. The
+ * combination that is zero there is replaced by its quotient by the distance d to the border. Away from the border the
+ * roots are the same, and they are simple however near the ray passes. If the pole is met, both combinations are
+ * divided. */
 bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2], int border, struct zoomed *out,
                    enum zoom_pole *out_pole);
 
-/* p a + q b, as powers. */
+/* p a + q b, in powers. */
 static inline void zoom_combine(fixed a[4][4], fixed b[4][4], fixed p, fixed q, fixed out[4][4])
 {
   for (int n = 0; n < 16; n++)
@@ -86,12 +91,13 @@ static inline void zoom_combine(fixed a[4][4], fixed b[4][4], fixed p, fixed q, 
 /* t of the point (u,v). */
 wide zoom_t(struct zoom *zoom, wide u, wide v);
 
-/* Two combinations of a and b at (u,v), out[k] = row[k][0] a + row[k][1] b: value and derivatives by the parameters, from -1
- * to 1, of a box that is size[0] long in u and size[1] in v. Returns a bound on the errors of the values. */
+/* Two combinations of a and b at (u,v), out[k] = row[k][0] a + row[k][1] b: value, and derivatives by the parameters,
+ * from -1 to 1, of a box that is size[0] long in u and size[1] in v. Returns a bound on the errors of the values. */
 double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2], double row[2][2], double out[2][3]);
 
-/* Makes a proven root of this ray and patch as good as wide arithmetic can. False where the certificate does not hold
- * there or what is found is not the same root: then its place may be better for it, its bounds are what they were. */
+/* Refines a proven root of this ray and patch as far as wide arithmetic allows. Returns false if the certificate does
+ * not hold there, or what is found is not the same root; then the root's place may be better, but its bounds are
+ * unchanged. */
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root);
 
 #endif
