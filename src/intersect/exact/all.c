@@ -1,9 +1,9 @@
 /* All hits of one ray: which of the roots found are the same, what those on borders mean, and their order.
  *
- * Each step is a proof or a doubt. Roots of one patch whose enclosures meet are one root where one enclosure holds the
- * other, or where the certificate says that no other is as near. A border's root counts where the ray is proven to cross
- * the surface there, once for all the patches that meet. Two roots whose order double precision cannot tell are made as
- * good as wide arithmetic can; those that lie at one t even then are in the order of their patches.
+ * Each step is a proof or a doubt. Roots of one patch whose enclosures meet are one root if one enclosure holds the
+ * other, or if the certificate proves that no other root is as near. Roots on a border count if the ray is proven to
+ * cross the surface there, once for all the patches that meet. Two roots whose order double precision cannot tell are
+ * refined as far as wide arithmetic allows; those at one t even then are in the order of their patches.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -13,11 +13,11 @@
 #include "geometry/twins.h"
 #include "intersect/exact/judge.h"
 
-/* Open places of one ray that are listed; there may be hundreds where a surface lies along the ray. */
+/* The most open places of one ray that are listed; a surface along the ray may make hundreds. */
 enum { LISTED_OPEN = 64 };
 
-/* Work that telling apart, settling and ordering may take besides that of the search; to compare so many roots takes as
- * long as to look at a box. What is left when there is none is a doubt. */
+/* Work that telling apart, settling and ordering may take in addition to the search. Comparing this many roots takes as
+ * long as examining a box. What is left when the work runs out is a doubt. */
 enum { ALL_WORK = 2560, WORK_COMPARED = 64 };
 
 bool exact_list_add(struct exact_list *list, const struct exact_found *found)
@@ -35,7 +35,7 @@ bool exact_list_add(struct exact_list *list, const struct exact_found *found)
   return true;
 }
 
-/* Leaves out those that are marked, by a patch that is none. */
+/* Removes the marked ones from the list; the mark is a patch that does not exist. */
 #define LEFT_OUT UINT32_MAX
 
 static void list_close(struct exact_list *list)
@@ -54,7 +54,7 @@ void judge_add_open(struct judge *j, const struct exact_maybe *maybe)
     .kind = EXACT_OPEN,
     .borders = maybe->borders,
     .taken = -1};
-  if (j->open < LISTED_OPEN) (void)exact_list_add(j->list, &found); /* or the list has failed */
+  if (j->open < LISTED_OPEN) (void)exact_list_add(j->list, &found); /* on failure, list->failed is set */
   j->open++;
 }
 
@@ -62,13 +62,13 @@ void judge_add_open(struct judge *j, const struct exact_maybe *maybe)
 
 static double apart(wide a, wide b) { return fabs((double)(a - b)); }
 
-/* Whether the enclosure of a root holds all of another's. */
+/* Whether the enclosure of root a holds all of b's. */
 static bool holds(const struct exact_root *a, const struct exact_root *b)
 {
   return apart(a->u, b->u) + b->radius_u <= a->radius_u && apart(a->v, b->v) + b->radius_v <= a->radius_v;
 }
 
-/* Whether two roots of one patch are one; true and a doubt where that cannot be told. */
+/* Whether two roots of one patch are one. If that cannot be told, true, and a doubt. */
 static bool same_root(struct judge *j, const struct exact_root *a, const struct exact_root *b)
 {
   if (!exact_roots_meet(a, b)) return false;
@@ -84,8 +84,8 @@ static bool same_root(struct judge *j, const struct exact_root *a, const struct 
   return true;
 }
 
-/* The end of the run of roots from `first` on of which each may be at one t with another one of them. One that is known
- * badly may reach back over others. */
+/* The end of the run of roots from `first` on in which each may be at one t with another one. A root with a large error
+ * may reach back over others. */
 static size_t run_end(const struct exact_list *list, size_t first)
 {
   wide reach = list->at[first].root.t + list->at[first].root.t_error;
@@ -97,7 +97,7 @@ static size_t run_end(const struct exact_list *list, size_t first)
   return end;
 }
 
-/* Whether no work is left for comparing `count` roots with one of them, a doubt; else it is taken. */
+/* Takes the work of comparing `count` roots with one of them. Returns whether none is left, which is a doubt. */
 static bool worn_out(struct judge *j, size_t count)
 {
   judge_spend(j, 1 + (int)(count / WORK_COMPARED));
@@ -105,7 +105,7 @@ static bool worn_out(struct judge *j, size_t count)
   return j->work <= 0;
 }
 
-/* Of roots that are one the first stays, or the one of least t: that is the one which the nearest hit would be. */
+/* Of roots that are one, keeps the first, which has the least t: it is the one that would be the nearest hit. */
 static void leave_out_same(struct judge *j, size_t first, size_t end)
 {
   struct exact_found *at = j->list->at;
@@ -113,14 +113,14 @@ static void leave_out_same(struct judge *j, size_t first, size_t end)
     for (size_t b = a + 1; b < end && at[a].root.patch != LEFT_OUT; b++) {
       if (at[b].root.patch != at[a].root.patch || at[a].kind == EXACT_OPEN || at[b].kind == EXACT_OPEN) continue;
       if (!same_root(j, &at[a].root, &at[b].root)) continue;
-      /* One that is known to be inside its patch says so of both. */
+      /* If one is known to be inside its patch, both are. */
       if (at[a].kind == EXACT_BORDER) at[a] = at[b];
       at[b].root.patch = LEFT_OUT;
     }
   }
 }
 
-/* An open place is not listed where another hit is, that it cannot be told from by t. */
+/* An open place is not listed if t does not tell it from another hit there. */
 static void leave_out_open(struct judge *j, size_t first, size_t end)
 {
   struct exact_found *at = j->list->at;
@@ -137,7 +137,7 @@ static void leave_out_open(struct judge *j, size_t first, size_t end)
 
 /* ---- borders ---- */
 
-/* The roots which[0..count-1] of the list are one hit, of the patch that stands first in the scene. */
+/* Makes the roots which[0..count-1] of the list one hit, on the patch that stands first in the scene. */
 static void count_once(struct judge *j, const size_t which[], size_t count)
 {
   struct exact_found *at = j->list->at, *first = &at[which[0]];
@@ -149,7 +149,7 @@ static void count_once(struct judge *j, const size_t which[], size_t count)
   first->kind = EXACT_INSIDE;
 }
 
-/* Roots on borders are hits where the ray crosses the surface there; the others may be. */
+/* A root on a border is a hit if the ray crosses the surface there; otherwise it may be. */
 static void settle_border(struct judge *j, size_t at, size_t first, size_t end)
 {
   const bool left = !worn_out(j, end - first);
@@ -170,8 +170,8 @@ static void settle_border(struct judge *j, size_t at, size_t first, size_t end)
 
 /* ---- the order ---- */
 
-/* By t, and by all else where that is equal: so the order does not depend on how they came. The lanes' come
- * first, in their order. */
+/* By t, then by everything else, so that the order does not depend on how they came. At equal t and patch the lanes'
+ * roots come first, in their order. */
 static int by_t(const void *a, const void *b)
 {
   const struct exact_found *x = a, *y = b;
@@ -197,7 +197,7 @@ static void sort_part(struct exact_found at[], size_t count)
 
 static void sort(struct exact_list *list) { sort_part(list->at, list->count); }
 
-/* Whether they are of patches that lie exactly on each other. */
+/* Whether the patches are different and lie exactly on each other. */
 static bool are_twins(const struct judge *j, const struct exact_root *a, const struct exact_root *b)
 {
   const struct model *model = j->asked->model;
@@ -206,21 +206,20 @@ static bool are_twins(const struct judge *j, const struct exact_root *a, const s
          net_twins(patches[a->patch].P, patches[b->patch].P);
 }
 
-/* Whether the two, of twins, are one root for certain: in the same order a net has the same parameters. */
+/* Whether the two roots, of twins, are certainly one: nets in the same order have the same parameters. */
 static bool one_of_equal(const struct judge *j, const struct exact_root *a, const struct exact_root *b)
 {
   struct scene_patch *patches = j->asked->model->scene->patches;
   return (holds(a, b) || holds(b, a)) && net_equal(patches[a->patch].P, patches[b->patch].P);
 }
 
-/* Whether nothing tells which of the two comes first. What may be a hit has its place by t. */
+/* Whether nothing tells which of the two comes first. An open place has its place by t. */
 static bool tie(const struct exact_found *a, const struct exact_found *b)
 {
   return a->kind != EXACT_OPEN && b->kind != EXACT_OPEN && judge_tie(&a->root, &b->root);
 }
 
-/* Of two roots that cannot be told apart each is made sharp where it can be, as they are where the nearest of them is asked
- * for. */
+/* Sharpens two roots that cannot be told apart, each if possible, as is done if only the nearest hit is asked for. */
 static void tell_apart(struct judge *j, struct exact_found *a, struct exact_found *b)
 {
   const bool twins = are_twins(j, &a->root, &b->root);
@@ -229,22 +228,22 @@ static void tell_apart(struct judge *j, struct exact_found *a, struct exact_foun
   if (!twins) a->tied = b->tied = true;
 }
 
-/* What t may be off by of what others may be behind. What may be a hit has its place by t. */
+/* The error of t, as far as others may be behind it. An open place has its place by t. */
 static double end_error(const struct exact_found *found) { return found->kind == EXACT_OPEN ? 0 : found->root.t_error; }
 
-/* Whether the first, a root, is proven to be behind the other: by judge_tie's difference, for sums of t and its error are
- * rounded. */
+/* Whether `a`, a root, is proven to be behind `b`: by the same difference as in judge_tie, because sums of t and error
+ * are rounded. */
 static bool behind(const struct exact_found *a, const struct exact_found *b)
 {
   return a->root.t - b->root.t > a->root.t_error + end_error(b);
 }
 
-/* Of those from `first` on, which are sorted by t, the one that comes next: of all that are proven to be behind none of them
- * the one that stands first. That it is before the others that it cannot be told from has to be no matter. */
+/* The next in order of those from `first` on, which are sorted by t: the first in the scene of those not proven to be
+ * behind any of the others. It is a doubt if it matters that this one comes before others it cannot be told from. */
 static size_t next_in_order(struct judge *j, size_t first, size_t end)
 {
   const struct exact_found *at = j->list->at;
-  size_t next = first, ends = first; /* what is behind one of them is behind the one that ends first */
+  size_t next = first, ends = first; /* anything behind one of them is behind the one that ends first */
   wide reach = INFINITY;
   for (size_t k = first; k < end && at[k].least <= reach; k++) {
     if (at[k].root.t - at[ends].root.t < (wide)end_error(&at[ends]) - end_error(&at[k])) ends = k;
@@ -279,7 +278,7 @@ static void order(struct judge *j, size_t first, size_t end)
   }
 }
 
-/* Does it for all runs of roots that cannot be told apart by t. */
+/* Calls `run` for all runs of roots that t does not tell apart. */
 static void for_runs(struct judge *j, void (*run)(struct judge *j, size_t first, size_t end))
 {
   for (size_t first = 0, end; first < j->list->count; first = end) {
@@ -296,7 +295,7 @@ bool exact_all(const struct exact_case *asked, struct exact_list *list)
   sort(list);
   for_runs(&j, leave_out_same);
   list_close(list);
-  const size_t count = list->count; /* open places are added behind */
+  const size_t count = list->count; /* open places are added at the end */
   for (size_t first = 0, end; first < count; first = end) {
     end = run_end(list, first);
     end = end < count ? end : count;

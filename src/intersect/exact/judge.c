@@ -1,7 +1,8 @@
-/* What is found on one ray becomes its answer: the order of roots, the ray's start and end.
+/* Turns what is found on one ray into its answer: the order of roots, the ray's start and end.
  *
- * A root counts where it lies in its patch and within the ray's range. Where double precision cannot tell, it is made
- * as good as wide arithmetic can. One that even then lies on a border is put on a list, for borders.c to settle.
+ * A root counts if it lies in its patch and within the ray's range. Where double precision cannot tell, the root is
+ * refined as far as wide arithmetic allows. A root that even then lies on a border goes to a list, which borders.c
+ * settles.
  */
 #include "intersect/exact/judge.h"
 
@@ -10,17 +11,18 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 
-/* Work that may be done for one ray, by whichever regions ask for it: isolated roots and folds need some tens, rays that
- * pass a pole or start there some hundreds; only surfaces that lie along the ray over an area, and start where it does,
- * come there. */
+/* Work that one ray's regions may take together. Isolated roots and folds need some tens, rays that pass a pole or
+ * start there some hundreds. Only surfaces that lie along the ray over an area, and start where it does, need this
+ * much. */
 enum { JUDGE_WORK = 2560 };
 
-/* Where something may be a hit no more than so much is done in its region, or what that has for itself, as the others have then
- * (regions.c), in whatever order they come: most answers are grazing then, whatever else is found. */
+/* Once something may be a hit, its region may take no more than this, or than the region's own share; the others then
+ * get only theirs (regions.c), in whatever order they come. Most answers are then grazing, whatever else is found. */
 enum { JUDGE_MAYBE_WORK = 128 };
 
-/* Has the ray look straight across the plane that the patch lies in, where it starts exactly there and leaves it, be it ever so
- * slowly: it meets that at 0 and nowhere else, and whether there on the patch depends on its start alone. */
+/* If the ray starts exactly in the plane of the patch and leaves it, however slowly, the patch is tested with a ray
+ * straight across the plane. The ray meets the plane at 0 and nowhere else, and whether there on the patch depends only
+ * on its start. */
 static void look_across(const struct model *model, uint32_t patch, struct ray *ray)
 {
   const struct flat_plane *plane = model_flat_plane(model, patch);
@@ -55,16 +57,16 @@ struct zoom *judge_zoom(struct judge *j)
 
 enum side { SIDE_OUTSIDE, SIDE_INSIDE, SIDE_UNKNOWN };
 
-/* On which side of a border at 0 x is, known to within `error`; inside is above. */
+/* On which side of a border at 0 x lies, if known to within `error`; inside is above. */
 static enum side side_of(wide x, double error)
 {
   return x > error ? SIDE_INSIDE : x < -error ? SIDE_OUTSIDE : SIDE_UNKNOWN;
 }
 
-/* A root farther from a border than this, and its radius, is on the same side when it is rounded to double. */
+/* A root farther from a border than this plus its radius stays on the same side when rounded to double. */
 #define CLEARLY 0x1p-40
 
-/* Of the root in its patch; *borders: those that it cannot be told from. */
+/* On which side of its patch's borders the root lies. *borders: those it cannot be told from. */
 static enum side root_in_patch(const struct exact_root *root, unsigned *borders)
 {
   const double u = (double)root->u, v = (double)root->v;
@@ -80,7 +82,8 @@ static enum side root_in_patch(const struct exact_root *root, unsigned *borders)
   return *borders ? SIDE_UNKNOWN : SIDE_INSIDE;
 }
 
-/* Of the root between the ray's start and its end, which do not belong to it: what is known exactly is on one side. */
+/* Whether the root lies between the ray's start and end, which do not belong to the range: a t known exactly is always
+ * on one side. */
 static enum side root_in_range(const struct judge *j, const struct exact_root *root)
 {
   if (root->t_error == 0 && (root->t <= j->asked->ray->t_min || root->t >= j->asked->ray->t_max)) return SIDE_OUTSIDE;
@@ -95,7 +98,8 @@ static enum side root_in_range(const struct judge *j, const struct exact_root *r
 
 /* ---- what is found ---- */
 
-/* Nothing beyond the nearest hit matters, nor where a nearer one would be as doubtful as what is there. */
+/* Nothing behind the nearest hit matters, nor anything within the error of the nearest maybe: it would be as
+ * doubtful. */
 static void set_limit(struct judge *j)
 {
   double limit = j->asked->ray->t_max;
@@ -110,7 +114,7 @@ static bool list_root(struct judge *j, const struct exact_root *root, enum exact
   return exact_list_add(j->list, &found);
 }
 
-/* The least and the largest t that the root can have. */
+/* The least and the largest t that the root may have. */
 static double least_t(const struct exact_root *root)
 {
   const wide t = root->t - root->t_error;
@@ -123,15 +127,16 @@ static double most_t(const struct exact_root *root)
   return (double)t < t ? nextafter((double)t, INFINITY) : (double)t;
 }
 
-/* Whether the first of two rivals is nearest wherever the second could be: it stands before it, and what it is behind the second
- * is behind as well. */
+/* Whether rival a is the nearest wherever b could be: it stands before b, and whatever a is behind, b is behind as
+ * well. */
 static bool stands_for(const struct exact_root *a, const struct exact_root *b)
 {
   return judge_stands_before(a, b) && a->t - a->t_error <= b->t - b->t_error;
 }
 
-/* There is one rival too many. Left out is one that another one stands for, but not the one that ends first: what it is not
- * behind no other one tells. Where there is none, one may be left out that would have been the nearest. */
+/* Leaves out one rival, as there is one too many: one that another rival stands for. The one that ends first stays,
+ * because a root may be proven to be behind it alone. If none can be left out so, the one left out might have been the
+ * nearest. */
 static void leave_out_rival(struct judge *j)
 {
   struct exact_root *at = j->rival;
@@ -169,7 +174,7 @@ bool judge_weigh_tie(struct judge *j, const struct exact_root *a, const struct e
 void judge_keep(struct judge *j, struct exact_root *root)
 {
   if (j->all) {
-    (void)list_root(j, root, EXACT_INSIDE, 0); /* or the list has failed */
+    (void)list_root(j, root, EXACT_INSIDE, 0); /* on failure, list->failed is set */
     return;
   }
   struct exact_root *at = j->rival;
@@ -177,7 +182,7 @@ void judge_keep(struct judge *j, struct exact_root *root)
     if (root->patch == at[k].patch && exact_roots_meet(root, &at[k])) return;
   for (size_t k = 0; k < j->rivals; k++)
     if (judge_tie(root, &at[k])) judge_improve(j, &at[k]), judge_improve(j, root);
-  judge_turn(j, root->patch); /* whose region is being searched */
+  judge_turn(j, root->patch); /* the patch of the region being searched */
   for (size_t k = 0; k < j->rivals; k++)
     if (!judge_tie(root, &at[k]) && at[k].t <= root->t) return;
   size_t kept = 0;
@@ -191,8 +196,8 @@ void judge_keep(struct judge *j, struct exact_root *root)
   set_limit(j);
 }
 
-/* `from`: where along the ray what may be a hit begins. `in_range`: its t is proven to be the ray's, though that may be so near
- * to an end that its double is not. */
+/* `from`: t at which what may be a hit begins. `in_range`: its t is proven to be in the ray's range, though it may be
+ * so near an end that its double is not. */
 static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double from, bool in_range)
 {
   const struct ray *ray = j->asked->ray;
@@ -210,7 +215,8 @@ static void keep_maybe(struct judge *j, const struct exact_maybe *maybe, double 
   set_limit(j);
 }
 
-/* What may be a hit at a root that is not known to be in its patch: the point next to it, and its place on the ray. */
+/* Tells of a place that may be a hit at a root not known to be in its patch: the nearest point of the patch, and its
+ * t. */
 static void tell_maybe(struct judge *j, unsigned borders, const struct exact_root *root)
 {
   const double u = real_clamp((double)root->u, 0, 1), v = real_clamp((double)root->v, 0, 1);
@@ -237,13 +243,13 @@ void judge_open(struct judge *j, const struct exact_found *border)
   tell_maybe(j, border->borders, &border->root);
 }
 
-/* A control point that is a point of the patch: where it stands in the net, and its parameters. */
+/* A control point that is a point of the patch: its place in the net, and its parameters. */
 struct net_point {
   int row, column;
   double u, v;
 };
 
-/* Of a border that is one point, the middle standing for all of it. */
+/* That of a border that is one point, its middle standing for all of it. */
 static struct net_point pole_point(int border)
 {
   double at[2];
@@ -251,7 +257,7 @@ static struct net_point pole_point(int border)
   return (struct net_point){edge_at(border, 0) / 4, edge_at(border, 0) % 4, at[0], at[1]};
 }
 
-/* The corner next to the root. */
+/* That of the corner nearest to the root. */
 static struct net_point corner_point(const struct exact_root *root)
 {
   const int u = root->u < 0.5 ? 0 : 1, v = root->v < 0.5 ? 0 : 1;
@@ -260,7 +266,7 @@ static struct net_point corner_point(const struct exact_root *root)
 
 static bool in_corner(unsigned borders) { return borders & 3 && borders & 12; }
 
-/* The root at that point, where the ray meets it exactly: whether it does. */
+/* Sets *out to the root at that point, if the ray meets it exactly; returns whether it does. */
 static bool point_root(const struct judge *j, const struct net_point *at, struct exact_root *out)
 {
   const struct ray *ray = j->asked->ray;
@@ -273,13 +279,13 @@ static bool point_root(const struct judge *j, const struct net_point *at, struct
                              .u = at->u,
                              .v = at->v,
                              .t = ((wide)point[k] - ray->origin[k]) / ray->direction[k]};
-  /* 0 below 2^-963: there the difference is exact, and no product of a double and d_k is so near to it that the quotient,
-   * rounded once, is not on its own side of that double. */
+  /* 0 below 2^-963: there the difference is exact, and no product of a double and d_k is so near to it that the
+   * quotient, rounded once, could be on the wrong side of that double. */
   out->t_error = 4 * (double)(WIDE_ROUNDOFF * wide_abs(out->t));
   return true;
 }
 
-/* Tells of that root, which lies on those borders, if there is one; whether there is. */
+/* Tells of that root, which lies on those borders, if there is one; returns whether there is. */
 static bool tell_point(struct judge *j, const struct net_point *at, unsigned borders)
 {
   struct exact_root root;
@@ -315,7 +321,8 @@ bool judge_tell_corner(struct judge *j, const struct exact_found *found)
   return in_corner(found->borders) && tell_point(j, &at, found->borders);
 }
 
-/* Whether the root is in a corner where the ray starts, exactly: the corner is a root, and so the one that is there. */
+/* Whether the root is in a corner in which the ray starts exactly. The corner is a root, and so it is the one found
+ * there. */
 static bool starts_in_corner(const struct judge *j, unsigned borders, const struct exact_root *root)
 {
   struct exact_root corner;
@@ -337,7 +344,7 @@ void judge_root(struct judge *j, struct exact_root *root)
     if (in_patch == SIDE_OUTSIDE || in_range == SIDE_OUTSIDE) return;
   }
   if (in_range == SIDE_UNKNOWN) {
-    /* Nobody can tell whether a ray that starts on the surface meets it, but at a control point. */
+    /* Whether a ray that starts on the surface meets it cannot be told, except at a control point. */
     if (!starts_in_corner(j, borders, root)) judge_undecided(j, least_t(root));
   } else if (in_patch == SIDE_INSIDE) {
     judge_keep(j, root);
@@ -379,7 +386,7 @@ void exact_closest(const struct exact_case *asked, struct exact_decision *out)
 {
   struct judge j;
   nearest_run(&j, asked);
-  /* How well the nearest is known depends on what it was found beside. */
+  /* How accurately the nearest is known depends on what it was found beside. */
   if (j.rivals > 0 && !(j.undecided > most_t(&j.nearest))) judge_improve(&j, &j.nearest);
   const double to = j.rivals > 0 ? most_t(&j.nearest) : INFINITY;
   *out = (struct exact_decision){.verdict = EXACT_MISS, .sure = j.undecided > to || j.undecided == INFINITY};

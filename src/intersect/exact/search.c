@@ -1,15 +1,17 @@
-/* All that a ray may meet in a region of a patch, by recursive halving.
+/* Finds all that a ray may meet in a region of a patch, by recursive halving.
  *
- * A box of parameters is dropped where some linear combination of the two plane polynomials keeps one sign on it
- * (the convex hull property), solved where the certificate finds a root that is alone in it, and halved otherwise.
- * The box that begins first along the ray is next, and those behind the nearest hit so far are dropped. Where a
- * combination is indistinguishable from zero on a box, the surface is seen edge-on there, nearer to tangency than about
- * 1e-7: a fold is looked for (touch.c), and else the box is searched by itself, with polynomials made for it in fixed
- * point (zoom.h), which scales what is too small to tell. Where some combination is zero even there, all over
- * the patch, the ray lies in the plane of a flat patch, or as good as that, and meets curves: what comes first on them lies
- * on borders of boxes (curves.h). What even that leaves (a double root, a ray in the surface), and poles met exactly
- * (pole.c), are told to the judge as undecided. docs/method.md, "The numbers of the last resort", says how the constants
- * here, there and of zoomed boxes fit together.
+ * A box of parameters is dropped if some linear combination of the two plane polynomials keeps one sign on it (the
+ * convex hull property), solved if the certificate finds a root that is alone in it, decided by its fold if it has one
+ * (touch.c), and otherwise halved. The box that begins first along the ray is next; those behind the nearest hit so far
+ * are dropped.
+ *
+ * If a combination is indistinguishable from zero on a box, the surface is seen edge-on there, to within about 1e-7 of
+ * tangency. The box is then searched by itself, with polynomials that are made for it in fixed point (zoom.h), which
+ * scales up what was too small. If some combination is zero even there, and so all over the patch, the ray lies in the
+ * plane of a flat patch, or nearly, and meets curves; their first points lie on borders of boxes (curves.h). The judge
+ * is told as undecided what even that leaves (a double root, a ray in the surface), and poles that are met only as far
+ * as wide arithmetic can tell (pole.c). docs/method.md, "The numbers of the last resort", explains how these constants,
+ * those of pole.c and those of zoomed boxes fit together.
  */
 #include "intersect/exact/search.h"
 
@@ -22,30 +24,29 @@
 #include "intersect/prepare/leaf.h"
 
 /* The fraction of the patch's extent below which an undecidable box is not halved further: UNDECIDED_ERRORS of some
- * hundred roundings each, the distance from the ray at which the planes tell nothing any more. */
+ * hundred roundings each, the distance from the ray within which the planes tell nothing. */
 #define SEARCH_RESOLUTION 0x1p-44
 
-/* How often a box may halve in all: LEAST_SIZE of the whole box either way. */
+/* The most halvings of a box: down to LEAST_SIZE of the whole box both ways. */
 enum { SEARCH_HALVINGS = 104 };
 #define LEAST_SIZE 0x1p-52
 
-/* So many boxes may wait to be looked at in the order in which the ray comes to them: at first, and zoomed. More
- * than these wait only in the order of halving, and so no more than one box can be halved. */
+/* The most boxes that may wait in the order in which the ray comes to them: at first, and if zoomed. Beyond that, boxes
+ * wait only in the order of halving, so there are no more of them than one box can have halvings. */
 enum { SEARCH_AHEAD = 128, CLOSER_AHEAD = 64, SEARCH_STACK = SEARCH_HALVINGS + 2 };
 
-/* A box is zoomed again where it is so small a part of what was, and so often, one in the other. Poles have
- * their own numbers (pole.c). */
+/* A box is zoomed again if it is this small a part, by area, of the last window, and at most this often, one within the
+ * other. Poles have their own numbers (pole.c). */
 #define ZOOM_AGAIN 0x1p-16
 enum { TANGENT_DEPTH = 4 };
 
-/* The bound on rounding in a coefficient of the box's nets: each halving adds three additions on values of the
- * whole box's size. */
+/* Each halving adds three additions, on values of the whole box's size, to the rounding of a coefficient. */
 void search_rounding(const struct search *s, const struct box *box, double out[2])
 {
   for (int k = 0; k < 2; k++) out[k] = s->error[k] + box->halvings * 4 * UNIT_ROUNDOFF;
 }
 
-/* The same with that, at a pole that is met from where roots are told. */
+/* The same, with what a met pole adds from the distance on at which roots are told. */
 static void search_box_error(const struct search *s, const struct box *box, double out[2])
 {
   search_rounding(s, box, out);
@@ -57,16 +58,18 @@ void search_tell_maybe(struct search *s, struct box *box, bool small)
   double u = 0.5, v = 0.5, error[2];
   search_box_error(s, box, error);
   if (!small) judge_undecided(s->window.judge, box->near);
-  /* Where no point of it is found on the ray, or one at the start, it may hold a hit: what asks for any is told. */
+  /* If no point of the box is found on the ray, or one at the ray's start, the box may still hold a hit; any-hit
+   * queries are told so. */
   if (!small && box->far > s->window.judge->asked->ray->t_min + s->resolution) s->window.judge->cut_short = true;
   if (!box_onto_ray(box, error, &u, &v) && !small) return;
   const double t = t_of_depth(&s->window.depth, patch_evaluate(box->net[2], u, v).value);
   window_tell_maybe(&s->window, box, u, v, t, real_min(box->far - box->near, s->resolution));
 }
 
-/* Halves across the parameter along which the box is longer as seen along the ray, for that is what hull tests and
- * Newton's method need: at a tangency boxes get long along the ray and narrow across it. Where it is seen as a
- * point, across the one along which it is longer on the ray; and where the polynomials are dependent, in space. */
+/* Halves across the parameter along which the box is longer as seen along the ray. Hull tests and Newton's method need
+ * this: at a tangency boxes become long along the ray and narrow across it. A box seen as a point is halved across the
+ * parameter along which it is longer on the ray; if the polynomials are dependent, across the one along which it is
+ * longer in space. */
 static void box_halve(const struct search *s, struct box *box, struct box out[2])
 {
   double along_u, along_v, error[2];
@@ -105,7 +108,7 @@ void search_run_closer(struct search *closer, const struct zoomed *zoomed)
   search_run(closer, &whole, waiting);
 }
 
-/* Searches the box by itself, zoomed. Returns whether that could be done. */
+/* Searches the box by itself, zoomed. Returns whether that was possible. */
 static bool box_zoom(struct search *s, const struct box *box)
 {
   struct search closer = search_closer(s, box);
@@ -119,9 +122,10 @@ static bool box_zoom(struct search *s, const struct box *box)
   return true;
 }
 
-/* Whether a box that double precision cannot decide is to be zoomed: one that a combination is flat on once, and again where
- * it is a small part of what was, for the roots next to a tangency are as far apart as the square root of what separates it
- * from one; a bent one, on which there is none yet, where it is as small either way: long ones become flat. */
+/* Whether to zoom a box that double precision cannot decide. If a combination is flat on it: once, and again when it is
+ * a small part of the last window, because roots next to a tangency are as far apart as the square root of the ray's
+ * distance from it. If only a bent combination is flat: when the box is that small both ways, because long boxes become
+ * flat. */
 static bool box_asks_zoom(const struct search *s, const struct box *box, bool flat)
 {
   if (s->dependent) return false;
@@ -131,23 +135,22 @@ static bool box_asks_zoom(const struct search *s, const struct box *box, bool fl
   return s->window.zooms < TANGENT_DEPTH && part <= ZOOM_AGAIN;
 }
 
-/* Whether a box whose root is proven, but not placed well, is to be zoomed again for that: what is zoomed is rounded by the size of
- * its whole, of which the box may be a small part. A root that was not zoomed is the judge's, who has it made sharp. */
+/* Whether to zoom again a box whose root is proven but not placed well: rounding in a zoomed window is relative to its
+ * size, and the box may be a small part of it. A root found without zoom goes to the judge, who has it sharpened. */
 static bool root_asks_zoom(const struct search *s, const struct exact_root *root, int border)
 {
   return !exact_root_placed(root) && border == NO_BORDER && s->window.zooms > 0 && s->window.zooms < TANGENT_DEPTH;
 }
 
-/* Whether the box is as small as an undecided one is to be: along the ray, and in all directions or at least as
- * seen. */
+/* Whether the box is small enough to be told as undecided: along the ray, and in all directions or at least as seen. */
 static bool box_small(const struct search *s, const struct box *box, enum verdict verdict)
 {
   return box->far - box->near <= s->resolution &&
          (verdict == VERDICT_POINT || s->extent[0] * box->size_u + s->extent[1] * box->size_v <= SEARCH_RESOLUTION);
 }
 
-/* Decides the box where the two polynomials are one, and the ray meets curves, if that can be told: what comes first on
- * them may be a hit. Where that is before the ray's start it is what comes next to that, or halving finds it. */
+/* Tries to decide the box where the two polynomials are one and the ray meets curves. The first point on them may be a
+ * hit. If it lies before the ray's start, the point just after the start takes its place, or halving goes on. */
 static bool box_flat(struct search *s, struct box *box, const double error[2])
 {
   double u = 0, v = 0, off = 0;
@@ -166,7 +169,7 @@ static bool box_flat(struct search *s, struct box *box, const double error[2])
   return true;
 }
 
-/* Decides the box: true where nothing is left to do with it. */
+/* Returns whether nothing is left to do with the box. */
 static bool box_decide(struct search *s, struct box *box)
 {
   if (box->near > s->window.judge->limit || box->far < s->window.judge->asked->ray->t_min) return true;
@@ -197,7 +200,7 @@ static bool box_decide(struct search *s, struct box *box)
   return true;
 }
 
-/* The box to look at: the one that begins first along the ray; of those that begin at one place the last one. */
+/* The next box to examine: the one that begins first along the ray; the last of those that begin at one place. */
 static int next_box(const struct search *s, const struct box waiting[], int count)
 {
   int next = count - 1;
@@ -207,7 +210,7 @@ static int next_box(const struct search *s, const struct box waiting[], int coun
   return next;
 }
 
-/* Searches the box `whole`, whose nets, and all that the search starts with, are set. waiting: room for s->ahead and
+/* Searches the box `whole`. Its nets, and all that the search starts with, are set. waiting: room for s->ahead and
  * SEARCH_STACK boxes. */
 static void search_run(struct search *s, const struct box *whole, struct box waiting[])
 {
@@ -231,13 +234,13 @@ static void search_run(struct search *s, const struct box *whole, struct box wai
   }
 }
 
-/* Whether the region is a leaf, kept or not. */
+/* Whether the region is a leaf of its patch, kept or not. */
 static bool is_leaf(const struct model *model, const struct exact_region *region)
 {
   return region->span[0] == 1 && region->span[1] == 1 && !model->cuts[region->patch].copied;
 }
 
-/* The search of a region, and its whole box. */
+/* Sets the search of a region, and its whole box. */
 static void search_begin(struct judge *j, const struct exact_region *region, struct search *s, struct box *whole)
 {
   struct model_patch *patch = j->prepared;
