@@ -1,7 +1,7 @@
-/* Roots on borders of patches, where even wide arithmetic does not tell whether they are inside.
+/* Roots on borders of patches, which even wide arithmetic cannot tell to be inside or not.
  *
- * Such a root is a hit where the border is shared, the neighbour's polynomials have a root there too, and the two patches
- * lie on either side of the border as the ray sees it: then the ray, wherever it passes, meets one of them.
+ * Such a root is a hit if the border is shared, the neighbour's polynomials have a root there too, and the two patches
+ * lie on either side of the border as the ray sees them. Wherever the ray passes, it then meets one of them.
  */
 #include <math.h>
 
@@ -11,11 +11,11 @@
 #include "intersect/exact/judge.h"
 
 /* The side of the border's curve, as seen along d, on which the patch lies at `along`: the sign of det(d, tangent,
- * inward), 0 where it is too small a part of what it could be to be sure of. The tangent runs along the border's
- * parameter. */
+ * inward), or 0 if that is too small a part of its largest possible value to be sure. The tangent runs along the
+ * border's parameter. */
 static int inner_side(struct model_patch *patch, int border, double along, const double d[3])
 {
-  /* Derivatives are right to some units in the last place of the patch's size 1; the side is sure well above that. */
+  /* Derivatives are right to some units in the last place of the patch's size, 1; this is well above that. */
   static const double sure = 0x1p-40;
   const double inward = border & 1 ? -1 : 1;
   double at[2], tangent[3], in[3], normal[3];
@@ -35,13 +35,13 @@ static double along_border(const struct exact_root *root, int border)
   return (double)(border < 2 ? root->v : root->u);
 }
 
-/* Places on a border that are no farther apart than this are one. A border may come back to a point of its own, where other
- * parts of the patches meet; but if it does so within 2^-50 its tangent there is no longer than second derivatives, 24 a
- * coordinate, times that, and with |inward| at most 6 a coordinate no side of it is sure. */
+/* Places on a border that are no farther apart than this are one. A border may return to a point of its own, where
+ * other parts of the patches meet. But if it does so within 2^-50, its tangent there is no longer than second
+ * derivatives, 24 a coordinate, times that; with |inward| at most 6 a coordinate, no side of it is sure. */
 #define ONE_PLACE 0x1p-50
 
-/* Ties that may be one hit have one t: next to the ray's start what wide arithmetic leaves open may be more than its last
- * places. */
+/* Roots that may be one hit must have one t: next to the ray's start, wide arithmetic may leave more of t open than its
+ * last places. */
 #define ONE_T (4 * UNIT_ROUNDOFF)
 
 static bool one_t(const struct exact_root *a, const struct exact_root *b)
@@ -76,7 +76,7 @@ void judge_to_border(struct judge *j, struct exact_found *found)
   root->u = within(root->u), root->v = within(root->v);
 }
 
-/* Puts the roots, a few, in the order of their patches. */
+/* Sorts the roots, of which there are few, by patch. */
 static void sort_by_patch(struct exact_list *list)
 {
   for (size_t k = 1; k < list->count; k++) {
@@ -94,7 +94,7 @@ static bool at_nearest(struct judge *j, const struct exact_root *root)
   return judge_sharpen(j, &j->nearest) ? one_t(root, &j->nearest) : judge_tie(root, &j->nearest);
 }
 
-/* Whether the ray crosses the border of the root there, the nearest hit being the other patch's. */
+/* Whether the ray crosses the surface at the border's root, the nearest hit being the other patch's root there. */
 static bool crosses_at_nearest(const struct judge *j, const struct exact_found *found)
 {
   const int here = __builtin_ctz(found->borders);
@@ -103,18 +103,19 @@ static bool crosses_at_nearest(const struct judge *j, const struct exact_found *
   return judge_across(j, found, &nearest);
 }
 
-/* Of such a root: whether it is no matter which of the two comes first; they may be one place of the surface. */
+/* For a root tied with the nearest hit: whether the order of the two does not matter; they may be one place of the
+ * surface. */
 static bool fine_at_nearest(struct judge *j, const struct exact_found *found)
 {
   struct exact_root root = found->root;
   if (crosses_at_nearest(j, found)) return true;
   judge_turn(j, root.patch);
-  (void)judge_corner(j, found->borders, &root, &root); /* or it stays what it is */
+  (void)judge_corner(j, found->borders, &root, &root); /* if not, the root is unchanged */
   return judge_weigh_tie(j, &root, &j->nearest);
 }
 
-/* Whether the ray crosses the surface at the root of j->list[at], on a border: then of the patches that meet there the one
- * that stands first in the scene has it. */
+/* Whether the ray crosses the surface at the border's root j->list[at]. If so, the hit belongs to the patch that stands
+ * first in the scene of those that meet there. */
 static bool keep_border(struct judge *j, size_t at)
 {
   struct exact_found *found = &j->list->at[at];

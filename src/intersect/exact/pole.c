@@ -1,9 +1,9 @@
-/* Boxes of a search at a border that is one point, a pole: zoomed, divided by the distance to the border
- * (zoom_pole_box), again and again towards it; and what is told where the ray meets the pole.
+/* Boxes of a search at a pole, a border that is one point. They are zoomed, divided by the distance to the border
+ * (zoom_pole_box), again and again towards it. If the ray meets the pole, this file decides what is told.
  *
- * Along such a border both polynomials are constant, so that a ray that passes the pole closely is tangent, as it were,
- * wherever on the border it comes by. How far that goes, and where it ends: docs/method.md, "The numbers of the last
- * resort".
+ * Along such a border both polynomials are constant. So a ray that passes the pole closely is as good as tangent,
+ * wherever along the border it passes. docs/method.md, "The numbers of the last resort", states how far this goes and
+ * where it ends.
  */
 #include "intersect/exact/search.h"
 
@@ -11,20 +11,20 @@
 
 #include "base/real.h"
 
-/* A box is zoomed where it reaches no farther from the pole than this part of the patch. A choice of speed. */
+/* A box is zoomed if it reaches no farther from the pole than this part of the patch. A choice of speed. */
 #define ZOOM_POLE 0x1p-10
 
-/* It is put there again where it reaches no farther from the border than this part of the box that was; and so often, one in
- * the other. */
+/* It is zoomed again if it reaches no farther from the border than this part of the last window, and at most this
+ * often, one within the other. */
 #define ZOOM_AGAIN_POLE 0x1p-10
 enum { ZOOM_DEPTH = 12 };
 
-/* The certificate has derivatives off by no more than this many times what values are off by (certificate.h, kappa). The
- * quotient is off by e/d, its derivatives by e/d^2, or between the root and another point at d' by e/(d d'): no more than
- * that in a box that reaches no farther than so many times the root's distance d. */
+/* The certificate takes derivatives to be off by no more than this many times the error of values (certificate.h,
+ * kappa). The quotient is off by e/d, its derivatives by e/d^2, or between the root and another point at d' by e/(d
+ * d'). That is no more in a box that reaches no farther than this many times the root's distance d. */
 #define CERTIFICATE_SLOPES 16
 
-/* A box no wider along the border than this part of the patch is made smaller towards the pole only: the place along the
+/* A box no wider along the border than this part of the patch is halved only towards the pole: the place along the
  * border is known no better than the direction in which the ray passes the pole. A choice of speed. */
 #define NARROW_AT_POLE 0x1p-5
 
@@ -46,8 +46,7 @@ bool pole_narrow(const struct search *s, const struct box *box)
 /* How far the box reaches from the border, as a part of the search's whole box. */
 static double reach_from(const struct box *box, int border) { return border < 2 ? box->size_u : box->size_v; }
 
-/* Whether the box is to be zoomed: as soon as it is near enough to the pole, and again whenever it has become
- * small. */
+/* Whether to zoom the box: as soon as it is near enough to the pole, and again whenever it has become small. */
 static bool asks_zoom(const struct search *s, const struct box *box, int border)
 {
   if (border < 0 || s->met || s->dependent || s->window.zooms >= ZOOM_DEPTH) return false;
@@ -56,8 +55,8 @@ static bool asks_zoom(const struct search *s, const struct box *box, int border)
   return reach <= ZOOM_AGAIN_POLE;
 }
 
-/* Of a net of depths, which at the pole's border is `depth`: a bound on how far it is from that anywhere, over the distance
- * from the border. */
+/* For a net of depths that is `depth` at the pole's border: a bound on how far it is from that anywhere, over the
+ * distance from the border. */
 static double slope_at_pole(double net[4][4], double depth)
 {
   double rise = 0;
@@ -71,7 +70,8 @@ static double depth_of_pole(double net[4][4], int border)
   return net[at / 4][at % 4];
 }
 
-/* How far from the pole, along the ray, may be what is nearer to it than ZOOM_POLE_MET, a part of the window. */
+/* How far from the pole, along the ray, anything may lie that is nearer to it than ZOOM_POLE_MET, a part of the
+ * window. */
 static double met_reach(const struct window *closer, struct zoomed *zoomed, int border)
 {
   double(*net)[4] = zoomed->net[2];
@@ -97,7 +97,7 @@ bool pole_zoom(struct search *s, const struct box *box, int border)
   return true;
 }
 
-/* How far beyond an end of the ray the pole at t is, for certain: not more than 0 where it may be at that end. */
+/* How far beyond an end of the ray the pole at t certainly is: at most 0 if it may be at that end. */
 static double pole_gap(const struct search *s, double t)
 {
   const struct ray *ray = s->window.judge->asked->ray;
@@ -105,9 +105,9 @@ static double pole_gap(const struct search *s, double t)
   return gap - window_length(&s->window, s->window.depth_error) - 8 * UNIT_ROUNDOFF * real_max(fabs(t), gap);
 }
 
-/* Of a box at a pole at `depth` that may be met and is beyond an end of the ray by the gap: whether it has no root on
- * this side of that end. Such a root is farther from the border than `least`, of the box, and the farther that is the
- * less the nets are off by. */
+/* For a box at a pole at `depth` that may be met and lies beyond an end of the ray by the gap: whether the box has no
+ * root on this side of that end. Such a root is farther from the border than `least`, as a part of the box; the farther
+ * it is, the less the nets are off by. */
 static bool pole_alone(const struct search *s, struct box *box, double depth, double gap)
 {
   double error[2];
@@ -118,8 +118,8 @@ static bool pole_alone(const struct search *s, struct box *box, double depth, do
   return box_test(box, error) == VERDICT_EMPTY;
 }
 
-/* Where the pole has been told, nothing is said of what is next to it; where it may be at an end of the ray what is next
- * to it is a doubt, and no more is said of it; where it is beyond that end what is next to it is halved towards it. */
+/* If the pole has been told, nothing is said of what is next to it. If it may be at an end of the ray, what is next to
+ * it is a doubt, and nothing else is said of it. If it is beyond that end, what is next to it is halved towards it. */
 enum pole_box pole_decide(struct search *s, struct box *box)
 {
   const struct ray *ray = s->window.judge->asked->ray;
@@ -139,8 +139,9 @@ void pole_add_error(const struct search *s, double distance, double error[2])
   for (int k = 0; k < 2; k++) error[k] += s->met_error[k] / distance;
 }
 
-/* Of a box at the pole a root counts from a sixteenth of its reach on (pole_far), and it is no smaller than ZOOM_POLE_MET. Any
- * other reaches no farther than it is away, and a root beside it is not half as near (BOX_MARGIN). */
+/* In a box at the pole, a root counts from a sixteenth of the box's reach on (pole_far), and that reach is at least
+ * ZOOM_POLE_MET. Any other box reaches no farther than its distance from the pole, and a root beside it is not nearer
+ * than half of that (BOX_MARGIN). */
 double pole_told_from(const struct search *s, const struct box *box)
 {
   const double distance[4] = {box->u, 1 - (box->u + box->size_u), box->v, 1 - (box->v + box->size_v)};

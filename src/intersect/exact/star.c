@@ -1,31 +1,31 @@
 /* A ray through a point where several patches meet: a corner, or a pole, a border that is one point.
  *
- * Walking round the point from border to border one comes through all patches that have it, and back, where the surface
- * is closed round it. Seen along the ray each patch fills a sector there, between its borders' directions; where all
- * sectors turn the same way and go round just once the patches' projections fit together without a fold: next to the
- * point the surface is a sheet across the ray, which meets it exactly once, wherever it passes.
+ * A walk round the point from border to border passes through all patches that have it, and returns if the surface is
+ * closed round it. As the ray sees it, each patch fills a sector there, between its borders' directions. If all sectors
+ * turn the same way and go round just once, the projections of the patches fit together without a fold. Next to the
+ * point the surface is then a sheet across the ray, which meets it exactly once, wherever it passes.
  */
 #include <math.h>
 
 #include "intersect/exact/judge.h"
 
-/* Directions are differences of control points of size at most 1 in the frame of a patch, right to some units of
- * 2^-53; what is sure with this as their error leaves room for the surface to bend within 2^-40 of the point. */
+/* Directions are differences of control points of size at most 1 in the frame of a patch, right to some units of 2^-53.
+ * What is sure with this as their error leaves room for the surface to bend within 2^-40 of the point. */
 #define DIRECTION_ERROR 0x1p-36
 
-/* How often a pole's directions are halved to see that they turn one way. */
+/* How often a pole's directions are halved to prove that they turn one way. */
 enum { TURN_HALVINGS = 8 };
 
-/* The point as one patch has it: between two borders, from one of which one comes to the other. */
+/* The point in one patch: it lies between two borders, and the walk goes from `in` to `out`. */
 struct wedge {
   uint32_t patch;
   int in, out;
-  int end;  /* at which end of `in` the point is, 0 or 1 of its running parameter */
-  int pole; /* the border that is the point, between the two; or -1 where they meet */
+  int end;  /* the end of `in` at which the point is: 0 or 1 of its running parameter */
+  int pole; /* the border between the two that is the point; -1 if they meet there */
 };
 
 struct direction {
-  double x, y; /* along the two axes across the dominant one, as the ray sees it */
+  double x, y; /* along the two axes across the dominant one, as the ray sees them */
 };
 
 /* The wedge of a patch whose border `in` ends in the point. */
@@ -40,7 +40,7 @@ static struct wedge wedge_at(const struct model *model, uint32_t patch, int in, 
 /* The end of `out` at which the point is. */
 static int out_end(const struct wedge *w) { return w->pole >= 0 ? w->end : w->in & 1; }
 
-/* The wedge across the border `out`; false where nothing is there. */
+/* The wedge across the border `out`. Returns false if there is none. */
 static bool next_wedge(const struct model *model, const struct wedge *w, struct wedge *out)
 {
   const struct edge_neighbour *other = model_neighbour(model, w->patch, w->out);
@@ -49,7 +49,7 @@ static bool next_wedge(const struct model *model, const struct wedge *w, struct 
   return true;
 }
 
-/* The wedge of a root that was found in a corner or at a pole; false where it is on one border only. */
+/* The wedge of a root found in a corner or at a pole. Returns false if the root is on one border only. */
 static bool wedge_of(const struct model *model, const struct exact_found *found, struct wedge *out)
 {
   const uint32_t patch = found->root.patch;
@@ -66,7 +66,7 @@ static bool wedge_of(const struct model *model, const struct exact_found *found,
   return true;
 }
 
-/* Whether the two are the same place of a patch. */
+/* Whether the two are the same place of one patch. */
 static bool same_wedge(const struct wedge *a, const struct wedge *b)
 {
   if (a->patch != b->patch || (a->pole >= 0) != (b->pole >= 0)) return false;
@@ -76,7 +76,7 @@ static bool same_wedge(const struct wedge *a, const struct wedge *b)
 
 /* ---- how it is seen ---- */
 
-/* From one control point of the patch to another, numbered as edge_at does. */
+/* The direction from one control point of the patch to another, numbered as by edge_at. */
 static struct direction seen(const struct judge *j, uint32_t patch, int from, int to)
 {
   struct patch_room room;
@@ -87,13 +87,13 @@ static struct direction seen(const struct judge *j, uint32_t patch, int from, in
   return (struct direction){t[one] - d[one] / d[k] * t[k], t[two] - d[two] / d[k] * t[k]};
 }
 
-/* Of a border away from its end. */
+/* The direction of a border away from that end. */
 static struct direction border_direction(const struct judge *j, uint32_t patch, int border, int end)
 {
   return seen(j, patch, edge_at(border, end ? 3 : 0), edge_at(border, end ? 2 : 1));
 }
 
-/* 1 or -1: how one turns from a to b; 0 where that is not sure. */
+/* The sense in which a turns to b, 1 or -1; 0 if not sure. */
 static int turn(struct direction a, struct direction b)
 {
   const double sine = a.x * b.y - a.y * b.x;
@@ -102,14 +102,14 @@ static int turn(struct direction a, struct direction b)
   return sine > least ? 1 : sine < -least ? -1 : 0;
 }
 
-/* Going round the point. */
+/* A walk round the point. */
 struct round {
-  struct direction at; /* looking there */
-  int way;             /* which way it turned first; 0: not yet */
-  double angle;        /* how far in all */
+  struct direction at; /* direction looked in */
+  int way;             /* the sense of the first turn; 0: none yet */
+  double angle;        /* total angle turned */
 };
 
-/* Goes on to b, which is less than half a turn away; false where that is another way, or not sure. */
+/* Turns to b, which is less than half a turn away. Returns false if that is the other sense, or not sure. */
 static bool go_to(struct round *round, struct direction b)
 {
   const struct direction a = round->at;
@@ -120,8 +120,8 @@ static bool go_to(struct round *round, struct direction b)
   return true;
 }
 
-/* The same along a cubic of directions: one turns one way, and less than half a turn, where any two of its control
- * values do. */
+/* Turns along a cubic of directions. It turns one way, and by less than half a turn, if any two of its control values
+ * do. */
 static bool go_along(struct round *round, const struct direction c[4], int halvings)
 {
   int sum = 0;
@@ -144,16 +144,16 @@ static bool go_through(const struct judge *j, const struct wedge *w, struct roun
   if (w->pole < 0) return go_to(round, border_direction(j, w->patch, w->out, out_end(w)));
   struct direction c[4];
   for (int n = 0; n < 4; n++) {
-    const int at = edge_at(w->pole, w->in & 1 ? 3 - n : n); /* the pole runs from one of the two borders to the other */
+    const int at = edge_at(w->pole, w->in & 1 ? 3 - n : n); /* a pole runs from one of its two borders to the other */
     c[n] = seen(j, w->patch, at, at + edge_inward(w->pole));
   }
   return go_along(round, c, TURN_HALVINGS);
 }
 
-/* Once round, but for what rounding can do. */
+/* Whether the walk went round once, up to rounding. */
 static bool once_round(const struct round *round) { return fabs(round->angle - 2 * acos(-1)) < 1; }
 
-/* The root that lies there in the wedge; `end` where there is none. */
+/* The index of the root that lies there in the wedge; `end` for none. */
 static size_t root_in(const struct judge *j, const struct wedge *w, const struct exact_root *at, size_t first,
                       size_t end)
 {

@@ -6,7 +6,7 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 
-/* columns/split, without the slow division where a double has it exactly. */
+/* columns/split, without the slow division if a double has it exactly. */
 static wide part_of(int columns, int split)
 {
   return (split & (split - 1)) == 0 ? (wide)((double)columns / split) : (wide)columns / split;

@@ -8,22 +8,22 @@
 #include "geometry/edges.h"
 #include "intersect/local_ray.h"
 
-/* A value of a or b passes at most this many roundings on the way from the control points to a combination's
- * coefficient over a box: local net 3, slope 2, moment and plane 4, to powers 2 x 4, to the box 2 x 12, combination 3;
- * each of them 2 units of a number below 1, or of one that a number of at most MOST_MOMENT + 2 is multiplied by; and all
- * terms of a value sum up to no more than POWER_GROWTH times the largest one that a control point gives: sum |power| <=
- * 7.2 of a cubic with |b| <= 1, as far as LEAF_MARGIN outside the square. */
+/* The most roundings that a value of a or b undergoes from the control points to the coefficient of a combination over
+ * a box: local net 3, slope 2, moment and plane 4, to powers 2 x 4, to the box 2 x 12, combination 3. Each is at most 2
+ * units of a number below 1, or of one that is multiplied by at most MOST_MOMENT + 2. All terms of a value sum up to at
+ * most POWER_GROWTH times the largest that a control point gives: a cubic with |b| <= 1 has sum |power| <= 7.2, as far
+ * as LEAF_MARGIN outside the square. */
 #define ZOOM_ROUNDINGS 44
 #define POWER_GROWTH 52
 
-/* What a moment is, times the plane's unit, at most. */
+/* The largest moment, times the plane's unit. */
 #define MOST_MOMENT 1
 
-/* Roundings, in double, of what is left of a combination scaled to a sum of 1, and of its value: conversion and scale 3, to
- * Bernstein form 2 x 4, weights of a value 2 x 5 and its sums 2 x 4. */
+/* Roundings, in double, of what is left of a combination scaled to a sum of 1, and of its value: conversion and scale
+ * 3, to Bernstein form 2 x 4, weights of a value 2 x 5 and its sums 2 x 4. */
 #define ZOOMED_ROUNDINGS 30
 
-/* Bernstein coefficients with the stride to powers of s = 2t - 1. */
+/* Converts Bernstein coefficients with that stride to powers of s = 2t - 1. */
 static void to_powers(fixed *b, int stride)
 {
   const fixed b0 = b[0], b1 = b[stride], b2 = b[2 * stride], b3 = b[3 * stride];
@@ -33,15 +33,15 @@ static void to_powers(fixed *b, int stride)
   b[3 * stride] = ((b3 - b0) - 3 * (b2 - b1)) / 8;
 }
 
-/* Roundings of a moment, of the size that they are relative to. */
+/* Roundings of a moment, relative to the size that wide_moment sets. */
 #define MOMENT_ROUNDINGS 10
 
-/* (q_i d_k - q_k d_i)/d_k for q = (origin - center)/scale; *size: what its roundings are relative to. Either of the
- * differences, or of the products of 106 bits, where those nearly cancel far from the scene's origin. */
+/* (q_i d_k - q_k d_i)/d_k for q = (origin - center)/scale. Sets *size to what its roundings are relative to. It is
+ * formed of the differences q, or, far from the scene's origin, of products of 106 bits where those nearly cancel. */
 static wide wide_moment(const struct model_patch *patch, const struct ray *ray, int i, int k, wide slope, wide *size)
 {
   const double *d = ray->direction, *o = ray->origin;
-  const wide to_local = 1 / (wide)patch->scale; /* a power of two: it does not matter when it comes in */
+  const wide to_local = 1 / (wide)patch->scale; /* a power of two, so it may come in anywhere */
   const wide qi = (wide)o[i] - patch->center[i], qk = slope * ((wide)o[k] - patch->center[k]);
   const wide line = ((wide)o[i] * d[k] - (wide)o[k] * d[i]) / d[k];
   const wide ci = patch->center[i], ck = slope * patch->center[k];
@@ -51,18 +51,18 @@ static wide wide_moment(const struct model_patch *patch, const struct ray *ray, 
   return (nearly ? line - (ci - ck) : qi - qk) * to_local;
 }
 
-/* The coordinate in the frame of the patch, times a power of two. */
+/* The coordinate in the patch's frame, times a power of two. */
 static fixed local(const struct model_patch *patch, double p, int c, double unit)
 {
   const struct double_double x = dd_two_sum(p, -patch->center[c]);
   return fixed_from(x.hi / patch->scale * unit) + fixed_from(x.lo / patch->scale * unit);
 }
 
-/* Units go no farther either way: the last places of the least doubles, so multiplied, are still less than FIXED_UNIT. A
- * ray with a larger moment passes any patch by, and so it does with MOST_MOMENT. */
+/* Units go no farther in either direction: the last places of the least doubles, multiplied by this, are still less
+ * than FIXED_UNIT. A ray with a larger moment misses every patch, as does one with MOST_MOMENT. */
 #define LARGEST_UNIT 0x1p900
 
-/* The largest power of two by which what is so large, at most, is no more than 1. */
+/* The largest power of two by which a size of at most `largest` becomes no more than 1. */
 static double unit_for(double largest)
 {
   int exponent;
@@ -72,12 +72,12 @@ static double unit_for(double largest)
                                        : ldexp(1, -exponent);
 }
 
-/* The plane of x_i and x_k loses as many digits as the ray is longer along k than along i, each beside how far the patch
- * reaches that way: two such planes along a needle are one. Where it is longer by so much, which still leaves all the
- * digits of a double, another k is taken. */
+/* The plane of x_i and x_k loses as many digits as the ray is longer along i than along k, each relative to how far the
+ * patch reaches that way: two such planes along a needle are one. If it is longer by this much, which still leaves all
+ * the digits of a double, another k is taken. */
 #define THIN 0x1p40
 
-/* k for a ray and a patch that reaches so far from its center. */
+/* k for a ray and a patch that reaches this far from its center. */
 static int axis_across(const struct ray *ray, const double reach[3], double scale)
 {
   const double *d = ray->direction;
@@ -85,7 +85,7 @@ static int axis_across(const struct ray *ray, const double reach[3], double scal
   int k = longest;
   for (int c = 0; c < 3; c++) {
     const double way = fabs(d[c]);
-    const bool finite = way * LARGEST_UNIT > scale; /* what x_c is of t */
+    const bool finite = way * LARGEST_UNIT > scale; /* t over x_c */
     if (c != longest && finite && way * reach[k] > fabs(d[k]) * reach[c] * (k == longest ? THIN : 1)) k = c;
   }
   return k;
@@ -122,7 +122,7 @@ void zoom_start(const struct model_patch *patch, double (*P)[4][3], const struct
   out->to_t = (wide)patch->scale / d[k];
 }
 
-/* The polynomial of s with powers c, as powers of r for s = middle + half r. */
+/* Converts powers of s, coefficients c, to powers of r, for s = middle + half r. */
 static void move(fixed *c, int stride, fixed middle, const fixed half[3])
 {
   for (int n = 0; n < 3; n++)
@@ -130,7 +130,7 @@ static void move(fixed *c, int stride, fixed middle, const fixed half[3])
   for (int k = 1; k < 4; k++) c[k * stride] = fixed_product(c[k * stride], half[k - 1]);
 }
 
-/* Powers of r in [-1,1] to Bernstein coefficients there. */
+/* Converts powers of r in [-1,1] to Bernstein coefficients there. */
 static void to_bernstein(double *c, int stride)
 {
   const double c0 = c[0], c1 = c[stride], c2 = c[2 * stride], c3 = c[3 * stride], third = 1.0 / 3;
@@ -145,7 +145,7 @@ static void net_of(fixed power[4][4], double factor, double out[4][4])
   for (int n = 0; n < 4; n++) to_bernstein(&out[0][n], 4);
 }
 
-/* The sum of their sizes. */
+/* The sum of the coefficients' sizes. */
 static double size_sum(fixed power[4][4])
 {
   double sum = 0;
@@ -153,7 +153,7 @@ static double size_sum(fixed power[4][4])
   return sum;
 }
 
-/* The ray's polynomials over the box, as powers of its own parameters in [-1,1]. */
+/* The ray's polynomials over the box, in powers of its own parameters in [-1,1]. */
 static void box_powers(const struct zoom *zoom, const wide low[2], const wide size[2], fixed c[3][4][4])
 {
   fixed middle[2], half[2][3];
@@ -166,7 +166,7 @@ static void box_powers(const struct zoom *zoom, const wide low[2], const wide si
   for (int n = 0; n < 12; n++) move(c[n / 4][n % 4], 1, middle[1], half[1]);
 }
 
-/* The net of x_k, less the middle's. */
+/* Sets the net of x_k, less that of the middle. */
 static void set_depth(const struct zoom *zoom, fixed power[4][4], struct zoomed *out)
 {
   out->start = fixed_wide(power[0][0]) / zoom->unit[2] - zoom->origin;
@@ -178,9 +178,9 @@ bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], st
 {
   fixed c[3][4][4];
   box_powers(zoom, low, size, c);
-  /* The combination whose first derivatives vanish, as nearly as they can, in the middle: the row of the adjugate
-   * Jacobian that is the larger; and the one across it. Rounded rows are as good: both combinations are formed with
-   * what they are. */
+  /* The combination whose first derivatives in the middle are as near to 0 as possible: the larger row of the adjugate
+   * Jacobian; and the one across it. Rounded rows are as good, because both combinations are formed with the rounded
+   * ones. */
   const double au = fixed_double(c[0][1][0]), av = fixed_double(c[0][0][1]);
   const double bu = fixed_double(c[1][1][0]), bv = fixed_double(c[1][0][1]);
   const bool by_v = fabs(bv) + fabs(av) > fabs(bu) + fabs(au);
@@ -201,7 +201,7 @@ bool zoom_box(const struct zoom *zoom, const wide low[2], const wide size[2], st
   return true;
 }
 
-/* Powers of r in [-1,1] to Bernstein coefficients there, all of a net. */
+/* The same in fixed point, for a whole net. */
 static void fixed_net(fixed c[4][4])
 {
   const fixed third = fixed_from_wide((wide)1 / 3);
@@ -215,8 +215,8 @@ static void fixed_net(fixed c[4][4])
   }
 }
 
-/* The net, which is 0 along the border, divided by the distance to it, as a net of its own degree again: with b_k for
- * the coefficients away from the border, those of the quotient are 3 b_k/k, k = 1..3, and raised in degree these. */
+/* Divides the net, which is 0 along the border, by the distance to the border. The result is a net of the same degree:
+ * with coefficients b_k away from the border, the quotient has 3 b_k/k, k = 1..3, which are then raised in degree. */
 static void divide_by_distance(fixed net[4][4], int border)
 {
   const fixed third = fixed_from_wide((wide)1 / 3);
@@ -228,12 +228,12 @@ static void divide_by_distance(fixed net[4][4], int border)
   }
 }
 
-/* A pole is passed where the ray's distance from it is this many times what rounding leaves unknown of it: then the
- * quotient below is right to 2^-22 of the other combination's slope at any root. What is known of its own slope is
- * pole.c's to ask (CERTIFICATE_SLOPES). */
+/* A pole is passed if the ray's distance from it is this many times what rounding leaves unknown of it. The quotient
+ * below is then right to 2^-22 of the other combination's slope at any root. How well its own slope is known is
+ * pole.c's concern (CERTIFICATE_SLOPES). */
 #define POLE_PRECISION (ZOOM_POLE_REACH / 4)
 
-/* Scales the net to a largest coefficient of 1; false where its error is larger. */
+/* Scales the net to a largest coefficient of 1. Returns false if its error is larger. */
 static bool scaled_net(fixed net[4][4], double error, double met, int k, struct zoomed *out)
 {
   fixed largest = 0;
@@ -264,9 +264,9 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
     net[0][n / 4][n % 4] = fixed_product(q, a) - fixed_product(p, b);
     net[1][n / 4][n % 4] = fixed_product(p, a) + fixed_product(q, b);
   }
-  /* The quotient's coefficients are off by three times as much; and by what the combination is not 0 along the border,
-   * over the least distance at which a root can be, where the other combination is not 0 yet: that is by the same part
-   * of its size. */
+  /* The quotient's coefficients are off by three times as much. Besides, the combination is not quite 0 along the
+   * border. No root is nearer than where the other combination may be 0; over that least distance, this makes the same part of
+   * the other's slope as it is of the pole's distance. */
   const fixed along = fixed_product(p, a0) + fixed_product(q, b0);
   double slope = 0;
   for (int n = 0; n < 16; n++) slope = fmax(slope, fabs(fixed_double(net[1][n / 4][n % 4] - along)));
