@@ -10,7 +10,7 @@
 
 /* ---- the patch in wide arithmetic, from its control points P ---- */
 
-/* The weights of a cubic's control values, and of their differences in the derivative. */
+/* The weights of a cubic's control values, and of their differences in its derivative. */
 static void wide_weights(wide t, wide w[4], wide dw[3])
 {
   const wide s = 1 - t;
@@ -18,7 +18,7 @@ static void wide_weights(wide t, wide w[4], wide dw[3])
   dw[0] = 3 * s * s, dw[1] = 6 * s * t, dw[2] = 3 * t * t;
 }
 
-/* Su x Sv, over its largest coordinate; false where that is no more than `least`. */
+/* Su x Sv divided by its largest coordinate. Returns false if that is at most `least`. */
 static bool wide_across(double (*P)[4][3], wide u, wide v, wide least, wide n[3])
 {
   wide wu[4], du[3], wv[4], dv[3], su[3] = {0}, sv[3] = {0}, size = 0;
@@ -40,8 +40,8 @@ static bool wide_across(double (*P)[4][3], wide u, wide v, wide least, wide n[3]
   return size > least;
 }
 
-/* t where the ray comes through the tangent plane at (u,v), next to which its root is: right to the last places of the
- * point's distance from the ray's start, however small that is beside the patch. 0 where there is none. */
+/* t at which the ray passes through the tangent plane at (u,v), next to which its root is. It is right to the last
+ * places of the point's distance from the ray's start, however small that is beside the patch. 0 if there is none. */
 static wide wide_t(double (*P)[4][3], const struct ray *ray, wide u, wide v)
 {
   wide wu[4], wv[4], unused[3], n[3], above = 0, along = 0;
@@ -56,7 +56,7 @@ static wide wide_t(double (*P)[4][3], const struct ray *ray, wide u, wide v)
   return along != 0 ? above / along : 0;
 }
 
-/* Su x Sv at (u,v), made of unit length; false where it is no longer than `least`. */
+/* Su x Sv at (u,v), of unit length. Returns false if it is no longer than `least`. */
 static bool wide_normal(double (*P)[4][3], wide u, wide v, wide least, double out[3])
 {
   wide n[3];
@@ -69,27 +69,27 @@ static bool wide_normal(double (*P)[4][3], wide u, wide v, wide least, double ou
 
 /* ---- the hit ---- */
 
-/* Derivatives whose product is no more than what rounding the control points may make of it are those of a pole whose
- * points were rounded one by one: there the limit on the way to it is the normal. In roundings of a coordinate: two in a
- * difference of points, three times that in a derivative, two products with one, and room for where that ends. */
+/* A product of derivatives no larger than what rounding the control points may make of it is that of a pole whose
+ * points were rounded one by one; the normal is then the limit on the way there. In roundings of a coordinate: two in a
+ * difference of points, three times that in a derivative, two products with one, and some room. */
 #define NET_ROUNDINGS 16
 
-/* The normal where the derivatives' product is not sure: of a patch that is nearly a curve, next to a pole or at one. `tangent`
- * bounds the derivatives' coordinates; where there is none at all the surface is seen from the front. */
+/* The normal where the product of the derivatives is not sure: on a patch that is nearly a curve, and at a pole or next
+ * to one. `tangent` bounds the derivatives' coordinates. If the surface has no normal, it is seen from the front. */
 static void unsure_normal(const struct model *model, struct model_patch *patch, const double direction[3],
                           double tangent, struct hit *out)
 {
   double(*P)[4][3] = model->scene->patches[out->patch].P, far = 1;
   for (int c = 0; c < 3; c++) far = real_max(far, fabs(patch->center[c]) / patch->scale + 1);
   const double rounded = NET_ROUNDINGS * UNIT_ROUNDOFF * far * tangent, u = out->u, v = out->v;
-  /* the scene's units: their square may be beyond the doubles */
+  /* in the scene's units, whose square may be beyond the doubles */
   const wide least = (wide)rounded * patch->scale * patch->scale;
   if (!wide_normal(P, u, v, least, out->normal) && !patch_normal(patch->x, u, v, rounded, out->normal) &&
       !wide_normal(P, u, v, 0, out->normal) && !patch_normal(patch->x, u, v, 0, out->normal))
     vector_scale(-1 / vector_length(direction), direction, out->normal);
 }
 
-/* The point with its error, and the normal, which faces the ray. */
+/* Sets the point with its error, and the normal, facing the ray. */
 static void set_surface(const struct model *model, const struct ray *ray, struct hit *out)
 {
   struct patch_room room;
@@ -104,7 +104,7 @@ static void set_surface(const struct model *model, const struct ray *ray, struct
     magnitude = real_max(magnitude, fabs(out->point[c]));
   }
   out->point_error = POINT_ERROR(patch->scale, tangent, magnitude);
-  /* A patch that is lost in its scene has derivatives whose products are no numbers. */
+  /* The derivatives of a patch that is lost in its scene have products outside the doubles. */
   int exponent;
   const double part = frexp(tangent, &exponent);
   for (int c = 0; c < 3; c++) su[c] = ldexp(su[c], -exponent), sv[c] = ldexp(sv[c], -exponent);
@@ -116,7 +116,7 @@ static void set_surface(const struct model *model, const struct ray *ray, struct
   if (vector_dot(out->normal, direction) > 0) vector_scale(-1, out->normal, out->normal);
 }
 
-/* On a border by the size of the neighbour as well. */
+/* The clearance; on a border it takes the neighbour's size into account. */
 static double clearance(const struct model *model, uint32_t patch, unsigned borders, const struct hit *hit)
 {
   struct patch_room room;
@@ -131,15 +131,15 @@ static double clearance(const struct model *model, uint32_t patch, unsigned bord
   return hit->point_error + CLEARANCE(scale, loose, magnitude);
 }
 
-/* The double next to t in the ray's range: rounding may have taken its last bits to the end of that. Where no double lies
- * between the ends it is t_max, so that a ray that goes on from there comes to an end. */
+/* The double nearest to t in the ray's range; rounding may have taken t to an end of that. If no double lies between
+ * the ends it is t_max, so that a ray continued from there comes to an end. */
 static double t_within(double t, double t_min, double t_max)
 {
   const double first = nextafter(t_min, INFINITY);
   return !(t > t_min) ? first : !(t < t_max) ? real_max(nextafter(t_max, -INFINITY), first) : t;
 }
 
-/* The hit at (u,v) of a patch and t of the ray. `borders`: those of the patch that the point lies on. */
+/* The hit at (u,v) of a patch and t of the ray. `borders`: those of the patch on which the point lies. */
 static void answer(const struct model *model, const struct ray *ray, uint32_t patch, unsigned borders, double t,
                    struct hit *out)
 {
@@ -150,10 +150,10 @@ static void answer(const struct model *model, const struct ray *ray, uint32_t pa
   out->clearance = clearance(model, patch, borders, out);
 }
 
-/* Where the ray and the normal are nearer to a right angle than this, rounding may have turned the normal about. */
+/* Nearer to a right angle between ray and normal than this, rounding may have reversed the normal. */
 #define SIDE_SURE 0x1p-40
 
-/* Turns the normal of a hit at (u,v) to the side that the ray comes from, if rounding has turned it away. */
+/* Turns the normal of a hit at (u,v) to the side from which the ray comes, if rounding has reversed it. */
 static void face(double (*P)[4][3], const struct ray *ray, wide u, wide v, double normal[3])
 {
   wide n[3], along = 0, same = 0;
@@ -172,7 +172,7 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
     struct patch_room room;
     const struct model_patch *patch = model_patch_at(model, root->patch, &room);
     zoom_start(patch, P, ray, &zoom);
-    (void)zoom_sharpen(&zoom, root); /* or it stays what it is */
+    (void)zoom_sharpen(&zoom, root); /* or its bounds are unchanged */
   }
   if (root->t_error > UNIT_ROUNDOFF / 4 * fabs((double)root->t)) {
     const wide t = wide_t(P, ray, root->u, root->v);
@@ -182,7 +182,7 @@ void exact_root_hit(const struct model *model, const struct ray *ray, struct exa
   const bool at[4] = {u <= root->radius_u, 1 - u <= root->radius_u, v <= root->radius_v, 1 - v <= root->radius_v};
   unsigned borders = 0;
   for (unsigned k = 0; k < 4; k++) borders |= (unsigned)at[k] << k;
-  /* What is certain has a place. */
+  /* A certain hit has a place. */
   sure = sure && exact_root_placed(root);
   *out = (struct hit){.certainty = sure ? CERTAINTY_CERTAIN : CERTAINTY_GRAZING, .u = u, .v = v};
   answer(model, ray, root->patch, borders, (double)root->t, out);

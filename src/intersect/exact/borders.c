@@ -110,7 +110,7 @@ static bool fine_at_nearest(struct judge *j, const struct exact_found *found)
   struct exact_root root = found->root;
   if (crosses_at_nearest(j, found)) return true;
   judge_turn(j, root.patch);
-  (void)judge_corner(j, found->borders, &root, &root); /* if not, the root is unchanged */
+  (void)judge_corner(j, found->borders, &root, &root); /* or the root is unchanged */
   return judge_weigh_tie(j, &root, &j->nearest);
 }
 

@@ -7,11 +7,11 @@
 #include "geometry/patch.h"
 #include "intersect/certificate.h"
 
-/* Newton's last step in box parameters: its square, all that the next one would be, is below the rounding of the
- * values. Not a tolerance of the answer, whose radius is computed. */
+/* Newton's last step, in box parameters: its square, which would be the next step, is below the rounding of the values.
+ * This is not a tolerance of the answer, whose radius is computed. */
 #define LAST_STEP 0x1p-28
 
-/* Where p a + q b stands on the box: its hull in units of its error bound. */
+/* The hull of p a + q b on the box, in units of its error bound. */
 static void combination(struct box *box, double p, double q, const double error[2], double out[2])
 {
   const double unit = 1 / (fabs(p) * (error[0] + UNIT_ROUNDOFF * 4) + fabs(q) * (error[1] + UNIT_ROUNDOFF * 4));
@@ -21,8 +21,8 @@ static void combination(struct box *box, double p, double q, const double error[
   }
 }
 
-/* Tries the combinations a, b and the two rows of the adjugate Jacobian in the middle, which aim along the
- * parameters, or, where the Jacobian is singular, at the one direction in which the surface is seen edge-on. */
+/* Tries the combinations a, b and the two rows of the adjugate Jacobian in the middle. The rows aim along the
+ * parameters, or, if the Jacobian is singular, in the one direction in which the surface is seen edge-on. */
 enum verdict box_test(struct box *box, const double error[2])
 {
   const struct patch_jet a = patch_evaluate(box->net[0], 0.5, 0.5);
@@ -40,7 +40,7 @@ enum verdict box_test(struct box *box, const double error[2])
   return !flat ? VERDICT_OPEN : steep ? VERDICT_FLAT : VERDICT_POINT;
 }
 
-/* A row of M times the polynomials: bounds on its second derivatives. */
+/* Bounds on the second derivatives of a row of M times the polynomials. */
 static void row_bends(struct box *box, const double m[2], double out[3])
 {
   double n[4][4];
@@ -48,8 +48,8 @@ static void row_bends(struct box *box, const double m[2], double out[3])
   patch_bends(n, out);
 }
 
-/* Whether a root in the middle would be shown to be alone, by M there: else Newton's method is mostly in vain. A choice
- * of speed. */
+/* Whether M there would prove a root in the middle alone; otherwise Newton's method is mostly in vain. A choice of
+ * speed. */
 static bool may_be_alone(struct box *box, double m[2][2])
 {
   for (int k = 0; k < 2; k++) {
@@ -60,12 +60,12 @@ static bool may_be_alone(struct box *box, double m[2][2])
   return true;
 }
 
-/* No farther beside the box than this a value is off by (1 + 2/128)^6 = 1.1 times what coefficients are, which the theorem has
- * over. */
+/* Up to this far outside the box, a value is off by (1 + 2/128)^6 = 1.1 times as much as coefficients, which the
+ * theorem has to spare. */
 #define BESIDE 0x1p-7
 
-/* The certificate in the box's own parameters, with the second derivatives of M's rows of the plane polynomials
- * themselves, for a last step that went to `root`. Sets the radii. */
+/* The certificate in the box's parameters, for a last step that went to `root`. It uses the second derivatives of M's
+ * rows times the plane polynomials themselves. Sets the radii. */
 static bool box_prove(struct box *box, double m[2][2], const double error[2], bool alone, double step,
                       const double root[2], double radius[2])
 {
@@ -108,7 +108,8 @@ bool box_solve(struct box *box, const double error[2], bool alone, double root[2
   return box_prove(box, m, error, alone, step, root, radius);
 }
 
-/* Keeps the shortest step finite where the polynomials are dependent: relative, a choice of how short it is then. */
+/* Keeps the shortest step finite if the polynomials are dependent. It is relative: a choice of how short the step then
+ * is. */
 #define LEAST_DEPENDENT 0x1p-40
 
 bool box_onto_ray(struct box *box, const double error[2], double *u, double *v)

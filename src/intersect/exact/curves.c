@@ -1,4 +1,4 @@
-/* Boxes whose a and b are one polynomial. See curves.h. */
+/* Boxes on which a and b are one polynomial. See curves.h. */
 #include "intersect/exact/curves.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 
-/* The least and the largest of a net's derivative by u or by v; `off` bounds what the coefficients are off by. */
+/* The range of a net's derivative by u or by v. `off` bounds the errors of the coefficients. */
 static void derivative_range(double n[4][4], bool by_u, double off, double out[2])
 {
   out[0] = INFINITY, out[1] = -INFINITY;
@@ -18,7 +18,7 @@ static void derivative_range(double n[4][4], bool by_u, double off, double out[2
   }
 }
 
-/* The least size of a number in the range, and the largest. */
+/* The least and the largest absolute value in the range. */
 static double range_least(const double x[2]) { return real_max(real_max(x[0], -x[1]), 0); }
 static double range_most(const double x[2]) { return real_max(fabs(x[0]), fabs(x[1])); }
 
@@ -42,8 +42,8 @@ static double cubic_at(const double c[4], double x, double *slope)
   return y * y * (y * c[0] + 3 * x * c[1]) + x * x * (3 * y * c[2] + x * c[3]);
 }
 
-/* The root of a cubic that rises from below 0 to above, and whose coefficients are no larger than `most`: by Newton's
- * method where it stays next to it, else by halving. It ends where a value is what rounding makes. */
+/* The root of a cubic that rises from below 0 to above and has coefficients no larger than `most`: by Newton's method
+ * as long as it stays between the bounds, else by halving. It ends when a value is within rounding. */
 static double cubic_root(const double c[4], double most)
 {
   double low = 0, high = 1, x = 0.5, slope;
@@ -57,8 +57,8 @@ static double cubic_root(const double c[4], double most)
   return x;
 }
 
-/* Where a side's coefficients are 0: out[..] along it, 0 to 2 places, each off by no more than *off; negative where that is
- * not known. */
+/* Where the cubic along a side is 0: sets out[..] to 0 to 2 places, each off by no more than *off, and returns their
+ * number; negative if that is not known. */
 static int side_places(const double c[4], double error, double out[2], double *off)
 {
   double least = INFINITY, rise = INFINITY, fall = INFINITY, most = 0;
@@ -82,7 +82,7 @@ static int side_places(const double c[4], double error, double out[2], double *o
   return 1;
 }
 
-/* Which of a and b is the larger one; negative where the other one is not a multiple of it to rounding. */
+/* The larger one of a and b; negative if the other one is not a multiple of it up to rounding. */
 static int one_of_two(struct box *box, const double error[2])
 {
   double most[2] = {0, 0};
@@ -120,7 +120,7 @@ enum curves curves_begin(struct box *box, const double error[2], double way, dou
     }
     const int places = side_places(on, bound, place, &away);
     if (places < 0 || (places == 2 && !(steep > 0))) return CURVES_UNKNOWN;
-    /* Where all of the side is on the ray, to rounding, so is what is this near to it. */
+    /* If all of the side is on the ray, up to rounding, so is anything this near to it. */
     const double beside = places == 2 ? 2 * bound / steep * range_most(side < 2 ? du[1] : dv[1]) : 0;
     for (int n = 0; n < places; n++) {
       const double at = way * cubic_at(depth, place[n], &slope);

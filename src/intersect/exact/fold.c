@@ -6,7 +6,7 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 
-/* A polynomial's derivatives, or bounds on them: out[i][j], i times by x and j times by y. */
+/* A polynomial's derivatives, or bounds on them: out[i][j] is taken i times by x and j times by y. */
 struct derivatives {
   double d[4][4];
 };
@@ -31,7 +31,7 @@ static void combine(const struct fold_powers *a, const struct fold_powers *b, do
   for (int n = 0; n < 16; n++) out->c[n / 4][n % 4] = p * a->c[n / 4][n % 4] + q * b->c[n / 4][n % 4];
 }
 
-/* Of a cubic's powers at x: out[i], the i-th derivative. */
+/* The derivatives at x of a cubic in powers: out[i] is the i-th. */
 static void cubic_derivatives(const double c[4], double x, double out[4])
 {
   out[0] = ((c[3] * x + c[2]) * x + c[1]) * x + c[0], out[1] = (3 * c[3] * x + 2 * c[2]) * x + c[1];
@@ -49,14 +49,14 @@ static void derive(const struct fold_powers *p, double x, double y, struct deriv
   }
 }
 
-/* The same in the middle, where they are the powers; up to second ones. */
+/* The same in the middle, where they follow from the powers; up to second derivatives. */
 static void derive_middle(const struct fold_powers *p, struct derivatives *out)
 {
   for (int i = 0; i < 3; i++)
     for (int j = 0; i + j < 3; j++) out->d[i][j] = p->c[i][j] * (i == 2 || j == 2 ? 2 : 1);
 }
 
-/* Bounds on the larger box. */
+/* Bounds on the derivatives on the larger box. */
 static void bound(const struct fold_powers *p, struct derivatives *out)
 {
   struct fold_powers sizes;
@@ -73,7 +73,7 @@ static void determinant(const struct derivatives *f, const struct derivatives *g
   out[2] = F[1][1] * G[0][1] + F[1][0] * G[0][2] - F[0][2] * G[1][0] - F[0][1] * G[1][1];
 }
 
-/* A bound on D_xx + 2 D_xy + D_yy, by bounds. */
+/* A bound on D_xx + 2 D_xy + D_yy, from bounds on derivatives. */
 static double determinant_bend(const struct derivatives *f, const struct derivatives *g)
 {
   const double(*F)[4] = f->d, (*G)[4] = g->d;
@@ -91,7 +91,7 @@ static double first_most(const struct derivatives *f) { return real_max(f->d[1][
 
 static double row_size(const double m[2], double one, double two) { return fabs(m[0]) * one + fabs(m[1]) * two; }
 
-/* The inverse of the map's Jacobian; returns whether it has one. */
+/* The inverse of the map's Jacobian. Returns whether it has one. */
 static bool invert(const double g[3], const double d[3], double m[2][2])
 {
   const double whole = g[1] * d[2] - g[2] * d[1], inverse = 1 / whole;
@@ -99,23 +99,24 @@ static bool invert(const double g[3], const double d[3], double m[2][2])
   return fabs(whole) > 0;
 }
 
-/* Rounding in the coefficients of F and G, each off by `error`, moves the second derivatives of G on the larger box, and so how far
- * its row of the map's Jacobian turns, by these many times that: (24 + 2 36 + 24)/4 2^4. The row of D has products. There first
- * derivatives are off by 96 errors, second ones by 96, 144 and 96, third ones by 48 and 144, and what they are multiplied by is
- * three times second_sum, that and twice first_most: less than twice as much in all. So rounding takes no more than 2
- * FOLD_ROUNDING, which with FOLD_BEND is left of it to the proof. */
+/* Rounding in the coefficients of F and G, each off by `error`, changes the second derivatives of G on the larger box,
+ * and so how far its row of the map's Jacobian turns, by this many errors: (24 + 2 36 + 24)/4 2^4. The row of D has
+ * products. In these, first derivatives are off by 96 errors, second ones by 96, 144 and 96, third ones by 48 and 144.
+ * They are multiplied by three times second_sum, by second_sum and by twice first_most: less than twice as much in all.
+ * So rounding takes at most 2 FOLD_ROUNDING, and fold_find leaves it that much of FOLD_BEND. */
 #define FOLD_ROUNDINGS 480
 #define FOLD_ROUNDING 0x1p-6
 
-/* Newton's method on the map ends at a step whose square is below rounding, or is not one to a fold in the box. */
+/* Newton's method on the map ends at a step whose square is below rounding; otherwise it does not lead to a fold in the
+ * box. */
 #define FOLD_STEP 0x1p-27
 enum { FOLD_STEPS = 8 };
 
-/* How far from the middle a fold may be: as far as BOX_MARGIN. */
+/* How far from the middle a fold may be: up to BOX_MARGIN outside the box. */
 #define FOLD_REACH (1 + 2 * BOX_MARGIN)
 
-/* A step of it from `at`, where the map's first row is g, its second one d, and the inverse Jacobian m; how long it is,
- * or NaN where it leads too far. */
+/* One step of it from `at`, for a map with rows g and d and inverse Jacobian m. Returns the step's length, or NaN if it
+ * leads too far. */
 static double step_on(const double g[3], const double d[3], double m[2][2], double at[2])
 {
   const double x = m[0][0] * g[0] + m[0][1] * d[0], y = m[1][0] * g[0] + m[1][1] * d[0];
@@ -123,7 +124,7 @@ static double step_on(const double g[3], const double d[3], double m[2][2], doub
   return fabs(at[0]) <= 2 && fabs(at[1]) <= 2 ? real_max(fabs(x), fabs(y)) : NAN;
 }
 
-/* The steps from the second on. */
+/* Takes the steps from the second on. */
 static bool find(const struct fold_powers *f, const struct fold_powers *g, double step, double at[2])
 {
   for (int n = 1; n < FOLD_STEPS && step > FOLD_STEP; n++) {
@@ -151,14 +152,15 @@ void fold_combine(struct box *box, struct fold_pair *out)
   combine(&a, &b, row[0][0], row[0][1], &out->f), combine(&a, &b, row[1][0], row[1][1], &out->g);
 }
 
-/* Roundings in the powers of F and G and in what is made of them, of the largest coefficient of a and b: 8 in each of the
- * powers that sum up to 25, 3 in the combination, 2 in the straighter G, 6 in F - m G, 25 in a sum of all. */
+/* Roundings, of the largest coefficient of a and b, in the powers of F and G and what is made of them: 8 in each of the
+ * powers, which sum up to 25, 3 in the combination, 2 in the straighter G, 6 in F - m G, 25 in a sum of all. */
 #define BENT_ROUNDINGS 2048
 
 static double squares(double x, double y, double z) { return x * x + y * y + z * z; }
 
-/* G + share F with as little of second derivatives in the middle as can be, beside G's, and of F's first ones beside G's, of which
- * they are no more than half: for where G bends it brings terms of the third degree into F - m G. Returns share. */
+/* Straightens G, because where G bends it brings terms of the third degree into F - m G. G + share F has the least sum
+ * of two squares: its second derivatives in the middle, relative to G's, and share times F's first ones, relative to
+ * G's, of which they are then at most half. Returns share. */
 static double straighten(const struct fold_powers *f, const struct fold_powers *g, struct fold_powers *out)
 {
   const double(*F)[4] = f->c, (*G)[4] = g->c;
@@ -170,8 +172,8 @@ static double straighten(const struct fold_powers *f, const struct fold_powers *
   return share;
 }
 
-/* The polynomial m, of degree 1, by which F - m G has as little of first and second derivatives in the middle as can be: all
- * but those along G = 0. */
+/* The polynomial m, of degree 1, for which F - m G has the least first and second derivatives in the middle: only those
+ * along G = 0 remain. */
 static void bent_factor(const struct fold_powers *f, const struct fold_powers *g, double m[3])
 {
   const double(*F)[4] = f->c, (*G)[4] = g->c;
@@ -243,7 +245,7 @@ enum fold_verdict fold_weigh(struct fold *fold, const double h[3], const double 
 {
   const double d = fabs(h[1] * g[2] - h[2] * g[1]) +
                    16 * (error + UNIT_ROUNDOFF * (fabs(h[1]) + fabs(h[2]))) * fold->first;
-  /* Twice Newton's step on the map, with its errors: M is right to half of 1 on the larger box. */
+  /* Twice Newton's step on the map, with its errors: on the larger box M inverts the Jacobian to within 1/2. */
   const double off = 2 *
                      real_max(row_size(fold->m[0], fabs(g[0]) + error, d), row_size(fold->m[1], fabs(g[0]) + error, d));
   const double turned = fabs(h[1]) + fabs(h[2]) + 16 * error;

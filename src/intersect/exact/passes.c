@@ -5,7 +5,7 @@
 #include "base/real.h"
 #include "intersect/exact/judge.h"
 
-/* Adds x to the sum of the terms e[0..count-1], exactly; returns their new number (Shewchuk, Adaptive precision
+/* Adds x exactly to the sum of the terms e[0..count-1]. Returns their new number (Shewchuk, Adaptive precision
  * floating-point arithmetic, 1997). */
 static int expansion_add(double e[], int count, double x)
 {
@@ -19,7 +19,7 @@ static int expansion_add(double e[], int count, double x)
   return kept;
 }
 
-/* Products smaller than this, but for 0, may have lost digits. */
+/* Smaller products, except 0, may have lost digits. */
 #define LEAST_PRODUCT 0x1p-900
 
 bool judge_passes(const struct ray *ray, const double point[3])

@@ -1,5 +1,5 @@
-/* The regions that a ray leaves open: in what order they are searched, and with how much work. A region at a pole is widened
- * to the strip along it, and many regions of one patch are searched as one. */
+/* The regions that a ray leaves open: the order in which they are searched, and the work each may take. A region at a
+ * pole is widened to the strip along it, and many regions of one patch are searched as one. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,7 +8,7 @@
 #include "intersect/prepare/leaf.h"
 
 /* A ray this near to a pole, in the patch's frame, may meet the strip of leaves along it anywhere; one farther away
- * meets them as it meets others. A choice of speed. */
+ * meets them like any others. A choice of speed. */
 #define POLE_NEAR 0x1p-8
 
 static bool passes_near(struct judge *j, uint32_t patch, int border)
@@ -24,8 +24,8 @@ static bool passes_near(struct judge *j, uint32_t patch, int border)
   return true;
 }
 
-/* Widens the region at a border that is one point to all of the strip along it, for what a ray that passes it closely
- * meets may be anywhere there. */
+/* Widens a region at a border that is one point to the whole strip along it, because a ray that passes the pole closely
+ * may meet the strip anywhere. */
 static void region_widen(struct judge *j, struct exact_region *r)
 {
   struct patch_room room;
@@ -62,11 +62,11 @@ void exact_region_join(struct exact_region *region, const struct exact_region *o
   }
 }
 
-/* More regions of a patch than these are searched as one: it lies along the ray, or the ray starts so far away that
- * double precision tells nothing of it. A choice of speed. */
+/* More regions of a patch than this are searched as one: the patch lies along the ray, or the ray starts so far away
+ * that double precision tells nothing of it. A choice of speed. */
 enum { REGIONS_APART = 8 };
 
-/* Joins a patch's regions where there are more than REGIONS_APART of them. Returns how many are left, sorted. */
+/* Joins a patch's regions if there are more than REGIONS_APART of them. Returns how many remain, sorted. */
 static size_t merge(struct exact_region regions[], size_t count)
 {
   size_t kept = 0;
@@ -81,11 +81,11 @@ static size_t merge(struct exact_region regions[], size_t count)
   return kept;
 }
 
-/* Work that is set apart for regions by themselves, the same for each and no more than REGION_WORK: so one that the ray lies
- * in does not leave the others undecided. All of it is less than a millisecond. */
+/* Work reserved for single regions, the same for each and at most REGION_WORK, so that a region in which the ray lies
+ * does not leave the others undecided. All of it takes less than a millisecond. */
 enum { APART_WORK = 1536, REGION_WORK = 512 };
 
-/* With less than this a region is not begun: a root and what comes next to it at one t, made sharp. */
+/* A region is not begun with less than this: one root and what is tied with it, both sharpened. */
 enum { LEAST_WORK = 64 };
 
 static int by_distance(const void *a, const void *b)
@@ -95,8 +95,8 @@ static int by_distance(const void *a, const void *b)
   return by_region(x, y);
 }
 
-/* Searches the region with its share of the work that is set apart, and with all that is shared unless something may be a
- * hit. What it leaves of its share is for the next ones. left: how many regions there are from this one on. */
+/* Searches the region with its share of the reserved work, and with all shared work unless something may be a hit. What
+ * it leaves of its share is for the next regions. left: the number of regions from this one on. */
 static void search(struct judge *j, const struct exact_region *region, size_t left)
 {
   const int part = (int)((size_t)j->apart / left), own = j->own = part < REGION_WORK ? part : REGION_WORK;

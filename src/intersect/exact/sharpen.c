@@ -1,5 +1,5 @@
-/* A ray through a patch in fixed point: at points of it, and at its roots, which are made as good as wide arithmetic can by
- * Newton's method and proven anew. See zoom.h.
+/* A ray through a patch in fixed point: at points of it, and at its roots. Newton's method refines a root as far as
+ * wide arithmetic allows, and the certificate proves it anew. See zoom.h.
  */
 #include "intersect/exact/zoom.h"
 
@@ -7,7 +7,7 @@
 
 #include "intersect/certificate.h"
 
-/* Value and derivatives of a polynomial of (x, y) by its powers. */
+/* Value and derivatives of a polynomial in powers of x and y. */
 static void evaluate(fixed c[4][4], fixed x, fixed y, fixed *value, fixed *dx, fixed *dy)
 {
   *value = *dx = *dy = 0;
@@ -41,7 +41,7 @@ double zoom_combinations(struct zoom *zoom, wide u, wide v, const double size[2]
   return (sum + 1) * zoom->error / unit;
 }
 
-/* A bound on |f_xx| + 2 |f_xy| + |f_yy| of the polynomial with these powers, where x and y reach LEAF_MARGIN beyond the
+/* A bound on |f_xx| + 2 |f_xy| + |f_yy| of the polynomial with these powers, for x and y up to LEAF_MARGIN beyond the
  * patch. */
 static double second_bound(fixed c[4][4])
 {
@@ -58,13 +58,14 @@ static double second_bound(fixed c[4][4])
   return sum;
 }
 
-/* What rounding may do in a row of M. */
+/* Bound on rounding in a row of M. */
 static double row_size(const struct zoom *zoom, const wide m[2])
 {
   return (double)(wide_abs(m[0]) + wide_abs(m[1])) * zoom->error;
 }
 
-/* A bound on the second derivatives of the row's combination: that is much less than of a and b where these are nearly one. */
+/* A bound on the second derivatives of the row's combination. They are much smaller than those of a and b if these are
+ * nearly one. */
 static double row_bend(struct zoom *zoom, const wide m[2])
 {
   const wide most = wide_max(wide_abs(m[0]), wide_abs(m[1]));
@@ -73,12 +74,12 @@ static double row_bend(struct zoom *zoom, const wide m[2])
   return (double)most * second_bound(row) + CERTIFICATE_SECOND * row_size(zoom, m);
 }
 
-/* Newton's method ends when a step is what rounding makes, or no shorter than half the one before. It starts within the
- * root's radius, where it converges quadratically but for the first few steps next to a pole. */
+/* Newton's method ends when a step is within rounding, or more than half the one before. It starts within the root's
+ * radius, where it converges quadratically except for the first few steps next to a pole. */
 enum { SHARPEN_STEPS = 24 };
 
-/* From (x,y): where it ends, its last step, and the rows of the inverse Jacobian there. These are wide: next
- * to a pole all of the determinant is small, and each row is right to its own last places. */
+/* Newton's method from (x,y): sets where it ends, its last step, and the rows of the inverse Jacobian there. The rows
+ * are wide: next to a pole the whole determinant is small, and so each row is right to its own last places. */
 static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide m[2][2])
 {
   static const fixed most = (fixed)((1 + 2 * LEAF_MARGIN - CERTIFICATE_REACH) / FIXED_UNIT);
@@ -87,7 +88,7 @@ static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide
     fixed f[2][3];
     wide a[3], b[3];
     for (int k = 0; k < 2; k++) evaluate(zoom->power[k], *x, *y, &f[k][0], &f[k][1], &f[k][2]);
-    for (int k = 0; k < 3; k++) a[k] = (wide)f[0][k], b[k] = (wide)f[1][k]; /* in units of FIXED_UNIT, as the steps */
+    for (int k = 0; k < 3; k++) a[k] = (wide)f[0][k], b[k] = (wide)f[1][k]; /* in units of FIXED_UNIT, like the steps */
     const wide determinant = a[1] * b[2] - a[2] * b[1];
     if (determinant == 0) return false;
     const wide inverse = (wide)(1 / FIXED_UNIT) / determinant;
@@ -105,9 +106,9 @@ static bool newton(struct zoom *zoom, fixed *x, fixed *y, double *out_step, wide
   return true;
 }
 
-/* A root whose t is known to so many errors of wide arithmetic is not ill-conditioned: the ray meets the surface at a slant no
- * worse than about that. A choice of words: where two are no farther apart than their errors, and one is worse, their order is
- * called grazing; else they are at one place. */
+/* A root whose t is known to this many errors of wide arithmetic is not ill-conditioned: the ray meets the surface at a
+ * slant no worse than about that. A choice of words: if two roots are no farther apart than their errors and one is
+ * worse than this, their order is called grazing; otherwise they are at one place. */
 #define TIE_ERRORS 256
 
 bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
@@ -126,7 +127,7 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
   }
   for (int k = 0; k < 2; k++)
     radius[k] = certificate_radius(bends[k], step + size, sizes[k]) / 2 + (double)WIDE_ROUNDOFF;
-  /* Both enclosures hold one root each: it is the same where one holds the other. */
+  /* Each enclosure holds one root; it is the same root if the old enclosure holds the new one. */
   if (!((double)wide_abs(u - root->u) + radius[0] <= root->radius_u &&
         (double)wide_abs(v - root->v) + radius[1] <= root->radius_v))
     return false;
@@ -137,7 +138,7 @@ bool zoom_sharpen(struct zoom *zoom, struct exact_root *root)
                      second_bound(zoom->power[2]) * reach * reach;
   root->u = u, root->v = v, root->t = (fixed_wide(depth) / zoom->unit[2] - zoom->origin) * zoom->to_t;
   root->radius_u = radius[0], root->radius_v = radius[1];
-  /* The certificate's map contracts as far as bend |w - z| and rounding make less than 1, where bend holds. */
+  /* The certificate's map contracts as long as bend |w - z| plus rounding is less than 1, where bend is valid. */
   const double here = fixed_double(fixed_max(fixed_size(x), fixed_size(y)));
   root->alone = fmax(fmin(0.5 / bend, 1 + 2 * LEAF_MARGIN - here) / 2 - step, 0);
   root->t_error = error_to_t((double)zoom->to_t, off / zoom->unit[2] + zoom->depth_error) +

@@ -1,4 +1,4 @@
-/* Roots beside each other: whether they can be told apart along the ray, and which of them comes first. See judge.h. */
+/* Neighbouring roots: whether they can be told apart along the ray, and which comes first. See judge.h. */
 #include <math.h>
 
 #include "base/real.h"
@@ -23,7 +23,8 @@ bool judge_tie(const struct exact_root *a, const struct exact_root *b)
   return wide_abs(a->t - b->t) <= a->t_error + b->t_error;
 }
 
-/* Where the ray starts next to the surface what both are off by would be more than a rounding of t, and so another hit. */
+/* If the ray starts next to the surface, the errors of both may exceed a rounding of t: then they are different
+ * hits. */
 bool judge_tie_fine(const struct exact_root *a, const struct exact_root *b)
 {
   return a->well_known && b->well_known && a->t_error + b->t_error <= UNIT_ROUNDOFF * fabs((double)a->t);

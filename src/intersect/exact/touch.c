@@ -1,5 +1,5 @@
-/* Boxes that the ray touches, or nearly: both roots, or that there is none, by the fold (fold.h), in double precision and
- * where that does not do in wide arithmetic; what may be a double root is told as one place.
+/* Boxes that the ray touches, or nearly: the fold (fold.h) gives both roots, or proves that there is none, in double
+ * precision, or if that is not enough in wide arithmetic. A possible double root is told as one place.
  */
 #include "intersect/exact/fold.h"
 #include "intersect/exact/window.h"
@@ -9,10 +9,11 @@
 #include "base/real.h"
 #include "geometry/patch.h"
 
-/* What may be roots and is no farther from a fold than this part of the box is told as one place. */
+/* Possible roots no farther from a fold than this part of the box are told as one place. */
 #define FOLD_NEAR 0x1p-36
 
-/* The root on one side of the fold; false where it is not proven. error: of the box's nets, or NULL where it is zoomed. */
+/* Finds the root on one side of the fold. Returns false if it is not proven. error: of the box's nets; NULL if the root
+ * is to be found in wide arithmetic. */
 static bool fold_root(const struct window *window, struct box *box, const struct fold *fold, const double *error,
                       double side, struct exact_root *out)
 {
@@ -37,7 +38,7 @@ static bool fold_root(const struct window *window, struct box *box, const struct
   return true;
 }
 
-/* Tells of the two roots on either side of a fold; false where they are not proven, and nothing is told. */
+/* Tells of the two roots on either side of a fold. If they are not both proven, tells nothing and returns false. */
 static bool fold_roots(const struct window *window, struct box *box, const struct fold *fold, const double *error)
 {
   struct exact_root root[2];
@@ -48,7 +49,7 @@ static bool fold_roots(const struct window *window, struct box *box, const struc
   return true;
 }
 
-/* A double root, two or none: the fold itself may be a hit, where it is in the box. */
+/* A double root, two or none: tells of the fold itself as a maybe, if it is in the box. */
 static bool fold_maybe(const struct window *window, struct box *box, const struct fold *fold)
 {
   double at[2];
@@ -68,7 +69,7 @@ static bool fold_maybe(const struct window *window, struct box *box, const struc
   return true;
 }
 
-/* Decides the box where it has a fold. */
+/* Decides the box if it has a fold. */
 static bool box_fold(const struct window *window, struct box *box, const struct fold_pair *pair, const double error[2])
 {
   struct fold fold;
@@ -77,7 +78,7 @@ static bool box_fold(const struct window *window, struct box *box, const struct 
   enum fold_verdict verdict = fold_weigh_box(&fold, box, error);
   if (verdict == FOLD_EMPTY || (verdict == FOLD_ROOTS && fold_roots(window, box, &fold, error))) return true;
   struct zoom *zoom = judge_zoom(window->judge);
-  if (zoom->axis != window->judge->local.axis) return false; /* of other planes */
+  if (zoom->axis != window->judge->local.axis) return false; /* it is of other planes */
   double values[2][3];
   const double size[2] = {box->size_u * (double)window->size[0], box->size_v * (double)window->size[1]};
   const wide u = window_place(window, box, 0, 0.5 + 0.5 * fold.at[0]);

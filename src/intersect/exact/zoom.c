@@ -265,8 +265,8 @@ bool zoom_pole_box(const struct zoom *zoom, const wide low[2], const wide size[2
     net[1][n / 4][n % 4] = fixed_product(p, a) + fixed_product(q, b);
   }
   /* The quotient's coefficients are off by three times as much. Besides, the combination is not quite 0 along the
-   * border. No root is nearer than where the other combination may be 0; over that least distance, this makes the same part of
-   * the other's slope as it is of the pole's distance. */
+   * border. No root is nearer than where the other combination may be 0. Over that least distance, this error makes
+   * the same part of the other's slope as it is of the pole's distance. */
   const fixed along = fixed_product(p, a0) + fixed_product(q, b0);
   double slope = 0;
   for (int n = 0; n < 16; n++) slope = fmax(slope, fabs(fixed_double(net[1][n / 4][n % 4] - along)));
