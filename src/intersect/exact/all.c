@@ -228,7 +228,7 @@ static void tell_apart(struct judge *j, struct exact_found *a, struct exact_foun
   if (!twins) a->tied = b->tied = true;
 }
 
-/* The error of t, as far as others may be behind it. An open place has its place by t. */
+/* The error of t that counts in asking what is behind it. An open place has its place by t. */
 static double end_error(const struct exact_found *found) { return found->kind == EXACT_OPEN ? 0 : found->root.t_error; }
 
 /* Whether `a`, a root, is proven to be behind `b`: by the same difference as in judge_tie, because sums of t and error

@@ -150,7 +150,7 @@ static void answer(const struct model *model, const struct ray *ray, uint32_t pa
   out->clearance = clearance(model, patch, borders, out);
 }
 
-/* Nearer to a right angle between ray and normal than this, rounding may have reversed the normal. */
+/* If ray and normal are nearer to a right angle than this, rounding may have reversed the normal. */
 #define SIDE_SURE 0x1p-40
 
 /* Turns the normal of a hit at (u,v) to the side from which the ray comes, if rounding has reversed it. */

@@ -1,4 +1,4 @@
-/* Roots on borders of patches, which even wide arithmetic cannot tell to be inside or not.
+/* Roots on borders of patches: even wide arithmetic cannot tell whether they are inside.
  *
  * Such a root is a hit if the border is shared, the neighbour's polynomials have a root there too, and the two patches
  * lie on either side of the border as the ray sees them. Wherever the ray passes, it then meets one of them.

@@ -1,13 +1,14 @@
 /* The last resort: decides what one ray meets, for it alone, slowly and to the end.
  *
  * Internal to src/intersect. Compiled once, scalar, without contraction: its answers are the same bits on every
- * processor. Pure; safe on any thread; uses up to 1.25 MB of stack, for searches within searches.
+ * processor. Pure; safe on any thread; uses up to 1.25 MB of stack, for searches within searches. To use it, fill in an
+ * exact_case and call exact_closest, exact_occluded or exact_all; exact_root_hit and exact_maybe_hit make the answers.
  *
  * The lanes take a root only where double precision leaves no question: the root is proven, strictly inside its patch,
  * strictly within the ray's range, and not next to another one. Everything they leave open comes here as a list of
  * regions (leaves, or parts of a patch cut for a copy). The regions are searched in the order in which the ray meets
  * them, whatever order the lanes left them in. Where doubles cannot tell on which side of something a root lies, wide
- * arithmetic looks at it.
+ * arithmetic is used.
  */
 #ifndef PSCN_INTERSECT_EXACT_EXACT_H
 #define PSCN_INTERSECT_EXACT_EXACT_H

@@ -10,8 +10,8 @@
  * Proof. Let M be that inverse and h = M (G, D). Then |h(w) - h(0) - w| <= L |w|^2/2. So h is one-to-one on the ball of
  * radius 2 (2 L < 1), and its image there contains all points within 2 (1 - L) of h(0). Points of the ball of radius
  * 9/8 (the box and BOX_MARGIN) go no farther from h(0) than 9/8 (1 + 9/16 L), which is less. The line G = 0 meets the
- * ball of radius 2 (1 - L) about h(0) in a segment, whose preimage is the arc. Along the arc G's gradient does not vanish, D
- * is monotone, and F's derivative is D times a number that is not 0.
+ * ball of radius 2 (1 - L) about h(0) in a segment, whose preimage is the arc. Along the arc G's gradient does not
+ * vanish, D is monotone, and F's derivative is D times a number that is not 0.
  *
  * So the value of F at the fold, compared with the sign of its second derivative along the arc, tells whether there are
  * roots. If there are two that the certificate proves, they are all.

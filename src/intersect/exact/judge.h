@@ -46,8 +46,8 @@ struct judge {
    * none */
   double tied_from;
   bool doubt; /* any doubt, if all hits are asked for */
-  /* nothing that may be a hit begins before this t: neither a known maybe, nor what is left out at an end of the ray,
-   * undecided for want of work, or was never told; infinite for none */
+  /* lower bound on t of all that may be a hit: known as such, left out at an end of the ray, undecided for want of
+   * work, or never told of; infinite for none */
   double undecided;
   double limit; /* nothing beyond this t matters */
   int work;     /* still to be spent, see WORK_REGION */
@@ -128,7 +128,7 @@ bool judge_tie(const struct exact_root *a, const struct exact_root *b);
  * each has t to the accuracy that wide arithmetic has in its patch, and the two t are equal to a rounding. */
 bool judge_tie_fine(const struct exact_root *a, const struct exact_root *b);
 
-/* Returns that. If the order matters, the nearest hit is not certain from the first of the two on. */
+/* Returns the same. If the order matters, the nearest hit is not certain from the first of the two on. */
 bool judge_weigh_tie(struct judge *j, const struct exact_root *a, const struct exact_root *b);
 
 /* Which of two roots that nothing tells apart on the ray comes first: the one of the earlier patch, or, where a patch

@@ -41,7 +41,7 @@ void search_run_closer(struct search *closer, const struct zoomed *zoomed);
 /* The border that is one point and on which the box lies; NO_BORDER for none, TWO_BORDERS for several. */
 int pole_of_box(const struct search *s, const struct box *box);
 
-/* Whether the box, at the pole of its search, is so narrow along the border that it is to be halved only towards it. */
+/* Whether the box, at the pole of its search, is so narrow along the border that it is halved only towards the pole. */
 bool pole_narrow(const struct search *s, const struct box *box);
 
 /* Searches the box, which lies at that border (pole_of_box), by itself and zoomed, if the pole requires this. Returns

@@ -21,10 +21,10 @@ struct window {
 /* The region, of the judge's current patch. */
 struct window window_of_region(struct judge *j, const struct exact_region *region);
 
-/* A box of the window as a window of its own, without the start and the errors of its depths; ... */
+/* A box of the window as a window of its own. It still lacks the start and the error of its depths, ... */
 struct window window_closer(const struct window *window, const struct box *box);
 
-/* ... sets these to those of the zoomed box. */
+/* ... which this takes from the zoomed box. */
 void window_set_depths(struct window *window, const struct zoomed *zoomed);
 
 /* The length in t of dw of depth. */
