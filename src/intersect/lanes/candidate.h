@@ -47,8 +47,8 @@ lanes slab_begin(const struct packet *p, const struct candidate *it);
  * floats, which is enough for all rays but those that come past many leaves. */
 lane_mask stage_box(const struct candidate *it, lane_mask open);
 
-/* planes.c, for a leaf with a pole: closes lanes whose ray starts exactly in the pole and meets no other point of the
- * leaf. Such a lane would go through all stages in vain. */
+/* planes.c, for a leaf with a pole: closes lanes whose ray passes near the pole and is proven to miss the leaf, or starts
+ * exactly in the pole and meets no other point of the leaf. They would go through several stages, or all, in vain. */
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open);
 
 /* planes.c: returns the lanes of `open` whose ray starts exactly in a corner of the patch and meets no other point of

@@ -55,6 +55,18 @@ LANES_INLINE bool box_is_seen(const struct cover_ray *ray, const struct cover_bo
   return middle + reach >= ray->from && middle - reach <= ray->to;
 }
 
+/* Whether the box is at the leaf's pole. */
+LANES_INLINE bool box_at_pole(const struct leaf *leaf, const struct cover_box *box)
+{
+  switch (leaf->pole) {
+  case 1: return box->u == 0;
+  case 2: return box->u + box->size_u == 1;
+  case 3: return box->v == 0;
+  case 4: return box->v + box->size_v == 1;
+  default: return false;
+  }
+}
+
 /* Whether the box may have an unknown root. */
 LANES_INLINE bool box_is_open(const struct cover_ray *ray, const struct cover_box *box)
 {
@@ -62,7 +74,9 @@ LANES_INLINE bool box_is_open(const struct cover_ray *ray, const struct cover_bo
   for (int k = 0; k < ray->count; k++) has_root |= root_is_in(ray, box, &ray->roots[k]);
   /* each halving adds three roundings, of values of the leaf's size */
   const double error = ray->error + box->halvings * 4 * UNIT_ROUNDOFF * ray->size;
-  return nets_full(&box->a, &box->b, has_root, ray->size, error) && box_is_seen(ray, box);
+  if (!nets_full(&box->a, &box->b, has_root, ray->size, error) || !box_is_seen(ray, box)) return false;
+  return !box_at_pole(ray->leaf, box) ||
+         nets_full_at_pole(&box->a, &box->b, ray->leaf->pole - 1, has_root, ray->size, error);
 }
 
 /* Halves the box across the parameter along which it is longer. *box becomes the lower half. */

@@ -3,7 +3,8 @@
  * Internal to src/intersect/lanes. A box of parameters is cleared if a plane polynomial, or one of the combinations
  * that aim along u and v, keeps one sign on its net (planes.c tests the leaf's so); if a proven root is in the box and
  * is alone by the differences of those nets; or if no root in it would be between the ends of the ray. Other boxes are
- * halved. exact/search.c does the same in the last resort; this ends most cases before.
+ * halved. At the leaf's pole, where no such combination keeps one sign and no Jacobian is regular, the distance from the
+ * pole is divided out. exact/search.c does the same in the last resort; this ends most cases before.
  */
 #ifndef PSCN_INTERSECT_LANES_COVER_H
 #define PSCN_INTERSECT_LANES_COVER_H

@@ -83,18 +83,26 @@ LANES_INLINE void rows_slopes(const row grow[4], const row move[4], double error
   *least -= 2 * error, *most += 2 * error;
 }
 
+/* Whether a Jacobian is not singular, given the differences along u (`grow_u`) and along v (`move_u`) of a polynomial that
+ * aims along u, and those along v (`grow_v`) and along u (`move_v`) of one that aims along v: the product of its diagonal
+ * exceeds that of the other elements. */
+LANES_INLINE bool slopes_regular(const row grow_u[4], const row move_u[4], double error_u, const row grow_v[4],
+                                 const row move_v[4], double error_v)
+{
+  double least_u, least_v, most_u, most_v;
+  rows_slopes(grow_u, move_u, error_u, &least_u, &most_u);
+  rows_slopes(grow_v, move_v, error_v, &least_v, &most_v);
+  return least_u > 0 && least_v > 0 && least_u * least_v > (1 + 8 * UNIT_ROUNDOFF) * (most_u * most_v);
+}
+
 /* Whether two polynomials, which aim along u and v, take no pair of values twice. Between two points the values change
- * by the mean Jacobian on the way, times it. Its elements lie within three times the coefficients' differences. So it
- * is not singular if the product of its diagonal exceeds that of the other elements. */
+ * by the mean Jacobian on the way, times it. Its elements lie within three times the coefficients' differences. */
 LANES_INLINE bool nets_one_to_one(const struct cover_net *along_u, double error_u, const struct cover_net *along_v,
                                   double error_v)
 {
   struct cover_net turned_u = *along_u, turned_v = *along_v;
-  double least_u, least_v, most_u, most_v;
   four_doubles_turn(turned_u.c), four_doubles_turn(turned_v.c);
-  rows_slopes(along_u->c, turned_u.c, error_u, &least_u, &most_u);
-  rows_slopes(turned_v.c, along_v->c, error_v, &least_v, &most_v);
-  return least_u > 0 && least_v > 0 && least_u * least_v > (1 + 8 * UNIT_ROUNDOFF) * (most_u * most_v);
+  return slopes_regular(along_u->c, turned_u.c, error_u, turned_v.c, along_v->c, error_v);
 }
 
 /* Whether the box is not cleared: none of a, b and two combinations, which aim along the box's parameters, keeps one
@@ -117,6 +125,72 @@ LANES_INLINE bool nets_full(const struct cover_net *a, const struct cover_net *b
   if (!net_changes(&along_v, error_v)) return false;
   if (has_root && nets_one_to_one(&along_u, error_u, &along_v, error_v)) return false;
   return net_changes(a, error) && net_changes(b, error);
+}
+
+/* ---- boxes at a pole ---- */
+
+/* Turns the net so that the border (geometry/edges.h) is row 0. */
+LANES_INLINE void net_turn(struct cover_net *net, int border)
+{
+  if (border >= 2) four_doubles_turn(net->c);
+  if (!(border & 1)) return;
+  const struct cover_net old = *net;
+  for (int n = 0; n < 4; n++) net->c[n] = old.c[3 - n];
+}
+
+/* Divides a net that is constant on row 0 by the distance from there, as far as differences within rows are concerned:
+ * those of row 0 vanish, and the quotient's have 3/n times those of row n. *out has rows and columns exchanged. */
+LANES_INLINE void net_divide(const struct cover_net *net, struct cover_net *out)
+{
+  out->c[0] = out->c[1] = 3 * net->c[1];
+  out->c[2] = 1.5 * net->c[2], out->c[3] = net->c[3];
+  four_doubles_turn(out->c);
+}
+
+/* Whether two polynomials, constant on row 0, take no pair of values twice beside it; they aim along the distance d from
+ * it and along the other parameter e. Their difference between (d',e') and (d,e) is the mean of their derivative by d,
+ * times d - d', and the mean of the one by e, divided by d, times d (e - e'). */
+LANES_INLINE bool nets_one_to_one_at_pole(const struct cover_net *along_d, double error_d,
+                                          const struct cover_net *along_e, double error_e)
+{
+  struct cover_net divided_d, divided_e;
+  net_divide(along_d, &divided_d), net_divide(along_e, &divided_e);
+  return slopes_regular(along_d->c, divided_d.c, 3 * error_d, divided_e.c, along_e->c, 3 * error_e);
+}
+
+/* Whether the sign of a0 b - b0 a shows that the box has no root, as of a leaf with a pole (planes_at_pole); a0 and b0
+ * are a and b at the pole, which is row 0. */
+LANES_INLINE bool nets_miss_pole(const struct cover_net *a, const struct cover_net *b, double size, double error)
+{
+  const double a0 = a->c[0][0], b0 = b->c[0][0], sizes = fabs(a0) + fabs(b0), off = error * sizes;
+  struct cover_net turn;
+  net_combine(a, b, -b0, a0, &turn);
+  double least = INFINITY, most = -INFINITY;
+  for (int n = 4; n < 16; n++) {
+    const double x = turn.c[n / 4][n % 4];
+    least = real_min(x, least), most = real_max(x, most);
+  }
+  const double beyond = real_max(least, -most) - off;
+  return beyond > 0 && (a0 * a0 + b0 * b0 - off) * beyond > 8 * size * sizes * off;
+}
+
+/* Whether a box at a pole, which is that border of it, is not cleared: as nets_full, where every combination of a and b
+ * is constant on one border, and no Jacobian regular. */
+LANES_INLINE bool nets_full_at_pole(const struct cover_net *a, const struct cover_net *b, int border, bool has_root,
+                                    double size, double error)
+{
+  struct cover_net x = *a, y = *b, along_d, along_e;
+  net_turn(&x, border), net_turn(&y, border);
+  const double combined = error + 8 * UNIT_ROUNDOFF * size;
+  if (nets_miss_pole(&x, &y, size, combined)) return false;
+  if (!has_root) return true;
+  const double xd = (x.c[3][1] + x.c[3][2]) - (x.c[0][1] + x.c[0][2]), xe = x.c[3][3] - x.c[3][0];
+  const double yd = (y.c[3][1] + y.c[3][2]) - (y.c[0][1] + y.c[0][2]), ye = y.c[3][3] - y.c[3][0];
+  const double sense = xd * ye < xe * yd ? -1 : 1;
+  net_combine(&x, &y, sense * ye, -sense * xe, &along_d);
+  net_combine(&x, &y, -sense * yd, sense * xd, &along_e);
+  return !nets_one_to_one_at_pole(&along_d, combined * (fabs(ye) + fabs(xe)), &along_e,
+                                  combined * (fabs(yd) + fabs(xd)));
 }
 
 #endif

@@ -207,15 +207,25 @@ static void still_at_pole(const struct packet *p, const struct candidate *it, bo
   }
 }
 
+/* A ray that passes the pole within this part of a leaf's length comes to all leaves round the pole, and its Newton steps
+ * prove nothing of most: the planes are asked first. A choice of speed. */
+#define PASSES_POLE 0x1p-4
+
 lane_mask stage_pole(const struct packet *p, struct candidate *it, lane_mask open)
 {
   const int at = from_pole(it->leaf, 0, 0);
-  const lane_mask starts = open & packet_starts_at(p, it->leaf->patch, at);
-  if (!lanes_any(starts)) return open;
-  (void)planes_make(it, starts);
+  lanes a0, b0;
+  plane_values(it->line, it->axis, it->leaf->x, at, &a0, &b0);
+  const double length = it->leaf->first[(it->leaf->pole - 1) / 2];
+  const lane_mask near = open & (lanes_max(lanes_abs(a0), lanes_abs(b0)) <= PASSES_POLE * length);
+  if (!lanes_any(near)) return open;
+  lane_mask missed = near & ~planes_make(it, near);
+  missed |= near & ~planes_at_pole(it, near & ~missed);
+  const lane_mask starts = near & ~missed & packet_starts_at(p, it->leaf->patch, at);
+  if (!lanes_any(starts)) return open & ~missed;
   bool still[16];
   still_at_pole(p, it, still);
-  return open & ~(starts & leaves_start(p, it, at, still));
+  return open & ~missed & ~(starts & leaves_start(p, it, at, still));
 }
 
 /* Sets `still` for a corner: the points that equal it, as do all between. */
