@@ -30,6 +30,12 @@
  * and the last term is at most 0.67 bend_k step^2 + 1.9 bend (step + size) size_k, with 1.9/8 = 0.24. Compare Ortega
  * and Rheinboldt, Iterative Solution of Nonlinear Equations, 12.6.
  *
+ * Units. The theorem holds in any units of the parameters up to 1: for f(c d, e) in place of f(d, e), where derivatives
+ * by d are c times what they were, M's row for d, and lengths along d, 1/c times. Next to a pole c is the root's distance
+ * from it. In units of 1 the bend times the errors grows there with 1/c^2, though the root is a simple one; in these it
+ * grows with 1/c. "Alone" stays as it is, with the step and size of these units, which are no less: E_11, E_22 and the
+ * product of E_12 and E_21 do not change with units.
+ *
  * Alone. A region has no second root if M J, averaged on the way from the root to any point of the region, is not
  * singular. That average is 1 + E, where |E_kl| is at most the length of row k of M times what column l of J is off by.
  * Its determinant is then at least 1 - |E_11| - |E_22|, because the bounds' products for E_11 E_22 and for E_12 E_21

@@ -123,6 +123,31 @@ static void next_to_poles_little_is_left_open(void **state)
   }
 }
 
+/* The ground next to a pole, seen aslant from near by, is bent so that a leaf at the pole may have two roots: boxes that divide by
+ * the distance from the pole show that it has not. */
+static void next_to_poles_little_is_left_open_aslant(void **state)
+{
+  (void)state;
+  enum { ASLANT_RAYS = 400 };
+  static const double radii[] = {1e2, 1e3, 1e4, 1e6};
+  struct random random = {SEED + 7};
+  for (size_t k = 0; k < sizeof radii / sizeof radii[0]; k++) {
+    struct world world;
+    open_planet(radii[k], &world);
+    for (int n = 0; n < ASLANT_RAYS; n++) {
+      struct ray ray = {.t_max = INFINITY};
+      ray.origin[0] = random_between(&random, -2, 2), ray.origin[1] = random_between(&random, 0.2, 1),
+      ray.origin[2] = -2;
+      for (int c = 0; c < 3; c++) ray.direction[c] = (c == 1 ? 0 : random_between(&random, -0.8, 0.8)) - ray.origin[c];
+      assert_int_equal(world_closest(&world, &ray).certainty, CERTAINTY_CERTAIN);
+    }
+    const uint64_t open = tracer_counts(world.tracer)->escalated;
+    print_message("a ball of %g, aslant: %.3f leaves left open a ray\n", radii[k], (double)open / ASLANT_RAYS);
+    assert_in_range(open, 0, ASLANT_RAYS / 50);
+    world_close(&world);
+  }
+}
+
 /* What meets a pole exactly is for the last resort to decide: no resultant is formed before, of any leaf there. */
 static void of_what_meets_a_pole_no_resultant_is_formed(void **state)
 {
@@ -311,6 +336,7 @@ int main(void)
   const struct CMUnitTest tests[] = {cmocka_unit_test(of_a_stack_few_are_tried),
                                      cmocka_unit_test(of_lines_few_are_tried),
                                      cmocka_unit_test(next_to_poles_little_is_left_open),
+                                     cmocka_unit_test(next_to_poles_little_is_left_open_aslant),
                                      cmocka_unit_test(of_what_meets_a_pole_no_resultant_is_formed),
                                      cmocka_unit_test(from_poles_and_corners_nothing_is_left_open),
                                      cmocka_unit_test(from_a_tip_without_handles_nothing_is_left_open),
