@@ -1,4 +1,4 @@
-/* `pscn trace --explain`: what becomes of a ray, as text. */
+/* `pscn trace --explain`: the story of a ray, as text. */
 #ifndef PSCN_COMMAND_EXPLAIN_H
 #define PSCN_COMMAND_EXPLAIN_H
 
@@ -7,7 +7,7 @@
 #include "intersect/intersect.h"
 #include "scene/scene.h"
 
-/* Traces the ray of that number, with a direction of any length, and tells its story on stdout. */
+/* Traces ray `number`, whose direction may have any length, and prints its story to stdout. */
 void explain_ray(const struct scene *scene, struct tracer *tracer, size_t number, const struct ray *ray);
 
 #endif

@@ -1,10 +1,10 @@
-/* Parts of a picture, which say of themselves what they are part of.
+/* Parts of a picture, which say themselves what picture they belong to.
  *
- * A part is an EXR of floats with the window of the picture it belongs to, the pixels of the tiles it has, 0 elsewhere,
- * and texts that say what was rendered, how, which tiles these are, and a sum of it all. It is packed in tiles as large as
- * a rendering's, so that those that a part has can be read without the others; one in rows is read, too. There is no other
- * form: pieces of a farm (`render --tile`), what an interrupted rendering leaves behind and `--resume` goes on with, and
- * what `merge` reads.
+ * A part is an EXR of floats. It has the window of the picture it belongs to, the pixels of its own tiles, and 0
+ * elsewhere. Its metadata say what was rendered and how, which tiles it has, and a checksum. It is packed in tiles of
+ * the renderer's size, so that its own tiles can be read without the others; a part packed in rows is readable too. The
+ * same form serves for the pieces of a farm (`render --tile`), for what an interrupted rendering leaves for `--resume`,
+ * and as the input of `merge`.
  */
 #ifndef PSCN_COMMAND_PIECE_H
 #define PSCN_COMMAND_PIECE_H
@@ -21,36 +21,36 @@ struct piece {
   struct image image;
   size_t number, count;
   struct channel_list channels;
-  struct tile_list tiles; /* of this piece; done: those the image has */
+  struct tile_list tiles; /* those of this piece; done: those that the image has */
 };
 
-/* "K/N", 1 <= K <= N. */
+/* Reads "K/N", 1 <= K <= N. */
 bool piece_number(const char *text, size_t length, size_t *out_number, size_t *out_count);
 
-/* A black picture of the crop with its channels, of which nothing is done. The metadata of its image is made of the
- * attributes whose names begin with "pscn:". The caller destroys it, also a zero one. */
+/* Makes a black picture of the crop with its channels, in which no tile is done. The attributes whose names begin with
+ * "pscn:" become the metadata of its image. The caller destroys it, even on failure, and may destroy a zero one. */
 enum status piece_create(const struct render_options *options, size_t number, size_t count,
                          const struct image_attribute *attributes, size_t attribute_count,
                          struct piece *out) STATUS_MUST_CHECK;
-/* The same of the picture that `piece` is of, without metadata. */
+/* The same for the picture that `piece` belongs to, without metadata. */
 enum status piece_create_like(const struct piece *piece, size_t number, size_t count,
                               struct piece *out) STATUS_MUST_CHECK;
 void piece_destroy(struct piece *piece);
 
-/* Reads a part, of whose image the pixels of its tiles count, or only what it says of itself. STATUS_FILE, STATUS_LIMIT;
- * STATUS_INPUT where the file is a picture, but no part that can be understood. Then *out is zero and
+/* Reads a part: with `pixels`, the pixels of its tiles count; otherwise only its metadata are read. Returns
+ * STATUS_FILE, STATUS_LIMIT, or STATUS_INPUT if the file is a picture but not a valid part; then *out is zero and
  * message[IMAGE_MESSAGE_SIZE] says why. */
 enum status piece_read(const char *path, bool pixels, struct piece *out, char *message) STATUS_MUST_CHECK;
 
-/* Whether both are parts of one picture, by what they say; else `out` says what parts them. */
+/* Whether both are parts of one picture, by their metadata. If not, `out` says how they differ. */
 bool piece_belongs(const struct image *part, const struct image *picture, char *out, size_t size);
 
-/* Copies the tiles that `from` has, which stands where `to` does; the channels are found by their names. False where one
- * is missing. */
+/* Copies the tiles that `from` has into `to`, whose window is the same. Channels are matched by name; returns false if
+ * one is missing. */
 bool piece_copy(const struct piece *from, struct image *to);
 
-/* The bytes of the file of a part that has the tiles of the piece that are done, described by the attributes; to be freed. May be
- * called while others are rendered: it has those that were done when it began. */
+/* Encodes a part: the finished tiles of the piece, described by the attributes. The caller frees the bytes. May be
+ * called while other tiles are being rendered: it has those that were done when it began. */
 enum status piece_encode(const struct piece *piece, const struct image_attribute *attributes, size_t attribute_count,
                          unsigned char **out_bytes, size_t *out_size, char *message) STATUS_MUST_CHECK;
 

@@ -1,4 +1,4 @@
-/* Progress of a rendering on stderr: a bar where it is a terminal, else a line now and then. */
+/* Progress of a rendering on stderr: a bar on a terminal, otherwise a line now and then. */
 #ifndef PSCN_COMMAND_PROGRESS_H
 #define PSCN_COMMAND_PROGRESS_H
 
@@ -8,16 +8,16 @@
 
 struct progress {
   bool terminal;
-  double began; /* of writing, by the clock */
-  double told;  /* when it was last told, seconds since the rendering or the writing began */
+  double began; /* clock at the start of writing */
+  double told;  /* last report, in seconds since rendering or writing began */
 };
 
 struct progress progress_start(void);
 
-/* Tells how far the rendering is, where it is time to. */
+/* Reports the progress of the rendering if enough time has passed. */
 void progress_tell(struct progress *state, const struct render_progress *progress);
 
-/* The same for the file that is written: which part of it there is, 0 to 1. */
+/* The same for writing the file: `part` of it is done, 0 to 1. */
 void progress_write(struct progress *state, double part);
 
 /* Removes the bar. */

@@ -1,7 +1,7 @@
-/* A picture on its way into its file: what is done of it is kept meanwhile, and gone on with where an earlier run was
- * ended; in the end it is written, and its statistics.
+/* From a scene to the picture's file. The part that is done is kept on the way, and work continues from what an earlier
+ * run has kept. At the end the picture and its statistics are written.
  *
- * Errors are told on stderr. One at a time, from the main thread: a signal ends it (interrupt.h).
+ * Errors are printed to stderr. One rendering at a time, from the main thread; a signal ends it (interrupt.h).
  */
 #ifndef PSCN_COMMAND_RENDERING_H
 #define PSCN_COMMAND_RENDERING_H
@@ -12,28 +12,28 @@
 #include "image/image_file.h"
 #include "render/render.h"
 
-/* All of it borrowed. */
+/* All pointers are borrowed. */
 struct rendering_request {
   const struct scene_request *scene;
-  struct render_options options; /* but for the tiles */
+  struct render_options options; /* without the tiles */
   enum image_format format;
   size_t bits;          /* of a value */
   const char *output;   /* the picture's file */
-  const char *part;     /* where what is done is kept while it is not all; NULL: nowhere */
-  const char *stats;    /* where statistics go; NULL: nowhere */
-  const char *channels; /* those of `options`, as on the command line, ... */
-  const char *how;      /* ... and what else says there how the scene is read */
-  size_t piece, pieces; /* only piece `piece` of so many, from 1; 0, 0: the whole picture */
-  bool resume;          /* go on with what `part` has */
-  double checkpoint;    /* seconds after which what is done is kept; 0: never */
+  const char *part;     /* where finished tiles are kept until all are done; NULL: nowhere */
+  const char *stats;    /* file of the statistics; NULL: none */
+  const char *channels; /* the channels of `options`, as on the command line */
+  const char *how;      /* the command line's other options on reading the scene */
+  size_t piece, pieces; /* render only piece `piece` of `pieces`, from 1; 0, 0: the whole picture */
+  bool resume;          /* continue from `part` */
+  double checkpoint;    /* seconds between two times of keeping; 0: never */
 };
 
-/* STATUS_USAGE, told, where one of the files would overwrite another one, or what the scene is read from; `scene` NULL: as
- * far as that is known before it is read. */
+/* Returns STATUS_USAGE, after printing the error, if one of the files would overwrite another one, or a file of the
+ * scene. With `scene` NULL, checks what is known before it is read. */
 enum status rendering_check_outputs(const struct command *command, const struct rendering_request *request,
                                     const struct scene *scene) STATUS_MUST_CHECK;
 
-/* Reads the scene, renders and writes. STATUS_INTERRUPTED where a signal came: then `part` has what is done. */
+/* Reads the scene, renders and writes. STATUS_INTERRUPTED after a signal: then `part` has what is done. */
 enum status rendering_make(const struct command *command, const struct rendering_request *request) STATUS_MUST_CHECK;
 
 #endif

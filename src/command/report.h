@@ -1,4 +1,4 @@
-/* What a run was and did: its summary, its statistics as JSON, the metadata of its picture. */
+/* A run's summary, its statistics as JSON, and the metadata of its picture. */
 #ifndef PSCN_COMMAND_REPORT_H
 #define PSCN_COMMAND_REPORT_H
 
@@ -14,33 +14,34 @@
 
 struct report {
   const char *scene_path;
-  const char *picture_path; /* NULL: no picture was made, and the sizes mean nothing */
+  const char *picture_path; /* NULL: no picture was made, and its sizes mean nothing */
   const struct scene *scene;
   size_t width, height, samples, threads;
   struct rectangle crop; /* the part of width x height that the picture shows */
   const char *channels,
-    *options; /* as on the command line: --channels LIST, and what else says how the scene is read */
+    *options; /* as on the command line: --channels LIST, and the other options on reading the scene */
   struct intersect_counts counts;
-  struct seconds parse, build, render, write; /* write: what the bytes of the picture took */
-  double loading; /* CPU seconds that image_loading.h has taken beside them, and are in none */
+  struct seconds parse, build, render, write; /* write: of the picture's bytes */
+  double loading;                             /* CPU seconds of image_loading.h, in none of these */
 };
 
-/* A few lines on stderr. */
+/* Prints a few lines to stderr. */
 void report_print(const struct report *report);
 
-/* The statistics, or NULL where memory is short. To be released by json_decref, or by what takes them over. */
+/* The statistics, or NULL if memory is short. Release them by json_decref, or pass them to a function that takes
+ * them. */
 json_t *report_statistics(const struct report *report);
 
-/* Statistics, from here or elsewhere, as a text, to be freed, and written (output.h). Both take them over; NULL means
- * that memory was short, which is told. */
+/* Statistics of any origin, as a text that the caller frees, and written (output.h). Both take ownership; NULL means
+ * that memory was short, which they print. */
 enum status report_text(const struct command *command, json_t *statistics, char **out_text) STATUS_MUST_CHECK;
 enum status report_write(const struct command *command, json_t *statistics, const char *path) STATUS_MUST_CHECK;
 
-/* Now, as pictures have it. */
+/* The date and time, in the form of picture metadata. */
 enum { REPORT_DATE_SIZE = 32 };
 void report_date(char out[REPORT_DATE_SIZE]);
 
-/* The metadata of the picture, in `out`; texts live in *out. */
+/* Fills in the picture's metadata; texts are in *out or borrowed from the report. */
 struct report_metadata {
   struct image_attribute attribute[16];
   size_t count;

@@ -1,4 +1,4 @@
-/* A scene from a file, its errors told on stderr. */
+/* Reads a scene from a file; errors are printed to stderr. */
 #ifndef PSCN_COMMAND_SCENE_FILE_H
 #define PSCN_COMMAND_SCENE_FILE_H
 
@@ -11,7 +11,7 @@
 #include "language/language.h"
 #include "scene/scene.h"
 
-/* What a command line says of a scene. */
+/* What a command line says about a scene. */
 enum { SCENE_MOST_FOLDERS = 32, SCENE_MOST_NUMBERS = 64 };
 
 struct scene_request {
@@ -27,18 +27,18 @@ struct scene_request {
   bool quiet; /* no warnings */
 };
 
-/* The largest size of a picture. */
+/* The largest width or height of a picture. */
 enum { MAX_SIDE = 1000000 };
 
-/* What the options leave unsaid. */
+/* The values where options are not given. */
 #define SCENE_REQUEST_DEFAULT                                          \
   {                                                                    \
     .width = DEFAULT_WIDTH, .height = DEFAULT_HEIGHT, .tolerance = NAN \
   }
 
-/* The options of a scene_request that is the member `scene` of the file's struct request: rows of the table for reading
- * a scene, and the taking of those that are not stored at once, whose vals are the same in all commands. `text` is what
- * the size is of, or what the solver and the tolerance are. */
+/* The options of a scene_request that is the member `scene` of the file's struct request: rows of the table of options,
+ * and the handler for those that are not stored directly, whose vals are the same in all commands. `text` says what the
+ * size belongs to, or what the solver and the tolerance are. */
 enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_MAX_MEMORY, OPTION_INCLUDE, OPTION_DECLARE };
 #define SCENE_SIZE_OPTION(text) COMMAND_OPTION("size", 0, OPTION_SIZE, text, "WxH")
 #define SCENE_SOLVER_OPTION(text) COMMAND_TEXT("solver", 0, scene.solver_text, text, "TEXT")
@@ -54,35 +54,36 @@ enum { OPTION_SIZE = OPTION_HELP + 1, OPTION_MAX_MEMORY, OPTION_INCLUDE, OPTION_
 enum status scene_request_take(const struct command *command, void *scene_request, int val,
                                const char *argument) STATUS_MUST_CHECK;
 
-/* Bytes that the scene may take: what the command line says, or a share of what there is. */
+/* The most bytes that the scene may take: as on the command line, or a share of the machine's memory. */
 size_t scene_request_memory(const struct scene_request *request);
 
-/* Where included files are looked for, ended by NULL: the folders of -I, those of PSCN_INCLUDE, POV-Ray's own. To be freed
- * by one free; NULL where memory is short. */
+/* The folders in which included files are looked for: those of -I, those of PSCN_INCLUDE, POV-Ray's own, then NULL. The
+ * caller frees the result by one free; NULL if memory is short. */
 const char **scene_request_folders(const struct scene_request *request);
 
-/* Reads the scene, from standard input where its path is "-"; the caller destroys it. On failure the errors have been
- * told and *out is NULL; standard output must not go to a file that it is read from. */
+/* Reads the scene, from standard input if its path is "-"; the caller destroys it. On failure the errors have been
+ * printed and *out is NULL. It fails if standard output goes to one of the scene's files. */
 enum status scene_file_load(const struct command *command, const struct scene_request *request,
                             struct scene **out) STATUS_MUST_CHECK;
 
-/* What the options say of how a scene is read, but for where it is found, as a command line; to be freed, NULL where
- * memory is short. */
+/* The options on how a scene is read, without those on where it is found, as on a command line. The caller frees it;
+ * NULL if memory is short. */
 char *scene_request_text(const struct scene_request *request);
 
-/* Warns of a scene of which nothing will be seen: without patches, lights or a camera. */
+/* Warns if nothing of the scene will be visible: it lacks patches, lights or a camera. */
 void scene_file_warn(const struct command *command, const struct scene *scene);
 
-/* STATUS_USAGE, told, where `output` (NULL: nowhere) would overwrite what the scene is read from. To be asked before it is
- * read, with NULL for the scene, and again when what it includes is known. */
+/* Returns STATUS_USAGE, after printing the error, if `output` (NULL: nowhere) would overwrite a file of the scene. Ask
+ * before reading, with NULL for the scene, and again when its included files are known. */
 enum status scene_file_spare(const struct command *command, const struct scene_request *request,
                              const struct scene *scene, const char *output) STATUS_MUST_CHECK;
 
-/* The same of a file in a folder, of a scene that has been read; and STATUS_FILE, told, where it cannot be written. */
+/* The same for a file in a folder, and for a scene that has been read. Returns STATUS_FILE, after printing the error,
+ * if the file cannot be written. */
 enum status scene_file_check_in(const struct command *command, const struct scene_request *request,
                                 const struct scene *scene, const char *folder, const char *name) STATUS_MUST_CHECK;
 
-/* Diagnostics that are told on stderr. */
+/* Diagnostics that are printed to stderr. */
 struct diagnostics stderr_diagnostics(const struct command *command);
 
 #endif

@@ -1,6 +1,6 @@
-/* What stands after an option, read strictly: the whole text or nothing, and the same in every locale.
+/* Reads the arguments of options strictly: the whole text or nothing, and the same in every locale.
  *
- * Each function answers false and writes nothing where the text is not what it should be.
+ * Each function returns false and writes nothing if the text does not have the form described.
  */
 #ifndef PSCN_COMMAND_VALUES_H
 #define PSCN_COMMAND_VALUES_H
@@ -10,7 +10,8 @@
 
 #include "render/tile.h"
 
-/* Decimal digits at *text, up to `end`, that are at most `maximum`; and one character. Steps over what it has read. */
+/* Reads decimal digits at *text, before `end`, whose value is at most `maximum`; and one character. Both advance
+ * *text. */
 bool value_digits(const char **text, const char *end, size_t maximum, size_t *out);
 bool value_sign(const char **text, const char *end, char sign);
 
@@ -20,7 +21,7 @@ bool value_integer(const char *text, size_t minimum, size_t maximum, size_t *out
 /* A finite number >= 0, or a quotient of two ("4/255"). */
 bool value_number(const char *text, double *out);
 
-/* Bytes: decimal digits, at least 1, with K, M, G or T (powers of 1024) behind them or nothing. */
+/* Bytes: decimal digits, at least 1, and optionally K, M, G or T (powers of 1024). */
 bool value_bytes(const char *text, size_t *out);
 
 /* "800x600", each side 1 to maximum. */
